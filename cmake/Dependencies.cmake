@@ -1,0 +1,13 @@
+# What the library stands on.
+find_package(Imath 3.1 CONFIG REQUIRED)
+find_package(OpenEXR 3.1 CONFIG REQUIRED)
+find_package(OpenImageIO 2.4 CONFIG REQUIRED)
+find_package(TBB CONFIG REQUIRED)
+find_package(embree 3 CONFIG REQUIRED)
+find_package(CLI11 CONFIG REQUIRED)
+find_package(Threads REQUIRED)
+
+# Debian's OpenImageIO target names OpenCV's headers, which its package does not bring and nobody here needs.
+get_target_property(oiio_includes OpenImageIO::OpenImageIO INTERFACE_INCLUDE_DIRECTORIES)
+list(FILTER oiio_includes EXCLUDE REGEX opencv)
+set_target_properties(OpenImageIO::OpenImageIO PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "${oiio_includes}")

@@ -1,0 +1,14 @@
+# Install rules and a package config: find_package(sparselens) gives the target sparselens::sparselens.
+include(CMakePackageConfigHelpers)
+
+install(TARGETS sparselens EXPORT sparselens-targets ARCHIVE LIBRARY)
+install(DIRECTORY src/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/sparselens FILES_MATCHING PATTERN "*.h")
+install(EXPORT sparselens-targets NAMESPACE sparselens:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/sparselens)
+
+configure_package_config_file(cmake/sparselens-config.cmake.in sparselens-config.cmake
+    INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/sparselens)
+write_basic_package_version_file(sparselens-config-version.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/sparselens-config.cmake
+              ${CMAKE_CURRENT_BINARY_DIR}/sparselens-config-version.cmake
+        DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/sparselens)
+install(FILES LICENSE README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})

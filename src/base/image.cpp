@@ -1,0 +1,43 @@
+#include "base/image.h"
+
+namespace sparselens {
+
+Windows windows_of_size(int width, int height) {
+    const Imath::Box2i box({0, 0}, {width - 1, height - 1});
+    return {box, box, 1};
+}
+
+Image::Image(const Windows &windows_, std::vector<Channel> channels_)
+    : windows(windows_), channels(std::move(channels_)), values(channels.size() * windows_.pixels()) {}
+
+std::span<float> Image::plane(std::size_t channel) {
+    return std::span(values).subspan(channel * windows.pixels(), windows.pixels());
+}
+
+std::span<const float> Image::plane(std::size_t channel) const {
+    return std::span(values).subspan(channel * windows.pixels(), windows.pixels());
+}
+
+namespace {
+std::size_t index_of(const Image &image, std::size_t channel, int x, int y) {
+    const Windows &w = image.windows;
+    const std::size_t row = channel * std::size_t(w.height()) + std::size_t(y - w.data.min.y);
+    return row * std::size_t(w.width()) + std::size_t(x - w.data.min.x);
+}
+} // namespace
+
+float &Image::at(std::size_t channel, int x, int y) { return values[index_of(*this, channel, x, y)]; }
+
+float Image::at(std::size_t channel, int x, int y) const { return values[index_of(*this, channel, x, y)]; }
+
+std::size_t find_channel(std::span<const Channel> channels, std::string_view name) {
+    for (std::size_t i = 0; i < channels.size(); ++i)
+        if (channels[i].name == name) return i;
+    return npos;
+}
+
+std::vector<Channel> rgba_channels() {
+    return {{"R", PixelType::half}, {"G", PixelType::half}, {"B", PixelType::half}, {"A", PixelType::half}};
+}
+
+} // namespace sparselens

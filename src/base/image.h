@@ -1,0 +1,65 @@
+// A flat multichannel picture in memory, planar, in the pixel geometry of EXR.
+//
+// Windows are EXR's: integer pixel boxes, max inclusive, y down; pixel (i, j) covers [i, i+1) x [j, j+1) and
+// its centre lies at (i + 1/2, j + 1/2). Values of channel k, row y - data.min.y, column x - data.min.x lie at
+// values[(k * height + row) * width + column].
+#pragma once
+
+#include <Imath/ImathBox.h>
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sparselens {
+
+// How a channel is stored in a file. In memory every value is a float; an id channel (uint32) keeps its 32 bits
+// in the float's place (std::bit_cast), so it may be copied but never calculated with.
+enum class PixelType { half, float32, uint32 };
+
+struct Channel {
+    std::string name; // the full EXR name, layer included: "R", "diffuse.R"
+    PixelType type = PixelType::half;
+    bool operator==(const Channel &) const = default;
+};
+
+struct Windows {
+    Imath::Box2i display; // what the camera frames; the sensor width spans it
+    Imath::Box2i data;    // which pixels are stored
+    float pixel_aspect = 1;
+
+    int width() const { return data.max.x - data.min.x + 1; }
+    int height() const { return data.max.y - data.min.y + 1; }
+    std::size_t pixels() const { return std::size_t(width()) * std::size_t(height()); }
+    int display_width() const { return display.max.x - display.min.x + 1; }
+    int display_height() const { return display.max.y - display.min.y + 1; }
+    bool operator==(const Windows &) const = default;
+};
+
+// Display and data window both [0, width) x [0, height).
+Windows windows_of_size(int width, int height);
+
+struct Image {
+    Windows windows;
+    std::vector<Channel> channels;
+    std::vector<float> values;
+
+    Image() = default;
+    Image(const Windows &windows, std::vector<Channel> channels); // all values 0
+
+    std::span<float> plane(std::size_t channel);
+    std::span<const float> plane(std::size_t channel) const;
+    float &at(std::size_t channel, int x, int y); // EXR pixel coordinates, unchecked
+    float at(std::size_t channel, int x, int y) const;
+};
+
+// Index of the channel of that name, or npos.
+inline constexpr std::size_t npos = std::size_t(-1);
+std::size_t find_channel(std::span<const Channel> channels, std::string_view name);
+
+// R, G, B, A as half.
+std::vector<Channel> rgba_channels();
+
+} // namespace sparselens

@@ -1,0 +1,30 @@
+// A progress line for long work: written by whoever watches (a terminal, a farm), fed by whoever works.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <functional>
+#include <string>
+
+namespace sparselens {
+
+class Progress {
+public:
+    // Called with the name of the stage and whole percents, each at most once, from the thread that reached it;
+    // empty: silence.
+    using Listener = std::function<void(const std::string &stage, int percent)>;
+
+    Progress() = default;
+    explicit Progress(Listener listener) : listener_(std::move(listener)) {}
+
+    void start(std::string stage, std::size_t steps);
+    void advance(std::size_t steps = 1); // from any thread
+
+private:
+    Listener listener_;
+    std::string stage_;
+    std::size_t total_ = 0;
+    std::atomic<std::size_t> done_ = 0;
+};
+
+} // namespace sparselens

@@ -1,0 +1,29 @@
+// LDIs on disk: deep EXR (ours and anyone's, scanline or tiled), and flat pictures with depth read as LDIs of
+// one sample a pixel. Layout: design.md section 2. `-` stands for standard input and output.
+// Errors (Error): what cannot be opened, read or written, naming the file and the channel.
+#pragma once
+
+#include "ldi/ldi.h"
+
+#include <ImfHeader.h>
+
+#include <string>
+
+namespace sparselens {
+
+// How depth is written in the files that are read.
+enum class DepthMeaning { planar, distance, inverse };
+
+struct LdiFile {
+    Ldi ldi;
+    Imf::Header header;
+    bool deep = true; // false: read from a flat picture
+};
+
+// `depth_channel` empty: Z, depth.Z and *.Depth.Z are tried. Samples come as they stand in the file (see tidy).
+LdiFile read_ldi(const std::string &path, const std::string &depth_channel = {});
+
+// Scanline deep EXR, ZIPS; deepImageState says what holds of the samples.
+void write_ldi(const std::string &path, const Ldi &ldi, const Imf::Header &metadata);
+
+} // namespace sparselens

@@ -1,0 +1,27 @@
+// Flat EXR files: any part layout, scanline or tiled, any compression; every channel comes as float in memory.
+//
+// Metadata travels as OpenEXR's own header, untouched. `-` stands for standard input and output.
+// Errors (Error): what cannot be opened, read or written, naming the file and the channel.
+#pragma once
+
+#include "base/image.h"
+
+#include <ImfHeader.h>
+
+#include <string>
+
+namespace sparselens {
+
+struct FlatFile {
+    Image image;
+    Imf::Header header; // of the part the channels came from
+};
+
+// The first part that holds flat pixels, all its channels.
+FlatFile read_flat_exr(const std::string &path);
+
+// Channels are stored in their own types. Of `metadata` everything is kept that does not describe the pixels
+// themselves (windows, channels, tiling); compression is ZIP.
+void write_flat_exr(const std::string &path, const Image &image, const Imf::Header &metadata);
+
+} // namespace sparselens

@@ -1,0 +1,29 @@
+// What a file or a command line says about the camera that took a picture. Every value may be unknown.
+#pragma once
+
+#include <Imath/ImathMatrix.h>
+#include <Imath/ImathVec.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace sparselens {
+
+// Camera space: +x right, +y up, +z forward. Matrices act on row vectors, as in OpenEXR.
+struct Camera {
+    std::optional<double> focal_length_mm; // (0, inf)
+    std::optional<double> sensor_width_mm; // (0, inf), spans the display window
+    std::optional<double> fstop;           // (0, inf]
+    std::optional<double> focus_distance;  // scene units, (0, inf]
+    std::optional<double> metres_per_unit; // (0, inf)
+    std::optional<Imath::M44d> world_to_camera;
+    std::optional<Imath::M44d> world_to_ndc; // NDC: (0,0) and (1,1) are the display window's corners, y down
+    std::vector<Imath::V2d> lens_points;     // of an LDI: where its views stood, scene units, x right, y up
+};
+
+// Position of `view` in the camera space of `centre`, scene units. Empty where either matrix is unknown.
+// Throws Error (naming `what`) where the axes are not parallel.
+std::optional<Imath::V3d> position_relative_to(const Camera &centre, const Camera &view, const std::string &what);
+
+} // namespace sparselens

@@ -1,0 +1,54 @@
+#include "lens/thin_lens.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace sparselens {
+namespace {
+
+constexpr double inf = std::numeric_limits<double>::infinity();
+const ThinLens lens{.radius = 0.06, .focal_px = 640, .focus = 5};
+
+TEST(ThinLens, CircleOfConfusionIsSignedAroundFocus) {
+    EXPECT_DOUBLE_EQ(circle_of_confusion(lens, 5), 0);
+    EXPECT_NEAR(circle_of_confusion(lens, 2.5), -7.68, 1e-12);
+    EXPECT_NEAR(circle_of_confusion(lens, 10), 3.84, 1e-12);
+}
+
+TEST(ThinLens, InfinityIsALimitNotAnError) {
+    EXPECT_DOUBLE_EQ(circle_of_confusion(lens, inf), 0.06 * 640 / 5);
+    const ThinLens far{.radius = 0.06, .focal_px = 640, .focus = inf};
+    EXPECT_DOUBLE_EQ(circle_of_confusion(far, 4), -9.6);
+    EXPECT_DOUBLE_EQ(circle_of_confusion(far, inf), 0);
+    EXPECT_DOUBLE_EQ(perceptive_depth(lens, inf), 0);
+}
+
+TEST(ThinLens, OneUlpFromFocusKeepsItsSignAndSize) {
+    for (const double d : {1e-3, 5.0, 7.3e5}) {
+        const ThinLens focused{.radius = 0.06, .focal_px = 640, .focus = d};
+        const double beyond = std::nextafter(d, inf), before = std::nextafter(d, 0.0);
+        const double slope = 0.06 * 640 / d / d;
+        EXPECT_NEAR(circle_of_confusion(focused, beyond) / (slope * (beyond - d)), 1, 1e-12);
+        EXPECT_NEAR(circle_of_confusion(focused, before) / (slope * (before - d)), 1, 1e-12);
+    }
+}
+
+TEST(ThinLens, PerceptiveDepthDifferenceIsRefocusable) {
+    for (const double d : {0.5, 5.0, inf}) {
+        const ThinLens focused{.radius = 0.06, .focal_px = 640, .focus = d};
+        const double by_coc = circle_of_confusion(focused, 9) - circle_of_confusion(focused, 3);
+        EXPECT_NEAR(by_coc, perceptive_depth(focused, 3) - perceptive_depth(focused, 9), 1e-11);
+    }
+}
+
+TEST(ThinLens, PointBehindFocusMovesWithTheLensPoint) {
+    const ThinLens anamorphic{.radius = 1, .focal_px = 1, .focus = 1, .pixel_aspect = 2};
+    const Imath::V2d seen = seen_through(anamorphic, {10, 20}, 3, {0.5, 1});
+    EXPECT_DOUBLE_EQ(seen.x, 11.5);
+    EXPECT_DOUBLE_EQ(seen.y, 14);
+}
+
+} // namespace
+} // namespace sparselens

@@ -1,0 +1,96 @@
+#include "common/lens_options.h"
+
+#include "base/error.h"
+
+#include <cmath>
+#include <map>
+
+namespace sparselens {
+
+namespace {
+
+// A number of the given bounds; CLI11 reads "inf" and "nan", of which only the first can be meant.
+CLI::Validator number(const std::string &what, double above, bool zero_allowed, bool infinity_allowed) {
+    const auto check = [=](const std::string &text) -> std::string {
+        double value = 0;
+        const bool is_number = CLI::detail::lexical_cast(text, value) && !std::isnan(value);
+        const bool in_range = value > above || (zero_allowed && value == above);
+        if (is_number && in_range && (infinity_allowed || std::isfinite(value))) return {};
+        return "'" + text + "' is not " + what;
+    };
+    return CLI::Validator(check, "");
+}
+
+double need(const std::optional<double> &value, const char *what, const char *option) {
+    if (!value) throw UsageError(std::string(what) + " is unknown: give " + option);
+    return *value;
+}
+
+double lens_radius(const LensOptions &options, const Camera &camera) {
+    if (options.lens_radius) return *options.lens_radius;
+    if (!camera.fstop) throw UsageError("the aperture is unknown: give --fstop or --lens-radius");
+    if (std::isinf(*camera.fstop)) return 0;
+    const double focal_mm = need(camera.focal_length_mm, "the focal length", "--focal-length");
+    return focal_mm / 1000 / (2 * *camera.fstop) / camera.metres_per_unit.value_or(1);
+}
+
+} // namespace
+
+void add_lens_options(CLI::App &app, LensOptions &options) {
+    const auto positive = number("a number above 0", 0, false, false);
+    const auto positive_or_inf = number("a number above 0, or inf", 0, false, true);
+    const auto not_negative = number("a number of at least 0", 0, true, false);
+    const auto add = [&](const char *name, std::optional<double> &value, const char *unit, const char *help) {
+        return app.add_option(name, value, help)->type_name(unit)->group("Lens");
+    };
+    add("--focal-length", options.focal_length_mm, "MM", "Focal length")->check(positive);
+    add("--sensor-width", options.sensor_width_mm, "MM", "Width of the film back (spans the display window)")
+        ->check(positive);
+    CLI::Option *fstop = add("--fstop", options.fstop, "N", "F-number, or inf")->check(positive_or_inf);
+    add("--lens-radius", options.lens_radius, "R", "Radius of the aperture, scene units (instead of --fstop)")
+        ->check(not_negative)
+        ->excludes(fstop);
+    add("--focus-distance", options.focus_distance, "D", "Focus distance, scene units, or inf")
+        ->check(positive_or_inf);
+    add("--scene-unit", options.scene_unit, "METRES", "Length of a scene unit (1)")->check(positive);
+}
+
+void add_depth_options(CLI::App &app, DepthOptions &options) {
+    const std::map<std::string, DepthMeaning> meanings{{"z", DepthMeaning::planar},
+                                                       {"distance", DepthMeaning::distance},
+                                                       {"inverse", DepthMeaning::inverse}};
+    app.add_option("--depth", options.meaning, "What depth channels hold: z, distance or inverse (z)")
+        ->type_name("MEANING")
+        ->transform(CLI::CheckedTransformer(meanings))
+        ->group("Lens");
+    app.add_option("--depth-channel", options.channel, "Depth channel (else Z, depth.Z, *.Depth.Z are tried)")
+        ->type_name("NAME")
+        ->group("Lens");
+}
+
+Camera camera_with_options(const LensOptions &options, Camera camera) {
+    const auto put = [](std::optional<double> &value, const std::optional<double> &option) {
+        if (option) value = option;
+    };
+    put(camera.focal_length_mm, options.focal_length_mm);
+    put(camera.sensor_width_mm, options.sensor_width_mm);
+    put(camera.focus_distance, options.focus_distance);
+    put(camera.metres_per_unit, options.scene_unit);
+    put(camera.fstop, options.fstop);
+    if (options.lens_radius && camera.focal_length_mm)
+        camera.fstop = *camera.focal_length_mm / 1000 / (2 * *options.lens_radius) / camera.metres_per_unit.value_or(1);
+    return camera;
+}
+
+ThinLens resolve_lens(const LensOptions &options, const Camera &from_file, const Windows &windows) {
+    const Camera camera = camera_with_options(options, from_file);
+    ThinLens lens{.radius = lens_radius(options, camera), .pixel_aspect = windows.pixel_aspect};
+    if (lens.radius == 0) return lens;
+    const double focal_mm = need(camera.focal_length_mm, "the focal length", "--focal-length");
+    const double sensor_mm = need(camera.sensor_width_mm, "the sensor width", "--sensor-width");
+    lens.focal_px = windows.display_width() * focal_mm / sensor_mm;
+    lens.focus = need(camera.focus_distance, "the focus distance", "--focus-distance");
+    return lens;
+}
+
+} // namespace sparselens

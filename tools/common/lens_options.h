@@ -1,0 +1,34 @@
+// The lens options every tool shares, and the rule that turns them and a file's metadata into a lens.
+#pragma once
+
+#include "io/exr_deep.h"
+#include "lens/thin_lens.h"
+#include "view/camera.h"
+
+#include <CLI/CLI.hpp>
+
+#include <optional>
+#include <string>
+
+namespace sparselens {
+
+struct LensOptions {
+    std::optional<double> focal_length_mm, sensor_width_mm, fstop, lens_radius, focus_distance, scene_unit;
+};
+
+struct DepthOptions {
+    DepthMeaning meaning = DepthMeaning::planar;
+    std::string channel; // empty: the usual names are tried
+};
+
+void add_lens_options(CLI::App &app, LensOptions &options);
+void add_depth_options(CLI::App &app, DepthOptions &options);
+
+// The file's camera with the options put over it. UsageError where --fstop and --lens-radius are both given.
+Camera camera_with_options(const LensOptions &options, Camera from_file);
+
+// Each value: the option, else the file's metadata, else UsageError naming the option to give. A lens of radius
+// 0 (--lens-radius 0, f-number inf) needs no other value. `windows` gives the display width and pixel aspect.
+ThinLens resolve_lens(const LensOptions &options, const Camera &from_file, const Windows &windows);
+
+} // namespace sparselens

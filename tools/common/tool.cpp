@@ -1,0 +1,84 @@
+#include "common/tool.h"
+
+#include "base/error.h"
+
+#include <ImfThreading.h>
+#include <tbb/global_control.h>
+#include <tbb/info.h>
+
+#include <cstdio>
+#include <exception>
+#include <new>
+#include <unistd.h>
+
+namespace sparselens {
+
+namespace {
+
+std::unique_ptr<Progress> terminal_progress(const std::string &tool_name) {
+    if (!isatty(STDERR_FILENO)) return std::make_unique<Progress>();
+    return std::make_unique<Progress>([tool_name](const std::string &stage, int percent) {
+        std::fprintf(stderr, "\r%s: %s %3d%%%s", tool_name.c_str(), stage.c_str(), percent,
+                     percent == 100 ? "\n" : "");
+    });
+}
+
+// One line, whatever a library put into its message.
+std::string one_line(std::string text) {
+    for (char &c : text)
+        if (c == '\n' || c == '\r') c = ' ';
+    while (!text.empty() && text.back() == ' ') text.pop_back();
+    return text;
+}
+
+int fail(const std::string &tool_name, const std::string &text, int code) {
+    std::fprintf(stderr, "%s: %s\n", tool_name.c_str(), one_line(text).c_str());
+    return code;
+}
+
+int run_job(const ToolContext &tool, const std::function<void(const ToolContext &)> &job) {
+    try {
+        job(tool);
+        return 0;
+    } catch (const UsageError &error) {
+        return fail(tool.tool_name, error.what(), 2);
+    } catch (const std::bad_alloc &) {
+        return fail(tool.tool_name, "out of memory", 1);
+    } catch (const std::exception &error) {
+        return fail(tool.tool_name, error.what(), 1);
+    }
+}
+
+} // namespace
+
+void ToolContext::say(const std::string &line) const {
+    if (verbose) std::fprintf(stderr, "%s: %s\n", tool_name.c_str(), line.c_str());
+}
+
+void warn(const ToolContext &tool, const std::string &text) {
+    std::fprintf(stderr, "%s: warning: %s\n", tool.tool_name.c_str(), one_line(text).c_str());
+}
+
+int run_tool(CLI::App &app, int argc, char **argv, const std::function<void(const ToolContext &)> &job) {
+    ToolContext tool;
+    tool.tool_name = app.get_name();
+    app.set_version_flag("--version", tool.tool_name + " (sparselens) " SPARSELENS_VERSION);
+    app.add_flag("-v,--verbose", tool.verbose, "Say on stderr what was found and done");
+    app.add_option("--threads", tool.threads, "Threads to use, 0 = all")
+        ->type_name("N")
+        ->check(CLI::Range(0, 4096));
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::Success &answer) { // --help, --version
+        return app.exit(answer);
+    } catch (const CLI::ParseError &error) {
+        return fail(tool.tool_name, error.what() + std::string(" (see --help)"), 2);
+    }
+    const int threads = tool.threads > 0 ? tool.threads : tbb::info::default_concurrency();
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, std::size_t(threads));
+    Imf::setGlobalThreadCount(threads > 1 ? threads : 0);
+    tool.progress = terminal_progress(tool.tool_name);
+    return run_job(tool, job);
+}
+
+} // namespace sparselens
