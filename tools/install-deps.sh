@@ -1,7 +1,7 @@
 #!/bin/sh
 # Installs the Debian packages that a job here needs and this machine lacks.
 #
-#   tools/install-deps.sh SET...      sets: build, demo, test
+#   tools/install-deps.sh SET...      sets: build, demo, lint, test
 #
 # Needs nothing but a Debian base system, and root or sudo if something is missing. Prints one line when all is
 # there; exit 1, with one line saying why, when it is not and cannot be had.
@@ -10,6 +10,7 @@ set -eu
 build='g++ cmake ninja-build pkg-config libcli11-dev libembree-dev libhwy-dev libimath-dev libopencolorio-dev
        libopenexr-dev libopenimageio-dev libtbb-dev'
 demo='fonts-dejavu-core openimageio-tools'
+lint='clang-14 clang-format-14 clang-tidy-14'
 test='libbenchmark-dev libgtest-dev openexr openimageio-tools'
 
 fail() {
@@ -22,8 +23,9 @@ packages_of() {
         case $set_name in
         build) echo $build ;;
         demo) echo $demo ;;
+        lint) echo $lint ;;
         test) echo $test ;;
-        *) fail "unknown set '$set_name' (build, demo, test)" ;;
+        *) fail "unknown set '$set_name' (build, demo, lint, test)" ;;
         esac
     done
 }
@@ -46,7 +48,7 @@ apt_get() {
         >>"$log" 2>&1 </dev/null
 }
 
-[ $# -gt 0 ] || fail "name at least one set: build, demo, test"
+[ $# -gt 0 ] || fail "name at least one set: build, demo, lint, test"
 wanted=$(packages_of "$@")
 if ! command -v dpkg-query >/dev/null; then
     echo "install-deps: not a Debian system, so nothing was checked; needed are: $(echo $wanted)"
