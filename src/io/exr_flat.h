@@ -7,6 +7,7 @@
 #include "base/image.h"
 
 #include <ImfHeader.h>
+#include <ImfMultiPartInputFile.h>
 
 #include <string>
 
@@ -19,6 +20,7 @@ struct FlatFile {
 
 // The first part that holds flat pixels, all its channels.
 FlatFile read_flat_exr(const std::string &path);
+FlatFile read_flat_part(Imf::MultiPartInputFile &file, const std::string &path); // path: for messages
 
 // Channels are stored in their own types. Of `metadata` everything is kept that does not describe the pixels
 // themselves (windows, channels, tiling); compression is ZIP.

@@ -6,6 +6,7 @@
 #include <tbb/global_control.h>
 #include <tbb/info.h>
 
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <new>
@@ -77,6 +78,7 @@ int run_tool(CLI::App &app, int argc, char **argv, const std::function<void(cons
     const int threads = tool.threads > 0 ? tool.threads : tbb::info::default_concurrency();
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, std::size_t(threads));
     Imf::setGlobalThreadCount(threads > 1 ? threads : 0);
+    std::signal(SIGPIPE, SIG_IGN); // a reader that went away is an error to report, not a silent death
     tool.progress = terminal_progress(tool.tool_name);
     return run_job(tool, job);
 }

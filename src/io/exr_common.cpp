@@ -1,0 +1,80 @@
+#include "io/exr_common.h"
+
+#include <half.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+
+namespace sparselens {
+
+namespace {
+
+// Attributes that say how pixels are stored in one file, and so must not wander into another.
+bool describes_storage(const std::string &name) {
+    static constexpr std::array names{"channels",   "chunkCount",       "compression", "dataWindow",
+                                      "deepImageState", "displayWindow", "lineOrder",   "maxSamplesPerPixel",
+                                      "pixelAspectRatio", "preview",     "tiles",       "type",
+                                      "version"};
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+PixelType type_of(Imf::PixelType type) {
+    if (type == Imf::HALF) return PixelType::half;
+    return type == Imf::UINT ? PixelType::uint32 : PixelType::float32;
+}
+
+} // namespace
+
+Windows windows_of(const Imf::Header &header) {
+    return {header.displayWindow(), header.dataWindow(), header.pixelAspectRatio()};
+}
+
+std::vector<Channel> channels_of(const Imf::Header &header, const std::string &path) {
+    std::vector<Channel> channels;
+    const Imf::ChannelList &list = header.channels();
+    for (const char *name : {"R", "G", "B", "A"})
+        if (const Imf::Channel *found = list.findChannel(name)) channels.push_back({name, type_of(found->type)});
+    for (auto it = list.begin(); it != list.end(); ++it) {
+        if (it.channel().xSampling != 1 || it.channel().ySampling != 1)
+            throw Error(path + ": channel " + it.name() + " is subsampled, which is not supported");
+        if (find_channel(channels, it.name()) == npos) channels.push_back({it.name(), type_of(it.channel().type)});
+    }
+    return channels;
+}
+
+Imf::Header output_header(const Windows &windows, std::span<const Channel> channels, const Imf::Header &metadata) {
+    Imf::Header header(windows.display, windows.data, windows.pixel_aspect);
+    for (auto it = metadata.begin(); it != metadata.end(); ++it)
+        if (!describes_storage(it.name())) header.insert(it.name(), it.attribute());
+    for (const Channel &channel : channels)
+        header.channels().insert(channel.name, Imf::Channel(imf_type(channel.type)));
+    return header;
+}
+
+Imf::PixelType imf_type(PixelType type) {
+    switch (type) {
+    case PixelType::half: return Imf::HALF;
+    case PixelType::uint32: return Imf::UINT;
+    case PixelType::float32: break;
+    }
+    return Imf::FLOAT;
+}
+
+std::size_t bytes_of(PixelType type) { return type == PixelType::half ? 2 : 4; }
+
+void store(PixelType type, const float *from, std::size_t count, char *to) {
+    if (type != PixelType::half) {
+        std::memcpy(to, from, count * sizeof(float)); // ids keep their bits, see PixelType
+        return;
+    }
+    constexpr float largest = 65504;
+    for (std::size_t i = 0; i < count; ++i) {
+        const float value = std::isfinite(from[i]) ? std::clamp(from[i], -largest, largest) : from[i];
+        const Imath::half rounded(value);
+        std::memcpy(to + 2 * i, &rounded, 2);
+    }
+}
+
+} // namespace sparselens

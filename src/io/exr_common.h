@@ -1,0 +1,48 @@
+// What the flat and the deep EXR code share. Not for use outside io/.
+#pragma once
+
+#include "base/error.h"
+#include "base/image.h"
+#include "io/file_stream.h"
+
+#include <ImfChannelList.h>
+#include <ImfHeader.h>
+#include <ImfPixelType.h>
+
+#include <span>
+#include <string>
+
+namespace sparselens {
+
+Windows windows_of(const Imf::Header &header);
+
+// The header's channels, R, G, B, A first, then by name. Error where a channel is subsampled.
+std::vector<Channel> channels_of(const Imf::Header &header, const std::string &path);
+
+// A fresh header with these windows and channels that keeps all of `metadata` that does not describe how its
+// own pixels were stored.
+Imf::Header output_header(const Windows &windows, std::span<const Channel> channels, const Imf::Header &metadata);
+
+Imf::PixelType imf_type(PixelType type);
+std::size_t bytes_of(PixelType type);
+
+// Stores floats as the channel's type, `count` values from `from` to `to`. Finite values beyond half's range
+// become its largest, never infinity.
+void store(PixelType type, const float *from, std::size_t count, char *to);
+
+// Calls work(); what OpenEXR throws leaves as Error that names the file.
+template <typename Work>
+auto with_file_name(const std::string &path, const Work &work) {
+    try {
+        return work();
+    } catch (const Error &) {
+        throw;
+    } catch (const std::bad_alloc &) {
+        throw;
+    } catch (const std::exception &error) {
+        const std::string name = display_name(path), what = error.what();
+        throw Error(what.find(name) == std::string::npos ? name + ": " + what : what);
+    }
+}
+
+} // namespace sparselens

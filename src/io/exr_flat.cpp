@@ -1,0 +1,75 @@
+#include "io/exr_flat.h"
+
+#include "io/exr_common.h"
+
+#include <ImfFrameBuffer.h>
+#include <ImfInputPart.h>
+#include <ImfMultiPartInputFile.h>
+#include <ImfOutputFile.h>
+#include <ImfPartType.h>
+
+namespace sparselens {
+
+namespace {
+
+bool is_flat(const Imf::Header &header) { return !header.hasType() || !Imf::isDeepData(header.type()); }
+
+int first_flat_part(Imf::MultiPartInputFile &file, const std::string &path) {
+    for (int part = 0; part < file.parts(); ++part)
+        if (is_flat(file.header(part))) return part;
+    throw Error(display_name(path) + ": holds no flat picture");
+}
+
+} // namespace
+
+FlatFile read_flat_part(Imf::MultiPartInputFile &file, const std::string &path) {
+    Imf::InputPart part(file, first_flat_part(file, path));
+    const Imf::Header &header = part.header();
+    Image image(windows_of(header), channels_of(header, path));
+    const Windows &w = image.windows;
+    Imf::FrameBuffer pixels;
+    for (std::size_t k = 0; k < image.channels.size(); ++k) {
+        const Channel &channel = image.channels[k];
+        const auto type = channel.type == PixelType::uint32 ? Imf::UINT : Imf::FLOAT;
+        pixels.insert(channel.name, Imf::Slice::Make(type, image.plane(k).data(), w.data, sizeof(float),
+                                                     sizeof(float) * std::size_t(w.width())));
+    }
+    part.setFrameBuffer(pixels);
+    part.readPixels(w.data.min.y, w.data.max.y);
+    return FlatFile{std::move(image), header};
+}
+
+FlatFile read_flat_exr(const std::string &path) {
+    return with_file_name(path, [&] {
+        const auto stream = open_input(path);
+        Imf::MultiPartInputFile file(*stream);
+        return read_flat_part(file, path);
+    });
+}
+
+void write_flat_exr(const std::string &path, const Image &image, const Imf::Header &metadata) {
+    with_file_name(path, [&] {
+        const Windows &w = image.windows;
+        std::vector<std::vector<char>> stored(image.channels.size());
+        Imf::FrameBuffer pixels;
+        for (std::size_t k = 0; k < stored.size(); ++k) {
+            const Channel &channel = image.channels[k];
+            const std::size_t bytes = bytes_of(channel.type);
+            stored[k].resize(w.pixels() * bytes);
+            store(channel.type, image.plane(k).data(), w.pixels(), stored[k].data());
+            pixels.insert(channel.name, Imf::Slice::Make(imf_type(channel.type), stored[k].data(), w.data, bytes,
+                                                         bytes * std::size_t(w.width())));
+        }
+        Imf::Header header = output_header(w, image.channels, metadata);
+        header.compression() = Imf::ZIP_COMPRESSION;
+        OutputFile output(path);
+        {
+            Imf::OutputFile file(output.stream(), header);
+            file.setFrameBuffer(pixels);
+            file.writePixels(w.height());
+        }
+        output.commit();
+    });
+}
+
+} // namespace sparselens

@@ -1,0 +1,200 @@
+#include "io/file_stream.h"
+
+#include "base/error.h"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <fcntl.h>
+#include <filesystem>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace sparselens {
+
+namespace {
+
+[[noreturn]] void fail(const std::string &path, const std::string &what) {
+    throw Error(display_name(path) + ": " + what + ": " + std::strerror(errno));
+}
+
+class MemoryInput : public Imf::IStream {
+public:
+    MemoryInput(const std::string &name, std::vector<char> bytes)
+        : Imf::IStream(name.c_str()), bytes_(std::move(bytes)) {}
+
+    bool read(char c[], int n) override {
+        if (n < 0 || std::uint64_t(n) > bytes_.size() - position_)
+            throw Error(std::string(fileName()) + ": the file ends too early");
+        std::memcpy(c, bytes_.data() + position_, std::size_t(n));
+        position_ += std::uint64_t(n);
+        return position_ < bytes_.size();
+    }
+    std::uint64_t tellg() override { return position_; }
+    void seekg(std::uint64_t position) override {
+        if (position > bytes_.size()) throw Error(std::string(fileName()) + ": the file ends too early");
+        position_ = position;
+    }
+
+private:
+    std::vector<char> bytes_;
+    std::uint64_t position_ = 0;
+};
+
+class FileInput : public Imf::IStream {
+public:
+    FileInput(const std::string &name, int descriptor)
+        : Imf::IStream(name.c_str()), file_(fdopen(descriptor, "rb")) {}
+    ~FileInput() override { std::fclose(file_); }
+
+    bool read(char c[], int n) override {
+        if (n < 0 || std::fread(c, 1, std::size_t(n), file_) != std::size_t(n))
+            throw Error(std::string(fileName()) + ": the file ends too early");
+        return true;
+    }
+    std::uint64_t tellg() override { return std::uint64_t(ftello(file_)); }
+    void seekg(std::uint64_t position) override { fseeko(file_, off_t(position), SEEK_SET); }
+
+private:
+    std::FILE *file_;
+};
+
+std::vector<char> read_whole(const std::string &path, int descriptor) {
+    std::vector<char> bytes;
+    std::size_t used = 0;
+    for (;;) {
+        if (used == bytes.size()) bytes.resize(std::max<std::size_t>(1 << 20, 2 * used));
+        const ssize_t got = ::read(descriptor, bytes.data() + used, bytes.size() - used);
+        if (got < 0 && errno == EINTR) continue;
+        if (got < 0) fail(path, "cannot read");
+        if (got == 0) break;
+        used += std::size_t(got);
+    }
+    bytes.resize(used);
+    return bytes;
+}
+
+void write_all(const std::string &path, int descriptor, const char *data, std::size_t size) {
+    while (size > 0) {
+        const ssize_t put = ::write(descriptor, data, size);
+        if (put < 0 && errno == EINTR) continue;
+        if (put < 0) fail(path, "cannot write");
+        data += put;
+        size -= std::size_t(put);
+    }
+}
+
+bool is_regular_or_new(const std::string &path) {
+    struct stat info {};
+    return ::stat(path.c_str(), &info) != 0 || S_ISREG(info.st_mode);
+}
+
+// The file that a path leads to, also where the last link points at nothing yet.
+std::string follow_links(const std::string &path) {
+    std::filesystem::path target = path;
+    for (int depth = 0; depth < 40 && std::filesystem::is_symlink(target); ++depth) {
+        const std::filesystem::path next = std::filesystem::read_symlink(target);
+        target = next.is_absolute() ? next : target.parent_path() / next;
+    }
+    return target.string();
+}
+
+} // namespace
+
+std::string display_name(const std::string &path) { return path == "-" ? "standard stream" : path; }
+
+std::unique_ptr<Imf::IStream> open_input(const std::string &path) {
+    if (path == "-") return std::make_unique<MemoryInput>(display_name(path), read_whole(path, STDIN_FILENO));
+    const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    if (descriptor < 0) fail(path, "cannot open");
+    struct stat info {};
+    if (::fstat(descriptor, &info) == 0 && S_ISDIR(info.st_mode)) {
+        ::close(descriptor);
+        throw Error(path + ": is a folder, not a file");
+    }
+    if (S_ISREG(info.st_mode)) return std::make_unique<FileInput>(path, descriptor);
+    auto stream = std::make_unique<MemoryInput>(path, read_whole(path, descriptor));
+    ::close(descriptor);
+    return stream;
+}
+
+// Collects bytes; with a temporary file behind it, it hands them on in large pieces.
+class OutputFile::Buffer : public Imf::OStream {
+public:
+    Buffer(const std::string &path, int descriptor, bool to_file)
+        : Imf::OStream(path.c_str()), descriptor_(descriptor), to_file_(to_file) {}
+
+    void write(const char c[], int n) override {
+        const std::size_t end = position_ + std::size_t(n);
+        if (end > bytes_.size()) bytes_.resize(end);
+        std::memcpy(bytes_.data() + position_, c, std::size_t(n));
+        position_ = end;
+        if (to_file_ && bytes_.size() >= piece) flush();
+    }
+    std::uint64_t tellp() override { return start_ + position_; }
+    void seekp(std::uint64_t position) override {
+        if (to_file_) {
+            flush();
+            if (::lseek(descriptor_, off_t(position), SEEK_SET) < 0) fail(fileName(), "cannot seek");
+            start_ = position;
+        } else {
+            position_ = std::size_t(position);
+        }
+    }
+    void flush() {
+        write_all(fileName(), descriptor_, bytes_.data(), bytes_.size());
+        start_ += bytes_.size();
+        position_ = 0;
+        bytes_.clear();
+    }
+
+private:
+    static constexpr std::size_t piece = std::size_t(1) << 20;
+    int descriptor_;
+    bool to_file_;
+    std::uint64_t start_ = 0;  // file position of bytes_[0]
+    std::size_t position_ = 0; // in bytes_
+    std::vector<char> bytes_;
+};
+
+OutputFile::OutputFile(const std::string &path) : path_(path) {
+    if (path == "-") {
+        descriptor_ = ::dup(STDOUT_FILENO);
+    } else if (!is_regular_or_new(path)) {
+        descriptor_ = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
+    } else {
+        target_ = follow_links(path);
+        const std::filesystem::path target = target_;
+        const std::string name = "." + target.filename().string() + "." + std::to_string(::getpid());
+        for (int attempt = 0; attempt < 100 && descriptor_ < 0; ++attempt) {
+            const std::string unique = name + "-" + std::to_string(attempt) + ".partial";
+            temporary_ = (target.parent_path() / unique).string();
+            descriptor_ = ::open(temporary_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+            if (descriptor_ < 0 && errno != EEXIST) break;
+        }
+    }
+    if (descriptor_ < 0) {
+        temporary_.clear();
+        fail(path, "cannot write");
+    }
+    buffer_ = std::make_unique<Buffer>(display_name(path), descriptor_, !target_.empty());
+}
+
+OutputFile::~OutputFile() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+    if (!temporary_.empty()) ::unlink(temporary_.c_str());
+}
+
+Imf::OStream &OutputFile::stream() { return *buffer_; }
+
+void OutputFile::commit() {
+    buffer_->flush();
+    const int descriptor = descriptor_;
+    descriptor_ = -1;
+    if (::close(descriptor) != 0) fail(path_, "cannot write");
+    if (target_.empty()) return;
+    if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail(path_, "cannot rename the finished file");
+    temporary_.clear();
+}
+
+} // namespace sparselens

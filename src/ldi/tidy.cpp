@@ -1,0 +1,126 @@
+#include "ldi/build.h"
+#include "ldi/ldi.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sparselens {
+
+namespace {
+
+// A stretch of one input sample: [z, z_back] with the alpha that falls to it and the factor on its colours.
+struct Piece {
+    float z, z_back;
+    double alpha, factor;
+    std::uint64_t index;
+};
+
+bool visible(const Ldi &ldi, std::size_t alpha, std::uint64_t i) {
+    if (alpha_at(ldi, alpha, i) != 0) return true;
+    for (std::size_t k = 0; k < ldi.channels.size(); ++k)
+        if (ldi.channels[k].type != PixelType::uint32 && ldi.values[k][i] != 0) return true;
+    return false;
+}
+
+bool is_tidy(const Ldi &ldi, std::size_t alpha, std::size_t pixel) {
+    for (std::uint64_t i = ldi.begin[pixel]; i < ldi.begin[pixel + 1]; ++i) {
+        if (!visible(ldi, alpha, i)) return false;
+        if (i > ldi.begin[pixel] && !(back_at(ldi, i - 1) <= ldi.z[i] && ldi.z[i - 1] < ldi.z[i])) return false;
+    }
+    return true;
+}
+
+// The part of a volume between two depths absorbs as much as its share of the length: 1 - (1 - a)^share, and
+// keeps the colour-to-alpha ratio ("Interpreting OpenEXR Deep Pixels", splitting a volume sample).
+Piece part_of(const Piece &whole, float z, float z_back) {
+    if (z == whole.z && z_back == whole.z_back) return whole;
+    const double share = (double(z_back) - double(z)) / (double(whole.z_back) - double(whole.z));
+    if (whole.alpha >= 1) return {z, z_back, 1, whole.factor, whole.index};
+    const double alpha = -std::expm1(share * std::log1p(-whole.alpha));
+    return {z, z_back, alpha, whole.factor * (whole.alpha > 0 ? alpha / whole.alpha : share), whole.index};
+}
+
+// Cuts every volume at every depth where another sample begins or ends inside it.
+std::vector<Piece> split_at_boundaries(const std::vector<Piece> &samples) {
+    std::vector<float> cuts;
+    for (const Piece &s : samples) cuts.insert(cuts.end(), {s.z, s.z_back});
+    std::sort(cuts.begin(), cuts.end());
+    cuts.erase(std::unique(cuts.begin(), cuts.end()), cuts.end());
+    std::vector<Piece> pieces;
+    for (const Piece &s : samples) {
+        if (!(s.z_back > s.z) || std::isinf(s.z_back)) {
+            pieces.push_back(s);
+            continue;
+        }
+        float from = s.z;
+        for (auto cut = std::upper_bound(cuts.begin(), cuts.end(), s.z); from < s.z_back; ++cut) {
+            pieces.push_back(part_of(s, from, *cut));
+            from = *cut;
+        }
+    }
+    return pieces;
+}
+
+// Samples of the same extent become one: their optical depths add, colours in proportion ("Interpreting OpenEXR
+// Deep Pixels", merging). Opaque ones share the place equally. Sets factors; the alpha of the whole is linear.
+void set_merged_factors(std::span<Piece> same) {
+    const auto opaque = [](const Piece &p) { return p.alpha >= 1; };
+    const auto opaque_count = std::count_if(same.begin(), same.end(), opaque);
+    if (same.size() == 1) return;
+    if (opaque_count > 0) {
+        for (Piece &p : same) p.factor *= opaque(p) ? 1.0 / double(opaque_count) : 0.0;
+        return;
+    }
+    double depth = 0;
+    for (const Piece &p : same) depth -= std::log1p(-p.alpha);
+    if (depth == 0) return; // light without coverage adds
+    const double alpha = -std::expm1(-depth);
+    for (Piece &p : same) p.factor *= (p.alpha > 0 ? -std::log1p(-p.alpha) / p.alpha : 1) * alpha / depth;
+}
+
+void tidy_pixel(const Ldi &ldi, std::size_t alpha, std::size_t pixel, Ldi &out) {
+    std::vector<Piece> samples;
+    bool volumes = false;
+    for (std::uint64_t i = ldi.begin[pixel]; i < ldi.begin[pixel + 1]; ++i)
+        if (visible(ldi, alpha, i)) {
+            samples.push_back({ldi.z[i], std::max(ldi.z[i], back_at(ldi, i)), alpha_at(ldi, alpha, i), 1, i});
+            volumes = volumes || samples.back().z_back > samples.back().z;
+        }
+    std::vector<Piece> pieces = volumes ? split_at_boundaries(samples) : samples;
+    std::stable_sort(pieces.begin(), pieces.end(), [](const Piece &a, const Piece &b) {
+        return a.z != b.z ? a.z < b.z : a.z_back < b.z_back;
+    });
+    std::vector<Term> terms;
+    for (std::size_t first = 0, last = 0; first < pieces.size(); first = last) {
+        while (last < pieces.size() && pieces[last].z == pieces[first].z &&
+               pieces[last].z_back == pieces[first].z_back)
+            ++last;
+        const std::span same(pieces.data() + first, last - first);
+        set_merged_factors(same);
+        terms.clear();
+        MergedSample merged = placement_of(ldi, same[0].index);
+        merged.z = same[0].z;
+        merged.z_back = same[0].z_back;
+        merged.weight = 0;
+        for (const Piece &p : same) {
+            terms.push_back({p.index, p.factor});
+            merged.weight += placement_of(ldi, p.index).weight;
+        }
+        merged.terms = terms;
+        append(out, ldi, merged);
+    }
+}
+
+} // namespace
+
+Ldi tidy(const Ldi &ldi) {
+    const std::size_t alpha = ldi.alpha();
+    return build_by_pixels(ldi, [&](std::size_t pixel, Ldi &out) {
+        if (is_tidy(ldi, alpha, pixel))
+            for (std::uint64_t i = ldi.begin[pixel]; i < ldi.begin[pixel + 1]; ++i) append(out, ldi, i);
+        else
+            tidy_pixel(ldi, alpha, pixel, out);
+    });
+}
+
+} // namespace sparselens

@@ -1,0 +1,28 @@
+#include "view/camera.h"
+
+#include "base/error.h"
+
+#include <cmath>
+
+namespace sparselens {
+
+std::optional<Imath::V3d> position_relative_to(const Camera &centre, const Camera &view, const std::string &what) {
+    if (!centre.world_to_camera || !view.world_to_camera) return {};
+    Imath::M44d to_world = *view.world_to_camera;
+    try {
+        to_world.invert(true);
+    } catch (const std::exception &) {
+        throw Error(what + ": worldToCamera cannot be inverted");
+    }
+    const Imath::M44d view_to_centre = to_world * *centre.world_to_camera;
+    // The matrices are stored as float: axes that differ by less than its rounding are parallel.
+    constexpr double tolerance = 1e-4;
+    for (int row = 0; row < 3; ++row)
+        for (int column = 0; column < 3; ++column)
+            if (!(std::abs(view_to_centre[row][column] - (row == column ? 1 : 0)) < tolerance))
+                throw Error(what + ": worldToCamera is turned against the centre view's; only parallel axes are "
+                                   "supported");
+    return Imath::V3d(view_to_centre[3][0], view_to_centre[3][1], view_to_centre[3][2]);
+}
+
+} // namespace sparselens
