@@ -34,7 +34,7 @@ build() {
 }
 
 table=()
-row() { table+=("$(printf '%-34s %8s %8s %7s  %s' "$@")"); }
+row() { table+=("$(printf '%-34s %8s %8s %7s  %s' "$@" | sed 's/ *$//')"); }
 
 # timed COMMAND...: leaves the wall time in $seconds.
 timed() {
