@@ -1,6 +1,7 @@
 #include "common/view_list.h"
 
 #include "base/error.h"
+#include "common/picture_options.h"
 
 #include <cmath>
 #include <sstream>
@@ -9,17 +10,10 @@ namespace sparselens {
 
 namespace {
 
-// "X,Y": two finite numbers.
-bool parse_pair(const std::string &text, Imath::V2d &pair) {
-    const std::size_t comma = text.find(',');
-    return comma != std::string::npos && CLI::detail::lexical_cast(text.substr(0, comma), pair.x) &&
-           CLI::detail::lexical_cast(text.substr(comma + 1), pair.y) && std::isfinite(pair.x) && std::isfinite(pair.y);
-}
-
 Imath::V2d placed_position(const std::string &text) {
-    Imath::V2d position;
-    if (!parse_pair(text, position)) throw UsageError("--view: '" + text + "' is not X,Y");
-    return position;
+    const auto position = parse_pair(text);
+    if (!position) throw UsageError("--view: '" + text + "' is not X,Y");
+    return *position;
 }
 
 Imath::V2d metadata_position(const Camera &centre, const Camera &view, const std::string &path) {
