@@ -47,6 +47,14 @@ FlatFile read_flat_exr(const std::string &path) {
     });
 }
 
+Imf::Header read_flat_header(const std::string &path) {
+    return with_file_name(path, [&] {
+        const auto stream = open_input(path);
+        Imf::MultiPartInputFile file(*stream);
+        return file.header(first_flat_part(file, path));
+    });
+}
+
 void write_flat_exr(const std::string &path, const Image &image, const Imf::Header &metadata) {
     with_file_name(path, [&] {
         const Windows &w = image.windows;
