@@ -2,6 +2,7 @@
 #include "base/error.h"
 #include "common/lens_options.h"
 #include "common/lens_view_files.h"
+#include "common/picture_options.h"
 #include "common/tool.h"
 #include "dof/accumulate.h"
 #include "io/camera_metadata.h"
@@ -16,18 +17,15 @@ struct Options {
     LensViewOptions views;
     LensOptions lens;
     std::string output;
-    PixelType type = PixelType::half;
+    bool as_float = false;
     bool transparent_outside = false;
 };
 
 void add_options(CLI::App &app, Options &options) {
-    const std::map<std::string, PixelType> types{{"half", PixelType::half}, {"float", PixelType::float32}};
     const std::map<std::string, bool> outside{{"unknown", false}, {"transparent", true}};
     add_lens_view_options(app, options.views);
     app.add_option("-o,--output", options.output, "The average (EXR)")->required()->type_name("OUT");
-    app.add_option("-d", options.type, "How to store values: half or float (half)")
-        ->type_name("TYPE")
-        ->transform(CLI::CheckedTransformer(types));
+    add_type_option(app, options.as_float);
     app.add_option(
            "--outside", options.transparent_outside,
            "What lies outside a view's data window: unknown (the view does not count there; the default) "
@@ -87,10 +85,8 @@ void accumulate_files(const Options &options, const ToolContext &tool) {
                    "where it is");
     stop_down(files, options);
     tool.say(std::to_string(files.views.size()) + " views");
-    Image image = average_views(files, unit_lens(options, files), options, tool);
-    for (Channel &channel : image.channels)
-        if (channel.type != PixelType::uint32) channel.type = options.type;
-    write_flat_exr(options.output, image, header_of(files, options.lens));
+    const Image image = average_views(files, unit_lens(options, files), options, tool);
+    write_flat_exr(options.output, in_type(image, options.as_float), header_of(files, options.lens));
 }
 
 } // namespace

@@ -1,8 +1,7 @@
 // dof-compare: how far a picture is from its reference.
 #include "base/error.h"
-#include "common/lens_options.h"
+#include "common/pictures.h"
 #include "common/tool.h"
-#include "io/camera_metadata.h"
 #include "io/exr_flat.h"
 #include "measure/figures_text.h"
 #include "measure/image_error.h"
@@ -26,21 +25,25 @@ void add_options(CLI::App &app, Options &options) {
     app.add_option("A", options.image, "Picture to judge (EXR, - for standard input)")->required();
     app.add_option("REF", options.reference, "Reference: compared over its data window")->required();
     app.add_flag("--json", options.json, "Print JSON instead of a table");
-    app.add_option("--regions", options.regions,
-                   "LDI (deep EXR, or flat with depth) that tells what is in focus, blurred, a silhouette")
-        ->type_name("LDI");
+    CLI::Option *regions =
+        app.add_option(
+               "--regions", options.regions,
+               "LDI (deep EXR, or flat with depth) that tells what is in focus, blurred, a silhouette")
+            ->type_name("LDI");
     add_lens_options(app, options.lens);
     add_depth_options(app, options.depth);
+    for (CLI::Option *option : app.get_options())
+        if (option->get_group() == "Lens") option->needs(regions); // they say how to read it
 }
 
 std::vector<std::uint8_t> regions_over(const Windows &target, const Options &options) {
-    const LdiFile file = read_ldi(options.regions, options.depth.channel);
-    const Windows &windows = file.ldi.windows;
+    const LoadedLdi in = load_ldi(options.regions, options.lens, options.depth);
+    const Windows &windows = in.ldi.windows;
     if (windows.display_width() != target.display_width() ||
         windows.display_height() != target.display_height())
         throw Error(options.regions + ": the display window differs in size from the reference's");
-    const ThinLens lens = resolve_lens(options.lens, read_camera(file.header), windows);
-    const std::vector<float> c = front_circles_of_confusion(tidy(file.ldi), lens);
+    const ThinLens lens = resolve_lens(options.lens, in.camera, windows);
+    const std::vector<float> c = front_circles_of_confusion(in.ldi, lens);
     const auto bits = region_bits(c, windows.width(), windows.height(), lens.pixel_aspect);
     return bits_over(bits, windows, target);
 }

@@ -1,24 +1,18 @@
 #include "common/lens_view_files.h"
 
 #include "base/error.h"
+#include "common/picture_options.h"
 #include "io/camera_metadata.h"
 #include "io/exr_common.h"
-
-#include <cmath>
 
 namespace sparselens {
 
 namespace {
 
-Imath::V2d parse_position(const std::string &text) {
-    const std::size_t comma = text.find(',');
-    Imath::V2d p;
-    const bool two_numbers = comma != std::string::npos &&
-                             CLI::detail::lexical_cast(text.substr(0, comma), p.x) &&
-                             CLI::detail::lexical_cast(text.substr(comma + 1), p.y);
-    if (!two_numbers || !std::isfinite(p.x) || !std::isfinite(p.y))
-        throw UsageError("--view: '" + text + "' is not X,Y");
-    return p;
+Imath::V2d placed_position(const std::string &text) {
+    const auto position = parse_pair(text);
+    if (!position) throw UsageError("--view: '" + text + "' is not X,Y");
+    return *position;
 }
 
 // Reads the header of a view; from standard input, which cannot be read twice, the pixels too.
@@ -68,7 +62,7 @@ LensViewFiles open_lens_views(const LensViewOptions &options) {
     LensViewFiles result;
     for (const std::string &path : options.files) result.views.push_back({path, {0, 0}, {}});
     for (const auto &[position, path] : options.placed)
-        result.views.push_back({path, parse_position(position), {}});
+        result.views.push_back({path, placed_position(position), {}});
     if (result.views.empty()) throw UsageError("no views are given");
     std::vector<Imf::Header> headers;
     for (LensViewFile &view : result.views) headers.push_back(open_header(view));

@@ -1,0 +1,46 @@
+#!/bin/bash
+# What clang 14 says of the sources.
+#
+#   tests/clang.sh             build everything into build-clang/, warnings as errors
+#   tests/clang.sh --tidy      clang-tidy over src and tools, findings as errors
+#   tests/clang.sh --format    are all sources formatted as .clang-format asks? (77: clang-format-14 is missing)
+#   tests/clang.sh --format-in-place
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+exec </dev/null
+
+need() {
+    command -v "$1" >/dev/null || { echo "skipped: $1 is not installed"; exit 77; }
+}
+
+sources() { find src tools tests '(' -name '*.cpp' -o -name '*.h' ')' -print0 | sort -z; }
+
+configure() {
+    tools/install-deps.sh build test lint
+    cmake --preset clang --log-level=WARNING
+}
+
+case ${1-} in
+'')
+    configure
+    cmake --build build-clang -j "$(nproc)"
+    ;;
+--tidy)
+    configure
+    find src tools -name '*.cpp' -print0 | sort -z |
+        xargs -0 -n 1 -P "$(nproc)" clang-tidy-14 -p build-clang --quiet --warnings-as-errors='*' 2>&1 |
+        { grep -v 'warnings generated' || true; } # those of others' headers, which it hides
+    ;;
+--format)
+    need clang-format-14
+    sources | xargs -0 clang-format-14 --dry-run -Werror
+    ;;
+--format-in-place)
+    need clang-format-14
+    sources | xargs -0 clang-format-14 -i
+    ;;
+*)
+    echo "clang.sh: unknown option $1 (--tidy, --format, --format-in-place)" >&2
+    exit 2
+    ;;
+esac

@@ -1,0 +1,45 @@
+# What the scripts that test executables share; they begin with
+#     . "$(dirname "$0")/check.sh"
+# and are run as `bash SCRIPT BIN_DIR`. Gives $bin, and a scratch folder as the current one, gone at the end.
+set -euo pipefail
+bin=$(cd "${1:?usage: bash SCRIPT BIN_DIR}" && pwd)
+source_dir=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+cd "$scratch"
+
+fail() {
+    echo "FAIL: $*" >&2
+    exit 1
+}
+
+skip() {
+    echo "skipped: $*"
+    exit 77
+}
+
+# exits CODE COMMAND...: the command ends with that code; what it says is left in the files stdout and stderr.
+exits() {
+    local expected=$1 code=0
+    shift
+    "$@" >stdout 2>stderr </dev/null || code=$?
+    [ "$code" -eq "$expected" ] || fail "exit $code instead of $expected: $* ($(head -c 500 stderr))"
+}
+
+# fails_saying CODE PATTERN COMMAND...: it ends with that code and one line on stderr that matches (grep -E).
+fails_saying() {
+    local code=$1 pattern=$2
+    shift 2
+    exits "$code" "$@"
+    [ "$(wc -l <stderr)" -eq 1 ] || fail "not one line: $* ($(head -c 500 stderr))"
+    grep -Eq -e "$pattern" stderr || fail "'$pattern' is not in: $(cat stderr)"
+}
+
+# answers_help TOOL: --help and --version work, and an unknown option is a usage error.
+answers_help() {
+    exits 0 "$bin/$1" --help
+    grep -q -e --version stdout || fail "$1 --help does not name --version"
+    exits 0 "$bin/$1" --version
+    grep -q "^$1 " stdout || fail "$1 --version does not name the tool: $(cat stdout)"
+    fails_saying 2 no-such-option "$bin/$1" --no-such-option
+}

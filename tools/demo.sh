@@ -1,0 +1,115 @@
+#!/bin/bash
+# The whole chain on one scene: installs and builds what is missing, traces five pinhole views of "fence" and
+# their ray-traced reference, makes the defocused picture from the views, measures it against the reference,
+# and writes pictures into demo/. The table at the end goes to stdout, all else to stderr.
+#
+#   tools/demo.sh [--size WxH] [--spp N] [--reference N] [--bin DIR] [-o DIR]
+#
+# --bin takes executables that are built already; -o names another folder than demo/. What was traced earlier by
+# the same dof-trace with the same arguments is taken again.
+set -euo pipefail
+export LC_ALL=C
+unset OCIO # pictures are made for the screen by oiiotool's built-in sRGB
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+size=640x360 spp=16 reference_spp=1024 bin='' out=$here/demo
+while [ $# -gt 0 ]; do
+    [ $# -gt 1 ] || { echo "demo: $1 lacks its value, or is unknown" >&2; exit 2; }
+    case $1 in
+    --size) size=$2 ;;
+    --spp) spp=$2 ;;
+    --reference) reference_spp=$2 ;;
+    --bin) bin=$2 ;;
+    -o) out=$2 ;;
+    *) echo "demo: unknown option $1" >&2; exit 2 ;;
+    esac
+    shift 2
+done
+
+build() {
+    "$here/tools/install-deps.sh" build demo
+    # A folder that the tests have configured is taken as it is: turning them off would throw away their objects.
+    [ -e "$here/build/build.ninja" ] ||
+        cmake --preset release -S "$here" --log-level=WARNING -DSPARSELENS_TESTS=OFF -DSPARSELENS_BENCHMARKS=OFF
+    cmake --build "$here/build" --target tools/all -j "$(nproc)"
+}
+
+table=()
+row() { table+=("$(printf '%-34s %8s %8s %7s  %s' "$@" | sed 's/ *$//')"); }
+
+# timed COMMAND...: leaves the wall time in $seconds.
+timed() {
+    local start=${EPOCHREALTIME/./}
+    "$@"
+    seconds=$(printf '%.2f' "$((${EPOCHREALTIME/./} - start))e-6")
+}
+
+# traced FOLDER ARGUMENT...: dof-trace into that folder, unless what lies there is its unchanged result. The
+# stamp holds the program's checksum and arguments, the time it took, and the checksums of what it wrote.
+traced() {
+    local folder=$out/$1 stamp=$out/$1/traced.txt job
+    shift
+    job="$(sha256sum <"$bin/dof-trace") $*"
+    mkdir -p "$folder"
+    if [ -e "$stamp" ] && [ "$(sed -n 1p "$stamp")" = "$job" ] &&
+        (cd "$folder" && sed 1,2d traced.txt | sha256sum --check --status); then
+        seconds=$(sed -n 2p "$stamp") note='taken from an earlier run'
+        return
+    fi
+    rm -f "$stamp"
+    timed "$bin/dof-trace" "$@" -o "$folder"
+    note=''
+    (cd "$folder" && { echo "$job"; echo "$seconds"; sha256sum ./*.exr; } >traced.part && mv traced.part traced.txt)
+}
+
+# figure NAME JSON: the first value of that name, that of the whole picture.
+figure() { grep -o "\"$1\": *[^,} ]*" <<<"$2" | sed -n '1s/.*: *//p'; }
+
+# compared TITLE SECONDS PICTURE NOTE: a row with the picture's error.
+compared() {
+    local json
+    json=$("$bin/dof-compare" "$3" "$reference" --json)
+    row "$1" "$2" "$(printf '%.2f' "$(figure psnr_tonemapped "$json")")" "$(printf '%.4f' "$(figure ssim "$json")")" "$4"
+}
+
+for_screen=(--ch R,G,B --colorconvert linear sRGB)
+to_png() { oiiotool "$1" "${for_screen[@]}" -d uint8 -o "${1%.exr}.png"; }
+
+# strip FILE: before, after and reference side by side, below them a sixteenth of each enlarged.
+strip() {
+    local width=${size%x*} height=${size#*x} pictures=() zoomed=() i
+    local files=("$center" "$result" "$reference")
+    local titles=('before: the centre view' 'after: from 5 views' "reference: $reference_spp rays a pixel")
+    local zoom=$((width / 4))x$((height / 4))+$((width * 43 / 100))+$((height * 45 / 100))
+    for i in 0 1 2; do
+        pictures+=("${files[i]}" "${for_screen[@]}" --resize 480x270 --fill:color=0.1,0.1,0.1 480x22+0+0
+            "--text:x=8:y=16:size=14:font=DejaVuSans" "${titles[i]}")
+        zoomed+=("${files[i]}" "${for_screen[@]}" --cut "$zoom" --resize:filter=box 480x270)
+    done
+    oiiotool "${pictures[@]}" "${zoomed[@]}" --mosaic:pad=4 3x2 -d uint8 -o "$1"
+}
+
+[ -n "$bin" ] || { build >&2; bin=$here/build/bin; }
+exec </dev/null 3>&1 1>&2 # a tool that says something says it to stderr; 3 is for the table
+mkdir -p "$out"
+
+traced views fence --size "$size" --views 4 --spp "$spp"
+center=$out/views/center.exr rim=("$out"/views/view-[1-4].exr)
+row "5 pinhole views, $spp rays a pixel" "$seconds" '' '' "$note"
+traced reference fence --size "$size" --views 0 --reference "$reference_spp"
+reference=$out/reference/reference.exr reference_seconds=$seconds reference_note=$note
+
+compared '  the centre view alone' '' "$center" ''
+timed "$bin/ldi-warp" "$center" "${rim[@]}" -o "$out/warped.exr"
+row ldi-warp "$seconds" '' '' ''
+timed "$bin/ldi-cluster" "$out/warped.exr" -o "$out/ldi.exr"
+row ldi-cluster "$seconds" '' '' ''
+result=$out/selective.exr
+timed "$bin/dof-gather" "$out/ldi.exr" --method selective -o "$result"
+compared 'dof-gather --method selective' "$seconds" "$result" ''
+row "reference, $reference_spp rays a pixel" "$reference_seconds" '' '' "$reference_note"
+
+for picture in "$center" "$reference" "$result"; do to_png "$picture"; done
+strip "$out/fence.png"
+
+printf '%-34s %8s %8s %7s\n' "fence $size" seconds 'PSNR dB' SSIM >&3
+printf '%s\n' "${table[@]}" >&3

@@ -1,0 +1,71 @@
+#!/bin/sh
+# Installs the Debian packages that a job here needs and this machine lacks.
+#
+#   tools/install-deps.sh SET...      sets: build, demo, lint, test
+#
+# Needs nothing but a Debian base system, and root or sudo if something is missing. Prints one line when all is
+# there; exit 1, with one line saying why, when it is not and cannot be had.
+set -eu
+
+build='g++ cmake ninja-build pkg-config libcli11-dev libembree-dev libhwy-dev libimath-dev libopencolorio-dev
+       libopenexr-dev libopenimageio-dev libtbb-dev'
+demo='fonts-dejavu-core openimageio-tools'
+lint='clang-14 clang-format-14 clang-tidy-14'
+test='libbenchmark-dev libgtest-dev openexr openimageio-tools'
+
+fail() {
+    echo "install-deps: $*" >&2
+    exit 1
+}
+
+packages_of() {
+    for set_name; do
+        case $set_name in
+        build) echo $build ;;
+        demo) echo $demo ;;
+        lint) echo $lint ;;
+        test) echo $test ;;
+        *) fail "unknown set '$set_name' (build, demo, lint, test)" ;;
+        esac
+    done
+}
+
+# dpkg-query leaves out, and complains of, names it never heard of: they are missing too.
+missing_of() {
+    installed=$(dpkg-query -W -f='${Package} ${db:Status-Status}\n' "$@" 2>/dev/null || true)
+    for package; do
+        printf '%s\n' "$installed" | grep -qxF "$package installed" || echo "$package"
+    done | sort -u
+}
+
+as_root() {
+    if [ "$(id -u)" -eq 0 ]; then "$@"; else sudo "$@"; fi
+}
+
+# apt's own messages are kept for the case that it fails; the lock is waited for.
+apt_get() {
+    as_root env DEBIAN_FRONTEND=noninteractive LC_ALL=C apt-get -q -y -o DPkg::Lock::Timeout=120 "$@" \
+        >>"$log" 2>&1 </dev/null
+}
+
+[ $# -gt 0 ] || fail "name at least one set: build, demo, lint, test"
+wanted=$(packages_of "$@")
+if ! command -v dpkg-query >/dev/null; then
+    echo "install-deps: not a Debian system, so nothing was checked; needed are: $(echo $wanted)"
+    exit 0
+fi
+missing=$(missing_of $wanted)
+if [ -z "$missing" ]; then
+    echo "install-deps: nothing is missing ($*)"
+    exit 0
+fi
+
+missing=$(echo $missing) # on one line
+command -v apt-get >/dev/null || fail "apt-get is not there; install these by other means: $missing"
+[ "$(id -u)" -eq 0 ] || command -v sudo >/dev/null || fail "neither root nor sudo; as root: apt-get install $missing"
+log=$(mktemp)
+trap 'rm -f "$log"' EXIT
+echo "install-deps: installing $missing"
+apt_get update || true # a broken list of no interest must not stop this; install says if one was needed
+apt_get install --no-install-recommends $missing ||
+    fail "apt-get could not install $missing: $(grep -E '^(E:|sudo:)' "$log" | tail -n 1)"
