@@ -122,6 +122,7 @@ void read_scanlines(Imf::MultiPartInputFile &file, int number, Ldi &ldi, const P
         const int last = std::min(y + rows_at_once - 1, w.data.max.y);
         const PointerTable table(ldi, planes, y, last, counts);
         part.setFrameBuffer(table.frame_buffer());
+        part.readPixelSampleCounts(y, last); // a new frame buffer forgets the counts
         part.readPixels(y, last);
     }
 }
@@ -139,6 +140,7 @@ void read_tiles(Imf::MultiPartInputFile &file, int number, Ldi &ldi, const Plane
     make_room(ldi, planes);
     const PointerTable table(ldi, planes, w.data.min.y, w.data.max.y, counts);
     part.setFrameBuffer(table.frame_buffer());
+    part.readPixelSampleCounts(0, right, 0, bottom);
     part.readTiles(0, right, 0, bottom);
 }
 

@@ -5,7 +5,7 @@
 namespace sparselens {
 
 std::optional<Imath::V2d> parse_pair(const std::string &text) {
-    Imath::V2d pair;
+    Imath::V2d pair(0, 0);
     const std::size_t comma = text.find(',');
     if (comma == std::string::npos || !CLI::detail::lexical_cast(text.substr(0, comma), pair.x) ||
         !CLI::detail::lexical_cast(text.substr(comma + 1), pair.y))
