@@ -24,7 +24,8 @@ std::uint32_t pixel_seed(int x, int y, std::uint32_t stream) {
 
 Imath::V2d direction_through(const RenderSettings &settings, const Imath::V2d &p) {
     const Imath::Box2i &display = settings.windows.display;
-    const Imath::V2d centre(0.5 * (display.min.x + display.max.x + 1), 0.5 * (display.min.y + display.max.y + 1));
+    const Imath::V2d centre(0.5 * (display.min.x + display.max.x + 1),
+                            0.5 * (display.min.y + display.max.y + 1));
     const double per_pixel = 1 / settings.lens.focal_px;
     return {(p.x - centre.x) * per_pixel, (centre.y - p.y) * per_pixel / settings.lens.pixel_aspect};
 }
@@ -49,26 +50,29 @@ struct Samples {
 // Mean of `samples` rays in every pixel of row y. make(Samples) fills the rays; they are traced in batches that
 // run on from pixel to pixel, so that few samples a pixel fill them as well as many.
 template <typename Make>
-void render_row(const Tracer &tracer, Light light, Image &image, int y, std::uint32_t samples, const Make &make) {
+void render_row(const Tracer &tracer, Light light, Image &image, int y, std::uint32_t samples,
+                const Make &make) {
     const Windows &windows = image.windows;
     const std::size_t width = std::size_t(windows.width()), total = width * samples;
     std::array<Ray, batch_size> rays;
     std::array<Imath::V2d, batch_size> light_points;
     std::array<Imath::C4f, batch_size> radiance;
-    std::vector<Imath::Vec4<double>> sums(width); // double: thousands of samples, lamps among them
+    std::vector<Imath::Vec4<double>> sums(
+        width, Imath::Vec4<double>(0)); // double: thousands of samples, lamps among them
     for (std::size_t first = 0; first < total; first += batch_size) {
         const std::size_t n = std::min(batch_size, total - first);
         for (std::size_t i = 0; i < n;) {
             const std::size_t column = (first + i) / samples, index = (first + i) % samples;
             const std::size_t count = std::min(n - i, samples - index);
-            make(Samples{windows.data.min.x + int(column), y, std::uint32_t(index), std::span(rays).subspan(i, count),
-                         std::span(light_points).subspan(i, count)});
+            make(Samples{windows.data.min.x + int(column), y, std::uint32_t(index),
+                         std::span(rays).subspan(i, count), std::span(light_points).subspan(i, count)});
             i += count;
         }
         trace_radiance(tracer, light, std::span(rays).first(n), std::span(light_points).first(n),
                        std::span(radiance).first(n));
         for (std::size_t i = 0; i < n; ++i)
-            sums[(first + i) / samples] += Imath::Vec4<double>(radiance[i].r, radiance[i].g, radiance[i].b, radiance[i].a);
+            sums[(first + i) / samples] +=
+                Imath::Vec4<double>(radiance[i].r, radiance[i].g, radiance[i].b, radiance[i].a);
     }
     const std::size_t row = std::size_t(y - windows.data.min.y) * width;
     for (std::size_t channel = 0; channel < 4; ++channel)
@@ -86,7 +90,8 @@ std::vector<Imath::V2d> regular_grid(int samples) {
     return grid;
 }
 
-void depth_row(const Tracer &tracer, const RenderSettings &settings, const Imath::V2d &u, int y, std::span<float> z) {
+void depth_row(const Tracer &tracer, const RenderSettings &settings, const Imath::V2d &u, int y,
+               std::span<float> z) {
     std::array<Ray, batch_size> rays;
     std::array<Hit, batch_size> hits;
     for (std::size_t first = 0; first < z.size(); first += batch_size) {
@@ -129,7 +134,8 @@ Image render_view(const Tracer &tracer, const RenderSettings &settings, const Im
             std::copy_n(grid.begin() + s.first, s.rays.size(), in_pixel.begin());
         for (std::size_t i = 0; i < s.rays.size(); ++i)
             s.rays[i] = view_ray(settings, u, in_pixel[i] + Imath::V2d(s.x, s.y));
-        if (settings.light == Light::area) point_pairs(points, light_x, light_y, seed, s.first, s.light_points);
+        if (settings.light == Light::area)
+            point_pairs(points, light_x, light_y, seed, s.first, s.light_points);
     };
     const std::size_t width = std::size_t(settings.windows.width());
     progress.start("view", std::size_t(settings.windows.height()));
@@ -142,7 +148,8 @@ Image render_view(const Tracer &tracer, const RenderSettings &settings, const Im
     return image;
 }
 
-Image render_reference(const Tracer &tracer, const RenderSettings &settings, int samples, Progress &progress) {
+Image render_reference(const Tracer &tracer, const RenderSettings &settings, int samples,
+                       Progress &progress) {
     Image image(settings.windows, rgba_channels());
     const SobolPoints points{std::uint32_t(samples)};
     const auto make = [&](const Samples &s) {
@@ -152,7 +159,8 @@ Image render_reference(const Tracer &tracer, const RenderSettings &settings, int
         point_pairs(points, lens_x, lens_y, seed, s.first, std::span(on_lens).first(s.rays.size()));
         for (std::size_t i = 0; i < s.rays.size(); ++i)
             s.rays[i] = lens_ray(settings, disc_point(on_lens[i]), in_pixel[i] + Imath::V2d(s.x, s.y));
-        if (settings.light == Light::area) point_pairs(points, light_x, light_y, seed, s.first, s.light_points);
+        if (settings.light == Light::area)
+            point_pairs(points, light_x, light_y, seed, s.first, s.light_points);
     };
     progress.start("reference", std::size_t(settings.windows.height()));
     parallel_for(std::size_t(settings.windows.height()), [&](std::size_t row) {

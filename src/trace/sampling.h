@@ -17,7 +17,8 @@ public:
     std::uint32_t count() const { return count_; }
 
     // Coordinate `dimension` of points [first, first + out.size()), scrambled by `seed`: in [0, 1).
-    void coordinates(std::size_t dimension, std::uint32_t seed, std::uint32_t first, std::span<double> out) const;
+    void coordinates(std::size_t dimension, std::uint32_t seed, std::uint32_t first,
+                     std::span<double> out) const;
 
 private:
     std::uint32_t count_;

@@ -140,7 +140,8 @@ Tracer::Tracer(const Scene &scene) : impl_(std::make_unique<Impl>()) {
     for (const Sphere &sphere : scene.spheres)
         impl_->shapes.push_back({sphere.centre, {}, sphere.radius, sphere.material});
     impl_->device.reset(rtcNewDevice(nullptr));
-    if (!impl_->device) throw Error("Embree cannot be started: error " + std::to_string(rtcGetDeviceError(nullptr)));
+    if (!impl_->device)
+        throw Error("Embree cannot be started: error " + std::to_string(rtcGetDeviceError(nullptr)));
     impl_->embree.reset(rtcNewScene(impl_->device.get()));
     rtcSetSceneFlags(impl_->embree.get(),
                      RTCSceneFlags(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
