@@ -62,7 +62,7 @@ traced() {
 }
 
 # figure NAME JSON: the first value of that name, that of the whole picture.
-figure() { grep -o "\"$1\": *[^,} ]*" <<<"$2" | sed -n '1s/.*: *//p'; }
+figure() { grep -o "\"$1\": *[^,} ]*" <<<"$2" | sed -n '1{s/.*: *//;s/null/inf/;p}'; }
 
 # compared TITLE SECONDS PICTURE NOTE: a row with the picture's error.
 compared() {
