@@ -49,7 +49,7 @@ std::vector<Imath::V2d> read_points(const Imf::Header &header) {
     std::vector<Imath::V2d> points;
     const auto *text = header.findTypedAttribute<Imf::StringAttribute>(lens_points_name);
     std::istringstream in(text ? text->value() : std::string());
-    Imath::V2d p;
+    Imath::V2d p(0, 0);
     char comma = 0;
     while (in >> p.x >> comma >> p.y && comma == ',') points.push_back(p);
     return points;

@@ -44,6 +44,19 @@ std::vector<Channel> channels_of(const Imf::Header &header, const std::string &p
     return channels;
 }
 
+std::string find_depth_channel(const std::vector<Channel> &channels, const std::string &asked, const std::string &path) {
+    const auto has = [&](const std::string &name) { return find_channel(channels, name) != npos; };
+    if (!asked.empty()) {
+        if (has(asked)) return asked;
+        throw Error(display_name(path) + ": has no channel " + asked + " (--depth-channel)");
+    }
+    for (const char *name : {"Z", "depth.Z"})
+        if (has(name)) return name;
+    for (const Channel &channel : channels)
+        if (channel.name.ends_with(".Depth.Z")) return channel.name;
+    throw Error(display_name(path) + ": has no depth channel (Z, depth.Z, *.Depth.Z); give --depth-channel");
+}
+
 Imf::Header output_header(const Windows &windows, std::span<const Channel> channels, const Imf::Header &metadata) {
     Imf::Header header(windows.display, windows.data, windows.pixel_aspect);
     for (auto it = metadata.begin(); it != metadata.end(); ++it)

@@ -19,6 +19,10 @@ Windows windows_of(const Imf::Header &header);
 // The header's channels, R, G, B, A first, then by name. Error where a channel is subsampled.
 std::vector<Channel> channels_of(const Imf::Header &header, const std::string &path);
 
+// The name of the depth channel: `asked`, or where that is empty Z, depth.Z or *.Depth.Z. Error where there is none.
+std::string find_depth_channel(const std::vector<Channel> &channels, const std::string &asked,
+                               const std::string &path);
+
 // A fresh header with these windows and channels that keeps all of `metadata` that does not describe how its
 // own pixels were stored.
 Imf::Header output_header(const Windows &windows, std::span<const Channel> channels, const Imf::Header &metadata);

@@ -32,19 +32,6 @@ struct Planes {
 
 constexpr std::array position_channels{"ldi.dx", "ldi.dy", "ldi.weight"};
 
-std::string find_depth(const std::vector<Channel> &channels, const std::string &asked, const std::string &path) {
-    const auto has = [&](const std::string &name) { return find_channel(channels, name) != npos; };
-    if (!asked.empty()) {
-        if (has(asked)) return asked;
-        throw Error(display_name(path) + ": has no channel " + asked + " (--depth-channel)");
-    }
-    for (const char *name : {"Z", "depth.Z"})
-        if (has(name)) return name;
-    for (const Channel &channel : channels)
-        if (channel.name.ends_with(".Depth.Z")) return channel.name;
-    throw Error(display_name(path) + ": has no depth channel (Z, depth.Z, *.Depth.Z); give --depth-channel");
-}
-
 // Back depth that goes with a front depth: "Z" -> "ZBack", "depth.Z" -> "depth.ZBack".
 std::string back_of(const std::string &depth) { return depth + "Back"; }
 
@@ -135,6 +122,7 @@ void read_scanlines(Imf::MultiPartInputFile &file, int number, Ldi &ldi, const P
         const int last = std::min(y + rows_at_once - 1, w.data.max.y);
         const PointerTable table(ldi, planes, y, last, counts);
         part.setFrameBuffer(table.frame_buffer());
+        part.readPixelSampleCounts(y, last); // a new frame buffer forgets the counts
         part.readPixels(y, last);
     }
 }
@@ -152,6 +140,7 @@ void read_tiles(Imf::MultiPartInputFile &file, int number, Ldi &ldi, const Plane
     make_room(ldi, planes);
     const PointerTable table(ldi, planes, w.data.min.y, w.data.max.y, counts);
     part.setFrameBuffer(table.frame_buffer());
+    part.readPixelSampleCounts(0, right, 0, bottom);
     part.readTiles(0, right, 0, bottom);
 }
 
@@ -248,14 +237,14 @@ LdiFile read_ldi(const std::string &path, const std::string &depth_channel) {
         const int number = first_deep_part(file);
         if (number < 0) {
             FlatFile flat = read_flat_part(file, path);
-            const std::string depth = find_depth(flat.image.channels, depth_channel, path);
+            const std::string depth = find_depth_channel(flat.image.channels, depth_channel, path);
             return LdiFile{ldi_of_flat(flat.image, depth), flat.header, false};
         }
         const Imf::Header &header = file.header(number);
         LdiFile result{{}, header, true};
         const std::vector<Channel> channels = channels_of(header, path);
         result.ldi.windows = windows_of(header);
-        const Planes planes = plan_planes(result.ldi, channels, find_depth(channels, depth_channel, path));
+        const Planes planes = plan_planes(result.ldi, channels, find_depth_channel(channels, depth_channel, path));
         if (header.type() == Imf::DEEPTILE)
             read_tiles(file, number, result.ldi, planes);
         else

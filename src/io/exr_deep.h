@@ -11,9 +11,6 @@
 
 namespace sparselens {
 
-// How depth is written in the files that are read.
-enum class DepthMeaning { planar, distance, inverse };
-
 struct LdiFile {
     Ldi ldi;
     Imf::Header header;

@@ -47,6 +47,16 @@ FlatFile read_flat_exr(const std::string &path) {
     });
 }
 
+std::vector<float> take_depth(Image &image, const std::string &depth_channel, const std::string &path) {
+    const std::size_t k = find_channel(image.channels, find_depth_channel(image.channels, depth_channel, path));
+    const auto begin = image.values.begin() + std::ptrdiff_t(k * image.windows.pixels());
+    const auto end = begin + std::ptrdiff_t(image.windows.pixels());
+    std::vector<float> depth(begin, end);
+    image.values.erase(begin, end);
+    image.channels.erase(image.channels.begin() + std::ptrdiff_t(k));
+    return depth;
+}
+
 void write_flat_exr(const std::string &path, const Image &image, const Imf::Header &metadata) {
     with_file_name(path, [&] {
         const Windows &w = image.windows;

@@ -22,6 +22,9 @@ struct FlatFile {
 FlatFile read_flat_exr(const std::string &path);
 FlatFile read_flat_part(Imf::MultiPartInputFile &file, const std::string &path); // path: for messages
 
+// Takes the depth channel out of the picture (see read_ldi for how it is found).
+std::vector<float> take_depth(Image &image, const std::string &depth_channel, const std::string &path);
+
 // Channels are stored in their own types. Of `metadata` everything is kept that does not describe the pixels
 // themselves (windows, channels, tiling); compression is ZIP.
 void write_flat_exr(const std::string &path, const Image &image, const Imf::Header &metadata);

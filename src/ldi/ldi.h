@@ -33,7 +33,8 @@ struct Ldi {
 // Sorts every pixel by z (then z_back, then the order they stand in), drops samples of no coverage, keeps one
 // sample at infinity and moves points of equal z apart by one ulp or merges them, as design.md section 2 asks.
 // Overlapping volumes are split and merged by the rules of "Interpreting OpenEXR Deep Pixels" (F. Kainz, 2013).
-Ldi tidy(const Ldi &ldi);
+// What is tidy already is handed back as it came.
+Ldi tidy(Ldi ldi);
 
 // The tidy LDI composited front to back in file order: `over`, all channels of `ldi`, its data window.
 Image flatten(const Ldi &ldi);

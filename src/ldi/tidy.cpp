@@ -1,8 +1,11 @@
+#include "base/parallel.h"
 #include "ldi/build.h"
 #include "ldi/ldi.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <limits>
 
 namespace sparselens {
 
@@ -78,18 +81,24 @@ void set_merged_factors(std::span<Piece> same) {
     for (Piece &p : same) p.factor *= (p.alpha > 0 ? -std::log1p(-p.alpha) / p.alpha : 1) * alpha / depth;
 }
 
-void tidy_pixel(const Ldi &ldi, std::size_t alpha, std::size_t pixel, Ldi &out) {
-    std::vector<Piece> samples;
+std::vector<Piece> sorted_pieces(const Ldi &ldi, std::size_t alpha, std::size_t pixel) {
+    std::vector<Piece> pieces;
     bool volumes = false;
     for (std::uint64_t i = ldi.begin[pixel]; i < ldi.begin[pixel + 1]; ++i)
         if (visible(ldi, alpha, i)) {
-            samples.push_back({ldi.z[i], std::max(ldi.z[i], back_at(ldi, i)), alpha_at(ldi, alpha, i), 1, i});
-            volumes = volumes || samples.back().z_back > samples.back().z;
+            pieces.push_back({ldi.z[i], std::max(ldi.z[i], back_at(ldi, i)), alpha_at(ldi, alpha, i), 1, i});
+            volumes = volumes || pieces.back().z_back > pieces.back().z;
         }
-    std::vector<Piece> pieces = volumes ? split_at_boundaries(samples) : samples;
+    if (volumes) pieces = split_at_boundaries(pieces);
     std::stable_sort(pieces.begin(), pieces.end(), [](const Piece &a, const Piece &b) {
         return a.z != b.z ? a.z < b.z : a.z_back < b.z_back;
     });
+    return pieces;
+}
+
+void tidy_pixel(const Ldi &ldi, std::size_t alpha, std::size_t pixel, Ldi &out) {
+    std::vector<Piece> pieces = sorted_pieces(ldi, alpha, pixel);
+    float last_z = -std::numeric_limits<float>::infinity();
     std::vector<Term> terms;
     for (std::size_t first = 0, last = 0; first < pieces.size(); first = last) {
         while (last < pieces.size() && pieces[last].z == pieces[first].z &&
@@ -99,8 +108,10 @@ void tidy_pixel(const Ldi &ldi, std::size_t alpha, std::size_t pixel, Ldi &out) 
         set_merged_factors(same);
         terms.clear();
         MergedSample merged = placement_of(ldi, same[0].index);
-        merged.z = same[0].z;
+        // A point where a volume begins: the volume starts one ulp behind it.
+        merged.z = same[0].z > last_z ? same[0].z : std::nextafter(last_z, same[0].z_back);
         merged.z_back = same[0].z_back;
+        last_z = merged.z;
         merged.weight = 0;
         for (const Piece &p : same) {
             terms.push_back({p.index, p.factor});
@@ -113,8 +124,14 @@ void tidy_pixel(const Ldi &ldi, std::size_t alpha, std::size_t pixel, Ldi &out) 
 
 } // namespace
 
-Ldi tidy(const Ldi &ldi) {
+Ldi tidy(Ldi ldi) {
     const std::size_t alpha = ldi.alpha();
+    std::atomic<bool> all_tidy = true;
+    parallel_runs(ldi.windows.pixels(), 4096, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t pixel = begin; pixel < end && all_tidy; ++pixel)
+            if (!is_tidy(ldi, alpha, pixel)) all_tidy = false;
+    });
+    if (all_tidy) return ldi;
     return build_by_pixels(ldi, [&](std::size_t pixel, Ldi &out) {
         if (is_tidy(ldi, alpha, pixel))
             for (std::uint64_t i = ldi.begin[pixel]; i < ldi.begin[pixel + 1]; ++i) append(out, ldi, i);

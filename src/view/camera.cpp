@@ -6,6 +6,11 @@
 
 namespace sparselens {
 
+std::optional<double> focal_length_px(const Camera &camera, int display_width) {
+    if (!camera.focal_length_mm || !camera.sensor_width_mm) return {};
+    return display_width * *camera.focal_length_mm / *camera.sensor_width_mm;
+}
+
 std::optional<Imath::V3d> position_relative_to(const Camera &centre, const Camera &view, const std::string &what) {
     if (!centre.world_to_camera || !view.world_to_camera) return {};
     Imath::M44d to_world = *view.world_to_camera;

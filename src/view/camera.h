@@ -22,6 +22,9 @@ struct Camera {
     std::vector<Imath::V2d> lens_points;     // of an LDI: where its views stood, scene units, x right, y up
 };
 
+// Focal length in pixels of a picture `display_width` pixels wide; empty where focal length or film back is unknown.
+std::optional<double> focal_length_px(const Camera &camera, int display_width);
+
 // Position of `view` in the camera space of `centre`, scene units. Empty where either matrix is unknown.
 // Throws Error (naming `what`) where the axes are not parallel.
 std::optional<Imath::V3d> position_relative_to(const Camera &centre, const Camera &view, const std::string &what);

@@ -3,43 +3,35 @@
 #include "base/error.h"
 
 #include <cmath>
+#include <limits>
 #include <map>
 
 namespace sparselens {
 
 namespace {
 
-// A number of the given bounds; CLI11 reads "inf" and "nan", of which only the first can be meant.
-CLI::Validator number(const std::string &what, double above, bool zero_allowed, bool infinity_allowed) {
-    const auto check = [=](const std::string &text) -> std::string {
-        double value = 0;
-        const bool is_number = CLI::detail::lexical_cast(text, value) && !std::isnan(value);
-        const bool in_range = value > above || (zero_allowed && value == above);
-        if (is_number && in_range && (infinity_allowed || std::isfinite(value))) return {};
-        return "'" + text + "' is not " + what;
-    };
-    return CLI::Validator(check, "");
-}
-
 double need(const std::optional<double> &value, const char *what, const char *option) {
     if (!value) throw UsageError(std::string(what) + " is unknown: give " + option);
     return *value;
 }
 
-double lens_radius(const LensOptions &options, const Camera &camera) {
-    if (options.lens_radius) return *options.lens_radius;
-    if (!camera.fstop) throw UsageError("the aperture is unknown: give --fstop or --lens-radius");
-    if (std::isinf(*camera.fstop)) return 0;
-    const double focal_mm = need(camera.focal_length_mm, "the focal length", "--focal-length");
-    return focal_mm / 1000 / (2 * *camera.fstop) / camera.metres_per_unit.value_or(1);
-}
-
 } // namespace
 
+CLI::Validator number(const std::string &what, NumberRange range) {
+    const auto check = [=](const std::string &text) -> std::string {
+        double value = 0;
+        const bool is_number = CLI::detail::lexical_cast(text, value) && !std::isnan(value);
+        const bool in_range = value > 0 || (range.zero_allowed && value == 0);
+        if (is_number && in_range && (range.infinity_allowed || std::isfinite(value))) return {};
+        return "'" + text + "' is not " + what;
+    };
+    return CLI::Validator(check, "");
+}
+
 void add_lens_options(CLI::App &app, LensOptions &options) {
-    const auto positive = number("a number above 0", 0, false, false);
-    const auto positive_or_inf = number("a number above 0, or inf", 0, false, true);
-    const auto not_negative = number("a number of at least 0", 0, true, false);
+    const auto positive = number("a number above 0");
+    const auto positive_or_inf = number("a number above 0, or inf", {.infinity_allowed = true});
+    const auto not_negative = number("a number of at least 0", {.zero_allowed = true});
     const auto add = [&](const char *name, std::optional<double> &value, const char *unit, const char *help) {
         return app.add_option(name, value, help)->type_name(unit)->group("Lens");
     };
@@ -77,18 +69,36 @@ Camera camera_with_options(const LensOptions &options, Camera camera) {
     put(camera.focus_distance, options.focus_distance);
     put(camera.metres_per_unit, options.scene_unit);
     put(camera.fstop, options.fstop);
-    if (options.lens_radius && camera.focal_length_mm)
+    if (options.lens_radius && *options.lens_radius == 0)
+        camera.fstop = std::numeric_limits<double>::infinity();
+    else if (options.lens_radius && camera.focal_length_mm)
         camera.fstop = *camera.focal_length_mm / 1000 / (2 * *options.lens_radius) / camera.metres_per_unit.value_or(1);
     return camera;
 }
 
-ThinLens resolve_lens(const LensOptions &options, const Camera &from_file, const Windows &windows) {
-    const Camera camera = camera_with_options(options, from_file);
-    ThinLens lens{.radius = lens_radius(options, camera), .pixel_aspect = windows.pixel_aspect};
+std::optional<double> lens_radius_of(const Camera &camera) {
+    if (camera.fstop && std::isinf(*camera.fstop)) return 0.0;
+    if (!camera.fstop || !camera.focal_length_mm) return {};
+    return *camera.focal_length_mm / 1000 / (2 * *camera.fstop) / camera.metres_per_unit.value_or(1);
+}
+
+double resolve_radius(const LensOptions &options, const Camera &camera) {
+    if (options.lens_radius) return *options.lens_radius;
+    if (!camera.fstop) throw UsageError("the aperture is unknown: give --fstop or --lens-radius");
+    if (!std::isinf(*camera.fstop)) need(camera.focal_length_mm, "the focal length", "--focal-length");
+    return *lens_radius_of(camera);
+}
+
+double resolve_focal_px(const Camera &camera, const Windows &windows) {
+    need(camera.focal_length_mm, "the focal length", "--focal-length");
+    need(camera.sensor_width_mm, "the sensor width", "--sensor-width");
+    return *focal_length_px(camera, windows.display_width());
+}
+
+ThinLens resolve_lens(const LensOptions &options, const Camera &camera, const Windows &windows) {
+    ThinLens lens{.radius = resolve_radius(options, camera), .pixel_aspect = windows.pixel_aspect};
     if (lens.radius == 0) return lens;
-    const double focal_mm = need(camera.focal_length_mm, "the focal length", "--focal-length");
-    const double sensor_mm = need(camera.sensor_width_mm, "the sensor width", "--sensor-width");
-    lens.focal_px = windows.display_width() * focal_mm / sensor_mm;
+    lens.focal_px = resolve_focal_px(camera, windows);
     lens.focus = need(camera.focus_distance, "the focus distance", "--focus-distance");
     return lens;
 }

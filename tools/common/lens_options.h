@@ -1,9 +1,10 @@
 // The lens options every tool shares, and the rule that turns them and a file's metadata into a lens.
 #pragma once
 
-#include "io/exr_deep.h"
+#include "base/image.h"
 #include "lens/thin_lens.h"
 #include "view/camera.h"
+#include "view/depth.h"
 
 #include <CLI/CLI.hpp>
 
@@ -27,8 +28,24 @@ void add_depth_options(CLI::App &app, DepthOptions &options);
 // The file's camera with the options put over it. UsageError where --fstop and --lens-radius are both given.
 Camera camera_with_options(const LensOptions &options, Camera from_file);
 
+// What is neither 0 nor below (nor infinite, unless allowed). CLI11 reads "inf" and "nan" as numbers; the second is
+// never meant.
+struct NumberRange {
+    bool zero_allowed = false, infinity_allowed = false;
+};
+CLI::Validator number(const std::string &what, NumberRange range = {});
+
+// Radius of the aperture, scene units; empty where the camera does not tell.
+std::optional<double> lens_radius_of(const Camera &camera);
+
+// The radius by --lens-radius, else by the camera's f-number, else UsageError naming the option to give.
+double resolve_radius(const LensOptions &options, const Camera &camera);
+
+// Focal length in pixels, or UsageError naming the option to give.
+double resolve_focal_px(const Camera &camera, const Windows &windows);
+
 // Each value: the option, else the file's metadata, else UsageError naming the option to give. A lens of radius
 // 0 (--lens-radius 0, f-number inf) needs no other value. `windows` gives the display width and pixel aspect.
-ThinLens resolve_lens(const LensOptions &options, const Camera &from_file, const Windows &windows);
+ThinLens resolve_lens(const LensOptions &options, const Camera &camera, const Windows &windows);
 
 } // namespace sparselens

@@ -1,0 +1,44 @@
+#include "ldi/reproject.h"
+
+#include "base/parallel.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sparselens {
+
+Reprojection::Reprojection(const View &view, double focal_px)
+    : view_(view), shift_x_(focal_px * view.position.x),
+      shift_y_(-focal_px * view.position.y * double(view.image.windows.pixel_aspect)),
+      reach_(std::size_t(view.image.windows.height())) {
+    const std::size_t width = std::size_t(view.image.windows.width());
+    parallel_for(reach_.size(), [&](std::size_t row) {
+        const auto nearest = std::min_element(view_.z.begin() + std::ptrdiff_t(row * width),
+                                              view_.z.begin() + std::ptrdiff_t((row + 1) * width));
+        const double extreme = shift_y_ / double(*nearest);
+        reach_[row] = {std::min(extreme, 0.0), std::max(extreme, 0.0)};
+    });
+}
+
+void Reprojection::append_rows(int first_row, int last_row, std::vector<ReprojectedSample> &out) const {
+    const Windows &w = view_.image.windows;
+    const std::size_t width = std::size_t(w.width()), alpha = find_channel(view_.image.channels, "A");
+    for (std::size_t row = 0; row < reach_.size(); ++row) {
+        const double centre = double(w.data.min.y) + double(row) + 0.5;
+        if (centre + reach_[row].down < first_row || centre + reach_[row].up >= last_row + 1) continue;
+        for (std::size_t column = 0; column < width; ++column) {
+            const std::size_t source = row * width + column;
+            const double inverse_z = 1 / double(view_.z[source]);
+            const double y = centre + shift_y_ * inverse_z, cell_y = std::floor(y);
+            if (!(cell_y >= first_row && cell_y <= last_row)) continue;
+            if (alpha != npos && view_.image.plane(alpha)[source] == 0) continue;
+            const double x = double(w.data.min.x) + double(column) + 0.5 + shift_x_ * inverse_z;
+            const double cell_x = std::floor(x);
+            if (!(std::abs(cell_x) < 1e9)) continue; // nearer than any picture is wide: not in it
+            out.push_back({int(cell_x), int(cell_y), float(x - cell_x - 0.5), float(y - cell_y - 0.5),
+                           float(inverse_z), std::uint32_t(source)});
+        }
+    }
+}
+
+} // namespace sparselens

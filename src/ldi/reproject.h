@@ -1,0 +1,35 @@
+// Where the pixels of a rim view lie in the centre view: p = q + (F / z) (X, -Y) for a camera moved by (X, Y)
+// with parallel axes (design.md section 1). Points at infinity stay where they are.
+#pragma once
+
+#include "view/view.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace sparselens {
+
+// One view pixel at its place in the centre view.
+struct ReprojectedSample {
+    int x, y;             // centre pixel it falls in, EXR coordinates
+    float dx, dy;         // offset from that pixel's centre, [-1/2, 1/2), y down
+    float inverse_z;      // 1 / planar depth
+    std::uint32_t source; // index into the view's planes
+};
+
+class Reprojection {
+public:
+    // focal_px: focal length in pixels. The view must outlive the reprojection.
+    Reprojection(const View &view, double focal_px);
+
+    // Appends every visible sample (A not 0) that falls in rows [first_row, last_row], in source order.
+    void append_rows(int first_row, int last_row, std::vector<ReprojectedSample> &out) const;
+
+private:
+    struct RowReach { double up, down; }; // by how much the samples of a source row move, up <= down, pixels
+    const View &view_;
+    double shift_x_, shift_y_; // pixels times scene units: divided by z they are a displacement
+    std::vector<RowReach> reach_;
+};
+
+} // namespace sparselens

@@ -1,0 +1,22 @@
+// Points on the lens: where views are rendered from, where rays leave. Unit disc, y up; every set is even in
+// area, in a fixed order.
+#pragma once
+
+#include <Imath/ImathVec.h>
+
+#include <vector>
+
+namespace sparselens {
+
+// Point k of n on the rim: (cos 2 pi k/n, sin 2 pi k/n).
+std::vector<Imath::V2d> rim_lens_points(int n);
+
+// n points spread over the disc on a golden-angle spiral (H. Vogel, "A better way to construct the sunflower
+// head", 1979). One point: the centre.
+std::vector<Imath::V2d> spiral_lens_points(int n);
+
+// Maps the unit square to the unit disc, areas kept in proportion and neighbours kept together (P. Shirley and
+// K. Chiu, "A low distortion map between disk and square", 1997).
+Imath::V2d disc_point(const Imath::V2d &square);
+
+} // namespace sparselens

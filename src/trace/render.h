@@ -1,0 +1,37 @@
+// Pictures of a scene: pinhole views from points of the lens, and the distributed-ray-tracing reference.
+//
+// Every result depends on the arguments alone, never on the number of threads.
+#pragma once
+
+#include "base/image.h"
+#include "base/progress.h"
+#include "lens/thin_lens.h"
+#include "trace/shading.h"
+
+#include <cstdint>
+
+namespace sparselens {
+
+struct RenderSettings {
+    Windows windows;
+    ThinLens lens; // its focal length counts even where its radius is 0
+    Light light = Light::sun;
+};
+
+// The ray from lens point `u` (unit disc) through position p of the picture (pixels, y down), parallel axes.
+Ray view_ray(const RenderSettings &settings, const Imath::V2d &u, const Imath::V2d &p);
+
+// The ray from lens point `u` to where the plane of focus is seen at p through the centre of the lens.
+Ray lens_ray(const RenderSettings &settings, const Imath::V2d &u, const Imath::V2d &p);
+
+// What a pinhole at lens point `u` sees: R G B A (half, box filter of one pixel) and Z (float, at the pixel
+// centre). samples = n * n: a regular n x n grid in each pixel; any other count: low-discrepancy points.
+// `stream` tells views apart, so that their noise is independent.
+Image render_view(const Tracer &tracer, const RenderSettings &settings, const Imath::V2d &u, int samples,
+                  std::uint32_t stream, Progress &progress);
+
+// Distributed ray tracing (R. Cook, T. Porter, L. Carpenter, 1984): `samples` rays a pixel, each from its own
+// point of the lens through its own point of the pixel. R G B A, box filter of one pixel.
+Image render_reference(const Tracer &tracer, const RenderSettings &settings, int samples, Progress &progress);
+
+} // namespace sparselens

@@ -1,0 +1,90 @@
+#include "trace/shading.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+
+namespace sparselens {
+
+namespace {
+
+constexpr std::size_t run_size = 64; // hits shaded at a time: stays in the first cache
+
+const Imath::V3d to_sun = Imath::V3d(0.4, 0.8, -0.5).normalized();
+
+// The square light stands where the sun does, seen from the middle of the scenes, and faces them.
+constexpr double light_distance = 11, light_side = 7;
+const Imath::V3d light_centre = Imath::V3d(0, 0, 6) + light_distance * to_sun;
+const Imath::V3d light_x = light_side * (to_sun % Imath::V3d(0, 0, 1)).normalized();
+const Imath::V3d light_y = to_sun % light_x;
+
+Imath::C4f lit(const Paint &paint, double cosine) {
+    const float light = paint.emits ? 1.f : float(0.9 * std::abs(cosine) + 0.15);
+    return {paint.colour.x * light, paint.colour.y * light, paint.colour.z * light, paint.coverage};
+}
+
+void shade_by_sun(const Tracer &tracer, std::span<const Hit> hits, std::span<Imath::C4f> out) {
+    const Imath::C3f &sky = tracer.scene().sky;
+    for (std::size_t i = 0; i < hits.size(); ++i)
+        out[i] = hits[i].sky() ? Imath::C4f(sky.x, sky.y, sky.z, 1)
+                               : lit(tracer.material(hits[i])(hits[i].position), hits[i].normal ^ to_sun);
+}
+
+// From just off the surface, on the side of the light, to the light's point at t = 1.
+Ray shadow_ray(const Hit &hit, const Imath::V2d &light_point) {
+    const Imath::V3d target =
+        light_centre + (light_point.x - 0.5) * light_x + (light_point.y - 0.5) * light_y;
+    const double side = (hit.normal ^ (target - hit.position)) < 0 ? -1 : 1;
+    const double clearance = 1e-5 * (1 + hit.position.length()); // several ulp of Embree's floats
+    const Imath::V3d origin = hit.position + side * clearance * hit.normal;
+    return {origin, target - origin};
+}
+
+void shade_by_area(const Tracer &tracer, std::span<const Hit> hits, std::span<const Imath::V2d> light_points,
+                   std::span<Imath::C4f> out) {
+    assert(hits.size() <= run_size);
+    std::array<Ray, run_size> rays;
+    std::array<bool, run_size> blocked;
+    std::array<std::size_t, run_size> owner;
+    std::array<Paint, run_size> paints;
+    std::size_t count = 0;
+    const Imath::C3f &sky = tracer.scene().sky;
+    for (std::size_t i = 0; i < hits.size(); ++i) {
+        paints[i] = hits[i].sky() ? Paint{sky, 1, true} : tracer.material(hits[i])(hits[i].position);
+        out[i] = lit(paints[i], 0);
+        if (paints[i].emits) continue;
+        rays[count] = shadow_ray(hits[i], light_points[i]);
+        owner[count++] = i;
+    }
+    tracer.blocked(std::span(rays).first(count), std::span(blocked).first(count));
+    for (std::size_t k = 0; k < count; ++k) {
+        const std::size_t i = owner[k];
+        if (!blocked[k]) out[i] = lit(paints[i], hits[i].normal ^ rays[k].direction.normalized());
+    }
+}
+
+} // namespace
+
+void shade(const Tracer &tracer, Light light, std::span<const Hit> hits,
+           std::span<const Imath::V2d> light_points, std::span<Imath::C4f> out) {
+    if (light == Light::sun) return shade_by_sun(tracer, hits, out);
+    for (std::size_t first = 0; first < hits.size(); first += run_size) {
+        const std::size_t n = std::min(run_size, hits.size() - first);
+        shade_by_area(tracer, hits.subspan(first, n), light_points.subspan(first, n), out.subspan(first, n));
+    }
+}
+
+void trace_radiance(const Tracer &tracer, Light light, std::span<const Ray> rays,
+                    std::span<const Imath::V2d> light_points, std::span<Imath::C4f> out) {
+    std::array<Hit, run_size> hits;
+    for (std::size_t first = 0; first < rays.size(); first += run_size) {
+        const std::size_t n = std::min(run_size, rays.size() - first);
+        const auto some = std::span(hits).first(n);
+        tracer.nearest(rays.subspan(first, n), some);
+        shade(tracer, light, some, light_points.empty() ? light_points : light_points.subspan(first, n),
+              out.subspan(first, n));
+    }
+}
+
+} // namespace sparselens

@@ -1,0 +1,16 @@
+#include "view/depth.h"
+
+#include <cmath>
+
+namespace sparselens {
+
+double planar_depth(DepthMeaning meaning, double value, int x, int y, const Windows &windows, double focal_px) {
+    if (meaning == DepthMeaning::planar) return value;
+    if (meaning == DepthMeaning::inverse) return 1 / value;
+    const Imath::Box2i &display = windows.display;
+    const double right = x + 0.5 - 0.5 * (display.min.x + display.max.x + 1);
+    const double down = (y + 0.5 - 0.5 * (display.min.y + display.max.y + 1)) / double(windows.pixel_aspect);
+    return value / std::sqrt(1 + (right * right + down * down) / (focal_px * focal_px));
+}
+
+} // namespace sparselens

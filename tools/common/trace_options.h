@@ -1,0 +1,36 @@
+// What dof-trace is asked for.
+#pragma once
+
+#include "base/image.h"
+#include "common/lens_options.h"
+#include "trace/shading.h"
+
+#include <CLI/CLI.hpp>
+
+#include <string>
+#include <vector>
+
+namespace sparselens {
+
+struct DeepRequest {
+    enum class Kind { peel, strata } kind;
+    int layers;
+};
+
+struct TraceOptions {
+    std::string scene;
+    std::string folder;
+    int views = 4, lens_views = 0;
+    int samples = 16;  // of a view
+    int reference = 0; // rays a pixel; 0: no reference
+    int width = 640, height = 360;
+    int overscan = 0; // pixels
+    Light light = Light::sun;
+    PixelType type = PixelType::half;
+    std::vector<DeepRequest> deep;
+    LensOptions lens;
+};
+
+void add_trace_options(CLI::App &app, TraceOptions &options);
+
+} // namespace sparselens

@@ -1,0 +1,85 @@
+// LDI to lens picture: dof-gather IN.exr -o OUT.exr [lens options] [--method M] [--layers K] [--focus-pixel X,Y]
+//     [--depth-out FILE] [--channels LIST] [-d half|float]
+#include "base/error.h"
+#include "common/channels.h"
+#include "common/picture_options.h"
+#include "common/pictures.h"
+#include "common/tool.h"
+#include "dof/methods.h"
+#include "io/camera_metadata.h"
+#include "io/exr_flat.h"
+#include "ldi/front_depth.h"
+
+#include <algorithm>
+
+using namespace sparselens;
+
+namespace {
+
+struct Options {
+    LensOptions lens;
+    DepthOptions depth;
+    GatherOptions gather;
+    const GatherMethod *method = &gather_methods().front();
+    std::string input, output, depth_output, channels;
+    std::optional<Imath::V2i> focus_pixel;
+    bool as_float = false;
+};
+
+void add_options(CLI::App &app, Options &options) {
+    app.add_option("input", options.input, "LDI, any deep EXR or flat RGBA+Z; - for standard input")
+        ->type_name("IN.exr")
+        ->required();
+    app.add_option("-o,--output", options.output, "Picture to write, - for standard output")
+        ->type_name("OUT.exr")
+        ->required();
+    add_method_option(app, options.method);
+    app.add_option("--layers", options.gather.layers, "Layers a pixel keeps apart (selective)")
+        ->type_name("K")
+        ->check(CLI::Range(1, 4096))
+        ->capture_default_str();
+    add_pixel_option(app, "--focus-pixel", options.focus_pixel, "Focus on what this pixel shows");
+    app.add_option("--depth-out", options.depth_output, "Write the depth of the front samples")->type_name("FILE");
+    app.add_option("--channels", options.channels, "Channels or layers to gather, comma-separated (all)")
+        ->type_name("LIST");
+    add_type_option(app, options.as_float);
+    add_lens_options(app, options.lens);
+    add_depth_options(app, options.depth);
+}
+
+void focus_on_pixel(LoadedLdi &in, const Options &options) {
+    if (!options.focus_pixel) return;
+    const float z = front_depth(in.ldi, *options.focus_pixel);
+    if (!(z > 0)) throw UsageError("--focus-pixel: " + options.input + " shows nothing there");
+    in.camera.focus_distance = double(z);
+}
+
+void warn_if_wider_than_views(const ToolContext &tool, const ThinLens &lens, const Camera &camera) {
+    double widest = 0;
+    for (const Imath::V2d &point : camera.lens_points) widest = std::max(widest, point.length());
+    if (widest > 0 && lens.radius > 1.001 * widest)
+        warn(tool, "the lens is wider than the lens points of the views: what it sees beyond them is unknown");
+}
+
+void run(const Options &options, const ToolContext &tool) {
+    LoadedLdi in = load_ldi(options.input, options.lens, options.depth);
+    keep_channels(in.ldi, options.channels);
+    focus_on_pixel(in, options);
+    const ThinLens lens = resolve_lens(options.lens, in.camera, in.ldi.windows);
+    warn_if_wider_than_views(tool, lens, in.camera);
+    Image picture = lens.radius == 0 ? flatten(in.ldi)
+                                     : options.method->gather(in.ldi, lens, options.gather, *tool.progress);
+    write_camera(in.header, in.camera);
+    if (!options.depth_output.empty()) write_flat_exr(options.depth_output, front_depth(in.ldi), in.header);
+    write_flat_exr(options.output, in_type(chosen_channels(std::move(picture), options.channels), options.as_float),
+                   in.header);
+}
+
+} // namespace
+
+int main(int argc, char **argv) {
+    CLI::App app("Gathers the picture a lens would have taken from a layered depth image", "dof-gather");
+    Options options;
+    add_options(app, options);
+    return run_tool(app, argc, argv, [&](const ToolContext &tool) { run(options, tool); });
+}

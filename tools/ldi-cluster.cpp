@@ -1,0 +1,62 @@
+// Fewer samples a pixel: ldi-cluster IN.exr -o OUT.exr [--tolerance PX] [--layers K] [lens options]
+#include "base/error.h"
+#include "common/pictures.h"
+#include "common/tool.h"
+#include "io/camera_metadata.h"
+#include "ldi/cluster.h"
+
+using namespace sparselens;
+
+namespace {
+
+struct Options {
+    LensOptions lens;
+    DepthOptions depth;
+    std::string input, output;
+    std::optional<double> tolerance;
+    int layers = 0;
+};
+
+void add_options(CLI::App &app, Options &options) {
+    app.add_option("input", options.input, "LDI, any deep EXR or flat RGBA+Z; - for standard input")
+        ->type_name("IN.exr")
+        ->required();
+    app.add_option("-o,--output", options.output, "LDI to write, - for standard output")->type_name("OUT.exr")->required();
+    app.add_option("--tolerance", options.tolerance, "Merge what differs by less, pixels of CoC (0.25)")
+        ->type_name("PX")
+        ->check(number("a number of at least 0", {.zero_allowed = true}));
+    app.add_option("--layers", options.layers, "At most K samples a pixel, 0 = no limit")
+        ->type_name("K")
+        ->check(CLI::Range(0, 1 << 20));
+    add_lens_options(app, options.lens);
+    add_depth_options(app, options.depth);
+}
+
+// The tolerance needs the lens; --layers alone does without, as inverse depth needs no scale to be compared.
+ClusterOptions cluster_options(const Options &options, const LoadedLdi &in) {
+    ClusterOptions result{.layers = options.layers};
+    const bool lens_known = lens_radius_of(in.camera) && focal_length_px(in.camera, in.ldi.windows.display_width());
+    if (!lens_known && !options.tolerance && options.layers > 0) return result;
+    result.scale = resolve_radius(options.lens, in.camera);
+    if (result.scale > 0) result.scale *= resolve_focal_px(in.camera, in.ldi.windows);
+    result.tolerance = options.tolerance.value_or(0.25);
+    return result;
+}
+
+void run(const Options &options, const ToolContext &tool) {
+    LoadedLdi in = load_ldi(options.input, options.lens, options.depth);
+    const Clustered out = cluster(in.ldi, cluster_options(options, in), *tool.progress);
+    tool.say(std::to_string(in.ldi.samples()) + " samples to " + std::to_string(out.ldi.samples()) +
+             ", CoC changed by at most " + std::to_string(out.largest_error) + " px");
+    write_camera(in.header, in.camera);
+    write_ldi(options.output, out.ldi, in.header);
+}
+
+} // namespace
+
+int main(int argc, char **argv) {
+    CLI::App app("Merges the samples of each pixel by perceptive depth", "ldi-cluster");
+    Options options;
+    add_options(app, options);
+    return run_tool(app, argc, argv, [&](const ToolContext &tool) { run(options, tool); });
+}
