@@ -47,6 +47,14 @@ FlatFile read_flat_exr(const std::string &path) {
     });
 }
 
+Imf::Header read_flat_header(const std::string &path) {
+    return with_file_name(path, [&] {
+        const auto stream = open_input(path);
+        Imf::MultiPartInputFile file(*stream);
+        return file.header(first_flat_part(file, path));
+    });
+}
+
 std::vector<float> take_depth(Image &image, const std::string &depth_channel, const std::string &path) {
     const std::size_t k = find_channel(image.channels, find_depth_channel(image.channels, depth_channel, path));
     const auto begin = image.values.begin() + std::ptrdiff_t(k * image.windows.pixels());

@@ -14,4 +14,9 @@ double circle_of_confusion(const ThinLens &lens, double z) {
     return (rf / lens.focus) * ((z - lens.focus) / z);
 }
 
+Imath::V2d seen_from_centre(const ThinLens &lens, const Imath::V2d &q, double z, const Imath::V2d &u) {
+    const double parallax = perceptive_depth(lens, z);
+    return {q.x + parallax * u.x, q.y - parallax * u.y * lens.pixel_aspect};
+}
+
 } // namespace sparselens

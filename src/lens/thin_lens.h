@@ -27,4 +27,7 @@ inline Imath::V2d seen_through(const ThinLens &lens, const Imath::V2d &p, double
     return {p.x + c * u.x, p.y - c * u.y * lens.pixel_aspect};
 }
 
+// Where the centre view shows a point of depth z that a view from lens point u (parallel axes) shows at q.
+Imath::V2d seen_from_centre(const ThinLens &lens, const Imath::V2d &q, double z, const Imath::V2d &u);
+
 } // namespace sparselens

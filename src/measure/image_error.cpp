@@ -1,0 +1,214 @@
+#include "measure/image_error.h"
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "measure/ssim.h"
+#include "measure/tone_map.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace sparselens {
+
+namespace {
+
+constexpr std::size_t colours = 3, alpha = 3, rgba = 4;
+constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
+constexpr std::array<double, colours> luma_weights{0.2126, 0.7152, 0.0722};
+
+// What a row adds to the figures of a region. In double, rows summed in order: the same at any thread count.
+struct Sums {
+    double squared = 0, squared_tonemapped = 0, relative = 0, symmetric = 0, ssim = 0;
+    double max = 0, max_alpha = 0;
+    std::size_t pixels = 0, windows = 0, nonfinite_image = 0, nonfinite_reference = 0;
+
+    void add(const Sums &row) {
+        squared += row.squared;
+        squared_tonemapped += row.squared_tonemapped;
+        relative += row.relative;
+        symmetric += row.symmetric;
+        ssim += row.ssim;
+        max = std::max(max, row.max);
+        max_alpha = std::max(max_alpha, row.max_alpha);
+        pixels += row.pixels;
+        windows += row.windows;
+        nonfinite_image += row.nonfinite_image;
+        nonfinite_reference += row.nonfinite_reference;
+    }
+};
+
+using Pixel = std::array<float, rgba>;
+
+struct Planes {
+    std::array<const float *, rgba> channels;
+
+    explicit Planes(const Image &image) {
+        for (std::size_t c = 0; c < rgba; ++c) channels[c] = image.plane(c).data();
+    }
+    Pixel operator[](std::size_t i) const {
+        return {channels[0][i], channels[1][i], channels[2][i], channels[3][i]};
+    }
+};
+
+bool is_finite(const Pixel &pixel) {
+    return std::all_of(pixel.begin(), pixel.end(), [](float v) { return std::isfinite(v); });
+}
+
+struct PixelError {
+    Sums sums;
+    float luma_image = not_a_number, luma_reference = not_a_number;
+};
+
+PixelError error_of(const Pixel &image, const Pixel &reference) {
+    PixelError error;
+    Sums &sums = error.sums;
+    sums.nonfinite_image = !is_finite(image);
+    sums.nonfinite_reference = !is_finite(reference);
+    if (sums.nonfinite_image || sums.nonfinite_reference) return error;
+    double luma_image = 0, luma_reference = 0;
+    for (std::size_t c = 0; c < colours; ++c) {
+        const double a = image[c], b = reference[c], difference = std::abs(a - b),
+                     square = difference * difference;
+        const double tone_a = tone_mapped(a), tone_b = tone_mapped(b);
+        sums.squared += square;
+        sums.squared_tonemapped += (tone_a - tone_b) * (tone_a - tone_b);
+        sums.relative += square / (b * b + 0.01);
+        sums.symmetric += difference / (std::abs(a) + std::abs(b) + 0.01);
+        sums.max = std::max(sums.max, difference);
+        luma_image += luma_weights[c] * tone_a;
+        luma_reference += luma_weights[c] * tone_b;
+    }
+    sums.max_alpha = std::abs(double(image[alpha]) - double(reference[alpha]));
+    sums.pixels = 1;
+    error.luma_image = float(luma_image);
+    error.luma_reference = float(luma_reference);
+    return error;
+}
+
+// The whole picture counts as set 0, region r as set r + 1.
+struct PixelSets {
+    std::span<const std::uint8_t> region_bits;
+    std::size_t count;
+
+    bool holds(std::size_t set, std::size_t pixel) const {
+        return set == 0 || (region_bits[pixel] >> (set - 1) & 1);
+    }
+};
+
+using RowSums = std::vector<Sums>; // one a pixel set
+
+// The 99th percentile (nearest rank) of |a - b| over the channel values of a pixel set.
+double percentile_99(const Image &image, const Image &reference, const PixelSets &sets, std::size_t set) {
+    const Planes image_planes(image), reference_planes(reference);
+    std::vector<float> errors;
+    for (std::size_t i = 0; i < image.windows.pixels(); ++i) {
+        if (!sets.holds(set, i)) continue;
+        const Pixel a = image_planes[i], b = reference_planes[i];
+        if (!is_finite(a) || !is_finite(b)) continue;
+        for (std::size_t c = 0; c < colours; ++c)
+            errors.push_back(float(std::abs(double(a[c]) - double(b[c]))));
+    }
+    if (errors.empty()) return not_a_number;
+    const auto rank = std::ptrdiff_t((errors.size() * 99 + 99) / 100 - 1);
+    std::nth_element(errors.begin(), errors.begin() + rank, errors.end());
+    return errors[std::size_t(rank)];
+}
+
+double decibels(double mean_square) { return -10 * std::log10(mean_square); }
+
+ErrorFigures figures_of(const Sums &sums, double p99) {
+    const double values = double(colours * sums.pixels);
+    const bool any = sums.pixels > 0;
+    return {.psnr = decibels(sums.squared / values),
+            .psnr_tonemapped = decibels(sums.squared_tonemapped / values),
+            .relmse = sums.relative / values,
+            .smape = sums.symmetric / values,
+            .ssim = sums.ssim / double(sums.windows),
+            .p99 = p99,
+            .max = any ? sums.max : not_a_number,
+            .max_alpha = any ? sums.max_alpha : not_a_number,
+            .pixels = sums.pixels,
+            .nonfinite_image = sums.nonfinite_image,
+            .nonfinite_reference = sums.nonfinite_reference};
+}
+
+struct LumaPlanes {
+    std::vector<float> image, reference; // NaN where either picture is not finite
+};
+
+LumaPlanes add_pixel_errors(const Image &image, const Image &reference, const PixelSets &sets,
+                            std::vector<RowSums> &rows) {
+    const Planes image_planes(image), reference_planes(reference);
+    const std::size_t width = std::size_t(image.windows.width());
+    LumaPlanes luma{std::vector<float>(image.windows.pixels()), std::vector<float>(image.windows.pixels())};
+    parallel_for(rows.size(), [&](std::size_t y) {
+        for (std::size_t i = y * width; i < (y + 1) * width; ++i) {
+            const PixelError error = error_of(image_planes[i], reference_planes[i]);
+            luma.image[i] = error.luma_image;
+            luma.reference[i] = error.luma_reference;
+            for (std::size_t set = 0; set < sets.count; ++set)
+                if (sets.holds(set, i)) rows[y][set].add(error.sums);
+        }
+    });
+    return luma;
+}
+
+void add_similarity(const SsimMap &ssim, std::size_t image_width, const PixelSets &sets,
+                    std::vector<RowSums> &rows) {
+    const std::size_t width = std::size_t(ssim.width), left = std::size_t(ssim.centre_x);
+    parallel_for(std::size_t(ssim.height), [&](std::size_t y) {
+        const std::size_t first_centre = (y + std::size_t(ssim.centre_y)) * image_width + left;
+        for (std::size_t x = 0; x < width; ++x) {
+            const double value = ssim.values[y * width + x];
+            if (std::isnan(value)) continue; // the window holds a pixel that is not finite
+            for (std::size_t set = 0; set < sets.count; ++set) {
+                if (!sets.holds(set, first_centre + x)) continue;
+                rows[y][set].ssim += value;
+                ++rows[y][set].windows;
+            }
+        }
+    });
+}
+
+} // namespace
+
+Image rgba_over(const Image &image, const Windows &target, const std::string &file) {
+    const Windows &from = image.windows;
+    if (from.display_width() != target.display_width() || from.display_height() != target.display_height())
+        throw Error(file + ": the display window is " + std::to_string(from.display_width()) + "x" +
+                    std::to_string(from.display_height()) + ", the reference's " +
+                    std::to_string(target.display_width()) + "x" + std::to_string(target.display_height()));
+    Image result(target, rgba_channels());
+    const Imath::V2i shift = from.display.min - target.display.min;
+    for (std::size_t c = 0; c < rgba; ++c) {
+        const std::size_t channel = find_channel(image.channels, result.channels[c].name);
+        if (channel == npos && c != alpha)
+            throw Error(file + ": no channel " + result.channels[c].name + " to compare");
+        for (int y = target.data.min.y; y <= target.data.max.y; ++y)
+            for (int x = target.data.min.x; x <= target.data.max.x; ++x) {
+                const Imath::V2i p = Imath::V2i(x, y) + shift;
+                if (!from.data.intersects(p)) continue;
+                result.at(c, x, y) = channel == npos ? 1 : image.at(channel, p.x, p.y);
+            }
+    }
+    return result;
+}
+
+std::vector<ErrorFigures> image_error(const Image &image, const Image &reference,
+                                      std::span<const std::uint8_t> region_bits, std::size_t regions) {
+    const PixelSets sets{region_bits, regions + 1};
+    const int width = image.windows.width(), height = image.windows.height();
+    std::vector<RowSums> rows(std::size_t(height), RowSums(sets.count));
+    const LumaPlanes luma = add_pixel_errors(image, reference, sets, rows);
+    add_similarity(ssim_map(luma.image, luma.reference, width, height), std::size_t(width), sets, rows);
+    std::vector<ErrorFigures> figures(sets.count);
+    parallel_for(sets.count, [&](std::size_t set) {
+        Sums sums;
+        for (const RowSums &row : rows) sums.add(row[set]);
+        figures[set] = figures_of(sums, percentile_99(image, reference, sets, set));
+    });
+    return figures;
+}
+
+} // namespace sparselens

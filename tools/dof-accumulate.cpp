@@ -1,0 +1,99 @@
+// dof-accumulate: dense views over the lens, averaged so that the plane of focus stays put.
+#include "base/error.h"
+#include "common/lens_options.h"
+#include "common/lens_view_files.h"
+#include "common/picture_options.h"
+#include "common/tool.h"
+#include "dof/accumulate.h"
+#include "io/camera_metadata.h"
+
+#include <map>
+
+namespace {
+
+using namespace sparselens;
+
+struct Options {
+    LensViewOptions views;
+    LensOptions lens;
+    std::string output;
+    bool as_float = false;
+    bool transparent_outside = false;
+};
+
+void add_options(CLI::App &app, Options &options) {
+    const std::map<std::string, bool> outside{{"unknown", false}, {"transparent", true}};
+    add_lens_view_options(app, options.views);
+    app.add_option("-o,--output", options.output, "The average (EXR)")->required()->type_name("OUT");
+    add_type_option(app, options.as_float);
+    app.add_option(
+           "--outside", options.transparent_outside,
+           "What lies outside a view's data window: unknown (the view does not count there; the default) "
+           "or transparent (black, inside the display window)")
+        ->type_name("WHAT")
+        ->transform(CLI::CheckedTransformer(outside));
+    add_lens_options(app, options.lens);
+}
+
+// An aperture asked for stops the lens down: views farther from its centre do not count.
+void stop_down(LensViewFiles &files, const Options &options) {
+    if (!options.lens.fstop && !options.lens.lens_radius) return;
+    const double radius = resolve_lens(options.lens, files.centre, files.windows).radius * (1 + 1e-5);
+    std::erase_if(files.views, [&](const LensViewFile &view) { return view.position.length() > radius; });
+    if (files.views.empty()) throw Error("no view stands within the aperture asked for");
+}
+
+// A lens of radius 1, so that lens points are in scene units: moving the views needs no aperture.
+ThinLens unit_lens(const Options &options, const LensViewFiles &files) {
+    LensOptions lens = options.lens;
+    lens.fstop.reset();
+    lens.lens_radius = 1;
+    return resolve_lens(lens, files.centre, files.windows);
+}
+
+Image average_views(LensViewFiles &files, const ThinLens &lens, const Options &options,
+                    const ToolContext &tool) {
+    std::optional<Accumulation> sum;
+    tool.progress->start("averaging", files.views.size());
+    for (LensViewFile &file : files.views) {
+        Image view = file.take_pixels().image;
+        if (options.transparent_outside) view = with_transparent_surroundings(view);
+        if (!sum) sum = start_accumulation(view.windows, view.channels);
+        const std::size_t bad = fill_nonfinite(view, sum->channels);
+        if (bad > 0)
+            warn(tool,
+                 file.path + ": " + std::to_string(bad) + " values are not finite; filled from neighbours");
+        accumulate(*sum, view, seen_from_centre(lens, {0, 0}, lens.focus, file.position), file.path);
+        tool.progress->advance();
+    }
+    return average(*sum);
+}
+
+Imf::Header header_of(const LensViewFiles &files, const LensOptions &lens) {
+    Camera camera = camera_with_options(lens, files.centre);
+    camera.lens_points.clear();
+    for (const LensViewFile &view : files.views) camera.lens_points.push_back(view.position);
+    Imf::Header header = files.header;
+    write_camera(header, camera);
+    return header;
+}
+
+void accumulate_files(const Options &options, const ToolContext &tool) {
+    LensViewFiles files = open_lens_views(options.views);
+    if (files.centre_guessed && files.views.size() > 1)
+        warn(tool, "the lens centre is taken to be the mean of the views' positions; --center FILE says "
+                   "where it is");
+    stop_down(files, options);
+    tool.say(std::to_string(files.views.size()) + " views");
+    const Image image = average_views(files, unit_lens(options, files), options, tool);
+    write_flat_exr(options.output, in_type(image, options.as_float), header_of(files, options.lens));
+}
+
+} // namespace
+
+int main(int argc, char **argv) {
+    CLI::App app("Average of views from many points of a lens (the accumulation buffer)", "dof-accumulate");
+    Options options;
+    add_options(app, options);
+    return run_tool(app, argc, argv, [&](const ToolContext &tool) { accumulate_files(options, tool); });
+}

@@ -1,0 +1,76 @@
+// dof-compare: how far a picture is from its reference.
+#include "base/error.h"
+#include "common/pictures.h"
+#include "common/tool.h"
+#include "io/exr_flat.h"
+#include "measure/figures_text.h"
+#include "measure/image_error.h"
+#include "measure/regions.h"
+
+#include <cstdio>
+#include <vector>
+
+namespace {
+
+using namespace sparselens;
+
+struct Options {
+    std::string image, reference, regions;
+    bool json = false;
+    LensOptions lens;
+    DepthOptions depth;
+};
+
+void add_options(CLI::App &app, Options &options) {
+    app.add_option("A", options.image, "Picture to judge (EXR, - for standard input)")->required();
+    app.add_option("REF", options.reference, "Reference: compared over its data window")->required();
+    app.add_flag("--json", options.json, "Print JSON instead of a table");
+    CLI::Option *regions =
+        app.add_option(
+               "--regions", options.regions,
+               "LDI (deep EXR, or flat with depth) that tells what is in focus, blurred, a silhouette")
+            ->type_name("LDI");
+    add_lens_options(app, options.lens);
+    add_depth_options(app, options.depth);
+    for (CLI::Option *option : app.get_options())
+        if (option->get_group() == "Lens") option->needs(regions); // they say how to read it
+}
+
+std::vector<std::uint8_t> regions_over(const Windows &target, const Options &options) {
+    const LoadedLdi in = load_ldi(options.regions, options.lens, options.depth);
+    const Windows &windows = in.ldi.windows;
+    if (windows.display_width() != target.display_width() ||
+        windows.display_height() != target.display_height())
+        throw Error(options.regions + ": the display window differs in size from the reference's");
+    const ThinLens lens = resolve_lens(options.lens, in.camera, windows);
+    const std::vector<float> c = front_circles_of_confusion(in.ldi, lens);
+    const auto bits = region_bits(c, windows.width(), windows.height(), lens.pixel_aspect);
+    return bits_over(bits, windows, target);
+}
+
+void compare(const Options &options) {
+    const Image reference_file = read_flat_exr(options.reference).image;
+    const Windows &windows = reference_file.windows;
+    const Image reference = rgba_over(reference_file, windows, options.reference);
+    const Image image = rgba_over(read_flat_exr(options.image).image, windows, options.image);
+
+    std::vector<std::uint8_t> bits;
+    if (!options.regions.empty()) bits = regions_over(windows, options);
+    const auto figures = image_error(image, reference, bits, bits.empty() ? 0 : region_names.size());
+
+    std::vector<NamedFigures> regions;
+    for (std::size_t r = 1; r < figures.size(); ++r) regions.push_back({region_names[r - 1], figures[r]});
+    const auto as_text = options.json ? figures_as_json : figures_as_table;
+    const std::string text = as_text(figures.front(), regions);
+    if (std::fputs(text.c_str(), stdout) == EOF || std::fflush(stdout) != 0)
+        throw Error("standard output: cannot be written");
+}
+
+} // namespace
+
+int main(int argc, char **argv) {
+    CLI::App app("Error figures of a picture against a reference", "dof-compare");
+    Options options;
+    add_options(app, options);
+    return run_tool(app, argc, argv, [&](const ToolContext &) { compare(options); });
+}
