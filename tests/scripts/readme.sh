@@ -4,10 +4,7 @@
 . "$(dirname "$0")/../tools/check.sh"
 readme=$source_dir/README.md
 
-# block LANGUAGE: the contents of all fenced blocks of that language.
-block() { sed -n "/^\`\`\`$1\$/,/^\`\`\`\$/{/^\`\`\`/d;p}" "$readme"; }
-
-block sh >commands
+readme_block sh >commands
 grep -q . commands || fail "README.md has no shell examples"
 for script in ./tools/demo.sh ./tests/run.sh; do
     grep -qF "$script" commands || fail "README.md does not name $script"
