@@ -12,10 +12,6 @@
 
 namespace sparselens {
 
-// `camera` moved by `offset` (scene units, x right, y up) in its own plane, with the matrices that say so:
-// the world is the camera space of the centre view.
-Camera camera_at(const Camera &camera, const Windows &windows, const Imath::V2d &offset);
-
 class TraceOutputs {
 public:
     // Makes the folder. Error where that fails.
