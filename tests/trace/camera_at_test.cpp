@@ -8,7 +8,7 @@ namespace {
 
 // A point of the world lands, through the file's matrices, where the tracer's own rays see it.
 TEST(CameraAt, MatricesAgreeWithTheRays) {
-    Camera camera = scene_by_name("fence").camera;
+    Camera camera = build_scene("fence").camera;
     camera.focal_length_mm = 50;
     RenderSettings settings = settings_of_size(320, 180);
     settings.lens.focal_px = 320 * 50.0 / 36;
@@ -27,7 +27,7 @@ TEST(CameraAt, MatricesAgreeWithTheRays) {
 }
 
 TEST(CameraAt, PositionIsTheLensPoint) {
-    const Camera camera = scene_by_name("fence").camera;
+    const Camera camera = build_scene("fence").camera;
     const Windows windows = windows_of_size(64, 36);
     const Camera centre = camera_at(camera, windows, {0, 0}),
                  moved = camera_at(camera, windows, {0.06, -0.03});

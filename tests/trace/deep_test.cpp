@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace sparselens {
@@ -59,7 +60,7 @@ TEST(RenderPeeled, SilhouettesStayUnmixed) {
 
 TEST(RenderPeeled, FirstDepthIsTheCentreViews) {
     const RenderSettings settings = settings_of_size(64, 36);
-    const Tracer tracer(scene_by_name("grass"));
+    const Tracer tracer(build_scene("grass"));
     const Image view = render_view(tracer, settings, {0, 0}, 1, 1, silent);
     const Ldi ldi = render_peeled(tracer, settings, 3, 1, 1, silent);
     for (std::size_t pixel = 0; pixel < settings.windows.pixels(); ++pixel) {
@@ -109,7 +110,7 @@ TEST(RenderStrata, EdgesCoverInPart) {
 
 TEST(RenderStrata, OneStratumIsTheCentreView) {
     const RenderSettings settings = settings_of_size(64, 36);
-    const Tracer tracer(scene_by_name("grass"));
+    const Tracer tracer(build_scene("grass"));
     const Image view = render_view(tracer, settings, {0, 0}, 9, 1, silent);
     const Ldi ldi = render_strata(tracer, settings, 1, 9, 1, silent);
     ASSERT_EQ(ldi.samples(), settings.windows.pixels());
@@ -143,7 +144,7 @@ TEST(RenderDeep, SlabsAreVolumeSamples) {
 // Tidied and flattened, the peeled mist is the centre view of the mist: slabs, sheets and backdrop in all.
 TEST(RenderDeep, FlattenedMistIsTheCentreView) {
     const RenderSettings settings = settings_of_size(64, 36);
-    const Tracer tracer(scene_by_name("mist"));
+    const Tracer tracer(build_scene("mist"));
     const Image view = render_view(tracer, settings, {0, 0}, 1, 1, silent);
     const Image flat = flatten(tidy(render_peeled(tracer, settings, 8, 1, 1, silent)));
     for (std::size_t channel = 0; channel < 4; ++channel)
@@ -154,7 +155,7 @@ TEST(RenderDeep, FlattenedMistIsTheCentreView) {
 TEST(RenderDeep, ThreadsDoNotMatter) {
     RenderSettings settings = settings_of_size(40, 23);
     settings.light = Light::area;
-    const Tracer tracer(scene_by_name("fence"));
+    const Tracer tracer(build_scene("fence"));
     const auto both = [&] {
         return std::pair(render_peeled(tracer, settings, 3, 3, 1, silent).values,
                          render_strata(tracer, settings, 3, 3, 1, silent).values);

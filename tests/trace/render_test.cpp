@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -56,7 +57,7 @@ TEST(RenderView, RimViewsSeeThePointWhereTheDesignSays) {
     const double z = 2;
     const Tracer tracer(lamp_at(settings, p, z, 3));
     for (const Imath::V2d &u : {Imath::V2d(0, 0), Imath::V2d(1, 0), Imath::V2d(-1, 0), Imath::V2d(0, 1),
-                               Imath::V2d(0, -1), Imath::V2d(0.6, -0.8)}) {
+                                Imath::V2d(0, -1), Imath::V2d(0.6, -0.8)}) {
         const Blob blob = measure(render_view(tracer, settings, u, 256, 1, silent), red);
         const double shift = settings.lens.radius * settings.lens.focal_px / z; // 9.6 px
         EXPECT_NEAR(blob.centroid.x, p.x - shift * u.x, 0.03) << u;
@@ -83,7 +84,7 @@ TEST(RenderReference, LensRaysMeetPointsWhereTheDesignSays) {
 
 TEST(RenderView, PlanesAreTheirClosedForm) {
     const RenderSettings settings = settings_of_size(160, 90);
-    const Tracer tracer(scene_by_name("planes"));
+    const Tracer tracer(build_scene("planes"));
     const Image image = render_view(tracer, settings, {0, 0}, 1, 1, silent);
     std::size_t seen[4] = {};
     for (int y = 0; y < 90; ++y)
@@ -107,7 +108,7 @@ TEST(RenderReference, DefocusedPlaneWaveIsItsClosedForm) {
     for (const FacingPlane &plane : facing_planes()) {
         RenderSettings settings = settings_of_size(160, 90);
         Scene scene;
-        for (const Quad &quad : scene_by_name("planes").quads)
+        for (const Quad &quad : build_scene("planes").quads)
             if (quad.corners[0].z == plane.z) scene.quads = {quad};
         const Imath::V2d middle = 0.5 * (plane.slopes.min + plane.slopes.max);
         const int x0 = int(80 + focal * std::clamp(middle.x, -0.4, 0.4)), y0 = 60;
@@ -147,7 +148,7 @@ TEST(RenderReference, LampKeepsItsEnergyAndFillsItsDisc) {
 
 TEST(RenderReference, WithoutLensItIsTheCentreView) {
     const RenderSettings settings = settings_of_size(96, 54, 0);
-    const Tracer tracer(scene_by_name("fence"));
+    const Tracer tracer(build_scene("fence"));
     const Image view = render_view(tracer, settings, {0, 0}, 1024, 1, silent);
     const Image reference = render_reference(tracer, settings, 1024, silent);
     double difference = 0;
@@ -158,21 +159,21 @@ TEST(RenderReference, WithoutLensItIsTheCentreView) {
 
 TEST(RenderView, WithoutLensAllViewsAreTheCentre) {
     RenderSettings settings = settings_of_size(48, 27, 0);
-    const Tracer tracer(scene_by_name("fence"));
+    const Tracer tracer(build_scene("fence"));
     EXPECT_EQ(render_view(tracer, settings, {0, 0}, 4, 1, silent).values,
               render_view(tracer, settings, {-0.8, 0.6}, 4, 2, silent).values);
 }
 
 TEST(RenderView, SkyIsOpaqueAtInfinity) {
     const RenderSettings settings = settings_of_size(64, 36);
-    const Image image = render_view(Tracer(scene_by_name("slant")), settings, {0, 0}, 4, 1, silent);
+    const Image image = render_view(Tracer(build_scene("slant")), settings, {0, 0}, 4, 1, silent);
     EXPECT_EQ(image.at(depth, 10, 0), std::numeric_limits<float>::infinity());
     EXPECT_FLOAT_EQ(image.at(red, 10, 0), 0.3f);
     EXPECT_EQ(image.at(alpha, 10, 0), 1);
 }
 
 TEST(RenderView, OverscanAddsPixelsAndChangesNone) {
-    const Tracer tracer(scene_by_name("grass"));
+    const Tracer tracer(build_scene("grass"));
     const RenderSettings settings = settings_of_size(64, 36);
     RenderSettings wide = settings;
     wide.windows.data = {{-5, -5}, {68, 40}};
@@ -190,7 +191,7 @@ TEST(RenderView, OverscanAddsPixelsAndChangesNone) {
 TEST(RenderView, NoiseOfViewsIsIndependent) {
     RenderSettings settings = settings_of_size(48, 27);
     settings.light = Light::area;
-    const Tracer tracer(scene_by_name("fence"));
+    const Tracer tracer(build_scene("fence"));
     EXPECT_NE(render_view(tracer, settings, {0, 0}, 4, 1, silent).values,
               render_view(tracer, settings, {0, 0}, 4, 2, silent).values);
 }
@@ -199,7 +200,7 @@ TEST(Render, ThreadsDoNotMatter) {
     RenderSettings settings = settings_of_size(70, 41);
     settings.light = Light::area;
     for (const char *name : {"grass", "mist"}) {
-        const Tracer tracer(scene_by_name(name));
+        const Tracer tracer(build_scene(name));
         const auto both = [&] {
             return std::pair(render_view(tracer, settings, {0, 1}, 3, 1, silent).values,
                              render_reference(tracer, settings, 5, silent).values);
@@ -212,7 +213,7 @@ TEST(Render, ThreadsDoNotMatter) {
 
 TEST(Render, OnePixelIsEnough) {
     const RenderSettings settings = settings_of_size(1, 1);
-    const Tracer tracer(scene_by_name("fence"));
+    const Tracer tracer(build_scene("fence"));
     EXPECT_GT(render_view(tracer, settings, {0, 0}, 1, 1, silent).at(depth, 0, 0), 0);
     EXPECT_EQ(render_reference(tracer, settings, 1, silent).at(alpha, 0, 0), 1);
 }

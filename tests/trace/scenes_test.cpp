@@ -35,7 +35,7 @@ TEST(Scenes, QuadsAreSound) {
 }
 
 TEST(Scenes, FenceIsAsWritten) {
-    const Scene scene = scene_by_name("fence");
+    const Scene scene = build_scene("fence");
     ASSERT_EQ(scene.quads.size(), 2u + 14u);
     ASSERT_EQ(scene.spheres.size(), 4u + 40u);
     EXPECT_EQ(scene.spheres[1].centre, Imath::V3d(1.6, -0.2, 8));
@@ -50,7 +50,7 @@ TEST(Scenes, FenceIsAsWritten) {
 }
 
 TEST(Scenes, GrassIsAsWritten) {
-    const Scene scene = scene_by_name("grass");
+    const Scene scene = build_scene("grass");
     ASSERT_EQ(scene.quads.size(), 2u + 200u);
     ASSERT_EQ(scene.spheres.size(), 60u);
     EXPECT_EQ(scene.spheres[2].material, dots);
@@ -72,7 +72,7 @@ TEST(Scenes, PlanesStandInFrontOfInAndBehindFocus) {
 
 // Each lamp is 2 x 2 whole pixels at the default size, where the axis-parallel rim views see it, too.
 TEST(Scenes, LampsLieOnWholePixels) {
-    const Scene scene = scene_by_name("lamps");
+    const Scene scene = build_scene("lamps");
     const double rf = 0.12 * 640;
     const auto whole = [](double v) { return std::abs(v - std::round(v)) < 1e-9; };
     for (std::size_t i = 1; i < scene.quads.size(); ++i) {

@@ -5,16 +5,7 @@
 #include "trace/render.h"
 #include "trace/scenes.h"
 
-#include <algorithm>
-#include <string>
-
 namespace sparselens {
-
-inline Scene scene_by_name(const std::string &name) {
-    const auto table = scene_table();
-    return std::find_if(table.begin(), table.end(), [&](const SceneEntry &e) { return e.name == name; })
-        ->build();
-}
 
 // The default lens of most scenes, at any size: F = width.
 inline RenderSettings settings_of_size(int width, int height, double radius = 0.06) {

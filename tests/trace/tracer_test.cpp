@@ -21,7 +21,7 @@ std::vector<Ray> lens_rays(std::uint32_t count) {
 
 TEST(Tracer, NearestAgreesWithBruteForce) {
     for (const char *name : {"fence", "grass", "planes", "slant", "lamps"}) {
-        const Scene scene = scene_by_name(name);
+        const Scene scene = build_scene(name);
         const Tracer tracer(scene);
         const auto rays = lens_rays(5001); // not a multiple of a packet
         std::vector<Hit> hits(rays.size());
@@ -47,7 +47,7 @@ TEST(Tracer, NearestAgreesWithBruteForce) {
 }
 
 TEST(Tracer, AllHitsAgreeWithBruteForce) {
-    const Scene scene = scene_by_name("grass");
+    const Scene scene = build_scene("grass");
     const Tracer tracer(scene);
     std::vector<Hit> hits;
     int differ = 0;
