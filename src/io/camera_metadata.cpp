@@ -1,5 +1,6 @@
 #include "io/camera_metadata.h"
 
+#include <ImfBoxAttribute.h>
 #include <ImfDoubleAttribute.h>
 #include <ImfFloatAttribute.h>
 #include <ImfIntAttribute.h>
@@ -19,6 +20,7 @@ constexpr const char *focal_length_name = "pinholeFocalLength";     // mm
 constexpr const char *sensor_width_name = "sparselens:sensorWidth"; // mm
 constexpr const char *metres_per_unit_name = "sparselens:metresPerUnit";
 constexpr const char *lens_points_name = "sparselens:lensPoints"; // "x,y x,y ...", scene units
+constexpr const char *picture_window_name = "sparselens:dataWindow";
 constexpr const char *version_name = "sparselens:version";
 
 // A number above 0 (infinity where it can be meant) or nothing: a header may hold anything.
@@ -96,6 +98,18 @@ void write_camera(Imf::Header &header, const Camera &camera) {
     if (!camera.lens_points.empty())
         header.insert(lens_points_name, Imf::StringAttribute(points_text(camera.lens_points)));
     header.insert(version_name, Imf::StringAttribute(SPARSELENS_VERSION));
+}
+
+Imath::Box2i read_picture_window(const Imf::Header &header) {
+    const Imath::Box2i &data = header.dataWindow();
+    const auto *a = header.findTypedAttribute<Imf::Box2iAttribute>(picture_window_name);
+    if (!a || a->value().isEmpty() || !data.intersects(a->value().min) || !data.intersects(a->value().max))
+        return data;
+    return a->value();
+}
+
+void write_picture_window(Imf::Header &header, const Imath::Box2i &window) {
+    header.insert(picture_window_name, Imf::Box2iAttribute(window));
 }
 
 } // namespace sparselens

@@ -13,4 +13,9 @@ Camera read_camera(const Imf::Header &header);
 // Writes what is known, leaves the rest of the header alone.
 void write_camera(Imf::Header &header, const Camera &camera);
 
+// Of an LDI whose data window has grown beyond that of its centre view: the centre view's data window, which is
+// that of the pictures made from it. Else the header's own.
+Imath::Box2i read_picture_window(const Imf::Header &header);
+void write_picture_window(Imf::Header &header, const Imath::Box2i &window);
+
 } // namespace sparselens

@@ -1,0 +1,75 @@
+#include "dof/lens_gather.h"
+
+#include "base/parallel.h"
+#include "dof/lens_tile.h"
+#include "dof/sample_blocks.h"
+#include "lens/lens_samples.h"
+
+#include <tbb/enumerable_thread_specific.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace sparselens {
+
+namespace {
+
+SampleColours make_colours(const Ldi &ldi, const BlockedSamples &samples) {
+    SampleColours colours;
+    const std::size_t channels = ldi.channels.size(), count = samples.count();
+    colours.groups = (channels + 3) / 4;
+    colours.values.assign(colours.groups * count * 4, 0);
+    parallel_runs(count, 4096, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+            for (std::size_t k = 0; k < channels && samples.source[i] != BlockedSamples::background; ++k)
+                colours.values[(k / 4 * count + i) * 4 + k % 4] = ldi.values[k][samples.source[i]];
+    });
+    return colours;
+}
+
+float largest_coc(const SampleBlock &block) { return std::max(std::abs(block.coc_min), std::abs(block.coc_max)); }
+
+} // namespace
+
+Image lens_gather(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window,
+                  const LensGatherOptions &options, Progress &progress) {
+    const BlockedSamples samples = make_blocks(ldi, lens, window);
+    const SampleColours colours = make_colours(ldi, samples);
+    Windows windows = ldi.windows;
+    windows.data = window;
+    Image out(windows, ldi.channels);
+    const std::vector<LensSample> points = disc_lens_samples(std::size_t(options.lens_samples ? options.lens_samples : 256), lens.pixel_aspect);
+    const int columns = (windows.width() + LensTile::size - 1) / LensTile::size;
+    const int rows = (windows.height() + LensTile::size - 1) / LensTile::size;
+    const Imath::V2i offset = window.min - ldi.windows.data.min;
+    progress.start("gathering", std::size_t(columns * rows));
+    tbb::enumerable_thread_specific<LensTile> tiles([&] { return LensTile(samples, colours); });
+    parallel_for(std::size_t(columns * rows), [&](std::size_t t) {
+        const Imath::V2i corner(int(t) % columns * LensTile::size, int(t) / columns * LensTile::size);
+        const Imath::V2i origin = corner + offset;
+        std::vector<std::uint32_t> blocks;
+        for (std::uint32_t b = 0; b < samples.blocks.size(); ++b) {
+            const SampleBlock &block = samples.blocks[b];
+            if (block.begin == block.end) continue;
+            const float r = largest_coc(block) * float(std::max(1.0, lens.pixel_aspect)) + 1;
+            if (block.x_max + r < float(origin.x) || block.x_min - r > float(origin.x + LensTile::size) ||
+                block.y_max + r < float(origin.y) || block.y_min - r > float(origin.y + LensTile::size))
+                continue;
+            blocks.push_back(b);
+        }
+        LensTile &tile = tiles.local();
+        tile.gather(origin, blocks, points);
+        for (int y = 0; y < LensTile::size && corner.y + y < windows.height(); ++y)
+            for (int x = 0; x < LensTile::size && corner.x + x < windows.width(); ++x)
+                for (std::size_t k = 0; k < ldi.channels.size(); ++k) {
+                    const float weight = tile.weight(x, y);
+                    out.at(k, window.min.x + corner.x + x, window.min.y + corner.y + y) =
+                        weight > 0 ? tile.sum(x, y, k / 4)[k % 4] / weight : 0;
+                }
+        progress.advance();
+    });
+    return out;
+}
+
+} // namespace sparselens
