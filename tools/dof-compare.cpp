@@ -7,6 +7,7 @@
 #include "measure/image_error.h"
 #include "measure/regions.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <vector>
 
@@ -49,6 +50,8 @@ std::vector<std::uint8_t> regions_over(const Windows &target, const Options &opt
 }
 
 void compare(const Options &options) {
+    const auto from_stdin = {options.image == "-", options.reference == "-", options.regions == "-"};
+    if (std::ranges::count(from_stdin, true) > 1) throw UsageError("standard input cannot be read twice");
     const Image reference_file = read_flat_exr(options.reference).image;
     const Windows &windows = reference_file.windows;
     const Image reference = rgba_over(reference_file, windows, options.reference);

@@ -4,8 +4,10 @@
 #include "base/parallel.h"
 #include "dof/parabolic_shift.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 
 namespace sparselens {
 
