@@ -34,7 +34,7 @@ build() {
 }
 
 table=()
-row() { table+=("$(printf '%-34s %8s %8s %7s  %s' "$@" | sed 's/ *$//')"); }
+row() { table+=("$(printf '%-36s %8s %8s %7s  %s' "$1" "${@:2:4}" | sed 's/ *$//')"); }
 
 # timed COMMAND...: leaves the wall time in $seconds.
 timed() {
@@ -62,54 +62,70 @@ traced() {
 }
 
 # figure NAME JSON: the first value of that name, that of the whole picture.
-figure() { grep -o "\"$1\": *[^,} ]*" <<<"$2" | sed -n '1s/.*: *//p'; }
+figure() { grep -o "\"$1\": *[^,} ]*" <<<"$2" | sed -n '1{s/.*: *//;s/null/inf/;p}'; }
 
-# compared TITLE SECONDS PICTURE NOTE: a row with the picture's error.
+# compared TITLE SECONDS PICTURE: a row with the picture's error.
 compared() {
     local json
     json=$("$bin/dof-compare" "$3" "$reference" --json)
-    row "$1" "$2" "$(printf '%.2f' "$(figure psnr_tonemapped "$json")")" "$(printf '%.4f' "$(figure ssim "$json")")" "$4"
+    row "$1" "$2" "$(printf '%.2f' "$(figure psnr_tonemapped "$json")")" "$(printf %.4f "$(figure ssim "$json")")"
 }
 
-for_screen=(--ch R,G,B --colorconvert linear sRGB)
-to_png() { oiiotool "$1" "${for_screen[@]}" -d uint8 -o "${1%.exr}.png"; }
+for_screen=(--ch R,G,B --colorconvert linear sRGB --clamp:min=0:max=1)
+to_png() { oiiotool "$1.exr" "${for_screen[@]}" -d uint8 -o "$1.png"; }
 
-# strip FILE: before, after and reference side by side, below them a sixteenth of each enlarged.
+# strip FILE WIDTH: before, after and reference side by side, each WIDTH wide; below them the same detail of each.
 strip() {
-    local width=${size%x*} height=${size#*x} pictures=() zoomed=() i
+    local width=${size%x*} height=${size#*x} pictures=() details=() i
+    local panel=$2x$(($2 * height / width))
+    local detail=$((width * 3 / 16))x$((height * 3 / 16))+$((width * 51 / 100))+$((height * 23 / 100))
     local files=("$center" "$result" "$reference")
     local titles=('before: the centre view' 'after: from 5 views' "reference: $reference_spp rays a pixel")
-    local zoom=$((width / 4))x$((height / 4))+$((width * 43 / 100))+$((height * 45 / 100))
     for i in 0 1 2; do
-        pictures+=("${files[i]}" "${for_screen[@]}" --resize 480x270 --fill:color=0.1,0.1,0.1 480x22+0+0
-            "--text:x=8:y=16:size=14:font=DejaVuSans" "${titles[i]}")
-        zoomed+=("${files[i]}" "${for_screen[@]}" --cut "$zoom" --resize:filter=box 480x270)
+        pictures+=("${files[i]}" "${for_screen[@]}" --resize "$panel" --fill:color=0.1,0.1,0.1 "$2x20+0+0"
+            "--text:x=6:y=14:size=12:font=DejaVuSans" "${titles[i]}")
+        details+=("${files[i]}" "${for_screen[@]}" --cut "$detail" --resize:filter=box "$panel")
     done
-    oiiotool "${pictures[@]}" "${zoomed[@]}" --mosaic:pad=4 3x2 -d uint8 -o "$1"
+    oiiotool "${pictures[@]}" "${details[@]}" --mosaic:pad=4 3x2 -d uint8 -o "$1"
+}
+
+# The chain as users write it; what it gives must be what the stages gave one by one.
+piped() {
+    "$bin/ldi-warp" "$center" "${rim[@]}" -o - | "$bin/ldi-cluster" - -o - |
+        "$bin/dof-gather" - --method "${methods[0]}" -o "$out/piped.exr"
 }
 
 [ -n "$bin" ] || { build >&2; bin=$here/build/bin; }
 exec </dev/null 3>&1 1>&2 # a tool that says something says it to stderr; 3 is for the table
 mkdir -p "$out"
+methods=(selective) # of dof-gather; the first one's picture is the one shown
+center=$out/views/center.exr reference=$out/reference/reference.exr result=$out/${methods[0]}.exr
 
+row "fence $size" seconds 'PSNR dB' SSIM
+traced reference fence --size "$size" --views 0 --spp 1 --reference "$reference_spp"
+reference_row=("reference, $reference_spp rays a pixel" "$seconds" '' '' "$note")
 traced views fence --size "$size" --views 4 --spp "$spp"
-center=$out/views/center.exr rim=("$out"/views/view-[1-4].exr)
 row "5 pinhole views, $spp rays a pixel" "$seconds" '' '' "$note"
-traced reference fence --size "$size" --views 0 --reference "$reference_spp"
-reference=$out/reference/reference.exr reference_seconds=$seconds reference_note=$note
+rim=("$out"/views/view_[0-3].exr)
+compared '  the centre view as it is' '' "$center"
 
-compared '  the centre view alone' '' "$center" ''
 timed "$bin/ldi-warp" "$center" "${rim[@]}" -o "$out/warped.exr"
-row ldi-warp "$seconds" '' '' ''
+row ldi-warp "$seconds"
 timed "$bin/ldi-cluster" "$out/warped.exr" -o "$out/ldi.exr"
-row ldi-cluster "$seconds" '' '' ''
-result=$out/selective.exr
-timed "$bin/dof-gather" "$out/ldi.exr" --method selective -o "$result"
-compared 'dof-gather --method selective' "$seconds" "$result" ''
-row "reference, $reference_spp rays a pixel" "$reference_seconds" '' '' "$reference_note"
+row ldi-cluster "$seconds"
+for method in "${methods[@]}"; do
+    timed "$bin/dof-gather" "$out/ldi.exr" --method "$method" -o "$out/$method.exr"
+    compared "dof-gather --method $method" "$seconds" "$out/$method.exr"
+    timed "$bin/dof-gather" "$center" --method "$method" -o "$out/center-$method.exr"
+    compared "  the same, of the centre view alone" "$seconds" "$out/center-$method.exr"
+done
+timed piped
+oiiotool --fail 0 --diff "$out/piped.exr" "$result" >/dev/null || { echo 'demo: pipes give another picture than files'; exit 1; }
+row 'warp | cluster | gather, as one pipe' "$seconds"
+row "${reference_row[@]}"
 
-for picture in "$center" "$reference" "$result"; do to_png "$picture"; done
-strip "$out/fence.png"
+for picture in "$center" "$reference" "${methods[@]/#/$out/}"; do to_png "${picture%.exr}"; done
+strip "$out/fence.png" 480
+strip "$out/fence-small.png" 240
 
-printf '%-34s %8s %8s %7s\n' "fence $size" seconds 'PSNR dB' SSIM >&3
 printf '%s\n' "${table[@]}" >&3

@@ -1,35 +1,37 @@
-# Installs the build into a scratch prefix, builds a consumer against it with find_package and runs that; every
-# installed header must compile on its own.
-#   bash install.sh BUILD_DIR COMPILER
-set -euo pipefail
-build=$1 compiler=$2
-here=$(cd "$(dirname "$0")" && pwd)
-scratch=$(mktemp -d)
-trap 'rm -rf "$scratch"' EXIT
-fail() {
-    echo "FAIL: $*" >&2
-    exit 1
-}
+# Installs the build into a scratch prefix, builds the README's library example against it with find_package,
+# and runs that: it must give what the installed dof-gather gives. Every installed header must compile on its own.
+#   bash install.sh BIN_DIR BUILD_DIR COMPILER
+. "$(dirname "$0")/../tools/check.sh"
+build=$2 compiler=$3 prefix=$scratch/prefix
+logged() { "$@" >log 2>&1 || fail "$* ($(cat log))"; }
 
-cmake --install "$build" --prefix "$scratch/prefix" >"$scratch/log" || fail "$(tail "$scratch/log")"
-cp -r "$here/consumer" "$scratch/consumer"
-mkdir "$scratch/consumer/headers"
-cd "$scratch/prefix/include/sparselens"
-find . -name '*.h' | while read -r header; do
+logged cmake --install "$build" --prefix "$prefix"
+for tool in "$bin"/ldi-* "$bin"/dof-*; do
+    [ -x "$prefix/bin/${tool##*/}" ] || fail "${tool##*/} is not installed"
+done
+
+mkdir -p consumer/headers
+(cd "$prefix/include/sparselens" && find . -name '*.h') | while read -r header; do
     header=${header#./}
-    echo "#include <sparselens/$header>" >"$scratch/consumer/headers/${header//\//_}.cpp"
+    echo "#include <sparselens/$header>" >"consumer/headers/${header//\//_}.cpp"
 done
-[ -n "$(ls "$scratch/consumer/headers")" ] || fail "no headers were installed"
+[ -n "$(ls consumer/headers)" ] || fail "no headers were installed"
 
-cmake -S "$scratch/consumer" -B "$scratch/build" -G Ninja --log-level=WARNING -DCMAKE_BUILD_TYPE=Debug \
-    -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_PREFIX_PATH="$scratch/prefix" >"$scratch/log" 2>&1 ||
-    fail "find_package(sparselens): $(cat "$scratch/log")"
-cmake --build "$scratch/build" -j 2 >"$scratch/log" 2>&1 ||
-    fail "the consumer does not build: $(cat "$scratch/log")"
-answer=$("$scratch/build/consumer")
-[ "$answer" = 3.84 ] || fail "the consumer says '$answer' instead of 3.84"
+readme_block cpp >consumer/pull-focus.cpp
+{
+    echo 'cmake_minimum_required(VERSION 3.25)'
+    echo 'project(consumer LANGUAGES CXX)'
+    readme_block cmake
+    echo 'file(GLOB headers headers/*.cpp)'
+    echo 'add_library(headers OBJECT ${headers})'
+    echo 'target_link_libraries(headers PRIVATE sparselens::sparselens)'
+} >consumer/CMakeLists.txt
+logged cmake -S consumer -B consumer/build -G Ninja -DCMAKE_CXX_COMPILER="$compiler" \
+    -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_CXX_FLAGS=-ffp-contract=off
+logged cmake --build consumer/build -j 2
 
-for tool in "$build"/bin/ldi-* "$build"/bin/dof-*; do
-    [ -e "$tool" ] || continue # the pattern itself, where nothing matches
-    [ -x "$scratch/prefix/bin/${tool##*/}" ] || fail "${tool##*/} is not installed"
-done
+logged "$prefix/bin/dof-trace" fence --size 640x40 --views 1 --spp 1 -o views
+logged "$prefix/bin/ldi-warp" views/center.exr views/view_0.exr -o fence.ldi.exr
+logged consumer/build/pull-focus
+logged "$prefix/bin/dof-gather" fence.ldi.exr --focus-distance 3.4 -o expected.exr
+logged oiiotool --fail 0 --diff expected.exr focus-at-3.4.exr

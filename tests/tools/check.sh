@@ -43,3 +43,6 @@ answers_help() {
     grep -q "^$1 " stdout || fail "$1 --version does not name the tool: $(cat stdout)"
     fails_saying 2 no-such-option "$bin/$1" --no-such-option
 }
+
+# readme_block LANGUAGE: the contents of all README.md's fenced blocks of that language.
+readme_block() { sed -n "/^\`\`\`$1\$/,/^\`\`\`\$/{/^\`\`\`/d;p}" "$source_dir/README.md"; }
