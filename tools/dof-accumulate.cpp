@@ -69,8 +69,8 @@ Image average_views(LensViewFiles &files, const ThinLens &lens, const Options &o
     return average(*sum);
 }
 
-Imf::Header header_of(const LensViewFiles &files, const LensOptions &lens) {
-    Camera camera = camera_with_options(lens, files.centre);
+Imf::Header header_of(const LensViewFiles &files) {
+    Camera camera = files.centre;
     camera.lens_points.clear();
     for (const LensViewFile &view : files.views) camera.lens_points.push_back(view.position);
     Imf::Header header = files.header;
@@ -80,13 +80,14 @@ Imf::Header header_of(const LensViewFiles &files, const LensOptions &lens) {
 
 void accumulate_files(const Options &options, const ToolContext &tool) {
     LensViewFiles files = open_lens_views(options.views);
+    files.centre = camera_with_options(options.lens, files.centre);
     if (files.centre_guessed && files.views.size() > 1)
         warn(tool, "the lens centre is taken to be the mean of the views' positions; --center FILE says "
                    "where it is");
     stop_down(files, options);
     tool.say(std::to_string(files.views.size()) + " views");
     const Image image = average_views(files, unit_lens(options, files), options, tool);
-    write_flat_exr(options.output, in_type(image, options.as_float), header_of(files, options.lens));
+    write_flat_exr(options.output, in_type(image, options.as_float), header_of(files));
 }
 
 } // namespace

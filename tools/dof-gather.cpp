@@ -39,7 +39,8 @@ void add_options(CLI::App &app, Options &options) {
         ->check(CLI::Range(1, 4096))
         ->capture_default_str();
     add_pixel_option(app, "--focus-pixel", options.focus_pixel, "Focus on what this pixel shows");
-    app.add_option("--depth-out", options.depth_output, "Write the depth of the front samples")->type_name("FILE");
+    app.add_option("--depth-out", options.depth_output, "Write the depth of the front samples")
+        ->type_name("FILE");
     app.add_option("--channels", options.channels, "Channels or layers to gather, comma-separated (all)")
         ->type_name("LIST");
     add_type_option(app, options.as_float);
@@ -58,7 +59,8 @@ void warn_if_wider_than_views(const ToolContext &tool, const ThinLens &lens, con
     double widest = 0;
     for (const Imath::V2d &point : camera.lens_points) widest = std::max(widest, point.length());
     if (widest > 0 && lens.radius > 1.001 * widest)
-        warn(tool, "the lens is wider than the lens points of the views: what it sees beyond them is unknown");
+        warn(tool,
+             "the lens is wider than the lens points of the views: what it sees beyond them is unknown");
 }
 
 void run(const Options &options, const ToolContext &tool) {
@@ -71,7 +73,8 @@ void run(const Options &options, const ToolContext &tool) {
                                      : options.method->gather(in.ldi, lens, options.gather, *tool.progress);
     write_camera(in.header, in.camera);
     if (!options.depth_output.empty()) write_flat_exr(options.depth_output, front_depth(in.ldi), in.header);
-    write_flat_exr(options.output, in_type(chosen_channels(std::move(picture), options.channels), options.as_float),
+    write_flat_exr(options.output,
+                   in_type(chosen_channels(std::move(picture), options.channels), options.as_float),
                    in.header);
 }
 

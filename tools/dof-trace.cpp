@@ -4,6 +4,8 @@
 #include "common/trace_options.h"
 #include "common/trace_outputs.h"
 #include "lens/lens_points.h"
+#include "trace/deep.h"
+#include "trace/render.h"
 #include "trace/scenes.h"
 
 #include <algorithm>
@@ -62,6 +64,12 @@ void trace(const TraceOptions &options, const ToolContext &tool) {
     if (options.reference > 0)
         outputs.add("reference.exr", {0, 0},
                     [&] { return render_reference(tracer, settings, options.reference, *tool.progress); });
+    for (const DeepRequest &deep : options.deep) {
+        const auto render = deep.kind == DeepRequest::Kind::peel ? render_peeled : render_strata;
+        outputs.add_deep(deep.kind == DeepRequest::Kind::peel ? "deep_peel.exr" : "deep_strata.exr", [&] {
+            return render(tracer, settings, deep.layers, options.samples, ++stream, *tool.progress);
+        });
+    }
     outputs.write_summary(rim, options.samples, options.reference);
 }
 

@@ -21,7 +21,9 @@ void add_options(CLI::App &app, Options &options) {
     app.add_option("input", options.input, "LDI, any deep EXR or flat RGBA+Z; - for standard input")
         ->type_name("IN.exr")
         ->required();
-    app.add_option("-o,--output", options.output, "LDI to write, - for standard output")->type_name("OUT.exr")->required();
+    app.add_option("-o,--output", options.output, "LDI to write, - for standard output")
+        ->type_name("OUT.exr")
+        ->required();
     app.add_option("--tolerance", options.tolerance, "Merge what differs by less, pixels of CoC (0.25)")
         ->type_name("PX")
         ->check(number("a number of at least 0", {.zero_allowed = true}));
@@ -35,7 +37,8 @@ void add_options(CLI::App &app, Options &options) {
 // The tolerance needs the lens; --layers alone does without, as inverse depth needs no scale to be compared.
 ClusterOptions cluster_options(const Options &options, const LoadedLdi &in) {
     ClusterOptions result{.layers = options.layers};
-    const bool lens_known = lens_radius_of(in.camera) && focal_length_px(in.camera, in.ldi.windows.display_width());
+    const bool lens_known =
+        lens_radius_of(in.camera) && focal_length_px(in.camera, in.ldi.windows.display_width());
     if (!lens_known && !options.tolerance && options.layers > 0) return result;
     result.scale = resolve_radius(options.lens, in.camera);
     if (result.scale > 0) result.scale *= resolve_focal_px(in.camera, in.ldi.windows);

@@ -23,10 +23,13 @@ struct Options {
 
 void add_options(CLI::App &app, Options &options) {
     add_view_list(app, options.views);
-    app.add_option("-o,--output", options.output, "LDI to write, - for standard output")->type_name("LDI.exr")->required();
+    app.add_option("-o,--output", options.output, "LDI to write, - for standard output")
+        ->type_name("LDI.exr")
+        ->required();
     const std::map<std::string, Merge> merges{{"average", Merge::average}, {"keep", Merge::keep}};
     app.add_option("--merge", options.merge,
-                   "average: views of one surface are averaged; keep: one sample a surface, the centre view unchanged")
+                   "average: views of one surface are averaged; keep: one sample a surface, the centre view "
+                   "unchanged")
         ->type_name("average|keep")
         ->transform(CLI::CheckedTransformer(merges));
     add_lens_options(app, options.lens);
@@ -49,15 +52,16 @@ void run(const Options &options, const ToolContext &tool) {
     for (const View &view : loaded.views) loaded.camera.lens_points.push_back(view.position);
     write_camera(loaded.header, loaded.camera);
     const Ldi ldi = warp(loaded.views, warp_by, *tool.progress);
-    tool.say(std::to_string(loaded.views.size()) + " views, " + std::to_string(ldi.samples()) + " samples in " +
-             std::to_string(ldi.windows.pixels()) + " pixels");
+    tool.say(std::to_string(loaded.views.size()) + " views, " + std::to_string(ldi.samples()) +
+             " samples in " + std::to_string(ldi.windows.pixels()) + " pixels");
     write_ldi(options.output, ldi, loaded.header);
 }
 
 } // namespace
 
 int main(int argc, char **argv) {
-    CLI::App app("Warps a centre view and views from the rim of the lens into one layered depth image", "ldi-warp");
+    CLI::App app("Warps a centre view and views from the rim of the lens into one layered depth image",
+                 "ldi-warp");
     Options options;
     add_options(app, options);
     return run_tool(app, argc, argv, [&](const ToolContext &tool) { run(options, tool); });

@@ -15,7 +15,7 @@ namespace sparselens {
 
 namespace {
 
-constexpr const char *focal_length_name = "pinholeFocalLength"; // mm
+constexpr const char *focal_length_name = "pinholeFocalLength";     // mm
 constexpr const char *sensor_width_name = "sparselens:sensorWidth"; // mm
 constexpr const char *metres_per_unit_name = "sparselens:metresPerUnit";
 constexpr const char *lens_points_name = "sparselens:lensPoints"; // "x,y x,y ...", scene units

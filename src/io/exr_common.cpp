@@ -13,10 +13,11 @@ namespace {
 
 // Attributes that say how pixels are stored in one file, and so must not wander into another.
 bool describes_storage(const std::string &name) {
-    static constexpr std::array names{"channels",   "chunkCount",       "compression", "dataWindow",
-                                      "deepImageState", "displayWindow", "lineOrder",   "maxSamplesPerPixel",
-                                      "pixelAspectRatio", "preview",     "tiles",       "type",
-                                      "version"};
+    static constexpr std::array names{
+        "channels",         "chunkCount",    "compression", "dataWindow",
+        "deepImageState",   "displayWindow", "lineOrder",   "maxSamplesPerPixel",
+        "pixelAspectRatio", "preview",       "tiles",       "type",
+        "version"};
     return std::find(names.begin(), names.end(), name) != names.end();
 }
 
@@ -35,16 +36,19 @@ std::vector<Channel> channels_of(const Imf::Header &header, const std::string &p
     std::vector<Channel> channels;
     const Imf::ChannelList &list = header.channels();
     for (const char *name : {"R", "G", "B", "A"})
-        if (const Imf::Channel *found = list.findChannel(name)) channels.push_back({name, type_of(found->type)});
+        if (const Imf::Channel *found = list.findChannel(name))
+            channels.push_back({name, type_of(found->type)});
     for (auto it = list.begin(); it != list.end(); ++it) {
         if (it.channel().xSampling != 1 || it.channel().ySampling != 1)
             throw Error(path + ": channel " + it.name() + " is subsampled, which is not supported");
-        if (find_channel(channels, it.name()) == npos) channels.push_back({it.name(), type_of(it.channel().type)});
+        if (find_channel(channels, it.name()) == npos)
+            channels.push_back({it.name(), type_of(it.channel().type)});
     }
     return channels;
 }
 
-std::string find_depth_channel(const std::vector<Channel> &channels, const std::string &asked, const std::string &path) {
+std::string find_depth_channel(const std::vector<Channel> &channels, const std::string &asked,
+                               const std::string &path) {
     const auto has = [&](const std::string &name) { return find_channel(channels, name) != npos; };
     if (!asked.empty()) {
         if (has(asked)) return asked;
@@ -57,7 +61,8 @@ std::string find_depth_channel(const std::vector<Channel> &channels, const std::
     throw Error(display_name(path) + ": has no depth channel (Z, depth.Z, *.Depth.Z); give --depth-channel");
 }
 
-Imf::Header output_header(const Windows &windows, std::span<const Channel> channels, const Imf::Header &metadata) {
+Imf::Header output_header(const Windows &windows, std::span<const Channel> channels,
+                          const Imf::Header &metadata) {
     Imf::Header header(windows.display, windows.data, windows.pixel_aspect);
     for (auto it = metadata.begin(); it != metadata.end(); ++it)
         if (!describes_storage(it.name())) header.insert(it.name(), it.attribute());

@@ -25,7 +25,8 @@ std::string find_depth_channel(const std::vector<Channel> &channels, const std::
 
 // A fresh header with these windows and channels that keeps all of `metadata` that does not describe how its
 // own pixels were stored.
-Imf::Header output_header(const Windows &windows, std::span<const Channel> channels, const Imf::Header &metadata);
+Imf::Header output_header(const Windows &windows, std::span<const Channel> channels,
+                          const Imf::Header &metadata);
 
 Imf::PixelType imf_type(PixelType type);
 std::size_t bytes_of(PixelType type);

@@ -77,7 +77,8 @@ void set_counts(Ldi &ldi, const std::vector<unsigned> &counts) {
 // For rows [first, last] of the data window: where each pixel's samples start in each plane.
 class PointerTable {
 public:
-    PointerTable(const Ldi &ldi, const Planes &planes, int first_row, int last_row, std::vector<unsigned> &counts) {
+    PointerTable(const Ldi &ldi, const Planes &planes, int first_row, int last_row,
+                 std::vector<unsigned> &counts) {
         const Windows &w = ldi.windows;
         const std::size_t width = std::size_t(w.width());
         const std::size_t first = std::size_t(first_row - w.data.min.y) * width;
@@ -90,8 +91,8 @@ public:
             for (std::size_t i = 0; i < pixels; ++i)
                 pointers_[k][i] = planes.named[k].second->data() + ldi.begin[first + i];
             const auto type = planes.types[k] == PixelType::uint32 ? Imf::UINT : Imf::FLOAT;
-            const Imf::Slice base = Imf::Slice::Make(type, pointers_[k].data(), rows, sizeof(float *),
-                                                     sizeof(float *) * width);
+            const Imf::Slice base =
+                Imf::Slice::Make(type, pointers_[k].data(), rows, sizeof(float *), sizeof(float *) * width);
             buffer_.insert(planes.named[k].first,
                            Imf::DeepSlice(type, base.base, base.xStride, base.yStride, sizeof(float)));
         }
@@ -204,7 +205,8 @@ void write_rows(Imf::DeepScanLineOutputFile &file, const Ldi &ldi, const std::ve
     const std::uint64_t from = ldi.begin[first], count = ldi.begin[first + pixels] - from;
     const Imath::Box2i box({w.data.min.x, first_row}, {w.data.max.x, first_row + rows - 1});
     std::vector<unsigned> counts(pixels);
-    for (std::size_t i = 0; i < pixels; ++i) counts[i] = unsigned(ldi.begin[first + i + 1] - ldi.begin[first + i]);
+    for (std::size_t i = 0; i < pixels; ++i)
+        counts[i] = unsigned(ldi.begin[first + i + 1] - ldi.begin[first + i]);
     Imf::DeepFrameBuffer buffer;
     buffer.insertSampleCountSlice(
         Imf::Slice::Make(Imf::UINT, counts.data(), box, sizeof(unsigned), sizeof(unsigned) * width));
@@ -220,7 +222,8 @@ void write_rows(Imf::DeepScanLineOutputFile &file, const Ldi &ldi, const std::ve
     });
     for (std::size_t k = 0; k < stored.size(); ++k) {
         const auto type = imf_type(stored[k].type);
-        const Imf::Slice base = Imf::Slice::Make(type, pointers[k].data(), box, sizeof(char *), sizeof(char *) * width);
+        const Imf::Slice base =
+            Imf::Slice::Make(type, pointers[k].data(), box, sizeof(char *), sizeof(char *) * width);
         buffer.insert(stored[k].name,
                       Imf::DeepSlice(type, base.base, base.xStride, base.yStride, bytes_of(stored[k].type)));
     }
@@ -244,7 +247,8 @@ LdiFile read_ldi(const std::string &path, const std::string &depth_channel) {
         LdiFile result{{}, header, true};
         const std::vector<Channel> channels = channels_of(header, path);
         result.ldi.windows = windows_of(header);
-        const Planes planes = plan_planes(result.ldi, channels, find_depth_channel(channels, depth_channel, path));
+        const Planes planes =
+            plan_planes(result.ldi, channels, find_depth_channel(channels, depth_channel, path));
         if (header.type() == Imf::DEEPTILE)
             read_tiles(file, number, result.ldi, planes);
         else

@@ -56,7 +56,8 @@ Imf::Header read_flat_header(const std::string &path) {
 }
 
 std::vector<float> take_depth(Image &image, const std::string &depth_channel, const std::string &path) {
-    const std::size_t k = find_channel(image.channels, find_depth_channel(image.channels, depth_channel, path));
+    const std::size_t k =
+        find_channel(image.channels, find_depth_channel(image.channels, depth_channel, path));
     const auto begin = image.values.begin() + std::ptrdiff_t(k * image.windows.pixels());
     const auto end = begin + std::ptrdiff_t(image.windows.pixels());
     std::vector<float> depth(begin, end);
@@ -75,8 +76,8 @@ void write_flat_exr(const std::string &path, const Image &image, const Imf::Head
             const std::size_t bytes = bytes_of(channel.type);
             stored[k].resize(w.pixels() * bytes);
             store(channel.type, image.plane(k).data(), w.pixels(), stored[k].data());
-            pixels.insert(channel.name, Imf::Slice::Make(imf_type(channel.type), stored[k].data(), w.data, bytes,
-                                                         bytes * std::size_t(w.width())));
+            pixels.insert(channel.name, Imf::Slice::Make(imf_type(channel.type), stored[k].data(), w.data,
+                                                         bytes, bytes * std::size_t(w.width())));
         }
         Imf::Header header = output_header(w, image.channels, metadata);
         header.compression() = Imf::ZIP_COMPRESSION;

@@ -2,13 +2,14 @@
 
 #include "base/error.h"
 
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
-#include <fcntl.h>
 #include <filesystem>
-#include <sys/stat.h>
-#include <unistd.h>
 
 namespace sparselens {
 
@@ -59,6 +60,11 @@ private:
     std::FILE *file_;
 };
 
+struct Closing {
+    int descriptor;
+    ~Closing() { ::close(descriptor); }
+};
+
 std::vector<char> read_whole(const std::string &path, int descriptor) {
     std::vector<char> bytes;
     std::size_t used = 0;
@@ -90,13 +96,17 @@ bool is_regular_or_new(const std::string &path) {
 }
 
 // The file that a path leads to, also where the last link points at nothing yet.
-std::string follow_links(const std::string &path) {
+std::filesystem::path follow_links(const std::string &path) {
     std::filesystem::path target = path;
-    for (int depth = 0; depth < 40 && std::filesystem::is_symlink(target); ++depth) {
+    for (int depth = 0; std::filesystem::is_symlink(target); ++depth) {
+        if (depth == 40) { // as many as the kernel follows
+            errno = ELOOP;
+            fail(path, "cannot write");
+        }
         const std::filesystem::path next = std::filesystem::read_symlink(target);
         target = next.is_absolute() ? next : target.parent_path() / next;
     }
-    return target.string();
+    return target;
 }
 
 } // namespace
@@ -113,9 +123,8 @@ std::unique_ptr<Imf::IStream> open_input(const std::string &path) {
         throw Error(path + ": is a folder, not a file");
     }
     if (S_ISREG(info.st_mode)) return std::make_unique<FileInput>(path, descriptor);
-    auto stream = std::make_unique<MemoryInput>(path, read_whole(path, descriptor));
-    ::close(descriptor);
-    return stream;
+    const Closing closing{descriptor};
+    return std::make_unique<MemoryInput>(path, read_whole(path, descriptor));
 }
 
 // Collects bytes; with a temporary file behind it, it hands them on in large pieces.
@@ -163,9 +172,11 @@ OutputFile::OutputFile(const std::string &path) : path_(path) {
     } else if (!is_regular_or_new(path)) {
         descriptor_ = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
     } else {
-        target_ = follow_links(path);
-        const std::filesystem::path target = target_;
-        const std::string name = "." + target.filename().string() + "." + std::to_string(::getpid());
+        const std::filesystem::path target = follow_links(path);
+        target_ = target.string();
+        constexpr std::size_t longest = 200; // file systems take 255, the rest of the name included
+        const std::string name =
+            "." + target.filename().string().substr(0, longest) + "." + std::to_string(::getpid());
         for (int attempt = 0; attempt < 100 && descriptor_ < 0; ++attempt) {
             const std::string unique = name + "-" + std::to_string(attempt) + ".partial";
             temporary_ = (target.parent_path() / unique).string();

@@ -1,8 +1,9 @@
 // Bytes in and out for the EXR readers and writers: whole files, pipes, standard streams.
 //
 // An output appears whole or not at all: it is written to a temporary file beside the target
-// (.NAME.PID-N.partial) and renamed by commit(); symbolic links are followed, the umask is kept. Devices, pipes
-// and standard output (`-`) cannot be renamed over: their bytes are held in memory and written by commit().
+// (.NAME.PID-N.partial, a long NAME cut) and renamed by commit(); symbolic links are followed, the umask is
+// kept. Devices, pipes and standard output (`-`) cannot be renamed over: their bytes are held in memory and
+// written by commit().
 // Errors (Error) name the file and the system's reason.
 #pragma once
 
@@ -30,10 +31,10 @@ public:
 
 private:
     class Buffer;
-    std::string path_;           // as given, for messages
-    std::string target_;         // links followed; empty: not renamed, written through
-    std::string temporary_;      // empty once committed
-    int descriptor_ = -1;        // of the temporary, or of what is written through
+    std::string path_;      // as given, for messages
+    std::string target_;    // links followed; empty: not renamed, written through
+    std::string temporary_; // empty once committed
+    int descriptor_ = -1;   // of the temporary, or of what is written through
     std::unique_ptr<Buffer> buffer_;
 };
 

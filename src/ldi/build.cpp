@@ -24,7 +24,8 @@ void append(Ldi &out, const Ldi &from, const MergedSample &sample) {
                             (sample.terms.size() == 1 && sample.terms[0].coefficient == 1);
         double sum = 0; // many small coefficients: float would lose the small ones
         if (!copied)
-            for (const Term &term : sample.terms) sum += term.coefficient * double(from.values[k][term.index]);
+            for (const Term &term : sample.terms)
+                sum += term.coefficient * double(from.values[k][term.index]);
         out.values[k].push_back(copied ? from.values[k][sample.terms[0].index] : float(sum));
     }
     ++out.begin.back();
@@ -68,20 +69,27 @@ Ldi concatenate(const Ldi &like, std::span<const Ldi> pieces) {
         first_pixel[i + 1] = first_pixel[i] + pieces[i].begin.size() - 1;
     }
     const auto gather = [&](std::vector<float> &to, const auto &array_of) {
-        if (std::all_of(pieces.begin(), pieces.end(), [&](const Ldi &p) { return array_of(p).empty(); })) return;
+        if (std::all_of(pieces.begin(), pieces.end(), [&](const Ldi &p) { return array_of(p).empty(); }))
+            return;
         to.resize(first_sample.back());
         parallel_for(pieces.size(), [&](std::size_t i) {
             const std::vector<float> &from = array_of(pieces[i]);
             std::copy(from.begin(), from.end(), to.begin() + std::ptrdiff_t(first_sample[i]));
         });
     };
-    gather(whole.z, [](const Ldi &p) -> const auto & { return p.z; });
-    gather(whole.z_back, [](const Ldi &p) -> const auto & { return p.z_back; });
-    gather(whole.dx, [](const Ldi &p) -> const auto & { return p.dx; });
-    gather(whole.dy, [](const Ldi &p) -> const auto & { return p.dy; });
-    gather(whole.weight, [](const Ldi &p) -> const auto & { return p.weight; });
+    gather(
+        whole.z, [](const Ldi &p) -> const auto & { return p.z; });
+    gather(
+        whole.z_back, [](const Ldi &p) -> const auto & { return p.z_back; });
+    gather(
+        whole.dx, [](const Ldi &p) -> const auto & { return p.dx; });
+    gather(
+        whole.dy, [](const Ldi &p) -> const auto & { return p.dy; });
+    gather(
+        whole.weight, [](const Ldi &p) -> const auto & { return p.weight; });
     for (std::size_t k = 0; k < whole.values.size(); ++k)
-        gather(whole.values[k], [k](const Ldi &p) -> const auto & { return p.values[k]; });
+        gather(
+            whole.values[k], [k](const Ldi &p) -> const auto & { return p.values[k]; });
     whole.begin.resize(first_pixel.back() + 1);
     parallel_for(pieces.size(), [&](std::size_t i) {
         for (std::size_t j = 0; j + 1 < pieces[i].begin.size(); ++j)

@@ -47,7 +47,8 @@ double extent_for(const Pixel &p, double tolerance, std::size_t layers) {
 
 // The share of each sample of a run in the merged one: front to back, `over`; opaque samples within the
 // tolerance of the first opaque one share what is left by weight; what lies behind is hidden.
-void set_shares(const Pixel &p, std::uint64_t begin, std::uint64_t end, double tolerance, std::vector<Term> &terms) {
+void set_shares(const Pixel &p, std::uint64_t begin, std::uint64_t end, double tolerance,
+                std::vector<Term> &terms) {
     terms.clear();
     double transmittance = 1;
     std::uint64_t i = begin;
@@ -69,7 +70,8 @@ void set_shares(const Pixel &p, std::uint64_t begin, std::uint64_t end, double t
 }
 
 // Depth, position and weight of the merged sample: means over what each of its samples shows.
-MergedSample merged_placement(const Pixel &p, std::uint64_t begin, std::uint64_t end, std::span<const Term> terms) {
+MergedSample merged_placement(const Pixel &p, std::uint64_t begin, std::uint64_t end,
+                              std::span<const Term> terms) {
     MergedSample merged = placement_of(p.ldi, terms[0].index);
     merged.terms = terms;
     if (terms.size() == 1 && end - begin == 1) return merged;

@@ -7,16 +7,16 @@ namespace sparselens {
 float front_depth(const Ldi &ldi, const Imath::V2i &pixel) {
     const Windows &w = ldi.windows;
     if (!w.data.intersects(pixel)) return 0;
-    const std::size_t i = std::size_t(pixel.y - w.data.min.y) * std::size_t(w.width()) +
-                          std::size_t(pixel.x - w.data.min.x);
+    const std::size_t i =
+        std::size_t(pixel.y - w.data.min.y) * std::size_t(w.width()) + std::size_t(pixel.x - w.data.min.x);
     return ldi.begin[i] == ldi.begin[i + 1] ? 0 : ldi.z[ldi.begin[i]];
 }
 
 Image front_depth(const Ldi &ldi) {
     Image depth(ldi.windows, {{"Z", PixelType::float32}});
     for (std::size_t i = 0; i < ldi.windows.pixels(); ++i)
-        depth.values[i] = ldi.begin[i] == ldi.begin[i + 1] ? std::numeric_limits<float>::infinity()
-                                                           : ldi.z[ldi.begin[i]];
+        depth.values[i] =
+            ldi.begin[i] == ldi.begin[i + 1] ? std::numeric_limits<float>::infinity() : ldi.z[ldi.begin[i]];
     return depth;
 }
 

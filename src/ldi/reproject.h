@@ -26,7 +26,9 @@ public:
     void append_rows(int first_row, int last_row, std::vector<ReprojectedSample> &out) const;
 
 private:
-    struct RowReach { double up, down; }; // by how much the samples of a source row move, up <= down, pixels
+    struct RowReach {
+        double up, down;
+    }; // by how much the samples of a source row move, up <= down, pixels
     const View &view_;
     double shift_x_, shift_y_; // pixels times scene units: divided by z they are a displacement
     std::vector<RowReach> reach_;

@@ -28,7 +28,8 @@ bool visible(const Ldi &ldi, std::size_t alpha, std::uint64_t i) {
 bool is_tidy(const Ldi &ldi, std::size_t alpha, std::size_t pixel) {
     for (std::uint64_t i = ldi.begin[pixel]; i < ldi.begin[pixel + 1]; ++i) {
         if (!visible(ldi, alpha, i)) return false;
-        if (i > ldi.begin[pixel] && !(back_at(ldi, i - 1) <= ldi.z[i] && ldi.z[i - 1] < ldi.z[i])) return false;
+        if (i > ldi.begin[pixel] && !(back_at(ldi, i - 1) <= ldi.z[i] && ldi.z[i - 1] < ldi.z[i]))
+            return false;
     }
     return true;
 }

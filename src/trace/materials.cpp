@@ -48,4 +48,33 @@ Paint dark(const Imath::V3d &) { return {{0.05f, 0.05f, 0.06f}}; }
 
 Paint lamp(const Imath::V3d &) { return {{60, 48, 30}, 1, true}; }
 
+Paint even_tiles(const Imath::V3d &p) {
+    const int a = cell(40, p.x / p.z), b = cell(40, p.y / p.z);
+    if (odd(a + b)) return {{0.8f, 0.75f, 0.7f}};
+    return {{float(0.1 + 0.5 * hash(a, b, 0)), float(0.1 + 0.4 * hash(a, b, 1)), 0.3f}};
+}
+
+Paint bright_lamp(const Imath::V3d &) { return {{1000, 1000, 1000}, 1, true}; }
+
+Paint night(const Imath::V3d &) { return {{0.02f, 0.02f, 0.025f}, 1, true}; }
+
+Paint near_sheet(const Imath::V3d &p) {
+    return {{0.9f, 0.5f, 0.3f}, float(0.4 + 0.3 * std::sin(9 * p.x + 4 * p.y)), true};
+}
+
+Paint focus_sheet(const Imath::V3d &p) {
+    const bool bright = odd(cell(6, p.x) + cell(6, p.y));
+    return {bright ? Imath::C3f(0.9f, 0.9f, 0.8f) : Imath::C3f(0.1f, 0.2f, 0.5f), 0.6f, true};
+}
+
+Paint far_sheet(const Imath::V3d &p) {
+    return {{0.1f, 0.7f, float(0.4 + 0.3 * std::sin(5 * p.y))}, float(0.5 + 0.4 * std::sin(6 * p.x)), true};
+}
+
+Paint backdrop(const Imath::V3d &p) {
+    Paint paint = wall_tiles(p);
+    paint.emits = true;
+    return paint;
+}
+
 } // namespace sparselens

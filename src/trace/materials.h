@@ -15,4 +15,18 @@ Paint stripes(const Imath::V3d &position);
 Paint dark(const Imath::V3d &position);
 Paint lamp(const Imath::V3d &position); // radiance (60, 48, 30)
 
+// Of the scene "slant": tiles that look equally large from the origin wherever they lie, so that detail stays the
+// same while blur changes, and none is finer than a pixel.
+Paint even_tiles(const Imath::V3d &position);
+
+// Of the scene "lamps": radiance 1000; radiance (0.02, 0.02, 0.025).
+Paint bright_lamp(const Imath::V3d &position);
+Paint night(const Imath::V3d &position);
+
+// Of the scene "mist": all emit; the sheets cover in part.
+Paint near_sheet(const Imath::V3d &position);
+Paint focus_sheet(const Imath::V3d &position);
+Paint far_sheet(const Imath::V3d &position);
+Paint backdrop(const Imath::V3d &position);
+
 } // namespace sparselens

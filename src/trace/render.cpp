@@ -1,7 +1,6 @@
 #include "trace/render.h"
 
 #include "base/parallel.h"
-#include "base/random.h"
 #include "lens/lens_points.h"
 #include "trace/sampling.h"
 
@@ -15,13 +14,6 @@ namespace {
 
 constexpr std::size_t batch_size = 64;
 
-// Coordinates of SobolPoints by what they decide.
-enum Dimension : std::size_t { lens_x, lens_y, pixel_x, pixel_y, light_x, light_y };
-
-std::uint32_t pixel_seed(int x, int y, std::uint32_t stream) {
-    return mix_bits(std::uint32_t(x), mix_bits(std::uint32_t(y), stream));
-}
-
 Imath::V2d direction_through(const RenderSettings &settings, const Imath::V2d &p) {
     const Imath::Box2i &display = settings.windows.display;
     const Imath::V2d centre(0.5 * (display.min.x + display.max.x + 1),
@@ -30,32 +22,23 @@ Imath::V2d direction_through(const RenderSettings &settings, const Imath::V2d &p
     return {(p.x - centre.x) * per_pixel, (centre.y - p.y) * per_pixel / settings.lens.pixel_aspect};
 }
 
-// Pairs of coordinates of a pixel's points.
-void point_pairs(const SobolPoints &points, Dimension x, Dimension y, std::uint32_t seed, std::uint32_t first,
-                 std::span<Imath::V2d> out) {
-    std::array<double, batch_size> a, b;
-    points.coordinates(x, mix_bits(seed, x), first, std::span(a).first(out.size()));
-    points.coordinates(y, mix_bits(seed, y), first, std::span(b).first(out.size()));
-    for (std::size_t i = 0; i < out.size(); ++i) out[i] = {a[i], b[i]};
-}
-
-// What a run of consecutive samples of one pixel is made of.
-struct Samples {
+// Consecutive samples of one pixel.
+struct Run {
     int x, y;            // the pixel
     std::uint32_t first; // index of the first of them
     std::span<Ray> rays;
     std::span<Imath::V2d> light_points;
 };
 
-// Mean of `samples` rays in every pixel of row y. make(Samples) fills the rays; they are traced in batches that
+// Mean of `samples` rays in every pixel of row y. make(Run) fills the rays; they are traced in batches that
 // run on from pixel to pixel, so that few samples a pixel fill them as well as many.
 template <typename Make>
-void render_row(const Tracer &tracer, Light light, Image &image, int y, std::uint32_t samples,
+void render_row(const Tracer &tracer, Light light, Image &image, int y, std::size_t samples,
                 const Make &make) {
     const Windows &windows = image.windows;
     const std::size_t width = std::size_t(windows.width()), total = width * samples;
     std::array<Ray, batch_size> rays;
-    std::array<Imath::V2d, batch_size> light_points;
+    std::array<Imath::V2d, batch_size> light_points{};
     std::array<Imath::C4f, batch_size> radiance;
     std::vector<Imath::Vec4<double>> sums(
         width, Imath::Vec4<double>(0)); // double: thousands of samples, lamps among them
@@ -64,8 +47,8 @@ void render_row(const Tracer &tracer, Light light, Image &image, int y, std::uin
         for (std::size_t i = 0; i < n;) {
             const std::size_t column = (first + i) / samples, index = (first + i) % samples;
             const std::size_t count = std::min(n - i, samples - index);
-            make(Samples{windows.data.min.x + int(column), y, std::uint32_t(index),
-                         std::span(rays).subspan(i, count), std::span(light_points).subspan(i, count)});
+            make(Run{windows.data.min.x + int(column), y, std::uint32_t(index),
+                     std::span(rays).subspan(i, count), std::span(light_points).subspan(i, count)});
             i += count;
         }
         trace_radiance(tracer, light, std::span(rays).first(n), std::span(light_points).first(n),
@@ -77,17 +60,7 @@ void render_row(const Tracer &tracer, Light light, Image &image, int y, std::uin
     const std::size_t row = std::size_t(y - windows.data.min.y) * width;
     for (std::size_t channel = 0; channel < 4; ++channel)
         for (std::size_t column = 0; column < width; ++column)
-            image.plane(channel)[row + column] = float(sums[column][int(channel)] / samples);
-}
-
-// Where in its pixel each of n * n samples lies; nothing for other counts.
-std::vector<Imath::V2d> regular_grid(int samples) {
-    const int n = int(std::lround(std::sqrt(samples)));
-    std::vector<Imath::V2d> grid;
-    if (n * n != samples) return grid;
-    for (int j = 0; j < n; ++j)
-        for (int i = 0; i < n; ++i) grid.emplace_back((i + 0.5) / n, (j + 0.5) / n);
-    return grid;
+            image.plane(channel)[row + column] = float(sums[column][int(channel)] / double(samples));
 }
 
 void depth_row(const Tracer &tracer, const RenderSettings &settings, const Imath::V2d &u, int y,
@@ -99,6 +72,10 @@ void depth_row(const Tracer &tracer, const RenderSettings &settings, const Imath
         for (std::size_t i = 0; i < n; ++i) {
             const int x = settings.windows.data.min.x + int(first + i);
             rays[i] = view_ray(settings, u, {x + 0.5, y + 0.5});
+        }
+        if (tracer.scene().translucent) {
+            for (std::size_t i = 0; i < n; ++i) z[first + i] = float(visible_depth(tracer, rays[i]));
+            continue;
         }
         tracer.nearest(std::span(rays).first(n), std::span(hits).first(n));
         for (std::size_t i = 0; i < n; ++i) z[first + i] = float(hits[i].t);
@@ -123,25 +100,19 @@ Image render_view(const Tracer &tracer, const RenderSettings &settings, const Im
     auto channels = rgba_channels();
     channels.push_back({"Z", PixelType::float32});
     Image image(settings.windows, channels);
-    const auto grid = regular_grid(samples);
-    const SobolPoints points{std::uint32_t(samples)};
-    const auto make = [&](const Samples &s) {
-        const std::uint32_t seed = pixel_seed(s.x, s.y, stream);
-        std::array<Imath::V2d, batch_size> in_pixel;
-        if (grid.empty())
-            point_pairs(points, pixel_x, pixel_y, seed, s.first, std::span(in_pixel).first(s.rays.size()));
-        else
-            std::copy_n(grid.begin() + s.first, s.rays.size(), in_pixel.begin());
-        for (std::size_t i = 0; i < s.rays.size(); ++i)
-            s.rays[i] = view_ray(settings, u, in_pixel[i] + Imath::V2d(s.x, s.y));
-        if (settings.light == Light::area)
-            point_pairs(points, light_x, light_y, seed, s.first, s.light_points);
+    const PixelSamples points(samples, true, stream);
+    const auto make = [&](const Run &run) {
+        std::array<Imath::V2d, batch_size> p;
+        points.in_pixel(run.x, run.y, run.first, std::span(p).first(run.rays.size()));
+        for (std::size_t i = 0; i < run.rays.size(); ++i)
+            run.rays[i] = view_ray(settings, u, p[i] + Imath::V2d(run.x, run.y));
+        if (settings.light == Light::area) points.on_light(run.x, run.y, run.first, run.light_points);
     };
     const std::size_t width = std::size_t(settings.windows.width());
     progress.start("view", std::size_t(settings.windows.height()));
     parallel_for(std::size_t(settings.windows.height()), [&](std::size_t row) {
         const int y = settings.windows.data.min.y + int(row);
-        render_row(tracer, settings.light, image, y, std::uint32_t(samples), make);
+        render_row(tracer, settings.light, image, y, std::size_t(samples), make);
         depth_row(tracer, settings, u, y, image.plane(4).subspan(row * width, width));
         progress.advance();
     });
@@ -151,21 +122,19 @@ Image render_view(const Tracer &tracer, const RenderSettings &settings, const Im
 Image render_reference(const Tracer &tracer, const RenderSettings &settings, int samples,
                        Progress &progress) {
     Image image(settings.windows, rgba_channels());
-    const SobolPoints points{std::uint32_t(samples)};
-    const auto make = [&](const Samples &s) {
-        const std::uint32_t seed = pixel_seed(s.x, s.y, 0);
-        std::array<Imath::V2d, batch_size> in_pixel, on_lens;
-        point_pairs(points, pixel_x, pixel_y, seed, s.first, std::span(in_pixel).first(s.rays.size()));
-        point_pairs(points, lens_x, lens_y, seed, s.first, std::span(on_lens).first(s.rays.size()));
-        for (std::size_t i = 0; i < s.rays.size(); ++i)
-            s.rays[i] = lens_ray(settings, disc_point(on_lens[i]), in_pixel[i] + Imath::V2d(s.x, s.y));
-        if (settings.light == Light::area)
-            point_pairs(points, light_x, light_y, seed, s.first, s.light_points);
+    const PixelSamples points(samples, false, 0);
+    const auto make = [&](const Run &run) {
+        std::array<Imath::V2d, batch_size> p, on_lens;
+        points.in_pixel(run.x, run.y, run.first, std::span(p).first(run.rays.size()));
+        points.on_lens(run.x, run.y, run.first, std::span(on_lens).first(run.rays.size()));
+        for (std::size_t i = 0; i < run.rays.size(); ++i)
+            run.rays[i] = lens_ray(settings, disc_point(on_lens[i]), p[i] + Imath::V2d(run.x, run.y));
+        if (settings.light == Light::area) points.on_light(run.x, run.y, run.first, run.light_points);
     };
     progress.start("reference", std::size_t(settings.windows.height()));
     parallel_for(std::size_t(settings.windows.height()), [&](std::size_t row) {
-        const int y = settings.windows.data.min.y + int(row);
-        render_row(tracer, settings.light, image, y, std::uint32_t(samples), make);
+        render_row(tracer, settings.light, image, settings.windows.data.min.y + int(row),
+                   std::size_t(samples), make);
         progress.advance();
     });
     return image;

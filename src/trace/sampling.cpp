@@ -1,6 +1,10 @@
 #include "trace/sampling.h"
 
+#include "base/random.h"
+
+#include <algorithm>
 #include <bit>
+#include <cmath>
 
 namespace sparselens {
 
@@ -54,6 +58,18 @@ std::uint32_t scramble_reversed(std::uint32_t x, std::uint32_t seed) {
     return x;
 }
 
+// Which pair of coordinates decides what. The lens has the best pair: it is what blurs most.
+enum Dimension : std::size_t { lens_pair = 0, pixel_pair = 2, light_pair = 4 };
+
+std::vector<Imath::V2d> regular_grid(int samples) {
+    const int n = int(std::lround(std::sqrt(samples)));
+    std::vector<Imath::V2d> grid;
+    if (n * n != samples) return grid;
+    for (int j = 0; j < n; ++j)
+        for (int i = 0; i < n; ++i) grid.emplace_back((i + 0.5) / n, (j + 0.5) / n);
+    return grid;
+}
+
 } // namespace
 
 SobolPoints::SobolPoints(std::uint32_t count) : count_(count) {
@@ -73,6 +89,38 @@ void SobolPoints::coordinates(std::size_t dimension, std::uint32_t seed, std::ui
     const std::uint32_t *points = reversed_[dimension].data() + first;
     for (std::size_t i = 0; i < out.size(); ++i)
         out[i] = reverse_bits(scramble_reversed(points[i], seed)) * 0x1p-32;
+}
+
+PixelSamples::PixelSamples(int count, bool regular, std::uint32_t stream)
+    : points_(std::uint32_t(count)), grid_(regular ? regular_grid(count) : std::vector<Imath::V2d>()),
+      stream_(stream) {}
+
+void PixelSamples::pairs(std::size_t dimension, int x, int y, std::uint32_t first,
+                         std::span<Imath::V2d> out) const {
+    const std::uint32_t seed = mix_bits(std::uint32_t(x), mix_bits(std::uint32_t(y), stream_));
+    constexpr std::size_t run = 64;
+    std::array<double, run> a, b;
+    for (std::size_t begin = 0; begin < out.size(); begin += run) {
+        const std::size_t n = std::min(run, out.size() - begin);
+        const std::uint32_t from = first + std::uint32_t(begin);
+        points_.coordinates(dimension, mix_bits(seed, std::uint32_t(dimension)), from, std::span(a).first(n));
+        points_.coordinates(dimension + 1, mix_bits(seed, std::uint32_t(dimension + 1)), from,
+                            std::span(b).first(n));
+        for (std::size_t i = 0; i < n; ++i) out[begin + i] = {a[i], b[i]};
+    }
+}
+
+void PixelSamples::in_pixel(int x, int y, std::uint32_t first, std::span<Imath::V2d> out) const {
+    if (grid_.empty()) return pairs(pixel_pair, x, y, first, out);
+    std::copy_n(grid_.begin() + std::ptrdiff_t(first), out.size(), out.begin());
+}
+
+void PixelSamples::on_lens(int x, int y, std::uint32_t first, std::span<Imath::V2d> out) const {
+    pairs(lens_pair, x, y, first, out);
+}
+
+void PixelSamples::on_light(int x, int y, std::uint32_t first, std::span<Imath::V2d> out) const {
+    pairs(light_pair, x, y, first, out);
 }
 
 } // namespace sparselens

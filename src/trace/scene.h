@@ -47,7 +47,7 @@ struct Scene {
     std::vector<Sphere> spheres;
     std::vector<Slab> slabs;
     bool translucent = false; // slabs, or coverage below 1: a ray has to composite every hit
-    Imath::C3f sky;           // radiance of what hits nothing; alpha 1, at z = inf
+    Imath::C3f sky{0, 0, 0};  // radiance of what hits nothing; alpha 1, at z = inf
     Camera camera;            // its default lens: focal length, film back, f-number, focus, scene unit
 };
 

@@ -1,6 +1,9 @@
 #include "trace/scenes.h"
 
 #include "trace/materials.h"
+#include "trace/planes.h"
+
+#include <array>
 
 namespace sparselens {
 
@@ -56,9 +59,61 @@ Scene grass() {
     return scene;
 }
 
+// A rectangle at depth z that faces the camera and covers these slopes x / z, y / z.
+Quad facing(double z, double left, double bottom, double right, double top, Material material) {
+    const double x0 = z * left, x1 = z * right, y0 = z * bottom, y1 = z * top;
+    return {{{{x0, y0, z}, {x1, y0, z}, {x1, y1, z}, {x0, y1, z}}}, material};
+}
+
+Scene planes() { return planes_scene(default_camera(0.06, 5)); }
+
+// One plane, in focus across the middle of the picture, from a few lens radii before the camera to the horizon.
+Scene slant() {
+    Scene scene;
+    scene.sky = {0.3f, 0.4f, 0.6f};
+    scene.camera = default_camera(0.06, 5);
+    const auto corner = [](double x, double z) { return Imath::V3d(x, 0.2 * (z - 5), z); };
+    scene.quads.push_back({{{corner(-30, 1), corner(30, 1), corner(30, 50), corner(-30, 50)}}, even_tiles});
+    return scene;
+}
+
+// Square lamps that face the camera, 2 x 2 pixels of the default picture on whole pixels, at depths where R F / z
+// is whole too: there the centre view and the rim views at 0, 90, 180 and 270 degrees hold each lamp's energy
+// exactly, and the rest is the gather's doing.
+Scene lamps() {
+    Scene scene;
+    scene.camera = default_camera(0.12, 5);
+    scene.quads.push_back(facing(64, -2, -2, 2, 2, night));
+    constexpr std::array<double, 6> depths = {1.6, 2.4, 3.2, 9.6, 19.2, 38.4};
+    constexpr double pixel = 1.0 / 640;
+    for (int row = 0; row < 3; ++row)
+        for (int column = 0; column < 6; ++column) {
+            const double left = pixel * (64 + 102 * column - 320), bottom = pixel * (108 - 108 * row);
+            scene.quads.push_back(facing(depths[std::size_t(column + 2 * row) % 6], left, bottom,
+                                         left + 2 * pixel, bottom + 2 * pixel, bright_lamp));
+        }
+    return scene;
+}
+
+// Sheets of partial coverage before an opaque backdrop, and two banks of mist that overlap each other and them.
+Scene mist() {
+    Scene scene;
+    scene.translucent = true;
+    scene.camera = default_camera(0.06, 5);
+    scene.quads = {facing(3, -2, -2, 0.15, 2, near_sheet), facing(5, -0.2, -2, 2, 0.12, focus_sheet),
+                   facing(8, -2, -0.15, 2, 2, far_sheet), facing(14, -3, -3, 3, 3, backdrop)};
+    scene.slabs = {{2, 7, 0.12, {0.55f, 0.6f, 0.7f}}, {4, 11, 0.08, {0.7f, 0.5f, 0.35f}}};
+    return scene;
+}
+
 constexpr SceneEntry scenes[] = {
     {"fence", "spheres and small bright lamps behind a thin dark fence", fence},
     {"grass", "spheres among 200 thin slanted blades", grass},
+    {"planes", "textured planes that face the camera, in front of, in and behind focus; in closed form",
+     planes},
+    {"slant", "one plane at a grazing angle, through the plane of focus", slant},
+    {"lamps", "tiny lamps of radiance 1000 far out of focus before a dark wall", lamps},
+    {"mist", "sheets of partial coverage and overlapping volumes before a textured wall", mist},
 };
 
 } // namespace

@@ -1,5 +1,7 @@
 #include "trace/shading.h"
 
+#include "trace/composite.h"
+
 #include <algorithm>
 #include <array>
 #include <cassert>
@@ -64,6 +66,16 @@ void shade_by_area(const Tracer &tracer, std::span<const Hit> hits, std::span<co
     }
 }
 
+// Every hit counts: surfaces cover in part, and slabs lie between them.
+void trace_through(const Tracer &tracer, Light light, std::span<const Ray> rays,
+                   std::span<const Imath::V2d> light_points, std::span<Imath::C4f> out) {
+    LayerBuffers buffers;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        trace_layers(tracer, light, rays[i], light_points[i], buffers);
+        out[i] = composite(buffers.layers, tracer.scene().slabs);
+    }
+}
+
 } // namespace
 
 void shade(const Tracer &tracer, Light light, std::span<const Hit> hits,
@@ -75,16 +87,39 @@ void shade(const Tracer &tracer, Light light, std::span<const Hit> hits,
     }
 }
 
+void trace_layers(const Tracer &tracer, Light light, const Ray &ray, const Imath::V2d &light_point,
+                  LayerBuffers &buffers) {
+    auto &[hits, light_points, colours, layers] = buffers;
+    tracer.all(ray, hits);
+    hits.emplace_back(); // the sky
+    light_points.assign(hits.size(), light_point);
+    colours.resize(hits.size());
+    shade(tracer, light, hits, light_points, colours);
+    layers.clear();
+    for (std::size_t i = 0; i < hits.size(); ++i) layers.push_back({hits[i].t, colours[i]});
+}
+
 void trace_radiance(const Tracer &tracer, Light light, std::span<const Ray> rays,
                     std::span<const Imath::V2d> light_points, std::span<Imath::C4f> out) {
+    if (tracer.scene().translucent) return trace_through(tracer, light, rays, light_points, out);
     std::array<Hit, run_size> hits;
     for (std::size_t first = 0; first < rays.size(); first += run_size) {
         const std::size_t n = std::min(run_size, rays.size() - first);
         const auto some = std::span(hits).first(n);
         tracer.nearest(rays.subspan(first, n), some);
-        shade(tracer, light, some, light_points.empty() ? light_points : light_points.subspan(first, n),
-              out.subspan(first, n));
+        shade(tracer, light, some, light_points.subspan(first, n), out.subspan(first, n));
     }
+}
+
+double visible_depth(const Tracer &tracer, const Ray &ray) {
+    std::vector<Hit> hits;
+    tracer.all(ray, hits);
+    double passes = 1;
+    for (const Hit &hit : hits) {
+        passes *= 1 - double(tracer.material(hit)(hit.position).coverage);
+        if (passes <= 0.5) return hit.t;
+    }
+    return std::numeric_limits<double>::infinity();
 }
 
 } // namespace sparselens

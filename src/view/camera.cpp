@@ -11,7 +11,8 @@ std::optional<double> focal_length_px(const Camera &camera, int display_width) {
     return display_width * *camera.focal_length_mm / *camera.sensor_width_mm;
 }
 
-std::optional<Imath::V3d> position_relative_to(const Camera &centre, const Camera &view, const std::string &what) {
+std::optional<Imath::V3d> position_relative_to(const Camera &centre, const Camera &view,
+                                               const std::string &what) {
     if (!centre.world_to_camera || !view.world_to_camera) return {};
     Imath::M44d to_world = *view.world_to_camera;
     try {
@@ -25,8 +26,9 @@ std::optional<Imath::V3d> position_relative_to(const Camera &centre, const Camer
     for (int row = 0; row < 3; ++row)
         for (int column = 0; column < 3; ++column)
             if (!(std::abs(view_to_centre[row][column] - (row == column ? 1 : 0)) < tolerance))
-                throw Error(what + ": worldToCamera is turned against the centre view's; only parallel axes are "
-                                   "supported");
+                throw Error(what +
+                            ": worldToCamera is turned against the centre view's; only parallel axes are "
+                            "supported");
     return Imath::V3d(view_to_centre[3][0], view_to_centre[3][1], view_to_centre[3][2]);
 }
 

@@ -27,6 +27,7 @@ std::optional<double> focal_length_px(const Camera &camera, int display_width);
 
 // Position of `view` in the camera space of `centre`, scene units. Empty where either matrix is unknown.
 // Throws Error (naming `what`) where the axes are not parallel.
-std::optional<Imath::V3d> position_relative_to(const Camera &centre, const Camera &view, const std::string &what);
+std::optional<Imath::V3d> position_relative_to(const Camera &centre, const Camera &view,
+                                               const std::string &what);
 
 } // namespace sparselens

@@ -4,9 +4,10 @@
 
 namespace sparselens {
 
-double planar_depth(DepthMeaning meaning, double value, int x, int y, const Windows &windows, double focal_px) {
+double planar_depth(DepthMeaning meaning, double value, int x, int y, const Windows &windows,
+                    double focal_px) {
     if (meaning == DepthMeaning::planar) return value;
-    if (meaning == DepthMeaning::inverse) return 1 / value;
+    if (meaning == DepthMeaning::inverse) return 1 / (value == 0 ? 0.0 : value); // -0 too is infinitely far
     const Imath::Box2i &display = windows.display;
     const double right = x + 0.5 - 0.5 * (display.min.x + display.max.x + 1);
     const double down = (y + 0.5 - 0.5 * (display.min.y + display.max.y + 1)) / double(windows.pixel_aspect);

@@ -10,6 +10,7 @@ enum class DepthMeaning { planar, distance, inverse };
 
 // Planar depth of pixel (x, y), EXR coordinates. The optical axis goes through the display window's middle;
 // focal_px (pixels) matters for ray lengths only. An inverse depth of 0 is infinity.
-double planar_depth(DepthMeaning meaning, double value, int x, int y, const Windows &windows, double focal_px);
+double planar_depth(DepthMeaning meaning, double value, int x, int y, const Windows &windows,
+                    double focal_px);
 
 } // namespace sparselens

@@ -72,7 +72,8 @@ Camera camera_with_options(const LensOptions &options, Camera camera) {
     if (options.lens_radius && *options.lens_radius == 0)
         camera.fstop = std::numeric_limits<double>::infinity();
     else if (options.lens_radius && camera.focal_length_mm)
-        camera.fstop = *camera.focal_length_mm / 1000 / (2 * *options.lens_radius) / camera.metres_per_unit.value_or(1);
+        camera.fstop =
+            *camera.focal_length_mm / 1000 / (2 * *options.lens_radius) / camera.metres_per_unit.value_or(1);
     return camera;
 }
 

@@ -15,7 +15,8 @@ namespace sparselens {
 std::optional<Imath::V2d> parse_pair(const std::string &text);
 
 // `name` X,Y: a pixel in EXR coordinates, y down.
-void add_pixel_option(CLI::App &app, const std::string &name, std::optional<Imath::V2i> &pixel, const std::string &help);
+void add_pixel_option(CLI::App &app, const std::string &name, std::optional<Imath::V2i> &pixel,
+                      const std::string &help);
 
 // --method, by the table of methods.
 void add_method_option(CLI::App &app, const GatherMethod *&method);

@@ -45,10 +45,11 @@ LoadedView load_view(const std::string &path, const LensOptions &lens, const Dep
     view.z = take_depth(view.image, depth.channel, path);
     loaded.camera = read_camera(loaded.header);
     std::size_t pixel = 0;
-    for_each_pixel(view.image.windows, depth, camera_with_options(lens, loaded.camera), [&](const auto &planar) {
-        view.z[pixel] = planar(view.z[pixel]);
-        ++pixel;
-    });
+    for_each_pixel(view.image.windows, depth, camera_with_options(lens, loaded.camera),
+                   [&](const auto &planar) {
+                       view.z[pixel] = planar(view.z[pixel]);
+                       ++pixel;
+                   });
     return loaded;
 }
 

@@ -5,12 +5,12 @@
 #include <ImfThreading.h>
 #include <tbb/global_control.h>
 #include <tbb/info.h>
+#include <unistd.h>
 
 #include <csignal>
 #include <cstdio>
 #include <exception>
 #include <new>
-#include <unistd.h>
 
 namespace sparselens {
 

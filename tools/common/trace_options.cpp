@@ -101,7 +101,8 @@ void add_trace_options(CLI::App &app, TraceOptions &options) {
                        throw CLI::ValidationError("--deep", "'" + text + "' is not peel:K or strata:K");
            },
            "Deep picture from the centre: the K nearest surfaces, or the scene cut into K depth intervals")
-        ->type_name("peel:K|strata:K");
+        ->type_name("peel:K|strata:K")
+        ->allow_extra_args(false);
     app.add_option("-d,--type", options.type, "Type of the colour channels: half or float (half)")
         ->type_name("half|float")
         ->transform(CLI::CheckedTransformer(types));

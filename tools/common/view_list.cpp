@@ -19,8 +19,10 @@ Imath::V2d placed_position(const std::string &text) {
 Imath::V2d metadata_position(const Camera &centre, const Camera &view, const std::string &path) {
     const auto position = position_relative_to(centre, view, path);
     if (!position)
-        throw UsageError(path + ": where its camera stood is unknown (no worldToCamera here or in the centre "
-                                "view): give --view X,Y " + path);
+        throw UsageError(path +
+                         ": where its camera stood is unknown (no worldToCamera here or in the centre "
+                         "view): give --view X,Y " +
+                         path);
     if (std::abs(position->z) > 1e-3 * std::hypot(position->x, position->y) + 1e-6)
         throw Error(path + ": its camera stands in front of or behind the centre view's, not beside it");
     return {position->x, position->y};
@@ -29,10 +31,12 @@ Imath::V2d metadata_position(const Camera &centre, const Camera &view, const std
 } // namespace
 
 void add_view_list(CLI::App &app, ViewList &list) {
-    app.add_option("views", list.files, "Centre view, then views whose camera is in their metadata; - for standard input")
+    app.add_option("views", list.files,
+                   "Centre view, then views whose camera is in their metadata; - for standard input")
         ->type_name("CENTER.exr [VIEW.exr ...]")
         ->required();
-    app.add_option("--view", list.placed, "A view whose camera stood X right and Y up of the centre, scene units")
+    app.add_option("--view", list.placed,
+                   "A view whose camera stood X right and Y up of the centre, scene units")
         ->type_name("X,Y VIEW.exr")
         ->allow_extra_args(false);
 }

@@ -12,7 +12,7 @@
 namespace sparselens {
 
 struct ViewList {
-    std::vector<std::string> files;                         // the centre view first
+    std::vector<std::string> files;                          // the centre view first
     std::vector<std::pair<std::string, std::string>> placed; // "X,Y" and a file
 };
 

@@ -1,0 +1,46 @@
+#include "base/parallel.h"
+#include "base/progress.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <mutex>
+#include <vector>
+
+namespace sparselens {
+namespace {
+
+TEST(Progress, WithoutAListenerNothingHappens) {
+    Progress progress;
+    progress.start("nothing", 3);
+    progress.advance();
+}
+
+TEST(Progress, EachPercentIsSaidAtMostOnceAndTheLastIsOneHundred) {
+    std::mutex guard;
+    std::vector<int> said;
+    Progress progress([&](const std::string &stage, int percent) {
+        EXPECT_EQ(stage, "sorting");
+        const std::lock_guard lock(guard);
+        said.push_back(percent);
+    });
+    progress.start("sorting", 12'345);
+    parallel_for(12'345, [&](std::size_t) { progress.advance(); });
+    std::ranges::sort(said);
+    ASSERT_EQ(said.size(), 101u);
+    for (int percent = 0; percent <= 100; ++percent) EXPECT_EQ(said[std::size_t(percent)], percent);
+}
+
+TEST(Progress, ManyStepsAtOnceAndAnotherStage) {
+    std::vector<int> said;
+    Progress progress([&](const std::string &, int percent) { said.push_back(percent); });
+    progress.start("one", 4);
+    progress.advance(3);
+    progress.advance();
+    progress.start("two", 1);
+    progress.advance();
+    EXPECT_EQ(said, (std::vector{0, 75, 100, 0, 100}));
+}
+
+} // namespace
+} // namespace sparselens

@@ -1,0 +1,201 @@
+#include "base/error.h"
+#include "io/file_stream.h"
+#include "support/scratch_folder.h"
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <thread>
+
+namespace sparselens {
+namespace {
+
+namespace fs = std::filesystem;
+
+void put(OutputFile &file, const std::string &text) { file.stream().write(text.data(), int(text.size())); }
+
+void write_file(const std::string &path, const std::string &text) {
+    OutputFile file(path);
+    put(file, text);
+    file.commit();
+}
+
+class FileStream : public testing::Test {
+protected:
+    ScratchFolder folder;
+    std::string path = folder.file("out.exr");
+};
+
+TEST_F(FileStream, AppearsWithItsCommit) {
+    OutputFile file(path);
+    put(file, "hello");
+    EXPECT_FALSE(fs::exists(path));
+    file.commit();
+    EXPECT_EQ(contents_of(path), "hello");
+    EXPECT_EQ(folder.entries(), 1u);
+}
+
+TEST_F(FileStream, WithoutCommitTheOldFileStaysAndNothingIsLeft) {
+    put_contents(path, "old");
+    {
+        OutputFile file(path);
+        put(file, std::string(std::size_t(3) << 20, 'x')); // more than is held in memory
+        EXPECT_EQ(contents_of(path), "old");
+    }
+    EXPECT_EQ(contents_of(path), "old");
+    EXPECT_EQ(folder.entries(), 1u);
+}
+
+TEST_F(FileStream, ReplacesTheOldFileByANewOne) {
+    put_contents(path, "old and longer");
+    const fs::path second_name = folder.file("hard link");
+    fs::create_hard_link(path, second_name);
+    write_file(path, "new");
+    EXPECT_EQ(contents_of(path), "new");
+    EXPECT_EQ(contents_of(second_name), "old and longer"); // who has it open keeps reading the old one
+}
+
+TEST_F(FileStream, SeeksWithinWhatIsWritten) {
+    OutputFile file(path);
+    put(file, "0123456789");
+    EXPECT_EQ(file.stream().tellp(), 10u);
+    file.stream().seekp(3);
+    put(file, "ABC");
+    EXPECT_EQ(file.stream().tellp(), 6u);
+    file.stream().seekp(10);
+    put(file, std::string(std::size_t(2) << 20, 'z'));
+    file.stream().seekp(0);
+    put(file, "#");
+    file.commit();
+    EXPECT_EQ(contents_of(path), "#12ABC6789" + std::string(std::size_t(2) << 20, 'z'));
+}
+
+TEST_F(FileStream, FollowsSymbolicLinks) {
+    fs::create_directory(folder.file("there"));
+    const std::string target = folder.file("there/target.exr"), link = folder.file("link");
+    put_contents(target, "old");
+    fs::create_symlink("there/target.exr", link); // relative to the folder of the link
+    fs::create_symlink(link, folder.file("link to link"));
+    write_file(folder.file("link to link"), "new");
+    EXPECT_EQ(contents_of(target), "new");
+    EXPECT_TRUE(fs::is_symlink(link));
+    EXPECT_TRUE(fs::is_symlink(folder.file("link to link")));
+}
+
+TEST_F(FileStream, FollowsALinkToWhatIsNotThereYet) {
+    fs::create_symlink("target.exr", folder.file("link"));
+    write_file(folder.file("link"), "new");
+    EXPECT_TRUE(fs::is_symlink(folder.file("link")));
+    EXPECT_EQ(contents_of(folder.file("target.exr")), "new");
+}
+
+TEST_F(FileStream, LinksInACircleAreAnError) {
+    fs::create_symlink("b", folder.file("a"));
+    fs::create_symlink("a", folder.file("b"));
+    EXPECT_THROW(write_file(folder.file("a"), "new"), Error);
+    EXPECT_TRUE(fs::is_symlink(folder.file("a")));
+    EXPECT_EQ(folder.entries(), 2u);
+}
+
+TEST_F(FileStream, KeepsTheUmask) {
+    const mode_t before = ::umask(027);
+    write_file(path, "x");
+    ::umask(before);
+    struct stat info {};
+    ASSERT_EQ(::stat(path.c_str(), &info), 0);
+    EXPECT_EQ(info.st_mode & 0777, 0640u);
+}
+
+TEST_F(FileStream, WritesThroughDevices) {
+    write_file("/dev/null", "gone");
+    struct stat info {};
+    ASSERT_EQ(::stat("/dev/null", &info), 0);
+    EXPECT_TRUE(S_ISCHR(info.st_mode));
+}
+
+// Bytes reach a pipe whole and in order even where the writer went back.
+TEST_F(FileStream, WritesAndReadsThroughNamedPipes) {
+    const std::string pipe = folder.file("pipe");
+    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+    std::thread writer([&] {
+        OutputFile file(pipe);
+        put(file, std::string(200'000, 'a') + "end");
+        file.stream().seekp(0);
+        put(file, "start");
+        file.commit();
+    });
+    const auto in = open_input(pipe);
+    writer.join();
+    std::string text(200'003, ' ');
+    in->read(text.data(), int(text.size()));
+    EXPECT_EQ(text, "start" + std::string(199'995, 'a') + "end");
+    in->seekg(199'999);
+    in->read(text.data(), 4);
+    EXPECT_EQ(text.substr(0, 4), "aend");
+    EXPECT_TRUE(fs::is_fifo(pipe));
+}
+
+TEST_F(FileStream, ReadsAndSeeksInFiles) {
+    put_contents(path, "0123456789");
+    const auto in = open_input(path);
+    std::string text(4, ' ');
+    in->seekg(5);
+    in->read(text.data(), 3);
+    EXPECT_EQ(text.substr(0, 3), "567");
+    EXPECT_EQ(in->tellg(), 8u);
+    EXPECT_EQ(what_of<Error>([&] { in->read(text.data(), 3); }), path + ": the file ends too early");
+}
+
+TEST_F(FileStream, ErrorsNameTheFileAndTheReason) {
+    const std::string nowhere = folder.file("missing/out.exr");
+    EXPECT_EQ(what_of<Error>([&] { OutputFile file(nowhere); }),
+              nowhere + ": cannot write: No such file or directory");
+    EXPECT_EQ(what_of<Error>([&] { open_input(nowhere); }),
+              nowhere + ": cannot open: No such file or directory");
+    EXPECT_EQ(what_of<Error>([&] { open_input(folder.file("")); }),
+              folder.file("") + ": is a folder, not a file");
+    EXPECT_EQ(what_of<Error>([&] { OutputFile file(folder.file("")); }),
+              folder.file("") + ": cannot write: Is a directory");
+    EXPECT_EQ(folder.entries(), 0u);
+}
+
+TEST_F(FileStream, AFullDeviceIsAnError) {
+    if (!fs::exists("/dev/full")) GTEST_SKIP() << "there is no /dev/full";
+    EXPECT_EQ(what_of<Error>([] { write_file("/dev/full", "x"); }),
+              "/dev/full: cannot write: No space left on device");
+}
+
+TEST_F(FileStream, NamesMayBeAsLongAsTheFileSystemTakes) {
+    const std::string longest = folder.file(std::string(255, 'n'));
+    write_file(longest, "x");
+    EXPECT_EQ(contents_of(longest), "x");
+}
+
+TEST_F(FileStream, OddNamesAreNames) {
+    for (const char *name : {"with space", "it's \"quoted\"", "-o", "two\nlines", "%d $HOME `x`"}) {
+        write_file(folder.file(name), name);
+        EXPECT_EQ(contents_of(folder.file(name)), name);
+    }
+}
+
+TEST_F(FileStream, ManyAtOnceBesideEachOther) {
+    OutputFile one(path), two(path);
+    put(one, "one");
+    put(two, "two");
+    two.commit();
+    EXPECT_EQ(contents_of(path), "two");
+    one.commit();
+    EXPECT_EQ(contents_of(path), "one");
+    EXPECT_EQ(folder.entries(), 1u);
+}
+
+TEST(DisplayName, OfTheStandardStream) {
+    EXPECT_EQ(display_name("-"), "standard stream");
+    EXPECT_EQ(display_name("./-"), "./-");
+}
+
+} // namespace
+} // namespace sparselens

@@ -1,0 +1,40 @@
+// LDIs as a test writes them down: pixel by pixel, sample by sample.
+#pragma once
+
+#include "ldi/ldi.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace sparselens {
+
+// R, G and B are colour, colour / 2 and colour / 4 (premultiplied); a point unless z_back is given.
+struct TestSample {
+    float z;
+    float colour = 1;
+    float alpha = 1;
+    float z_back = 0; // 0: z
+    float weight = 1, dx = 0, dy = 0;
+};
+using TestPixel = std::vector<TestSample>;
+
+// One row of pixels, channels R, G, B, A; z_back only where a sample has one; dx, dy and weight always.
+Ldi ldi_of(const std::vector<TestPixel> &pixels);
+
+// The samples of a pixel of such an LDI, z_back filled in.
+TestPixel samples_of(const Ldi &ldi, std::size_t pixel);
+
+struct RandomLdi {
+    std::uint32_t seed = 1;
+    int width = 16, height = 8;
+    int most_samples = 6;    // a pixel; some have none
+    double opaque_share = 0; // how many samples have A = 1
+    double volume_share = 0;
+    bool shuffled = false; // else sorted by z
+    int depths = 1 << 20;  // how many different depths: few make equal ones likely
+};
+
+// Colours in [0, 1], alpha in [0, 1], z in [1, 10]. The same arguments give the same LDI.
+Ldi random_ldi(const RandomLdi &how);
+
+} // namespace sparselens

@@ -1,0 +1,56 @@
+#include "view/depth.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace sparselens {
+namespace {
+
+constexpr double inf = std::numeric_limits<double>::infinity();
+constexpr double focal_px = 100;
+
+TEST(PlanarDepth, PlanarStaysAsItIs) {
+    const Windows w = windows_of_size(200, 100);
+    for (const double z : {1e-30, 5.0, 1e30, inf})
+        EXPECT_EQ(planar_depth(DepthMeaning::planar, z, 3, 4, w, focal_px), z);
+}
+
+TEST(PlanarDepth, InverseZeroIsInfinity) {
+    const Windows w = windows_of_size(200, 100);
+    EXPECT_DOUBLE_EQ(planar_depth(DepthMeaning::inverse, 0.25, 0, 0, w, focal_px), 4);
+    EXPECT_EQ(planar_depth(DepthMeaning::inverse, 0, 0, 0, w, focal_px), inf);
+    EXPECT_EQ(planar_depth(DepthMeaning::inverse, -0.0, 0, 0, w, focal_px), inf);
+}
+
+TEST(PlanarDepth, OnTheAxisARayIsAsLongAsItsDepth) {
+    const Windows w = windows_of_size(201, 101); // a pixel centre lies on the axis
+    EXPECT_DOUBLE_EQ(planar_depth(DepthMeaning::distance, 7, 100, 50, w, focal_px), 7);
+    EXPECT_EQ(planar_depth(DepthMeaning::distance, inf, 0, 0, w, focal_px), inf);
+}
+
+// The ray through a pixel 75 to the right and 0 (or 30 and 60) off the axis: sides 3, 4, 5 and 1, 2, ...
+TEST(PlanarDepth, RayLengthByPythagoras) {
+    const Windows w = windows_of_size(201, 201);
+    EXPECT_DOUBLE_EQ(planar_depth(DepthMeaning::distance, 5, 175, 100, w, focal_px), 4);
+    EXPECT_DOUBLE_EQ(planar_depth(DepthMeaning::distance, 5, 25, 100, w, focal_px), 4);
+    EXPECT_DOUBLE_EQ(planar_depth(DepthMeaning::distance, 5, 100, 175, w, focal_px), 4);
+    EXPECT_DOUBLE_EQ(planar_depth(DepthMeaning::distance, 3, 200, 200, w, focal_px), 3 / std::sqrt(3.0));
+}
+
+TEST(PlanarDepth, TheAxisGoesThroughTheDisplayWindowNotTheData) {
+    const Windows crop{Imath::Box2i({-100, 10}, {100, 210}), Imath::Box2i({60, 100}, {90, 120})};
+    EXPECT_DOUBLE_EQ(planar_depth(DepthMeaning::distance, 5, 75, 110, crop, focal_px), 4);
+}
+
+// Pixels twice as wide as high: 150 rows are as far from the axis as 75 columns.
+TEST(PlanarDepth, PixelAspectStretchesRows) {
+    Windows w = windows_of_size(201, 401);
+    w.pixel_aspect = 2;
+    EXPECT_DOUBLE_EQ(planar_depth(DepthMeaning::distance, 5, 100, 350, w, focal_px), 4);
+    EXPECT_DOUBLE_EQ(planar_depth(DepthMeaning::distance, 5, 175, 200, w, focal_px), 4);
+}
+
+} // namespace
+} // namespace sparselens
