@@ -8,9 +8,10 @@
 
 namespace sparselens {
 
+// What is missing, of another type, no number or out of range is unknown (see Camera).
 Camera read_camera(const Imf::Header &header);
 
-// Writes what is known, leaves the rest of the header alone.
+// Writes what is known (and sparselens:version), leaves the rest of the header alone.
 void write_camera(Imf::Header &header, const Camera &camera);
 
 // Of an LDI whose data window has grown beyond that of its centre view: the centre view's data window, which is

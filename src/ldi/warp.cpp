@@ -6,7 +6,9 @@
 #include "ldi/reproject.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <compare>
 #include <numeric>
 
 namespace sparselens {
@@ -57,15 +59,27 @@ void check(const View &centre, const View &view) {
             throw Error(view.name + ": has no channel " + channel.name + ", which the centre view has");
 }
 
+// By position; where several stand at one point, by what they show: the order they were given in must not matter.
+bool canonically_before(const View *a, const View *b) {
+    if (a->position.x != b->position.x) return a->position.x < b->position.x;
+    if (a->position.y != b->position.y) return a->position.y < b->position.y;
+    const auto by_bits = [](const std::vector<float> &left, const std::vector<float> &right) {
+        return std::lexicographical_compare_three_way(
+            left.begin(), left.end(), right.begin(), right.end(), [](float l, float r) {
+                return std::bit_cast<std::uint32_t>(l) <=> std::bit_cast<std::uint32_t>(r);
+            });
+    };
+    const auto by_depth = by_bits(a->z, b->z);
+    return by_depth != 0 ? by_depth < 0 : by_bits(a->image.values, b->image.values) < 0;
+}
+
 Warper::Warper(std::span<const View> views, const WarpOptions &options)
     : options_(options), scale_(options.radius * options.focal_px) {
     for (const View &view : views) {
         check(views[0], view);
         views_.push_back(&view);
     }
-    std::stable_sort(views_.begin() + 1, views_.end(), [](const View *a, const View *b) {
-        return std::pair(a->position.x, a->position.y) < std::pair(b->position.x, b->position.y);
-    });
+    std::sort(views_.begin() + 1, views_.end(), canonically_before);
     layout_.windows = views[0].image.windows;
     layout_.channels = views[0].image.channels;
     layout_.values.resize(layout_.channels.size());
