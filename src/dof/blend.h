@@ -1,16 +1,25 @@
 // How the fragments that cover one destination pixel become its colour: the rule that the selective gather
 // and the scatter share.
 //
-// A fragment is the share of a splat that its PSF brings to the pixel: coverage and premultiplied colours,
-// both times the PSF's weight. Fragments are binned by CoC, which at a given focus is perceptive depth (R F /
-// z) but for a constant; bins that follow each other without a gap are one layer, and layers are blended
-// front to back. A layer whose coverage sums to C covers min(C, 1) of what the layers in front leave; the
-// transparent background, which nothing can hide behind, covers min(B, what is left). What is then still left
-// is unknown (nobody saw it) and the rest is scaled up to make good for it.
+// A fragment is the share of a splat that its PSF brings to the pixel: coverage, what is known of it (below) and
+// premultiplied colours, times the PSF's weight. Fragments are binned by CoC, which at a given focus is perceptive
+// depth (R F / z) but for a constant; bins that follow each other without a gap are one layer, and layers are
+// blended in order of depth. A layer's coverage is the sum of its fragments', its colour their mean.
+//
+// Not every lens point of a pixel is known: nobody may have seen what it sees. What is known at a layer is the
+// sum of what is known in it (of an opaque sample its coverage, of any sample that the light passes on or stops)
+// and behind it (who is seen there is not covered here), transparent background included, but no more than 1.
+// The layer's share of the light that reaches it is its coverage over that. So unknown lens points are left out
+// and the others make good for them, at the depths where they are missing: what lies in front of a place that
+// nobody saw keeps its coverage.
+//
+// Near the picture's border the part of a PSF's disc that lies outside is unknown at all depths; sums are divided
+// by the part that lies inside (frame_share).
 #pragma once
 
+#include <Imath/ImathBox.h>
+
 #include <cstddef>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -19,28 +28,35 @@ namespace sparselens {
 // Bins are numbered front to back. Their width is half a pixel of CoC where the blur is small and a fixed
 // share of the CoC where it is large, so that their number stays bounded.
 int depth_bin(double coc);
-inline constexpr int background_bin = std::numeric_limits<int>::max();
 
-// Blends the layers of one pixel. Each layer is 1 + colours.size() sums: its coverage (> 0), then its
-// colours; front to back. Sets the colours and returns alpha.
-double blend_layers(std::span<const double> layers, double background, std::span<double> colours);
+// Of one bin or layer, in this order: coverage, known, and the colours. Of a bin there is one sum more: known times
+// radius, for its mean radius.
+inline constexpr std::size_t sums_before_colours = 2;
 
-// The layers of a tile's pixels, grown bin by bin from front to back; where a pixel has more than the limit,
-// the two layers with the narrowest gap between them are merged.
+// A bin of which less is known has nothing but what rounding left at a disc's edge.
+inline constexpr double least_known = 1e-12;
+
+// The part of a disc of that radius around pixel (x, y) that lies in the data window.
+double frame_share(const Imath::Box2i &data, double pixel_aspect, int x, int y, double radius);
+
+// Blends the layers of one pixel, front to back, each its sums. Sets the colours and returns alpha.
+double blend_layers(std::span<const double> layers, std::span<double> colours);
+
+// The layers of a tile's pixels, grown bin by bin from front to back; where a pixel has more than the limit, the
+// two layers with the narrowest gap between them are merged.
 class TileLayers {
 public:
     TileLayers(std::size_t pixels, std::size_t limit, std::size_t colours);
 
     void clear();
-    // The sums of one bin at one pixel, in [1 + colours] arrays `stride` apart. Bins come in ascending order.
-    void add(std::size_t pixel, int bin, const double *sums, std::size_t stride);
+    // The sums of one bin at one pixel, `stride` apart, to be multiplied by `scale`. Bins come in ascending order.
+    void add(std::size_t pixel, int bin, const double *sums, std::size_t stride, double scale);
     double blend(std::size_t pixel, std::span<double> colours) const; // as blend_layers
 
 private:
     struct State {
         std::size_t count = 0;
         int last_bin = 0;
-        double background = 0;
     };
     double *layer(std::size_t pixel, std::size_t index) {
         return &sums_[(pixel * (limit_ + 1) + index) * size_];

@@ -31,16 +31,11 @@ struct Blocks {
     }
 };
 
-struct BinnedSplat {
-    int bin;
-    Splat splat;
-};
-
 // The splats of a block front to back; equal bins stay in pixel order.
-std::vector<BinnedSplat> splats_of_block(const SplatSource &source, const Blocks &blocks, std::size_t block) {
-    std::vector<BinnedSplat> splats;
+std::vector<Splat> splats_of_block(const SplatSource &source, const Blocks &blocks, std::size_t block) {
+    std::vector<Splat> splats;
     blocks.for_each_pixel(block, [&](std::size_t pixel) {
-        source.for_each(pixel, [&](const Splat &splat) { splats.push_back({depth_bin(splat), splat}); });
+        source.for_each(pixel, [&](const Splat &splat) { splats.push_back(splat); });
     });
     std::stable_sort(splats.begin(), splats.end(),
                      [](const auto &a, const auto &b) { return a.bin < b.bin; });
@@ -50,8 +45,9 @@ std::vector<BinnedSplat> splats_of_block(const SplatSource &source, const Blocks
 void put_values(CellGrid &grid, std::size_t at, const Splat &splat, const SplatSource &source) {
     float *value = &grid.values[at * grid.size()];
     *value++ = float(splat.coverage);
-    for (const std::size_t channel : source.colours())
-        *value++ = splat.sample == npos ? 0 : source.ldi().values[channel][splat.sample];
+    *value++ = float(splat.known);
+    for (const std::size_t channel : source.colours()) *value++ = float(source.colour(splat, channel));
+    *value = float(splat.known * std::abs(splat.coc));
 }
 
 void extend(Cell &cell, const Splat &splat, double pixel_aspect) {
@@ -65,13 +61,13 @@ void extend(Cell &cell, const Splat &splat, double pixel_aspect) {
 }
 
 // Stores a block's splats from `first` on and returns its cells.
-std::vector<Cell> store_block(CellGrid &grid, std::size_t first, std::span<const BinnedSplat> splats,
+std::vector<Cell> store_block(CellGrid &grid, std::size_t first, std::span<const Splat> splats,
                               const SplatSource &source) {
     std::vector<Cell> cells;
     for (std::size_t i = 0; i < splats.size(); ++i) {
-        const auto &[bin, splat] = splats[i];
+        const Splat &splat = splats[i];
         const std::size_t at = first + i;
-        if (cells.empty() || cells.back().bin != bin) cells.push_back({bin, at, at, {}, {}, 0});
+        if (cells.empty() || cells.back().bin != splat.bin) cells.push_back({splat.bin, at, at, {}, {}, 0});
         extend(cells.back(), splat, source.lens().pixel_aspect);
         grid.x[at] = splat.position.x;
         grid.y[at] = splat.position.y;
@@ -86,7 +82,7 @@ void sum_cells(CellGrid &grid, double pixel_aspect) {
     grid.sums.assign(grid.cells.size() * grid.size(), 0);
     parallel_for(grid.cells.size(), [&](std::size_t index) {
         const Cell &cell = grid.cells[index];
-        if (cell.smallest < block_size / 2) return; // never covers a tile
+        if (cell.smallest < 0.5) return; // cannot cover a tile, not even of one pixel
         for (std::size_t i = cell.begin; i < cell.end; ++i) {
             const double weight = 1 / (std::numbers::pi * grid.radius[i] * grid.radius[i] * pixel_aspect);
             for (std::size_t k = 0; k < grid.size(); ++k)

@@ -22,14 +22,14 @@ struct Cell {
 struct CellGrid {
     // One entry a splat, cell by cell.
     std::vector<double> x, y, radius;
-    std::vector<float> values; // [splat][size()]: coverage, then colours
+    std::vector<float> values; // [splat][size()]: coverage, known, colours, known * radius
     std::size_t colours = 0;
 
     std::vector<Cell> cells; // ascending bins, then blocks
     std::vector<double>
         sums; // [cell][size()]: values / area of the PSF in pixels, where the cell can cover a tile
 
-    std::size_t size() const { return 1 + colours; }
+    std::size_t size() const { return sums_before_colours + colours + 1; }
     std::span<const float> value(std::size_t splat) const {
         return std::span(values).subspan(splat * size(), size());
     }

@@ -8,6 +8,8 @@ namespace sparselens {
 
 namespace {
 
+constexpr float same_surface = 0.5f; // pixels of perceptive depth
+
 // Which cell of the tile a sample falls in, seen through a lens point; cells are counted from the border's corner.
 struct Placement {
     float lens_x, lens_y, shift_x, shift_y;
@@ -33,16 +35,18 @@ bool out_of_reach(const SampleBlock &b, const LensSample &lens, float x, float y
 
 } // namespace
 
-LensTile::LensTile(const BlockedSamples &samples, const SampleColours &colours)
-    : samples_(samples), colours_(colours), front_(stride * stride), transmittance_(stride * stride),
-      over_(colours.groups * stride * stride * 4), sums_(colours.groups * size * size * 4), weights_(size * size) {}
+LensTile::LensTile(const BlockedSamples &samples, const SampleColours &colours, const Highlights &highlights)
+    : samples_(samples), colours_(colours), highlights_(highlights), front_(stride * stride), transmittance_(stride * stride),
+      over_(colours.groups * stride * stride * 4), sums_(colours.groups * size * size * 4),
+      spread_(sums_.size()), weights_(size * size) {}
 
-std::span<const float> LensTile::sum(int x, int y, std::size_t group) const {
-    return std::span(sums_).subspan((group * size * size + std::size_t(y * size + x)) * 4, 4);
+float LensTile::value(int x, int y, std::size_t channel) const {
+    const std::size_t pixel = std::size_t(y * size + x), at = (channel / 4 * size * size + pixel) * 4 + channel % 4;
+    return (weights_[pixel] > 0 ? sums_[at] / weights_[pixel] : 0) + spread_[at];
 }
 
 void LensTile::gather(const Imath::V2i &origin, std::span<const std::uint32_t> blocks,
-                      std::span<const LensSample> lens) {
+                      std::span<const LensSample> lens, std::span<const HighlightPixel> spread) {
     origin_x_ = float(origin.x);
     origin_y_ = float(origin.y);
     blocks_.assign(blocks.begin(), blocks.end());
@@ -53,15 +57,17 @@ void LensTile::gather(const Imath::V2i &origin, std::span<const std::uint32_t> b
         return samples_.depth[a] != samples_.depth[b] ? samples_.depth[a] > samples_.depth[b] : a < b;
     });
     std::fill(sums_.begin(), sums_.end(), 0.0f);
+    std::fill(spread_.begin(), spread_.end(), 0.0f);
     std::fill(weights_.begin(), weights_.end(), 0.0f);
-    for (const LensSample &point : lens) {
-        see_opaque(point);
+    for (std::uint32_t k = 0; k < lens.size(); ++k) {
+        see_opaque(lens[k]);
         if (partial_.empty()) {
-            add_picture(point.weight);
+            add_picture(lens[k].weight);
         } else {
-            see_partial(point);
-            add_picture_under_partial(point.weight);
+            see_partial(lens[k]);
+            add_picture_under_partial(lens[k].weight);
         }
+        spread = add_highlights(spread, k);
     }
 }
 
@@ -96,7 +102,7 @@ void LensTile::see_partial(const LensSample &lens) {
         if (key(samples_.depth[i], i) < front_[cell]) continue;
         float &transmittance = transmittance_[cell];
         for (std::size_t g = 0; g < colours_.groups; ++g) {
-            const float *colour = &colours_.values[(g * samples_.count() + i) * 4];
+            const float *colour = &colours_.group(g)[std::size_t(i) * 4];
             float *over = &over_[(g * stride * stride + cell) * 4];
             for (int k = 0; k < 4; ++k) over[k] += transmittance * colour[k];
         }
@@ -106,7 +112,7 @@ void LensTile::see_partial(const LensSample &lens) {
 
 void LensTile::add_picture(float weight) {
     for (std::size_t g = 0; g < colours_.groups; ++g) {
-        const float *colours = colours_.group(g, samples_.count()).data();
+        const float *colours = colours_.group(g).data();
         for (int y = 0; y < size; ++y) {
             const std::uint64_t *front = &front_[std::size_t((y + 1) * stride + 1)];
             float *sum = &sums_[(g * size * size + std::size_t(y * size)) * 4];
@@ -122,7 +128,7 @@ void LensTile::add_picture(float weight) {
 
 void LensTile::add_picture_under_partial(float weight) {
     for (std::size_t g = 0; g < colours_.groups; ++g) {
-        const float *colours = colours_.group(g, samples_.count()).data();
+        const float *colours = colours_.group(g).data();
         for (int y = 0; y < size; ++y)
             for (int x = 0; x < size; ++x) {
                 const std::size_t cell = std::size_t((y + 1) * stride + x + 1), pixel = std::size_t(y * size + x);
@@ -135,6 +141,23 @@ void LensTile::add_picture_under_partial(float weight) {
                 if (g == 0) weights_[pixel] += known ? weight : weight * (1 - transmittance_[cell]);
             }
     }
+}
+
+// Adds what lens point `lens` sees of the highlights and returns the pixels of the lens points after it.
+std::span<const HighlightPixel> LensTile::add_highlights(std::span<const HighlightPixel> spread, std::uint32_t lens) {
+    std::size_t done = 0;
+    for (; done < spread.size() && spread[done].lens == lens; ++done) {
+        const HighlightPixel &p = spread[done];
+        const std::size_t cell = std::size_t((p.y + 1) * stride + p.x + 1), pixel = std::size_t(p.y * size + p.x);
+        const float depth = samples_.depth[highlights_.sample[p.highlight]];
+        if (front_[cell] > key(depth + same_surface, 0xffffffffu)) continue;
+        const float weight = p.weight * (partial_.empty() ? 1 : transmittance_[cell]);
+        for (std::size_t g = 0; g < colours_.groups; ++g)
+            for (std::size_t k = 0; k < 4; ++k)
+                spread_[(g * size * size + pixel) * 4 + k] +=
+                    weight * highlights_.light.group(g)[std::size_t(p.highlight) * 4 + k];
+    }
+    return spread.subspan(done);
 }
 
 } // namespace sparselens

@@ -6,7 +6,9 @@
 // are renormalised. lens_gather_reference.h says the same slowly.
 #pragma once
 
+#include "dof/highlights.h"
 #include "dof/sample_blocks.h"
+#include "dof/sample_colours.h"
 #include "lens/lens_samples.h"
 
 #include <Imath/ImathBox.h>
@@ -17,28 +19,19 @@
 
 namespace sparselens {
 
-// Colours of the samples of a BlockedSamples, in groups of four channels: [group][sample][4], premultiplied.
-struct SampleColours {
-    std::size_t groups = 0;
-    std::vector<float> values;
-    std::span<const float> group(std::size_t g, std::size_t count) const {
-        return std::span(values).subspan(g * count * 4, count * 4);
-    }
-};
-
 class LensTile {
 public:
     static constexpr int size = 64; // pixels wide and high: the buffers of a lens point stay in the cache
 
-    LensTile(const BlockedSamples &samples, const SampleColours &colours);
+    LensTile(const BlockedSamples &samples, const SampleColours &colours, const Highlights &highlights);
 
     // Gathers the pixels [origin, origin + size), relative to the data window's corner like the samples, from
-    // the blocks that can reach them.
-    void gather(const Imath::V2i &origin, std::span<const std::uint32_t> blocks, std::span<const LensSample> lens);
+    // the blocks that can reach them. `spread`: highlight_pixels() of the tile.
+    void gather(const Imath::V2i &origin, std::span<const std::uint32_t> blocks, std::span<const LensSample> lens,
+                std::span<const HighlightPixel> spread);
 
-    // Sum of the colours of the known lens points at a pixel of the tile, and of their weights.
-    std::span<const float> sum(int x, int y, std::size_t group) const;
-    float weight(int x, int y) const { return weights_[std::size_t(y * size + x)]; }
+    // The mean over the known lens points at a pixel of the tile; 0 where none is known.
+    float value(int x, int y, std::size_t channel) const;
 
 private:
     // The buffers have a border of one cell that takes what falls outside.
@@ -48,9 +41,11 @@ private:
     void see_partial(const LensSample &lens);
     void add_picture(float weight);
     void add_picture_under_partial(float weight);
+    std::span<const HighlightPixel> add_highlights(std::span<const HighlightPixel> spread, std::uint32_t lens);
 
     const BlockedSamples &samples_;
     const SampleColours &colours_;
+    const Highlights &highlights_;
     float origin_x_ = 0, origin_y_ = 0;
     std::vector<std::uint32_t> blocks_;
     std::vector<std::uint32_t> partial_;  // samples of partial coverage, front to back
@@ -58,6 +53,7 @@ private:
     std::vector<float> transmittance_;    // [cell]: of the partial samples in front
     std::vector<float> over_;             // [group][cell][4]: their colours
     std::vector<float> sums_;             // [group][pixel][4]
+    std::vector<float> spread_;           // [group][pixel][4]: of the highlights
     std::vector<float> weights_;          // [pixel]
 };
 

@@ -13,7 +13,7 @@ namespace sparselens {
 
 // What can be asked of a method; each uses what concerns it.
 struct GatherOptions {
-    int layers = 4;         // selective: most layers a destination pixel keeps apart
+    int layers = 8;         // selective: most layers a destination pixel keeps apart
     LensGatherOptions lens; // lens: quality, lens points
 };
 

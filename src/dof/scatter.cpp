@@ -50,35 +50,56 @@ std::vector<std::vector<Fragment>> fragments_in(const Imath::Box2i &box, const s
                 const double weight = psf_weight(psf, x, y);
                 if (weight == 0) continue;
                 const std::size_t pixel = std::size_t(y - box.min.y) * width + std::size_t(x - box.min.x);
-                fragments[pixel].push_back({depth_bin(splats[i]), weight, i});
+                fragments[pixel].push_back({splats[i].bin, weight, i});
             }
     }
     return fragments;
 }
 
-// The fragments of one pixel, sorted and grouped; returns alpha.
-double blend_fragments(std::vector<Fragment> &fragments, const std::vector<Splat> &splats,
-                       const SplatSource &source, std::span<double> colours) {
+// Their sums, bin by bin from front to back, with the bins' numbers.
+struct Bins {
+    std::vector<int> numbers;
+    std::vector<double> sums; // [bin][size]
+};
+
+Bins sum_bins(std::vector<Fragment> &fragments, const std::vector<Splat> &splats, const SplatSource &source,
+              std::size_t size) {
     std::stable_sort(fragments.begin(), fragments.end(),
                      [](const auto &a, const auto &b) { return a.bin < b.bin; });
-    const std::size_t size = 1 + colours.size();
-    std::vector<double> layers;
-    double background = 0;
-    int last_bin = 0;
-    for (const Fragment &fragment : fragments) {
-        const Splat &splat = splats[fragment.splat];
-        if (fragment.bin == background_bin) {
-            background += fragment.weight * splat.coverage;
-            continue;
+    Bins bins;
+    for (const auto &[bin, weight, index] : fragments) {
+        if (bins.numbers.empty() || bin != bins.numbers.back()) {
+            bins.numbers.push_back(bin);
+            bins.sums.resize(bins.sums.size() + size);
         }
-        if (layers.empty() || fragment.bin > last_bin + 1) layers.resize(layers.size() + size);
-        last_bin = fragment.bin;
-        double *layer = &layers[layers.size() - size];
-        *layer++ += fragment.weight * splat.coverage;
-        for (const std::size_t channel : source.colours())
-            *layer++ += fragment.weight * double(source.ldi().values[channel][splat.sample]);
+        const Splat &splat = splats[index];
+        double *sum = &bins.sums[bins.sums.size() - size];
+        *sum++ += weight * splat.coverage;
+        *sum++ += weight * splat.known;
+        for (const std::size_t channel : source.colours()) *sum++ += weight * source.colour(splat, channel);
+        *sum += weight * splat.known * std::abs(splat.coc);
     }
-    return blend_layers(layers, background, colours);
+    return bins;
+}
+
+// Blends what fell into pixel (x, y); returns alpha.
+double blend_fragments(std::vector<Fragment> &fragments, const std::vector<Splat> &splats,
+                       const SplatSource &source, int x, int y, std::span<double> colours) {
+    const std::size_t layer_size = sums_before_colours + colours.size(), bin_size = layer_size + 1;
+    const Bins bins = sum_bins(fragments, splats, source, bin_size);
+    std::vector<double> layers;
+    int last_bin = 0;
+    for (std::size_t i = 0; i < bins.numbers.size(); ++i) {
+        const double *sums = &bins.sums[i * bin_size], known = sums[1];
+        if (known <= least_known) continue;
+        const double scale = 1 / frame_share(source.ldi().windows.data, source.lens().pixel_aspect, x, y,
+                                             sums[bin_size - 1] / known);
+        if (layers.empty() || bins.numbers[i] > last_bin + 1) layers.resize(layers.size() + layer_size);
+        double *layer = &layers[layers.size() - layer_size];
+        for (std::size_t k = 0; k < layer_size; ++k) layer[k] += scale * sums[k];
+        last_bin = bins.numbers[i];
+    }
+    return blend_layers(layers, colours);
 }
 
 void scatter_into(Image &image, const Imath::Box2i &box, const std::vector<Splat> &splats,
@@ -88,7 +109,7 @@ void scatter_into(Image &image, const Imath::Box2i &box, const std::vector<Splat
     auto list = fragments.begin();
     for (int y = box.min.y; y <= box.max.y; ++y)
         for (int x = box.min.x; x <= box.max.x; ++x, ++list) {
-            const double alpha = blend_fragments(*list, splats, source, colours);
+            const double alpha = blend_fragments(*list, splats, source, x, y, colours);
             set_pixel(image, source, x, y, alpha, colours);
         }
 }

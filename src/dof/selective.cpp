@@ -16,8 +16,8 @@ namespace sparselens {
 
 namespace {
 
-constexpr int tile_size = 32; // pixels
-static_assert(tile_size <= PsfRows::max_width);
+constexpr int tile_size = 64; // pixels
+static_assert(tile_size <= PsfRows::max_size);
 constexpr std::size_t tile_pixels = std::size_t(tile_size) * tile_size;
 
 std::size_t index_in(const Imath::Box2i &tile, int x, int y) {
@@ -38,8 +38,9 @@ bool covers(double radius, const Imath::Box2d &centres, const Imath::Box2d &tile
 // One tile at work: the sums of the bin that is being gathered, and the layers made of the bins before it.
 class TileGather {
 public:
-    TileGather(const CellGrid &grid, std::size_t layers, double pixel_aspect)
-        : grid_(grid), pixel_aspect_(pixel_aspect), sums_(grid.size() * tile_pixels), uniform_(grid.size()),
+    TileGather(const CellGrid &grid, std::size_t layers, const Windows &windows)
+        : grid_(grid), data_(windows.data), pixel_aspect_(double(windows.pixel_aspect)),
+          sums_(grid.size() * tile_pixels), uniform_(grid.size()),
           layers_(tile_pixels, layers, grid.colours) {}
 
     // `cells` are the indices of those that may reach the tile, front to back.
@@ -55,11 +56,12 @@ private:
     void add_splat(std::size_t splat);
 
     const CellGrid &grid_;
+    Imath::Box2i data_;
     double pixel_aspect_;
     Imath::Box2i tile_;
     int bin_ = 0;
     Imath::Box2i touched_;        // pixels of the tile that have sums
-    std::vector<double> sums_;    // [coverage, colours][tile_size][tile_size]
+    std::vector<double> sums_;    // [sum][tile_size][tile_size]
     std::vector<double> uniform_; // what all pixels of the tile get alike
     TileLayers layers_;
 };
@@ -110,12 +112,18 @@ void TileGather::add_splat(std::size_t splat) {
 }
 
 void TileGather::finish_bin() {
+    const std::size_t size = grid_.size();
     for (int y = touched_.min.y; y <= touched_.max.y; ++y)
         for (int x = touched_.min.x; x <= touched_.max.x; ++x) {
-            const std::size_t pixel = index_in(tile_, x, y);
-            for (std::size_t k = 0; k < uniform_.size(); ++k) sums_[k * tile_pixels + pixel] += uniform_[k];
-            if (sums_[pixel] > 0) layers_.add(pixel, bin_, &sums_[pixel], tile_pixels);
-            for (std::size_t k = 0; k < uniform_.size(); ++k) sums_[k * tile_pixels + pixel] = 0;
+            double *sums = &sums_[index_in(tile_, x, y)];
+            for (std::size_t k = 0; k < size; ++k) sums[k * tile_pixels] += uniform_[k];
+            const double known = sums[tile_pixels];
+            if (known > least_known) {
+                const double radius = sums[(size - 1) * tile_pixels] / known;
+                const double scale = 1 / frame_share(data_, pixel_aspect_, x, y, radius);
+                layers_.add(index_in(tile_, x, y), bin_, sums, tile_pixels, scale);
+            }
+            for (std::size_t k = 0; k < size; ++k) sums[k * tile_pixels] = 0;
         }
     std::fill(uniform_.begin(), uniform_.end(), 0);
     touched_.makeEmpty();
@@ -148,7 +156,7 @@ Image selective_gather(const Ldi &ldi, const ThinLens &lens, const SelectiveOpti
     const Imath::Box2i &data = ldi.windows.data;
     const auto tiles_in = [](int length) { return std::size_t((length + tile_size - 1) / tile_size); };
     tbb::enumerable_thread_specific<TileGather> workers(
-        [&] { return TileGather(grid, std::size_t(options.layers), lens.pixel_aspect); });
+        [&] { return TileGather(grid, std::size_t(options.layers), ldi.windows); });
     progress.start("selective gather", tiles_in(ldi.windows.height()) * tiles_in(ldi.windows.width()));
     parallel_for(tiles_in(ldi.windows.height()), [&](std::size_t row) {
         const int top = data.min.y + int(row) * tile_size, bottom = std::min(top + tile_size - 1, data.max.y);

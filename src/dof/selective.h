@@ -11,7 +11,7 @@
 namespace sparselens {
 
 struct SelectiveOptions {
-    int layers = 4; // most a destination pixel keeps apart, >= 1
+    int layers = 8; // most a destination pixel keeps apart, >= 1
 };
 
 // Windows and channels are the LDI's; where nothing is known the picture is transparent. Ids are the front

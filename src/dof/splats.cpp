@@ -1,5 +1,7 @@
 #include "dof/splats.h"
 
+#include <limits>
+
 namespace sparselens {
 
 SplatSource::SplatSource(const Ldi &ldi, const ThinLens &lens) : ldi_(ldi), lens_(lens), alpha_(ldi.alpha()) {
@@ -17,6 +19,11 @@ Imath::V2d SplatSource::position(std::size_t pixel, std::size_t sample) const {
         return offsets.empty() || sample == npos ? 0.0 : std::clamp(double(offsets[sample]), -limit, limit);
     };
     return {corner.x + 0.5 + offset(ldi_.dx), corner.y + 0.5 + offset(ldi_.dy)};
+}
+
+Splat SplatSource::background(std::size_t pixel, double passed) const {
+    const double coc = circle_of_confusion(lens_, std::numeric_limits<double>::infinity());
+    return {position(pixel, npos), coc, depth_bin(coc), 0, passed, 0, npos};
 }
 
 Image image_with_ids(const Ldi &ldi) {

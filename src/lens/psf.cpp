@@ -30,121 +30,144 @@ long double signed_quadrant_area(long double radius, long double x, long double 
     return start * y + integral(x) - integral(start);
 }
 
-// Area between an arc of at most a quarter turn and its chord: r^2 (asin s - s sqrt(1 - s^2)), s = chord /
-// 2r. Its series in s is s^3 times one in s^2, here interpolated at the Chebyshev nodes of s^2 in [0, 1/2]
-// (relative error 1e-9).
-double segment_area(double radius, double chord_squared) {
-    constexpr std::array<double, 10> series{
-        0.666666666224, 0.200000176699,   0.107131328214, 0.0697332580261, 0.0460867824798,
-        0.063628909190, -0.0786869562199, 0.297929303522, -0.36436085167,  0.265231504305};
+// Area between an arc of at most a quarter turn and its chord: r^2 (asin s - s sqrt(1 - s^2)), s = chord / 2r.
+// Its series in s is s^3 times one in s^2. The long one is interpolated at the Chebyshev nodes of s^2 in [0, 1/2]
+// (relative error 1e-9), the short one is Taylor's: pieces within a pixel are no longer than sqrt(2), so from a
+// radius of 2.5 on its error is below 3e-7.
+constexpr double short_series_from = 2.5;
+constexpr std::array<double, 4> short_series{2.0 / 3, 1.0 / 5, 3.0 / 28, 5.0 / 72};
+constexpr std::array<double, 10> long_series{
+    0.666666666224,  0.200000176699,   0.107131328214, 0.0697332580261, 0.0460867824798,
+    0.0636289091899, -0.0786869562199, 0.297929303522, -0.36436085167,  0.265231504305};
+
+template <std::size_t Length>
+double segment_area(double radius, double chord_squared, const std::array<double, Length> &series) {
     const double t = chord_squared / (4 * radius * radius);
     double sum = 0;
-    for (std::size_t i = series.size(); i-- > 0;) sum = sum * t + series[i];
+    for (std::size_t i = Length; i-- > 0;) sum = sum * t + series[i];
     return radius * radius * t * std::sqrt(t) * sum;
 }
 
-bool is_point(const Psf &psf) { return psf.radius < smallest_psf_radius; }
+double segment_area(double radius, double chord_squared) {
+    return radius < short_series_from ? segment_area(radius, chord_squared, long_series)
+                                      : segment_area(radius, chord_squared, short_series);
+}
 
-int whole(double x, double low, double high) { return int(std::clamp(x, low, high)); }
+// Floor of x, kept within two bounds. What is cut off is positive, so that the cast rounds down.
+int floor_within(double x, int low, int high) {
+    return low + int(std::clamp(x - low, 0.0, double(high - low)));
+}
 
 } // namespace
 
-double psf_weight(const Psf &psf, int x, int y) {
-    if (is_point(psf)) return std::floor(psf.centre.x) == x && std::floor(psf.centre.y) == y ? 1 : 0;
+double psf_share(const Psf &psf, const Imath::Box2d &box) {
+    const Imath::V2d &p = psf.centre;
+    if (psf.radius < smallest_psf_radius)
+        return p.x >= box.min.x && p.x < box.max.x && p.y >= box.min.y && p.y < box.max.y ? 1 : 0;
     const long double r = psf.radius, aspect = psf.pixel_aspect;
-    const long double x0 = x - (long double)psf.centre.x, x1 = x0 + 1;
-    const long double y0 = (y - (long double)psf.centre.y) / aspect, y1 = y0 + 1 / aspect;
+    const long double x0 = box.min.x - (long double)p.x, x1 = box.max.x - (long double)p.x;
+    const long double y0 = (box.min.y - (long double)p.y) / aspect,
+                      y1 = (box.max.y - (long double)p.y) / aspect;
     const long double area = signed_quadrant_area(r, x1, y1) - signed_quadrant_area(r, x0, y1) -
                              signed_quadrant_area(r, x1, y0) + signed_quadrant_area(r, x0, y0);
     return double(std::max(0.0L, area) / (std::numbers::pi_v<long double> * r * r));
 }
 
+double psf_weight(const Psf &psf, int x, int y) {
+    return psf_share(psf, {Imath::V2d(x, y), Imath::V2d(x + 1.0, y + 1.0)});
+}
+
 // The part of a row on one side of the centre's row, distances from the centre (in units of a pixel's width):
-// between `low` and `high` <= radius, where half the chord is `outer` and `inner`.
+// between `low` and `high` <= radius, where half the chord is `outer` and `inner`. Columns are full of it from
+// -inner to inner; from there the arc falls from (inner, high) to (outer, low).
 struct PsfRows::Band {
     double low = 0, high = 0, outer = 0, inner = 0;
 };
 
 PsfRows::PsfRows(const Psf &psf, const Imath::Box2i &box)
-    : psf_(psf), box_(box), area_to_weight_(1 / (std::numbers::pi * psf.radius * psf.radius)) {
-    assert(box.max.x - box.min.x < max_width);
-    const double half_height = is_point(psf) ? 0 : psf.radius * psf.pixel_aspect;
-    const double top = box.min.y, bottom = box.max.y + 1.0;
-    begin_row_ = whole(std::floor(psf.centre.y - half_height), top, bottom);
-    end_row_ = whole(std::floor(psf.centre.y + half_height) + 1, top, bottom);
-    if (is_point(psf)) {
-        const int column = int(std::floor(psf.centre.x));
-        if (column < box.min.x || column > box.max.x) end_row_ = begin_row_;
-        return;
+    : psf_(psf), box_(box), point_(psf.radius < smallest_psf_radius),
+      area_to_weight_(1 / (std::numbers::pi * psf.radius * psf.radius)) {
+    assert(box.max.x - box.min.x < max_size && box.max.y - box.min.y < max_size);
+    const double radius = point_ ? 0 : psf.radius, high = radius * psf.pixel_aspect;
+    const int bottom = box.max.y + 1;
+    rows_ = {floor_within(psf.centre.y - high, box.min.y, bottom),
+             floor_within(psf.centre.y + high + 1, box.min.y, bottom)};
+    columns_ = columns_within(radius);
+    if (columns_.begin >= columns_.end) rows_.end = rows_.begin;
+    if (point_ || rows_.begin >= rows_.end) return;
+    for (int x = columns_.begin; x <= columns_.end; ++x)
+        height_[std::size_t(x - box.min.x)] = half_chord(radius, std::abs(x - psf.centre.x));
+    for (int y = rows_.begin; y <= rows_.end; ++y)
+        width_[std::size_t(y - box.min.y)] =
+            half_chord(radius, std::abs(y - psf.centre.y) / psf.pixel_aspect);
+}
+
+// Those of the box that lie within a distance of the centre, in part or whole.
+PsfRows::Span PsfRows::columns_within(double distance) const {
+    const int right = box_.max.x + 1;
+    return {floor_within(psf_.centre.x - distance, box_.min.x, right),
+            floor_within(psf_.centre.x + distance + 1, box_.min.x, right)};
+}
+
+// What the arc cuts off the columns from `column` outwards (Direction 1: to the right).
+template <int Direction>
+void PsfRows::add_arc(const Band &band, int column, double *weights) const {
+    const auto edge_before = [](int x) { return Direction > 0 ? x : x + 1; };
+    const auto distance = [&](int edge) { return Direction * (edge - psf_.centre.x); };
+    const auto arc_at = [&](int edge) {
+        return std::clamp(height_[std::size_t(edge - box_.min.x)], band.low, band.high);
+    };
+    double x = band.inner, y = band.high;
+    if (const int edge = edge_before(column); distance(edge) > x) x = distance(edge), y = arc_at(edge);
+    for (; x < band.outer && column >= columns_.begin && column < columns_.end; column += Direction) {
+        const int edge = edge_before(column + Direction);
+        const double end_x = std::min(distance(edge), band.outer), end_y = arc_at(edge);
+        const double run = std::max(0.0, end_x - x), fall = y - end_y;
+        const double area =
+            run * ((y + end_y) / 2 - band.low) + segment_area(psf_.radius, run * run + fall * fall);
+        weights[column - box_.min.x] += area_to_weight_ * area;
+        x = end_x;
+        y = end_y;
     }
-    const int columns = box.max.x + 1 - box.min.x;
-    for (int i = 0; i <= columns; ++i)
-        height_[std::size_t(i)] = half_chord(psf.radius, std::abs(box.min.x + i - psf.centre.x));
 }
 
-PsfRows::Band PsfRows::band(double low, double high) const {
-    low = std::min(low, psf_.radius);
-    high = std::min(high, psf_.radius);
-    return {low, high, half_chord(psf_.radius, low), half_chord(psf_.radius, high)};
-}
-
-// Area of disc and band between the centre's column and the edge, negative to the left of the centre.
-// Out to `inner` the band is full; from there the arc falls from (inner, high) to where it meets the edge or
-// leaves the band: a trapezoid under the chord and the segment above it.
-double PsfRows::area_left_of(const Band &band, int edge) const {
-    const double x = edge - psf_.centre.x, distance = std::abs(x);
-    const double full = std::min(distance, band.inner) * (band.high - band.low);
-    const double end_x = std::clamp(distance, band.inner, band.outer);
-    const double end_y = std::clamp(height_[std::size_t(edge - box_.min.x)], band.low, band.high);
-    const double run = end_x - band.inner, fall = band.high - end_y;
-    const double under_chord = run * ((band.high + end_y) / 2 - band.low);
-    return std::copysign(full + under_chord + segment_area(psf_.radius, run * run + fall * fall), x);
-}
-
-PsfRows::Span PsfRows::point_row(double *weights) const {
-    const int column = int(std::floor(psf_.centre.x));
-    weights[column - box_.min.x] = 1;
-    return {column, column + 1};
+void PsfRows::add_band(const Band &band, double *weights) const {
+    const double height = area_to_weight_ * (band.high - band.low);
+    const Span columns = columns_within(band.inner);
+    const double left = psf_.centre.x - band.inner, right = psf_.centre.x + band.inner;
+    double *const first = weights + (columns.begin - box_.min.x), *const last = weights + (columns.end - 1 -
+                                                                                           box_.min.x);
+    const auto full_share = [&](int x) { return std::min(x + 1.0, right) - std::max(double(x), left); };
+    if (first <= last) *first += height * full_share(columns.begin);
+    for (double *weight = first + 1; weight < last; ++weight) *weight += height;
+    if (first < last) *last += height * full_share(columns.end - 1);
+    if (right < columns_.end) add_arc<1>(band, std::max(columns.end - 1, columns_.begin), weights);
+    if (left > columns_.begin) add_arc<-1>(band, std::min(columns.begin, columns_.end - 1), weights);
 }
 
 PsfRows::Span PsfRows::row(int y, double *weights) const {
-    if (is_point(psf_)) return point_row(weights);
-    // The row's edges, in units of a pixel's width; the row that holds the centre is two bands.
+    if (point_) {
+        weights[columns_.begin - box_.min.x] = 1;
+        return columns_;
+    }
+    // Edges of the row, in units of a pixel's width. The row that holds the centre is two bands.
+    const double radius = psf_.radius;
     const double top = (y - psf_.centre.y) / psf_.pixel_aspect,
                  bottom = (y + 1 - psf_.centre.y) / psf_.pixel_aspect;
-    std::array<Band, 2> bands{};
-    int count = 0;
-    if (top < 0) bands[std::size_t(count++)] = band(std::max(0.0, -bottom), -top);
-    if (bottom > 0) bands[std::size_t(count++)] = band(std::max(0.0, top), bottom);
-    double outer = bands[0].outer, inner = bands[0].inner, height = bands[0].high - bands[0].low;
-    if (count == 2) {
-        outer = std::max(outer, bands[1].outer);
-        inner = std::min(inner, bands[1].inner);
-        height += bands[1].high - bands[1].low;
+    const double at_top = width_[std::size_t(y - box_.min.y)],
+                 at_bottom = width_[std::size_t(y - box_.min.y) + 1];
+    const bool above = top<0, below = bottom> 0;
+    const Span columns = columns_within(above && below ? radius : above ? at_bottom : at_top);
+    std::fill(weights + (columns.begin - box_.min.x), weights + (columns.end - box_.min.x), 0.0);
+    if (above && below) {
+        add_band({0, std::min(-top, radius), radius, at_top}, weights);
+        add_band({0, std::min(bottom, radius), radius, at_bottom}, weights);
+    } else if (above) {
+        add_band({std::min(-bottom, radius), std::min(-top, radius), at_bottom, at_top}, weights);
+    } else {
+        add_band({std::min(top, radius), std::min(bottom, radius), at_top, at_bottom}, weights);
     }
-    const double left = box_.min.x, right = box_.max.x + 1.0;
-    const int begin = whole(std::floor(psf_.centre.x - outer), left, right);
-    const int end = whole(std::ceil(psf_.centre.x + outer), left, right);
-    const int full_begin = whole(std::ceil(psf_.centre.x - inner), begin, end);
-    const int full_end = std::max(full_begin, whole(std::floor(psf_.centre.x + inner), begin, end));
-    const auto border = [&](int first, int last) {
-        const auto area = [&](int edge) {
-            const double one = area_left_of(bands[0], edge);
-            return count == 2 ? one + area_left_of(bands[1], edge) : one;
-        };
-        if (first == last) return;
-        double before = area(first);
-        for (int x = first; x < last; ++x) {
-            const double after = area(x + 1);
-            weights[x - box_.min.x] = std::max(0.0, after - before) * area_to_weight_;
-            before = after;
-        }
-    };
-    border(begin, full_begin);
-    std::fill(weights + (full_begin - box_.min.x), weights + (full_end - box_.min.x),
-              height * area_to_weight_);
-    border(full_end, end);
-    return {begin, end};
+    return columns;
 }
 
 } // namespace sparselens

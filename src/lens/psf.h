@@ -23,42 +23,50 @@ struct Psf {
 // Below this radius a disc is taken for a point.
 inline constexpr double smallest_psf_radius = 1e-9;
 
-// The slow reference: the weight of pixel (x, y) in closed form. Error below 1e-9 of a pixel's area.
+// The share of the light that falls into a box (EXR pixel coordinates), in closed form; 1e-9 of the disc's area
+// or of a pixel's, whichever is less, is the error. A point on the box's lower edges is inside, on the upper not.
+double psf_share(const Psf &psf, const Imath::Box2d &box);
+
+// The slow reference: the weight of pixel (x, y).
 double psf_weight(const Psf &psf, int x, int y);
 
-// The fast form: the weights in one row of pixels after the other, within a box. Error below 1e-6 of a
-// pixel's area. Square roots are taken once for each row and column of pixel edges, none of the functions
-// with a series of its own (asin) is called.
+// The fast form: the weights in one row of pixels after the other, within a box. Error below 1e-6 of a pixel's
+// area. The arc is cut where it crosses edges of pixels; what lies under each piece is a trapezoid and the
+// segment between arc and chord. Square roots are taken once for each row and column of edges and each piece.
 class PsfRows {
 public:
-    static constexpr int max_width = 64;
+    static constexpr int max_size = 64;
 
-    // The box is not empty and at most max_width wide.
+    // The box is not empty, and at most max_size wide and high.
     PsfRows(const Psf &psf, const Imath::Box2i &box);
 
     // Rows of the box that the disc touches.
-    int begin_row() const { return begin_row_; }
-    int end_row() const { return end_row_; }
+    int begin_row() const { return rows_.begin; }
+    int end_row() const { return rows_.end; }
 
     struct Span {
-        int begin, end; // columns
+        int begin = 0, end = 0; // columns
     };
-    // The columns of the box that the disc touches in row y of [begin_row, end_row); weights[x - box.min.x]
-    // is set for those and left alone elsewhere.
+    // The columns of the box that the disc touches in row y of [begin_row, end_row); weights[x - box.min.x] is
+    // set for those and left alone elsewhere.
     Span row(int y, double *weights) const;
 
 private:
+    using Table = std::array<double, max_size + 1>;
     struct Band;
-    Band band(double low, double high) const;
-    double area_left_of(const Band &band, int edge) const;
-    Span point_row(double *weights) const;
+    Span columns_within(double distance) const;
+    void add_band(const Band &band, double *weights) const;
+    template <int Direction>
+    void add_arc(const Band &band, int column, double *weights) const;
 
     Psf psf_;
     Imath::Box2i box_;
+    bool point_;
     double area_to_weight_;
-    int begin_row_, end_row_;
-    // Height of the disc above the row of its centre at each edge between columns of the box.
-    std::array<double, max_width + 1> height_;
+    Span rows_, columns_;
+    // Half the chord of the disc along each edge between columns, and along each edge between rows, of those
+    // that the disc touches.
+    Table height_, width_;
 };
 
 } // namespace sparselens
