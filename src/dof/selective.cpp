@@ -16,7 +16,7 @@ namespace sparselens {
 
 namespace {
 
-constexpr int tile_size = 64; // pixels
+constexpr int tile_size = 32; // pixels
 static_assert(tile_size <= PsfRows::max_size);
 constexpr std::size_t tile_pixels = std::size_t(tile_size) * tile_size;
 
