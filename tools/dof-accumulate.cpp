@@ -35,19 +35,24 @@ void add_options(CLI::App &app, Options &options) {
     add_lens_options(app, options.lens);
 }
 
-// An aperture asked for stops the lens down: views farther from its centre do not count.
-void stop_down(LensViewFiles &files, const Options &options) {
-    if (!options.lens.fstop && !options.lens.lens_radius) return;
-    const double radius = resolve_lens(options.lens, files.centre, files.windows).radius * (1 + 1e-5);
-    std::erase_if(files.views, [&](const LensViewFile &view) { return view.position.length() > radius; });
+// The aperture where the options ask for one: only then are views left out for standing outside of it.
+std::optional<double> radius_asked_for(const LensViewFiles &files, const LensOptions &lens) {
+    if (!lens.fstop && !lens.lens_radius) return {};
+    return resolve_radius(lens, files.centre);
+}
+
+void stop_down(LensViewFiles &files, double radius) {
+    constexpr double rounding = 1e-5; // of positions in metadata, relative
+    std::erase_if(files.views,
+                  [&](const LensViewFile &view) { return view.position.length() > radius * (1 + rounding); });
     if (files.views.empty()) throw Error("no view stands within the aperture asked for");
 }
 
-// A lens of radius 1, so that lens points are in scene units: moving the views needs no aperture.
-ThinLens unit_lens(const Options &options, const LensViewFiles &files) {
-    LensOptions lens = options.lens;
+// A lens of radius 1, so that lens points are in scene units: moving the views needs no aperture. A pinhole
+// moves nothing and needs nothing.
+ThinLens moving_lens(const LensViewFiles &files, LensOptions lens, bool pinhole) {
     lens.fstop.reset();
-    lens.lens_radius = 1;
+    lens.lens_radius = pinhole ? 0 : 1;
     return resolve_lens(lens, files.centre, files.windows);
 }
 
@@ -84,9 +89,11 @@ void accumulate_files(const Options &options, const ToolContext &tool) {
     if (files.centre_guessed && files.views.size() > 1)
         warn(tool, "the lens centre is taken to be the mean of the views' positions; --center FILE says "
                    "where it is");
-    stop_down(files, options);
+    const std::optional<double> radius = radius_asked_for(files, options.lens);
+    if (radius) stop_down(files, *radius);
     tool.say(std::to_string(files.views.size()) + " views");
-    const Image image = average_views(files, unit_lens(options, files), options, tool);
+    const ThinLens lens = moving_lens(files, options.lens, radius == 0.0);
+    const Image image = average_views(files, lens, options, tool);
     write_flat_exr(options.output, in_type(image, options.as_float), header_of(files));
 }
 

@@ -7,6 +7,7 @@
 #include "measure/image_error.h"
 #include "measure/regions.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <vector>
 
@@ -36,26 +37,31 @@ void add_options(CLI::App &app, Options &options) {
         if (option->get_group() == "Lens") option->needs(regions); // they say how to read it
 }
 
-std::vector<std::uint8_t> regions_over(const Windows &target, const Options &options) {
+std::vector<std::uint8_t> regions_over(const Windows &target, const Options &options,
+                                       const ToolContext &tool) {
     const LoadedLdi in = load_ldi(options.regions, options.lens, options.depth);
     const Windows &windows = in.ldi.windows;
     if (windows.display_width() != target.display_width() ||
         windows.display_height() != target.display_height())
         throw Error(options.regions + ": the display window differs in size from the reference's");
     const ThinLens lens = resolve_lens(options.lens, in.camera, windows);
+    tool.say("regions by a lens of radius " + std::to_string(lens.radius) + ", focal length " +
+             std::to_string(lens.focal_px) + " pixels, focused at " + std::to_string(lens.focus));
     const std::vector<float> c = front_circles_of_confusion(in.ldi, lens);
     const auto bits = region_bits(c, windows.width(), windows.height(), lens.pixel_aspect);
     return bits_over(bits, windows, target);
 }
 
-void compare(const Options &options) {
+void compare(const Options &options, const ToolContext &tool) {
+    const auto from_stdin = {options.image == "-", options.reference == "-", options.regions == "-"};
+    if (std::ranges::count(from_stdin, true) > 1) throw UsageError("standard input cannot be read twice");
     const Image reference_file = read_flat_exr(options.reference).image;
     const Windows &windows = reference_file.windows;
     const Image reference = rgba_over(reference_file, windows, options.reference);
     const Image image = rgba_over(read_flat_exr(options.image).image, windows, options.image);
 
     std::vector<std::uint8_t> bits;
-    if (!options.regions.empty()) bits = regions_over(windows, options);
+    if (!options.regions.empty()) bits = regions_over(windows, options, tool);
     const auto figures = image_error(image, reference, bits, bits.empty() ? 0 : region_names.size());
 
     std::vector<NamedFigures> regions;
@@ -72,5 +78,5 @@ int main(int argc, char **argv) {
     CLI::App app("Error figures of a picture against a reference", "dof-compare");
     Options options;
     add_options(app, options);
-    return run_tool(app, argc, argv, [&](const ToolContext &) { compare(options); });
+    return run_tool(app, argc, argv, [&](const ToolContext &tool) { compare(options, tool); });
 }

@@ -1,5 +1,6 @@
-// LDI to lens picture: dof-gather IN.exr -o OUT.exr [lens options] [--method M] [--layers K] [--focus-pixel X,Y]
-//     [--depth-out FILE] [--channels LIST] [-d half|float]
+// LDI to lens picture: dof-gather IN.exr -o OUT.exr [lens options] [--method M] [--quality Q]
+//     [--lens-samples N] [--layers K] [--focus-pixel X,Y] [--depth-out FILE]
+//     [--channels LIST] [-d half|float]
 #include "base/error.h"
 #include "common/channels.h"
 #include "common/picture_options.h"
@@ -34,6 +35,15 @@ void add_options(CLI::App &app, Options &options) {
         ->type_name("OUT.exr")
         ->required();
     add_method_option(app, options.method);
+    const std::map<std::string, Quality> qualities{
+        {"draft", Quality::draft}, {"normal", Quality::normal}, {"final", Quality::final}};
+    app.add_option("--quality", options.gather.lens.quality, "Error against time (lens; normal)")
+        ->type_name("draft|normal|final")
+        ->transform(CLI::CheckedTransformer(qualities));
+    app.add_option("--lens-samples", options.gather.lens.lens_samples,
+                   "Lens points everywhere (lens), 0 = by the quality and what the picture needs")
+        ->type_name("N")
+        ->check(CLI::Range(0, 1 << 20));
     app.add_option("--layers", options.gather.layers, "Layers a pixel keeps apart (selective)")
         ->type_name("K")
         ->check(CLI::Range(1, 4096))
@@ -69,10 +79,12 @@ void run(const Options &options, const ToolContext &tool) {
     focus_on_pixel(in, options);
     const ThinLens lens = resolve_lens(options.lens, in.camera, in.ldi.windows);
     warn_if_wider_than_views(tool, lens, in.camera);
-    Image picture = lens.radius == 0 ? flatten(in.ldi)
-                                     : options.method->gather(in.ldi, lens, options.gather, *tool.progress);
+    const Imath::Box2i window = read_picture_window(in.header);
+    Image picture = lens.radius == 0
+                        ? crop(flatten(in.ldi), window)
+                        : options.method->gather(in.ldi, lens, window, options.gather, *tool.progress);
     write_camera(in.header, in.camera);
-    if (!options.depth_output.empty()) write_flat_exr(options.depth_output, front_depth(in.ldi), in.header);
+    if (!options.depth_output.empty()) write_flat_exr(options.depth_output, crop(front_depth(in.ldi), window), in.header);
     write_flat_exr(options.output,
                    in_type(chosen_channels(std::move(picture), options.channels), options.as_float),
                    in.header);

@@ -8,33 +8,13 @@
 #include "trace/render.h"
 #include "trace/scenes.h"
 
-#include <algorithm>
 #include <cstdio>
 
 namespace sparselens {
 namespace {
 
-Scene scene_named(const std::string &name) {
-    const auto table = scene_table();
-    return std::find_if(table.begin(), table.end(),
-                        [&](const SceneEntry &entry) { return entry.name == name; })
-        ->build();
-}
-
-Windows windows_of(const TraceOptions &options) {
-    Windows windows = windows_of_size(options.width, options.height);
-    windows.data.min -= Imath::V2i(options.overscan);
-    windows.data.max += Imath::V2i(options.overscan);
-    return windows;
-}
-
-RenderSettings settings_of(const TraceOptions &options, const Camera &camera) {
-    RenderSettings settings{windows_of(options), {}, options.light};
-    settings.lens = resolve_lens(options.lens, camera, settings.windows);
-    settings.lens.focal_px = options.width * *camera.focal_length_mm / *camera.sensor_width_mm;
-    settings.lens.focus = *camera.focus_distance;
-    return settings;
-}
+// Streams of random numbers: a picture's noise does not depend on what else is rendered. The reference has 0.
+enum Stream : std::uint32_t { of_centre = 1, of_deep = 0x1000000, of_rim = 0x2000000, of_lens = 0x3000000 };
 
 std::string numbered(const char *format, int number) {
     char name[32];
@@ -43,33 +23,34 @@ std::string numbered(const char *format, int number) {
 }
 
 void trace(const TraceOptions &options, const ToolContext &tool) {
-    const Scene scene = scene_named(options.scene);
+    const Scene scene = build_scene(options.scene);
     const Camera camera = camera_with_options(options.lens, scene.camera);
-    const RenderSettings settings = settings_of(options, camera);
+    const RenderSettings settings = render_settings(options, camera);
     const Tracer tracer(scene);
-    TraceOutputs outputs(options.folder, camera, settings, options.type);
-    std::uint32_t stream = 0; // of random numbers: the reference has the first
-    const auto add_view = [&](const std::string &name, const Imath::V2d &u) {
-        ++stream;
+    TraceOutputs outputs(options.folder, camera, settings, options.type, tool);
+    const auto add_view = [&](const std::string &name, const Imath::V2d &u, std::uint32_t stream) {
         outputs.add(name, u, [&] {
             return render_view(tracer, settings, u, options.samples, stream, *tool.progress);
         });
     };
+    const auto add_views = [&](const char *format, const std::vector<Imath::V2d> &points,
+                               std::uint32_t stream) {
+        for (std::size_t k = 0; k < points.size(); ++k)
+            add_view(numbered(format, int(k)), points[k], stream + std::uint32_t(k));
+    };
+    const auto rim = rim_lens_points(options.views);
 
-    const auto rim = rim_lens_points(options.views), dense = spiral_lens_points(options.lens_views);
-    add_view("center.exr", {0, 0});
-    for (int k = 0; k < options.views; ++k) add_view(numbered("view_%d.exr", k), rim[std::size_t(k)]);
-    for (int k = 0; k < options.lens_views; ++k)
-        add_view(numbered("lens_%04d.exr", k), dense[std::size_t(k)]);
+    add_view("center.exr", {0, 0}, of_centre);
+    add_views("view_%d.exr", rim, of_rim);
+    add_views("lens_%04d.exr", spiral_lens_points(options.lens_views), of_lens);
     if (options.reference > 0)
         outputs.add("reference.exr", {0, 0},
                     [&] { return render_reference(tracer, settings, options.reference, *tool.progress); });
-    for (const DeepRequest &deep : options.deep) {
-        const auto render = deep.kind == DeepRequest::Kind::peel ? render_peeled : render_strata;
-        outputs.add_deep(deep.kind == DeepRequest::Kind::peel ? "deep_peel.exr" : "deep_strata.exr", [&] {
-            return render(tracer, settings, deep.layers, options.samples, ++stream, *tool.progress);
+    for (const DeepRequest &deep : options.deep)
+        outputs.add_deep(deep.peel ? "deep_peel.exr" : "deep_strata.exr", [&] {
+            const auto render = deep.peel ? render_peeled : render_strata;
+            return render(tracer, settings, deep.layers, options.samples, of_deep, *tool.progress);
         });
-    }
     outputs.write_summary(rim, options.samples, options.reference);
 }
 

@@ -51,6 +51,7 @@ void run(const Options &options, const ToolContext &tool) {
     const WarpOptions warp_by = warp_options(options, loaded);
     for (const View &view : loaded.views) loaded.camera.lens_points.push_back(view.position);
     write_camera(loaded.header, loaded.camera);
+    write_picture_window(loaded.header, loaded.views[0].image.windows.data);
     const Ldi ldi = warp(loaded.views, warp_by, *tool.progress);
     tool.say(std::to_string(loaded.views.size()) + " views, " + std::to_string(ldi.samples()) +
              " samples in " + std::to_string(ldi.windows.pixels()) + " pixels");

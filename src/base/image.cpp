@@ -1,5 +1,7 @@
 #include "base/image.h"
 
+#include <algorithm>
+
 namespace sparselens {
 
 Windows windows_of_size(int width, int height) {
@@ -29,6 +31,18 @@ std::size_t index_of(const Image &image, std::size_t channel, int x, int y) {
 float &Image::at(std::size_t channel, int x, int y) { return values[index_of(*this, channel, x, y)]; }
 
 float Image::at(std::size_t channel, int x, int y) const { return values[index_of(*this, channel, x, y)]; }
+
+Image crop(const Image &image, const Imath::Box2i &data) {
+    if (data == image.windows.data) return image;
+    Windows windows = image.windows;
+    windows.data = data;
+    Image result(windows, image.channels);
+    for (std::size_t k = 0; k < image.channels.size(); ++k)
+        for (int y = data.min.y; y <= data.max.y; ++y)
+            std::copy_n(&image.values[index_of(image, k, data.min.x, y)], windows.width(),
+                        &result.values[index_of(result, k, data.min.x, y)]);
+    return result;
+}
 
 std::size_t find_channel(std::span<const Channel> channels, std::string_view name) {
     for (std::size_t i = 0; i < channels.size(); ++i)

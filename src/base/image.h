@@ -55,6 +55,9 @@ struct Image {
     float at(std::size_t channel, int x, int y) const;
 };
 
+// The pixels of `data`, which lies within the image's data window.
+Image crop(const Image &image, const Imath::Box2i &data);
+
 // Index of the channel of that name, or npos.
 inline constexpr std::size_t npos = std::size_t(-1);
 std::size_t find_channel(std::span<const Channel> channels, std::string_view name);

@@ -4,8 +4,10 @@
 #include "base/parallel.h"
 #include "dof/parabolic_shift.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 
 namespace sparselens {
 
@@ -42,7 +44,7 @@ struct Plane {
     const float *values;
     const Imath::Box2i &window;
 
-    std::size_t width() const { return std::size_t(window.max.x - window.min.x + 1); }
+    std::size_t width() const { return std::size_t(window.max.x) - std::size_t(window.min.x) + 1; }
     const float *row(int y) const {
         const int inside = std::clamp(y, window.min.y, window.max.y);
         return values + std::size_t(inside - window.min.y) * width();

@@ -2,15 +2,21 @@
 // stays put (P. Haeberli, K. Akeley, "The accumulation buffer: hardware support for high-quality rendering",
 // 1990).
 //
-// Each view has to be moved by a fraction of a pixel. Pixels are means over their own area (a box filter), so
-// that is not interpolation of point samples: inside each pixel, along x and then along y, a parabola is laid
-// whose mean is the pixel's value, and integrated over the moved pixel (the piecewise parabolic method: P.
-// Colella, P. Woodward, 1984, equations 1.6, 1.9, 1.10). It keeps energy, makes no new extremes (no dark
-// rings around lamps, no negative colours), and leaves whole-pixel moves exact. It is not linear: moved
-// layers add up to the moved sum but for traces at edges. Chosen by measurement: 64 views of a checker in
-// focus, tone-mapped PSNR against its exact box-filtered picture: rounding to whole pixels 38.8 dB,
-// bilinear 35.2, Catmull-Rom 38.5, Lanczos-3 38.4, this 39.5; with 4 views 34.8, 34.5, 36.9, -, 38.7; small
-// lamps: 25.4, 22.4, 20.8 (negative rings), 20.3, 24.2.
+// Each view has to be moved by a fraction of a pixel. Pixels are means over their own area (a box filter), so that
+// is not interpolation of point samples: inside each pixel, along x and then along y, a parabola is laid whose mean
+// is the pixel's value, and integrated over the moved pixel (the piecewise parabolic method: P. Colella,
+// P. Woodward, 1984, equations 1.6, 1.9, 1.10). It keeps energy, makes no new extremes (no dark rings around
+// lamps, no negative colours), and leaves whole-pixel moves exact. It is not linear: at edges, moved layers do not
+// quite add up to the moved sum.
+//
+// Chosen by measurement: scene "fence", 640x360, views of 16 samples a pixel, against distributed ray tracing of
+// 2048 rays a pixel; tone-mapped PSNR (dB), 20 pixels clear of the borders:
+//
+//                                    16 views   256 views
+//     moved by whole pixels              35.1        46.5
+//     bilinear                           37.0        44.6
+//     parabolas                          36.9        48.0
+//     parabolas without limits           34.3        48.8    linear, but dark rings and negatives around lamps
 #pragma once
 
 #include "base/image.h"

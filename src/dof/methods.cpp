@@ -9,15 +9,23 @@ namespace sparselens {
 
 namespace {
 
-Image by_selective(const Ldi &ldi, const ThinLens &lens, const GatherOptions &options, Progress &progress) {
-    return selective_gather(ldi, lens, {.layers = options.layers}, progress);
+Image by_lens(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window, const GatherOptions &options,
+              Progress &progress) {
+    return lens_gather(ldi, lens, window, options.lens, progress);
 }
 
-Image by_scatter(const Ldi &ldi, const ThinLens &lens, const GatherOptions &, Progress &progress) {
-    return scatter(ldi, lens, {}, progress);
+Image by_selective(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window, const GatherOptions &options,
+                   Progress &progress) {
+    return crop(selective_gather(ldi, lens, {.layers = options.layers}, progress), window);
 }
 
-constexpr std::array methods{GatherMethod{"selective", by_selective}, GatherMethod{"scatter", by_scatter}};
+Image by_scatter(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window, const GatherOptions &,
+                 Progress &progress) {
+    return crop(scatter(ldi, lens, {}, progress), window);
+}
+
+constexpr std::array methods{GatherMethod{"lens", by_lens}, GatherMethod{"selective", by_selective},
+                             GatherMethod{"scatter", by_scatter}};
 
 } // namespace
 

@@ -3,6 +3,7 @@
 
 #include "base/image.h"
 #include "base/progress.h"
+#include "dof/lens_gather.h"
 #include "ldi/ldi.h"
 #include "lens/thin_lens.h"
 
@@ -12,13 +13,15 @@ namespace sparselens {
 
 // What can be asked of a method; each uses what concerns it.
 struct GatherOptions {
-    int layers = 8; // selective: most layers a destination pixel keeps apart
+    int layers = 8;         // selective: most layers a destination pixel keeps apart
+    LensGatherOptions lens; // lens: quality, lens points
 };
 
 struct GatherMethod {
     const char *name;
-    // The LDI is tidy, the lens has a radius above 0. Windows and channels are the LDI's.
-    Image (*gather)(const Ldi &, const ThinLens &, const GatherOptions &, Progress &);
+    // The pixels of a window (EXR coordinates) within the LDI's data window, its channels. The LDI is tidy, the
+    // lens has a radius above 0.
+    Image (*gather)(const Ldi &, const ThinLens &, const Imath::Box2i &window, const GatherOptions &, Progress &);
 };
 
 // The default first.

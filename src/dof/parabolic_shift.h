@@ -1,31 +1,29 @@
 // One pixel of a line under the piecewise parabolic method: see accumulate.h.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-
 namespace sparselens {
 
-// The value between pixels of values b and c, a before and d after them: of fourth order, never outside [b,
-// c].
-inline float value_between(float a, float b, float c, float d) {
-    const float value = (7 * (b + c) - (a + d)) / 12;
-    return std::clamp(value, std::min(b, c), std::max(b, c));
+// Written out, because in this form compilers turn loops over them into vector instructions.
+inline float smaller(float a, float b) { return a < b ? a : b; }
+inline float larger(float a, float b) { return a > b ? a : b; }
+
+// The value nearest to `value` between the bounds, which may come in either order.
+inline float between(float value, float bound, float other_bound) {
+    return larger(smaller(value, larger(bound, other_bound)), smaller(bound, other_bound));
 }
 
-// The integral over [0, t], t in [0, 1], of the parabola inside the pixel of value c, in a line a b c d e.
-// Over the whole pixel it is c.
+// The integral over [0, t], t in [0, 1], of the parabola inside the pixel of value c, in a line a b c d e. Over the
+// whole pixel it is c.
 inline float integral_inside(float a, float b, float c, float d, float e, float t) {
-    float left = value_between(a, b, c, d), right = value_between(b, c, d, e);
-    // A local extreme is flat; a parabola that would overshoot is made to have its vertex at one edge.
-    const bool monotone = (left < c && c < right) || (left > c && c > right);
-    const float step = std::abs(right - left);
-    const float bend = (6 * c - 3 * (left + right)) * (right < left ? -1.0f : 1.0f);
-    const float steepest_left = 3 * c - 2 * right, steepest_right = 3 * c - 2 * left;
-    left = !monotone ? c : bend > step ? steepest_left : left;
-    right = !monotone ? c : bend < -step ? steepest_right : right;
-    const float slope = right - left, curve = 6 * c - 3 * (left + right);
-    return t * (left + t * ((slope + curve) / 2 - t * curve / 3));
+    // Where pixels meet, the interpolation of fourth order, between the values of the two.
+    const float left = between((7 * (b + c) - (a + d)) / 12, b, c);
+    const float right = between((7 * (c + d) - (b + e)) / 12, c, d);
+    // Over both edges the parabola has to stay monotone: they lie on either side of c, neither more than twice as
+    // far as the other. At a local extreme that leaves a constant.
+    const float to_left = left - c, to_right = right - c;
+    const float l = between(to_left, 0, -2 * to_right), r = between(to_right, 0, -2 * to_left);
+    const float slope = r - l, curve = -3 * (l + r);
+    return t * (c + l + t * ((slope + curve) / 2 - t * curve / 3));
 }
 
 } // namespace sparselens

@@ -1,5 +1,6 @@
 #include "io/camera_metadata.h"
 
+#include <ImfBoxAttribute.h>
 #include <ImfDoubleAttribute.h>
 #include <ImfFloatAttribute.h>
 #include <ImfIntAttribute.h>
@@ -19,6 +20,7 @@ constexpr const char *focal_length_name = "pinholeFocalLength";     // mm
 constexpr const char *sensor_width_name = "sparselens:sensorWidth"; // mm
 constexpr const char *metres_per_unit_name = "sparselens:metresPerUnit";
 constexpr const char *lens_points_name = "sparselens:lensPoints"; // "x,y x,y ...", scene units
+constexpr const char *picture_window_name = "sparselens:dataWindow";
 constexpr const char *version_name = "sparselens:version";
 
 // A number above 0 (infinity where it can be meant) or nothing: a header may hold anything.
@@ -34,14 +36,23 @@ std::optional<double> number(const Imf::Header &header, const char *name) {
     return {};
 }
 
-// Distances are computed with, so they keep more than a float's digits where they are ours.
-void put(Imf::Header &header, const char *name, const std::optional<double> &value) {
-    if (value) header.insert(name, Imf::DoubleAttribute(*value));
+// Puts the attribute in the place of any of that name, whatever the type of that was.
+void replace(Imf::Header &header, const char *name, const Imf::Attribute &attribute) {
+    header.erase(name);
+    header.insert(name, attribute);
+}
+
+std::optional<Imath::M44d> finite(const Imath::M44d &m) {
+    for (int row = 0; row < 4; ++row)
+        for (int column = 0; column < 4; ++column)
+            if (!std::isfinite(m[row][column])) return {};
+    return m;
 }
 
 std::optional<Imath::M44d> matrix(const Imf::Header &header, const char *name) {
-    if (const auto *a = header.findTypedAttribute<Imf::M44fAttribute>(name)) return Imath::M44d(a->value());
-    if (const auto *a = header.findTypedAttribute<Imf::M44dAttribute>(name)) return a->value();
+    if (const auto *a = header.findTypedAttribute<Imf::M44fAttribute>(name))
+        return finite(Imath::M44d(a->value()));
+    if (const auto *a = header.findTypedAttribute<Imf::M44dAttribute>(name)) return finite(a->value());
     return {};
 }
 
@@ -84,18 +95,35 @@ Camera read_camera(const Imf::Header &header) {
 }
 
 void write_camera(Imf::Header &header, const Camera &camera) {
-    if (camera.focal_length_mm)
-        header.insert(focal_length_name, Imf::FloatAttribute(float(*camera.focal_length_mm)));
-    put(header, sensor_width_name, camera.sensor_width_mm);
-    put(header, metres_per_unit_name, camera.metres_per_unit);
-    if (camera.fstop) Imf::addAperture(header, float(*camera.fstop));
-    if (camera.focus_distance)
-        Imf::addFocus(header, float(*camera.focus_distance * camera.metres_per_unit.value_or(1)));
-    if (camera.world_to_camera) Imf::addWorldToCamera(header, Imath::M44f(*camera.world_to_camera));
-    if (camera.world_to_ndc) Imf::addWorldToNDC(header, Imath::M44f(*camera.world_to_ndc));
+    const auto put = [&](const char *name, const auto &value, const auto &as_attribute) {
+        if (value) replace(header, name, as_attribute(*value));
+    };
+    const auto as_float = [](double value) { return Imf::FloatAttribute(float(value)); };
+    const auto as_double = [](double value) { return Imf::DoubleAttribute(value); };
+    const auto as_matrix = [](const Imath::M44d &value) { return Imf::M44fAttribute(Imath::M44f(value)); };
+    const double metres_per_unit = camera.metres_per_unit.value_or(1);
+    put(focal_length_name, camera.focal_length_mm, as_float);
+    put(sensor_width_name, camera.sensor_width_mm, as_double);
+    put(metres_per_unit_name, camera.metres_per_unit, as_double);
+    put("aperture", camera.fstop, as_float);
+    put("focus", camera.focus_distance, [&](double units) { return as_float(units * metres_per_unit); });
+    put("worldToCamera", camera.world_to_camera, as_matrix);
+    put("worldToNDC", camera.world_to_ndc, as_matrix);
     if (!camera.lens_points.empty())
-        header.insert(lens_points_name, Imf::StringAttribute(points_text(camera.lens_points)));
-    header.insert(version_name, Imf::StringAttribute(SPARSELENS_VERSION));
+        replace(header, lens_points_name, Imf::StringAttribute(points_text(camera.lens_points)));
+    replace(header, version_name, Imf::StringAttribute(SPARSELENS_VERSION));
+}
+
+Imath::Box2i read_picture_window(const Imf::Header &header) {
+    const Imath::Box2i &data = header.dataWindow();
+    const auto *a = header.findTypedAttribute<Imf::Box2iAttribute>(picture_window_name);
+    if (!a || a->value().isEmpty() || !data.intersects(a->value().min) || !data.intersects(a->value().max))
+        return data;
+    return a->value();
+}
+
+void write_picture_window(Imf::Header &header, const Imath::Box2i &window) {
+    header.insert(picture_window_name, Imf::Box2iAttribute(window));
 }
 
 } // namespace sparselens

@@ -8,9 +8,15 @@
 
 namespace sparselens {
 
+// What is missing, of another type, no number or out of range is unknown (see Camera).
 Camera read_camera(const Imf::Header &header);
 
-// Writes what is known, leaves the rest of the header alone.
+// Writes what is known (and sparselens:version), leaves the rest of the header alone.
 void write_camera(Imf::Header &header, const Camera &camera);
+
+// Of an LDI whose data window has grown beyond that of its centre view: the centre view's data window, which is
+// that of the pictures made from it. Else the header's own.
+Imath::Box2i read_picture_window(const Imf::Header &header);
+void write_picture_window(Imf::Header &header, const Imath::Box2i &window);
 
 } // namespace sparselens

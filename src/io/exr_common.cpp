@@ -26,6 +26,14 @@ PixelType type_of(Imf::PixelType type) {
     return type == Imf::UINT ? PixelType::uint32 : PixelType::float32;
 }
 
+std::size_t usual_depth_channel(const std::vector<Channel> &channels) {
+    for (const char *name : {"Z", "depth.Z"})
+        if (const std::size_t k = find_channel(channels, name); k != npos) return k;
+    for (std::size_t k = 0; k < channels.size(); ++k)
+        if (channels[k].name.ends_with(".Depth.Z")) return k;
+    return npos;
+}
+
 } // namespace
 
 Windows windows_of(const Imf::Header &header) {
@@ -40,7 +48,8 @@ std::vector<Channel> channels_of(const Imf::Header &header, const std::string &p
             channels.push_back({name, type_of(found->type)});
     for (auto it = list.begin(); it != list.end(); ++it) {
         if (it.channel().xSampling != 1 || it.channel().ySampling != 1)
-            throw Error(path + ": channel " + it.name() + " is subsampled, which is not supported");
+            throw Error(display_name(path) + ": channel " + it.name() +
+                        " is subsampled, which is not supported");
         if (find_channel(channels, it.name()) == npos)
             channels.push_back({it.name(), type_of(it.channel().type)});
     }
@@ -49,16 +58,20 @@ std::vector<Channel> channels_of(const Imf::Header &header, const std::string &p
 
 std::string find_depth_channel(const std::vector<Channel> &channels, const std::string &asked,
                                const std::string &path) {
-    const auto has = [&](const std::string &name) { return find_channel(channels, name) != npos; };
-    if (!asked.empty()) {
-        if (has(asked)) return asked;
-        throw Error(display_name(path) + ": has no channel " + asked + " (--depth-channel)");
-    }
-    for (const char *name : {"Z", "depth.Z"})
-        if (has(name)) return name;
-    for (const Channel &channel : channels)
-        if (channel.name.ends_with(".Depth.Z")) return channel.name;
-    throw Error(display_name(path) + ": has no depth channel (Z, depth.Z, *.Depth.Z); give --depth-channel");
+    const std::size_t k = asked.empty() ? usual_depth_channel(channels) : find_channel(channels, asked);
+    if (k == npos)
+        throw Error(display_name(path) +
+                    (asked.empty() ? ": has no depth channel (Z, depth.Z, *.Depth.Z); give --depth-channel"
+                                   : ": has no channel " + asked + " (--depth-channel)"));
+    if (channels[k].type == PixelType::uint32)
+        throw Error(display_name(path) + ": its depth channel " + channels[k].name +
+                    " holds integers, not depths");
+    return channels[k].name;
+}
+
+bool is_placement(const std::string &channel) {
+    static constexpr std::array names{"Z", "ZBack", "ldi.dx", "ldi.dy", "ldi.weight"};
+    return std::ranges::find(names, channel) != names.end();
 }
 
 Imf::Header output_header(const Windows &windows, std::span<const Channel> channels,

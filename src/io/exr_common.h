@@ -19,9 +19,14 @@ Windows windows_of(const Imf::Header &header);
 // The header's channels, R, G, B, A first, then by name. Error where a channel is subsampled.
 std::vector<Channel> channels_of(const Imf::Header &header, const std::string &path);
 
-// The name of the depth channel: `asked`, or where that is empty Z, depth.Z or *.Depth.Z. Error where there is none.
+// The name of the depth channel: `asked`, or where that is empty Z, depth.Z or *.Depth.Z. Error where there is
+// none, or where it holds integers.
 std::string find_depth_channel(const std::vector<Channel> &channels, const std::string &asked,
                                const std::string &path);
+
+// Whether the channel says where a sample lies, in our files: Z, ZBack, ldi.dx, ldi.dy or ldi.weight. Such a
+// channel is never carried along as if it were a colour.
+bool is_placement(const std::string &channel);
 
 // A fresh header with these windows and channels that keeps all of `metadata` that does not describe how its
 // own pixels were stored.

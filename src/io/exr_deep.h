@@ -17,10 +17,12 @@ struct LdiFile {
     bool deep = true; // false: read from a flat picture
 };
 
-// `depth_channel` empty: Z, depth.Z and *.Depth.Z are tried. Samples come as they stand in the file (see tidy).
+// The first deep part, else the first flat one. `depth_channel` empty: Z, depth.Z and *.Depth.Z are tried; NAMEBack
+// beside it are the back depths. Samples come as they stand in the file (see tidy), of a flat picture one a pixel.
 LdiFile read_ldi(const std::string &path, const std::string &depth_channel = {});
 
-// Scanline deep EXR, ZIPS; deepImageState says what holds of the samples.
+// Scanline deep EXR, ZIPS; deepImageState says what holds of the samples. Of `metadata` everything is kept that
+// does not describe its own pixels.
 void write_ldi(const std::string &path, const Ldi &ldi, const Imf::Header &metadata);
 
 } // namespace sparselens

@@ -8,6 +8,8 @@
 #include <ImfOutputFile.h>
 #include <ImfPartType.h>
 
+#include <algorithm>
+
 namespace sparselens {
 
 namespace {
@@ -56,13 +58,16 @@ Imf::Header read_flat_header(const std::string &path) {
 }
 
 std::vector<float> take_depth(Image &image, const std::string &depth_channel, const std::string &path) {
-    const std::size_t k =
-        find_channel(image.channels, find_depth_channel(image.channels, depth_channel, path));
-    const auto begin = image.values.begin() + std::ptrdiff_t(k * image.windows.pixels());
-    const auto end = begin + std::ptrdiff_t(image.windows.pixels());
-    std::vector<float> depth(begin, end);
-    image.values.erase(begin, end);
-    image.channels.erase(image.channels.begin() + std::ptrdiff_t(k));
+    const std::string name = find_depth_channel(image.channels, depth_channel, path);
+    const auto plane = image.plane(find_channel(image.channels, name));
+    std::vector<float> depth(plane.begin(), plane.end());
+    std::vector<Channel> carried;
+    for (const Channel &channel : image.channels)
+        if (channel.name != name && !is_placement(channel.name)) carried.push_back(channel);
+    Image rest(image.windows, carried);
+    for (std::size_t k = 0; k < carried.size(); ++k)
+        std::ranges::copy(image.plane(find_channel(image.channels, carried[k].name)), rest.plane(k).begin());
+    image = std::move(rest);
     return depth;
 }
 

@@ -3,15 +3,13 @@
 #include "ldi/build.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <limits>
 
 namespace sparselens {
 
 namespace {
 
-constexpr float opaque = 0.9995f; // what half keeps of an alpha of 1
+constexpr float opaque = 1 - 0x1p-12f; // what half rounds to an alpha of 1
 
 // A pixel's samples, front to back, with their perceptive depths (descending).
 struct Pixel {
@@ -69,12 +67,19 @@ void set_shares(const Pixel &p, std::uint64_t begin, std::uint64_t end, double t
     for (std::size_t t = first_opaque; t < terms.size(); ++t) terms[t].coefficient /= weights;
 }
 
-// Depth, position and weight of the merged sample: means over what each of its samples shows.
-MergedSample merged_placement(const Pixel &p, std::uint64_t begin, std::uint64_t end,
-                              std::span<const Term> terms) {
-    MergedSample merged = placement_of(p.ldi, terms[0].index);
+bool holds_volume(const Ldi &ldi, std::uint64_t first, std::uint64_t last) {
+    for (std::uint64_t i = first; i <= last; ++i)
+        if (back_at(ldi, i) > ldi.z[i]) return true;
+    return false;
+}
+
+// Depth, position and weight of the merged sample: means over what each of its samples shows. Where a volume is
+// among them it is a volume, from the nearest to the farthest.
+MergedSample merged_placement(const Pixel &p, std::span<const Term> terms) {
+    const std::uint64_t first = terms.front().index, last = terms.back().index;
+    MergedSample merged = placement_of(p.ldi, first);
     merged.terms = terms;
-    if (terms.size() == 1 && end - begin == 1) return merged;
+    if (terms.size() == 1) return merged;
     double shown = 0, inverse_z = 0, dx = 0, dy = 0, weight = 0;
     for (const Term &term : terms) {
         const MergedSample s = placement_of(p.ldi, term.index);
@@ -85,10 +90,10 @@ MergedSample merged_placement(const Pixel &p, std::uint64_t begin, std::uint64_t
         dy += share * double(s.dy);
         weight += double(s.weight);
     }
-    const float nearest = p.ldi.z[begin], farthest = p.ldi.z[end - 1];
-    const bool volume = back_at(p.ldi, end - 1) > farthest || !p.ldi.z_back.empty();
-    merged.z = volume ? nearest : std::clamp(float(shown / inverse_z), nearest, farthest);
-    merged.z_back = volume ? back_at(p.ldi, end - 1) : merged.z;
+    if (holds_volume(p.ldi, first, last))
+        merged.z_back = back_at(p.ldi, last);
+    else
+        merged.z = merged.z_back = std::clamp(float(shown / inverse_z), p.ldi.z[first], p.ldi.z[last]);
     merged.dx = float(dx / shown);
     merged.dy = float(dy / shown);
     merged.weight = float(weight);
@@ -103,7 +108,7 @@ double cluster_pixel(const Pixel &p, const ClusterOptions &options, Ldi &out) {
     for (std::uint64_t first = p.begin, last = p.begin; first < p.end; first = last) {
         while (last < p.end && (last == first || p.front(first) - p.back(last) <= extent)) ++last;
         set_shares(p, first, last, options.tolerance, terms);
-        append(out, p.ldi, merged_placement(p, first, last, terms));
+        append(out, p.ldi, merged_placement(p, terms));
         if (last - first > 1) largest = std::max(largest, p.front(first) - p.back(last - 1));
     }
     return largest;

@@ -1,9 +1,10 @@
 // Fewer samples a pixel, by perceptive depth R F / z, so that the LDI stays refocusable.
 //
 // Samples of one cluster become one: opaque samples within the tolerance are averaged by weight (they are one
-// surface, seen by several views); all else is composited, so that flattening gives what it gave before. Depth
-// and position become the mean over what each sample shows. In every pixel the CoC of no sample changes by more
-// than the extent of its cluster.
+// surface, seen by several views); all else is composited, so that flattening gives what it gave before; what an
+// opaque sample hides from the front is dropped. Depth (as 1 / z) and position become the mean over what each
+// sample shows, a cluster with a volume becomes a volume. In every pixel the CoC of no sample changes by more
+// than the extent of its cluster, R F / z of its front minus that of its back.
 #pragma once
 
 #include "base/progress.h"

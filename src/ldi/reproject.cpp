@@ -15,9 +15,22 @@ Reprojection::Reprojection(const View &view, double focal_px)
     parallel_for(reach_.size(), [&](std::size_t row) {
         const auto nearest = std::min_element(view_.z.begin() + std::ptrdiff_t(row * width),
                                               view_.z.begin() + std::ptrdiff_t((row + 1) * width));
-        const double extreme = shift_y_ / double(*nearest);
-        reach_[row] = {std::min(extreme, 0.0), std::max(extreme, 0.0)};
+        const double x = shift_x_ / double(*nearest), y = shift_y_ / double(*nearest);
+        reach_[row] = {std::min(x, 0.0), std::max(x, 0.0), std::min(y, 0.0), std::max(y, 0.0)};
     });
+}
+
+Imath::Box2i Reprojection::reach() const {
+    const Windows &w = view_.image.windows;
+    constexpr double far_off = 1 << 28; // keeps the box's corners integers
+    Imath::Box2d box;
+    for (std::size_t row = 0; row < reach_.size(); ++row) {
+        const double centre = double(w.data.min.y) + double(row) + 0.5;
+        box.extendBy(Imath::V2d(w.data.min.x + reach_[row].left, centre + reach_[row].up));
+        box.extendBy(Imath::V2d(w.data.max.x + reach_[row].right, centre + reach_[row].down));
+    }
+    const auto whole = [&](double v) { return int(std::floor(std::clamp(v, -far_off, far_off))); };
+    return {{whole(box.min.x), whole(box.min.y)}, {whole(box.max.x) + 1, whole(box.max.y)}};
 }
 
 void Reprojection::append_rows(int first_row, int last_row, std::vector<ReprojectedSample> &out) const {

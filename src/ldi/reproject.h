@@ -22,13 +22,17 @@ public:
     // focal_px: focal length in pixels. The view must outlive the reprojection.
     Reprojection(const View &view, double focal_px);
 
+    // The pixels that samples may fall in.
+    Imath::Box2i reach() const;
+
     // Appends every visible sample (A not 0) that falls in rows [first_row, last_row], in source order.
     void append_rows(int first_row, int last_row, std::vector<ReprojectedSample> &out) const;
 
 private:
+    // By how much the samples of a source row may move, pixels: left <= 0 <= right, up <= 0 <= down.
     struct RowReach {
-        double up, down;
-    }; // by how much the samples of a source row move, up <= down, pixels
+        double left, right, up, down;
+    };
     const View &view_;
     double shift_x_, shift_y_; // pixels times scene units: divided by z they are a displacement
     std::vector<RowReach> reach_;

@@ -11,6 +11,8 @@ namespace sparselens {
 
 namespace {
 
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
 // A stretch of one input sample: [z, z_back] with the alpha that falls to it and the factor on its colours.
 struct Piece {
     float z, z_back;
@@ -52,7 +54,7 @@ std::vector<Piece> split_at_boundaries(const std::vector<Piece> &samples) {
     cuts.erase(std::unique(cuts.begin(), cuts.end()), cuts.end());
     std::vector<Piece> pieces;
     for (const Piece &s : samples) {
-        if (!(s.z_back > s.z) || std::isinf(s.z_back)) {
+        if (!(s.z_back > s.z)) {
             pieces.push_back(s);
             continue;
         }
@@ -82,12 +84,18 @@ void set_merged_factors(std::span<Piece> same) {
     for (Piece &p : same) p.factor *= (p.alpha > 0 ? -std::log1p(-p.alpha) / p.alpha : 1) * alpha / depth;
 }
 
+// A volume that reaches to infinity has no density that could be split: it becomes a point.
+float finite_back(const Ldi &ldi, std::uint64_t i) {
+    const float back = back_at(ldi, i);
+    return std::isinf(back) ? ldi.z[i] : std::max(ldi.z[i], back);
+}
+
 std::vector<Piece> sorted_pieces(const Ldi &ldi, std::size_t alpha, std::size_t pixel) {
     std::vector<Piece> pieces;
     bool volumes = false;
     for (std::uint64_t i = ldi.begin[pixel]; i < ldi.begin[pixel + 1]; ++i)
         if (visible(ldi, alpha, i)) {
-            pieces.push_back({ldi.z[i], std::max(ldi.z[i], back_at(ldi, i)), alpha_at(ldi, alpha, i), 1, i});
+            pieces.push_back({ldi.z[i], finite_back(ldi, i), alpha_at(ldi, alpha, i), 1, i});
             volumes = volumes || pieces.back().z_back > pieces.back().z;
         }
     if (volumes) pieces = split_at_boundaries(pieces);
@@ -99,7 +107,7 @@ std::vector<Piece> sorted_pieces(const Ldi &ldi, std::size_t alpha, std::size_t 
 
 void tidy_pixel(const Ldi &ldi, std::size_t alpha, std::size_t pixel, Ldi &out) {
     std::vector<Piece> pieces = sorted_pieces(ldi, alpha, pixel);
-    float last_z = -std::numeric_limits<float>::infinity();
+    float last_z = -infinity;
     std::vector<Term> terms;
     for (std::size_t first = 0, last = 0; first < pieces.size(); first = last) {
         while (last < pieces.size() && pieces[last].z == pieces[first].z &&
@@ -110,8 +118,8 @@ void tidy_pixel(const Ldi &ldi, std::size_t alpha, std::size_t pixel, Ldi &out) 
         terms.clear();
         MergedSample merged = placement_of(ldi, same[0].index);
         // A point where a volume begins: the volume starts one ulp behind it.
-        merged.z = same[0].z > last_z ? same[0].z : std::nextafter(last_z, same[0].z_back);
-        merged.z_back = same[0].z_back;
+        merged.z = same[0].z > last_z ? same[0].z : std::nextafter(last_z, infinity);
+        merged.z_back = std::max(merged.z, same[0].z_back);
         last_z = merged.z;
         merged.weight = 0;
         for (const Piece &p : same) {

@@ -53,9 +53,10 @@ void lower_envelope(std::span<const double> f, double spacing, std::span<double>
 }
 
 // -r^2 at both pixels of each jump, r their reach; infinity elsewhere.
-std::vector<double> jumps(std::span<const float> c, std::size_t width, std::size_t height) {
+std::vector<double> jumps(std::span<const float> c, std::size_t width, std::size_t height,
+                          double pixel_aspect) {
     // A disc that covers the picture is as large as is needed; larger ones would only cost digits.
-    const double largest = double(width + height);
+    const double largest = double(width) + double(height) / pixel_aspect;
     std::vector<double> reach(c.size(), infinity);
     const auto mark = [&](std::size_t i, std::size_t j) {
         if (!(std::abs(double(c[i]) - double(c[j])) > 1)) return;
@@ -76,7 +77,7 @@ std::vector<double> jumps(std::span<const float> c, std::size_t width, std::size
 // Where the discs around the jumps lie: values <= 0.
 std::vector<double> grown_jumps(std::span<const float> c, std::size_t width, std::size_t height,
                                 double pixel_aspect) {
-    std::vector<double> field = jumps(c, width, height);
+    std::vector<double> field = jumps(c, width, height, pixel_aspect);
     parallel_for(height, [&](std::size_t y) {
         const std::span row = std::span(field).subspan(y * width, width);
         const std::vector<double> before(row.begin(), row.end());

@@ -37,7 +37,7 @@ void append(Ldi &ldi, bool volumes, double z, double z_back, const Imath::V4d &r
 
 void append_slabs(Ldi &ldi, std::span<const Slab> slabs) {
     for (const Slab &slab : slabs) {
-        const double alpha = -std::expm1(-slab.density * (slab.z_back - slab.z_front));
+        const double alpha = 1 - transmittance({&slab, 1}, slab.z_front, slab.z_back);
         const Imath::V4d whole(slab.colour.x, slab.colour.y, slab.colour.z, 1);
         append(ldi, true, slab.z_front, slab.z_back, alpha * whole);
     }

@@ -1,9 +1,11 @@
 #include "trace/scenes.h"
 
+#include "base/error.h"
 #include "trace/materials.h"
 #include "trace/planes.h"
 
 #include <array>
+#include <string>
 
 namespace sparselens {
 
@@ -119,5 +121,11 @@ constexpr SceneEntry scenes[] = {
 } // namespace
 
 std::span<const SceneEntry> scene_table() { return scenes; }
+
+Scene build_scene(std::string_view name) {
+    for (const SceneEntry &entry : scenes)
+        if (name == entry.name) return entry.build();
+    throw Error("no scene is called '" + std::string(name) + "'");
+}
 
 } // namespace sparselens

@@ -4,6 +4,7 @@
 #include "trace/scene.h"
 
 #include <span>
+#include <string_view>
 
 namespace sparselens {
 
@@ -14,5 +15,8 @@ struct SceneEntry {
 };
 
 std::span<const SceneEntry> scene_table();
+
+// Error where there is none of that name.
+Scene build_scene(std::string_view name);
 
 } // namespace sparselens

@@ -15,22 +15,25 @@ constexpr std::size_t run_size = 64; // hits shaded at a time: stays in the firs
 
 const Imath::V3d to_sun = Imath::V3d(0.4, 0.8, -0.5).normalized();
 
-// The square light stands where the sun does, seen from the middle of the scenes, and faces them.
-constexpr double light_distance = 11, light_side = 7;
+// The square light stands where the sun does, seen from the middle of the scenes, and faces them. It is so large
+// that one point of it tells little, and as bright as makes its pictures about as bright as the sun's.
+constexpr double light_distance = 12, light_side = 24, light_gain = 1.5;
 const Imath::V3d light_centre = Imath::V3d(0, 0, 6) + light_distance * to_sun;
 const Imath::V3d light_x = light_side * (to_sun % Imath::V3d(0, 0, 1)).normalized();
 const Imath::V3d light_y = to_sun % light_x;
 
-Imath::C4f lit(const Paint &paint, double cosine) {
-    const float light = paint.emits ? 1.f : float(0.9 * std::abs(cosine) + 0.15);
+// `irradiance`: 1 where the sun stands upright over the surface.
+Imath::C4f lit(const Paint &paint, double irradiance) {
+    const float light = paint.emits ? 1.f : float(0.9 * irradiance + 0.15);
     return {paint.colour.x * light, paint.colour.y * light, paint.colour.z * light, paint.coverage};
 }
 
 void shade_by_sun(const Tracer &tracer, std::span<const Hit> hits, std::span<Imath::C4f> out) {
     const Imath::C3f &sky = tracer.scene().sky;
     for (std::size_t i = 0; i < hits.size(); ++i)
-        out[i] = hits[i].sky() ? Imath::C4f(sky.x, sky.y, sky.z, 1)
-                               : lit(tracer.material(hits[i])(hits[i].position), hits[i].normal ^ to_sun);
+        out[i] = hits[i].sky()
+                     ? Imath::C4f(sky.x, sky.y, sky.z, 1)
+                     : lit(tracer.material(hits[i])(hits[i].position), std::abs(hits[i].normal ^ to_sun));
 }
 
 // From just off the surface, on the side of the light, to the light's point at t = 1.
@@ -41,6 +44,15 @@ Ray shadow_ray(const Hit &hit, const Imath::V2d &light_point) {
     const double clearance = 1e-5 * (1 + hit.position.length()); // several ulp of Embree's floats
     const Imath::V3d origin = hit.position + side * clearance * hit.normal;
     return {origin, target - origin};
+}
+
+// What the light's point at the end of a shadow ray brings, were it the whole light: it weakens with slant and with
+// the square of distance.
+double irradiance(const Hit &hit, const Ray &shadow) {
+    const double distance2 = shadow.direction.length2(), distance = std::sqrt(distance2);
+    const double at_surface = std::abs(hit.normal ^ shadow.direction) / distance;
+    const double at_light = std::max(0.0, to_sun ^ shadow.direction) / distance;
+    return light_gain * at_surface * at_light * (light_distance * light_distance / distance2);
 }
 
 void shade_by_area(const Tracer &tracer, std::span<const Hit> hits, std::span<const Imath::V2d> light_points,
@@ -62,7 +74,7 @@ void shade_by_area(const Tracer &tracer, std::span<const Hit> hits, std::span<co
     tracer.blocked(std::span(rays).first(count), std::span(blocked).first(count));
     for (std::size_t k = 0; k < count; ++k) {
         const std::size_t i = owner[k];
-        if (!blocked[k]) out[i] = lit(paints[i], hits[i].normal ^ rays[k].direction.normalized());
+        if (!blocked[k]) out[i] = lit(paints[i], irradiance(hits[i], rays[k]));
     }
 }
 

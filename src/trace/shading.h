@@ -6,8 +6,8 @@
 
 namespace sparselens {
 
-// sun: albedo (0.9 |n . l| + 0.15), no shadows. area: the same with l towards a random point of a square light,
-// and the first term only where nothing blocks the way: one shadow ray a hit, noise as a path tracer's.
+// sun: albedo (0.9 |n . l| + 0.15), no shadows. area: the first term comes from a square light, estimated by one
+// random point of it and a shadow ray to there: soft shadows, and noise as a path tracer's.
 enum class Light { sun, area };
 
 // Colour (not premultiplied) and coverage of each hit. light_points: one a hit, in the unit square, even over

@@ -1,5 +1,6 @@
 #include "base/error.h"
 #include "measure/image_error.h"
+#include "measure/ssim_reference.h"
 #include "measure/tone_map.h"
 
 #include <OpenImageIO/imagebuf.h>
@@ -174,6 +175,25 @@ TEST(ImageError, RegionsCountTheirOwnPixels) {
     EXPECT_EQ(figures[3].pixels, 0u);
     for (const Figure &figure : figure_table)
         EXPECT_TRUE(std::isnan(figures[3].*figure.value)) << figure.name;
+}
+
+TEST(ImageError, SsimAgreesWithThePlainFormulas) {
+    const int width = 33, height = 21;
+    const Image b = noise(width, height, 13), a = mixed(b, noise(width, height, 14), 0.3f);
+    const auto luma = [](const Image &image) {
+        std::vector<float> result;
+        for (std::size_t i = 0; i < image.windows.pixels(); ++i)
+            result.push_back(float(0.2126 * Plain::tone(image.plane(0)[i]) +
+                                   0.7152 * Plain::tone(image.plane(1)[i]) +
+                                   0.0722 * Plain::tone(image.plane(2)[i])));
+        return result;
+    };
+    double sum = 0;
+    const auto windows = ssim_reference(luma(a), luma(b), width, height);
+    for (const double value : windows) sum += value;
+    const double ssim = whole(a, b).ssim;
+    EXPECT_NEAR(ssim, sum / double(windows.size()), 1e-6);
+    EXPECT_LT(ssim, 0.95); // or the noise says nothing
 }
 
 TEST(ImageError, SsimOfARegionIsThatOfItsWindowCentres) {

@@ -35,13 +35,16 @@ fails_saying() {
     grep -Eq -e "$pattern" stderr || fail "'$pattern' is not in: $(cat stderr)"
 }
 
-# answers_help TOOL: --help and --version work, and an unknown option is a usage error.
+# answers_help TOOL [ARGUMENTS...]: --help and --version work, and an unknown option after the arguments that the
+# tool cannot do without is a usage error.
 answers_help() {
-    exits 0 "$bin/$1" --help
-    grep -q -e --version stdout || fail "$1 --help does not name --version"
-    exits 0 "$bin/$1" --version
-    grep -q "^$1 " stdout || fail "$1 --version does not name the tool: $(cat stdout)"
-    fails_saying 2 no-such-option "$bin/$1" --no-such-option
+    local tool=$1
+    shift
+    exits 0 "$bin/$tool" --help
+    grep -q -e --version stdout || fail "$tool --help does not name --version"
+    exits 0 "$bin/$tool" --version
+    grep -q "^$tool " stdout || fail "$tool --version does not name the tool: $(cat stdout)"
+    fails_saying 2 no-such-option "$bin/$tool" "$@" --no-such-option
 }
 
 # readme_block LANGUAGE: the contents of all README.md's fenced blocks of that language.

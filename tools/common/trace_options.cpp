@@ -1,5 +1,6 @@
 #include "common/trace_options.h"
 
+#include "base/error.h"
 #include "trace/scenes.h"
 
 #include <charconv>
@@ -10,6 +11,7 @@ namespace sparselens {
 namespace {
 
 constexpr int largest_side = 65536, largest_count = 1 << 20;
+constexpr std::size_t largest_picture = std::size_t(1) << 28; // pixels
 
 // The whole text as a number in [1, limit].
 bool read_count(std::string_view text, int limit, int &value) {
@@ -30,12 +32,8 @@ bool read_deep(const std::string &text, TraceOptions &options) {
     int layers = 0;
     if (colon == std::string::npos || !read_count(std::string_view(text).substr(colon + 1), 1024, layers))
         return false;
-    if (kind == "peel")
-        options.deep.push_back({DeepRequest::Kind::peel, layers});
-    else if (kind == "strata")
-        options.deep.push_back({DeepRequest::Kind::strata, layers});
-    else
-        return false;
+    if (kind != "peel" && kind != "strata") return false;
+    options.deep.push_back({kind == "peel", layers});
     return true;
 }
 
@@ -107,6 +105,19 @@ void add_trace_options(CLI::App &app, TraceOptions &options) {
         ->type_name("half|float")
         ->transform(CLI::CheckedTransformer(types));
     add_lens_options(app, options.lens);
+}
+
+RenderSettings render_settings(const TraceOptions &options, const Camera &camera) {
+    RenderSettings settings{windows_of_size(options.width, options.height), {}, options.light};
+    settings.windows.data.min -= Imath::V2i(options.overscan);
+    settings.windows.data.max += Imath::V2i(options.overscan);
+    if (settings.windows.pixels() > largest_picture)
+        throw UsageError("--size and --overscan ask for more than " + std::to_string(largest_picture) +
+                         " pixels");
+    settings.lens = resolve_lens(options.lens, camera, settings.windows);
+    settings.lens.focal_px = options.width * *camera.focal_length_mm / *camera.sensor_width_mm;
+    settings.lens.focus = *camera.focus_distance;
+    return settings;
 }
 
 } // namespace sparselens

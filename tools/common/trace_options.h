@@ -3,7 +3,7 @@
 
 #include "base/image.h"
 #include "common/lens_options.h"
-#include "trace/shading.h"
+#include "trace/render.h"
 
 #include <CLI/CLI.hpp>
 
@@ -13,7 +13,7 @@
 namespace sparselens {
 
 struct DeepRequest {
-    enum class Kind { peel, strata } kind;
+    bool peel; // else strata
     int layers;
 };
 
@@ -32,5 +32,9 @@ struct TraceOptions {
 };
 
 void add_trace_options(CLI::App &app, TraceOptions &options);
+
+// Windows, lens and light; `camera` is the scene's with the options put over it. UsageError where the picture is
+// larger than can be meant.
+RenderSettings render_settings(const TraceOptions &options, const Camera &camera);
 
 } // namespace sparselens

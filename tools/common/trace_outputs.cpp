@@ -5,6 +5,7 @@
 #include "io/exr_deep.h"
 #include "io/exr_flat.h"
 #include "io/file_stream.h"
+#include "trace/camera_at.h"
 
 #include <chrono>
 #include <cmath>
@@ -15,12 +16,15 @@ namespace sparselens {
 
 namespace {
 
-// JSON knows no infinity.
-std::string number(double value, const char *format = "%.17g") {
-    if (!std::isfinite(value)) return "null";
+std::string text_of(double value, const char *format) {
     char text[32];
     std::snprintf(text, sizeof text, format, value);
     return text;
+}
+
+// JSON knows no infinity.
+std::string json(double value, const char *format = "%.17g") {
+    return std::isfinite(value) ? text_of(value, format) : "null";
 }
 
 void set_colour_type(std::vector<Channel> &channels, PixelType type) {
@@ -38,24 +42,21 @@ auto timed(const Make &make, double &seconds) {
 
 } // namespace
 
-Camera camera_at(const Camera &camera, const Windows &windows, const Imath::V2d &offset) {
-    Camera moved = camera;
-    Imath::M44d &to_camera = moved.world_to_camera.emplace();
-    to_camera.setTranslation(Imath::V3d(-offset.x, -offset.y, 0));
-    // x = 1/2 + f X / Z across the display window; y likewise, downwards; depth 1 - 1 / Z only keeps it invertible.
-    const double across = *camera.focal_length_mm / *camera.sensor_width_mm;
-    const double down =
-        across * windows.display_width() * double(windows.pixel_aspect) / windows.display_height();
-    const Imath::M44d projection(across, 0, 0, 0, 0, -down, 0, 0, 0.5, 0.5, 1, 1, 0, 0, -1, 0);
-    moved.world_to_ndc = to_camera * projection;
-    return moved;
-}
-
-TraceOutputs::TraceOutputs(std::string folder, Camera camera, RenderSettings settings, PixelType type)
-    : folder_(std::move(folder)), camera_(std::move(camera)), settings_(std::move(settings)), type_(type) {
+TraceOutputs::TraceOutputs(std::string folder, Camera camera, RenderSettings settings, PixelType type,
+                           const ToolContext &tool)
+    : folder_(std::move(folder)), camera_(std::move(camera)), settings_(std::move(settings)), type_(type),
+      tool_(tool) {
     std::error_code error;
     std::filesystem::create_directories(folder_, error);
     if (error) throw Error(folder_ + ": cannot make the folder: " + error.message());
+    const ThinLens &lens = settings_.lens;
+    tool_.say("lens radius " + text_of(lens.radius, "%g") + ", focus distance " + text_of(lens.focus, "%g") +
+              ", focal length " + text_of(lens.focal_px, "%g") + " pixels");
+}
+
+void TraceOutputs::note(const std::string &name, double seconds) {
+    seconds_.emplace_back(name, seconds);
+    tool_.say(path(name) + ": " + text_of(seconds, "%.3f") + " s");
 }
 
 void TraceOutputs::add(const std::string &name, const Imath::V2d &u, const std::function<Image()> &make) {
@@ -65,7 +66,7 @@ void TraceOutputs::add(const std::string &name, const Imath::V2d &u, const std::
     Imf::Header header;
     write_camera(header, camera_at(camera_, settings_.windows, settings_.lens.radius * u));
     write_flat_exr(path(name), image, header);
-    seconds_.emplace_back(name, seconds);
+    note(name, seconds);
 }
 
 void TraceOutputs::add_deep(const std::string &name, const std::function<Ldi()> &make) {
@@ -75,7 +76,7 @@ void TraceOutputs::add_deep(const std::string &name, const std::function<Ldi()> 
     Imf::Header header;
     write_camera(header, camera_at(camera_, settings_.windows, {0, 0}));
     write_ldi(path(name), ldi, header);
-    seconds_.emplace_back(name, seconds);
+    note(name, seconds);
 }
 
 void TraceOutputs::write_summary(const std::vector<Imath::V2d> &views, int view_samples,
@@ -86,20 +87,20 @@ void TraceOutputs::write_summary(const std::vector<Imath::V2d> &views, int view_
     };
     put("width", std::to_string(settings_.windows.display_width()));
     put("height", std::to_string(settings_.windows.display_height()));
-    put("focal_mm", number(*camera_.focal_length_mm));
-    put("sensor_width_mm", number(*camera_.sensor_width_mm));
-    put("fstop", number(*camera_.fstop));
-    put("focus_distance", number(*camera_.focus_distance));
-    put("lens_radius", number(settings_.lens.radius));
+    put("focal_mm", json(*camera_.focal_length_mm));
+    put("sensor_width_mm", json(*camera_.sensor_width_mm));
+    put("fstop", json(*camera_.fstop));
+    put("focus_distance", json(*camera_.focus_distance));
+    put("lens_radius", json(settings_.lens.radius));
     std::string points;
     for (const Imath::V2d &u : views)
-        points += (points.empty() ? "[" : ", [") + number(u.x) + ", " + number(u.y) + "]";
+        points += (points.empty() ? "[" : ", [") + json(u.x) + ", " + json(u.y) + "]";
     put("views", "[" + points + "]");
     put("view_spp", std::to_string(view_samples));
     put("ref_spp", std::to_string(reference_samples));
     std::string seconds;
     for (const auto &[name, time] : seconds_)
-        seconds += (seconds.empty() ? "\n  \"" : ",\n  \"") + name + "\": " + number(time, "%.3f");
+        seconds += (seconds.empty() ? "\n  \"" : ",\n  \"") + name + "\": " + json(time, "%.3f");
     text += " \"seconds\": {" + seconds + "\n }\n}\n";
     OutputFile file(path("camera.json"));
     file.stream().write(text.data(), int(text.size()));

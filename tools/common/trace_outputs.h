@@ -1,6 +1,7 @@
 // The folder that dof-trace fills: pictures with their cameras, and camera.json, which says what they are.
 #pragma once
 
+#include "common/tool.h"
 #include "ldi/ldi.h"
 #include "trace/render.h"
 #include "view/camera.h"
@@ -12,14 +13,11 @@
 
 namespace sparselens {
 
-// `camera` moved by `offset` (scene units, x right, y up) in its own plane, with the matrices that say so:
-// the world is the camera space of the centre view.
-Camera camera_at(const Camera &camera, const Windows &windows, const Imath::V2d &offset);
-
 class TraceOutputs {
 public:
     // Makes the folder. Error where that fails.
-    TraceOutputs(std::string folder, Camera camera, RenderSettings settings, PixelType type);
+    TraceOutputs(std::string folder, Camera camera, RenderSettings settings, PixelType type,
+                 const ToolContext &tool);
 
     // Renders with `make`, writes DIR/name, notes the time that rendering took. `u`: its lens point.
     void add(const std::string &name, const Imath::V2d &u, const std::function<Image()> &make);
@@ -29,12 +27,14 @@ public:
     void write_summary(const std::vector<Imath::V2d> &views, int view_samples, int reference_samples) const;
 
 private:
+    void note(const std::string &name, double seconds);
     std::string path(const std::string &name) const { return folder_ + "/" + name; }
 
     std::string folder_;
     Camera camera_;
     RenderSettings settings_;
     PixelType type_;
+    const ToolContext &tool_;
     std::vector<std::pair<std::string, double>> seconds_;
 };
 

@@ -1,28 +1,23 @@
-#include "io/exr_deep.h"
-
-#include "base/parallel.h"
 #include "io/exr_common.h"
+#include "io/exr_deep.h"
 #include "io/exr_flat.h"
 
 #include <ImfDeepFrameBuffer.h>
-#include <ImfDeepImageStateAttribute.h>
 #include <ImfDeepScanLineInputPart.h>
-#include <ImfDeepScanLineOutputFile.h>
 #include <ImfDeepTiledInputPart.h>
 #include <ImfMultiPartInputFile.h>
 #include <ImfPartType.h>
-#include <ImfStandardAttributes.h>
 
 #include <algorithm>
-#include <array>
+#include <numeric>
 
 namespace sparselens {
 
 namespace {
 
-// A file's channels sorted by what they are to an LDI.
+// Where each channel of a file is read to. What is not listed is not read.
 struct Planes {
-    std::vector<std::pair<std::string, std::vector<float> *>> named; // file channel -> where its values go
+    std::vector<std::pair<std::string, std::vector<float> *>> named;
     std::vector<PixelType> types;
     void add(const std::string &name, std::vector<float> &values, PixelType type) {
         named.emplace_back(name, &values);
@@ -30,28 +25,23 @@ struct Planes {
     }
 };
 
-constexpr std::array position_channels{"ldi.dx", "ldi.dy", "ldi.weight"};
+// The array of the LDI that a channel fills because of its name, if it does.
+std::vector<float> *placement_array(Ldi &ldi, const std::string &name, const std::string &depth) {
+    if (name == depth) return &ldi.z;
+    if (name == depth + "Back") return &ldi.z_back; // ZBack, depth.ZBack
+    if (name == "ldi.dx") return &ldi.dx;
+    if (name == "ldi.dy") return &ldi.dy;
+    return name == "ldi.weight" ? &ldi.weight : nullptr;
+}
 
-// Back depth that goes with a front depth: "Z" -> "ZBack", "depth.Z" -> "depth.ZBack".
-std::string back_of(const std::string &depth) { return depth + "Back"; }
-
-// Sets ldi.channels to what is carried and lists where each channel of the file is to be read to.
+// Sets ldi.channels to what is carried.
 Planes plan_planes(Ldi &ldi, const std::vector<Channel> &in_file, const std::string &depth) {
     Planes planes;
-    const std::array<std::vector<float> *, 3> positions{&ldi.dx, &ldi.dy, &ldi.weight};
-    std::vector<std::string> carried;
-    for (const Channel &channel : in_file) {
-        const auto position = std::find(position_channels.begin(), position_channels.end(), channel.name);
-        if (channel.name == depth)
-            planes.add(channel.name, ldi.z, PixelType::float32);
-        else if (channel.name == back_of(depth))
-            planes.add(channel.name, ldi.z_back, PixelType::float32);
-        else if (position != position_channels.end())
-            planes.add(channel.name, *positions[std::size_t(position - position_channels.begin())],
-                       PixelType::float32);
-        else
+    for (const Channel &channel : in_file)
+        if (std::vector<float> *array = placement_array(ldi, channel.name, depth))
+            planes.add(channel.name, *array, PixelType::float32);
+        else if (!is_placement(channel.name))
             ldi.channels.push_back(channel);
-    }
     ldi.values.resize(ldi.channels.size());
     for (std::size_t k = 0; k < ldi.channels.size(); ++k)
         planes.add(ldi.channels[k].name, ldi.values[k], ldi.channels[k].type);
@@ -149,86 +139,13 @@ Ldi ldi_of_flat(const Image &image, const std::string &depth) {
     Ldi ldi;
     ldi.windows = image.windows;
     const Planes planes = plan_planes(ldi, image.channels, depth);
-    const std::size_t alpha = find_channel(image.channels, "A");
-    ldi.begin.assign(image.windows.pixels() + 1, 0);
-    for (std::size_t i = 0; i < image.windows.pixels(); ++i)
-        ldi.begin[i + 1] = ldi.begin[i] + (alpha == npos || image.plane(alpha)[i] != 0 ? 1 : 0);
-    make_room(ldi, planes);
+    ldi.begin.resize(image.windows.pixels() + 1);
+    std::iota(ldi.begin.begin(), ldi.begin.end(), std::uint64_t{0});
     for (const auto &[name, values] : planes.named) {
         const auto plane = image.plane(find_channel(image.channels, name));
-        for (std::size_t i = 0; i < plane.size(); ++i)
-            if (ldi.begin[i] != ldi.begin[i + 1]) (*values)[ldi.begin[i]] = plane[i];
+        values->assign(plane.begin(), plane.end());
     }
     return ldi;
-}
-
-// TIDY: sorted, no two samples of a pixel overlap or share a depth.
-Imf::DeepImageState state_of(const Ldi &ldi) {
-    bool sorted = true, apart = true;
-    const auto back = [&](std::uint64_t i) { return ldi.z_back.empty() ? ldi.z[i] : ldi.z_back[i]; };
-    for (std::size_t pixel = 0; pixel + 1 < ldi.begin.size(); ++pixel)
-        for (std::uint64_t i = ldi.begin[pixel] + 1; i < ldi.begin[pixel + 1]; ++i) {
-            sorted = sorted && ldi.z[i - 1] <= ldi.z[i];
-            const bool volume = back(i - 1) > ldi.z[i - 1];
-            apart = apart && (volume ? back(i - 1) <= ldi.z[i] : ldi.z[i - 1] < ldi.z[i]);
-        }
-    if (sorted) return apart ? Imf::DIS_TIDY : Imf::DIS_SORTED;
-    return apart ? Imf::DIS_NON_OVERLAPPING : Imf::DIS_MESSY;
-}
-
-struct StoredChannel {
-    std::string name;
-    PixelType type;
-    const std::vector<float> *values;
-};
-
-std::vector<StoredChannel> stored_channels(const Ldi &ldi) {
-    std::vector<StoredChannel> stored{{"Z", PixelType::float32, &ldi.z}};
-    const auto add = [&](const char *name, PixelType type, const std::vector<float> &values) {
-        if (!values.empty()) stored.push_back({name, type, &values});
-    };
-    add("ZBack", PixelType::float32, ldi.z_back);
-    add("ldi.dx", PixelType::half, ldi.dx);
-    add("ldi.dy", PixelType::half, ldi.dy);
-    add("ldi.weight", PixelType::half, ldi.weight);
-    for (std::size_t k = 0; k < ldi.channels.size(); ++k)
-        stored.push_back({ldi.channels[k].name, ldi.channels[k].type, &ldi.values[k]});
-    return stored;
-}
-
-// Writes `rows` rows from `first_row` on: samples turned into the channels' types, then compressed in parallel.
-void write_rows(Imf::DeepScanLineOutputFile &file, const Ldi &ldi, const std::vector<StoredChannel> &stored,
-                int first_row, int rows) {
-    const Windows &w = ldi.windows;
-    const std::size_t width = std::size_t(w.width()), pixels = std::size_t(rows) * width;
-    const std::size_t first = std::size_t(first_row - w.data.min.y) * width;
-    const std::uint64_t from = ldi.begin[first], count = ldi.begin[first + pixels] - from;
-    const Imath::Box2i box({w.data.min.x, first_row}, {w.data.max.x, first_row + rows - 1});
-    std::vector<unsigned> counts(pixels);
-    for (std::size_t i = 0; i < pixels; ++i)
-        counts[i] = unsigned(ldi.begin[first + i + 1] - ldi.begin[first + i]);
-    Imf::DeepFrameBuffer buffer;
-    buffer.insertSampleCountSlice(
-        Imf::Slice::Make(Imf::UINT, counts.data(), box, sizeof(unsigned), sizeof(unsigned) * width));
-    std::vector<std::vector<char>> bytes(stored.size());
-    std::vector<std::vector<char *>> pointers(stored.size());
-    parallel_for(stored.size(), [&](std::size_t k) {
-        const std::size_t size = bytes_of(stored[k].type);
-        bytes[k].resize(count * size);
-        store(stored[k].type, stored[k].values->data() + from, count, bytes[k].data());
-        pointers[k].resize(pixels);
-        for (std::size_t i = 0; i < pixels; ++i)
-            pointers[k][i] = bytes[k].data() + (ldi.begin[first + i] - from) * size;
-    });
-    for (std::size_t k = 0; k < stored.size(); ++k) {
-        const auto type = imf_type(stored[k].type);
-        const Imf::Slice base =
-            Imf::Slice::Make(type, pointers[k].data(), box, sizeof(char *), sizeof(char *) * width);
-        buffer.insert(stored[k].name,
-                      Imf::DeepSlice(type, base.base, base.xStride, base.yStride, bytes_of(stored[k].type)));
-    }
-    file.setFrameBuffer(buffer);
-    file.writePixels(rows);
 }
 
 } // namespace
@@ -254,27 +171,6 @@ LdiFile read_ldi(const std::string &path, const std::string &depth_channel) {
         else
             read_scanlines(file, number, result.ldi, planes);
         return result;
-    });
-}
-
-void write_ldi(const std::string &path, const Ldi &ldi, const Imf::Header &metadata) {
-    with_file_name(path, [&] {
-        const std::vector<StoredChannel> stored = stored_channels(ldi);
-        std::vector<Channel> channels;
-        for (const StoredChannel &channel : stored) channels.push_back({channel.name, channel.type});
-        Imf::Header header = output_header(ldi.windows, channels, metadata);
-        header.setType(Imf::DEEPSCANLINE);
-        header.compression() = Imf::ZIPS_COMPRESSION;
-        Imf::addDeepImageState(header, state_of(ldi));
-        OutputFile output(path);
-        {
-            Imf::DeepScanLineOutputFile file(output.stream(), header);
-            constexpr int rows_at_once = 128;
-            const Imath::Box2i &data = ldi.windows.data;
-            for (int y = data.min.y; y <= data.max.y; y += rows_at_once)
-                write_rows(file, ldi, stored, y, std::min(rows_at_once, data.max.y - y + 1));
-        }
-        output.commit();
     });
 }
 

@@ -1,0 +1,60 @@
+// One tile of the lens picture: every lens point sees its own picture of the samples, each a square one pixel
+// wide and high, the nearest opaque one in front; the mean over the lens points is the tile.
+//
+// Samples of partial coverage are composited front to back over the opaque one behind them. A lens point that
+// meets nothing opaque sees what lies behind as unknown: only the light in front of it counts, and the weights
+// are renormalised. lens_gather_reference.h says the same slowly.
+#pragma once
+
+#include "dof/highlights.h"
+#include "dof/sample_blocks.h"
+#include "dof/sample_colours.h"
+#include "lens/lens_samples.h"
+
+#include <Imath/ImathBox.h>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace sparselens {
+
+class LensTile {
+public:
+    static constexpr int size = 64; // pixels wide and high: the buffers of a lens point stay in the cache
+
+    LensTile(const BlockedSamples &samples, const SampleColours &colours, const Highlights &highlights);
+
+    // Gathers the pixels [origin, origin + size), relative to the data window's corner like the samples, from
+    // the blocks that can reach them. `spread`: highlight_pixels() of the tile.
+    void gather(const Imath::V2i &origin, std::span<const std::uint32_t> blocks, std::span<const LensSample> lens,
+                std::span<const HighlightPixel> spread);
+
+    // The mean over the known lens points at a pixel of the tile; 0 where none is known.
+    float value(int x, int y, std::size_t channel) const;
+
+private:
+    // The buffers have a border of one cell that takes what falls outside.
+    static constexpr int stride = size + 2;
+
+    void see_opaque(const LensSample &lens);
+    void see_partial(const LensSample &lens);
+    void add_picture(float weight);
+    void add_picture_under_partial(float weight);
+    std::span<const HighlightPixel> add_highlights(std::span<const HighlightPixel> spread, std::uint32_t lens);
+
+    const BlockedSamples &samples_;
+    const SampleColours &colours_;
+    const Highlights &highlights_;
+    float origin_x_ = 0, origin_y_ = 0;
+    std::vector<std::uint32_t> blocks_;
+    std::vector<std::uint32_t> partial_;  // samples of partial coverage, front to back
+    std::vector<std::uint64_t> front_;    // [cell]: depth and sample of the nearest opaque one; 0: none
+    std::vector<float> transmittance_;    // [cell]: of the partial samples in front
+    std::vector<float> over_;             // [group][cell][4]: their colours
+    std::vector<float> sums_;             // [group][pixel][4]
+    std::vector<float> spread_;           // [group][pixel][4]: of the highlights
+    std::vector<float> weights_;          // [pixel]
+};
+
+} // namespace sparselens

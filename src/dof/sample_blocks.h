@@ -1,0 +1,40 @@
+// The samples of an LDI as the lens gather wants them: structure of arrays, in blocks of neighbouring pixels
+// whose bounds tell at once which lens points bring none of their samples into a tile.
+#pragma once
+
+#include "ldi/ldi.h"
+#include "lens/thin_lens.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace sparselens {
+
+struct SampleBlock {
+    std::uint32_t begin, opaque_end, end; // opaque samples, then those of partial coverage
+    float x_min, x_max, y_min, y_max;     // of the samples' centres, pixels
+    float coc_min, coc_max;               // pixels, signed
+};
+
+struct BlockedSamples {
+    // One entry a sample. A pixel that lets light through to infinity has one more: its background, opaque, with
+    // no colour and no alpha.
+    std::vector<float> x, y;  // centre, pixels, relative to the data window's corner, y down
+    std::vector<float> coc;   // signed radius, pixels
+    std::vector<float> depth; // perceptive depth, pixels: larger is nearer
+    std::vector<float> alpha; // coverage, (0, 1]
+    std::vector<std::uint32_t> source; // index into the LDI's samples; `background` for the background
+    static constexpr std::uint32_t background = 0xffffffffu;
+
+    std::vector<SampleBlock> blocks; // row by row
+    int columns = 0, rows = 0;       // of blocks
+    static constexpr int size = 8;   // pixels a block is wide and high
+
+    std::size_t count() const { return x.size(); }
+};
+
+// `known`: the window (EXR coordinates) in which an empty pixel is transparent to infinity; outside of it,
+// nothing is known. Throws Error where the LDI has more samples than 32 bits count.
+BlockedSamples make_blocks(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &known);
+
+} // namespace sparselens

@@ -1,0 +1,133 @@
+#!/bin/bash
+# dof-accumulate from the shell: closed forms with one lamp, what each option changes, and a traced scene.
+. "$(dirname "$0")/check.sh"
+command -v oiiotool >/dev/null || skip "needs oiiotool (openimageio-tools)"
+accumulate=$bin/dof-accumulate
+
+# lamp FILE X Y: 64x48, black, one pixel of 5 and a depth.
+lamp() {
+    oiiotool --pattern constant:color=5,5,5,1,7 1x1 5 --chnames R,G,B,A,Z --create 64x48 5 --chnames R,G,B,A,Z \
+        --paste +"$2"+"$3" -d half -d Z=float -o "$1"
+}
+# value FILE X Y: of channel R.
+value() {
+    oiiotool "$1" --ch R --crop 1x1+"$2"+"$3" --printstats 2>/dev/null | sed -n 's/.*Stats Avg: *\([^ ]*\).*/\1/p'
+}
+# holds FILE X Y EXPECTED
+holds() {
+    local v
+    v=$(value "$1" "$2" "$3")
+    awk -v a="$v" -v b="$4" 'BEGIN { exit !(a != "" && a - b < 2e-6 && b - a < 2e-6) }' ||
+        fail "$1 ($2, $3) is $v, not $4"
+}
+
+pixels_of() { oiiotool --info -v --hash "$1" | grep SHA-1 || fail "no hash of $1"; }
+
+answers_help dof-accumulate VIEW.exr -o OUT.exr
+
+# F = 64 pixels; focused at 2, a view 1/8 off is off by 4 pixels there. The lamp stands in the plane of focus.
+lens=(--focal-length 36 --sensor-width 36 --focus-distance 2)
+lamp center.exr 32 24
+lamp right.exr 28 24
+lamp left.exr 36 24
+lamp up.exr 32 28
+lamp down.exr 32 20
+views=(--view 0,0 center.exr --view 0.125,0 right.exr --view -0.125,0 left.exr
+    --view 0,0.125 up.exr --view 0,-0.125 down.exr)
+exits 0 "$accumulate" "${views[@]}" "${lens[@]}" -o out.exr
+[ ! -s stderr ] || fail "says on stderr: $(cat stderr)"
+holds out.exr 32 24 5
+holds out.exr 31 24 0
+oiiotool --info -v out.exr | grep -q 'channel list: R, G, B, A$' || fail "other channels than R, G, B, A"
+oiiotool --info out.exr | grep -q '4 channel, half' || fail "not half"
+
+# Focused elsewhere, the lamp is five lamps.
+exits 0 "$accumulate" "${views[@]}" --focal-length 36 --sensor-width 36 --focus-distance inf -o inf.exr
+holds inf.exr 32 24 1
+holds inf.exr 28 24 1
+holds inf.exr 32 28 1
+# The other lens options scale the move.
+exits 0 "$accumulate" "${views[@]}" --focal-length 18 --sensor-width 36 --focus-distance 2 -o focal.exr
+holds focal.exr 30 24 1
+exits 0 "$accumulate" "${views[@]}" --focal-length 36 --sensor-width 72 --focus-distance 2 -o sensor.exr
+holds sensor.exr 32 26 1
+exits 0 "$accumulate" "${views[@]}" --focal-length 36 --sensor-width 36 --focus-distance 4 -o far.exr
+holds far.exr 34 24 1
+
+# A smaller aperture leaves out the views beyond it.
+views+=(--view 0.25,0 center.exr)
+exits 0 "$accumulate" "${views[@]}" "${lens[@]}" -v -o wide.exr
+grep -q '6 views' stderr || fail "-v does not count the views: $(cat stderr)"
+exits 0 "$accumulate" "${views[@]}" "${lens[@]}" --lens-radius 0.125 -v -o out.exr
+grep -q '5 views' stderr || fail "--lens-radius leaves nothing out: $(cat stderr)"
+exits 0 "$accumulate" "${views[@]}" "${lens[@]}" --fstop 1 -v -o out.exr # 0.018 scene units
+grep -q '1 views' stderr || fail "--fstop leaves nothing out: $(cat stderr)"
+exits 0 "$accumulate" "${views[@]}" "${lens[@]}" --fstop 1 --scene-unit 0.1 -v -o out.exr # 0.18
+grep -q '5 views' stderr || fail "--scene-unit changes nothing: $(cat stderr)"
+exits 0 "$accumulate" "${views[@]}" --lens-radius 0 -o out.exr # needs nothing else
+holds out.exr 32 24 5
+fails_saying 1 'no view.*aperture' "$accumulate" --view 1,0 left.exr "${lens[@]}" --lens-radius 0.5 -o none.exr
+
+# Types, windows, ids, standard streams, threads.
+exits 0 "$accumulate" "${views[@]:0:9}" "${lens[@]}" -d float -o third.exr
+oiiotool --info third.exr | grep -q '4 channel, float' || fail "-d float does not write float"
+oiiotool center.exr --crop 16x48+24+0 -o crop.exr
+exits 0 "$accumulate" --view 0,0 center.exr --view 0.125,0 crop.exr "${lens[@]}" --outside unknown -d float -o out.exr
+holds out.exr 50 24 0
+holds out.exr 32 24 2.5
+oiiotool --pattern constant:color=1,1,1,1 64x48 4 --chnames R,G,B,A -d float -o white.exr
+oiiotool white.exr --crop 16x48+24+0 -o white_crop.exr
+exits 0 "$accumulate" --view 0,0 white.exr --view 0,0 white_crop.exr "${lens[@]}" -d float -o out.exr
+holds out.exr 50 24 1
+exits 0 "$accumulate" --view 0,0 white.exr --view 0,0 white_crop.exr "${lens[@]}" --outside transparent -d float -o out.exr
+holds out.exr 50 24 0.5
+holds out.exr 30 24 1
+"$accumulate" --view 0,0 - --view 0.125,0 right.exr "${lens[@]}" -o - <center.exr >piped.exr || fail "cannot be piped"
+holds piped.exr 32 24 5
+exits 0 "$accumulate" "${views[@]}" --focal-length 36 --sensor-width 36 --focus-distance 3.3 --threads 1 -d float -o one.exr
+exits 0 "$accumulate" "${views[@]}" --focal-length 36 --sensor-width 36 --focus-distance 3.3 --threads 2 -d float -o two.exr
+[ "$(pixels_of one.exr)" = "$(pixels_of two.exr)" ] || fail "threads change the picture"
+
+# A value that is not finite is filled and told.
+oiiotool center.exr --mulc 1e38,1,1,1,1 --mulc 1e38,1,1,1,1 -d float -o overflow.exr
+exits 0 "$accumulate" --view 0,0 center.exr --view 0,0 overflow.exr "${lens[@]}" -d float -o out.exr
+grep -q 'warning: overflow.exr: 1 values' stderr || fail "no warning of bad values: $(cat stderr)"
+holds out.exr 32 24 2.5
+
+# Wrong usage, and what fails leaves no picture behind.
+rm -f none.exr
+fails_saying 2 'no views' "$accumulate" "${lens[@]}" -o none.exr
+fails_saying 2 output "$accumulate" center.exr
+fails_saying 2 "'1;2' is not X,Y" "$accumulate" --view '1;2' center.exr "${lens[@]}" -o none.exr
+fails_saying 2 'focus distance.*--focus-distance' "$accumulate" "${views[@]}" --focal-length 36 --sensor-width 36 -o none.exr
+fails_saying 2 'focal length.*--focal-length' "$accumulate" "${views[@]}" -o none.exr
+fails_saying 2 'center.exr.*worldToCamera.*--view' "$accumulate" center.exr left.exr "${lens[@]}" -o none.exr
+fails_saying 2 'half' "$accumulate" "${views[@]}" "${lens[@]}" -d int -o none.exr
+fails_saying 1 'missing.exr' "$accumulate" --view 0,0 missing.exr "${lens[@]}" -o none.exr
+oiiotool center.exr --ch R,G,B -o rgb.exr
+fails_saying 1 'rgb.exr: has no channel A' "$accumulate" --view 0,0 center.exr --view 0.1,0 rgb.exr "${lens[@]}" -o none.exr
+oiiotool center.exr --fullsize 60x48 -o other.exr
+fails_saying 1 'other.exr.*display window' "$accumulate" --view 0,0 center.exr --view 0,0 other.exr "${lens[@]}" -o none.exr
+[ ! -e none.exr ] || fail "a failed run left a picture"
+
+# Cameras out of the metadata; the lens centre by --center.
+exits 0 "$bin/dof-trace" fence -o fence --views 2 --lens-views 8 --spp 1 --size 48x27 --lens-radius 0.06
+exits 0 "$accumulate" fence/lens_*.exr --center fence/center.exr -o centered.exr
+[ ! -s stderr ] || fail "warns although --center is given: $(cat stderr)"
+exits 0 "$accumulate" fence/lens_*.exr -o guessed.exr
+grep -q 'warning: .*--center' stderr || fail "does not say that the centre is guessed"
+[ "$(pixels_of centered.exr)" != "$(pixels_of guessed.exr)" ] || fail "--center changes nothing"
+fails_saying 2 'left.exr.*worldToCamera' "$accumulate" fence/lens_*.exr --center left.exr -o none.exr
+
+# 64 views of 16 samples each are nearer the truth than 64 rays a pixel through the lens. Overscan, so that the views
+# see what the lens sees beyond the border.
+trace() { exits 0 "$bin/dof-trace" fence -o "$1" --views 0 --size 160x90 "${@:2}"; }
+trace truth --reference 1024
+trace rays --reference 64
+trace views --lens-views 64 --overscan 8
+psnr_of() { "$bin/dof-compare" "$1" truth/reference.exr --json | sed -n 's/^  "psnr_tonemapped": \(.*\),/\1/p'; }
+exits 0 "$accumulate" views/lens_*.exr --center views/center.exr -o average.exr
+by_views=$(psnr_of average.exr) by_rays=$(psnr_of rays/reference.exr)
+awk -v a="$by_views" -v b="$by_rays" 'BEGIN { exit !(b > 30 && a > b) }' ||
+    fail "64 views: $by_views dB, 64 rays a pixel: $by_rays dB"
+echo "dof-accumulate: fine ($by_views dB; 64 rays a pixel: $by_rays dB)"

@@ -1,0 +1,157 @@
+#!/bin/bash
+# dof-compare from the shell: what it prints, and what each option changes.
+. "$(dirname "$0")/check.sh"
+for tool in oiiotool idiff; do
+    command -v $tool >/dev/null || skip "needs $tool (openimageio-tools)"
+done
+compare=$bin/dof-compare
+
+# figure KEY [REGION]: a number out of the JSON in the file stdout.
+figure() {
+    local block=${2:-}
+    if [ -z "$block" ]; then
+        sed -n "s/^  \"$1\": \(.*\)/\1/p" stdout
+    else
+        sed -n "/^    \"$block\": {/,/^    }/s/^      \"$1\": \(.*\)/\1/p" stdout
+    fi | sed 's/,$//'
+}
+# is KEY EXPECTED [REGION] [TOLERANCE]
+is() {
+    local value
+    value=$(figure "$1" "${3:-}")
+    [ -n "$value" ] || fail "no $1 ${3:-} in $(cat stdout)"
+    awk -v a="$value" -v b="$2" -v t="${4:-0.001}" 'BEGIN {
+        exit !(a == b || (a + 0 == a && b + 0 == b && a - b <= t && b - a <= t)) }' ||
+        fail "$1 ${3:-} is $value, not $2"
+}
+constant() { # FILE R,G,B,A SIZE
+    oiiotool --pattern constant:color="$2" "$3" 4 --chnames R,G,B,A -d "${4:-float}" -o "$1"
+}
+
+answers_help dof-compare A.exr REF.exr
+
+# Closed forms.
+constant a.exr 0.75,0.75,0.75,0.5 32x20
+constant b.exr 0.5,0.5,0.5,1 32x20
+exits 0 "$compare" a.exr b.exr --json
+is psnr 12.0412
+is psnr_tonemapped "$(awk 'BEGIN { d = (0.75 / 1.75)^(1 / 2.2) - (0.5 / 1.5)^(1 / 2.2); print -20 * log(d) / log(10) }')"
+is relmse 0.240385
+is smape 0.198413
+is p99 0.25
+is max 0.25
+is max_alpha 0.5
+is pixels 640
+is nonfinite '{"image": 0, "reference": 0}'
+exits 0 "$compare" a.exr a.exr --json
+is psnr null
+is psnr_tonemapped null
+is ssim 1
+
+# The table says the same.
+exits 0 "$compare" a.exr b.exr
+grep -Eq '^psnr +12.0412$' stdout || fail "no psnr in the table: $(cat stdout)"
+grep -Eq '^nonfinite \(image\) +0$' stdout || fail "no count in the table: $(cat stdout)"
+[ ! -s stderr ] || fail "says on stderr: $(cat stderr)"
+
+# PSNR and the largest error as idiff sees them.
+oiiotool --pattern noise:type=uniform:min=0:max=1:seed=1 64x48 3 --chnames R,G,B -d half -o n1.exr
+oiiotool --pattern noise:type=uniform:min=0:max=1:seed=2 64x48 3 --chnames R,G,B -d half -o n2.exr
+idiff n1.exr n2.exr >idiff.txt || true
+exits 0 "$compare" n1.exr n2.exr --json
+is psnr "$(sed -n 's/.*Peak SNR = //p' idiff.txt)"
+is max "$(sed -n 's/.*Max error  = \([^ ]*\).*/\1/p' idiff.txt)" "" 1e-6
+
+# Pixels that are not finite are counted and left out.
+constant bright.exr 1e38,1,1,1 1x1
+oiiotool bright.exr --mulc 10,1,1,1 -d float -o inf.exr
+oiiotool inf.exr b.exr --paste +3+4 -d float -o bad.exr
+exits 0 "$compare" bad.exr b.exr --json
+is nonfinite '{"image": 1, "reference": 0}'
+is pixels 639
+is psnr null
+is ssim 1
+exits 0 "$compare" b.exr bad.exr --json
+is nonfinite '{"image": 0, "reference": 1}'
+is relmse 0
+
+# The reference's data window; what A lacks is transparent black.
+oiiotool b.exr --crop 16x20+16+0 -o right.exr
+exits 0 "$compare" right.exr b.exr --json
+is pixels 640
+is relmse 0.480769
+is max_alpha 1
+exits 0 "$compare" b.exr right.exr --json
+is pixels 320
+is psnr null
+
+# Regions: left half in focus at 5, right half at 20, behind focus. F = 32 pixels.
+constant near.exr 1,1,1,1 16x20
+oiiotool --pattern constant:color=5 16x20 1 --chnames Z -o z5.exr
+oiiotool --pattern constant:color=20 16x20 1 --chnames Z -o z20.exr
+oiiotool z20.exr z5.exr --create 32x20 1 --chnames Z --paste +0+0 --paste +16+0 -d float -o z.exr
+oiiotool --pattern constant:color=5 32x20 1 --chnames other -d float -o other.exr
+oiiotool b.exr z.exr --chappend other.exr --chappend -d float -o ldi.exr
+lens=(--focal-length 36 --sensor-width 36 --lens-radius 0.9 --focus-distance 5) # c = 0 and 4.32
+regions() { exits 0 "$compare" a.exr b.exr --json --regions "$@"; }
+regions ldi.exr "${lens[@]}"
+is pixels 640
+is pixels 320 in_focus
+is pixels 0 blurred
+is pixels 200 silhouettes # 5 columns on either side: |x - 15| and |x - 16| up to 4.32
+is psnr null blurred
+is psnr 12.0412 in_focus
+exits 0 "$compare" a.exr b.exr --regions ldi.exr "${lens[@]}"
+head -1 stdout | grep -Eq 'all +in_focus +blurred +silhouettes' || fail "no columns: $(head -1 stdout)"
+
+# Each lens option changes what the regions are.
+changes() { # PIXELS REGION OPTIONS...: with these options a region has so many pixels
+    regions ldi.exr "${@:3}"
+    is pixels "$1" "$2"
+}
+changes 320 blurred --focal-length 72 --sensor-width 36 --lens-radius 0.9 --focus-distance 5
+changes 320 blurred --focal-length 36 --sensor-width 18 --lens-radius 0.9 --focus-distance 5
+changes 320 blurred --focal-length 36 --sensor-width 36 --lens-radius 1.8 --focus-distance 5
+changes 0 in_focus --focal-length 36 --sensor-width 36 --lens-radius 0.9 --focus-distance 10
+changes 320 blurred --focal-length 36 --sensor-width 36 --fstop 0.01 --focus-distance 5
+changes 640 in_focus --focal-length 36 --sensor-width 36 --fstop 0.1 --focus-distance 5
+changes 320 blurred --focal-length 36 --sensor-width 36 --fstop 0.1 --focus-distance 5 --scene-unit 0.1
+changes 640 in_focus --lens-radius 0
+changes 640 blurred "${lens[@]}" --depth inverse # 1/5, 1/20: far in front of focus
+changes 640 in_focus "${lens[@]}" --depth-channel other
+# Along the ray: z = 5 / s, s = sqrt(1 + (r / 32)^2), so |c| = 11.52 (s - 1) at lens radius 1.8.
+near=$(awk 'BEGIN { for (x = 0; x < 16; ++x) for (y = 0; y < 20; ++y)
+    n += 11.52 * (sqrt(1 + ((x - 15.5)^2 + (y - 9.5)^2) / 1024) - 1) < 1; print n }')
+[ "$near" -lt 320 ] || fail "the picture is too small for --depth distance to show"
+changes "$near" in_focus --focal-length 36 --sensor-width 36 --lens-radius 1.8 --focus-distance 5 --depth distance
+
+# The lens may come from the LDI's metadata, the regions from a deep file; what is missing is named.
+oiiotool ldi.exr --attrib:type=float pinholeFocalLength 36 --attrib:type=float sparselens:sensorWidth 36 \
+    --attrib:type=float aperture 0.02 --attrib:type=float focus 5 --chnames R,G,B,A,Z,other --deepen -o deep.exr
+regions deep.exr
+is pixels 320 in_focus
+is pixels 200 silhouettes
+exits 0 "$compare" a.exr b.exr --regions deep.exr -v
+grep -q 'focal length 32.*focused at 5' stderr || fail "-v does not tell the lens: $(cat stderr)"
+fails_saying 2 'focal length.*--focal-length' "$compare" a.exr b.exr --regions ldi.exr --fstop 2
+fails_saying 2 "requires --regions" "$compare" a.exr b.exr --fstop 2 # changes nothing without --regions
+
+# Standard input, threads.
+exits 0 "$compare" n1.exr n2.exr --json --threads 1
+mv stdout one.json
+exits 0 "$compare" n1.exr n2.exr --json --threads 2
+cmp -s one.json stdout || fail "threads change figures"
+"$compare" - n2.exr --json <n1.exr >piped.json || fail "cannot read standard input"
+cmp -s one.json piped.json || fail "another result from standard input"
+
+# What cannot be compared.
+fails_saying 1 'none.exr' "$compare" none.exr b.exr
+echo text >text.exr
+fails_saying 1 'text.exr' "$compare" a.exr text.exr
+fails_saying 1 'n1.exr.*64x48.*32x20' "$compare" n1.exr b.exr
+fails_saying 1 'n1.exr.*display window' "$compare" a.exr b.exr --regions n1.exr "${lens[@]}" --depth-channel R
+oiiotool z.exr -o onlyz.exr
+fails_saying 1 'onlyz.exr.*channel R' "$compare" onlyz.exr b.exr
+fails_saying 2 REF "$compare" a.exr
+fails_saying 2 'twice' "$compare" - -
+echo "dof-compare: fine"
