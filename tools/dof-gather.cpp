@@ -56,6 +56,7 @@ void add_options(CLI::App &app, Options &options) {
     add_type_option(app, options.as_float);
     add_lens_options(app, options.lens);
     add_depth_options(app, options.depth);
+    app.get_option("--focus-pixel")->excludes("--focus-distance");
 }
 
 void focus_on_pixel(LoadedLdi &in, const Options &options) {
@@ -74,6 +75,8 @@ void warn_if_wider_than_views(const ToolContext &tool, const ThinLens &lens, con
 }
 
 void run(const Options &options, const ToolContext &tool) {
+    if (options.depth_output == options.output)
+        throw UsageError("--depth-out and --output name the same file: " + options.output);
     LoadedLdi in = load_ldi(options.input, options.lens, options.depth);
     keep_channels(in.ldi, options.channels);
     focus_on_pixel(in, options);

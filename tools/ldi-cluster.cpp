@@ -34,23 +34,25 @@ void add_options(CLI::App &app, Options &options) {
     add_depth_options(app, options.depth);
 }
 
-// The tolerance needs the lens; --layers alone does without, as inverse depth needs no scale to be compared.
-ClusterOptions cluster_options(const Options &options, const LoadedLdi &in) {
-    ClusterOptions result{.layers = options.layers};
+// R F. The tolerance needs it; --layers alone does without, as inverse depth needs no scale to be compared.
+std::optional<double> perceptive_scale(const Options &options, const LoadedLdi &in) {
     const bool lens_known =
         lens_radius_of(in.camera) && focal_length_px(in.camera, in.ldi.windows.display_width());
-    if (!lens_known && !options.tolerance && options.layers > 0) return result;
-    result.scale = resolve_radius(options.lens, in.camera);
-    if (result.scale > 0) result.scale *= resolve_focal_px(in.camera, in.ldi.windows);
-    result.tolerance = options.tolerance.value_or(0.25);
-    return result;
+    if (!lens_known && !options.tolerance && options.layers > 0) return {};
+    const double radius = resolve_radius(options.lens, in.camera);
+    return radius > 0 ? radius * resolve_focal_px(in.camera, in.ldi.windows) : 0;
 }
 
 void run(const Options &options, const ToolContext &tool) {
     LoadedLdi in = load_ldi(options.input, options.lens, options.depth);
-    const Clustered out = cluster(in.ldi, cluster_options(options, in), *tool.progress);
+    ClusterOptions by{.layers = options.layers};
+    const auto scale = perceptive_scale(options, in);
+    if (scale) by.scale = *scale;
+    if (scale) by.tolerance = options.tolerance.value_or(0.25);
+    const Clustered out = cluster(in.ldi, by, *tool.progress);
     tool.say(std::to_string(in.ldi.samples()) + " samples to " + std::to_string(out.ldi.samples()) +
-             ", CoC changed by at most " + std::to_string(out.largest_error) + " px");
+             (scale ? ", CoC changed by at most " + std::to_string(out.largest_error) + " px"
+                    : ", by inverse depth alone: the lens is unknown"));
     write_camera(in.header, in.camera);
     write_ldi(options.output, out.ldi, in.header);
 }

@@ -49,7 +49,6 @@ WarpOptions warp_options(const Options &options, const LoadedViews &loaded) {
 void run(const Options &options, const ToolContext &tool) {
     LoadedViews loaded = load_views(options.views, options.lens, options.depth);
     const WarpOptions warp_by = warp_options(options, loaded);
-    for (const View &view : loaded.views) loaded.camera.lens_points.push_back(view.position);
     write_camera(loaded.header, loaded.camera);
     write_picture_window(loaded.header, loaded.views[0].image.windows.data);
     const Ldi ldi = warp(loaded.views, warp_by, *tool.progress);

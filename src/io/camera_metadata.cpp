@@ -123,7 +123,7 @@ Imath::Box2i read_picture_window(const Imf::Header &header) {
 }
 
 void write_picture_window(Imf::Header &header, const Imath::Box2i &window) {
-    header.insert(picture_window_name, Imf::Box2iAttribute(window));
+    replace(header, picture_window_name, Imf::Box2iAttribute(window));
 }
 
 } // namespace sparselens

@@ -5,6 +5,7 @@
 #include "view/view.h"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace sparselens {
@@ -12,7 +13,7 @@ namespace sparselens {
 // One view pixel at its place in the centre view.
 struct ReprojectedSample {
     int x, y;             // centre pixel it falls in, EXR coordinates
-    float dx, dy;         // offset from that pixel's centre, [-1/2, 1/2), y down
+    float dx, dy;         // offset from that pixel's centre, [-1/2, 1/2], y down
     float inverse_z;      // 1 / planar depth
     std::uint32_t source; // index into the view's planes
 };
@@ -22,7 +23,7 @@ public:
     // focal_px: focal length in pixels. The view must outlive the reprojection.
     Reprojection(const View &view, double focal_px);
 
-    // The pixels that samples may fall in.
+    // A box that holds all pixels in which visible samples fall.
     Imath::Box2i reach() const;
 
     // Appends every visible sample (A not 0) that falls in rows [first_row, last_row], in source order.
@@ -33,8 +34,11 @@ private:
     struct RowReach {
         double left, right, up, down;
     };
+    bool is_visible(std::size_t source) const;
+
     const View &view_;
-    double shift_x_, shift_y_; // pixels times scene units: divided by z they are a displacement
+    std::span<const float> alpha_; // empty: all is visible
+    double shift_x_, shift_y_;     // pixels times scene units: divided by z they are a displacement
     std::vector<RowReach> reach_;
 };
 

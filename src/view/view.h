@@ -14,8 +14,9 @@ struct View {
     std::string name;     // for messages
     Image image;          // what is carried: R, G, B, A and further layers, without depth; premultiplied
     std::vector<float> z; // planar depth of each pixel, scene units, (0, inf]
-    Imath::V2d position{
-        0, 0}; // of the camera seen from the centre view's: scene units, x right, y up, axes parallel
+    // Of the camera, seen from the centre view's: scene units, x right, y up, axes parallel.
+    Imath::V2d position{0, 0};
+}; // of the camera seen from the centre view's: scene units, x right, y up, axes parallel
 };
 
 } // namespace sparselens

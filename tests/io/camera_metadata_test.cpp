@@ -149,6 +149,18 @@ TEST(CameraMetadata, AttributesOfAnotherTypeAreReplaced) {
     EXPECT_EQ(read.lens_points.size(), 3u);
 }
 
+TEST(PictureWindow, IsTheDataWindowUnlessItIsSaidAndLiesInside) {
+    Imf::Header header(Imath::Box2i({0, 0}, {9, 9}), Imath::Box2i({-4, -4}, {13, 13}));
+    EXPECT_EQ(read_picture_window(header), header.dataWindow());
+    write_picture_window(header, Imath::Box2i({0, 0}, {9, 9}));
+    EXPECT_EQ(read_picture_window(header), Imath::Box2i({0, 0}, {9, 9}));
+    write_picture_window(header,
+                         Imath::Box2i({0, 0}, {9, 14})); // of another file, whose data window was larger
+    EXPECT_EQ(read_picture_window(header), header.dataWindow());
+    write_picture_window(header, Imath::Box2i({5, 5}, {2, 2}));
+    EXPECT_EQ(read_picture_window(header), header.dataWindow());
+}
+
 TEST(CameraMetadata, TheRestOfTheHeaderIsLeftAlone) {
     Imf::Header header;
     header.insert("comments", Imf::StringAttribute("mine"));

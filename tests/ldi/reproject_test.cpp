@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 namespace sparselens {
@@ -63,6 +64,35 @@ TEST(Reprojection, TheNearestMayLeaveThePicture) {
     EXPECT_TRUE(reprojected(1e-3f, {0, 1}).empty());          // out of the rows that were asked for
     EXPECT_TRUE(reprojected(1e-30f, {1e10, 0}).empty());      // beyond any coordinate
     EXPECT_EQ(reprojected(1e-3f, {1, 0})[0].x, 10 + 100'000); // for the caller to cut
+}
+
+TEST(Reprojection, ReachIsWhereSamplesFall) {
+    const auto reach = [](const Imath::V2d &position, float z, float empty_z = 0) {
+        const View view = make_view(windows_of_size(21, 11), position, [&](int x, int) {
+            return x < 3 ? ViewPixel{.z = empty_z, .a = 0} : ViewPixel{.z = z};
+        });
+        return Reprojection(view, 100).reach();
+    };
+    EXPECT_EQ(reach({0, 0}, 4), Imath::Box2i({0, 0}, {20, 10}));
+    EXPECT_EQ(reach({1e6, 1e6}, inf), Imath::Box2i({0, 0}, {20, 10}));
+    EXPECT_EQ(reach({0.13, 0}, 4), Imath::Box2i({0, 0}, {23, 10})); // 3.25 px to the right
+    EXPECT_EQ(reach({-0.15, 0}, 4), Imath::Box2i({-4, 0}, {20, 10}));
+    EXPECT_EQ(reach({0, 0.15}, 4), Imath::Box2i({0, -4}, {20, 10}));
+    // What is not visible does not count, whatever its depth.
+    for (const float empty_z : {0.0f, 1e-6f, -1.0f, std::nanf("")})
+        EXPECT_EQ(reach({0.13, 0.13}, 4, empty_z), reach({0.13, 0.13}, 4)) << empty_z;
+}
+
+TEST(Reprojection, NoSampleFallsOutsideTheReach) {
+    const Windows w{Imath::Box2i({0, 0}, {63, 47}), Imath::Box2i({-5, -3}, {60, 50})};
+    for (const Imath::V2d &position : {Imath::V2d(0.03, 0.05), Imath::V2d(-0.02, -0.07)}) {
+        const View view = random_view(w, position, 4);
+        const Reprojection reprojection(view, 100);
+        std::vector<ReprojectedSample> all;
+        reprojection.append_rows(-10'000, 10'000, all);
+        for (const ReprojectedSample &s : all)
+            EXPECT_TRUE(reprojection.reach().intersects(Imath::V2i(s.x, s.y)));
+    }
 }
 
 // Every sample falls in exactly one band of rows, and in the order of the source.

@@ -64,6 +64,9 @@ Camera camera_with_options(const LensOptions &options, Camera camera) {
     const auto put = [](std::optional<double> &value, const std::optional<double> &option) {
         if (option) value = option;
     };
+    // The file's focus is in metres: with another scene unit it is as many units more or fewer.
+    if (options.scene_unit && camera.focus_distance)
+        *camera.focus_distance *= camera.metres_per_unit.value_or(1) / *options.scene_unit;
     put(camera.focal_length_mm, options.focal_length_mm);
     put(camera.sensor_width_mm, options.sensor_width_mm);
     put(camera.focus_distance, options.focus_distance);

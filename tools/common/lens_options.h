@@ -25,7 +25,8 @@ struct DepthOptions {
 void add_lens_options(CLI::App &app, LensOptions &options);
 void add_depth_options(CLI::App &app, DepthOptions &options);
 
-// The file's camera with the options put over it. UsageError where --fstop and --lens-radius are both given.
+// The file's camera with the options put over it. --lens-radius becomes an f-number; --scene-unit leaves the
+// file's focus where it is in metres.
 Camera camera_with_options(const LensOptions &options, Camera from_file);
 
 // What is neither 0 nor below (nor infinite, unless allowed). CLI11 reads "inf" and "nan" as numbers; the second is

@@ -9,12 +9,6 @@ namespace sparselens {
 
 namespace {
 
-Imath::V2d placed_position(const std::string &text) {
-    const auto position = parse_pair(text);
-    if (!position) throw UsageError("--view: '" + text + "' is not X,Y");
-    return *position;
-}
-
 // Reads the header of a view; from standard input, which cannot be read twice, the pixels too.
 Imf::Header open_header(LensViewFile &view) {
     if (view.path != "-") return read_flat_header(view.path);
@@ -62,7 +56,7 @@ LensViewFiles open_lens_views(const LensViewOptions &options) {
     LensViewFiles result;
     for (const std::string &path : options.files) result.views.push_back({path, {0, 0}, {}});
     for (const auto &[position, path] : options.placed)
-        result.views.push_back({path, placed_position(position), {}});
+        result.views.push_back({path, view_offset(position), {}});
     if (result.views.empty()) throw UsageError("no views are given");
     std::vector<Imf::Header> headers;
     for (LensViewFile &view : result.views) headers.push_back(open_header(view));

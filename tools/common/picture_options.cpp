@@ -1,5 +1,7 @@
 #include "common/picture_options.h"
 
+#include "base/error.h"
+
 #include <cmath>
 
 namespace sparselens {
@@ -12,6 +14,12 @@ std::optional<Imath::V2d> parse_pair(const std::string &text) {
         return {};
     if (!std::isfinite(pair.x) || !std::isfinite(pair.y)) return {};
     return pair;
+}
+
+Imath::V2d view_offset(const std::string &text) {
+    const auto offset = parse_pair(text);
+    if (!offset) throw UsageError("--view: '" + text + "' is not X,Y");
+    return *offset;
 }
 
 void add_pixel_option(CLI::App &app, const std::string &name, std::optional<Imath::V2i> &pixel,

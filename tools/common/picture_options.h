@@ -14,6 +14,9 @@ namespace sparselens {
 // "X,Y" as two finite numbers, or nothing.
 std::optional<Imath::V2d> parse_pair(const std::string &text);
 
+// The X,Y of --view: scene units, x right, y up. UsageError where it is none.
+Imath::V2d view_offset(const std::string &text);
+
 // `name` X,Y: a pixel in EXR coordinates, y down.
 void add_pixel_option(CLI::App &app, const std::string &name, std::optional<Imath::V2i> &pixel,
                       const std::string &help);

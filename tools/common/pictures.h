@@ -1,4 +1,7 @@
 // How the tools load what they work on: depth made planar, camera and lens put together.
+//
+// A depth of 0 says that nothing was hit, as many renderers write it: it becomes infinity, as does any depth where
+// A is 0. Error (naming file and pixel) where another depth is no number above 0.
 #pragma once
 
 #include "common/lens_options.h"

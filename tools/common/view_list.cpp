@@ -1,34 +1,11 @@
 #include "common/view_list.h"
 
-#include "base/error.h"
 #include "common/picture_options.h"
+#include "view/lens_views.h"
 
-#include <cmath>
-#include <sstream>
+#include <span>
 
 namespace sparselens {
-
-namespace {
-
-Imath::V2d placed_position(const std::string &text) {
-    const auto position = parse_pair(text);
-    if (!position) throw UsageError("--view: '" + text + "' is not X,Y");
-    return *position;
-}
-
-Imath::V2d metadata_position(const Camera &centre, const Camera &view, const std::string &path) {
-    const auto position = position_relative_to(centre, view, path);
-    if (!position)
-        throw UsageError(path +
-                         ": where its camera stood is unknown (no worldToCamera here or in the centre "
-                         "view): give --view X,Y " +
-                         path);
-    if (std::abs(position->z) > 1e-3 * std::hypot(position->x, position->y) + 1e-6)
-        throw Error(path + ": its camera stands in front of or behind the centre view's, not beside it");
-    return {position->x, position->y};
-}
-
-} // namespace
 
 void add_view_list(CLI::App &app, ViewList &list) {
     app.add_option("views", list.files,
@@ -42,24 +19,28 @@ void add_view_list(CLI::App &app, ViewList &list) {
 }
 
 LoadedViews load_views(const ViewList &list, const LensOptions &lens, const DepthOptions &depth) {
+    std::vector<Imath::V2d> offsets; // read first: a mistake is said before the work
+    for (const auto &[offset, path] : list.placed) offsets.push_back(view_offset(offset));
     LoadedViews loaded;
-    Camera centre;
+    std::vector<Camera> cameras; // of the files
     for (const std::string &path : list.files) {
         LoadedView next = load_view(path, lens, depth);
-        if (loaded.views.empty()) {
-            centre = next.camera;
-            loaded.header = std::move(next.header);
-            loaded.camera = camera_with_options(lens, centre);
-        } else {
-            next.view.position = metadata_position(centre, next.camera, path);
-        }
+        if (cameras.empty()) loaded.header = std::move(next.header);
+        cameras.push_back(std::move(next.camera));
         loaded.views.push_back(std::move(next.view));
     }
-    for (const auto &[position, path] : list.placed) {
-        LoadedView next = load_view(path, lens, depth);
-        next.view.position = placed_position(position);
-        loaded.views.push_back(std::move(next.view));
+    const std::span rim_cameras = std::span(cameras).subspan(1);
+    const std::span rim_files = std::span(list.files).subspan(1);
+    const LensViews placed = place_on_lens(rim_cameras, rim_files, cameras[0]);
+    for (std::size_t i = 0; i < placed.positions.size(); ++i)
+        loaded.views[i + 1].position = placed.positions[i];
+    for (std::size_t i = 0; i < offsets.size(); ++i) {
+        loaded.views.push_back(load_view(list.placed[i].second, lens, depth).view);
+        loaded.views.back().position = offsets[i];
     }
+    loaded.camera = camera_with_options(lens, cameras[0]);
+    loaded.camera.lens_points.clear();
+    for (const View &view : loaded.views) loaded.camera.lens_points.push_back(view.position);
     return loaded;
 }
 

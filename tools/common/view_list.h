@@ -21,10 +21,10 @@ void add_view_list(CLI::App &app, ViewList &list);
 struct LoadedViews {
     std::vector<View> views; // the centre view first
     Imf::Header header;      // of the centre view
-    Camera camera;           // of the centre view, with the options over it
+    Camera camera;           // of the centre view, with the options over it; the lens points of all views
 };
 
-// A view's position comes from --view, else from worldToCamera; UsageError where neither tells.
+// A view's position comes from --view, else from worldToCamera (see place_on_lens, whose errors it throws).
 LoadedViews load_views(const ViewList &list, const LensOptions &lens, const DepthOptions &depth);
 
 } // namespace sparselens
