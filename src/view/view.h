@@ -16,7 +16,6 @@ struct View {
     std::vector<float> z; // planar depth of each pixel, scene units, (0, inf]
     // Of the camera, seen from the centre view's: scene units, x right, y up, axes parallel.
     Imath::V2d position{0, 0};
-}; // of the camera seen from the centre view's: scene units, x right, y up, axes parallel
 };
 
 } // namespace sparselens
