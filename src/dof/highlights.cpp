@@ -4,7 +4,6 @@
 #include "lens/psf.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace sparselens {
@@ -114,7 +113,7 @@ std::vector<HighlightPixel> highlight_pixels(const Highlights &highlights, const
                                              const NearestLensPoint &nearest, double pixel_aspect,
                                              const Imath::V2i &origin, int size) {
     std::vector<HighlightPixel> pixels;
-    std::array<double, PsfRows::max_width> weights{};
+    std::vector<double> weights(std::size_t(size) + 1);
     for (std::uint32_t h = 0; h < highlights.sample.size(); ++h) {
         const std::uint32_t s = highlights.sample[h];
         const double radius = std::abs(double(samples.coc[s])), reach = radius * std::max(1.0, pixel_aspect) + 1;

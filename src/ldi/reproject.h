@@ -2,7 +2,7 @@
 // with parallel axes (design.md section 1). Points at infinity stay where they are.
 #pragma once
 
-#include "view/view.h"
+#include "ldi/ldi.h"
 
 #include <cstdint>
 #include <span>
@@ -15,18 +15,19 @@ struct ReprojectedSample {
     int x, y;             // centre pixel it falls in, EXR coordinates
     float dx, dy;         // offset from that pixel's centre, [-1/2, 1/2], y down
     float inverse_z;      // 1 / planar depth
-    std::uint32_t source; // index into the view's planes
+    std::uint32_t source; // index into the view's samples
 };
 
 class Reprojection {
 public:
-    // focal_px: focal length in pixels. The view must outlive the reprojection.
-    Reprojection(const View &view, double focal_px);
+    // `position` of the view's camera, scene units; focal_px: focal length in pixels. The view's samples lie at
+    // the pixel centres; it must outlive the reprojection.
+    Reprojection(const Ldi &view, const Imath::V2d &position, double focal_px);
 
-    // A box that holds all pixels in which visible samples fall.
+    // A box that holds all pixels in which samples fall.
     Imath::Box2i reach() const;
 
-    // Appends every visible sample (A not 0) that falls in rows [first_row, last_row], in source order.
+    // Appends every sample that falls in rows [first_row, last_row], in source order.
     void append_rows(int first_row, int last_row, std::vector<ReprojectedSample> &out) const;
 
 private:
@@ -34,11 +35,9 @@ private:
     struct RowReach {
         double left, right, up, down;
     };
-    bool is_visible(std::size_t source) const;
 
-    const View &view_;
-    std::span<const float> alpha_; // empty: all is visible
-    double shift_x_, shift_y_;     // pixels times scene units: divided by z they are a displacement
+    const Ldi &view_;
+    double shift_x_, shift_y_; // pixels times scene units: divided by z they are a displacement
     std::vector<RowReach> reach_;
 };
 

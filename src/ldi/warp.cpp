@@ -4,11 +4,14 @@
 #include "base/parallel.h"
 #include "ldi/build.h"
 #include "ldi/reproject.h"
+#include "ldi/silhouettes.h"
+#include "ldi/view_samples.h"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <compare>
+#include <memory>
 #include <numeric>
 
 namespace sparselens {
@@ -18,9 +21,29 @@ namespace {
 constexpr int band_rows = 16;
 constexpr int most_overscan = 1024; // pixels an LDI grows beyond the centre view on a side
 
-// A pixel of a view at its place in the centre view.
+// A sample of a view at its place in the centre view.
 struct PlacedSample : ReprojectedSample {
-    std::uint32_t view; // 0 is the centre
+    std::uint32_t view;    // 0 is the centre
+    std::uint32_t surface; // of the pixel, as find_surfaces() numbers them
+};
+
+// A view as the warp works on it: its samples, silhouettes taken apart where views are averaged.
+struct Source {
+    Ldi ldi;
+    Reprojection reprojection; // refers to ldi
+
+    Source(Ldi samples, const Imath::V2d &position, double focal_px)
+        : ldi(std::move(samples)), reprojection(ldi, position, focal_px) {}
+};
+
+// Reused from pixel to pixel.
+struct Surfaces {
+    struct Surface {
+        std::vector<PlacedSample> samples;
+        double inverse_z; // mean
+    };
+    std::vector<Surface> list;
+    std::size_t count = 0;
 };
 
 class Warper {
@@ -29,34 +52,31 @@ public:
     Ldi run(Progress &progress) const;
 
 private:
+    void limit_window(const Imath::Box2i &centre);
     Ldi warp_band(int first_row, int last_row) const;
     std::vector<PlacedSample> collect(int first_row, int last_row, std::vector<std::size_t> &begin) const;
-    void emit_pixel(std::span<PlacedSample> samples, Ldi &out) const;
-    std::size_t emit_centre_surface(std::span<PlacedSample> samples, std::vector<PlacedSample> &group, Ldi &out) const;
+    std::span<PlacedSample> behind_centre(std::span<PlacedSample> samples) const;
+    void find_surfaces(std::span<PlacedSample> samples, Surfaces &surfaces) const;
     void emit_surface(std::span<const PlacedSample> group, Ldi &out) const;
 
-    double depth_of(const PlacedSample &s) const { return scale_ * double(s.inverse_z); }
     bool one_surface(const PlacedSample &a, const PlacedSample &b) const {
-        return std::abs(depth_of(a) - depth_of(b)) < options_.surface_px || a.inverse_z == b.inverse_z;
+        return std::abs(scale_ * (double(a.inverse_z) - double(b.inverse_z))) < options_.surface_px ||
+               a.inverse_z == b.inverse_z;
     }
     float value(const PlacedSample &s, std::size_t channel) const {
-        return views_[s.view]->image.plane(source_channel_[s.view][channel])[s.source];
+        return sources_[s.view]->ldi.values[channel][s.source];
     }
+    double weight(const PlacedSample &s) const { return double(sources_[s.view]->ldi.weight[s.source]); }
 
-    std::vector<const View *> views_; // the centre, then the rim views in a canonical order
+    std::vector<std::unique_ptr<Source>> sources_; // the centre, then the rim views in a canonical order
     WarpOptions options_;
     double scale_; // R F: perceptive depth is scale / z
-    std::vector<std::vector<std::size_t>> source_channel_; // [view][centre channel]
-    std::vector<Reprojection> reprojections_;
-    Ldi layout_; // windows and channels of the result
+    Ldi layout_;   // windows and channels of the result
 };
 
 void check(const View &centre, const View &view) {
     if (view.image.windows.display != centre.image.windows.display)
         throw Error(view.name + ": its display window differs from the centre view's (" + centre.name + ")");
-    for (const Channel &channel : centre.image.channels)
-        if (find_channel(view.image.channels, channel.name) == npos)
-            throw Error(view.name + ": has no channel " + channel.name + ", which the centre view has");
 }
 
 // By position; where several stand at one point, by what they show: the order they were given in must not matter.
@@ -75,28 +95,31 @@ bool canonically_before(const View *a, const View *b) {
 
 Warper::Warper(std::span<const View> views, const WarpOptions &options)
     : options_(options), scale_(options.radius * options.focal_px) {
+    std::vector<const View *> ordered;
     for (const View &view : views) {
         check(views[0], view);
-        views_.push_back(&view);
+        ordered.push_back(&view);
     }
-    std::sort(views_.begin() + 1, views_.end(), canonically_before);
+    std::sort(ordered.begin() + 1, ordered.end(), canonically_before);
     layout_.windows = views[0].image.windows;
     layout_.channels = views[0].image.channels;
     layout_.values.resize(layout_.channels.size());
-    for (const View *view : views_) {
-        reprojections_.emplace_back(*view, options.focal_px);
-        source_channel_.emplace_back();
-        for (const Channel &channel : layout_.channels)
-            source_channel_.back().push_back(find_channel(view->image.channels, channel.name));
-        if (options.merge == Merge::average) layout_.windows.data.extendBy(reprojections_.back().reach());
-    }
-    Imath::Box2i most = views[0].image.windows.data;
-    most.min -= Imath::V2i(most_overscan);
-    most.max += Imath::V2i(most_overscan);
+    sources_.resize(ordered.size());
+    parallel_for(ordered.size(), [&](std::size_t v) {
+        Ldi samples = samples_of(*ordered[v], layout_.channels);
+        if (options.merge == Merge::average && scale_ > 0) samples = separate_silhouettes(samples, scale_);
+        sources_[v] = std::make_unique<Source>(std::move(samples), ordered[v]->position, options.focal_px);
+    });
+    if (options.merge == Merge::keep) return;
+    for (const auto &source : sources_) layout_.windows.data.extendBy(source->reprojection.reach());
+    limit_window(views[0].image.windows.data);
+}
+
+void Warper::limit_window(const Imath::Box2i &centre) {
     Imath::Box2i &data = layout_.windows.data;
     for (int axis = 0; axis < 2; ++axis) {
-        data.min[axis] = std::max(data.min[axis], most.min[axis]);
-        data.max[axis] = std::min(data.max[axis], most.max[axis]);
+        data.min[axis] = std::max(data.min[axis], centre.min[axis] - most_overscan);
+        data.max[axis] = std::min(data.max[axis], centre.max[axis] + most_overscan);
     }
 }
 
@@ -107,18 +130,18 @@ std::vector<PlacedSample> Warper::collect(int first_row, int last_row, std::vect
     const auto pixel_of = [&](const ReprojectedSample &s) {
         return std::size_t(s.y - first_row) * width + std::size_t(s.x - data.min.x);
     };
-    std::vector<std::vector<ReprojectedSample>> landed(views_.size());
+    std::vector<std::vector<ReprojectedSample>> landed(sources_.size());
     begin.assign(width * std::size_t(last_row - first_row + 1) + 1, 0);
-    for (std::size_t v = 0; v < views_.size(); ++v) {
-        reprojections_[v].append_rows(first_row, last_row, landed[v]);
+    for (std::size_t v = 0; v < sources_.size(); ++v) {
+        sources_[v]->reprojection.append_rows(first_row, last_row, landed[v]);
         std::erase_if(landed[v], [&](const auto &s) { return s.x < data.min.x || s.x > data.max.x; });
         for (const ReprojectedSample &s : landed[v]) ++begin[pixel_of(s) + 1];
     }
     std::partial_sum(begin.begin(), begin.end(), begin.begin());
     std::vector<PlacedSample> samples(begin.back());
     std::vector<std::size_t> next(begin.begin(), begin.end() - 1);
-    for (std::uint32_t v = 0; v < views_.size(); ++v)
-        for (const ReprojectedSample &s : landed[v]) samples[next[pixel_of(s)]++] = {s, v};
+    for (std::uint32_t v = 0; v < sources_.size(); ++v)
+        for (const ReprojectedSample &s : landed[v]) samples[next[pixel_of(s)]++] = {s, v, 0};
     return samples;
 }
 
@@ -134,59 +157,65 @@ void Warper::emit_surface(std::span<const PlacedSample> group, Ldi &out) const {
         });
         group = group.subspan(std::size_t(best - group.begin()), 1);
     }
-    const double count = double(group.size());
-    double dx = 0, dy = 0, inverse_z = 0; // double: views may be many, depths near each other
+    double total = 0, dx = 0, dy = 0, inverse_z = 0; // double: views may be many, depths near each other
     for (const PlacedSample &s : group) {
-        dx += double(s.dx);
-        dy += double(s.dy);
-        inverse_z += double(s.inverse_z);
+        total += weight(s);
+        dx += weight(s) * double(s.dx);
+        dy += weight(s) * double(s.dy);
+        inverse_z += weight(s) * double(s.inverse_z);
     }
     const bool alone = group.size() == 1;
-    out.z.push_back(alone ? views_[group[0].view]->z[group[0].source] : float(count / inverse_z));
-    out.dx.push_back(float(dx / count));
-    out.dy.push_back(float(dy / count));
-    out.weight.push_back(float(count));
+    out.z.push_back(alone ? sources_[group[0].view]->ldi.z[group[0].source] : float(total / inverse_z));
+    out.dx.push_back(float(dx / total));
+    out.dy.push_back(float(dy / total));
+    out.weight.push_back(float(total));
     for (std::size_t k = 0; k < out.channels.size(); ++k) {
         double sum = 0;
-        for (const PlacedSample &s : group) sum += double(value(s, k));
+        for (const PlacedSample &s : group) sum += weight(s) * double(value(s, k));
         const bool copied = alone || out.channels[k].type == PixelType::uint32;
-        out.values[k].push_back(copied ? value(group[0], k) : float(sum / count));
+        out.values[k].push_back(copied ? value(group[0], k) : float(sum / total));
     }
     ++out.begin.back();
 }
 
-// Emits the surface that the centre view shows and returns how many of the samples (sorted front to back) are
-// done with: those in front of it too, as nothing that the centre view does not show lies there.
-std::size_t Warper::emit_centre_surface(std::span<PlacedSample> samples, std::vector<PlacedSample> &group,
-                                        Ldi &out) const {
+// Of the samples of a pixel, front to back, those that belong to it: nothing lies in front of what the centre view
+// shows, nor where it shows nothing.
+std::span<PlacedSample> Warper::behind_centre(std::span<PlacedSample> samples) const {
     const auto centre = std::find_if(samples.begin(), samples.end(), [](const auto &s) { return s.view == 0; });
-    if (centre == samples.end()) return 0;
-    group.clear();
-    std::size_t done = 0;
-    for (std::size_t i = 0; i < samples.size(); ++i) {
-        const bool same = one_surface(samples[i], *centre);
-        if (same) group.push_back(samples[i]);
-        if (same || i < std::size_t(centre - samples.begin())) done = i + 1;
+    if (centre == samples.end()) {
+        const bool inside = sources_[0]->ldi.windows.data.intersects(Imath::V2i(samples[0].x, samples[0].y));
+        return inside ? samples.first(0) : samples;
     }
-    std::stable_sort(group.begin(), group.end(), [](const auto &a, const auto &b) { return a.view < b.view; });
-    emit_surface(group, out);
-    return done;
+    const auto first = std::find_if(samples.begin(), centre, [&](const auto &s) { return one_surface(s, *centre); });
+    return samples.subspan(std::size_t(first - samples.begin()));
 }
 
-void Warper::emit_pixel(std::span<PlacedSample> samples, Ldi &out) const {
-    const Imath::V2i pixel(samples.empty() ? Imath::V2i(0) : Imath::V2i(samples[0].x, samples[0].y));
-    std::stable_sort(samples.begin(), samples.end(),
-                     [](const auto &a, const auto &b) { return a.inverse_z > b.inverse_z; });
-    std::vector<PlacedSample> group;
-    std::size_t first = emit_centre_surface(samples, group, out);
-    // An empty pixel of the centre view is transparent to infinity; outside of it nothing is known.
-    if (first == 0 && views_[0]->image.windows.data.intersects(pixel)) return;
-    for (std::size_t last = first; first < samples.size(); first = last) {
-        while (last < samples.size() && one_surface(samples[first], samples[last])) ++last;
-        group.assign(samples.begin() + std::ptrdiff_t(first), samples.begin() + std::ptrdiff_t(last));
-        std::stable_sort(group.begin(), group.end(), [](const auto &a, const auto &b) { return a.view < b.view; });
-        emit_surface(group, out);
-    }
+// Sorts the samples of a pixel (front to back) by surface: first those of the centre's samples, then the rest.
+void Warper::find_surfaces(std::span<PlacedSample> samples, Surfaces &surfaces) const {
+    constexpr std::uint32_t none = ~0u;
+    for (PlacedSample &s : samples) s.surface = none;
+    surfaces.count = 0;
+    for (const bool centre : {true, false})
+        for (const PlacedSample &anchor : samples) {
+            if (anchor.surface != none || (anchor.view == 0) != centre) continue;
+            const auto number = std::uint32_t(surfaces.count++);
+            if (surfaces.list.size() < surfaces.count) surfaces.list.emplace_back();
+            auto &[group, inverse_z] = surfaces.list[number];
+            group.clear();
+            double total = 0;
+            inverse_z = 0;
+            for (PlacedSample &s : samples) {
+                if (s.surface != none || !one_surface(s, anchor)) continue;
+                s.surface = number;
+                group.push_back(s);
+                inverse_z += weight(s) * double(s.inverse_z);
+                total += weight(s);
+            }
+            inverse_z /= total;
+            std::stable_sort(group.begin(), group.end(), [](const auto &a, const auto &b) { return a.view < b.view; });
+        }
+    std::sort(surfaces.list.begin(), surfaces.list.begin() + std::ptrdiff_t(surfaces.count),
+              [](const auto &a, const auto &b) { return a.inverse_z > b.inverse_z; });
 }
 
 Ldi Warper::warp_band(int first_row, int last_row) const {
@@ -194,9 +223,14 @@ Ldi Warper::warp_band(int first_row, int last_row) const {
     std::vector<PlacedSample> samples = collect(first_row, last_row, begin);
     Ldi out = empty_like(layout_);
     out.begin.push_back(0);
+    Surfaces surfaces;
     for (std::size_t pixel = 0; pixel + 1 < begin.size(); ++pixel) {
         out.begin.push_back(out.begin.back());
-        emit_pixel(std::span(samples).subspan(begin[pixel], begin[pixel + 1] - begin[pixel]), out);
+        std::span<PlacedSample> here = std::span(samples).subspan(begin[pixel], begin[pixel + 1] - begin[pixel]);
+        if (here.empty()) continue;
+        std::stable_sort(here.begin(), here.end(), [](const auto &a, const auto &b) { return a.inverse_z > b.inverse_z; });
+        find_surfaces(behind_centre(here), surfaces);
+        for (std::size_t i = 0; i < surfaces.count; ++i) emit_surface(surfaces.list[i].samples, out);
     }
     return out;
 }
