@@ -13,7 +13,6 @@ namespace sparselens {
 namespace {
 
 constexpr std::size_t packet_size = 16;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 struct Release {
     void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
