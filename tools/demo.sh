@@ -98,7 +98,7 @@ piped() {
 [ -n "$bin" ] || { build >&2; bin=$here/build/bin; }
 exec </dev/null 3>&1 1>&2 # a tool that says something says it to stderr; 3 is for the table
 mkdir -p "$out"
-methods=(selective) # of dof-gather; the first one's picture is the one shown
+methods=(lens selective) # of dof-gather; the first one's picture is the one shown
 center=$out/views/center.exr reference=$out/reference/reference.exr result=$out/${methods[0]}.exr
 
 row "fence $size" seconds 'PSNR dB' SSIM

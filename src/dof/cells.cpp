@@ -114,6 +114,8 @@ CellGrid make_cells(const SplatSource &source) {
     for (const auto &of_block : cells) grid.cells.insert(grid.cells.end(), of_block.begin(), of_block.end());
     std::stable_sort(grid.cells.begin(), grid.cells.end(),
                      [](const Cell &a, const Cell &b) { return a.bin < b.bin; });
+    for (std::size_t i = 0; i < grid.cells.size(); ++i)
+        grid.bins += i == 0 || grid.cells[i].bin != grid.cells[i - 1].bin;
     sum_cells(grid, source.lens().pixel_aspect);
     return grid;
 }

@@ -22,8 +22,8 @@ struct Cell {
 struct CellGrid {
     // One entry a splat, cell by cell.
     std::vector<double> x, y, radius;
-    std::vector<float> values; // [splat][size()]: coverage, known, colours, known * radius
-    std::size_t colours = 0;
+    std::vector<float> values;         // [splat][size()]: coverage, known, colours, known * radius
+    std::size_t colours = 0, bins = 0; // how many
 
     std::vector<Cell> cells; // ascending bins, then blocks
     std::vector<double>

@@ -143,14 +143,24 @@ void LensTile::add_picture_under_partial(float weight) {
     }
 }
 
+// Whether what lies at that depth is behind something in a cell, also where a surface is torn there: a crack one
+// cell wide in what is drawn as points must not let a lamp through.
+bool LensTile::hides(int x, int y, float depth) const {
+    const std::uint64_t limit = key(depth + same_surface, 0xffffffffu);
+    const auto front = [&](int column, int row) { // the border holds what fell outside, wherever
+        const bool inside = column >= 0 && row >= 0 && column < size && row < size;
+        return inside && front_[std::size_t((row + 1) * stride + column + 1)] > limit;
+    };
+    return front(x, y) || (front(x - 1, y) && front(x + 1, y)) || (front(x, y - 1) && front(x, y + 1));
+}
+
 // Adds what lens point `lens` sees of the highlights and returns the pixels of the lens points after it.
 std::span<const HighlightPixel> LensTile::add_highlights(std::span<const HighlightPixel> spread, std::uint32_t lens) {
     std::size_t done = 0;
     for (; done < spread.size() && spread[done].lens == lens; ++done) {
         const HighlightPixel &p = spread[done];
         const std::size_t cell = std::size_t((p.y + 1) * stride + p.x + 1), pixel = std::size_t(p.y * size + p.x);
-        const float depth = samples_.depth[highlights_.sample[p.highlight]];
-        if (front_[cell] > key(depth + same_surface, 0xffffffffu)) continue;
+        if (hides(p.x, p.y, samples_.depth[highlights_.sample[p.highlight]])) continue;
         const float weight = p.weight * (partial_.empty() ? 1 : transmittance_[cell]);
         for (std::size_t g = 0; g < colours_.groups; ++g)
             for (std::size_t k = 0; k < 4; ++k)

@@ -39,6 +39,7 @@ private:
 
     void see_opaque(const LensSample &lens);
     void see_partial(const LensSample &lens);
+    bool hides(int x, int y, float depth) const;
     void add_picture(float weight);
     void add_picture_under_partial(float weight);
     std::span<const HighlightPixel> add_highlights(std::span<const HighlightPixel> spread, std::uint32_t lens);

@@ -40,7 +40,7 @@ Imath::Box2i footprint(const Splat &splat, double pixel_aspect, const Imath::Box
 // For each pixel of the box, in rows, what falls into it.
 std::vector<std::vector<Fragment>> fragments_in(const Imath::Box2i &box, const std::vector<Splat> &splats,
                                                 double pixel_aspect) {
-    const std::size_t width = std::size_t(box.max.x - box.min.x + 1);
+    const std::size_t width = std::size_t(box.size().x) + 1;
     std::vector<std::vector<Fragment>> fragments(width * std::size_t(box.max.y - box.min.y + 1));
     for (std::size_t i = 0; i < splats.size(); ++i) {
         const Psf psf{splats[i].position, std::abs(splats[i].coc), pixel_aspect};

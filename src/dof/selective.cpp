@@ -9,14 +9,13 @@
 #include <tbb/enumerable_thread_specific.h>
 
 #include <algorithm>
-#include <cmath>
-#include <optional>
+#include <array>
 
 namespace sparselens {
 
 namespace {
 
-constexpr int tile_size = 64; // pixels
+constexpr int tile_size = 32; // pixels
 static_assert(tile_size <= PsfRows::max_size);
 constexpr std::size_t tile_pixels = std::size_t(tile_size) * tile_size;
 
@@ -38,10 +37,9 @@ bool covers(double radius, const Imath::Box2d &centres, const Imath::Box2d &tile
 // One tile at work: the sums of the bin that is being gathered, and the layers made of the bins before it.
 class TileGather {
 public:
-    TileGather(const CellGrid &grid, std::size_t layers, const Windows &windows)
-        : grid_(grid), data_(windows.data), pixel_aspect_(double(windows.pixel_aspect)),
-          sums_(grid.size() * tile_pixels), uniform_(grid.size()),
-          layers_(tile_pixels, layers, grid.colours) {}
+    TileGather(const CellGrid &grid, std::size_t layers, const Imath::Box2i &data, double pixel_aspect)
+        : grid_(grid), data_(data), pixel_aspect_(pixel_aspect), sums_(grid.size() * tile_pixels),
+          uniform_(grid.size()), layers_(tile_pixels, layers, grid.colours) {}
 
     // `cells` are the indices of those that may reach the tile, front to back.
     void gather(const Imath::Box2i &tile, std::span<const std::size_t> cells);
@@ -50,7 +48,6 @@ public:
     }
 
 private:
-    void start_bin(int bin);
     void finish_bin();
     void add_cell(std::size_t index);
     void add_splat(std::size_t splat);
@@ -154,9 +151,11 @@ Image selective_gather(const Ldi &ldi, const ThinLens &lens, const SelectiveOpti
     const CellGrid grid = make_cells(source);
     Image image = image_with_ids(ldi);
     const Imath::Box2i &data = ldi.windows.data;
+    // No pixel has more layers than there are bins, and memory is set aside for as many as it may have.
+    const std::size_t layers = std::clamp(grid.bins, std::size_t(1), std::size_t(options.layers));
     const auto tiles_in = [](int length) { return std::size_t((length + tile_size - 1) / tile_size); };
     tbb::enumerable_thread_specific<TileGather> workers(
-        [&] { return TileGather(grid, std::size_t(options.layers), ldi.windows); });
+        [&] { return TileGather(grid, layers, data, lens.pixel_aspect); });
     progress.start("selective gather", tiles_in(ldi.windows.height()) * tiles_in(ldi.windows.width()));
     parallel_for(tiles_in(ldi.windows.height()), [&](std::size_t row) {
         const int top = data.min.y + int(row) * tile_size, bottom = std::min(top + tile_size - 1, data.max.y);

@@ -66,7 +66,7 @@ private:
     float value(const PlacedSample &s, std::size_t channel) const {
         return sources_[s.view]->ldi.values[channel][s.source];
     }
-    double weight(const PlacedSample &s) const { return double(sources_[s.view]->ldi.weight[s.source]); }
+    double weight(const PlacedSample &s) const;
 
     std::vector<std::unique_ptr<Source>> sources_; // the centre, then the rim views in a canonical order
     WarpOptions options_;
@@ -121,6 +121,14 @@ void Warper::limit_window(const Imath::Box2i &centre) {
         data.min[axis] = std::max(data.min[axis], centre.min[axis] - most_overscan);
         data.max[axis] = std::min(data.max[axis], centre.max[axis] + most_overscan);
     }
+}
+
+// What a sample counts in the mean of its surface: a mean of pixels that lie apart is blurred, so the ones near the
+// middle count more.
+double Warper::weight(const PlacedSample &s) const {
+    constexpr double spread = 0.3; // pixels; less is sharper, more averages more noise away
+    const double distance = double(s.dx) * double(s.dx) + double(s.dy) * double(s.dy);
+    return double(sources_[s.view]->ldi.weight[s.source]) * std::exp(-0.5 * distance / (spread * spread));
 }
 
 // The samples of all views that fall in the rows, pixel by pixel: pixel i of the rows has [begin[i], begin[i + 1]).

@@ -15,19 +15,26 @@ Real half_chord(Real radius, Real d) {
     return std::sqrt(std::max(Real(0), (radius - d) * (radius + d)));
 }
 
-// Area of the disc within [0, x] x [0, y], for x, y of either sign: odd in both, so that any rectangle is a
-// sum of four.
-long double signed_quadrant_area(long double radius, long double x, long double y) {
-    if (x < 0) return -signed_quadrant_area(radius, -x, y);
-    if (y < 0) return -signed_quadrant_area(radius, x, -y);
-    x = std::min(x, radius);
-    y = std::min(y, radius);
-    const long double start = half_chord(radius, y); // left of it the disc is higher than y
-    if (x <= start) return x * y;
-    const auto integral = [&](long double t) { // of sqrt(r^2 - t^2)
+// Area of the disc within [0, x] x [0, y], for x, y of either sign: odd in both, so that any rectangle is a sum
+// of four.
+template <typename Real>
+Real signed_quadrant_area(Real radius, Real x, Real y) {
+    const Real across = std::min(std::abs(x), radius), down = std::min(std::abs(y), radius);
+    const Real sign = (x < 0) == (y < 0) ? 1 : -1;
+    if (across * across + down * down <= radius * radius) return sign * across * down;
+    const Real start = half_chord(radius, down); // from there on the arc is what limits it
+    const auto integral = [&](Real t) {          // of sqrt(r^2 - t^2)
         return (t * half_chord(radius, t) + radius * radius * std::asin(t / radius)) / 2;
     };
-    return start * y + integral(x) - integral(start);
+    return sign * (start * down + integral(across) - integral(start));
+}
+
+// The share of the disc's light that falls into a box whose sides lie at these distances from the centre.
+template <typename Real>
+Real share_between(Real radius, Real x0, Real y0, Real x1, Real y1) {
+    const Real area = signed_quadrant_area(radius, x1, y1) - signed_quadrant_area(radius, x0, y1) -
+                      signed_quadrant_area(radius, x1, y0) + signed_quadrant_area(radius, x0, y0);
+    return std::max(Real(0), area) / (std::numbers::pi_v<Real> * radius * radius);
 }
 
 // Area between an arc of at most a quarter turn and its chord: r^2 (asin s - s sqrt(1 - s^2)), s = chord / 2r.
@@ -61,20 +68,17 @@ int floor_within(double x, int low, int high) {
 } // namespace
 
 double psf_share(const Psf &psf, const Imath::Box2d &box) {
-    const Imath::V2d &p = psf.centre;
-    if (psf.radius < smallest_psf_radius)
-        return p.x >= box.min.x && p.x < box.max.x && p.y >= box.min.y && p.y < box.max.y ? 1 : 0;
-    const long double r = psf.radius, aspect = psf.pixel_aspect;
-    const long double x0 = box.min.x - (long double)p.x, x1 = box.max.x - (long double)p.x;
-    const long double y0 = (box.min.y - (long double)p.y) / aspect,
-                      y1 = (box.max.y - (long double)p.y) / aspect;
-    const long double area = signed_quadrant_area(r, x1, y1) - signed_quadrant_area(r, x0, y1) -
-                             signed_quadrant_area(r, x1, y0) + signed_quadrant_area(r, x0, y0);
-    return double(std::max(0.0L, area) / (std::numbers::pi_v<long double> * r * r));
+    if (psf.radius < smallest_psf_radius) return box.intersects(psf.centre) ? 1 : 0;
+    const Imath::V2d low = box.min - psf.centre, high = box.max - psf.centre;
+    return share_between(psf.radius, low.x, low.y / psf.pixel_aspect, high.x, high.y / psf.pixel_aspect);
 }
 
 double psf_weight(const Psf &psf, int x, int y) {
-    return psf_share(psf, {Imath::V2d(x, y), Imath::V2d(x + 1.0, y + 1.0)});
+    if (psf.radius < smallest_psf_radius)
+        return std::floor(psf.centre.x) == x && std::floor(psf.centre.y) == y ? 1 : 0;
+    const long double left = x - (long double)psf.centre.x, aspect = psf.pixel_aspect;
+    const long double top = (y - (long double)psf.centre.y) / aspect;
+    return double(share_between((long double)psf.radius, left, top, left + 1, top + 1 / aspect));
 }
 
 // The part of a row on one side of the centre's row, distances from the centre (in units of a pixel's width):

@@ -23,11 +23,10 @@ struct Psf {
 // Below this radius a disc is taken for a point.
 inline constexpr double smallest_psf_radius = 1e-9;
 
-// The share of the light that falls into a box (EXR pixel coordinates), in closed form; 1e-9 of the disc's area
-// or of a pixel's, whichever is less, is the error. A point on the box's lower edges is inside, on the upper not.
+// The share of the light that falls into a box (EXR pixel coordinates), in closed form; error below 1e-14.
 double psf_share(const Psf &psf, const Imath::Box2d &box);
 
-// The slow reference: the weight of pixel (x, y).
+// The slow reference: the weight of pixel (x, y), in long double; error below 1e-9 of a pixel's area.
 double psf_weight(const Psf &psf, int x, int y);
 
 // The fast form: the weights in one row of pixels after the other, within a box. Error below 1e-6 of a pixel's

@@ -11,10 +11,10 @@ demo
 [ ! -s stderr ] || fail "talks on stderr: $(cat stderr)"
 grep -Eq '^ldi-warp +[0-9]+\.[0-9]+$' stdout || fail "no time of ldi-warp: $(cat stdout)"
 decibels() { sed -nE "s/^ *$1.* ([0-9]+\.[0-9]+) +[01]\.[0-9]{4}\$/\1/p" stdout; }
-before=$(decibels 'the centre view as it is') after=$(decibels dof-gather)
+before=$(decibels 'the centre view as it is') after=$(decibels 'dof-gather --method lens')
 [ -n "$before" ] && [ -n "$after" ] || fail "no error figures: $(cat stdout)"
 awk "BEGIN { exit !($after > $before) }" || fail "defocusing brought nothing: $before dB before, $after dB after"
-for picture in out/fence.png out/selective.png out/selective.exr out/ldi.exr out/views/center.png; do
+for picture in out/fence.png out/lens.png out/lens.exr out/selective.png out/ldi.exr out/views/center.png; do
     [ -s $picture ] || fail "no $picture"
 done
 

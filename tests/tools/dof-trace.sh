@@ -6,7 +6,7 @@ answers_help dof-trace
 
 differ() { ! cmp -s "$1" "$2" || fail "$1 and $2 are the same: $3"; }
 same() { cmp -s "$1" "$2" || fail "$1 and $2 differ: $3"; }
-header() { exrheader "$1" | grep -q -e "$2" || fail "$1 has no '$2': $(exrheader "$1")"; }
+header() { grep -q -e "$2" <<<"$(exrheader "$1")" || fail "$1 has no '$2': $(exrheader "$1")"; }
 
 # Every scene gives what was asked for, and nothing else.
 for scene in fence grass planes slant lamps mist; do
@@ -14,14 +14,14 @@ for scene in fence grass planes slant lamps mist; do
     [ "$(ls -A "$scene" | tr '\n' ' ')" = "camera.json center.exr deep_peel.exr deep_strata.exr lens_0000.exr \
 lens_0001.exr reference.exr view_0.exr view_1.exr " ] || fail "$scene: $(ls -A "$scene")"
     [ ! -s stderr ] || fail "$scene talks on stderr: $(cat stderr)"
-    exrheader "$scene/deep_peel.exr" | grep -q 'deepscanline' || fail "$scene: not deep"
+    header $scene/deep_peel.exr deepscanline
 done
 differ fence/center.exr grass/center.exr "the scene has no effect"
 
 # The camera goes with every picture; rim views are displaced to the right, to the left.
 header fence/center.exr 'worldToCamera'
-header fence/view_0.exr '(-0.06 '
-header fence/view_1.exr '(0.06 '
+header fence/view_0.exr '^ *-0\.06 '
+header fence/view_1.exr '^ *0\.06 '
 for attribute in 'worldToNDC' 'aperture.*: 0.3' 'focus.*: 5' 'pinholeFocalLength.*: 36' 'sparselens:sensorWidth.*: 36' \
     'sparselens:metresPerUnit.*: 1'; do
     for file in center view_0 lens_0000 reference deep_peel deep_strata; do header fence/$file.exr "$attribute"; done
@@ -29,15 +29,18 @@ done
 for key in '"width": 48,' '"height": 27,' '"focal_mm": 36,' '"sensor_width_mm": 36,' '"focus_distance": 5,' \
     '"fstop": 0.3' '"lens_radius": 0.06' '"views": \[\[1, 0\], \[-1, ' '"view_spp": 4,' '"ref_spp": 3,' \
     '"view_1.exr": [0-9.]*'; do
-    sed 's/0.29999999999999999/0.3/; s/0.059999999999999998/0.06/' fence/camera.json | grep -q -e "$key" ||
+    grep -q -e "$key" <<<"$(sed 's/0.29999999999999999/0.3/; s/0.059999999999999998/0.06/' fence/camera.json)" ||
         fail "no $key in $(cat fence/camera.json)"
 done
 
 # changes FILE OPTION...: the file of the scene fence is not what it was without the option.
 changes() {
-    local file=$1
+    local file=$1 default others=()
     shift
-    exits 0 "$trace" fence -o changed "${small[@]}" --reference 3 --deep peel:3 "$@"
+    for default in '--size 48x27' '--spp 4' '--views 2' '--reference 3' '--deep peel:3'; do
+        [ "${default% *}" = "$1" ] || others+=($default)
+    done
+    exits 0 "$trace" fence -o changed "${others[@]}" "$@"
     differ "fence/$file" "changed/$file" "$*"
 }
 changes center.exr --spp 9
@@ -55,12 +58,12 @@ changes reference.exr --focus-distance 3
 changes reference.exr --focus-distance inf
 changes deep_peel.exr --deep peel:2
 changes view_1.exr --views 4
+header changed/center.exr 'R, 16-bit'
 exits 0 "$trace" fence -o changed "${small[@]}" --deep strata:2
 differ fence/deep_strata.exr changed/deep_strata.exr "--deep strata:2"
 exits 0 "$trace" fence -o few --size 8x4 --views 0 -v
 [ "$(ls few | tr '\n' ' ')" = 'camera.json center.exr ' ] || fail "--views 0: $(ls few)"
 grep -q 'center.exr' stderr || fail "-v says nothing"
-header changed/center.exr 'R, 16-bit'
 exits 0 "$trace" fence -o float --size 8x4 --views 0 -d float --overscan 3
 header float/center.exr 'R, 32-bit'
 header float/center.exr 'dataWindow.*(-3 -3) - (10 6)'

@@ -72,6 +72,11 @@ int run_tool(CLI::App &app, int argc, char **argv, const std::function<void(cons
         app.parse(argc, argv);
     } catch (const CLI::Success &answer) { // --help, --version
         return app.exit(answer);
+    } catch (const CLI::RequiredError &error) {
+        // What was not understood says more than what is missing for it.
+        const auto unknown = app.remaining();
+        const std::string text = unknown.empty() ? error.what() : "unknown: " + unknown.front();
+        return fail(tool.tool_name, text + " (see --help)", 2);
     } catch (const CLI::ParseError &error) {
         return fail(tool.tool_name, error.what() + std::string(" (see --help)"), 2);
     }
