@@ -18,6 +18,7 @@ struct Options {
     DepthOptions depth;
     ViewList views;
     Merge merge = Merge::average;
+    bool split_silhouettes = true;
     std::string output;
 };
 
@@ -32,13 +33,18 @@ void add_options(CLI::App &app, Options &options) {
                    "unchanged")
         ->type_name("average|keep")
         ->transform(CLI::CheckedTransformer(merges));
+    const std::map<std::string, bool> silhouettes{{"split", true}, {"whole", false}};
+    app.add_option("--silhouettes", options.split_silhouettes,
+                   "split: pixels that mix two surfaces become two samples (average); whole: they stay one")
+        ->type_name("split|whole")
+        ->transform(CLI::CheckedTransformer(silhouettes));
     add_lens_options(app, options.lens);
     add_depth_options(app, options.depth);
 }
 
 // Perceptive depth is measured at the lens if that is known, else at the outermost view.
 WarpOptions warp_options(const Options &options, const LoadedViews &loaded) {
-    WarpOptions warp{.merge = options.merge};
+    WarpOptions warp{.merge = options.merge, .split_silhouettes = options.split_silhouettes};
     if (loaded.views.size() == 1) return warp;
     warp.focal_px = resolve_focal_px(loaded.camera, loaded.views[0].image.windows);
     warp.radius = lens_radius_of(loaded.camera).value_or(0);

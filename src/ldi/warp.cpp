@@ -107,7 +107,8 @@ Warper::Warper(std::span<const View> views, const WarpOptions &options)
     sources_.resize(ordered.size());
     parallel_for(ordered.size(), [&](std::size_t v) {
         Ldi samples = samples_of(*ordered[v], layout_.channels);
-        if (options.merge == Merge::average && scale_ > 0) samples = separate_silhouettes(samples, scale_);
+        if (options.merge == Merge::average && options.split_silhouettes && scale_ > 0)
+            samples = separate_silhouettes(samples, scale_);
         sources_[v] = std::make_unique<Source>(std::move(samples), ordered[v]->position, options.focal_px);
     });
     if (options.merge == Merge::keep) return;
@@ -165,8 +166,9 @@ void Warper::emit_surface(std::span<const PlacedSample> group, Ldi &out) const {
         });
         group = group.subspan(std::size_t(best - group.begin()), 1);
     }
-    double total = 0, dx = 0, dy = 0, inverse_z = 0; // double: views may be many, depths near each other
+    double count = 0, total = 0, dx = 0, dy = 0, inverse_z = 0; // double: views may be many, depths near each other
     for (const PlacedSample &s : group) {
+        count += double(sources_[s.view]->ldi.weight[s.source]);
         total += weight(s);
         dx += weight(s) * double(s.dx);
         dy += weight(s) * double(s.dy);
@@ -176,7 +178,7 @@ void Warper::emit_surface(std::span<const PlacedSample> group, Ldi &out) const {
     out.z.push_back(alone ? sources_[group[0].view]->ldi.z[group[0].source] : float(total / inverse_z));
     out.dx.push_back(float(dx / total));
     out.dy.push_back(float(dy / total));
-    out.weight.push_back(float(total));
+    out.weight.push_back(float(count));
     for (std::size_t k = 0; k < out.channels.size(); ++k) {
         double sum = 0;
         for (const PlacedSample &s : group) sum += weight(s) * double(value(s, k));

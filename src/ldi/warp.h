@@ -22,6 +22,7 @@ struct WarpOptions {
     double radius = 0;   // aperture radius that perceptive depth is measured at, scene units
     Merge merge = Merge::average;
     double surface_px = 0.5;
+    bool split_silhouettes = true; // average: pixels that mix two surfaces become two samples (silhouettes.h)
 };
 
 // views[0] is the centre; its windows and channels are the LDI's. The result does not depend on the order of the

@@ -1,6 +1,7 @@
 #include "base/error.h"
 #include "ldi/order.h"
 #include "ldi/reproject.h"
+#include "ldi/view_samples.h"
 #include "ldi/warp.h"
 #include "support/ldi_samples.h"
 #include "support/scratch_folder.h"
@@ -20,7 +21,8 @@ namespace {
 
 constexpr float inf = std::numeric_limits<float>::infinity();
 constexpr double focal_px = 100, radius = 0.06;
-const WarpOptions averaging{.focal_px = focal_px, .radius = radius};
+// Silhouettes have tests of their own.
+const WarpOptions averaging{.focal_px = focal_px, .radius = radius, .split_silhouettes = false};
 const WarpOptions keeping{.focal_px = focal_px, .radius = radius, .merge = Merge::keep};
 
 Ldi warped(const std::vector<View> &views, const WarpOptions &options = averaging) {
@@ -160,22 +162,27 @@ TEST(Warp, SamplesAreTidy) {
     }
 }
 
+struct Witness {
+    double depth; // perceptive
+    float colour;
+};
+
 // The view pixels that land in a pixel of the centre view.
 class Witnesses {
 public:
     explicit Witnesses(const std::vector<View> &views) {
         for (const View &view : views) {
+            const Ldi ldi = samples_of(view, view.image.channels);
             std::vector<ReprojectedSample> samples;
-            Reprojection(view, focal_px).append_rows(-1000, 1000, samples);
-            for (const ReprojectedSample &s : samples) landed_[{s.x, s.y}].emplace_back(s, &view);
+            Reprojection(ldi, view.position, focal_px).append_rows(-1000, 1000, samples);
+            for (const ReprojectedSample &s : samples)
+                landed_[{s.x, s.y}].push_back({focal_px * radius * double(s.inverse_z), ldi.values[0][s.source]});
         }
     }
-    const std::vector<std::pair<ReprojectedSample, const View *>> &at(int x, int y) {
-        return landed_[{x, y}];
-    }
+    const std::vector<Witness> &at(int x, int y) { return landed_[{x, y}]; }
 
 private:
-    std::map<std::pair<int, int>, std::vector<std::pair<ReprojectedSample, const View *>>> landed_;
+    std::map<std::pair<int, int>, std::vector<Witness>> landed_;
 };
 
 double depth_of(float z) { return focal_px * radius / double(z); }
@@ -192,12 +199,10 @@ TEST(Warp, NothingIsInvented) {
                 for (const TestSample &s : pixel_at(ldi, x, y)) {
                     float least = inf, most = -inf;
                     for_each_pixel({{x - 1, y - 1}, {x + 1, y + 1}}, [&](int near_x, int near_y) {
-                        for (const auto &[seen, view] : witnesses.at(near_x, near_y)) {
-                            const double apart =
-                                std::abs(focal_px * radius * double(seen.inverse_z) - depth_of(s.z));
-                            if (apart > 2 * options.surface_px) continue;
-                            least = std::min(least, view->image.plane(0)[seen.source]);
-                            most = std::max(most, view->image.plane(0)[seen.source]);
+                        for (const Witness &seen : witnesses.at(near_x, near_y)) {
+                            if (std::abs(seen.depth - depth_of(s.z)) > 2 * options.surface_px) continue;
+                            least = std::min(least, seen.colour);
+                            most = std::max(most, seen.colour);
                         }
                     });
                     EXPECT_GE(s.colour, least - 1e-6f);
@@ -220,9 +225,9 @@ TEST(Warp, NothingIsLost) {
             const bool inside = w.data.intersects(Imath::V2i(x, y));
             const bool empty = inside && views[0].image.at(3, x, y) == 0;
             const double centre = inside ? depth_of(views[0].z[std::size_t(y * 40 + x)]) : inf;
-            for (const auto &[seen, view] : witnesses.at(x, y)) {
+            for (const Witness &seen : witnesses.at(x, y)) {
                 ++seen_pixels;
-                const double depth = focal_px * radius * double(seen.inverse_z);
+                const double depth = seen.depth;
                 const bool found = std::ranges::any_of(samples, [&](const TestSample &s) {
                     return std::abs(depth_of(s.z) - depth) <= 2 * averaging.surface_px;
                 });
