@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 
 namespace sparselens {
 
@@ -10,21 +9,24 @@ namespace {
 
 constexpr float same_surface = 0.5f; // pixels of perceptive depth
 
-// Which cell of the tile a sample falls in, seen through a lens point; cells are counted from the border's corner.
+constexpr int cell_stride = LensTile::size + 2;
+
+// Moves samples to where a lens point sees them.
 struct Placement {
     float lens_x, lens_y, shift_x, shift_y;
-    float limit;
-    int stride;
-    std::uint32_t cell(float x, float y, float coc) const {
-        const float cx = x + coc * lens_x + shift_x, cy = y + coc * lens_y + shift_y;
-        const float column = cx > 0 ? (cx < limit ? cx : limit) : 0, row = cy > 0 ? (cy < limit ? cy : limit) : 0;
-        return std::uint32_t(int(row) * stride + int(column));
-    }
 };
 
-// Nearer is greater; of equal depths the later sample wins, whatever the order they come in.
-std::uint64_t key(float depth, std::uint32_t sample) {
-    return (std::uint64_t(std::bit_cast<std::uint32_t>(depth) + 1) << 32) | sample;
+// The cell that each sample falls in, counted from the border's corner; what falls outside is in the border.
+// Compiled for several instruction sets, as this loop is most of the work; they all give the same.
+[[gnu::target_clones("default,avx2")]]
+void place(const Placement &p, const float *x, const float *y, const float *coc, std::uint32_t count,
+           std::int32_t *cells) {
+    constexpr float limit = float(cell_stride - 1);
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const float cx = x[i] + coc[i] * p.lens_x + p.shift_x, cy = y[i] + coc[i] * p.lens_y + p.shift_y;
+        const float column = cx > 0 ? (cx < limit ? cx : limit) : 0, row = cy > 0 ? (cy < limit ? cy : limit) : 0;
+        cells[i] = std::int32_t(row) * cell_stride + std::int32_t(column);
+    }
 }
 
 bool out_of_reach(const SampleBlock &b, const LensSample &lens, float x, float y, float size) {
@@ -36,13 +38,15 @@ bool out_of_reach(const SampleBlock &b, const LensSample &lens, float x, float y
 } // namespace
 
 LensTile::LensTile(const BlockedSamples &samples, const SampleColours &colours, const Highlights &highlights)
-    : samples_(samples), colours_(colours), highlights_(highlights), front_(stride * stride), transmittance_(stride * stride),
-      over_(colours.groups * stride * stride * 4), sums_(colours.groups * size * size * 4),
-      spread_(sums_.size()), weights_(size * size) {}
+    : samples_(samples), colours_(colours), highlights_(highlights), front_(stride * stride),
+      transmittance_(stride * stride, 1.0f), over_(colours.groups * stride * stride * 4),
+      sums_(colours.groups * size * size * 4), spread_(sums_.size()), unknown_(size * size) {}
 
 float LensTile::value(int x, int y, std::size_t channel) const {
     const std::size_t pixel = std::size_t(y * size + x), at = (channel / 4 * size * size + pixel) * 4 + channel % 4;
-    return (weights_[pixel] > 0 ? sums_[at] / weights_[pixel] : 0) + spread_[at];
+    const float known = total_ - unknown_[pixel];
+    // What rounding leaves of a weight is no knowledge.
+    return (known > 1e-6f * total_ ? sums_[at] / known : 0) + spread_[at];
 }
 
 void LensTile::gather(const Imath::V2i &origin, std::span<const std::uint32_t> blocks,
@@ -58,49 +62,47 @@ void LensTile::gather(const Imath::V2i &origin, std::span<const std::uint32_t> b
     });
     std::fill(sums_.begin(), sums_.end(), 0.0f);
     std::fill(spread_.begin(), spread_.end(), 0.0f);
-    std::fill(weights_.begin(), weights_.end(), 0.0f);
+    std::fill(unknown_.begin(), unknown_.end(), 0.0f);
+    total_ = 0;
     for (std::uint32_t k = 0; k < lens.size(); ++k) {
+        total_ += lens[k].weight;
         see_opaque(lens[k]);
-        if (partial_.empty()) {
-            add_picture(lens[k].weight);
-        } else {
-            see_partial(lens[k]);
-            add_picture_under_partial(lens[k].weight);
-        }
+        see_partial(lens[k]);
+        add_opaque(lens[k].weight);
+        add_partial(lens[k].weight);
         spread = add_highlights(spread, k);
+        forget_partial();
     }
 }
 
 void LensTile::see_opaque(const LensSample &lens) {
     std::fill(front_.begin(), front_.end(), 0);
-    const Placement place{lens.x, lens.y, lens.pixel_x - origin_x_ + 1, lens.pixel_y - origin_y_ + 1,
-                          float(stride - 1), stride};
-    std::array<std::uint32_t, 256> cells;
+    const Placement placement{lens.x, lens.y, lens.pixel_x - origin_x_ + 1, lens.pixel_y - origin_y_ + 1};
+    std::array<std::int32_t, 256> cells;
     for (const std::uint32_t b : blocks_) {
         const SampleBlock &block = samples_.blocks[b];
         if (out_of_reach(block, lens, origin_x_, origin_y_, float(size))) continue;
         for (std::uint32_t begin = block.begin; begin < block.opaque_end; begin += cells.size()) {
             const std::uint32_t count = std::min(std::uint32_t(cells.size()), block.opaque_end - begin);
-            const float *x = &samples_.x[begin], *y = &samples_.y[begin], *coc = &samples_.coc[begin];
-            for (std::uint32_t i = 0; i < count; ++i) cells[i] = place.cell(x[i], y[i], coc[i]);
+            place(placement, &samples_.x[begin], &samples_.y[begin], &samples_.coc[begin], count, cells.data());
+            const std::uint64_t *key = &samples_.key[begin];
             for (std::uint32_t i = 0; i < count; ++i) {
-                const std::uint64_t k = key(samples_.depth[begin + i], begin + i);
-                std::uint64_t &front = front_[cells[i]];
-                front = std::max(front, k);
+                std::uint64_t &front = front_[std::size_t(cells[i])];
+                front = std::max(front, key[i]);
             }
         }
     }
 }
 
 void LensTile::see_partial(const LensSample &lens) {
-    std::fill(transmittance_.begin(), transmittance_.end(), 1.0f);
-    std::fill(over_.begin(), over_.end(), 0.0f);
-    const Placement place{lens.x, lens.y, lens.pixel_x - origin_x_ + 1, lens.pixel_y - origin_y_ + 1,
-                          float(stride - 1), stride};
+    const Placement placement{lens.x, lens.y, lens.pixel_x - origin_x_ + 1, lens.pixel_y - origin_y_ + 1};
     for (const std::uint32_t i : partial_) {
-        const std::uint32_t cell = place.cell(samples_.x[i], samples_.y[i], samples_.coc[i]);
-        if (key(samples_.depth[i], i) < front_[cell]) continue;
+        std::int32_t at;
+        place(placement, &samples_.x[i], &samples_.y[i], &samples_.coc[i], 1, &at);
+        const std::size_t cell = std::size_t(at);
+        if (samples_.key[i] < front_[cell]) continue;
         float &transmittance = transmittance_[cell];
+        if (transmittance == 1) covered_.push_back(std::uint32_t(cell));
         for (std::size_t g = 0; g < colours_.groups; ++g) {
             const float *colour = &colours_.group(g)[std::size_t(i) * 4];
             float *over = &over_[(g * stride * stride + cell) * 4];
@@ -110,43 +112,56 @@ void LensTile::see_partial(const LensSample &lens) {
     }
 }
 
-void LensTile::add_picture(float weight) {
+// Adds the picture that the lens point sees of the opaque samples.
+void LensTile::add_opaque(float weight) {
     for (std::size_t g = 0; g < colours_.groups; ++g) {
         const float *colours = colours_.group(g).data();
         for (int y = 0; y < size; ++y) {
             const std::uint64_t *front = &front_[std::size_t((y + 1) * stride + 1)];
             float *sum = &sums_[(g * size * size + std::size_t(y * size)) * 4];
             for (int x = 0; x < size; ++x, sum += 4) {
-                if (front[x] == 0) continue;
+                if (front[x] == 0) {
+                    if (g == 0) unknown_[std::size_t(y * size + x)] += weight;
+                    continue;
+                }
                 const float *colour = colours + std::size_t(std::uint32_t(front[x])) * 4;
                 for (int k = 0; k < 4; ++k) sum[k] += weight * colour[k];
-                if (g == 0) weights_[std::size_t(y * size + x)] += weight;
             }
         }
     }
 }
 
-void LensTile::add_picture_under_partial(float weight) {
-    for (std::size_t g = 0; g < colours_.groups; ++g) {
-        const float *colours = colours_.group(g).data();
-        for (int y = 0; y < size; ++y)
-            for (int x = 0; x < size; ++x) {
-                const std::size_t cell = std::size_t((y + 1) * stride + x + 1), pixel = std::size_t(y * size + x);
-                const bool known = front_[cell] != 0;
-                const float *over = &over_[(g * stride * stride + cell) * 4];
-                const float *behind = colours + std::size_t(std::uint32_t(front_[cell])) * 4;
-                const float through = known ? transmittance_[cell] : 0;
-                float *sum = &sums_[(g * size * size + pixel) * 4];
-                for (int k = 0; k < 4; ++k) sum[k] += weight * (over[k] + through * (known ? behind[k] : 0));
-                if (g == 0) weights_[pixel] += known ? weight : weight * (1 - transmittance_[cell]);
-            }
+// Puts the partial samples in front of what add_opaque() added.
+void LensTile::add_partial(float weight) {
+    for (const std::uint32_t cell : covered_) {
+        const int x = int(cell) % stride - 1, y = int(cell) / stride - 1;
+        if (x < 0 || y < 0 || x >= size || y >= size) continue;
+        const std::size_t pixel = std::size_t(y * size + x);
+        const bool known = front_[cell] != 0;
+        const float hidden = 1 - transmittance_[cell];
+        if (!known) unknown_[pixel] -= weight * hidden;
+        for (std::size_t g = 0; g < colours_.groups; ++g) {
+            const float *over = &over_[(g * stride * stride + cell) * 4];
+            const float *behind = &colours_.group(g)[std::size_t(std::uint32_t(front_[cell])) * 4];
+            float *sum = &sums_[(g * size * size + pixel) * 4];
+            for (int k = 0; k < 4; ++k) sum[k] += weight * (over[k] - (known ? hidden * behind[k] : 0));
+        }
     }
+}
+
+void LensTile::forget_partial() {
+    for (const std::uint32_t cell : covered_) {
+        transmittance_[cell] = 1;
+        for (std::size_t g = 0; g < colours_.groups; ++g)
+            std::fill_n(&over_[(g * stride * stride + cell) * 4], 4, 0.0f);
+    }
+    covered_.clear();
 }
 
 // Whether what lies at that depth is behind something in a cell, also where a surface is torn there: a crack one
 // cell wide in what is drawn as points must not let a lamp through.
 bool LensTile::hides(int x, int y, float depth) const {
-    const std::uint64_t limit = key(depth + same_surface, 0xffffffffu);
+    const std::uint64_t limit = depth_key(depth + same_surface, 0xffffffffu);
     const auto front = [&](int column, int row) { // the border holds what fell outside, wherever
         const bool inside = column >= 0 && row >= 0 && column < size && row < size;
         return inside && front_[std::size_t((row + 1) * stride + column + 1)] > limit;
@@ -161,7 +176,7 @@ std::span<const HighlightPixel> LensTile::add_highlights(std::span<const Highlig
         const HighlightPixel &p = spread[done];
         const std::size_t cell = std::size_t((p.y + 1) * stride + p.x + 1), pixel = std::size_t(p.y * size + p.x);
         if (hides(p.x, p.y, samples_.depth[highlights_.sample[p.highlight]])) continue;
-        const float weight = p.weight * (partial_.empty() ? 1 : transmittance_[cell]);
+        const float weight = p.weight * transmittance_[cell];
         for (std::size_t g = 0; g < colours_.groups; ++g)
             for (std::size_t k = 0; k < 4; ++k)
                 spread_[(g * size * size + pixel) * 4 + k] +=

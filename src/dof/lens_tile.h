@@ -40,22 +40,27 @@ private:
     void see_opaque(const LensSample &lens);
     void see_partial(const LensSample &lens);
     bool hides(int x, int y, float depth) const;
-    void add_picture(float weight);
-    void add_picture_under_partial(float weight);
+    void add_opaque(float weight);
+    void add_partial(float weight);
     std::span<const HighlightPixel> add_highlights(std::span<const HighlightPixel> spread, std::uint32_t lens);
+    void forget_partial();
 
     const BlockedSamples &samples_;
     const SampleColours &colours_;
     const Highlights &highlights_;
     float origin_x_ = 0, origin_y_ = 0;
+    float total_ = 0; // weight of the lens points
     std::vector<std::uint32_t> blocks_;
-    std::vector<std::uint32_t> partial_;  // samples of partial coverage, front to back
-    std::vector<std::uint64_t> front_;    // [cell]: depth and sample of the nearest opaque one; 0: none
-    std::vector<float> transmittance_;    // [cell]: of the partial samples in front
-    std::vector<float> over_;             // [group][cell][4]: their colours
-    std::vector<float> sums_;             // [group][pixel][4]
-    std::vector<float> spread_;           // [group][pixel][4]: of the highlights
-    std::vector<float> weights_;          // [pixel]
+    std::vector<std::uint32_t> partial_; // samples of partial coverage, front to back
+    // Of one lens point:
+    std::vector<std::uint64_t> front_;   // [cell]: key of the nearest opaque sample; 0: none
+    std::vector<float> transmittance_;   // [cell]: of the partial samples in front
+    std::vector<float> over_;            // [group][cell][4]: their colours
+    std::vector<std::uint32_t> covered_; // cells that have any
+    // Of all so far:
+    std::vector<float> sums_;    // [group][pixel][4]
+    std::vector<float> spread_;  // [group][pixel][4]: of the highlights
+    std::vector<float> unknown_; // [pixel]: weight of the lens points that see nothing
 };
 
 } // namespace sparselens

@@ -73,6 +73,7 @@ SampleBlock bounds_of(const std::vector<Found> &found) {
 void resize(BlockedSamples &samples, std::size_t count) {
     for (auto *array : {&samples.x, &samples.y, &samples.coc, &samples.depth, &samples.alpha}) array->resize(count);
     samples.source.resize(count);
+    samples.key.resize(count);
 }
 
 void store(BlockedSamples &samples, std::size_t at, const Found &f) {
@@ -82,6 +83,7 @@ void store(BlockedSamples &samples, std::size_t at, const Found &f) {
     samples.depth[at] = f.depth;
     samples.alpha[at] = f.alpha;
     samples.source[at] = f.source;
+    samples.key[at] = depth_key(f.depth, std::uint32_t(at));
 }
 
 } // namespace

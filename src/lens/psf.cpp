@@ -139,12 +139,12 @@ void PsfRows::add_band(const Band &band, double *weights) const {
     const double height = area_to_weight_ * (band.high - band.low);
     const Span columns = columns_within(band.inner);
     const double left = psf_.centre.x - band.inner, right = psf_.centre.x + band.inner;
-    double *const first = weights + (columns.begin - box_.min.x), *const last = weights + (columns.end - 1 -
-                                                                                           box_.min.x);
+    const int first = columns.begin, last = columns.end - 1;
+    const auto add = [&](int x, double share) { weights[x - box_.min.x] += height * share; };
     const auto full_share = [&](int x) { return std::min(x + 1.0, right) - std::max(double(x), left); };
-    if (first <= last) *first += height * full_share(columns.begin);
-    for (double *weight = first + 1; weight < last; ++weight) *weight += height;
-    if (first < last) *last += height * full_share(columns.end - 1);
+    if (first <= last) add(first, full_share(first));
+    for (int x = first + 1; x < last; ++x) add(x, 1);
+    if (first < last) add(last, full_share(last));
     if (right < columns_.end) add_arc<1>(band, std::max(columns.end - 1, columns_.begin), weights);
     if (left > columns_.begin) add_arc<-1>(band, std::min(columns.begin, columns_.end - 1), weights);
 }
