@@ -56,7 +56,8 @@ public:
         NearestLensPoint nearest;
     };
 
-    LensSets(const LensGatherOptions &options, double pixel_aspect) : options_(options), pixel_aspect_(pixel_aspect) {}
+    LensSets(const LensGatherOptions &options, double pixel_aspect)
+        : options_(options), pixel_aspect_(pixel_aspect) {}
 
     const Set &for_coc(float largest) {
         const std::size_t step = options_.lens_samples > 0 ? 0 : step_for(largest);
@@ -76,7 +77,8 @@ private:
 
     static std::size_t step_for(float coc) {
         return std::size_t(std::find_if(largest_coc.begin(), largest_coc.end() - 1,
-                                        [&](float most) { return coc <= most; }) - largest_coc.begin());
+                                        [&](float most) { return coc <= most; }) -
+                           largest_coc.begin());
     }
     std::size_t points_of(std::size_t step) const {
         if (options_.lens_samples > 0) return std::size_t(options_.lens_samples);
@@ -102,7 +104,8 @@ float largest_coc_of(const SampleBlock &block) {
 class BlockFinder {
 public:
     BlockFinder(const BlockedSamples &samples, double pixel_aspect)
-        : samples_(samples), aspect_(float(std::max(1.0, pixel_aspect))), row_reach_(std::size_t(samples.rows), 0) {
+        : samples_(samples), aspect_(float(std::max(1.0, pixel_aspect))),
+          row_reach_(std::size_t(samples.rows), 0) {
         for (std::size_t b = 0; b < samples.blocks.size(); ++b) {
             float &reach = row_reach_[b / std::size_t(samples.columns)];
             reach = std::max(reach, reach_of(samples.blocks[b]));
@@ -113,10 +116,12 @@ public:
     float find(const Imath::V2i &origin, int size, std::vector<std::uint32_t> &found) const {
         found.clear();
         float largest = 0;
-        const auto left = float(origin.x), top = float(origin.y), right = left + float(size), bottom = top + float(size);
+        const auto left = float(origin.x), top = float(origin.y), right = left + float(size),
+                   bottom = top + float(size);
         for (int row = 0; row < samples_.rows; ++row) {
             const float reach = row_reach_[std::size_t(row)] + 1;
-            if (float((row + 1) * BlockedSamples::size) + reach < top || float(row * BlockedSamples::size) - reach > bottom)
+            if (float((row + 1) * BlockedSamples::size) + reach < top ||
+                float(row * BlockedSamples::size) - reach > bottom)
                 continue;
             for (int column = 0; column < samples_.columns; ++column) {
                 const auto b = std::uint32_t(row * samples_.columns + column);
@@ -156,8 +161,8 @@ void copy_ids(const Image &flat, Image &out) {
 
 } // namespace
 
-Image lens_gather(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window, const LensGatherOptions &options,
-                  Progress &progress) {
+Image lens_gather(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window,
+                  const LensGatherOptions &options, Progress &progress) {
     const BlockedSamples samples = make_blocks(ldi, lens, window);
     SampleColours colours = make_colours(ldi, samples);
     sharpen_near_focus(ldi, lens, samples, colours);
@@ -182,8 +187,9 @@ Image lens_gather(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &wind
         if (largest < in_focus) return; // the flattened LDI is there already
         const LensSets::Set &set = sets.for_coc(largest);
         LensTile &tile = tiles.local();
-        tile.gather(origin, blocks, set.points,
-                    highlight_pixels(highlights, samples, set.nearest, lens.pixel_aspect, origin, LensTile::size));
+        tile.gather(
+            origin, blocks, set.points,
+            highlight_pixels(highlights, samples, set.nearest, lens.pixel_aspect, origin, LensTile::size));
         for_each_pixel(corner, windows, [&](int x, int y) {
             for (std::size_t k = 0; k < out.channels.size(); ++k)
                 out.at(k, window.min.x + corner.x + x, window.min.y + corner.y + y) = tile.value(x, y, k);

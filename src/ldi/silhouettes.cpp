@@ -11,14 +11,14 @@ namespace sparselens {
 
 namespace {
 
-constexpr double jump = 1;              // pixels of perceptive depth that part two surfaces
-constexpr int radius = 2;               // pixels around that tell what a surface shows
-constexpr double edge_share = 0.1;      // how much a pixel that may be mixed itself tells of the nearer surface
-constexpr double least_support = 0.01;  // below this nothing is known of a surface
-constexpr double least_contrast = 0.1;  // between F and B, as a share of their own size
+constexpr double jump = 1;         // pixels of perceptive depth that part two surfaces
+constexpr int radius = 2;          // pixels around that tell what a surface shows
+constexpr double edge_share = 0.1; // how much a pixel that may be mixed itself tells of the nearer surface
+constexpr double least_support = 0.01;   // below this nothing is known of a surface
+constexpr double least_contrast = 0.1;   // between F and B, as a share of their own size
 constexpr double largest_residual = 0.2; // distance of c from the line, as a share of the contrast
-constexpr double prior = 0.05;          // weight of "not mixed" against the colours, as a share of their size
-constexpr double least_share = 0.02;    // less than this of a pixel is not worth a sample
+constexpr double prior = 0.05;       // weight of "not mixed" against the colours, as a share of their size
+constexpr double least_share = 0.02; // less than this of a pixel is not worth a sample
 
 struct Rgb {
     std::array<double, 3> v{};
@@ -141,7 +141,8 @@ std::optional<double> Separation::share_of(const Rgb &c, const Rgb &f, const Rgb
 }
 
 std::optional<Mixture> Separation::mixture_of(int x, int y) const {
-    const std::uint64_t own = view_.begin[std::size_t(y) * std::size_t(view_.windows.width()) + std::size_t(x)];
+    const std::uint64_t own =
+        view_.begin[std::size_t(y) * std::size_t(view_.windows.width()) + std::size_t(x)];
     const bool own_is_far = sides_[own] & has_nearer;
     Mixture mixture{depth_of(own), depth_of(own), 0, {}};
     double nearest = 3; // of the farther pixels around; those at the edges before those at the corners
@@ -150,10 +151,12 @@ std::optional<Mixture> Separation::mixture_of(int x, int y) const {
         if (own_is_far) mixture.near_depth = std::max(mixture.near_depth, depth);
         if (own_is_far || depth >= depth_of(own) - jump) return;
         const int distance = dx * dx + dy * dy;
-        if (distance < nearest || (distance == nearest && depth > mixture.far_depth)) mixture.far_depth = depth;
+        if (distance < nearest || (distance == nearest && depth > mixture.far_depth))
+            mixture.far_depth = depth;
         nearest = std::min(nearest, double(distance));
     });
-    const auto front = estimate(x, y, mixture.near_depth, edge_share), behind = estimate(x, y, mixture.far_depth, 1);
+    const auto front = estimate(x, y, mixture.near_depth, edge_share),
+               behind = estimate(x, y, mixture.far_depth, 1);
     if (!front || !behind) return {};
     const auto share = share_of(colour_of(own), front->colour, behind->colour, own_is_far);
     if (!share) return {};
