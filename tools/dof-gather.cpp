@@ -6,6 +6,7 @@
 #include "common/picture_options.h"
 #include "common/pictures.h"
 #include "common/tool.h"
+#include "common/words.h"
 #include "dof/methods.h"
 #include "io/camera_metadata.h"
 #include "io/exr_flat.h"
@@ -39,7 +40,7 @@ void add_options(CLI::App &app, Options &options) {
         {"draft", Quality::draft}, {"normal", Quality::normal}, {"final", Quality::final}};
     app.add_option("--quality", options.gather.lens.quality, "Error against time (lens; normal)")
         ->type_name("draft|normal|final")
-        ->transform(CLI::CheckedTransformer(qualities));
+        ->transform(words(qualities));
     app.add_option("--lens-samples", options.gather.lens.lens_samples,
                    "Lens points everywhere (lens), 0 = by the quality and what the picture needs")
         ->type_name("N")
@@ -87,7 +88,8 @@ void run(const Options &options, const ToolContext &tool) {
                         ? crop(flatten(in.ldi), window)
                         : options.method->gather(in.ldi, lens, window, options.gather, *tool.progress);
     write_camera(in.header, in.camera);
-    if (!options.depth_output.empty()) write_flat_exr(options.depth_output, crop(front_depth(in.ldi), window), in.header);
+    if (!options.depth_output.empty())
+        write_flat_exr(options.depth_output, crop(front_depth(in.ldi), window), in.header);
     write_flat_exr(options.output,
                    in_type(chosen_channels(std::move(picture), options.channels), options.as_float),
                    in.header);
