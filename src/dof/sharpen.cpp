@@ -81,12 +81,19 @@ private:
     BlurTable blur_;
 };
 
+// The sample of a pixel nearest to that depth: of a stack of mist and sheets not just any within reach.
 std::uint64_t Sharpener::surface_in(int x, int y, double depth) const {
     if (x < 0 || y < 0 || x >= ldi_.windows.width() || y >= ldi_.windows.height()) return none;
     const std::size_t pixel = std::size_t(y) * std::size_t(ldi_.windows.width()) + std::size_t(x);
-    for (std::uint64_t i = ldi_.begin[pixel]; i < ldi_.begin[pixel + 1]; ++i)
-        if (std::abs(perceptive_depth(lens_, double(ldi_.z[i])) - depth) < same_surface) return i;
-    return none;
+    std::uint64_t found = none;
+    double least = same_surface;
+    for (std::uint64_t i = ldi_.begin[pixel]; i < ldi_.begin[pixel + 1]; ++i) {
+        const double distance = std::abs(perceptive_depth(lens_, double(ldi_.z[i])) - depth);
+        if (distance >= least) continue;
+        found = i;
+        least = distance;
+    }
+    return found;
 }
 
 Sharpener::Neighbours Sharpener::neighbours(std::uint64_t i, int x, int y) const {
