@@ -27,14 +27,18 @@ public:
     double weight(double coc, double offset) const {
         coc = std::abs(coc);
         if (!(coc < largest_coc)) return 0;
-        const int c = int(coc / largest_coc * cocs), o = std::min(int(std::abs(offset) * 2 * offsets), offsets - 1);
-        return 0.5 * table_[std::size_t(c * offsets + o)] * std::min(1.0, 2 * (1 - coc / largest_coc));
+        // Between entries: what lies in focus on the grid has to come out as exactly 0.
+        const double u = coc / largest_coc * (cocs - 1), v = std::min(std::abs(offset) * 2, 1.0) * (offsets - 1);
+        const int c = std::min(int(u), cocs - 2), o = std::min(int(v), offsets - 2);
+        const auto along = [&](int row) { return std::lerp(entry(row, o), entry(row, o + 1), v - o); };
+        return 0.5 * std::lerp(along(c), along(c + 1), u - c) * std::min(1.0, 2 * (1 - coc / largest_coc));
     }
 
 private:
     static constexpr int cocs = 128, offsets = 16, steps = 64;
-    static double coc_at(int c) { return (c + 0.5) * largest_coc / cocs; }
-    static double offset_at(int o) { return (o + 0.5) * 0.5 / offsets; }
+    static double coc_at(int c) { return c * largest_coc / (cocs - 1); }
+    static double offset_at(int o) { return o * 0.5 / (offsets - 1); }
+    double entry(int c, int o) const { return table_[std::size_t(c * offsets + o)]; }
     // Over the disc, a column at x has a height of sqrt(1 - x^2).
     static double mean(double coc, double offset) {
         double sum = 0, area = 0;
