@@ -46,6 +46,15 @@ LightChannels light_channels(const Ldi &ldi) {
     return light;
 }
 
+// Ids cannot be averaged: as in the flattened picture they are the front samples'.
+void copy_ids(const Ldi &ldi, Image &out) {
+    const auto is_id = [](const Channel &channel) { return channel.type == PixelType::uint32; };
+    if (std::none_of(ldi.channels.begin(), ldi.channels.end(), is_id)) return;
+    const Image flat = crop(flatten(ldi), out.windows.data);
+    for (std::size_t k = 0; k < ldi.channels.size(); ++k)
+        if (is_id(ldi.channels[k])) std::ranges::copy(flat.plane(k), out.plane(k).begin());
+}
+
 float largest_coc(const SampleBlock &block) { return std::max(std::abs(block.coc_min), std::abs(block.coc_max)); }
 
 } // namespace
@@ -89,6 +98,7 @@ Image lens_gather(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &wind
                     out.at(k, window.min.x + corner.x + x, window.min.y + corner.y + y) = tile.value(x, y, k);
         progress.advance();
     });
+    copy_ids(ldi, out);
     return out;
 }
 
