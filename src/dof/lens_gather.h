@@ -19,8 +19,9 @@ struct LensGatherOptions {
     int lens_samples = 0; // points in every tile; 0: by the quality and what the tile needs
 };
 
-// Pixels `window` (EXR coordinates, within the LDI's data window), channels of the LDI. In `known` an empty
-// pixel is transparent to infinity; outside of it, nothing is known. The LDI is tidy, the lens radius above 0.
+// Pixels `window` (EXR coordinates, within the LDI's data window), channels of the LDI. In `window` an empty
+// pixel is transparent to infinity; outside of it, nothing is known. Ids are the front samples'. The LDI is tidy,
+// the lens radius above 0.
 Image lens_gather(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window,
                   const LensGatherOptions &options, Progress &progress);
 

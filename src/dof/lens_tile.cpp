@@ -9,6 +9,8 @@ namespace {
 
 constexpr float same_surface = 0.5f; // pixels of perceptive depth
 
+constexpr float covered_at_all = 1 - 0x1p-24f; // a sample without coverage may still give light
+
 constexpr int cell_stride = LensTile::size + 2;
 
 // Moves samples to where a lens point sees them.
@@ -113,7 +115,7 @@ void LensTile::see_partial(const LensSample &lens) {
             float *over = &over_[(g * stride * stride + cell) * 4];
             for (int k = 0; k < 4; ++k) over[k] += transmittance * colour[k];
         }
-        transmittance *= 1 - samples_.alpha[i];
+        transmittance = std::min(transmittance * (1 - samples_.alpha[i]), covered_at_all);
     }
 }
 

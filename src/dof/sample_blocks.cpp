@@ -89,7 +89,8 @@ void store(BlockedSamples &samples, std::size_t at, const Found &f) {
     samples.depth[at] = f.depth;
     samples.alpha[at] = f.alpha;
     samples.source[at] = f.source;
-    samples.key[at] = depth_key(f.depth, std::uint32_t(at));
+    const std::uint32_t index = std::uint32_t(at);
+    samples.key[at] = f.source == BlockedSamples::background ? background_key(index) : depth_key(f.depth, index);
 }
 
 } // namespace

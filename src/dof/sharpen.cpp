@@ -11,9 +11,9 @@ namespace sparselens {
 
 namespace {
 
-constexpr double largest_coc = 4;      // pixels: beyond, the blur of interpolation does not show
-constexpr double same_surface = 0.5;   // pixels of perceptive depth
-constexpr int noise_block = 32;        // pixels
+constexpr double largest_coc = 4;     // pixels: beyond, the blur of interpolation does not show
+constexpr double same_surface = 0.5;  // pixels of perceptive depth
+constexpr int noise_block = 32;       // pixels
 constexpr double noise_quantile = 0.3; // the calmer part of a block shows its noise, not its detail
 
 // Mean of f (1 - f) over the lens, f the fraction off the grid along one axis, by CoC and by own offset.
@@ -21,22 +21,24 @@ class BlurTable {
 public:
     BlurTable() {
         for (int c = 0; c < cocs; ++c)
-            for (int o = 0; o < offsets; ++o)
-                table_[std::size_t(c * offsets + o)] = mean(coc_at(c), offset_at(o));
+            for (int o = 0; o < offsets; ++o) table_[std::size_t(c * offsets + o)] = mean(coc_at(c), offset_at(o));
     }
     // Half of the mean, which is the weight of the second difference; fades out towards the largest CoC.
     double weight(double coc, double offset) const {
         coc = std::abs(coc);
         if (!(coc < largest_coc)) return 0;
-        const int c = int(coc / largest_coc * cocs),
-                  o = std::min(int(std::abs(offset) * 2 * offsets), offsets - 1);
-        return 0.5 * table_[std::size_t(c * offsets + o)] * std::min(1.0, 2 * (1 - coc / largest_coc));
+        // Between entries: what lies in focus on the grid has to come out as exactly 0.
+        const double u = coc / largest_coc * (cocs - 1), v = std::min(std::abs(offset) * 2, 1.0) * (offsets - 1);
+        const int c = std::min(int(u), cocs - 2), o = std::min(int(v), offsets - 2);
+        const auto along = [&](int row) { return std::lerp(entry(row, o), entry(row, o + 1), v - o); };
+        return 0.5 * std::lerp(along(c), along(c + 1), u - c) * std::min(1.0, 2 * (1 - coc / largest_coc));
     }
 
 private:
     static constexpr int cocs = 128, offsets = 16, steps = 64;
-    static double coc_at(int c) { return (c + 0.5) * largest_coc / cocs; }
-    static double offset_at(int o) { return (o + 0.5) * 0.5 / offsets; }
+    static double coc_at(int c) { return c * largest_coc / (cocs - 1); }
+    static double offset_at(int o) { return o * 0.5 / (offsets - 1); }
+    double entry(int c, int o) const { return table_[std::size_t(c * offsets + o)]; }
     // Over the disc, a column at x has a height of sqrt(1 - x^2).
     static double mean(double coc, double offset) {
         double sum = 0, area = 0;
@@ -54,8 +56,7 @@ private:
 class Sharpener {
 public:
     Sharpener(const Ldi &ldi, const ThinLens &lens) : ldi_(ldi), lens_(lens), rgb_(), noise_() {
-        for (std::size_t k = 0; k < 3; ++k)
-            rgb_[k] = find_channel(ldi.channels, std::array{"R", "G", "B"}[k]);
+        for (std::size_t k = 0; k < 3; ++k) rgb_[k] = find_channel(ldi.channels, std::array{"R", "G", "B"}[k]);
     }
     bool usable() const { return std::find(rgb_.begin(), rgb_.end(), npos) == rgb_.end(); }
 
@@ -84,20 +85,26 @@ private:
     BlurTable blur_;
 };
 
+// The sample of a pixel nearest to that depth: of a stack of mist and sheets not just any within reach.
 std::uint64_t Sharpener::surface_in(int x, int y, double depth) const {
     if (x < 0 || y < 0 || x >= ldi_.windows.width() || y >= ldi_.windows.height()) return none;
     const std::size_t pixel = std::size_t(y) * std::size_t(ldi_.windows.width()) + std::size_t(x);
-    for (std::uint64_t i = ldi_.begin[pixel]; i < ldi_.begin[pixel + 1]; ++i)
-        if (std::abs(perceptive_depth(lens_, double(ldi_.z[i])) - depth) < same_surface) return i;
-    return none;
+    std::uint64_t found = none;
+    double least = same_surface;
+    for (std::uint64_t i = ldi_.begin[pixel]; i < ldi_.begin[pixel + 1]; ++i) {
+        const double distance = std::abs(perceptive_depth(lens_, double(ldi_.z[i])) - depth);
+        if (distance >= least) continue;
+        found = i;
+        least = distance;
+    }
+    return found;
 }
 
 Sharpener::Neighbours Sharpener::neighbours(std::uint64_t i, int x, int y) const {
     const double depth = perceptive_depth(lens_, double(ldi_.z[i]));
     Neighbours n{{surface_in(x - 1, y, depth), surface_in(x + 1, y, depth), surface_in(x, y - 1, depth),
                   surface_in(x, y + 1, depth)},
-                 false,
-                 false};
+                 false, false};
     n.horizontal = n.sample[0] != none && n.sample[1] != none;
     n.vertical = n.sample[2] != none && n.sample[3] != none;
     return n;
@@ -116,8 +123,7 @@ double Sharpener::detail(std::uint64_t i, const Neighbours &n) const {
 
 void Sharpener::measure_noise() {
     const int width = ldi_.windows.width(), height = ldi_.windows.height();
-    const int columns = (width + noise_block - 1) / noise_block,
-              rows = (height + noise_block - 1) / noise_block;
+    const int columns = (width + noise_block - 1) / noise_block, rows = (height + noise_block - 1) / noise_block;
     noise_.assign(std::size_t(columns * rows), 0);
     parallel_for(noise_.size(), [&](std::size_t block) {
         const int left = int(block) % columns * noise_block, top = int(block) / columns * noise_block;
@@ -142,44 +148,38 @@ std::array<Term, 5> Sharpener::terms(std::uint64_t i, int x, int y) const {
     terms[0].coefficient = 1;
     const MergedSample place = placement_of(ldi_, i);
     const double coc = circle_of_confusion(lens_, double(place.z));
-    double horizontal = blur_.weight(coc, double(place.dx)),
-           vertical = blur_.weight(coc * lens_.pixel_aspect, double(place.dy));
+    double horizontal = blur_.weight(coc, double(place.dx)), vertical = blur_.weight(coc * lens_.pixel_aspect, double(place.dy));
     if (horizontal == 0 && vertical == 0) return terms;
     const Neighbours n = neighbours(i, x, y);
     if (!n.horizontal) horizontal = 0;
     if (!n.vertical) vertical = 0;
     const int columns = (ldi_.windows.width() + noise_block - 1) / noise_block;
-    const double noise = 5 * noise_[std::size_t(y / noise_block * columns + x / noise_block)],
-                 d = detail(i, n);
+    const double noise = 5 * noise_[std::size_t(y / noise_block * columns + x / noise_block)], d = detail(i, n);
     double strength = d > 0 ? 1 / (1 + std::pow(noise / d, 4)) : 0;
     for (std::size_t k = 0; k < 3; ++k) {
         const double value = double(ldi_.values[rgb_[k]][i]);
-        const double change =
-            (horizontal > 0 ? horizontal * second_difference(i, n.sample[0], n.sample[1], k) : 0) +
-            (vertical > 0 ? vertical * second_difference(i, n.sample[2], n.sample[3], k) : 0);
+        const double change = (horizontal > 0 ? horizontal * second_difference(i, n.sample[0], n.sample[1], k) : 0) +
+                              (vertical > 0 ? vertical * second_difference(i, n.sample[2], n.sample[3], k) : 0);
         if (change * strength > value) strength = std::max(0.0, value) / change;
     }
     horizontal *= strength;
     vertical *= strength;
     terms[0].coefficient = 1 + 2 * horizontal + 2 * vertical;
     for (std::size_t k = 0; k < 4; ++k)
-        if ((k < 2 ? horizontal : vertical) > 0)
-            terms[k + 1] = {n.sample[k], -(k < 2 ? horizontal : vertical)};
+        if ((k < 2 ? horizontal : vertical) > 0) terms[k + 1] = {n.sample[k], -(k < 2 ? horizontal : vertical)};
     return terms;
 }
 
 } // namespace
 
-void sharpen_near_focus(const Ldi &ldi, const ThinLens &lens, const BlockedSamples &samples,
-                        SampleColours &colours) {
+void sharpen_near_focus(const Ldi &ldi, const ThinLens &lens, const BlockedSamples &samples, SampleColours &colours) {
     Sharpener sharpener(ldi, lens);
     if (!sharpener.usable()) return;
     sharpener.measure_noise();
     std::vector<std::uint32_t> blocked(ldi.samples());
     parallel_runs(samples.count(), 4096, [&](std::size_t begin, std::size_t end) {
         for (std::size_t b = begin; b < end; ++b)
-            if (samples.source[b] != BlockedSamples::background)
-                blocked[samples.source[b]] = std::uint32_t(b);
+            if (samples.source[b] != BlockedSamples::background) blocked[samples.source[b]] = std::uint32_t(b);
     });
     const std::size_t width = std::size_t(ldi.windows.width()), alpha = ldi.alpha();
     parallel_for(std::size_t(ldi.windows.height()), [&](std::size_t row) {
@@ -190,8 +190,7 @@ void sharpen_near_focus(const Ldi &ldi, const ThinLens &lens, const BlockedSampl
                 for (std::size_t k = 0; k < ldi.channels.size(); ++k) {
                     if (k == alpha || ldi.channels[k].type == PixelType::uint32) continue;
                     double sum = 0;
-                    for (const Term &term : terms)
-                        sum += term.coefficient * double(ldi.values[k][term.index]);
+                    for (const Term &term : terms) sum += term.coefficient * double(ldi.values[k][term.index]);
                     colours.at(k, blocked[i]) = float(sum);
                 }
             }

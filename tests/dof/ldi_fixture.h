@@ -43,8 +43,9 @@ inline double random_unit(int a, int b, std::uint32_t stream) {
     return unit_interval(mix_bits(std::uint32_t(a), mix_bits(std::uint32_t(b), stream)));
 }
 
-// Depth at which this lens gives CoC c (c < R F / focus).
+// Depth at which this lens gives CoC c (c < R F / focus; focused on infinity, c < 0).
 inline double depth_of(const ThinLens &lens, double c) {
+    if (std::isinf(lens.focus)) return -lens.radius * lens.focal_px / c;
     return lens.focus / (1 - c * lens.focus / (lens.radius * lens.focal_px));
 }
 

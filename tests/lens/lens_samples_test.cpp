@@ -1,0 +1,109 @@
+#include "lens/lens_samples.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace sparselens {
+namespace {
+
+constexpr std::size_t counts[] = {1, 2, 7, 16, 61, 256, 1024};
+
+struct Means {
+    double x = 0, y = 0, xx = 0, yy = 0, pixel_x = 0, pixel_y = 0;
+};
+
+// Weighted; y of the lens taken back to the unit disc.
+Means means_of(const std::vector<LensSample> &samples, double pixel_aspect) {
+    Means means;
+    double total = 0;
+    for (const LensSample &s : samples) {
+        const double w = double(s.weight), x = double(s.x), y = double(s.y) / pixel_aspect;
+        total += w;
+        means.x += w * x;
+        means.y += w * y;
+        means.xx += w * x * x;
+        means.yy += w * y * y;
+        means.pixel_x += w * double(s.pixel_x);
+        means.pixel_y += w * double(s.pixel_y);
+    }
+    for (double *mean : {&means.x, &means.y, &means.xx, &means.yy, &means.pixel_x, &means.pixel_y}) *mean /= total;
+    return means;
+}
+
+TEST(LensSamples, AreAsManyAsAskedForOfEqualWeightInsideTheDiscAndThePixel) {
+    for (const double aspect : {1.0, 2.0, 0.5})
+        for (const std::size_t n : counts) {
+            const auto samples = disc_lens_samples(n, aspect);
+            ASSERT_EQ(samples.size(), n);
+            for (const LensSample &s : samples) {
+                EXPECT_GT(s.weight, 0);
+                EXPECT_EQ(s.weight, samples[0].weight);
+                EXPECT_LE(std::hypot(double(s.x), double(s.y) / aspect), 1 + 1e-6);
+                EXPECT_GE(s.pixel_x, -0.5f);
+                EXPECT_LT(s.pixel_x, 0.5f);
+                EXPECT_GE(s.pixel_y, -0.5f);
+                EXPECT_LT(s.pixel_y, 0.5f);
+            }
+        }
+}
+
+TEST(LensSamples, OneIsTheMiddleOfTheLensAndOfThePixel) {
+    const LensSample s = disc_lens_samples(1, 2).front();
+    EXPECT_EQ(s.x, 0);
+    EXPECT_EQ(s.y, 0);
+    EXPECT_EQ(s.pixel_x, 0);
+    EXPECT_EQ(s.pixel_y, 0);
+}
+
+// A picture neither moves nor spreads more in one direction: the moments of the disc, E x = 0, E x^2 = 1/4.
+TEST(LensSamples, HaveTheMomentsOfTheDisc) {
+    for (const double aspect : {1.0, 2.0})
+        for (const std::size_t n : {16u, 61u, 256u, 1024u}) {
+            const Means means = means_of(disc_lens_samples(n, aspect), aspect);
+            const double tolerance = 0.8 / std::pow(double(n), 0.75); // better than random points, n^-0.5
+            EXPECT_NEAR(means.x, 0, tolerance) << n;
+            EXPECT_NEAR(means.y, 0, tolerance) << n;
+            EXPECT_NEAR(means.xx, 0.25, tolerance) << n;
+            EXPECT_NEAR(means.yy, 0.25, tolerance) << n;
+            EXPECT_NEAR(means.pixel_x, 0, tolerance) << n;
+            EXPECT_NEAR(means.pixel_y, 0, tolerance) << n;
+        }
+}
+
+// The share of points on one side of any line is the share of the disc there.
+TEST(LensSamples, AreEvenInArea) {
+    constexpr std::size_t n = 256;
+    const auto samples = disc_lens_samples(n, 1);
+    for (int k = 0; k < 24; ++k)
+        for (const double distance : {-0.8, -0.3, 0.0, 0.5}) {
+            const double angle = k * std::numbers::pi / 12, x = std::cos(angle), y = std::sin(angle);
+            const auto beyond = std::ranges::count_if(
+                samples, [&](const LensSample &s) { return x * double(s.x) + y * double(s.y) > distance; });
+            const double share = (std::acos(distance) - distance * std::sqrt(1 - distance * distance)) / std::numbers::pi;
+            EXPECT_NEAR(double(beyond) / n, share, 0.02) << k << ' ' << distance;
+        }
+}
+
+// In every part of the lens the pixel is looked through evenly too: the mean over a quarter of the lens and a
+// quarter of the pixel holds a sixteenth of the points, about.
+TEST(LensSamples, AreEvenOverLensAndPixelAtOnce) {
+    constexpr std::size_t n = 1024;
+    int count[2][2][2][2] = {};
+    for (const LensSample &s : disc_lens_samples(n, 1)) ++count[s.x > 0][s.y > 0][s.pixel_x > 0][s.pixel_y > 0];
+    for (int i = 0; i < 16; ++i)
+        EXPECT_NEAR(count[i & 1][i >> 1 & 1][i >> 2 & 1][i >> 3], n / 16.0, 0.15 * n / 16) << i;
+}
+
+TEST(LensSamples, AreStretchedByThePixelAspect) {
+    const auto round = disc_lens_samples(64, 1), tall = disc_lens_samples(64, 2);
+    for (std::size_t i = 0; i < 64; ++i) {
+        EXPECT_EQ(tall[i].x, round[i].x);
+        EXPECT_NEAR(tall[i].y, 2 * round[i].y, 1e-6);
+    }
+}
+
+} // namespace
+} // namespace sparselens

@@ -1,0 +1,24 @@
+// The test scenes as views and references, traced small.
+#pragma once
+
+#include "trace/render.h"
+#include "view/view.h"
+
+#include <string_view>
+#include <vector>
+
+namespace sparselens {
+
+// A scene with its own lens; a size in the ratio 16:9 frames what 640x360 does.
+struct TracedScene {
+    TracedScene(std::string_view name, int width, int height);
+
+    View view(const Imath::V2d &u, int samples, std::uint32_t stream) const; // position: lens.radius * u
+    std::vector<View> five_views(int samples) const; // the centre, then the rim every 90 degrees
+    Image reference(int samples) const;              // R G B A
+
+    Tracer tracer;
+    RenderSettings settings;
+};
+
+} // namespace sparselens
