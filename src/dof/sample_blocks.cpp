@@ -90,7 +90,8 @@ void store(BlockedSamples &samples, std::size_t at, const Found &f) {
     samples.alpha[at] = f.alpha;
     samples.source[at] = f.source;
     const std::uint32_t index = std::uint32_t(at);
-    samples.key[at] = f.source == BlockedSamples::background ? background_key(index) : depth_key(f.depth, index);
+    samples.key[at] =
+        f.source == BlockedSamples::background ? background_key(index) : depth_key(f.depth, index);
 }
 
 } // namespace

@@ -24,7 +24,7 @@ struct BlockedSamples {
     std::vector<float> coc;            // signed radius, pixels
     std::vector<float> depth;          // perceptive depth, pixels: larger is nearer
     std::vector<float> alpha;          // coverage, (0, 1]
-    std::vector<std::uint64_t> key;    // depth_key of depth and index: nearer is greater, no two are equal
+    std::vector<std::uint64_t> key;    // nearer is greater, no two are equal
     std::vector<std::uint32_t> source; // index into the LDI's samples; `background` for the background
     static constexpr std::uint32_t background = 0xffffffffu;
 
@@ -37,8 +37,10 @@ struct BlockedSamples {
 
 // Orders samples by depth (perceptive, at least 0), then by index; never 0. The index is its lower half.
 inline std::uint64_t depth_key(float depth, std::uint32_t sample) {
-    return (std::uint64_t(std::bit_cast<std::uint32_t>(depth) + 1) << 32) | sample;
+    return (std::uint64_t(std::bit_cast<std::uint32_t>(depth) + 2) << 32) | sample;
 }
+// A background lies behind what the LDI has at infinity.
+inline std::uint64_t background_key(std::uint32_t sample) { return (std::uint64_t(1) << 32) | sample; }
 
 // `known`: the window (EXR coordinates) in which an empty pixel is transparent to infinity; outside of it,
 // nothing is known. Throws Error where the LDI has more samples than 32 bits count.

@@ -35,7 +35,8 @@ std::optional<double> positive(std::optional<double> value, bool infinity_allowe
 double decimal(float stored) {
     if (!std::isfinite(stored)) return double(stored);
     char text[32];
-    const auto written = std::to_chars(text, text + sizeof text, stored); // the shortest that reads back as stored
+    const auto written =
+        std::to_chars(text, text + sizeof text, stored); // the shortest that reads back as stored
     double value = 0;
     std::from_chars(text, written.ptr, value);
     return value;
