@@ -87,7 +87,8 @@ void run(const Options &options, const ToolContext &tool) {
                         ? crop(flatten(in.ldi), window)
                         : options.method->gather(in.ldi, lens, window, options.gather, *tool.progress);
     write_camera(in.header, in.camera);
-    if (!options.depth_output.empty()) write_flat_exr(options.depth_output, crop(front_depth(in.ldi), window), in.header);
+    if (!options.depth_output.empty())
+        write_flat_exr(options.depth_output, crop(front_depth(in.ldi), window), in.header);
     write_flat_exr(options.output,
                    in_type(chosen_channels(std::move(picture), options.channels), options.as_float),
                    in.header);

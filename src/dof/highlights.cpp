@@ -10,12 +10,13 @@ namespace sparselens {
 
 namespace {
 
-constexpr int neighbourhood = 4;        // blocks wide and high
-constexpr std::size_t brightest = 32;   // one sample in so many may be a highlight
-constexpr float stands_out = 4;         // times what is around
-constexpr float smallest_coc = 2;       // pixels
+constexpr int neighbourhood = 4;      // blocks wide and high
+constexpr std::size_t brightest = 32; // one sample in so many may be a highlight
+constexpr float stands_out = 4;       // times what is around
+constexpr float smallest_coc = 2;     // pixels
 
-float brightness_of(const SampleColours &colours, std::span<const std::size_t> channels, std::uint32_t sample) {
+float brightness_of(const SampleColours &colours, std::span<const std::size_t> channels,
+                    std::uint32_t sample) {
     float most = 0;
     for (const std::size_t k : channels) most = std::max(most, colours.at(k, sample));
     return most;
@@ -38,7 +39,7 @@ struct Found {
 };
 
 std::vector<Found> find_highlights(const BlockedSamples &samples, std::span<const std::size_t> channels,
-                                       const SampleColours &colours, int column, int row) {
+                                   const SampleColours &colours, int column, int row) {
     const std::vector<std::uint32_t> around = samples_around(samples, column, row);
     std::vector<float> levels;
     for (const std::uint32_t i : around) levels.push_back(brightness_of(colours, channels, i));
@@ -68,7 +69,8 @@ Highlights take_highlights(const BlockedSamples &samples, std::span<const std::s
     std::vector<Found> all;
     for (const auto &some : found) all.insert(all.end(), some.begin(), some.end());
     std::sort(all.begin(), all.end(), [](const Found &a, const Found &b) { return a.sample < b.sample; });
-    Highlights highlights{{}, {colours.groups, all.size(), std::vector<float>(colours.groups * all.size() * 4)}};
+    Highlights highlights{{},
+                          {colours.groups, all.size(), std::vector<float>(colours.groups * all.size() * 4)}};
     for (const Found &f : all) {
         for (const std::size_t k : colour_channels) {
             highlights.light.at(k, highlights.sample.size()) = f.share * colours.at(k, f.sample);
@@ -116,22 +118,25 @@ std::vector<HighlightPixel> highlight_pixels(const Highlights &highlights, const
     std::vector<double> weights(std::size_t(size) + 1);
     for (std::uint32_t h = 0; h < highlights.sample.size(); ++h) {
         const std::uint32_t s = highlights.sample[h];
-        const double radius = std::abs(double(samples.coc[s])), reach = radius * std::max(1.0, pixel_aspect) + 1;
+        const double radius = std::abs(double(samples.coc[s])),
+                     reach = radius * std::max(1.0, pixel_aspect) + 1;
         const Imath::V2d centre(double(samples.x[s]), double(samples.y[s]));
-        if (centre.x + reach < origin.x || centre.x - reach > origin.x + size || centre.y + reach < origin.y ||
-            centre.y - reach > origin.y + size)
+        if (centre.x + reach < origin.x || centre.x - reach > origin.x + size ||
+            centre.y + reach < origin.y || centre.y - reach > origin.y + size)
             continue;
         const PsfRows rows({centre, radius, pixel_aspect}, {origin, origin + Imath::V2i(size - 1)});
         for (int y = rows.begin_row(); y < rows.end_row(); ++y) {
             const PsfRows::Span span = rows.row(y, weights.data());
             for (int x = span.begin; x < span.end; ++x) {
                 const float dx = float(x) + 0.5f - samples.x[s], dy = float(y) + 0.5f - samples.y[s];
-                pixels.push_back({nearest(dx / samples.coc[s], dy / samples.coc[s]), std::uint16_t(x - origin.x),
-                                  std::uint16_t(y - origin.y), h, float(weights[std::size_t(x - origin.x)])});
+                pixels.push_back({nearest(dx / samples.coc[s], dy / samples.coc[s]),
+                                  std::uint16_t(x - origin.x), std::uint16_t(y - origin.y), h,
+                                  float(weights[std::size_t(x - origin.x)])});
             }
         }
     }
-    std::stable_sort(pixels.begin(), pixels.end(), [](const auto &a, const auto &b) { return a.lens < b.lens; });
+    std::stable_sort(pixels.begin(), pixels.end(),
+                     [](const auto &a, const auto &b) { return a.lens < b.lens; });
     return pixels;
 }
 

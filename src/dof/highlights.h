@@ -34,7 +34,7 @@ struct HighlightPixel {
     std::uint32_t lens;
     std::uint16_t x, y;
     std::uint32_t highlight; // index into Highlights
-    float weight; // of the PSF in the pixel
+    float weight;            // of the PSF in the pixel
 };
 
 // Which lens point of a set is the nearest to a place on the lens, to within the width of a cell of a table.

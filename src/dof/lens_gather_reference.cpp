@@ -40,7 +40,8 @@ std::vector<PlacedSample> place_samples(const Ldi &ldi, const ThinLens &lens, co
             placed.push_back({middle, circle_of_confusion(lens, infinity), 0, 1, {}});
     }
     // Equal depths, as of a sky and a background: in the order they came.
-    std::stable_sort(placed.begin(), placed.end(), [](const auto &a, const auto &b) { return a.depth > b.depth; });
+    std::stable_sort(placed.begin(), placed.end(),
+                     [](const auto &a, const auto &b) { return a.depth > b.depth; });
     return placed;
 }
 
@@ -80,8 +81,7 @@ Image lens_gather_reference(const Ldi &ldi, const ThinLens &lens, const Imath::B
         const int x = window.min.x + int(pixel) % out.windows.width();
         const int y = window.min.y + int(pixel) / out.windows.width();
         Sum sum{std::vector<double>(ldi.channels.size()), 0};
-        for (const LensSample &point : points)
-            add_lens_point(ldi, samples, point, {x + 0.5, y + 0.5}, sum);
+        for (const LensSample &point : points) add_lens_point(ldi, samples, point, {x + 0.5, y + 0.5}, sum);
         for (std::size_t k = 0; k < sum.values.size(); ++k)
             if (ldi.channels[k].type != PixelType::uint32)
                 out.at(k, x, y) = sum.weight > 0 ? float(sum.values[k] / sum.weight) : 0;

@@ -20,13 +20,14 @@ struct Placement {
 
 // The cell that each sample falls in, counted from the border's corner; what falls outside is in the border.
 // Compiled for several instruction sets, as this loop is most of the work; they all give the same.
-[[gnu::target_clones("default,avx2")]]
-void place(const Placement &p, const float *x, const float *y, const float *coc, std::uint32_t count,
-           std::int32_t *cells) {
+[[gnu::target_clones("default,avx2")]] void place(const Placement &p, const float *x, const float *y,
+                                                  const float *coc, std::uint32_t count,
+                                                  std::int32_t *cells) {
     constexpr float limit = float(cell_stride - 1);
     for (std::uint32_t i = 0; i < count; ++i) {
         const float cx = x[i] + coc[i] * p.lens_x + p.shift_x, cy = y[i] + coc[i] * p.lens_y + p.shift_y;
-        const float column = cx > 0 ? (cx < limit ? cx : limit) : 0, row = cy > 0 ? (cy < limit ? cy : limit) : 0;
+        const float column = cx > 0 ? (cx < limit ? cx : limit) : 0,
+                    row = cy > 0 ? (cy < limit ? cy : limit) : 0;
         cells[i] = std::int32_t(row) * cell_stride + std::int32_t(column);
     }
 }
@@ -34,7 +35,8 @@ void place(const Placement &p, const float *x, const float *y, const float *coc,
 bool out_of_reach(const SampleBlock &b, const LensSample &lens, float x, float y, float size) {
     const auto [x0, x1] = std::minmax({b.coc_min * lens.x, b.coc_max * lens.x});
     const auto [y0, y1] = std::minmax({b.coc_min * lens.y, b.coc_max * lens.y});
-    return b.x_max + x1 + 1 < x || b.x_min + x0 - 1 > x + size || b.y_max + y1 + 1 < y || b.y_min + y0 - 1 > y + size;
+    return b.x_max + x1 + 1 < x || b.x_min + x0 - 1 > x + size || b.y_max + y1 + 1 < y ||
+           b.y_min + y0 - 1 > y + size;
 }
 
 } // namespace
@@ -45,7 +47,8 @@ LensTile::LensTile(const BlockedSamples &samples, const SampleColours &colours, 
       sums_(colours.groups * size * size * 4), spread_(sums_.size()), unknown_(size * size) {}
 
 float LensTile::value(int x, int y, std::size_t channel) const {
-    const std::size_t pixel = std::size_t(y * size + x), at = (channel / 4 * size * size + pixel) * 4 + channel % 4;
+    const std::size_t pixel = std::size_t(y * size + x),
+                      at = (channel / 4 * size * size + pixel) * 4 + channel % 4;
     const float known = total_ - unknown_[pixel];
     // What rounding leaves of a weight is no knowledge.
     return (known > 1e-6f * total_ ? sums_[at] / known : 0) + spread_[at];
@@ -58,7 +61,8 @@ void LensTile::gather(const Imath::V2i &origin, std::span<const std::uint32_t> b
     blocks_.assign(blocks.begin(), blocks.end());
     partial_.clear();
     for (const std::uint32_t b : blocks_)
-        for (std::uint32_t i = samples_.blocks[b].opaque_end; i < samples_.blocks[b].end; ++i) partial_.push_back(i);
+        for (std::uint32_t i = samples_.blocks[b].opaque_end; i < samples_.blocks[b].end; ++i)
+            partial_.push_back(i);
     std::sort(partial_.begin(), partial_.end(), [&](std::uint32_t a, std::uint32_t b) {
         return samples_.depth[a] != samples_.depth[b] ? samples_.depth[a] > samples_.depth[b] : a < b;
     });
@@ -86,7 +90,8 @@ void LensTile::see_opaque(const LensSample &lens) {
         if (out_of_reach(block, lens, origin_x_, origin_y_, float(size))) continue;
         for (std::uint32_t begin = block.begin; begin < block.opaque_end; begin += cells.size()) {
             const std::uint32_t count = std::min(std::uint32_t(cells.size()), block.opaque_end - begin);
-            place(placement, &samples_.x[begin], &samples_.y[begin], &samples_.coc[begin], count, cells.data());
+            place(placement, &samples_.x[begin], &samples_.y[begin], &samples_.coc[begin], count,
+                  cells.data());
             const std::uint64_t *key = &samples_.key[begin];
             for (std::uint32_t i = 0; i < count; ++i) {
                 std::uint64_t &front = front_[std::size_t(cells[i])];
@@ -172,11 +177,13 @@ bool LensTile::hides(int x, int y, float depth) const {
 }
 
 // Adds what lens point `lens` sees of the highlights and returns the pixels of the lens points after it.
-std::span<const HighlightPixel> LensTile::add_highlights(std::span<const HighlightPixel> spread, std::uint32_t lens) {
+std::span<const HighlightPixel> LensTile::add_highlights(std::span<const HighlightPixel> spread,
+                                                         std::uint32_t lens) {
     std::size_t done = 0;
     for (; done < spread.size() && spread[done].lens == lens; ++done) {
         const HighlightPixel &p = spread[done];
-        const std::size_t cell = std::size_t((p.y + 1) * stride + p.x + 1), pixel = std::size_t(p.y * size + p.x);
+        const std::size_t cell = std::size_t((p.y + 1) * stride + p.x + 1),
+                          pixel = std::size_t(p.y * size + p.x);
         if (hides(p.x, p.y, samples_.depth[highlights_.sample[p.highlight]])) continue;
         const float weight = p.weight * transmittance_[cell];
         for (std::size_t g = 0; g < colours_.groups; ++g)

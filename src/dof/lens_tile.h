@@ -27,8 +27,8 @@ public:
 
     // Gathers the pixels [origin, origin + size), relative to the data window's corner like the samples, from
     // the blocks that can reach them. `spread`: highlight_pixels() of the tile.
-    void gather(const Imath::V2i &origin, std::span<const std::uint32_t> blocks, std::span<const LensSample> lens,
-                std::span<const HighlightPixel> spread);
+    void gather(const Imath::V2i &origin, std::span<const std::uint32_t> blocks,
+                std::span<const LensSample> lens, std::span<const HighlightPixel> spread);
 
     // The mean over the known lens points at a pixel of the tile; 0 where none is known.
     float value(int x, int y, std::size_t channel) const;
@@ -42,7 +42,8 @@ private:
     bool hides(int x, int y, float depth) const;
     void add_opaque(float weight);
     void add_partial(float weight);
-    std::span<const HighlightPixel> add_highlights(std::span<const HighlightPixel> spread, std::uint32_t lens);
+    std::span<const HighlightPixel> add_highlights(std::span<const HighlightPixel> spread,
+                                                   std::uint32_t lens);
     void forget_partial();
 
     const BlockedSamples &samples_;

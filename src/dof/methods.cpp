@@ -14,8 +14,8 @@ Image by_lens(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window, 
     return lens_gather(ldi, lens, window, options.lens, progress);
 }
 
-Image by_selective(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window, const GatherOptions &options,
-                   Progress &progress) {
+Image by_selective(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window,
+                   const GatherOptions &options, Progress &progress) {
     return crop(selective_gather(ldi, lens, {.layers = options.layers}, progress), window);
 }
 

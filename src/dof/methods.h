@@ -21,7 +21,8 @@ struct GatherMethod {
     const char *name;
     // The pixels of a window (EXR coordinates) within the LDI's data window, its channels. The LDI is tidy, the
     // lens has a radius above 0.
-    Image (*gather)(const Ldi &, const ThinLens &, const Imath::Box2i &window, const GatherOptions &, Progress &);
+    Image (*gather)(const Ldi &, const ThinLens &, const Imath::Box2i &window, const GatherOptions &,
+                    Progress &);
 };
 
 // The default first.

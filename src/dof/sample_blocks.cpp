@@ -11,7 +11,7 @@ namespace sparselens {
 
 namespace {
 
-constexpr float opaque = 0.9995f;  // half's last steps below 1 are rounding, not coverage
+constexpr float opaque = 0.9995f;    // half's last steps below 1 are rounding, not coverage
 constexpr double clear = 1.0 / 2048; // less than this of a pixel left over is rounding too
 
 struct Found {
@@ -22,8 +22,12 @@ struct Found {
 Found sample_at(const Ldi &ldi, const ThinLens &lens, int x, int y, float alpha, std::uint64_t i) {
     const MergedSample place = placement_of(ldi, i);
     const double z = double(place.z);
-    return {float(x) + 0.5f + place.dx,      float(y) + 0.5f + place.dy, float(circle_of_confusion(lens, z)),
-            float(perceptive_depth(lens, z)), alpha,                      std::uint32_t(i)};
+    return {float(x) + 0.5f + place.dx,
+            float(y) + 0.5f + place.dy,
+            float(circle_of_confusion(lens, z)),
+            float(perceptive_depth(lens, z)),
+            alpha,
+            std::uint32_t(i)};
 }
 
 // The samples of one pixel, its background included.
@@ -44,7 +48,8 @@ void find_samples(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &know
                      BlockedSamples::background});
 }
 
-std::vector<Found> block_samples(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &known, int column, int row) {
+std::vector<Found> block_samples(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &known, int column,
+                                 int row) {
     std::vector<Found> found;
     constexpr int size = BlockedSamples::size;
     const int x_end = std::min((column + 1) * size, ldi.windows.width());
@@ -71,7 +76,8 @@ SampleBlock bounds_of(const std::vector<Found> &found) {
 }
 
 void resize(BlockedSamples &samples, std::size_t count) {
-    for (auto *array : {&samples.x, &samples.y, &samples.coc, &samples.depth, &samples.alpha}) array->resize(count);
+    for (auto *array : {&samples.x, &samples.y, &samples.coc, &samples.depth, &samples.alpha})
+        array->resize(count);
     samples.source.resize(count);
     samples.key.resize(count);
 }
@@ -84,7 +90,8 @@ void store(BlockedSamples &samples, std::size_t at, const Found &f) {
     samples.alpha[at] = f.alpha;
     samples.source[at] = f.source;
     const std::uint32_t index = std::uint32_t(at);
-    samples.key[at] = f.source == BlockedSamples::background ? background_key(index) : depth_key(f.depth, index);
+    samples.key[at] =
+        f.source == BlockedSamples::background ? background_key(index) : depth_key(f.depth, index);
 }
 
 } // namespace
@@ -114,7 +121,8 @@ BlockedSamples make_blocks(const Ldi &ldi, const ThinLens &lens, const Imath::Bo
     }
     resize(samples, begin);
     parallel_for(found.size(), [&](std::size_t b) {
-        for (std::size_t i = 0; i < found[b].size(); ++i) store(samples, samples.blocks[b].begin + i, found[b][i]);
+        for (std::size_t i = 0; i < found[b].size(); ++i)
+            store(samples, samples.blocks[b].begin + i, found[b][i]);
     });
     return samples;
 }

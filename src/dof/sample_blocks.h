@@ -20,11 +20,11 @@ struct SampleBlock {
 struct BlockedSamples {
     // One entry a sample. A pixel that lets light through to infinity has one more: its background, opaque, with
     // no colour and no alpha.
-    std::vector<float> x, y;  // centre, pixels, relative to the data window's corner, y down
-    std::vector<float> coc;   // signed radius, pixels
-    std::vector<float> depth; // perceptive depth, pixels: larger is nearer
-    std::vector<float> alpha; // coverage, (0, 1]
-    std::vector<std::uint64_t> key; // nearer is greater, no two are equal
+    std::vector<float> x, y;           // centre, pixels, relative to the data window's corner, y down
+    std::vector<float> coc;            // signed radius, pixels
+    std::vector<float> depth;          // perceptive depth, pixels: larger is nearer
+    std::vector<float> alpha;          // coverage, (0, 1]
+    std::vector<std::uint64_t> key;    // nearer is greater, no two are equal
     std::vector<std::uint32_t> source; // index into the LDI's samples; `background` for the background
     static constexpr std::uint32_t background = 0xffffffffu;
 

@@ -10,7 +10,8 @@ namespace sparselens {
 
 Reprojection::Reprojection(const Ldi &view, const Imath::V2d &position, double focal_px)
     : view_(view), shift_x_(focal_px * position.x),
-      shift_y_(-focal_px * position.y * double(view.windows.pixel_aspect)), reach_(std::size_t(view.windows.height())) {
+      shift_y_(-focal_px * position.y * double(view.windows.pixel_aspect)),
+      reach_(std::size_t(view.windows.height())) {
     const std::size_t width = std::size_t(view.windows.width());
     parallel_for(reach_.size(), [&](std::size_t row) {
         double nearest = std::numeric_limits<double>::infinity();

@@ -11,14 +11,14 @@ namespace sparselens {
 
 namespace {
 
-constexpr double jump = 1;              // pixels of perceptive depth that part two surfaces
-constexpr int radius = 2;               // pixels around that tell what a surface shows
-constexpr double edge_share = 0.1;      // how much a pixel that may be mixed itself tells of the nearer surface
-constexpr double least_support = 0.01;  // below this nothing is known of a surface
-constexpr double least_contrast = 0.1;  // between F and B, as a share of their own size
+constexpr double jump = 1;         // pixels of perceptive depth that part two surfaces
+constexpr int radius = 2;          // pixels around that tell what a surface shows
+constexpr double edge_share = 0.1; // how much a pixel that may be mixed itself tells of the nearer surface
+constexpr double least_support = 0.01;   // below this nothing is known of a surface
+constexpr double least_contrast = 0.1;   // between F and B, as a share of their own size
 constexpr double largest_residual = 0.2; // distance of c from the line, as a share of the contrast
-constexpr double prior = 0.05;          // weight of "not mixed" against the colours, as a share of their size
-constexpr double least_share = 0.02;    // less than this of a pixel is not worth a sample
+constexpr double prior = 0.05;       // weight of "not mixed" against the colours, as a share of their size
+constexpr double least_share = 0.02; // less than this of a pixel is not worth a sample
 
 struct Rgb {
     std::array<double, 3> v{};
@@ -56,6 +56,7 @@ private:
     void around(int x, int y, int reach, const Visit &visit) const;
 
     double depth_of(std::uint64_t i) const { return scale_ / double(view_.z[i]); }
+    bool is_opaque(std::uint64_t i) const { return alpha_at(view_, alpha_, i) >= 1; }
     Rgb colour_of(std::uint64_t i) const {
         Rgb c;
         for (std::size_t k = 0; k < 3; ++k) c.v[k] = double(view_.values[rgb_[k]][i]);
@@ -64,18 +65,20 @@ private:
 
     const Ldi &view_;
     double scale_;
+    std::size_t alpha_;
     std::array<std::size_t, 3> rgb_;
     bool usable_;
     std::vector<unsigned char> sides_; // of each sample
 };
 
-Separation::Separation(const Ldi &view, double scale) : view_(view), scale_(scale), rgb_(), usable_(true) {
+Separation::Separation(const Ldi &view, double scale)
+    : view_(view), scale_(scale), alpha_(view.alpha()), rgb_(), usable_(true) {
     for (std::size_t k = 0; k < 3; ++k) {
         rgb_[k] = find_channel(view.channels, std::array{"R", "G", "B"}[k]);
         usable_ = usable_ && rgb_[k] != npos;
     }
     sides_.assign(view.samples(), inside);
-    if (!usable_ || view.alpha() == npos) return;
+    if (!usable_ || alpha_ == npos) return;
     const int width = view.windows.width();
     for (int y = 0; y < view.windows.height(); ++y)
         for (int x = 0; x < width; ++x) {
@@ -105,7 +108,7 @@ std::optional<Estimate> Separation::estimate(int x, int y, double depth, double 
     Estimate result;
     double sum = 0;
     around(x, y, radius, [&](std::uint64_t i, int dx, int dy) {
-        if (std::abs(depth_of(i) - depth) >= jump || (sides_[i] & has_nearer)) return;
+        if (std::abs(depth_of(i) - depth) >= jump || (sides_[i] & has_nearer) || !is_opaque(i)) return;
         const double weight = std::exp(-0.5 * (dx * dx + dy * dy)) * (sides_[i] & has_farther ? edge : 1);
         result.terms.push_back({i, weight});
         sum += weight;
@@ -133,12 +136,13 @@ std::optional<double> Separation::share_of(const Rgb &c, const Rgb &f, const Rgb
     // What is left in front after taking out b must be light.
     for (std::size_t k = 0; k < 3; ++k)
         if ((1 - share) * b.v[k] > c.v[k]) share = 1 - std::max(c.v[k], 0.0) / b.v[k];
-    if (share < least_share || share > 1 - least_share) return {};
+    if (!(share >= least_share && share <= 1 - least_share)) return {}; // nor where a colour is no number
     return share;
 }
 
 std::optional<Mixture> Separation::mixture_of(int x, int y) const {
-    const std::uint64_t own = view_.begin[std::size_t(y) * std::size_t(view_.windows.width()) + std::size_t(x)];
+    const std::uint64_t own =
+        view_.begin[std::size_t(y) * std::size_t(view_.windows.width()) + std::size_t(x)];
     const bool own_is_far = sides_[own] & has_nearer;
     Mixture mixture{depth_of(own), depth_of(own), 0, {}};
     double nearest = 3; // of the farther pixels around; those at the edges before those at the corners
@@ -147,10 +151,12 @@ std::optional<Mixture> Separation::mixture_of(int x, int y) const {
         if (own_is_far) mixture.near_depth = std::max(mixture.near_depth, depth);
         if (own_is_far || depth >= depth_of(own) - jump) return;
         const int distance = dx * dx + dy * dy;
-        if (distance < nearest || (distance == nearest && depth > mixture.far_depth)) mixture.far_depth = depth;
+        if (distance < nearest || (distance == nearest && depth > mixture.far_depth))
+            mixture.far_depth = depth;
         nearest = std::min(nearest, double(distance));
     });
-    const auto front = estimate(x, y, mixture.near_depth, edge_share), behind = estimate(x, y, mixture.far_depth, 1);
+    const auto front = estimate(x, y, mixture.near_depth, edge_share),
+               behind = estimate(x, y, mixture.far_depth, 1);
     if (!front || !behind) return {};
     const auto share = share_of(colour_of(own), front->colour, behind->colour, own_is_far);
     if (!share) return {};
@@ -177,7 +183,7 @@ void Separation::emit_pixel(std::size_t pixel, Ldi &out) const {
     if (view_.begin[pixel] == view_.begin[pixel + 1]) return;
     const std::uint64_t own = view_.begin[pixel];
     const std::size_t width = std::size_t(view_.windows.width());
-    if (sides_[own] != inside && alpha_at(view_, view_.alpha(), own) >= 1)
+    if (sides_[own] != inside && is_opaque(own))
         if (const auto mixture = mixture_of(int(pixel % width), int(pixel / width)))
             return emit_mixture(own, *mixture, out);
     append(out, view_, own);

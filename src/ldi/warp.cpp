@@ -133,7 +133,8 @@ double Warper::weight(const PlacedSample &s) const {
 }
 
 // The samples of all views that fall in the rows, pixel by pixel: pixel i of the rows has [begin[i], begin[i + 1]).
-std::vector<PlacedSample> Warper::collect(int first_row, int last_row, std::vector<std::size_t> &begin) const {
+std::vector<PlacedSample> Warper::collect(int first_row, int last_row,
+                                          std::vector<std::size_t> &begin) const {
     const Imath::Box2i &data = layout_.windows.data;
     const std::size_t width = std::size_t(layout_.windows.width());
     const auto pixel_of = [&](const ReprojectedSample &s) {
@@ -166,7 +167,8 @@ void Warper::emit_surface(std::span<const PlacedSample> group, Ldi &out) const {
         });
         group = group.subspan(std::size_t(best - group.begin()), 1);
     }
-    double count = 0, total = 0, dx = 0, dy = 0, inverse_z = 0; // double: views may be many, depths near each other
+    double count = 0, total = 0, dx = 0, dy = 0,
+           inverse_z = 0; // double: views may be many, depths near each other
     for (const PlacedSample &s : group) {
         count += double(sources_[s.view]->ldi.weight[s.source]);
         total += weight(s);
@@ -191,12 +193,14 @@ void Warper::emit_surface(std::span<const PlacedSample> group, Ldi &out) const {
 // Of the samples of a pixel, front to back, those that belong to it: nothing lies in front of what the centre view
 // shows, nor where it shows nothing.
 std::span<PlacedSample> Warper::behind_centre(std::span<PlacedSample> samples) const {
-    const auto centre = std::find_if(samples.begin(), samples.end(), [](const auto &s) { return s.view == 0; });
+    const auto centre =
+        std::find_if(samples.begin(), samples.end(), [](const auto &s) { return s.view == 0; });
     if (centre == samples.end()) {
         const bool inside = sources_[0]->ldi.windows.data.intersects(Imath::V2i(samples[0].x, samples[0].y));
         return inside ? samples.first(0) : samples;
     }
-    const auto first = std::find_if(samples.begin(), centre, [&](const auto &s) { return one_surface(s, *centre); });
+    const auto first =
+        std::find_if(samples.begin(), centre, [&](const auto &s) { return one_surface(s, *centre); });
     return samples.subspan(std::size_t(first - samples.begin()));
 }
 
@@ -222,7 +226,8 @@ void Warper::find_surfaces(std::span<PlacedSample> samples, Surfaces &surfaces) 
                 total += weight(s);
             }
             inverse_z /= total;
-            std::stable_sort(group.begin(), group.end(), [](const auto &a, const auto &b) { return a.view < b.view; });
+            std::stable_sort(group.begin(), group.end(),
+                             [](const auto &a, const auto &b) { return a.view < b.view; });
         }
     std::sort(surfaces.list.begin(), surfaces.list.begin() + std::ptrdiff_t(surfaces.count),
               [](const auto &a, const auto &b) { return a.inverse_z > b.inverse_z; });
@@ -236,9 +241,11 @@ Ldi Warper::warp_band(int first_row, int last_row) const {
     Surfaces surfaces;
     for (std::size_t pixel = 0; pixel + 1 < begin.size(); ++pixel) {
         out.begin.push_back(out.begin.back());
-        std::span<PlacedSample> here = std::span(samples).subspan(begin[pixel], begin[pixel + 1] - begin[pixel]);
+        std::span<PlacedSample> here =
+            std::span(samples).subspan(begin[pixel], begin[pixel + 1] - begin[pixel]);
         if (here.empty()) continue;
-        std::stable_sort(here.begin(), here.end(), [](const auto &a, const auto &b) { return a.inverse_z > b.inverse_z; });
+        std::stable_sort(here.begin(), here.end(),
+                         [](const auto &a, const auto &b) { return a.inverse_z > b.inverse_z; });
         find_surfaces(behind_centre(here), surfaces);
         for (std::size_t i = 0; i < surfaces.count; ++i) emit_surface(surfaces.list[i].samples, out);
     }

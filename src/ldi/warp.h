@@ -14,7 +14,7 @@ namespace sparselens {
 
 enum class Merge {
     average, // rim samples join the centre samples of the same surface, weighted; the rest are averaged with each other
-    keep,    // one sample a surface, the centre's where it has one; nothing in front of the centre's sample
+    keep, // one sample a surface, the centre's where it has one; nothing in front of the centre's sample
 };
 
 struct WarpOptions {

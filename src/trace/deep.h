@@ -17,7 +17,9 @@ Ldi render_peeled(const Tracer &tracer, const RenderSettings &settings, int laye
 // The scene cut by planes into `strata` depth intervals, equal in perceptive depth from the nearest visible
 // surface to infinity (the first one begins at the camera); each is rendered as if the others were not there, box
 // filter, one depth a sample, at the pixel centre where the stratum has one. What lies behind another surface of
-// its own stratum is lost; what another stratum hides is there, wherever the rays of the centre go.
+// its own stratum is lost; what another stratum hides is there, wherever the rays of the centre go. In a pixel
+// where a surface crosses from one stratum to the next each holds its share of it, and `over` lets a little of the
+// background through between them: the known seams of such renderers.
 Ldi render_strata(const Tracer &tracer, const RenderSettings &settings, int strata, int samples,
                   std::uint32_t stream, Progress &progress);
 

@@ -1,6 +1,5 @@
-#include "dof/highlights.h"
-
 #include "dof/blocked_fixture.h"
+#include "dof/highlights.h"
 #include "dof/ldi_fixture.h"
 #include "dof/lens_gather.h"
 #include "lens/psf.h"
@@ -55,7 +54,8 @@ TEST(TakeHighlights, TakesTheLightThatStandsOutAndLeavesTheRest) {
         EXPECT_EQ(highlights.light.at(alpha, 0), 0);
         EXPECT_EQ(blocked.colours.at(alpha, lamp), 1);
         for (std::size_t i = 0; i < blocked.samples.count(); ++i)
-            for (std::size_t k = 0; k < 4 && i != lamp; ++k) ASSERT_EQ(blocked.colours.at(k, i), before.at(k, i));
+            for (std::size_t k = 0; k < 4 && i != lamp; ++k)
+                ASSERT_EQ(blocked.colours.at(k, i), before.at(k, i));
     }
 }
 
@@ -85,9 +85,12 @@ TEST(NearestLensPoint, IsThePointItselfAndNearForAnyPlace) {
             const auto lens = disc_lens_samples(n, aspect);
             const NearestLensPoint nearest(lens);
             for (std::uint32_t k = 0; k < n; ++k) EXPECT_EQ(nearest(lens[k].x, lens[k].y), k) << n;
-            const auto distance = [&](std::uint32_t k, float x, float y) { return std::hypot(lens[k].x - x, lens[k].y - y); };
+            const auto distance = [&](std::uint32_t k, float x, float y) {
+                return std::hypot(lens[k].x - x, lens[k].y - y);
+            };
             EXPECT_LT(nearest(1e9f, -1e9f), n);
-            for (int i = 0; i < 300 && n >= 64; ++i) { // fewer do not reach the rim, and places beyond count as there
+            for (int i = 0; i < 300 && n >= 64;
+                 ++i) { // fewer do not reach the rim, and places beyond count as there
                 const double r = 0.95 * std::sqrt(random_unit(i, 0, 1)), angle = 7 * random_unit(i, 1, 1);
                 const float x = float(r * std::cos(angle)), y = float(aspect * r * std::sin(angle));
                 float least = INFINITY;
@@ -101,7 +104,9 @@ TEST(HighlightPixels, AreThePsfSeenThroughTheNearestLensPoints) {
     for (const double aspect : {1.0, 1.6}) {
         ThinLens lens = wide;
         lens.pixel_aspect = aspect;
-        const auto lamps = [](int x, int y) { return (x == 30 && y == 30) || (x == 65 && y == 60) ? 50.0f : 0.0f; };
+        const auto lamps = [](int x, int y) {
+            return (x == 30 && y == 30) || (x == 65 && y == 60) ? 50.0f : 0.0f;
+        };
         for (const double c : {-13.4, 2.7}) {
             Blocked blocked(shining_plane(96, lens, c, lamps), lens);
             const Highlights highlights = blocked.take();
@@ -109,9 +114,11 @@ TEST(HighlightPixels, AreThePsfSeenThroughTheNearestLensPoints) {
             const auto points = disc_lens_samples(64, aspect);
             const NearestLensPoint nearest(points);
             double sums[2] = {};
-            for (const Imath::V2i &origin : {Imath::V2i(0, 0), Imath::V2i(48, 0), Imath::V2i(0, 48), Imath::V2i(48, 48)}) {
+            for (const Imath::V2i &origin :
+                 {Imath::V2i(0, 0), Imath::V2i(48, 0), Imath::V2i(0, 48), Imath::V2i(48, 48)}) {
                 std::uint32_t last = 0;
-                for (const HighlightPixel &p : highlight_pixels(highlights, blocked.samples, nearest, aspect, origin, 48)) {
+                for (const HighlightPixel &p :
+                     highlight_pixels(highlights, blocked.samples, nearest, aspect, origin, 48)) {
                     EXPECT_GE(p.lens, last);
                     last = p.lens;
                     ASSERT_LT(std::max(p.x, p.y), 48);
@@ -119,7 +126,8 @@ TEST(HighlightPixels, AreThePsfSeenThroughTheNearestLensPoints) {
                     const int x = origin.x + p.x, y = origin.y + p.y;
                     const Imath::V2d centre(double(blocked.samples.x[s]), double(blocked.samples.y[s]));
                     ASSERT_NEAR(p.weight, psf_weight({centre, std::abs(c), aspect}, x, y), 1e-6);
-                    ASSERT_EQ(p.lens, nearest(float((x + 0.5 - centre.x) / c), float((y + 0.5 - centre.y) / c)));
+                    ASSERT_EQ(p.lens,
+                              nearest(float((x + 0.5 - centre.x) / c), float((y + 0.5 - centre.y) / c)));
                     sums[p.highlight] += double(p.weight);
                 }
             }
@@ -170,7 +178,8 @@ TEST(LensGatherOfAPoint, KeepsItsEnergyPlaceAndShape) {
                     const double v = double(image.at(red, x, y));
                     sum += v;
                     centroid += v * Imath::V2d(x + 0.5, y + 0.5);
-                    worst = std::max(worst, std::abs(v - 1000 * psf_weight({lamp.place(), std::abs(c), aspect}, x, y)));
+                    worst = std::max(
+                        worst, std::abs(v - 1000 * psf_weight({lamp.place(), std::abs(c), aspect}, x, y)));
                 }
             EXPECT_NEAR(sum, 1000, 1) << c;
             EXPECT_LT((centroid / sum - lamp.place()).length(), 0.01) << c;
@@ -185,13 +194,15 @@ TEST(LensGatherOfAPoint, IsHiddenWhereTheLensPointDoesNotSeeIt) {
         bool left_shines;
     };
     // In focus it hides what lies there; nearer than a lamp that is itself before focus, it moves across it.
-    for (const auto &[coc, coc_before, left_shines] : {Half{20, 0, true}, Half{-10, -20, false}, Half{-20, -30, false}}) {
+    for (const auto &[coc, coc_before, left_shines] :
+         {Half{20, 0, true}, Half{-10, -20, false}, Half{-20, -30, false}}) {
         const int size = 80;
         const Lamp lamp{{39, 40}, 0.5f, 0, coc};
         const Ldi ldi = make_ldi(windows_of_size(size, size), rgba_channels(), [&](int x, int y) {
             std::vector<Sample> samples;
             if (x >= 40) samples.push_back({depth_of(wide, coc_before), {0, 0, 0, 1}});
-            if (Imath::V2i(x, y) == lamp.pixel) samples.push_back({depth_of(wide, coc), {1000, 500, 250, 1}, lamp.dx, lamp.dy});
+            if (Imath::V2i(x, y) == lamp.pixel)
+                samples.push_back({depth_of(wide, coc), {1000, 500, 250, 1}, lamp.dx, lamp.dy});
             return samples;
         });
         const Image image = gather(ldi, wide);

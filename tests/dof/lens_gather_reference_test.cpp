@@ -32,7 +32,9 @@ void PrintTo(const Case &c, std::ostream *out) { *out << c.name; }
 
 constexpr double inf = std::numeric_limits<double>::infinity();
 
-ThinLens lens_of(const Case &c) { return {.radius = 0.06, .focal_px = 640, .focus = 5, .pixel_aspect = c.aspect}; }
+ThinLens lens_of(const Case &c) {
+    return {.radius = 0.06, .focal_px = 640, .focus = 5, .pixel_aspect = c.aspect};
+}
 
 // CoC -7 to 7 px, no two depths alike.
 Ldi random_layers(const Case &c, const ThinLens &lens) {
@@ -43,15 +45,19 @@ Ldi random_layers(const Case &c, const ThinLens &lens) {
         std::vector<Sample> samples;
         const int count = int((c.most_samples + 1) * random_unit(x, y, 1));
         for (int i = 0; i < count; ++i) {
-            const auto random = [&](std::uint32_t k) { return random_unit(x, y, 100 * k + 7 + std::uint32_t(i)); };
+            const auto random = [&](std::uint32_t k) {
+                return random_unit(x, y, 100 * k + 7 + std::uint32_t(i));
+            };
             const double size = c.smallest_coc + (7 - c.smallest_coc) * random(1);
             const bool glows = random(11) < c.glowing;
             const float alpha = glows ? 0 : random(2) < c.partial ? 0.1f + 0.5f * float(random(3)) : 1;
             std::vector<float> values;
             for (std::uint32_t k = 0; k < channels.size(); ++k)
-                values.push_back(channels[k].name == "A" ? alpha : (glows ? 0.2f : alpha) * float(0.5 + 0.5 * random(4 + k)));
-            samples.push_back({depth_of(lens, random(8) < 0.5 ? size : -size), values,
-                               float(random(9) - 0.5), float(random(10) - 0.5)});
+                values.push_back(channels[k].name == "A"
+                                     ? alpha
+                                     : (glows ? 0.2f : alpha) * float(0.5 + 0.5 * random(4 + k)));
+            samples.push_back({depth_of(lens, random(8) < 0.5 ? size : -size), values, float(random(9) - 0.5),
+                               float(random(10) - 0.5)});
         }
         std::sort(samples.begin(), samples.end(), [](const auto &a, const auto &b) { return a.z < b.z; });
         return samples;
@@ -130,7 +136,7 @@ TEST(LensGatherReferenceItself, WhatLiesBehindCoverageCountsByWhatIsLeft) {
 
 TEST(LensGatherReferenceItself, UnknownIsLeftOut) {
     const ThinLens lens{.radius = 0.06, .focal_px = 640, .focus = inf}; // CoC 0 at infinity
-    const double z = 0.06 * 640 / 2;                                   // CoC -2
+    const double z = 0.06 * 640 / 2;                                    // CoC -2
     // The middle of the lens sees what covers the pixel; the point to the left (thrice as likely) sees it moved
     // away, and in its place what half-covers a pixel that the picture has not.
     const LensSample points[] = {{0, 0, 0, 0, 1}, {-1, 0, 0, 0, 3}};

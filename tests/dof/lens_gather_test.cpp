@@ -1,6 +1,5 @@
-#include "dof/lens_gather.h"
-
 #include "dof/ldi_fixture.h"
+#include "dof/lens_gather.h"
 #include "lens/lens_points.h"
 #include "lens/psf.h"
 
@@ -22,7 +21,7 @@ using test::random_unit;
 using test::Sample;
 
 constexpr double inf = std::numeric_limits<double>::infinity();
-const ThinLens lens{.radius = 0.06, .focal_px = 640, .focus = 5};       // CoC up to 7.7 px behind focus
+const ThinLens lens{.radius = 0.06, .focal_px = 640, .focus = 5};        // CoC up to 7.7 px behind focus
 const ThinLens far_focus{.radius = 0.06, .focal_px = 640, .focus = inf}; // the background is sharp
 constexpr double rounding = 1e-5; // of sums over the lens points, in float
 const std::vector<Channel> grey{{"Y"}}, grey_alpha{{"Y"}, {"A"}};
@@ -136,17 +135,22 @@ TEST(LensGather, WithoutBlurIsTheFlattenedPicture) {
         std::vector<Sample> samples;
         const int count = int(4 * random_unit(x, y, 1));
         for (int i = 0; i < count; ++i) {
-            const auto random = [&](std::uint32_t k) { return float(random_unit(x, y, 100 * k + std::uint32_t(i))); };
+            const auto random = [&](std::uint32_t k) {
+                return float(random_unit(x, y, 100 * k + std::uint32_t(i)));
+            };
             const float a = random(2) < 0.3f ? 1 : random(3), lamp = random(4) > 0.98f ? 100 : 1;
-            samples.push_back({5 * (1 + 1e-6 * i),
-                               {a * lamp * random(5), a * random(6), a * random(7), a, std::bit_cast<float>(i + 1)},
-                               random(8) - 0.5f,
-                               random(9) - 0.5f});
+            samples.push_back(
+                {5 * (1 + 1e-6 * i),
+                 {a * lamp * random(5), a * random(6), a * random(7), a, std::bit_cast<float>(i + 1)},
+                 random(8) - 0.5f,
+                 random(9) - 0.5f});
         }
         return samples;
     });
     for (const double radius : {0.06, 1e-9})
-        EXPECT_LT(largest_difference(gather(ldi, {.radius = radius, .focal_px = 640, .focus = 5}), flatten(ldi)), 1e-5);
+        EXPECT_LT(
+            largest_difference(gather(ldi, {.radius = radius, .focal_px = 640, .focus = 5}), flatten(ldi)),
+            1e-5);
 }
 
 TEST(LensGather, GoesOverIntoTheFlattenedPictureAsBlurGoesTo0) {
@@ -157,7 +161,8 @@ TEST(LensGather, GoesOverIntoTheFlattenedPictureAsBlurGoesTo0) {
             for (int i = 0; i < 4; ++i) {
                 const float a = i == 3 ? 1 : float(random_unit(x, y, 10 + std::uint32_t(i)));
                 const double place = c * (-1 + 0.5 * i);
-                samples.push_back({depth_of(lens, place), {a * float(random_unit(x, y, 20 + std::uint32_t(i))), a}});
+                samples.push_back(
+                    {depth_of(lens, place), {a * float(random_unit(x, y, 20 + std::uint32_t(i))), a}});
             }
             return samples;
         });
@@ -224,7 +229,8 @@ TEST(LensGather, ASharpEdgeStaysSharpBeforeWhatIsBlurred) {
 TEST(LensGather, UnknownIsLeftOut) {
     // Behind the sharp strip nothing is known: what shows beside it is as if it went on there.
     const Ldi ldi = make_ldi(windows_of_size(64, 40), grey_alpha, [](int x, int) {
-        return std::vector<Sample>{x >= 24 && x < 40 ? Sample{5, {0.8f, 1}} : Sample{depth_of(lens, 6), {0.1f, 1}}};
+        return std::vector<Sample>{x >= 24 && x < 40 ? Sample{5, {0.8f, 1}}
+                                                     : Sample{depth_of(lens, 6), {0.1f, 1}}};
     });
     const Image image = gather(ldi, lens);
     for (int x = 0; x < 64; ++x) {
@@ -273,7 +279,8 @@ TEST(LensGather, LayersAddUpToTheBeauty) {
     const Image image = gather(ldi, lens);
     for (std::size_t k = 0; k < 3; ++k)
         for (std::size_t i = 0; i < image.windows.pixels(); ++i) {
-            const float beauty = image.plane(k)[i], sum = image.plane(4 + 2 * k)[i] + image.plane(5 + 2 * k)[i];
+            const float beauty = image.plane(k)[i],
+                        sum = image.plane(4 + 2 * k)[i] + image.plane(5 + 2 * k)[i];
             ASSERT_NEAR(sum, beauty, 1e-5f * (1 + std::abs(beauty)));
         }
 }
@@ -328,7 +335,8 @@ TEST(LensGather, TurnedLayersGiveTheTurnedPicture) {
             const int i = turned ? 69 - x : x, j = turned ? 49 - y : y;
             std::vector<Sample> samples{{depth_of(by, 4), {float(texture(i, j))}}};
             if (random_unit(i / 4, j / 6, 2) < 0.3)
-                samples.insert(samples.begin(), {depth_of(by, -3), {float(1 + texture(i, j))}, turned ? -0.3f : 0.3f, 0});
+                samples.insert(samples.begin(),
+                               {depth_of(by, -3), {float(1 + texture(i, j))}, turned ? -0.3f : 0.3f, 0});
             return samples;
         });
     };
@@ -344,7 +352,8 @@ TEST(LensGather, OneSampleFarOutOfFocusHarmsNothing) {
         return make_ldi(windows_of_size(100, 70), rgba_channels(), [huge](int x, int y) {
             const float v = float(texture(x, y));
             std::vector<Sample> samples{{depth_of(lens, 2), {v, v, v, 1}}};
-            if (huge && x == 50 && y == 30) samples.insert(samples.begin(), {1e-7, {1, 1, 1, 1}}); // CoC 4e8 px
+            if (huge && x == 50 && y == 30)
+                samples.insert(samples.begin(), {1e-7, {1, 1, 1, 1}}); // CoC 4e8 px
             return samples;
         });
     };
@@ -361,7 +370,8 @@ TEST(LensGather, TakesTheSmallestPictures) {
         const float expected[] = {0.25f, 0.5f, 1, 1};
         for (std::size_t k = 0; k < 4; ++k) EXPECT_EQ(image.at(k, 0, 0), count ? expected[k] : 0) << k;
     }
-    const Ldi empty = make_ldi(windows_of_size(100, 3), rgba_channels(), [](int, int) { return std::vector<Sample>{}; });
+    const Ldi empty =
+        make_ldi(windows_of_size(100, 3), rgba_channels(), [](int, int) { return std::vector<Sample>{}; });
     for (const float v : gather(empty, lens).values) EXPECT_EQ(v, 0);
     const Ldi none{windows_of_size(5, 5), {}, std::vector<std::uint64_t>(26), {}, {}, {}, {}, {}, {}};
     EXPECT_TRUE(gather(none, lens).values.empty());

@@ -1,6 +1,5 @@
-#include "dof/sample_blocks.h"
-
 #include "dof/ldi_fixture.h"
+#include "dof/sample_blocks.h"
 
 #include <gtest/gtest.h>
 
@@ -68,14 +67,16 @@ TEST(SampleBlocks, FollowEachOtherAndBoundWhatTheyHold) {
 
 TEST(SampleBlocks, KnowTheBackgroundWhereLightComesThrough) {
     // Nothing; half; all but nothing; all, by several; all; all but what half rounds away.
-    const std::vector<std::vector<float>> alphas{{}, {0.5f}, {0.5f, 0.9f}, {0.99f, 0.99f}, {0.3f, 1}, {0.99999f}};
+    const std::vector<std::vector<float>> alphas{{},        {0.5f},    {0.5f, 0.9f}, {0.99f, 0.99f},
+                                                 {0.3f, 1}, {0.99999f}};
     Windows windows = windows_of_size(int(alphas.size()), 2);
     const Ldi ldi = make_ldi(windows, {{"A"}}, [&](int x, int) {
         std::vector<Sample> samples;
         for (const float a : alphas[std::size_t(x)]) samples.push_back({double(samples.size() + 1), {a}});
         return samples;
     });
-    const BlockedSamples samples = make_blocks(ldi, lens, {{0, 0}, {5, 0}}); // of the second row nothing is known
+    const BlockedSamples samples =
+        make_blocks(ldi, lens, {{0, 0}, {5, 0}}); // of the second row nothing is known
     std::set<float> clear;
     for (std::size_t i = 0; i < samples.count(); ++i) {
         if (!is_background(samples, i)) continue;
@@ -112,12 +113,16 @@ TEST(SampleBlocks, KeysGoByDepth) {
 }
 
 TEST(SampleBlocks, BackgroundsLieBehindWhatIsAtInfinity) {
-    const Ldi ldi = make_ldi(windows_of_size(20, 20), {{"A"}}, [](int, int) { return std::vector<Sample>{{inf, {0.5f}}}; });
+    const Ldi ldi = make_ldi(windows_of_size(20, 20), {{"A"}}, [](int, int) {
+        return std::vector<Sample>{{inf, {0.5f}}};
+    });
     const BlockedSamples samples = make_blocks(ldi, lens, ldi.windows.data);
     std::uint64_t farthest_sample = ~std::uint64_t(0), nearest_background = 0;
     for (std::size_t i = 0; i < samples.count(); ++i) {
-        if (is_background(samples, i)) nearest_background = std::max(nearest_background, samples.key[i]);
-        else farthest_sample = std::min(farthest_sample, samples.key[i]);
+        if (is_background(samples, i))
+            nearest_background = std::max(nearest_background, samples.key[i]);
+        else
+            farthest_sample = std::min(farthest_sample, samples.key[i]);
     }
     EXPECT_LT(nearest_background, farthest_sample);
 }

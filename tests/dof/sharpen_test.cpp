@@ -1,8 +1,7 @@
-#include "dof/sharpen.h"
-
 #include "dof/blocked_fixture.h"
 #include "dof/ldi_fixture.h"
 #include "dof/lens_gather.h"
+#include "dof/sharpen.h"
 
 #include <gtest/gtest.h>
 
@@ -21,7 +20,8 @@ using test::Sample;
 const ThinLens lens{.radius = 0.06, .focal_px = 640, .focus = 5};
 
 // A plane of CoC c that faces the camera; R, G and B are v, v / 2 and v / 4.
-Ldi plane(double c, const std::function<double(int x, int y)> &value, std::vector<Channel> channels = rgba_channels()) {
+Ldi plane(double c, const std::function<double(int x, int y)> &value,
+          std::vector<Channel> channels = rgba_channels()) {
     return make_ldi(windows_of_size(64, 64), channels, [&](int x, int y) {
         const float v = float(value(x, y));
         return std::vector<Sample>{{depth_of(lens, c), {v, v / 2, v / 4, 1}}};
@@ -35,7 +35,8 @@ double change(const Ldi &ldi, std::size_t channel = 0) {
     sharpen_near_focus(ldi, lens, blocked.samples, blocked.colours);
     double largest = 0;
     for (std::size_t i = 0; i < before.count; ++i)
-        largest = std::max(largest, std::abs(double(blocked.colours.at(channel, i)) - double(before.at(channel, i))));
+        largest = std::max(largest,
+                           std::abs(double(blocked.colours.at(channel, i)) - double(before.at(channel, i))));
     return largest;
 }
 
@@ -67,7 +68,8 @@ TEST(Sharpen, RestoresWhatInterpolationBlurs) {
     const double w = 2 * std::numbers::pi / 6;
     for (const double c : {0.4, 0.8, 1.3, -1.3}) {
         const auto amplitude_in = [&](const std::vector<Channel> &channels) {
-            const Ldi ldi = plane(c, [&](int x, int y) { return 0.5 + 0.4 * std::sin(w * x + w * y); }, channels);
+            const Ldi ldi = plane(
+                c, [&](int x, int y) { return 0.5 + 0.4 * std::sin(w * x + w * y); }, channels);
             Progress silent;
             const Image image = lens_gather(ldi, lens, ldi.windows.data, {.lens_samples = 1024}, silent);
             double sum = 0;
@@ -76,7 +78,8 @@ TEST(Sharpen, RestoresWhatInterpolationBlurs) {
             return 2 * sum / (48 * 48);
         };
         const double r = std::sqrt(2) * w * std::abs(c), expected = 0.4 * 2 * std::cyl_bessel_j(1, r) / r;
-        const double plain = amplitude_in({{"X"}, {"Y"}, {"Z1"}, {"A"}}), sharpened = amplitude_in(rgba_channels());
+        const double plain = amplitude_in({{"X"}, {"Y"}, {"Z1"}, {"A"}}),
+                     sharpened = amplitude_in(rgba_channels());
         EXPECT_LT(plain, expected) << c;
         EXPECT_LT(std::abs(sharpened - expected), 0.35 * (expected - plain)) << c;
     }
@@ -91,14 +94,17 @@ TEST(Sharpen, LeavesNoiseAlone) {
     double squares = 0;
     for (std::size_t i = 0; i < before.count; ++i)
         squares += std::pow(double(blocked.colours.at(0, i)) - double(before.at(0, i)), 2);
-    EXPECT_LT(std::sqrt(squares / double(before.count)), 0.05 * 0.1 / std::sqrt(12)); // of the noise's deviation
+    EXPECT_LT(std::sqrt(squares / double(before.count)),
+              0.05 * 0.1 / std::sqrt(12)); // of the noise's deviation
     // An edge between noisy areas is no noise.
     const auto edge = [&](int x, int y) { return noise(x, y) + (x < 32 ? 0 : 2); };
     EXPECT_GT(change(plane(1, edge)), 0.1);
 }
 
 TEST(Sharpen, NeverMakesLightNegative) {
-    const auto lamps = [](int x, int y) { return random_unit(x, y, 1) > 0.9 ? 100 * random_unit(x, y, 2) : 0.01 * random_unit(x, y, 3); };
+    const auto lamps = [](int x, int y) {
+        return random_unit(x, y, 1) > 0.9 ? 100 * random_unit(x, y, 2) : 0.01 * random_unit(x, y, 3);
+    };
     const Ldi ldi = plane(0.8, lamps);
     Blocked blocked(ldi, lens);
     sharpen_near_focus(ldi, lens, blocked.samples, blocked.colours);
@@ -124,7 +130,8 @@ TEST(Sharpen, ChangesAllLayersByTheSameWeightsAndNeitherCoverageNorIds) {
         ASSERT_EQ(blocked.colours.at(4, i), blocked.colours.at(0, i));
         ASSERT_NEAR(blocked.colours.at(5, i) + blocked.colours.at(0, i), 1, 1e-6);
         ASSERT_EQ(blocked.colours.at(3, i), 0.9f);
-        ASSERT_EQ(std::bit_cast<std::uint32_t>(blocked.colours.at(6, i)), std::bit_cast<std::uint32_t>(before.at(6, i)));
+        ASSERT_EQ(std::bit_cast<std::uint32_t>(blocked.colours.at(6, i)),
+                  std::bit_cast<std::uint32_t>(before.at(6, i)));
     }
 }
 

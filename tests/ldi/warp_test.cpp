@@ -176,7 +176,8 @@ public:
             std::vector<ReprojectedSample> samples;
             Reprojection(ldi, view.position, focal_px).append_rows(-1000, 1000, samples);
             for (const ReprojectedSample &s : samples)
-                landed_[{s.x, s.y}].push_back({focal_px * radius * double(s.inverse_z), ldi.values[0][s.source]});
+                landed_[{s.x, s.y}].push_back(
+                    {focal_px * radius * double(s.inverse_z), ldi.values[0][s.source]});
         }
     }
     const std::vector<Witness> &at(int x, int y) { return landed_[{x, y}]; }

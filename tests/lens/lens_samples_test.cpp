@@ -29,7 +29,8 @@ Means means_of(const std::vector<LensSample> &samples, double pixel_aspect) {
         means.pixel_x += w * double(s.pixel_x);
         means.pixel_y += w * double(s.pixel_y);
     }
-    for (double *mean : {&means.x, &means.y, &means.xx, &means.yy, &means.pixel_x, &means.pixel_y}) *mean /= total;
+    for (double *mean : {&means.x, &means.y, &means.xx, &means.yy, &means.pixel_x, &means.pixel_y})
+        *mean /= total;
     return means;
 }
 
@@ -82,7 +83,8 @@ TEST(LensSamples, AreEvenInArea) {
             const double angle = k * std::numbers::pi / 12, x = std::cos(angle), y = std::sin(angle);
             const auto beyond = std::ranges::count_if(
                 samples, [&](const LensSample &s) { return x * double(s.x) + y * double(s.y) > distance; });
-            const double share = (std::acos(distance) - distance * std::sqrt(1 - distance * distance)) / std::numbers::pi;
+            const double share =
+                (std::acos(distance) - distance * std::sqrt(1 - distance * distance)) / std::numbers::pi;
             EXPECT_NEAR(double(beyond) / n, share, 0.02) << k << ' ' << distance;
         }
 }
@@ -92,7 +94,8 @@ TEST(LensSamples, AreEvenInArea) {
 TEST(LensSamples, AreEvenOverLensAndPixelAtOnce) {
     constexpr std::size_t n = 1024;
     int count[2][2][2][2] = {};
-    for (const LensSample &s : disc_lens_samples(n, 1)) ++count[s.x > 0][s.y > 0][s.pixel_x > 0][s.pixel_y > 0];
+    for (const LensSample &s : disc_lens_samples(n, 1))
+        ++count[s.x > 0][s.y > 0][s.pixel_x > 0][s.pixel_y > 0];
     for (int i = 0; i < 16; ++i)
         EXPECT_NEAR(count[i & 1][i >> 1 & 1][i >> 2 & 1][i >> 3], n / 16.0, 0.15 * n / 16) << i;
 }

@@ -29,7 +29,8 @@ View TracedScene::view(const Imath::V2d &u, int samples, std::uint32_t stream) c
 
 std::vector<View> TracedScene::five_views(int samples) const {
     std::vector<View> views{view({0, 0}, samples, 0)};
-    for (const Imath::V2d &u : rim_lens_points(4)) views.push_back(view(u, samples, std::uint32_t(views.size())));
+    for (const Imath::V2d &u : rim_lens_points(4))
+        views.push_back(view(u, samples, std::uint32_t(views.size())));
     return views;
 }
 

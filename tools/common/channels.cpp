@@ -38,7 +38,7 @@ void keep_channels(Ldi &ldi, const std::string &list) {
     const std::vector<bool> keep = chosen(ldi.channels, list);
     std::size_t kept = 0;
     for (std::size_t k = 0; k < keep.size(); ++k) {
-        if (!keep[k] && ldi.channels[k].name != "A") continue;
+        if (!keep[k] && !names("rgba", ldi.channels[k].name)) continue;
         std::swap(ldi.channels[kept], ldi.channels[k]);
         std::swap(ldi.values[kept++], ldi.values[k]);
     }

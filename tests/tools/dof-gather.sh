@@ -1,0 +1,177 @@
+#!/bin/bash
+# dof-gather from the shell: what it writes, what each option changes, and how it fails.
+. "$(dirname "$0")/check.sh"
+. "$source_dir/tests/tools/deep.sh"
+gather=$bin/dof-gather
+answers_help dof-gather in.exr -o out.exr
+
+# The centre view with a further layer, so that layers can be told apart.
+layered() { oiiotool "$1" --ch R,G,B,A,Z,copy.R=R,copy.G=G -d half -d Z=float -o "$2"; }
+layered views/center.exr center.exr
+for i in 0 1 2 3; do layered views/view_$i.exr view_$i.exr; done
+exits 0 "$bin/ldi-warp" center.exr view_?.exr -o ldi.exr
+exits 0 "$bin/ldi-warp" center.exr view_?.exr --merge keep -o keep.exr
+oiiotool ldi.exr --eraseattrib focus --eraseattrib FNumber --eraseattrib 'pinhole.*' \
+    --eraseattrib 'sparselens:[^d].*' -o nolens.exr
+
+# What it writes: the centre view's windows, its channels as half, the camera; no depth.
+exits 0 "$gather" ldi.exr -o out.exr
+[ ! -s stdout ] && [ ! -s stderr ] || fail "talks: $(cat stdout stderr)"
+says out.exr '^type .*"scanlineimage"'
+says out.exr '^dataWindow .*\(0 0\) - \(95 53\)'
+says out.exr '^displayWindow .*\(0 0\) - \(95 53\)'
+for channel in R G B A copy.R copy.G; do says out.exr "^ +$channel, 16-bit floating-point"; done
+says out.exr '^focus .*: 5$'
+if exrheader out.exr | grep -q '^ *Z,'; then fail "a gathered picture has a depth"; fi
+
+# A lens of no radius gives the flattened LDI, bit for bit, and needs no other value.
+exits 0 "$gather" keep.exr -o pinhole.exr --lens-radius 0
+same_pixels pinhole.exr center.exr "--lens-radius 0"
+exits 0 "$gather" keep.exr -o pinhole.exr --fstop inf
+same_pixels pinhole.exr center.exr "--fstop inf"
+exits 0 "$gather" nolens.exr -o pinhole.exr --lens-radius 0
+oiiotool nolens.exr --flatten --crop 96x54+0+0 -o flat.exr
+same_pixels pinhole.exr flat.exr "averaged, --lens-radius 0"
+exits 0 "$gather" center.exr -o pinhole.exr --lens-radius 0
+same_pixels pinhole.exr center.exr "a flat picture"
+
+# changes OPTIONS...: they give another picture than without.
+changes() {
+    exits 0 "$gather" ldi.exr -o changed.exr "$@"
+    differ changed.exr out.exr "$*"
+}
+changes --method selective
+changes --method scatter
+changes --focus-distance 3
+changes --focus-distance inf
+changes --fstop 1
+changes --lens-radius 0.03
+changes --focal-length 50
+changes --sensor-width 24
+changes --scene-unit 2
+changes --quality draft
+changes --lens-samples 7
+exits 0 "$gather" ldi.exr -o lens.exr --method lens --quality normal --lens-samples 0
+same lens.exr out.exr "the defaults"
+exits 0 "$gather" ldi.exr -o k4.exr --method selective
+exits 0 "$gather" ldi.exr -o k1.exr --method selective --layers 1
+differ k1.exr k4.exr "--layers"
+for text in '--method magic' '--quality best' '--layers 0' '--layers x' '--lens-samples -1' '-d double' \
+    '--focus-pixel 1' '--focus-pixel 1.5,2' '--focus-pixel a,b' '--channels nothing'; do
+    # shellcheck disable=SC2086
+    fails_saying 2 "[-][-]?${text#--}|${text%% *}" "$gather" ldi.exr -o x.exr $text
+done
+
+# A wider lens than the views stood on is a warning, in one line.
+exits 0 "$gather" ldi.exr -o wide.exr --lens-radius 0.09
+grep -q '^dof-gather: warning: the lens is wider' stderr && [ "$(wc -l <stderr)" -eq 1 ] || fail "no warning: $(cat stderr)"
+
+# --focus-pixel takes the depth of what is in front there.
+exits 0 "$gather" ldi.exr -o pixel.exr --focus-pixel 1,0 --depth-out depth.exr
+exits 0 "$gather" ldi.exr -o distance.exr --focus-distance 18
+same pixel.exr distance.exr "--focus-pixel on the wall"
+differ pixel.exr out.exr "--focus-pixel"
+fails_saying 2 '--focus-pixel' "$gather" ldi.exr -o x.exr --focus-pixel 1000,1000
+fails_saying 2 '--focus-pixel' "$gather" ldi.exr -o x.exr --focus-pixel -1000,-1
+fails_saying 2 '--focus-distance' "$gather" ldi.exr -o x.exr --focus-pixel 1,0 --focus-distance 3
+
+# --depth-out: the depth of the front, as float.
+exits 0 "$gather" keep.exr -o x.exr --depth-out depth.exr
+says depth.exr '^ +Z, 32-bit floating-point'
+oiiotool views/center.exr --ch Z -o z.exr
+idiff -q -fail 0 -warn 0 depth.exr z.exr || fail "--depth-out is not the centre view's depth"
+fails_saying 2 '--depth-out' "$gather" keep.exr -o x.exr --depth-out x.exr
+rm x.exr
+
+# --channels: names, layers, rgba; what is left is as it was.
+names() { exrheader "$1" | sed -nE 's/^ +([A-Za-z.]+), (16|32)-bit.*/\1/p' | tr '\n' ' '; }
+chosen() { # LIST NAMES
+    exits 0 "$gather" ldi.exr -o chosen.exr --channels "$1"
+    [ "$(names chosen.exr)" = "$2 " ] || fail "--channels $1 gives $(names chosen.exr)"
+}
+chosen rgba "A B G R"
+same_pixels chosen.exr out.exr "--channels rgba"
+chosen copy "copy.G copy.R"
+chosen R,copy.G "R copy.G"
+oiiotool out.exr --ch R,copy.G -o a.exr
+idiff -q -fail 0 -warn 0 a.exr chosen.exr || fail "--channels changes what is left"
+chosen A A
+fails_saying 2 "'depth'" "$gather" ldi.exr -o x.exr --channels R,depth
+
+# A layer is gathered as the colours are.
+oiiotool out.exr --ch copy.R,copy.G --chnames R,G -o a.exr
+oiiotool out.exr --ch R,G -o b.exr
+idiff -q -fail 0 -warn 0 a.exr b.exr || fail "a copy of red is not gathered as red is"
+
+# -d float is what -d half was rounded from.
+exits 0 "$gather" ldi.exr -o float.exr -d float
+says float.exr '^ +R, 32-bit floating-point'
+oiiotool float.exr -d half -o rounded.exr
+same_pixels rounded.exr out.exr "-d float, rounded"
+if idiff -q -fail 0 -warn 0 float.exr out.exr >idiff.txt; then fail "-d float changes nothing"; fi
+exits 0 "$gather" ldi.exr -o half.exr -d half
+same half.exr out.exr "-d half is the default"
+
+# Threads do not matter, whatever the method; -v changes no picture.
+for method in lens selective scatter; do
+    exits 0 "$gather" ldi.exr -o one.exr --threads 1 --method $method
+    exits 0 "$gather" ldi.exr -o two.exr --threads 2 --method $method -v
+    same one.exr two.exr "$method with 1 thread and with 2"
+done
+
+# Each lens value: the option, else the metadata, else an error that names the option.
+lens=(--focal-length 36 --sensor-width 36 --fstop 0.3 --focus-distance 5 --scene-unit 1)
+exits 0 "$gather" nolens.exr -o options.exr "${lens[@]}"
+same_pixels options.exr out.exr "lens by options and by metadata"
+without() {
+    local left=() i
+    for ((i = 0; i < ${#lens[@]}; i += 2)); do
+        [ "${lens[i]}" = "$1" ] || left+=("${lens[i]}" "${lens[i + 1]}")
+    done
+    fails_saying 2 "give $1" "$gather" nolens.exr -o x.exr "${left[@]}"
+}
+for option in --focal-length --sensor-width --fstop --focus-distance; do without $option; done
+refuses_wrong_lenses "$gather" ldi.exr -o x.exr
+
+# What the depth channel holds, and which it is.
+for z in 4 0.25; do
+    oiiotool --pattern constant:color=0.5,0.5,0.5,1,$z 5x5 5 --chnames R,G,B,A,Z -d float -o z$z.exr
+done
+exits 0 "$gather" z4.exr -o x.exr --lens-radius 0 --depth-out planar.exr
+exits 0 "$gather" z0.25.exr -o x.exr --lens-radius 0 --depth-out inverse.exr --depth inverse
+idiff -q -fail 0 -warn 0 planar.exr inverse.exr || fail "--depth inverse"
+exits 0 "$gather" z4.exr -o x.exr --lens-radius 0 --depth-out distance.exr --depth distance \
+    --focal-length 36 --sensor-width 36
+if idiff -q -fail 0 -warn 0 planar.exr distance.exr >idiff.txt; then fail "--depth distance changes nothing"; fi
+oiiotool z4.exr --chnames R,G,B,A,far.away -o named.exr
+exits 0 "$gather" named.exr -o x.exr --lens-radius 0 --depth-out by_name.exr --depth-channel far.away
+idiff -q -fail 0 -warn 0 planar.exr by_name.exr || fail "--depth-channel"
+fails_saying 1 'named.exr.*--depth-channel' "$gather" named.exr -o x.exr --lens-radius 0
+oiiotool z4.exr --ch R,G,B,A,Z=-1 -o behind.exr
+oiiotool z4.exr --mulc 1,1,1,1,-1 -o behind.exr
+fails_saying 1 'behind.exr: depth -4.* in pixel 0,0' "$gather" behind.exr -o x.exr --lens-radius 0
+rm x.exr
+
+# Standard input and output, all three tools; odd names; output equal to input.
+"$gather" - -o - <ldi.exr | cat >piped.exr
+same piped.exr out.exr "through a pipe"
+exits 0 "$bin/ldi-cluster" ldi.exr -o clustered.exr
+exits 0 "$gather" clustered.exr -o chain.exr
+"$bin/ldi-warp" center.exr view_?.exr -o - | "$bin/ldi-cluster" - -o - | "$gather" - -o piped.exr
+same piped.exr chain.exr "the chain in a pipe"
+cp ldi.exr ./"-it's \"odd\".exr"
+exits 0 "$gather" -o "out put.exr" -- "-it's \"odd\".exr"
+same "out put.exr" out.exr "odd names"
+cp ldi.exr same.exr
+exits 0 "$gather" same.exr -o same.exr
+same same.exr out.exr "output equal to input"
+
+# Failures: one line, exit 1, the old output as it was.
+fails_saying 1 'missing.exr: cannot open: No such file' "$gather" missing.exr -o x.exr
+fails_saying 1 'no/such/x.exr: cannot write: No such file' "$gather" ldi.exr -o no/such/x.exr
+head -c 9000 ldi.exr >cut.exr
+fails_saying 1 'cut.exr' "$gather" cut.exr -o x.exr
+[ ! -e x.exr ] || fail "a failure wrote x.exr"
+survives_failure "$gather" cut.exr
+fails_saying 2 '--output' "$gather" ldi.exr
+fails_saying 2 'input' "$gather" -o x.exr

@@ -1,0 +1,147 @@
+#!/bin/bash
+# ldi-warp from the shell: what it writes, what each option changes, and how it fails.
+. "$(dirname "$0")/check.sh"
+. "$source_dir/tests/tools/deep.sh"
+warp=$bin/ldi-warp
+center=views/center.exr
+
+answers_help ldi-warp $center -o out.exr
+
+# What it writes, everybody reads.
+exits 0 "$warp" $center "${rim[@]}" -o average.exr
+[ ! -s stdout ] && [ ! -s stderr ] || fail "talks: $(cat stdout stderr)"
+exits 0 oiiotool --info -v average.exr
+grep -q 'deep' stdout || fail "oiiotool sees no deep picture: $(cat stdout)"
+says average.exr '^type .*"deepscanline"'
+says average.exr '^compression .*zip, individual'
+says average.exr '^ +Z, 32-bit floating-point'
+for channel in R G B A ldi.dx ldi.dy ldi.weight; do says average.exr "^ +$channel, 16-bit floating-point"; done
+says average.exr '^focus .*: 5$'
+says average.exr '^aperture .*: 0.3$'
+says average.exr '^worldToCamera'
+says average.exr '^sparselens:lensPoints .*"0,0 0\.0[56][0-9]*,0 [^ ]* -0\.0[56][^ ]* [^ ]*"$'
+says average.exr '^displayWindow .*\(0 0\) - \(95 53\)'
+
+# --merge keep: flattened by any tool it is the centre view; --merge average is another picture.
+exits 0 "$warp" $center "${rim[@]}" -o keep.exr --merge keep
+oiiotool keep.exr --flatten -o flat.exr
+same_pixels flat.exr $center "a kept LDI flattens to the centre view"
+says keep.exr '^dataWindow .*\(0 0\) - \(95 53\)'
+exits 0 "$warp" $center "${rim[@]}" -o default.exr --merge average
+same default.exr average.exr "average is the default"
+differ keep.exr average.exr "--merge"
+fails_saying 2 '--merge' "$warp" $center -o x.exr --merge both
+
+# One view is an LDI too, and needs no lens.
+oiiotool $center --eraseattrib '.*' -o bare.exr
+exits 0 "$warp" bare.exr -o one.exr
+oiiotool one.exr --flatten -o flat.exr
+same_pixels flat.exr $center "the LDI of one view flattens to it"
+
+# --view says where a camera stood, before or after the others; any number of views, in any order.
+placed=(--view -0.06,0 views/view_2.exr)
+exits 0 "$warp" $center views/view_0.exr -o by_metadata.exr
+exits 0 "$warp" $center "${placed[@]}" -o after.exr
+exits 0 "$warp" "${placed[@]}" $center -o before.exr
+exits 0 "$warp" -o between.exr "${placed[@]}" -- $center
+same after.exr before.exr "--view after and before the centre view"
+same after.exr between.exr "--view before --"
+exits 0 "$warp" $center --view 0.0599999987,0 views/view_0.exr -o exactly.exr # as float keeps it
+same_samples exactly.exr by_metadata.exr "a camera placed by hand and one by its metadata"
+exits 0 "$warp" $center --view 0.06,0 views/view_2.exr -o elsewhere.exr
+differ after.exr elsewhere.exr "--view X"
+exits 0 "$warp" $center --view 0,0.06 "${rim[1]}" --view -0.06,0 "${rim[2]}" -o two.exr
+exits 0 "$warp" $center --view -0.06,0 "${rim[2]}" --view 0,0.06 "${rim[1]}" -o two_turned.exr
+same_samples two.exr two_turned.exr "the order of views"
+for text in abc 1 1, ,1 1,2,3 nan,0 0,inf; do fails_saying 2 "--view.*$text" "$warp" $center --view "$text" "${rim[0]}" -o x.exr; done
+oiiotool "${rim[0]}" --eraseattrib worldToCamera -o lost.exr
+fails_saying 2 'lost.exr.*--view' "$warp" $center lost.exr -o x.exr
+
+# Threads do not matter; what is said is said on stderr.
+exits 0 "$warp" $center "${rim[@]}" -o one_thread.exr --threads 1
+exits 0 "$warp" $center "${rim[@]}" -o two_threads.exr --threads 2
+same one_thread.exr average.exr "1 thread"
+same two_threads.exr average.exr "2 threads"
+exits 0 "$warp" $center "${rim[@]}" -o verbose.exr -v
+grep -Eq '^ldi-warp: 5 views, [0-9]+ samples' stderr || fail "-v says nothing: $(cat stderr)"
+same verbose.exr average.exr "-v"
+
+# Every lens option changes the LDI or what it says.
+lens=(--focal-length 36 --sensor-width 36 --lens-radius 0.06 --focus-distance 5 --scene-unit 1)
+oiiotool $center --eraseattrib focus --eraseattrib FNumber --eraseattrib 'pinhole.*' \
+    --eraseattrib 'sparselens:.*' -o nolens.exr
+exits 0 "$warp" nolens.exr "${placed[@]}" "${lens[@]}" -o lens.exr
+changed() { # OPTION VALUE: instead of the one above
+    local arguments=() i
+    for ((i = 0; i < ${#lens[@]}; i += 2)); do
+        if [ "${lens[i]}" = "$1" ]; then arguments+=("$1" "$2"); else arguments+=("${lens[i]}" "${lens[i + 1]}"); fi
+    done
+    exits 0 "$warp" nolens.exr "${placed[@]}" "${arguments[@]}" -o changed.exr
+}
+changed --focal-length 30
+differ_samples lens.exr changed.exr --focal-length
+says changed.exr '^pinholeFocalLength .*: 30$'
+changed --sensor-width 30
+differ_samples lens.exr changed.exr --sensor-width
+changed --lens-radius 3
+differ_samples lens.exr changed.exr --lens-radius
+changed --focus-distance 7
+says changed.exr '^focus .*: 7$'
+changed --scene-unit 0.1
+says changed.exr '^focus .*: 0.5$'
+exits 0 "$warp" nolens.exr "${placed[@]}" --focal-length 36 --sensor-width 36 --fstop 0.3 --focus-distance 5 --scene-unit 1 -o fstop.exr
+same lens.exr fstop.exr "f/0.3 of 36 mm is a radius of 0.06 m"
+fails_saying 2 '--focal-length' "$warp" nolens.exr "${placed[@]}" --sensor-width 36 -o x.exr
+fails_saying 2 '--sensor-width' "$warp" nolens.exr "${placed[@]}" --focal-length 36 -o x.exr
+refuses_wrong_lenses "$warp" $center -o x.exr
+
+# What depth channels hold, and which they are.
+for z in 4 0.25; do
+    oiiotool --pattern constant:color=0.5,0.5,0.5,1,$z 3x3 5 --chnames R,G,B,A,Z -d float -o z$z.exr
+done
+exits 0 "$warp" z4.exr -o planar.exr
+exits 0 "$warp" z0.25.exr -o inverse.exr --depth inverse
+same_samples planar.exr inverse.exr "--depth inverse"
+exits 0 "$warp" z4.exr -o distance.exr --depth distance --focal-length 36 --sensor-width 36
+exits 0 "$warp" z4.exr -o lens_only.exr --focal-length 36 --sensor-width 36
+differ_samples distance.exr lens_only.exr "--depth distance"
+fails_saying 2 '--focal-length' "$warp" z4.exr -o x.exr --depth distance
+oiiotool z4.exr --chnames R,G,B,A,far.away -o named.exr
+exits 0 "$warp" named.exr -o by_name.exr --depth-channel far.away
+same_samples planar.exr by_name.exr "--depth-channel"
+fails_saying 1 'named.exr.*--depth-channel' "$warp" named.exr -o x.exr
+fails_saying 1 'z4.exr.*far.away' "$warp" z4.exr -o x.exr --depth-channel far.away
+
+# Standard input and output.
+"$warp" - "${rim[@]}" -o - <$center >piped.exr || fail "through a pipe"
+same piped.exr average.exr "through a pipe"
+"$warp" $center --view -0.06,0 - -o - <views/view_2.exr | cat >piped.exr
+same piped.exr after.exr "a rim view through a pipe"
+
+# Names are names.
+cp $center "it's a \"centre\" view.exr"
+cp $center ./-dash.exr
+exits 0 "$warp" "it's a \"centre\" view.exr" -o "out put.exr"
+exits 0 "$warp" -o ./-out.exr -- -dash.exr
+same "out put.exr" ./-out.exr "odd names"
+
+# The output may be an input.
+cp $center same.exr
+exits 0 "$warp" same.exr "${rim[@]}" -o same.exr
+same same.exr average.exr "output equal to input"
+
+# Failures: one line, exit 1, the old output as it was.
+fails_saying 1 'missing.exr: cannot open: No such file' "$warp" missing.exr -o x.exr
+fails_saying 1 'no/such/folder/x.exr: cannot write: No such file' "$warp" $center -o no/such/folder/x.exr
+fails_saying 1 'views: is a folder' "$warp" views -o x.exr
+head -c 3000 $center >cut.exr
+fails_saying 1 'cut.exr' "$warp" cut.exr -o x.exr
+oiiotool $center --fullsize 90x54 -o narrow.exr
+fails_saying 1 'narrow.exr: its display window differs' "$warp" $center --view 0.06,0 narrow.exr -o x.exr
+oiiotool $center --ch R,G,A,Z -o poor.exr
+fails_saying 1 'poor.exr: has no channel B' "$warp" $center --view 0.06,0 poor.exr -o x.exr
+[ ! -e x.exr ] || fail "a failure wrote x.exr"
+survives_failure "$warp" cut.exr
+survives_failure "$warp" $center --view 0.06,0 narrow.exr
+fails_saying 2 '--output' "$warp" $center
+fails_saying 2 'views|CENTER' "$warp" -o x.exr
