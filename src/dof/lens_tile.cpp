@@ -49,9 +49,7 @@ LensTile::LensTile(const BlockedSamples &samples, const SampleColours &colours, 
 float LensTile::value(int x, int y, std::size_t channel) const {
     const std::size_t pixel = std::size_t(y * size + x),
                       at = (channel / 4 * size * size + pixel) * 4 + channel % 4;
-    const float known = total_ - unknown_[pixel];
-    // What rounding leaves of a weight is no knowledge.
-    return (known > 1e-6f * total_ ? sums_[at] / known : 0) + spread_[at];
+    return (known(x, y) ? sums_[at] / known_weight(x, y) : 0) + spread_[at];
 }
 
 void LensTile::gather(const Imath::V2i &origin, std::span<const std::uint32_t> blocks,
