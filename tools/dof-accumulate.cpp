@@ -4,6 +4,7 @@
 #include "common/lens_view_files.h"
 #include "common/picture_options.h"
 #include "common/tool.h"
+#include "common/words.h"
 #include "dof/accumulate.h"
 #include "io/camera_metadata.h"
 
@@ -31,7 +32,7 @@ void add_options(CLI::App &app, Options &options) {
            "What lies outside a view's data window: unknown (the view does not count there; the default) "
            "or transparent (black, inside the display window)")
         ->type_name("WHAT")
-        ->transform(CLI::CheckedTransformer(outside));
+        ->transform(words(outside));
     add_lens_options(app, options.lens);
 }
 

@@ -6,6 +6,7 @@
 #include "common/picture_options.h"
 #include "common/pictures.h"
 #include "common/tool.h"
+#include "common/words.h"
 #include "dof/methods.h"
 #include "io/camera_metadata.h"
 #include "io/exr_flat.h"
@@ -39,7 +40,7 @@ void add_options(CLI::App &app, Options &options) {
         {"draft", Quality::draft}, {"normal", Quality::normal}, {"final", Quality::final}};
     app.add_option("--quality", options.gather.lens.quality, "Error against time (lens; normal)")
         ->type_name("draft|normal|final")
-        ->transform(CLI::CheckedTransformer(qualities));
+        ->transform(words(qualities));
     app.add_option("--lens-samples", options.gather.lens.lens_samples,
                    "Lens points everywhere (lens), 0 = by the quality and what the picture needs")
         ->type_name("N")

@@ -3,6 +3,7 @@
 #include "common/pictures.h"
 #include "common/tool.h"
 #include "common/view_list.h"
+#include "common/words.h"
 #include "io/camera_metadata.h"
 #include "ldi/warp.h"
 
@@ -32,12 +33,12 @@ void add_options(CLI::App &app, Options &options) {
                    "average: views of one surface are averaged; keep: one sample a surface, the centre view "
                    "unchanged")
         ->type_name("average|keep")
-        ->transform(CLI::CheckedTransformer(merges));
+        ->transform(words(merges));
     const std::map<std::string, bool> silhouettes{{"split", true}, {"whole", false}};
     app.add_option("--silhouettes", options.split_silhouettes,
                    "split: pixels that mix two surfaces become two samples (average); whole: they stay one")
         ->type_name("split|whole")
-        ->transform(CLI::CheckedTransformer(silhouettes));
+        ->transform(words(silhouettes));
     add_lens_options(app, options.lens);
     add_depth_options(app, options.depth);
 }

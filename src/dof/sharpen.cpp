@@ -11,9 +11,9 @@ namespace sparselens {
 
 namespace {
 
-constexpr double largest_coc = 4;      // pixels: beyond, the blur of interpolation does not show
-constexpr double same_surface = 0.5;   // pixels of perceptive depth
-constexpr int noise_block = 32;        // pixels
+constexpr double largest_coc = 4;     // pixels: beyond, the blur of interpolation does not show
+constexpr double same_surface = 0.5;  // pixels of perceptive depth
+constexpr int noise_block = 32;       // pixels
 constexpr double noise_quantile = 0.3; // the calmer part of a block shows its noise, not its detail
 
 // Mean of f (1 - f) over the lens, f the fraction off the grid along one axis, by CoC and by own offset.
@@ -21,8 +21,7 @@ class BlurTable {
 public:
     BlurTable() {
         for (int c = 0; c < cocs; ++c)
-            for (int o = 0; o < offsets; ++o)
-                table_[std::size_t(c * offsets + o)] = mean(coc_at(c), offset_at(o));
+            for (int o = 0; o < offsets; ++o) table_[std::size_t(c * offsets + o)] = mean(coc_at(c), offset_at(o));
     }
     // Half of the mean, which is the weight of the second difference; fades out towards the largest CoC.
     double weight(double coc, double offset) const {
@@ -58,8 +57,7 @@ private:
 class Sharpener {
 public:
     Sharpener(const Ldi &ldi, const ThinLens &lens) : ldi_(ldi), lens_(lens), rgb_(), noise_() {
-        for (std::size_t k = 0; k < 3; ++k)
-            rgb_[k] = find_channel(ldi.channels, std::array{"R", "G", "B"}[k]);
+        for (std::size_t k = 0; k < 3; ++k) rgb_[k] = find_channel(ldi.channels, std::array{"R", "G", "B"}[k]);
     }
     bool usable() const { return std::find(rgb_.begin(), rgb_.end(), npos) == rgb_.end(); }
 
@@ -107,8 +105,7 @@ Sharpener::Neighbours Sharpener::neighbours(std::uint64_t i, int x, int y) const
     const double depth = perceptive_depth(lens_, double(ldi_.z[i]));
     Neighbours n{{surface_in(x - 1, y, depth), surface_in(x + 1, y, depth), surface_in(x, y - 1, depth),
                   surface_in(x, y + 1, depth)},
-                 false,
-                 false};
+                 false, false};
     n.horizontal = n.sample[0] != none && n.sample[1] != none;
     n.vertical = n.sample[2] != none && n.sample[3] != none;
     return n;
@@ -127,8 +124,7 @@ double Sharpener::detail(std::uint64_t i, const Neighbours &n) const {
 
 void Sharpener::measure_noise() {
     const int width = ldi_.windows.width(), height = ldi_.windows.height();
-    const int columns = (width + noise_block - 1) / noise_block,
-              rows = (height + noise_block - 1) / noise_block;
+    const int columns = (width + noise_block - 1) / noise_block, rows = (height + noise_block - 1) / noise_block;
     noise_.assign(std::size_t(columns * rows), 0);
     parallel_for(noise_.size(), [&](std::size_t block) {
         const int left = int(block) % columns * noise_block, top = int(block) / columns * noise_block;
@@ -153,44 +149,38 @@ std::array<Term, 5> Sharpener::terms(std::uint64_t i, int x, int y) const {
     terms[0].coefficient = 1;
     const MergedSample place = placement_of(ldi_, i);
     const double coc = circle_of_confusion(lens_, double(place.z));
-    double horizontal = blur_.weight(coc, double(place.dx)),
-           vertical = blur_.weight(coc * lens_.pixel_aspect, double(place.dy));
+    double horizontal = blur_.weight(coc, double(place.dx)), vertical = blur_.weight(coc * lens_.pixel_aspect, double(place.dy));
     if (horizontal == 0 && vertical == 0) return terms;
     const Neighbours n = neighbours(i, x, y);
     if (!n.horizontal) horizontal = 0;
     if (!n.vertical) vertical = 0;
     const int columns = (ldi_.windows.width() + noise_block - 1) / noise_block;
-    const double noise = 5 * noise_[std::size_t(y / noise_block * columns + x / noise_block)],
-                 d = detail(i, n);
+    const double noise = 5 * noise_[std::size_t(y / noise_block * columns + x / noise_block)], d = detail(i, n);
     double strength = d > 0 ? 1 / (1 + std::pow(noise / d, 4)) : 0;
     for (std::size_t k = 0; k < 3; ++k) {
         const double value = double(ldi_.values[rgb_[k]][i]);
-        const double change =
-            (horizontal > 0 ? horizontal * second_difference(i, n.sample[0], n.sample[1], k) : 0) +
-            (vertical > 0 ? vertical * second_difference(i, n.sample[2], n.sample[3], k) : 0);
+        const double change = (horizontal > 0 ? horizontal * second_difference(i, n.sample[0], n.sample[1], k) : 0) +
+                              (vertical > 0 ? vertical * second_difference(i, n.sample[2], n.sample[3], k) : 0);
         if (change * strength > value) strength = std::max(0.0, value) / change;
     }
     horizontal *= strength;
     vertical *= strength;
     terms[0].coefficient = 1 + 2 * horizontal + 2 * vertical;
     for (std::size_t k = 0; k < 4; ++k)
-        if ((k < 2 ? horizontal : vertical) > 0)
-            terms[k + 1] = {n.sample[k], -(k < 2 ? horizontal : vertical)};
+        if ((k < 2 ? horizontal : vertical) > 0) terms[k + 1] = {n.sample[k], -(k < 2 ? horizontal : vertical)};
     return terms;
 }
 
 } // namespace
 
-void sharpen_near_focus(const Ldi &ldi, const ThinLens &lens, const BlockedSamples &samples,
-                        SampleColours &colours) {
+void sharpen_near_focus(const Ldi &ldi, const ThinLens &lens, const BlockedSamples &samples, SampleColours &colours) {
     Sharpener sharpener(ldi, lens);
     if (!sharpener.usable()) return;
     sharpener.measure_noise();
     std::vector<std::uint32_t> blocked(ldi.samples());
     parallel_runs(samples.count(), 4096, [&](std::size_t begin, std::size_t end) {
         for (std::size_t b = begin; b < end; ++b)
-            if (samples.source[b] != BlockedSamples::background)
-                blocked[samples.source[b]] = std::uint32_t(b);
+            if (samples.source[b] != BlockedSamples::background) blocked[samples.source[b]] = std::uint32_t(b);
     });
     const std::size_t width = std::size_t(ldi.windows.width()), alpha = ldi.alpha();
     parallel_for(std::size_t(ldi.windows.height()), [&](std::size_t row) {
@@ -201,8 +191,7 @@ void sharpen_near_focus(const Ldi &ldi, const ThinLens &lens, const BlockedSampl
                 for (std::size_t k = 0; k < ldi.channels.size(); ++k) {
                     if (k == alpha || ldi.channels[k].type == PixelType::uint32) continue;
                     double sum = 0;
-                    for (const Term &term : terms)
-                        sum += term.coefficient * double(ldi.values[k][term.index]);
+                    for (const Term &term : terms) sum += term.coefficient * double(ldi.values[k][term.index]);
                     colours.at(k, blocked[i]) = float(sum);
                 }
             }

@@ -8,6 +8,7 @@
 #include <ImfStandardAttributes.h>
 #include <ImfStringAttribute.h>
 
+#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <sstream>
@@ -30,8 +31,18 @@ std::optional<double> positive(std::optional<double> value, bool infinity_allowe
     return value;
 }
 
+// The decimal number that a float was made from: 0.3f means 0.3, so that metadata and options give the same lens.
+double decimal(float stored) {
+    if (!std::isfinite(stored)) return double(stored);
+    char text[32];
+    const auto written = std::to_chars(text, text + sizeof text, stored); // the shortest that reads back as stored
+    double value = 0;
+    std::from_chars(text, written.ptr, value);
+    return value;
+}
+
 std::optional<double> number(const Imf::Header &header, const char *name) {
-    if (const auto *a = header.findTypedAttribute<Imf::FloatAttribute>(name)) return double(a->value());
+    if (const auto *a = header.findTypedAttribute<Imf::FloatAttribute>(name)) return decimal(a->value());
     if (const auto *a = header.findTypedAttribute<Imf::DoubleAttribute>(name)) return a->value();
     return {};
 }
@@ -83,9 +94,9 @@ Camera read_camera(const Imf::Header &header) {
     camera.focal_length_mm = positive(number(header, focal_length_name));
     camera.sensor_width_mm = positive(number(header, sensor_width_name));
     camera.metres_per_unit = positive(number(header, metres_per_unit_name));
-    if (Imf::hasAperture(header)) camera.fstop = positive(double(Imf::aperture(header)), true);
+    if (Imf::hasAperture(header)) camera.fstop = positive(decimal(Imf::aperture(header)), true);
     if (Imf::hasFocus(header)) {
-        camera.focus_distance = positive(double(Imf::focus(header)), true);
+        camera.focus_distance = positive(decimal(Imf::focus(header)), true);
         if (camera.focus_distance) *camera.focus_distance /= camera.metres_per_unit.value_or(1);
     }
     camera.world_to_camera = matrix(header, "worldToCamera");

@@ -30,7 +30,12 @@ says keep.exr '^dataWindow .*\(0 0\) - \(95 53\)'
 exits 0 "$warp" $center "${rim[@]}" -o default.exr --merge average
 same default.exr average.exr "average is the default"
 differ keep.exr average.exr "--merge"
-fails_saying 2 '--merge' "$warp" $center -o x.exr --merge both
+exits 0 "$warp" $center "${rim[@]}" -o whole.exr --silhouettes whole
+differ_samples whole.exr average.exr "--silhouettes"
+for value in both 1 ''; do
+    fails_saying 2 '--merge.*average|keep' "$warp" $center -o x.exr --merge "$value"
+    fails_saying 2 '--silhouettes.*split|whole' "$warp" $center -o x.exr --silhouettes "$value"
+done
 
 # One view is an LDI too, and needs no lens.
 oiiotool $center --eraseattrib '.*' -o bare.exr

@@ -1,6 +1,7 @@
 #include "common/lens_options.h"
 
 #include "base/error.h"
+#include "common/words.h"
 
 #include <cmath>
 #include <limits>
@@ -53,7 +54,7 @@ void add_depth_options(CLI::App &app, DepthOptions &options) {
                                                        {"inverse", DepthMeaning::inverse}};
     app.add_option("--depth", options.meaning, "What depth channels hold: z, distance or inverse (z)")
         ->type_name("MEANING")
-        ->transform(CLI::CheckedTransformer(meanings))
+        ->transform(words(meanings))
         ->group("Lens");
     app.add_option("--depth-channel", options.channel, "Depth channel (else Z, depth.Z, *.Depth.Z are tried)")
         ->type_name("NAME")

@@ -1,6 +1,7 @@
 #include "common/picture_options.h"
 
 #include "base/error.h"
+#include "common/words.h"
 
 #include <cmath>
 
@@ -55,7 +56,7 @@ void add_type_option(CLI::App &app, bool &as_float) {
     const std::map<std::string, bool> types{{"half", false}, {"float", true}};
     app.add_option("-d", as_float, "Type of the colours written (half)")
         ->type_name("half|float")
-        ->transform(CLI::CheckedTransformer(types));
+        ->transform(words(types));
 }
 
 Image in_type(Image image, bool as_float) {

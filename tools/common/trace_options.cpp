@@ -1,6 +1,7 @@
 #include "common/trace_options.h"
 
 #include "base/error.h"
+#include "common/words.h"
 #include "trace/scenes.h"
 
 #include <charconv>
@@ -90,7 +91,7 @@ void add_trace_options(CLI::App &app, TraceOptions &options) {
         ->check(CLI::Range(0, largest_side));
     app.add_option("--light", options.light, "sun, or area: a square light, one shadow ray a sample (sun)")
         ->type_name("sun|area")
-        ->transform(CLI::CheckedTransformer(lights));
+        ->transform(words(lights));
     app.add_option_function<std::vector<std::string>>(
            "--deep",
            [&options](const std::vector<std::string> &texts) {
@@ -103,7 +104,7 @@ void add_trace_options(CLI::App &app, TraceOptions &options) {
         ->allow_extra_args(false);
     app.add_option("-d,--type", options.type, "Type of the colour channels: half or float (half)")
         ->type_name("half|float")
-        ->transform(CLI::CheckedTransformer(types));
+        ->transform(words(types));
     add_lens_options(app, options.lens);
 }
 

@@ -1,0 +1,77 @@
+// The stages that make LDIs: warping views, putting samples in order, clustering, flattening.
+#include "ldi/cluster.h"
+#include "ldi/warp.h"
+#include "support/ldi_samples.h"
+#include "support/views.h"
+
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+
+namespace sparselens {
+namespace {
+
+// Stripes before a back plane, noisy, as five views: 640 x 360.
+std::vector<View> views() {
+    TwoPlanes scene;
+    scene.focal_px = 640;
+    scene.noise = 0.1f;
+    scene.front_covers = [](double x, double) { return std::fmod(x + 10'000, 100) < 40; };
+    return five_views(scene, windows_of_size(640, 360), 0.06);
+}
+
+void warping(benchmark::State &state) {
+    const std::vector<View> five = views();
+    const WarpOptions options{.focal_px = 640,
+                              .radius = 0.06,
+                              .merge = state.range(0) ? Merge::average : Merge::keep,
+                              .split_silhouettes = state.range(0) == 2};
+    Progress silent;
+    for (auto _ : state) benchmark::DoNotOptimize(warp(five, options, silent).z.data());
+    state.SetItemsProcessed(state.iterations() * std::int64_t(5 * five[0].z.size()));
+}
+
+// Points, of which half of the pixels are out of order; then with volumes that overlap.
+void tidying(benchmark::State &state) {
+    const Ldi messy =
+        random_ldi({.width = 320, .height = 180, .volume_share = state.range(0) ? 0.3 : 0, .shuffled = true});
+    for (auto _ : state) benchmark::DoNotOptimize(tidy(messy).z.data());
+    state.SetItemsProcessed(state.iterations() * std::int64_t(messy.samples()));
+}
+
+void tidying_the_tidy(benchmark::State &state) {
+    Ldi ldi = tidy(random_ldi({.width = 320, .height = 180}));
+    for (auto _ : state) {
+        ldi = tidy(std::move(ldi));
+        benchmark::DoNotOptimize(ldi.z.data());
+    }
+    state.SetItemsProcessed(state.iterations() * std::int64_t(ldi.samples()));
+}
+
+// Into as few as the tolerance allows; into at most `range` layers, which takes a search in each pixel.
+void clustering(benchmark::State &state) {
+    const Ldi ldi = tidy(random_ldi({.width = 320, .height = 180, .most_samples = 12, .opaque_share = 0.2}));
+    const ClusterOptions options{.scale = 40, .tolerance = 0.25, .layers = int(state.range(0))};
+    Progress silent;
+    for (auto _ : state) benchmark::DoNotOptimize(cluster(ldi, options, silent).largest_error);
+    state.SetItemsProcessed(state.iterations() * std::int64_t(ldi.samples()));
+}
+
+void flattening(benchmark::State &state) {
+    const Ldi ldi = tidy(random_ldi({.width = 320, .height = 180}));
+    for (auto _ : state) benchmark::DoNotOptimize(flatten(ldi).values.data());
+    state.SetItemsProcessed(state.iterations() * std::int64_t(ldi.samples()));
+}
+
+BENCHMARK(warping)
+    ->ArgName("keep_average_split")
+    ->DenseRange(0, 2)
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(tidying)->ArgName("volumes")->Arg(0)->Arg(1)->UseRealTime()->Unit(benchmark::kMillisecond);
+BENCHMARK(tidying_the_tidy)->UseRealTime()->Unit(benchmark::kMillisecond);
+BENCHMARK(clustering)->ArgName("layers")->Arg(0)->Arg(4)->UseRealTime()->Unit(benchmark::kMillisecond);
+BENCHMARK(flattening)->UseRealTime()->Unit(benchmark::kMillisecond);
+
+} // namespace
+} // namespace sparselens

@@ -1,0 +1,19 @@
+// Files that lie beside the sources in ../shared on some machines: pictures too large, or not ours, to be kept
+// with them. Tests that use them are skipped, saying so, where they are absent.
+#pragma once
+
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+
+namespace sparselens {
+
+// The path of a file in that folder (or in $SPARSELENS_SHARED), empty where it is absent.
+inline std::string shared_file(const std::string &name) {
+    const char *elsewhere = std::getenv("SPARSELENS_SHARED");
+    const std::filesystem::path path =
+        std::filesystem::path(elsewhere ? elsewhere : SPARSELENS_SHARED_DIR) / name;
+    return std::filesystem::exists(path) ? path.string() : std::string();
+}
+
+} // namespace sparselens
