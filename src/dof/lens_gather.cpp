@@ -191,6 +191,7 @@ Image lens_gather(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &wind
             origin, blocks, set.points,
             highlight_pixels(highlights, samples, set.nearest, lens.pixel_aspect, origin, LensTile::size));
         for_each_pixel(corner, windows, [&](int x, int y) {
+            if (tile.dark(x, y)) return; // a few lens points may all miss: better sharp than black
             for (std::size_t k = 0; k < out.channels.size(); ++k)
                 out.at(k, window.min.x + corner.x + x, window.min.y + corner.y + y) = tile.value(x, y, k);
         });

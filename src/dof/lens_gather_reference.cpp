@@ -35,9 +35,11 @@ std::vector<PlacedSample> place_samples(const Ldi &ldi, const ThinLens &lens, co
                               perceptive_depth(lens, z), a, i});
             transmittance *= 1 - a;
         }
+        if (transmittance == 0 || !window.intersects(at)) continue;
+        const bool empty = ldi.begin[pixel] == ldi.begin[pixel + 1];
+        if (!empty) placed.push_back({placed.back().centre, placed.back().coc, 0, 1, {}});
         constexpr double infinity = std::numeric_limits<double>::infinity();
-        if (transmittance > 0 && window.intersects(at))
-            placed.push_back({middle, circle_of_confusion(lens, infinity), 0, 1, {}});
+        placed.push_back({middle, circle_of_confusion(lens, infinity), 0, 1, {}});
     }
     // Equal depths, as of a sky and a background: in the order they came.
     std::stable_sort(placed.begin(), placed.end(),

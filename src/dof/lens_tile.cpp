@@ -46,12 +46,23 @@ LensTile::LensTile(const BlockedSamples &samples, const SampleColours &colours, 
       transmittance_(stride * stride, 1.0f), over_(colours.groups * stride * stride * 4),
       sums_(colours.groups * size * size * 4), spread_(sums_.size()), unknown_(size * size) {}
 
+float LensTile::known_weight(int x, int y) const {
+    const float known = total_ - unknown_[std::size_t(y * size + x)];
+    return known > 1e-6f * total_ ? known : 0; // what rounding leaves of a weight is no knowledge
+}
+
+bool LensTile::dark(int x, int y) const {
+    if (known_weight(x, y) > 0) return false;
+    for (std::size_t k = 0; k < colours_.groups * 4; ++k)
+        if (value(x, y, k) != 0) return false;
+    return true;
+}
+
 float LensTile::value(int x, int y, std::size_t channel) const {
     const std::size_t pixel = std::size_t(y * size + x),
                       at = (channel / 4 * size * size + pixel) * 4 + channel % 4;
-    const float known = total_ - unknown_[pixel];
-    // What rounding leaves of a weight is no knowledge.
-    return (known > 1e-6f * total_ ? sums_[at] / known : 0) + spread_[at];
+    const float known = known_weight(x, y);
+    return (known > 0 ? sums_[at] / known : 0) + spread_[at];
 }
 
 void LensTile::gather(const Imath::V2i &origin, std::span<const std::uint32_t> blocks,

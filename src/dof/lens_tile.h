@@ -30,13 +30,16 @@ public:
     void gather(const Imath::V2i &origin, std::span<const std::uint32_t> blocks,
                 std::span<const LensSample> lens, std::span<const HighlightPixel> spread);
 
-    // The mean over the known lens points at a pixel of the tile; 0 where none is known.
+    // The mean over the known lens points at a pixel of the tile, and what highlights spread there. `dark`: no lens
+    // point is known and no highlight reaches it.
+    bool dark(int x, int y) const;
     float value(int x, int y, std::size_t channel) const;
 
 private:
     // The buffers have a border of one cell that takes what falls outside.
     static constexpr int stride = size + 2;
 
+    float known_weight(int x, int y) const; // of the lens points; 0: none
     void see_opaque(const LensSample &lens);
     void see_partial(const LensSample &lens);
     bool hides(int x, int y, float depth) const;

@@ -43,9 +43,14 @@ void find_samples(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &know
     }
     const bool is_known = known.intersects(ldi.windows.data.min + Imath::V2i(x, y));
     if (transmittance < clear || !is_known) return;
+    const auto add_background = [&](float at_x, float at_y, float coc) {
+        found.push_back({at_x, at_y, coc, 0, 1, BlockedSamples::background});
+    };
     constexpr double sky = std::numeric_limits<double>::infinity();
-    found.push_back({float(x) + 0.5f, float(y) + 0.5f, float(circle_of_confusion(lens, sky)), 0, 1,
-                     BlockedSamples::background});
+    add_background(float(x) + 0.5f, float(y) + 0.5f, float(circle_of_confusion(lens, sky)));
+    if (ldi.begin[pixel] == ldi.begin[pixel + 1]) return;
+    const Found last = found[found.size() - 2];
+    add_background(last.x, last.y, last.coc);
 }
 
 std::vector<Found> block_samples(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &known, int column,

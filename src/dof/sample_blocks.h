@@ -18,8 +18,9 @@ struct SampleBlock {
 };
 
 struct BlockedSamples {
-    // One entry a sample. A pixel that lets light through to infinity has one more: its background, opaque, with
-    // no colour and no alpha.
+    // One entry a sample, and the backgrounds, opaque, with no colour and no alpha. A pixel that lets light through
+    // to infinity has one there; and if it has samples, one at its last sample's place (though behind all else):
+    // whoever sees that sample sees through it, also where what lies at infinity behind it is not known.
     std::vector<float> x, y;           // centre, pixels, relative to the data window's corner, y down
     std::vector<float> coc;            // signed radius, pixels
     std::vector<float> depth;          // perceptive depth, pixels: larger is nearer

