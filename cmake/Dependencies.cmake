@@ -5,6 +5,7 @@ find_package(OpenImageIO 2.4 CONFIG REQUIRED)
 find_package(TBB CONFIG REQUIRED)
 find_package(embree 3 CONFIG REQUIRED)
 find_package(CLI11 CONFIG REQUIRED)
+find_package(nlohmann_json 3.11 CONFIG REQUIRED)
 find_package(Threads REQUIRED)
 
 # Debian's OpenImageIO target names OpenCV's headers, which its package does not bring and nobody here needs.
