@@ -18,7 +18,7 @@ struct PageScene {
     std::span<const ReportRow> rows;
     std::vector<std::string> sentences; // the verdict
     std::vector<std::string> plots;     // SVG files
-    std::vector<PagePicture> pictures;  // of one size; the first is the reference
+    std::vector<PagePicture> pictures;  // of one size; the first is the reference, the second shown beside it
 };
 
 struct Page {

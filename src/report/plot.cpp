@@ -85,7 +85,7 @@ std::string plot_command(const std::vector<Line> &lines, const char *columns) {
 std::string plot_script(std::span<const ReportRow> rows, const std::string &name) {
     const std::vector<Line> lines = lines_of(rows);
     std::string text = "# error against cost; run by gnuplot in the folder of the plots\n"
-                       "set encoding utf8\nset logscale xy\nset grid xtics ytics lc rgb \"#dddddd\"\n"
+                       "set encoding utf8\nset logscale xy\nset grid xtics y2tics lc rgb \"#dddddd\"\n"
                        "set key outside right top Left reverse noenhanced samplen 2 spacing 0.9 font \",9\"\n"
                        "set ylabel \"root mean square error, tone-mapped\"\nset ytics nomirror\n"
                        "set y2tics 5\nset y2label \"PSNR, dB\"\n" +

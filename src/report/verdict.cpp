@@ -128,8 +128,9 @@ std::vector<std::string> verdict_sentences(std::span<const ReportRow> rows, cons
         text.push_back("No sparse row with the lens gather takes less time than that.");
     else if (verdict.beaten.empty())
         text.push_back(
-            "In less time than that, no other system measured is both faster and better than any sparse "
-            "row with the lens gather.");
+            std::string(verdict.crossing_seconds.bound == Reached::exactly ? "In less time than that, no"
+                                                                           : "No") +
+            " other system measured is both faster and better than any sparse row with the lens gather.");
     return text;
 }
 

@@ -7,10 +7,12 @@
 #include "measure/tone_map.h"
 #include "report/files.h"
 #include "report/numbers.h"
+#include "report/verdict.h"
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <set>
 
 namespace sparselens {
@@ -46,6 +48,7 @@ public:
     ReportRow measured(const PlannedRow &planned) const {
         ReportRow row = planned.row;
         add_times(planned, row);
+        if (!planned.partial_views.empty()) add_partial_views(planned, row);
         const Image picture = over_reference(planned.picture);
         std::ranges::copy(image_error(picture, reference_, bits_, region_names.size()), row.errors.begin());
         if (!planned.many_points.empty()) {
@@ -80,6 +83,17 @@ private:
         for (const char c : name) plain += c == ' ' ? '-' : c == '+' ? 'p' : c;
         std::erase(plain, ',');
         return "pictures/" + plain;
+    }
+
+    // A pixel without coverage was not rendered.
+    void add_partial_views(const PlannedRow &planned, ReportRow &row) const {
+        for (const std::string &file : matching_files(path(planned.partial_views))) {
+            const Image view = read_flat_exr(file).image;
+            const auto alpha = view.plane(find_channel(view.channels, "A"));
+            const auto rendered = std::ranges::count_if(alpha, [](float a) { return a != 0; });
+            row.rays += double(planned.partial_samples) * double(rendered) / double(windows_.pixels());
+            ++row.views;
+        }
     }
 
     void add_times(const PlannedRow &planned, ReportRow &row) const {
@@ -117,22 +131,20 @@ std::vector<PagePicture> page_pictures(const ScenePlan &plan, std::span<const Re
     const auto bytes = [&](const std::string &file) { return contents_of_file(fs::path(folder) / file); };
     std::vector<PagePicture> pictures{
         {"reference", bytes(SceneMeasurement::png_name(plan.reference.folder, "picture"))}};
-    std::set<std::string> done;
-    for (const ReportRow &row : rows) {
-        if (!done.insert(method_name(row)).second) continue;
-        const ReportRow *fastest = &row, *best = &row;
-        for (const ReportRow &other : rows) {
-            if (method_name(other) != method_name(row)) continue;
-            if (total_seconds(other) < total_seconds(*fastest)) fastest = &other;
-            if (quality(other) > quality(*best)) best = &other;
-        }
-        const auto show = [&](const ReportRow &shown) {
-            pictures.push_back({method_name(shown) + ", " + shown.budget + ": " + fixed(quality(shown), 2) +
-                                    " dB, " + significant(total_seconds(shown), 3) + " s",
-                                bytes(shown.picture)});
-        };
-        show(*fastest);
-        if (best != fastest) show(*best);
+    std::set<std::string> shown;
+    const auto show = [&](const ReportRow &row) {
+        if (!shown.insert(row.picture).second) return;
+        pictures.push_back({method_name(row) + ", " + row.budget + ": " + fixed(quality(row), 2) + " dB, " +
+                                significant(total_seconds(row), 3) + " s",
+                            bytes(row.picture)});
+    };
+    if (const auto best = scene_verdict(rows).best) show(rows[*best]);
+    std::map<std::string, std::vector<const ReportRow *>> methods;
+    for (const ReportRow &row : rows) methods[method_name(row)].push_back(&row);
+    for (const auto &[name, of_method] : methods) {
+        show(**std::ranges::min_element(of_method, {},
+                                        [](const ReportRow *row) { return total_seconds(*row); }));
+        show(**std::ranges::max_element(of_method, {}, [](const ReportRow *row) { return quality(*row); }));
     }
     return pictures;
 }

@@ -16,7 +16,7 @@ namespace sparselens {
 std::vector<ReportRow> measure_rows(const ScenePlan &plan, std::span<const StepTimes> times,
                                     const std::string &folder, const ToolContext &tool);
 
-// The reference, then each method's fastest and its best picture, for the page's viewer.
+// For the page's viewer: the reference, the best of the sparse views, then each method's fastest and best.
 std::vector<PagePicture> page_pictures(const ScenePlan &plan, std::span<const ReportRow> rows,
                                        const std::string &folder);
 

@@ -63,9 +63,12 @@ public:
     StepTimes run(const Step &step, const std::string &identity) const {
         fs::remove(path(record_of(step)));
         for (const std::string &file : step.outputs) fs::create_directories(path(file).parent_path());
-        if (!step.scratch.empty()) fs::create_directories(path(step.scratch));
+        if (!step.fresh.empty()) {
+            fs::remove_all(path(step.fresh));
+            fs::create_directories(path(step.fresh));
+        }
         const StepTimes times = timed(step);
-        if (!step.scratch.empty()) fs::remove_all(path(step.scratch));
+        if (step.scratch) fs::remove_all(path(step.fresh));
         nlohmann::ordered_json json{{"identity", identity}};
         for (const StepCommand &command : step.commands)
             json["commands"].push_back(command_line(command.words));
@@ -90,7 +93,7 @@ private:
     StepTimes once(const Step &step) const {
         StepTimes times;
         for (const StepCommand &command : step.commands) {
-            std::vector<std::string> words = command.words;
+            std::vector<std::string> words = with_files(command.words, options_.folder);
             words[0] = (fs::path(options_.tools) / words[0]).string();
             words.insert(words.end(), {"--threads", std::to_string(options_.threads)});
             const ProcessRun run = run_process(words, options_.folder);
@@ -100,7 +103,8 @@ private:
         if (!step.uncounted.empty()) {
             const CameraSummary camera = read_camera_summary(path(step.traced));
             for (const std::string &picture : step.uncounted)
-                times.seconds[std::size_t(Stage::render)] -= camera.seconds.at(picture);
+                if (const auto found = camera.seconds.find(picture); found != camera.seconds.end())
+                    times.seconds[std::size_t(Stage::render)] -= found->second;
         }
         return times;
     }

@@ -34,7 +34,8 @@ struct Rendered {
     std::vector<std::size_t> steps{}; // whose time it took
     double ready_seconds = 0;         // the time it took where no step made it
     int views = 1;
-    double rays = 0; // camera samples a pixel, all views together
+    double rays = 0;         // camera samples a pixel, all views together
+    int planned_samples = 0; // above 0: rim views are partial, with so many samples in each pixel of coverage
 };
 
 class SceneSource {

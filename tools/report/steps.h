@@ -21,7 +21,8 @@ struct Step {
     std::vector<std::size_t> inputs{};  // of earlier steps
     std::vector<std::string> given{};   // files read that no step makes
     std::vector<std::string> outputs{}; // files that are there afterwards
-    std::string scratch{};              // a folder needed only between the commands; empty: none
+    std::string fresh{};                // a folder emptied beforehand; empty: none
+    bool scratch = false;               // that folder is needed between the commands only
     // Pictures that a dof-trace rendered into this folder beside what is wanted: their seconds are taken off.
     std::string traced{};
     std::vector<std::string> uncounted{};

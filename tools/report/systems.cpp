@@ -186,7 +186,12 @@ PlannedRow row_of(const SceneSource &scene, const System &system, int budget, co
     row.views = rendered.views;
     row.rays = rendered.rays;
     row.seconds[std::size_t(Stage::render)] = rendered.ready_seconds;
-    return {std::move(row), rendered.steps, rendered.picture, ""};
+    PlannedRow planned_row{.row = std::move(row), .steps = rendered.steps, .picture = rendered.picture};
+    if (rendered.planned_samples > 0) {
+        planned_row.partial_views = rendered.rim.front().path;
+        planned_row.partial_samples = rendered.planned_samples;
+    }
+    return planned_row;
 }
 
 void add_rows(const SceneSource &scene, const System &system, int budget, const Rendered &rendered,

@@ -13,8 +13,10 @@ namespace sparselens {
 struct PlannedRow {
     ReportRow row;                  // seconds of what was given, rays, names
     std::vector<std::size_t> steps; // whose times are the row's
-    std::string picture;            // the result
-    std::string many_points;        // the same layers seen through many lens points; empty: not of layers
+    std::string picture{};          // the result
+    std::string partial_views{}; // a pattern: views whose rays are known only once they are there; else empty
+    int partial_samples = 0;     // a pixel of theirs
+    std::string many_points{};   // the same layers seen through many lens points; empty: not of layers
 };
 
 struct ScenePlan {

@@ -97,7 +97,8 @@ std::optional<Rendered> TracedScene::accumulated(int views, StepList &steps) con
         steps.add({.name = folder,
                    .commands = {trace(scratch, 1, 0, {"--lens-views", std::to_string(views)}), average},
                    .outputs = {picture},
-                   .scratch = scratch,
+                   .fresh = scratch,
+                   .scratch = true,
                    .traced = scratch,
                    .uncounted = {"center.exr"},
                    .weight = weight(views) + 0.06 * views});
@@ -117,9 +118,35 @@ std::optional<Rendered> TracedScene::distributed(int rays, StepList &steps) cons
     return Rendered{.folder = folder, .picture = picture, .steps = {made}, .rays = double(rays)};
 }
 
-std::optional<Rendered> TracedScene::planned(int, int, StepList &) const {
+// What a plan asks for is known only when it is there: the views are named by a pattern, their rays counted later.
+std::optional<Rendered> TracedScene::planned(int rim, int samples, StepList &steps) const {
     if (!can_plan_) return {};
-    return {};
+    const Rendered centre = *views(0, samples, steps);
+    const std::string folder = name_ + "/planned-" + std::to_string(1 + rim) + "x" + std::to_string(samples);
+    const std::string plan = folder + "/plan.json", rendered = folder + "/views";
+    const std::size_t planned =
+        steps.add({.name = folder + "/plan",
+                   .commands = {{Stage::plan,
+                                 {"ldi-plan", centre.picture, "--views", std::to_string(rim), "-o", plan}}},
+                   .inputs = centre.steps,
+                   .outputs = {plan}});
+    const std::size_t made =
+        steps.add({.name = rendered,
+                   .commands = {{Stage::render,
+                                 {"dof-trace", name_, "--size", budgets_.size, "--spp",
+                                  std::to_string(samples), "--plan", plan, "-o", rendered}}},
+                   .inputs = {planned},
+                   .outputs = {rendered + "/camera.json"},
+                   .fresh = rendered,
+                   .traced = rendered,
+                   .uncounted = {"center.exr"},
+                   .weight = weight(samples)});
+    Rendered result = centre;
+    result.folder = folder;
+    result.rim = {{rendered + "/view_*.exr", ""}};
+    result.steps.insert(result.steps.end(), {planned, made});
+    result.planned_samples = samples;
+    return result;
 }
 
 } // namespace sparselens
