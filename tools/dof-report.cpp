@@ -9,6 +9,7 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <set>
 
 namespace {
 
@@ -30,19 +31,27 @@ void print(const std::string &text) {
         throw Error("standard output: cannot be written");
 }
 
-void report(ReportOptions options, const std::string &command, const ToolContext &tool) {
-    if (options.scenes.empty()) options.scenes = {"fence", "grass", "lamps"};
-    const RunOptions run = run_options(options, tool);
+std::vector<MeasuredScene> plan_scenes(const ReportOptions &options, const RunOptions &run, StepList &steps) {
+    const std::vector<std::string> usual{"fence", "grass", "lamps"};
     const bool can_plan = fs::exists(fs::path(run.tools) / "ldi-plan");
+    const Budgets budgets = budgets_of(options);
+    std::vector<MeasuredScene> scenes;
+    std::set<std::string> names;
+    for (const std::string &scene : options.scenes.empty() ? usual : options.scenes) {
+        const auto source = open_scene(scene, budgets, can_plan);
+        if (!names.insert(source->name()).second)
+            throw UsageError(scene + ": there is another scene called " + source->name());
+        scenes.push_back({plan_scene(*source, budgets, detail_of(options), steps), {}});
+    }
+    return scenes;
+}
+
+void report(const ReportOptions &options, const std::string &command, const ToolContext &tool) {
+    const RunOptions run = run_options(options, tool);
     std::vector<std::string> facts = machine_facts(tool.threads);
     facts.push_back(command);
-
     StepList steps;
-    std::vector<MeasuredScene> scenes;
-    for (const std::string &name : options.scenes)
-        scenes.push_back({plan_scene(*open_scene(name, budgets_of(options), can_plan), budgets_of(options),
-                                     detail_of(options), steps),
-                          {}});
+    std::vector<MeasuredScene> scenes = plan_scenes(options, run, steps);
     const std::vector<StepTimes> times = run_steps(steps.steps(), run, tool);
     for (MeasuredScene &scene : scenes) {
         scene.rows = measure_rows(scene.plan, times, run.folder, tool);

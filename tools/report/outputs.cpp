@@ -62,7 +62,7 @@ std::vector<std::string> machine_facts(int threads) {
     double load = 0;
     const bool known = getloadavg(&load, 1) == 1;
     const int used = threads > 0 ? threads : tbb::info::default_concurrency();
-    return {processor() + ", " + std::to_string(used) + " threads, " + today(),
+    return {processor() + ", threads: " + std::to_string(used) + ", " + today(),
             "load of the machine before the first step: " + (known ? fixed(load, 2) : "unknown")};
 }
 
