@@ -19,7 +19,7 @@ struct Options {
     DepthOptions depth;
     ViewList views;
     Merge merge = Merge::average;
-    bool split_silhouettes = true;
+    bool split_silhouettes = true, test_agreement = true;
     std::string output;
 };
 
@@ -39,13 +39,22 @@ void add_options(CLI::App &app, Options &options) {
                    "split: pixels that mix two surfaces become two samples (average); whole: they stay one")
         ->type_name("split|whole")
         ->transform(words(silhouettes));
+    const std::map<std::string, bool> agreement{{"test", true}, {"assume", false}};
+    app.add_option("--agreement", options.test_agreement,
+                   "test: out of focus, views that disagree beyond noise (mirrors, glass) are not averaged; "
+                   "assume: all are")
+        ->type_name("test|assume")
+        ->transform(words(agreement));
     add_lens_options(app, options.lens);
     add_depth_options(app, options.depth);
 }
 
 // Perceptive depth is measured at the lens if that is known, else at the outermost view.
 WarpOptions warp_options(const Options &options, const LoadedViews &loaded) {
-    WarpOptions warp{.merge = options.merge, .split_silhouettes = options.split_silhouettes};
+    WarpOptions warp{.merge = options.merge,
+                     .split_silhouettes = options.split_silhouettes,
+                     .test_agreement = options.test_agreement,
+                     .focus = loaded.camera.focus_distance};
     if (loaded.views.size() == 1) return warp;
     warp.focal_px = resolve_focal_px(loaded.camera, loaded.views[0].image.windows);
     warp.radius = lens_radius_of(loaded.camera).value_or(0);

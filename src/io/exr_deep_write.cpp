@@ -85,9 +85,9 @@ void write_ldi(const std::string &path, const Ldi &ldi, const Imf::Header &metad
         for (const StoredChannel &channel : stored) channels.push_back({channel.name, channel.type});
         Imf::Header header = output_header(ldi.windows, channels, metadata);
         header.setType(Imf::DEEPSCANLINE);
-        header.compression() = Imf::ZIPS_COMPRESSION;
         Imf::addDeepImageState(header, state_of(ldi));
         OutputFile output(path);
+        header.compression() = output.to_pipe() ? Imf::NO_COMPRESSION : Imf::ZIPS_COMPRESSION;
         {
             Imf::DeepScanLineOutputFile file(output.stream(), header);
             constexpr int rows_at_once = 128;
