@@ -11,7 +11,7 @@ build='g++ cmake ninja-build pkg-config libcli11-dev libembree-dev libhwy-dev li
        libopenexr-dev libopenimageio-dev libtbb-dev'
 demo='fonts-dejavu-core openimageio-tools'
 lint='clang-14 clang-format-14 clang-tidy-14'
-test='libbenchmark-dev libgtest-dev openexr openimageio-tools'
+test='libbenchmark-dev libgtest-dev openexr openimageio-tools time'
 
 fail() {
     echo "install-deps: $*" >&2

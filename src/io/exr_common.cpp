@@ -1,5 +1,6 @@
 #include "io/exr_common.h"
 
+#include <ImfTileDescription.h>
 #include <half.h>
 
 #include <algorithm>
@@ -38,6 +39,18 @@ std::size_t usual_depth_channel(const std::vector<Channel> &channels) {
 
 Windows windows_of(const Imf::Header &header) {
     return {header.displayWindow(), header.dataWindow(), header.pixelAspectRatio()};
+}
+
+double memory_of(const Imf::Header &header, std::size_t values) {
+    const Imath::Box2i &data = header.dataWindow();
+    const double width = double(data.max.x) - double(data.min.x) + 1;
+    const double height = double(data.max.y) - double(data.min.y) + 1;
+    double pixels = width * height;
+    if (header.hasTileDescription()) {
+        const Imf::TileDescription &tile = header.tileDescription();
+        pixels += double(tile.xSize) * double(tile.ySize);
+    }
+    return pixels * double(values * sizeof(float));
 }
 
 std::vector<Channel> channels_of(const Imf::Header &header, const std::string &path) {

@@ -16,6 +16,9 @@ namespace sparselens {
 
 Windows windows_of(const Imf::Header &header);
 
+// What a picture takes in memory that holds `values` floats a pixel, and one tile of its file (bytes).
+double memory_of(const Imf::Header &header, std::size_t values);
+
 // The header's channels, R, G, B, A first, then by name. Error where a channel is subsampled.
 std::vector<Channel> channels_of(const Imf::Header &header, const std::string &path);
 

@@ -1,6 +1,7 @@
 #include "io/exr_flat.h"
 
 #include "io/exr_common.h"
+#include "io/memory_limit.h"
 
 #include <ImfFrameBuffer.h>
 #include <ImfInputPart.h>
@@ -24,10 +25,13 @@ int first_flat_part(Imf::MultiPartInputFile &file, const std::string &path) {
 
 } // namespace
 
-FlatFile read_flat_part(Imf::MultiPartInputFile &file, const std::string &path) {
-    Imf::InputPart part(file, first_flat_part(file, path));
-    const Imf::Header &header = part.header();
-    Image image(windows_of(header), channels_of(header, path));
+FlatFile read_flat_part(Imf::MultiPartInputFile &file, const std::string &path, std::uint64_t size) {
+    const int number = first_flat_part(file, path);
+    const Imf::Header &header = file.header(number);
+    const std::vector<Channel> channels = channels_of(header, path);
+    check_memory(path, memory_of(header, channels.size()), size);
+    Imf::InputPart part(file, number);
+    Image image(windows_of(header), channels);
     const Windows &w = image.windows;
     Imf::FrameBuffer pixels;
     for (std::size_t k = 0; k < image.channels.size(); ++k) {
@@ -45,7 +49,7 @@ FlatFile read_flat_exr(const std::string &path) {
     return with_file_name(path, [&] {
         const auto stream = open_input(path);
         Imf::MultiPartInputFile file(*stream);
-        return read_flat_part(file, path);
+        return read_flat_part(file, path, stream->size());
     });
 }
 

@@ -21,7 +21,8 @@ struct FlatFile {
 // The first part that holds flat pixels, all its channels.
 FlatFile read_flat_exr(const std::string &path);
 Imf::Header read_flat_header(const std::string &path); // of that part, without reading pixels
-FlatFile read_flat_part(Imf::MultiPartInputFile &file, const std::string &path); // path: for messages
+// `path`: for messages; `size` of the file, bytes.
+FlatFile read_flat_part(Imf::MultiPartInputFile &file, const std::string &path, std::uint64_t size);
 
 // Takes the depth channel out of the picture (see read_ldi for how it is found), and drops what else says where
 // a sample lies (see is_placement), which is nothing to be carried like a colour.

@@ -19,10 +19,10 @@ namespace {
     throw Error(display_name(path) + ": " + what + ": " + std::strerror(errno));
 }
 
-class MemoryInput : public Imf::IStream {
+class MemoryInput : public InputStream {
 public:
     MemoryInput(const std::string &name, std::vector<char> bytes)
-        : Imf::IStream(name.c_str()), bytes_(std::move(bytes)) {}
+        : InputStream(name.c_str()), bytes_(std::move(bytes)) {}
 
     bool read(char c[], int n) override {
         if (n < 0 || std::uint64_t(n) > bytes_.size() - position_)
@@ -36,16 +36,17 @@ public:
         if (position > bytes_.size()) throw Error(std::string(fileName()) + ": the file ends too early");
         position_ = position;
     }
+    std::uint64_t size() const override { return bytes_.size(); }
 
 private:
     std::vector<char> bytes_;
     std::uint64_t position_ = 0;
 };
 
-class FileInput : public Imf::IStream {
+class FileInput : public InputStream {
 public:
-    FileInput(const std::string &name, int descriptor)
-        : Imf::IStream(name.c_str()), file_(fdopen(descriptor, "rb")) {}
+    FileInput(const std::string &name, int descriptor, std::uint64_t size)
+        : InputStream(name.c_str()), file_(fdopen(descriptor, "rb")), size_(size) {}
     ~FileInput() override { std::fclose(file_); }
 
     bool read(char c[], int n) override {
@@ -55,9 +56,11 @@ public:
     }
     std::uint64_t tellg() override { return std::uint64_t(ftello(file_)); }
     void seekg(std::uint64_t position) override { fseeko(file_, off_t(position), SEEK_SET); }
+    std::uint64_t size() const override { return size_; }
 
 private:
     std::FILE *file_;
+    std::uint64_t size_;
 };
 
 struct Closing {
@@ -113,7 +116,7 @@ std::filesystem::path follow_links(const std::string &path) {
 
 std::string display_name(const std::string &path) { return path == "-" ? "standard stream" : path; }
 
-std::unique_ptr<Imf::IStream> open_input(const std::string &path) {
+std::unique_ptr<InputStream> open_input(const std::string &path) {
     if (path == "-") return std::make_unique<MemoryInput>(display_name(path), read_whole(path, STDIN_FILENO));
     const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
     if (descriptor < 0) fail(path, "cannot open");
@@ -122,7 +125,8 @@ std::unique_ptr<Imf::IStream> open_input(const std::string &path) {
         ::close(descriptor);
         throw Error(path + ": is a folder, not a file");
     }
-    if (S_ISREG(info.st_mode)) return std::make_unique<FileInput>(path, descriptor);
+    if (S_ISREG(info.st_mode))
+        return std::make_unique<FileInput>(path, descriptor, std::uint64_t(info.st_size));
     const Closing closing{descriptor};
     return std::make_unique<MemoryInput>(path, read_whole(path, descriptor));
 }

@@ -16,8 +16,14 @@
 
 namespace sparselens {
 
+class InputStream : public Imf::IStream {
+public:
+    using Imf::IStream::IStream;
+    virtual std::uint64_t size() const = 0; // bytes
+};
+
 // A seekable stream; `-` and whatever cannot seek is read whole into memory.
-std::unique_ptr<Imf::IStream> open_input(const std::string &path);
+std::unique_ptr<InputStream> open_input(const std::string &path);
 
 class OutputFile {
 public:

@@ -1,12 +1,14 @@
 #include "common/tool.h"
 
 #include "base/error.h"
+#include "io/memory_limit.h"
 
 #include <ImfThreading.h>
 #include <tbb/global_control.h>
 #include <tbb/info.h>
 #include <unistd.h>
 
+#include <cctype>
 #include <csignal>
 #include <cstdio>
 #include <exception>
@@ -24,10 +26,11 @@ std::unique_ptr<Progress> terminal_progress(const std::string &tool_name) {
     });
 }
 
-// One line, whatever a library put into its message.
+// One line, whatever a library put into its message or a file into its names; no control character reaches the
+// terminal.
 std::string one_line(std::string text) {
     for (char &c : text)
-        if (c == '\n' || c == '\r') c = ' ';
+        if (std::iscntrl(static_cast<unsigned char>(c))) c = ' ';
     while (!text.empty() && text.back() == ' ') text.pop_back();
     return text;
 }
@@ -68,6 +71,11 @@ int run_tool(CLI::App &app, int argc, char **argv, const std::function<void(cons
     app.add_option("--threads", tool.threads, "Threads to use, 0 = all")
         ->type_name("N")
         ->check(CLI::Range(0, 4096));
+    std::optional<std::uint64_t> max_memory;
+    app.add_option("--max-memory", max_memory,
+                   "Memory that reading a file may take, as 4GB (64 MB and 1100 times the file's size)")
+        ->type_name("SIZE")
+        ->transform(CLI::AsSizeValue(false));
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success &answer) { // --help, --version
@@ -82,6 +90,7 @@ int run_tool(CLI::App &app, int argc, char **argv, const std::function<void(cons
     }
     const int threads = tool.threads > 0 ? tool.threads : tbb::info::default_concurrency();
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, std::size_t(threads));
+    set_memory_limit(max_memory);
     Imf::setGlobalThreadCount(threads > 1 ? threads : 0);
     std::signal(SIGPIPE, SIG_IGN); // a reader that went away is an error to report, not a silent death
     tool.progress = terminal_progress(tool.tool_name);
