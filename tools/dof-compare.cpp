@@ -40,6 +40,7 @@ void add_options(CLI::App &app, Options &options) {
 std::vector<std::uint8_t> regions_over(const Windows &target, const Options &options,
                                        const ToolContext &tool) {
     const LoadedLdi in = load_ldi(options.regions, options.lens, options.depth);
+    warn_of_bad_values(tool, options.regions, in.bad);
     const Windows &windows = in.ldi.windows;
     if (windows.display_width() != target.display_width() ||
         windows.display_height() != target.display_height())

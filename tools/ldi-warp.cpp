@@ -55,13 +55,15 @@ WarpOptions warp_options(const Options &options, const LoadedViews &loaded) {
 
 void run(const Options &options, const ToolContext &tool) {
     LoadedViews loaded = load_views(options.views, options.lens, options.depth);
+    for (std::size_t i = 0; i < loaded.views.size(); ++i)
+        warn_of_bad_values(tool, loaded.views[i].name, loaded.bad[i]);
     const WarpOptions warp_by = warp_options(options, loaded);
     write_camera(loaded.header, loaded.camera);
     write_picture_window(loaded.header, loaded.views[0].image.windows.data);
     const Ldi ldi = warp(loaded.views, warp_by, *tool.progress);
     tool.say(std::to_string(loaded.views.size()) + " views, " + std::to_string(ldi.samples()) +
              " samples in " + std::to_string(ldi.windows.pixels()) + " pixels");
-    write_ldi(options.output, ldi, loaded.header);
+    warn_of_clamped(tool, options.output, write_ldi(options.output, ldi, loaded.header));
 }
 
 } // namespace

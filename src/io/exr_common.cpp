@@ -108,17 +108,20 @@ Imf::PixelType imf_type(PixelType type) {
 
 std::size_t bytes_of(PixelType type) { return type == PixelType::half ? 2 : 4; }
 
-void store(PixelType type, const float *from, std::size_t count, char *to) {
+std::size_t store(PixelType type, const float *from, std::size_t count, char *to) {
     if (type != PixelType::half) {
         std::memcpy(to, from, count * sizeof(float)); // ids keep their bits, see PixelType
-        return;
+        return 0;
     }
-    constexpr float largest = 65504;
+    constexpr float largest = 65504, rounded_up = 65520; // from here on a half would be infinite
+    std::size_t clamped = 0;
     for (std::size_t i = 0; i < count; ++i) {
         const float value = std::isfinite(from[i]) ? std::clamp(from[i], -largest, largest) : from[i];
+        if (std::isfinite(from[i]) && std::abs(from[i]) >= rounded_up) ++clamped;
         const Imath::half rounded(value);
         std::memcpy(to + 2 * i, &rounded, 2);
     }
+    return clamped;
 }
 
 } // namespace sparselens

@@ -75,8 +75,9 @@ std::vector<float> take_depth(Image &image, const std::string &depth_channel, co
     return depth;
 }
 
-void write_flat_exr(const std::string &path, const Image &image, const Imf::Header &metadata) {
-    with_file_name(path, [&] {
+std::size_t write_flat_exr(const std::string &path, const Image &image, const Imf::Header &metadata) {
+    return with_file_name(path, [&] {
+        std::size_t clamped = 0;
         const Windows &w = image.windows;
         std::vector<std::vector<char>> stored(image.channels.size());
         Imf::FrameBuffer pixels;
@@ -84,7 +85,7 @@ void write_flat_exr(const std::string &path, const Image &image, const Imf::Head
             const Channel &channel = image.channels[k];
             const std::size_t bytes = bytes_of(channel.type);
             stored[k].resize(w.pixels() * bytes);
-            store(channel.type, image.plane(k).data(), w.pixels(), stored[k].data());
+            clamped += store(channel.type, image.plane(k).data(), w.pixels(), stored[k].data());
             pixels.insert(channel.name, Imf::Slice::Make(imf_type(channel.type), stored[k].data(), w.data,
                                                          bytes, bytes * std::size_t(w.width())));
         }
@@ -97,6 +98,7 @@ void write_flat_exr(const std::string &path, const Image &image, const Imf::Head
             file.writePixels(w.height());
         }
         output.commit();
+        return clamped;
     });
 }
 

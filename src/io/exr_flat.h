@@ -29,7 +29,8 @@ FlatFile read_flat_part(Imf::MultiPartInputFile &file, const std::string &path, 
 std::vector<float> take_depth(Image &image, const std::string &depth_channel, const std::string &path);
 
 // Channels are stored in their own types. Of `metadata` everything is kept that does not describe the pixels
-// themselves (windows, channels, tiling); compression is ZIP.
-void write_flat_exr(const std::string &path, const Image &image, const Imf::Header &metadata);
+// themselves (windows, channels, tiling); compression is ZIP. Returns how many values were
+// beyond what a half holds and became its largest, 65504.
+std::size_t write_flat_exr(const std::string &path, const Image &image, const Imf::Header &metadata);
 
 } // namespace sparselens
