@@ -35,7 +35,7 @@ bool all_of(std::span<const float> values, bool (*good)(float)) {
     return all;
 }
 
-bool is_finite(float v) { return std::isfinite(v); }
+bool is_light(float v) { return std::abs(v) <= 1e34f; }
 bool is_coverage(float v) { return v >= 0 && v <= 1; }
 bool is_depth(float z) { return z >= smallest_depth; }
 
@@ -49,7 +49,7 @@ public:
         if (!all_of(s_.z, is_depth)) repair_depths();
         hide_uncovered();
         for (std::size_t k = 0; k < s_.values.size(); ++k)
-            if (k != alpha_ && s_.channels[k].type != PixelType::uint32 && !all_of(s_.values[k], is_finite))
+            if (k != alpha_ && s_.channels[k].type != PixelType::uint32 && !all_of(s_.values[k], is_light))
                 repair_colours(k);
         return found_;
     }
@@ -159,10 +159,10 @@ void Repair::repair_colours(std::size_t channel) {
     const std::span<float> values = s_.values[channel];
     Changes changes;
     for_each_sample([&](std::size_t pixel, std::uint64_t i) {
-        if (std::isfinite(values[i])) return;
+        if (is_light(values[i])) return;
         double light = 0, coverage = 0;
         for_each_neighbour(pixel, i, [&](std::uint64_t n) {
-            if (!std::isfinite(values[n])) return;
+            if (!is_light(values[n])) return;
             light += double(values[n]);
             coverage += double(alpha(n));
         });
