@@ -89,9 +89,9 @@ std::size_t write_ldi(const std::string &path, const Ldi &ldi, const Imf::Header
         for (const StoredChannel &channel : stored) channels.push_back({channel.name, channel.type});
         Imf::Header header = output_header(ldi.windows, channels, metadata);
         header.setType(Imf::DEEPSCANLINE);
-        header.compression() = Imf::ZIPS_COMPRESSION;
         Imf::addDeepImageState(header, state_of(ldi));
         OutputFile output(path);
+        header.compression() = output.to_pipe() ? Imf::NO_COMPRESSION : Imf::ZIPS_COMPRESSION;
         std::size_t clamped = 0;
         {
             Imf::DeepScanLineOutputFile file(output.stream(), header);

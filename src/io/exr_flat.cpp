@@ -90,8 +90,8 @@ std::size_t write_flat_exr(const std::string &path, const Image &image, const Im
                                                          bytes, bytes * std::size_t(w.width())));
         }
         Imf::Header header = output_header(w, image.channels, metadata);
-        header.compression() = Imf::ZIP_COMPRESSION;
         OutputFile output(path);
+        header.compression() = output.to_pipe() ? Imf::NO_COMPRESSION : Imf::ZIP_COMPRESSION;
         {
             Imf::OutputFile file(output.stream(), header);
             file.setFrameBuffer(pixels);

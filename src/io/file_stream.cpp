@@ -202,6 +202,11 @@ OutputFile::~OutputFile() {
 
 Imf::OStream &OutputFile::stream() { return *buffer_; }
 
+bool OutputFile::to_pipe() const {
+    struct stat info {};
+    return ::fstat(descriptor_, &info) == 0 && (S_ISFIFO(info.st_mode) || S_ISSOCK(info.st_mode));
+}
+
 void OutputFile::commit() {
     buffer_->flush();
     const int descriptor = descriptor_;

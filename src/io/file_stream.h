@@ -35,6 +35,9 @@ public:
     Imf::OStream &stream();
     void commit();
 
+    // Whether the bytes go to another process: compressing them would only cost both time.
+    bool to_pipe() const;
+
 private:
     class Buffer;
     std::string path_;      // as given, for messages

@@ -8,94 +8,118 @@ namespace sparselens {
 
 namespace {
 
-constexpr double samples_a_side = 160; // of the view's pixels, enough to tell
-constexpr double same_surface = 1;     // pixels of parallax
-constexpr double clearly = 0.7;        // times the disagreement
-constexpr double at_least = 0.02;      // less: rounding, noise
+constexpr std::size_t block_size = 8;     // pixels
+constexpr double least_ratio = 3;         // noise alone gives up to 1.6, edges of texture up to 2
+constexpr double least_difference = 1e-5; // mean square, tone-mapped: less is not seen
+constexpr double focus_px = 2;            // CoC up to which a surface counts as in focus
 
-double relative_difference(const View &centre, const View &view, const Imath::V2i &p, const Imath::V2i &q) {
-    double off = 0, light = 1e-6; // both dark: no difference
-    for (const char *name : {"R", "G", "B"}) {
-        const std::size_t c = find_channel(centre.image.channels, name),
-                          v = find_channel(view.image.channels, name);
-        if (c == npos || v == npos) continue;
-        const double a = double(centre.image.at(c, p.x, p.y)), b = double(view.image.at(v, q.x, q.y));
-        off += std::abs(a - b);
-        light += std::abs(a) + std::abs(b);
+// What a block of pixels has shown so far.
+struct Block {
+    double difference = 0, variation = 0; // sums of squares over channels
+    double coc = 0;                       // sum of |CoC|
+    double pixels = 0;
+
+    bool agrees() const {
+        return difference <= least_ratio * variation + least_difference * pixels || coc <= focus_px * pixels;
     }
-    return off / light;
-}
+};
 
-float depth_at(const View &view, const Imath::V2i &p) {
-    const Windows &w = view.image.windows;
-    return view.z[std::size_t(p.y - w.data.min.y) * std::size_t(w.width()) + std::size_t(p.x - w.data.min.x)];
-}
+// Bounded, so that one bright pixel does not decide for its block.
+double tone_mapped(float v) { return double(v) / (1 + std::abs(double(v))); }
 
-bool shows_something(const View &view, const Imath::V2i &p) {
-    const std::size_t alpha = find_channel(view.image.channels, "A");
-    return alpha == npos || view.image.at(alpha, p.x, p.y) > 0;
-}
-
-// visit(q, shift) for a grid of the view's pixels: by how much each is seen displaced, pixels, if the view stands there.
-template <typename Visit>
-void for_each_sampled(const View &view, const Imath::V2d &position, double focal_px, const Visit &visit) {
-    const Windows &w = view.image.windows;
-    const int step_x = int(std::ceil(w.width() / samples_a_side)),
-              step_y = int(std::ceil(w.height() / samples_a_side));
-    for (int y = w.data.min.y; y <= w.data.max.y; y += step_y)
-        for (int x = w.data.min.x; x <= w.data.max.x; x += step_x) {
-            const Imath::V2i q(x, y);
-            if (!shows_something(view, q)) continue;
-            const double parallax = focal_px / double(depth_at(view, q));
-            visit(q, Imath::V2d(parallax * position.x, -parallax * position.y * double(w.pixel_aspect)));
+class CentreColours {
+public:
+    explicit CentreColours(const Ldi &centre) : centre_(centre), width_(std::size_t(centre.windows.width())) {
+        for (const char *name : {"R", "G", "B"}) {
+            const std::size_t channel = find_channel(centre.channels, name);
+            if (channel != npos) channels_.push_back(channel);
         }
+    }
+    std::span<const std::size_t> channels() const { return channels_; }
+
+    // Whether the pixel and the four around it show one sample each: their variation is that of one picture.
+    bool plain(int x, int y) const {
+        const Imath::Box2i &data = centre_.windows.data;
+        if (x <= data.min.x || x >= data.max.x || y <= data.min.y || y >= data.max.y) return false;
+        return single(index(x, y)) &&
+               std::ranges::all_of(around(x, y), [&](std::size_t i) { return single(i); });
+    }
+    double value(int x, int y, std::size_t channel) const { return value_at(index(x, y), channel); }
+    double mean_around(int x, int y, std::size_t channel) const {
+        double sum = 0;
+        for (const std::size_t i : around(x, y)) sum += value_at(i, channel);
+        return sum / 4;
+    }
+
+private:
+    std::size_t index(int x, int y) const {
+        const Imath::V2i &first = centre_.windows.data.min;
+        return std::size_t(y - first.y) * width_ + std::size_t(x - first.x);
+    }
+    std::array<std::size_t, 4> around(int x, int y) const {
+        const std::size_t i = index(x, y);
+        return {i - 1, i + 1, i - width_, i + width_};
+    }
+    bool single(std::size_t i) const { return centre_.begin[i + 1] == centre_.begin[i] + 1; }
+    double value_at(std::size_t i, std::size_t channel) const {
+        return tone_mapped(centre_.values[channel][centre_.begin[i]]);
+    }
+
+    const Ldi &centre_;
+    std::size_t width_;
+    std::vector<std::size_t> channels_;
+};
+
+double rim_mean(const PlacedViews &views, const Surface &surface, std::size_t channel) {
+    double sum = 0, total = 0;
+    for (const PlacedSample &s : surface.samples) {
+        if (s.view == 0) continue;
+        sum += views.weight(s) * tone_mapped(views.value(s, channel));
+        total += views.weight(s);
+    }
+    return sum / total;
 }
 
-double largest_parallax(const View &view, double focal_px) {
-    double largest = 0;
-    for_each_sampled(view, view.position, focal_px, [&](const Imath::V2i &, const Imath::V2d &shift) {
-        largest = std::max(largest, shift.length());
-    });
-    return largest;
+void compare(const PlacedViews &views, const CentreColours &centre, const AgreementOptions &options,
+             const Surface &surface, Block &block) {
+    const int x = surface.samples[0].x, y = surface.samples[0].y;
+    for (const std::size_t channel : centre.channels()) {
+        const double own = centre.value(x, y, channel);
+        const double difference = rim_mean(views, surface, channel) - own;
+        const double variation = centre.mean_around(x, y, channel) - own;
+        block.difference += difference * difference;
+        block.variation += variation * variation;
+    }
+    constexpr double out_of_focus = 2 * focus_px;
+    block.coc +=
+        options.focus ? options.scale * std::abs(surface.inverse_z - 1 / *options.focus) : out_of_focus;
+    block.pixels += 1;
 }
 
 } // namespace
 
-double disagreement(const View &centre, const View &view, const Imath::V2d &position, double focal_px) {
-    const Imath::Box2i &inside = centre.image.windows.data;
-    const double scale = focal_px * view.position.length(); // of parallax, the same wherever the view is put
-    double sum = 0;
-    std::size_t compared = 0;
-    for_each_sampled(view, position, focal_px, [&](const Imath::V2i &q, const Imath::V2d &shift) {
-        const Imath::V2d landed = Imath::V2d(q) + Imath::V2d(0.5) + shift;
-        if (!(landed.x >= inside.min.x && landed.x < inside.max.x + 1.0 && landed.y >= inside.min.y &&
-              landed.y < inside.max.y + 1.0))
-            return;
-        const Imath::V2i p(int(std::floor(landed.x)), int(std::floor(landed.y)));
-        const double in_front = scale / double(depth_at(view, q)) - scale / double(depth_at(centre, p));
-        const bool nothing = !shows_something(centre, p);
-        if (!nothing && in_front < -same_surface) return; // hidden from the centre
-        ++compared;
-        sum += nothing || in_front > same_surface ? 1 : relative_difference(centre, view, p, q);
-    });
-    return compared > 0 ? sum / double(compared) : 0;
-}
-
-std::optional<Imath::V2d> better_position(const View &centre, const View &view, double focal_px) {
-    if (largest_parallax(view, focal_px) < 1) return {}; // wherever it stands within that, it shows the same
-    const Imath::V2d &at = view.position;
-    const std::array<Imath::V2d, 6> others{
-        {{-at.x, -at.y}, {-at.x, at.y}, {at.x, -at.y}, {at.y, at.x}, {-at.y, -at.x}, {0, 0}}};
-    const double stated = disagreement(centre, view, at, focal_px);
-    double least = std::min(clearly * stated, stated - at_least);
-    std::optional<Imath::V2d> better;
-    for (const Imath::V2d &other : others) {
-        const double there = disagreement(centre, view, other, focal_px);
-        if (there >= least) continue;
-        least = there;
-        better = other;
+std::vector<bool> find_agreement(const PlacedViews &views, const AgreementOptions &options,
+                                 const Imath::Box2i &data, PlacedRows &rows) {
+    const std::size_t width = std::size_t(data.max.x - data.min.x + 1);
+    const std::size_t blocks_across = (width + block_size - 1) / block_size;
+    const auto block_of = [&](std::size_t pixel) {
+        return pixel / width / block_size * blocks_across + pixel % width / block_size;
+    };
+    const CentreColours centre(views.samples(0));
+    std::vector<Block> blocks(block_of(rows.pixels() - 1) + blocks_across);
+    Surfaces surfaces;
+    for (std::size_t pixel = 0; pixel < rows.pixels(); ++pixel) {
+        const std::span<PlacedSample> here = rows.pixel(pixel);
+        if (here.size() < 2 || !centre.plain(here[0].x, here[0].y)) continue;
+        find_surfaces(views, options.tolerance, here, surfaces);
+        for (const Surface &surface : surfaces.found())
+            if (surface.seen_by_centre() && surface.samples.back().view != 0)
+                compare(views, centre, options, surface, blocks[block_of(pixel)]);
     }
-    return better;
+    std::vector<bool> agree(rows.pixels());
+    for (std::size_t pixel = 0; pixel < rows.pixels(); ++pixel)
+        agree[pixel] = blocks[block_of(pixel)].agrees();
+    return agree;
 }
 
 } // namespace sparselens

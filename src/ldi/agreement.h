@@ -1,23 +1,28 @@
-// Whether a rim view shows what the centre view shows, moved as its place on the lens says. A place that is wrong by
-// a sign, an axis or altogether makes an LDI of ghosts, of which each sample by itself looks sound.
+// Where rim views show another colour than the centre view by more than noise: mirrors, glass, anything whose colour
+// depends on the direction. To average views there would lay several pictures over each other.
 //
-// Where a pixel of the view lands in the centre view it shows the same surface, hence the same colour, or one that
-// is hidden from the centre; never one in front of what the centre shows.
+// Block by block the squared difference of centre and rim views on the surfaces both see is held against how much
+// the centre view varies from pixel to pixel, where noise and texture show alike. Noise makes both about as large; a
+// reflection that moves against its surface makes the first the larger.
 #pragma once
 
-#include "view/view.h"
+#include "ldi/surfaces.h"
 
 #include <optional>
 
 namespace sparselens {
 
-// The share of the view's pixels, [0, 1], that contradict the centre view if the view stands at `position`: 1 each
-// for what lies in front, their relative difference of colour where they show one surface. 0 where nothing can be
-// compared. focal_px: focal length in pixels.
-double disagreement(const View &centre, const View &view, const Imath::V2d &position, double focal_px);
+struct AgreementOptions {
+    double tolerance = 0; // of one surface, as find_surfaces() has it
+    double scale = 0;     // R F: the CoC is scale * (1 / z - 1 / focus)
+    // Where a surface is in focus every direction is meant to be averaged: that is what the lens does. Empty: unknown,
+    // no surface counts as in focus.
+    std::optional<double> focus = {};
+};
 
-// A place at which the view agrees clearly better than where it is said to stand: its mirror images, x and y swapped,
-// the centre's own. Empty where there is none, as it should be.
-std::optional<Imath::V2d> better_position(const View &centre, const View &view, double focal_px);
+// For each pixel of the rows, which are rows of `data`: whether the views may be averaged. Reorders the samples of
+// pixels.
+std::vector<bool> find_agreement(const PlacedViews &views, const AgreementOptions &options,
+                                 const Imath::Box2i &data, PlacedRows &rows);
 
 } // namespace sparselens

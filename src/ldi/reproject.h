@@ -30,6 +30,11 @@ public:
     // Appends every sample that falls in rows [first_row, last_row], in source order.
     void append_rows(int first_row, int last_row, std::vector<ReprojectedSample> &out) const;
 
+    // Where the view shows what the centre view shows at p at depth 1 / inverse_z; pixels, both.
+    Imath::V2d source_of(const Imath::V2d &p, double inverse_z) const {
+        return {p.x - shift_x_ * inverse_z, p.y - shift_y_ * inverse_z};
+    }
+
 private:
     // By how much the samples of a source row may move, pixels: left <= 0 <= right, up <= 0 <= down.
     struct RowReach {

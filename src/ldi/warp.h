@@ -8,12 +8,15 @@
 #include "ldi/ldi.h"
 #include "view/view.h"
 
+#include <optional>
 #include <span>
 
 namespace sparselens {
 
 enum class Merge {
-    average, // rim samples join the centre samples of the same surface, weighted; the rest are averaged with each other
+    // Rim samples join the centre samples of the same surface, weighted; the rest are averaged with each other, and
+    // cover what the views' majority gives them (hidden_surface.h).
+    average,
     keep, // one sample a surface, the centre's where it has one; nothing in front of the centre's sample
 };
 
@@ -23,6 +26,8 @@ struct WarpOptions {
     Merge merge = Merge::average;
     double surface_px = 0.5;
     bool split_silhouettes = true; // average: pixels that mix two surfaces become two samples (silhouettes.h)
+    bool test_agreement = true;    // average: not where views disagree, out of focus (agreement.h)
+    std::optional<double> focus = {}; // of the lens, if known, scene units
 };
 
 // views[0] is the centre; its windows and channels are the LDI's. The result does not depend on the order of the

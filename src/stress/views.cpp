@@ -1,7 +1,7 @@
 #include "base/error.h"
 #include "base/random.h"
 #include "dof/accumulate.h"
-#include "ldi/agreement.h"
+#include "ldi/misplaced_view.h"
 #include "ldi/warp.h"
 #include "stress/scenes.h"
 #include "view/view.h"

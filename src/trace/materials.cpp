@@ -58,6 +58,8 @@ Paint bright_lamp(const Imath::V3d &) { return {{1000, 1000, 1000}, 1, true}; }
 
 Paint night(const Imath::V3d &) { return {{0.02f, 0.02f, 0.025f}, 1, true}; }
 
+Paint chrome(const Imath::V3d &) { return {{0.05f, 0.05f, 0.05f}, 1, false, 0.9f}; }
+
 Paint near_sheet(const Imath::V3d &p) {
     return {{0.9f, 0.5f, 0.3f}, float(0.4 + 0.3 * std::sin(9 * p.x + 4 * p.y)), true};
 }

@@ -23,6 +23,9 @@ Paint even_tiles(const Imath::V3d &position);
 Paint bright_lamp(const Imath::V3d &position);
 Paint night(const Imath::V3d &position);
 
+// Of the scene "mirror": what it shows depends on where it is seen from.
+Paint chrome(const Imath::V3d &position);
+
 // Of the scene "mist": all emit; the sheets cover in part.
 Paint near_sheet(const Imath::V3d &position);
 Paint focus_sheet(const Imath::V3d &position);

@@ -17,6 +17,7 @@ struct Paint {
     Imath::C3f colour;  // albedo, [0, 1]; radiance where it emits; not premultiplied
     float coverage = 1; // share of what lies behind that it hides, [0, 1]
     bool emits = false; // neither sun nor lamp changes it
+    float mirror = 0;   // share of the light that a perfect mirror sends instead of the colour, [0, 1]
 };
 
 using Material = Paint (*)(const Imath::V3d &position);
@@ -46,6 +47,7 @@ struct Scene {
     std::vector<Quad> quads;
     std::vector<Sphere> spheres;
     std::vector<Slab> slabs;
+    bool mirrors = false;     // a material reflects: every hit has to be asked
     bool translucent = false; // slabs, or coverage below 1: a ray has to composite every hit
     Imath::C3f sky{0, 0, 0};  // radiance of what hits nothing; alpha 1, at z = inf
     Camera camera;            // its default lens: focal length, film back, f-number, focus, scene unit

@@ -108,6 +108,19 @@ Scene mist() {
     return scene;
 }
 
+// Chrome balls and an upright mirror among the spheres of "fence": in and out of focus, what they show depends on
+// where the camera stands, and its sharpness on how far the light came in all.
+Scene mirror() {
+    Scene scene = floor_and_wall();
+    scene.mirrors = true;
+    scene.spheres = {{{0, -0.3, 5}, 0.7, chrome},       {{1.6, -0.2, 8}, 0.8, stripes},
+                     {{-1.7, -0.4, 3.4}, 0.6, chrome},  {{-2.8, 0.4, 11}, 1.4, dots},
+                     {{1.05, -0.7, 3.6}, 0.3, stripes}, {{-0.9, -0.75, 4.2}, 0.25, dots},
+                     {{1, -0.75, 5.6}, 0.25, chrome}};
+    scene.quads.push_back({{{{2.1, -1, 4.6}, {3.4, -1, 7}, {3.4, 1.4, 7}, {2.1, 1.4, 4.6}}}, chrome});
+    return scene;
+}
+
 constexpr SceneEntry scenes[] = {
     {"fence", "spheres and small bright lamps behind a thin dark fence", fence},
     {"grass", "spheres among 200 thin slanted blades", grass},
@@ -115,6 +128,7 @@ constexpr SceneEntry scenes[] = {
      planes},
     {"slant", "one plane at a grazing angle, through the plane of focus", slant},
     {"lamps", "tiny lamps of radiance 1000 far out of focus before a dark wall", lamps},
+    {"mirror", "chrome balls and a mirror: surfaces whose colour depends on the direction", mirror},
     {"mist", "sheets of partial coverage and overlapping volumes before a textured wall", mist},
 };
 

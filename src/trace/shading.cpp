@@ -78,6 +78,34 @@ void shade_by_area(const Tracer &tracer, std::span<const Hit> hits, std::span<co
     }
 }
 
+void shade_surfaces(const Tracer &tracer, Light light, std::span<const Hit> hits,
+                    std::span<const Imath::V2d> light_points, std::span<Imath::C4f> out) {
+    if (light == Light::sun) return shade_by_sun(tracer, hits, out);
+    for (std::size_t first = 0; first < hits.size(); first += run_size) {
+        const std::size_t n = std::min(run_size, hits.size() - first);
+        shade_by_area(tracer, hits.subspan(first, n), light_points.subspan(first, n), out.subspan(first, n));
+    }
+}
+
+// One bounce: a mirror seen in a mirror shows its own colour.
+void add_reflections(const Tracer &tracer, Light light, std::span<const Ray> rays, std::span<const Hit> hits,
+                     std::span<const Imath::V2d> light_points, std::span<Imath::C4f> out) {
+    for (std::size_t i = 0; i < hits.size(); ++i) {
+        const float share = hits[i].sky() ? 0 : tracer.material(hits[i])(hits[i].position).mirror;
+        if (share <= 0) continue;
+        const Imath::V3d &in = rays[i].direction, &normal = hits[i].normal;
+        const Imath::V3d direction = in - 2 * (in ^ normal) * normal;
+        const Ray reflected{hits[i].position + 1e-5 * (1 + hits[i].position.length()) * direction, direction};
+        Hit seen;
+        Imath::C4f colour;
+        tracer.nearest({&reflected, 1}, {&seen, 1});
+        shade_surfaces(tracer, light, {&seen, 1}, {&light_points[i], 1}, {&colour, 1});
+        out[i].r += share * (colour.r - out[i].r);
+        out[i].g += share * (colour.g - out[i].g);
+        out[i].b += share * (colour.b - out[i].b);
+    }
+}
+
 // Every hit counts: surfaces cover in part, and slabs lie between them.
 void trace_through(const Tracer &tracer, Light light, std::span<const Ray> rays,
                    std::span<const Imath::V2d> light_points, std::span<Imath::C4f> out) {
@@ -90,23 +118,21 @@ void trace_through(const Tracer &tracer, Light light, std::span<const Ray> rays,
 
 } // namespace
 
-void shade(const Tracer &tracer, Light light, std::span<const Hit> hits,
+void shade(const Tracer &tracer, Light light, std::span<const Ray> rays, std::span<const Hit> hits,
            std::span<const Imath::V2d> light_points, std::span<Imath::C4f> out) {
-    if (light == Light::sun) return shade_by_sun(tracer, hits, out);
-    for (std::size_t first = 0; first < hits.size(); first += run_size) {
-        const std::size_t n = std::min(run_size, hits.size() - first);
-        shade_by_area(tracer, hits.subspan(first, n), light_points.subspan(first, n), out.subspan(first, n));
-    }
+    shade_surfaces(tracer, light, hits, light_points, out);
+    if (tracer.scene().mirrors) add_reflections(tracer, light, rays, hits, light_points, out);
 }
 
 void trace_layers(const Tracer &tracer, Light light, const Ray &ray, const Imath::V2d &light_point,
                   LayerBuffers &buffers) {
-    auto &[hits, light_points, colours, layers] = buffers;
+    auto &[rays, hits, light_points, colours, layers] = buffers;
     tracer.all(ray, hits);
     hits.emplace_back(); // the sky
+    rays.assign(hits.size(), ray);
     light_points.assign(hits.size(), light_point);
     colours.resize(hits.size());
-    shade(tracer, light, hits, light_points, colours);
+    shade(tracer, light, rays, hits, light_points, colours);
     layers.clear();
     for (std::size_t i = 0; i < hits.size(); ++i) layers.push_back({hits[i].t, colours[i]});
 }
@@ -119,7 +145,8 @@ void trace_radiance(const Tracer &tracer, Light light, std::span<const Ray> rays
         const std::size_t n = std::min(run_size, rays.size() - first);
         const auto some = std::span(hits).first(n);
         tracer.nearest(rays.subspan(first, n), some);
-        shade(tracer, light, some, light_points.subspan(first, n), out.subspan(first, n));
+        shade(tracer, light, rays.subspan(first, n), some, light_points.subspan(first, n),
+              out.subspan(first, n));
     }
 }
 

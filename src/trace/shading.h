@@ -10,9 +10,9 @@ namespace sparselens {
 // random point of it and a shadow ray to there: soft shadows, and noise as a path tracer's.
 enum class Light { sun, area };
 
-// Colour (not premultiplied) and coverage of each hit. light_points: one a hit, in the unit square, even over
+// Colour (not premultiplied) and coverage of what each ray hits; mirrors show one bounce. light_points: one a hit, in the unit square, even over
 // it; the sun does not look at them.
-void shade(const Tracer &tracer, Light light, std::span<const Hit> hits,
+void shade(const Tracer &tracer, Light light, std::span<const Ray> rays, std::span<const Hit> hits,
            std::span<const Imath::V2d> light_points, std::span<Imath::C4f> out);
 
 // What each ray brings back: colour and alpha, premultiplied. light_points: one a ray. Rays of one call should
@@ -22,6 +22,7 @@ void trace_radiance(const Tracer &tracer, Light light, std::span<const Ray> rays
 
 // Everything along a ray, visible or not, the sky last; kept from ray to ray to spare allocations.
 struct LayerBuffers {
+    std::vector<Ray> rays;
     std::vector<Hit> hits;
     std::vector<Imath::V2d> light_points;
     std::vector<Imath::C4f> colours;

@@ -157,7 +157,7 @@ rm x.exr
 
 # Standard input and output, all three tools; odd names; output equal to input.
 "$gather" - -o - <ldi.exr | cat >piped.exr
-same piped.exr out.exr "through a pipe"
+same_pixels piped.exr out.exr "through a pipe"
 exits 0 "$bin/ldi-cluster" ldi.exr -o clustered.exr
 exits 0 "$gather" clustered.exr -o chain.exr
 "$bin/ldi-warp" center.exr view_?.exr -o - | "$bin/ldi-cluster" - -o - | "$gather" - -o piped.exr

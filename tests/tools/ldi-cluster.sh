@@ -96,7 +96,8 @@ grep -Eq '^ldi-cluster: [0-9]+ samples to [0-9]+, CoC changed by at most 0\.[0-9
 
 # Standard input and output; odd names; output equal to input.
 "$cluster" - -o - <ldi.exr | cat >piped.exr
-same piped.exr out.exr "through a pipe"
+same_samples piped.exr out.exr "through a pipe"
+says piped.exr "^compression .*: none"
 "$bin/ldi-warp" views/center.exr "${rim[@]}" -o - | "$cluster" - -o - >piped.exr
 same piped.exr out.exr "after ldi-warp in a pipe"
 cp ldi.exr ./"-it's \"odd\".exr"

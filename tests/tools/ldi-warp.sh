@@ -32,7 +32,12 @@ same default.exr average.exr "average is the default"
 differ keep.exr average.exr "--merge"
 exits 0 "$warp" $center "${rim[@]}" -o whole.exr --silhouettes whole
 differ_samples whole.exr average.exr "--silhouettes"
+exits 0 "$bin/dof-trace" mirror -o mirror --size 160x90 --views 2 --spp 4 --focus-distance 12 --lens-radius 0.2
+exits 0 "$warp" mirror/center.exr mirror/view_*.exr -o tested.exr
+exits 0 "$warp" mirror/center.exr mirror/view_*.exr -o assumed.exr --agreement assume
+differ_samples tested.exr assumed.exr "--agreement"
 for value in both 1 ''; do
+    fails_saying 2 '--agreement.*test|assume' "$warp" $center -o x.exr --agreement "$value"
     fails_saying 2 '--merge.*average|keep' "$warp" $center -o x.exr --merge "$value"
     fails_saying 2 '--silhouettes.*split|whole' "$warp" $center -o x.exr --silhouettes "$value"
 done
@@ -121,7 +126,7 @@ fails_saying 1 'z4.exr.*far.away' "$warp" z4.exr -o x.exr --depth-channel far.aw
 "$warp" - "${rim[@]}" -o - <$center >piped.exr || fail "through a pipe"
 same piped.exr average.exr "through a pipe"
 "$warp" $center --view -0.06,0 - -o - <views/view_2.exr | cat >piped.exr
-same piped.exr after.exr "a rim view through a pipe"
+same_samples piped.exr after.exr "a rim view through a pipe"
 
 # Names are names.
 cp $center "it's a \"centre\" view.exr"
@@ -150,3 +155,10 @@ survives_failure "$warp" cut.exr
 survives_failure "$warp" $center --view 0.06,0 narrow.exr
 fails_saying 2 '--output' "$warp" $center
 fails_saying 2 'views|CENTER' "$warp" -o x.exr
+
+# A view moved the wrong way is said, and where it would agree.
+exits 0 "$bin/ldi-warp" views/center.exr --view -0.06,0 views/view_0.exr -o x.exr
+[ "$(wc -l <stderr)" -eq 1 ] || fail "not one line: $(cat stderr)"
+grep -Eq 'warning: views/view_0.exr: disagrees .* at -0.06,0; it would agree at 0.06,0$' stderr || fail "not said: $(cat stderr)"
+exits 0 "$bin/ldi-warp" views/center.exr "${rim[@]}" -o x.exr
+[ ! -s stderr ] || fail "views in their places are complained of: $(cat stderr)"

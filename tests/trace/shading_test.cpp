@@ -1,3 +1,4 @@
+#include "trace/materials.h"
 #include "trace/sampling.h"
 #include "trace/shading.h"
 #include "trace/small_scenes.h"
@@ -13,6 +14,12 @@ Imath::C4f seen(const Scene &scene, Light light, const Imath::V2d &light_point =
     Imath::C4f out;
     trace_radiance(tracer, light, {&ray, 1}, {&light_point, 1}, {&out, 1});
     return out;
+}
+
+// What the first quad's material shows when it reflects nothing.
+float lit_chrome(Scene scene) {
+    scene.mirrors = false;
+    return seen(scene, Light::sun).r;
 }
 
 // l = (0.4, 0.8, -0.5) / sqrt(1.05).
@@ -39,6 +46,23 @@ TEST(Shading, SkyIsOpaqueAndLampsKeepTheirRadiance) {
     scene.quads = {facing_wall(5, white_light)};
     EXPECT_EQ(seen(scene, Light::sun), Imath::C4f(1, 1, 1, 1));
     EXPECT_EQ(seen(scene, Light::area), Imath::C4f(1, 1, 1, 1));
+}
+
+// A mirror at 45 degrees turns the view to the right; of two mirrors the second shows its own colour.
+TEST(Shading, MirrorsShowOneBounce) {
+    Scene scene;
+    scene.mirrors = true;
+    scene.sky = {0, 0, 1};
+    scene.quads = {{{{{-1, -1, 4}, {1, -1, 6}, {1, 1, 6}, {-1, 1, 4}}}, chrome}};
+    EXPECT_NEAR(seen(scene, Light::sun).b, 0.1 * double(lit_chrome(scene)) + 0.9, 1e-6);
+    const double dark = double(seen(scene, Light::sun).r); // no red in the sky: the mirror's own
+    scene.quads.push_back({{{{3, -9, -9}, {3, -9, 9}, {3, 9, 9}, {3, 9, -9}}}, white_light});
+    EXPECT_NEAR(seen(scene, Light::sun).r, dark + 0.9, 1e-6);
+    EXPECT_NEAR(seen(scene, Light::area).r, seen(scene, Light::sun).r, 0.1);
+    scene.quads.back().material = chrome;
+    EXPECT_LT(seen(scene, Light::sun).r, 0.1);
+    scene.mirrors = false;
+    EXPECT_LT(seen(scene, Light::sun).b, 0.1);
 }
 
 // What stands in the light's way leaves the constant term alone; a small screen takes away some of the light.

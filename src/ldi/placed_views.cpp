@@ -1,0 +1,81 @@
+#include "ldi/placed_views.h"
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "ldi/silhouettes.h"
+#include "ldi/view_samples.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <compare>
+#include <numeric>
+
+namespace sparselens {
+
+namespace {
+
+void check(const View &centre, const View &view) {
+    if (view.image.windows.display != centre.image.windows.display)
+        throw Error(view.name + ": its display window differs from the centre view's (" + centre.name + ")");
+}
+
+// By position; where several stand at one point, by what they show: the order they were given in must not matter.
+bool canonically_before(const View *a, const View *b) {
+    if (a->position.x != b->position.x) return a->position.x < b->position.x;
+    if (a->position.y != b->position.y) return a->position.y < b->position.y;
+    const auto by_bits = [](const std::vector<float> &left, const std::vector<float> &right) {
+        return std::lexicographical_compare_three_way(
+            left.begin(), left.end(), right.begin(), right.end(), [](float l, float r) {
+                return std::bit_cast<std::uint32_t>(l) <=> std::bit_cast<std::uint32_t>(r);
+            });
+    };
+    const auto by_depth = by_bits(a->z, b->z);
+    return by_depth != 0 ? by_depth < 0 : by_bits(a->image.values, b->image.values) < 0;
+}
+
+} // namespace
+
+PlacedViews::PlacedViews(std::span<const View> views, double focal_px, double scale, bool split) {
+    std::vector<const View *> ordered;
+    for (const View &view : views) {
+        check(views[0], view);
+        ordered.push_back(&view);
+    }
+    std::sort(ordered.begin() + 1, ordered.end(), canonically_before);
+    sources_.resize(ordered.size());
+    parallel_for(ordered.size(), [&](std::size_t v) {
+        Ldi samples = samples_of(*ordered[v], views[0].image.channels);
+        if (split && scale > 0) samples = separate_silhouettes(samples, scale);
+        sources_[v] = std::make_unique<Source>(std::move(samples), ordered[v]->position, focal_px);
+    });
+}
+
+double PlacedViews::weight(const PlacedSample &s) const {
+    constexpr double spread = 0.3; // pixels; less is sharper, more averages more noise away
+    const double distance2 = double(s.dx) * double(s.dx) + double(s.dy) * double(s.dy);
+    return double(samples(s.view).weight[s.source]) * std::exp(-0.5 * distance2 / (spread * spread));
+}
+
+PlacedRows PlacedViews::place(const Imath::Box2i &data, int first_row, int last_row) const {
+    const std::size_t width = std::size_t(data.max.x - data.min.x + 1);
+    const auto pixel_of = [&](const ReprojectedSample &s) {
+        return std::size_t(s.y - first_row) * width + std::size_t(s.x - data.min.x);
+    };
+    PlacedRows rows{first_row, {}, {}};
+    rows.begin.assign(width * std::size_t(last_row - first_row + 1) + 1, 0);
+    std::vector<std::vector<ReprojectedSample>> landed(size());
+    for (std::size_t v = 0; v < size(); ++v) {
+        reprojection(v).append_rows(first_row, last_row, landed[v]);
+        std::erase_if(landed[v], [&](const auto &s) { return s.x < data.min.x || s.x > data.max.x; });
+        for (const ReprojectedSample &s : landed[v]) ++rows.begin[pixel_of(s) + 1];
+    }
+    std::partial_sum(rows.begin.begin(), rows.begin.end(), rows.begin.begin());
+    rows.samples.resize(rows.begin.back());
+    std::vector<std::size_t> next(rows.begin.begin(), rows.begin.end() - 1);
+    for (std::uint32_t v = 0; v < size(); ++v)
+        for (const ReprojectedSample &s : landed[v]) rows.samples[next[pixel_of(s)]++] = {s, v, 0};
+    return rows;
+}
+
+} // namespace sparselens

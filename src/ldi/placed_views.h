@@ -1,0 +1,64 @@
+// Views laid over the centre view: every sample of every view in the centre pixel it falls in.
+#pragma once
+
+#include "ldi/reproject.h"
+#include "view/view.h"
+
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace sparselens {
+
+// A sample of a view at its place in the centre view.
+struct PlacedSample : ReprojectedSample {
+    std::uint32_t view;    // 0 is the centre
+    std::uint32_t surface; // of the pixel, as find_surfaces() numbers them
+};
+
+// Some rows of the centre view, pixel by pixel; within a pixel the views in order.
+struct PlacedRows {
+    int first_row; // EXR coordinate
+    std::vector<PlacedSample> samples;
+    std::vector<std::size_t> begin; // pixel i, counted along the rows, has samples [begin[i], begin[i + 1])
+
+    std::size_t pixels() const { return begin.size() - 1; }
+    std::span<PlacedSample> pixel(std::size_t i) {
+        return std::span(samples).subspan(begin[i], begin[i + 1] - begin[i]);
+    }
+};
+
+class PlacedViews {
+public:
+    // views[0] is the centre; its channels are every view's. The order of the others does not matter. focal_px and
+    // scale: R and R F, see WarpOptions; split: pixels on silhouettes become two samples (silhouettes.h). Throws
+    // Error where display windows differ or a view lacks a channel of the centre.
+    PlacedViews(std::span<const View> views, double focal_px, double scale, bool split);
+
+    std::size_t size() const { return sources_.size(); }
+    const Ldi &samples(std::size_t view) const { return sources_[view]->ldi; }
+    const Reprojection &reprojection(std::size_t view) const { return sources_[view]->reprojection; }
+
+    float value(const PlacedSample &s, std::size_t channel) const {
+        return samples(s.view).values[channel][s.source];
+    }
+
+    // What a sample counts in the mean of its surface: a mean of pixels that lie apart is blurred, so the ones near
+    // the middle of the pixel count more.
+    double weight(const PlacedSample &s) const;
+
+    // The samples that fall in rows [first_row, last_row] of the data window.
+    PlacedRows place(const Imath::Box2i &data, int first_row, int last_row) const;
+
+private:
+    struct Source {
+        Ldi ldi;
+        Reprojection reprojection; // refers to ldi
+
+        Source(Ldi samples, const Imath::V2d &position, double focal_px)
+            : ldi(std::move(samples)), reprojection(ldi, position, focal_px) {}
+    };
+    std::vector<std::unique_ptr<Source>> sources_; // the centre, then the rim views in a canonical order
+};
+
+} // namespace sparselens
