@@ -183,13 +183,13 @@ OutputFile::OutputFile(const std::string &path) : path_(path) {
             "." + target.filename().string().substr(0, longest) + "." + std::to_string(::getpid());
         for (int attempt = 0; attempt < 100 && descriptor_ < 0; ++attempt) {
             const std::string unique = name + "-" + std::to_string(attempt) + ".partial";
-            temporary_ = (target.parent_path() / unique).string();
-            descriptor_ = ::open(temporary_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+            temporary_ = std::make_unique<Unfinished>((target.parent_path() / unique).string());
+            descriptor_ = ::open(temporary_->path().c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
             if (descriptor_ < 0 && errno != EEXIST) break;
         }
     }
     if (descriptor_ < 0) {
-        temporary_.clear();
+        temporary_.reset();
         fail(path, "cannot write");
     }
     buffer_ = std::make_unique<Buffer>(display_name(path), descriptor_, !target_.empty());
@@ -197,7 +197,7 @@ OutputFile::OutputFile(const std::string &path) : path_(path) {
 
 OutputFile::~OutputFile() {
     if (descriptor_ >= 0) ::close(descriptor_);
-    if (!temporary_.empty()) ::unlink(temporary_.c_str());
+    if (temporary_) ::unlink(temporary_->path().c_str());
 }
 
 Imf::OStream &OutputFile::stream() { return *buffer_; }
@@ -213,8 +213,9 @@ void OutputFile::commit() {
     descriptor_ = -1;
     if (::close(descriptor) != 0) fail(path_, "cannot write");
     if (target_.empty()) return;
-    if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail(path_, "cannot rename the finished file");
-    temporary_.clear();
+    if (::rename(temporary_->path().c_str(), target_.c_str()) != 0)
+        fail(path_, "cannot rename the finished file");
+    temporary_.reset();
 }
 
 } // namespace sparselens

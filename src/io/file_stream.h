@@ -7,6 +7,8 @@
 // Errors (Error) name the file and the system's reason.
 #pragma once
 
+#include "io/unfinished.h"
+
 #include <ImfIO.h>
 
 #include <cstdint>
@@ -40,10 +42,10 @@ public:
 
 private:
     class Buffer;
-    std::string path_;      // as given, for messages
-    std::string target_;    // links followed; empty: not renamed, written through
-    std::string temporary_; // empty once committed
-    int descriptor_ = -1;   // of the temporary, or of what is written through
+    std::string path_;                      // as given, for messages
+    std::string target_;                    // links followed; empty: not renamed, written through
+    std::unique_ptr<Unfinished> temporary_; // none once committed
+    int descriptor_ = -1;                   // of the temporary, or of what is written through
     std::unique_ptr<Buffer> buffer_;
 };
 

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "io/memory_limit.h"
+#include "io/unfinished.h"
 
 #include <ImfThreading.h>
 #include <tbb/global_control.h>
@@ -38,6 +39,19 @@ std::string one_line(std::string text) {
 int fail(const std::string &tool_name, const std::string &text, int code) {
     std::fprintf(stderr, "%s: %s\n", tool_name.c_str(), one_line(text).c_str());
     return code;
+}
+
+// Told to stop: no half-written file is left, and the process dies of the signal as its parent expects.
+extern "C" void stop(int number) {
+    remove_unfinished();
+    std::signal(number, SIG_DFL);
+    std::raise(number);
+}
+
+void handle_signals() {
+    std::signal(SIGPIPE, SIG_IGN); // a reader that went away is an error to report, not a silent death
+    for (const int number : {SIGINT, SIGTERM, SIGHUP})
+        if (std::signal(number, stop) == SIG_IGN) std::signal(number, SIG_IGN); // as under nohup
 }
 
 int run_job(const ToolContext &tool, const std::function<void(const ToolContext &)> &job) {
@@ -92,7 +106,7 @@ int run_tool(CLI::App &app, int argc, char **argv, const std::function<void(cons
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, std::size_t(threads));
     set_memory_limit(max_memory);
     Imf::setGlobalThreadCount(threads > 1 ? threads : 0);
-    std::signal(SIGPIPE, SIG_IGN); // a reader that went away is an error to report, not a silent death
+    handle_signals();
     tool.progress = terminal_progress(tool.tool_name);
     return run_job(tool, job);
 }
