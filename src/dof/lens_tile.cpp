@@ -11,6 +11,8 @@ constexpr float same_surface = 0.5f; // pixels of perceptive depth
 
 constexpr float covered_at_all = 1 - 0x1p-24f; // a sample without coverage may still give light
 
+using Colour4 = std::array<float, 4>;
+
 constexpr int cell_stride = LensTile::size + 2;
 
 // Moves samples to where a lens point sees them.
@@ -70,13 +72,7 @@ void LensTile::gather(const Imath::V2i &origin, std::span<const std::uint32_t> b
     origin_x_ = float(origin.x);
     origin_y_ = float(origin.y);
     blocks_.assign(blocks.begin(), blocks.end());
-    partial_.clear();
-    for (const std::uint32_t b : blocks_)
-        for (std::uint32_t i = samples_.blocks[b].opaque_end; i < samples_.blocks[b].end; ++i)
-            partial_.push_back(i);
-    std::sort(partial_.begin(), partial_.end(), [&](std::uint32_t a, std::uint32_t b) {
-        return samples_.depth[a] != samples_.depth[b] ? samples_.depth[a] > samples_.depth[b] : a < b;
-    });
+    collect_partial();
     std::fill(sums_.begin(), sums_.end(), 0.0f);
     std::fill(spread_.begin(), spread_.end(), 0.0f);
     std::fill(unknown_.begin(), unknown_.end(), 0.0f);
@@ -90,6 +86,26 @@ void LensTile::gather(const Imath::V2i &origin, std::span<const std::uint32_t> b
         spread = add_highlights(spread, k);
         forget_partial();
     }
+}
+
+void LensTile::collect_partial() {
+    auto &[sample, x, y, coc, cell] = partial_;
+    sample.clear();
+    for (const std::uint32_t b : blocks_)
+        for (std::uint32_t i = samples_.blocks[b].opaque_end; i < samples_.blocks[b].end; ++i)
+            sample.push_back(i);
+    std::sort(sample.begin(), sample.end(), [&](std::uint32_t a, std::uint32_t b) {
+        return samples_.depth[a] != samples_.depth[b] ? samples_.depth[a] > samples_.depth[b] : a < b;
+    });
+    x.clear();
+    y.clear();
+    coc.clear();
+    for (const std::uint32_t i : sample) {
+        x.push_back(samples_.x[i]);
+        y.push_back(samples_.y[i]);
+        coc.push_back(samples_.coc[i]);
+    }
+    cell.resize(sample.size());
 }
 
 void LensTile::see_opaque(const LensSample &lens) {
@@ -114,10 +130,12 @@ void LensTile::see_opaque(const LensSample &lens) {
 
 void LensTile::see_partial(const LensSample &lens) {
     const Placement placement{lens.x, lens.y, lens.pixel_x - origin_x_ + 1, lens.pixel_y - origin_y_ + 1};
-    for (const std::uint32_t i : partial_) {
-        std::int32_t at;
-        place(placement, &samples_.x[i], &samples_.y[i], &samples_.coc[i], 1, &at);
-        const std::size_t cell = std::size_t(at);
+    const std::size_t count = partial_.sample.size();
+    place(placement, partial_.x.data(), partial_.y.data(), partial_.coc.data(), std::uint32_t(count),
+          partial_.cell.data());
+    for (std::size_t n = 0; n < count; ++n) {
+        const std::uint32_t i = partial_.sample[n];
+        const std::size_t cell = std::size_t(partial_.cell[n]);
         if (samples_.key[i] < front_[cell]) continue;
         float &transmittance = transmittance_[cell];
         if (transmittance == 1) covered_.push_back(std::uint32_t(cell));
@@ -142,8 +160,9 @@ void LensTile::add_opaque(float weight) {
                     if (g == 0) unknown_[std::size_t(y * size + x)] += weight;
                     continue;
                 }
-                const float *colour = colours + std::size_t(std::uint32_t(front[x])) * 4;
-                for (int k = 0; k < 4; ++k) sum[k] += weight * colour[k];
+                Colour4 colour; // a copy: the compiler need not fear that sum overlaps it
+                std::copy_n(colours + std::size_t(std::uint32_t(front[x])) * 4, 4, colour.begin());
+                for (std::size_t k = 0; k < 4; ++k) sum[k] += weight * colour[k];
             }
         }
     }

@@ -40,6 +40,7 @@ private:
     static constexpr int stride = size + 2;
 
     float known_weight(int x, int y) const; // of the lens points; 0: none
+    void collect_partial();
     void see_opaque(const LensSample &lens);
     void see_partial(const LensSample &lens);
     bool hides(int x, int y, float depth) const;
@@ -55,7 +56,12 @@ private:
     float origin_x_ = 0, origin_y_ = 0;
     float total_ = 0; // weight of the lens points
     std::vector<std::uint32_t> blocks_;
-    std::vector<std::uint32_t> partial_; // samples of partial coverage, front to back
+    // Samples of partial coverage, front to back.
+    struct Partial {
+        std::vector<std::uint32_t> sample;
+        std::vector<float> x, y, coc;   // of each, side by side
+        std::vector<std::int32_t> cell; // where the lens point at hand sees it
+    } partial_;
     // Of one lens point:
     std::vector<std::uint64_t> front_;   // [cell]: key of the nearest opaque sample; 0: none
     std::vector<float> transmittance_;   // [cell]: of the partial samples in front
