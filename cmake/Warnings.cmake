@@ -6,6 +6,7 @@ target_compile_options(sparselens_flags INTERFACE
     $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
     $<$<BOOL:${SPARSELENS_WERROR}>:-Werror>)
 if(SPARSELENS_SANITIZE)
-    target_compile_options(sparselens_flags INTERFACE -fsanitize=${SPARSELENS_SANITIZE} -fno-omit-frame-pointer -g)
+    target_compile_options(sparselens_flags INTERFACE -fsanitize=${SPARSELENS_SANITIZE}
+        -fno-sanitize-recover=all -fno-omit-frame-pointer -g1)
     target_link_options(sparselens_flags INTERFACE -fsanitize=${SPARSELENS_SANITIZE})
 endif()

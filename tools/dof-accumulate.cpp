@@ -3,6 +3,7 @@
 #include "common/lens_options.h"
 #include "common/lens_view_files.h"
 #include "common/picture_options.h"
+#include "common/pictures.h"
 #include "common/tool.h"
 #include "common/words.h"
 #include "dof/accumulate.h"
@@ -95,7 +96,8 @@ void accumulate_files(const Options &options, const ToolContext &tool) {
     tool.say(std::to_string(files.views.size()) + " views");
     const ThinLens lens = moving_lens(files, options.lens, radius == 0.0);
     const Image image = average_views(files, lens, options, tool);
-    write_flat_exr(options.output, in_type(image, options.as_float), header_of(files));
+    const Image picture = in_type(image, options.as_float);
+    warn_of_clamped(tool, options.output, write_flat_exr(options.output, picture, header_of(files)));
 }
 
 } // namespace

@@ -79,6 +79,7 @@ void run(const Options &options, const ToolContext &tool) {
     if (options.depth_output == options.output)
         throw UsageError("--depth-out and --output name the same file: " + options.output);
     LoadedLdi in = load_ldi(options.input, options.lens, options.depth);
+    warn_of_bad_values(tool, options.input, in.bad);
     keep_channels(in.ldi, options.channels);
     focus_on_pixel(in, options);
     const ThinLens lens = resolve_lens(options.lens, in.camera, in.ldi.windows);
@@ -90,9 +91,8 @@ void run(const Options &options, const ToolContext &tool) {
     write_camera(in.header, in.camera);
     if (!options.depth_output.empty())
         write_flat_exr(options.depth_output, crop(front_depth(in.ldi), window), in.header);
-    write_flat_exr(options.output,
-                   in_type(chosen_channels(std::move(picture), options.channels), options.as_float),
-                   in.header);
+    picture = in_type(chosen_channels(std::move(picture), options.channels), options.as_float);
+    warn_of_clamped(tool, options.output, write_flat_exr(options.output, picture, in.header));
 }
 
 } // namespace

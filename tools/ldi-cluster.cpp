@@ -45,6 +45,7 @@ std::optional<double> perceptive_scale(const Options &options, const LoadedLdi &
 
 void run(const Options &options, const ToolContext &tool) {
     LoadedLdi in = load_ldi(options.input, options.lens, options.depth);
+    warn_of_bad_values(tool, options.input, in.bad);
     ClusterOptions by{.layers = options.layers};
     const auto scale = perceptive_scale(options, in);
     if (scale) by.scale = *scale;
@@ -54,7 +55,7 @@ void run(const Options &options, const ToolContext &tool) {
              (scale ? ", CoC changed by at most " + std::to_string(out.largest_error) + " px"
                     : ", by inverse depth alone: the lens is unknown"));
     write_camera(in.header, in.camera);
-    write_ldi(options.output, out.ldi, in.header);
+    warn_of_clamped(tool, options.output, write_ldi(options.output, out.ldi, in.header));
 }
 
 } // namespace

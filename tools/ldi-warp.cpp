@@ -5,10 +5,13 @@
 #include "common/view_list.h"
 #include "common/words.h"
 #include "io/camera_metadata.h"
+#include "ldi/misplaced_view.h"
 #include "ldi/warp.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <span>
 
 using namespace sparselens;
 
@@ -62,15 +65,31 @@ WarpOptions warp_options(const Options &options, const LoadedViews &loaded) {
     return warp;
 }
 
+// A view that is not where it is said to be makes an LDI of ghosts.
+void warn_of_misplaced(const ToolContext &tool, std::span<const View> views, double focal_px) {
+    const auto text = [](const Imath::V2d &p) {
+        char both[64];
+        std::snprintf(both, sizeof both, "%g,%g", p.x + 0.0, p.y + 0.0); // no -0
+        return std::string(both);
+    };
+    for (const View &view : views.subspan(1))
+        if (const auto better = better_position(views[0], view, focal_px))
+            warn(tool, view.name + ": disagrees with the centre view where it is said to stand, at " +
+                           text(view.position) + "; it would agree at " + text(*better));
+}
+
 void run(const Options &options, const ToolContext &tool) {
     LoadedViews loaded = load_views(options.views, options.lens, options.depth);
+    for (std::size_t i = 0; i < loaded.views.size(); ++i)
+        warn_of_bad_values(tool, loaded.views[i].name, loaded.bad[i]);
     const WarpOptions warp_by = warp_options(options, loaded);
     write_camera(loaded.header, loaded.camera);
     write_picture_window(loaded.header, loaded.views[0].image.windows.data);
     const Ldi ldi = warp(loaded.views, warp_by, *tool.progress);
+    warn_of_misplaced(tool, loaded.views, warp_by.focal_px);
     tool.say(std::to_string(loaded.views.size()) + " views, " + std::to_string(ldi.samples()) +
              " samples in " + std::to_string(ldi.windows.pixels()) + " pixels");
-    write_ldi(options.output, ldi, loaded.header);
+    warn_of_clamped(tool, options.output, write_ldi(options.output, ldi, loaded.header));
 }
 
 } // namespace

@@ -25,6 +25,7 @@ public:
                 table_[std::size_t(c * offsets + o)] = mean(coc_at(c), offset_at(o));
     }
     // Half of the mean, which is the weight of the second difference; fades out towards the largest CoC.
+    static constexpr double largest_weight = 0.125; // f (1 - f) is at most 1/4
     double weight(double coc, double offset) const {
         coc = std::abs(coc);
         if (!(coc < largest_coc)) return 0;
@@ -57,23 +58,31 @@ private:
 
 class Sharpener {
 public:
-    Sharpener(const Ldi &ldi, const ThinLens &lens) : ldi_(ldi), lens_(lens), rgb_(), noise_() {
+    Sharpener(const Ldi &ldi, const ThinLens &lens) : ldi_(ldi), lens_(lens), rgb_() {
         for (std::size_t k = 0; k < 3; ++k)
             rgb_[k] = find_channel(ldi.channels, std::array{"R", "G", "B"}[k]);
     }
     bool usable() const { return std::find(rgb_.begin(), rgb_.end(), npos) == rgb_.end(); }
 
     void measure_noise();
+    void weigh(); // after measure_noise()
     // The change of sample i of pixel (x, y): its new value is the sum of the terms.
     std::array<Term, 5> terms(std::uint64_t i, int x, int y) const;
 
 private:
+    // By which a sample may exchange light with its neighbours.
+    struct Weights {
+        double horizontal, vertical;
+        double most; // share of all this that it may give away
+        double along(std::size_t neighbour) const { return neighbour < 2 ? horizontal : vertical; }
+    };
     struct Neighbours {
         std::array<std::uint64_t, 4> sample; // left, right, up, down
         bool horizontal, vertical;           // both of the axis are there
     };
     Neighbours neighbours(std::uint64_t i, int x, int y) const;
     std::uint64_t surface_in(int x, int y, double depth) const;
+    Weights weights(std::uint64_t i, int x, int y) const;
     double detail(std::uint64_t i, const Neighbours &n) const;
     double second_difference(std::uint64_t i, std::uint64_t a, std::uint64_t b, std::size_t k) const {
         const std::vector<float> &v = ldi_.values[rgb_[k]];
@@ -84,7 +93,8 @@ private:
     const Ldi &ldi_;
     const ThinLens &lens_;
     std::array<std::size_t, 3> rgb_;
-    std::vector<double> noise_; // of each block, as detail() measures it
+    std::vector<Weights> weights_; // of each sample
+    std::vector<double> noise_;    // of each block, as detail() measures it
     BlurTable blur_;
 };
 
@@ -147,35 +157,58 @@ void Sharpener::measure_noise() {
     });
 }
 
+Sharpener::Weights Sharpener::weights(std::uint64_t i, int x, int y) const {
+    const MergedSample place = placement_of(ldi_, i);
+    const double coc = circle_of_confusion(lens_, double(place.z));
+    Weights w{blur_.weight(coc, double(place.dx)), blur_.weight(coc * lens_.pixel_aspect, double(place.dy)),
+              1};
+    if (w.horizontal == 0 && w.vertical == 0) return {0, 0, 0};
+    const Neighbours n = neighbours(i, x, y);
+    if (!n.horizontal) w.horizontal = 0;
+    if (!n.vertical) w.vertical = 0;
+    const int columns = (ldi_.windows.width() + noise_block - 1) / noise_block;
+    const double noise = 5 * noise_[std::size_t(y / noise_block * columns + x / noise_block)],
+                 d = detail(i, n);
+    const double strength = noise > 0 ? (d > 0 ? 1 / (1 + std::pow(noise / d, 4)) : 0) : 1;
+    w.horizontal *= strength;
+    w.vertical *= strength;
+    for (const std::size_t k : rgb_) {
+        const std::vector<float> &v = ldi_.values[k];
+        double given = 0; // at most, to brighter neighbours: no more than there is
+        for (std::size_t to = 0; to < 4; ++to)
+            if (to < 2 ? n.horizontal : n.vertical)
+                given += 0.5 * (w.along(to) + BlurTable::largest_weight) *
+                         std::max(0.0, double(v[n.sample[to]]) - double(v[i]));
+        if (given * w.most > double(v[i])) w.most = std::max(0.0, double(v[i])) / given;
+    }
+    return w;
+}
+
+void Sharpener::weigh() {
+    weights_.resize(ldi_.samples());
+    const std::size_t width = std::size_t(ldi_.windows.width());
+    parallel_for(std::size_t(ldi_.windows.height()), [&](std::size_t row) {
+        for (std::size_t pixel = row * width; pixel < (row + 1) * width; ++pixel)
+            for (std::uint64_t i = ldi_.begin[pixel]; i < ldi_.begin[pixel + 1]; ++i)
+                weights_[i] = weights(i, int(pixel - row * width), int(row));
+    });
+}
+
 std::array<Term, 5> Sharpener::terms(std::uint64_t i, int x, int y) const {
     std::array<Term, 5> terms;
     terms.fill({i, 0});
     terms[0].coefficient = 1;
-    const MergedSample place = placement_of(ldi_, i);
-    const double coc = circle_of_confusion(lens_, double(place.z));
-    double horizontal = blur_.weight(coc, double(place.dx)),
-           vertical = blur_.weight(coc * lens_.pixel_aspect, double(place.dy));
-    if (horizontal == 0 && vertical == 0) return terms;
+    const Weights &own = weights_[i];
+    if (own.most == 0) return terms;
     const Neighbours n = neighbours(i, x, y);
-    if (!n.horizontal) horizontal = 0;
-    if (!n.vertical) vertical = 0;
-    const int columns = (ldi_.windows.width() + noise_block - 1) / noise_block;
-    const double noise = 5 * noise_[std::size_t(y / noise_block * columns + x / noise_block)],
-                 d = detail(i, n);
-    double strength = d > 0 ? 1 / (1 + std::pow(noise / d, 4)) : 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-        const double value = double(ldi_.values[rgb_[k]][i]);
-        const double change =
-            (horizontal > 0 ? horizontal * second_difference(i, n.sample[0], n.sample[1], k) : 0) +
-            (vertical > 0 ? vertical * second_difference(i, n.sample[2], n.sample[3], k) : 0);
-        if (change * strength > value) strength = std::max(0.0, value) / change;
+    for (std::size_t k = 0; k < 4; ++k) {
+        if (!(k < 2 ? n.horizontal : n.vertical)) continue;
+        // The same for both, so that no light is made or lost.
+        const Weights &other = weights_[n.sample[k]];
+        const double shared = 0.5 * (own.along(k) + other.along(k)) * std::min(own.most, other.most);
+        terms[0].coefficient += shared;
+        terms[k + 1] = {n.sample[k], -shared};
     }
-    horizontal *= strength;
-    vertical *= strength;
-    terms[0].coefficient = 1 + 2 * horizontal + 2 * vertical;
-    for (std::size_t k = 0; k < 4; ++k)
-        if ((k < 2 ? horizontal : vertical) > 0)
-            terms[k + 1] = {n.sample[k], -(k < 2 ? horizontal : vertical)};
     return terms;
 }
 
@@ -186,6 +219,7 @@ void sharpen_near_focus(const Ldi &ldi, const ThinLens &lens, const BlockedSampl
     Sharpener sharpener(ldi, lens);
     if (!sharpener.usable()) return;
     sharpener.measure_noise();
+    sharpener.weigh();
     std::vector<std::uint32_t> blocked(ldi.samples());
     parallel_runs(samples.count(), 4096, [&](std::size_t begin, std::size_t end) {
         for (std::size_t b = begin; b < end; ++b)

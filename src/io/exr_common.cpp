@@ -1,5 +1,6 @@
 #include "io/exr_common.h"
 
+#include <ImfTileDescription.h>
 #include <half.h>
 
 #include <algorithm>
@@ -38,6 +39,18 @@ std::size_t usual_depth_channel(const std::vector<Channel> &channels) {
 
 Windows windows_of(const Imf::Header &header) {
     return {header.displayWindow(), header.dataWindow(), header.pixelAspectRatio()};
+}
+
+double memory_of(const Imf::Header &header, std::size_t values) {
+    const Imath::Box2i &data = header.dataWindow();
+    const double width = double(data.max.x) - double(data.min.x) + 1;
+    const double height = double(data.max.y) - double(data.min.y) + 1;
+    double pixels = width * height;
+    if (header.hasTileDescription()) {
+        const Imf::TileDescription &tile = header.tileDescription();
+        pixels += double(tile.xSize) * double(tile.ySize);
+    }
+    return pixels * double(values * sizeof(float));
 }
 
 std::vector<Channel> channels_of(const Imf::Header &header, const std::string &path) {
@@ -95,17 +108,20 @@ Imf::PixelType imf_type(PixelType type) {
 
 std::size_t bytes_of(PixelType type) { return type == PixelType::half ? 2 : 4; }
 
-void store(PixelType type, const float *from, std::size_t count, char *to) {
+std::size_t store(PixelType type, const float *from, std::size_t count, char *to) {
     if (type != PixelType::half) {
         std::memcpy(to, from, count * sizeof(float)); // ids keep their bits, see PixelType
-        return;
+        return 0;
     }
-    constexpr float largest = 65504;
+    constexpr float largest = 65504, rounded_up = 65520; // from here on a half would be infinite
+    std::size_t clamped = 0;
     for (std::size_t i = 0; i < count; ++i) {
         const float value = std::isfinite(from[i]) ? std::clamp(from[i], -largest, largest) : from[i];
+        if (std::isfinite(from[i]) && std::abs(from[i]) >= rounded_up) ++clamped;
         const Imath::half rounded(value);
         std::memcpy(to + 2 * i, &rounded, 2);
     }
+    return clamped;
 }
 
 } // namespace sparselens

@@ -16,6 +16,9 @@ namespace sparselens {
 
 Windows windows_of(const Imf::Header &header);
 
+// What a picture takes in memory that holds `values` floats a pixel, and one tile of its file (bytes).
+double memory_of(const Imf::Header &header, std::size_t values);
+
 // The header's channels, R, G, B, A first, then by name. Error where a channel is subsampled.
 std::vector<Channel> channels_of(const Imf::Header &header, const std::string &path);
 
@@ -37,8 +40,8 @@ Imf::PixelType imf_type(PixelType type);
 std::size_t bytes_of(PixelType type);
 
 // Stores floats as the channel's type, `count` values from `from` to `to`. Finite values beyond half's range
-// become its largest, never infinity.
-void store(PixelType type, const float *from, std::size_t count, char *to);
+// become its largest, never infinity; returns how many there were.
+std::size_t store(PixelType type, const float *from, std::size_t count, char *to);
 
 // Calls work(); what OpenEXR throws leaves as Error that names the file.
 template <typename Work>

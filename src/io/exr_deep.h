@@ -21,8 +21,9 @@ struct LdiFile {
 // beside it are the back depths. Samples come as they stand in the file (see tidy), of a flat picture one a pixel.
 LdiFile read_ldi(const std::string &path, const std::string &depth_channel = {});
 
-// Scanline deep EXR, ZIPS (into a pipe uncompressed); deepImageState says what holds of the samples. Of `metadata` everything is kept that
-// does not describe its own pixels.
-void write_ldi(const std::string &path, const Ldi &ldi, const Imf::Header &metadata);
+// Scanline deep EXR, ZIPS (into a pipe uncompressed); deepImageState says what holds of the samples. Of `metadata`
+// everything is kept that does not describe its own pixels. Returns how many values became the largest half, as
+// write_flat_exr does.
+std::size_t write_ldi(const std::string &path, const Ldi &ldi, const Imf::Header &metadata);
 
 } // namespace sparselens

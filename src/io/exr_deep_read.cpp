@@ -1,6 +1,7 @@
 #include "io/exr_common.h"
 #include "io/exr_deep.h"
 #include "io/exr_flat.h"
+#include "io/memory_limit.h"
 
 #include <ImfDeepFrameBuffer.h>
 #include <ImfDeepScanLineInputPart.h>
@@ -94,12 +95,22 @@ private:
     Imf::DeepFrameBuffer buffer_;
 };
 
-void make_room(const Ldi &ldi, const Planes &planes) {
+// The file that is read; its size is what it may ask memory for.
+struct Source {
+    Imf::MultiPartInputFile &file;
+    const std::string &path;
+    std::uint64_t size;
+};
+
+void make_room(const Ldi &ldi, const Planes &planes, const Source &source) {
+    const double counts = double(ldi.begin.size()) * sizeof(ldi.begin[0]);
+    const double bytes = double(ldi.begin.back()) * double(planes.named.size() * sizeof(float));
+    check_memory(source.path, counts + bytes, source.size);
     for (const auto &[name, values] : planes.named) values->resize(ldi.begin.back());
 }
 
-void read_scanlines(Imf::MultiPartInputFile &file, int number, Ldi &ldi, const Planes &planes) {
-    Imf::DeepScanLineInputPart part(file, number);
+void read_scanlines(const Source &source, int number, Ldi &ldi, const Planes &planes) {
+    Imf::DeepScanLineInputPart part(source.file, number);
     const Windows &w = ldi.windows;
     std::vector<unsigned> counts(w.pixels());
     Imf::DeepFrameBuffer only_counts;
@@ -107,7 +118,7 @@ void read_scanlines(Imf::MultiPartInputFile &file, int number, Ldi &ldi, const P
     part.setFrameBuffer(only_counts);
     part.readPixelSampleCounts(w.data.min.y, w.data.max.y);
     set_counts(ldi, counts);
-    make_room(ldi, planes);
+    make_room(ldi, planes, source);
     constexpr int rows_at_once = 128; // bounds the pointer table, keeps all threads busy
     for (int y = w.data.min.y; y <= w.data.max.y; y += rows_at_once) {
         const int last = std::min(y + rows_at_once - 1, w.data.max.y);
@@ -118,8 +129,8 @@ void read_scanlines(Imf::MultiPartInputFile &file, int number, Ldi &ldi, const P
     }
 }
 
-void read_tiles(Imf::MultiPartInputFile &file, int number, Ldi &ldi, const Planes &planes) {
-    Imf::DeepTiledInputPart part(file, number);
+void read_tiles(const Source &source, int number, Ldi &ldi, const Planes &planes) {
+    Imf::DeepTiledInputPart part(source.file, number);
     const Windows &w = ldi.windows;
     std::vector<unsigned> counts(w.pixels());
     Imf::DeepFrameBuffer only_counts;
@@ -128,7 +139,7 @@ void read_tiles(Imf::MultiPartInputFile &file, int number, Ldi &ldi, const Plane
     const int right = part.numXTiles(0) - 1, bottom = part.numYTiles(0) - 1;
     part.readPixelSampleCounts(0, right, 0, bottom);
     set_counts(ldi, counts);
-    make_room(ldi, planes);
+    make_room(ldi, planes, source);
     const PointerTable table(ldi, planes, w.data.min.y, w.data.max.y, counts);
     part.setFrameBuffer(table.frame_buffer());
     part.readPixelSampleCounts(0, right, 0, bottom);
@@ -154,9 +165,11 @@ LdiFile read_ldi(const std::string &path, const std::string &depth_channel) {
     return with_file_name(path, [&] {
         const auto stream = open_input(path);
         Imf::MultiPartInputFile file(*stream);
+        const Source source{file, path, stream->size()};
         const int number = first_deep_part(file);
         if (number < 0) {
-            FlatFile flat = read_flat_part(file, path);
+            FlatFile flat = read_flat_part(file, path, source.size);
+            check_memory(path, 2 * memory_of(flat.header, flat.image.channels.size() + 1), source.size);
             const std::string depth = find_depth_channel(flat.image.channels, depth_channel, path);
             return LdiFile{ldi_of_flat(flat.image, depth), flat.header, false};
         }
@@ -166,10 +179,14 @@ LdiFile read_ldi(const std::string &path, const std::string &depth_channel) {
         result.ldi.windows = windows_of(header);
         const Planes planes =
             plan_planes(result.ldi, channels, find_depth_channel(channels, depth_channel, path));
-        if (header.type() == Imf::DEEPTILE)
-            read_tiles(file, number, result.ldi, planes);
+        const bool tiled = header.type() == Imf::DEEPTILE;
+        constexpr std::size_t counts = 3; // floats' worth: a count and where its samples begin
+        const std::size_t pointers = tiled ? 2 * planes.named.size() : 0; // of scanlines a few rows at a time
+        check_memory(path, memory_of(header, counts + pointers), source.size);
+        if (tiled)
+            read_tiles(source, number, result.ldi, planes);
         else
-            read_scanlines(file, number, result.ldi, planes);
+            read_scanlines(source, number, result.ldi, planes);
         return result;
     });
 }

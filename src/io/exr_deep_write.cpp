@@ -10,6 +10,7 @@
 #include <ImfStandardAttributes.h>
 
 #include <algorithm>
+#include <numeric>
 
 namespace sparselens {
 
@@ -42,8 +43,9 @@ std::vector<StoredChannel> stored_channels(const Ldi &ldi) {
 }
 
 // Writes `rows` rows from `first_row` on: samples turned into the channels' types, then compressed in parallel.
-void write_rows(Imf::DeepScanLineOutputFile &file, const Ldi &ldi, const std::vector<StoredChannel> &stored,
-                int first_row, int rows) {
+// Returns how many values store() clamped.
+std::size_t write_rows(Imf::DeepScanLineOutputFile &file, const Ldi &ldi,
+                       const std::vector<StoredChannel> &stored, int first_row, int rows) {
     const Windows &w = ldi.windows;
     const std::size_t width = std::size_t(w.width()), pixels = std::size_t(rows) * width;
     const std::size_t first = std::size_t(first_row - w.data.min.y) * width;
@@ -56,11 +58,12 @@ void write_rows(Imf::DeepScanLineOutputFile &file, const Ldi &ldi, const std::ve
     buffer.insertSampleCountSlice(
         Imf::Slice::Make(Imf::UINT, counts.data(), box, sizeof(unsigned), sizeof(unsigned) * width));
     std::vector<std::vector<char>> bytes(stored.size());
+    std::vector<std::size_t> clamped(stored.size());
     std::vector<std::vector<char *>> pointers(stored.size());
     parallel_for(stored.size(), [&](std::size_t k) {
         const std::size_t size = bytes_of(stored[k].type);
         bytes[k].resize(count * size);
-        store(stored[k].type, stored[k].values->data() + from, count, bytes[k].data());
+        clamped[k] = store(stored[k].type, stored[k].values->data() + from, count, bytes[k].data());
         pointers[k].resize(pixels);
         for (std::size_t i = 0; i < pixels; ++i)
             pointers[k][i] = bytes[k].data() + (ldi.begin[first + i] - from) * size;
@@ -74,12 +77,13 @@ void write_rows(Imf::DeepScanLineOutputFile &file, const Ldi &ldi, const std::ve
     }
     file.setFrameBuffer(buffer);
     file.writePixels(rows);
+    return std::accumulate(clamped.begin(), clamped.end(), std::size_t{0});
 }
 
 } // namespace
 
-void write_ldi(const std::string &path, const Ldi &ldi, const Imf::Header &metadata) {
-    with_file_name(path, [&] {
+std::size_t write_ldi(const std::string &path, const Ldi &ldi, const Imf::Header &metadata) {
+    return with_file_name(path, [&] {
         const std::vector<StoredChannel> stored = stored_channels(ldi);
         std::vector<Channel> channels;
         for (const StoredChannel &channel : stored) channels.push_back({channel.name, channel.type});
@@ -88,14 +92,16 @@ void write_ldi(const std::string &path, const Ldi &ldi, const Imf::Header &metad
         Imf::addDeepImageState(header, state_of(ldi));
         OutputFile output(path);
         header.compression() = output.to_pipe() ? Imf::NO_COMPRESSION : Imf::ZIPS_COMPRESSION;
+        std::size_t clamped = 0;
         {
             Imf::DeepScanLineOutputFile file(output.stream(), header);
             constexpr int rows_at_once = 128;
             const Imath::Box2i &data = ldi.windows.data;
             for (int y = data.min.y; y <= data.max.y; y += rows_at_once)
-                write_rows(file, ldi, stored, y, std::min(rows_at_once, data.max.y - y + 1));
+                clamped += write_rows(file, ldi, stored, y, std::min(rows_at_once, data.max.y - y + 1));
         }
         output.commit();
+        return clamped;
     });
 }
 

@@ -1,6 +1,7 @@
 #include "io/exr_flat.h"
 
 #include "io/exr_common.h"
+#include "io/memory_limit.h"
 
 #include <ImfFrameBuffer.h>
 #include <ImfInputPart.h>
@@ -24,10 +25,13 @@ int first_flat_part(Imf::MultiPartInputFile &file, const std::string &path) {
 
 } // namespace
 
-FlatFile read_flat_part(Imf::MultiPartInputFile &file, const std::string &path) {
-    Imf::InputPart part(file, first_flat_part(file, path));
-    const Imf::Header &header = part.header();
-    Image image(windows_of(header), channels_of(header, path));
+FlatFile read_flat_part(Imf::MultiPartInputFile &file, const std::string &path, std::uint64_t size) {
+    const int number = first_flat_part(file, path);
+    const Imf::Header &header = file.header(number);
+    const std::vector<Channel> channels = channels_of(header, path);
+    check_memory(path, memory_of(header, channels.size()), size);
+    Imf::InputPart part(file, number);
+    Image image(windows_of(header), channels);
     const Windows &w = image.windows;
     Imf::FrameBuffer pixels;
     for (std::size_t k = 0; k < image.channels.size(); ++k) {
@@ -45,7 +49,7 @@ FlatFile read_flat_exr(const std::string &path) {
     return with_file_name(path, [&] {
         const auto stream = open_input(path);
         Imf::MultiPartInputFile file(*stream);
-        return read_flat_part(file, path);
+        return read_flat_part(file, path, stream->size());
     });
 }
 
@@ -71,8 +75,9 @@ std::vector<float> take_depth(Image &image, const std::string &depth_channel, co
     return depth;
 }
 
-void write_flat_exr(const std::string &path, const Image &image, const Imf::Header &metadata) {
-    with_file_name(path, [&] {
+std::size_t write_flat_exr(const std::string &path, const Image &image, const Imf::Header &metadata) {
+    return with_file_name(path, [&] {
+        std::size_t clamped = 0;
         const Windows &w = image.windows;
         std::vector<std::vector<char>> stored(image.channels.size());
         Imf::FrameBuffer pixels;
@@ -80,7 +85,7 @@ void write_flat_exr(const std::string &path, const Image &image, const Imf::Head
             const Channel &channel = image.channels[k];
             const std::size_t bytes = bytes_of(channel.type);
             stored[k].resize(w.pixels() * bytes);
-            store(channel.type, image.plane(k).data(), w.pixels(), stored[k].data());
+            clamped += store(channel.type, image.plane(k).data(), w.pixels(), stored[k].data());
             pixels.insert(channel.name, Imf::Slice::Make(imf_type(channel.type), stored[k].data(), w.data,
                                                          bytes, bytes * std::size_t(w.width())));
         }
@@ -93,6 +98,7 @@ void write_flat_exr(const std::string &path, const Image &image, const Imf::Head
             file.writePixels(w.height());
         }
         output.commit();
+        return clamped;
     });
 }
 

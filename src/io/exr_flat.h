@@ -21,14 +21,16 @@ struct FlatFile {
 // The first part that holds flat pixels, all its channels.
 FlatFile read_flat_exr(const std::string &path);
 Imf::Header read_flat_header(const std::string &path); // of that part, without reading pixels
-FlatFile read_flat_part(Imf::MultiPartInputFile &file, const std::string &path); // path: for messages
+// `path`: for messages; `size` of the file, bytes.
+FlatFile read_flat_part(Imf::MultiPartInputFile &file, const std::string &path, std::uint64_t size);
 
 // Takes the depth channel out of the picture (see read_ldi for how it is found), and drops what else says where
 // a sample lies (see is_placement), which is nothing to be carried like a colour.
 std::vector<float> take_depth(Image &image, const std::string &depth_channel, const std::string &path);
 
 // Channels are stored in their own types. Of `metadata` everything is kept that does not describe the pixels
-// themselves (windows, channels, tiling); compression is ZIP.
-void write_flat_exr(const std::string &path, const Image &image, const Imf::Header &metadata);
+// themselves (windows, channels, tiling); compression is ZIP. Returns how many values were
+// beyond what a half holds and became its largest, 65504.
+std::size_t write_flat_exr(const std::string &path, const Image &image, const Imf::Header &metadata);
 
 } // namespace sparselens

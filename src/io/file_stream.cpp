@@ -19,10 +19,10 @@ namespace {
     throw Error(display_name(path) + ": " + what + ": " + std::strerror(errno));
 }
 
-class MemoryInput : public Imf::IStream {
+class MemoryInput : public InputStream {
 public:
     MemoryInput(const std::string &name, std::vector<char> bytes)
-        : Imf::IStream(name.c_str()), bytes_(std::move(bytes)) {}
+        : InputStream(name.c_str()), bytes_(std::move(bytes)) {}
 
     bool read(char c[], int n) override {
         if (n < 0 || std::uint64_t(n) > bytes_.size() - position_)
@@ -36,16 +36,17 @@ public:
         if (position > bytes_.size()) throw Error(std::string(fileName()) + ": the file ends too early");
         position_ = position;
     }
+    std::uint64_t size() const override { return bytes_.size(); }
 
 private:
     std::vector<char> bytes_;
     std::uint64_t position_ = 0;
 };
 
-class FileInput : public Imf::IStream {
+class FileInput : public InputStream {
 public:
-    FileInput(const std::string &name, int descriptor)
-        : Imf::IStream(name.c_str()), file_(fdopen(descriptor, "rb")) {}
+    FileInput(const std::string &name, int descriptor, std::uint64_t size)
+        : InputStream(name.c_str()), file_(fdopen(descriptor, "rb")), size_(size) {}
     ~FileInput() override { std::fclose(file_); }
 
     bool read(char c[], int n) override {
@@ -55,9 +56,11 @@ public:
     }
     std::uint64_t tellg() override { return std::uint64_t(ftello(file_)); }
     void seekg(std::uint64_t position) override { fseeko(file_, off_t(position), SEEK_SET); }
+    std::uint64_t size() const override { return size_; }
 
 private:
     std::FILE *file_;
+    std::uint64_t size_;
 };
 
 struct Closing {
@@ -113,7 +116,7 @@ std::filesystem::path follow_links(const std::string &path) {
 
 std::string display_name(const std::string &path) { return path == "-" ? "standard stream" : path; }
 
-std::unique_ptr<Imf::IStream> open_input(const std::string &path) {
+std::unique_ptr<InputStream> open_input(const std::string &path) {
     if (path == "-") return std::make_unique<MemoryInput>(display_name(path), read_whole(path, STDIN_FILENO));
     const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
     if (descriptor < 0) fail(path, "cannot open");
@@ -122,7 +125,8 @@ std::unique_ptr<Imf::IStream> open_input(const std::string &path) {
         ::close(descriptor);
         throw Error(path + ": is a folder, not a file");
     }
-    if (S_ISREG(info.st_mode)) return std::make_unique<FileInput>(path, descriptor);
+    if (S_ISREG(info.st_mode))
+        return std::make_unique<FileInput>(path, descriptor, std::uint64_t(info.st_size));
     const Closing closing{descriptor};
     return std::make_unique<MemoryInput>(path, read_whole(path, descriptor));
 }
@@ -179,13 +183,13 @@ OutputFile::OutputFile(const std::string &path) : path_(path) {
             "." + target.filename().string().substr(0, longest) + "." + std::to_string(::getpid());
         for (int attempt = 0; attempt < 100 && descriptor_ < 0; ++attempt) {
             const std::string unique = name + "-" + std::to_string(attempt) + ".partial";
-            temporary_ = (target.parent_path() / unique).string();
-            descriptor_ = ::open(temporary_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+            temporary_ = std::make_unique<Unfinished>((target.parent_path() / unique).string());
+            descriptor_ = ::open(temporary_->path().c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
             if (descriptor_ < 0 && errno != EEXIST) break;
         }
     }
     if (descriptor_ < 0) {
-        temporary_.clear();
+        temporary_.reset();
         fail(path, "cannot write");
     }
     buffer_ = std::make_unique<Buffer>(display_name(path), descriptor_, !target_.empty());
@@ -193,7 +197,7 @@ OutputFile::OutputFile(const std::string &path) : path_(path) {
 
 OutputFile::~OutputFile() {
     if (descriptor_ >= 0) ::close(descriptor_);
-    if (!temporary_.empty()) ::unlink(temporary_.c_str());
+    if (temporary_) ::unlink(temporary_->path().c_str());
 }
 
 Imf::OStream &OutputFile::stream() { return *buffer_; }
@@ -209,8 +213,9 @@ void OutputFile::commit() {
     descriptor_ = -1;
     if (::close(descriptor) != 0) fail(path_, "cannot write");
     if (target_.empty()) return;
-    if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail(path_, "cannot rename the finished file");
-    temporary_.clear();
+    if (::rename(temporary_->path().c_str(), target_.c_str()) != 0)
+        fail(path_, "cannot rename the finished file");
+    temporary_.reset();
 }
 
 } // namespace sparselens

@@ -7,6 +7,8 @@
 // Errors (Error) name the file and the system's reason.
 #pragma once
 
+#include "io/unfinished.h"
+
 #include <ImfIO.h>
 
 #include <cstdint>
@@ -16,8 +18,14 @@
 
 namespace sparselens {
 
+class InputStream : public Imf::IStream {
+public:
+    using Imf::IStream::IStream;
+    virtual std::uint64_t size() const = 0; // bytes
+};
+
 // A seekable stream; `-` and whatever cannot seek is read whole into memory.
-std::unique_ptr<Imf::IStream> open_input(const std::string &path);
+std::unique_ptr<InputStream> open_input(const std::string &path);
 
 class OutputFile {
 public:
@@ -34,10 +42,10 @@ public:
 
 private:
     class Buffer;
-    std::string path_;      // as given, for messages
-    std::string target_;    // links followed; empty: not renamed, written through
-    std::string temporary_; // empty once committed
-    int descriptor_ = -1;   // of the temporary, or of what is written through
+    std::string path_;                      // as given, for messages
+    std::string target_;                    // links followed; empty: not renamed, written through
+    std::unique_ptr<Unfinished> temporary_; // none once committed
+    int descriptor_ = -1;                   // of the temporary, or of what is written through
     std::unique_ptr<Buffer> buffer_;
 };
 

@@ -84,6 +84,18 @@ TEST_F(ExrFlat, WhatHalfCannotHoldBecomesItsLargest) {
     EXPECT_TRUE(std::isnan(round_trip(one_pixel(PixelType::half, std::nanf(""))).values[0]));
 }
 
+TEST_F(ExrFlat, WhatHalfCannotHoldIsCounted) {
+    const auto clamped = [&](float value, PixelType type = PixelType::half) {
+        return write_flat_exr(folder.file("x.exr"), one_pixel(type, value), Imf::Header());
+    };
+    for (const float fits : {0.0f, -65504.0f, 65519.0f, inf, std::nanf("")})
+        EXPECT_EQ(clamped(fits), 0u) << fits;
+    for (const float large : {65520.0f, -1e30f}) {
+        EXPECT_EQ(clamped(large), 1u) << large;
+        EXPECT_EQ(clamped(large, PixelType::float32), 0u) << large;
+    }
+}
+
 TEST_F(ExrFlat, MetadataIsKeptExceptWhatDescribesThePixels) {
     Imf::Header header;
     header.insert("comments", Imf::StringAttribute("a comment"));

@@ -1,11 +1,12 @@
 // How the tools load what they work on: depth made planar, camera and lens put together.
 //
-// A depth of 0 says that nothing was hit, as many renderers write it: it becomes infinity, as does any depth where
-// A is 0. Error (naming file and pixel) where another depth is no number above 0.
+// What no picture can mean is made good (bad_values.h) and counted; the caller says so, see warn_of_bad_values().
 #pragma once
 
 #include "common/lens_options.h"
+#include "common/tool.h"
 #include "io/exr_deep.h"
+#include "ldi/bad_values.h"
 #include "ldi/ldi.h"
 #include "view/view.h"
 
@@ -19,6 +20,7 @@ struct LoadedLdi {
     Ldi ldi; // tidy
     Imf::Header header;
     Camera camera; // of the header, with the options over it
+    BadValues bad;
 };
 
 LoadedLdi load_ldi(const std::string &path, const LensOptions &lens, const DepthOptions &depth);
@@ -27,8 +29,13 @@ struct LoadedView {
     View view; // at the origin: the caller knows where it stands
     Imf::Header header;
     Camera camera; // of the header alone
+    BadValues bad;
 };
 
 LoadedView load_view(const std::string &path, const LensOptions &lens, const DepthOptions &depth);
+
+// Each one line on stderr, where there were any; `clamped` is what write_flat_exr and write_ldi return.
+void warn_of_clamped(const ToolContext &tool, const std::string &path, std::size_t clamped);
+void warn_of_bad_values(const ToolContext &tool, const std::string &path, const BadValues &bad);
 
 } // namespace sparselens

@@ -28,6 +28,7 @@ LoadedViews load_views(const ViewList &list, const LensOptions &lens, const Dept
         if (cameras.empty()) loaded.header = std::move(next.header);
         cameras.push_back(std::move(next.camera));
         loaded.views.push_back(std::move(next.view));
+        loaded.bad.push_back(next.bad);
     }
     const std::span rim_cameras = std::span(cameras).subspan(1);
     const std::span rim_files = std::span(list.files).subspan(1);
@@ -35,8 +36,10 @@ LoadedViews load_views(const ViewList &list, const LensOptions &lens, const Dept
     for (std::size_t i = 0; i < placed.positions.size(); ++i)
         loaded.views[i + 1].position = placed.positions[i];
     for (std::size_t i = 0; i < offsets.size(); ++i) {
-        loaded.views.push_back(load_view(list.placed[i].second, lens, depth).view);
-        loaded.views.back().position = offsets[i];
+        LoadedView next = load_view(list.placed[i].second, lens, depth);
+        next.view.position = offsets[i];
+        loaded.views.push_back(std::move(next.view));
+        loaded.bad.push_back(next.bad);
     }
     loaded.camera = camera_with_options(lens, cameras[0]);
     loaded.camera.lens_points.clear();

@@ -1,0 +1,28 @@
+#!/bin/bash
+# Long fuzzing with libFuzzer, under AddressSanitizer and UndefinedBehaviorSanitizer.
+#
+#   tests/fuzz.sh [SECONDS [TARGET...]]     600 seconds each of deep_reader flat_reader camera_metadata command_line
+#
+# Begins with the kept corpus, tests/fuzz/corpus; what it finds new stays in build-fuzz/corpus, what fails in
+# build-fuzz/found. Needs clang-14; exit 77 without.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+exec </dev/null
+command -v clang++-14 >/dev/null || { echo "skipped: clang++-14 is not installed"; exit 77; }
+seconds=${1:-600}
+shift || true
+targets=("$@")
+[ $# -gt 0 ] || targets=(deep_reader flat_reader camera_metadata command_line)
+
+cmake --preset fuzz --log-level=WARNING
+cmake --build build-fuzz -j "$(nproc)" --target "${targets[@]/#/fuzz-}"
+mkdir -p build-fuzz/found
+code=0
+for target in "${targets[@]}"; do
+    mkdir -p build-fuzz/corpus/"$target"
+    echo "== $target"
+    build-fuzz/bin/fuzz-"$target" -max_total_time="$seconds" -timeout=10 -rss_limit_mb=1024 -max_len=65536 \
+        -close_fd_mask=3 -print_final_stats=1 -artifact_prefix=build-fuzz/found/"$target"- \
+        build-fuzz/corpus/"$target" tests/fuzz/corpus/"$target" 2>&1 | tail -n 12 || code=1
+done
+exit $code

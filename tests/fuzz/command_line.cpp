@@ -1,0 +1,60 @@
+// Any words as a command line: the options that the tools share.
+#include "common/channels.h"
+#include "common/lens_options.h"
+#include "common/picture_options.h"
+#include "common/tool.h"
+#include "common/view_list.h"
+#include "fuzz/fuzz.h"
+
+#include <sstream>
+#include <vector>
+
+using namespace sparselens;
+
+namespace {
+
+struct Options {
+    LensOptions lens;
+    DepthOptions depth;
+    ViewList views;
+    const GatherMethod *method = nullptr;
+    std::optional<Imath::V2i> pixel;
+    bool as_float = false;
+    std::string channels;
+};
+
+void use(const Options &options) {
+    const Camera camera = camera_with_options(options.lens, {});
+    fuzz::may_fail([&] { resolve_lens(options.lens, camera, windows_of_size(64, 48)); });
+    for (const auto &[offset, file] : options.views.placed)
+        fuzz::may_fail([&, &text = offset] { view_offset(text); });
+    Ldi ldi;
+    ldi.channels = rgba_channels();
+    ldi.values.resize(4);
+    fuzz::may_fail([&] { keep_channels(ldi, options.channels); });
+    fuzz::may_fail([&] { chosen_channels(Image(windows_of_size(2, 2), rgba_channels()), options.channels); });
+}
+
+} // namespace
+
+// Words are separated by line feeds.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {
+    std::istringstream in(std::string(reinterpret_cast<const char *>(data), size));
+    std::vector<std::string> words{"fuzz"};
+    for (std::string word; std::getline(in, word);) words.push_back(word);
+    std::vector<char *> arguments;
+    for (std::string &word : words) arguments.push_back(word.data());
+    Options options;
+    CLI::App app("Fuzzed", "fuzz");
+    add_view_list(app, options.views);
+    add_lens_options(app, options.lens);
+    add_depth_options(app, options.depth);
+    add_method_option(app, options.method);
+    add_pixel_option(app, "--focus-pixel", options.pixel, "");
+    add_type_option(app, options.as_float);
+    app.add_option("--channels", options.channels, "");
+    const int code =
+        run_tool(app, int(arguments.size()), arguments.data(), [&](const ToolContext &) { use(options); });
+    if (code < 0 || code > 2) __builtin_trap();
+    return 0;
+}

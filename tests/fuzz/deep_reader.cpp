@@ -1,0 +1,28 @@
+// Any bytes as an LDI: read, made good, tidied, clustered, flattened.
+#include "fuzz/fuzz.h"
+#include "io/camera_metadata.h"
+#include "io/exr_deep.h"
+#include "io/memory_limit.h"
+#include "ldi/bad_values.h"
+#include "ldi/cluster.h"
+#include "ldi/front_depth.h"
+#include "ldi/order.h"
+
+using namespace sparselens;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {
+    set_memory_limit(std::uint64_t(4) << 20); // small pictures find the same faults sooner
+    const fuzz::MemoryFile file(data, size);
+    fuzz::may_fail([&] {
+        LdiFile in = read_ldi(file.path());
+        order_of(in.ldi);
+        repair_bad_values(in.ldi, "fuzz");
+        const Ldi ldi = tidy(std::move(in.ldi));
+        Progress silent;
+        const Clustered fewer = cluster(ldi, {.scale = 100, .tolerance = 0.25, .layers = 3}, silent);
+        flatten(fewer.ldi);
+        front_depth(fewer.ldi);
+        read_picture_window(in.header);
+    });
+    return 0;
+}

@@ -1,0 +1,22 @@
+// Any bytes as a rendered view: header, pixels, depth, made good.
+#include "fuzz/fuzz.h"
+#include "io/exr_flat.h"
+#include "io/memory_limit.h"
+#include "ldi/bad_values.h"
+#include "ldi/view_samples.h"
+
+using namespace sparselens;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {
+    set_memory_limit(std::uint64_t(4) << 20); // small pictures find the same faults sooner
+    const fuzz::MemoryFile file(data, size);
+    fuzz::may_fail([&] { read_flat_header(file.path()); });
+    fuzz::may_fail([&] {
+        FlatFile flat = read_flat_exr(file.path());
+        View view{"fuzz", std::move(flat.image), {}};
+        view.z = take_depth(view.image, {}, "fuzz");
+        repair_bad_values(view);
+        samples_of(view, view.image.channels);
+    });
+    return 0;
+}

@@ -1,0 +1,72 @@
+#!/bin/bash
+# Puts deliberate faults in, one at a time, and says which tests catch each. A fault that none catches is a hole in the
+# tests.
+#
+#   tests/mutations.sh [NAME...]     all, or those of these names
+#
+# Works on a copy in build-mutations/; exit 1 where a fault is not caught.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+exec </dev/null
+source=$PWD copy=$PWD/build-mutations
+
+# NAME | FILE | WHAT (basic regular expression of one line) | INSTEAD
+faults=$(
+    cat <<'END'
+coc-sign|src/lens/thin_lens.cpp|((z - lens.focus) / z)|((lens.focus - z) / z)
+coc-cancels|src/lens/thin_lens.cpp|(rf \/ lens.focus) \* ((z - lens.focus) \/ z)|rf * (1 / lens.focus - 1 / z)
+coc-no-sky|src/lens/thin_lens.cpp|if (std::isinf(z)) return rf / lens.focus;|
+half-pixel-off|src/dof/sample_blocks.cpp|float(x) + 0.5f + place.dx|float(x) + place.dx
+aspect-dropped|src/lens/lens_samples.cpp|-u.y \* pixel_aspect|-u.y
+alpha-dropped|src/dof/lens_tile.cpp|(1 - samples_.alpha\[i\])|1.0f
+not-renormalised|src/dof/lens_tile.cpp|sums_\[at\] / known|sums_[at] / total_
+weight-dropped|src/ldi/warp.cpp|out.weight.push_back(float(count))|out.weight.push_back(1.0f)
+view-moved-wrong-way|src/ldi/reproject.cpp|shift_x_(focal_px \* position.x)|shift_x_(-focal_px * position.x)
+view-y-wrong-way|src/ldi/reproject.cpp|shift_y_(-focal_px|shift_y_(focal_px
+reproject-truncates|src/ldi/reproject.cpp|cell_x = std::floor(x)|cell_x = std::trunc(x)
+unsorted|src/ldi/tidy.cpp|return a.z != b.z ? a.z < b.z : a.z_back < b.z_back;|return false;
+float-accumulator|src/ldi/flatten.cpp|double transmittance = 1, sum = 0;|float transmittance = 1, sum = 0;
+cluster-weights|src/ldi/cluster.cpp|terms\[t\].coefficient /= weights|(void)weights
+lamp-counted-twice|src/dof/highlights.cpp|colours.at(k, f.sample) \*= 1 - f.share;|
+light-made|src/dof/sharpen.cpp|{n.sample\[k\], -shared}|{n.sample[k], 0}
+bad-alpha-kept|src/ldi/bad_values.cpp|return v >= 0 \&\& v <= 1;|return v == v;
+nan-kept|src/ldi/bad_values.cpp|return std::abs(v) <= 1e34f;|return !(std::abs(v) < 0);
+memory-unlimited|src/io/memory_limit.cpp|if (bytes <= allowed) return;|if (bytes <= 1e300) return;
+half-infinite|src/io/exr_common.cpp|std::clamp(from\[i\], -largest, largest)|from[i]
+wrong-samples-read|src/io/exr_deep_read.cpp|ldi.begin\[first + i\]|ldi.begin[first]
+END
+)
+
+rm -rf "$copy"
+mkdir "$copy"
+git ls-files -z | grep -zv '^share/' | xargs -0 cp --parents -t "$copy"
+cp -r share "$copy" 2>/dev/null || true
+cd "$copy"
+cmake --preset release --log-level=WARNING -DSPARSELENS_BENCHMARKS=OFF -DSPARSELENS_WERROR=OFF
+ninja -C build -j "$(nproc)" sparselens-tests dof-stress >build.log || { tail -n 20 build.log; exit 1; }
+
+failing_tests() {
+    timeout 300 build/bin/sparselens-tests --gtest_brief=1 --gtest_filter='-Trac*:Render*:Scenes*:Shading*:Deep*' 2>&1 |
+        sed -n 's/^\[  FAILED  \] \([A-Za-z0-9_/.]*\) (.*/\1/p' | sort -u
+    timeout 100 build/bin/dof-stress 2>/dev/null | sed -n 's/^\([^ ]*\) .*FAIL$/dof-stress:\1/p'
+}
+[ -z "$(failing_tests)" ] || { echo "tests fail without any fault"; failing_tests; exit 1; }
+
+missed=0
+while IFS='|' read -r name file what instead; do
+    [ $# -eq 0 ] || [[ " $* " == *" $name "* ]] || continue
+    sed -i "s|$what|$instead|" "$file"
+    cmp -s "$file" "$source/$file" && { echo "$name: $file has no such line any more"; exit 1; }
+    if ! ninja -C build -j "$(nproc)" sparselens-tests dof-stress >build.log 2>&1; then
+        echo "$name: does not compile"
+        tail -n 5 build.log
+        missed=$((missed + 1))
+    else
+        caught=$(failing_tests)
+        [ -n "$caught" ] || missed=$((missed + 1))
+        echo "$name ($file): ${caught:+$(wc -l <<<"$caught") fail: }$(head -n 4 <<<"${caught:-NOT CAUGHT}" | paste -sd ' ')"
+    fi
+    cp -p "$source/$file" "$file"
+    touch "$file"
+done <<<"$faults"
+exit $((missed > 0))

@@ -1,0 +1,23 @@
+#!/bin/bash
+# The test suite under sanitizers: longer than continuous integration has time for.
+#
+#   tests/sanitizers.sh [asan] [tsan]     asan: Address- and UndefinedBehaviorSanitizer, tsan: ThreadSanitizer; both
+#
+# Builds in build-asan/ and build-tsan/. Left out are tests of the sources and of the package, which run nothing that
+# sanitizers could look at, and the demo.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+exec </dev/null
+
+export ASAN_OPTIONS=detect_leaks=1:abort_on_error=1:allocator_may_return_null=1
+export UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1
+export TSAN_OPTIONS="halt_on_error=1:second_deadlock_stack=1:suppressions=$PWD/tests/tsan.suppressions"
+export LSAN_OPTIONS="suppressions=$PWD/tests/lsan.suppressions"
+export SPARSELENS_HOSTILE_SECONDS=60 SPARSELENS_HOSTILE_KB=4000000 # what the sanitizers need themselves
+
+[ $# -gt 0 ] || set -- asan tsan
+for sanitizer; do
+    cmake --preset "$sanitizer" --log-level=WARNING
+    cmake --build "build-$sanitizer" -j "$(nproc)"
+    ctest --test-dir "build-$sanitizer" --output-on-failure --timeout 1800 -E '^(scripts|packaging|bench)\.'
+done

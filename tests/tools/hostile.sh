@@ -1,0 +1,157 @@
+#!/bin/bash
+# Damaged files through every tool that reads EXR: the tool ends by itself within 10 s with exit 0 or 1, a failure
+# is one line on stderr that names the file, memory stays under 1 GB, and an output is whole or not there, an older
+# one untouched. Files: those of ../shared/damaged where they are at hand, truncations of valid files at every
+# kilobyte, and valid files whose headers lie. Prints the tally.
+#
+#   bash hostile.sh BIN_DIR [FILE...]     FILE: these files alone
+. "$(dirname "$0")/check.sh"
+[ -x /usr/bin/time ] || skip "needs GNU time (time)"
+[ -x "$bin/dof-trace" ] || skip "needs dof-trace"
+shift
+ulimit -c 0
+seconds=${SPARSELENS_HOSTILE_SECONDS:-10} kilobytes=${SPARSELENS_HOSTILE_KB:-1000000} # sanitizers need more
+lens=(--focal-length 36 --sensor-width 36 --lens-radius 0.05 --focus-distance 5)
+faults=0 runs=0 failures=0 largest=0
+: >tally.txt
+
+fault() {
+    faults=$((faults + 1))
+    echo "FAULT: $*" >&2
+    head -c 600 said >&2
+}
+
+# Exit code of the tool in $code, what it said in said, its memory in $memory (KB).
+timed() {
+    code=0
+    timeout -s KILL "$seconds" /usr/bin/time -q -o memory -f %M "$@" >/dev/null 2>said </dev/null || code=$?
+    memory=$(tail -n 1 memory 2>/dev/null || true)
+    memory=${memory:-0}
+}
+
+# hostile FILE TOOL ARGUMENTS...: with -o out/x.exr, where an older output stands.
+hostile() {
+    local file=$1 tool=$2
+    shift 2
+    local output=()
+    [ "$tool" = dof-compare ] || output=(-o out/x.exr)
+    rm -rf out
+    mkdir out
+    echo old >out/x.exr
+    timed "$bin/$tool" "$@" "${output[@]}"
+    runs=$((runs + 1))
+    echo "$tool exit $code" >>tally.txt
+    [ "$memory" -le "$largest" ] || largest=$memory
+    [ "$memory" -le "$kilobytes" ] || fault "$tool takes $memory KB: $file"
+    case $code in
+    0)
+        [ "$tool" = dof-compare ] || exrheader out/x.exr >/dev/null 2>&1 || fault "$tool writes no picture: $file"
+        ;;
+    1)
+        failures=$((failures + 1))
+        [ "$(grep -vc warning: said)" -eq 1 ] || fault "$tool fails in other than one line: $file"
+        grep -qF -- "${file##*/}" said || fault "$tool does not name the file: $file"
+        [ "$(cat out/x.exr)" = old ] || fault "$tool harms the old output: $file"
+        ;;
+    *) fault "$tool ends with $code: $file" ;;
+    esac
+    [ "$(ls -A out)" = x.exr ] || fault "$tool leaves $(ls -A out): $file"
+}
+
+every_tool() {
+    local file=$1
+    hostile "$file" dof-gather "$file" "${lens[@]}"
+    hostile "$file" dof-gather "$file" "${lens[@]}" --method selective
+    hostile "$file" ldi-cluster "$file" "${lens[@]}"
+    hostile "$file" ldi-warp "$file" --view 0.05,0 "$file" "${lens[@]}"
+    hostile "$file" dof-accumulate --view 0,0 "$file" --view 0.05,0 "$file" "${lens[@]}"
+    hostile "$file" dof-compare "$file" "$file" --regions "$file" "${lens[@]}"
+}
+
+# truncations FILE NAME: every kilobyte, and a few odd ends.
+truncations() {
+    local size bytes
+    size=$(stat -c %s "$1")
+    for bytes in 0 1 4 7 $(seq 1024 1024 $((size - 1))) $((size - 1)); do
+        head -c "$bytes" "$1" >"cut/$2-$bytes.exr"
+    done
+}
+
+# with_bytes FILE OFFSET HEX OUT: the file with other bytes from there on.
+with_bytes() {
+    cp "$1" "$4"
+    printf '%b' "$(sed 's/../\\x&/g' <<<"$3")" | dd of="$4" bs=1 seek="$2" conv=notrunc status=none
+}
+
+# Where the value of an attribute begins: after its name, its type (each with its zero) and four bytes of size.
+value_of() { # FILE NAME TYPE
+    local at
+    at=$(grep -obUaP -- "$2\\x00$3\\x00" "$1" | head -n 1 | cut -d: -f1)
+    echo $((at + ${#2} + 1 + ${#3} + 1 + 4))
+}
+
+lies() { # FILE NAME
+    local window=0 name hex
+    window=$(value_of "$1" dataWindow box2i)
+    # max.x, max.y follow min.x, min.y; little-endian.
+    while read -r name hex; do with_bytes "$1" "$window" "$hex" "lie/$2-$name.exr"; done <<END
+wide 0000000000000000ffffff7f35000000
+tall 00000000000000005f000000ffffff7f
+large 0000000000000000ffff0000ffff0000
+broad 0000000000000000ffffff001a000000
+all 0000008000000080ffffff7fffffff7f
+empty 0a0000000a0000000000000000000000
+far 00ffff7f00ffff7f5fffff7f35ffff7f
+END
+    with_bytes "$1" "$(value_of "$1" compression compression)" ff "lie/$2-compression.exr"
+    with_bytes "$1" "$(value_of "$1" channels chlist)" 5200ffffffff "lie/$2-channel.exr"
+    with_bytes "$1" "$(value_of "$1" pixelAspectRatio float)" 0000c07f "lie/$2-aspect.exr"
+    with_bytes "$1" "$(($(value_of "$1" dataWindow box2i) - 4))" ffffff7f "lie/$2-size.exr"
+}
+
+own_files() {
+    mkdir cut lie
+    "$bin/dof-trace" fence --size 48x27 --views 1 --spp 1 --deep peel:2 -o valid
+    "$bin/ldi-warp" valid/center.exr valid/view_0.exr -o valid/ldi.exr
+    truncations valid/center.exr flat
+    truncations valid/ldi.exr deep
+    lies valid/center.exr flat
+    lies valid/ldi.exr deep
+}
+
+tally() { # NAME FOLDER
+    echo "$1: $runs runs, $failures failed as they should, largest memory $((largest / 1024)) MB, faults $faults"
+    sort tally.txt | uniq -c | sed 's/^/  /'
+    runs=0 failures=0 largest=0
+    : >tally.txt
+}
+
+# A valid file that packs its pixels denser than the memory limit allows: refused, unless --max-memory says more.
+dense_file() {
+    command -v oiiotool >/dev/null || { echo "skipped the dense file: needs oiiotool"; return; }
+    oiiotool --pattern constant:color=0,0,0,1,5 3000x2500 5 --chnames R,G,B,A,Z -d half -d Z=float \
+        --compression zip -o dense.exr
+    fails_saying 1 'dense.exr: asks for [0-9]+ MB of memory.*--max-memory' "$bin/dof-gather" dense.exr -o x.exr --lens-radius 0
+    exits 0 "$bin/dof-gather" dense.exr -o x.exr --lens-radius 0 --max-memory 1GB
+    fails_saying 1 'dense.exr: asks for [0-9]+ MB of memory' "$bin/dof-gather" dense.exr -o x.exr --lens-radius 0 --max-memory 100MB
+    fails_saying 2 '--max-memory' "$bin/dof-gather" dense.exr -o x.exr --max-memory much
+    rm dense.exr x.exr
+}
+
+if [ $# -gt 0 ]; then
+    for file; do every_tool "$file"; done
+    tally "given files"
+else
+    own_files
+    for file in cut/* lie/*; do every_tool "$file"; done
+    tally "own files"
+    dense_file
+    damaged=$source_dir/../shared/damaged
+    if [ -d "$damaged" ]; then
+        for file in "$damaged"/*; do every_tool "$file"; done
+        tally "shared/damaged"
+    else
+        echo "skipped ../shared/damaged: not at hand"
+    fi
+fi
+[ "$faults" -eq 0 ] || fail "$faults faults"
