@@ -41,7 +41,7 @@ public:
 
     // Sparse views are warped into one LDI and clustered; what came as one picture is taken as it is.
     Layers layers(const std::string &name, const Words &cluster_words) {
-        const Layers warped = warp();
+        Layers warped = warp();
         if (rendered_.rim.empty()) return warped;
         return then(warped, Stage::cluster, name, {"ldi-cluster", warped.file}, cluster_words + lens_);
     }
@@ -61,7 +61,7 @@ public:
 
 private:
     Layers warp() {
-        const Layers rendered{rendered_.picture, rendered_.steps};
+        Layers rendered{rendered_.picture, rendered_.steps};
         if (rendered_.rim.empty()) return rendered;
         Words views{"ldi-warp", rendered_.picture};
         for (const PlacedView &view : rendered_.rim)
