@@ -57,11 +57,11 @@ changes --focal-length 30
 changes --sensor-width 30
 changes --depth distance
 exits 0 "$plan" full/center.exr -o none.json --lens-radius 0
-[ "$(json none.json 'p["advice"], p["views"]')" = "('none', [])" ] || fail "a pinhole needs no views"
+[ "$(json none.json 'p["advice"], p["views"]')" = "none []" ] || fail "a pinhole needs no views"
 oiiotool full/center.exr --chnames R,G,B,A,far.away -o named.exr
 exits 0 "$plan" named.exr -o named.json --depth-channel far.away
 fails_saying 1 'named.exr' "$plan" named.exr -o x.json
-"$bin/dof-trace" slant --size 160x90 --spp 1 --views 0 -o slant
+"$bin/dof-trace" slant --spp 16 --views 0 -o slant
 exits 0 "$plan" slant/center.exr -o slant.json
 [ "$(json slant.json 'p["advice"]')" = none ] || fail "one plane needs no views"
 fails_saying 2 '--views' "$plan" full/center.exr -o x.json --views -1
