@@ -5,7 +5,9 @@ find_package(OpenImageIO 2.4 CONFIG REQUIRED)
 find_package(TBB CONFIG REQUIRED)
 find_package(embree 3 CONFIG REQUIRED)
 find_package(CLI11 CONFIG REQUIRED)
+find_package(nlohmann_json 3.11 CONFIG REQUIRED)
 find_package(Threads REQUIRED)
+find_package(ZLIB REQUIRED)
 
 # Debian's OpenImageIO target names OpenCV's headers, which its package does not bring and nobody here needs.
 get_target_property(oiio_includes OpenImageIO::OpenImageIO INTERFACE_INCLUDE_DIRECTORIES)

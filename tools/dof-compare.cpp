@@ -1,6 +1,6 @@
 // dof-compare: how far a picture is from its reference.
 #include "base/error.h"
-#include "common/pictures.h"
+#include "common/region_file.h"
 #include "common/tool.h"
 #include "io/exr_flat.h"
 #include "measure/figures_text.h"
@@ -37,22 +37,6 @@ void add_options(CLI::App &app, Options &options) {
         if (option->get_group() == "Lens") option->needs(regions); // they say how to read it
 }
 
-std::vector<std::uint8_t> regions_over(const Windows &target, const Options &options,
-                                       const ToolContext &tool) {
-    const LoadedLdi in = load_ldi(options.regions, options.lens, options.depth);
-    warn_of_bad_values(tool, options.regions, in.bad);
-    const Windows &windows = in.ldi.windows;
-    if (windows.display_width() != target.display_width() ||
-        windows.display_height() != target.display_height())
-        throw Error(options.regions + ": the display window differs in size from the reference's");
-    const ThinLens lens = resolve_lens(options.lens, in.camera, windows);
-    tool.say("regions by a lens of radius " + std::to_string(lens.radius) + ", focal length " +
-             std::to_string(lens.focal_px) + " pixels, focused at " + std::to_string(lens.focus));
-    const std::vector<float> c = front_circles_of_confusion(in.ldi, lens);
-    const auto bits = region_bits(c, windows.width(), windows.height(), lens.pixel_aspect);
-    return bits_over(bits, windows, target);
-}
-
 void compare(const Options &options, const ToolContext &tool) {
     const auto from_stdin = {options.image == "-", options.reference == "-", options.regions == "-"};
     if (std::ranges::count(from_stdin, true) > 1) throw UsageError("standard input cannot be read twice");
@@ -62,7 +46,8 @@ void compare(const Options &options, const ToolContext &tool) {
     const Image image = rgba_over(read_flat_exr(options.image).image, windows, options.image);
 
     std::vector<std::uint8_t> bits;
-    if (!options.regions.empty()) bits = regions_over(windows, options, tool);
+    if (!options.regions.empty())
+        bits = regions_over(windows, options.regions, options.lens, options.depth, tool);
     const auto figures = image_error(image, reference, bits, bits.empty() ? 0 : region_names.size());
 
     std::vector<NamedFigures> regions;

@@ -28,21 +28,23 @@ void trace(const TraceOptions &options, const ToolContext &tool) {
     const RenderSettings settings = render_settings(options, camera);
     const Tracer tracer(scene);
     TraceOutputs outputs(options.folder, camera, settings, options.type, tool);
-    const auto add_view = [&](const std::string &name, const Imath::V2d &u, std::uint32_t stream) {
-        outputs.add(name, u, [&] {
-            return render_view(tracer, settings, u, options.samples, stream, *tool.progress);
-        });
+    RenderSettings to_average = settings;
+    to_average.scattered = true;
+    const auto add_view = [&](const RenderSettings &by, const std::string &name, const Imath::V2d &u,
+                              std::uint32_t stream) {
+        outputs.add(name, u,
+                    [&] { return render_view(tracer, by, u, options.samples, stream, *tool.progress); });
     };
-    const auto add_views = [&](const char *format, const std::vector<Imath::V2d> &points,
-                               std::uint32_t stream) {
+    const auto add_views = [&](const RenderSettings &by, const char *format,
+                               const std::vector<Imath::V2d> &points, std::uint32_t stream) {
         for (std::size_t k = 0; k < points.size(); ++k)
-            add_view(numbered(format, int(k)), points[k], stream + std::uint32_t(k));
+            add_view(by, numbered(format, int(k)), points[k], stream + std::uint32_t(k));
     };
     const auto rim = rim_lens_points(options.views);
 
-    add_view("center.exr", {0, 0}, of_centre);
-    add_views("view_%d.exr", rim, of_rim);
-    add_views("lens_%04d.exr", spiral_lens_points(options.lens_views), of_lens);
+    add_view(settings, "center.exr", {0, 0}, of_centre);
+    add_views(settings, "view_%d.exr", rim, of_rim);
+    add_views(to_average, "lens_%04d.exr", spiral_lens_points(options.lens_views), of_lens);
     if (options.reference > 0)
         outputs.add("reference.exr", {0, 0},
                     [&] { return render_reference(tracer, settings, options.reference, *tool.progress); });

@@ -1,17 +1,18 @@
 #!/bin/sh
 # Installs the Debian packages that a job here needs and this machine lacks.
 #
-#   tools/install-deps.sh SET...      sets: build, demo, lint, test
+#   tools/install-deps.sh SET...      sets: build, demo, lint, report, test
 #
 # Needs nothing but a Debian base system, and root or sudo if something is missing. Prints one line when all is
 # there; exit 1, with one line saying why, when it is not and cannot be had.
 set -eu
 
 build='g++ cmake ninja-build pkg-config libcli11-dev libembree-dev libhwy-dev libimath-dev libopencolorio-dev
-       libopenexr-dev libopenimageio-dev libtbb-dev'
+       libopenexr-dev libopenimageio-dev libtbb-dev nlohmann-json3-dev zlib1g-dev'
 demo='fonts-dejavu-core openimageio-tools'
 lint='clang-14 clang-format-14 clang-tidy-14'
-test='libbenchmark-dev libgtest-dev openexr openimageio-tools time'
+report='chromium gnuplot-nox'
+test='gnuplot-nox libbenchmark-dev libgtest-dev openexr openimageio-tools time'
 
 fail() {
     echo "install-deps: $*" >&2
@@ -24,8 +25,9 @@ packages_of() {
         build) echo $build ;;
         demo) echo $demo ;;
         lint) echo $lint ;;
+        report) echo $report ;;
         test) echo $test ;;
-        *) fail "unknown set '$set_name' (build, demo, lint, test)" ;;
+        *) fail "unknown set '$set_name' (build, demo, lint, report, test)" ;;
         esac
     done
 }
@@ -48,7 +50,7 @@ apt_get() {
         >>"$log" 2>&1 </dev/null
 }
 
-[ $# -gt 0 ] || fail "name at least one set: build, demo, lint, test"
+[ $# -gt 0 ] || fail "name at least one set: build, demo, lint, report, test"
 wanted=$(packages_of "$@")
 if ! command -v dpkg-query >/dev/null; then
     echo "install-deps: not a Debian system, so nothing was checked; needed are: $(echo $wanted)"

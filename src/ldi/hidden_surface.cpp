@@ -13,9 +13,11 @@ struct Votes {
     double there = 0, past = 0;
 };
 
-// What one pixel of a view says: each part of it by what it covers, and what it leaves open looks past everything.
+// What one pixel of a view says: each part of it by what it covers, and what it leaves open looks past everything. A
+// pixel that shows nothing at all may just not have been rendered.
 void count_votes(const Ldi &view, std::size_t alpha, std::size_t pixel, double inverse_z, double tolerance,
                  Votes &votes) {
+    if (view.begin[pixel] == view.begin[pixel + 1]) return;
     double left = 1;
     for (std::uint64_t i = view.begin[pixel]; i < view.begin[pixel + 1]; ++i) {
         const double covers = std::clamp(double(alpha_at(view, alpha, i)), 0.0, left);

@@ -1,5 +1,7 @@
 #include "measure/figures_text.h"
 
+#include "measure/text_table.h"
+
 #include <charconv>
 #include <cmath>
 #include <vector>
@@ -32,24 +34,6 @@ std::string members(const ErrorFigures &figures, const std::string &indent) {
     return json;
 }
 
-using Row = std::vector<std::string>;
-
-// The first column flush left, the others flush right.
-std::string aligned(const std::vector<Row> &rows) {
-    std::vector<std::size_t> widths(rows.front().size());
-    for (const Row &row : rows)
-        for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
-    std::string text;
-    for (const Row &row : rows) {
-        for (std::size_t i = 0; i < row.size(); ++i) {
-            const std::string fill(widths[i] - row[i].size(), ' ');
-            text += i == 0 ? row[i] + fill : "  " + fill + row[i];
-        }
-        text += '\n';
-    }
-    return text;
-}
-
 } // namespace
 
 std::string figures_as_json(const ErrorFigures &whole, std::span<const NamedFigures> regions) {
@@ -64,20 +48,20 @@ std::string figures_as_json(const ErrorFigures &whole, std::span<const NamedFigu
 std::string figures_as_table(const ErrorFigures &whole, std::span<const NamedFigures> regions) {
     std::vector<NamedFigures> columns{{"all", whole}};
     columns.insert(columns.end(), regions.begin(), regions.end());
-    std::vector<Row> rows{{""}};
+    std::vector<TextRow> rows{{""}};
     for (const NamedFigures &column : columns) rows.front().push_back(column.name);
     for (const Figure &figure : figure_table) {
-        Row &row = rows.emplace_back(Row{figure.name});
+        TextRow &row = rows.emplace_back(TextRow{figure.name});
         for (const NamedFigures &column : columns) row.push_back(six_digits(column.figures.*figure.value));
     }
     const auto count_row = [&](const char *name, std::size_t ErrorFigures::*count) {
-        Row &row = rows.emplace_back(Row{name});
+        TextRow &row = rows.emplace_back(TextRow{name});
         for (const NamedFigures &column : columns) row.push_back(std::to_string(column.figures.*count));
     };
     count_row("pixels", &ErrorFigures::pixels);
     count_row("nonfinite (image)", &ErrorFigures::nonfinite_image);
     count_row("nonfinite (reference)", &ErrorFigures::nonfinite_reference);
-    return aligned(rows);
+    return text_table(rows);
 }
 
 } // namespace sparselens

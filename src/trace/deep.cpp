@@ -77,7 +77,7 @@ template <typename Fill>
 Ldi build(const Tracer &tracer, const RenderSettings &settings, int samples, std::uint32_t stream,
           const char *stage, Progress &progress, const Fill &fill) {
     const Ldi frame = frame_of(settings);
-    const PixelSamples points(samples, true, stream);
+    const PixelSamples points(samples, true, seeded(settings, stream));
     progress.start(stage, settings.windows.pixels());
     return build_by_pixels(frame, [&](std::size_t pixel, Ldi &out) {
         fill(PixelRays(tracer, settings, points, pixel_position(settings.windows, pixel)), out);

@@ -100,7 +100,7 @@ Image render_view(const Tracer &tracer, const RenderSettings &settings, const Im
     auto channels = rgba_channels();
     channels.push_back({"Z", PixelType::float32});
     Image image(settings.windows, channels);
-    const PixelSamples points(samples, true, stream);
+    const PixelSamples points(samples, !settings.scattered, seeded(settings, stream));
     const auto make = [&](const Run &run) {
         std::array<Imath::V2d, batch_size> p;
         points.in_pixel(run.x, run.y, run.first, std::span(p).first(run.rays.size()));
@@ -122,7 +122,7 @@ Image render_view(const Tracer &tracer, const RenderSettings &settings, const Im
 Image render_reference(const Tracer &tracer, const RenderSettings &settings, int samples,
                        Progress &progress) {
     Image image(settings.windows, rgba_channels());
-    const PixelSamples points(samples, false, 0);
+    const PixelSamples points(samples, false, seeded(settings, 0));
     const auto make = [&](const Run &run) {
         std::array<Imath::V2d, batch_size> p, on_lens;
         points.in_pixel(run.x, run.y, run.first, std::span(p).first(run.rays.size()));

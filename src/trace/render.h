@@ -16,7 +16,14 @@ struct RenderSettings {
     Windows windows;
     ThinLens lens; // its focal length counts even where its radius is 0
     Light light = Light::sun;
+    std::uint32_t seed = 0; // [0, 64): pictures of different seeds share no noise
+    bool scattered = false; // views: no grids in the pixels, so that the average of many views is antialiased
 };
+
+// The stream of random numbers that `stream` is with these settings; `stream` is below 2^26.
+inline std::uint32_t seeded(const RenderSettings &settings, std::uint32_t stream) {
+    return stream + (settings.seed << 26);
+}
 
 // The ray from lens point `u` (unit disc) through position p of the picture (pixels, y down), parallel axes.
 Ray view_ray(const RenderSettings &settings, const Imath::V2d &u, const Imath::V2d &p);
@@ -25,7 +32,7 @@ Ray view_ray(const RenderSettings &settings, const Imath::V2d &u, const Imath::V
 Ray lens_ray(const RenderSettings &settings, const Imath::V2d &u, const Imath::V2d &p);
 
 // What a pinhole at lens point `u` sees: R G B A (half, box filter of one pixel) and Z (float, at the pixel
-// centre). samples = n * n: a regular n x n grid in each pixel; any other count: low-discrepancy points.
+// centre). samples = n * n, not scattered: a regular n x n grid in each pixel; else low-discrepancy points.
 // `stream` tells views apart, so that their noise is independent.
 Image render_view(const Tracer &tracer, const RenderSettings &settings, const Imath::V2d &u, int samples,
                   std::uint32_t stream, Progress &progress);

@@ -48,6 +48,7 @@ changes reference.exr --reference 4
 changes center.exr --size 40x27
 changes center.exr --overscan 3
 changes center.exr --light area
+changes reference.exr --seed 1
 changes center.exr -d float
 changes center.exr --focal-length 50
 changes center.exr --sensor-width 24
@@ -86,7 +87,7 @@ fails_saying 2 'SCENE' "$trace" -o out
 fails_saying 2 'meadow' "$trace" meadow -o out
 fails_saying 2 'output' "$trace" fence
 for wrong in '--spp 0' '--views -1' '--lens-views x' '--reference 0' '--size 48' '--size 0x4' '--size 48x27x2' \
-    '--size 65536x65536' '--overscan -1' '--light moon' '-d double' '--deep peel' '--deep peel:0' '--deep skin:3' \
+    '--size 65536x65536' '--overscan -1' '--seed 64' '--light moon' '-d double' '--deep peel' '--deep peel:0' '--deep skin:3' \
     '--fstop abc' '--fstop 0' '--lens-radius -1' '--focus-distance 0' '--focal-length inf' '--threads -1'; do
     fails_saying 2 '' "$trace" fence -o out $wrong
 done

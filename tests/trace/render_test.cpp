@@ -196,6 +196,50 @@ TEST(RenderView, NoiseOfViewsIsIndependent) {
               render_view(tracer, settings, {0, 0}, 4, 2, silent).values);
 }
 
+TEST(Render, NoiseOfSeedsIsIndependent) {
+    RenderSettings settings = settings_of_size(48, 27);
+    settings.light = Light::area;
+    RenderSettings other = settings;
+    other.seed = 63;
+    const Tracer tracer(build_scene("fence"));
+    EXPECT_NE(render_view(tracer, settings, {0, 0}, 4, 1, silent).values,
+              render_view(tracer, other, {0, 0}, 4, 1, silent).values);
+    // Unlike streams of one seed, the mean of two seeds has half the variance of one.
+    const Image reference = render_reference(tracer, settings, 4096, silent);
+    const auto squares = [&](const Image &a, const Image &b) {
+        double sum = 0;
+        for (std::size_t i = 0; i < reference.values.size(); ++i) {
+            const double error = (a.values[i] + b.values[i]) / 2 - reference.values[i];
+            sum += error * error;
+        }
+        return sum;
+    };
+    const Image a = render_reference(tracer, settings, 8, silent),
+                b = render_reference(tracer, other, 8, silent);
+    EXPECT_NEAR(squares(a, b) / squares(b, b), 0.5, 0.15);
+}
+
+// One sample a pixel and view: on a grid all lie at the pixel centre, and edges stay jagged however many views.
+TEST(RenderView, ScatteredSamplesAreAntialiasedByTheirAverage) {
+    RenderSettings settings = settings_of_size(48, 27);
+    settings.lens.radius = 0;
+    const Tracer tracer(build_scene("fence"));
+    const Image reference = render_view(tracer, settings, {0, 0}, 1024, 1, silent);
+    const auto error_of_average = [&](bool scattered) {
+        settings.scattered = scattered;
+        std::vector<double> sum(reference.plane(0).size());
+        constexpr int views = 64;
+        for (int k = 0; k < views; ++k) {
+            const Image view = render_view(tracer, settings, {0, 0}, 1, std::uint32_t(k), silent);
+            for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += view.values[i] / views;
+        }
+        double squares = 0;
+        for (std::size_t i = 0; i < sum.size(); ++i) squares += std::pow(sum[i] - reference.values[i], 2);
+        return squares;
+    };
+    EXPECT_LT(error_of_average(true), 0.1 * error_of_average(false));
+}
+
 TEST(Render, ThreadsDoNotMatter) {
     RenderSettings settings = settings_of_size(70, 41);
     settings.light = Light::area;

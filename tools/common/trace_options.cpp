@@ -11,20 +11,13 @@ namespace sparselens {
 
 namespace {
 
-constexpr int largest_side = 65536, largest_count = 1 << 20;
+constexpr int largest_side = 65536, largest_count = 1 << 20, largest_seed = 63;
 constexpr std::size_t largest_picture = std::size_t(1) << 28; // pixels
 
 // The whole text as a number in [1, limit].
 bool read_count(std::string_view text, int limit, int &value) {
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     return error == std::errc() && end == text.data() + text.size() && value >= 1 && value <= limit;
-}
-
-bool read_size(const std::string &text, TraceOptions &options) {
-    const std::size_t x = text.find('x');
-    return x != std::string::npos &&
-           read_count(std::string_view(text).substr(0, x), largest_side, options.width) &&
-           read_count(std::string_view(text).substr(x + 1), largest_side, options.height);
 }
 
 bool read_deep(const std::string &text, TraceOptions &options) {
@@ -53,6 +46,13 @@ std::string scene_help() {
 }
 
 } // namespace
+
+bool read_size(const std::string &text, TraceOptions &options) {
+    const std::size_t x = text.find('x');
+    return x != std::string::npos &&
+           read_count(std::string_view(text).substr(0, x), largest_side, options.width) &&
+           read_count(std::string_view(text).substr(x + 1), largest_side, options.height);
+}
 
 void add_trace_options(CLI::App &app, TraceOptions &options) {
     const std::map<std::string, Light> lights{{"sun", Light::sun}, {"area", Light::area}};
@@ -89,6 +89,10 @@ void add_trace_options(CLI::App &app, TraceOptions &options) {
                    "Pixels rendered beyond the display window on every side (0)")
         ->type_name("PX")
         ->check(CLI::Range(0, largest_side));
+    app.add_option("--seed", options.seed,
+                   "Which random numbers: those of different seeds share no noise (0)")
+        ->type_name("N")
+        ->check(CLI::Range(0, largest_seed));
     app.add_option("--light", options.light, "sun, or area: a square light, one shadow ray a sample (sun)")
         ->type_name("sun|area")
         ->transform(words(lights));
@@ -115,6 +119,7 @@ RenderSettings render_settings(const TraceOptions &options, const Camera &camera
     if (settings.windows.pixels() > largest_picture)
         throw UsageError("--size and --overscan ask for more than " + std::to_string(largest_picture) +
                          " pixels");
+    settings.seed = std::uint32_t(options.seed);
     settings.lens = resolve_lens(options.lens, camera, settings.windows);
     settings.lens.focal_px = options.width * *camera.focal_length_mm / *camera.sensor_width_mm;
     settings.lens.focus = *camera.focus_distance;

@@ -25,11 +25,15 @@ struct TraceOptions {
     int reference = 0; // rays a pixel; 0: no reference
     int width = 640, height = 360;
     int overscan = 0; // pixels
+    int seed = 0;     // of the random numbers: pictures of different seeds share no noise
     Light light = Light::sun;
     PixelType type = PixelType::half;
     std::vector<DeepRequest> deep;
     LensOptions lens;
 };
+
+// "WIDTHxHEIGHT" into options.width and height; false where it is none.
+bool read_size(const std::string &text, TraceOptions &options);
 
 void add_trace_options(CLI::App &app, TraceOptions &options);
 

@@ -1,0 +1,44 @@
+'use strict';
+
+// One viewer a scene: the left picture lies above the right one and is cut off at the slider.
+function startViewer(viewer) {
+    const part = (name) => viewer.querySelector('.' + name);
+    const pictures = viewer.querySelectorAll('.pictures img');
+    const above = part('above'), below = part('below'), stack = part('stack'), slider = part('slider');
+
+    function show() {
+        const mode = part('mode').value, zoom = Number(part('zoom').value);
+        const width = pictures[0].naturalWidth * zoom, height = pictures[0].naturalHeight * zoom;
+        above.src = pictures[part('left').value].src;
+        below.src = pictures[part('right').value].src;
+        for (const box of [stack, above, below]) {
+            box.style.width = width + 'px';
+            box.style.height = height + 'px';
+        }
+        stack.classList.toggle('difference', mode === 'difference');
+        // Slide: a border that moves. Flip: all of one or all of the other, by which half the slider is in.
+        const share = Number(slider.value);
+        const left = mode === 'slide' ? share : mode === 'flip' && share < 50 ? 0 : 100;
+        above.style.clipPath = 'inset(0 ' + (100 - left) + '% 0 0)';
+    }
+
+    // Pressing or dragging on the picture moves the slider; in flip mode a press flips.
+    function drag(event) {
+        if (event.buttons !== 1) return;
+        event.preventDefault();
+        if (part('mode').value === 'flip') {
+            if (event.type === 'pointerdown') slider.value = Number(slider.value) < 50 ? 100 : 0;
+        } else {
+            const box = stack.getBoundingClientRect();
+            slider.value = 100 * (event.clientX - box.left) / box.width;
+        }
+        show();
+    }
+
+    for (const name of ['left', 'right', 'mode', 'zoom', 'slider']) part(name).addEventListener('input', show);
+    stack.addEventListener('pointerdown', drag);
+    stack.addEventListener('pointermove', drag);
+    Promise.all(Array.from(pictures, (picture) => picture.decode())).then(show);
+}
+
+document.querySelectorAll('.viewer').forEach(startViewer);

@@ -1,0 +1,44 @@
+// Plans on disk: what ldi-plan found worth rendering, as JSON with, if asked for, a mask EXR a view.
+//
+//   {"version": 1, "center": FILE, "display_window": [x0, y0, x1, y1], "data_window": [...],
+//    "lens": {"radius": R, "focal_px": F, "focus_distance": D or null for infinity},
+//    "margin": PX, "share": S, "advice": "none" | "planned" | "full", "noise_db": N or null,
+//    "overscan": {"left": PX, "top": PX, "right": PX, "bottom": PX},
+//    "views": [{"name": "view_0", "lens_point": [ux, uy], "position": [X, Y], "share": S, "uncovered": PIXELS,
+//               "data_window": [...], "rectangles": [[x0, y0, x1, y1], ...], "mask": FILE}, ...]}
+//
+// Windows and rectangles are in EXR pixel coordinates, corners included; shares are of one full view; a mask (channel
+// A, half: 1 is asked for) is named relative to the plan's folder. Errors (Error) name the file and what is wrong.
+#pragma once
+
+#include "ldi/plan.h"
+
+#include <string>
+
+namespace sparselens {
+
+struct PlanSetting {
+    std::string centre; // the file planned for
+    Windows windows;
+    ThinLens lens;
+    int margin;
+};
+
+// `masks`: a folder, made if missing, or empty.
+void write_plan(const std::string &path, const Plan &plan, const PlanSetting &setting,
+                const std::string &masks);
+
+struct RequestedView {
+    std::string name;
+    Imath::V2d u;   // lens point
+    PixelMask mask; // over the smallest window that holds it
+};
+
+struct PlanRequest {
+    Imath::Box2i display;
+    std::vector<RequestedView> views;
+};
+
+PlanRequest read_plan(const std::string &path);
+
+} // namespace sparselens

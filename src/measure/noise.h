@@ -1,0 +1,22 @@
+// How noisy a rendered picture is, and how much of that a lens leaves.
+//
+// Noise is told from texture by its distribution: in a block of pixels, what differs from the mean of the four
+// neighbours is Gaussian if it is noise (quartile and median of its magnitude in the ratio 0.3186 to 0.6745 of a
+// Gaussian's), but sparse if it is edges. Blocks that are not Gaussian say nothing, and count as without noise.
+#pragma once
+
+#include "base/image.h"
+#include "lens/thin_lens.h"
+
+#include <optional>
+#include <span>
+
+namespace sparselens {
+
+// Mean square, tone-mapped (measure/tone_map.h), of the noise that is left in the lens picture of a view: where the
+// CoC has radius c > 1 it is averaged over its disc of pi c^2 pixels. R, G, B of the image; z: planar depth a pixel.
+// `deviation`: of the noise, tone-mapped, where it is known instead of measured.
+double noise_in_lens_picture(const Image &image, std::span<const float> z, const ThinLens &lens,
+                             std::optional<double> deviation = {});
+
+} // namespace sparselens

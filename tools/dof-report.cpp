@@ -1,0 +1,72 @@
+// dof-report: error against run time, for every kind of system that makes depth of field.
+#include "base/error.h"
+#include "common/tool.h"
+#include "report/measurement.h"
+#include "report/options.h"
+#include "report/outputs.h"
+#include "report/process.h"
+#include "report/summary.h"
+
+#include <cstdio>
+#include <filesystem>
+#include <set>
+
+namespace {
+
+using namespace sparselens;
+namespace fs = std::filesystem;
+
+// The other tools lie beside this one.
+std::string folder_of_tools() { return fs::read_symlink("/proc/self/exe").parent_path().string(); }
+
+RunOptions run_options(const ReportOptions &options, const ToolContext &tool) {
+    return {.tools = folder_of_tools(),
+            .folder = fs::absolute(options.folder).string(),
+            .threads = tool.threads,
+            .runs = runs_of(options)};
+}
+
+void print(const std::string &text) {
+    if (std::fputs(text.c_str(), stdout) == EOF || std::fflush(stdout) != 0)
+        throw Error("standard output: cannot be written");
+}
+
+std::vector<MeasuredScene> plan_scenes(const ReportOptions &options, const RunOptions &run, StepList &steps) {
+    const std::vector<std::string> usual{"fence", "grass", "lamps"};
+    const bool can_plan = fs::exists(fs::path(run.tools) / "ldi-plan");
+    const Budgets budgets = budgets_of(options);
+    std::vector<MeasuredScene> scenes;
+    std::set<std::string> names;
+    for (const std::string &scene : options.scenes.empty() ? usual : options.scenes) {
+        const auto source = open_scene(scene, budgets, can_plan);
+        if (!names.insert(source->name()).second)
+            throw UsageError(scene + ": there is another scene called " + source->name());
+        scenes.push_back({plan_scene(*source, budgets, detail_of(options), steps), {}});
+    }
+    return scenes;
+}
+
+void report(const ReportOptions &options, const std::string &command, const ToolContext &tool) {
+    const RunOptions run = run_options(options, tool);
+    std::vector<std::string> facts = machine_facts(tool.threads);
+    facts.push_back(command);
+    StepList steps;
+    std::vector<MeasuredScene> scenes = plan_scenes(options, run, steps);
+    const std::vector<StepTimes> times = run_steps(steps.steps(), run, tool);
+    for (MeasuredScene &scene : scenes) {
+        scene.rows = measure_rows(scene.plan, times, run.folder, tool);
+        print(summary_text(scene.rows) + '\n');
+    }
+    write_report(run.folder, scenes, facts, tool);
+}
+
+} // namespace
+
+int main(int argc, char **argv) {
+    CLI::App app("Error against run time of every kind of system that makes depth of field, on your scene",
+                 "dof-report");
+    ReportOptions options;
+    add_report_options(app, options);
+    const std::string command = command_line({argv, argv + argc});
+    return run_tool(app, argc, argv, [&](const ToolContext &tool) { report(options, command, tool); });
+}

@@ -1,0 +1,82 @@
+// What is worth rendering: ldi-plan CENTER.exr [lens options] [--views N] [--margin PX] -o PLAN.json [--masks DIR]
+#include "common/pictures.h"
+#include "common/tool.h"
+#include "io/plan_file.h"
+#include "ldi/plan.h"
+
+#include <cmath>
+#include <cstdio>
+
+using namespace sparselens;
+
+namespace {
+
+struct Options {
+    std::string centre, output, masks;
+    LensOptions lens;
+    DepthOptions depth;
+    PlanOptions plan;
+};
+
+void add_options(CLI::App &app, Options &options) {
+    app.add_option("CENTER", options.centre, "the centre view: colour and depth")
+        ->type_name("CENTER.exr")
+        ->required();
+    app.add_option("-o,--output", options.output, "plan to write, - for standard output")
+        ->type_name("PLAN.json")
+        ->required();
+    app.add_option("--masks", options.masks, "folder for a mask a view: A is 1 in the pixels asked for")
+        ->type_name("DIR");
+    app.add_option("--views", options.plan.views, "rim views, at most")
+        ->type_name("N")
+        ->check(CLI::Range(0, 64))
+        ->capture_default_str();
+    app.add_option("--margin", options.plan.margin, "pixels around what the centre view does not see")
+        ->type_name("PX")
+        ->check(CLI::Range(0, 1024))
+        ->capture_default_str();
+    app.add_option("--noise", options.plan.noise,
+                   "standard deviation of a pixel's noise, tone-mapped (default: measured)")
+        ->type_name("SIGMA")
+        ->check(number("a standard deviation", {.zero_allowed = true}));
+    add_lens_options(app, options.lens);
+    add_depth_options(app, options.depth);
+}
+
+void summarise(const Plan &plan, const View &centre, std::FILE *out) {
+    const double pixels = double(centre.image.windows.pixels());
+    for (const PlannedView &view : plan.views)
+        std::fprintf(out, "view at lens point (%.3f, %.3f): %.1f %% of a full view, %zu pixels uncovered\n",
+                     view.u.x, view.u.y, 100 * double(view.mask.count()) / pixels, view.uncovered);
+    if (plan.views.empty())
+        std::fprintf(out, "no further view is worth rendering\n");
+    else
+        std::fprintf(out, "in all %.2f of a full view\n", plan.share());
+    if (plan.noise > 0)
+        std::fprintf(out, "noise left in the lens picture of this view: %.1f dB; %s\n",
+                     -10 * std::log10(plan.noise),
+                     plan.full_views ? "full views pay, as further samples" : "full views would not pay");
+    const Overscan &o = plan.overscan;
+    std::fprintf(out, "overscan for the lens, pixels: left %d, top %d, right %d, bottom %d\n", o.left, o.top,
+                 o.right, o.bottom);
+}
+
+void run(const Options &options, const ToolContext &tool) {
+    const LoadedView centre = load_view(options.centre, options.lens, options.depth);
+    const Windows &windows = centre.view.image.windows;
+    const Camera camera = camera_with_options(options.lens, centre.camera);
+    const ThinLens lens = resolve_lens(options.lens, camera, windows);
+    const Plan plan = make_plan(centre.view, lens, options.plan, *tool.progress);
+    write_plan(options.output, plan, {options.centre, windows, lens, options.plan.margin}, options.masks);
+    summarise(plan, centre.view, options.output == "-" ? stderr : stdout);
+}
+
+} // namespace
+
+int main(int argc, char **argv) {
+    CLI::App app("Says which views from the rim of the lens, and which of their pixels, are worth rendering",
+                 "ldi-plan");
+    Options options;
+    add_options(app, options);
+    return run_tool(app, argc, argv, [&](const ToolContext &tool) { run(options, tool); });
+}

@@ -1,0 +1,21 @@
+#include "report/scene_source.h"
+
+#include "base/error.h"
+#include "report/ready_scene.h"
+#include "report/traced_scene.h"
+#include "trace/scenes.h"
+
+#include <algorithm>
+#include <filesystem>
+
+namespace sparselens {
+
+std::unique_ptr<SceneSource> open_scene(const std::string &scene, const Budgets &budgets, bool can_plan) {
+    if (std::ranges::any_of(scene_table(), [&](const SceneEntry &entry) { return scene == entry.name; }))
+        return std::make_unique<TracedScene>(scene, budgets, can_plan);
+    if (std::filesystem::exists(std::filesystem::path(scene) / "camera.json"))
+        return std::make_unique<ReadyScene>(scene);
+    throw UsageError(scene + ": neither a built-in scene nor a folder with a camera.json");
+}
+
+} // namespace sparselens
