@@ -30,6 +30,7 @@ void trace_plan(const TraceOptions &options, const Tracer &tracer, RenderSetting
     const PlanRequest plan = read_plan(options.plan);
     if (plan.display != settings.windows.display)
         throw Error(options.plan + ": was made for a picture of another size: see --size");
+    std::vector<Imath::V2d> points;
     for (std::size_t k = 0; k < plan.views.size(); ++k) {
         const RequestedView &view = plan.views[k];
         settings.windows.data = view.mask.data;
@@ -37,7 +38,9 @@ void trace_plan(const TraceOptions &options, const Tracer &tracer, RenderSetting
             return render_view(tracer, settings, view.u, options.samples, of_rim + std::uint32_t(k),
                                *tool.progress, view.mask.set);
         });
+        points.push_back(view.u);
     }
+    outputs.write_summary(points, options.samples, 0);
 }
 
 void trace(const TraceOptions &options, const ToolContext &tool) {

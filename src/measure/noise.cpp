@@ -39,7 +39,7 @@ double block_variance(const std::vector<double> &picture, int width, int x, int 
                 std::abs(*p - (p[-1] + p[1] + p[-width] + p[width]) / 4);
         }
     std::ranges::sort(residual);
-    constexpr double spread = 1.25; // variance of a value less the mean of four others
+    constexpr double spread = 1.25;                  // variance of a value less the mean of four others
     const auto quantile = [&](std::size_t quarter) { // between two values
         const std::size_t i = quarter * residual.size() / 4;
         return (residual[i - 1] + residual[i]) / 2;
