@@ -1,6 +1,7 @@
 // dof-report: error against run time, for every kind of system that makes depth of field.
 #include "base/error.h"
 #include "common/tool.h"
+#include "common/trace_options.h"
 #include "report/measurement.h"
 #include "report/options.h"
 #include "report/outputs.h"
@@ -31,14 +32,21 @@ void print(const std::string &text) {
         throw Error("standard output: cannot be written");
 }
 
+// Rows of planned views need both who plans and who renders a plan.
+bool can_plan(const std::string &tools) {
+    CLI::App trace;
+    TraceOptions ignored;
+    add_trace_options(trace, ignored);
+    return fs::exists(fs::path(tools) / "ldi-plan") && trace.get_option_no_throw("--plan");
+}
+
 std::vector<MeasuredScene> plan_scenes(const ReportOptions &options, const RunOptions &run, StepList &steps) {
     const std::vector<std::string> usual{"fence", "grass", "lamps"};
-    const bool can_plan = fs::exists(fs::path(run.tools) / "ldi-plan");
     const Budgets budgets = budgets_of(options);
     std::vector<MeasuredScene> scenes;
     std::set<std::string> names;
     for (const std::string &scene : options.scenes.empty() ? usual : options.scenes) {
-        const auto source = open_scene(scene, budgets, can_plan);
+        const auto source = open_scene(scene, budgets, can_plan(run.tools));
         if (!names.insert(source->name()).second)
             throw UsageError(scene + ": there is another scene called " + source->name());
         scenes.push_back({plan_scene(*source, budgets, detail_of(options), steps), {}});

@@ -4,7 +4,7 @@
 
 #include <zlib.h>
 
-#include <array>
+#include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <vector>
@@ -17,7 +17,7 @@ using Bytes = std::vector<std::uint8_t>;
 
 std::uint8_t eight_bits(float value) {
     if (!(value > 0)) return 0; // NaN too
-    return value >= 1 ? 255 : std::uint8_t(value * 255 + 0.5f);
+    return value >= 1 ? 255 : std::uint8_t(std::lround(value * 255));
 }
 
 void add_number(Bytes &bytes, std::uint32_t value) {
@@ -57,12 +57,11 @@ Bytes filtered(const Bytes &rgb, std::size_t width, std::size_t height) {
     data.reserve((stride + 1) * height);
     for (std::size_t y = 0; y < height; ++y) {
         data.push_back(4);
-        const std::uint8_t *row = rgb.data() + y * stride, *above = y > 0 ? row - stride : nullptr;
-        for (std::size_t i = 0; i < stride; ++i) {
-            const int left = i < 3 ? 0 : row[i - 3], up = above ? above[i] : 0;
-            const int corner = above && i >= 3 ? above[i - 3] : 0;
-            data.push_back(std::uint8_t(row[i] - paeth(left, up, corner)));
-        }
+        const auto at = [&](std::size_t rows_up, std::size_t i) -> int { // i: 3 beyond the byte to its left
+            return y < rows_up || i < 3 ? 0 : rgb[(y - rows_up) * stride + i - 3];
+        };
+        for (std::size_t i = 3; i < stride + 3; ++i)
+            data.push_back(std::uint8_t(at(0, i) - paeth(at(0, i - 3), at(1, i), at(1, i - 3))));
     }
     return data;
 }

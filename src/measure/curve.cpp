@@ -22,8 +22,8 @@ Curve curve_of(std::span<const CurvePoint> points) {
     std::ranges::sort(curve, [](const CurvePoint &a, const CurvePoint &b) {
         return a.cost != b.cost ? a.cost < b.cost : a.quality > b.quality;
     });
-    const auto same = std::ranges::unique(curve, {}, &CurvePoint::cost);
-    curve.erase(same.begin(), same.end());
+    const auto same_cost = [](const CurvePoint &a, const CurvePoint &b) { return a.cost == b.cost; };
+    curve.erase(std::unique(curve.begin(), curve.end(), same_cost), curve.end());
     return curve;
 }
 

@@ -73,10 +73,12 @@ std::string ranges(std::span<const ReportRow> rows) {
 }
 
 std::string plot_command(const std::vector<Line> &lines, const char *columns) {
-    std::string text = "plot ";
-    for (std::size_t i = 0; i < lines.size(); ++i)
-        text += (i ? ", \\\n     $line" : "$line") + std::to_string(i) + " using " + columns +
-                " with linespoints " + style(lines[i], i) + " title " + quoted(lines[i].title);
+    std::string text;
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+        text += i == 0 ? "plot " : ", \\\n     ";
+        text += "$line" + std::to_string(i) + " using " + columns + " with linespoints " + style(lines[i], i);
+        text += " title " + quoted(lines[i].title);
+    }
     return text + '\n';
 }
 

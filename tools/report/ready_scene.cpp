@@ -44,10 +44,10 @@ ReadyScene::ReadyScene(const fs::path &folder)
     for (const fs::directory_entry &entry : fs::directory_iterator(folder_))
         if (entry.is_directory() && fs::exists(entry.path() / "camera.json"))
             views_.push_back({entry.path(), read_camera_summary(entry.path())});
-    const auto by_samples = [](const ViewFolder &v) { return v.camera.view_samples; };
-    std::ranges::sort(views_, {}, [&](const ViewFolder &v) { return std::pair(by_samples(v), v.path); });
-    const auto again = std::ranges::unique(views_, {}, by_samples);
-    views_.erase(again.begin(), again.end());
+    const auto samples = [](const ViewFolder &v) { return v.camera.view_samples; };
+    std::ranges::sort(views_, {}, [&](const ViewFolder &v) { return std::pair(samples(v), v.path); });
+    const auto same = [&](const ViewFolder &a, const ViewFolder &b) { return samples(a) == samples(b); };
+    views_.erase(std::unique(views_.begin(), views_.end(), same), views_.end());
 }
 
 LensOptions ReadyScene::lens() const {

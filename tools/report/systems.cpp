@@ -41,13 +41,13 @@ public:
 
     // Sparse views are warped into one LDI and clustered; what came as one picture is taken as it is.
     Layers layers(const std::string &name, const Words &cluster_words) {
-        const Layers warped = warp();
+        Layers warped = warp();
         if (rendered_.rim.empty()) return warped;
         return then(warped, Stage::cluster, name, {"ldi-cluster", warped.file}, cluster_words + lens_);
     }
 
-    Layers gathered(const Layers &from, const std::string &name, const Words &words) {
-        return then(from, Stage::process, name, {"dof-gather", from.file}, words + lens_);
+    Layers gathered(const Layers &from, const std::string &name, const Words &words, double weight = 1.2) {
+        return then(from, Stage::process, name, {"dof-gather", from.file}, words + lens_, weight);
     }
 
     // Not part of anybody's time.
@@ -55,13 +55,13 @@ public:
         const Layers from = layers("clustered", {});
         const Words words{"--method", "lens", "--lens-samples", std::to_string(budgets_.many_points)};
         const Layers made =
-            then(from, Stage::process, "many-points", {"dof-gather", from.file}, words + lens_, false);
+            then(from, Stage::process, "many-points", {"dof-gather", from.file}, words + lens_, 4, false);
         return made.file;
     }
 
 private:
     Layers warp() {
-        const Layers rendered{rendered_.picture, rendered_.steps};
+        Layers rendered{rendered_.picture, rendered_.steps};
         if (rendered_.rim.empty()) return rendered;
         Words views{"ldi-warp", rendered_.picture};
         for (const PlacedView &view : rendered_.rim)
@@ -71,14 +71,14 @@ private:
     }
 
     Layers then(const Layers &from, Stage stage, const std::string &name, const Words &program_and_inputs,
-                const Words &options, bool timed = true) {
+                const Words &options, double weight = 1.2, bool timed = true) {
         const std::string file = rendered_.folder + '/' + name + ".exr";
         Step step{.name = rendered_.folder + '/' + name,
                   .commands = {{stage, program_and_inputs + options + Words{"-o", file}}},
                   .inputs = from.steps,
                   .outputs = {file},
                   .timed = timed,
-                  .weight = timed ? 1.2 : 4.0};
+                  .weight = weight};
         if (rendered_.steps.empty()) { // ready-made
             step.given = {rendered_.picture};
             for (const PlacedView &view : rendered_.rim) step.given.push_back(view.path);
@@ -109,7 +109,7 @@ Layers selective(Chain &chain) {
 }
 
 Layers scatter(Chain &chain) {
-    return chain.gathered(chain.layers("clustered", {}), "scatter", {"--method", "scatter"});
+    return chain.gathered(chain.layers("clustered", {}), "scatter", {"--method", "scatter"}, 4);
 }
 
 Layers lens(Chain &chain, const std::string &quality) {
