@@ -109,6 +109,7 @@ Imf::PixelType imf_type(PixelType type) {
 std::size_t bytes_of(PixelType type) { return type == PixelType::half ? 2 : 4; }
 
 std::size_t store(PixelType type, const float *from, std::size_t count, char *to) {
+    if (count == 0) return 0; // there may be no pointers then
     if (type != PixelType::half) {
         std::memcpy(to, from, count * sizeof(float)); // ids keep their bits, see PixelType
         return 0;
