@@ -8,7 +8,9 @@
 #include "common/words.h"
 #include "dof/accumulate.h"
 #include "io/camera_metadata.h"
+#include "io/memory_limit.h"
 
+#include <algorithm>
 #include <map>
 
 namespace {
@@ -58,13 +60,25 @@ ThinLens moving_lens(const LensViewFiles &files, LensOptions lens, bool pinhole)
     return resolve_lens(lens, files.centre, files.windows);
 }
 
+// A header may claim any display window: what it adds counts as what the file asks for.
+Image with_surroundings(const std::string &path, const FlatFile &file) {
+    const Imath::Box2i &display = file.image.windows.display, &data = file.image.windows.data;
+    const auto extent = [](int a, int b, int c, int d) {
+        return double(std::max(a, b)) - double(std::min(c, d)) + 1;
+    };
+    const double pixels = extent(display.max.x, data.max.x, display.min.x, data.min.x) *
+                          extent(display.max.y, data.max.y, display.min.y, data.min.y);
+    check_memory(path, pixels * double(file.image.channels.size() * sizeof(float)), file.file_size);
+    return with_transparent_surroundings(file.image);
+}
+
 Image average_views(LensViewFiles &files, const ThinLens &lens, const Options &options,
                     const ToolContext &tool) {
     std::optional<Accumulation> sum;
     tool.progress->start("averaging", files.views.size());
     for (LensViewFile &file : files.views) {
-        Image view = file.take_pixels().image;
-        if (options.transparent_outside) view = with_transparent_surroundings(view);
+        Image view = options.transparent_outside ? with_surroundings(file.path, file.take_pixels())
+                                                 : file.take_pixels().image;
         if (!sum) sum = start_accumulation(view.windows, view.channels);
         const std::size_t bad = fill_nonfinite(view, sum->channels);
         if (bad > 0)

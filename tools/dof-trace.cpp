@@ -1,8 +1,10 @@
 // Renders a test scene: the centre view, views from the lens, deep pictures, and a distributed-ray-tracing
 // reference.
+#include "base/error.h"
 #include "common/tool.h"
 #include "common/trace_options.h"
 #include "common/trace_outputs.h"
+#include "io/plan_file.h"
 #include "lens/lens_points.h"
 #include "trace/deep.h"
 #include "trace/render.h"
@@ -22,12 +24,29 @@ std::string numbered(const char *format, int number) {
     return name;
 }
 
+// The views of a plan, of each the pixels that it asks for.
+void trace_plan(const TraceOptions &options, const Tracer &tracer, RenderSettings settings,
+                TraceOutputs &outputs, const ToolContext &tool) {
+    const PlanRequest plan = read_plan(options.plan);
+    if (plan.display != settings.windows.display)
+        throw Error(options.plan + ": was made for a picture of another size: see --size");
+    for (std::size_t k = 0; k < plan.views.size(); ++k) {
+        const RequestedView &view = plan.views[k];
+        settings.windows.data = view.mask.data;
+        outputs.add(numbered("view_%d.exr", int(k)), view.u, [&] {
+            return render_view(tracer, settings, view.u, options.samples, of_rim + std::uint32_t(k),
+                               *tool.progress, view.mask.set);
+        });
+    }
+}
+
 void trace(const TraceOptions &options, const ToolContext &tool) {
     const Scene scene = build_scene(options.scene);
     const Camera camera = camera_with_options(options.lens, scene.camera);
     const RenderSettings settings = render_settings(options, camera);
     const Tracer tracer(scene);
     TraceOutputs outputs(options.folder, camera, settings, options.type, tool);
+    if (!options.plan.empty()) return trace_plan(options, tracer, settings, outputs, tool);
     RenderSettings to_average = settings;
     to_average.scattered = true;
     const auto add_view = [&](const RenderSettings &by, const std::string &name, const Imath::V2d &u,

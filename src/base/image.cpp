@@ -1,5 +1,7 @@
 #include "base/image.h"
 
+#include "base/error.h"
+
 #include <algorithm>
 
 namespace sparselens {
@@ -9,8 +11,19 @@ Windows windows_of_size(int width, int height) {
     return {box, box, 1};
 }
 
+namespace {
+// More than any machine holds must not wrap round to what it does.
+std::size_t count_of(const Windows &w, std::size_t channels) {
+    const double count = double(w.width()) * double(w.height()) * double(channels);
+    if (count > 0x1p48)
+        throw Error("a picture of " + std::to_string(w.width()) + " x " + std::to_string(w.height()) +
+                    " pixels is too large");
+    return channels * w.pixels();
+}
+} // namespace
+
 Image::Image(const Windows &windows_, std::vector<Channel> channels_)
-    : windows(windows_), channels(std::move(channels_)), values(channels.size() * windows_.pixels()) {}
+    : windows(windows_), channels(std::move(channels_)), values(count_of(windows_, channels.size())) {}
 
 std::span<float> Image::plane(std::size_t channel) {
     return std::span(values).subspan(channel * windows.pixels(), windows.pixels());

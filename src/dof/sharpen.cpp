@@ -24,8 +24,8 @@ public:
             for (int o = 0; o < offsets; ++o)
                 table_[std::size_t(c * offsets + o)] = mean(coc_at(c), offset_at(o));
     }
-    // Half of the mean, which is the weight of the second difference; fades out towards the largest CoC.
     static constexpr double largest_weight = 0.125; // f (1 - f) is at most 1/4
+    // Half of the mean, which is the weight of the second difference; fades out towards the largest CoC.
     double weight(double coc, double offset) const {
         coc = std::abs(coc);
         if (!(coc < largest_coc)) return 0;

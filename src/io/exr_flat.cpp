@@ -42,7 +42,7 @@ FlatFile read_flat_part(Imf::MultiPartInputFile &file, const std::string &path, 
     }
     part.setFrameBuffer(pixels);
     part.readPixels(w.data.min.y, w.data.max.y);
-    return FlatFile{std::move(image), header};
+    return FlatFile{std::move(image), header, size};
 }
 
 FlatFile read_flat_exr(const std::string &path) {

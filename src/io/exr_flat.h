@@ -15,7 +15,8 @@ namespace sparselens {
 
 struct FlatFile {
     Image image;
-    Imf::Header header; // of the part the channels came from
+    Imf::Header header;          // of the part the channels came from
+    std::uint64_t file_size = 0; // bytes: what it may ask memory for, see check_memory()
 };
 
 // The first part that holds flat pixels, all its channels.

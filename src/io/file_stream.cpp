@@ -68,6 +68,8 @@ struct Closing {
     ~Closing() { ::close(descriptor); }
 };
 
+constexpr char exr_magic[] = {0x76, 0x2f, 0x31, 0x01};
+
 std::vector<char> read_whole(const std::string &path, int descriptor) {
     std::vector<char> bytes;
     std::size_t used = 0;
@@ -78,6 +80,9 @@ std::vector<char> read_whole(const std::string &path, int descriptor) {
         if (got < 0) fail(path, "cannot read");
         if (got == 0) break;
         used += std::size_t(got);
+        // Whatever else flows in may never end.
+        if (used >= sizeof exr_magic && std::memcmp(bytes.data(), exr_magic, sizeof exr_magic) != 0)
+            throw Error(display_name(path) + ": is no EXR file");
     }
     bytes.resize(used);
     return bytes;

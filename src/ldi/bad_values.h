@@ -2,13 +2,15 @@
 // behind this place looks for them again: kernels may take every value for good.
 //
 //   colour that is not finite,    coverage times the mean colour of the pixels around it, by coverage
-//       or beyond 1e34, of which sums overflow
+//       or beyond 1e34: sums of
+//       it would overflow
 //   A that is not a number        the mean of the pixels around it
 //   A outside 0..1                clamped
 //   depth NaN or negative         that of a pixel around it (the median), infinity where none has a good one
 //   depth 0, or so small that     infinity: nothing was hit
 //       1 / z is no float
-//   place outside the pixel, a weight that is not a number above 0: the nearest that is one; 0, 1 for no number
+//   place outside its pixel       at its edge; NaN: in the middle
+//   weight not a number above 0   1
 //
 // Kept as they are: colours below 0, all other radiance, every other depth up to infinity; where A is 0 the
 // depth is infinity whatever it was. "Around" are the eight neighbours; in a deep picture their samples nearest in

@@ -93,16 +93,20 @@ private:
     std::vector<double> depth_; // perceptive
 };
 
-// A pixel that is set alone between two that are not, along either axis, is a crack.
+// A pixel that is set alone between two that are not, along either axis, is a crack, or so narrow an opening that
+// the margins around it would cost more than it brings: on "grass" half as much again, for 0.5 dB.
 void close_cracks(PixelMask &mask) {
     const PixelMask before = mask;
-    for (int y = mask.data.min.y; y <= mask.data.max.y; ++y)
-        for (int x = mask.data.min.x; x <= mask.data.max.x; ++x) {
-            const bool across =
-                x > mask.data.min.x && x < mask.data.max.x && !before.at(x - 1, y) && !before.at(x + 1, y);
-            const bool down =
-                y > mask.data.min.y && y < mask.data.max.y && !before.at(x, y - 1) && !before.at(x, y + 1);
-            if (across || down) mask.set[mask.index(x, y)] = 0;
+    const int width = mask.width(), height = mask.height();
+    const auto crack = [&](std::size_t i, std::size_t step) {
+        return !before.set[i - step] && !before.set[i + step];
+    };
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            const std::size_t i = std::size_t(y) * std::size_t(width) + std::size_t(x);
+            const bool across = x > 0 && x < width - 1 && crack(i, 1);
+            const bool down = y > 0 && y < height - 1 && crack(i, std::size_t(width));
+            if (across || down) mask.set[i] = 0;
         }
 }
 

@@ -13,7 +13,7 @@ namespace sparselens {
 struct PlanOptions {
     int views = 4;  // at most so many
     int margin = 2; // pixels around what the centre view does not see: edges are told apart from both sides
-    std::optional<double> noise; // standard deviation of a pixel's noise, tone-mapped; empty: measured
+    std::optional<double> noise = {}; // standard deviation of a pixel's noise, tone-mapped; empty: measured
 };
 
 struct PlannedView {

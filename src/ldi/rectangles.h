@@ -6,7 +6,7 @@
 namespace sparselens {
 
 // What a rectangle costs besides its pixels, in pixels: two are joined where that wastes less.
-inline constexpr double rectangle_overhead = 1024;
+inline constexpr double rectangle_overhead = 256;
 
 // At most `most` of them, which may overlap; none where nothing is set. EXR coordinates, corners included.
 std::vector<Imath::Box2i> rectangles_over(const PixelMask &mask, std::size_t most = 64);

@@ -40,9 +40,12 @@ double block_variance(const std::vector<double> &picture, int width, int x, int 
         }
     std::ranges::sort(residual);
     constexpr double spread = 1.25; // variance of a value less the mean of four others
-    const double by_quartile = residual[residual.size() / 4] / 0.3186;
-    const double by_median = residual[residual.size() / 2] / 0.6745;
-    return by_quartile > 0.75 * by_median ? by_quartile * by_quartile / spread : 0;
+    const auto quantile = [&](std::size_t quarter) { // between two values
+        const std::size_t i = quarter * residual.size() / 4;
+        return (residual[i - 1] + residual[i]) / 2;
+    };
+    const double by_quartile = quantile(1) / 0.3186, by_median = quantile(2) / 0.6745;
+    return by_quartile > 0.75 * by_median ? by_median * by_median / spread : 0;
 }
 
 } // namespace

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <vector>
 
 namespace sparselens {
 
@@ -30,24 +32,25 @@ struct Run {
     std::span<Imath::V2d> light_points;
 };
 
-// Mean of `samples` rays in every pixel of row y. make(Run) fills the rays; they are traced in batches that
-// run on from pixel to pixel, so that few samples a pixel fill them as well as many.
+// Mean of `samples` rays in the pixels of row y at these columns, counted from the data window. make(Run) fills the
+// rays; they are traced in batches that run on from pixel to pixel, so that few samples a pixel fill them as well as
+// many.
 template <typename Make>
-void render_row(const Tracer &tracer, Light light, Image &image, int y, std::size_t samples,
-                const Make &make) {
+void render_row(const Tracer &tracer, Light light, Image &image, int y, std::span<const int> columns,
+                std::size_t samples, const Make &make) {
     const Windows &windows = image.windows;
-    const std::size_t width = std::size_t(windows.width()), total = width * samples;
+    const std::size_t total = columns.size() * samples;
     std::array<Ray, batch_size> rays;
     std::array<Imath::V2d, batch_size> light_points{};
     std::array<Imath::C4f, batch_size> radiance;
     std::vector<Imath::Vec4<double>> sums(
-        width, Imath::Vec4<double>(0)); // double: thousands of samples, lamps among them
+        columns.size(), Imath::Vec4<double>(0)); // double: thousands of samples, lamps among them
     for (std::size_t first = 0; first < total; first += batch_size) {
         const std::size_t n = std::min(batch_size, total - first);
         for (std::size_t i = 0; i < n;) {
-            const std::size_t column = (first + i) / samples, index = (first + i) % samples;
+            const std::size_t at = (first + i) / samples, index = (first + i) % samples;
             const std::size_t count = std::min(n - i, samples - index);
-            make(Run{windows.data.min.x + int(column), y, std::uint32_t(index),
+            make(Run{windows.data.min.x + columns[at], y, std::uint32_t(index),
                      std::span(rays).subspan(i, count), std::span(light_points).subspan(i, count)});
             i += count;
         }
@@ -57,29 +60,36 @@ void render_row(const Tracer &tracer, Light light, Image &image, int y, std::siz
             sums[(first + i) / samples] +=
                 Imath::Vec4<double>(radiance[i].r, radiance[i].g, radiance[i].b, radiance[i].a);
     }
-    const std::size_t row = std::size_t(y - windows.data.min.y) * width;
+    const std::size_t row = std::size_t(y - windows.data.min.y) * std::size_t(windows.width());
     for (std::size_t channel = 0; channel < 4; ++channel)
-        for (std::size_t column = 0; column < width; ++column)
-            image.plane(channel)[row + column] = float(sums[column][int(channel)] / double(samples));
+        for (std::size_t i = 0; i < columns.size(); ++i)
+            image.plane(channel)[row + std::size_t(columns[i])] =
+                float(sums[i][int(channel)] / double(samples));
 }
 
 void depth_row(const Tracer &tracer, const RenderSettings &settings, const Imath::V2d &u, int y,
-               std::span<float> z) {
+               std::span<const int> columns, std::span<float> z) {
     std::array<Ray, batch_size> rays;
     std::array<Hit, batch_size> hits;
-    for (std::size_t first = 0; first < z.size(); first += batch_size) {
-        const std::size_t n = std::min(batch_size, z.size() - first);
-        for (std::size_t i = 0; i < n; ++i) {
-            const int x = settings.windows.data.min.x + int(first + i);
-            rays[i] = view_ray(settings, u, {x + 0.5, y + 0.5});
-        }
+    for (std::size_t first = 0; first < columns.size(); first += batch_size) {
+        const auto some = columns.subspan(first, std::min(batch_size, columns.size() - first));
+        for (std::size_t i = 0; i < some.size(); ++i)
+            rays[i] = view_ray(settings, u, {settings.windows.data.min.x + some[i] + 0.5, y + 0.5});
         if (tracer.scene().translucent) {
-            for (std::size_t i = 0; i < n; ++i) z[first + i] = float(visible_depth(tracer, rays[i]));
+            for (std::size_t i = 0; i < some.size(); ++i)
+                z[std::size_t(some[i])] = float(visible_depth(tracer, rays[i]));
             continue;
         }
-        tracer.nearest(std::span(rays).first(n), std::span(hits).first(n));
-        for (std::size_t i = 0; i < n; ++i) z[first + i] = float(hits[i].t);
+        tracer.nearest(std::span(rays).first(some.size()), std::span(hits).first(some.size()));
+        for (std::size_t i = 0; i < some.size(); ++i) z[std::size_t(some[i])] = float(hits[i].t);
     }
+}
+
+std::vector<int> columns_asked(std::span<const std::uint8_t> asked_row, int width) {
+    std::vector<int> columns;
+    for (int x = 0; x < width; ++x)
+        if (asked_row.empty() || asked_row[std::size_t(x)] != 0) columns.push_back(x);
+    return columns;
 }
 
 } // namespace
@@ -96,7 +106,7 @@ Ray lens_ray(const RenderSettings &settings, const Imath::V2d &u, const Imath::V
 }
 
 Image render_view(const Tracer &tracer, const RenderSettings &settings, const Imath::V2d &u, int samples,
-                  std::uint32_t stream, Progress &progress) {
+                  std::uint32_t stream, Progress &progress, std::span<const std::uint8_t> asked) {
     auto channels = rgba_channels();
     channels.push_back({"Z", PixelType::float32});
     Image image(settings.windows, channels);
@@ -109,11 +119,14 @@ Image render_view(const Tracer &tracer, const RenderSettings &settings, const Im
         if (settings.light == Light::area) points.on_light(run.x, run.y, run.first, run.light_points);
     };
     const std::size_t width = std::size_t(settings.windows.width());
+    std::ranges::fill(image.plane(4), std::numeric_limits<float>::infinity());
     progress.start("view", std::size_t(settings.windows.height()));
     parallel_for(std::size_t(settings.windows.height()), [&](std::size_t row) {
         const int y = settings.windows.data.min.y + int(row);
-        render_row(tracer, settings.light, image, y, std::size_t(samples), make);
-        depth_row(tracer, settings, u, y, image.plane(4).subspan(row * width, width));
+        const auto columns =
+            columns_asked(asked.empty() ? asked : asked.subspan(row * width, width), int(width));
+        render_row(tracer, settings.light, image, y, columns, std::size_t(samples), make);
+        depth_row(tracer, settings, u, y, columns, image.plane(4).subspan(row * width, width));
         progress.advance();
     });
     return image;
@@ -134,7 +147,7 @@ Image render_reference(const Tracer &tracer, const RenderSettings &settings, int
     progress.start("reference", std::size_t(settings.windows.height()));
     parallel_for(std::size_t(settings.windows.height()), [&](std::size_t row) {
         render_row(tracer, settings.light, image, settings.windows.data.min.y + int(row),
-                   std::size_t(samples), make);
+                   columns_asked({}, settings.windows.width()), std::size_t(samples), make);
         progress.advance();
     });
     return image;

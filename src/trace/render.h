@@ -9,6 +9,7 @@
 #include "trace/shading.h"
 
 #include <cstdint>
+#include <span>
 
 namespace sparselens {
 
@@ -33,9 +34,10 @@ Ray lens_ray(const RenderSettings &settings, const Imath::V2d &u, const Imath::V
 
 // What a pinhole at lens point `u` sees: R G B A (half, box filter of one pixel) and Z (float, at the pixel
 // centre). samples = n * n, not scattered: a regular n x n grid in each pixel; else low-discrepancy points.
-// `stream` tells views apart, so that their noise is independent.
+// `stream` tells views apart, so that their noise is independent. `asked`: one value a pixel of the data window, those
+// of 0 are not rendered and stay empty; none: all are.
 Image render_view(const Tracer &tracer, const RenderSettings &settings, const Imath::V2d &u, int samples,
-                  std::uint32_t stream, Progress &progress);
+                  std::uint32_t stream, Progress &progress, std::span<const std::uint8_t> asked = {});
 
 // Distributed ray tracing (R. Cook, T. Porter, L. Carpenter, 1984): `samples` rays a pixel, each from its own
 // point of the lens through its own point of the pixel. R G B A, box filter of one pixel.

@@ -67,6 +67,9 @@ void add_trace_options(CLI::App &app, TraceOptions &options) {
     app.add_option("--views", options.views, "Views from the rim of the lens (4)")
         ->type_name("N")
         ->check(CLI::Range(0, largest_count));
+    app.add_option("--plan", options.plan,
+                   "Render just what this plan of ldi-plan asks for, not the centre view nor a ring of views")
+        ->type_name("PLAN.json");
     app.add_option("--lens-views", options.lens_views, "Views spread evenly over the whole lens (0)")
         ->type_name("N")
         ->check(CLI::Range(0, largest_count));

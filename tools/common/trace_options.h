@@ -20,6 +20,7 @@ struct DeepRequest {
 struct TraceOptions {
     std::string scene;
     std::string folder;
+    std::string plan; // render what this asks for instead of the centre and the rim views
     int views = 4, lens_views = 0;
     int samples = 16;  // of a view
     int reference = 0; // rays a pixel; 0: no reference

@@ -1,0 +1,73 @@
+# ldi-plan: what it asks for, dof-trace --plan, and the way from there to the picture. bash ldi-plan.sh BIN_DIR
+. "$(dirname "$0")/check.sh"
+. "$source_dir/tests/tools/deep.sh"
+plan=$bin/ldi-plan
+answers_help ldi-plan views/center.exr -o plan.json
+"$bin/dof-trace" fence --size 160x90 --spp 16 --reference 64 -o full
+
+# json FILE EXPRESSION: of the plan, in Python.
+json() { python3 -c "import json,sys; p = json.load(open(sys.argv[1])); print($2)" "$1"; }
+command -v python3 >/dev/null || skip "needs python3 to read JSON"
+
+exits 0 "$plan" full/center.exr -o plan.json --masks masks --noise 0
+grep -q 'of a full view' stdout || fail "no summary: $(cat stdout)"
+[ "$(json plan.json 'p["advice"]')" = planned ] || fail "advice: $(json plan.json 'p["advice"]')"
+[ "$(json plan.json 'len(p["views"])')" -ge 2 ] || fail "too few views"
+[ "$(json plan.json '0.05 < p["share"] < 1.2')" = True ] || fail "share $(json plan.json 'p["share"]')"
+[ "$(json plan.json 'all(v["rectangles"] for v in p["views"])')" = True ] || fail "no rectangles"
+[ "$(json plan.json 'p["overscan"]["left"] > 0')" = True ] || fail "no overscan"
+[ "$(ls masks | wc -l)" -eq "$(json plan.json 'len(p["views"])')" ] || fail "masks: $(ls masks)"
+exits 0 "$plan" full/center.exr -o -
+grep -q '"views"' stdout || fail "no plan on standard output"
+
+# What is asked for is rendered, and as good for the picture as all of it.
+"$bin/dof-trace" fence --size 160x90 --spp 16 --plan plan.json -o planned
+[ ! -e planned/center.exr ] || fail "the centre view was not asked for"
+[ "$(ls planned | wc -l)" -eq "$(json plan.json 'len(p["views"])')" ] || fail "views: $(ls planned)"
+psnr() { # LDI INPUTS...
+    "$bin/ldi-warp" "$@" -o - | "$bin/dof-gather" - -d float -o picture.exr
+    "$bin/dof-compare" picture.exr full/reference.exr --json | python3 -c 'import json,sys; print(json.load(sys.stdin)["psnr_tonemapped"])'
+}
+alone=$(psnr full/center.exr) planned=$(psnr full/center.exr planned/view_*.exr) full=$(psnr full/center.exr full/view_*.exr)
+echo "centre alone $alone dB, planned $planned dB, full views $full dB"
+python3 -c "import sys; a, p, f = map(float, sys.argv[1:]); sys.exit(not (p > a + 1.5 and p > f - 3))" "$alone" "$planned" "$full" ||
+    fail "planned views: $alone $planned $full"
+# By rectangles alone more is rendered, never less.
+exits 0 "$plan" full/center.exr -o rectangles.json --noise 0
+"$bin/dof-trace" fence --size 160x90 --spp 16 --plan rectangles.json -o rectangles
+[ "$(json rectangles.json '"mask" in p["views"][0]')" = False ] || fail "masks that were not asked for"
+fails_saying 1 'another size' "$bin/dof-trace" fence --size 80x45 --plan plan.json -o x
+fails_saying 1 'view_0.exr.*no plan' "$bin/dof-trace" fence --plan planned/view_0.exr -o x
+fails_saying 1 'missing.json' "$bin/dof-trace" fence --plan missing.json -o x
+
+# Every option has an effect.
+changes() { # OPTION...
+    exits 0 "$plan" full/center.exr -o changed.json --noise 0 "$@"
+    differ rectangles.json changed.json "$*"
+}
+changes --views 2
+changes --margin 5
+exits 0 "$plan" full/center.exr -o changed.json --noise 0.3
+[ "$(json changed.json 'p["advice"]')" = full ] || fail "noise asks for full views"
+changes --lens-radius 0.03
+changes --focus-distance 3
+changes --fstop 0.5
+changes --scene-unit 0.1
+changes --focal-length 30
+changes --sensor-width 30
+changes --depth distance
+exits 0 "$plan" full/center.exr -o none.json --lens-radius 0
+[ "$(json none.json 'p["advice"], p["views"]')" = "none []" ] || fail "a pinhole needs no views"
+oiiotool full/center.exr --chnames R,G,B,A,far.away -o named.exr
+exits 0 "$plan" named.exr -o named.json --depth-channel far.away
+fails_saying 1 'named.exr' "$plan" named.exr -o x.json
+"$bin/dof-trace" slant --spp 16 --views 0 -o slant
+exits 0 "$plan" slant/center.exr -o slant.json
+[ "$(json slant.json 'p["advice"]')" = none ] || fail "one plane needs no views"
+fails_saying 2 '--views' "$plan" full/center.exr -o x.json --views -1
+fails_saying 2 '--margin' "$plan" full/center.exr -o x.json --margin far
+fails_saying 2 '--noise' "$plan" full/center.exr -o x.json --noise -1
+fails_saying 2 '--output' "$plan" full/center.exr
+fails_saying 1 'missing.exr' "$plan" missing.exr -o x.json
+survives_failure "$plan" missing.exr
+[ ! -e x.json ] || fail "a failure wrote x.json"
