@@ -1,7 +1,6 @@
 // dof-report: error against run time, for every kind of system that makes depth of field.
 #include "base/error.h"
 #include "common/tool.h"
-#include "common/trace_options.h"
 #include "report/measurement.h"
 #include "report/options.h"
 #include "report/outputs.h"
@@ -32,14 +31,6 @@ void print(const std::string &text) {
         throw Error("standard output: cannot be written");
 }
 
-// Rows of planned views need both who plans and who renders a plan.
-bool can_plan(const std::string &tools) {
-    CLI::App trace;
-    TraceOptions ignored;
-    add_trace_options(trace, ignored);
-    return fs::exists(fs::path(tools) / "ldi-plan") && trace.get_option_no_throw("--plan");
-}
-
 std::vector<MeasuredScene> plan_scenes(const ReportOptions &options, const RunOptions &run, StepList &steps) {
     const std::vector<std::string> usual{"fence", "grass", "lamps"};
     const Budgets budgets = budgets_of(options);
@@ -56,11 +47,14 @@ std::vector<MeasuredScene> plan_scenes(const ReportOptions &options, const RunOp
 
 void report(const ReportOptions &options, const std::string &command, const ToolContext &tool) {
     const RunOptions run = run_options(options, tool);
-    std::vector<std::string> facts = machine_facts(tool.threads);
-    facts.push_back(command);
+    const std::string load_before = load_fact();
     StepList steps;
     std::vector<MeasuredScene> scenes = plan_scenes(options, run, steps);
     const std::vector<StepTimes> times = run_steps(steps.steps(), run, tool);
+    const std::vector<std::string> facts{machine_fact(tool.threads), command,
+                                         "load before the first step: " + load_before +
+                                             ", after the last: " + load_fact()};
+    print(facts[0] + '\n' + facts[1] + '\n' + facts[2] + "\n\n");
     for (MeasuredScene &scene : scenes) {
         scene.rows = measure_rows(scene.plan, times, run.folder, tool);
         print(summary_text(scene.rows) + '\n');

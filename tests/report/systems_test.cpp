@@ -122,7 +122,7 @@ TEST(Systems, RaysAreCameraSamplesOfAllViews) {
     EXPECT_EQ(all.row("centre + 4, lens normal", "16 samples").row.rays, 80);
     EXPECT_EQ(all.row("centre + 8, lens normal", "1 sample").row.rays, 9);
     EXPECT_EQ(all.row("4 strata, lens normal", "16 samples").row.rays, 64);
-    EXPECT_EQ(all.row("accumulated lens views", "256 views").row.rays, 256);
+    EXPECT_EQ(all.row("accumulated lens views", "256 views").row.rays, 4 * 256);
     EXPECT_EQ(all.row("distributed ray tracing", "1024 rays").row.rays, 1024);
     EXPECT_EQ(all.row("centre + 4, lens normal", "16 samples").row.role, Role::sparse_lens);
     EXPECT_EQ(all.row("centre + 4, selective K=8", "16 samples").row.role, Role::other);

@@ -123,6 +123,14 @@ awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) if ($i == "runs") at = i } NR > 1 &
     fail "--runs has no effect"
 grep -q 'threads: 1' small/index.html || fail "--threads has no effect"
 
+# On a terminal it tells how far it is and what is left, elsewhere nothing.
+if command -v script >/dev/null; then
+    rm -r small
+    script -qec "'$report' --quick grass -o small --size 40x24" /dev/null >terminal </dev/null
+    grep -Eq 'dof-report: [0-9]+ of [0-9]+, [0-9]+:[0-9]{2} left: grass/views-5x4/warped' terminal ||
+        fail "no progress on a terminal: $(head -c 300 terminal)"
+fi
+
 # The page in a browser: pictures are there, and moving the slider shows something else.
 chromium=$(command -v chromium || command -v chromium-browser || command -v google-chrome || true)
 [ -n "$chromium" ] || { echo 'the page was not opened: chromium is not installed (tools/install-deps.sh report)'; exit 0; }

@@ -58,12 +58,14 @@ std::string today() {
 
 } // namespace
 
-std::vector<std::string> machine_facts(int threads) {
-    double load = 0;
-    const bool known = getloadavg(&load, 1) == 1;
+std::string machine_fact(int threads) {
     const int used = threads > 0 ? threads : tbb::info::default_concurrency();
-    return {processor() + ", threads: " + std::to_string(used) + ", " + today(),
-            "load of the machine before the first step: " + (known ? fixed(load, 2) : "unknown")};
+    return processor() + ", threads: " + std::to_string(used) + ", " + today();
+}
+
+std::string load_fact() {
+    double load = 0;
+    return getloadavg(&load, 1) == 1 ? fixed(load, 2) : "unknown";
 }
 
 void write_report(const std::string &folder, std::span<const MeasuredScene> scenes,

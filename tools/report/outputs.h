@@ -21,7 +21,7 @@ struct MeasuredScene {
 void write_report(const std::string &folder, std::span<const MeasuredScene> scenes,
                   std::vector<std::string> facts, const ToolContext &tool);
 
-// What the machine is and how busy it was: a line each.
-std::vector<std::string> machine_facts(int threads);
+std::string machine_fact(int threads); // what is measured on, and when
+std::string load_fact(); // how busy it is: the mean number of running processes of the last minute
 
 } // namespace sparselens

@@ -1,6 +1,7 @@
 #include "report/scene_source.h"
 
 #include "base/error.h"
+#include "common/trace_options.h"
 #include "report/ready_scene.h"
 #include "report/traced_scene.h"
 #include "trace/scenes.h"
@@ -10,9 +11,17 @@
 
 namespace sparselens {
 
-std::unique_ptr<SceneSource> open_scene(const std::string &scene, const Budgets &budgets, bool can_plan) {
+bool can_plan(const std::string &tools) {
+    CLI::App trace;
+    TraceOptions ignored;
+    add_trace_options(trace, ignored);
+    return std::filesystem::exists(std::filesystem::path(tools) / "ldi-plan") &&
+           trace.get_option_no_throw("--plan");
+}
+
+std::unique_ptr<SceneSource> open_scene(const std::string &scene, const Budgets &budgets, bool with_plans) {
     if (std::ranges::any_of(scene_table(), [&](const SceneEntry &entry) { return scene == entry.name; }))
-        return std::make_unique<TracedScene>(scene, budgets, can_plan);
+        return std::make_unique<TracedScene>(scene, budgets, with_plans);
     if (std::filesystem::exists(std::filesystem::path(scene) / "camera.json"))
         return std::make_unique<ReadyScene>(scene);
     throw UsageError(scene + ": neither a built-in scene nor a folder with a camera.json");

@@ -17,7 +17,7 @@ struct Budgets {
     int reference = 4096;                              // rays a pixel
     int many_points = 4096;                            // lens points beyond which more change nothing
     std::vector<int> samples{1, 4, 16, 64};            // a pixel of a view
-    std::vector<int> lens_views{4, 16, 64, 256, 1024}; // of one sample each
+    std::vector<int> lens_views{4, 16, 64, 256, 1024}; // rendered over the lens
     std::vector<int> rays{4, 16, 64, 256, 1024};       // a pixel, distributed over the lens
 };
 
@@ -57,9 +57,12 @@ public:
     virtual std::optional<Rendered> distributed(int rays, StepList &steps) const = 0;
 };
 
+// Whether the tools of that folder can render what a plan asks for: it takes one who plans and one who renders it.
+bool can_plan(const std::string &tools);
+
 // `scene`: the name of a built-in scene, or a folder with a camera.json, reference.exr, center.exr, view_K.exr and
 // perhaps drt_N.exr (N rays a pixel over the lens) and further such folders of other sample counts. UsageError where
-// it is neither. `can_plan`: there is an ldi-plan.
-std::unique_ptr<SceneSource> open_scene(const std::string &scene, const Budgets &budgets, bool can_plan);
+// it is neither.
+std::unique_ptr<SceneSource> open_scene(const std::string &scene, const Budgets &budgets, bool with_plans);
 
 } // namespace sparselens

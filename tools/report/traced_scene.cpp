@@ -7,7 +7,8 @@ namespace sparselens {
 
 namespace {
 
-constexpr int layer_count = 4; // of depth peeling and strata
+constexpr int layer_count = 4;       // of depth peeling and strata
+constexpr int lens_view_samples = 4; // a pixel: with fewer, moving the views by parts of a pixel costs much
 
 std::vector<std::string> view_files(const std::string &folder, int rim) {
     std::vector<std::string> files{folder + "/center.exr"};
@@ -93,17 +94,20 @@ std::optional<Rendered> TracedScene::accumulated(int views, StepList &steps) con
         std::snprintf(name, sizeof name, "/lens_%04d.exr", k);
         average.words.push_back(scratch + name);
     }
-    const std::size_t made =
-        steps.add({.name = folder,
-                   .commands = {trace(scratch, 1, 0, {"--lens-views", std::to_string(views)}), average},
-                   .outputs = {picture},
-                   .fresh = scratch,
-                   .scratch = true,
-                   .traced = scratch,
-                   .uncounted = {"center.exr"},
-                   .weight = weight(views) + 0.06 * views});
-    return Rendered{
-        .folder = folder, .picture = picture, .steps = {made}, .views = views, .rays = double(views)};
+    const std::size_t made = steps.add(
+        {.name = folder,
+         .commands = {trace(scratch, lens_view_samples, 0, {"--lens-views", std::to_string(views)}), average},
+         .outputs = {picture},
+         .fresh = scratch,
+         .scratch = true,
+         .traced = scratch,
+         .uncounted = {"center.exr"},
+         .weight = weight(lens_view_samples * views) + 0.06 * views});
+    return Rendered{.folder = folder,
+                    .picture = picture,
+                    .steps = {made},
+                    .views = views,
+                    .rays = double(lens_view_samples * views)};
 }
 
 std::optional<Rendered> TracedScene::distributed(int rays, StepList &steps) const {
