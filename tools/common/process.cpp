@@ -1,6 +1,7 @@
 #include "common/process.h"
 
 #include "base/error.h"
+#include "common/man_page.h"
 #include "common/one_line.h"
 #include "io/memory_limit.h"
 #include "io/unfinished.h"
@@ -49,6 +50,7 @@ void add_process_options(CLI::App &app, ProcessOptions &options) {
                    "Memory that reading a file may take, as 4GB (64 MB and 1100 times the file's size)")
         ->type_name("SIZE")
         ->transform(CLI::AsSizeValue(false));
+    add_documentation_options(app, SPARSELENS_VERSION);
 }
 
 std::optional<int> parse_words(CLI::App &app, const std::vector<std::string> &words,

@@ -16,7 +16,7 @@ struct ProcessOptions {
     std::optional<std::uint64_t> max_memory;
 };
 
-// --version, -v, --threads, --max-memory.
+// --version, -v, --threads, --max-memory, --man, --completion.
 void add_process_options(CLI::App &app, ProcessOptions &options);
 
 // Reads the words. Nothing where there is work to do, else the exit code: --help and the like are answered, a wrong
