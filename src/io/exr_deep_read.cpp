@@ -1,6 +1,7 @@
 #include "io/exr_common.h"
 #include "io/exr_deep.h"
 #include "io/exr_flat.h"
+#include "io/exr_header_check.h"
 #include "io/memory_limit.h"
 
 #include <ImfDeepFrameBuffer.h>
@@ -164,6 +165,7 @@ Ldi ldi_of_flat(const Image &image, const std::string &depth) {
 LdiFile read_ldi(const std::string &path, const std::string &depth_channel) {
     return with_file_name(path, [&] {
         const auto stream = open_input(path);
+        check_header(*stream, path);
         Imf::MultiPartInputFile file(*stream);
         const Source source{file, path, stream->size()};
         const int number = first_deep_part(file);
