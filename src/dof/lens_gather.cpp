@@ -164,6 +164,11 @@ void copy_ids(const Image &flat, Image &out) {
 Image lens_gather(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window,
                   const LensGatherOptions &options, Progress &progress) {
     const BlockedSamples samples = make_blocks(ldi, lens, window);
+    const Image flat = crop(flatten(ldi), window);
+    const auto sharp = [](const SampleBlock &block) {
+        return block.begin == block.end || largest_coc_of(block) < in_focus;
+    };
+    if (std::ranges::all_of(samples.blocks, sharp)) return flat;
     SampleColours colours = make_colours(ldi, samples);
     sharpen_near_focus(ldi, lens, samples, colours);
     const LightChannels light = light_channels(ldi);
@@ -171,7 +176,6 @@ Image lens_gather(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &wind
     const BlockFinder finder(samples, lens.pixel_aspect);
     LensSets sets(options, lens.pixel_aspect);
 
-    const Image flat = crop(flatten(ldi), window);
     Image out = flat;
     const Windows &windows = out.windows;
     const int columns = (windows.width() + LensTile::size - 1) / LensTile::size;
