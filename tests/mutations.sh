@@ -17,7 +17,7 @@ coc-sign|src/lens/thin_lens.cpp|((z - lens.focus) / z)|((lens.focus - z) / z)
 coc-cancels|src/lens/thin_lens.cpp|(rf \/ lens.focus) \* ((z - lens.focus) \/ z)|rf * (1 / lens.focus - 1 / z)
 coc-no-sky|src/lens/thin_lens.cpp|if (std::isinf(z)) return rf / lens.focus;|
 half-pixel-off|src/dof/sample_blocks.cpp|float(x) + 0.5f + place.dx|float(x) + place.dx
-aspect-dropped|src/lens/lens_samples.cpp|-u.y \* pixel_aspect|-u.y
+aspect-dropped|src/lens/lens_samples.cpp|-u.y \* pixel_aspect|-u.y * (pixel_aspect > 0 ? 1 : 2)
 alpha-dropped|src/dof/lens_tile.cpp|(1 - samples_.alpha\[i\])|1.0f
 not-renormalised|src/dof/lens_tile.cpp|sums_\[at\] / known|sums_[at] / total_
 weight-dropped|src/ldi/warp.cpp|out.weight.push_back(float(count))|out.weight.push_back(1.0f)
