@@ -24,8 +24,8 @@ weight-dropped|src/ldi/warp.cpp|out.weight.push_back(float(count))|out.weight.pu
 view-moved-wrong-way|src/ldi/reproject.cpp|shift_x_(focal_px \* position.x)|shift_x_(-focal_px * position.x)
 view-y-wrong-way|src/ldi/reproject.cpp|shift_y_(-focal_px|shift_y_(focal_px
 reproject-truncates|src/ldi/reproject.cpp|cell_x = std::floor(x)|cell_x = std::trunc(x)
-unsorted|src/ldi/tidy.cpp|return a.z != b.z ? a.z < b.z : a.z_back < b.z_back;|return false;
-float-accumulator|src/ldi/flatten.cpp|double transmittance = 1, sum = 0;|float transmittance = 1, sum = 0;
+unsorted|src/ldi/tidy.cpp|return a.z != b.z ? a.z < b.z : a.z_back < b.z_back;|return a.index < b.index;
+float-accumulator|src/ldi/flatten.cpp|sum += transmittance \* double(ldi.values\[k\]\[i\]);|sum = double(float(sum + transmittance * double(ldi.values[k][i])));
 cluster-weights|src/ldi/cluster.cpp|terms\[t\].coefficient /= weights|(void)weights
 lamp-counted-twice|src/dof/highlights.cpp|colours.at(k, f.sample) \*= 1 - f.share;|
 light-made|src/dof/sharpen.cpp|{n.sample\[k\], -shared}|{n.sample[k], 0}
