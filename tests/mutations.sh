@@ -17,22 +17,22 @@ coc-sign|src/lens/thin_lens.cpp|((z - lens.focus) / z)|((lens.focus - z) / z)
 coc-cancels|src/lens/thin_lens.cpp|(rf \/ lens.focus) \* ((z - lens.focus) \/ z)|rf * (1 / lens.focus - 1 / z)
 coc-no-sky|src/lens/thin_lens.cpp|if (std::isinf(z)) return rf / lens.focus;|
 half-pixel-off|src/dof/sample_blocks.cpp|float(x) + 0.5f + place.dx|float(x) + place.dx
-aspect-dropped|src/lens/lens_samples.cpp|-u.y \* pixel_aspect|-u.y
+aspect-dropped|src/lens/lens_samples.cpp|-u.y \* pixel_aspect|-u.y * (pixel_aspect > 0 ? 1 : 2)
 alpha-dropped|src/dof/lens_tile.cpp|(1 - samples_.alpha\[i\])|1.0f
 not-renormalised|src/dof/lens_tile.cpp|sums_\[at\] / known|sums_[at] / total_
 weight-dropped|src/ldi/warp.cpp|out.weight.push_back(float(count))|out.weight.push_back(1.0f)
 view-moved-wrong-way|src/ldi/reproject.cpp|shift_x_(focal_px \* position.x)|shift_x_(-focal_px * position.x)
 view-y-wrong-way|src/ldi/reproject.cpp|shift_y_(-focal_px|shift_y_(focal_px
 reproject-truncates|src/ldi/reproject.cpp|cell_x = std::floor(x)|cell_x = std::trunc(x)
-unsorted|src/ldi/tidy.cpp|return a.z != b.z ? a.z < b.z : a.z_back < b.z_back;|return false;
-float-accumulator|src/ldi/flatten.cpp|double transmittance = 1, sum = 0;|float transmittance = 1, sum = 0;
+unsorted|src/ldi/tidy.cpp|return a.z != b.z ? a.z < b.z : a.z_back < b.z_back;|return a.index < b.index;
+float-accumulator|src/ldi/flatten.cpp|sum += transmittance \* double(ldi.values\[k\]\[i\]);|sum = double(float(sum + transmittance * double(ldi.values[k][i])));
 cluster-weights|src/ldi/cluster.cpp|terms\[t\].coefficient /= weights|(void)weights
 lamp-counted-twice|src/dof/highlights.cpp|colours.at(k, f.sample) \*= 1 - f.share;|
 light-made|src/dof/sharpen.cpp|{n.sample\[k\], -shared}|{n.sample[k], 0}
 bad-alpha-kept|src/ldi/bad_values.cpp|return v >= 0 \&\& v <= 1;|return v == v;
 nan-kept|src/ldi/bad_values.cpp|return std::abs(v) <= 1e34f;|return !(std::abs(v) < 0);
-memory-unlimited|src/io/memory_limit.cpp|if (bytes <= allowed) return;|if (bytes <= 1e300) return;
-half-infinite|src/io/exr_common.cpp|std::clamp(from\[i\], -largest, largest)|from[i]
+memory-unlimited|src/io/memory_limit.cpp|if (bytes <= allowed) return;|if (bytes <= allowed * 1e9) return;
+half-infinite|src/io/exr_common.cpp|std::clamp(from\[i\], -largest, largest)|std::clamp(from[i], -2 * largest, 2 * largest)
 wrong-samples-read|src/io/exr_deep_read.cpp|ldi.begin\[first + i\]|ldi.begin[first]
 END
 )
