@@ -1,7 +1,8 @@
 """Renders what sparselens needs of a Blender scene: the centre view and views from the rim of the lens.
 
 As a script:
-    blender -b scene.blend -P sparselens_views.py -- -o DIR [--views N] [--plan PLAN.json] [--frame N] [--only-centre]
+    blender -b scene.blend -P sparselens_views.py -- -o DIR [--views N] [--plan PLAN.json] [--frame N] [--samples N]
+        [--lens-views N]
 As an add-on: install this file under Preferences > Add-ons; the panel is in the camera's properties.
 
 The scene's camera says all: focal length, sensor, depth of field (focus distance or object, f-stop). Depth of field
@@ -9,6 +10,9 @@ itself is switched off while rendering; each view is a pinhole picture, its came
 aperture's radius, focal length / (2 f-number). Works with Cycles and EEVEE. Files: DIR/center.exr and DIR/view_K.exr,
 RGBA (half) and Z (float, planar), with the camera in the EXR attributes that ldi-warp reads. With a plan of ldi-plan
 only its rectangles are rendered, one file each: DIR/view_K_R.exr.
+
+--lens-views adds DIR/lens_KKKK.exr, views spread evenly over the whole lens: their average (dof-accumulate --center
+DIR/center.exr) is what a renderer without depth of field of its own would have to make.
 
 Then, in a shell:
     ldi-warp DIR/center.exr DIR/view_*.exr -o - | ldi-cluster - -o - | dof-gather - -o defocused.exr
@@ -183,7 +187,18 @@ def rim_points(count):
     return [(math.cos(2 * math.pi * k / count), math.sin(2 * math.pi * k / count)) for k in range(count)]
 
 
-def render_views(scene, folder, views=4, plan=None, only_centre=False):
+def spiral_points(count):
+    """Even in area over the lens: the golden angle, as sunflowers do."""
+    golden = math.pi * (3 - math.sqrt(5))
+    polar = [(math.sqrt((k + 0.5) / count), k * golden) for k in range(count)]
+    return [(radius * math.cos(angle), radius * math.sin(angle)) for radius, angle in polar]
+
+
+def set_samples(scene, samples):
+    scene.cycles.samples = scene.eevee.taa_render_samples = samples
+
+
+def render_views(scene, folder, views=4, plan=None, lens_views=0):
     """Renders into `folder`; with a plan just what it asks for, without the centre view it was made from."""
     lens, home = Lens(scene), scene.camera.matrix_world.copy()
     os.makedirs(folder, exist_ok=True)
@@ -195,8 +210,10 @@ def render_views(scene, folder, views=4, plan=None, only_centre=False):
                     setting.render(os.path.join(folder, name), lens, home, view["lens_point"], box)
             return
         setting.render(os.path.join(folder, "center.exr"), lens, home, (0, 0))
-        for number, u in enumerate([] if only_centre else rim_points(views)):
+        for number, u in enumerate(rim_points(views)):
             setting.render(os.path.join(folder, "view_%d.exr" % number), lens, home, u)
+        for number, u in enumerate(spiral_points(lens_views)):
+            setting.render(os.path.join(folder, "lens_%04d.exr" % number), lens, home, u)
 
 
 # --- Add-on ---------------------------------------------------------------------------------------------------------
@@ -252,7 +269,8 @@ def main(arguments):
     parser.add_argument("-o", "--output", required=True, metavar="DIR")
     parser.add_argument("--views", type=int, default=4, metavar="N")
     parser.add_argument("--plan", metavar="PLAN.json")
-    parser.add_argument("--only-centre", action="store_true")
+    parser.add_argument("--lens-views", type=int, default=0, metavar="N")
+    parser.add_argument("--samples", type=int, metavar="N", help="a pixel; else the scene's own")
     parser.add_argument("--frame", type=int, metavar="N")
     options = parser.parse_args(arguments)
     scene = bpy.context.scene
@@ -262,7 +280,9 @@ def main(arguments):
     if options.plan:
         with open(options.plan) as file:
             plan = json.load(file)
-    render_views(scene, options.output, options.views, plan, options.only_centre)
+    if options.samples:
+        set_samples(scene, options.samples)
+    render_views(scene, options.output, options.views, plan, options.lens_views)
 
 
 if __name__ == "__main__" and "--" in sys.argv:
