@@ -17,38 +17,40 @@ coc-sign|src/lens/thin_lens.cpp|((z - lens.focus) / z)|((lens.focus - z) / z)
 coc-cancels|src/lens/thin_lens.cpp|(rf \/ lens.focus) \* ((z - lens.focus) \/ z)|rf * (1 / lens.focus - 1 / z)
 coc-no-sky|src/lens/thin_lens.cpp|if (std::isinf(z)) return rf / lens.focus;|
 half-pixel-off|src/dof/sample_blocks.cpp|float(x) + 0.5f + place.dx|float(x) + place.dx
-aspect-dropped|src/lens/lens_samples.cpp|-u.y \* pixel_aspect|-u.y
+aspect-dropped|src/lens/lens_samples.cpp|-u.y \* pixel_aspect|-u.y * (pixel_aspect > 0 ? 1 : 2)
 alpha-dropped|src/dof/lens_tile.cpp|(1 - samples_.alpha\[i\])|1.0f
 not-renormalised|src/dof/lens_tile.cpp|sums_\[at\] / known|sums_[at] / total_
 weight-dropped|src/ldi/warp.cpp|out.weight.push_back(float(count))|out.weight.push_back(1.0f)
 view-moved-wrong-way|src/ldi/reproject.cpp|shift_x_(focal_px \* position.x)|shift_x_(-focal_px * position.x)
 view-y-wrong-way|src/ldi/reproject.cpp|shift_y_(-focal_px|shift_y_(focal_px
 reproject-truncates|src/ldi/reproject.cpp|cell_x = std::floor(x)|cell_x = std::trunc(x)
-unsorted|src/ldi/tidy.cpp|return a.z != b.z ? a.z < b.z : a.z_back < b.z_back;|return false;
-float-accumulator|src/ldi/flatten.cpp|double transmittance = 1, sum = 0;|float transmittance = 1, sum = 0;
+unsorted|src/ldi/tidy.cpp|return a.z != b.z ? a.z < b.z : a.z_back < b.z_back;|return a.index < b.index;
+float-accumulator|src/ldi/flatten.cpp|sum += transmittance \* double(ldi.values\[k\]\[i\]);|sum = double(float(sum + transmittance * double(ldi.values[k][i])));
 cluster-weights|src/ldi/cluster.cpp|terms\[t\].coefficient /= weights|(void)weights
 lamp-counted-twice|src/dof/highlights.cpp|colours.at(k, f.sample) \*= 1 - f.share;|
 light-made|src/dof/sharpen.cpp|{n.sample\[k\], -shared}|{n.sample[k], 0}
 bad-alpha-kept|src/ldi/bad_values.cpp|return v >= 0 \&\& v <= 1;|return v == v;
 nan-kept|src/ldi/bad_values.cpp|return std::abs(v) <= 1e34f;|return !(std::abs(v) < 0);
-memory-unlimited|src/io/memory_limit.cpp|if (bytes <= allowed) return;|if (bytes <= 1e300) return;
-half-infinite|src/io/exr_common.cpp|std::clamp(from\[i\], -largest, largest)|from[i]
+memory-unlimited|src/io/memory_limit.cpp|if (bytes <= allowed) return;|if (bytes <= allowed * 1e9) return;
+half-infinite|src/io/exr_common.cpp|std::clamp(from\[i\], -largest, largest)|std::clamp(from[i], -2 * largest, 2 * largest)
 wrong-samples-read|src/io/exr_deep_read.cpp|ldi.begin\[first + i\]|ldi.begin[first]
 END
 )
 
 rm -rf "$copy"
 mkdir "$copy"
-git ls-files -z | grep -zv '^share/' | xargs -0 cp --parents -t "$copy"
-cp -r share "$copy" 2>/dev/null || true
+git ls-files -z | xargs -0 cp --parents -t "$copy"
 cd "$copy"
 cmake --preset release --log-level=WARNING -DSPARSELENS_BENCHMARKS=OFF -DSPARSELENS_WERROR=OFF
 ninja -C build -j "$(nproc)" sparselens-tests dof-stress >build.log || { tail -n 20 build.log; exit 1; }
 
+# The unit tests but those of the ray tracer; where none fails, dof-stress.
 failing_tests() {
-    timeout 300 build/bin/sparselens-tests --gtest_brief=1 --gtest_filter='-Trac*:Render*:Scenes*:Shading*:Deep*' 2>&1 |
-        sed -n 's/^\[  FAILED  \] \([A-Za-z0-9_/.]*\) (.*/\1/p' | sort -u
-    timeout 100 build/bin/dof-stress 2>/dev/null | sed -n 's/^\([^ ]*\) .*FAIL$/dof-stress:\1/p'
+    local failing
+    failing=$(timeout 300 build/bin/sparselens-tests --gtest_brief=1 --gtest_filter='-Trac*:Render*:Scenes*:Shading*' 2>&1 |
+        sed -nE 's/^\[  FAILED  \] ([A-Za-z0-9_/.]+).*/\1/p' | sort -u)
+    [ -n "$failing" ] || failing=$(timeout 100 build/bin/dof-stress 2>/dev/null | sed -nE 's/^([^ ]*) .*FAIL$/dof-stress:\1/p')
+    [ -z "$failing" ] || echo "$failing"
 }
 [ -z "$(failing_tests)" ] || { echo "tests fail without any fault"; failing_tests; exit 1; }
 

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstdio>
 #include <sstream>
+#include <string_view>
 
 namespace sparselens {
 
@@ -50,7 +51,9 @@ std::optional<double> number(const Imf::Header &header, const char *name) {
 
 // Puts the attribute in the place of any of that name, whatever the type of that was.
 void replace(Imf::Header &header, const char *name, const Imf::Attribute &attribute) {
-    header.erase(name);
+    const auto old = header.find(name);
+    if (old != header.end() && std::string_view(old.attribute().typeName()) != attribute.typeName())
+        header.erase(name); // only then: in OpenEXR 3.1 what is erased is leaked
     header.insert(name, attribute);
 }
 

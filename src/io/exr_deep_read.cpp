@@ -1,6 +1,7 @@
 #include "io/exr_common.h"
 #include "io/exr_deep.h"
 #include "io/exr_flat.h"
+#include "io/exr_header_check.h"
 #include "io/memory_limit.h"
 
 #include <ImfDeepFrameBuffer.h>
@@ -109,6 +110,17 @@ void make_room(const Ldi &ldi, const Planes &planes, const Source &source) {
     for (const auto &[name, values] : planes.named) values->resize(ldi.begin.back());
 }
 
+// OpenEXR allocates what a chunk claims before it finds that the file is not that long. Asked for the raw bytes of a
+// chunk without a place to put them, it only says how many there are.
+template <typename RawSize>
+void check_chunk(const Source &source, const RawSize &raw_size) {
+    std::uint64_t bytes = 0;
+    raw_size(bytes);
+    if (bytes > source.size)
+        throw Error(display_name(source.path) + ": a chunk claims " + std::to_string(bytes) +
+                    " bytes, more than the file has");
+}
+
 void read_scanlines(const Source &source, int number, Ldi &ldi, const Planes &planes) {
     Imf::DeepScanLineInputPart part(source.file, number);
     const Windows &w = ldi.windows;
@@ -119,6 +131,8 @@ void read_scanlines(const Source &source, int number, Ldi &ldi, const Planes &pl
     part.readPixelSampleCounts(w.data.min.y, w.data.max.y);
     set_counts(ldi, counts);
     make_room(ldi, planes, source);
+    for (int y = w.data.min.y; y <= w.data.max.y; ++y)
+        check_chunk(source, [&](std::uint64_t &bytes) { part.rawPixelData(y, nullptr, bytes); });
     constexpr int rows_at_once = 128; // bounds the pointer table, keeps all threads busy
     for (int y = w.data.min.y; y <= w.data.max.y; y += rows_at_once) {
         const int last = std::min(y + rows_at_once - 1, w.data.max.y);
@@ -140,6 +154,12 @@ void read_tiles(const Source &source, int number, Ldi &ldi, const Planes &planes
     part.readPixelSampleCounts(0, right, 0, bottom);
     set_counts(ldi, counts);
     make_room(ldi, planes, source);
+    for (int ty = 0; ty <= bottom; ++ty)
+        for (int tx = 0; tx <= right; ++tx)
+            check_chunk(source, [&](std::uint64_t &bytes) {
+                int x = tx, y = ty, level_x = 0, level_y = 0;
+                part.rawTileData(x, y, level_x, level_y, nullptr, bytes);
+            });
     const PointerTable table(ldi, planes, w.data.min.y, w.data.max.y, counts);
     part.setFrameBuffer(table.frame_buffer());
     part.readPixelSampleCounts(0, right, 0, bottom);
@@ -164,6 +184,7 @@ Ldi ldi_of_flat(const Image &image, const std::string &depth) {
 LdiFile read_ldi(const std::string &path, const std::string &depth_channel) {
     return with_file_name(path, [&] {
         const auto stream = open_input(path);
+        check_header(*stream, path);
         Imf::MultiPartInputFile file(*stream);
         const Source source{file, path, stream->size()};
         const int number = first_deep_part(file);

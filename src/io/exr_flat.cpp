@@ -1,6 +1,7 @@
 #include "io/exr_flat.h"
 
 #include "io/exr_common.h"
+#include "io/exr_header_check.h"
 #include "io/memory_limit.h"
 
 #include <ImfFrameBuffer.h>
@@ -48,6 +49,7 @@ FlatFile read_flat_part(Imf::MultiPartInputFile &file, const std::string &path, 
 FlatFile read_flat_exr(const std::string &path) {
     return with_file_name(path, [&] {
         const auto stream = open_input(path);
+        check_header(*stream, path);
         Imf::MultiPartInputFile file(*stream);
         return read_flat_part(file, path, stream->size());
     });
@@ -56,6 +58,7 @@ FlatFile read_flat_exr(const std::string &path) {
 Imf::Header read_flat_header(const std::string &path) {
     return with_file_name(path, [&] {
         const auto stream = open_input(path);
+        check_header(*stream, path);
         Imf::MultiPartInputFile file(*stream);
         return file.header(first_flat_part(file, path));
     });

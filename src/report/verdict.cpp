@@ -37,14 +37,16 @@ std::string figures_text(const ReportRow &row) {
 }
 
 std::string beaten_sentence(std::span<const ReportRow> rows, const Beaten &beaten) {
-    const std::string others =
-        beaten.others > 0 ? ", as are " + std::to_string(beaten.others) + " other rows" : "";
+    const std::string others = beaten.others == 0 ? ""
+                               : beaten.others == 1
+                                   ? ", as is another row"
+                                   : ", as are " + std::to_string(beaten.others) + " other rows";
     return row_text(rows[beaten.row]) + " (" + figures_text(rows[beaten.row]) +
            ") is a poor choice: " + row_text(rows[beaten.by]) + " (" + figures_text(rows[beaten.by]) +
            ") is no slower and no worse" + others + ".";
 }
 
-std::string crossing_sentence(const SceneVerdict &verdict) {
+std::string crossing_sentence(const SceneVerdict &verdict, double best_seconds) {
     const auto cost = [](const Reached &at, const char *unit) { return significant(at.cost, 3) + unit; };
     const Reached &time = verdict.crossing_seconds, &rays = verdict.crossing_rays;
     const std::string both = cost(time, " s") + ", " + cost(rays, " rays a pixel");
@@ -56,7 +58,11 @@ std::string crossing_sentence(const SceneVerdict &verdict) {
         return "Ray tracing the lens is better from its smallest measured budget on (" + both +
                "): it is the better choice here.";
     case Reached::beyond:
-        return "Ray tracing the lens does not reach it with the largest measured budget (" + both + ").";
+        return "Ray tracing the lens does not reach it with the largest measured budget (" + both + ")" +
+               (best_seconds > time.cost
+                    ? ", which is less time than it takes itself: which of the two is better there "
+                      "was not measured."
+                    : ".");
     case Reached::unknown: break;
     }
     return "No ray tracing of the lens was measured.";
@@ -116,7 +122,7 @@ std::vector<std::string> verdict_sentences(std::span<const ReportRow> rows, cons
     const ReportRow &best = rows[*verdict.best];
     std::vector<std::string> text{"Least error of sparse views: " + row_text(best) + ", " +
                                   figures_text(best) + "."};
-    text.push_back(crossing_sentence(verdict));
+    text.push_back(crossing_sentence(verdict, total_seconds(best)));
     std::string slower;
     for (const std::size_t i : verdict.slower) slower += (slower.empty() ? "" : "; ") + row_text(rows[i]);
     if (!slower.empty())

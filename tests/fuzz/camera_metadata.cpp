@@ -70,7 +70,6 @@ void put_attribute(Imf::Header &header, Bytes &bytes) {
                                       "worldToNDC"};
     const auto kind = bytes.take<std::uint8_t>();
     const char *name = names[kind % names.size()];
-    header.erase(name);
     switch (kind / 16 % 7) {
     case 0: header.insert(name, Imf::FloatAttribute(bytes.take<float>())); break;
     case 1: header.insert(name, Imf::DoubleAttribute(bytes.take<double>())); break;

@@ -73,5 +73,12 @@ TEST(Flatten, IdsAreThoseOfTheFront) {
     EXPECT_EQ(picture.plane(4)[2], 8);
 }
 
+// Each alone is less than a float of 1 can tell; in all they are not.
+TEST(Flatten, ThousandsOfFaintLightsAddUp) {
+    TestPixel pixel{{.z = 1, .colour = 1, .alpha = 0}};
+    for (int i = 0; i < 4096; ++i) pixel.push_back({.z = float(2 + i), .colour = 3e-8f, .alpha = 0});
+    EXPECT_NEAR(flatten(ldi_of({pixel})).values[0], 1 + 4096 * 3e-8, 1e-7);
+}
+
 } // namespace
 } // namespace sparselens

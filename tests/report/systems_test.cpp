@@ -138,9 +138,9 @@ TEST(Systems, NoiseOfTheReferenceIsItsOwn) {
 }
 
 TEST(Systems, PlannedViewsAreThereWhereThereIsAPlanner) {
-    EXPECT_FALSE(planned("fence").has("centre + 4, planned"));
+    EXPECT_FALSE(planned("fence").has("centre + 4 planned"));
     const Planned with = planned("fence", Detail::all, true);
-    const PlannedRow &row = with.row("centre + 4, planned, lens normal", "16 samples");
+    const PlannedRow &row = with.row("centre + 4 planned, lens normal", "16 samples");
     EXPECT_EQ(row.row.role, Role::sparse_lens);
     EXPECT_EQ(row.row.rays, 16); // those of the partial views are counted when they are there
     EXPECT_EQ(row.partial_samples, 16);
@@ -188,7 +188,7 @@ TEST_F(ReadyViews, RowsAreWhatTheViewsAllow) {
     EXPECT_TRUE(all.has("centre + 4"));
     EXPECT_TRUE(all.has("centre + 8"));
     for (const char *renderer :
-         {"4 strata", "4 peeled layers", "accumulated lens views", "centre + 4, planned"})
+         {"4 strata", "4 peeled layers", "accumulated lens views", "centre + 4 planned"})
         EXPECT_FALSE(all.has(renderer)) << renderer;
     const auto count = [&](const std::string &renderer) {
         return std::ranges::count_if(all.plan.rows,

@@ -70,7 +70,9 @@ TEST(Verdict, RayTracingThatIsBetterFromTheStartIsSaidToBe) {
     EXPECT_TRUE(says(text_of(rows), "better from its smallest measured budget on"));
     const auto never = with({report_row(Role::sparse_lens, "sparse", 2, 5, 50)});
     EXPECT_TRUE(
-        says(text_of(never), "does not reach it with the largest measured budget (16 s, 64 rays a pixel)"));
+        says(text_of(never), "does not reach it with the largest measured budget (16 s, 64 rays a pixel)."));
+    const auto longer = with({report_row(Role::sparse_lens, "sparse", 20, 5, 50)});
+    EXPECT_TRUE(says(text_of(longer), "which of the two is better there was not measured"));
 }
 
 TEST(Verdict, RowsThatOthersBeatAreNamed) {

@@ -57,7 +57,7 @@ killed() {
 fresh
 exits 0 "${warp[@]}" -o warped.exr
 exits 0 "${gather[@]}" -o gathered.exr
-for signal in TERM KILL INT; do
+for signal in TERM KILL HUP; do
     span=$(($(time_of "${warp[@]}" -o x.exr) * 11 / 10))
     for ((i = 0; i < kills; ++i)); do killed $signal warped.exr "${warp[@]}"; done
     span=$(($(time_of "${gather[@]}" -o x.exr) * 11 / 10))
