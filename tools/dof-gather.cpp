@@ -6,6 +6,8 @@
 #include "common/ldi_cache.h"
 #include "common/picture_options.h"
 #include "common/pictures.h"
+#include "common/show.h"
+#include "common/stats.h"
 #include "common/tool.h"
 #include "common/words.h"
 #include "dof/methods.h"
@@ -27,6 +29,7 @@ struct Options {
     std::string input, output, depth_output, channels;
     std::optional<Imath::V2i> focus_pixel;
     bool as_float = false;
+    Show show = Show::picture;
 };
 
 void add_options(CLI::App &app, Options &options) {
@@ -56,6 +59,7 @@ void add_options(CLI::App &app, Options &options) {
     app.add_option("--channels", options.channels, "Channels or layers to gather, comma-separated (all)")
         ->type_name("LIST");
     add_type_option(app, options.as_float);
+    add_show_option(app, options.show);
     add_lens_options(app, options.lens);
     add_depth_options(app, options.depth);
     app.get_option("--focus-pixel")->excludes("--focus-distance");
@@ -76,22 +80,35 @@ void warn_if_wider_than_views(const ToolContext &tool, const ThinLens &lens, con
              "the lens is wider than the lens points of the views: what it sees beyond them is unknown");
 }
 
+Image gathered(const Options &options, const InputLdi &in, const ThinLens &lens, const Imath::Box2i &window,
+               const ToolContext &tool, LensTiles &tiles) {
+    if (lens.radius == 0) return crop(flatten(in.ldi), window);
+    GatherOptions by = options.gather;
+    by.lens.chosen = &tiles;
+    return options.method->gather(in.ldi, lens, window, by, *tool.progress);
+}
+
 void run(const Options &options, const ToolContext &tool, LdiCache &cache) {
     if (options.depth_output == options.output)
         throw UsageError("--depth-out and --output name the same file: " + options.output);
+    if (options.show == Show::tiles && options.method != &gather_methods().front())
+        throw UsageError("--show tiles: only --method lens works by tiles");
     InputLdi in = cache.load(options.input, options.channels, options.lens, options.depth, tool);
     focus_on_pixel(in, options);
     const ThinLens lens = resolve_lens(options.lens, in.camera, in.ldi.windows);
     warn_if_wider_than_views(tool, lens, in.camera);
     const Imath::Box2i window = read_picture_window(in.header);
-    Image picture = lens.radius == 0
-                        ? crop(flatten(in.ldi), window)
-                        : options.method->gather(in.ldi, lens, window, options.gather, *tool.progress);
+    LensTiles tiles;
+    Image picture;
+    if (needs_gather(options.show))
+        picture = chosen_channels(gathered(options, in, lens, window, tool, tiles), options.channels);
+    if (options.show != Show::picture) picture = shown(options.show, in.ldi, lens, window, tiles);
     write_camera(in.header, in.camera);
     if (!options.depth_output.empty())
         write_flat_exr(options.depth_output, crop(front_depth(in.ldi), window), in.header);
-    picture = in_type(chosen_channels(std::move(picture), options.channels), options.as_float);
+    picture = in_type(std::move(picture), options.as_float);
     warn_of_clamped(tool, options.output, write_flat_exr(options.output, picture, in.header));
+    write_stats(tool, gather_stats(in, tiles));
 }
 
 } // namespace

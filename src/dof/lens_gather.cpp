@@ -153,6 +153,16 @@ void for_each_pixel(const Imath::V2i &corner, const Windows &windows, const Visi
         for (int x = 0; x < LensTile::size && corner.x + x < windows.width(); ++x) visit(x, y);
 }
 
+// None has lens points yet.
+LensTiles tiles_of(const Windows &windows) {
+    LensTiles tiles{LensTile::size,
+                    (windows.width() + LensTile::size - 1) / LensTile::size,
+                    (windows.height() + LensTile::size - 1) / LensTile::size,
+                    {}};
+    tiles.lens_points.resize(std::size_t(tiles.columns) * std::size_t(tiles.rows), 0);
+    return tiles;
+}
+
 // Ids cannot be averaged: each pixel keeps its front sample's.
 void copy_ids(const Image &flat, Image &out) {
     for (std::size_t k = 0; k < out.channels.size(); ++k)
@@ -168,6 +178,8 @@ Image lens_gather(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &wind
     const auto sharp = [](const SampleBlock &block) {
         return block.begin == block.end || largest_coc_of(block) < in_focus;
     };
+    LensTiles chosen = tiles_of(flat.windows);
+    if (options.chosen) *options.chosen = chosen;
     if (std::ranges::all_of(samples.blocks, sharp)) return flat;
     SampleColours colours = make_colours(ldi, samples);
     sharpen_near_focus(ldi, lens, samples, colours);
@@ -178,18 +190,18 @@ Image lens_gather(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &wind
 
     Image out = flat;
     const Windows &windows = out.windows;
-    const int columns = (windows.width() + LensTile::size - 1) / LensTile::size;
-    const int rows = (windows.height() + LensTile::size - 1) / LensTile::size;
-    progress.start("gathering", std::size_t(columns) * std::size_t(rows));
+    progress.start("gathering", chosen.lens_points.size());
     tbb::enumerable_thread_specific<LensTile> tiles([&] { return LensTile(samples, colours, highlights); });
-    parallel_for(std::size_t(columns) * std::size_t(rows), [&](std::size_t t) {
-        const Imath::V2i corner(int(t) % columns * LensTile::size, int(t) / columns * LensTile::size);
+    parallel_for(chosen.lens_points.size(), [&](std::size_t t) {
+        const Imath::V2i corner =
+            Imath::V2i(int(t) % chosen.columns, int(t) / chosen.columns) * LensTile::size;
         const Imath::V2i origin = corner + window.min - ldi.windows.data.min;
         std::vector<std::uint32_t> blocks;
         const float largest = finder.find(origin, LensTile::size, blocks);
         progress.advance();
         if (largest < in_focus) return; // the flattened LDI is there already
         const LensSets::Set &set = sets.for_coc(largest);
+        chosen.lens_points[t] = int(set.points.size());
         LensTile &tile = tiles.local();
         tile.gather(
             origin, blocks, set.points,
@@ -201,6 +213,7 @@ Image lens_gather(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &wind
         });
     });
     copy_ids(flat, out);
+    if (options.chosen) *options.chosen = std::move(chosen);
     return out;
 }
 

@@ -7,6 +7,7 @@
 
 #include "base/image.h"
 #include "base/progress.h"
+#include "dof/lens_tiles.h"
 #include "ldi/ldi.h"
 #include "lens/thin_lens.h"
 
@@ -16,7 +17,8 @@ enum class Quality { draft, normal, final };
 
 struct LensGatherOptions {
     Quality quality = Quality::normal;
-    int lens_samples = 0; // points in every tile; 0: by the quality and what the tile needs
+    int lens_samples = 0;        // points in every tile; 0: by the quality and what the tile needs
+    LensTiles *chosen = nullptr; // where given: is told what was chosen
 };
 
 // Pixels `window` (EXR coordinates, within the LDI's data window), channels of the LDI. In `window` an empty

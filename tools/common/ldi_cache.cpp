@@ -16,26 +16,38 @@ auto key_of(const std::string &path, const std::string &channels, const LensOpti
                       lens.sensor_width_mm);
 }
 
+std::vector<std::string> keep_and_tell(Ldi &ldi, const std::string &channels) {
+    const std::vector<Channel> before = ldi.channels;
+    keep_channels(ldi, channels);
+    std::vector<std::string> left_out;
+    for (const Channel &channel : before)
+        if (find_channel(ldi.channels, channel.name) == npos) left_out.push_back(channel.name);
+    return left_out;
+}
+
 } // namespace
 
 struct LdiCache::Entry {
     decltype(key_of({}, {}, {}, {})) key;
     LoadedLdi loaded;
+    std::vector<std::string> channels_left_out;
 };
 
 InputLdi LdiCache::load(const std::string &path, const std::string &channels, const LensOptions &lens,
                         const DepthOptions &depth, const ToolContext &tool) {
     const auto key = key_of(path, channels, lens, depth);
-    if (!last_ || last_->key != key) {
+    const bool read_now = !last_ || last_->key != key;
+    if (read_now) {
         last_.reset(); // two at a time may be more than fits
         tool.say("reading " + path);
-        auto entry = std::make_shared<Entry>(Entry{key, load_ldi(path, lens, depth)});
+        auto entry = std::make_shared<Entry>(Entry{key, load_ldi(path, lens, depth), {}});
         warn_of_bad_values(tool, path, entry->loaded.bad);
-        keep_channels(entry->loaded.ldi, channels);
+        entry->channels_left_out = keep_and_tell(entry->loaded.ldi, channels);
         last_ = std::move(entry);
     }
     const LoadedLdi &loaded = last_->loaded;
-    return {loaded.ldi, loaded.header, camera_with_options(lens, read_camera(loaded.header))};
+    return {loaded.ldi, loaded.header,    camera_with_options(lens, read_camera(loaded.header)),
+            read_now,   loaded.invisible, last_->channels_left_out};
 }
 
 } // namespace sparselens

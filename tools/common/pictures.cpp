@@ -51,7 +51,10 @@ LoadedLdi load_ldi(const std::string &path, const LensOptions &lens, const Depth
             if (!ldi.z_back.empty()) ldi.z_back[i] = read.planar(ldi.z_back[i], pixel);
         }
     const BadValues bad = repair_bad_values(ldi, display_name(path));
-    return {tidy(std::move(ldi)), std::move(file.header), camera, bad};
+    const std::size_t in_file = ldi.samples();
+    ldi = tidy(std::move(ldi));
+    const std::size_t invisible = in_file - std::min(in_file, ldi.samples());
+    return {std::move(ldi), std::move(file.header), camera, bad, invisible};
 }
 
 LoadedView load_view(const std::string &path, const LensOptions &lens, const DepthOptions &depth) {
