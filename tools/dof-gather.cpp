@@ -79,6 +79,7 @@ void run(const Options &options, const ToolContext &tool) {
     if (options.depth_output == options.output)
         throw UsageError("--depth-out and --output name the same file: " + options.output);
     LoadedLdi in = load_ldi(options.input, options.lens, options.depth);
+    say_camera(tool, options.input, in.camera);
     warn_of_bad_values(tool, options.input, in.bad);
     keep_channels(in.ldi, options.channels);
     focus_on_pixel(in, options);
