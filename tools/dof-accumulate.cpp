@@ -34,7 +34,7 @@ void add_options(CLI::App &app, Options &options) {
            "--outside", options.transparent_outside,
            "What lies outside a view's data window: unknown (the view does not count there; the default) "
            "or transparent (black, inside the display window)")
-        ->type_name("WHAT")
+        ->type_name("unknown|transparent")
         ->transform(words(outside));
     add_lens_options(app, options.lens);
 }

@@ -3,6 +3,7 @@
 //     [--channels LIST] [-d half|float]
 #include "base/error.h"
 #include "common/channels.h"
+#include "common/ldi_cache.h"
 #include "common/picture_options.h"
 #include "common/pictures.h"
 #include "common/tool.h"
@@ -60,7 +61,7 @@ void add_options(CLI::App &app, Options &options) {
     app.get_option("--focus-pixel")->excludes("--focus-distance");
 }
 
-void focus_on_pixel(LoadedLdi &in, const Options &options) {
+void focus_on_pixel(InputLdi &in, const Options &options) {
     if (!options.focus_pixel) return;
     const float z = front_depth(in.ldi, *options.focus_pixel);
     if (!(z > 0)) throw UsageError("--focus-pixel: " + options.input + " shows nothing there");
@@ -75,13 +76,11 @@ void warn_if_wider_than_views(const ToolContext &tool, const ThinLens &lens, con
              "the lens is wider than the lens points of the views: what it sees beyond them is unknown");
 }
 
-void run(const Options &options, const ToolContext &tool) {
+void run(const Options &options, const ToolContext &tool, LdiCache &cache) {
     if (options.depth_output == options.output)
         throw UsageError("--depth-out and --output name the same file: " + options.output);
-    LoadedLdi in = load_ldi(options.input, options.lens, options.depth);
+    InputLdi in = cache.load(options.input, options.channels, options.lens, options.depth, tool);
     say_camera(tool, options.input, in.camera);
-    warn_of_bad_values(tool, options.input, in.bad);
-    keep_channels(in.ldi, options.channels);
     focus_on_pixel(in, options);
     const ThinLens lens = resolve_lens(options.lens, in.camera, in.ldi.windows);
     warn_if_wider_than_views(tool, lens, in.camera);
@@ -99,8 +98,11 @@ void run(const Options &options, const ToolContext &tool) {
 } // namespace
 
 int main(int argc, char **argv) {
-    CLI::App app("Gathers the picture a lens would have taken from a layered depth image", "dof-gather");
-    Options options;
-    add_options(app, options);
-    return run_tool(app, argc, argv, [&](const ToolContext &tool) { run(options, tool); });
+    LdiCache cache; // a pull of focus over one file reads it once
+    return run_frames("dof-gather", "Gathers the picture a lens would have taken from a layered depth image",
+                      argc, argv, [&](CLI::App &app) {
+                          const auto options = std::make_shared<Options>();
+                          add_options(app, *options);
+                          return [&cache, options](const ToolContext &tool) { run(*options, tool, cache); };
+                      });
 }

@@ -61,8 +61,10 @@ void run(const Options &options, const ToolContext &tool) {
 } // namespace
 
 int main(int argc, char **argv) {
-    CLI::App app("Merges the samples of each pixel by perceptive depth", "ldi-cluster");
-    Options options;
-    add_options(app, options);
-    return run_tool(app, argc, argv, [&](const ToolContext &tool) { run(options, tool); });
+    return run_frames("ldi-cluster", "Merges the samples of each pixel by perceptive depth", argc, argv,
+                      [&](CLI::App &app) {
+                          const auto options = std::make_shared<Options>();
+                          add_options(app, *options);
+                          return [options](const ToolContext &tool) { run(*options, tool); };
+                      });
 }

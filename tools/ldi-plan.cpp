@@ -75,9 +75,12 @@ void run(const Options &options, const ToolContext &tool) {
 } // namespace
 
 int main(int argc, char **argv) {
-    CLI::App app("Says which views from the rim of the lens, and which of their pixels, are worth rendering",
-                 "ldi-plan");
-    Options options;
-    add_options(app, options);
-    return run_tool(app, argc, argv, [&](const ToolContext &tool) { run(options, tool); });
+    return run_frames(
+        "ldi-plan",
+        "Says which views from the rim of the lens, and which of their pixels, are worth rendering", argc,
+        argv, [&](CLI::App &app) {
+            const auto options = std::make_shared<Options>();
+            add_options(app, *options);
+            return [options](const ToolContext &tool) { run(*options, tool); };
+        });
 }

@@ -96,9 +96,11 @@ void run(const Options &options, const ToolContext &tool) {
 } // namespace
 
 int main(int argc, char **argv) {
-    CLI::App app("Warps a centre view and views from the rim of the lens into one layered depth image",
-                 "ldi-warp");
-    Options options;
-    add_options(app, options);
-    return run_tool(app, argc, argv, [&](const ToolContext &tool) { run(options, tool); });
+    return run_frames("ldi-warp",
+                      "Warps a centre view and views from the rim of the lens into one layered depth image",
+                      argc, argv, [&](CLI::App &app) {
+                          const auto options = std::make_shared<Options>();
+                          add_options(app, *options);
+                          return [options](const ToolContext &tool) { run(*options, tool); };
+                      });
 }

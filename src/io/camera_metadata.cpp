@@ -7,7 +7,6 @@
 #include <ImfStringAttribute.h>
 
 #include <cstdio>
-#include <sstream>
 #include <string_view>
 
 namespace sparselens {

@@ -8,6 +8,9 @@ logged() { "$@" >log 2>&1 || fail "$* ($(cat log))"; }
 logged cmake --install "$build" --prefix "$prefix"
 for tool in "$bin"/ldi-* "$bin"/dof-*; do
     [ -x "$prefix/bin/${tool##*/}" ] || fail "${tool##*/} is not installed"
+    for page in "man/man1/${tool##*/}.1" "bash-completion/completions/${tool##*/}"; do
+        [ -s "$prefix/share/$page" ] || fail "share/$page is not installed"
+    done
 done
 
 mkdir -p consumer/headers

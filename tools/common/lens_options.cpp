@@ -59,7 +59,7 @@ void add_depth_options(CLI::App &app, DepthOptions &options) {
                                                        {"distance", DepthMeaning::distance},
                                                        {"inverse", DepthMeaning::inverse}};
     app.add_option("--depth", options.meaning, "What depth channels hold: z, distance or inverse (z)")
-        ->type_name("MEANING")
+        ->type_name("z|distance|inverse")
         ->transform(words(meanings))
         ->group("Lens");
     app.add_option("--depth-channel", options.channel, "Depth channel (else Z, depth.Z, *.Depth.Z are tried)")

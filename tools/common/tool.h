@@ -12,19 +12,26 @@
 namespace sparselens {
 
 struct ToolContext {
-    int threads = 0;      // 0 = all the process may use
-    bool verbose = false; // say on stderr what was found and done
-    // A line on stderr when that is a terminal, else silence.
-    std::unique_ptr<Progress> progress;
+    int threads = 0;                    // 0 = all the process may use
+    bool verbose = false;               // say on stderr what was found and done
+    std::unique_ptr<Progress> progress; // never null
 
     // Printed to stderr with the tool's name in front, where --verbose asks for it.
     void say(const std::string &line) const;
     std::string tool_name;
 };
 
+using Job = std::function<void(const ToolContext &)>;
+
 // Adds --version, -v, --threads to `app`, parses, runs `job` and turns what happens into an exit code:
 // 0 done, 1 failed (Error, memory, any exception), 2 wrong usage (CLI11's errors, UsageError).
-int run_tool(CLI::App &app, int argc, char **argv, const std::function<void(const ToolContext &)> &job);
+int run_tool(CLI::App &app, int argc, char **argv, const Job &job);
+
+// The same for each frame of a range (frames.h), with --frames, --skip-bad-frames, -u and --progress. `prepare` adds the
+// tool's options to an app and returns what does the work they ask for; it is called anew for every frame.
+using Prepare = std::function<Job(CLI::App &)>;
+int run_frames(const std::string &name, const std::string &description, int argc, char **argv,
+               const Prepare &prepare);
 
 // A warning on stderr, always printed: "tool: warning: text".
 void warn(const ToolContext &tool, const std::string &text);

@@ -1,0 +1,129 @@
+#!/bin/bash
+# Ranges of frames, what is up to date, progress for farms and threads: the options that all tools of the chain share.
+. "$(dirname "$0")/check.sh"
+. "$source_dir/tests/tools/deep.sh"
+gather=$bin/dof-gather
+exits 0 "$bin/ldi-warp" views/center.exr "${rim[@]}" -o ldi.exr
+pull=("$gather" ldi.exr -o pull.####.exr --frames 1-24 --focus-distance 1:5.0,24:2.0)
+count() { find . -maxdepth 1 -name "$1" -printf x | wc -c; }
+
+# A pull of focus over one LDI, which is read once; each frame is the picture of its own focus distance.
+exits 0 "${pull[@]}" -v
+[ "$(count 'pull.????.exr')" -eq 24 ] || fail "not 24 frames: $(ls)"
+[ "$(grep -c 'reading ldi.exr' stderr)" -eq 1 ] || fail "the LDI is not read once: $(cat stderr)"
+exits 0 "$gather" ldi.exr -o last.exr --focus-distance 2
+same pull.0024.exr last.exr "the last frame of the pull"
+exits 0 "$gather" ldi.exr -o ninth.exr --focus-distance "$(awk 'BEGIN { printf "%.17g", 5 - 3 * 8 / 23 }')"
+same_pixels pull.0009.exr ninth.exr "a frame between keys"
+differ pull.0001.exr pull.0024.exr "--focus-distance by frame"
+exits 0 "$gather" ldi.exr -o stop.##.exr --frames 1-5x2 --fstop 1:0.3,5:3
+[ "$(count 'stop.??.exr')" -eq 3 ] || fail "--frames 1-5x2: $(ls)"
+exits 0 "$gather" ldi.exr -o one.exr --fstop 3
+same stop.05.exr one.exr "--fstop by frame"
+exits 0 "$gather" ldi.exr -o radius.%d.exr --frames 1,3 --lens-radius 1:0.06,3:0
+exits 0 "$gather" ldi.exr -o one.exr --lens-radius 0
+same radius.3.exr one.exr "--lens-radius by frame"
+
+# -u leaves alone what is up to date: what was killed in the middle is finished, nothing else is touched.
+rm pull.*.exr
+"${pull[@]}" --lens-samples 4096 2>/dev/null &
+process=$!
+until [ "$(count 'pull.????.exr')" -ge 3 ]; do kill -0 $process && sleep 0.02; done
+kill -KILL $process
+wait $process 2>/dev/null || true
+before=$(count 'pull.????.exr')
+[ "$before" -lt 24 ] || fail "it was not killed in the middle"
+ls --full-time pull.0001.exr pull.0002.exr >old.txt
+exits 0 "${pull[@]}" -u -v
+[ "$(count 'pull.????.exr')" -eq 24 ] || fail "-u does not finish the rest: $(ls)"
+[ "$(grep -c 'is up to date' stderr)" -eq "$before" ] || fail "$before frames were there, -u left $(grep -c 'is up to date' stderr)"
+ls --full-time pull.0001.exr pull.0002.exr | cmp - old.txt || fail "-u writes what is up to date"
+same pull.0024.exr last.exr "the last frame after -u"
+redone() { # COUNT WHY
+    exits 0 "${pull[@]}" -u -v
+    [ "$((24 - $(grep -c 'is up to date' stderr)))" -eq "$1" ] || fail "not $1 frames again: $2"
+}
+redone 0 "all is up to date"
+rm pull.0005.exr
+: >pull.0006.exr
+head -c 2000 pull.0008.exr >cut.exr
+mv cut.exr pull.0008.exr
+redone 3 "one missing, one empty, one cut off"
+same_pixels pull.0009.exr ninth.exr "-u"
+touch -d '1 hour' ldi.exr
+redone 24 "the LDI is newer"
+touch ldi.exr
+exits 0 "${pull[@]}" -v
+if grep -q 'up to date' stderr; then fail "without -u frames are left out"; fi
+
+# Sequences through the chain: numbers from disk, from --frames, from the names; one number for all names.
+for frame in 0010 0011 0013; do
+    mkdir $frame
+    for file in center view_0 view_1; do cp views/$file.exr $frame/$file.$frame.exr; done
+done
+exits 0 "$bin/ldi-warp" "####/center.####.exr" "####/view_0.####.exr" --view 0,0.06 "####/view_1.####.exr" -o ldi.####.exr --frames 10,11,13
+exits 0 "$bin/ldi-warp" views/center.exr views/view_0.exr --view 0,0.06 views/view_1.exr -o one.exr
+for frame in 0010 0011 0013; do same ldi.$frame.exr one.exr "ldi-warp at frame $frame"; done
+exits 0 "$bin/ldi-cluster" ldi.####.exr -o cluster.####.exr --tolerance 1
+exits 0 "$bin/ldi-cluster" one.exr -o one.exr --tolerance 1
+[ "$(count 'cluster.*.exr')" -eq 3 ] || fail "the numbers on disk: $(ls)"
+same cluster.0013.exr one.exr "ldi-cluster of a sequence"
+exits 0 "$gather" cluster.10-11#.exr -o out.1-2%02d.exr --depth-out z.1-2#.exr
+[ -e out.01.exr ] && [ -e out.02.exr ] && [ -e z.0002.exr ] || fail "ranges in names: $(ls)"
+exits 0 "$bin/ldi-plan" %04d/center.%04d.exr -o plan.#.json --frames 10-11
+[ "$(count 'plan.001?.json')" -eq 2 ] || fail "plans of a sequence: $(ls)"
+
+# A frame that fails ends the work, or is left out; the exit code says so.
+fails_saying 1 '^dof-gather: frame 12: cluster.0012.exr: cannot open' "$gather" cluster.#.exr -o bad.#.exr --frames 10-13
+[ "$(count 'bad.*.exr')" -eq 2 ] || fail "it goes on after a frame that fails: $(ls bad.*)"
+fails_saying 1 'frame 12: cluster.0012.exr' "$gather" cluster.#.exr -o skip.#.exr --frames 10-13 --skip-bad-frames
+[ "$(count 'skip.*.exr')" -eq 3 ] || fail "--skip-bad-frames: $(ls skip.*)"
+
+# Wrong usage is said before the first frame is written.
+for text in '--frames abc' '--frames 1-' '--frames 1-2000000' '--frames 1-3 --focus-distance 1:5,1:6' '--progress rings' \
+    '--frames 1-3 --focus-distance 1:5,3:-1' '--frames 1-3 --fstop 1:a,2:3'; do
+    # shellcheck disable=SC2086
+    fails_saying 2 '.' "$gather" ldi.exr -o wrong.#.exr $text
+done
+fails_saying 2 'wrong.#.exr stands for a sequence.*--frames' "$gather" ldi.exr -o wrong.#.exr
+fails_saying 2 'wrong.1-2#.exr has 2 frames, not 3' "$gather" a.1-3#.exr -o wrong.1-2#.exr
+fails_saying 2 'no.####.exr stands for a sequence' "$gather" no.####.exr -o wrong.exr
+[ "$(count 'wrong*')" -eq 0 ] || fail "wrong usage writes $(ls wrong*)"
+cp ldi.exr 'take#2.exr'
+exits 0 "$gather" 'take#2.exr' -o one.exr
+exits 0 "$gather" ldi.exr -o two.exr
+same one.exr two.exr "a name with a #"
+
+# Progress for farms: over all frames, growing, each percent once, to the end; by itself nothing is said.
+progress() { # FORMAT PATTERN COMMAND...: on stderr nothing but lines of the pattern, whose group is the percent.
+    local format=$1 pattern=$2
+    shift 2
+    exits 0 "$@" --progress "$format"
+    if grep -Evq "^$pattern\$" stderr; then fail "--progress $format: $(grep -Ev "^$pattern\$" stderr)"; fi
+    sed -E "s/^$pattern\$/\1/" stderr >percents
+    sort -nuc percents || fail "--progress $format does not grow: $(cat percents)"
+    [ "$(tail -1 percents)" -eq 100 ] || fail "--progress $format ends at $(tail -1 percents)"
+}
+pull=("$gather" ldi.exr -o pull.####.exr --frames 1-4 --focus-distance 1:5.0,4:2.0)
+progress plain 'dof-gather: ([0-9]+)%' "${pull[@]}"
+progress alf 'ALF_PROGRESS ([0-9]+)%' "${pull[@]}" -u
+for percent in 25 50 75; do grep -qx $percent percents || fail "frames up to date do not count: $(cat percents)"; done
+progress openjd 'openjd_progress: ([0-9]+)' "$bin/ldi-warp" views/center.exr "${rim[@]}" -o x.exr
+progress alf 'ALF_PROGRESS ([0-9]+)%' "$bin/ldi-cluster" ldi.exr -o x.exr
+progress plain 'ldi-plan: ([0-9]+)%' "$bin/ldi-plan" views/center.exr -o x.json
+exits 0 "${pull[@]}"
+[ ! -s stderr ] || fail "talks without being asked: $(cat stderr)"
+
+# Threads: --threads, else $CUE_THREADS, else all that the process may use.
+threads() { # NUMBER COMMAND...
+    local number=$1
+    shift
+    exits 0 "$@" ldi.exr -o x.exr -v
+    grep -qx "dof-gather: threads: $number" stderr || fail "not $number threads: $* ($(cat stderr))"
+}
+threads 3 "$gather" --threads 3
+threads 3 env CUE_THREADS=3 "$gather"
+threads 2 env CUE_THREADS=3 "$gather" --threads 2
+threads "$(nproc)" env CUE_THREADS=3 "$gather" --threads 0
+threads 1 taskset -c "$(taskset -cp $$ | sed -E 's/.*: ([0-9]+).*/\1/')" "$gather"
+fails_saying 2 'CUE_THREADS|threads' env CUE_THREADS=many "$gather" ldi.exr -o x.exr

@@ -1,0 +1,41 @@
+#include "common/ldi_cache.h"
+
+#include "common/channels.h"
+#include "io/camera_metadata.h"
+
+#include <tuple>
+
+namespace sparselens {
+
+namespace {
+
+// All that the samples depend on: depth as ray distance becomes planar by the focal length.
+auto key_of(const std::string &path, const std::string &channels, const LensOptions &lens,
+            const DepthOptions &depth) {
+    return std::tuple(path, channels, depth.meaning, depth.channel, lens.focal_length_mm,
+                      lens.sensor_width_mm);
+}
+
+} // namespace
+
+struct LdiCache::Entry {
+    decltype(key_of({}, {}, {}, {})) key;
+    LoadedLdi loaded;
+};
+
+InputLdi LdiCache::load(const std::string &path, const std::string &channels, const LensOptions &lens,
+                        const DepthOptions &depth, const ToolContext &tool) {
+    const auto key = key_of(path, channels, lens, depth);
+    if (!last_ || last_->key != key) {
+        last_.reset(); // two at a time may be more than fits
+        tool.say("reading " + path);
+        auto entry = std::make_shared<Entry>(Entry{key, load_ldi(path, lens, depth)});
+        warn_of_bad_values(tool, path, entry->loaded.bad);
+        keep_channels(entry->loaded.ldi, channels);
+        last_ = std::move(entry);
+    }
+    const LoadedLdi &loaded = last_->loaded;
+    return {loaded.ldi, loaded.header, camera_with_options(lens, read_camera(loaded.header))};
+}
+
+} // namespace sparselens

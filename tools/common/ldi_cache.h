@@ -1,0 +1,34 @@
+// The last LDI read: a pull of focus over one file reads it once.
+#pragma once
+
+#include "common/lens_options.h"
+#include "common/pictures.h"
+#include "common/tool.h"
+
+#include <ImfHeader.h>
+
+#include <memory>
+#include <string>
+
+namespace sparselens {
+
+// What a frame works on: the file's samples, its own copy of header and camera.
+struct InputLdi {
+    const Ldi &ldi; // tidy; the cache's
+    Imf::Header header;
+    Camera camera; // of the header, with the options over it
+};
+
+class LdiCache {
+public:
+    // load_ldi() and keep_channels() where the last file was another or was read otherwise. Warns of bad values then. What was
+    // returned before is gone.
+    InputLdi load(const std::string &path, const std::string &channels, const LensOptions &lens,
+                  const DepthOptions &depth, const ToolContext &tool);
+
+private:
+    struct Entry;
+    std::shared_ptr<const Entry> last_;
+};
+
+} // namespace sparselens
