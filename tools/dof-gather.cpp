@@ -94,6 +94,7 @@ void run(const Options &options, const ToolContext &tool, LdiCache &cache) {
     if (options.show == Show::tiles && options.method != &gather_methods().front())
         throw UsageError("--show tiles: only --method lens works by tiles");
     InputLdi in = cache.load(options.input, options.channels, options.lens, options.depth, tool);
+    say_camera(tool, options.input, in.camera);
     focus_on_pixel(in, options);
     const ThinLens lens = resolve_lens(options.lens, in.camera, in.ldi.windows);
     warn_if_wider_than_views(tool, lens, in.camera);

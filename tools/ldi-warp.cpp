@@ -81,6 +81,7 @@ void warn_of_misplaced(const ToolContext &tool, std::span<const View> views, dou
 
 void run(const Options &options, const ToolContext &tool) {
     LoadedViews loaded = load_views(options.views, options.lens, options.depth);
+    say_camera(tool, loaded.views[0].name, loaded.camera);
     for (std::size_t i = 0; i < loaded.views.size(); ++i)
         warn_of_bad_values(tool, loaded.views[i].name, loaded.bad[i]);
     const WarpOptions warp_by = warp_options(options, loaded);

@@ -164,23 +164,25 @@ LensTiles tiles_of(const Windows &windows) {
 }
 
 // Ids cannot be averaged: each pixel keeps its front sample's.
-void copy_ids(const Image &flat, Image &out) {
-    for (std::size_t k = 0; k < out.channels.size(); ++k)
-        if (out.channels[k].type == PixelType::uint32) std::ranges::copy(flat.plane(k), out.plane(k).begin());
+std::vector<std::size_t> averaged_channels(const Image &image) {
+    std::vector<std::size_t> averaged;
+    for (std::size_t k = 0; k < image.channels.size(); ++k)
+        if (image.channels[k].type != PixelType::uint32) averaged.push_back(k);
+    return averaged;
 }
 
 } // namespace
 
 Image lens_gather(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window,
                   const LensGatherOptions &options, Progress &progress) {
+    Image out = crop(flatten(ldi), window);
     const BlockedSamples samples = make_blocks(ldi, lens, window);
-    const Image flat = crop(flatten(ldi), window);
     const auto sharp = [](const SampleBlock &block) {
         return block.begin == block.end || largest_coc_of(block) < in_focus;
     };
-    LensTiles chosen = tiles_of(flat.windows);
+    LensTiles chosen = tiles_of(out.windows);
     if (options.chosen) *options.chosen = chosen;
-    if (std::ranges::all_of(samples.blocks, sharp)) return flat;
+    if (std::ranges::all_of(samples.blocks, sharp)) return out;
     SampleColours colours = make_colours(ldi, samples);
     sharpen_near_focus(ldi, lens, samples, colours);
     const LightChannels light = light_channels(ldi);
@@ -188,8 +190,8 @@ Image lens_gather(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &wind
     const BlockFinder finder(samples, lens.pixel_aspect);
     LensSets sets(options, lens.pixel_aspect);
 
-    Image out = flat;
     const Windows &windows = out.windows;
+    const std::vector<std::size_t> gathered = averaged_channels(out);
     progress.start("gathering", chosen.lens_points.size());
     tbb::enumerable_thread_specific<LensTile> tiles([&] { return LensTile(samples, colours, highlights); });
     parallel_for(chosen.lens_points.size(), [&](std::size_t t) {
@@ -208,11 +210,10 @@ Image lens_gather(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &wind
             highlight_pixels(highlights, samples, set.nearest, lens.pixel_aspect, origin, LensTile::size));
         for_each_pixel(corner, windows, [&](int x, int y) {
             if (tile.dark(x, y)) return; // a few lens points may all miss: better sharp than black
-            for (std::size_t k = 0; k < out.channels.size(); ++k)
+            for (const std::size_t k : gathered)
                 out.at(k, window.min.x + corner.x + x, window.min.y + corner.y + y) = tile.value(x, y, k);
         });
     });
-    copy_ids(flat, out);
     if (options.chosen) *options.chosen = std::move(chosen);
     return out;
 }

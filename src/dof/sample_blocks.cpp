@@ -109,12 +109,13 @@ BlockedSamples make_blocks(const Ldi &ldi, const ThinLens &lens, const Imath::Bo
     samples.columns = (ldi.windows.width() + size - 1) / size;
     samples.rows = (ldi.windows.height() + size - 1) / size;
     const std::size_t columns = std::size_t(samples.columns);
-    std::vector<std::vector<Found>> found(columns * std::size_t(samples.rows));
-    samples.blocks.resize(found.size());
-    parallel_for(std::size_t(samples.rows), [&](std::size_t row) {
-        for (std::size_t b = row * columns; b < (row + 1) * columns; ++b) {
-            found[b] = block_samples(ldi, lens, known, int(b - row * columns), int(row));
-            samples.blocks[b] = bounds_of(found[b]);
+    samples.blocks.resize(columns * std::size_t(samples.rows));
+    std::vector<std::vector<Found>> found(std::size_t(samples.rows)); // of a row of blocks, block after block
+    parallel_for(found.size(), [&](std::size_t row) {
+        for (std::size_t column = 0; column < columns; ++column) {
+            const std::vector<Found> block = block_samples(ldi, lens, known, int(column), int(row));
+            samples.blocks[row * columns + column] = bounds_of(block);
+            found[row].insert(found[row].end(), block.begin(), block.end());
         }
     });
     std::uint32_t begin = 0;
@@ -125,9 +126,10 @@ BlockedSamples make_blocks(const Ldi &ldi, const ThinLens &lens, const Imath::Bo
         begin = block.end;
     }
     resize(samples, begin);
-    parallel_for(found.size(), [&](std::size_t b) {
-        for (std::size_t i = 0; i < found[b].size(); ++i)
-            store(samples, samples.blocks[b].begin + i, found[b][i]);
+    parallel_for(found.size(), [&](std::size_t row) {
+        for (std::size_t i = 0; i < found[row].size(); ++i)
+            store(samples, samples.blocks[row * columns].begin + i, found[row][i]);
+        std::vector<Found>().swap(found[row]); // large pictures are short of memory
     });
     return samples;
 }

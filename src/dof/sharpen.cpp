@@ -71,10 +71,10 @@ public:
 
 private:
     // By which a sample may exchange light with its neighbours.
-    struct Weights {
-        double horizontal, vertical;
-        double most; // share of all this that it may give away
-        double along(std::size_t neighbour) const { return neighbour < 2 ? horizontal : vertical; }
+    struct Weights { // float: there is one a sample
+        float horizontal, vertical;
+        float most; // share of all this that it may give away
+        double along(std::size_t neighbour) const { return double(neighbour < 2 ? horizontal : vertical); }
     };
     struct Neighbours {
         std::array<std::uint64_t, 4> sample; // left, right, up, down
@@ -160,8 +160,8 @@ void Sharpener::measure_noise() {
 Sharpener::Weights Sharpener::weights(std::uint64_t i, int x, int y) const {
     const MergedSample place = placement_of(ldi_, i);
     const double coc = circle_of_confusion(lens_, double(place.z));
-    Weights w{blur_.weight(coc, double(place.dx)), blur_.weight(coc * lens_.pixel_aspect, double(place.dy)),
-              1};
+    Weights w{float(blur_.weight(coc, double(place.dx))),
+              float(blur_.weight(coc * lens_.pixel_aspect, double(place.dy))), 1};
     if (w.horizontal == 0 && w.vertical == 0) return {0, 0, 0};
     const Neighbours n = neighbours(i, x, y);
     if (!n.horizontal) w.horizontal = 0;
@@ -170,8 +170,8 @@ Sharpener::Weights Sharpener::weights(std::uint64_t i, int x, int y) const {
     const double noise = 5 * noise_[std::size_t(y / noise_block * columns + x / noise_block)],
                  d = detail(i, n);
     const double strength = noise > 0 ? (d > 0 ? 1 / (1 + std::pow(noise / d, 4)) : 0) : 1;
-    w.horizontal *= strength;
-    w.vertical *= strength;
+    w.horizontal *= float(strength);
+    w.vertical *= float(strength);
     for (const std::size_t k : rgb_) {
         const std::vector<float> &v = ldi_.values[k];
         double given = 0; // at most, to brighter neighbours: no more than there is
@@ -179,7 +179,7 @@ Sharpener::Weights Sharpener::weights(std::uint64_t i, int x, int y) const {
             if (to < 2 ? n.horizontal : n.vertical)
                 given += 0.5 * (w.along(to) + BlurTable::largest_weight) *
                          std::max(0.0, double(v[n.sample[to]]) - double(v[i]));
-        if (given * w.most > double(v[i])) w.most = std::max(0.0, double(v[i])) / given;
+        if (given * double(w.most) > double(v[i])) w.most = float(std::max(0.0, double(v[i])) / given);
     }
     return w;
 }
@@ -205,7 +205,7 @@ std::array<Term, 5> Sharpener::terms(std::uint64_t i, int x, int y) const {
         if (!(k < 2 ? n.horizontal : n.vertical)) continue;
         // The same for both, so that no light is made or lost.
         const Weights &other = weights_[n.sample[k]];
-        const double shared = 0.5 * (own.along(k) + other.along(k)) * std::min(own.most, other.most);
+        const double shared = 0.5 * (own.along(k) + other.along(k)) * double(std::min(own.most, other.most));
         terms[0].coefficient += shared;
         terms[k + 1] = {n.sample[k], -shared};
     }

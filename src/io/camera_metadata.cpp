@@ -3,15 +3,10 @@
 #include <ImfBoxAttribute.h>
 #include <ImfDoubleAttribute.h>
 #include <ImfFloatAttribute.h>
-#include <ImfIntAttribute.h>
 #include <ImfMatrixAttribute.h>
-#include <ImfStandardAttributes.h>
 #include <ImfStringAttribute.h>
 
-#include <charconv>
-#include <cmath>
 #include <cstdio>
-#include <sstream>
 #include <string_view>
 
 namespace sparselens {
@@ -25,60 +20,12 @@ constexpr const char *lens_points_name = "sparselens:lensPoints"; // "x,y x,y ..
 constexpr const char *picture_window_name = "sparselens:dataWindow";
 constexpr const char *version_name = "sparselens:version";
 
-// A number above 0 (infinity where it can be meant) or nothing: a header may hold anything.
-std::optional<double> positive(std::optional<double> value, bool infinity_allowed = false) {
-    if (!value || !(*value > 0)) return {};
-    if (std::isinf(*value) && !infinity_allowed) return {};
-    return value;
-}
-
-// The decimal number that a float was made from: 0.3f means 0.3, so that metadata and options give the same lens.
-double decimal(float stored) {
-    if (!std::isfinite(stored)) return double(stored);
-    char text[32];
-    const auto written =
-        std::to_chars(text, text + sizeof text, stored); // the shortest that reads back as stored
-    double value = 0;
-    std::from_chars(text, written.ptr, value);
-    return value;
-}
-
-std::optional<double> number(const Imf::Header &header, const char *name) {
-    if (const auto *a = header.findTypedAttribute<Imf::FloatAttribute>(name)) return decimal(a->value());
-    if (const auto *a = header.findTypedAttribute<Imf::DoubleAttribute>(name)) return a->value();
-    return {};
-}
-
 // Puts the attribute in the place of any of that name, whatever the type of that was.
 void replace(Imf::Header &header, const char *name, const Imf::Attribute &attribute) {
     const auto old = header.find(name);
     if (old != header.end() && std::string_view(old.attribute().typeName()) != attribute.typeName())
         header.erase(name); // only then: in OpenEXR 3.1 what is erased is leaked
     header.insert(name, attribute);
-}
-
-std::optional<Imath::M44d> finite(const Imath::M44d &m) {
-    for (int row = 0; row < 4; ++row)
-        for (int column = 0; column < 4; ++column)
-            if (!std::isfinite(m[row][column])) return {};
-    return m;
-}
-
-std::optional<Imath::M44d> matrix(const Imf::Header &header, const char *name) {
-    if (const auto *a = header.findTypedAttribute<Imf::M44fAttribute>(name))
-        return finite(Imath::M44d(a->value()));
-    if (const auto *a = header.findTypedAttribute<Imf::M44dAttribute>(name)) return finite(a->value());
-    return {};
-}
-
-std::vector<Imath::V2d> read_points(const Imf::Header &header) {
-    std::vector<Imath::V2d> points;
-    const auto *text = header.findTypedAttribute<Imf::StringAttribute>(lens_points_name);
-    std::istringstream in(text ? text->value() : std::string());
-    Imath::V2d p(0, 0);
-    char comma = 0;
-    while (in >> p.x >> comma >> p.y && comma == ',') points.push_back(p);
-    return points;
 }
 
 std::string points_text(const std::vector<Imath::V2d> &points) {
@@ -92,22 +39,6 @@ std::string points_text(const std::vector<Imath::V2d> &points) {
 }
 
 } // namespace
-
-Camera read_camera(const Imf::Header &header) {
-    Camera camera;
-    camera.focal_length_mm = positive(number(header, focal_length_name));
-    camera.sensor_width_mm = positive(number(header, sensor_width_name));
-    camera.metres_per_unit = positive(number(header, metres_per_unit_name));
-    if (Imf::hasAperture(header)) camera.fstop = positive(decimal(Imf::aperture(header)), true);
-    if (Imf::hasFocus(header)) {
-        camera.focus_distance = positive(decimal(Imf::focus(header)), true);
-        if (camera.focus_distance) *camera.focus_distance /= camera.metres_per_unit.value_or(1);
-    }
-    camera.world_to_camera = matrix(header, "worldToCamera");
-    camera.world_to_ndc = matrix(header, "worldToNDC");
-    camera.lens_points = read_points(header);
-    return camera;
-}
 
 void write_camera(Imf::Header &header, const Camera &camera) {
     const auto put = [&](const char *name, const auto &value, const auto &as_attribute) {

@@ -8,7 +8,9 @@
 
 namespace sparselens {
 
-// What is missing, of another type, no number or out of range is unknown (see Camera).
+// By the standard's attributes and those of other programs (camera_attributes.h); where sparselens:version stands,
+// by ours alone. What is missing, no number or out of range, or said twice and differently, is unknown, and why is
+// noted (Camera::unsure). worldToNDC comes in the standard's convention, whatever the file's.
 Camera read_camera(const Imf::Header &header);
 
 // Writes what is known (and sparselens:version), leaves the rest of the header alone.

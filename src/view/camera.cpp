@@ -6,9 +6,21 @@
 
 namespace sparselens {
 
+void complete_field(Camera &camera) {
+    auto &focal = camera.focal_length_mm, &width = camera.sensor_width_mm;
+    if (focal && width)
+        camera.field = *width / *focal;
+    else if (focal && camera.field && !camera.unsure.contains("--sensor-width"))
+        width = *focal * *camera.field;
+    else if (width && camera.field && !camera.unsure.contains("--focal-length"))
+        focal = *width / *camera.field;
+}
+
 std::optional<double> focal_length_px(const Camera &camera, int display_width) {
-    if (!camera.focal_length_mm || !camera.sensor_width_mm) return {};
-    return display_width * *camera.focal_length_mm / *camera.sensor_width_mm;
+    if (camera.focal_length_mm && camera.sensor_width_mm)
+        return display_width * *camera.focal_length_mm / *camera.sensor_width_mm;
+    if (!camera.field) return {};
+    return display_width / *camera.field;
 }
 
 std::optional<Imath::V3d> position_relative_to(const Camera &centre, const Camera &view,

@@ -4,6 +4,7 @@
 #include <Imath/ImathMatrix.h>
 #include <Imath/ImathVec.h>
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,12 +18,25 @@ struct Camera {
     std::optional<double> fstop;           // (0, inf]
     std::optional<double> focus_distance;  // scene units, (0, inf]
     std::optional<double> metres_per_unit; // (0, inf)
+    // Width of the picture over the focal length, (0, inf): known from a field of view or a projection matrix where
+    // one of the two is not.
+    std::optional<double> field;
     std::optional<Imath::M44d> world_to_camera;
     std::optional<Imath::M44d> world_to_ndc; // NDC: (0,0) and (1,1) are the display window's corners, y down
     std::vector<Imath::V2d> lens_points;     // of an LDI: where its views stood, scene units, x right, y up
+
+    std::vector<std::string> found; // what was read, from which attribute: for people
+    // Why a value is unknown although the file has something of it (it is none, or two attributes contradict each
+    // other), by the option that settles it: "--focal-length".
+    std::map<std::string, std::string> unsure;
 };
 
-// Focal length in pixels of a picture `display_width` pixels wide; empty where focal length or film back is unknown.
+// Puts in of focal length, film back and field the one that follows from the others, unless
+// the file has something else of it (Camera::unsure).
+void complete_field(Camera &camera);
+
+// Focal length in pixels of a picture `display_width` pixels wide; empty where neither focal length and film back
+// nor the field is known.
 std::optional<double> focal_length_px(const Camera &camera, int display_width);
 
 // Position of `view` in the camera space of `centre`, scene units. Empty where either matrix is unknown.

@@ -26,6 +26,13 @@ double rounding(const Camera &camera) {
     return 1e-6 * std::max({std::abs(m[3][0]), std::abs(m[3][1]), std::abs(m[3][2])});
 }
 
+std::string why_not_placed(const Camera &origin, const Camera &view) {
+    const Camera &culprit = view.world_to_camera ? origin : view;
+    const auto reason = culprit.unsure.find("--view");
+    const std::string text = reason == culprit.unsure.end() ? "no worldToCamera" : reason->second;
+    return view.world_to_camera ? "that of the centre: " + text : text;
+}
+
 std::vector<Imath::V2d> positions_from(const Camera &origin, std::span<const Camera> views,
                                        std::span<const std::string> names) {
     std::vector<Imath::V3d> positions;
@@ -33,8 +40,8 @@ std::vector<Imath::V2d> positions_from(const Camera &origin, std::span<const Cam
     for (std::size_t i = 0; i < views.size(); ++i) {
         const auto position = position_relative_to(origin, views[i], names[i]);
         if (!position)
-            throw UsageError(names[i] + ": its camera is unknown (no worldToCamera): give --view X,Y " +
-                             names[i]);
+            throw UsageError(names[i] + ": its camera is unknown (" + why_not_placed(origin, views[i]) +
+                             "): give --view X,Y " + names[i]);
         positions.push_back(*position);
         spread = std::max({spread, std::abs(position->x), std::abs(position->y)});
     }

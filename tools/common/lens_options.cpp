@@ -11,8 +11,14 @@ namespace sparselens {
 
 namespace {
 
-double need(const std::optional<double> &value, const char *what, const char *option) {
-    if (!value) throw UsageError(std::string(what) + " is unknown: give " + option);
+[[noreturn]] void refuse(const Camera &camera, const char *what, const char *option, const char *advice) {
+    const auto reason = camera.unsure.find(option);
+    throw UsageError(std::string(what) + " is unknown" +
+                     (reason == camera.unsure.end() ? "" : " (" + reason->second + ")") + ": give " + advice);
+}
+
+double need(const std::optional<double> &value, const Camera &camera, const char *what, const char *option) {
+    if (!value) refuse(camera, what, option, option);
     return *value;
 }
 
@@ -73,6 +79,7 @@ Camera camera_with_options(const LensOptions &options, Camera camera) {
     put(camera.focus_distance, options.focus_distance);
     put(camera.metres_per_unit, options.scene_unit);
     put(camera.fstop, options.fstop);
+    complete_field(camera);
     if (options.lens_radius && *options.lens_radius == 0)
         camera.fstop = std::numeric_limits<double>::infinity();
     else if (options.lens_radius && camera.focal_length_mm)
@@ -89,22 +96,24 @@ std::optional<double> lens_radius_of(const Camera &camera) {
 
 double resolve_radius(const LensOptions &options, const Camera &camera) {
     if (options.lens_radius) return *options.lens_radius;
-    if (!camera.fstop) throw UsageError("the aperture is unknown: give --fstop or --lens-radius");
-    if (!std::isinf(*camera.fstop)) need(camera.focal_length_mm, "the focal length", "--focal-length");
+    if (!camera.fstop) refuse(camera, "the aperture", "--fstop", "--fstop or --lens-radius");
+    if (!std::isinf(*camera.fstop))
+        need(camera.focal_length_mm, camera, "the focal length", "--focal-length");
     return *lens_radius_of(camera);
 }
 
 double resolve_focal_px(const Camera &camera, const Windows &windows) {
-    need(camera.focal_length_mm, "the focal length", "--focal-length");
-    need(camera.sensor_width_mm, "the sensor width", "--sensor-width");
-    return *focal_length_px(camera, windows.display_width());
+    const auto focal_px = focal_length_px(camera, windows.display_width());
+    if (focal_px) return *focal_px;
+    need(camera.focal_length_mm, camera, "the focal length", "--focal-length");
+    refuse(camera, "the sensor width", "--sensor-width", "--sensor-width");
 }
 
 ThinLens resolve_lens(const LensOptions &options, const Camera &camera, const Windows &windows) {
     ThinLens lens{.radius = resolve_radius(options, camera), .pixel_aspect = windows.pixel_aspect};
     if (lens.radius == 0) return lens;
     lens.focal_px = resolve_focal_px(camera, windows);
-    lens.focus = need(camera.focus_distance, "the focus distance", "--focus-distance");
+    lens.focus = need(camera.focus_distance, camera, "the focus distance", "--focus-distance");
     return lens;
 }
 

@@ -69,6 +69,12 @@ LoadedView load_view(const std::string &path, const LensOptions &lens, const Dep
     return loaded;
 }
 
+void say_camera(const ToolContext &tool, const std::string &path, const Camera &camera) {
+    for (const std::string &found : camera.found) tool.say(display_name(path) + ": " + found);
+    for (const auto &[option, reason] : camera.unsure)
+        tool.say(display_name(path) + ": " + reason + "; " + option + " settles it");
+}
+
 void warn_of_clamped(const ToolContext &tool, const std::string &path, std::size_t clamped) {
     if (clamped > 0)
         warn(tool, display_name(path) + ": " + std::to_string(clamped) +

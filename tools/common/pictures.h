@@ -36,6 +36,9 @@ struct LoadedView {
 
 LoadedView load_view(const std::string &path, const LensOptions &lens, const DepthOptions &depth);
 
+// With --verbose: what the file says about its camera, and which attribute says so.
+void say_camera(const ToolContext &tool, const std::string &path, const Camera &camera);
+
 // Each one line on stderr, where there were any; `clamped` is what write_flat_exr and write_ldi return.
 void warn_of_clamped(const ToolContext &tool, const std::string &path, std::size_t clamped);
 void warn_of_bad_values(const ToolContext &tool, const std::string &path, const BadValues &bad);

@@ -1,0 +1,56 @@
+// What renderers and compositors call the camera in EXR headers: the one table of names, and how their values are
+// read. Names are matched whatever their case and whatever stands before them of "exr/", "nuke/", "input/" and
+// "openexr:" (what Nuke and OpenImageIO put there or take away).
+//
+// Sources: OpenEXR's StandardAttributes page and ImfStandardAttributes.h; OpenImageIO's table in exrinput.cpp;
+// headers of V-Ray files on the web; Maxon's page "EXR Metadata" of Redshift; Unreal's
+// MoviePipelineImagePassBase.cpp; the scripts by which compositors make Nuke cameras from such files.
+#pragma once
+
+#include <Imath/ImathMatrix.h>
+#include <ImfHeader.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace sparselens {
+
+enum class Quantity {
+    focal_length, // mm
+    sensor_width, // mm, spans the display window
+    film_back,    // mm, width of the camera's film back, of which the picture may show a part
+    field,        // width of the picture over the focal length
+    fstop,        // f-number
+    focus_metres, // distance
+    focus_units,  // distance
+    metres_per_unit,
+};
+
+// A number under a name in the table.
+struct NamedNumber {
+    Quantity quantity;
+    std::string name; // as the file spells it
+    double value;     // in the quantity's unit; NaN where it is none
+    bool exact;       // false: only a hint, for want of a better one (a nominal focal length)
+};
+
+struct NamedMatrix {
+    enum class Kind { world_to_camera, world_to_ndc } kind;
+    std::string name;
+    std::optional<Imath::M44d> matrix; // acts on row vectors; empty: not finite, or singular
+    // world_to_camera: whether its axes are known to be ours (+x right, +y up, +z forward) or z may look backward.
+    // world_to_ndc: whether it is known to be the clip space [-1,1], or may be either.
+    bool certain;
+};
+
+struct CameraAttributes {
+    std::vector<NamedNumber> numbers; // in the table's order
+    std::vector<NamedMatrix> matrices;
+    bool ours = false; // written by us: nothing of others is listed
+};
+
+// All that the header has of them.
+CameraAttributes find_camera_attributes(const Imf::Header &header);
+
+} // namespace sparselens
