@@ -7,8 +7,11 @@
 
 #include "base/image.h"
 #include "base/progress.h"
+#include "ldi/holdout.h"
 #include "ldi/ldi.h"
 #include "lens/thin_lens.h"
+
+#include <optional>
 
 namespace sparselens {
 
@@ -17,6 +20,8 @@ enum class Quality { draft, normal, final };
 struct LensGatherOptions {
     Quality quality = Quality::normal;
     int lens_samples = 0; // points in every tile; 0: by the quality and what the tile needs
+    std::optional<Imath::Box2i> region = {}; // tiles beside it stay as they were rendered
+    const Holdout *holdout = nullptr;        // holds the picture out
 };
 
 // Pixels `window` (EXR coordinates, within the LDI's data window), channels of the LDI. In `window` an empty
