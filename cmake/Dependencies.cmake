@@ -8,6 +8,9 @@ find_package(CLI11 CONFIG REQUIRED)
 find_package(nlohmann_json 3.11 CONFIG REQUIRED)
 find_package(Threads REQUIRED)
 find_package(ZLIB REQUIRED)
+# By pkg-config: what Debian has for CMake lies where CMake does not look, and names folders that do not exist.
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(OpenColorIO REQUIRED IMPORTED_TARGET OpenColorIO>=2.1)
 
 # Debian's OpenImageIO target names OpenCV's headers, which its package does not bring and nobody here needs.
 get_target_property(oiio_includes OpenImageIO::OpenImageIO INTERFACE_INCLUDE_DIRECTORIES)

@@ -11,4 +11,5 @@ write_basic_package_version_file(sparselens-config-version.cmake COMPATIBILITY S
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/sparselens-config.cmake
               ${CMAKE_CURRENT_BINARY_DIR}/sparselens-config-version.cmake
         DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/sparselens)
+install(DIRECTORY share/ocio DESTINATION ${CMAKE_INSTALL_DATADIR}/sparselens)
 install(FILES LICENSE README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})

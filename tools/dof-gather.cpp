@@ -3,12 +3,14 @@
 //     [--channels LIST] [-d half|float]
 #include "base/error.h"
 #include "common/channels.h"
+#include "common/colour_options.h"
 #include "common/ldi_cache.h"
 #include "common/picture_options.h"
 #include "common/pictures.h"
 #include "common/show.h"
 #include "common/stats.h"
 #include "common/tool.h"
+#include "common/window_options.h"
 #include "common/words.h"
 #include "dof/methods.h"
 #include "io/camera_metadata.h"
@@ -24,9 +26,11 @@ namespace {
 struct Options {
     LensOptions lens;
     DepthOptions depth;
+    ColourOptions colour;
+    WindowOptions windows;
     GatherOptions gather;
     const GatherMethod *method = &gather_methods().front();
-    std::string input, output, depth_output, channels;
+    std::string input, output, depth_output, channels, holdout;
     std::optional<Imath::V2i> focus_pixel;
     bool as_float = false;
     Show show = Show::picture;
@@ -36,7 +40,8 @@ void add_options(CLI::App &app, Options &options) {
     app.add_option("input", options.input, "LDI, any deep EXR or flat RGBA+Z; - for standard input")
         ->type_name("IN.exr")
         ->required();
-    app.add_option("-o,--output", options.output, "Picture to write, - for standard output")
+    app.add_option("-o,--output", options.output,
+                   "Picture to write: EXR, or PNG, JPEG, TIFF; - for standard output")
         ->type_name("OUT.exr")
         ->required();
     add_method_option(app, options.method);
@@ -54,6 +59,9 @@ void add_options(CLI::App &app, Options &options) {
         ->check(CLI::Range(1, 4096))
         ->capture_default_str();
     add_pixel_option(app, "--focus-pixel", options.focus_pixel, "Focus on what this pixel shows");
+    app.add_option("--holdout", options.holdout,
+                   "Deep EXR that hides what is behind it, and stays sharp (lens)")
+        ->type_name("DEEP.exr");
     app.add_option("--depth-out", options.depth_output, "Write the depth of the front samples")
         ->type_name("FILE");
     app.add_option("--channels", options.channels, "Channels or layers to gather, comma-separated (all)")
@@ -62,6 +70,9 @@ void add_options(CLI::App &app, Options &options) {
     add_show_option(app, options.show);
     add_lens_options(app, options.lens);
     add_depth_options(app, options.depth);
+    add_input_colour_options(app, options.colour);
+    add_output_colour_options(app, options.colour);
+    add_window_options(app, options.windows);
     app.get_option("--focus-pixel")->excludes("--focus-distance");
 }
 
@@ -80,35 +91,46 @@ void warn_if_wider_than_views(const ToolContext &tool, const ThinLens &lens, con
              "the lens is wider than the lens points of the views: what it sees beyond them is unknown");
 }
 
-Image gathered(const Options &options, const InputLdi &in, const ThinLens &lens, const Imath::Box2i &window,
-               const ToolContext &tool, LensTiles &tiles) {
-    if (lens.radius == 0) return crop(flatten(in.ldi), window);
-    GatherOptions by = options.gather;
-    by.lens.chosen = &tiles;
-    return options.method->gather(in.ldi, lens, window, by, *tool.progress);
+// What the method makes of the LDI; without a lens, the LDI flattened.
+Image gathered(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window, const Options &options,
+               const GatherOptions &by, const ToolContext &tool) {
+    const Holdout *holdout = by.lens.holdout;
+    if (lens.radius == 0) return crop(holdout ? flatten_held_out(ldi, *holdout) : flatten(ldi), window);
+    return options.method->gather(ldi, lens, window, by, *tool.progress);
 }
 
 void run(const Options &options, const ToolContext &tool, LdiCache &cache) {
     if (options.depth_output == options.output)
         throw UsageError("--depth-out and --output name the same file: " + options.output);
-    if (options.show == Show::tiles && options.method != &gather_methods().front())
+    const bool by_tiles = options.method == &gather_methods().front();
+    if (options.show == Show::tiles && !by_tiles)
         throw UsageError("--show tiles: only --method lens works by tiles");
-    InputLdi in = cache.load(options.input, options.channels, options.lens, options.depth, tool);
+    if (!options.holdout.empty() && !by_tiles) throw UsageError("--holdout works with --method lens only");
+    InputLdi in =
+        cache.load(options.input, options.channels, options.lens, options.depth, options.colour, tool);
     say_camera(tool, options.input, in.camera);
     focus_on_pixel(in, options);
-    const ThinLens lens = resolve_lens(options.lens, in.camera, in.ldi.windows);
+    ThinLens lens = resolve_lens(options.lens, in.camera, in.ldi.windows);
     warn_if_wider_than_views(tool, lens, in.camera);
-    const Imath::Box2i window = read_picture_window(in.header);
+    const auto holdout =
+        load_holdout(options.holdout, in.ldi.windows, options.windows.proxy, options.lens, options.depth);
+    const Frame frame = frame_of(options.windows, read_picture_window(in.header), in.ldi, lens);
+    const Ldi &ldi = frame.changed ? *frame.changed : in.ldi;
     LensTiles tiles;
+    GatherOptions by = options.gather;
+    by.lens.chosen = &tiles;
+    by.lens.region = frame.written;
+    by.lens.holdout = holdout ? &*holdout : nullptr;
     Image picture;
     if (needs_gather(options.show))
-        picture = chosen_channels(gathered(options, in, lens, window, tool, tiles), options.channels);
-    if (options.show != Show::picture) picture = shown(options.show, in.ldi, lens, window, tiles);
+        picture = chosen_channels(gathered(ldi, lens, frame.gathered, options, by, tool), options.channels);
+    if (options.show != Show::picture) picture = shown(options.show, ldi, lens, frame.gathered, tiles);
+    picture = in_type(crop(picture, frame.written), options.as_float);
     write_camera(in.header, in.camera);
     if (!options.depth_output.empty())
-        write_flat_exr(options.depth_output, crop(front_depth(in.ldi), window), in.header);
-    picture = in_type(std::move(picture), options.as_float);
-    warn_of_clamped(tool, options.output, write_flat_exr(options.output, picture, in.header));
+        write_flat_exr(options.depth_output, crop(front_depth(ldi), frame.written), in.header);
+    warn_of_clamped(tool, options.output,
+                    write_picture(tool, options.colour, options.output, std::move(picture), in.header));
     write_stats(tool, gather_stats(in, tiles));
 }
 

@@ -57,7 +57,7 @@ void summarise(const Plan &plan, const View &centre, std::FILE *out) {
         std::fprintf(out, "noise left in the lens picture of this view: %.1f dB; %s\n",
                      -10 * std::log10(plan.noise),
                      plan.full_views ? "full views pay, as further samples" : "full views would not pay");
-    const Overscan &o = plan.overscan;
+    const OverscanNeed &o = plan.overscan;
     std::fprintf(out, "overscan for the lens, pixels: left %d, top %d, right %d, bottom %d\n", o.left, o.top,
                  o.right, o.bottom);
 }

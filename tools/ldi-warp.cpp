@@ -1,5 +1,6 @@
 // Views to LDI: ldi-warp [lens options] CENTER.exr [VIEW.exr ...] [--view X,Y VIEW.exr]... -o LDI.exr
 #include "base/error.h"
+#include "common/colour_options.h"
 #include "common/pictures.h"
 #include "common/stats.h"
 #include "common/tool.h"
@@ -21,6 +22,7 @@ namespace {
 struct Options {
     LensOptions lens;
     DepthOptions depth;
+    ColourOptions colour;
     ViewList views;
     Merge merge = Merge::average;
     bool split_silhouettes = true, test_agreement = true;
@@ -51,6 +53,7 @@ void add_options(CLI::App &app, Options &options) {
         ->transform(words(agreement));
     add_lens_options(app, options.lens);
     add_depth_options(app, options.depth);
+    add_input_colour_options(app, options.colour);
 }
 
 // Perceptive depth is measured at the lens if that is known, else at the outermost view.
@@ -84,6 +87,7 @@ void run(const Options &options, const ToolContext &tool) {
     say_camera(tool, loaded.views[0].name, loaded.camera);
     for (std::size_t i = 0; i < loaded.views.size(); ++i)
         warn_of_bad_values(tool, loaded.views[i].name, loaded.bad[i]);
+    for (View &view : loaded.views) to_scene_linear(tool, options.colour, view.name, loaded.header, view);
     const WarpOptions warp_by = warp_options(options, loaded);
     write_camera(loaded.header, loaded.camera);
     write_picture_window(loaded.header, loaded.views[0].image.windows.data);

@@ -175,7 +175,7 @@ std::vector<std::size_t> averaged_channels(const Image &image) {
 
 Image lens_gather(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window,
                   const LensGatherOptions &options, Progress &progress) {
-    Image out = crop(flatten(ldi), window);
+    Image out = crop(options.holdout ? flatten_held_out(ldi, *options.holdout) : flatten(ldi), window);
     const BlockedSamples samples = make_blocks(ldi, lens, window);
     const auto sharp = [](const SampleBlock &block) {
         return block.begin == block.end || largest_coc_of(block) < in_focus;
@@ -189,14 +189,18 @@ Image lens_gather(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &wind
     const Highlights highlights = take_highlights(samples, light.brightness, light.all, colours);
     const BlockFinder finder(samples, lens.pixel_aspect);
     LensSets sets(options, lens.pixel_aspect);
-
+    const HeldOut held_out{options.holdout, perceptive_depth(lens, 1), ldi.windows.data.min};
     const Windows &windows = out.windows;
     const std::vector<std::size_t> gathered = averaged_channels(out);
     progress.start("gathering", chosen.lens_points.size());
-    tbb::enumerable_thread_specific<LensTile> tiles([&] { return LensTile(samples, colours, highlights); });
+    tbb::enumerable_thread_specific<LensTile> tiles(
+        [&] { return LensTile(samples, colours, highlights, held_out); });
     parallel_for(chosen.lens_points.size(), [&](std::size_t t) {
         const Imath::V2i corner =
             Imath::V2i(int(t) % chosen.columns, int(t) / chosen.columns) * LensTile::size;
+        const Imath::V2i first = corner + window.min;
+        const Imath::Box2i pixels(first, first + Imath::V2i(LensTile::size - 1));
+        if (options.region && !options.region->intersects(pixels)) return progress.advance();
         const Imath::V2i origin = corner + window.min - ldi.windows.data.min;
         std::vector<std::uint32_t> blocks;
         const float largest = finder.find(origin, LensTile::size, blocks);

@@ -60,13 +60,18 @@ struct Sum {
 };
 
 void add_lens_point(const Ldi &ldi, std::span<const PlacedSample> samples, const LensSample &point,
-                    const Imath::V2d &middle, Sum &sum) {
+                    const Imath::V2d &middle, const Holdout *holdout, Sum &sum) {
     const Imath::V2d place = middle - Imath::V2d(double(point.pixel_x), double(point.pixel_y));
     double transmittance = 1;
     for (const PlacedSample &sample : samples) {
         if (!covers(sample, point, place)) continue;
+        const double passes = holdout && sample.source
+                                  ? holdout->passes(int(std::floor(middle.x)), int(std::floor(middle.y)),
+                                                    double(ldi.z[*sample.source]))
+                                  : 1;
         for (std::size_t k = 0; sample.source && k < sum.values.size(); ++k)
-            sum.values[k] += double(point.weight) * transmittance * double(ldi.values[k][*sample.source]);
+            sum.values[k] +=
+                double(point.weight) * transmittance * passes * double(ldi.values[k][*sample.source]);
         transmittance *= 1 - sample.alpha;
         if (transmittance == 0) break;
     }
@@ -76,14 +81,15 @@ void add_lens_point(const Ldi &ldi, std::span<const PlacedSample> samples, const
 } // namespace
 
 Image lens_gather_reference(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window,
-                            std::span<const LensSample> points) {
+                            std::span<const LensSample> points, const Holdout *holdout) {
     const std::vector<PlacedSample> samples = place_samples(ldi, lens, window);
     Image out = crop(flatten(ldi), window); // for the ids
     parallel_for(out.windows.pixels(), [&](std::size_t pixel) {
         const int x = window.min.x + int(pixel) % out.windows.width();
         const int y = window.min.y + int(pixel) / out.windows.width();
         Sum sum{std::vector<double>(ldi.channels.size()), 0};
-        for (const LensSample &point : points) add_lens_point(ldi, samples, point, {x + 0.5, y + 0.5}, sum);
+        for (const LensSample &point : points)
+            add_lens_point(ldi, samples, point, {x + 0.5, y + 0.5}, holdout, sum);
         for (std::size_t k = 0; k < sum.values.size(); ++k)
             if (ldi.channels[k].type != PixelType::uint32)
                 out.at(k, x, y) = sum.weight > 0 ? float(sum.values[k] / sum.weight) : 0;

@@ -9,6 +9,7 @@
 #pragma once
 
 #include "base/image.h"
+#include "ldi/holdout.h"
 #include "ldi/ldi.h"
 #include "lens/lens_samples.h"
 #include "lens/thin_lens.h"
@@ -20,6 +21,6 @@ namespace sparselens {
 // As lens_gather, with these lens points everywhere, without highlights and sharpening. Samples count as opaque
 // at A = 1; ids are the front samples'.
 Image lens_gather_reference(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window,
-                            std::span<const LensSample> points);
+                            std::span<const LensSample> points, const Holdout *holdout = nullptr);
 
 } // namespace sparselens

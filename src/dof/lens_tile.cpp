@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 namespace sparselens {
 
@@ -49,10 +50,12 @@ bool out_of_reach(const SampleBlock &b, const LensSample &lens, float x, float y
 
 } // namespace
 
-LensTile::LensTile(const BlockedSamples &samples, const SampleColours &colours, const Highlights &highlights)
-    : samples_(samples), colours_(colours), highlights_(highlights), front_(stride * stride),
-      transmittance_(stride * stride, 1.0f), over_(colours.groups * stride * stride * 4),
-      sums_(colours.groups * size * size * 4), spread_(sums_.size()), unknown_(size * size) {}
+LensTile::LensTile(const BlockedSamples &samples, const SampleColours &colours, const Highlights &highlights,
+                   const HeldOut &held_out)
+    : samples_(samples), colours_(colours), highlights_(highlights), held_out_(held_out),
+      front_(stride * stride), transmittance_(stride * stride, 1.0f),
+      over_(colours.groups * stride * stride * 4), sums_(colours.groups * size * size * 4),
+      spread_(sums_.size()), unknown_(size * size) {}
 
 float LensTile::known_weight(int x, int y) const {
     const float known = total_ - unknown_[std::size_t(y * size + x)];
@@ -145,10 +148,11 @@ void LensTile::see_partial(const LensSample &lens) {
         if (samples_.key[i] < front_[cell]) continue;
         float &transmittance = transmittance_[cell];
         if (transmittance == 1) covered_.push_back(std::uint32_t(cell));
+        const float share = transmittance * passes(int(cell) % stride - 1, int(cell) / stride - 1, i);
         for (std::size_t g = 0; g < colours_.groups; ++g) {
             const float *colour = &colours_.group(g)[std::size_t(i) * 4];
             float *over = &over_[(g * stride * stride + cell) * 4];
-            for (int k = 0; k < 4; ++k) over[k] += transmittance * colour[k];
+            for (int k = 0; k < 4; ++k) over[k] += share * colour[k];
         }
         transmittance = std::min(transmittance * (1 - samples_.alpha[i]), covered_at_all);
     }
@@ -156,6 +160,7 @@ void LensTile::see_partial(const LensSample &lens) {
 
 // Adds the picture that the lens point sees of the opaque samples.
 void LensTile::add_opaque(float weight) {
+    const bool held_out = held_out_.by != nullptr;
     for (std::size_t g = 0; g < colours_.groups; ++g) {
         const float *colours = colours_.group(g).data();
         for (int y = 0; y < size; ++y) {
@@ -168,7 +173,8 @@ void LensTile::add_opaque(float weight) {
                 }
                 Colour4 colour; // a copy: the compiler need not fear that sum overlaps it
                 std::copy_n(colours + std::size_t(std::uint32_t(front[x])) * 4, 4, colour.begin());
-                for (std::size_t k = 0; k < 4; ++k) sum[k] += weight * colour[k];
+                const float share = held_out ? weight * passes(x, y, std::uint32_t(front[x])) : weight;
+                for (std::size_t k = 0; k < 4; ++k) sum[k] += share * colour[k];
             }
         }
     }
@@ -183,11 +189,12 @@ void LensTile::add_partial(float weight) {
         const bool known = front_[cell] != 0;
         const float hidden = 1 - transmittance_[cell];
         if (!known) unknown_[pixel] -= weight * hidden;
+        const float taken = known ? hidden * passes(x, y, std::uint32_t(front_[cell])) : 0;
         for (std::size_t g = 0; g < colours_.groups; ++g) {
             const float *over = &over_[(g * stride * stride + cell) * 4];
             const float *behind = &colours_.group(g)[std::size_t(std::uint32_t(front_[cell])) * 4];
             float *sum = &sums_[(g * size * size + pixel) * 4];
-            for (int k = 0; k < 4; ++k) sum[k] += weight * (over[k] - (known ? hidden * behind[k] : 0));
+            for (int k = 0; k < 4; ++k) sum[k] += weight * (over[k] - (known ? taken * behind[k] : 0));
         }
     }
 }
@@ -199,6 +206,15 @@ void LensTile::forget_partial() {
             std::fill_n(&over_[(g * stride * stride + cell) * 4], 4, 0.0f);
     }
     covered_.clear();
+}
+
+float LensTile::passes(int x, int y, std::uint32_t sample) const {
+    const bool inside = x >= 0 && y >= 0 && x < size && y < size;
+    if (!held_out_.by || !inside) return 1;
+    const double depth = double(samples_.depth[sample]);
+    const double z = depth > 0 ? held_out_.depth_at_1 / depth : std::numeric_limits<double>::infinity();
+    return float(held_out_.by->passes(held_out_.corner.x + int(origin_x_) + x,
+                                      held_out_.corner.y + int(origin_y_) + y, z));
 }
 
 // Whether what lies at that depth is behind something in a cell, also where a surface is torn there: a crack one
@@ -221,7 +237,8 @@ std::span<const HighlightPixel> LensTile::add_highlights(std::span<const Highlig
         const std::size_t cell = std::size_t((p.y + 1) * stride + p.x + 1),
                           pixel = std::size_t(p.y * size + p.x);
         if (hides(p.x, p.y, samples_.depth[highlights_.sample[p.highlight]])) continue;
-        const float weight = p.weight * transmittance_[cell];
+        const float weight =
+            p.weight * transmittance_[cell] * passes(p.x, p.y, highlights_.sample[p.highlight]);
         for (std::size_t g = 0; g < colours_.groups; ++g)
             for (std::size_t k = 0; k < 4; ++k)
                 spread_[(g * size * size + pixel) * 4 + k] +=

@@ -9,6 +9,7 @@
 #include "dof/highlights.h"
 #include "dof/sample_blocks.h"
 #include "dof/sample_colours.h"
+#include "ldi/holdout.h"
 #include "lens/lens_samples.h"
 
 #include <Imath/ImathBox.h>
@@ -19,11 +20,19 @@
 
 namespace sparselens {
 
+// What holds the picture out, and what its lookups need to be told.
+struct HeldOut {
+    const Holdout *by = nullptr;
+    double depth_at_1 = 1;   // perceptive depth at z = 1
+    Imath::V2i corner{0, 0}; // of the data window that the samples are relative to, EXR coordinates
+};
+
 class LensTile {
 public:
     static constexpr int size = 64; // pixels wide and high: the buffers of a lens point stay in the cache
 
-    LensTile(const BlockedSamples &samples, const SampleColours &colours, const Highlights &highlights);
+    LensTile(const BlockedSamples &samples, const SampleColours &colours, const Highlights &highlights,
+             const HeldOut &held_out = {});
 
     // Gathers the pixels [origin, origin + size), relative to the data window's corner like the samples, from
     // the blocks that can reach them. `spread`: highlight_pixels() of the tile.
@@ -43,6 +52,7 @@ private:
     void collect_partial();
     void see_opaque(const LensSample &lens);
     void see_partial(const LensSample &lens);
+    float passes(int x, int y, std::uint32_t sample) const; // of its light, the holdout
     bool hides(int x, int y, float depth) const;
     void add_opaque(float weight);
     void add_partial(float weight);
@@ -53,6 +63,7 @@ private:
     const BlockedSamples &samples_;
     const SampleColours &colours_;
     const Highlights &highlights_;
+    HeldOut held_out_;
     float origin_x_ = 0, origin_y_ = 0;
     float total_ = 0; // weight of the lens points
     std::vector<std::uint32_t> blocks_;

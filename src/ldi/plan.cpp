@@ -139,7 +139,7 @@ Choice choose(std::span<const Candidate> candidates, std::size_t count, std::siz
     return more && of_best.uncovered > about_as_much * of_even.uncovered ? best : even;
 }
 
-Overscan overscan_of(const View &centre, const ThinLens &lens) {
+OverscanNeed overscan_of(const View &centre, const ThinLens &lens) {
     const Windows &w = centre.image.windows;
     const auto largest_coc = [&](Imath::V2i at, const Imath::V2i &step, int count, int most) {
         double largest = 0;

@@ -23,13 +23,13 @@ struct PlannedView {
 };
 
 // Pixels beyond each edge of the frame from which the lens brings light inside: the largest CoC along the edge.
-struct Overscan {
+struct OverscanNeed {
     int left = 0, top = 0, right = 0, bottom = 0;
 };
 
 struct Plan {
     std::vector<PlannedView> views; // none: the centre view is enough
-    Overscan overscan;
+    OverscanNeed overscan;
     double noise = 0; // mean square, tone-mapped, in the lens picture of the centre view alone (noise.h)
     bool full_views = false; // noise is the larger error: whole views pay as further samples
 

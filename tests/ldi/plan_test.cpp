@@ -98,7 +98,7 @@ TEST(Plan, MarginsGrowAndViewsAreCounted) {
 TEST(Plan, OverscanIsTheLargestCocAlongTheEdge) {
     View view = plane(10);
     view.z[10] = 2;
-    const Overscan overscan = plan_of(view).overscan;
+    const OverscanNeed overscan = plan_of(view).overscan;
     EXPECT_EQ(overscan.top, 3);
     EXPECT_EQ(overscan.left, 1);
     EXPECT_EQ(overscan.right, 1);

@@ -11,9 +11,9 @@ namespace {
 
 // All that the samples depend on: depth as ray distance becomes planar by the focal length.
 auto key_of(const std::string &path, const std::string &channels, const LensOptions &lens,
-            const DepthOptions &depth) {
+            const DepthOptions &depth, const ColourOptions &colour) {
     return std::tuple(path, channels, depth.meaning, depth.channel, lens.focal_length_mm,
-                      lens.sensor_width_mm);
+                      lens.sensor_width_mm, colour.config, colour.input_space);
 }
 
 std::vector<std::string> keep_and_tell(Ldi &ldi, const std::string &channels) {
@@ -28,20 +28,21 @@ std::vector<std::string> keep_and_tell(Ldi &ldi, const std::string &channels) {
 } // namespace
 
 struct LdiCache::Entry {
-    decltype(key_of({}, {}, {}, {})) key;
+    decltype(key_of({}, {}, {}, {}, {})) key;
     LoadedLdi loaded;
     std::vector<std::string> channels_left_out;
 };
 
 InputLdi LdiCache::load(const std::string &path, const std::string &channels, const LensOptions &lens,
-                        const DepthOptions &depth, const ToolContext &tool) {
-    const auto key = key_of(path, channels, lens, depth);
+                        const DepthOptions &depth, const ColourOptions &colour, const ToolContext &tool) {
+    const auto key = key_of(path, channels, lens, depth, colour);
     const bool read_now = !last_ || last_->key != key;
     if (read_now) {
         last_.reset(); // two at a time may be more than fits
         tool.say("reading " + path);
         auto entry = std::make_shared<Entry>(Entry{key, load_ldi(path, lens, depth), {}});
         warn_of_bad_values(tool, path, entry->loaded.bad);
+        to_scene_linear(tool, colour, path, entry->loaded.header, entry->loaded.ldi);
         entry->channels_left_out = keep_and_tell(entry->loaded.ldi, channels);
         last_ = std::move(entry);
     }

@@ -1,6 +1,7 @@
 // The last LDI read: a pull of focus over one file reads it once.
 #pragma once
 
+#include "common/colour_options.h"
 #include "common/lens_options.h"
 #include "common/pictures.h"
 #include "common/tool.h"
@@ -25,10 +26,10 @@ struct InputLdi {
 
 class LdiCache {
 public:
-    // load_ldi() and keep_channels() where the last file was another or was read otherwise. Warns of bad values then. What was
+    // load_ldi(), to_scene_linear() and keep_channels() where the last file was another or was read otherwise. Warns of bad values then. What was
     // returned before is gone.
     InputLdi load(const std::string &path, const std::string &channels, const LensOptions &lens,
-                  const DepthOptions &depth, const ToolContext &tool);
+                  const DepthOptions &depth, const ColourOptions &colour, const ToolContext &tool);
 
 private:
     struct Entry;

@@ -5,6 +5,7 @@
 #include "io/exr_flat.h"
 #include "io/file_stream.h"
 #include "ldi/build.h"
+#include "ldi/frame.h"
 
 #include <algorithm>
 #include <limits>
@@ -55,6 +56,15 @@ LoadedLdi load_ldi(const std::string &path, const LensOptions &lens, const Depth
     ldi = tidy(std::move(ldi));
     const std::size_t invisible = in_file - std::min(in_file, ldi.samples());
     return {std::move(ldi), std::move(file.header), camera, bad, invisible};
+}
+
+std::optional<Holdout> load_holdout(const std::string &path, const Windows &windows, int proxy_factor,
+                                    const LensOptions &lens, const DepthOptions &depth) {
+    if (path.empty()) return {};
+    LoadedLdi loaded = load_ldi(path, lens, depth);
+    if (loaded.ldi.windows.display != windows.display)
+        throw Error(display_name(path) + ": its display window is not that of the picture it holds out");
+    return Holdout(proxy_factor == 1 ? std::move(loaded.ldi) : proxy(loaded.ldi, proxy_factor));
 }
 
 LoadedView load_view(const std::string &path, const LensOptions &lens, const DepthOptions &depth) {

@@ -7,11 +7,13 @@
 #include "common/tool.h"
 #include "io/exr_deep.h"
 #include "ldi/bad_values.h"
+#include "ldi/holdout.h"
 #include "ldi/ldi.h"
 #include "view/view.h"
 
 #include <ImfHeader.h>
 
+#include <optional>
 #include <string>
 
 namespace sparselens {
@@ -26,6 +28,11 @@ struct LoadedLdi {
 };
 
 LoadedLdi load_ldi(const std::string &path, const LensOptions &lens, const DepthOptions &depth);
+
+// The deep picture that holds another out; none where the path is empty. Made a
+// proxy. Error: its display window is not `windows`'.
+std::optional<Holdout> load_holdout(const std::string &path, const Windows &windows, int proxy_factor,
+                                    const LensOptions &lens, const DepthOptions &depth);
 
 struct LoadedView {
     View view; // at the origin: the caller knows where it stands

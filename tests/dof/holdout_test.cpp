@@ -1,0 +1,118 @@
+// A picture held out by another: by the closed forms of one surface in front of another, and the fast gather against
+// the slow one.
+#include "dof/ldi_fixture.h"
+#include "dof/lens_gather.h"
+#include "dof/lens_gather_reference.h"
+#include "ldi/holdout.h"
+#include "lens/lens_samples.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace sparselens {
+namespace {
+
+using test::make_ldi;
+using test::Sample;
+
+constexpr double inf = std::numeric_limits<double>::infinity();
+const ThinLens lens{.radius = 0.06, .focal_px = 640, .focus = 5};
+const std::vector<Channel> alone{{"A"}};
+
+// Cards of these depths and coverages in the left half.
+Ldi cards(const Windows &windows, const std::vector<std::pair<double, float>> &all) {
+    return make_ldi(windows, alone, [&](int x, int) {
+        std::vector<Sample> samples;
+        if (x < windows.display_width() / 2)
+            for (const auto &[z, alpha] : all) samples.push_back({z, {alpha}});
+        return samples;
+    });
+}
+
+TEST(Holdout, HidesWhatIsBehind) {
+    const Holdout holdout(cards(windows_of_size(4, 2), {{2, 0.5f}, {4, 0.75f}, {8, 1.0f}}));
+    EXPECT_EQ(holdout.passes(0, 0, 1), 1);
+    EXPECT_EQ(holdout.passes(0, 0, 2), 1); // its own depth
+    EXPECT_EQ(holdout.passes(0, 0, 3), 0.5);
+    EXPECT_EQ(holdout.passes(0, 0, 4 * (1 + 1e-8)), 0.5); // by rounding
+    EXPECT_EQ(holdout.passes(1, 1, 5), 0.125);
+    EXPECT_EQ(holdout.passes(1, 1, inf), 0);
+    EXPECT_EQ(holdout.passes(2, 0, inf), 1);
+    EXPECT_EQ(holdout.passes(-1, 0, inf), 1);
+    EXPECT_EQ(holdout.passes(0, 2, inf), 1);
+}
+
+TEST(Holdout, OfAVolumeHidesByHowMuchIsInFront) {
+    Ldi fog = cards(windows_of_size(2, 1), {{2, 0.75f}});
+    fog.z_back = {4};
+    const Holdout holdout(fog);
+    EXPECT_EQ(holdout.passes(0, 0, 2), 1);
+    EXPECT_NEAR(holdout.passes(0, 0, 3), 0.5, 1e-12);
+    EXPECT_NEAR(holdout.passes(0, 0, 4), 0.25, 1e-12);
+    EXPECT_NEAR(holdout.passes(0, 0, 5), 0.25, 1e-12);
+}
+
+Image gather(const Ldi &ldi, const Holdout *holdout, int points = 0) {
+    Progress silent;
+    return lens_gather(ldi, lens, ldi.windows.data, {.lens_samples = points, .holdout = holdout}, silent);
+}
+
+// A wall far out of focus shows the edge of what holds it out as sharp as it is.
+TEST(Holdout, StaysSharp) {
+    const Windows windows = windows_of_size(40, 8);
+    const Ldi wall = make_ldi(windows, rgba_channels(), [](int, int) {
+        return std::vector<Sample>{{20, {0.5f, 0.25f, 1, 1}}};
+    });
+    for (const auto &[z, alpha] :
+         {std::pair(3.0, 1.0f), {5.0, 0.25f}, {19.0, 0.5f}, {20.0, 1.0f}, {30.0, 1.0f}}) {
+        const Holdout holdout(cards(windows, {{z, alpha}}));
+        const Image out = gather(wall, &holdout), free = gather(wall, nullptr);
+        for (int x = 0; x < 40; ++x)
+            for (std::size_t k = 0; k < 4; ++k) {
+                const double passes = x < 20 && z < 20 ? 1 - double(alpha) : 1;
+                EXPECT_NEAR(out.at(k, x, 4), passes * double(free.at(k, x, 4)), 1e-5) << x << " behind " << z;
+            }
+    }
+}
+
+TEST(Holdout, FlattensAsTheClosedForm) {
+    const Windows windows = windows_of_size(2, 1);
+    const Ldi ldi = make_ldi(windows, {{"Y"}, {"A"}}, [](int, int) {
+        return std::vector<Sample>{{1, {0.25f, 0.5f}}, {3, {0.5f, 0.5f}}, {9, {1, 1}}};
+    });
+    const Image out = flatten_held_out(ldi, Holdout(cards(windows, {{2, 0.5f}, {6, 0.5f}})));
+    EXPECT_FLOAT_EQ(out.at(0, 0, 0), 0.25f + 0.5f * 0.5f * 0.5f + 0.25f * 0.25f * 1);
+    EXPECT_FLOAT_EQ(out.at(1, 0, 0), 0.5f + 0.5f * 0.5f * 0.5f + 0.25f * 0.25f * 1);
+    EXPECT_FLOAT_EQ(out.at(0, 1, 0), flatten(ldi).at(0, 1, 0));
+}
+
+double distance(const Image &a, const Image &b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < a.values.size(); ++i)
+        sum += std::abs(double(a.values[i]) - double(b.values[i]));
+    return sum;
+}
+
+TEST(Holdout, FastIsAsTheReference) {
+    const Windows windows = windows_of_size(70, 9);
+    for (const bool opaque : {true, false}) {
+        Ldi ldi = test::random_ldi(windows, lens, opaque, 5);
+        for (auto &values : ldi.values) // no lamps: the reference spreads no highlights
+            for (float &v : values) v = std::min(v, 1.0f);
+        for (Channel &channel : ldi.channels) // without names of colours nothing is sharpened
+            if (channel.name != "A") channel.name = "layer." + channel.name;
+        const Holdout holdout(test::random_ldi(windows, lens, false, 11));
+        const auto points = disc_lens_samples(64, lens.pixel_aspect);
+        const Image fast = gather(ldi, &holdout, 64),
+                    slow = lens_gather_reference(ldi, lens, windows.data, points, &holdout);
+        const Image fast_free = gather(ldi, nullptr, 64),
+                    slow_free = lens_gather_reference(ldi, lens, windows.data, points);
+        // Where rounding lets a sample's edge fall on either side of a point they differ also without a holdout.
+        EXPECT_LE(distance(fast, slow), distance(fast_free, slow_free) + 1e-3);
+        EXPECT_GT(distance(fast, fast_free), 100 * distance(fast, slow));
+    }
+}
+
+} // namespace
+} // namespace sparselens

@@ -1,0 +1,96 @@
+# Colour spaces in and out: --colorspace, --colorconfig, $OCIO, file rules, --output-colorspace, --display,
+# --view-transform, and pictures that are no EXR.
+#   bash colour.sh BIN_DIR
+. "$(dirname "$0")/check.sh"
+config=$source_dir/share/ocio/config.ocio
+unset OCIO
+flat=(--lens-radius 0)
+
+# within A B TOLERANCE WHAT: no value differs by more.
+within() { idiff -q -fail "$3" -warn "$3" "$1" "$2" >idiff.txt || fail "$4 ($(cat idiff.txt))"; }
+differ() { if idiff -q -fail 0.01 -warn 0.01 "$1" "$2" >idiff.txt 2>&1; then fail "$3 changes nothing"; fi; }
+
+oiiotool --pattern fill:topleft=0.1,0.5,0.9,1,2:topright=0.9,0.2,0.1,1,2:bottomleft=0,0,0,1,4:bottomright=1,1,1,1,4 \
+    16x12 5 --chnames R,G,B,A,Z -d float -o in.exr
+rgb() { oiiotool "$1" --ch R,G,B -d float -o "$2"; }
+
+# EXR is scene-linear by the file rules of the configuration that comes with the tools.
+exits 0 "$bin/dof-gather" in.exr -o plain.exr -d float "${flat[@]}" -v
+grep -q 'colour space Linear Rec.709' stderr || fail "-v does not name the space: $(cat stderr)"
+oiiotool in.exr --ch R,G,B,A -o expected.exr
+within plain.exr expected.exr 0 "no colour option"
+
+# --colorspace, as oiiotool converts by the same configuration; depth and coverage stay.
+exits 0 "$bin/dof-gather" in.exr -o linear.exr -d float "${flat[@]}" --colorspace sRGB --depth-out depth.exr
+oiiotool --colorconfig "$config" in.exr --ch R,G,B,A --colorconvert sRGB 'Linear Rec.709' -o expected.exr
+within linear.exr expected.exr 1e-5 "--colorspace sRGB"
+differ linear.exr plain.exr "--colorspace"
+oiiotool in.exr --ch Z -o expected.exr
+within depth.exr expected.exr 0 "--colorspace changes depth"
+
+# The file rules of --colorconfig and of $OCIO; the option goes first.
+sed '/name: OpenEXR/s/colorspace: Linear Rec.709/colorspace: sRGB/' "$config" >encoded.ocio
+exits 0 "$bin/dof-gather" in.exr -o rules.exr -d float "${flat[@]}" --colorconfig encoded.ocio
+within rules.exr linear.exr 0 "the file rules of --colorconfig"
+exits 0 env OCIO=encoded.ocio "$bin/dof-gather" in.exr -o rules.exr -d float "${flat[@]}"
+within rules.exr linear.exr 0 'the file rules of $OCIO'
+exits 0 env OCIO=encoded.ocio "$bin/dof-gather" in.exr -o rules.exr -d float "${flat[@]}" --colorconfig "$config"
+within rules.exr plain.exr 0 '--colorconfig before $OCIO'
+exits 0 env OCIO=encoded.ocio "$bin/dof-gather" in.exr -o rules.exr -d float "${flat[@]}" --colorspace 'Linear Rec.709'
+within rules.exr plain.exr 0 "--colorspace before the file rules"
+
+# LDIs of ours are scene-linear whatever the rules say: ldi-warp has seen to it.
+exits 0 "$bin/ldi-warp" in.exr -o ldi.exr --merge keep --colorspace sRGB
+exits 0 env OCIO=encoded.ocio "$bin/dof-gather" ldi.exr -o warped.exr -d float "${flat[@]}"
+within warped.exr linear.exr 5e-4 "ldi-warp --colorspace"
+exits 0 "$bin/ldi-warp" in.exr -o ldi.exr --merge keep --colorconfig encoded.ocio
+exits 0 "$bin/dof-gather" ldi.exr -o warped.exr -d float "${flat[@]}"
+within warped.exr linear.exr 5e-4 "ldi-warp --colorconfig"
+
+# Out: any space, and through a display and a view.
+exits 0 "$bin/dof-gather" in.exr -o acescg.exr -d float "${flat[@]}" --output-colorspace ACEScg
+oiiotool --colorconfig "$config" in.exr --ch R,G,B,A --colorconvert 'Linear Rec.709' ACEScg -o expected.exr
+within acescg.exr expected.exr 1e-5 "--output-colorspace"
+differ acescg.exr plain.exr "--output-colorspace"
+for name in out.png out.tif; do
+    exits 0 "$bin/dof-gather" in.exr -o "$name" "${flat[@]}"
+    oiiotool --colorconfig "$config" in.exr --ch R,G,B --ociodisplay sRGB Standard -d float -o expected.exr
+    oiiotool "$name" -d float -o shown.exr
+    within shown.exr expected.exr 0.0021 "$name" # half a step of 8 bits
+done
+exits 0 "$bin/dof-gather" in.exr -o out.jpg "${flat[@]}"
+oiiotool out.png -o expected.jpg
+within out.jpg expected.jpg 0 "out.jpg"
+oiiotool --info out.tif | grep -q uint16 || fail "TIFF has no 16 bits"
+exits 0 "$bin/dof-gather" in.exr -o raw.png "${flat[@]}" --view-transform Raw
+oiiotool raw.png -d float -o shown.exr
+oiiotool in.exr --ch R,G,B -o expected.exr
+within shown.exr expected.exr 0.0021 "--view-transform Raw"
+exits 0 "$bin/dof-gather" in.exr -o rec.png "${flat[@]}" --display Rec.1886
+oiiotool --colorconfig "$config" in.exr --ch R,G,B --ociodisplay Rec.1886 Standard -d float -o expected.exr
+oiiotool rec.png -d float -o shown.exr
+within shown.exr expected.exr 0.0021 "--display"
+exits 0 "$bin/dof-gather" in.exr -o space.png "${flat[@]}" --output-colorspace 'Gamma 2.2'
+differ space.png out.png "--output-colorspace of a PNG"
+
+# Coverage is written where there is any; the data window goes where it belongs in the display window.
+oiiotool --pattern constant:color=0.25,0.25,0.25,0.5,2 4x4 5 --chnames R,G,B,A,Z --origin +2+3 --fullsize 10x8 -d float \
+    -o half.exr
+exits 0 "$bin/dof-gather" half.exr -o half.png "${flat[@]}"
+oiiotool --info half.png | grep -q '10 x *8, 4 channel' || fail "half.png: $(oiiotool --info half.png)"
+oiiotool half.png -d float -o shown.exr
+oiiotool shown.exr --cut 1x1+3+4 --printstats | grep -q 'Stats Avg: 0.36.* 0.50' || # 0.735 times 0.5
+    fail "coverage: $(oiiotool shown.exr --cut 1x1+3+4 --printstats)"
+oiiotool shown.exr --cut 1x1+0+0 --printstats | grep -q 'Stats Max: 0.0* 0.0* 0.0* 0.0*' || fail "not black outside"
+
+# What cannot be.
+fails_saying 1 "no colour space 'nowhere'" "$bin/dof-gather" in.exr -o x.exr "${flat[@]}" --colorspace nowhere
+fails_saying 1 "no display 'wall'" "$bin/dof-gather" in.exr -o x.png "${flat[@]}" --display wall
+fails_saying 1 "'upside-down'" "$bin/dof-gather" in.exr -o x.png "${flat[@]}" --view-transform upside-down
+fails_saying 1 'gone.ocio.*--colorconfig' "$bin/dof-gather" in.exr -o x.exr "${flat[@]}" --colorconfig gone.ocio
+fails_saying 1 'gone.ocio.*OCIO' env OCIO=gone.ocio "$bin/dof-gather" in.exr -o x.exr "${flat[@]}"
+fails_saying 2 '--display' "$bin/dof-gather" in.exr -o x.exr "${flat[@]}" --display sRGB
+fails_saying 2 '--display' "$bin/dof-gather" in.exr -o x.png "${flat[@]}" --display sRGB --output-colorspace sRGB
+fails_saying 1 'x.png: needs the channels R, G and B' "$bin/dof-gather" in.exr -o x.png "${flat[@]}" --channels A
+fails_saying 1 'no/such/x.png' "$bin/dof-gather" in.exr -o no/such/x.png "${flat[@]}"
+[ ! -e x.exr ] && [ ! -e x.png ] || fail "a failure wrote something"

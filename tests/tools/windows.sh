@@ -1,0 +1,79 @@
+# Which pixels are made, and at which size: --region, --proxy, --overscan. And --holdout, which is put where it stands.
+#   bash windows.sh BIN_DIR
+. "$(dirname "$0")/check.sh"
+window() { exrheader "$1" | sed -nE "s/^$2 \(type box2i\): //p"; } # FILE dataWindow|displayWindow
+same() { idiff -q -fail 0 -warn 0 "$1" "$2" >idiff.txt || fail "$3 ($(cat idiff.txt))"; }
+expect_window() { [ "$(window "$1" "$2")" = "$3" ] || fail "$1: $2 $(window "$1" "$2"), not $3"; }
+
+exits 0 "$bin/dof-trace" fence --size 160x96 --views 0 --spp 2 --overscan 8 -o views
+exits 0 "$bin/ldi-warp" views/center.exr -o ldi.exr
+exits 0 "$bin/dof-gather" ldi.exr -o full.exr
+expect_window full.exr dataWindow '(-8 -8) - (167 103)'
+expect_window full.exr displayWindow '(0 0) - (159 95)'
+
+# --overscan crop: the display window; keep is the default.
+exits 0 "$bin/dof-gather" ldi.exr -o keep.exr --overscan keep
+same keep.exr full.exr "--overscan keep"
+exits 0 "$bin/dof-gather" ldi.exr -o crop.exr --overscan crop
+expect_window crop.exr dataWindow '(0 0) - (159 95)'
+oiiotool full.exr --crop 0,0,159,95 -o expected.exr
+same crop.exr expected.exr "--overscan crop"
+
+# --region: the same pixels, and only those; depth too.
+for method in lens selective; do
+    exits 0 "$bin/dof-gather" ldi.exr -o whole.exr --method $method
+    exits 0 "$bin/dof-gather" ldi.exr -o region.exr --method $method --region 70,20,99,200 --depth-out depth.exr
+    expect_window region.exr dataWindow '(70 20) - (99 103)'
+    expect_window region.exr displayWindow '(0 0) - (159 95)'
+    expect_window depth.exr dataWindow '(70 20) - (99 103)'
+    oiiotool whole.exr --crop 70,20,99,103 -o expected.exr
+    same region.exr expected.exr "--region, $method"
+done
+for box in 1,2,3 a,b,c,d 5,5,4,9 1,2,3,4,5 ''; do
+    fails_saying 2 '--region' "$bin/dof-gather" ldi.exr -o x.exr --region "$box"
+done
+fails_saying 2 'region holds no pixel' "$bin/dof-gather" ldi.exr -o x.exr --region 500,500,600,600
+
+# --proxy: without a lens the mean of the pixels; with one, what the large picture's mean is, but for the coarser samples.
+exits 0 "$bin/dof-gather" ldi.exr -o flat.exr --lens-radius 0 -d float
+exits 0 "$bin/dof-gather" ldi.exr -o small.exr --lens-radius 0 -d float --proxy 2
+expect_window small.exr dataWindow '(-4 -4) - (83 51)'
+expect_window small.exr displayWindow '(0 0) - (79 47)'
+oiiotool flat.exr --crop 0,0,159,95 --resize:filter=box 80x48 --ch R,G,B -o expected.exr
+oiiotool small.exr --crop 0,0,79,47 --ch R,G,B -o cut.exr
+idiff -q -fail 2e-4 -warn 2e-4 cut.exr expected.exr >idiff.txt || fail "--proxy 2 is not the mean ($(cat idiff.txt))"
+exits 0 "$bin/dof-gather" ldi.exr -o small.exr --proxy 2 --overscan crop
+oiiotool full.exr --crop 0,0,159,95 --resize:filter=box 80x48 -o expected.exr
+exits 0 "$bin/dof-compare" small.exr expected.exr --json
+psnr=$(sed -nE 's/.*"psnr_tonemapped": *([0-9.]+).*/\1/p' stdout | head -1)
+[ "${psnr%.*}" -ge 30 ] || fail "--proxy 2 is $psnr dB from the reduced picture"
+fails_saying 2 '--proxy' "$bin/dof-gather" ldi.exr -o x.exr --proxy 0
+
+# --overscan grow: an element whose data window is tight in an empty frame keeps its light, and its blur its shape.
+oiiotool --pattern constant:color=0.5,0.25,1,1,2 12x12 5 --chnames R,G,B,A,Z --origin +40+30 --fullsize 100x80 -d float \
+    -o element.exr
+lens=(--focal-length 50 --sensor-width 36 --lens-radius 0.05 --focus-distance 4 -d float) # CoC 1.7 px of 100
+exits 0 "$bin/dof-gather" element.exr -o tight.exr "${lens[@]}"
+expect_window tight.exr dataWindow '(40 30) - (51 41)'
+exits 0 "$bin/dof-gather" element.exr -o grown.exr "${lens[@]}" --overscan grow
+expect_window grown.exr dataWindow '(37 27) - (54 44)'
+oiiotool grown.exr --fullpixels --printstats >stats
+awk '/Stats Avg/ {found = 1; sum = $6 * 18 * 18; if (sum < 142 || sum > 146) exit 1} END {exit !found}' stats ||
+    fail "--overscan grow does not keep the light: $(cat stats)"
+
+# --holdout: what is behind it goes, at its edge from one pixel to the next; what is in front stays.
+oiiotool --pattern constant:color=0.5,0.5,0.5,1,20 40x20 5 --chnames R,G,B,A,Z -d float -o wall.exr
+oiiotool --pattern constant:color=1,0,0,1,3 20x20 5 --chnames R,G,B,A,Z --fullsize 40x20 -d float --deepen -o card.exr
+exits 0 "$bin/dof-gather" wall.exr -o free.exr "${lens[@]}"
+exits 0 "$bin/dof-gather" wall.exr -o held.exr "${lens[@]}" --holdout card.exr
+oiiotool free.exr --fill:color=0,0,0,0 20x20+0+0 -o expected.exr
+idiff -q -fail 1e-5 -warn 1e-5 held.exr expected.exr >idiff.txt || fail "--holdout ($(cat idiff.txt))"
+exits 0 "$bin/dof-gather" wall.exr -o held.exr --lens-radius 0 -d float --holdout card.exr
+oiiotool wall.exr --ch R,G,B,A --fill:color=0,0,0,0 20x20+0+0 -o expected.exr
+same held.exr expected.exr "--holdout without a lens"
+exits 0 "$bin/dof-gather" card.exr -o front.exr "${lens[@]}"
+exits 0 "$bin/dof-gather" card.exr -o held.exr "${lens[@]}" --holdout wall.exr
+same held.exr front.exr "--holdout hides what is in front of it"
+fails_saying 2 '--holdout' "$bin/dof-gather" wall.exr -o x.exr "${lens[@]}" --holdout card.exr --method scatter
+fails_saying 1 'element.exr.*display window' "$bin/dof-gather" wall.exr -o x.exr "${lens[@]}" --holdout element.exr
+[ ! -e x.exr ] || fail "a failure wrote x.exr"
