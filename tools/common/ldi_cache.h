@@ -25,8 +25,8 @@ struct InputLdi {
 
 class LdiCache {
 public:
-    // load_ldi() and keep_channels() where the last file was another or was read otherwise. Warns of bad values then. What was
-    // returned before is gone.
+    // load_ldi() and keep_channels() where the last file was another or was read otherwise. Warns of bad
+    // values then. What was returned before is gone.
     InputLdi load(const std::string &path, const std::string &channels, const LensOptions &lens,
                   const DepthOptions &depth, const ToolContext &tool);
 
