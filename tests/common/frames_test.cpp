@@ -95,6 +95,17 @@ TEST(FrameCommands, WithoutNumbersTheFilesOnDiskGiveThem) {
     EXPECT_THROW(FrameCommands({folder.file("in.x.exr"), "-o", "x.####.exr"}), UsageError);
 }
 
+TEST(FrameCommands, FramesDoNotShareAnOutput) {
+    for (const Words &output :
+         {Words{"-o", "out.exr"}, Words{"--output=out.exr"}, Words{"--depth-out", "-"}}) {
+        Words words{"in.#.exr", "--frames", "1-2"};
+        words.insert(words.end(), output.begin(), output.end());
+        EXPECT_THROW(FrameCommands{words}, UsageError) << output[0];
+        words[2] = "2";
+        EXPECT_EQ(FrameCommands(words).size(), 1u);
+    }
+}
+
 // Names are names: a file that is called like a sequence is that file, unless --frames is given.
 TEST(FrameCommands, AFileOfThatNameIsThatFile) {
     const ScratchFolder folder;

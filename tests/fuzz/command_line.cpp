@@ -1,5 +1,6 @@
 // Any words as a command line: the options that the tools share.
 #include "common/channels.h"
+#include "common/frames.h"
 #include "common/lens_options.h"
 #include "common/picture_options.h"
 #include "common/tool.h"
@@ -42,6 +43,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
     std::istringstream in(std::string(reinterpret_cast<const char *>(data), size));
     std::vector<std::string> words{"fuzz"};
     for (std::string word; std::getline(in, word);) words.push_back(word);
+    fuzz::may_fail([&] {
+        const FrameCommands frames({words.begin() + 1, words.end()});
+        for (const std::size_t i : {std::size_t(0), frames.size() - 1})
+            if (frames.words(i).size() != words.size() - 1) __builtin_trap();
+    });
     std::vector<char *> arguments;
     for (std::string &word : words) arguments.push_back(word.data());
     Options options;

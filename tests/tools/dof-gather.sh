@@ -11,7 +11,7 @@ layered views/center.exr center.exr
 for i in 0 1 2 3; do layered views/view_$i.exr view_$i.exr; done
 exits 0 "$bin/ldi-warp" center.exr view_?.exr -o ldi.exr
 exits 0 "$bin/ldi-warp" center.exr view_?.exr --merge keep -o keep.exr
-oiiotool keep.exr --eraseattrib focus --eraseattrib worldtoNDC --eraseattrib FNumber --eraseattrib 'pinhole.*' \
+oiiotool keep.exr --eraseattrib focus --eraseattrib FNumber --eraseattrib worldToNDC --eraseattrib 'pinhole.*' \
     --eraseattrib 'sparselens:.*' -o nolens.exr
 
 # What it writes: the centre view's windows, its channels as half, the camera; no depth.

@@ -87,6 +87,7 @@ for text in '--frames abc' '--frames 1-' '--frames 1-2000000' '--frames 1-3 --fo
 done
 fails_saying 2 'wrong.#.exr stands for a sequence.*--frames' "$gather" ldi.exr -o wrong.#.exr
 fails_saying 2 'wrong.1-2#.exr has 2 frames, not 3' "$gather" a.1-3#.exr -o wrong.1-2#.exr
+fails_saying 2 'wrong.exr would be written 3 times' "$gather" ldi.exr -o wrong.exr --frames 1-3
 fails_saying 2 'no.####.exr stands for a sequence' "$gather" no.####.exr -o wrong.exr
 [ "$(count 'wrong*')" -eq 0 ] || fail "wrong usage writes $(ls wrong*)"
 cp ldi.exr 'take#2.exr'

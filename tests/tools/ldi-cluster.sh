@@ -7,7 +7,7 @@ answers_help ldi-cluster in.exr -o out.exr
 
 exits 0 "$bin/ldi-warp" views/center.exr "${rim[@]}" -o ldi.exr
 exits 0 "$bin/ldi-warp" views/center.exr "${rim[@]}" --merge keep -o keep.exr
-oiiotool ldi.exr --eraseattrib focus --eraseattrib worldtoNDC --eraseattrib FNumber --eraseattrib 'pinhole.*' \
+oiiotool ldi.exr --eraseattrib focus --eraseattrib FNumber --eraseattrib worldToNDC --eraseattrib 'pinhole.*' \
     --eraseattrib 'sparselens:.*' -o nolens.exr
 
 # most FILE: the largest number of samples in a pixel; total FILE: the number of all.

@@ -152,6 +152,10 @@ FrameCommands::FrameCommands(const std::vector<std::string> &words) {
         if (!word.own_numbers.empty() && word.own_numbers.size() != numbers_.size())
             throw UsageError(word.value + " has " + std::to_string(word.own_numbers.size()) +
                              " frames, not " + std::to_string(numbers_.size()));
+    for (const Word &word : words_)
+        if (word.is_output && !word.is_sequence && size() > 1)
+            throw UsageError(word.value + " would be written " + std::to_string(size()) +
+                             " times: put #### into its name");
     if (is_range()) this->words(0); // says what is wrong with keys
 }
 

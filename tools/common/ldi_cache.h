@@ -26,8 +26,8 @@ struct InputLdi {
 
 class LdiCache {
 public:
-    // load_ldi(), to_scene_linear() and keep_channels() where the last file was another or was read otherwise. Warns of bad values then. What was
-    // returned before is gone.
+    // load_ldi(), to_scene_linear() and keep_channels() where the last file was another or was read otherwise; warns
+    // of bad values then. What was returned before is gone.
     InputLdi load(const std::string &path, const std::string &channels, const LensOptions &lens,
                   const DepthOptions &depth, const ColourOptions &colour, const ToolContext &tool);
 

@@ -19,8 +19,8 @@ struct ProcessOptions {
 // --version, -v, --threads, --max-memory, --man, --completion.
 void add_process_options(CLI::App &app, ProcessOptions &options);
 
-// Reads the words. Nothing where there is work to do, else the exit code: --help and the like are answered, a wrong
-// usage is said (`where`: of which frame, or "").
+// Reads the words. Nothing where there is work to do, else the exit code: --help and the like are answered, a
+// wrong usage is said (`where`: of which frame, or "").
 std::optional<int> parse_words(CLI::App &app, const std::vector<std::string> &words,
                                const std::string &where = "");
 

@@ -27,7 +27,8 @@ int overall_percent(const FrameCount &frames, int percent);
 // The line that tells a farm; no line feed.
 std::string progress_line(ProgressFormat format, const std::string &tool_name, int percent);
 
-// On stderr: standard output may be the picture, and farms read both. For a farm, percents of all frames that only grow.
+// On stderr: standard output may be the picture, and farms read both. For a farm, percents of all frames that
+// only grow.
 std::unique_ptr<Progress> progress_of(ProgressFormat format, const std::string &tool_name, FrameCount frames);
 
 } // namespace sparselens

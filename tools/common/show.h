@@ -1,4 +1,5 @@
-// --show: a picture of what the tool understood, in false colours (dof/false_colour.h), in place of the gathered one.
+// --show: a picture of what the tool understood, in false colours (dof/false_colour.h), in place of the
+// gathered one.
 #pragma once
 
 #include "dof/lens_tiles.h"

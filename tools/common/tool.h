@@ -30,8 +30,9 @@ using Job = std::function<void(const ToolContext &)>;
 // 0 done, 1 failed (Error, memory, any exception), 2 wrong usage (CLI11's errors, UsageError).
 int run_tool(CLI::App &app, int argc, char **argv, const Job &job);
 
-// The same for each frame of a range (frames.h), with --frames, --skip-bad-frames, -u, --progress and --stats. `prepare` adds the
-// tool's options to an app and returns what does the work they ask for; it is called anew for every frame.
+// The same for each frame of a range (frames.h), with --frames, --skip-bad-frames, -u, --progress and
+// --stats. `prepare` adds the tool's options to an app and returns what does the work they ask for; it is
+// called anew for every frame.
 using Prepare = std::function<Job(CLI::App &)>;
 int run_frames(const std::string &name, const std::string &description, int argc, char **argv,
                const Prepare &prepare);
