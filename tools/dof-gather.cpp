@@ -7,6 +7,8 @@
 #include "common/ldi_cache.h"
 #include "common/picture_options.h"
 #include "common/pictures.h"
+#include "common/show.h"
+#include "common/stats.h"
 #include "common/tool.h"
 #include "common/window_options.h"
 #include "common/words.h"
@@ -31,6 +33,7 @@ struct Options {
     std::string input, output, depth_output, channels, holdout;
     std::optional<Imath::V2i> focus_pixel;
     bool as_float = false;
+    Show show = Show::picture;
 };
 
 void add_options(CLI::App &app, Options &options) {
@@ -64,6 +67,7 @@ void add_options(CLI::App &app, Options &options) {
     app.add_option("--channels", options.channels, "Channels or layers to gather, comma-separated (all)")
         ->type_name("LIST");
     add_type_option(app, options.as_float);
+    add_show_option(app, options.show);
     add_lens_options(app, options.lens);
     add_depth_options(app, options.depth);
     add_input_colour_options(app, options.colour);
@@ -88,11 +92,15 @@ void warn_if_wider_than_views(const ToolContext &tool, const ThinLens &lens, con
 }
 
 // What the method makes of the LDI; without a lens, the LDI flattened.
-Image gathered(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window, const Options &options,
-               const GatherOptions &by, const ToolContext &tool) {
-    const Holdout *holdout = by.lens.holdout;
-    if (lens.radius == 0) return crop(holdout ? flatten_held_out(ldi, *holdout) : flatten(ldi), window);
-    return options.method->gather(ldi, lens, window, by, *tool.progress);
+Image gathered(const Options &options, const Ldi &ldi, const ThinLens &lens, const Frame &frame,
+               const std::optional<Holdout> &holdout, const ToolContext &tool, LensTiles &tiles) {
+    if (lens.radius == 0)
+        return crop(holdout ? flatten_held_out(ldi, *holdout) : flatten(ldi), frame.written);
+    GatherOptions by = options.gather;
+    by.lens.region = frame.written;
+    by.lens.holdout = holdout ? &*holdout : nullptr;
+    by.lens.chosen = &tiles;
+    return crop(options.method->gather(ldi, lens, frame.gathered, by, *tool.progress), frame.written);
 }
 
 void run(const Options &options, const ToolContext &tool, LdiCache &cache) {
@@ -100,6 +108,8 @@ void run(const Options &options, const ToolContext &tool, LdiCache &cache) {
         throw UsageError("--depth-out and --output name the same file: " + options.output);
     if (!options.holdout.empty() && options.method != &gather_methods().front())
         throw UsageError("--holdout works with --method lens only");
+    if (options.show == Show::tiles && options.method != &gather_methods().front())
+        throw UsageError("--show tiles: only --method lens works by tiles");
     InputLdi in =
         cache.load(options.input, options.channels, options.lens, options.depth, options.colour, tool);
     say_camera(tool, options.input, in.camera);
@@ -110,16 +120,20 @@ void run(const Options &options, const ToolContext &tool, LdiCache &cache) {
         load_holdout(options.holdout, in.ldi.windows, options.windows.proxy, options.lens, options.depth);
     const Frame frame = frame_of(options.windows, read_picture_window(in.header), in.ldi, lens);
     const Ldi &ldi = frame.changed ? *frame.changed : in.ldi;
-    GatherOptions by = options.gather;
-    by.lens.region = frame.written;
-    by.lens.holdout = holdout ? &*holdout : nullptr;
-    Image picture = crop(gathered(ldi, lens, frame.gathered, options, by, tool), frame.written);
+    LensTiles tiles;
+    Image picture;
+    if (needs_gather(options.show))
+        picture =
+            chosen_channels(gathered(options, ldi, lens, frame, holdout, tool, tiles), options.channels);
+    if (options.show != Show::picture)
+        picture = crop(shown(options.show, ldi, lens, frame.gathered, tiles), frame.written);
     write_camera(in.header, in.camera);
     if (!options.depth_output.empty())
         write_flat_exr(options.depth_output, crop(front_depth(ldi), frame.written), in.header);
-    picture = in_type(chosen_channels(std::move(picture), options.channels), options.as_float);
+    picture = in_type(std::move(picture), options.as_float);
     warn_of_clamped(tool, options.output,
                     write_picture(tool, options.colour, options.output, std::move(picture), in.header));
+    write_stats(tool, gather_stats(in, tiles));
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 // Fewer samples a pixel: ldi-cluster IN.exr -o OUT.exr [--tolerance PX] [--layers K] [lens options]
 #include "base/error.h"
 #include "common/pictures.h"
+#include "common/stats.h"
 #include "common/tool.h"
 #include "io/camera_metadata.h"
 #include "ldi/cluster.h"
@@ -56,6 +57,7 @@ void run(const Options &options, const ToolContext &tool) {
                     : ", by inverse depth alone: the lens is unknown"));
     write_camera(in.header, in.camera);
     warn_of_clamped(tool, options.output, write_ldi(options.output, out.ldi, in.header));
+    write_stats(tool, cluster_stats(in, out));
 }
 
 } // namespace

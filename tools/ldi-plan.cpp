@@ -1,5 +1,6 @@
 // What is worth rendering: ldi-plan CENTER.exr [lens options] [--views N] [--margin PX] -o PLAN.json [--masks DIR]
 #include "common/pictures.h"
+#include "common/stats.h"
 #include "common/tool.h"
 #include "io/plan_file.h"
 #include "ldi/plan.h"
@@ -69,6 +70,7 @@ void run(const Options &options, const ToolContext &tool) {
     const ThinLens lens = resolve_lens(options.lens, camera, windows);
     const Plan plan = make_plan(centre.view, lens, options.plan, *tool.progress);
     write_plan(options.output, plan, {options.centre, windows, lens, options.plan.margin}, options.masks);
+    write_stats(tool, plan_stats(plan, options.plan.views, windows));
     summarise(plan, centre.view, options.output == "-" ? stderr : stdout);
 }
 

@@ -2,6 +2,7 @@
 #include "base/error.h"
 #include "common/colour_options.h"
 #include "common/pictures.h"
+#include "common/stats.h"
 #include "common/tool.h"
 #include "common/view_list.h"
 #include "common/words.h"
@@ -95,6 +96,7 @@ void run(const Options &options, const ToolContext &tool) {
     tool.say(std::to_string(loaded.views.size()) + " views, " + std::to_string(ldi.samples()) +
              " samples in " + std::to_string(ldi.windows.pixels()) + " pixels");
     warn_of_clamped(tool, options.output, write_ldi(options.output, ldi, loaded.header));
+    write_stats(tool, warp_stats(loaded.views, ldi));
 }
 
 } // namespace

@@ -153,6 +153,16 @@ void for_each_pixel(const Imath::V2i &corner, const Windows &windows, const Visi
         for (int x = 0; x < LensTile::size && corner.x + x < windows.width(); ++x) visit(x, y);
 }
 
+// None has lens points yet.
+LensTiles tiles_of(const Windows &windows) {
+    LensTiles tiles{LensTile::size,
+                    (windows.width() + LensTile::size - 1) / LensTile::size,
+                    (windows.height() + LensTile::size - 1) / LensTile::size,
+                    {}};
+    tiles.lens_points.resize(std::size_t(tiles.columns) * std::size_t(tiles.rows), 0);
+    return tiles;
+}
+
 // Ids cannot be averaged: each pixel keeps its front sample's.
 std::vector<std::size_t> averaged_channels(const Image &image) {
     std::vector<std::size_t> averaged;
@@ -170,6 +180,8 @@ Image lens_gather(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &wind
     const auto sharp = [](const SampleBlock &block) {
         return block.begin == block.end || largest_coc_of(block) < in_focus;
     };
+    LensTiles chosen = tiles_of(out.windows);
+    if (options.chosen) *options.chosen = chosen;
     if (std::ranges::all_of(samples.blocks, sharp)) return out;
     SampleColours colours = make_colours(ldi, samples);
     sharpen_near_focus(ldi, lens, samples, colours);
@@ -179,14 +191,13 @@ Image lens_gather(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &wind
     LensSets sets(options, lens.pixel_aspect);
     const HeldOut held_out{options.holdout, perceptive_depth(lens, 1), ldi.windows.data.min};
     const Windows &windows = out.windows;
-    const int columns = (windows.width() + LensTile::size - 1) / LensTile::size;
-    const int rows = (windows.height() + LensTile::size - 1) / LensTile::size;
     const std::vector<std::size_t> gathered = averaged_channels(out);
-    progress.start("gathering", std::size_t(columns) * std::size_t(rows));
+    progress.start("gathering", chosen.lens_points.size());
     tbb::enumerable_thread_specific<LensTile> tiles(
         [&] { return LensTile(samples, colours, highlights, held_out); });
-    parallel_for(std::size_t(columns) * std::size_t(rows), [&](std::size_t t) {
-        const Imath::V2i corner(int(t) % columns * LensTile::size, int(t) / columns * LensTile::size);
+    parallel_for(chosen.lens_points.size(), [&](std::size_t t) {
+        const Imath::V2i corner =
+            Imath::V2i(int(t) % chosen.columns, int(t) / chosen.columns) * LensTile::size;
         const Imath::V2i first = corner + window.min;
         const Imath::Box2i pixels(first, first + Imath::V2i(LensTile::size - 1));
         if (options.region && !options.region->intersects(pixels)) return progress.advance();
@@ -196,6 +207,7 @@ Image lens_gather(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &wind
         progress.advance();
         if (largest < in_focus) return; // the flattened LDI is there already
         const LensSets::Set &set = sets.for_coc(largest);
+        chosen.lens_points[t] = int(set.points.size());
         LensTile &tile = tiles.local();
         tile.gather(
             origin, blocks, set.points,
@@ -206,6 +218,7 @@ Image lens_gather(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &wind
                 out.at(k, window.min.x + corner.x + x, window.min.y + corner.y + y) = tile.value(x, y, k);
         });
     });
+    if (options.chosen) *options.chosen = std::move(chosen);
     return out;
 }
 

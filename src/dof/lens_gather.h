@@ -7,6 +7,7 @@
 
 #include "base/image.h"
 #include "base/progress.h"
+#include "dof/lens_tiles.h"
 #include "ldi/holdout.h"
 #include "ldi/ldi.h"
 #include "lens/thin_lens.h"
@@ -22,6 +23,7 @@ struct LensGatherOptions {
     int lens_samples = 0; // points in every tile; 0: by the quality and what the tile needs
     std::optional<Imath::Box2i> region = {}; // tiles beside it stay as they were rendered
     const Holdout *holdout = nullptr;        // holds the picture out
+    LensTiles *chosen = nullptr;             // where given: is told what was chosen
 };
 
 // Pixels `window` (EXR coordinates, within the LDI's data window), channels of the LDI. In `window` an empty

@@ -12,7 +12,7 @@ for i in 0 1 2 3; do layered views/view_$i.exr view_$i.exr; done
 exits 0 "$bin/ldi-warp" center.exr view_?.exr -o ldi.exr
 exits 0 "$bin/ldi-warp" center.exr view_?.exr --merge keep -o keep.exr
 oiiotool keep.exr --eraseattrib focus --eraseattrib FNumber --eraseattrib 'pinhole.*' \
-    --eraseattrib 'sparselens:.*' -o nolens.exr
+    --eraseattrib 'sparselens:.*' --eraseattrib worldToNDC -o nolens.exr
 
 # What it writes: the centre view's windows, its channels as half, the camera; no depth.
 exits 0 "$gather" ldi.exr -o out.exr
@@ -104,6 +104,30 @@ fails_saying 2 "'depth'" "$gather" ldi.exr -o x.exr --channels R,depth
 oiiotool out.exr --ch copy.R,copy.G --chnames R,G -o a.exr
 oiiotool out.exr --ch R,G -o b.exr
 idiff -q -fail 0 -warn 0 a.exr b.exr || fail "a copy of red is not gathered as red is"
+
+# --show: what the tool understood, in colours; the picture is not gathered.
+pixel() { oiiotool "$1" --cut "1x1+$2+$3" --printstats | sed -nE 's/.*Stats Avg: ([0-9. ]+).*/\1/p'; }
+for what in coc focus layers tiles; do
+    exits 0 "$gather" ldi.exr -o show.$what.exr --show $what -d float
+    [ "$(names show.$what.exr)" = "A B G R " ] || fail "--show $what has $(names show.$what.exr)"
+    says show.$what.exr '^dataWindow .*\(0 0\) - \(95 53\)'
+    differ show.$what.exr out.exr "--show $what"
+done
+exits 0 "$gather" keep.exr -o x.exr --lens-radius 0 --show coc
+pixel x.exr 40 30 | grep -qE '^1(\.0+)? 1(\.0+)? 1(\.0+)? 1' || fail "a pinhole has no blur: $(pixel x.exr 40 30)"
+exits 0 "$gather" ldi.exr -o x.exr --show coc --focus-distance 1
+pixel x.exr 1 0 | awk '{ exit !($1 == 1 && $3 < 1) }' || fail "the wall is behind focus: $(pixel x.exr 1 0)"
+exits 0 "$gather" ldi.exr -o x.exr --show coc --focus-distance 1000
+pixel x.exr 1 0 | awk '{ exit !($3 == 1 && $1 < 1) }' || fail "the wall is in front of focus: $(pixel x.exr 1 0)"
+exits 0 "$gather" ldi.exr -o x.exr --show focus --focus-distance 18
+pixel x.exr 1 0 | awk '{ exit !($2 > 0.49) }' || fail "the wall is in focus: $(pixel x.exr 1 0)"
+exits 0 "$gather" center.exr -o x.exr --show layers
+pixel x.exr 1 0 | grep -qE '^0\.50*[ ]' || fail "a flat picture has one layer: $(pixel x.exr 1 0)"
+exits 0 "$gather" ldi.exr -o x.exr --show tiles --lens-samples 256
+pixel x.exr 1 0 | grep -qE '^0(\.0+)? 1(\.0+)? 0' || fail "256 lens points are green: $(pixel x.exr 1 0)"
+fails_saying 2 '--show tiles' "$gather" ldi.exr -o y.exr --show tiles --method selective
+fails_saying 2 '--show.*coc' "$gather" ldi.exr -o y.exr --show me
+rm x.exr
 
 # -d float is what -d half was rounded from.
 exits 0 "$gather" ldi.exr -o float.exr -d float

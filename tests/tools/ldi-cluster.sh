@@ -8,7 +8,7 @@ answers_help ldi-cluster in.exr -o out.exr
 exits 0 "$bin/ldi-warp" views/center.exr "${rim[@]}" -o ldi.exr
 exits 0 "$bin/ldi-warp" views/center.exr "${rim[@]}" --merge keep -o keep.exr
 oiiotool ldi.exr --eraseattrib focus --eraseattrib FNumber --eraseattrib 'pinhole.*' \
-    --eraseattrib 'sparselens:.*' -o nolens.exr
+    --eraseattrib 'sparselens:.*' --eraseattrib worldToNDC -o nolens.exr
 
 # most FILE: the largest number of samples in a pixel; total FILE: the number of all.
 counts() { oiiotool --dumpdata "$1" | sed -nE 's/^ *Pixel .*: ([0-9]+) samples.*/\1/p'; }

@@ -79,7 +79,7 @@ same verbose.exr average.exr "-v"
 # Every lens option changes the LDI or what it says.
 lens=(--focal-length 36 --sensor-width 36 --lens-radius 0.06 --focus-distance 5 --scene-unit 1)
 oiiotool $center --eraseattrib focus --eraseattrib FNumber --eraseattrib 'pinhole.*' \
-    --eraseattrib 'sparselens:.*' -o nolens.exr
+    --eraseattrib 'sparselens:.*' --eraseattrib worldToNDC -o nolens.exr
 exits 0 "$warp" nolens.exr "${placed[@]}" "${lens[@]}" -o lens.exr
 changed() { # OPTION VALUE: instead of the one above
     local arguments=() i

@@ -2,7 +2,7 @@
 # Every option of every tool is in --help, in the manual page, in the completion, and in a script that tests it.
 . "$(dirname "$0")/check.sh"
 scripts=$source_dir/tests/tools
-shared=("$scripts/check.sh" "$scripts/frames.sh" "$scripts/hostile.sh" "$scripts/options.sh") # for options that tools share
+shared=("$scripts/check.sh" "$scripts/frames.sh" "$scripts/hostile.sh" "$scripts/options.sh" "$scripts/stats.sh") # for options that tools share
 
 # tested OPTION TOOL: the tool's script has it, or one for options that tools share, or a line that runs the tool.
 tested() {

@@ -10,6 +10,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace sparselens {
 
@@ -17,7 +18,10 @@ namespace sparselens {
 struct InputLdi {
     const Ldi &ldi; // tidy; the cache's
     Imf::Header header;
-    Camera camera; // of the header, with the options over it
+    Camera camera;                                     // of the header, with the options over it
+    bool read_now;                                     // not left from an earlier frame
+    std::size_t invisible;                             // see LoadedLdi
+    const std::vector<std::string> &channels_left_out; // the cache's
 };
 
 class LdiCache {

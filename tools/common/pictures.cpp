@@ -18,11 +18,12 @@ namespace {
 class DepthReader {
 public:
     DepthReader(const Windows &windows, const DepthOptions &depth, const Camera &camera)
-        : windows_(windows), meaning_(depth.meaning),
+        : windows_(windows), meaning_(depth.meaning), far_(depth.far),
           focal_px_(meaning_ == DepthMeaning::distance ? resolve_focal_px(camera, windows) : 1) {}
 
     // Of the i-th pixel of the data window; what is no depth stays none (see bad_values.h).
     float planar(float value, std::size_t i) const {
+        if (is_sky(meaning_, double(value), far_)) return std::numeric_limits<float>::infinity();
         if (meaning_ == DepthMeaning::planar) return value;
         const Imath::V2i p = pixel(i);
         return float(planar_depth(meaning_, double(value), p.x, p.y, windows_, focal_px_));
@@ -36,6 +37,7 @@ private:
 
     const Windows &windows_;
     DepthMeaning meaning_;
+    double far_;
     double focal_px_;
 };
 
@@ -52,7 +54,10 @@ LoadedLdi load_ldi(const std::string &path, const LensOptions &lens, const Depth
             if (!ldi.z_back.empty()) ldi.z_back[i] = read.planar(ldi.z_back[i], pixel);
         }
     const BadValues bad = repair_bad_values(ldi, display_name(path));
-    return {tidy(std::move(ldi)), std::move(file.header), camera, bad};
+    const std::size_t in_file = ldi.samples();
+    ldi = tidy(std::move(ldi));
+    const std::size_t invisible = in_file - std::min(in_file, ldi.samples());
+    return {std::move(ldi), std::move(file.header), camera, bad, invisible};
 }
 
 std::optional<Holdout> load_holdout(const std::string &path, const Windows &windows, int proxy_factor,

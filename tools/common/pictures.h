@@ -23,6 +23,8 @@ struct LoadedLdi {
     Imf::Header header;
     Camera camera; // of the header, with the options over it
     BadValues bad;
+    std::size_t invisible =
+        0; // samples of the file that show nothing, or are one with another: tidy() left them out
 };
 
 LoadedLdi load_ldi(const std::string &path, const LensOptions &lens, const DepthOptions &depth);

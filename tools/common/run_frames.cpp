@@ -14,6 +14,7 @@ namespace {
 
 struct FrameOptions {
     std::string frames; // read by FrameCommands
+    std::string stats;
     bool skip_bad_frames = false, update = false;
     ProgressFormat progress = ProgressFormat::terminal;
 };
@@ -29,6 +30,9 @@ void add_frame_options(CLI::App &app, FrameOptions &options) {
     app.add_flag("-u,--update", options.update,
                  "Leave frames alone whose output is complete and newer than its input")
         ->group("Frames");
+    app.add_option("--stats", options.stats,
+                   "Append a line of JSON: what was left out, as the picture did not need it; - is stderr")
+        ->type_name("FILE");
     const std::map<std::string, ProgressFormat> formats{
         {"plain", ProgressFormat::plain}, {"alf", ProgressFormat::alf}, {"openjd", ProgressFormat::openjd}};
     app.add_option("--progress", options.progress, "Progress lines for a farm, on stderr (none)")
@@ -61,6 +65,7 @@ std::string frame_name(const FrameCommands &commands, std::size_t i) {
 void run_frame(const FrameCommand &command, ToolContext &tool, FrameCount count) {
     const ProgressFormat format = command.frames.progress;
     tool.progress = progress_of(format, tool.tool_name, count);
+    tool.stats = command.frames.stats;
     if (command.frames.update && is_up_to_date(command.app))
         tool.say("is up to date: " + command.app.get_option("--output")->as<std::string>());
     else
@@ -88,14 +93,15 @@ int run_frames(const std::string &name, const std::string &description, int argc
     for (std::size_t i = 0; i < count; ++i)
         if (const auto answered = parse(i, i == 0 ? first : command)) return *answered;
 
-    ToolContext tool{.threads = first->process.threads,
-                     .verbose = first->process.verbose,
-                     .progress = {},
-                     .tool_name = name};
+    ToolContext tool;
+    tool.tool_name = name;
+    tool.threads = first->process.threads;
+    tool.verbose = first->process.verbose;
     const Process process(first->process, tool);
     int worst = 0;
     for (std::size_t i = 0; i < count; ++i) {
         parse(i, command);
+        if (commands->is_range()) tool.frame = commands->number(i);
         code = exit_code_of(name, frame_name(*commands, i), [&] { run_frame(*command, tool, {i, count}); });
         worst = std::max(worst, code);
         if (code > 1 || (code == 1 && !first->frames.skip_bad_frames)) break;

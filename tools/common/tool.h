@@ -7,6 +7,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace sparselens {
@@ -15,6 +16,8 @@ struct ToolContext {
     int threads = 0;                    // 0 = all the process may use
     bool verbose = false;               // say on stderr what was found and done
     std::unique_ptr<Progress> progress; // never null
+    std::string stats;                  // where write_stats() writes; empty: nowhere
+    std::optional<int> frame;           // of a range
 
     // Printed to stderr with the tool's name in front, where --verbose asks for it.
     void say(const std::string &line) const;
@@ -27,7 +30,7 @@ using Job = std::function<void(const ToolContext &)>;
 // 0 done, 1 failed (Error, memory, any exception), 2 wrong usage (CLI11's errors, UsageError).
 int run_tool(CLI::App &app, int argc, char **argv, const Job &job);
 
-// The same for each frame of a range (frames.h), with --frames, --skip-bad-frames, -u and --progress. `prepare` adds the
+// The same for each frame of a range (frames.h), with --frames, --skip-bad-frames, -u, --progress and --stats. `prepare` adds the
 // tool's options to an app and returns what does the work they ask for; it is called anew for every frame.
 using Prepare = std::function<Job(CLI::App &)>;
 int run_frames(const std::string &name, const std::string &description, int argc, char **argv,

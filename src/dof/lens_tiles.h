@@ -1,0 +1,18 @@
+// What the lens gather chose for each tile of its window: how many lens points, or none.
+#pragma once
+
+#include <map>
+#include <vector>
+
+namespace sparselens {
+
+struct LensTiles {
+    int size = 64;                // pixels wide and high; less at the right and lower edge
+    int columns = 0, rows = 0;    // from the window's upper left corner
+    std::vector<int> lens_points; // [row][column]; 0: nothing is out of focus, the flattened LDI is copied
+};
+
+// How many tiles have so many lens points.
+std::map<int, int> histogram(const LensTiles &tiles);
+
+} // namespace sparselens
