@@ -92,20 +92,24 @@ void warn_if_wider_than_views(const ToolContext &tool, const ThinLens &lens, con
 }
 
 // What the method makes of the LDI; without a lens, the LDI flattened.
-Image gathered(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window, const Options &options,
-               const GatherOptions &by, const ToolContext &tool) {
-    const Holdout *holdout = by.lens.holdout;
-    if (lens.radius == 0) return crop(holdout ? flatten_held_out(ldi, *holdout) : flatten(ldi), window);
-    return options.method->gather(ldi, lens, window, by, *tool.progress);
+Image gathered(const Options &options, const Ldi &ldi, const ThinLens &lens, const Frame &frame,
+               const std::optional<Holdout> &holdout, const ToolContext &tool, LensTiles &tiles) {
+    if (lens.radius == 0)
+        return crop(holdout ? flatten_held_out(ldi, *holdout) : flatten(ldi), frame.written);
+    GatherOptions by = options.gather;
+    by.lens.region = frame.written;
+    by.lens.holdout = holdout ? &*holdout : nullptr;
+    by.lens.chosen = &tiles;
+    return crop(options.method->gather(ldi, lens, frame.gathered, by, *tool.progress), frame.written);
 }
 
 void run(const Options &options, const ToolContext &tool, LdiCache &cache) {
     if (options.depth_output == options.output)
         throw UsageError("--depth-out and --output name the same file: " + options.output);
-    const bool by_tiles = options.method == &gather_methods().front();
-    if (options.show == Show::tiles && !by_tiles)
+    if (!options.holdout.empty() && options.method != &gather_methods().front())
+        throw UsageError("--holdout works with --method lens only");
+    if (options.show == Show::tiles && options.method != &gather_methods().front())
         throw UsageError("--show tiles: only --method lens works by tiles");
-    if (!options.holdout.empty() && !by_tiles) throw UsageError("--holdout works with --method lens only");
     InputLdi in =
         cache.load(options.input, options.channels, options.lens, options.depth, options.colour, tool);
     say_camera(tool, options.input, in.camera);
@@ -117,18 +121,16 @@ void run(const Options &options, const ToolContext &tool, LdiCache &cache) {
     const Frame frame = frame_of(options.windows, read_picture_window(in.header), in.ldi, lens);
     const Ldi &ldi = frame.changed ? *frame.changed : in.ldi;
     LensTiles tiles;
-    GatherOptions by = options.gather;
-    by.lens.chosen = &tiles;
-    by.lens.region = frame.written;
-    by.lens.holdout = holdout ? &*holdout : nullptr;
     Image picture;
     if (needs_gather(options.show))
-        picture = chosen_channels(gathered(ldi, lens, frame.gathered, options, by, tool), options.channels);
-    if (options.show != Show::picture) picture = shown(options.show, ldi, lens, frame.gathered, tiles);
-    picture = in_type(crop(picture, frame.written), options.as_float);
+        picture =
+            chosen_channels(gathered(options, ldi, lens, frame, holdout, tool, tiles), options.channels);
+    if (options.show != Show::picture)
+        picture = crop(shown(options.show, ldi, lens, frame.gathered, tiles), frame.written);
     write_camera(in.header, in.camera);
     if (!options.depth_output.empty())
         write_flat_exr(options.depth_output, crop(front_depth(ldi), frame.written), in.header);
+    picture = in_type(std::move(picture), options.as_float);
     warn_of_clamped(tool, options.output,
                     write_picture(tool, options.colour, options.output, std::move(picture), in.header));
     write_stats(tool, gather_stats(in, tiles));

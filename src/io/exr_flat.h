@@ -19,7 +19,8 @@ struct FlatFile {
     std::uint64_t file_size = 0; // bytes: what it may ask memory for, see check_memory()
 };
 
-// The first part that holds flat pixels, all its channels.
+// The flat parts of the file's first view as one picture: the beauty (by its part's name, else the first part), then
+// all others of its windows, a channel whose name is taken as one of its part's layer.
 FlatFile read_flat_exr(const std::string &path);
 Imf::Header read_flat_header(const std::string &path); // of that part, without reading pixels
 // `path`: for messages; `size` of the file, bytes.

@@ -4,6 +4,12 @@
 
 namespace sparselens {
 
+bool is_sky(DepthMeaning meaning, double value, double far) {
+    constexpr double largest_half = 65504;
+    if (meaning == DepthMeaning::inverse) return value >= 0 && value <= 1 / far;
+    return value >= far || value == largest_half;
+}
+
 double planar_depth(DepthMeaning meaning, double value, int x, int y, const Windows &windows,
                     double focal_px) {
     if (meaning == DepthMeaning::planar) return value;

@@ -36,9 +36,15 @@ protected:
 };
 
 TEST_F(Pictures, PlanarDepthComesAsItIs) {
-    write({1, 2.5f, 1e10f, inf}, {1, 1, 0.5f, 1});
-    EXPECT_EQ(depths_of_view(), (std::vector<float>{1, 2.5f, 1e10f, inf}));
-    EXPECT_EQ(depths_of_ldi(), (std::vector<float>{1, 2.5f, 1e10f, inf}));
+    write({1, 2.5f, 1e9f, inf}, {1, 1, 0.5f, 1});
+    EXPECT_EQ(depths_of_view(), (std::vector<float>{1, 2.5f, 1e9f, inf}));
+    EXPECT_EQ(depths_of_ldi(), (std::vector<float>{1, 2.5f, 1e9f, inf}));
+}
+
+TEST_F(Pictures, SkyIsInfinitelyFar) {
+    write({1, 65504, 1e10f, 1e30f}, {1, 1, 0.5f, 1});
+    EXPECT_EQ(depths_of_view(), (std::vector<float>{1, inf, inf, inf}));
+    EXPECT_EQ(depths_of_ldi(), (std::vector<float>{1, inf, inf, inf}));
 }
 
 TEST_F(Pictures, ZeroSaysThatNothingWasHit) {

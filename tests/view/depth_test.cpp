@@ -52,5 +52,21 @@ TEST(PlanarDepth, PixelAspectStretchesRows) {
     EXPECT_DOUBLE_EQ(planar_depth(DepthMeaning::distance, 5, 175, 200, w, focal_px), 4);
 }
 
+TEST(Depth, SkyIsWhatRenderersWriteForIt) {
+    for (const DepthMeaning meaning : {DepthMeaning::planar, DepthMeaning::distance}) {
+        for (const double sky : {1e10, 1e30, 65504.0, double(INFINITY)})
+            EXPECT_TRUE(is_sky(meaning, sky, 1e10)) << sky;
+        for (const double thing : {1e9, 65505.0, 65503.0, 0.1, -1.0, double(NAN)})
+            EXPECT_FALSE(is_sky(meaning, thing, 1e10)) << thing;
+        EXPECT_TRUE(is_sky(meaning, 1000, 1000)); // the far clip
+        EXPECT_FALSE(is_sky(meaning, 999, 1000));
+    }
+    EXPECT_TRUE(is_sky(DepthMeaning::inverse, 0, 1e10));
+    EXPECT_TRUE(is_sky(DepthMeaning::inverse, 1e-3, 1000));
+    EXPECT_FALSE(is_sky(DepthMeaning::inverse, 2e-3, 1000));
+    EXPECT_FALSE(is_sky(DepthMeaning::inverse, 65504, 1e10)); // very near
+    EXPECT_FALSE(is_sky(DepthMeaning::inverse, -1, 1e10));
+}
+
 } // namespace
 } // namespace sparselens

@@ -12,7 +12,7 @@ namespace {
 // All that the samples depend on: depth as ray distance becomes planar by the focal length.
 auto key_of(const std::string &path, const std::string &channels, const LensOptions &lens,
             const DepthOptions &depth, const ColourOptions &colour) {
-    return std::tuple(path, channels, depth.meaning, depth.channel, lens.focal_length_mm,
+    return std::tuple(path, channels, depth.meaning, depth.channel, depth.far, lens.focal_length_mm,
                       lens.sensor_width_mm, colour.config, colour.input_space);
 }
 

@@ -62,6 +62,10 @@ void add_depth_options(CLI::App &app, DepthOptions &options) {
         ->type_name("z|distance|inverse")
         ->transform(words(meanings))
         ->group("Lens");
+    app.add_option("--far", options.far, "Depth from which on there is only sky, as the far clip (1e10)")
+        ->type_name("D")
+        ->check(number("a number above 0", {.infinity_allowed = true}))
+        ->group("Lens");
     app.add_option("--depth-channel", options.channel, "Depth channel (else Z, depth.Z, *.Depth.Z are tried)")
         ->type_name("NAME")
         ->group("Lens");

@@ -20,6 +20,7 @@ struct LensOptions {
 struct DepthOptions {
     DepthMeaning meaning = DepthMeaning::planar;
     std::string channel; // empty: the usual names are tried
+    double far = 1e10;   // what lies there or beyond is the sky, in the unit of the depth channel
 };
 
 void add_lens_options(CLI::App &app, LensOptions &options);

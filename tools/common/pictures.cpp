@@ -18,11 +18,12 @@ namespace {
 class DepthReader {
 public:
     DepthReader(const Windows &windows, const DepthOptions &depth, const Camera &camera)
-        : windows_(windows), meaning_(depth.meaning),
+        : windows_(windows), meaning_(depth.meaning), far_(depth.far),
           focal_px_(meaning_ == DepthMeaning::distance ? resolve_focal_px(camera, windows) : 1) {}
 
     // Of the i-th pixel of the data window; what is no depth stays none (see bad_values.h).
     float planar(float value, std::size_t i) const {
+        if (is_sky(meaning_, double(value), far_)) return std::numeric_limits<float>::infinity();
         if (meaning_ == DepthMeaning::planar) return value;
         const Imath::V2i p = pixel(i);
         return float(planar_depth(meaning_, double(value), p.x, p.y, windows_, focal_px_));
@@ -36,6 +37,7 @@ private:
 
     const Windows &windows_;
     DepthMeaning meaning_;
+    double far_;
     double focal_px_;
 };
 

@@ -43,8 +43,8 @@ Imath::Box2i grown(const Imath::Box2i &data, const Imath::V2i &reach, const Imat
 } // namespace
 
 void add_window_options(CLI::App &app, WindowOptions &options) {
-    const std::map<std::string, Overscan> overscans{
-        {"keep", Overscan::keep}, {"grow", Overscan::grow}, {"crop", Overscan::crop}};
+    const std::map<std::string, OutputOverscan> overscans{
+        {"keep", OutputOverscan::keep}, {"grow", OutputOverscan::grow}, {"crop", OutputOverscan::crop}};
     app.add_option(
            "--overscan", options.overscan,
            "keep: the pixels of the file; grow: and as far into an empty display window as the blur reaches; "
@@ -75,12 +75,12 @@ Frame frame_of(const WindowOptions &options, const Imath::Box2i &picture, const 
     Frame frame{reduced(picture, options.proxy), {}, {}};
     if (options.proxy > 1) frame.changed = proxy(ldi, options.proxy);
     const auto made = [&]() -> const Ldi & { return frame.changed ? *frame.changed : ldi; };
-    if (options.overscan == Overscan::grow && lens.radius > 0) {
+    if (options.overscan == OutputOverscan::grow && lens.radius > 0) {
         frame.gathered = grown(frame.gathered, largest_reach(made(), lens), made().windows.display);
         frame.changed = padded(made(), frame.gathered);
     }
     frame.written = frame.gathered;
-    if (options.overscan == Overscan::crop)
+    if (options.overscan == OutputOverscan::crop)
         frame.written = common(frame.written, made().windows.display, "--overscan crop: the display window");
     if (options.region)
         frame.written = common(frame.written, reduced(*options.region, options.proxy), "--region");

@@ -10,14 +10,14 @@
 
 namespace sparselens {
 
-enum class Overscan {
+enum class OutputOverscan {
     keep, // the pixels of the file
     grow, // and into the display window as far as the blur of what is there reaches: around it is nothing
     crop, // those in the display window
 };
 
 struct WindowOptions {
-    Overscan overscan = Overscan::keep;
+    OutputOverscan overscan = OutputOverscan::keep;
     int proxy = 1;                      // so many pixels, across and down, become one
     std::optional<Imath::Box2i> region; // of the full-size picture
 };
