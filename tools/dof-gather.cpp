@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "common/channels.h"
 #include "common/colour_options.h"
+#include "common/gather_options.h"
 #include "common/ldi_cache.h"
 #include "common/picture_options.h"
 #include "common/pictures.h"
@@ -11,7 +12,6 @@
 #include "common/stats.h"
 #include "common/tool.h"
 #include "common/window_options.h"
-#include "common/words.h"
 #include "dof/methods.h"
 #include "io/camera_metadata.h"
 #include "io/exr_flat.h"
@@ -23,60 +23,7 @@ using namespace sparselens;
 
 namespace {
 
-struct Options {
-    LensOptions lens;
-    DepthOptions depth;
-    ColourOptions colour;
-    WindowOptions windows;
-    GatherOptions gather;
-    const GatherMethod *method = &gather_methods().front();
-    std::string input, output, depth_output, channels, holdout;
-    std::optional<Imath::V2i> focus_pixel;
-    bool as_float = false;
-    Show show = Show::picture;
-};
-
-void add_options(CLI::App &app, Options &options) {
-    app.add_option("input", options.input, "LDI, any deep EXR or flat RGBA+Z; - for standard input")
-        ->type_name("IN.exr")
-        ->required();
-    app.add_option("-o,--output", options.output,
-                   "Picture to write: EXR, or PNG, JPEG, TIFF; - for standard output")
-        ->type_name("OUT.exr")
-        ->required();
-    add_method_option(app, options.method);
-    const std::map<std::string, Quality> qualities{
-        {"draft", Quality::draft}, {"normal", Quality::normal}, {"final", Quality::final}};
-    app.add_option("--quality", options.gather.lens.quality, "Error against time (lens; normal)")
-        ->type_name("draft|normal|final")
-        ->transform(words(qualities));
-    app.add_option("--lens-samples", options.gather.lens.lens_samples,
-                   "Lens points everywhere (lens), 0 = by the quality and what the picture needs")
-        ->type_name("N")
-        ->check(CLI::Range(0, 1 << 20));
-    app.add_option("--layers", options.gather.layers, "Layers a pixel keeps apart (selective)")
-        ->type_name("K")
-        ->check(CLI::Range(1, 4096))
-        ->capture_default_str();
-    add_pixel_option(app, "--focus-pixel", options.focus_pixel, "Focus on what this pixel shows");
-    app.add_option("--holdout", options.holdout,
-                   "Deep EXR that hides what is behind it, and stays sharp (lens)")
-        ->type_name("DEEP.exr");
-    app.add_option("--depth-out", options.depth_output, "Write the depth of the front samples")
-        ->type_name("FILE");
-    app.add_option("--channels", options.channels, "Channels or layers to gather, comma-separated (all)")
-        ->type_name("LIST");
-    add_type_option(app, options.as_float);
-    add_show_option(app, options.show);
-    add_lens_options(app, options.lens);
-    add_depth_options(app, options.depth);
-    add_input_colour_options(app, options.colour);
-    add_output_colour_options(app, options.colour);
-    add_window_options(app, options.windows);
-    app.get_option("--focus-pixel")->excludes("--focus-distance");
-}
-
-void focus_on_pixel(InputLdi &in, const Options &options) {
+void focus_on_pixel(InputLdi &in, const GatherCommand &options) {
     if (!options.focus_pixel) return;
     const float z = front_depth(in.ldi, *options.focus_pixel);
     if (!(z > 0)) throw UsageError("--focus-pixel: " + options.input + " shows nothing there");
@@ -92,7 +39,7 @@ void warn_if_wider_than_views(const ToolContext &tool, const ThinLens &lens, con
 }
 
 // What the method makes of the LDI; without a lens, the LDI flattened.
-Image gathered(const Options &options, const Ldi &ldi, const ThinLens &lens, const Frame &frame,
+Image gathered(const GatherCommand &options, const Ldi &ldi, const ThinLens &lens, const Frame &frame,
                const std::optional<Holdout> &holdout, const ToolContext &tool, LensTiles &tiles) {
     if (lens.radius == 0)
         return crop(holdout ? flatten_held_out(ldi, *holdout) : flatten(ldi), frame.written);
@@ -103,13 +50,7 @@ Image gathered(const Options &options, const Ldi &ldi, const ThinLens &lens, con
     return crop(options.method->gather(ldi, lens, frame.gathered, by, *tool.progress), frame.written);
 }
 
-void run(const Options &options, const ToolContext &tool, LdiCache &cache) {
-    if (options.depth_output == options.output)
-        throw UsageError("--depth-out and --output name the same file: " + options.output);
-    if (!options.holdout.empty() && options.method != &gather_methods().front())
-        throw UsageError("--holdout works with --method lens only");
-    if (options.show == Show::tiles && options.method != &gather_methods().front())
-        throw UsageError("--show tiles: only --method lens works by tiles");
+void run(const GatherCommand &options, const ToolContext &tool, LdiCache &cache) {
     InputLdi in =
         cache.load(options.input, options.channels, options.lens, options.depth, options.colour, tool);
     say_camera(tool, options.input, in.camera);
@@ -142,8 +83,11 @@ int main(int argc, char **argv) {
     LdiCache cache; // a pull of focus over one file reads it once
     return run_frames("dof-gather", "Gathers the picture a lens would have taken from a layered depth image",
                       argc, argv, [&](CLI::App &app) {
-                          const auto options = std::make_shared<Options>();
-                          add_options(app, *options);
-                          return [&cache, options](const ToolContext &tool) { run(*options, tool, cache); };
+                          const auto options = std::make_shared<GatherCommand>();
+                          add_gather_options(app, *options);
+                          return [&cache, options](const ToolContext &tool) {
+                              check(*options);
+                              run(*options, tool, cache);
+                          };
                       });
 }

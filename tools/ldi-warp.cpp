@@ -4,70 +4,17 @@
 #include "common/pictures.h"
 #include "common/stats.h"
 #include "common/tool.h"
-#include "common/view_list.h"
-#include "common/words.h"
+#include "common/warp_options.h"
 #include "io/camera_metadata.h"
 #include "ldi/misplaced_view.h"
 #include "ldi/warp.h"
 
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <span>
 
 using namespace sparselens;
 
 namespace {
-
-struct Options {
-    LensOptions lens;
-    DepthOptions depth;
-    ColourOptions colour;
-    ViewList views;
-    Merge merge = Merge::average;
-    bool split_silhouettes = true, test_agreement = true;
-    std::string output;
-};
-
-void add_options(CLI::App &app, Options &options) {
-    add_view_list(app, options.views);
-    app.add_option("-o,--output", options.output, "LDI to write, - for standard output")
-        ->type_name("LDI.exr")
-        ->required();
-    const std::map<std::string, Merge> merges{{"average", Merge::average}, {"keep", Merge::keep}};
-    app.add_option("--merge", options.merge,
-                   "average: views of one surface are averaged; keep: one sample a surface, the centre view "
-                   "unchanged")
-        ->type_name("average|keep")
-        ->transform(words(merges));
-    const std::map<std::string, bool> silhouettes{{"split", true}, {"whole", false}};
-    app.add_option("--silhouettes", options.split_silhouettes,
-                   "split: pixels that mix two surfaces become two samples (average); whole: they stay one")
-        ->type_name("split|whole")
-        ->transform(words(silhouettes));
-    const std::map<std::string, bool> agreement{{"test", true}, {"assume", false}};
-    app.add_option("--agreement", options.test_agreement,
-                   "test: out of focus, views that disagree beyond noise (mirrors, glass) are not averaged; "
-                   "assume: all are")
-        ->type_name("test|assume")
-        ->transform(words(agreement));
-    add_lens_options(app, options.lens);
-    add_depth_options(app, options.depth);
-    add_input_colour_options(app, options.colour);
-}
-
-// Perceptive depth is measured at the lens if that is known, else at the outermost view.
-WarpOptions warp_options(const Options &options, const LoadedViews &loaded) {
-    WarpOptions warp{.merge = options.merge,
-                     .split_silhouettes = options.split_silhouettes,
-                     .test_agreement = options.test_agreement,
-                     .focus = loaded.camera.focus_distance};
-    if (loaded.views.size() == 1) return warp;
-    warp.focal_px = resolve_focal_px(loaded.camera, loaded.views[0].image.windows);
-    warp.radius = lens_radius_of(loaded.camera).value_or(0);
-    for (const View &view : loaded.views) warp.radius = std::max(warp.radius, view.position.length());
-    return warp;
-}
 
 // A view that is not where it is said to be makes an LDI of ghosts.
 void warn_of_misplaced(const ToolContext &tool, std::span<const View> views, double focal_px) {
@@ -82,7 +29,7 @@ void warn_of_misplaced(const ToolContext &tool, std::span<const View> views, dou
                            text(view.position) + "; it would agree at " + text(*better));
 }
 
-void run(const Options &options, const ToolContext &tool) {
+void run(const WarpCommand &options, const ToolContext &tool) {
     LoadedViews loaded = load_views(options.views, options.lens, options.depth);
     say_camera(tool, loaded.views[0].name, loaded.camera);
     for (std::size_t i = 0; i < loaded.views.size(); ++i)
@@ -105,8 +52,8 @@ int main(int argc, char **argv) {
     return run_frames("ldi-warp",
                       "Warps a centre view and views from the rim of the lens into one layered depth image",
                       argc, argv, [&](CLI::App &app) {
-                          const auto options = std::make_shared<Options>();
-                          add_options(app, *options);
+                          const auto options = std::make_shared<WarpCommand>();
+                          add_warp_options(app, *options);
                           return [options](const ToolContext &tool) { run(*options, tool); };
                       });
 }

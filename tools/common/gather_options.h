@@ -1,0 +1,35 @@
+// The command line of dof-gather.
+#pragma once
+
+#include "common/colour_options.h"
+#include "common/lens_options.h"
+#include "common/show.h"
+#include "common/window_options.h"
+#include "dof/methods.h"
+
+#include <CLI/CLI.hpp>
+
+#include <optional>
+#include <string>
+
+namespace sparselens {
+
+struct GatherCommand {
+    LensOptions lens;
+    DepthOptions depth;
+    ColourOptions colour;
+    WindowOptions windows;
+    GatherOptions gather;
+    const GatherMethod *method = &gather_methods().front();
+    std::string input, output, depth_output, channels, holdout;
+    std::optional<Imath::V2i> focus_pixel;
+    bool as_float = false;
+    Show show = Show::picture;
+};
+
+void add_gather_options(CLI::App &app, GatherCommand &options);
+
+// UsageError where options do not go together.
+void check(const GatherCommand &options);
+
+} // namespace sparselens

@@ -1,0 +1,30 @@
+// The command line of ldi-warp.
+#pragma once
+
+#include "common/colour_options.h"
+#include "common/lens_options.h"
+#include "common/view_list.h"
+#include "ldi/warp.h"
+
+#include <CLI/CLI.hpp>
+
+#include <string>
+
+namespace sparselens {
+
+struct WarpCommand {
+    LensOptions lens;
+    DepthOptions depth;
+    ColourOptions colour;
+    ViewList views;
+    Merge merge = Merge::average;
+    bool split_silhouettes = true, test_agreement = true;
+    std::string output;
+};
+
+void add_warp_options(CLI::App &app, WarpCommand &options);
+
+// Perceptive depth is measured at the lens if that is known, else at the outermost view.
+WarpOptions warp_options(const WarpCommand &options, const LoadedViews &loaded);
+
+} // namespace sparselens
