@@ -194,8 +194,10 @@ TEST(LensGatherOfAPoint, IsHiddenWhereTheLensPointDoesNotSeeIt) {
         bool left_shines;
     };
     // In focus it hides what lies there; nearer than a lamp that is itself before focus, it moves across it.
-    for (const auto &[coc, coc_before, left_shines] :
-         {Half{20, 0, true}, Half{-10, -20, false}, Half{-20, -30, false}}) {
+    for (const Half &half : {Half{20, 0, true}, Half{-10, -20, false}, Half{-20, -30, false}}) {
+        // By name: clang 14 lets no lambda capture a structured binding.
+        const double coc = half.coc, coc_before = half.coc_before;
+        const bool left_shines = half.left_shines;
         const int size = 80;
         const Lamp lamp{{39, 40}, 0.5f, 0, coc};
         const Ldi ldi = make_ldi(windows_of_size(size, size), rgba_channels(), [&](int x, int y) {
