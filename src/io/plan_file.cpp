@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 
 namespace sparselens {
 
@@ -87,13 +88,10 @@ PixelMask mask_of(const Json &view, const fs::path &folder) {
 
 std::string read_text(const std::string &path) {
     const auto stream = open_input(path);
-    std::string text;
-    char c;
-    try {
-        while (stream->read(&c, 1)) text.push_back(c);
-        text.push_back(c);
-    } catch (const Error &) { // the end of a file that ends with its last byte read
-    }
+    if (stream->size() > std::uint64_t(std::numeric_limits<int>::max()))
+        throw Error("is too large for a plan");
+    std::string text(std::size_t(stream->size()), '\0');
+    if (!text.empty()) stream->read(text.data(), int(text.size()));
     return text;
 }
 
