@@ -1,5 +1,6 @@
 // dof-accumulate: dense views over the lens, averaged so that the plane of focus stays put.
 #include "base/error.h"
+#include "common/history.h"
 #include "common/lens_options.h"
 #include "common/lens_view_files.h"
 #include "common/picture_options.h"
@@ -37,6 +38,7 @@ void add_options(CLI::App &app, Options &options) {
         ->type_name("unknown|transparent")
         ->transform(words(outside));
     add_lens_options(app, options.lens);
+    add_stereo_option(app, options.views.stereo_view);
 }
 
 // The aperture where the options ask for one: only then are views left out for standing outside of it.
@@ -111,7 +113,9 @@ void accumulate_files(const Options &options, const ToolContext &tool) {
     const ThinLens lens = moving_lens(files, options.lens, radius == 0.0);
     const Image image = average_views(files, lens, options, tool);
     const Image picture = in_type(image, options.as_float);
-    warn_of_clamped(tool, options.output, write_flat_exr(options.output, picture, header_of(files)));
+    Imf::Header header = header_of(files);
+    append_history(header, tool);
+    warn_of_clamped(tool, options.output, write_flat_exr(options.output, picture, header));
 }
 
 } // namespace

@@ -34,16 +34,18 @@ void add_options(CLI::App &app, Options &options) {
     add_lens_options(app, options.lens);
     add_depth_options(app, options.depth);
     for (CLI::Option *option : app.get_options())
-        if (option->get_group() == "Lens") option->needs(regions); // they say how to read it
+        if (option->get_group() == "Lens" && !option->check_lname("stereo-view"))
+            option->needs(regions); // they say how to read it
 }
 
 void compare(const Options &options, const ToolContext &tool) {
     const auto from_stdin = {options.image == "-", options.reference == "-", options.regions == "-"};
     if (std::ranges::count(from_stdin, true) > 1) throw UsageError("standard input cannot be read twice");
-    const Image reference_file = read_flat_exr(options.reference).image;
+    const Image reference_file = read_flat_exr(options.reference, options.depth.view).image;
     const Windows &windows = reference_file.windows;
     const Image reference = rgba_over(reference_file, windows, options.reference);
-    const Image image = rgba_over(read_flat_exr(options.image).image, windows, options.image);
+    const Image image =
+        rgba_over(read_flat_exr(options.image, options.depth.view).image, windows, options.image);
 
     std::vector<std::uint8_t> bits;
     if (!options.regions.empty())

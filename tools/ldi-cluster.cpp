@@ -1,5 +1,6 @@
 // Fewer samples a pixel: ldi-cluster IN.exr -o OUT.exr [--tolerance PX] [--layers K] [lens options]
 #include "base/error.h"
+#include "common/history.h"
 #include "common/pictures.h"
 #include "common/stats.h"
 #include "common/tool.h"
@@ -46,6 +47,7 @@ std::optional<double> perceptive_scale(const Options &options, const LoadedLdi &
 
 void run(const Options &options, const ToolContext &tool) {
     LoadedLdi in = load_ldi(options.input, options.lens, options.depth);
+    say_samples(tool, options.input, in);
     warn_of_bad_values(tool, options.input, in.bad);
     ClusterOptions by{.layers = options.layers};
     const auto scale = perceptive_scale(options, in);
@@ -56,6 +58,7 @@ void run(const Options &options, const ToolContext &tool) {
              (scale ? ", CoC changed by at most " + std::to_string(out.largest_error) + " px"
                     : ", by inverse depth alone: the lens is unknown"));
     write_camera(in.header, in.camera);
+    append_history(in.header, tool);
     warn_of_clamped(tool, options.output, write_ldi(options.output, out.ldi, in.header));
     write_stats(tool, cluster_stats(in, out));
 }

@@ -2,6 +2,7 @@
 
 #include "dof/scatter.h"
 #include "dof/selective.h"
+#include "ldi/coloured_alpha.h"
 
 #include <array>
 
@@ -11,17 +12,20 @@ namespace {
 
 Image by_lens(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window, const GatherOptions &options,
               Progress &progress) {
-    return lens_gather(ldi, lens, window, options.lens, progress);
+    return composited(ldi,
+                      [&](const Ldi &one) { return lens_gather(one, lens, window, options.lens, progress); });
 }
 
 Image by_selective(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window,
                    const GatherOptions &options, Progress &progress) {
-    return crop(selective_gather(ldi, lens, {.layers = options.layers}, progress), window);
+    return composited(ldi, [&](const Ldi &one) {
+        return crop(selective_gather(one, lens, {.layers = options.layers}, progress), window);
+    });
 }
 
 Image by_scatter(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window, const GatherOptions &,
                  Progress &progress) {
-    return crop(scatter(ldi, lens, {}, progress), window);
+    return composited(ldi, [&](const Ldi &one) { return crop(scatter(one, lens, {}, progress), window); });
 }
 
 constexpr std::array methods{GatherMethod{"lens", by_lens}, GatherMethod{"selective", by_selective},

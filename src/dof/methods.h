@@ -19,8 +19,8 @@ struct GatherOptions {
 
 struct GatherMethod {
     const char *name;
-    // The pixels of a window (EXR coordinates) within the LDI's data window, its channels. The LDI is tidy, the
-    // lens has a radius above 0.
+    // The pixels of a window (EXR coordinates) within the LDI's data window, its channels, each by its
+    // own coverage (ldi/coloured_alpha.h). The LDI is tidy, the lens has a radius above 0.
     Image (*gather)(const Ldi &, const ThinLens &, const Imath::Box2i &window, const GatherOptions &,
                     Progress &);
 };

@@ -22,12 +22,8 @@ bool describes_storage(const std::string &name) {
     return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-PixelType type_of(Imf::PixelType type) {
-    if (type == Imf::HALF) return PixelType::half;
-    return type == Imf::UINT ? PixelType::uint32 : PixelType::float32;
-}
-
-std::size_t usual_depth_channel(const std::vector<Channel> &channels) {
+std::size_t depth_channel(const std::vector<Channel> &channels, const std::string &asked) {
+    if (!asked.empty()) return find_channel(channels, asked);
     for (const char *name : {"Z", "depth.Z"})
         if (const std::size_t k = find_channel(channels, name); k != npos) return k;
     for (std::size_t k = 0; k < channels.size(); ++k)
@@ -53,25 +49,9 @@ double memory_of(const Imf::Header &header, std::size_t values) {
     return pixels * double(values * sizeof(float));
 }
 
-std::vector<Channel> channels_of(const Imf::Header &header, const std::string &path) {
-    std::vector<Channel> channels;
-    const Imf::ChannelList &list = header.channels();
-    for (const char *name : {"R", "G", "B", "A"})
-        if (const Imf::Channel *found = list.findChannel(name))
-            channels.push_back({name, type_of(found->type)});
-    for (auto it = list.begin(); it != list.end(); ++it) {
-        if (it.channel().xSampling != 1 || it.channel().ySampling != 1)
-            throw Error(display_name(path) + ": channel " + it.name() +
-                        " is subsampled, which is not supported");
-        if (find_channel(channels, it.name()) == npos)
-            channels.push_back({it.name(), type_of(it.channel().type)});
-    }
-    return channels;
-}
-
 std::string find_depth_channel(const std::vector<Channel> &channels, const std::string &asked,
                                const std::string &path) {
-    const std::size_t k = asked.empty() ? usual_depth_channel(channels) : find_channel(channels, asked);
+    const std::size_t k = depth_channel(channels, asked);
     if (k == npos)
         throw Error(display_name(path) +
                     (asked.empty() ? ": has no depth channel (Z, depth.Z, *.Depth.Z); give --depth-channel"
@@ -80,6 +60,10 @@ std::string find_depth_channel(const std::vector<Channel> &channels, const std::
         throw Error(display_name(path) + ": its depth channel " + channels[k].name +
                     " holds integers, not depths");
     return channels[k].name;
+}
+
+bool has_depth_channel(const std::vector<Channel> &channels, const std::string &asked) {
+    return depth_channel(channels, asked) != npos;
 }
 
 bool is_placement(const std::string &channel) {

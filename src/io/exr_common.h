@@ -19,13 +19,13 @@ Windows windows_of(const Imf::Header &header);
 // What a picture takes in memory that holds `values` floats a pixel, and one tile of its file (bytes).
 double memory_of(const Imf::Header &header, std::size_t values);
 
-// The header's channels, R, G, B, A first, then by name. Error where a channel is subsampled.
-std::vector<Channel> channels_of(const Imf::Header &header, const std::string &path);
-
 // The name of the depth channel: `asked`, or where that is empty Z, depth.Z or *.Depth.Z. Error where there is
 // none, or where it holds integers.
 std::string find_depth_channel(const std::vector<Channel> &channels, const std::string &asked,
                                const std::string &path);
+
+// Whether there is one, of whatever type.
+bool has_depth_channel(const std::vector<Channel> &channels, const std::string &asked);
 
 // Whether the channel says where a sample lies, in our files: Z, ZBack, ldi.dx, ldi.dy or ldi.weight. Such a
 // channel is never carried along as if it were a colour.

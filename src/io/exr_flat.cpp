@@ -2,7 +2,9 @@
 
 #include "io/exr_common.h"
 #include "io/exr_header_check.h"
+#include "io/exr_parts.h"
 #include "io/memory_limit.h"
+#include "ldi/coloured_alpha.h"
 
 #include <ImfFrameBuffer.h>
 #include <ImfInputPart.h>
@@ -11,8 +13,6 @@
 #include <ImfPartType.h>
 
 #include <algorithm>
-#include <array>
-#include <cctype>
 
 namespace sparselens {
 
@@ -20,68 +20,54 @@ namespace {
 
 bool is_flat(const Imf::Header &header) { return !header.hasType() || !Imf::isDeepData(header.type()); }
 
-int first_flat_part(Imf::MultiPartInputFile &file, const std::string &path) {
+std::vector<int> flat_parts(const Imf::MultiPartInputFile &file, const std::string &path) {
+    std::vector<int> numbers;
     for (int part = 0; part < file.parts(); ++part)
-        if (is_flat(file.header(part))) return part;
-    throw Error(display_name(path) + ": holds no flat picture");
+        if (is_flat(file.header(part))) numbers.push_back(part);
+    if (numbers.empty()) throw Error(display_name(path) + ": holds no flat picture");
+    return numbers;
 }
 
-std::string view_of(const Imf::Header &header) { return header.hasView() ? header.view() : std::string(); }
-
-// The part's name without its view, which the file format makes part of it: "diffuse" of "diffuse.left".
-std::string layer_of(const Imf::Header &header) {
-    std::string name = header.hasName() ? header.name() : std::string();
-    const std::string view = "." + view_of(header);
-    if (view.size() > 1 && name.ends_with(view)) name.resize(name.size() - view.size());
-    return name;
-}
-
-// Whether the part bears a name that renderers give to the beauty.
-bool is_beauty(const Imf::Header &header) {
-    static constexpr std::array names{"", "rgba", "rgb", "beauty", "c", "main", "default"};
-    std::string name = layer_of(header);
-    for (char &c : name) c = char(std::tolower(static_cast<unsigned char>(c)));
-    return std::ranges::find(names, name) != names.end();
-}
-
-// What is read of a part: its names of channels, and those they get in the picture.
+// What is read of a part: its channels, by the names they get in the picture.
 struct PartChannels {
     int part;
-    std::vector<std::pair<std::string, Channel>> channels;
+    std::vector<FileChannel> channels;
+};
+
+struct PictureParts {
+    std::string view;
+    std::vector<PartChannels> parts; // not empty
 };
 
 // A channel whose name is taken is one of the part's layer: R of "diffuse" is diffuse.R.
 void add_part(Imf::MultiPartInputFile &file, int number, const std::string &path,
-              std::vector<std::string> &taken, std::vector<PartChannels> &parts) {
+              std::vector<std::string> &taken, PictureParts &picture) {
     PartChannels part{number, {}};
-    for (const Channel &channel : channels_of(file.header(number), path)) {
+    for (FileChannel &found : channels_of(file.header(number), picture.view, path)) {
         const auto is_taken = [&](const std::string &name) {
             return std::ranges::find(taken, name) != taken.end();
         };
-        Channel named = channel;
-        if (is_taken(named.name)) named.name = layer_of(file.header(number)) + "." + channel.name;
-        if (is_taken(named.name)) continue; // the same layer twice: the first is it
-        taken.push_back(named.name);
-        part.channels.emplace_back(channel.name, named);
+        std::string &name = found.channel.name;
+        if (is_taken(name)) name = layer_of(file.header(number)) + "." + name;
+        if (is_taken(name)) continue; // the same layer twice: the first is it
+        taken.push_back(name);
+        part.channels.push_back(std::move(found));
     }
-    parts.push_back(std::move(part));
+    picture.parts.push_back(std::move(part));
 }
 
-// The flat parts that make up the first view: those of one data window. The beauty first.
-std::vector<PartChannels> parts_of_picture(Imf::MultiPartInputFile &file, const std::string &path) {
-    const int first = first_flat_part(file, path);
-    const std::string view = view_of(file.header(first));
-    std::vector<int> numbers;
-    for (int part = first; part < file.parts(); ++part)
-        if (is_flat(file.header(part)) && view_of(file.header(part)) == view) numbers.push_back(part);
+// The flat parts that make up the view: those of one data window. The beauty first.
+PictureParts parts_of_picture(Imf::MultiPartInputFile &file, const std::string &path,
+                              const std::string &stereo_view) {
+    auto [view, numbers] = parts_of_view(file, flat_parts(file, path), stereo_view, path);
     const auto beauty = std::ranges::find_if(numbers, [&](int part) { return is_beauty(file.header(part)); });
     if (beauty != numbers.end()) std::rotate(numbers.begin(), beauty, beauty + 1);
-    std::vector<PartChannels> parts;
+    PictureParts picture{view, {}};
     std::vector<std::string> taken;
     const Windows windows = windows_of(file.header(numbers.front()));
     for (const int part : numbers)
-        if (windows_of(file.header(part)) == windows) add_part(file, part, path, taken, parts);
-    return parts;
+        if (windows_of(file.header(part)) == windows) add_part(file, part, path, taken, picture);
+    return picture;
 }
 
 // Reads the part's channels into the picture's from k on; returns which comes next.
@@ -89,10 +75,10 @@ std::size_t read_channels(Imf::MultiPartInputFile &file, const PartChannels &par
                           std::size_t k) {
     const Windows &w = image.windows;
     Imf::FrameBuffer pixels;
-    for (const auto &[name, channel] : part.channels) {
+    for (const auto &[in_file, channel] : part.channels) {
         const auto type = channel.type == PixelType::uint32 ? Imf::UINT : Imf::FLOAT;
-        pixels.insert(name, Imf::Slice::Make(type, image.plane(k++).data(), w.data, sizeof(float),
-                                             sizeof(float) * std::size_t(w.width())));
+        pixels.insert(in_file, Imf::Slice::Make(type, image.plane(k++).data(), w.data, sizeof(float),
+                                                sizeof(float) * std::size_t(w.width())));
     }
     if (part.channels.empty()) return k;
     Imf::InputPart input(file, part.part);
@@ -103,34 +89,37 @@ std::size_t read_channels(Imf::MultiPartInputFile &file, const PartChannels &par
 
 } // namespace
 
-FlatFile read_flat_part(Imf::MultiPartInputFile &file, const std::string &path, std::uint64_t size) {
-    const std::vector<PartChannels> parts = parts_of_picture(file, path);
+FlatFile read_flat_part(Imf::MultiPartInputFile &file, const std::string &path, std::uint64_t size,
+                        const std::string &stereo_view) {
+    const auto [view, parts] = parts_of_picture(file, path, stereo_view);
     const Imf::Header &header = file.header(parts.front().part);
     std::vector<Channel> channels;
     for (const PartChannels &part : parts)
-        for (const auto &[in_part, channel] : part.channels) channels.push_back(channel);
+        for (const FileChannel &found : part.channels) channels.push_back(found.channel);
     check_memory(path, memory_of(header, channels.size()), size);
     Image image(windows_of(header), channels);
     std::size_t k = 0;
     for (const PartChannels &part : parts) k = read_channels(file, part, image, k);
-    return FlatFile{std::move(image), header, size};
+    add_mean_coverage(image);
+    return FlatFile{std::move(image), header_of_view(header, view), size};
 }
 
-FlatFile read_flat_exr(const std::string &path) {
+FlatFile read_flat_exr(const std::string &path, const std::string &stereo_view) {
     return with_file_name(path, [&] {
         const auto stream = open_input(path);
         check_header(*stream, path);
         Imf::MultiPartInputFile file(*stream);
-        return read_flat_part(file, path, stream->size());
+        return read_flat_part(file, path, stream->size(), stereo_view);
     });
 }
 
-Imf::Header read_flat_header(const std::string &path) {
+Imf::Header read_flat_header(const std::string &path, const std::string &stereo_view) {
     return with_file_name(path, [&] {
         const auto stream = open_input(path);
         check_header(*stream, path);
         Imf::MultiPartInputFile file(*stream);
-        return file.header(parts_of_picture(file, path).front().part);
+        const PictureParts picture = parts_of_picture(file, path, stereo_view);
+        return header_of_view(file.header(picture.parts.front().part), picture.view);
     });
 }
 

@@ -19,12 +19,15 @@ struct FlatFile {
     std::uint64_t file_size = 0; // bytes: what it may ask memory for, see check_memory()
 };
 
-// The flat parts of the file's first view as one picture: the beauty (by its part's name, else the first part), then
-// all others of its windows, a channel whose name is taken as one of its part's layer.
-FlatFile read_flat_exr(const std::string &path);
-Imf::Header read_flat_header(const std::string &path); // of that part, without reading pixels
+// The flat parts of one view of the file as one picture: the beauty (by its part's name, else the first part), then
+// all others of its windows, a channel whose name is taken as one of its part's layer. `stereo_view` empty: the
+// file's default view (see exr_parts.h); A is made of AR, AG, AB where it is missing (see coloured_alpha.h).
+FlatFile read_flat_exr(const std::string &path, const std::string &stereo_view = {});
+// Of the beauty's part, without reading pixels.
+Imf::Header read_flat_header(const std::string &path, const std::string &stereo_view = {});
 // `path`: for messages; `size` of the file, bytes.
-FlatFile read_flat_part(Imf::MultiPartInputFile &file, const std::string &path, std::uint64_t size);
+FlatFile read_flat_part(Imf::MultiPartInputFile &file, const std::string &path, std::uint64_t size,
+                        const std::string &stereo_view);
 
 // Takes the depth channel out of the picture (see read_ldi for how it is found), and drops what else says where
 // a sample lies (see is_placement), which is nothing to be carried like a colour.

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "ldi/coloured_alpha.h"
 
 #include <algorithm>
 #include <atomic>
@@ -45,16 +46,20 @@ public:
         : s_(samples), name_(name), alpha_(find_channel(samples.channels, "A")) {}
 
     BadValues run() {
-        if (alpha_ != npos && !all_of(s_.values[alpha_], is_coverage)) repair_alphas();
+        for (std::size_t k = 0; k < s_.values.size(); ++k)
+            if (covers(k) && !all_of(s_.values[k], is_coverage)) repair_coverage(k);
         if (!all_of(s_.z, is_depth)) repair_depths();
         hide_uncovered();
         for (std::size_t k = 0; k < s_.values.size(); ++k)
-            if (k != alpha_ && s_.channels[k].type != PixelType::uint32 && !all_of(s_.values[k], is_light))
+            if (!covers(k) && s_.channels[k].type != PixelType::uint32 && !all_of(s_.values[k], is_light))
                 repair_colours(k);
         return found_;
     }
 
 private:
+    bool covers(std::size_t channel) const {
+        return s_.channels[channel].type != PixelType::uint32 && coverage_of(s_.channels, channel) == channel;
+    }
     float alpha(std::uint64_t i) const { return alpha_ == npos ? 1 : s_.values[alpha_][i]; }
 
     // visit(pixel, sample) for all samples.
@@ -85,7 +90,7 @@ private:
         return best;
     }
 
-    void repair_alphas();
+    void repair_coverage(std::size_t channel);
     void repair_depths();
     void repair_colours(std::size_t channel);
     void hide_uncovered() {
@@ -108,24 +113,25 @@ private:
     BadValues found_;
 };
 
-void Repair::repair_alphas() {
+void Repair::repair_coverage(std::size_t channel) {
+    const std::span<float> values = s_.values[channel];
     constexpr float rounding = 1.0f / 64;
     Changes changes;
     for_each_sample([&](std::size_t pixel, std::uint64_t i) {
-        const float a = alpha(i);
+        const float a = values[i];
         if (is_coverage(a)) return;
         double sum = 0;
         int count = 0;
         for_each_neighbour(pixel, i, [&](std::uint64_t n) {
-            if (!std::isfinite(alpha(n))) return;
-            sum += double(std::clamp(alpha(n), 0.0f, 1.0f));
+            if (!std::isfinite(values[n])) return;
+            sum += double(std::clamp(values[n], 0.0f, 1.0f));
             ++count;
         });
         const float around = count > 0 ? float(sum / count) : 1;
         changes.emplace_back(i, std::isnan(a) ? around : std::clamp(a, 0.0f, 1.0f));
         if (!(a >= -rounding && a <= 1 + rounding)) ++found_.alphas;
     });
-    apply(changes, s_.values[alpha_]);
+    apply(changes, values);
 }
 
 void Repair::repair_depths() {

@@ -1,6 +1,7 @@
 #include "ldi/cluster.h"
 
 #include "ldi/build.h"
+#include "ldi/coloured_alpha.h"
 
 #include <algorithm>
 #include <cmath>
@@ -117,14 +118,17 @@ double cluster_pixel(const Pixel &p, const ClusterOptions &options, Ldi &out) {
 } // namespace
 
 Clustered cluster(const Ldi &ldi, const ClusterOptions &options, Progress &progress) {
-    const std::size_t alpha = ldi.alpha(), width = std::size_t(ldi.windows.width());
-    progress.start("clustering", std::size_t(ldi.windows.height()));
+    const std::size_t width = std::size_t(ldi.windows.width());
     std::vector<double> largest(ldi.windows.pixels());
     Clustered result;
-    result.ldi = build_by_pixels(ldi, [&](std::size_t pixel, Ldi &out) {
-        const Pixel p{ldi, alpha, ldi.begin[pixel], ldi.begin[pixel + 1], options.scale};
-        largest[pixel] = cluster_pixel(p, options, out);
-        if ((pixel + 1) % width == 0) progress.advance();
+    // Which samples a cluster holds is a matter of their depths, whatever their coverage.
+    result.ldi = with_each_coverage(ldi, [&](std::size_t coverage) {
+        progress.start("clustering", std::size_t(ldi.windows.height()));
+        return build_by_pixels(ldi, [&](std::size_t pixel, Ldi &out) {
+            const Pixel p{ldi, coverage, ldi.begin[pixel], ldi.begin[pixel + 1], options.scale};
+            largest[pixel] = cluster_pixel(p, options, out);
+            if ((pixel + 1) % width == 0) progress.advance();
+        });
     });
     for (const double extent : largest) result.largest_error = std::max(result.largest_error, extent);
     return result;

@@ -1,6 +1,7 @@
 #include "ldi/frame.h"
 
 #include "ldi/build.h"
+#include "ldi/coloured_alpha.h"
 
 #include <algorithm>
 #include <cmath>
@@ -32,9 +33,8 @@ struct Seen {
     double x, y;  // place, in small pixels from the middle of the small one
 };
 
-std::vector<Seen> samples_in(const Ldi &ldi, const Imath::V2i &small, int factor) {
+std::vector<Seen> samples_in(const Ldi &ldi, std::size_t alpha, const Imath::V2i &small, int factor) {
     std::vector<Seen> seen;
-    const std::size_t alpha = ldi.alpha();
     for (int y = small.y * factor; y < (small.y + 1) * factor; ++y)
         for (int x = small.x * factor; x < (small.x + 1) * factor; ++x) {
             if (!ldi.windows.data.intersects(Imath::V2i(x, y))) continue;
@@ -54,11 +54,11 @@ std::vector<Seen> samples_in(const Ldi &ldi, const Imath::V2i &small, int factor
 float offset(double sum, std::size_t count) { return float(std::clamp(sum / double(count), -0.5, 0.5)); }
 
 // Appends the surfaces of one small pixel.
-void append_surfaces(const Ldi &ldi, const std::vector<Seen> &seen, double pixels, Ldi &out) {
+void append_surfaces(const Ldi &ldi, std::size_t alpha, const std::vector<Seen> &seen, double pixels,
+                     Ldi &out) {
     constexpr double same_surface = 1.01; // ratio of depths
     constexpr double opaque = 1e-4;       // of the light, what is left behind a surface that hides all
-    const std::size_t alpha = ldi.alpha();
-    double left = 1; // of the light, behind the surfaces so far
+    double left = 1;                      // of the light, behind the surfaces so far
     std::vector<Term> terms;
     for (std::size_t begin = 0, end = 0; begin < seen.size(); begin = end) {
         MergedSample surface = placement_of(ldi, seen[begin].index);
@@ -117,10 +117,12 @@ Ldi proxy(const Ldi &large, int factor) {
     windows.display = reduced(windows.display, factor);
     windows.data = reduced(windows.data, factor);
     const double pixels = double(factor) * factor;
-    Ldi out = build_by_pixels(like, [&](std::size_t pixel, Ldi &row) {
-        const int width = windows.width();
-        const Imath::V2i at = windows.data.min + Imath::V2i(int(pixel) % width, int(pixel) / width);
-        append_surfaces(ldi, samples_in(ldi, at, factor), pixels, row);
+    Ldi out = with_each_coverage(ldi, [&](std::size_t coverage) {
+        return build_by_pixels(like, [&](std::size_t pixel, Ldi &row) {
+            const int width = windows.width();
+            const Imath::V2i at = windows.data.min + Imath::V2i(int(pixel) % width, int(pixel) / width);
+            append_surfaces(ldi, coverage, samples_in(ldi, coverage, at, factor), pixels, row);
+        });
     });
     return tidy(std::move(out));
 }

@@ -2,6 +2,7 @@
 
 #include "base/parallel.h"
 #include "ldi/build.h"
+#include "ldi/coloured_alpha.h"
 
 #include <algorithm>
 #include <cmath>
@@ -29,7 +30,9 @@ double Holdout::passes(int x, int y, double z) const {
     return passed;
 }
 
-Image flatten_held_out(const Ldi &ldi, const Holdout &holdout) {
+namespace {
+
+Image flatten_by_alpha(const Ldi &ldi, const Holdout &holdout) {
     Image out = flatten(ldi); // for the ids
     const Imath::Box2i &data = ldi.windows.data;
     const std::size_t alpha = ldi.alpha(), width = std::size_t(ldi.windows.width());
@@ -51,6 +54,12 @@ Image flatten_held_out(const Ldi &ldi, const Holdout &holdout) {
         }
     });
     return out;
+}
+
+} // namespace
+
+Image flatten_held_out(const Ldi &ldi, const Holdout &holdout) {
+    return composited(ldi, [&](const Ldi &one) { return flatten_by_alpha(one, holdout); });
 }
 
 } // namespace sparselens

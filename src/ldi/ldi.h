@@ -37,7 +37,8 @@ struct Ldi {
 // reaches to infinity has no density that could be split, and becomes a point at its front. What is tidy already is handed back as it came.
 Ldi tidy(Ldi ldi);
 
-// The tidy LDI composited front to back in file order: `over`, all channels of `ldi`, its data window.
+// The tidy LDI composited front to back in file order: `over`, all channels of `ldi`, its data window, each by its own
+// coverage (coloured_alpha.h).
 Image flatten(const Ldi &ldi);
 
 } // namespace sparselens

@@ -1,5 +1,6 @@
 #include "base/parallel.h"
 #include "ldi/build.h"
+#include "ldi/coloured_alpha.h"
 #include "ldi/ldi.h"
 
 #include <algorithm>
@@ -131,6 +132,15 @@ void tidy_pixel(const Ldi &ldi, std::size_t alpha, std::size_t pixel, Ldi &out) 
     }
 }
 
+Ldi tidied(const Ldi &ldi, std::size_t alpha) {
+    return build_by_pixels(ldi, [&](std::size_t pixel, Ldi &out) {
+        if (is_tidy(ldi, alpha, pixel))
+            for (std::uint64_t i = ldi.begin[pixel]; i < ldi.begin[pixel + 1]; ++i) append(out, ldi, i);
+        else
+            tidy_pixel(ldi, alpha, pixel, out);
+    });
+}
+
 } // namespace
 
 Ldi tidy(Ldi ldi) {
@@ -141,12 +151,7 @@ Ldi tidy(Ldi ldi) {
             if (!is_tidy(ldi, alpha, pixel)) all_tidy = false;
     });
     if (all_tidy) return ldi;
-    return build_by_pixels(ldi, [&](std::size_t pixel, Ldi &out) {
-        if (is_tidy(ldi, alpha, pixel))
-            for (std::uint64_t i = ldi.begin[pixel]; i < ldi.begin[pixel + 1]; ++i) append(out, ldi, i);
-        else
-            tidy_pixel(ldi, alpha, pixel, out);
-    });
+    return with_each_coverage(ldi, [&](std::size_t coverage) { return tidied(ldi, coverage); });
 }
 
 } // namespace sparselens

@@ -1,6 +1,7 @@
 #include "common/channels.h"
 
 #include "base/error.h"
+#include "ldi/coloured_alpha.h"
 
 #include <algorithm>
 #include <sstream>
@@ -35,10 +36,14 @@ std::vector<bool> chosen(const std::vector<Channel> &channels, const std::string
 } // namespace
 
 void keep_channels(Ldi &ldi, const std::string &list) {
-    const std::vector<bool> keep = chosen(ldi.channels, list);
+    std::vector<bool> keep = chosen(ldi.channels, list);
+    for (std::size_t k = 0; k < keep.size(); ++k)
+        if (names("rgba", ldi.channels[k].name)) keep[k] = true;
+    for (std::size_t k = 0; k < keep.size(); ++k)
+        if (const std::size_t c = coverage_of(ldi.channels, k); keep[k] && c != npos) keep[c] = true;
     std::size_t kept = 0;
     for (std::size_t k = 0; k < keep.size(); ++k) {
-        if (!keep[k] && !names("rgba", ldi.channels[k].name)) continue;
+        if (!keep[k]) continue;
         std::swap(ldi.channels[kept], ldi.channels[k]);
         std::swap(ldi.values[kept++], ldi.values[k]);
     }

@@ -12,8 +12,8 @@ namespace {
 // All that the samples depend on: depth as ray distance becomes planar by the focal length.
 auto key_of(const std::string &path, const std::string &channels, const LensOptions &lens,
             const DepthOptions &depth, const ColourOptions &colour) {
-    return std::tuple(path, channels, depth.meaning, depth.channel, depth.far, lens.focal_length_mm,
-                      lens.sensor_width_mm, colour.config, colour.input_space);
+    return std::tuple(path, channels, depth.meaning, depth.channel, depth.far, depth.view,
+                      lens.focal_length_mm, lens.sensor_width_mm, colour.config, colour.input_space);
 }
 
 std::vector<std::string> keep_and_tell(Ldi &ldi, const std::string &channels) {
@@ -41,6 +41,7 @@ InputLdi LdiCache::load(const std::string &path, const std::string &channels, co
         last_.reset(); // two at a time may be more than fits
         tool.say("reading " + path);
         auto entry = std::make_shared<Entry>(Entry{key, load_ldi(path, lens, depth), {}});
+        say_samples(tool, path, entry->loaded);
         warn_of_bad_values(tool, path, entry->loaded.bad);
         to_scene_linear(tool, colour, path, entry->loaded.header, entry->loaded.ldi);
         entry->channels_left_out = keep_and_tell(entry->loaded.ldi, channels);

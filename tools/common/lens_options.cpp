@@ -69,6 +69,13 @@ void add_depth_options(CLI::App &app, DepthOptions &options) {
     app.add_option("--depth-channel", options.channel, "Depth channel (else Z, depth.Z, *.Depth.Z are tried)")
         ->type_name("NAME")
         ->group("Lens");
+    add_stereo_option(app, options.view);
+}
+
+void add_stereo_option(CLI::App &app, std::string &view) {
+    app.add_option("--stereo-view", view, "View of stereo files to read, as right (their default one)")
+        ->type_name("NAME")
+        ->group("Lens");
 }
 
 Camera camera_with_options(const LensOptions &options, Camera camera) {

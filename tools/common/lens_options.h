@@ -17,14 +17,17 @@ struct LensOptions {
     std::optional<double> focal_length_mm, sensor_width_mm, fstop, lens_radius, focus_distance, scene_unit;
 };
 
+// How files are read.
 struct DepthOptions {
     DepthMeaning meaning = DepthMeaning::planar;
-    std::string channel; // empty: the usual names are tried
-    double far = 1e10;   // what lies there or beyond is the sky, in the unit of the depth channel
+    std::string channel;   // empty: the usual names are tried
+    std::string view = {}; // of a stereo file; empty: the default one
+    double far = 1e10;     // what lies there or beyond is the sky, in the unit of the depth channel
 };
 
 void add_lens_options(CLI::App &app, LensOptions &options);
-void add_depth_options(CLI::App &app, DepthOptions &options);
+void add_depth_options(CLI::App &app, DepthOptions &options); // the view among them
+void add_stereo_option(CLI::App &app, std::string &view);
 
 // The file's camera with the options put over it. --lens-radius becomes an f-number; --scene-unit leaves the
 // file's focus where it is in metres.

@@ -11,8 +11,8 @@ namespace {
 
 // Reads the header of a view; from standard input, which cannot be read twice, the pixels too.
 Imf::Header open_header(LensViewFile &view) {
-    if (view.path != "-") return read_flat_header(view.path);
-    view.pixels = read_flat_exr(view.path);
+    if (view.path != "-") return read_flat_header(view.path, view.stereo_view);
+    view.pixels = read_flat_exr(view.path, view.stereo_view);
     return view.pixels->header;
 }
 
@@ -50,13 +50,16 @@ void add_lens_view_options(CLI::App &app, LensViewOptions &options) {
         ->type_name("FILE");
 }
 
-FlatFile LensViewFile::take_pixels() { return pixels ? std::move(*pixels) : read_flat_exr(path); }
+FlatFile LensViewFile::take_pixels() {
+    return pixels ? std::move(*pixels) : read_flat_exr(path, stereo_view);
+}
 
 LensViewFiles open_lens_views(const LensViewOptions &options) {
     LensViewFiles result;
-    for (const std::string &path : options.files) result.views.push_back({path, {0, 0}, {}});
+    for (const std::string &path : options.files)
+        result.views.push_back({path, {0, 0}, {}, options.stereo_view});
     for (const auto &[position, path] : options.placed)
-        result.views.push_back({path, view_offset(position), {}});
+        result.views.push_back({path, view_offset(position), {}, options.stereo_view});
     if (result.views.empty()) throw UsageError("no views are given");
     std::vector<Imf::Header> headers;
     for (LensViewFile &view : result.views) headers.push_back(open_header(view));
@@ -65,7 +68,8 @@ LensViewFiles open_lens_views(const LensViewOptions &options) {
         if (headers[i].displayWindow() != result.windows.display)
             throw Error(result.views[i].path + ": the display window differs from that of " +
                         result.views[0].path);
-    result.header = options.centre.empty() ? headers.front() : read_flat_header(options.centre);
+    result.header =
+        options.centre.empty() ? headers.front() : read_flat_header(options.centre, options.stereo_view);
     result.centre = read_camera(result.header);
     if (!options.files.empty())
         place_by_metadata(std::span(result.views).first(options.files.size()), headers, options.centre,

@@ -18,6 +18,7 @@ struct LensViewOptions {
     std::vector<std::string> files;
     std::vector<std::pair<std::string, std::string>> placed; // "X,Y" and file
     std::string centre;                                      // a file whose camera stands at the lens centre
+    std::string stereo_view;                                 // empty: the files' default view
 };
 
 void add_lens_view_options(CLI::App &app, LensViewOptions &options);
@@ -27,7 +28,8 @@ struct LensViewFile {
     Imath::V2d position;            // on the lens: relative to its centre, scene units, x right, y up
     std::optional<FlatFile> pixels; // already read: standard input gives them only once
 
-    FlatFile take_pixels(); // reads them where they are not
+    std::string stereo_view; // of the file
+    FlatFile take_pixels();  // reads them where they are not
 };
 
 struct LensViewFiles {

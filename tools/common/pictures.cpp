@@ -5,6 +5,7 @@
 #include "io/exr_flat.h"
 #include "io/file_stream.h"
 #include "ldi/build.h"
+#include "ldi/coloured_alpha.h"
 #include "ldi/frame.h"
 
 #include <algorithm>
@@ -44,7 +45,7 @@ private:
 } // namespace
 
 LoadedLdi load_ldi(const std::string &path, const LensOptions &lens, const DepthOptions &depth) {
-    LdiFile file = read_ldi(path, depth.channel);
+    LdiFile file = read_ldi(path, depth.channel, depth.view);
     Ldi &ldi = file.ldi;
     const Camera camera = camera_with_options(lens, read_camera(file.header));
     const DepthReader read(ldi.windows, depth, camera);
@@ -57,7 +58,7 @@ LoadedLdi load_ldi(const std::string &path, const LensOptions &lens, const Depth
     const std::size_t in_file = ldi.samples();
     ldi = tidy(std::move(ldi));
     const std::size_t invisible = in_file - std::min(in_file, ldi.samples());
-    return {std::move(ldi), std::move(file.header), camera, bad, invisible};
+    return {std::move(ldi), std::move(file.header), camera, bad, invisible, std::move(file.notes)};
 }
 
 std::optional<Holdout> load_holdout(const std::string &path, const Windows &windows, int proxy_factor,
@@ -70,7 +71,7 @@ std::optional<Holdout> load_holdout(const std::string &path, const Windows &wind
 }
 
 LoadedView load_view(const std::string &path, const LensOptions &lens, const DepthOptions &depth) {
-    FlatFile file = read_flat_exr(path);
+    FlatFile file = read_flat_exr(path, depth.view);
     LoadedView loaded{{display_name(path), std::move(file.image), {}}, std::move(file.header), {}, {}};
     View &view = loaded.view;
     view.z = take_depth(view.image, depth.channel, path);
@@ -79,6 +80,12 @@ LoadedView load_view(const std::string &path, const LensOptions &lens, const Dep
     for (std::size_t i = 0; i < view.z.size(); ++i) view.z[i] = read.planar(view.z[i], i);
     loaded.bad = repair_bad_values(view);
     return loaded;
+}
+
+void say_samples(const ToolContext &tool, const std::string &path, const LoadedLdi &loaded) {
+    for (const std::string &note : loaded.notes) tool.say(display_name(path) + ": " + note);
+    if (by_coverage(loaded.ldi).size() > 1)
+        tool.say(display_name(path) + ": coverage is coloured (AR, AG, AB): each colour has its own");
 }
 
 void say_camera(const ToolContext &tool, const std::string &path, const Camera &camera) {

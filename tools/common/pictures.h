@@ -15,6 +15,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace sparselens {
 
@@ -25,6 +26,7 @@ struct LoadedLdi {
     BadValues bad;
     std::size_t invisible =
         0; // samples of the file that show nothing, or are one with another: tidy() left them out
+    std::vector<std::string> notes; // see LdiFile
 };
 
 LoadedLdi load_ldi(const std::string &path, const LensOptions &lens, const DepthOptions &depth);
@@ -42,6 +44,9 @@ struct LoadedView {
 };
 
 LoadedView load_view(const std::string &path, const LensOptions &lens, const DepthOptions &depth);
+
+// With --verbose: what was made of the parts of the file, and whether coverage is coloured.
+void say_samples(const ToolContext &tool, const std::string &path, const LoadedLdi &loaded);
 
 // With --verbose: what the file says about its camera, and which attribute says so.
 void say_camera(const ToolContext &tool, const std::string &path, const Camera &camera);
