@@ -5,6 +5,7 @@ set -euo pipefail
 bin=$(cd "${1:?usage: bash SCRIPT BIN_DIR}" && pwd)
 source_dir=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 scratch=$(mktemp -d)
+export SPARSELENS_NO_HISTORY=1 # files are compared that another command made
 trap 'rm -rf "$scratch"' EXIT
 cd "$scratch"
 

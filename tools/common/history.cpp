@@ -63,6 +63,7 @@ std::string command_line(const std::string &tool, const std::vector<std::string>
 }
 
 void append_history(Imf::Header &header, const ToolContext &tool) {
+    if (tool.command_line.empty()) return;
     std::string history = text_of(header, "Exif:ImageHistory");
     if (!history.empty() && history.back() != '\n') history += '\n';
     set_text(header, "Exif:ImageHistory", history + tool.command_line);

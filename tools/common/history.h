@@ -15,7 +15,7 @@ namespace sparselens {
 // threads, memory, messages and which other frames are made. So the same work gives the same bytes.
 std::string command_line(const std::string &tool, const std::vector<std::string> &words);
 
-// Appends tool.command_line.
+// Appends tool.command_line, where there is one.
 void append_history(Imf::Header &header, const ToolContext &tool);
 
 } // namespace sparselens
