@@ -24,7 +24,7 @@ Ldi coloured(const RandomLdi &how) {
     ldi.channels = named({"R", "G", "B", "A", "AB", "AG", "AR", "diffuse.G", "depth.x"});
     ldi.values.resize(ldi.channels.size(), std::vector<float>(ldi.samples()));
     for (std::size_t i = 0; i < ldi.samples(); ++i) {
-        const float a = ldi.values[3][i];
+        const float a = ldi.values[3][i] *= 0.9f; // the opaque would be averaged by clusters
         ldi.values[4][i] = a * a;
         ldi.values[5][i] = 1 - (1 - a) * (1 - a);
         ldi.values[6][i] = 0.4f * float(i % 3);
