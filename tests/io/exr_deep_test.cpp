@@ -190,6 +190,22 @@ Ldi third_party(int width, int height) {
     return ldi;
 }
 
+// Of a pyramid the picture itself: its reduced levels, filled here with other counts, are nobody's samples.
+TEST_F(ExrDeep, OfMipmapsTheFullSizeIsRead) {
+    Ldi ldi = third_party(50, 37);
+    ForeignDeep foreign(ldi, "Z");
+    foreign.header.setType(Imf::DEEPTILE);
+    foreign.header.setTileDescription(Imf::TileDescription(16, 8, Imf::MIPMAP_LEVELS));
+    {
+        Imf::DeepTiledOutputFile file(path.c_str(), foreign.header);
+        for (int level = 0; level < file.numLevels(); ++level) {
+            file.setFrameBuffer(foreign.buffer); // its corner, for the levels that are smaller
+            file.writeTiles(0, file.numXTiles(level) - 1, 0, file.numYTiles(level) - 1, level);
+        }
+    }
+    expect_equal(read_ldi(path).ldi, ldi);
+}
+
 TEST_F(ExrDeep, TiledFilesAreRead) {
     Ldi ldi = third_party(50, 37);
     ForeignDeep foreign(ldi, "Z");
@@ -204,7 +220,7 @@ TEST_F(ExrDeep, TiledFilesAreRead) {
 }
 
 // First a flat part, then a deep one: the deep one counts.
-TEST_F(ExrDeep, TheFirstDeepPartIsTheOneThatIsRead) {
+TEST_F(ExrDeep, TheDeepPartIsTheOneThatIsRead) {
     Ldi ldi = third_party(20, 10);
     ForeignDeep foreign(ldi, "depth.Z");
     foreign.header.setType(Imf::DEEPSCANLINE);

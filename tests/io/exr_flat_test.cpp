@@ -134,6 +134,76 @@ TEST_F(ExrFlat, TiledFilesAreRead) {
     EXPECT_EQ(image.at(0, -2, 6), 41);
 }
 
+// How far from what was written a compression may bring halves and floats back, of a smooth picture in [0, 1].
+struct Compression {
+    const char *name;
+    Imf::Compression how;
+    float half_error, float_error;
+};
+
+class Compressions : public ExrFlat, public testing::WithParamInterface<Compression> {};
+
+TEST_P(Compressions, AreReadScanlinesAndTilesHalvesFloatsAndIds) {
+    constexpr int width = 70, height = 45; // no multiple of any block
+    constexpr std::size_t pixels = std::size_t(width) * height;
+    std::vector<half> halves(pixels);
+    std::vector<float> floats(pixels);
+    std::vector<std::uint32_t> ids(pixels);
+    for (std::size_t i = 0; i < pixels; ++i) {
+        floats[i] = 0.5f + 0.25f * std::sin(float(i % width) / 9) + 0.25f * std::cos(float(i / width) / 7);
+        halves[i] = floats[i];
+        ids[i] = std::uint32_t(i) * 2654435761u; // all bits used, NaNs among them
+    }
+    for (const bool tiled : {false, true}) {
+        Imf::Header header(width, height);
+        header.compression() = GetParam().how;
+        if (tiled) header.setTileDescription(Imf::TileDescription(32, 16));
+        Imf::FrameBuffer buffer;
+        const auto add = [&](const char *name, Imf::PixelType type, auto &values) {
+            header.channels().insert(name, Imf::Channel(type));
+            constexpr std::size_t bytes = sizeof(values[0]);
+            buffer.insert(name,
+                          Imf::Slice::Make(type, values.data(), header.dataWindow(), bytes, bytes * width));
+        };
+        add("R", Imf::HALF, halves);
+        add("Z", Imf::FLOAT, floats);
+        add("id", Imf::UINT, ids);
+        if (tiled) {
+            Imf::TiledOutputFile file(path.c_str(), header);
+            file.setFrameBuffer(buffer);
+            file.writeTiles(0, file.numXTiles() - 1, 0, file.numYTiles() - 1);
+        } else {
+            Imf::OutputFile file(path.c_str(), header);
+            file.setFrameBuffer(buffer);
+            file.writePixels(height);
+        }
+        const Image image = read_flat_exr(path).image;
+        ASSERT_EQ(image.channels,
+                  (std::vector<Channel>{
+                      {"R", PixelType::half}, {"Z", PixelType::float32}, {"id", PixelType::uint32}}));
+        for (std::size_t i = 0; i < pixels; ++i) {
+            ASSERT_NEAR(image.plane(0)[i], float(halves[i]), GetParam().half_error) << tiled << " " << i;
+            ASSERT_NEAR(image.plane(1)[i], floats[i], GetParam().float_error) << tiled << " " << i;
+            ASSERT_EQ(std::bit_cast<std::uint32_t>(image.plane(2)[i]), ids[i]) << tiled << " " << i;
+        }
+    }
+}
+
+// PXR24 rounds floats to 24 bits; B44 halves in blocks of 4x4; DWA what the eye does not see, of halves and floats
+// that are colours.
+INSTANTIATE_TEST_SUITE_P(ExrFlat, Compressions,
+                         testing::Values(Compression{"none", Imf::NO_COMPRESSION, 0, 0},
+                                         Compression{"rle", Imf::RLE_COMPRESSION, 0, 0},
+                                         Compression{"zips", Imf::ZIPS_COMPRESSION, 0, 0},
+                                         Compression{"zip", Imf::ZIP_COMPRESSION, 0, 0},
+                                         Compression{"piz", Imf::PIZ_COMPRESSION, 0, 0},
+                                         Compression{"pxr24", Imf::PXR24_COMPRESSION, 0, 0x1p-16f},
+                                         Compression{"b44", Imf::B44_COMPRESSION, 0.02f, 0},
+                                         Compression{"b44a", Imf::B44A_COMPRESSION, 0.02f, 0},
+                                         Compression{"dwaa", Imf::DWAA_COMPRESSION, 0.03f, 0},
+                                         Compression{"dwab", Imf::DWAB_COMPRESSION, 0.03f, 0}),
+                         [](const auto &compression) { return std::string(compression.param.name); });
+
 TEST_F(ExrFlat, SubsampledChannelsAreAnErrorThatNamesFileAndChannel) {
     Imf::Header header(4, 4);
     header.channels().insert("RY", Imf::Channel(Imf::HALF, 2, 2));

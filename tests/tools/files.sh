@@ -1,5 +1,5 @@
 # Files as others write them: several parts, one a layer or one a view, tiles, every compression; the sky as each
-# renderer has it, and the cameras of renderers.
+# renderer has it, and the cameras of renderers; the views of stereo files, coloured alpha, and the history of a picture.
 #   bash files.sh BIN_DIR
 . "$(dirname "$0")/check.sh"
 flat=(--lens-radius 0 -d float)
@@ -39,6 +39,83 @@ same out.exr expected.exr "the first view"
 exits 0 "$bin/ldi-warp" stereo.exr -o ldi.exr --merge keep
 exits 0 "$bin/dof-gather" ldi.exr -o out.exr "${flat[@]}"
 idiff -q -fail 1e-3 -warn 1e-3 out.exr expected.exr >idiff.txt || fail "ldi-warp of two views"
+
+# --stereo-view: another one, in every tool that reads pictures.
+oiiotool diffuse.exr -d float -o right.exr
+exits 0 "$bin/dof-gather" stereo.exr -o out.exr "${flat[@]}" --stereo-view right
+[ "$(names out.exr)" = "B G R " ] || fail "the right view: $(names out.exr)"
+same out.exr right.exr "--stereo-view right"
+exrheader out.exr | grep -q '^view .*"right"' || fail "the picture of a view does not say which"
+exits 0 "$bin/ldi-warp" stereo.exr -o ldi.exr --merge keep --stereo-view right
+exits 0 "$bin/ldi-cluster" ldi.exr -o less.exr --layers 1 --stereo-view right
+exits 0 "$bin/dof-gather" less.exr -o out.exr "${flat[@]}"
+idiff -q -fail 1e-3 -warn 1e-3 out.exr right.exr >idiff.txt || fail "ldi-warp and ldi-cluster --stereo-view"
+exits 0 "$bin/dof-accumulate" --view 0,0 stereo.exr -o out.exr -d float --lens-radius 0 --stereo-view right
+oiiotool out.exr --ch R,G,B -o cut.exr
+same cut.exr right.exr "dof-accumulate --stereo-view"
+exits 0 "$bin/dof-compare" stereo.exr stereo.exr --json --stereo-view right
+exits 0 "$bin/ldi-plan" stereo.exr -o plan.json --stereo-view right --fstop 2 --focus-distance 3 --focal-length 50 --sensor-width 36
+for tool in dof-gather ldi-warp ldi-cluster ldi-plan; do
+    fails_saying 1 "stereo.exr: has no stereo view 'middle' .*left, right" "$bin/$tool" stereo.exr -o x.exr --stereo-view middle
+done
+fails_saying 1 'left, right' "$bin/dof-accumulate" --view 0,0 stereo.exr -o x.exr --lens-radius 0 --stereo-view middle
+fails_saying 1 'left, right' "$bin/dof-compare" stereo.exr stereo.exr --stereo-view middle
+fails_saying 1 "one.exr: .*names no views" "$bin/dof-gather" one.exr -o x.exr "${flat[@]}" --stereo-view left
+
+# Coloured alpha: each colour is attenuated by its own, as OpenImageIO has it (whose AR, AG, AB then add up to more
+# than 1: those are not compared); ldi-cluster makes one sample of both.
+pane() { # VALUES DEPTH OUT
+    oiiotool --pattern constant:color="$1,$2" 8x4 7 --chnames R,G,B,AR,AG,AB,Z -d float --deepen:z="$2" -o "$3"
+}
+pane 0.25,0.5,0,0.25,0.75,1 2 glass.exr
+pane 1,0.5,0.25,1,1,1 5 wall.exr
+oiiotool glass.exr wall.exr --deepmerge -o coloured.exr
+oiiotool coloured.exr --flatten --ch R,G,B -d float -o oiio.exr
+exits 0 "$bin/dof-gather" coloured.exr -o out.exr "${flat[@]}" -v
+grep -q 'coverage is coloured' stderr || fail "-v does not say that coverage is coloured"
+[ "$(names out.exr)" = "A AB AG AR B G R " ] || fail "coloured alpha: $(names out.exr)"
+oiiotool out.exr --ch R,G,B -o cut.exr
+same cut.exr oiio.exr "coloured alpha, flattened"
+oiiotool out.exr --ch A,AR,AG,AB --pattern constant:color=1,1,1,1 8x4 4 --chnames A,AR,AG,AB --fail 0 --diff >diff.txt || fail "all is covered ($(cat diff.txt))"
+exits 0 "$bin/ldi-cluster" coloured.exr -o less.exr --layers 1
+exits 0 "$bin/dof-gather" less.exr -o out.exr "${flat[@]}" --channels R,G
+oiiotool oiio.exr --ch R,G -o cut.exr
+idiff -q -fail 1e-3 -warn 1e-3 out.exr cut.exr >idiff.txt || fail "clustered coloured alpha"
+
+# Deep parts: their samples are merged, as oiiotool --deepmerge has it.
+oiiotool glass.exr --sattrib oiio:subimagename glass -o p_glass.exr
+oiiotool wall.exr --sattrib oiio:subimagename wall -o p_wall.exr
+oiiotool p_wall.exr p_glass.exr --siappendall -o parts.exr
+exits 0 "$bin/dof-gather" parts.exr -o out.exr "${flat[@]}" -v
+grep -q '2 deep parts are merged' stderr || fail "-v does not say that parts are merged: $(cat stderr)"
+oiiotool out.exr --ch R,G,B -o cut.exr
+same cut.exr oiio.exr "two deep parts"
+
+# The history of a picture is in its metadata, a line a command, as oiiotool writes it; through pipes too.
+history() { exrheader "$1" | awk '/^Exif:ImageHistory/ { on = 1; sub(/^[^"]*"/, "") } on { last = sub(/"$/, ""); print; on = !last }'; }
+oiiotool one.exr --sattrib shot "sq01" --nosoftwareattrib --sattrib Exif:ImageHistory "render shot" -o 'centre view.exr'
+chain() {
+    "$bin/ldi-warp" 'centre view.exr' --threads "$1" -o - | "$bin/ldi-cluster" - --layers 2 --threads "$1" -o - |
+        "$bin/dof-gather" - --lens-radius 0 -v -o "$2" 2>stderr
+}
+unset SPARSELENS_NO_HISTORY
+chain 1 out.exr
+told="render shot
+ldi-warp 'centre view.exr'
+ldi-cluster - --layers 2
+dof-gather - --lens-radius 0"
+[ "$(history out.exr)" = "$told" ] || fail "history: $(history out.exr)"
+exrheader out.exr | grep -q '^Software .*sparselens .* : dof-gather - --lens-radius 0"' || fail "Software: $(exrheader out.exr)"
+exrheader out.exr | grep -q '^shot .*"sq01"' || fail "the centre view's metadata is lost"
+chain 2 again.exr
+cmp -s out.exr again.exr || fail "threads and the output's name are in the picture"
+exits 0 "$bin/dof-accumulate" --view 0,0 one.exr -o out.exr --lens-radius 0
+history out.exr | grep -q 'dof-accumulate --view 0,0 one.exr --lens-radius 0$' || fail "dof-accumulate: $(history out.exr)"
+exits 0 "$bin/dof-gather" 'centre view.exr' -o out.exr --lens-radius 0 --no-history
+[ "$(history out.exr)" = "render shot" ] || fail "--no-history: $(history out.exr)"
+export SPARSELENS_NO_HISTORY=1
+exits 0 "$bin/dof-gather" 'centre view.exr' -o again.exr --lens-radius 0
+cmp -s out.exr again.exr || fail "\$SPARSELENS_NO_HISTORY is not --no-history"
 
 # Tiles and compressions that lose nothing.
 for how in '--tile 8 8' '--compression none' '--compression rle' '--compression zips' '--compression piz'; do
