@@ -21,6 +21,7 @@ using namespace sparselens;
 struct Options {
     LensViewOptions views;
     LensOptions lens;
+    HistoryOptions history;
     std::string output;
     bool as_float = false;
     bool transparent_outside = false;
@@ -39,6 +40,7 @@ void add_options(CLI::App &app, Options &options) {
         ->transform(words(outside));
     add_lens_options(app, options.lens);
     add_stereo_option(app, options.views.stereo_view);
+    add_history_option(app, options.history);
 }
 
 // The aperture where the options ask for one: only then are views left out for standing outside of it.
@@ -114,7 +116,7 @@ void accumulate_files(const Options &options, const ToolContext &tool) {
     const Image image = average_views(files, lens, options, tool);
     const Image picture = in_type(image, options.as_float);
     Imf::Header header = header_of(files);
-    append_history(header, tool);
+    append_history(header, tool, options.history);
     warn_of_clamped(tool, options.output, write_flat_exr(options.output, picture, header));
 }
 

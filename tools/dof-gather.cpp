@@ -5,7 +5,6 @@
 #include "common/channels.h"
 #include "common/colour_options.h"
 #include "common/gather_options.h"
-#include "common/history.h"
 #include "common/ldi_cache.h"
 #include "common/picture_options.h"
 #include "common/pictures.h"
@@ -70,7 +69,7 @@ void run(const GatherCommand &options, const ToolContext &tool, LdiCache &cache)
     if (options.show != Show::picture)
         picture = crop(shown(options.show, ldi, lens, frame.gathered, tiles), frame.written);
     write_camera(in.header, in.camera);
-    append_history(in.header, tool);
+    append_history(in.header, tool, options.history);
     if (!options.depth_output.empty())
         write_flat_exr(options.depth_output, crop(front_depth(ldi), frame.written), in.header);
     picture = in_type(std::move(picture), options.as_float);

@@ -12,7 +12,7 @@ build='g++ cmake ninja-build pkg-config libcli11-dev libembree-dev libhwy-dev li
 demo='fonts-dejavu-core openimageio-tools'
 lint='clang-14 clang-format-14 clang-tidy-14'
 report='chromium gnuplot-nox'
-test='gnuplot-nox libbenchmark-dev libgtest-dev openexr openimageio-tools time'
+test='fish gnuplot-nox libbenchmark-dev libgtest-dev openexr openimageio-tools time zsh'
 
 fail() {
     echo "install-deps: $*" >&2

@@ -14,6 +14,7 @@ namespace {
 struct Options {
     LensOptions lens;
     DepthOptions depth;
+    HistoryOptions history;
     std::string input, output;
     std::optional<double> tolerance;
     int layers = 0;
@@ -34,6 +35,7 @@ void add_options(CLI::App &app, Options &options) {
         ->check(CLI::Range(0, 1 << 20));
     add_lens_options(app, options.lens);
     add_depth_options(app, options.depth);
+    add_history_option(app, options.history);
 }
 
 // R F. The tolerance needs it; --layers alone does without, as inverse depth needs no scale to be compared.
@@ -58,7 +60,7 @@ void run(const Options &options, const ToolContext &tool) {
              (scale ? ", CoC changed by at most " + std::to_string(out.largest_error) + " px"
                     : ", by inverse depth alone: the lens is unknown"));
     write_camera(in.header, in.camera);
-    append_history(in.header, tool);
+    append_history(in.header, tool, options.history);
     warn_of_clamped(tool, options.output, write_ldi(options.output, out.ldi, in.header));
     write_stats(tool, cluster_stats(in, out));
 }

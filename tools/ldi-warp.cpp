@@ -1,7 +1,6 @@
 // Views to LDI: ldi-warp [lens options] CENTER.exr [VIEW.exr ...] [--view X,Y VIEW.exr]... -o LDI.exr
 #include "base/error.h"
 #include "common/colour_options.h"
-#include "common/history.h"
 #include "common/pictures.h"
 #include "common/stats.h"
 #include "common/tool.h"
@@ -38,7 +37,7 @@ void run(const WarpCommand &options, const ToolContext &tool) {
     for (View &view : loaded.views) to_scene_linear(tool, options.colour, view.name, loaded.header, view);
     const WarpOptions warp_by = warp_options(options, loaded);
     write_camera(loaded.header, loaded.camera);
-    append_history(loaded.header, tool);
+    append_history(loaded.header, tool, options.history);
     write_picture_window(loaded.header, loaded.views[0].image.windows.data);
     const Ldi ldi = warp(loaded.views, warp_by, *tool.progress);
     warn_of_misplaced(tool, loaded.views, warp_by.focal_px);

@@ -75,7 +75,7 @@ TEST(History, ReplacesWhatIsNoText) {
 TEST(History, IsLeftAloneWhereNoneIsToBeTold) {
     Imf::Header header;
     header.insert("Software", Imf::StringAttribute("a renderer"));
-    append_history(header, ToolContext());
+    append_history(header, ToolContext(), {.none = true});
     EXPECT_EQ(text_of(header, "Software"), "a renderer");
     EXPECT_EQ(header.find("Exif:ImageHistory"), header.end());
 }

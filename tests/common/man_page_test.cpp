@@ -45,5 +45,27 @@ TEST(BashCompletion, HasOptionsAndTheirWords) {
     EXPECT_EQ(text.find("IN.exr"), std::string::npos) << text;
 }
 
+TEST(ZshCompletion, HasOptionsTheirWordsAndWhatTheyAreFor) {
+    Table table;
+    table.app.add_flag("--it")->description("Not [it's] so: no");
+    const std::string text = zsh_completion(table.app);
+    for (const char *line :
+         {"#compdef do-it\n_arguments -s", "'*:IN.exr:_files'", "'*-o[Where to]:FILE:_files'",
+          "'*--out-put[Where to]:FILE:_files'", "'*--how[Which way]:fast|well:(fast well)'",
+          "'*--it[Not \\[it'\\''s\\] so\\: no]'"})
+        EXPECT_NE(text.find(line), std::string::npos) << line << "\nis not in\n" << text;
+}
+
+TEST(FishCompletion, HasOptionsTheirWordsAndWhatTheyAreFor) {
+    Table table;
+    table.app.add_flag("--it")->description("It's so");
+    const std::string text = fish_completion(table.app);
+    for (const char *line : {"complete -c do-it -s o -l out-put -r -d 'Where to'\n",
+                             "complete -c do-it -l how -r -f -a 'fast well' -d 'Which way'\n",
+                             "complete -c do-it -l it -d 'It'\\''s so'\n"})
+        EXPECT_NE(text.find(line), std::string::npos) << line << "\nis not in\n" << text;
+    EXPECT_EQ(text.find("IN.exr"), std::string::npos) << text;
+}
+
 } // namespace
 } // namespace sparselens

@@ -8,7 +8,8 @@ logged() { "$@" >log 2>&1 || fail "$* ($(cat log))"; }
 logged cmake --install "$build" --prefix "$prefix"
 for tool in "$bin"/ldi-* "$bin"/dof-*; do
     [ -x "$prefix/bin/${tool##*/}" ] || fail "${tool##*/} is not installed"
-    for page in "man/man1/${tool##*/}.1" "bash-completion/completions/${tool##*/}"; do
+    for page in "man/man1/${tool##*/}.1" "bash-completion/completions/${tool##*/}" "zsh/site-functions/_${tool##*/}" \
+        "fish/vendor_completions.d/${tool##*/}.fish"; do
         [ -s "$prefix/share/$page" ] || fail "share/$page is not installed"
     done
 done

@@ -113,6 +113,11 @@ exits 0 "$bin/dof-accumulate" --view 0,0 one.exr -o out.exr --lens-radius 0
 history out.exr | grep -q 'dof-accumulate --view 0,0 one.exr --lens-radius 0$' || fail "dof-accumulate: $(history out.exr)"
 exits 0 "$bin/dof-gather" 'centre view.exr' -o out.exr --lens-radius 0 --no-history
 [ "$(history out.exr)" = "render shot" ] || fail "--no-history: $(history out.exr)"
+exits 0 "$bin/ldi-warp" 'centre view.exr' -o ldi.exr --no-history
+exits 0 "$bin/ldi-cluster" ldi.exr -o less.exr --layers 1 --no-history
+[ "$(history less.exr)" = "render shot" ] || fail "--no-history of an LDI: $(history less.exr)"
+exits 0 "$bin/dof-accumulate" --view 0,0 'centre view.exr' -o again.exr --lens-radius 0 --no-history
+[ "$(history again.exr)" = "render shot" ] || fail "dof-accumulate --no-history: $(history again.exr)"
 export SPARSELENS_NO_HISTORY=1
 exits 0 "$bin/dof-gather" 'centre view.exr' -o again.exr --lens-radius 0
 cmp -s out.exr again.exr || fail "\$SPARSELENS_NO_HISTORY is not --no-history"

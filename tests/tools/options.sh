@@ -26,12 +26,21 @@ for path in "$bin"/ldi-* "$bin"/dof-*; do
     exits 0 "$path" --completion bash
     mv stdout "completions/$tool"
     cmp -s "completions/$tool" "$bin/../share/bash-completion/completions/$tool" || fail "$tool: the built completion is another"
+    for shell in zsh fish; do
+        exits 0 "$path" --completion $shell
+        mv stdout "completions/$tool.$shell"
+    done
+    cmp -s "completions/$tool.zsh" "$bin/../share/zsh/site-functions/_$tool" || fail "$tool: the built completion of zsh is another"
+    cmp -s "completions/$tool.fish" "$bin/../share/fish/vendor_completions.d/$tool.fish" || fail "$tool: the built completion of fish is another"
     fails_saying 2 '--completion' "$path" --completion csh
 
     exits 0 "$path" --help
     grep -oE '^  +-[^ ]+' stdout | tr -d ' ' | tr ',' '\n' | sort -u >names
     [ "$(wc -l <names)" -ge 8 ] || fail "$tool --help names $(cat names)"
     bash_words "$tool" - | tr ' ' '\n' | sort -u | diff names - >differ || fail "$tool: help and completion: $(cat differ)"
+    sed -nE "s/^ +'\\*(-[^[]+)\\[.*/\\1/p" "completions/$tool.zsh" | sort -u | diff names - >differ || fail "$tool: help and zsh: $(cat differ)"
+    sed -E "s/ -d '.*//" "completions/$tool.fish" | grep -oE ' -[sl] [^ ]+' | sed 's/ -s /-/; s/ -l /--/' | sort -u |
+        diff names - >differ || fail "$tool: help and fish: $(cat differ)"
     sed -nE 's/\\fB((\\-)+[^\\]+(\\-[^\\]+)*)\\fR/\n&\n/gp' "$tool.1" | sed -nE 's/^\\fB(\\-.*)\\fR$/\1/p' | sed 's/\\-/-/g' | sort -u |
         diff names - >differ || fail "$tool: help and manual page: $(cat differ)"
     # An option of two names is tested by one of them.
@@ -49,4 +58,12 @@ if command -v groff >/dev/null; then
 fi
 [ "$(bash_words dof-gather --method s)" = "selective scatter" ] || fail "--method: $(bash_words dof-gather --method s)"
 [ "$(bash_words dof-gather --focus-d)" = "--focus-distance" ] || fail "--focus-d: $(bash_words dof-gather --focus-d)"
+if command -v zsh >/dev/null; then
+    for file in completions/*.zsh; do zsh -fn "$file" || fail "$file is no zsh"; done
+fi
+if command -v fish >/dev/null; then
+    fish_words() { XDG_CONFIG_HOME=$PWD XDG_DATA_HOME=$PWD fish -Nc "source completions/$1.fish; complete -C \"$1 $2\"" | cut -f1 | xargs; }
+    [ "$(fish_words dof-gather '--method s')" = "scatter selective" ] || fail "fish: --method: $(fish_words dof-gather '--method s')"
+    [ "$(fish_words dof-gather --focus-d)" = "--focus-distance" ] || fail "fish: --focus-d: $(fish_words dof-gather --focus-d)"
+fi
 [ -z "$(bash_words dof-gather in)" ] || fail "names of files are bash's: $(bash_words dof-gather in)"

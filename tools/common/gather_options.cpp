@@ -43,6 +43,7 @@ void add_gather_options(CLI::App &app, GatherCommand &options) {
     add_input_colour_options(app, options.colour);
     add_output_colour_options(app, options.colour);
     add_window_options(app, options.windows);
+    add_history_option(app, options.history);
     app.get_option("--focus-pixel")->excludes("--focus-distance");
 }
 

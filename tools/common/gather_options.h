@@ -2,6 +2,7 @@
 #pragma once
 
 #include "common/colour_options.h"
+#include "common/history.h"
 #include "common/lens_options.h"
 #include "common/show.h"
 #include "common/window_options.h"
@@ -19,6 +20,7 @@ struct GatherCommand {
     DepthOptions depth;
     ColourOptions colour;
     WindowOptions windows;
+    HistoryOptions history;
     GatherOptions gather;
     const GatherMethod *method = &gather_methods().front();
     std::string input, output, depth_output, channels, holdout;

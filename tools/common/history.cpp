@@ -62,8 +62,14 @@ std::string command_line(const std::string &tool, const std::vector<std::string>
     return line;
 }
 
-void append_history(Imf::Header &header, const ToolContext &tool) {
-    if (tool.command_line.empty()) return;
+void add_history_option(CLI::App &app, HistoryOptions &options) {
+    app.add_flag("--no-history", options.none,
+                 "Write no command line into the metadata (Exif:ImageHistory, Software)")
+        ->envname("SPARSELENS_NO_HISTORY");
+}
+
+void append_history(Imf::Header &header, const ToolContext &tool, const HistoryOptions &options) {
+    if (options.none) return;
     std::string history = text_of(header, "Exif:ImageHistory");
     if (!history.empty() && history.back() != '\n') history += '\n';
     set_text(header, "Exif:ImageHistory", history + tool.command_line);

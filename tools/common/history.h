@@ -4,6 +4,7 @@
 
 #include "common/tool.h"
 
+#include <CLI/CLI.hpp>
 #include <ImfHeader.h>
 
 #include <string>
@@ -15,7 +16,12 @@ namespace sparselens {
 // threads, memory, messages and which other frames are made. So the same work gives the same bytes.
 std::string command_line(const std::string &tool, const std::vector<std::string> &words);
 
-// Appends tool.command_line, where there is one.
-void append_history(Imf::Header &header, const ToolContext &tool);
+struct HistoryOptions {
+    bool none = false;
+};
+void add_history_option(CLI::App &app, HistoryOptions &options);
+
+// Appends tool.command_line.
+void append_history(Imf::Header &header, const ToolContext &tool, const HistoryOptions &options = {});
 
 } // namespace sparselens

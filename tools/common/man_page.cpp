@@ -106,17 +106,48 @@ std::string man_page(const CLI::App &app, const std::string &version) {
            environment(app);
 }
 
+namespace {
+
+// The words that an option takes, "a b" of its type "a|b"; else "".
+std::string words_of(const CLI::Option &option) {
+    std::string words = type_of(option);
+    if (words.find('|') == std::string::npos) return "";
+    std::ranges::replace(words, '|', ' ');
+    return words;
+}
+
+std::string single_quoted(const std::string &text) { // as zsh and, but for backslashes, fish read it
+    std::string result = "'";
+    for (const char c : text) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return result + "'";
+}
+
+std::string zsh_escaped(const std::string &text, const std::string &special) {
+    std::string result;
+    for (const char c : text)
+        result += (special.find(c) == std::string::npos ? "" : "\\") + std::string(1, c);
+    return result;
+}
+
+std::string zsh_value(const CLI::Option &option) {
+    if (option.get_expected_max() == 0) return "";
+    const std::string words = words_of(option);
+    return ":" + zsh_escaped(type_of(option), ":\\") + ":" + (words.empty() ? "_files" : "(" + words + ")");
+}
+
+} // namespace
+
 std::string bash_completion(const CLI::App &app) {
     std::string function = "_" + app.get_name(), options, cases;
     std::ranges::replace(function, '-', '_');
     for (const CLI::Option *option : app.get_options()) {
-        std::string patterns, words = type_of(*option);
+        std::string patterns;
+        const std::string words = words_of(*option);
         for (const std::string &name : names_of(*option)) {
             options += (options.empty() ? "" : " ") + name;
             patterns += (patterns.empty() ? "" : "|") + name;
         }
-        if (patterns.empty() || words.find('|') == std::string::npos) continue;
-        std::ranges::replace(words, '|', ' ');
+        if (patterns.empty() || words.empty()) continue;
         cases +=
             "    " + patterns + ") COMPREPLY=($(compgen -W '" + words + "' -- \"$current\")); return ;;\n";
     }
@@ -128,6 +159,33 @@ std::string bash_completion(const CLI::App &app) {
            app.get_name() + "\n";
 }
 
+std::string zsh_completion(const CLI::App &app) {
+    std::string specs;
+    for (const CLI::Option *option : app.get_options()) {
+        const std::string value = zsh_value(*option), help = zsh_escaped(option->get_description(), "[]:\\");
+        if (is_argument(*option))
+            specs += " \\\n    " + single_quoted("*:" + zsh_escaped(type_of(*option), ":\\") + ":_files");
+        for (const std::string &name : names_of(*option)) // "*": a second time too
+            specs += " \\\n    " + single_quoted("*" + name + "[" + help + "]" + value);
+    }
+    return "#compdef " + app.get_name() + "\n_arguments -s" + specs + "\n";
+}
+
+std::string fish_completion(const CLI::App &app) {
+    std::string lines;
+    for (const CLI::Option *option : app.get_options()) {
+        if (is_argument(*option)) continue;
+        std::string line = "complete -c " + app.get_name();
+        for (const std::string &name : option->get_snames()) line += " -s " + name;
+        for (const std::string &name : option->get_lnames()) line += " -l " + name;
+        if (option->get_expected_max() > 0) line += " -r";
+        if (const std::string words = words_of(*option); !words.empty())
+            line += " -f -a " + single_quoted(words);
+        lines += line + " -d " + single_quoted(option->get_description()) + "\n";
+    }
+    return lines;
+}
+
 void add_documentation_options(CLI::App &app, const std::string &version) {
     // CLI11 prints such an exception's text and ends with 0, whatever else is missing.
     const auto print = [](const std::string &text) { throw CLI::CallForVersion(text, 0); };
@@ -136,10 +194,15 @@ void add_documentation_options(CLI::App &app, const std::string &version) {
            "Print the manual page, for man -l -")
         ->group("Documentation");
     app.add_option_function<std::string>(
-           "--completion", [&app, print](const std::string &) { print(bash_completion(app)); },
-           "Print the completion, for source")
-        ->type_name("bash")
-        ->check(CLI::IsMember({"bash"}))
+           "--completion",
+           [&app, print](const std::string &shell) {
+               print(shell == "zsh"    ? zsh_completion(app)
+                     : shell == "fish" ? fish_completion(app)
+                                       : bash_completion(app));
+           },
+           "Print the completion, for source (zsh: for a file _TOOL in $fpath)")
+        ->type_name("bash|zsh|fish")
+        ->check(CLI::IsMember({"bash", "zsh", "fish"}))
         ->group("Documentation");
 }
 

@@ -50,9 +50,6 @@ void add_process_options(CLI::App &app, ProcessOptions &options) {
                    "Memory that reading a file may take, as 4GB (64 MB and 1100 times the file's size)")
         ->type_name("SIZE")
         ->transform(CLI::AsSizeValue(false));
-    app.add_flag("--no-history", options.no_history,
-                 "Write no command line into the metadata (Exif:ImageHistory, Software)")
-        ->envname("SPARSELENS_NO_HISTORY");
     add_documentation_options(app, SPARSELENS_VERSION);
 }
 

@@ -12,11 +12,11 @@ namespace sparselens {
 
 struct ProcessOptions {
     int threads = 0; // 0 = all the process may use (its affinity mask)
-    bool verbose = false, no_history = false;
+    bool verbose = false;
     std::optional<std::uint64_t> max_memory;
 };
 
-// --version, -v, --threads, --max-memory, --no-history, --man, --completion.
+// --version, -v, --threads, --max-memory, --man, --completion.
 void add_process_options(CLI::App &app, ProcessOptions &options);
 
 // Reads the words. Nothing where there is work to do, else the exit code: --help and the like are answered, a

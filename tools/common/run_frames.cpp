@@ -103,7 +103,7 @@ int run_frames(const std::string &name, const std::string &description, int argc
     for (std::size_t i = 0; i < count; ++i) {
         parse(i, command);
         if (commands->is_range()) tool.frame = commands->number(i);
-        if (!first->process.no_history) tool.command_line = command_line(name, commands->words(i));
+        tool.command_line = command_line(name, commands->words(i));
         code = exit_code_of(name, frame_name(*commands, i), [&] { run_frame(*command, tool, {i, count}); });
         worst = std::max(worst, code);
         if (code > 1 || (code == 1 && !first->frames.skip_bad_frames)) break;

@@ -25,7 +25,7 @@ int run_tool(CLI::App &app, int argc, char **argv, const Job &job) {
     tool.tool_name = app.get_name();
     tool.verbose = options.verbose;
     tool.threads = options.threads;
-    if (!options.no_history) tool.command_line = command_line(tool.tool_name, {argv + 1, argv + argc});
+    tool.command_line = command_line(tool.tool_name, {argv + 1, argv + argc});
     const Process process(options, tool);
     tool.progress = progress_of(ProgressFormat::terminal, tool.tool_name, {});
     return exit_code_of(tool.tool_name, "", [&] { job(tool); });

@@ -18,7 +18,7 @@ struct ToolContext {
     std::unique_ptr<Progress> progress; // never null
     std::string stats;                  // where write_stats() writes; empty: nowhere
     std::optional<int> frame;           // of a range
-    std::string command_line;           // what it was asked to do, see history.h; empty: not to be told
+    std::string command_line;           // what it was asked to do, see history.h
 
     // Printed to stderr with the tool's name in front, where --verbose asks for it.
     void say(const std::string &line) const;

@@ -32,6 +32,7 @@ void add_warp_options(CLI::App &app, WarpCommand &options) {
     add_lens_options(app, options.lens);
     add_depth_options(app, options.depth);
     add_input_colour_options(app, options.colour);
+    add_history_option(app, options.history);
 }
 
 WarpOptions warp_options(const WarpCommand &options, const LoadedViews &loaded) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "common/colour_options.h"
+#include "common/history.h"
 #include "common/lens_options.h"
 #include "common/view_list.h"
 #include "ldi/warp.h"
@@ -16,6 +17,7 @@ struct WarpCommand {
     LensOptions lens;
     DepthOptions depth;
     ColourOptions colour;
+    HistoryOptions history;
     ViewList views;
     Merge merge = Merge::average;
     bool split_silhouettes = true, test_agreement = true;
