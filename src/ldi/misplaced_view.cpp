@@ -74,8 +74,8 @@ double disagreement(const View &centre, const View &view, const Imath::V2d &posi
         const Imath::V2i p(int(std::floor(landed.x)), int(std::floor(landed.y)));
         const double in_front = scale / double(depth_at(view, q)) - scale / double(depth_at(centre, p));
         const bool nothing = !shows_something(centre, p);
-        if (!nothing && in_front < -same_surface) return; // hidden from the centre
         ++compared;
+        if (!nothing && in_front < -same_surface) return; // hidden from the centre, as it may be
         sum += nothing || in_front > same_surface ? 1 : relative_difference(centre, view, p, q);
     });
     return compared > 0 ? sum / double(compared) : 0;
