@@ -62,6 +62,16 @@ fails_saying 1 'left, right' "$bin/dof-accumulate" --view 0,0 stereo.exr -o x.ex
 fails_saying 1 'left, right' "$bin/dof-compare" stereo.exr stereo.exr --stereo-view middle
 fails_saying 1 "one.exr: .*names no views" "$bin/dof-gather" one.exr -o x.exr "${flat[@]}" --stereo-view left
 
+# Several views in one part.
+oiiotool one.exr --ch R,G,B,A,Z -d float -o left.exr
+oiiotool diffuse.exr depth.exr --chappend -d float -o right_view.exr
+exrmultiview left left.exr right right_view.exr multiview.exr
+exits 0 "$bin/dof-gather" multiview.exr -o out.exr "${flat[@]}"
+same out.exr expected.exr "the default view of a part"
+exits 0 "$bin/dof-gather" multiview.exr -o out.exr "${flat[@]}" --stereo-view right
+same out.exr right.exr "another view of a part"
+fails_saying 1 'left, right' "$bin/dof-gather" multiview.exr -o x.exr "${flat[@]}" --stereo-view middle
+
 # Coloured alpha: each colour is attenuated by its own, as OpenImageIO has it (whose AR, AG, AB then add up to more
 # than 1: those are not compared); ldi-cluster makes one sample of both.
 pane() { # VALUES DEPTH OUT

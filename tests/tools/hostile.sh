@@ -118,6 +118,8 @@ own_files() {
     "$bin/ldi-warp" valid/center.exr valid/view_0.exr -o valid/ldi.exr
     truncations valid/center.exr flat
     truncations valid/ldi.exr deep
+    truncations "$source_dir/tests/fuzz/corpus/deep_reader/parts.exr" parts
+    truncations "$source_dir/tests/fuzz/corpus/flat_reader/views.exr" views
     lies valid/center.exr flat
     lies valid/ldi.exr deep
 }
