@@ -121,7 +121,7 @@ LdiFile read_ldi(const std::string &path, const std::string &depth_channel, cons
         auto [view, numbers] = parts_of_view(file, deep, stereo_view, path);
         const auto beauty = [&](int part) { return is_beauty(file.header(part)); };
         const bool one_beauty = std::ranges::count_if(numbers, beauty) == 1;
-        if (one_beauty) std::ranges::stable_partition(numbers, beauty);
+        if (one_beauty) std::stable_partition(numbers.begin(), numbers.end(), beauty);
         DeepPicture picture(source, view, depth_channel);
         for (const int part : numbers) picture.add(part, one_beauty && part != numbers.front());
         Imf::Header header = header_of_view(file.header(numbers.front()), view);

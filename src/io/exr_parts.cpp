@@ -119,10 +119,14 @@ std::vector<FileChannel> channels_of(const Imf::Header &header, const std::strin
     };
     for (const FileChannel &channel : shared)
         if (!is_own(channel)) channels.push_back(channel);
-    std::ranges::stable_sort(channels, {}, [](const FileChannel &c) { return c.channel.name; });
+    std::stable_sort(channels.begin(), channels.end(), [](const FileChannel &p, const FileChannel &q) {
+        return p.channel.name < q.channel.name;
+    });
     // The same name twice (left.diffuse.R and diffuse.left.R): the first is it.
-    const auto twice = std::ranges::unique(channels, {}, [](const FileChannel &c) { return c.channel.name; });
-    channels.erase(twice.begin(), twice.end());
+    const auto same_name = [](const FileChannel &p, const FileChannel &q) {
+        return p.channel.name == q.channel.name;
+    };
+    channels.erase(std::unique(channels.begin(), channels.end(), same_name), channels.end());
     colours_first(channels);
     return channels;
 }
