@@ -84,7 +84,8 @@ Image average_views(LensViewFiles &files, const ThinLens &lens, const Options &o
         if (bad > 0)
             warn(tool,
                  file.path + ": " + std::to_string(bad) + " values are not finite; filled from neighbours");
-        accumulate(*sum, view, seen_from_centre(lens, {0, 0}, lens.focus, file.position), file.path);
+        const Imath::V2d shift = file.shift + seen_from_centre(lens, {0, 0}, lens.focus, file.position);
+        accumulate(*sum, view, shift, file.path);
         tool.progress->advance();
     }
     return average(*sum);

@@ -1,5 +1,7 @@
 #include "ldi/misplaced_view.h"
 
+#include "view/view_mapping.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -33,12 +35,12 @@ float depth_at(const View &view, const Imath::V2i &p) {
 
 bool shows_something(const View &view, const Imath::V2i &p) {
     const std::size_t alpha = find_channel(view.image.channels, "A");
-    return alpha == npos || view.image.at(alpha, p.x, p.y) > 0;
+    return depth_at(view, p) > 0 && (alpha == npos || view.image.at(alpha, p.x, p.y) > 0);
 }
 
-// visit(q, shift) for a grid of the view's pixels: by how much each is seen displaced, pixels, if the view stands there.
+// visit(q, at_infinity, parallax) for a grid of the view's pixels, see ViewMapping; the parallax is divided by z.
 template <typename Visit>
-void for_each_sampled(const View &view, const Imath::V2d &position, double focal_px, const Visit &visit) {
+void for_each_sampled(const View &view, const ViewMapping &mapping, const Visit &visit) {
     const Windows &w = view.image.windows;
     const int step_x = int(std::ceil(w.width() / samples_a_side)),
               step_y = int(std::ceil(w.height() / samples_a_side));
@@ -46,15 +48,19 @@ void for_each_sampled(const View &view, const Imath::V2d &position, double focal
         for (int x = w.data.min.x; x <= w.data.max.x; x += step_x) {
             const Imath::V2i q(x, y);
             if (!shows_something(view, q)) continue;
-            const double parallax = focal_px / double(depth_at(view, q));
-            visit(q, Imath::V2d(parallax * position.x, -parallax * position.y * double(w.pixel_aspect)));
+            const Imath::V2d place = Imath::V2d(q) + Imath::V2d(0.5);
+            visit(q, mapping.at_infinity(place), mapping.parallax(place) / double(depth_at(view, q)));
         }
 }
 
-double largest_parallax(const View &view, double focal_px) {
+ViewMapping mapping_from(const View &centre, const View &view, const Imath::V2d &position, double focal_px) {
+    return {position, focal_px, view.image.windows, view.framing, centre.framing.principal_point};
+}
+
+double largest_parallax(const View &view, const ViewMapping &mapping) {
     double largest = 0;
-    for_each_sampled(view, view.position, focal_px, [&](const Imath::V2i &, const Imath::V2d &shift) {
-        largest = std::max(largest, shift.length());
+    for_each_sampled(view, mapping, [&](const Imath::V2i &, const Imath::V2d &, const Imath::V2d &parallax) {
+        largest = std::max(largest, parallax.length());
     });
     return largest;
 }
@@ -66,24 +72,27 @@ double disagreement(const View &centre, const View &view, const Imath::V2d &posi
     const double scale = focal_px * view.position.length(); // of parallax, the same wherever the view is put
     double sum = 0;
     std::size_t compared = 0;
-    for_each_sampled(view, position, focal_px, [&](const Imath::V2i &q, const Imath::V2d &shift) {
-        const Imath::V2d landed = Imath::V2d(q) + Imath::V2d(0.5) + shift;
-        if (!(landed.x >= inside.min.x && landed.x < inside.max.x + 1.0 && landed.y >= inside.min.y &&
-              landed.y < inside.max.y + 1.0))
-            return;
-        const Imath::V2i p(int(std::floor(landed.x)), int(std::floor(landed.y)));
-        const double in_front = scale / double(depth_at(view, q)) - scale / double(depth_at(centre, p));
-        const bool nothing = !shows_something(centre, p);
-        if (!nothing && in_front < -same_surface) return; // hidden from the centre
-        ++compared;
-        sum += nothing || in_front > same_surface ? 1 : relative_difference(centre, view, p, q);
-    });
+    const ViewMapping mapping = mapping_from(centre, view, position, focal_px);
+    for_each_sampled(
+        view, mapping, [&](const Imath::V2i &q, const Imath::V2d &far, const Imath::V2d &parallax) {
+            const Imath::V2d landed = far + parallax;
+            if (!(landed.x >= inside.min.x && landed.x < inside.max.x + 1.0 && landed.y >= inside.min.y &&
+                  landed.y < inside.max.y + 1.0))
+                return;
+            const Imath::V2i p(int(std::floor(landed.x)), int(std::floor(landed.y)));
+            const double in_front = scale / double(depth_at(view, q)) - scale / double(depth_at(centre, p));
+            const bool nothing = !shows_something(centre, p);
+            if (!nothing && in_front < -same_surface) return; // hidden from the centre
+            ++compared;
+            sum += nothing || in_front > same_surface ? 1 : relative_difference(centre, view, p, q);
+        });
     return compared > 0 ? sum / double(compared) : 0;
 }
 
 std::optional<Imath::V2d> better_position(const View &centre, const View &view, double focal_px) {
-    if (largest_parallax(view, focal_px) < 1) return {}; // wherever it stands within that, it shows the same
     const Imath::V2d &at = view.position;
+    const bool elsewhere_shows = largest_parallax(view, mapping_from(centre, view, at, focal_px)) >= 1;
+    if (!elsewhere_shows) return {}; // wherever it stands within that, it shows the same
     const std::array<Imath::V2d, 6> others{
         {{-at.x, -at.y}, {-at.x, at.y}, {at.x, -at.y}, {at.y, at.x}, {-at.y, -at.x}, {0, 0}}};
     const double stated = disagreement(centre, view, at, focal_px);

@@ -4,6 +4,7 @@
 #include "common/picture_options.h"
 #include "io/camera_metadata.h"
 #include "io/exr_common.h"
+#include "view/view_mapping.h"
 
 namespace sparselens {
 
@@ -31,7 +32,13 @@ void place_by_metadata(std::span<LensViewFile> views, const std::vector<Imf::Hea
             throw UsageError(centre_file + ": its camera is unknown (no worldToCamera)");
     }
     const LensViews placed = place_on_lens(cameras, names, centre);
-    for (std::size_t i = 0; i < views.size(); ++i) views[i].position = placed.positions[i];
+    require_one_plane(placed, names);
+    const Imath::V2d axis = placed.centre.principal_point.value_or(Imath::V2d(0, 0));
+    for (std::size_t i = 0; i < views.size(); ++i) {
+        views[i].position = placed.positions[i];
+        views[i].shift =
+            in_pixels(axis, result.windows) - in_pixels(placed.framings[i].principal_point, result.windows);
+    }
     result.centre = placed.centre;
     result.centre_guessed = placed.centre_guessed;
 }
@@ -54,9 +61,9 @@ FlatFile LensViewFile::take_pixels() { return pixels ? std::move(*pixels) : read
 
 LensViewFiles open_lens_views(const LensViewOptions &options) {
     LensViewFiles result;
-    for (const std::string &path : options.files) result.views.push_back({path, {0, 0}, {}});
+    for (const std::string &path : options.files) result.views.push_back({path, {0, 0}, {0, 0}, {}});
     for (const auto &[position, path] : options.placed)
-        result.views.push_back({path, view_offset(position), {}});
+        result.views.push_back({path, view_offset(position), {0, 0}, {}});
     if (result.views.empty()) throw UsageError("no views are given");
     std::vector<Imf::Header> headers;
     for (LensViewFile &view : result.views) headers.push_back(open_header(view));

@@ -41,7 +41,9 @@ struct LoadedView {
     BadValues bad;
 };
 
-LoadedView load_view(const std::string &path, const LensOptions &lens, const DepthOptions &depth);
+// What the file does not say of its frustum, which ray lengths need, is as in `otherwise`.
+LoadedView load_view(const std::string &path, const LensOptions &lens, const DepthOptions &depth,
+                     const Camera &otherwise = {});
 
 // With --verbose: what the file says about its camera, and which attribute says so.
 void say_camera(const ToolContext &tool, const std::string &path, const Camera &camera);
