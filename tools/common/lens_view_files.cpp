@@ -33,14 +33,23 @@ void place_by_metadata(std::span<LensViewFile> views, const std::vector<Imf::Hea
     }
     const LensViews placed = place_on_lens(cameras, names, centre);
     require_one_plane(placed, names);
-    const Imath::V2d axis = placed.centre.principal_point.value_or(Imath::V2d(0, 0));
-    for (std::size_t i = 0; i < views.size(); ++i) {
-        views[i].position = placed.positions[i];
-        views[i].shift =
-            in_pixels(axis, result.windows) - in_pixels(placed.framings[i].principal_point, result.windows);
-    }
+    for (std::size_t i = 0; i < views.size(); ++i) views[i].position = placed.positions[i];
     result.centre = placed.centre;
     result.centre_guessed = placed.centre_guessed;
+}
+
+// Frusta may be shifted, as those of views that converge: the files tell it wherever the views' places come from.
+void find_shifts(const std::vector<Imf::Header> &headers, bool centre_is_known, LensViewFiles &result) {
+    Imath::V2d sum(0, 0);
+    for (std::size_t i = 0; i < result.views.size(); ++i) {
+        const Framing framing = framing_relative_to(result.centre, read_camera(headers[i]));
+        const Imath::V2d centre = result.centre.principal_point.value_or(Imath::V2d(0, 0));
+        Imath::V2d &shift = result.views[i].shift;
+        shift = in_pixels(centre, result.windows) - in_pixels(framing.principal_point, result.windows);
+        sum += shift;
+    }
+    if (centre_is_known) return;
+    for (LensViewFile &view : result.views) view.shift -= sum / double(result.views.size());
 }
 
 } // namespace
@@ -77,6 +86,7 @@ LensViewFiles open_lens_views(const LensViewOptions &options) {
     if (!options.files.empty())
         place_by_metadata(std::span(result.views).first(options.files.size()), headers, options.centre,
                           result);
+    find_shifts(headers, !options.centre.empty() || !options.files.empty(), result);
     return result;
 }
 
