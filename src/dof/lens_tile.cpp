@@ -26,10 +26,13 @@ struct Placement {
 };
 
 // The cell that each sample falls in, counted from the border's corner; what falls outside is in the border.
-// Compiled for several instruction sets, as this loop is most of the work; they all give the same.
-[[gnu::target_clones("default,avx2")]] void place(const Placement &p, const float *x, const float *y,
-                                                  const float *coc, std::uint32_t count,
-                                                  std::int32_t *cells) {
+// Compiled for several instruction sets, as this loop is most of the work; they all give the same. Not under
+// ThreadSanitizer, as the loader chooses among them before that has begun.
+#ifndef __SANITIZE_THREAD__
+[[gnu::target_clones("default,avx2")]]
+#endif
+void place(const Placement &p, const float *x, const float *y, const float *coc, std::uint32_t count,
+           std::int32_t *cells) {
     constexpr float limit = float(cell_stride - 1);
     for (std::uint32_t i = 0; i < count; ++i) {
         // The tile's place is taken off first, so that far from the corner nothing is rounded more than near it.

@@ -2,9 +2,9 @@
 
 #include "base/error.h"
 #include "io/file_stream.h"
+#include "io/oiio_module.h"
 #include "io/unfinished.h"
 
-#include <OpenImageIO/imageio.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -17,10 +17,11 @@ namespace sparselens {
 
 namespace {
 
+// Without the dot, in lower case.
 std::string extension_of(const std::string &path) {
     std::string extension = std::filesystem::path(path).extension().string();
     for (char &c : extension) c = char(std::tolower(static_cast<unsigned char>(c)));
-    return extension;
+    return extension.empty() ? extension : extension.substr(1);
 }
 
 // Pixels of the display window, channel by channel within each.
@@ -47,7 +48,7 @@ class TemporaryFile {
 public:
     explicit TemporaryFile(const std::string &extension)
         : unfinished_((std::filesystem::temp_directory_path() /
-                       ("sparselens." + std::to_string(::getpid()) + extension))
+                       ("sparselens." + std::to_string(::getpid()) + "." + extension))
                           .string()) {}
     ~TemporaryFile() { ::unlink(path().c_str()); }
     TemporaryFile(const TemporaryFile &) = delete;
@@ -70,8 +71,8 @@ void copy_to(const std::string &path, const std::string &from) {
 
 bool is_shown_picture(const std::string &path) {
     const std::string extension = extension_of(path);
-    if (extension.empty() || extension == ".exr") return false;
-    return OIIO::ImageOutput::create(extension.substr(1)) != nullptr;
+    if (extension.empty() || extension == "exr") return false;
+    return oiio_module().support(extension.c_str()) != OiioModule::Support::none;
 }
 
 void write_shown_picture(const std::string &path, const Image &image) {
@@ -80,21 +81,18 @@ void write_shown_picture(const std::string &path, const Image &image) {
     if (std::ranges::find(channels, npos) != channels.end())
         throw Error(path + ": needs the channels R, G and B; other channels are for OpenEXR");
     const std::string extension = extension_of(path);
-    const auto file = OIIO::ImageOutput::create(extension.substr(1));
+    const OiioModule &oiio = oiio_module();
     const std::size_t alpha = find_channel(image.channels, "A");
-    const bool with_alpha = alpha != npos && file->supports("alpha") &&
+    const bool with_alpha = alpha != npos && oiio.support(extension.c_str()) == OiioModule::Support::alpha &&
                             std::ranges::any_of(image.plane(alpha), [](float a) { return a < 1; });
     if (with_alpha) channels.push_back(alpha);
     const std::vector<float> pixels = interleaved(image, channels, with_alpha);
-    const bool deep_bits = extension.starts_with(".tif") || extension == ".dpx";
-    OIIO::ImageSpec spec(image.windows.display_width(), image.windows.display_height(), int(channels.size()),
-                         deep_bits ? OIIO::TypeDesc::UINT16 : OIIO::TypeDesc::UINT8);
-    spec.attribute("oiio:UnassociatedAlpha", 1);
-    spec.attribute("PixelAspectRatio", image.windows.pixel_aspect);
+    const bool deep_bits = extension.starts_with("tif") || extension == "dpx";
     const TemporaryFile temporary(extension);
-    if (!file->open(temporary.path(), spec) || !file->write_image(OIIO::TypeDesc::FLOAT, pixels.data()) ||
-        !file->close())
-        throw Error(path + ": cannot write: " + file->geterror());
+    const char *failed = oiio.write({temporary.path().c_str(), pixels.data(), image.windows.display_width(),
+                                     image.windows.display_height(), int(channels.size()), deep_bits ? 16 : 8,
+                                     image.windows.pixel_aspect});
+    if (failed) throw Error(path + ": cannot write: " + failed);
     copy_to(path, temporary.path());
 }
 

@@ -74,8 +74,8 @@ double rim_mean(const PlacedViews &views, const Surface &surface, std::size_t ch
     double sum = 0, total = 0;
     for (const PlacedSample &s : surface.samples) {
         if (s.view == 0) continue;
-        sum += views.weight(s) * tone_mapped(views.value(s, channel));
-        total += views.weight(s);
+        sum += s.weight * tone_mapped(views.value(s, channel));
+        total += s.weight;
     }
     return sum / total;
 }
@@ -99,25 +99,21 @@ void compare(const PlacedViews &views, const CentreColours &centre, const Agreem
 } // namespace
 
 std::vector<bool> find_agreement(const PlacedViews &views, const AgreementOptions &options,
-                                 const Imath::Box2i &data, PlacedRows &rows) {
+                                 const Imath::Box2i &data, const Surfaces &surfaces) {
     const std::size_t width = std::size_t(data.max.x - data.min.x + 1);
     const std::size_t blocks_across = (width + block_size - 1) / block_size;
     const auto block_of = [&](std::size_t pixel) {
         return pixel / width / block_size * blocks_across + pixel % width / block_size;
     };
     const CentreColours centre(views.samples(0));
-    std::vector<Block> blocks(block_of(rows.pixels() - 1) + blocks_across);
-    Surfaces surfaces;
-    for (std::size_t pixel = 0; pixel < rows.pixels(); ++pixel) {
-        const std::span<PlacedSample> here = rows.pixel(pixel);
-        if (here.size() < 2 || !centre.plain(here[0].x, here[0].y)) continue;
-        find_surfaces(views, options.tolerance, here, surfaces);
-        for (const Surface &surface : surfaces.found())
-            if (surface.seen_by_centre() && surface.samples.back().view != 0)
+    std::vector<Block> blocks(block_of(surfaces.pixels() - 1) + blocks_across);
+    for (std::size_t pixel = 0; pixel < surfaces.pixels(); ++pixel)
+        for (const Surface &surface : surfaces.pixel(pixel))
+            if (surface.seen_by_centre() && surface.samples.back().view != 0 &&
+                centre.plain(surface.samples[0].x, surface.samples[0].y))
                 compare(views, centre, options, surface, blocks[block_of(pixel)]);
-    }
-    std::vector<bool> agree(rows.pixels());
-    for (std::size_t pixel = 0; pixel < rows.pixels(); ++pixel)
+    std::vector<bool> agree(surfaces.pixels());
+    for (std::size_t pixel = 0; pixel < surfaces.pixels(); ++pixel)
         agree[pixel] = blocks[block_of(pixel)].agrees();
     return agree;
 }

@@ -13,16 +13,14 @@
 namespace sparselens {
 
 struct AgreementOptions {
-    double tolerance = 0; // of one surface, as find_surfaces() has it
-    double scale = 0;     // R F: the CoC is scale * (1 / z - 1 / focus)
+    double scale = 0; // R F: the CoC is scale * (1 / z - 1 / focus)
     // Where a surface is in focus every direction is meant to be averaged: that is what the lens does. Empty: unknown,
     // no surface counts as in focus.
     std::optional<double> focus = {};
 };
 
-// For each pixel of the rows, which are rows of `data`: whether the views may be averaged. Reorders the samples of
-// pixels.
+// For each pixel of some rows of `data`, whose surfaces are given: whether the views may be averaged.
 std::vector<bool> find_agreement(const PlacedViews &views, const AgreementOptions &options,
-                                 const Imath::Box2i &data, PlacedRows &rows);
+                                 const Imath::Box2i &data, const Surfaces &surfaces);
 
 } // namespace sparselens

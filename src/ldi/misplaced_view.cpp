@@ -38,7 +38,7 @@ bool shows_something(const View &view, const Imath::V2i &p) {
     return depth_at(view, p) > 0 && (alpha == npos || view.image.at(alpha, p.x, p.y) > 0);
 }
 
-// visit(q, at_infinity, parallax) for a grid of the view's pixels, see ViewMapping; the parallax is divided by z.
+// visit(q, landed) for a grid of the view's pixels: where the centre view shows what they show.
 template <typename Visit>
 void for_each_sampled(const View &view, const ViewMapping &mapping, const Visit &visit) {
     const Windows &w = view.image.windows;
@@ -49,7 +49,7 @@ void for_each_sampled(const View &view, const ViewMapping &mapping, const Visit 
             const Imath::V2i q(x, y);
             if (!shows_something(view, q)) continue;
             const Imath::V2d place = Imath::V2d(q) + Imath::V2d(0.5);
-            visit(q, mapping.at_infinity(place), mapping.parallax(place) / double(depth_at(view, q)));
+            visit(q, mapping.at_infinity(place) + mapping.parallax(place) / double(depth_at(view, q)));
         }
 }
 
@@ -59,8 +59,9 @@ ViewMapping mapping_from(const View &centre, const View &view, const Imath::V2d 
 
 double largest_parallax(const View &view, const ViewMapping &mapping) {
     double largest = 0;
-    for_each_sampled(view, mapping, [&](const Imath::V2i &, const Imath::V2d &, const Imath::V2d &parallax) {
-        largest = std::max(largest, parallax.length());
+    for_each_sampled(view, mapping, [&](const Imath::V2i &q, const Imath::V2d &landed) {
+        const Imath::V2d far = mapping.at_infinity(Imath::V2d(q) + Imath::V2d(0.5));
+        largest = std::max(largest, (landed - far).length());
     });
     return largest;
 }
@@ -73,19 +74,17 @@ double disagreement(const View &centre, const View &view, const Imath::V2d &posi
     double sum = 0;
     std::size_t compared = 0;
     const ViewMapping mapping = mapping_from(centre, view, position, focal_px);
-    for_each_sampled(
-        view, mapping, [&](const Imath::V2i &q, const Imath::V2d &far, const Imath::V2d &parallax) {
-            const Imath::V2d landed = far + parallax;
-            if (!(landed.x >= inside.min.x && landed.x < inside.max.x + 1.0 && landed.y >= inside.min.y &&
-                  landed.y < inside.max.y + 1.0))
-                return;
-            const Imath::V2i p(int(std::floor(landed.x)), int(std::floor(landed.y)));
-            const double in_front = scale / double(depth_at(view, q)) - scale / double(depth_at(centre, p));
-            const bool nothing = !shows_something(centre, p);
-            if (!nothing && in_front < -same_surface) return; // hidden from the centre
-            ++compared;
-            sum += nothing || in_front > same_surface ? 1 : relative_difference(centre, view, p, q);
-        });
+    for_each_sampled(view, mapping, [&](const Imath::V2i &q, const Imath::V2d &landed) {
+        if (!(landed.x >= inside.min.x && landed.x < inside.max.x + 1.0 && landed.y >= inside.min.y &&
+              landed.y < inside.max.y + 1.0))
+            return;
+        const Imath::V2i p(int(std::floor(landed.x)), int(std::floor(landed.y)));
+        const double in_front = scale / double(depth_at(view, q)) - scale / double(depth_at(centre, p));
+        const bool nothing = !shows_something(centre, p);
+        ++compared;
+        if (!nothing && in_front < -same_surface) return; // hidden from the centre, as it may be
+        sum += nothing || in_front > same_surface ? 1 : relative_difference(centre, view, p, q);
+    });
     return compared > 0 ? sum / double(compared) : 0;
 }
 

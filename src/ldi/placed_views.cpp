@@ -39,6 +39,12 @@ bool canonically_before(const View *a, const View *b) {
     return by_depth != 0 ? by_depth < 0 : by_bits(a->image.values, b->image.values) < 0;
 }
 
+double nearness(const ReprojectedSample &s) {
+    constexpr double spread = 0.3; // pixels; less is sharper, more averages more noise away
+    const double distance2 = double(s.dx) * double(s.dx) + double(s.dy) * double(s.dy);
+    return std::exp(-0.5 * distance2 / (spread * spread));
+}
+
 } // namespace
 
 PlacedViews::PlacedViews(std::span<const View> views, double focal_px, double scale, bool split) {
@@ -58,12 +64,6 @@ PlacedViews::PlacedViews(std::span<const View> views, double focal_px, double sc
     });
 }
 
-double PlacedViews::weight(const PlacedSample &s) const {
-    constexpr double spread = 0.3; // pixels; less is sharper, more averages more noise away
-    const double distance2 = double(s.dx) * double(s.dx) + double(s.dy) * double(s.dy);
-    return double(samples(s.view).weight[s.source]) * std::exp(-0.5 * distance2 / (spread * spread));
-}
-
 PlacedRows PlacedViews::place(const Imath::Box2i &data, int first_row, int last_row) const {
     const std::size_t width = std::size_t(data.max.x - data.min.x + 1);
     const auto pixel_of = [&](const ReprojectedSample &s) {
@@ -81,7 +81,8 @@ PlacedRows PlacedViews::place(const Imath::Box2i &data, int first_row, int last_
     rows.samples.resize(rows.begin.back());
     std::vector<std::size_t> next(rows.begin.begin(), rows.begin.end() - 1);
     for (std::uint32_t v = 0; v < size(); ++v)
-        for (const ReprojectedSample &s : landed[v]) rows.samples[next[pixel_of(s)]++] = {s, v, 0};
+        for (const ReprojectedSample &s : landed[v])
+            rows.samples[next[pixel_of(s)]++] = {s, v, 0, double(samples(v).weight[s.source]) * nearness(s)};
     return rows;
 }
 

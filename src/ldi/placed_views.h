@@ -14,6 +14,9 @@ namespace sparselens {
 struct PlacedSample : ReprojectedSample {
     std::uint32_t view;    // 0 is the centre
     std::uint32_t surface; // of the pixel, as find_surfaces() numbers them
+    // What it counts in the mean of its surface: a mean of pixels that lie apart is blurred, so the ones near the
+    // middle of the pixel count more.
+    double weight;
 };
 
 // Some rows of the centre view, pixel by pixel; within a pixel the views in order.
@@ -42,10 +45,6 @@ public:
     float value(const PlacedSample &s, std::size_t channel) const {
         return samples(s.view).values[channel][s.source];
     }
-
-    // What a sample counts in the mean of its surface: a mean of pixels that lie apart is blurred, so the ones near
-    // the middle of the pixel count more.
-    double weight(const PlacedSample &s) const;
 
     // The samples that fall in rows [first_row, last_row] of the data window.
     PlacedRows place(const Imath::Box2i &data, int first_row, int last_row) const;

@@ -61,12 +61,11 @@ void Warper::emit_mean(std::span<const PlacedSample> samples, Ldi &out) const {
     double count = 0, total = 0, dx = 0, dy = 0,
            inverse_z = 0; // double: views may be many, depths near each other
     for (const PlacedSample &s : samples) {
-        const double weight = views_.weight(s);
         count += double(views_.samples(s.view).weight[s.source]);
-        total += weight;
-        dx += weight * double(s.dx);
-        dy += weight * double(s.dy);
-        inverse_z += weight * double(s.inverse_z);
+        total += s.weight;
+        dx += s.weight * double(s.dx);
+        dy += s.weight * double(s.dy);
+        inverse_z += s.weight * double(s.inverse_z);
     }
     dx /= total;
     dy /= total;
@@ -82,7 +81,7 @@ void Warper::emit_mean(std::span<const PlacedSample> samples, Ldi &out) const {
     out.weight.push_back(float(count));
     for (std::size_t k = 0; k < out.channels.size(); ++k) {
         double sum = 0;
-        for (const PlacedSample &s : samples) sum += views_.weight(s) * double(views_.value(s, k));
+        for (const PlacedSample &s : samples) sum += s.weight * double(views_.value(s, k));
         const bool id = out.channels[k].type == PixelType::uint32;
         out.values[k].push_back(id ? views_.value(samples[0], k) : float(coverage * (sum / total)));
     }
@@ -114,16 +113,15 @@ void Warper::emit(const Surface &surface, bool agree, Ldi &out) const {
 
 Ldi Warper::warp_band(int first_row, int last_row) const {
     PlacedRows rows = views_.place(layout_.windows.data, first_row, last_row);
+    const Surfaces surfaces = find_surfaces(views_, tolerance_, rows);
     std::vector<bool> agree(rows.pixels(), true);
     if (averages() && options_.test_agreement)
-        agree = find_agreement(views_, {tolerance_, scale_, options_.focus}, layout_.windows.data, rows);
+        agree = find_agreement(views_, {scale_, options_.focus}, layout_.windows.data, surfaces);
     Ldi out = empty_like(layout_);
     out.begin.push_back(0);
-    Surfaces surfaces;
     for (std::size_t pixel = 0; pixel < rows.pixels(); ++pixel) {
         out.begin.push_back(out.begin.back());
-        find_surfaces(views_, tolerance_, rows.pixel(pixel), surfaces);
-        for (const Surface &surface : surfaces.found()) emit(surface, agree[pixel], out);
+        for (const Surface &surface : surfaces.pixel(pixel)) emit(surface, agree[pixel], out);
     }
     return out;
 }

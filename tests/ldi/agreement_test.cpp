@@ -35,7 +35,8 @@ std::vector<View> wall(const std::function<Colour(const Imath::V2d &camera)> &co
 double agreement(const std::vector<View> &views, std::optional<double> focus = {}) {
     const PlacedViews placed(views, focal_px, scale, false);
     PlacedRows rows = placed.place(window.data, 0, 15);
-    const auto agree = find_agreement(placed, {0.5 / scale, scale, focus}, window.data, rows);
+    const auto agree =
+        find_agreement(placed, {scale, focus}, window.data, find_surfaces(placed, 0.5 / scale, rows));
     return double(std::ranges::count(agree, true)) / double(agree.size());
 }
 

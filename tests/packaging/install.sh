@@ -38,3 +38,10 @@ logged "$prefix/bin/ldi-warp" views/center.exr views/view_0.exr -o fence.ldi.exr
 logged consumer/build/pull-focus
 logged "$prefix/bin/dof-gather" fence.ldi.exr --focus-distance 3.4 -o expected.exr
 logged oiiotool --fail 0 --diff expected.exr focus-at-3.4.exr
+
+# OpenImageIO is loaded for the pictures that need it, from beside the tools, and for no others.
+logged "$prefix/bin/dof-gather" fence.ldi.exr -o shown.png
+logged oiiotool --info shown.png
+rm "$(find "$prefix" -name sparselens-oiio.so)"
+logged "$prefix/bin/dof-gather" fence.ldi.exr --focus-distance 3.4 -o expected.exr
+fails_saying 1 'cannot load OpenImageIO' "$prefix/bin/dof-gather" fence.ldi.exr -o lost.png
