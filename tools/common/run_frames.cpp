@@ -53,6 +53,7 @@ struct FrameCommand {
         job = prepare(app);
         add_frame_options(app, frames);
         add_process_options(app, process);
+        add_memory_option(app, process);
     }
 };
 

@@ -16,9 +16,10 @@ void warn(const ToolContext &tool, const std::string &text) {
     std::fprintf(stderr, "%s: warning: %s\n", tool.tool_name.c_str(), one_line(text).c_str());
 }
 
-int run_tool(CLI::App &app, int argc, char **argv, const Job &job) {
+int run_tool(CLI::App &app, int argc, char **argv, const Job &job, Reads reads) {
     ProcessOptions options;
     add_process_options(app, options);
+    if (reads == Reads::files) add_memory_option(app, options);
     if (const auto code = parse_words(app, {argv + 1, argv + argc})) return *code;
     ToolContext tool;
     tool.tool_name = app.get_name();

@@ -26,9 +26,12 @@ struct ToolContext {
 
 using Job = std::function<void(const ToolContext &)>;
 
+// What the tool reads: --max-memory, which limits it, is for those alone that read files.
+enum class Reads { files, nothing };
+
 // Adds --version, -v, --threads to `app`, parses, runs `job` and turns what happens into an exit code:
 // 0 done, 1 failed (Error, memory, any exception), 2 wrong usage (CLI11's errors, UsageError).
-int run_tool(CLI::App &app, int argc, char **argv, const Job &job);
+int run_tool(CLI::App &app, int argc, char **argv, const Job &job, Reads reads = Reads::files);
 
 // The same for each frame of a range (frames.h), with --frames, --skip-bad-frames, -u, --progress and
 // --stats. `prepare` adds the tool's options to an app and returns what does the work they ask for; it is

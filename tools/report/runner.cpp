@@ -1,6 +1,7 @@
 #include "report/runner.h"
 
 #include "base/error.h"
+#include "io/folder.h"
 #include "report/camera_json.h"
 #include "report/files.h"
 #include "report/process.h"
@@ -62,10 +63,10 @@ public:
 
     StepTimes run(const Step &step, const std::string &identity) const {
         fs::remove(path(record_of(step)));
-        for (const std::string &file : step.outputs) fs::create_directories(path(file).parent_path());
+        for (const std::string &file : step.outputs) make_folder(path(file).parent_path().string());
         if (!step.fresh.empty()) {
             fs::remove_all(path(step.fresh));
-            fs::create_directories(path(step.fresh));
+            make_folder(path(step.fresh));
         }
         const StepTimes times = timed(step);
         if (step.scratch) fs::remove_all(path(step.fresh));
