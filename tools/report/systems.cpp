@@ -173,7 +173,12 @@ const std::vector<System> &system_table() {
         {"distributed ray tracing", "ray", &S::rays, distributed, {}, Role::ray_tracing},
         {"centre + 4", "sample", &S::samples, sparse<4>, every, Role::sparse_lens},
         {"centre + 8", "sample", &S::samples, sparse<8>, every, Role::sparse_lens},
-        {"centre + 4 planned", "sample", &S::samples, planned<4>, {&lens_normal}, Role::sparse_lens},
+        {"centre + 4 planned",
+         "sample",
+         &S::samples,
+         planned<4>,
+         {&lens_draft, &lens_normal, &lens_final},
+         Role::sparse_lens},
     };
     return table;
 }
