@@ -42,10 +42,13 @@ double relative_zoom(const Camera &centre, const Camera &view) {
 
 } // namespace
 
-Framing framing_relative_to(const Camera &centre, const Camera &view) {
+Framing framing_relative_to(const Camera &centre, const Camera &view, const std::string &what) {
     constexpr double rounding = 4e-6; // a sixtieth of a pixel in a picture of 4096
     const Imath::V2d axis = centre.principal_point.value_or(Imath::V2d(0, 0));
     Framing framing{0, relative_zoom(centre, view), view.principal_point.value_or(axis)};
+    if (!(framing.zoom >= 0.5 && framing.zoom <= 2))
+        throw Error(what + ": its focal length is too far from the centre view's, " +
+                    std::to_string(framing.zoom) + " times that; --focal-length and --sensor-width set both");
     if (std::abs(framing.zoom - 1) < rounding) framing.zoom = 1;
     if ((framing.principal_point - axis).length() < rounding) framing.principal_point = axis;
     return framing;

@@ -48,7 +48,7 @@ LensViews seen_from(const Camera &origin, std::span<const Camera> views, std::sp
             throw UsageError(names[i] + ": its camera is unknown (" + why_not_placed(origin, views[i]) +
                              "): give --view X,Y " + names[i]);
         placed.positions.emplace_back(position->x, position->y);
-        placed.framings.push_back(framing_relative_to(origin, views[i]));
+        placed.framings.push_back(framing_relative_to(origin, views[i], names[i]));
         placed.framings.back().forward = position->z;
     }
     const double spread = spread_of(placed.positions);

@@ -112,21 +112,30 @@ TEST(LensViews, FramingsAreThoseOfTheirFrusta) {
 TEST(LensViews, WhatAViewDoesNotSayIsAsInTheCentre) {
     Camera centre = framed(camera_at(0, 0), {0.1, -0.2});
     const Camera silent = camera_at(0.1, 0);
-    EXPECT_EQ(framing_relative_to(centre, silent), (Framing{.principal_point = {0.1, -0.2}}));
-    EXPECT_EQ(framing_relative_to(silent, centre).zoom, 1);
+    EXPECT_EQ(framing_relative_to(centre, silent, "v"), (Framing{.principal_point = {0.1, -0.2}}));
+    EXPECT_EQ(framing_relative_to(silent, centre, "v").zoom, 1);
     centre.world_to_ndc.reset();
     Camera view = silent;
     centre.field = 0.5;
     view.field = 0.4;
-    EXPECT_DOUBLE_EQ(framing_relative_to(centre, view).zoom, 1.25);
+    EXPECT_DOUBLE_EQ(framing_relative_to(centre, view, "v").zoom, 1.25);
 }
 
 // Options have made the field another than the matrix has it: then it is theirs.
 TEST(LensViews, OptionsGoBeforeMatrices) {
     Camera centre = framed(camera_at(0, 0), {0, 0}), view = framed(camera_at(0.1, 0), {0, 0}, 0.6);
-    EXPECT_NEAR(framing_relative_to(centre, view).zoom, 0.5 / 0.6, 1e-6);
+    EXPECT_NEAR(framing_relative_to(centre, view, "v").zoom, 0.5 / 0.6, 1e-6);
     centre.field = view.field = 0.8;
-    EXPECT_EQ(framing_relative_to(centre, view).zoom, 1);
+    EXPECT_EQ(framing_relative_to(centre, view, "v").zoom, 1);
+}
+
+TEST(LensViews, AnotherLensIsAnErrorThatNamesTheView) {
+    const Camera centre = framed(camera_at(0, 0), {0, 0});
+    for (const double field : {0.2, 1.1}) {
+        const Camera view = framed(camera_at(0.1, 0), {0, 0}, field);
+        const std::string what = what_of<Error>([&] { framing_relative_to(centre, view, "tele.exr"); });
+        EXPECT_NE(what.find("tele.exr: its focal length is too far"), std::string::npos) << what;
+    }
 }
 
 TEST(LensViews, TheMiddleOfConvergingFrustaIsTheirMean) {

@@ -42,7 +42,8 @@ void place_by_metadata(std::span<LensViewFile> views, const std::vector<Imf::Hea
 void find_shifts(const std::vector<Imf::Header> &headers, bool centre_is_known, LensViewFiles &result) {
     Imath::V2d sum(0, 0);
     for (std::size_t i = 0; i < result.views.size(); ++i) {
-        const Framing framing = framing_relative_to(result.centre, read_camera(headers[i]));
+        const Framing framing =
+            framing_relative_to(result.centre, read_camera(headers[i]), result.views[i].path);
         const Imath::V2d centre = result.centre.principal_point.value_or(Imath::V2d(0, 0));
         Imath::V2d &shift = result.views[i].shift;
         shift = in_pixels(centre, result.windows) - in_pixels(framing.principal_point, result.windows);

@@ -98,6 +98,7 @@ int run_frames(const std::string &name, const std::string &description, int argc
     tool.tool_name = name;
     tool.threads = first->process.threads;
     tool.verbose = first->process.verbose;
+    tool.max_memory = first->process.max_memory;
     const Process process(first->process, tool);
     int worst = 0;
     for (std::size_t i = 0; i < count; ++i) {

@@ -25,6 +25,7 @@ int run_tool(CLI::App &app, int argc, char **argv, const Job &job, Reads reads) 
     tool.tool_name = app.get_name();
     tool.verbose = options.verbose;
     tool.threads = options.threads;
+    tool.max_memory = options.max_memory;
     const Process process(options, tool);
     tool.progress = progress_of(ProgressFormat::terminal, tool.tool_name, {});
     return exit_code_of(tool.tool_name, "", [&] { job(tool); });

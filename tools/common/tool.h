@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -13,11 +14,12 @@
 namespace sparselens {
 
 struct ToolContext {
-    int threads = 0;                    // 0 = all the process may use
-    bool verbose = false;               // say on stderr what was found and done
-    std::unique_ptr<Progress> progress; // never null
-    std::string stats;                  // where write_stats() writes; empty: nowhere
-    std::optional<int> frame;           // of a range
+    int threads = 0;                         // 0 = all the process may use
+    bool verbose = false;                    // say on stderr what was found and done
+    std::optional<std::uint64_t> max_memory; // that reading a file may take, bytes; empty: by its size
+    std::unique_ptr<Progress> progress;      // never null
+    std::string stats;                       // where write_stats() writes; empty: nowhere
+    std::optional<int> frame;                // of a range
 
     // Printed to stderr with the tool's name in front, where --verbose asks for it.
     void say(const std::string &line) const;

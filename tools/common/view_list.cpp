@@ -52,7 +52,8 @@ LoadedViews load_views(const ViewList &list, const LensOptions &lens, const Dept
     loaded.views[0].framing.principal_point = centre.principal_point.value_or(Imath::V2d(0, 0));
     for (std::size_t i = 0; i < offsets.size(); ++i) {
         LoadedView next = load_view(list.placed[i].second, lens, depth, cameras[0]);
-        put(next.view, offsets[i], framing_relative_to(centre, camera_with_options(lens, next.camera)));
+        put(next.view, offsets[i],
+            framing_relative_to(centre, camera_with_options(lens, next.camera), next.view.name));
         loaded.views.push_back(std::move(next.view));
         loaded.bad.push_back(next.bad);
     }

@@ -97,6 +97,8 @@ private:
             std::vector<std::string> words = with_files(command.words, options_.folder);
             words[0] = (fs::path(options_.tools) / words[0]).string();
             words.insert(words.end(), {"--threads", std::to_string(options_.threads)});
+            if (options_.max_memory)
+                words.insert(words.end(), {"--max-memory", std::to_string(*options_.max_memory)});
             const ProcessRun run = run_process(words, options_.folder);
             times.seconds[std::size_t(command.stage)] += run.seconds;
             times.peak_mb = std::max(times.peak_mb, run.peak_mb);
