@@ -1,11 +1,10 @@
 // LDI to lens picture: dof-gather IN.exr -o OUT.exr [lens options] [--method M] [--quality Q]
 //     [--lens-samples N] [--layers K] [--focus-pixel X,Y] [--depth-out FILE]
 //     [--channels LIST] [-d half|float]
-#include "base/error.h"
 #include "common/channels.h"
 #include "common/colour_options.h"
 #include "common/gather_options.h"
-#include "common/ldi_cache.h"
+#include "common/ldi_lens.h"
 #include "common/picture_options.h"
 #include "common/pictures.h"
 #include "common/show.h"
@@ -17,26 +16,9 @@
 #include "io/exr_flat.h"
 #include "ldi/front_depth.h"
 
-#include <algorithm>
-
 using namespace sparselens;
 
 namespace {
-
-void focus_on_pixel(InputLdi &in, const GatherCommand &options) {
-    if (!options.focus_pixel) return;
-    const float z = front_depth(in.ldi, *options.focus_pixel);
-    if (!(z > 0)) throw UsageError("--focus-pixel: " + options.input + " shows nothing there");
-    in.camera.focus_distance = double(z);
-}
-
-void warn_if_wider_than_views(const ToolContext &tool, const ThinLens &lens, const Camera &camera) {
-    double widest = 0;
-    for (const Imath::V2d &point : camera.lens_points) widest = std::max(widest, point.length());
-    if (widest > 0 && lens.radius > 1.001 * widest)
-        warn(tool,
-             "the lens is wider than the lens points of the views: what it sees beyond them is unknown");
-}
 
 // What the method makes of the LDI; without a lens, the LDI flattened.
 Image gathered(const GatherCommand &options, const Ldi &ldi, const ThinLens &lens, const Frame &frame,
@@ -54,9 +36,7 @@ void run(const GatherCommand &options, const ToolContext &tool, LdiCache &cache)
     InputLdi in =
         cache.load(options.input, options.channels, options.lens, options.depth, options.colour, tool);
     say_camera(tool, options.input, in.camera);
-    focus_on_pixel(in, options);
-    ThinLens lens = resolve_lens(options.lens, in.camera, in.ldi.windows);
-    warn_if_wider_than_views(tool, lens, in.camera);
+    ThinLens lens = lens_for_ldi(in, options.lens, options.focus_pixel, tool);
     const auto holdout =
         load_holdout(options.holdout, in.ldi.windows, options.windows.proxy, options.lens, options.depth);
     const Frame frame = frame_of(options.windows, read_picture_window(in.header), in.ldi, lens);

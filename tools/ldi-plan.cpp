@@ -1,9 +1,9 @@
 // What is worth rendering: ldi-plan CENTER.exr [lens options] [--views N] [--margin PX] -o PLAN.json [--masks DIR]
 #include "common/pictures.h"
+#include "common/plan_options.h"
 #include "common/stats.h"
 #include "common/tool.h"
 #include "io/plan_file.h"
-#include "ldi/plan.h"
 
 #include <cmath>
 #include <cstdio>
@@ -11,38 +11,6 @@
 using namespace sparselens;
 
 namespace {
-
-struct Options {
-    std::string centre, output, masks;
-    LensOptions lens;
-    DepthOptions depth;
-    PlanOptions plan;
-};
-
-void add_options(CLI::App &app, Options &options) {
-    app.add_option("CENTER", options.centre, "the centre view: colour and depth")
-        ->type_name("CENTER.exr")
-        ->required();
-    app.add_option("-o,--output", options.output, "plan to write, - for standard output")
-        ->type_name("PLAN.json")
-        ->required();
-    app.add_option("--masks", options.masks, "folder for a mask a view: A is 1 in the pixels asked for")
-        ->type_name("DIR");
-    app.add_option("--views", options.plan.views, "rim views, at most")
-        ->type_name("N")
-        ->check(CLI::Range(0, 64))
-        ->capture_default_str();
-    app.add_option("--margin", options.plan.margin, "pixels around what the centre view does not see")
-        ->type_name("PX")
-        ->check(CLI::Range(0, 1024))
-        ->capture_default_str();
-    app.add_option("--noise", options.plan.noise,
-                   "standard deviation of a pixel's noise, tone-mapped (default: measured)")
-        ->type_name("SIGMA")
-        ->check(number("a standard deviation", {.zero_allowed = true}));
-    add_lens_options(app, options.lens);
-    add_depth_options(app, options.depth);
-}
 
 void summarise(const Plan &plan, const View &centre, std::FILE *out) {
     const double pixels = double(centre.image.windows.pixels());
@@ -62,7 +30,7 @@ void summarise(const Plan &plan, const View &centre, std::FILE *out) {
                  o.right, o.bottom);
 }
 
-void run(const Options &options, const ToolContext &tool) {
+void run(const PlanCommand &options, const ToolContext &tool) {
     const LoadedView centre = load_view(options.centre, options.lens, options.depth);
     warn_of_bad_values(tool, options.centre, centre.bad);
     const Windows &windows = centre.view.image.windows;
@@ -81,8 +49,8 @@ int main(int argc, char **argv) {
         "ldi-plan",
         "Says which views from the rim of the lens, and which of their pixels, are worth rendering", argc,
         argv, [&](CLI::App &app) {
-            const auto options = std::make_shared<Options>();
-            add_options(app, *options);
+            const auto options = std::make_shared<PlanCommand>();
+            add_plan_options(app, *options);
             return [options](const ToolContext &tool) { run(*options, tool); };
         });
 }

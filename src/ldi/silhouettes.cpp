@@ -1,5 +1,6 @@
 #include "ldi/silhouettes.h"
 
+#include "base/parallel.h"
 #include "ldi/build.h"
 
 #include <algorithm>
@@ -46,6 +47,7 @@ public:
 private:
     enum Side : unsigned char { inside = 0, has_nearer = 1, has_farther = 2 };
 
+    unsigned char side_of(int x, int y) const;
     std::optional<Mixture> mixture_of(int x, int y) const;
     std::optional<Estimate> estimate(int x, int y, double depth, double edge) const;
     std::optional<double> share_of(const Rgb &c, const Rgb &f, const Rgb &b, bool own_is_far) const;
@@ -55,7 +57,11 @@ private:
     template <typename Visit>
     void around(int x, int y, int reach, const Visit &visit) const;
 
-    double depth_of(std::uint64_t i) const { return scale_ / double(view_.z[i]); }
+    std::size_t pixel_of(int x, int y) const {
+        return std::size_t(y) * std::size_t(view_.windows.width()) + std::size_t(x);
+    }
+    bool is_empty(std::size_t pixel) const { return view_.begin[pixel] == view_.begin[pixel + 1]; }
+    double depth_of(std::uint64_t i) const { return depths_[i]; }
     bool is_opaque(std::uint64_t i) const { return alpha_at(view_, alpha_, i) >= 1; }
     Rgb colour_of(std::uint64_t i) const {
         Rgb c;
@@ -68,7 +74,8 @@ private:
     std::size_t alpha_;
     std::array<std::size_t, 3> rgb_;
     bool usable_;
-    std::vector<unsigned char> sides_; // of each sample
+    std::vector<double> depths_;       // of each sample, perceptive
+    std::vector<unsigned char> sides_; // of the first sample of each pixel
 };
 
 Separation::Separation(const Ldi &view, double scale)
@@ -77,19 +84,25 @@ Separation::Separation(const Ldi &view, double scale)
         rgb_[k] = find_channel(view.channels, std::array{"R", "G", "B"}[k]);
         usable_ = usable_ && rgb_[k] != npos;
     }
+    depths_.resize(view.samples());
+    std::ranges::transform(view.z, depths_.begin(), [scale](float z) { return scale / double(z); });
     sides_.assign(view.samples(), inside);
     if (!usable_ || alpha_ == npos) return;
-    const int width = view.windows.width();
-    for (int y = 0; y < view.windows.height(); ++y)
-        for (int x = 0; x < width; ++x) {
-            const std::size_t pixel = std::size_t(y) * std::size_t(width) + std::size_t(x);
-            if (view.begin[pixel] == view.begin[pixel + 1]) continue;
-            const std::uint64_t own = view.begin[pixel];
-            around(x, y, 1, [&](std::uint64_t i, int, int) {
-                if (depth_of(i) > depth_of(own) + jump) sides_[own] |= has_nearer;
-                if (depth_of(i) < depth_of(own) - jump) sides_[own] |= has_farther;
-            });
-        }
+    parallel_for(std::size_t(view.windows.height()), [&](std::size_t y) {
+        for (int x = 0; x < view_.windows.width(); ++x)
+            if (const std::size_t pixel = pixel_of(x, int(y)); !is_empty(pixel))
+                sides_[view_.begin[pixel]] = side_of(x, int(y));
+    });
+}
+
+unsigned char Separation::side_of(int x, int y) const {
+    const double own = depth_of(view_.begin[pixel_of(x, y)]);
+    unsigned char side = inside;
+    around(x, y, 1, [&](std::uint64_t i, int, int) {
+        if (depth_of(i) > own + jump) side |= has_nearer;
+        if (depth_of(i) < own - jump) side |= has_farther;
+    });
+    return side;
 }
 
 template <typename Visit>
@@ -97,19 +110,27 @@ void Separation::around(int x, int y, int reach, const Visit &visit) const {
     const int width = view_.windows.width(), height = view_.windows.height();
     for (int v = std::max(y - reach, 0); v <= std::min(y + reach, height - 1); ++v)
         for (int u = std::max(x - reach, 0); u <= std::min(x + reach, width - 1); ++u) {
-            const std::size_t pixel = std::size_t(v) * std::size_t(width) + std::size_t(u);
-            if (view_.begin[pixel] != view_.begin[pixel + 1]) visit(view_.begin[pixel], u - x, v - y);
+            const std::size_t pixel = pixel_of(u, v);
+            if (!is_empty(pixel)) visit(view_.begin[pixel], u - x, v - y);
         }
 }
+
+// By the square of the distance in pixels.
+const auto nearness = [] {
+    std::array<double, 2 * radius * radius + 1> table{};
+    for (std::size_t d2 = 0; d2 < table.size(); ++d2) table[d2] = std::exp(-0.5 * double(d2));
+    return table;
+}();
 
 // The mean of the surface at that depth over the pixels around that nothing nearer may be mixed into; those that
 // something farther may be mixed into count by `edge`.
 std::optional<Estimate> Separation::estimate(int x, int y, double depth, double edge) const {
     Estimate result;
+    result.terms.reserve((2 * radius + 1) * (2 * radius + 1));
     double sum = 0;
     around(x, y, radius, [&](std::uint64_t i, int dx, int dy) {
         if (std::abs(depth_of(i) - depth) >= jump || (sides_[i] & has_nearer) || !is_opaque(i)) return;
-        const double weight = std::exp(-0.5 * (dx * dx + dy * dy)) * (sides_[i] & has_farther ? edge : 1);
+        const double weight = nearness[std::size_t(dx * dx + dy * dy)] * (sides_[i] & has_farther ? edge : 1);
         result.terms.push_back({i, weight});
         sum += weight;
     });
@@ -141,8 +162,7 @@ std::optional<double> Separation::share_of(const Rgb &c, const Rgb &f, const Rgb
 }
 
 std::optional<Mixture> Separation::mixture_of(int x, int y) const {
-    const std::uint64_t own =
-        view_.begin[std::size_t(y) * std::size_t(view_.windows.width()) + std::size_t(x)];
+    const std::uint64_t own = view_.begin[pixel_of(x, y)];
     const bool own_is_far = sides_[own] & has_nearer;
     Mixture mixture{depth_of(own), depth_of(own), 0, {}};
     double nearest = 3; // of the farther pixels around; those at the edges before those at the corners
@@ -180,7 +200,7 @@ void Separation::emit_mixture(std::uint64_t i, const Mixture &mixture, Ldi &out)
 }
 
 void Separation::emit_pixel(std::size_t pixel, Ldi &out) const {
-    if (view_.begin[pixel] == view_.begin[pixel + 1]) return;
+    if (is_empty(pixel)) return;
     const std::uint64_t own = view_.begin[pixel];
     const std::size_t width = std::size_t(view_.windows.width());
     if (sides_[own] != inside && is_opaque(own))

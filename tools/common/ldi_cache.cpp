@@ -47,8 +47,13 @@ InputLdi LdiCache::load(const std::string &path, const std::string &channels, co
         last_ = std::move(entry);
     }
     const LoadedLdi &loaded = last_->loaded;
-    return {loaded.ldi, loaded.header,    camera_with_options(lens, read_camera(loaded.header)),
-            read_now,   loaded.invisible, last_->channels_left_out};
+    return {path,
+            loaded.ldi,
+            loaded.header,
+            camera_with_options(lens, read_camera(loaded.header)),
+            read_now,
+            loaded.invisible,
+            last_->channels_left_out};
 }
 
 } // namespace sparselens

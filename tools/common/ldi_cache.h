@@ -16,7 +16,8 @@ namespace sparselens {
 
 // What a frame works on: the file's samples, its own copy of header and camera.
 struct InputLdi {
-    const Ldi &ldi; // tidy; the cache's
+    std::string name; // of the file, for messages
+    const Ldi &ldi;   // tidy; the cache's
     Imf::Header header;
     Camera camera;                                     // of the header, with the options over it
     bool read_now;                                     // not left from an earlier frame
