@@ -45,8 +45,9 @@ void complete_field(Camera &camera);
 std::optional<double> focal_length_px(const Camera &camera, int display_width);
 
 // How `view` frames the picture otherwise than `centre`; `forward` is left to position_relative_to(). What is not
-// known of the view is as in the centre; differences that the rounding of matrices to float makes are none. Throws Error
-// (naming `what`) where its focal length is less than half or more than twice the centre's: that is no view of one lens.
+// known of the view is as in the centre; differences that the rounding of matrices to float makes are none. Throws
+// Error (naming `what`) where its focal length is less than half or more than twice the centre's: they are no views
+// of one lens.
 Framing framing_relative_to(const Camera &centre, const Camera &view, const std::string &what);
 
 // Position of `view` in the camera space of `centre`, scene units. Empty where either matrix is unknown.

@@ -5,8 +5,9 @@
 //
 //     p = c + (q - c') / s + (F (X, -Y) - Z (q - c') / s) / z
 //
-// by similar triangles. Z, as all depths here, is measured from the centre view's camera. Where both frame the scene alike
-// (c = c', s = 1, Z = 0) it is p = q + (F / z) (X, -Y), to the bit. Places are in pixels, y down.
+// by similar triangles (with wide pixels, Y counts by their aspect). Z, as all depths here, is measured from the centre
+// view's camera. Where both frame the scene alike (c = c', s = 1, Z = 0) it is p = q + (F / z) (X, -Y), to the bit.
+// Places are in pixels, y down.
 #pragma once
 
 #include "base/image.h"
