@@ -19,8 +19,10 @@ bool written(OIIO::ImageOutput &file, const OiioPicture &picture) {
                          picture.bits == 16 ? OIIO::TypeDesc::UINT16 : OIIO::TypeDesc::UINT8);
     spec.attribute("oiio:UnassociatedAlpha", 1);
     spec.attribute("PixelAspectRatio", picture.pixel_aspect);
-    return file.open(picture.path, spec) && file.write_image(OIIO::TypeDesc::FLOAT, picture.pixels) &&
-           file.close();
+    if (!file.open(picture.path, spec)) return false;
+    for (int y = 0; y < picture.height; ++y)
+        if (!file.write_scanline(y, 0, OIIO::TypeDesc::FLOAT, picture.row(picture.source, y))) return false;
+    return file.close();
 }
 
 const char *write(const OiioPicture &picture) {

@@ -8,7 +8,8 @@ namespace sparselens {
 
 struct OiioPicture {
     const char *path;
-    const float *pixels; // row by row, channels together
+    void *source;
+    const float *(*row)(void *source, int y); // of `source`, from the top: pixel by pixel, channels together
     int width, height;
     int channels;       // 3, or 4 with unassociated alpha
     int bits;           // 8 or 16

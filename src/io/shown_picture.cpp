@@ -24,24 +24,35 @@ std::string extension_of(const std::string &path) {
     return extension.empty() ? extension : extension.substr(1);
 }
 
-// Pixels of the display window, channel by channel within each.
-std::vector<float> interleaved(const Image &image, const std::vector<std::size_t> &channels, bool divide) {
-    const Windows &w = image.windows;
-    const Imath::Box2i &display = w.display;
-    const std::size_t width = std::size_t(w.display_width()), count = channels.size();
-    std::vector<float> pixels(width * std::size_t(w.display_height()) * count);
-    const Imath::V2i first(std::max(display.min.x, w.data.min.x), std::max(display.min.y, w.data.min.y));
-    const Imath::V2i last(std::min(display.max.x, w.data.max.x), std::min(display.max.y, w.data.max.y));
-    for (int y = first.y; y <= last.y; ++y)
-        for (int x = first.x; x <= last.x; ++x) {
-            float *pixel =
-                &pixels[(std::size_t(y - display.min.y) * width + std::size_t(x - display.min.x)) * count];
-            const float a = divide ? image.at(channels.back(), x, y) : 1;
-            for (std::size_t k = 0; k < count; ++k)
-                pixel[k] = image.at(channels[k], x, y) / (k < 3 && a > 0 ? a : 1);
+// Rows of the display window, one at a time: it may be much larger than the picture in it.
+class DisplayRows {
+public:
+    DisplayRows(const Image &image, std::vector<std::size_t> channels, bool divide)
+        : image_(image), channels_(std::move(channels)), divide_(divide),
+          row_(std::size_t(image.windows.display_width()) * channels_.size()) {}
+
+    const float *row(int y) {
+        std::ranges::fill(row_, 0.0f);
+        const Imath::Box2i &display = image_.windows.display, &data = image_.windows.data;
+        const int row = display.min.y + y;
+        if (row < data.min.y || row > data.max.y) return row_.data();
+        for (int x = std::max(display.min.x, data.min.x); x <= std::min(display.max.x, data.max.x); ++x) {
+            float *pixel = &row_[std::size_t(x - display.min.x) * channels_.size()];
+            const float a = divide_ ? image_.at(channels_.back(), x, row) : 1;
+            for (std::size_t k = 0; k < channels_.size(); ++k)
+                pixel[k] = image_.at(channels_[k], x, row) / (k < 3 && a > 0 ? a : 1);
         }
-    return pixels;
-}
+        return row_.data();
+    }
+
+private:
+    const Image &image_;
+    std::vector<std::size_t> channels_;
+    bool divide_; // by the last channel, the coverage
+    std::vector<float> row_;
+};
+
+const float *row_of(void *rows, int y) { return static_cast<DisplayRows *>(rows)->row(y); }
 
 // OpenImageIO writes to names, and by no means all of its formats to a stream: to a file of its own, then.
 class TemporaryFile {
@@ -86,10 +97,10 @@ void write_shown_picture(const std::string &path, const Image &image) {
     const bool with_alpha = alpha != npos && oiio.support(extension.c_str()) == OiioModule::Support::alpha &&
                             std::ranges::any_of(image.plane(alpha), [](float a) { return a < 1; });
     if (with_alpha) channels.push_back(alpha);
-    const std::vector<float> pixels = interleaved(image, channels, with_alpha);
+    DisplayRows rows(image, channels, with_alpha);
     const bool deep_bits = extension.starts_with("tif") || extension == "dpx";
     const TemporaryFile temporary(extension);
-    const char *failed = oiio.write({temporary.path().c_str(), pixels.data(), image.windows.display_width(),
+    const char *failed = oiio.write({temporary.path().c_str(), &rows, row_of, image.windows.display_width(),
                                      image.windows.display_height(), int(channels.size()), deep_bits ? 16 : 8,
                                      image.windows.pixel_aspect});
     if (failed) throw Error(path + ": cannot write: " + failed);
