@@ -23,7 +23,8 @@ RunOptions run_options(const ReportOptions &options, const ToolContext &tool) {
     return {.tools = folder_of_tools(),
             .folder = fs::absolute(options.folder).string(),
             .threads = tool.threads,
-            .runs = runs_of(options)};
+            .runs = runs_of(options),
+            .max_memory = tool.max_memory};
 }
 
 void print(const std::string &text) {

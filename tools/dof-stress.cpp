@@ -77,5 +77,6 @@ int main(int argc, char **argv) {
     app.add_option("--case", options.one_case, "This case alone (its name, or FAMILY/NAME)")
         ->type_name("NAME");
     app.add_flag("--markdown", options.markdown, "Tables for docs/stress.md, with the reason for each bound");
-    return run_tool(app, argc, argv, [&](const ToolContext &) { stress(options); });
+    return run_tool(
+        app, argc, argv, [&](const ToolContext &) { stress(options); }, Reads::nothing);
 }

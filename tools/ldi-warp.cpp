@@ -8,6 +8,7 @@
 #include "io/camera_metadata.h"
 #include "ldi/misplaced_view.h"
 #include "ldi/warp.h"
+#include "view/view_mapping.h"
 
 #include <cstdio>
 #include <span>
@@ -29,9 +30,26 @@ void warn_of_misplaced(const ToolContext &tool, std::span<const View> views, dou
                            text(view.position) + "; it would agree at " + text(*better));
 }
 
+// A view that the centre view frames otherwise is told of: a frustum misread makes ghosts, too.
+void say_framings(const ToolContext &tool, std::span<const View> views) {
+    for (const View &view : views.subspan(1)) {
+        const Framing &centre = views[0].framing, &own = view.framing;
+        if (own == Framing{.principal_point = centre.principal_point}) continue;
+        const Imath::V2d axis = in_pixels(own.principal_point, view.image.windows) -
+                                in_pixels(centre.principal_point, view.image.windows);
+        char text[160];
+        std::snprintf(
+            text, sizeof text,
+            ": optical axis %g,%g pixels from the centre view's, focal length %g times its, %g in front",
+            axis.x, axis.y, own.zoom, own.forward);
+        tool.say(view.name + text);
+    }
+}
+
 void run(const WarpCommand &options, const ToolContext &tool) {
     LoadedViews loaded = load_views(options.views, options.lens, options.depth);
     say_camera(tool, loaded.views[0].name, loaded.camera);
+    say_framings(tool, loaded.views);
     for (std::size_t i = 0; i < loaded.views.size(); ++i)
         warn_of_bad_values(tool, loaded.views[i].name, loaded.bad[i]);
     for (View &view : loaded.views) to_scene_linear(tool, options.colour, view.name, loaded.header, view);

@@ -188,6 +188,15 @@ std::optional<NamedNumber> acquired_width(const std::vector<HeaderValue> &values
     return NamedNumber{Quantity::sensor_width, pitch->name, number(pitch->numbers) / 1000 * photosites, true};
 }
 
+// The screen window lies at depth 1 of the camera space, x right, y up; the optical axis meets it at (0,0).
+std::optional<Imath::V2d> by_screen_window(const Imf::Header &header) {
+    const Imath::V2d centre(header.screenWindowCenter());
+    const double width = double(header.screenWindowWidth());
+    const Imath::V2d point(-centre.x / width, centre.y / width);
+    const bool sound = width > 0 && std::isfinite(point.x) && std::isfinite(point.y);
+    return sound && centre != Imath::V2d(0, 0) ? std::optional(point) : std::nullopt;
+}
+
 // The names that write_camera() uses. What else stands in such a file has come along from the centre view, and is
 // not what the options have since made of it.
 bool is_ours(const HeaderValue &value) {
@@ -209,6 +218,7 @@ CameraAttributes find_camera_attributes(const Imf::Header &header) {
             if (name.read == screen_window && value == 1) continue;
             found.numbers.push_back({name.quantity, entry->name, value, name.exact});
         }
+    found.principal_point = by_screen_window(header);
     if (const auto width = acquired_width(values)) found.numbers.push_back(*width);
     for (const MatrixName &name : matrix_names)
         if (const HeaderValue *entry = find_value(values, name.name))

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <Imath/ImathMatrix.h>
+#include <Imath/ImathVec.h>
 #include <ImfHeader.h>
 
 #include <optional>
@@ -47,6 +48,9 @@ struct NamedMatrix {
 struct CameraAttributes {
     std::vector<NamedNumber> numbers; // in the table's order
     std::vector<NamedMatrix> matrices;
+    // By screenWindowCenter and screenWindowWidth, see Camera; empty where they are at rest, as programs without a
+    // camera write them.
+    std::optional<Imath::V2d> principal_point;
     bool ours = false; // written by us: nothing of others is listed
 };
 

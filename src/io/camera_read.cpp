@@ -60,6 +60,7 @@ private:
     void read_placement();
     void read_film();
     void read_projections();
+    void read_principal_point();
 
     const CameraAttributes &has_;
     Camera camera_;
@@ -97,6 +98,7 @@ void Reader::read_film() {
     camera_.field = pick({Quantity::field}, "width of the picture over the focal length", "--sensor-width");
     const bool field_unsure = !camera_.field && camera_.unsure.contains("--sensor-width");
     read_projections();
+    read_principal_point();
     if (!camera_.sensor_width_mm && !(camera_.focal_length_mm && camera_.field) && !field_unsure)
         camera_.sensor_width_mm = pick({Quantity::film_back}, "film back", "--sensor-width");
     if (camera_.focal_length_mm && camera_.sensor_width_mm && camera_.field &&
@@ -160,6 +162,22 @@ void Reader::read_projections() {
         if (projection->looks_backward)
             for (int row = 0; row < 4; ++row) (*camera_.world_to_camera)[row][2] *= -1;
     }
+}
+
+void Reader::read_principal_point() {
+    std::optional<Frustum> frustum;
+    if (camera_.world_to_ndc && camera_.world_to_camera)
+        frustum = frustum_of(*camera_.world_to_ndc, *camera_.world_to_camera);
+    camera_.principal_point = frustum ? frustum->principal_point : has_.principal_point;
+    if (!camera_.principal_point) return;
+    Imath::V2d &point = *camera_.principal_point;
+    constexpr double rounding = 4e-6; // see framing_relative_to()
+    if (point.length() < rounding)
+        point = {0, 0};
+    else
+        camera_.found.push_back("optical axis " + text_of(point.x) + "," + text_of(point.y) +
+                                " picture widths right of and below the middle (" +
+                                (frustum ? "worldToNDC" : "screenWindowCenter") + ")");
 }
 
 } // namespace

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "io/exr_flat.h"
 #include "io/file_stream.h"
+#include "io/folder.h"
 #include "ldi/rectangles.h"
 
 #include <nlohmann/json.hpp>
@@ -32,9 +33,7 @@ Imath::Box2i bounds_of(const std::vector<Imath::Box2i> &boxes) {
 
 std::string write_mask(const std::string &plan_path, const std::string &folder, const std::string &name,
                        const PixelMask &mask, const Windows &windows) {
-    std::error_code error;
-    fs::create_directories(folder, error);
-    if (error) throw Error(folder + ": cannot make the folder: " + error.message());
+    make_folder(folder);
     Image image(windows, {{"A", PixelType::half}});
     std::ranges::copy(mask.set, image.plane(0).begin());
     const fs::path file = fs::path(folder) / (name + ".exr");

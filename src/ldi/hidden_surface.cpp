@@ -39,7 +39,7 @@ double coverage_by_views(const PlacedViews &views, const Imath::V2d &place, doub
     Votes votes;
     for (std::size_t v = 1; v < views.size(); ++v) {
         const Ldi &view = views.samples(v);
-        const Imath::V2d seen = views.reprojection(v).source_of(place, inverse_z);
+        const Imath::V2d seen = views.reprojection(v).mapping().in_view(place, inverse_z);
         const Imath::Box2i &data = view.windows.data;
         if (!(seen.x >= data.min.x && seen.x < data.max.x + 1.0)) continue;
         if (!(seen.y >= data.min.y && seen.y < data.max.y + 1.0)) continue;

@@ -1,5 +1,7 @@
 #include "ldi/misplaced_view.h"
 
+#include "view/view_mapping.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -30,7 +32,7 @@ public:
     explicit Pixels(const View &view) : view_(view), alpha_(find_channel(view.image.channels, "A")) {}
 
     bool show_something(const Imath::V2i &p) const {
-        return alpha_ == npos || view_.image.at(alpha_, p.x, p.y) > 0;
+        return depth(p) > 0 && (alpha_ == npos || view_.image.at(alpha_, p.x, p.y) > 0);
     }
     double depth(const Imath::V2i &p) const {
         const Windows &w = view_.image.windows;
@@ -43,9 +45,9 @@ private:
     std::size_t alpha_;
 };
 
-// visit(q, shift) for a grid of the view's pixels: by how much each is seen displaced, pixels, if the view stands there.
+// visit(q, landed) for a grid of the view's pixels: where the centre view shows what they show.
 template <typename Visit>
-void for_each_sampled(const View &view, const Imath::V2d &position, double focal_px, const Visit &visit) {
+void for_each_sampled(const View &view, const ViewMapping &mapping, const Visit &visit) {
     const Windows &w = view.image.windows;
     const Pixels pixels(view);
     const int step_x = int(std::ceil(w.width() / samples_a_side)),
@@ -54,15 +56,20 @@ void for_each_sampled(const View &view, const Imath::V2d &position, double focal
         for (int x = w.data.min.x; x <= w.data.max.x; x += step_x) {
             const Imath::V2i q(x, y);
             if (!pixels.show_something(q)) continue;
-            const double parallax = focal_px / pixels.depth(q);
-            visit(q, Imath::V2d(parallax * position.x, -parallax * position.y * double(w.pixel_aspect)));
+            const Imath::V2d place = Imath::V2d(q) + Imath::V2d(0.5);
+            visit(q, mapping.at_infinity(place) + mapping.parallax(place) * (1 / pixels.depth(q)));
         }
 }
 
-double largest_parallax(const View &view, double focal_px) {
+ViewMapping mapping_from(const View &centre, const View &view, const Imath::V2d &position, double focal_px) {
+    return {position, focal_px, view.image.windows, view.framing, centre.framing.principal_point};
+}
+
+double largest_parallax(const View &view, const ViewMapping &mapping) {
     double largest = 0;
-    for_each_sampled(view, view.position, focal_px, [&](const Imath::V2i &, const Imath::V2d &shift) {
-        largest = std::max(largest, shift.length());
+    for_each_sampled(view, mapping, [&](const Imath::V2i &q, const Imath::V2d &landed) {
+        const Imath::V2d far = mapping.at_infinity(Imath::V2d(q) + Imath::V2d(0.5));
+        largest = std::max(largest, (landed - far).length());
     });
     return largest;
 }
@@ -85,8 +92,8 @@ double disagreement(const View &centre, const View &view, const Imath::V2d &posi
     };
     double sum = 0;
     std::size_t compared = 0;
-    for_each_sampled(view, position, focal_px, [&](const Imath::V2i &q, const Imath::V2d &shift) {
-        const Imath::V2d landed = Imath::V2d(q) + Imath::V2d(0.5) + shift;
+    const ViewMapping mapping = mapping_from(centre, view, position, focal_px);
+    for_each_sampled(view, mapping, [&](const Imath::V2i &q, const Imath::V2d &landed) {
         if (!(landed.x >= inside.min.x && landed.x < inside.max.x + 1.0 && landed.y >= inside.min.y &&
               landed.y < inside.max.y + 1.0))
             return;
@@ -101,8 +108,9 @@ double disagreement(const View &centre, const View &view, const Imath::V2d &posi
 }
 
 std::optional<Imath::V2d> better_position(const View &centre, const View &view, double focal_px) {
-    if (largest_parallax(view, focal_px) < 1) return {}; // wherever it stands within that, it shows the same
     const Imath::V2d &at = view.position;
+    const bool elsewhere_shows = largest_parallax(view, mapping_from(centre, view, at, focal_px)) >= 1;
+    if (!elsewhere_shows) return {}; // wherever it stands within that, it shows the same
     const std::array<Imath::V2d, 6> others{
         {{-at.x, -at.y}, {-at.x, at.y}, {at.x, -at.y}, {at.y, at.x}, {-at.y, -at.x}, {0, 0}}};
     const double stated = disagreement(centre, view, at, focal_px);

@@ -6,6 +6,7 @@
 #include "ldi/view_samples.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <compare>
@@ -20,10 +21,14 @@ void check(const View &centre, const View &view) {
         throw Error(view.name + ": its display window differs from the centre view's (" + centre.name + ")");
 }
 
-// By position; where several stand at one point, by what they show: the order they were given in must not matter.
+// By their cameras; where those are one, by what they show: the order they were given in must not matter.
 bool canonically_before(const View *a, const View *b) {
-    if (a->position.x != b->position.x) return a->position.x < b->position.x;
-    if (a->position.y != b->position.y) return a->position.y < b->position.y;
+    const auto camera = [](const View &v) {
+        const Framing &f = v.framing;
+        return std::array{v.position.x, v.position.y,        f.forward,
+                          f.zoom,       f.principal_point.x, f.principal_point.y};
+    };
+    if (camera(*a) != camera(*b)) return camera(*a) < camera(*b);
     const auto by_bits = [](const std::vector<float> &left, const std::vector<float> &right) {
         return std::lexicographical_compare_three_way(
             left.begin(), left.end(), right.begin(), right.end(), [](float l, float r) {
@@ -53,7 +58,9 @@ PlacedViews::PlacedViews(std::span<const View> views, double focal_px, double sc
     parallel_for(ordered.size(), [&](std::size_t v) {
         Ldi samples = samples_of(*ordered[v], views[0].image.channels);
         if (split && scale > 0) samples = separate_silhouettes(samples, scale);
-        sources_[v] = std::make_unique<Source>(std::move(samples), ordered[v]->position, focal_px);
+        const ViewMapping mapping(ordered[v]->position, focal_px, views[0].image.windows, ordered[v]->framing,
+                                  views[0].framing.principal_point);
+        sources_[v] = std::make_unique<Source>(std::move(samples), mapping);
     });
 }
 

@@ -54,8 +54,8 @@ private:
         Ldi ldi;
         Reprojection reprojection; // refers to ldi
 
-        Source(Ldi samples, const Imath::V2d &position, double focal_px)
-            : ldi(std::move(samples)), reprojection(ldi, position, focal_px) {}
+        Source(Ldi samples, const ViewMapping &mapping)
+            : ldi(std::move(samples)), reprojection(ldi, mapping) {}
     };
     std::vector<std::unique_ptr<Source>> sources_; // the centre, then the rim views in a canonical order
 };

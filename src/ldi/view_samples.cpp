@@ -13,7 +13,8 @@ Ldi samples_of(const View &view, std::span<const Channel> channels) {
     const std::size_t alpha = find_channel(view.image.channels, "A"), pixels = view.image.windows.pixels();
     ldi.begin.assign(pixels + 1, 0);
     for (std::size_t i = 0; i < pixels; ++i)
-        ldi.begin[i + 1] = ldi.begin[i] + (alpha == npos || view.image.plane(alpha)[i] != 0 ? 1 : 0);
+        ldi.begin[i + 1] =
+            ldi.begin[i] + (view.z[i] > 0 && (alpha == npos || view.image.plane(alpha)[i] != 0) ? 1 : 0);
     const auto take = [&](std::span<const float> from, std::vector<float> &to) {
         to.resize(ldi.begin.back());
         for (std::size_t i = 0; i < pixels; ++i)

@@ -1,4 +1,4 @@
-// A view as an LDI: one sample in each pixel that shows something.
+// A view as an LDI: one sample in each pixel that shows something: A not 0, depth above 0.
 #pragma once
 
 #include "ldi/ldi.h"

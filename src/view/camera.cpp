@@ -1,6 +1,7 @@
 #include "view/camera.h"
 
 #include "base/error.h"
+#include "view/projection.h"
 
 #include <cmath>
 
@@ -21,6 +22,36 @@ std::optional<double> focal_length_px(const Camera &camera, int display_width) {
         return display_width * *camera.focal_length_mm / *camera.sensor_width_mm;
     if (!camera.field) return {};
     return display_width / *camera.field;
+}
+
+namespace {
+
+// The field that the projection matrix says, unless options have made it another.
+std::optional<double> projected_field(const Camera &camera) {
+    if (!camera.world_to_ndc || !camera.world_to_camera) return {};
+    const auto frustum = frustum_of(*camera.world_to_ndc, *camera.world_to_camera);
+    if (!frustum || (camera.field && std::abs(frustum->field / *camera.field - 1) > 0.01)) return {};
+    return frustum->field;
+}
+
+double relative_zoom(const Camera &centre, const Camera &view) {
+    const auto centre_field = projected_field(centre), field = projected_field(view);
+    if (centre_field && field) return *centre_field / *field;
+    return centre.field && view.field ? *centre.field / *view.field : 1;
+}
+
+} // namespace
+
+Framing framing_relative_to(const Camera &centre, const Camera &view, const std::string &what) {
+    constexpr double rounding = 4e-6; // a sixtieth of a pixel in a picture of 4096
+    const Imath::V2d axis = centre.principal_point.value_or(Imath::V2d(0, 0));
+    Framing framing{0, relative_zoom(centre, view), view.principal_point.value_or(axis)};
+    if (!(framing.zoom >= 0.5 && framing.zoom <= 2))
+        throw Error(what + ": its focal length is too far from the centre view's, " +
+                    std::to_string(framing.zoom) + " times that; --focal-length and --sensor-width set both");
+    if (std::abs(framing.zoom - 1) < rounding) framing.zoom = 1;
+    if ((framing.principal_point - axis).length() < rounding) framing.principal_point = axis;
+    return framing;
 }
 
 std::optional<Imath::V3d> position_relative_to(const Camera &centre, const Camera &view,

@@ -1,6 +1,8 @@
 // What a file or a command line says about the camera that took a picture. Every value may be unknown.
 #pragma once
 
+#include "view/framing.h"
+
 #include <Imath/ImathMatrix.h>
 #include <Imath/ImathVec.h>
 
@@ -21,6 +23,9 @@ struct Camera {
     // Width of the picture over the focal length, (0, inf): known from a field of view or a projection matrix where
     // one of the two is not.
     std::optional<double> field;
+    // Where the optical axis meets the picture: from the middle of the display window, in its widths, x right, y down,
+    // pixels taken as square. Unknown, it is the middle.
+    std::optional<Imath::V2d> principal_point;
     std::optional<Imath::M44d> world_to_camera;
     std::optional<Imath::M44d> world_to_ndc; // NDC: (0,0) and (1,1) are the display window's corners, y down
     std::vector<Imath::V2d> lens_points;     // of an LDI: where its views stood, scene units, x right, y up
@@ -38,6 +43,12 @@ void complete_field(Camera &camera);
 // Focal length in pixels of a picture `display_width` pixels wide; empty where neither focal length and film back
 // nor the field is known.
 std::optional<double> focal_length_px(const Camera &camera, int display_width);
+
+// How `view` frames the picture otherwise than `centre`; `forward` is left to position_relative_to(). What is not
+// known of the view is as in the centre; differences that the rounding of matrices to float makes are none. Throws
+// Error (naming `what`) where its focal length is less than half or more than twice the centre's: they are no views
+// of one lens.
+Framing framing_relative_to(const Camera &centre, const Camera &view, const std::string &what);
 
 // Position of `view` in the camera space of `centre`, scene units. Empty where either matrix is unknown.
 // Throws Error (naming `what`) where the axes are not parallel.

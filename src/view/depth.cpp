@@ -1,5 +1,7 @@
 #include "view/depth.h"
 
+#include "view/view_mapping.h"
+
 #include <cmath>
 
 namespace sparselens {
@@ -10,13 +12,13 @@ bool is_sky(DepthMeaning meaning, double value, double far) {
     return value >= far || value == largest_half;
 }
 
-double planar_depth(DepthMeaning meaning, double value, int x, int y, const Windows &windows,
-                    double focal_px) {
+double planar_depth(DepthMeaning meaning, double value, int x, int y, const Windows &windows, double focal_px,
+                    const Imath::V2d &principal_point) {
     if (meaning == DepthMeaning::planar) return value;
     if (meaning == DepthMeaning::inverse) return 1 / (value == 0 ? 0.0 : value); // -0 too is infinitely far
-    const Imath::Box2i &display = windows.display;
-    const double right = x + 0.5 - 0.5 * (display.min.x + display.max.x + 1);
-    const double down = (y + 0.5 - 0.5 * (display.min.y + display.max.y + 1)) / double(windows.pixel_aspect);
+    const Imath::V2d axis = in_pixels(principal_point, windows);
+    const double right = x + 0.5 - axis.x;
+    const double down = (y + 0.5 - axis.y) / double(windows.pixel_aspect);
     return value / std::sqrt(1 + (right * right + down * down) / (focal_px * focal_px));
 }
 

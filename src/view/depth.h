@@ -3,6 +3,8 @@
 
 #include "base/image.h"
 
+#include <Imath/ImathVec.h>
+
 namespace sparselens {
 
 // What the numbers of a depth channel are: planar z, the length of the ray, or 1 / planar z.
@@ -13,9 +15,9 @@ enum class DepthMeaning { planar, distance, inverse };
 // below.
 bool is_sky(DepthMeaning meaning, double value, double far);
 
-// Planar depth of pixel (x, y), EXR coordinates. The optical axis goes through the display window's middle;
-// focal_px (pixels) matters for ray lengths only. An inverse depth of 0 is infinity.
-double planar_depth(DepthMeaning meaning, double value, int x, int y, const Windows &windows,
-                    double focal_px);
+// Planar depth of pixel (x, y), EXR coordinates. focal_px (pixels) and the principal point (where the optical axis
+// meets the picture, see Camera) matter for ray lengths only. An inverse depth of 0 is infinity.
+double planar_depth(DepthMeaning meaning, double value, int x, int y, const Windows &windows, double focal_px,
+                    const Imath::V2d &principal_point = {0, 0});
 
 } // namespace sparselens

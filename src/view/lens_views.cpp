@@ -33,40 +33,73 @@ std::string why_not_placed(const Camera &origin, const Camera &view) {
     return view.world_to_camera ? "that of the centre: " + text : text;
 }
 
-std::vector<Imath::V2d> positions_from(const Camera &origin, std::span<const Camera> views,
-                                       std::span<const std::string> names) {
-    std::vector<Imath::V3d> positions;
+double spread_of(std::span<const Imath::V2d> positions) {
     double spread = 0;
+    for (const Imath::V2d &p : positions) spread = std::max({spread, std::abs(p.x), std::abs(p.y)});
+    return spread;
+}
+
+// `origin`, and the views as seen from it.
+LensViews seen_from(const Camera &origin, std::span<const Camera> views, std::span<const std::string> names) {
+    LensViews placed{{}, {}, origin};
     for (std::size_t i = 0; i < views.size(); ++i) {
         const auto position = position_relative_to(origin, views[i], names[i]);
         if (!position)
             throw UsageError(names[i] + ": its camera is unknown (" + why_not_placed(origin, views[i]) +
                              "): give --view X,Y " + names[i]);
-        positions.push_back(*position);
-        spread = std::max({spread, std::abs(position->x), std::abs(position->y)});
+        placed.positions.emplace_back(position->x, position->y);
+        placed.framings.push_back(framing_relative_to(origin, views[i], names[i]));
+        placed.framings.back().forward = position->z;
     }
-    std::vector<Imath::V2d> across;
+    const double spread = spread_of(placed.positions);
     for (std::size_t i = 0; i < views.size(); ++i) {
-        const Imath::V3d &p = positions[i];
-        if (std::abs(p.z) > 0.01 * spread + rounding(views[i]))
+        double &forward = placed.framings[i].forward;
+        if (std::abs(forward) > spread + rounding(views[i]))
             throw Error(names[i] + ": stands in front of or behind the other views; a lens is flat");
-        across.emplace_back(p.x, p.y);
+        if (std::abs(forward) <= 1e-4 * spread + rounding(views[i])) forward = 0;
     }
-    return across;
+    return placed;
+}
+
+// `camera` with its picture moved by so many of its widths, right and down.
+Camera with_picture_moved(Camera camera, const Imath::V2d &by) {
+    if (by == Imath::V2d(0, 0)) return camera;
+    camera.principal_point = camera.principal_point.value_or(Imath::V2d(0, 0)) + by;
+    if (!camera.world_to_ndc) return camera;
+    const Imath::M44d to_ndc = camera.world_to_camera->inverse() * *camera.world_to_ndc;
+    Imath::M44d move;
+    move.setTranslation(Imath::V3d(by.x, by.y * std::abs(to_ndc[1][1] / to_ndc[0][0]), 0));
+    *camera.world_to_ndc *= move;
+    return camera;
 }
 
 } // namespace
 
 LensViews place_on_lens(std::span<const Camera> views, std::span<const std::string> names,
                         const std::optional<Camera> &centre) {
-    if (centre) return {positions_from(*centre, views, names), *centre};
-    LensViews result{positions_from(views.front(), views, names), views.front()};
+    if (centre) return seen_from(*centre, views, names);
+    LensViews result = seen_from(views.front(), views, names);
     result.centre_guessed = !all_know_their_lens_point(views);
     const Imath::V2d middle =
         result.centre_guessed ? mean(result.positions) : -views.front().lens_points.front();
     for (Imath::V2d &p : result.positions) p -= middle;
-    result.centre = moved_across_lens(views.front(), middle);
+    // Frusta that converge are shifted in proportion to the positions: their mean belongs to the middle.
+    std::vector<Imath::V2d> shifts;
+    const Imath::V2d first = result.framings.front().principal_point;
+    for (const Framing &framing : result.framings) shifts.push_back(framing.principal_point - first);
+    result.centre = with_picture_moved(moved_across_lens(views.front(), middle),
+                                       result.centre_guessed ? mean(shifts) : Imath::V2d(0, 0));
     return result;
+}
+
+void require_one_plane(const LensViews &views, std::span<const std::string> names) {
+    const double spread = spread_of(views.positions);
+    for (std::size_t i = 0; i < views.framings.size(); ++i) {
+        if (std::abs(views.framings[i].forward) > 0.01 * spread)
+            throw Error(names[i] + ": stands in front of or behind the other views; a lens is flat");
+        if (std::abs(views.framings[i].zoom - 1) > 1e-4)
+            throw Error(names[i] + ": its focal length differs from the other views'");
+    }
 }
 
 Camera moved_across_lens(Camera camera, const Imath::V2d &by) {

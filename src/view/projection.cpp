@@ -16,6 +16,9 @@ struct Seen {
     bool backward;     // the scene lies at negative z
 };
 
+// Matrices are stored as float.
+double rounding_of(const Imath::M44d &to_world) { return 1e-6 * to_world.translation().length(); }
+
 std::optional<Seen> seen_by(const Imath::M44d &camera_to_ndc, double rounding) {
     const Imath::M44d &m = camera_to_ndc;
     const double w = std::abs(m[2][3]);
@@ -51,10 +54,18 @@ Imath::M44d to_standard(int span, bool y_up) {
 
 } // namespace
 
+std::optional<Frustum> frustum_of(const Imath::M44d &world_to_ndc, const Imath::M44d &world_to_camera) {
+    const Imath::M44d to_world = world_to_camera.inverse();
+    const auto seen = seen_by(to_world * world_to_ndc, rounding_of(to_world));
+    if (!seen) return {};
+    const Imath::V2d off = seen->centre - Imath::V2d(0.5);
+    return Frustum{1 / seen->scale.x, {off.x, off.y * seen->scale.x / std::abs(seen->scale.y)}};
+}
+
 std::optional<Projection> read_projection(const Imath::M44d &world_to_ndc, const Imath::M44d &world_to_camera,
                                           const ProjectionHints &hints) {
     const Imath::M44d to_world = world_to_camera.inverse();
-    const double rounding = 1e-6 * to_world.translation().length(); // matrices are stored as float
+    const double rounding = rounding_of(to_world);
     for (const Imath::M44d &matrix : {world_to_ndc, world_to_ndc.transposed()}) {
         const auto seen = seen_by(to_world * matrix, rounding);
         const int span = seen ? span_of(*seen, hints) : 0;

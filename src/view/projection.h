@@ -7,6 +7,7 @@
 #pragma once
 
 #include <Imath/ImathMatrix.h>
+#include <Imath/ImathVec.h>
 
 #include <optional>
 
@@ -17,6 +18,15 @@ struct Projection {
     Imath::M44d world_to_ndc; // as OpenEXR's standard has it
     bool looks_backward;      // world_to_camera has the scene at negative z: its z must change sign
 };
+
+// What a worldToNDC in OpenEXR's standard says of the picture.
+struct Frustum {
+    double field;               // width of the picture over the focal length, (0, inf)
+    Imath::V2d principal_point; // see Camera::principal_point
+};
+
+// Empty where it is no perspective projection from the place of that camera.
+std::optional<Frustum> frustum_of(const Imath::M44d &world_to_ndc, const Imath::M44d &world_to_camera);
 
 struct ProjectionHints {
     bool clip_space = false;     // known to be clip space, else either

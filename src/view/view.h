@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/image.h"
+#include "view/framing.h"
 
 #include <Imath/ImathVec.h>
 
@@ -11,11 +12,14 @@
 namespace sparselens {
 
 struct View {
-    std::string name;     // for messages
-    Image image;          // what is carried: R, G, B, A and further layers, without depth; premultiplied
-    std::vector<float> z; // planar depth of each pixel, scene units, (0, inf]
+    std::string name; // for messages
+    Image image;      // what is carried: R, G, B, A and further layers, without depth; premultiplied
+    // Depth of each pixel: planar, from the centre view's camera on, scene units, up to inf. At 0 or less nothing is
+    // shown: that lies behind the centre view's camera.
+    std::vector<float> z;
     // Of the camera, seen from the centre view's: scene units, x right, y up, axes parallel.
     Imath::V2d position{0, 0};
+    Framing framing = {};
 };
 
 } // namespace sparselens

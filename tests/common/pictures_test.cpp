@@ -20,12 +20,15 @@ protected:
     std::string path = folder.file("picture.exr");
 
     // Depths and coverage of the pixels of a flat picture of one row.
-    void write(const std::vector<float> &depths, const std::vector<float> &alphas) {
+    void write(const std::vector<float> &depths, const std::vector<float> &alphas,
+               const Imath::V2f &screen_window_centre = {0, 0}) {
         Image image(windows_of_size(int(depths.size()), 1), {{"R"}, {"A"}, {"Z", PixelType::float32}});
         std::ranges::copy(alphas, image.plane(0).begin());
         std::ranges::copy(alphas, image.plane(1).begin());
         std::ranges::copy(depths, image.plane(2).begin());
-        write_flat_exr(path, image, Imf::Header());
+        Imf::Header header;
+        header.screenWindowCenter() = screen_window_centre;
+        write_flat_exr(path, image, header);
     }
     std::vector<float> depths_of_view(const DepthOptions &depth = {}, const LensOptions &lens = {}) {
         return load_view(path, lens, depth).view.z;
@@ -75,6 +78,30 @@ TEST_F(Pictures, InverseDepth) {
     const DepthOptions inverse{.meaning = DepthMeaning::inverse, .channel = {}};
     EXPECT_EQ(depths_of_view(inverse), (std::vector<float>{2, inf, 0.25f}));
     EXPECT_EQ(depths_of_ldi(inverse), (std::vector<float>{2, inf, 0.25f}));
+}
+
+// F = 1 pixel, and the optical axis goes through the first of three pixels, a third of the width left of the middle.
+TEST_F(Pictures, DistanceFollowsAShiftedLens) {
+    write({2, 2, 2}, {1, 1, 1}, {1.0f / 3, 0});
+    const DepthOptions distance{.meaning = DepthMeaning::distance, .channel = {}};
+    LensOptions lens;
+    lens.focal_length_mm = 12;
+    lens.sensor_width_mm = 36;
+    const std::vector<float> expected{2, float(std::sqrt(2.0)), float(2 / std::sqrt(5.0))};
+    for (const auto &depths : {depths_of_view(distance, lens), depths_of_ldi(distance, lens)})
+        for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(depths[i], expected[i], 1e-6);
+}
+
+// What a rim view does not say of its frustum is as in the centre.
+TEST_F(Pictures, DistanceInASilentViewIsAsInTheCentre) {
+    write({2, 2, 2}, {1, 1, 1});
+    const DepthOptions distance{.meaning = DepthMeaning::distance, .channel = {}};
+    Camera centre;
+    centre.field = 3;
+    centre.principal_point = {-1.0 / 3, 0};
+    const std::vector<float> z = load_view(path, {}, distance, centre).view.z;
+    EXPECT_NEAR(z[0], 2, 1e-6);
+    EXPECT_NEAR(z[1], std::sqrt(2.0), 1e-6);
 }
 
 // F = 1 pixel, three pixels in a row: 45 degrees on either side of the axis.

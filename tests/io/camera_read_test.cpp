@@ -273,6 +273,56 @@ INSTANTIATE_TEST_SUITE_P(Renderers, CameraOf, testing::ValuesIn(renderers), [](c
     return name;
 });
 
+// The picture moved by an eighth of its width: in NDC the axis lies at 5/8.
+TEST(PrincipalPoint, IsWhereTheMatrixSendsTheAxis) {
+    for (const Ndc kind : {Ndc::standard, Ndc::y_up, Ndc::clip}) {
+        Imf::Header h(64, 36);
+        write_standard(h, Pose(), kind, 0.125);
+        const Camera camera = read_camera(h);
+        ASSERT_TRUE(camera.principal_point);
+        EXPECT_NEAR(camera.principal_point->x, 0.125, 1e-6);
+        EXPECT_NEAR(camera.principal_point->y, 0, 1e-6);
+        EXPECT_NE(camera.found.back().find("optical axis 0.125,"), std::string::npos) << camera.found.back();
+        write_camera(h, camera); // as an LDI has it
+        EXPECT_NEAR(read_camera(h).principal_point.value().x, 0.125, 1e-6);
+    }
+    // Down the picture, in its widths: a quarter of the height of 64 x 36.
+    Imf::Header h(64, 36);
+    write_standard(h, Pose());
+    Imath::M44d move;
+    move.setTranslation(Imath::V3d(0, 0.25, 0));
+    put(h, "worldToNDC", standard_camera(Pose()) * projection(Ndc::standard, 1) * move);
+    EXPECT_NEAR(read_camera(h).principal_point.value().y, 0.25 * 36 / 64, 1e-6);
+}
+
+// A window at depth 1 that is 0.7 wide and lies 0.07 to the right of and 0.14 above the axis.
+TEST(PrincipalPoint, IsTheZeroOfTheScreenWindow) {
+    Imf::Header h(64, 36);
+    h.screenWindowWidth() = 0.7f;
+    h.screenWindowCenter() = {0.07f, 0.14f};
+    const Camera camera = read_camera(h);
+    ASSERT_TRUE(camera.principal_point);
+    EXPECT_NEAR(camera.principal_point->x, -0.1, 1e-6);
+    EXPECT_NEAR(camera.principal_point->y, 0.2, 1e-6);
+    write_standard(h, Pose(), Ndc::standard, 0.125);
+    EXPECT_NEAR(read_camera(h).principal_point.value().x, 0.125, 1e-6); // the matrix knows better
+    for (const float centre : {0.0f, std::nanf("")}) {
+        Imf::Header silent(64, 36);
+        silent.screenWindowCenter() = {centre, 0};
+        EXPECT_FALSE(read_camera(silent).principal_point);
+    }
+}
+
+// Rounding is no shift: nobody's pictures change for it.
+TEST(PrincipalPoint, IsTheMiddleWhereNothingElseIsMeant) {
+    for (const Ndc kind : {Ndc::standard, Ndc::y_up, Ndc::clip}) {
+        Imf::Header h(64, 36);
+        write_standard(h, Pose(), kind);
+        EXPECT_EQ(read_camera(h).principal_point, Imath::V2d(0, 0));
+    }
+    EXPECT_FALSE(read_camera(Imf::Header(64, 36)).principal_point);
+}
+
 // What resolving the lens of a header says, with these options.
 std::string complaint(const Write &write, LensOptions options = {}) {
     Imf::Header header(64, 36);

@@ -21,7 +21,7 @@ std::vector<ReprojectedSample> reprojected(float z, const Imath::V2d &position, 
         w, position, [&](int x, int y) { return ViewPixel{.z = z, .a = x == 10 && y == 10 ? 1.0f : 0.0f}; });
     std::vector<ReprojectedSample> samples;
     const Ldi ldi = samples_of(view, view.image.channels);
-    Reprojection(ldi, position, 100).append_rows(-1000, 1000, samples);
+    Reprojection(ldi, {position, 100, ldi.windows}).append_rows(-1000, 1000, samples);
     return samples;
 }
 
@@ -73,7 +73,8 @@ TEST(Reprojection, ReachIsWhereSamplesFall) {
         const View view = make_view(windows_of_size(21, 11), position, [&](int x, int) {
             return x < 3 ? ViewPixel{.z = empty_z, .a = 0} : ViewPixel{.z = z};
         });
-        return Reprojection(samples_of(view, view.image.channels), position, 100).reach();
+        return Reprojection(samples_of(view, view.image.channels), {position, 100, view.image.windows})
+            .reach();
     };
     EXPECT_EQ(reach({0, 0}, 4), Imath::Box2i({0, 0}, {20, 10}));
     EXPECT_EQ(reach({1e6, 1e6}, inf), Imath::Box2i({0, 0}, {20, 10}));
@@ -90,7 +91,7 @@ TEST(Reprojection, NoSampleFallsOutsideTheReach) {
     for (const Imath::V2d &position : {Imath::V2d(0.03, 0.05), Imath::V2d(-0.02, -0.07)}) {
         const View view = random_view(w, position, 4);
         const Ldi ldi = samples_of(view, view.image.channels);
-        const Reprojection reprojection(ldi, position, 100);
+        const Reprojection reprojection(ldi, {position, 100, ldi.windows});
         std::vector<ReprojectedSample> all;
         reprojection.append_rows(-10'000, 10'000, all);
         for (const ReprojectedSample &s : all)
@@ -104,7 +105,7 @@ TEST(Reprojection, BandsShareTheSamples) {
     for (const Imath::V2d &position : {Imath::V2d(0.03, 0.05), Imath::V2d(-0.02, -0.07), Imath::V2d(0, 0)}) {
         const View view = random_view(w, position, 4);
         const Ldi ldi = samples_of(view, view.image.channels);
-        const Reprojection reprojection(ldi, position, 100);
+        const Reprojection reprojection(ldi, {position, 100, ldi.windows});
         std::vector<ReprojectedSample> all, band;
         reprojection.append_rows(-10'000, 10'000, all);
         std::size_t shared = 0;
@@ -129,7 +130,7 @@ TEST(Reprojection, WithoutAlphaEverythingIsVisible) {
     view.image = Image(view.image.windows, {{"Y"}});
     std::vector<ReprojectedSample> samples;
     const Ldi ldi = samples_of(view, view.image.channels);
-    Reprojection(ldi, view.position, 100).append_rows(0, 7, samples);
+    Reprojection(ldi, {view.position, 100, ldi.windows}).append_rows(0, 7, samples);
     EXPECT_EQ(samples.size(), 64u);
 }
 

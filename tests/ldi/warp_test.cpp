@@ -176,7 +176,7 @@ public:
         for (const View &view : views) {
             const Ldi ldi = samples_of(view, view.image.channels);
             std::vector<ReprojectedSample> samples;
-            Reprojection(ldi, view.position, focal_px).append_rows(-1000, 1000, samples);
+            Reprojection(ldi, {view.position, focal_px, ldi.windows}).append_rows(-1000, 1000, samples);
             for (const ReprojectedSample &s : samples)
                 landed_[{s.x, s.y}].push_back({focal_px * radius * double(s.inverse_z),
                                                ldi.values[0][s.source] / ldi.values[3][s.source],

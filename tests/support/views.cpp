@@ -19,20 +19,42 @@ View make_view(const Windows &windows, const Imath::V2d &position,
     return view;
 }
 
-View TwoPlanes::view(const Windows &windows, const Imath::V2d &position) const {
-    return make_view(windows, position, [&](int i, int j) {
-        const double x = i + 0.5, y = j + 0.5;
+namespace {
+
+// Where the centre view shows the point at depth z on the ray of the view's pixel: the ray starts at the view's camera,
+// and passes its picture plane, focal_px times zoom away, off the view's principal point.
+Imath::V2d followed(const Imath::V2d &pixel, double z, const Windows &windows, double focal_px,
+                    const Imath::V2d &position, const Framing &framing) {
+    const Imath::V2d middle =
+        (Imath::V2d(windows.display.min) + Imath::V2d(windows.display.max) + Imath::V2d(1)) / 2;
+    const double width = windows.display_width(), focal = focal_px * framing.zoom;
+    const Imath::V2d aspect(1, double(windows.pixel_aspect));
+    const Imath::V2d off = (pixel - middle) / aspect - width * framing.principal_point;
+    const Imath::V2d point =
+        Imath::V2d(position.x, -position.y) + off / focal * (z - framing.forward); // y down
+    return middle + focal_px * point / z * aspect;
+}
+
+} // namespace
+
+View TwoPlanes::view(const Windows &windows, const Imath::V2d &position, const Framing &framing) const {
+    View view = make_view(windows, position, [&](int i, int j) {
         const double right = focal_px * position.x,
                      down = -focal_px * position.y * double(windows.pixel_aspect);
         const std::uint32_t place = mix_bits(std::uint32_t(i), mix_bits(std::uint32_t(j)));
         const std::uint32_t camera =
             mix_bits(std::uint32_t(int(right * 1024)), mix_bits(std::uint32_t(int(down * 1024))));
         const float change = noise * float(2 * unit_interval(mix_bits(place, camera)) - 1);
-        const double front_x = x + right / front_z, front_y = y + down / front_z;
-        if (front_covers(front_x, front_y))
-            return ViewPixel{.z = float(front_z), .r = front_red(front_x, front_y) + change};
-        return ViewPixel{.z = float(back_z), .g = back_green(x + right / back_z, y + down / back_z) + change};
+        const auto at = [&](double z) {
+            return followed({i + 0.5, j + 0.5}, z, windows, focal_px, position, framing);
+        };
+        const Imath::V2d front = at(front_z), back = at(back_z);
+        if (front_covers(front.x, front.y))
+            return ViewPixel{.z = float(front_z), .r = front_red(front.x, front.y) + change};
+        return ViewPixel{.z = float(back_z), .g = back_green(back.x, back.y) + change};
     });
+    view.framing = framing;
+    return view;
 }
 
 std::vector<View> five_views(const TwoPlanes &scene, const Windows &windows, double radius) {

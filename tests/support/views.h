@@ -20,7 +20,8 @@ View make_view(const Windows &windows, const Imath::V2d &position,
                const std::function<ViewPixel(int x, int y)> &pixel);
 
 // A front plane with holes before a back plane. Positions on both are given as where the centre view shows them,
-// in pixels; the picture of a camera at `position` follows from design.md section 1.
+// in pixels (its optical axis goes through the middle of the display window); the picture of a camera at `position`
+// follows along the rays of its pixels.
 struct TwoPlanes {
     double focal_px = 100;
     double front_z = 2, back_z = 10;
@@ -29,7 +30,7 @@ struct TwoPlanes {
     std::function<float(double x, double y)> back_green = [](double, double) { return 1.0f; };
     float noise = 0; // each pixel of each view is brighter or darker by up to this
 
-    View view(const Windows &windows, const Imath::V2d &position) const;
+    View view(const Windows &windows, const Imath::V2d &position, const Framing &framing = {}) const;
 };
 
 // The centre, then rim views to the right, above, to the left and below.

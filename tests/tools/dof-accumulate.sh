@@ -119,6 +119,28 @@ grep -q 'warning: .*--center' stderr || fail "does not say that the centre is gu
 [ "$(pixels_of centered.exr)" != "$(pixels_of guessed.exr)" ] || fail "--center changes nothing"
 fails_saying 2 'left.exr.*worldToCamera' "$accumulate" fence/lens_*.exr --center left.exr -o none.exr
 
+# Frusta that converge on the plane of focus: all see the lamp there in the same pixel, and focused elsewhere it moves as
+# if they looked straight ahead. Wherever the views' places come from.
+converging() { # FILE X NDC: a camera X to the right, whose optical axis meets the picture at NDC, 0 to 1
+    oiiotool center.exr --attrib:type=matrix worldToCamera "1,0,0,0,0,1,0,0,0,0,1,0,$2,0,0,1" \
+        --attrib:type=matrix worldToNDC "1,0,0,0,0,-1.3333333,0,0,$3,0.5,1,1,$2,0,-1,0" -o "$1"
+}
+converging to_right.exr -0.125 0.5625
+converging to_left.exr 0.125 0.4375
+converging middle.exr 0 0.5
+for views in "to_right.exr to_left.exr --center middle.exr" "to_right.exr to_left.exr" \
+    "--view 0.125,0 to_right.exr --view -0.125,0 to_left.exr"; do
+    # shellcheck disable=SC2086
+    exits 0 "$accumulate" $views "${lens[@]}" -o out.exr
+    holds out.exr 32 24 5
+    # shellcheck disable=SC2086
+    exits 0 "$accumulate" $views --focal-length 36 --sensor-width 36 --focus-distance inf -o out.exr
+    holds out.exr 28 24 2.5
+    holds out.exr 36 24 2.5
+done
+oiiotool to_left.exr --attrib:type=matrix worldToNDC "1.1,0,0,0,0,-1.46667,0,0,0.4375,0.5,1,1,0.1375,0,-1,0" -o longer.exr
+fails_saying 1 'longer.exr: its focal length differs' "$accumulate" to_right.exr longer.exr --center middle.exr "${lens[@]}" -o none.exr
+
 # 64 views of 16 samples each are nearer the truth than 64 rays a pixel through the lens. Overscan, so that the views
 # see what the lens sees beyond the border.
 trace() { exits 0 "$bin/dof-trace" fence -o "$1" --views 0 --size 160x90 "${@:2}"; }

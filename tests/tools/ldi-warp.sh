@@ -67,6 +67,21 @@ for text in abc 1 1, ,1 1,2,3 nan,0 0,inf; do fails_saying 2 "--view.*$text" "$w
 oiiotool "${rim[0]}" --eraseattrib worldToCamera -o lost.exr
 fails_saying 2 'lost.exr.*--view' "$warp" $center lost.exr -o x.exr
 
+# A view whose frustum is shifted, here 6 pixels to the right and 3 down, so that it has the same rays, gives the same
+# LDI, wherever its place comes from.
+exits 0 "$bin/dof-trace" fence --size 96x48 --overscan 8 --spp 1 --views 1 -o straight
+oiiotool straight/view_0.exr --origin -2-5 --fullsize 96x48+0+0 --attrib:type=matrix worldToNDC \
+    1,0,0,0,0,-2,0,0,0.5625,0.5625,1,1,-0.06,0,-1,0 -o off_axis.exr
+oiiotool off_axis.exr --eraseattrib worldToNDC -o believed_straight.exr
+exits 0 "$warp" straight/center.exr straight/view_0.exr -o straight.exr
+exits 0 "$warp" straight/center.exr off_axis.exr -o shifted.exr -v
+same_samples shifted.exr straight.exr "an off-axis view of the same rays"
+grep -q '^ldi-warp: off_axis.exr: optical axis 6,3 pixels from the centre' stderr || fail "-v does not tell it: $(cat stderr)"
+exits 0 "$warp" straight/center.exr --view 0.0599999987,0 off_axis.exr -o shifted.exr
+same_samples shifted.exr straight.exr "an off-axis view placed by hand"
+exits 0 "$warp" straight/center.exr believed_straight.exr -o shifted.exr
+grep -q 'warning: believed_straight.exr: disagrees' stderr || fail "a frustum that is not known is not noticed: $(cat stderr)"
+
 # Threads do not matter; what is said is said on stderr.
 exits 0 "$warp" $center "${rim[@]}" -o one_thread.exr --threads 1
 exits 0 "$warp" $center "${rim[@]}" -o two_threads.exr --threads 2

@@ -1,14 +1,82 @@
 #!/bin/bash
-# Every option of every tool is in --help, in the manual page, in the completion, and in a script that tests it.
+# Every option of every tool is in --help, in the manual page, in the completion, and in a script that shows its effect;
+# those that tools share are shown here, for each tool.
 . "$(dirname "$0")/check.sh"
 scripts=$source_dir/tests/tools
-shared=("$scripts/check.sh" "$scripts/frames.sh" "$scripts/hostile.sh" "$scripts/options.sh" "$scripts/stats.sh") # for options that tools share
+command -v oiiotool >/dev/null || skip "needs oiiotool (openimageio-tools)"
+declare -A shown # "TOOL OPTION": its effect has been seen here
 
-# tested OPTION TOOL: the tool's script has it, or one for options that tools share, or a line that runs the tool.
+# tested OPTION TOOL: its effect is seen here, or the tool's own script runs it with that option, or another one does by
+# the tool's name. A run that is to fail shows no effect.
 tested() {
     local option="(^|[^a-z-])$1([^a-z-]|\$)"
-    grep -Eqe "$option" "$scripts/$2.sh" "${shared[@]}" || grep -Eqe "bin/$2.*$option" "$scripts"/*.sh
+    [ -n "${shown[$2 $1]:-}" ] || grep -Ev 'fails_saying|^ *#' "$scripts/$2.sh" | grep -Ee "$option" >/dev/null ||
+        grep -hEe "bin/$2.*$option" "$scripts"/*.sh | grep -v fails_saying >/dev/null
 }
+
+# --- Options that tools share, of each tool that has them ---
+
+trace() { exits 0 "$bin/dof-trace" fence --size 48x27 --spp 1 -o "$@"; }
+trace views --views 1
+exits 0 "$bin/ldi-warp" views/center.exr views/view_0.exr -o ldi.exr
+exits 0 "$bin/ldi-plan" views/center.exr --noise 0 --lens-radius 0.5 --masks masks -o plan.json
+for frame in 1 2 4; do cp ldi.exr in.000$frame.exr && cp views/center.exr center.000$frame.exr; done
+# What each does with one input, but for the output; %FRAME% is empty, or stands for the frame.
+declare -A task=(
+    [ldi-plan]="center%FRAME%.exr --noise 0 --lens-radius 0.5" [ldi-warp]="center%FRAME%.exr" [ldi-cluster]="in%FRAME%.exr --tolerance 1"
+    [dof-gather]="in%FRAME%.exr" [dof-trace]="fence --plan plan.json --size 48x27" [dof-accumulate]="center.exr"
+    [dof-compare]="center.exr views/view_0.exr --json --regions in.exr"
+)
+cp ldi.exr in.exr
+cp views/center.exr center.exr
+# run TOOL OUTPUT OPTIONS...: the task; dof-compare's output is what it prints.
+run() {
+    local tool=$1 output=(-o "$2")
+    [ "$tool" != dof-compare ] || output=()
+    # shellcheck disable=SC2086
+    exits "${expected:-0}" "$bin/$tool" ${task[$tool]//%FRAME%/${frame_name:-}} "${output[@]}" "${@:3}"
+    [ "$tool" != dof-compare ] || mv stdout "$2"
+}
+show() { for option in "${@:2}"; do shown[$1 $option]=yes; done; }
+
+for tool in "${!task[@]}"; do
+    run "$tool" out.$tool --threads 3 -v
+    grep -qx "$tool: threads: 3" stderr || fail "$tool --threads 3 -v: $(cat stderr)"
+    expected=1 run "$tool" none.$tool --max-memory 1KB
+    grep -q 'asks for .* of memory, more than --max-memory allows' stderr || fail "$tool --max-memory: $(cat stderr)"
+    show "$tool" --threads -v --max-memory
+done
+fails_saying 1 'dof-gather: .* asks for .* than --max-memory allows' "$bin/dof-report" --quick fence --size 24x16 -o report --max-memory 1KB
+show dof-report --max-memory
+exits 0 "$bin/dof-stress" --case z_nan --threads 3 -v
+grep -qx "dof-stress: threads: 3" stderr || fail "dof-stress --threads 3 -v: $(cat stderr)"
+show dof-stress --threads -v
+
+# --far: what lies there or beyond is the sky.
+for tool in ldi-plan ldi-warp ldi-cluster dof-gather dof-compare; do
+    run $tool near.$tool --far 1e9
+    cmp -s near.$tool out.$tool || fail "$tool --far changes what has no sky"
+    run $tool far.$tool --far 6
+    if cmp -s far.$tool out.$tool; then fail "$tool --far changes nothing"; fi
+    show $tool --far
+done
+
+# Frames, of which the third is missing.
+count() { find . -maxdepth 1 -name "$1" -printf x | wc -c; }
+for tool in ldi-plan ldi-warp ldi-cluster dof-gather; do
+    frame_name=.# run $tool frame.#.$tool --frames 1-4x3
+    [ "$(count "frame.*.$tool")" -eq 2 ] || fail "$tool --frames 1-4x3: $(ls)"
+    frame_name=.# run $tool frame.#.$tool --frames 1,2,4 -u -v --progress plain
+    [ "$(grep -c 'is up to date' stderr)" -eq 2 ] || fail "$tool -u: $(cat stderr)"
+    grep -qx "$tool: 100%" stderr || fail "$tool --progress: $(cat stderr)"
+    frame_name=.# expected=1 run $tool bad.#.$tool --frames 1-4
+    [ "$(count "bad.*.$tool")" -eq 2 ] || fail "$tool goes on after a frame that fails: $(ls)"
+    frame_name=.# expected=1 run $tool bad.#.$tool --frames 1-4 --skip-bad-frames
+    [ "$(count "bad.*.$tool")" -eq 3 ] || fail "$tool --skip-bad-frames: $(ls)"
+    show $tool --frames -u --progress --skip-bad-frames
+done
+
+# --- All options of all tools ---
 
 bash_words() { # TOOL WORDS...: what the completion offers for the last word
     bash -c '. "$1"; shift; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); "_${1//-/_}"; echo "${COMPREPLY[*]}"' - "$folder/$1" "$@"
@@ -34,7 +102,13 @@ for path in "$bin"/ldi-* "$bin"/dof-*; do
     cmp -s "completions/$tool.fish" "$bin/../share/fish/vendor_completions.d/$tool.fish" || fail "$tool: the built completion of fish is another"
     fails_saying 2 '--completion' "$path" --completion csh
 
+    exits 0 "$path" --version
+    grep -q "^$tool " stdout || fail "$tool --version: $(cat stdout)"
+    exits 0 "$path" -h
+    mv stdout short_help
     exits 0 "$path" --help
+    cmp -s stdout short_help || fail "$tool: -h and --help differ"
+    show "$tool" --help --version --man --completion
     grep -oE '^  +-[^ ]+' stdout | tr -d ' ' | tr ',' '\n' | sort -u >names
     [ "$(wc -l <names)" -ge 8 ] || fail "$tool --help names $(cat names)"
     bash_words "$tool" - | tr ' ' '\n' | sort -u | diff names - >differ || fail "$tool: help and completion: $(cat differ)"
@@ -45,7 +119,7 @@ for path in "$bin"/ldi-* "$bin"/dof-*; do
         diff names - >differ || fail "$tool: help and manual page: $(cat differ)"
     # An option of two names is tested by one of them.
     grep -oE '^  +-[^ ]+' stdout | tr -d ' ' | while IFS=, read -r one two; do
-        tested "$one" "$tool" || { [ -n "$two" ] && tested "$two" "$tool"; } || fail "$tool: no script tests $one $two"
+        tested "$one" "$tool" || { [ -n "$two" ] && tested "$two" "$tool"; } || fail "$tool: no script shows what $one $two does"
     done
 done
 

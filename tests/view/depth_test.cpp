@@ -52,6 +52,22 @@ TEST(PlanarDepth, PixelAspectStretchesRows) {
     EXPECT_DOUBLE_EQ(planar_depth(DepthMeaning::distance, 5, 175, 200, w, focal_px), 4);
 }
 
+// A lens shifted by an eighth and a quarter of the picture's width: the axis meets it 25 to the right and 50 below.
+TEST(PlanarDepth, TheAxisGoesThroughThePrincipalPoint) {
+    const Windows w{Imath::Box2i({0, 0}, {199, 199}), Imath::Box2i({0, 0}, {199, 199})};
+    const Imath::V2d shifted(0.1275, 0.2525); // to the centres of pixels
+    const auto z = [&](int x, int y) {
+        return planar_depth(DepthMeaning::distance, 5, x, y, w, focal_px, shifted);
+    };
+    EXPECT_DOUBLE_EQ(z(125, 150), 5);
+    EXPECT_DOUBLE_EQ(z(50, 150), 4);
+    EXPECT_DOUBLE_EQ(z(125, 75), 4);
+    EXPECT_DOUBLE_EQ(z(200, 150), 4);
+    for (const DepthMeaning meaning : {DepthMeaning::planar, DepthMeaning::inverse})
+        EXPECT_EQ(planar_depth(meaning, 5, 3, 4, w, focal_px, shifted),
+                  planar_depth(meaning, 5, 3, 4, w, focal_px));
+}
+
 TEST(Depth, SkyIsWhatRenderersWriteForIt) {
     for (const DepthMeaning meaning : {DepthMeaning::planar, DepthMeaning::distance}) {
         for (const double sky : {1e10, 1e30, 65504.0, double(INFINITY)})

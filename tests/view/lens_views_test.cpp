@@ -1,5 +1,7 @@
 #include "base/error.h"
+#include "support/scratch_folder.h"
 #include "view/lens_views.h"
+#include "view/projection.h"
 
 #include <gtest/gtest.h>
 
@@ -73,14 +75,92 @@ TEST(LensViews, WorldToNdcFollowsTheCamera) {
 }
 
 TEST(LensViews, RefusesWhatIsNoLens) {
-    const std::vector<Camera> behind{camera_at(0.1, 0), camera_at(-0.1, 0, 0.05)};
-    EXPECT_THROW(place_on_lens(behind, names, camera_at(0, 0)), Error);
+    const std::vector<Camera> far_behind{camera_at(0.1, 0), camera_at(-0.1, 0, 0.11)};
+    EXPECT_THROW(place_on_lens(far_behind, names, camera_at(0, 0)), Error);
     Camera turned = camera_at(0, 0);
     Imath::M44d turn;
     turn.rotate(Imath::V3d(0, 0.1, 0));
     turned.world_to_camera = *turned.world_to_camera * turn;
     EXPECT_THROW(place_on_lens(std::vector{camera_at(0, 0), turned}, names, {}), Error);
     EXPECT_THROW(place_on_lens(std::vector{camera_at(0, 0), Camera()}, names, {}), UsageError);
+}
+
+// `camera`, with a projection whose axis is off the middle by this share of the picture's width, right and down.
+Camera framed(Camera camera, const Imath::V2d &off, double field = 0.5) {
+    const double across = 1 / field, down = across * 16 / 9;
+    const Imath::M44d projection(across, 0, 0, 0, 0, -down, 0, 0, 0.5 + off.x, 0.5 + off.y * 16 / 9, 1, 1, 0,
+                                 0, -1, 0);
+    camera.world_to_ndc = Imath::M44d(Imath::M44f(*camera.world_to_camera * projection));
+    camera.world_to_camera = Imath::M44d(Imath::M44f(*camera.world_to_camera));
+    camera.principal_point = off;
+    return camera;
+}
+
+TEST(LensViews, FramingsAreThoseOfTheirFrusta) {
+    const std::vector<Camera> views{
+        framed(camera_at(0.1, 0), {-0.02, 0}), framed(camera_at(-0.1, 0), {0.02, 0.01}),
+        framed(camera_at(0, 0.1, 0.05), {0, 0}, 0.51), framed(camera_at(0, -0.1), {0, 0})};
+    const LensViews placed = place_on_lens(views, names, framed(camera_at(0, 0), {0, 0}));
+    ASSERT_EQ(placed.framings.size(), 4u);
+    EXPECT_EQ(placed.framings[0], (Framing{.principal_point = {-0.02, 0}}));
+    EXPECT_EQ(placed.framings[1], (Framing{.principal_point = {0.02, 0.01}}));
+    EXPECT_NEAR(placed.framings[2].forward, 0.05, 1e-4);
+    EXPECT_NEAR(placed.framings[2].zoom, 0.5 / 0.51, 1e-6);
+    EXPECT_EQ(placed.framings[3], Framing()); // what float's rounding makes of the matrices is none
+}
+
+TEST(LensViews, WhatAViewDoesNotSayIsAsInTheCentre) {
+    Camera centre = framed(camera_at(0, 0), {0.1, -0.2});
+    const Camera silent = camera_at(0.1, 0);
+    EXPECT_EQ(framing_relative_to(centre, silent, "v"), (Framing{.principal_point = {0.1, -0.2}}));
+    EXPECT_EQ(framing_relative_to(silent, centre, "v").zoom, 1);
+    centre.world_to_ndc.reset();
+    Camera view = silent;
+    centre.field = 0.5;
+    view.field = 0.4;
+    EXPECT_DOUBLE_EQ(framing_relative_to(centre, view, "v").zoom, 1.25);
+}
+
+// Options have made the field another than the matrix has it: then it is theirs.
+TEST(LensViews, OptionsGoBeforeMatrices) {
+    Camera centre = framed(camera_at(0, 0), {0, 0}), view = framed(camera_at(0.1, 0), {0, 0}, 0.6);
+    EXPECT_NEAR(framing_relative_to(centre, view, "v").zoom, 0.5 / 0.6, 1e-6);
+    centre.field = view.field = 0.8;
+    EXPECT_EQ(framing_relative_to(centre, view, "v").zoom, 1);
+}
+
+TEST(LensViews, AnotherLensIsAnErrorThatNamesTheView) {
+    const Camera centre = framed(camera_at(0, 0), {0, 0});
+    for (const double field : {0.2, 1.1}) {
+        const Camera view = framed(camera_at(0.1, 0), {0, 0}, field);
+        const std::string what = what_of<Error>([&] { framing_relative_to(centre, view, "tele.exr"); });
+        EXPECT_NE(what.find("tele.exr: its focal length is too far"), std::string::npos) << what;
+    }
+}
+
+TEST(LensViews, TheMiddleOfConvergingFrustaIsTheirMean) {
+    const std::vector<Camera> views{
+        framed(camera_at(0.1, 0), {-0.02, 0}), framed(camera_at(-0.1, 0), {0.02, 0}),
+        framed(camera_at(0, 0.1), {0, 0.02}), framed(camera_at(0, -0.1), {0, -0.02})};
+    const LensViews placed = place_on_lens(views, names, {});
+    ASSERT_TRUE(placed.centre.principal_point && placed.centre.world_to_ndc);
+    EXPECT_LT(placed.centre.principal_point->length(), 1e-6);
+    const auto frustum = frustum_of(*placed.centre.world_to_ndc, *placed.centre.world_to_camera);
+    ASSERT_TRUE(frustum);
+    EXPECT_LT(frustum->principal_point.length(), 1e-6);
+}
+
+TEST(LensViews, PicturesAreMovedWholeInOnePlaneOnly) {
+    const Camera centre = framed(camera_at(0, 0), {0, 0});
+    const auto why = [&](const Camera &odd) {
+        const std::vector<Camera> views{framed(camera_at(0.1, 0), {-0.02, 0}), odd};
+        return what_of<Error>([&] { require_one_plane(place_on_lens(views, names, centre), names); });
+    };
+    EXPECT_EQ(why(framed(camera_at(-0.1, 0), {0.02, 0})), "(nothing was thrown)");
+    EXPECT_EQ(why(framed(camera_at(-0.1, 0, 0.01), {0, 0})),
+              "b.exr: stands in front of or behind the other views; a lens is flat");
+    EXPECT_EQ(why(framed(camera_at(-0.1, 0), {0, 0}, 0.51)),
+              "b.exr: its focal length differs from the other views'");
 }
 
 TEST(LensViews, RoundingFarFromTheOriginIsNoDepth) {

@@ -4,6 +4,7 @@
 #include "common/picture_options.h"
 #include "io/camera_metadata.h"
 #include "io/exr_common.h"
+#include "view/view_mapping.h"
 
 namespace sparselens {
 
@@ -31,9 +32,25 @@ void place_by_metadata(std::span<LensViewFile> views, const std::vector<Imf::Hea
             throw UsageError(centre_file + ": its camera is unknown (no worldToCamera)");
     }
     const LensViews placed = place_on_lens(cameras, names, centre);
+    require_one_plane(placed, names);
     for (std::size_t i = 0; i < views.size(); ++i) views[i].position = placed.positions[i];
     result.centre = placed.centre;
     result.centre_guessed = placed.centre_guessed;
+}
+
+// Frusta may be shifted, as those of views that converge: the files tell it wherever the views' places come from.
+void find_shifts(const std::vector<Imf::Header> &headers, bool centre_is_known, LensViewFiles &result) {
+    Imath::V2d sum(0, 0);
+    for (std::size_t i = 0; i < result.views.size(); ++i) {
+        const Framing framing =
+            framing_relative_to(result.centre, read_camera(headers[i]), result.views[i].path);
+        const Imath::V2d centre = result.centre.principal_point.value_or(Imath::V2d(0, 0));
+        Imath::V2d &shift = result.views[i].shift;
+        shift = in_pixels(centre, result.windows) - in_pixels(framing.principal_point, result.windows);
+        sum += shift;
+    }
+    if (centre_is_known) return;
+    for (LensViewFile &view : result.views) view.shift -= sum / double(result.views.size());
 }
 
 } // namespace
@@ -57,9 +74,9 @@ FlatFile LensViewFile::take_pixels() {
 LensViewFiles open_lens_views(const LensViewOptions &options) {
     LensViewFiles result;
     for (const std::string &path : options.files)
-        result.views.push_back({path, {0, 0}, {}, options.stereo_view});
+        result.views.push_back({path, {0, 0}, {0, 0}, {}, options.stereo_view});
     for (const auto &[position, path] : options.placed)
-        result.views.push_back({path, view_offset(position), {}, options.stereo_view});
+        result.views.push_back({path, view_offset(position), {0, 0}, {}, options.stereo_view});
     if (result.views.empty()) throw UsageError("no views are given");
     std::vector<Imf::Header> headers;
     for (LensViewFile &view : result.views) headers.push_back(open_header(view));
@@ -74,6 +91,7 @@ LensViewFiles open_lens_views(const LensViewOptions &options) {
     if (!options.files.empty())
         place_by_metadata(std::span(result.views).first(options.files.size()), headers, options.centre,
                           result);
+    find_shifts(headers, !options.centre.empty() || !options.files.empty(), result);
     return result;
 }
 

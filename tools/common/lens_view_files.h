@@ -25,11 +25,11 @@ void add_lens_view_options(CLI::App &app, LensViewOptions &options);
 
 struct LensViewFile {
     std::string path;
-    Imath::V2d position;            // on the lens: relative to its centre, scene units, x right, y up
+    Imath::V2d position;    // on the lens: relative to its centre, scene units, x right, y up
+    Imath::V2d shift{0, 0}; // from the point where its optical axis meets the picture to the centre's, pixels
     std::optional<FlatFile> pixels; // already read: standard input gives them only once
-
-    std::string stereo_view; // of the file
-    FlatFile take_pixels();  // reads them where they are not
+    std::string stereo_view;        // of the file
+    FlatFile take_pixels();         // reads them where they are not
 };
 
 struct LensViewFiles {
@@ -41,7 +41,7 @@ struct LensViewFiles {
 };
 
 // Reads the headers. UsageError: no views, a malformed X,Y, a view that cannot be placed. Error: display
-// windows that differ.
+// windows that differ, views that do not lie in one plane (require_one_plane).
 LensViewFiles open_lens_views(const LensViewOptions &options);
 
 } // namespace sparselens

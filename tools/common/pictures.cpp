@@ -20,14 +20,15 @@ class DepthReader {
 public:
     DepthReader(const Windows &windows, const DepthOptions &depth, const Camera &camera)
         : windows_(windows), meaning_(depth.meaning), far_(depth.far),
-          focal_px_(meaning_ == DepthMeaning::distance ? resolve_focal_px(camera, windows) : 1) {}
+          focal_px_(meaning_ == DepthMeaning::distance ? resolve_focal_px(camera, windows) : 1),
+          principal_point_(camera.principal_point.value_or(Imath::V2d(0, 0))) {}
 
     // Of the i-th pixel of the data window; what is no depth stays none (see bad_values.h).
     float planar(float value, std::size_t i) const {
         if (is_sky(meaning_, double(value), far_)) return std::numeric_limits<float>::infinity();
         if (meaning_ == DepthMeaning::planar) return value;
         const Imath::V2i p = pixel(i);
-        return float(planar_depth(meaning_, double(value), p.x, p.y, windows_, focal_px_));
+        return float(planar_depth(meaning_, double(value), p.x, p.y, windows_, focal_px_, principal_point_));
     }
 
 private:
@@ -40,7 +41,19 @@ private:
     DepthMeaning meaning_;
     double far_;
     double focal_px_;
+    Imath::V2d principal_point_;
 };
+
+// `camera`, with the frustum of another one where it knows nothing of its own.
+Camera with_frustum_of(const Camera &other, Camera camera) {
+    if (!camera.focal_length_mm && !camera.sensor_width_mm && !camera.field) {
+        camera.focal_length_mm = other.focal_length_mm;
+        camera.sensor_width_mm = other.sensor_width_mm;
+        camera.field = other.field;
+    }
+    if (!camera.principal_point) camera.principal_point = other.principal_point;
+    return camera;
+}
 
 } // namespace
 
@@ -70,13 +83,15 @@ std::optional<Holdout> load_holdout(const std::string &path, const Windows &wind
     return Holdout(proxy_factor == 1 ? std::move(loaded.ldi) : proxy(loaded.ldi, proxy_factor));
 }
 
-LoadedView load_view(const std::string &path, const LensOptions &lens, const DepthOptions &depth) {
+LoadedView load_view(const std::string &path, const LensOptions &lens, const DepthOptions &depth,
+                     const Camera &otherwise) {
     FlatFile file = read_flat_exr(path, depth.view);
     LoadedView loaded{{display_name(path), std::move(file.image), {}}, std::move(file.header), {}, {}};
     View &view = loaded.view;
     view.z = take_depth(view.image, depth.channel, path);
     loaded.camera = read_camera(loaded.header);
-    const DepthReader read(view.image.windows, depth, camera_with_options(lens, loaded.camera));
+    const Camera camera = camera_with_options(lens, with_frustum_of(otherwise, loaded.camera));
+    const DepthReader read(view.image.windows, depth, camera);
     for (std::size_t i = 0; i < view.z.size(); ++i) view.z[i] = read.planar(view.z[i], i);
     loaded.bad = repair_bad_values(view);
     return loaded;

@@ -43,7 +43,9 @@ struct LoadedView {
     BadValues bad;
 };
 
-LoadedView load_view(const std::string &path, const LensOptions &lens, const DepthOptions &depth);
+// What the file does not say of its frustum, which ray lengths need, is as in `otherwise`.
+LoadedView load_view(const std::string &path, const LensOptions &lens, const DepthOptions &depth,
+                     const Camera &otherwise = {});
 
 // With --verbose: what was made of the parts of the file, and whether coverage is coloured.
 void say_samples(const ToolContext &tool, const std::string &path, const LoadedLdi &loaded);

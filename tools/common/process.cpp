@@ -46,11 +46,14 @@ void add_process_options(CLI::App &app, ProcessOptions &options) {
         ->type_name("N")
         ->envname("CUE_THREADS")
         ->check(CLI::Range(0, 4096));
+    add_documentation_options(app, SPARSELENS_VERSION);
+}
+
+void add_memory_option(CLI::App &app, ProcessOptions &options) {
     app.add_option("--max-memory", options.max_memory,
                    "Memory that reading a file may take, as 4GB (64 MB and 1100 times the file's size)")
         ->type_name("SIZE")
         ->transform(CLI::AsSizeValue(false));
-    add_documentation_options(app, SPARSELENS_VERSION);
 }
 
 std::optional<int> parse_words(CLI::App &app, const std::vector<std::string> &words,

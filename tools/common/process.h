@@ -16,8 +16,9 @@ struct ProcessOptions {
     std::optional<std::uint64_t> max_memory;
 };
 
-// --version, -v, --threads, --max-memory, --man, --completion.
+// --version, -v, --threads, --man, --completion.
 void add_process_options(CLI::App &app, ProcessOptions &options);
+void add_memory_option(CLI::App &app, ProcessOptions &options); // --max-memory
 
 // Reads the words. Nothing where there is work to do, else the exit code: --help and the like are answered, a
 // wrong usage is said (`where`: of which frame, or "").

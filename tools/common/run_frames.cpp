@@ -54,6 +54,7 @@ struct FrameCommand {
         job = prepare(app);
         add_frame_options(app, frames);
         add_process_options(app, process);
+        add_memory_option(app, process);
     }
 };
 
@@ -98,6 +99,7 @@ int run_frames(const std::string &name, const std::string &description, int argc
     tool.tool_name = name;
     tool.threads = first->process.threads;
     tool.verbose = first->process.verbose;
+    tool.max_memory = first->process.max_memory;
     const Process process(first->process, tool);
     int worst = 0;
     for (std::size_t i = 0; i < count; ++i) {

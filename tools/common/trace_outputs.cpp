@@ -1,16 +1,15 @@
 #include "common/trace_outputs.h"
 
-#include "base/error.h"
 #include "io/camera_metadata.h"
 #include "io/exr_deep.h"
 #include "io/exr_flat.h"
 #include "io/file_stream.h"
+#include "io/folder.h"
 #include "trace/camera_at.h"
 
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
 
 namespace sparselens {
 
@@ -46,9 +45,7 @@ TraceOutputs::TraceOutputs(std::string folder, Camera camera, RenderSettings set
                            const ToolContext &tool)
     : folder_(std::move(folder)), camera_(std::move(camera)), settings_(std::move(settings)), type_(type),
       tool_(tool) {
-    std::error_code error;
-    std::filesystem::create_directories(folder_, error);
-    if (error) throw Error(folder_ + ": cannot make the folder: " + error.message());
+    make_folder(folder_);
     const ThinLens &lens = settings_.lens;
     tool_.say("lens radius " + text_of(lens.radius, "%g") + ", focus distance " + text_of(lens.focus, "%g") +
               ", focal length " + text_of(lens.focal_px, "%g") + " pixels");

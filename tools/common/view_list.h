@@ -25,7 +25,8 @@ struct LoadedViews {
     std::vector<BadValues> bad; // of each view
 };
 
-// A view's position comes from --view, else from worldToCamera (see place_on_lens, whose errors it throws).
+// A view's position comes from --view, else from worldToCamera (see place_on_lens, whose errors it throws); its framing
+// from its metadata, else it is the centre view's.
 LoadedViews load_views(const ViewList &list, const LensOptions &lens, const DepthOptions &depth);
 
 } // namespace sparselens

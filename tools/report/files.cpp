@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "io/file_stream.h"
+#include "io/folder.h"
 
 #include <algorithm>
 #include <fstream>
@@ -17,9 +18,7 @@ std::string contents_of_file(const std::filesystem::path &path) {
 }
 
 void write_file(const std::filesystem::path &path, const std::string &contents) {
-    std::error_code error;
-    std::filesystem::create_directories(path.parent_path(), error);
-    if (error) throw Error(path.parent_path().string() + ": cannot make the folder: " + error.message());
+    make_folder(path.parent_path().string());
     OutputFile file(path.string());
     file.stream().write(contents.data(), int(contents.size()));
     file.commit();

@@ -1,6 +1,7 @@
 #include "report/runner.h"
 
 #include "base/error.h"
+#include "io/folder.h"
 #include "report/camera_json.h"
 #include "report/files.h"
 #include "report/process.h"
@@ -62,10 +63,10 @@ public:
 
     StepTimes run(const Step &step, const std::string &identity) const {
         fs::remove(path(record_of(step)));
-        for (const std::string &file : step.outputs) fs::create_directories(path(file).parent_path());
+        for (const std::string &file : step.outputs) make_folder(path(file).parent_path().string());
         if (!step.fresh.empty()) {
             fs::remove_all(path(step.fresh));
-            fs::create_directories(path(step.fresh));
+            make_folder(path(step.fresh));
         }
         const StepTimes times = timed(step);
         if (step.scratch) fs::remove_all(path(step.fresh));
@@ -96,6 +97,8 @@ private:
             std::vector<std::string> words = with_files(command.words, options_.folder);
             words[0] = (fs::path(options_.tools) / words[0]).string();
             words.insert(words.end(), {"--threads", std::to_string(options_.threads)});
+            if (options_.max_memory)
+                words.insert(words.end(), {"--max-memory", std::to_string(*options_.max_memory)});
             const ProcessRun run = run_process(words, options_.folder);
             times.seconds[std::size_t(command.stage)] += run.seconds;
             times.peak_mb = std::max(times.peak_mb, run.peak_mb);

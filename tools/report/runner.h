@@ -8,6 +8,8 @@
 #include "common/tool.h"
 #include "report/steps.h"
 
+#include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -20,6 +22,7 @@ struct RunOptions {
     int threads = 0;    // of every program
     int runs = 3;       // of a step that is timed; its times are their medians
     double enough = 3;  // seconds: a step whose runs took longer together is not run again
+    std::optional<std::uint64_t> max_memory = {}; // of every program, for reading a file
 };
 
 // One a step, in their order.

@@ -1,0 +1,30 @@
+#include "view/view_mapping.h"
+
+#include <limits>
+
+namespace sparselens {
+
+Imath::V2d in_pixels(const Imath::V2d &principal_point, const Windows &windows) {
+    const Imath::Box2i &display = windows.display;
+    const Imath::V2d middle((double(display.min.x) + display.max.x + 1) / 2,
+                            (double(display.min.y) + display.max.y + 1) / 2);
+    const double width = double(display.max.x) - display.min.x + 1;
+    return middle + width * Imath::V2d(principal_point.x, principal_point.y * double(windows.pixel_aspect));
+}
+
+ViewMapping::ViewMapping(const Imath::V2d &position, double focal_px, const Windows &windows,
+                         const Framing &view, const Imath::V2d &centre_principal_point)
+    : unzoom_(1 / view.zoom), approach_(view.forward * unzoom_) {
+    const Imath::V2d own = in_pixels(view.principal_point, windows);
+    offset_ = in_pixels(centre_principal_point, windows) - own * unzoom_;
+    step_ = Imath::V2d(focal_px * position.x, -focal_px * position.y * double(windows.pixel_aspect)) +
+            own * approach_;
+}
+
+Imath::V2d ViewMapping::in_view(const Imath::V2d &p, double inverse_z) const {
+    const double scale = unzoom_ - approach_ * inverse_z; // its depth over the centre view's, and over s
+    if (!(scale > 0)) return Imath::V2d(std::numeric_limits<double>::quiet_NaN());
+    return (p - offset_ - step_ * inverse_z) / scale;
+}
+
+} // namespace sparselens
