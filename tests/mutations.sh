@@ -21,8 +21,9 @@ aspect-dropped|src/lens/lens_samples.cpp|-u.y \* pixel_aspect|-u.y * (pixel_aspe
 alpha-dropped|src/dof/lens_tile.cpp|(1 - samples_.alpha\[i\])|1.0f
 not-renormalised|src/dof/lens_tile.cpp|sums_\[at\] / known|sums_[at] / total_
 weight-dropped|src/ldi/warp.cpp|out.weight.push_back(float(count))|out.weight.push_back(1.0f)
-view-moved-wrong-way|src/ldi/reproject.cpp|shift_x_(focal_px \* position.x)|shift_x_(-focal_px * position.x)
-view-y-wrong-way|src/ldi/reproject.cpp|shift_y_(-focal_px|shift_y_(focal_px
+view-moved-wrong-way|src/view/view_mapping.cpp|V2d(focal_px \* position.x|V2d(-focal_px * position.x
+view-y-wrong-way|src/view/view_mapping.cpp|-focal_px \* position.y|focal_px * position.y
+view-approach-wrong-way|src/view/view_mapping.cpp|approach_(view.forward|approach_(-view.forward
 reproject-truncates|src/ldi/reproject.cpp|cell_x = std::floor(x)|cell_x = std::trunc(x)
 unsorted|src/ldi/tidy.cpp|return a.z != b.z ? a.z < b.z : a.z_back < b.z_back;|return a.index < b.index;
 float-accumulator|src/ldi/flatten.cpp|sum += transmittance \* double(ldi.values\[k\]\[i\]);|sum = double(float(sum + transmittance * double(ldi.values[k][i])));

@@ -39,7 +39,7 @@ void run(const GatherCommand &options, const ToolContext &tool, LdiCache &cache)
     ThinLens lens = lens_for_ldi(in, options.lens, options.focus_pixel, tool);
     const auto holdout =
         load_holdout(options.holdout, in.ldi.windows, options.windows.proxy, options.lens, options.depth);
-    const Frame frame = frame_of(options.windows, read_picture_window(in.header), in.ldi, lens);
+    const Frame frame = frame_of(options.windows, in, lens);
     const Ldi &ldi = frame.changed ? *frame.changed : in.ldi;
     LensTiles tiles;
     Image picture;

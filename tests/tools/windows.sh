@@ -77,3 +77,11 @@ same held.exr front.exr "--holdout hides what is in front of it"
 fails_saying 2 '--holdout' "$bin/dof-gather" wall.exr -o x.exr "${lens[@]}" --holdout card.exr --method scatter
 fails_saying 1 'element.exr.*display window' "$bin/dof-gather" wall.exr -o x.exr "${lens[@]}" --holdout element.exr
 [ ! -e x.exr ] || fail "a failure wrote x.exr"
+
+# A display window of billions of pixels around a few: nothing that fills it is made of a small file.
+oiiotool --pattern constant:color=0.5,0.5,0.5,1,4 16x16 5 --chnames R,G,B,A,Z --fullsize 60000x60000+0+0 -o vast.exr
+vast() { "$bin/dof-gather" vast.exr --focal-length 50 --sensor-width 36 --focus-distance 2 "$@"; }
+exits 0 vast --lens-radius 0.1 -o x.exr
+exits 0 vast --lens-radius 0.001 --overscan grow -o x.exr
+fails_saying 1 'vast.exr.*memory.*--max-memory' vast --lens-radius 0.1 --overscan grow -o grown.exr
+fails_saying 1 'x.png.*memory.*--max-memory' vast --lens-radius 0.1 -o x.png

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "io/exr_flat.h"
 #include "io/file_stream.h"
+#include "io/memory_limit.h"
 #include "io/shown_picture.h"
 
 #include <ImfStringAttribute.h>
@@ -82,6 +83,10 @@ std::size_t write_picture(const ToolContext &tool, const ColourOptions &options,
         throw UsageError("--display and --view-transform are for PNG, JPEG and TIFF, not for " + path);
     if (shown || !options.output_space.empty()) transform_colours(output_transform(options, shown), image);
     if (!shown) return write_flat_exr(path, image, metadata);
+    const Imath::Box2i &display = image.windows.display; // all of it is written
+    check_memory(
+        path, 3.0 * (double(display.max.x) - display.min.x + 1) * (double(display.max.y) - display.min.y + 1),
+        image.values.size() * sizeof(float));
     write_shown_picture(path, image);
     tool.say(path + ": written for a display");
     return 0;

@@ -2,6 +2,8 @@
 
 #include "base/error.h"
 #include "common/words.h"
+#include "io/camera_metadata.h"
+#include "io/memory_limit.h"
 #include "ldi/frame.h"
 
 #include <algorithm>
@@ -40,6 +42,15 @@ Imath::Box2i grown(const Imath::Box2i &data, const Imath::V2i &reach, const Imat
              std::max(data.max.y, std::min(display.max.y, data.max.y + reach.y))}};
 }
 
+// A few near samples in a huge display window may ask for a picture of gigabytes.
+void check_growth(const InputLdi &in, const Ldi &ldi, const Imath::Box2i &window) {
+    const double pixels =
+        (double(window.max.x) - window.min.x + 1) * (double(window.max.y) - window.min.y + 1);
+    const std::size_t channels = ldi.channels.size() * sizeof(float), offset = sizeof(ldi.begin[0]);
+    check_memory(in.name, pixels * double(channels + offset),
+                 ldi.samples() * channels + ldi.windows.pixels() * offset);
+}
+
 } // namespace
 
 void add_window_options(CLI::App &app, WindowOptions &options) {
@@ -70,13 +81,14 @@ void add_window_options(CLI::App &app, WindowOptions &options) {
         ->group("Windows");
 }
 
-Frame frame_of(const WindowOptions &options, const Imath::Box2i &picture, const Ldi &ldi, ThinLens &lens) {
+Frame frame_of(const WindowOptions &options, const InputLdi &in, ThinLens &lens) {
     lens.focal_px /= options.proxy;
-    Frame frame{reduced(picture, options.proxy), {}, {}};
-    if (options.proxy > 1) frame.changed = proxy(ldi, options.proxy);
-    const auto made = [&]() -> const Ldi & { return frame.changed ? *frame.changed : ldi; };
+    Frame frame{reduced(read_picture_window(in.header), options.proxy), {}, {}};
+    if (options.proxy > 1) frame.changed = proxy(in.ldi, options.proxy);
+    const auto made = [&]() -> const Ldi & { return frame.changed ? *frame.changed : in.ldi; };
     if (options.overscan == OutputOverscan::grow && lens.radius > 0) {
         frame.gathered = grown(frame.gathered, largest_reach(made(), lens), made().windows.display);
+        check_growth(in, made(), frame.gathered);
         frame.changed = padded(made(), frame.gathered);
     }
     frame.written = frame.gathered;

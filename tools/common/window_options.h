@@ -1,7 +1,7 @@
 // Which pixels a tool makes, and at which size.
 #pragma once
 
-#include "ldi/ldi.h"
+#include "common/ldi_cache.h"
 #include "lens/thin_lens.h"
 
 #include <CLI/CLI.hpp>
@@ -30,9 +30,9 @@ struct Frame {
     std::optional<Ldi> changed; // of which; none: the LDI as it was
 };
 
-// Makes the lens, and of the LDI a copy, that of the proxy; the copy is grown where asked. `picture`: the file's
-// picture window.
-// UsageError: a region or a display window that holds no pixel of the picture.
-Frame frame_of(const WindowOptions &options, const Imath::Box2i &picture, const Ldi &ldi, ThinLens &lens);
+// Makes the lens, and of the LDI a copy, that of the proxy; the copy is grown where asked.
+// UsageError: a region or a display window that holds no pixel of the picture. Error: a picture grown beyond what the
+// memory of the LDI justifies (memory_limit.h).
+Frame frame_of(const WindowOptions &options, const InputLdi &in, ThinLens &lens);
 
 } // namespace sparselens
