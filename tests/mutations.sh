@@ -28,6 +28,7 @@ reproject-truncates|src/ldi/reproject.cpp|cell_x = std::floor(x)|cell_x = std::t
 unsorted|src/ldi/tidy.cpp|return a.z != b.z ? a.z < b.z : a.z_back < b.z_back;|return a.index < b.index;
 float-accumulator|src/ldi/flatten.cpp|sum += transmittance \* double(ldi.values\[k\]\[i\]);|sum = double(float(sum + transmittance * double(ldi.values[k][i])));
 cluster-weights|src/ldi/cluster.cpp|terms\[t\].coefficient /= weights|(void)weights
+lamps-opaque-alone|src/dof/highlights.cpp|i < block.end; ++i) found|i < block.opaque_end; ++i) found
 lamp-counted-twice|src/dof/highlights.cpp|colours.at(k, f.sample) \*= 1 - f.share;|
 light-made|src/dof/sharpen.cpp|{n.sample\[k\], -shared}|{n.sample[k], 0}
 bad-alpha-kept|src/ldi/bad_values.cpp|return v >= 0 \&\& v <= 1;|return v == v;

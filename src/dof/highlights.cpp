@@ -22,13 +22,13 @@ float brightness_of(const SampleColours &colours, std::span<const std::size_t> c
     return most;
 }
 
-// The opaque samples of a neighbourhood of blocks.
+// The samples of a neighbourhood of blocks.
 std::vector<std::uint32_t> samples_around(const BlockedSamples &samples, int column, int row) {
     std::vector<std::uint32_t> found;
     for (int r = row; r < std::min(row + neighbourhood, samples.rows); ++r)
         for (int c = column; c < std::min(column + neighbourhood, samples.columns); ++c) {
             const SampleBlock &block = samples.blocks[std::size_t(r * samples.columns + c)];
-            for (std::uint32_t i = block.begin; i < block.opaque_end; ++i) found.push_back(i);
+            for (std::uint32_t i = block.begin; i < block.end; ++i) found.push_back(i);
         }
     return found;
 }

@@ -3,7 +3,8 @@
 // A lamp far out of focus is a smooth disc; a sum over lens points is that only if there are more of them than
 // pixels in the disc. So the light of a sample that stands far above what surrounds it is taken out of it and
 // spread by its point spread function (exact pixel areas) instead. Whether a pixel of the disc sees the lamp is
-// decided as for all else, at the lens point: pixel and sample fix it, and the nearest one of the set answers.
+// decided as for all else, at the lens point: pixel and sample fix it, and the nearest one of the set answers. A lamp
+// may be of partial coverage: one smaller than a pixel always is.
 #pragma once
 
 #include "dof/sample_blocks.h"

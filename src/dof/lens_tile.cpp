@@ -56,7 +56,7 @@ bool out_of_reach(const SampleBlock &b, const LensSample &lens, float x, float y
 LensTile::LensTile(const BlockedSamples &samples, const SampleColours &colours, const Highlights &highlights,
                    const HeldOut &held_out)
     : samples_(samples), colours_(colours), highlights_(highlights), held_out_(held_out),
-      front_(stride * stride), transmittance_(stride * stride, 1.0f),
+      front_(stride * stride), transmittance_(stride * stride, 1.0f), veil_(stride * stride),
       over_(colours.groups * stride * stride * 4), sums_(colours.groups * size * size * 4),
       spread_(sums_.size()), unknown_(size * size) {}
 
@@ -101,7 +101,7 @@ void LensTile::gather(const Imath::V2i &origin, std::span<const std::uint32_t> b
 }
 
 void LensTile::collect_partial() {
-    auto &[sample, x, y, coc, cell] = partial_;
+    auto &[sample, x, y, coc, cell, highlight] = partial_;
     sample.clear();
     for (const std::uint32_t b : blocks_)
         for (std::uint32_t i = samples_.blocks[b].opaque_end; i < samples_.blocks[b].end; ++i)
@@ -112,10 +112,12 @@ void LensTile::collect_partial() {
     x.clear();
     y.clear();
     coc.clear();
+    highlight.clear();
     for (const std::uint32_t i : sample) {
         x.push_back(samples_.x[i]);
         y.push_back(samples_.y[i]);
         coc.push_back(samples_.coc[i]);
+        highlight.push_back(std::ranges::binary_search(highlights_.sample, i));
     }
     cell.resize(sample.size());
 }
@@ -158,6 +160,10 @@ void LensTile::see_partial(const LensSample &lens) {
             for (int k = 0; k < 4; ++k) over[k] += share * colour[k];
         }
         transmittance = std::min(transmittance * (1 - samples_.alpha[i]), covered_at_all);
+        if (partial_.highlight[n]) continue;
+        Veil &veil = veil_[cell];
+        if (veil.transmittance == 1) veil.depth = samples_.depth[i];
+        veil.transmittance = std::min(veil.transmittance * (1 - samples_.alpha[i]), covered_at_all);
     }
 }
 
@@ -205,6 +211,7 @@ void LensTile::add_partial(float weight) {
 void LensTile::forget_partial() {
     for (const std::uint32_t cell : covered_) {
         transmittance_[cell] = 1;
+        veil_[cell] = {};
         for (std::size_t g = 0; g < colours_.groups; ++g)
             std::fill_n(&over_[(g * stride * stride + cell) * 4], 4, 0.0f);
     }
@@ -239,9 +246,11 @@ std::span<const HighlightPixel> LensTile::add_highlights(std::span<const Highlig
         const HighlightPixel &p = spread[done];
         const std::size_t cell = std::size_t((p.y + 1) * stride + p.x + 1),
                           pixel = std::size_t(p.y * size + p.x);
-        if (hides(p.x, p.y, samples_.depth[highlights_.sample[p.highlight]])) continue;
-        const float weight =
-            p.weight * transmittance_[cell] * passes(p.x, p.y, highlights_.sample[p.highlight]);
+        const std::uint32_t sample = highlights_.sample[p.highlight];
+        if (hides(p.x, p.y, samples_.depth[sample])) continue;
+        const Veil &veil = veil_[cell];
+        const bool veiled = veil.transmittance < 1 && veil.depth > samples_.depth[sample] + same_surface;
+        const float weight = p.weight * (veiled ? veil.transmittance : 1) * passes(p.x, p.y, sample);
         for (std::size_t g = 0; g < colours_.groups; ++g)
             for (std::size_t k = 0; k < 4; ++k)
                 spread_[(g * size * size + pixel) * 4 + k] +=

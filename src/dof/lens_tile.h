@@ -70,12 +70,19 @@ private:
     // Samples of partial coverage, front to back.
     struct Partial {
         std::vector<std::uint32_t> sample;
-        std::vector<float> x, y, coc;   // of each, side by side
-        std::vector<std::int32_t> cell; // where the lens point at hand sees it
+        std::vector<float> x, y, coc;        // of each, side by side
+        std::vector<std::int32_t> cell;      // where the lens point at hand sees it
+        std::vector<std::uint8_t> highlight; // whether it is one
     } partial_;
+    // What partial samples leave of the light of highlights behind them; among themselves these leave all.
+    struct Veil {
+        float depth = 0;         // of the nearest that is no highlight
+        float transmittance = 1; // of all of those
+    };
     // Of one lens point:
     std::vector<std::uint64_t> front_;   // [cell]: key of the nearest opaque sample; 0: none
     std::vector<float> transmittance_;   // [cell]: of the partial samples in front
+    std::vector<Veil> veil_;             // [cell]
     std::vector<float> over_;            // [group][cell][4]: their colours
     std::vector<std::uint32_t> covered_; // cells that have any
     // Of all so far:

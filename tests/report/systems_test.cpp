@@ -100,8 +100,7 @@ TEST(Systems, ARowTakesTheTimeOfItsWholeChain) {
               "dof-trace fence --size 640x360 --spp 16 --views 4 -o fence/views-5x16\n"
               "ldi-warp fence/views-5x16/center.exr fence/views-5x16/view_0.exr fence/views-5x16/view_1.exr "
               "fence/views-5x16/view_2.exr fence/views-5x16/view_3.exr -o fence/views-5x16/warped.exr\n"
-              "ldi-cluster fence/views-5x16/warped.exr -o fence/views-5x16/clustered.exr\n"
-              "dof-gather fence/views-5x16/clustered.exr --method lens --quality final -o "
+              "dof-gather fence/views-5x16/warped.exr --method lens --quality final -o "
               "fence/views-5x16/lens-final.exr\n");
     EXPECT_EQ(all.commands(all.row("centre + 8, selective K=2", "1 sample")).substr(0, 73),
               "dof-trace fence --size 640x360 --spp 1 --views 8 -o fence/views-9x1\nldi-w");

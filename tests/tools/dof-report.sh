@@ -55,7 +55,7 @@ for scene in fence grass lamps; do
         done
     done
     positive "$(value $scene 'centre + 4, lens normal' '4 samples' seconds_warp)" "time to warp"
-    positive "$(value $scene 'centre + 4, lens normal' '4 samples' seconds_cluster)" "time to cluster"
+    positive "$(value $scene 'centre + 4, selective K=8' '4 samples' seconds_cluster)" "time to cluster"
     positive "$(value $scene 'accumulated lens views, ' '64 views' seconds_process)" "time to accumulate"
     positive "$(value $scene 'distributed ray tracing, ' '64 rays' psnr_tonemapped)" "quality of ray tracing"
 done

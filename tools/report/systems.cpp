@@ -39,7 +39,18 @@ public:
     Chain(const Rendered &rendered, const Words &lens, const Budgets &budgets, StepList &steps)
         : rendered_(rendered), lens_(lens), budgets_(budgets), steps_(steps) {}
 
-    // Sparse views are warped into one LDI and clustered; what came as one picture is taken as it is.
+    // Sparse views are warped into one LDI; what came as one picture is taken as it is.
+    Layers warp() {
+        Layers rendered{rendered_.picture, rendered_.steps};
+        if (rendered_.rim.empty()) return rendered;
+        Words views{"ldi-warp", rendered_.picture};
+        for (const PlacedView &view : rendered_.rim)
+            views = std::move(views) +
+                    (view.position.empty() ? Words{view.path} : Words{"--view", view.position, view.path});
+        return then(rendered, Stage::warp, "warped", views, lens_);
+    }
+
+    // And clustered, for methods whose work grows with the layers.
     Layers layers(const std::string &name, const Words &cluster_words) {
         Layers warped = warp();
         if (rendered_.rim.empty()) return warped;
@@ -52,7 +63,7 @@ public:
 
     // Not part of anybody's time.
     std::string many_points() {
-        const Layers from = layers("clustered", {});
+        const Layers from = warp();
         const Words words{"--method", "lens", "--lens-samples", std::to_string(budgets_.many_points)};
         const Layers made =
             then(from, Stage::process, "many-points", {"dof-gather", from.file}, words + lens_, 4, false);
@@ -60,16 +71,6 @@ public:
     }
 
 private:
-    Layers warp() {
-        Layers rendered{rendered_.picture, rendered_.steps};
-        if (rendered_.rim.empty()) return rendered;
-        Words views{"ldi-warp", rendered_.picture};
-        for (const PlacedView &view : rendered_.rim)
-            views = std::move(views) +
-                    (view.position.empty() ? Words{view.path} : Words{"--view", view.position, view.path});
-        return then(rendered, Stage::warp, "warped", views, lens_);
-    }
-
     Layers then(const Layers &from, Stage stage, const std::string &name, const Words &program_and_inputs,
                 const Words &options, double weight = 1.2, bool timed = true) {
         const std::string file = rendered_.folder + '/' + name + ".exr";
@@ -113,8 +114,7 @@ Layers scatter(Chain &chain) {
 }
 
 Layers lens(Chain &chain, const std::string &quality) {
-    return chain.gathered(chain.layers("clustered", {}), "lens-" + quality,
-                          {"--method", "lens", "--quality", quality});
+    return chain.gathered(chain.warp(), "lens-" + quality, {"--method", "lens", "--quality", quality});
 }
 
 const Processor scattered{"scatter", true, false, scatter}, gathered{"gather", true, false, selective<8>},
