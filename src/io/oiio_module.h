@@ -27,7 +27,7 @@ struct OiioModule {
 
 inline constexpr const char *oiio_module_entry = "sparselens_oiio_module";
 
-// Loaded at the first call, from the folders of the program's RUNPATH, else from where it was to be installed.
+// Loaded at the first call, from beside the program (../lib/sparselens), else from where it was to be installed.
 // Throws Error where it is not found or cannot be loaded.
 const OiioModule &oiio_module();
 
