@@ -110,16 +110,25 @@ void check_chunk(const DeepSource &source, const RawSize &raw_size) {
                     " bytes, more than the file has");
 }
 
+// Has the part read its counts of samples, and makes room for them all.
+template <typename Part, typename Read>
+std::vector<unsigned> read_counts(Part &part, const DeepSource &source, Ldi &ldi, const Planes &planes,
+                                  const Read &read) {
+    std::vector<unsigned> counts(ldi.windows.pixels());
+    Imf::DeepFrameBuffer only_counts;
+    only_counts.insertSampleCountSlice(counts_slice(counts, ldi.windows));
+    part.setFrameBuffer(only_counts);
+    read();
+    set_counts(ldi, counts);
+    make_room(ldi, planes, source);
+    return counts;
+}
+
 void read_scanlines(const DeepSource &source, int number, Ldi &ldi, const Planes &planes) {
     Imf::DeepScanLineInputPart part(source.file, number);
     const Windows &w = ldi.windows;
-    std::vector<unsigned> counts(w.pixels());
-    Imf::DeepFrameBuffer only_counts;
-    only_counts.insertSampleCountSlice(counts_slice(counts, w));
-    part.setFrameBuffer(only_counts);
-    part.readPixelSampleCounts(w.data.min.y, w.data.max.y);
-    set_counts(ldi, counts);
-    make_room(ldi, planes, source);
+    std::vector<unsigned> counts = read_counts(
+        part, source, ldi, planes, [&] { part.readPixelSampleCounts(w.data.min.y, w.data.max.y); });
     for (int y = w.data.min.y; y <= w.data.max.y; ++y)
         check_chunk(source, [&](std::uint64_t &bytes) { part.rawPixelData(y, nullptr, bytes); });
     constexpr int rows_at_once = 128; // bounds the pointer table, keeps all threads busy
@@ -135,14 +144,9 @@ void read_scanlines(const DeepSource &source, int number, Ldi &ldi, const Planes
 void read_tiles(const DeepSource &source, int number, Ldi &ldi, const Planes &planes) {
     Imf::DeepTiledInputPart part(source.file, number);
     const Windows &w = ldi.windows;
-    std::vector<unsigned> counts(w.pixels());
-    Imf::DeepFrameBuffer only_counts;
-    only_counts.insertSampleCountSlice(counts_slice(counts, w));
-    part.setFrameBuffer(only_counts);
     const int right = part.numXTiles(0) - 1, bottom = part.numYTiles(0) - 1;
-    part.readPixelSampleCounts(0, right, 0, bottom);
-    set_counts(ldi, counts);
-    make_room(ldi, planes, source);
+    std::vector<unsigned> counts =
+        read_counts(part, source, ldi, planes, [&] { part.readPixelSampleCounts(0, right, 0, bottom); });
     for (int ty = 0; ty <= bottom; ++ty)
         for (int tx = 0; tx <= right; ++tx)
             check_chunk(source, [&](std::uint64_t &bytes) {
