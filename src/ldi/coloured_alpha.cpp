@@ -81,7 +81,7 @@ std::vector<std::size_t> coverage_by_channel(const Ldi &ldi) {
     std::vector<std::size_t> coverage(ldi.channels.size(), alpha);
     for (std::size_t k = 0; k < coverage.size() && alpha != npos; ++k) {
         const std::size_t own = coverage_of(ldi.channels, k);
-        if (ldi.values[own] != ldi.values[alpha]) coverage[k] = own;
+        if (own != alpha && ldi.values[own] != ldi.values[alpha]) coverage[k] = own;
     }
     return coverage;
 }

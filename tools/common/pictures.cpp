@@ -99,7 +99,7 @@ LoadedView load_view(const std::string &path, const LensOptions &lens, const Dep
 
 void say_samples(const ToolContext &tool, const std::string &path, const LoadedLdi &loaded) {
     for (const std::string &note : loaded.notes) tool.say(display_name(path) + ": " + note);
-    if (by_coverage(loaded.ldi).size() > 1)
+    if (tool.verbose && by_coverage(loaded.ldi).size() > 1)
         tool.say(display_name(path) + ": coverage is coloured (AR, AG, AB): each colour has its own");
 }
 
