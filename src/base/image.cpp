@@ -35,9 +35,7 @@ std::span<const float> Image::plane(std::size_t channel) const {
 
 namespace {
 std::size_t index_of(const Image &image, std::size_t channel, int x, int y) {
-    const Windows &w = image.windows;
-    const std::size_t row = channel * std::size_t(w.height()) + std::size_t(y - w.data.min.y);
-    return row * std::size_t(w.width()) + std::size_t(x - w.data.min.x);
+    return channel * image.windows.pixels() + image.windows.index(x, y);
 }
 } // namespace
 

@@ -33,6 +33,10 @@ struct Windows {
     int width() const { return data.max.x - data.min.x + 1; }
     int height() const { return data.max.y - data.min.y + 1; }
     std::size_t pixels() const { return std::size_t(width()) * std::size_t(height()); }
+    // Of the pixel (x, y) of the data window, EXR coordinates, row by row.
+    std::size_t index(int x, int y) const {
+        return std::size_t(y - data.min.y) * std::size_t(width()) + std::size_t(x - data.min.x);
+    }
     int display_width() const { return display.max.x - display.min.x + 1; }
     int display_height() const { return display.max.y - display.min.y + 1; }
     bool operator==(const Windows &) const = default;

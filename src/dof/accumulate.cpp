@@ -80,11 +80,6 @@ void add_moved_along_x(const Line &line, float part, Line &integrals, double *su
         sums[i] += double(line[i + 2] + (integrals[i + 1] - integrals[i]));
 }
 
-std::size_t index_of(const Windows &windows, int x, int y) {
-    return std::size_t(y - windows.data.min.y) * std::size_t(windows.width()) +
-           std::size_t(x - windows.data.min.x);
-}
-
 // Rows [begin, end) of the target.
 void add_rows(const Plane &plane, const AxisMove &across, const AxisMove &down, int begin, int end,
               const Windows &target, double *sums) {
@@ -94,7 +89,7 @@ void add_rows(const Plane &plane, const AxisMove &across, const AxisMove &down, 
     for (int y = begin; y < end; ++y) {
         integrate_row(plane, y + down.whole + 1, down.part, below);
         moved_row(plane, y + down.whole, above, below, across.begin + across.whole, line);
-        add_moved_along_x(line, across.part, integrals, sums + index_of(target, across.begin, y));
+        add_moved_along_x(line, across.part, integrals, sums + target.index(across.begin, y));
         std::swap(above, below);
     }
 }
@@ -103,7 +98,7 @@ void take_ids(const Image &view, std::size_t channel, const Windows &target, dou
     for (int y = target.data.min.y; y <= target.data.max.y; ++y)
         for (int x = target.data.min.x; x <= target.data.max.x; ++x)
             if (view.windows.data.intersects(Imath::V2i(x, y)))
-                ids[index_of(target, x, y)] = std::bit_cast<std::uint32_t>(view.at(channel, x, y));
+                ids[target.index(x, y)] = std::bit_cast<std::uint32_t>(view.at(channel, x, y));
 }
 
 // Where the view has each of the channels.
@@ -148,7 +143,7 @@ void accumulate(Accumulation &accumulation, const Image &view, const Imath::V2d 
                 add_rows({view.plane(channels[k]).data(), from}, across, down, top, bottom, target,
                          accumulation.sums.data() + k * target.pixels());
         for (int y = top; y < bottom; ++y)
-            for (int x = across.begin; x < across.end; ++x) ++accumulation.covered[index_of(target, x, y)];
+            for (int x = across.begin; x < across.end; ++x) ++accumulation.covered[target.index(x, y)];
     });
     for (std::size_t k = 0; first && k < channels.size(); ++k)
         if (accumulation.channels[k].type == PixelType::uint32)

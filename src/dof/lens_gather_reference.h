@@ -4,8 +4,8 @@
 // A lens point looks through one point of the pixel. It sees the samples whose unit square, displaced by their
 // CoC, covers that point, front to back: coverage is taken for independent, and the first opaque one ends it.
 // Inside `window` a pixel that lets light through to infinity has an opaque, colourless, transparent background
-// there, and another one that moves with its last sample, behind everything. A lens point that meets nothing opaque does not know what lies behind: it counts by what it does know,
-// which is the coverage that it met.
+// there, and another one that moves with its last sample, behind everything. A lens point that meets nothing opaque
+// does not know what lies behind: it counts by what it does know, which is the coverage that it met.
 #pragma once
 
 #include "base/image.h"

@@ -1,5 +1,7 @@
 #include "dof/lens_tile.h"
 
+#include "dof/placement.h"
+
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -13,36 +15,6 @@ constexpr float same_surface = 0.5f; // pixels of perceptive depth
 constexpr float covered_at_all = 1 - 0x1p-24f; // a sample without coverage may still give light
 
 using Colour4 = std::array<float, 4>;
-
-constexpr int cell_stride = LensTile::size + 2;
-
-// Moves samples to where a lens point sees them, relative to the tile's border.
-struct Placement {
-    float lens_x, lens_y, tile_x, tile_y, shift_x, shift_y;
-
-    Placement(const LensSample &lens, float origin_x, float origin_y)
-        : lens_x(lens.x), lens_y(lens.y), tile_x(origin_x), tile_y(origin_y), shift_x(lens.pixel_x + 1),
-          shift_y(lens.pixel_y + 1) {}
-};
-
-// The cell that each sample falls in, counted from the border's corner; what falls outside is in the border.
-// Compiled for several instruction sets, as this loop is most of the work; they all give the same. Not under
-// ThreadSanitizer, as the loader chooses among them before that has begun.
-#ifndef __SANITIZE_THREAD__
-[[gnu::target_clones("default,avx2")]]
-#endif
-void place(const Placement &p, const float *x, const float *y, const float *coc, std::uint32_t count,
-           std::int32_t *cells) {
-    constexpr float limit = float(cell_stride - 1);
-    for (std::uint32_t i = 0; i < count; ++i) {
-        // The tile's place is taken off first, so that far from the corner nothing is rounded more than near it.
-        const float cx = (x[i] - p.tile_x) + (coc[i] * p.lens_x + p.shift_x);
-        const float cy = (y[i] - p.tile_y) + (coc[i] * p.lens_y + p.shift_y);
-        const float column = cx > 0 ? (cx < limit ? cx : limit) : 0,
-                    row = cy > 0 ? (cy < limit ? cy : limit) : 0;
-        cells[i] = std::int32_t(row) * cell_stride + std::int32_t(column);
-    }
-}
 
 bool out_of_reach(const SampleBlock &b, const LensSample &lens, float x, float y, float size) {
     const auto [x0, x1] = std::minmax({b.coc_min * lens.x, b.coc_max * lens.x});
@@ -124,7 +96,7 @@ void LensTile::collect_partial() {
 
 void LensTile::see_opaque(const LensSample &lens) {
     std::fill(front_.begin(), front_.end(), 0);
-    const Placement placement(lens, origin_x_, origin_y_);
+    const Placement placement(lens, origin_x_, origin_y_, stride);
     std::array<std::int32_t, 256> cells;
     for (const std::uint32_t b : blocks_) {
         const SampleBlock &block = samples_.blocks[b];
@@ -143,7 +115,7 @@ void LensTile::see_opaque(const LensSample &lens) {
 }
 
 void LensTile::see_partial(const LensSample &lens) {
-    const Placement placement(lens, origin_x_, origin_y_);
+    const Placement placement(lens, origin_x_, origin_y_, stride);
     const std::size_t count = partial_.sample.size();
     place(placement, partial_.x.data(), partial_.y.data(), partial_.coc.data(), std::uint32_t(count),
           partial_.cell.data());

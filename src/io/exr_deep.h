@@ -25,8 +25,9 @@ struct LdiFile {
 // - the others are an object each, and all their samples are in the picture (see united());
 // - but where just one bears a beauty's name (exr_parts.h), that is the whole picture, and what is no layer of it
 //   is left out.
-// `stereo_view` empty: the default view (exr_parts.h). A is made of AR, AG, AB where it is missing. `depth_channel` empty: Z, depth.Z and *.Depth.Z are tried; NAMEBack
-// beside it are the back depths. Samples come as they stand in the file (see tidy), of a flat picture one a pixel.
+// `stereo_view` empty: the default view (exr_parts.h). A is made of AR, AG, AB where it is missing. `depth_channel`
+// empty: Z, depth.Z and *.Depth.Z are tried; NAMEBack beside it are the back depths. Samples come as they stand in
+// the file (see tidy), of a flat picture one a pixel.
 LdiFile read_ldi(const std::string &path, const std::string &depth_channel = {},
                  const std::string &stereo_view = {});
 

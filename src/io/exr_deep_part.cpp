@@ -69,7 +69,7 @@ public:
                  std::vector<unsigned> &counts) {
         const Windows &w = ldi.windows;
         const std::size_t width = std::size_t(w.width());
-        const std::size_t first = std::size_t(first_row - w.data.min.y) * width;
+        const std::size_t first = w.index(w.data.min.x, first_row);
         const std::size_t pixels = std::size_t(last_row - first_row + 1) * width;
         const Imath::Box2i rows({w.data.min.x, first_row}, {w.data.max.x, last_row});
         pointers_.resize(planes.named.size());

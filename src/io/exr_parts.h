@@ -1,10 +1,10 @@
 // The parts of a file, the views of a stereo file ("left", "right", ...), and which parts and channels are whose. Not
 // for use outside io/.
 //
-// Parts say their view by the attribute `view`; a single part may hold several views, which `multiView` lists, the default
-// first ("Storing Multi-View Images in OpenEXR Files", P. Hillman, F. Kainz, 2007). There VIEW.R and LAYER.VIEW.R,
-// or as others write it VIEW.LAYER.R, are R and LAYER.R of the view; R alone is the default view's; a layer whose
-// name holds no view is of all views that have none of that name of their own.
+// Parts say their view by the attribute `view`; a single part may hold several views, which `multiView` lists, the
+// default first ("Storing Multi-View Images in OpenEXR Files", P. Hillman, F. Kainz, 2007). There VIEW.R and
+// LAYER.VIEW.R, or as others write it VIEW.LAYER.R, are R and LAYER.R of the view; R alone is the default view's; a
+// layer whose name holds no view is of all views that have none of that name of their own.
 #pragma once
 
 #include "base/image.h"

@@ -21,10 +21,6 @@ Ldi with_coverage(Ldi ldi) {
     return ldi;
 }
 
-std::size_t index_of(const Windows &w, int x, int y) {
-    return std::size_t(y - w.data.min.y) * std::size_t(w.width()) + std::size_t(x - w.data.min.x);
-}
-
 // A sample of a large pixel, and what of it the flattened picture shows.
 struct Seen {
     std::uint64_t index;
@@ -38,7 +34,7 @@ std::vector<Seen> samples_in(const Ldi &ldi, std::size_t alpha, const Imath::V2i
     for (int y = small.y * factor; y < (small.y + 1) * factor; ++y)
         for (int x = small.x * factor; x < (small.x + 1) * factor; ++x) {
             if (!ldi.windows.data.intersects(Imath::V2i(x, y))) continue;
-            const std::size_t pixel = index_of(ldi.windows, x, y);
+            const std::size_t pixel = ldi.windows.index(x, y);
             double shown = 1;
             for (std::uint64_t i = ldi.begin[pixel]; i < ldi.begin[pixel + 1]; ++i) {
                 const MergedSample s = placement_of(ldi, i);
@@ -96,7 +92,7 @@ Ldi padded(Ldi ldi, const Imath::Box2i &data) {
     for (int y = windows.data.min.y; y <= windows.data.max.y; ++y)
         for (int x = windows.data.min.x; x <= windows.data.max.x; ++x) {
             const bool old = ldi.windows.data.intersects(Imath::V2i(x, y));
-            begin.push_back(old ? ldi.begin[index_of(ldi.windows, x, y) + 1] : begin.back());
+            begin.push_back(old ? ldi.begin[ldi.windows.index(x, y) + 1] : begin.back());
         }
     ldi.begin = std::move(begin);
     ldi.windows = windows;

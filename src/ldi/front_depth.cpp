@@ -5,10 +5,8 @@
 namespace sparselens {
 
 float front_depth(const Ldi &ldi, const Imath::V2i &pixel) {
-    const Windows &w = ldi.windows;
-    if (!w.data.intersects(pixel)) return 0;
-    const std::size_t i =
-        std::size_t(pixel.y - w.data.min.y) * std::size_t(w.width()) + std::size_t(pixel.x - w.data.min.x);
+    if (!ldi.windows.data.intersects(pixel)) return 0;
+    const std::size_t i = ldi.windows.index(pixel.x, pixel.y);
     return ldi.begin[i] == ldi.begin[i + 1] ? 0 : ldi.z[ldi.begin[i]];
 }
 

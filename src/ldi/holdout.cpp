@@ -16,10 +16,8 @@ constexpr double rounding = 1e-6; // relative, of a depth that has been through 
 Holdout::Holdout(Ldi ldi) : ldi_(std::move(ldi)), alpha_(ldi_.alpha()) {}
 
 double Holdout::passes(int x, int y, double z) const {
-    const Imath::Box2i &data = ldi_.windows.data;
-    if (!data.intersects(Imath::V2i(x, y))) return 1;
-    const std::size_t pixel =
-        std::size_t(y - data.min.y) * std::size_t(ldi_.windows.width()) + std::size_t(x - data.min.x);
+    if (!ldi_.windows.data.intersects(Imath::V2i(x, y))) return 1;
+    const std::size_t pixel = ldi_.windows.index(x, y);
     double passed = 1;
     for (std::uint64_t i = ldi_.begin[pixel]; i < ldi_.begin[pixel + 1] && passed > 0; ++i) {
         const double front = double(ldi_.z[i]), back = double(back_at(ldi_, i));

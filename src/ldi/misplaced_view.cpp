@@ -35,9 +35,7 @@ public:
         return depth(p) > 0 && (alpha_ == npos || view_.image.at(alpha_, p.x, p.y) > 0);
     }
     double depth(const Imath::V2i &p) const {
-        const Windows &w = view_.image.windows;
-        return double(view_.z[std::size_t(p.y - w.data.min.y) * std::size_t(w.width()) +
-                              std::size_t(p.x - w.data.min.x)]);
+        return double(view_.z[view_.image.windows.index(p.x, p.y)]);
     }
 
 private:

@@ -9,10 +9,6 @@ namespace sparselens {
 
 namespace {
 
-std::size_t index_of(const Windows &w, int x, int y) {
-    return std::size_t(y - w.data.min.y) * std::size_t(w.width()) + std::size_t(x - w.data.min.x);
-}
-
 // The channels of all parts, in the order of the first that has them, of the type with the most bits.
 std::vector<Channel> all_channels(const std::vector<Ldi> &parts) {
     std::vector<Channel> all;
@@ -61,10 +57,10 @@ void for_each_run(const std::vector<Ldi> &parts, const Ldi &out, const Visit &vi
     parallel_for(std::size_t(out.windows.height()), [&](std::size_t row) {
         const int y = data.min.y + int(row);
         for (int x = data.min.x; x <= data.max.x; ++x) {
-            std::uint64_t to = out.begin[index_of(out.windows, x, y)];
+            std::uint64_t to = out.begin[out.windows.index(x, y)];
             for (std::size_t p = 0; p < parts.size(); ++p) {
                 if (!parts[p].windows.data.intersects(Imath::V2i(x, y))) continue;
-                const std::size_t pixel = index_of(parts[p].windows, x, y);
+                const std::size_t pixel = parts[p].windows.index(x, y);
                 const std::uint64_t first = parts[p].begin[pixel], end = parts[p].begin[pixel + 1];
                 visit(p, first, end, to);
                 to += end - first;
@@ -78,7 +74,7 @@ std::vector<std::uint64_t> begin_of(const std::vector<Ldi> &parts, const Windows
     for (const Ldi &part : parts)
         for (std::size_t row = 0, i = 0; row < std::size_t(part.windows.height()); ++row) {
             const Imath::V2i corner = part.windows.data.min;
-            const std::size_t first = index_of(windows, corner.x, corner.y + int(row));
+            const std::size_t first = windows.index(corner.x, corner.y + int(row));
             for (std::size_t x = 0; x < std::size_t(part.windows.width()); ++x, ++i)
                 begin[first + x + 1] += part.begin[i + 1] - part.begin[i];
         }

@@ -14,7 +14,8 @@ using namespace stress;
 constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr double rounding = 1e-5; // of sums over lens points, in float (docs/tolerances.md, section 4)
 
-// Half covered surfaces at these depths, the same in every pixel, before a sky: shifted or not, they show their composite.
+// Half covered surfaces at these depths, the same in every pixel, before a sky: shifted or not, they show their
+// composite.
 StressResult stack(const ThinLens &lens, std::span<const double> depths) {
     StressResult result;
     const Ldi ldi = grey_ldi(window(64, 48), [&](int, int) {

@@ -10,8 +10,8 @@ namespace sparselens {
 // random point of it and a shadow ray to there: soft shadows, and noise as a path tracer's.
 enum class Light { sun, area };
 
-// Colour (not premultiplied) and coverage of what each ray hits; mirrors show one bounce. light_points: one a hit, in the unit square, even over
-// it; the sun does not look at them.
+// Colour (not premultiplied) and coverage of what each ray hits; mirrors show one bounce. light_points: one a hit,
+// in the unit square, even over it; the sun does not look at them.
 void shade(const Tracer &tracer, Light light, std::span<const Ray> rays, std::span<const Hit> hits,
            std::span<const Imath::V2d> light_points, std::span<Imath::C4f> out);
 

@@ -28,8 +28,8 @@ std::string row(const PixelMask &mask, int y) {
     return text;
 }
 
-// A card in pixels 20 to 29 at z = 2 before a wall at z = 10: seen from the right it moves 5 px to the left, the wall 1.
-// What opens is 4 px wide, right of the card.
+// A card in pixels 20 to 29 at z = 2 before a wall at z = 10: seen from the right it moves 5 px to the left, the
+// wall 1. What opens is 4 px wide, right of the card.
 TEST(HiddenPixels, WhatOpensBesideACard) {
     const MovedDepth from_right = moved([](int x, int) { return x >= 20 && x < 30 ? 2.0f : 10.0f; });
     for (int y = 0; y < 20; ++y)

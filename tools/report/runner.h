@@ -1,8 +1,8 @@
 // Runs steps one at a time and remembers each, so that a report goes on where it stopped.
 //
 // A step's record (steps/NAME.json in the report's folder) holds what it was: its commands, the contents of the
-// programs, the records of its inputs, size and time of the files it was given. While that is unchanged and its outputs are there,
-// the step is not run again. Damaged records count as none.
+// programs, the records of its inputs, size and time of the files it was given. While that is unchanged and its
+// outputs are there, the step is not run again. Damaged records count as none.
 #pragma once
 
 #include "common/tool.h"
