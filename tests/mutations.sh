@@ -35,9 +35,13 @@ bad-alpha-kept|src/ldi/bad_values.cpp|return v >= 0 \&\& v <= 1;|return v == v;
 nan-kept|src/ldi/bad_values.cpp|return std::abs(v) <= 1e34f;|return !(std::abs(v) < 0);
 memory-unlimited|src/io/memory_limit.cpp|if (bytes <= allowed) return;|if (bytes <= allowed * 1e9) return;
 half-infinite|src/io/exr_common.cpp|std::clamp(from\[i\], -largest, largest)|std::clamp(from[i], -2 * largest, 2 * largest)
-wrong-samples-read|src/io/exr_deep_read.cpp|ldi.begin\[first + i\]|ldi.begin[first]
+wrong-samples-read|src/io/exr_deep_part.cpp|ldi.begin\[first + i\]|ldi.begin[first]
 END
 )
+
+while IFS='|' read -r name file what instead; do
+    sed "s|$what|$instead|" "$file" | cmp -s - "$file" && { echo "$name: $file has no such line any more"; exit 1; }
+done <<<"$faults"
 
 rm -rf "$copy"
 mkdir "$copy"
@@ -60,7 +64,6 @@ missed=0
 while IFS='|' read -r name file what instead; do
     [ $# -eq 0 ] || [[ " $* " == *" $name "* ]] || continue
     sed -i "s|$what|$instead|" "$file"
-    cmp -s "$file" "$source/$file" && { echo "$name: $file has no such line any more"; exit 1; }
     if ! ninja -C build -j "$(nproc)" sparselens-tests dof-stress >build.log 2>&1; then
         echo "$name: does not compile"
         tail -n 5 build.log

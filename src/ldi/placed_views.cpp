@@ -47,7 +47,7 @@ double nearness(const ReprojectedSample &s) {
 
 } // namespace
 
-PlacedViews::PlacedViews(std::span<const View> views, double focal_px, double scale, bool split) {
+PlacedViews::PlacedViews(std::span<const View> views, double focal_px, double scale, double jump) {
     std::vector<const View *> ordered;
     for (const View &view : views) {
         check(views[0], view);
@@ -57,7 +57,7 @@ PlacedViews::PlacedViews(std::span<const View> views, double focal_px, double sc
     sources_.resize(ordered.size());
     parallel_for(ordered.size(), [&](std::size_t v) {
         Ldi samples = samples_of(*ordered[v], views[0].image.channels);
-        if (split && scale > 0) samples = separate_silhouettes(samples, scale);
+        if (jump > 0 && scale > 0) samples = separate_silhouettes(samples, scale, jump);
         const ViewMapping mapping(ordered[v]->position, focal_px, views[0].image.windows, ordered[v]->framing,
                                   views[0].framing.principal_point);
         sources_[v] = std::make_unique<Source>(std::move(samples), mapping);

@@ -34,9 +34,10 @@ struct PlacedRows {
 class PlacedViews {
 public:
     // views[0] is the centre; its channels are every view's. The order of the others does not matter. focal_px and
-    // scale: R and R F, see WarpOptions; split: pixels on silhouettes become two samples (silhouettes.h). Throws
-    // Error where display windows differ or a view lacks a channel of the centre.
-    PlacedViews(std::span<const View> views, double focal_px, double scale, bool split);
+    // scale: R and R F, see WarpOptions. jump: pixels on silhouettes become two samples where perceptive depth jumps
+    // by so many pixels (silhouettes.h); 0: they stay whole. Throws Error where display windows differ or a view
+    // lacks a channel of the centre.
+    PlacedViews(std::span<const View> views, double focal_px, double scale, double jump);
 
     std::size_t size() const { return sources_.size(); }
     const Ldi &samples(std::size_t view) const { return sources_[view]->ldi; }

@@ -12,7 +12,6 @@ namespace sparselens {
 
 namespace {
 
-constexpr double jump = 1;         // pixels of perceptive depth that part two surfaces
 constexpr int radius = 2;          // pixels around that tell what a surface shows
 constexpr double edge_share = 0.1; // how much a pixel that may be mixed itself tells of the nearer surface
 constexpr double least_support = 0.01;   // below this nothing is known of a surface
@@ -41,7 +40,7 @@ struct Mixture {
 
 class Separation {
 public:
-    Separation(const Ldi &view, double scale);
+    Separation(const Ldi &view, double scale, double jump);
     void emit_pixel(std::size_t pixel, Ldi &out) const;
 
 private:
@@ -70,7 +69,7 @@ private:
     }
 
     const Ldi &view_;
-    double scale_;
+    double scale_, jump_;
     std::size_t alpha_;
     std::array<std::size_t, 3> rgb_;
     bool usable_;
@@ -78,8 +77,8 @@ private:
     std::vector<unsigned char> sides_; // of the first sample of each pixel
 };
 
-Separation::Separation(const Ldi &view, double scale)
-    : view_(view), scale_(scale), alpha_(view.alpha()), rgb_(), usable_(true) {
+Separation::Separation(const Ldi &view, double scale, double jump)
+    : view_(view), scale_(scale), jump_(jump), alpha_(view.alpha()), rgb_(), usable_(true) {
     for (std::size_t k = 0; k < 3; ++k) {
         rgb_[k] = find_channel(view.channels, std::array{"R", "G", "B"}[k]);
         usable_ = usable_ && rgb_[k] != npos;
@@ -99,8 +98,8 @@ unsigned char Separation::side_of(int x, int y) const {
     const double own = depth_of(view_.begin[pixel_of(x, y)]);
     unsigned char side = inside;
     around(x, y, 1, [&](std::uint64_t i, int, int) {
-        if (depth_of(i) > own + jump) side |= has_nearer;
-        if (depth_of(i) < own - jump) side |= has_farther;
+        if (depth_of(i) > own + jump_) side |= has_nearer;
+        if (depth_of(i) < own - jump_) side |= has_farther;
     });
     return side;
 }
@@ -129,7 +128,7 @@ std::optional<Estimate> Separation::estimate(int x, int y, double depth, double 
     result.terms.reserve((2 * radius + 1) * (2 * radius + 1));
     double sum = 0;
     around(x, y, radius, [&](std::uint64_t i, int dx, int dy) {
-        if (std::abs(depth_of(i) - depth) >= jump || (sides_[i] & has_nearer) || !is_opaque(i)) return;
+        if (std::abs(depth_of(i) - depth) >= jump_ || (sides_[i] & has_nearer) || !is_opaque(i)) return;
         const double weight = nearness[std::size_t(dx * dx + dy * dy)] * (sides_[i] & has_farther ? edge : 1);
         result.terms.push_back({i, weight});
         sum += weight;
@@ -169,7 +168,7 @@ std::optional<Mixture> Separation::mixture_of(int x, int y) const {
     around(x, y, 1, [&](std::uint64_t i, int dx, int dy) {
         const double depth = depth_of(i);
         if (own_is_far) mixture.near_depth = std::max(mixture.near_depth, depth);
-        if (own_is_far || depth >= depth_of(own) - jump) return;
+        if (own_is_far || depth >= depth_of(own) - jump_) return;
         const int distance = dx * dx + dy * dy;
         if (distance < nearest || (distance == nearest && depth > mixture.far_depth))
             mixture.far_depth = depth;
@@ -211,8 +210,8 @@ void Separation::emit_pixel(std::size_t pixel, Ldi &out) const {
 
 } // namespace
 
-Ldi separate_silhouettes(const Ldi &view, double scale) {
-    const Separation separation(view, scale);
+Ldi separate_silhouettes(const Ldi &view, double scale, double jump) {
+    const Separation separation(view, scale, jump);
     return build_by_pixels(view, [&](std::size_t pixel, Ldi &out) { separation.emit_pixel(pixel, out); });
 }
 

@@ -33,7 +33,7 @@ std::vector<View> wall(const std::function<Colour(const Imath::V2d &camera)> &co
 
 // The share of pixels where the views may be averaged.
 double agreement(const std::vector<View> &views, std::optional<double> focus = {}) {
-    const PlacedViews placed(views, focal_px, scale, false);
+    const PlacedViews placed(views, focal_px, scale, 0);
     PlacedRows rows = placed.place(window.data, 0, 15);
     const auto agree =
         find_agreement(placed, {scale, focus}, window.data, find_surfaces(placed, 0.5 / scale, rows));

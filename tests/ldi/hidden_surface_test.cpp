@@ -18,7 +18,7 @@ public:
             views_.push_back(scene.view(windows_of_size(40, 10), camera));
     }
     double coverage(double x, double y, double z) const {
-        return coverage_by_views(PlacedViews(views_, focal_px, 1, false), {x, y}, 1 / z, tolerance);
+        return coverage_by_views(PlacedViews(views_, focal_px, 1, 0), {x, y}, 1 / z, tolerance);
     }
 
 private:
@@ -58,7 +58,7 @@ TEST(HiddenSurface, AnEdgeIsSharedByMajority) {
         std::vector<View> views{with.view(w, {0, 0})};
         for (int i = 0; i < there; ++i) views.push_back(with.view(w, {0.02, 0}));
         for (int i = 0; i < past; ++i) views.push_back(without.view(w, {0.02, 0}));
-        return coverage_by_views(PlacedViews(views, focal_px, 1, false), {12, 5}, 0.5, tolerance);
+        return coverage_by_views(PlacedViews(views, focal_px, 1, 0), {12, 5}, 0.5, tolerance);
     };
     EXPECT_EQ(coverage(3, 1), 1);
     EXPECT_DOUBLE_EQ(coverage(5, 3), 0.75);
@@ -72,7 +72,7 @@ TEST(HiddenSurface, PartialCoverageVotesInPart) {
     const Windows w = windows_of_size(8, 8);
     const auto half = [](int, int) { return ViewPixel{.z = 2, .a = 0.5f}; };
     const std::vector<View> views{make_view(w, {0, 0}, half), make_view(w, {0, 0}, half)};
-    EXPECT_DOUBLE_EQ(coverage_by_views(PlacedViews(views, focal_px, 1, false), {4, 4}, 0.5, tolerance), 0.5);
+    EXPECT_DOUBLE_EQ(coverage_by_views(PlacedViews(views, focal_px, 1, 0), {4, 4}, 0.5, tolerance), 0.5);
 }
 
 } // namespace

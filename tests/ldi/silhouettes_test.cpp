@@ -15,7 +15,9 @@ namespace {
 constexpr float inf = std::numeric_limits<float>::infinity();
 constexpr double scale = 20; // of depths 2 and 10: 8 pixels of CoC apart
 
-Ldi separated(const View &view) { return separate_silhouettes(samples_of(view, view.image.channels), scale); }
+Ldi separated(const View &view, double jump = 0.5) {
+    return separate_silhouettes(samples_of(view, view.image.channels), scale, jump);
+}
 
 void expect_flattens_to(const View &view, const Ldi &ldi) {
     const Image flat = flatten(ldi);
@@ -74,6 +76,11 @@ TEST(Silhouettes, PixelsOfOneSurfaceAreLeftAlone) {
         return ViewPixel{.z = 5 + 0.1f * float(x), .r = float(x % 2), .g = float(y % 2)};
     });
     EXPECT_EQ(separated(slope).samples(), 16u * 9); // no jump, whatever the colours
+}
+
+TEST(Silhouettes, TheJumpSaysWhatPartsSurfaces) {
+    EXPECT_EQ(separated(edge(0.4f), 7.9).samples(), 17u * 9);
+    EXPECT_EQ(separated(edge(0.4f), 8.1).samples(), 16u * 9);
 }
 
 // Where front and back look alike nothing can be told; where a colour is on neither side of them, neither.

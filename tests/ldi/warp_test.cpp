@@ -223,7 +223,7 @@ TEST(Warp, NothingIsLost) {
     for (const auto &views : {random_views(w, 6), five_views(fence(), w, radius)}) {
         const Ldi ldi = warped(views);
         Witnesses witnesses(views);
-        const PlacedViews placed(views, focal_px, focal_px * radius, false);
+        const PlacedViews placed(views, focal_px, focal_px * radius, 0);
         const auto past = [&](const Witness &seen, int x, int y) {
             const double inverse_z = seen.depth / (focal_px * radius);
             return coverage_by_views(placed, {x + seen.place.x, y + seen.place.y}, inverse_z,
@@ -269,6 +269,24 @@ TEST(Warp, SurfacesDoNotMixAndTheHiddenAppears) {
 }
 
 // Where samples lie is kept below the pixel: a picture whose colour is its position says so.
+// Left whole, the light of the nearer one would be seen at the depth of the farther one: a small lamp then has a
+// second disc.
+TEST(Warp, WhateverAreTwoSurfacesThePixelBetweenThemIsBoth) {
+    const View view = make_view(windows_of_size(16, 9), {0, 0}, [](int x, int) {
+        const float red = x < 8 ? 1 : x == 8 ? 0.4f : 0;
+        return ViewPixel{.z = red >= 0.5f ? 2.0f : 10.0f, .r = 1000 * red, .g = 1 - red};
+    });
+    for (const double apart : {0.49, 0.51, 0.99, 1.01, 4.0}) { // pixels of perceptive depth
+        const Ldi ldi = warped({view}, {.focal_px = 100, .radius = apart / (100 * (1 / 2.0 - 1 / 10.0))});
+        const std::uint64_t front = ldi.begin[4 * 16 + 8];
+        ASSERT_EQ(ldi.begin[4 * 16 + 9] - front, apart > 0.5 ? 2u : 1u) << apart;
+        if (apart < 0.5) continue;
+        EXPECT_FLOAT_EQ(ldi.z[front], 2);
+        EXPECT_NEAR(ldi.values[0][front], 400, 1);
+        EXPECT_NEAR(ldi.values[0][front + 1], 0, 1e-3);
+    }
+}
+
 TEST(Warp, SubPixelPositionsAreKept) {
     TwoPlanes scene = fence();
     scene.front_red = [](double x, double y) { return float(x + 0.25 * y); };
