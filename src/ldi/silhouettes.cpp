@@ -2,10 +2,12 @@
 
 #include "base/parallel.h"
 #include "ldi/build.h"
+#include "ldi/mixed_colour.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 namespace sparselens {
@@ -14,22 +16,16 @@ namespace {
 
 constexpr int radius = 2;          // pixels around that tell what a surface shows
 constexpr double edge_share = 0.1; // how much a pixel that may be mixed itself tells of the nearer surface
-constexpr double least_support = 0.01;   // below this nothing is known of a surface
-constexpr double least_contrast = 0.1;   // between F and B, as a share of their own size
-constexpr double largest_residual = 0.2; // distance of c from the line, as a share of the contrast
-constexpr double prior = 0.05;       // weight of "not mixed" against the colours, as a share of their size
-constexpr double least_share = 0.02; // less than this of a pixel is not worth a sample
-
-struct Rgb {
-    std::array<double, 3> v{};
-    double dot(const Rgb &o) const { return v[0] * o.v[0] + v[1] * o.v[1] + v[2] * o.v[2]; }
-    Rgb minus(const Rgb &o) const { return {{v[0] - o.v[0], v[1] - o.v[1], v[2] - o.v[2]}}; }
-};
+constexpr double least_support = 0.01;          // below this nothing is known of a surface
+constexpr double largest_residual = 0.2;        // distance of c from the line, as a share of the contrast
+constexpr double largest_residual_of_one = 0.1; // where B is one pixel, not a mean
+constexpr double least_share_of_one = 0.1;      // and less of either may as well be texture
 
 // What a surface shows around a pixel: a mean over samples.
 struct Estimate {
     std::vector<Term> terms; // coefficients sum to 1
     Rgb colour;
+    bool pure = false; // some of them are pixels that nothing else is mixed into
 };
 
 struct Mixture {
@@ -49,7 +45,8 @@ private:
     unsigned char side_of(int x, int y) const;
     std::optional<Mixture> mixture_of(int x, int y) const;
     std::optional<Estimate> estimate(int x, int y, double depth, double edge) const;
-    std::optional<double> share_of(const Rgb &c, const Rgb &f, const Rgb &b, bool own_is_far) const;
+    Rgb purest(int x, int y, double depth, const Rgb &front, const Rgb &behind) const;
+    std::optional<Mixture> with_one_pixel(int x, int y, double near_depth, const Rgb &front) const;
     void emit_mixture(std::uint64_t i, const Mixture &mixture, Ldi &out) const;
 
     // visit(sample, dx, dy) for the samples of the pixels within `reach` of (x, y).
@@ -131,6 +128,7 @@ std::optional<Estimate> Separation::estimate(int x, int y, double depth, double 
         if (std::abs(depth_of(i) - depth) >= jump_ || (sides_[i] & has_nearer) || !is_opaque(i)) return;
         const double weight = nearness[std::size_t(dx * dx + dy * dy)] * (sides_[i] & has_farther ? edge : 1);
         result.terms.push_back({i, weight});
+        result.pure = result.pure || !(sides_[i] & has_farther);
         sum += weight;
     });
     if (sum < least_support) return {};
@@ -140,24 +138,6 @@ std::optional<Estimate> Separation::estimate(int x, int y, double depth, double 
         for (std::size_t k = 0; k < 3; ++k) result.colour.v[k] += term.coefficient * c.v[k];
     }
     return result;
-}
-
-// The share of f in c, by least squares with a prior that the pixel is not mixed.
-std::optional<double> Separation::share_of(const Rgb &c, const Rgb &f, const Rgb &b, bool own_is_far) const {
-    const Rgb contrast = f.minus(b), offset = c.minus(b);
-    const double size = 0.5 * (f.dot(f) + b.dot(b)), distance = contrast.dot(contrast);
-    if (distance <= least_contrast * least_contrast * size) return {};
-    const double doubt = prior * prior * size, unmixed = own_is_far ? 0 : 1;
-    double share = (offset.dot(contrast) + doubt * unmixed) / (distance + doubt);
-    share = own_is_far ? std::clamp(share, 0.0, 0.5) : std::clamp(share, 0.5, 1.0);
-    Rgb rest = offset;
-    for (std::size_t k = 0; k < 3; ++k) rest.v[k] -= share * contrast.v[k];
-    if (rest.dot(rest) > largest_residual * largest_residual * distance) return {};
-    // What is left in front after taking out b must be light.
-    for (std::size_t k = 0; k < 3; ++k)
-        if ((1 - share) * b.v[k] > c.v[k]) share = 1 - std::max(c.v[k], 0.0) / b.v[k];
-    if (!(share >= least_share && share <= 1 - least_share)) return {}; // nor where a colour is no number
-    return share;
 }
 
 std::optional<Mixture> Separation::mixture_of(int x, int y) const {
@@ -176,12 +156,46 @@ std::optional<Mixture> Separation::mixture_of(int x, int y) const {
     });
     const auto front = estimate(x, y, mixture.near_depth, edge_share),
                behind = estimate(x, y, mixture.far_depth, 1);
-    if (!front || !behind) return {};
-    const auto share = share_of(colour_of(own), front->colour, behind->colour, own_is_far);
-    if (!share) return {};
-    mixture.share = *share;
+    if (!front) return {};
+    if (!behind) return with_one_pixel(x, y, mixture.near_depth, front->colour);
+    const Rgb f =
+        front->pure ? front->colour : purest(x, y, mixture.near_depth, front->colour, behind->colour);
+    const auto mix = unmix(colour_of(own), f, behind->colour, own_is_far, largest_residual);
+    if (!mix) return with_one_pixel(x, y, mixture.near_depth, f);
+    mixture.share = mix->share;
     mixture.behind = *behind;
     return mixture;
+}
+
+// Of the pixels of a surface that shows none without an edge, as a wire or a small lamp, the one least mixed: that
+// which differs most from what is behind.
+Rgb Separation::purest(int x, int y, double depth, const Rgb &front, const Rgb &behind) const {
+    const Rgb contrast = front.minus(behind);
+    Rgb result = front;
+    around(x, y, 1, [&](std::uint64_t i, int, int) {
+        if (std::abs(depth_of(i) - depth) >= jump_ || (sides_[i] & has_nearer) || !is_opaque(i)) return;
+        if (const Rgb c = colour_of(i); c.minus(result).dot(contrast) > 0) result = c;
+    });
+    return result;
+}
+
+// What lies behind may be smaller than what a mean looks at: a lamp, a stripe. Then it is the one of the farther
+// pixels around that the colour fits best.
+std::optional<Mixture> Separation::with_one_pixel(int x, int y, double near_depth, const Rgb &front) const {
+    const std::uint64_t own = view_.begin[pixel_of(x, y)];
+    const bool own_is_far = sides_[own] & has_nearer;
+    std::optional<Mixture> best;
+    double least = std::numeric_limits<double>::infinity();
+    around(x, y, 1, [&](std::uint64_t i, int, int) {
+        if (i == own || depth_of(i) >= near_depth - jump_ || !is_opaque(i)) return;
+        const Rgb b = colour_of(i);
+        const auto mix = unmix(colour_of(own), front, b, own_is_far, largest_residual_of_one);
+        if (!mix || mix->residual >= least) return;
+        if (std::min(mix->share, 1 - mix->share) < least_share_of_one) return;
+        least = mix->residual;
+        best = {near_depth, depth_of(i), mix->share, {{{i, 1}}, b}};
+    });
+    return best;
 }
 
 void Separation::emit_mixture(std::uint64_t i, const Mixture &mixture, Ldi &out) const {

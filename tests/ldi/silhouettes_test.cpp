@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -23,7 +24,8 @@ void expect_flattens_to(const View &view, const Ldi &ldi) {
     const Image flat = flatten(ldi);
     for (std::size_t i = 0; i < flat.values.size(); ++i) {
         const bool empty = view.image.plane(3)[i % flat.windows.pixels()] == 0;
-        EXPECT_NEAR(flat.values[i], empty ? 0 : view.image.values[i], 1e-6);
+        const float value = empty ? 0 : view.image.values[i];
+        EXPECT_NEAR(flat.values[i], value, 1e-6 * std::max(1.0, std::abs(double(value))));
     }
 }
 
@@ -92,6 +94,42 @@ TEST(Silhouettes, WhatCannotBeToldIsLeftAlone) {
     View odd = edge(0.5f);
     for (int y = 0; y < 9; ++y) odd.image.at(2, 8, y) = 5; // blue, of which neither side has any
     EXPECT_EQ(separated(odd).samples(), 16u * 9);
+}
+
+// Behind the post that ends inside column 8 stands a lamp of columns 8 and 9 in rows 3 to 5, and else a grey wall. Its
+// light is in the post's pixels too, and the mean of what is clear of the post knows nothing of it.
+TEST(Silhouettes, ALampHalfBehindAPostShinesAtItsOwnDepth) {
+    const float lamp = 500, share = 0.6f;
+    const View view = make_view(windows_of_size(16, 9), {0, 0}, [&](int x, int y) {
+        const float behind = x >= 8 && x <= 9 && y >= 3 && y <= 5 ? lamp : 0.5f;
+        const float red = x < 8 ? 0.1f : x == 8 ? share * 0.1f + (1 - share) * behind : behind;
+        return ViewPixel{.z = x <= 8 ? 2.0f : 10.0f, .r = red, .g = red, .b = red};
+    });
+    const Ldi ldi = separated(view);
+    expect_flattens_to(view, ldi);
+    for (int y = 3; y <= 5; ++y) {
+        const std::uint64_t front = ldi.begin[std::size_t(y * 16 + 8)];
+        ASSERT_EQ(ldi.begin[std::size_t(y * 16 + 9)] - front, 2u) << y;
+        EXPECT_FLOAT_EQ(ldi.values[0][front + 1], lamp);
+        EXPECT_NEAR(ldi.values[3][front], share, 0.04); // the lamp has a say in what the post shows
+        EXPECT_LT(ldi.values[0][front], 0.04f * lamp);
+    }
+}
+
+// A lamp of three by three pixels shows one that is all its own: what its edges show is not what it is.
+TEST(Silhouettes, TheEdgesOfASmallLampArePartsOfIt) {
+    const View view = make_view(windows_of_size(9, 9), {0, 0}, [](int x, int y) {
+        const float across = x == 4 ? 1 : x == 3 ? 0.6f : x == 5 ? 0.4f : 0;
+        const float down = y == 4 ? 1 : y == 3 || y == 5 ? 0.5f : 0;
+        return ViewPixel{.z = across * down >= 0.5f ? 2.0f : 10.0f, .r = 0.1f + 500 * across * down};
+    });
+    const Ldi ldi = separated(view);
+    expect_flattens_to(view, ldi);
+    double nearer = 0, farther = 0;
+    for (std::uint64_t i = 0; i < ldi.samples(); ++i)
+        (ldi.z[i] < 5 ? nearer : farther) += double(ldi.values[0][i]);
+    EXPECT_NEAR(nearer, 500 * 2 * 2, 10);
+    EXPECT_NEAR(farther, 0.1 * 81, 1);
 }
 
 TEST(Silhouettes, PartlyCoveredPixelsAreLeftAlone) {
