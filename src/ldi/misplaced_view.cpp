@@ -34,9 +34,7 @@ public:
     bool show_something(const Imath::V2i &p) const {
         return depth(p) > 0 && (alpha_ == npos || view_.image.at(alpha_, p.x, p.y) > 0);
     }
-    double depth(const Imath::V2i &p) const {
-        return double(view_.z[view_.image.windows.index(p.x, p.y)]);
-    }
+    double depth(const Imath::V2i &p) const { return double(view_.z[view_.image.windows.index(p.x, p.y)]); }
 
 private:
     const View &view_;

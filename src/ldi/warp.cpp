@@ -39,7 +39,8 @@ private:
 Warper::Warper(std::span<const View> views, const WarpOptions &options)
     : options_(options), scale_(options.radius * options.focal_px),
       tolerance_(scale_ > 0 ? options.surface_px / scale_ : std::numeric_limits<double>::infinity()),
-      views_(views, options.focal_px, scale_, averages() && options.split_silhouettes ? options.surface_px : 0) {
+      views_(views, options.focal_px, scale_,
+             averages() && options.split_silhouettes ? options.surface_px : 0) {
     layout_.windows = views[0].image.windows;
     layout_.channels = views[0].image.channels;
     layout_.values.resize(layout_.channels.size());
