@@ -27,6 +27,9 @@ view-approach-wrong-way|src/view/view_mapping.cpp|approach_(view.forward|approac
 reproject-truncates|src/ldi/reproject.cpp|cell_x = std::floor(x)|cell_x = std::trunc(x)
 unsorted|src/ldi/tidy.cpp|return a.z != b.z ? a.z < b.z : a.z_back < b.z_back;|return a.index < b.index;
 float-accumulator|src/ldi/flatten.cpp|sum += transmittance \* double(ldi.values\[k\]\[i\]);|sum = double(float(sum + transmittance * double(ldi.values[k][i])));
+half-hidden-lamp|src/ldi/silhouettes.cpp|if (!mix) return with_one_pixel(x, y, mixture.near_depth, f);|if (!mix) return {};
+small-lamp-impure|src/ldi/silhouettes.cpp|if (const Rgb c = colour_of(i); c.minus(result).dot(contrast) > 0) result = c;|(void)contrast;
+mixed-left-whole|src/ldi/warp.cpp|options.split_silhouettes ? options.surface_px : 0|options.split_silhouettes ? 2 * options.surface_px : 0
 cluster-weights|src/ldi/cluster.cpp|terms\[t\].coefficient /= weights|(void)weights
 lamps-opaque-alone|src/dof/highlights.cpp|i < block.end; ++i) found|i < block.opaque_end; ++i) found
 lamp-counted-twice|src/dof/highlights.cpp|colours.at(k, f.sample) \*= 1 - f.share;|
