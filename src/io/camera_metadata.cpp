@@ -1,5 +1,7 @@
 #include "io/camera_metadata.h"
 
+#include "io/header_edit.h"
+
 #include <ImfBoxAttribute.h>
 #include <ImfDoubleAttribute.h>
 #include <ImfFloatAttribute.h>
@@ -7,7 +9,6 @@
 #include <ImfStringAttribute.h>
 
 #include <cstdio>
-#include <string_view>
 
 namespace sparselens {
 
@@ -19,14 +20,6 @@ constexpr const char *metres_per_unit_name = "sparselens:metresPerUnit";
 constexpr const char *lens_points_name = "sparselens:lensPoints"; // "x,y x,y ...", scene units
 constexpr const char *picture_window_name = "sparselens:dataWindow";
 constexpr const char *version_name = "sparselens:version";
-
-// Puts the attribute in the place of any of that name, whatever the type of that was.
-void replace(Imf::Header &header, const char *name, const Imf::Attribute &attribute) {
-    const auto old = header.find(name);
-    if (old != header.end() && std::string_view(old.attribute().typeName()) != attribute.typeName())
-        header.erase(name); // only then: in OpenEXR 3.1 what is erased is leaked
-    header.insert(name, attribute);
-}
 
 std::string points_text(const std::vector<Imath::V2d> &points) {
     std::string text;
@@ -42,7 +35,7 @@ std::string points_text(const std::vector<Imath::V2d> &points) {
 
 void write_camera(Imf::Header &header, const Camera &camera) {
     const auto put = [&](const char *name, const auto &value, const auto &as_attribute) {
-        if (value) replace(header, name, as_attribute(*value));
+        if (value) set_attribute(header, name, as_attribute(*value));
     };
     const auto as_float = [](double value) { return Imf::FloatAttribute(float(value)); };
     const auto as_double = [](double value) { return Imf::DoubleAttribute(value); };
@@ -56,8 +49,8 @@ void write_camera(Imf::Header &header, const Camera &camera) {
     put("worldToCamera", camera.world_to_camera, as_matrix);
     put("worldToNDC", camera.world_to_ndc, as_matrix);
     if (!camera.lens_points.empty())
-        replace(header, lens_points_name, Imf::StringAttribute(points_text(camera.lens_points)));
-    replace(header, version_name, Imf::StringAttribute(SPARSELENS_VERSION));
+        set_attribute(header, lens_points_name, Imf::StringAttribute(points_text(camera.lens_points)));
+    set_attribute(header, version_name, Imf::StringAttribute(SPARSELENS_VERSION));
 }
 
 Imath::Box2i read_picture_window(const Imf::Header &header) {
@@ -69,7 +62,7 @@ Imath::Box2i read_picture_window(const Imf::Header &header) {
 }
 
 void write_picture_window(Imf::Header &header, const Imath::Box2i &window) {
-    replace(header, picture_window_name, Imf::Box2iAttribute(window));
+    set_attribute(header, picture_window_name, Imf::Box2iAttribute(window));
 }
 
 } // namespace sparselens

@@ -4,6 +4,7 @@
 #include "io/exr_flat.h"
 #include "io/exr_header_check.h"
 #include "io/exr_parts.h"
+#include "io/header_edit.h"
 #include "io/memory_limit.h"
 #include "ldi/coloured_alpha.h"
 #include "ldi/unite.h"
@@ -125,7 +126,7 @@ LdiFile read_ldi(const std::string &path, const std::string &depth_channel, cons
         DeepPicture picture(source, view, depth_channel);
         for (const int part : numbers) picture.add(part, one_beauty && part != numbers.front());
         Imf::Header header = header_of_view(file.header(numbers.front()), view);
-        if (picture.is_merged()) header.erase("name"); // an object's
+        if (picture.is_merged()) header = without_attribute(header, "name"); // an object's
         Ldi ldi = picture.whole();
         return LdiFile{std::move(ldi), header, true, picture.notes()};
     });

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "io/exr_common.h"
+#include "io/header_edit.h"
 
 #include <ImfStandardAttributes.h>
 
@@ -131,11 +132,11 @@ std::vector<FileChannel> channels_of(const Imf::Header &header, const std::strin
     return channels;
 }
 
-Imf::Header header_of_view(Imf::Header header, const std::string &view) {
+Imf::Header header_of_view(const Imf::Header &header, const std::string &view) {
     if (!Imf::hasMultiView(header)) return header;
-    header.erase("multiView");
-    if (!view.empty()) header.setView(view);
-    return header;
+    Imf::Header result = without_attribute(header, "multiView");
+    if (!view.empty()) result.setView(view);
+    return result;
 }
 
 } // namespace sparselens

@@ -46,6 +46,6 @@ std::vector<FileChannel> channels_of(const Imf::Header &header, const std::strin
                                      const std::string &path);
 
 // The header of a picture of that view alone.
-Imf::Header header_of_view(Imf::Header header, const std::string &view);
+Imf::Header header_of_view(const Imf::Header &header, const std::string &view);
 
 } // namespace sparselens

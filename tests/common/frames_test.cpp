@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
+#include <string_view>
 
 namespace sparselens {
 namespace {
@@ -93,6 +95,34 @@ TEST(FrameCommands, WithoutNumbersTheFilesOnDiskGiveThem) {
     EXPECT_EQ(commands.words(1)[1], folder.file("out.0005.exr"));
     EXPECT_THROW(FrameCommands({folder.file("no.####.exr"), "-o", "x.exr"}), UsageError);
     EXPECT_THROW(FrameCommands({folder.file("in.x.exr"), "-o", "x.####.exr"}), UsageError);
+}
+
+// In OpenImageIO's regular expressions the first finds nothing and the second takes years.
+TEST(FrameCommands, WhatElseStandsInAFilesNameStandsForItself) {
+    const ScratchFolder folder;
+    const std::string stars = "t" + std::string(40, '*') + "-o.";
+    for (const std::string &name : Words{"shot [v2]+(final).", stars, "-", ".", ""}) {
+        for (const char *number : {"0007", "0012", "00x7"})
+            put_contents(folder.file(name + number + ".exr"), "x");
+        const FrameCommands commands({folder.file(name + "####.exr"), "-o", folder.file("to/####.exr")});
+        ASSERT_EQ(commands.size(), 2u) << name;
+        EXPECT_EQ(commands.words(1)[0], folder.file(name + "0012.exr"));
+        EXPECT_EQ(commands.words(1)[2], folder.file("to/0012.exr"));
+    }
+    EXPECT_THROW(FrameCommands({folder.file("t**********************************.#e"), "-o", "#"}),
+                 UsageError);
+}
+
+TEST(FrameCommands, TheNumberMayStandInAFoldersName) {
+    const ScratchFolder folder;
+    for (const char *name : {"f0003", "f0001", "f0002", "g0004"}) {
+        std::filesystem::create_directory(folder.file(name));
+        if (std::string_view(name) != "f0002") put_contents(folder.file(name) + "/in.exr", "x");
+    }
+    const FrameCommands commands({folder.file("f####/in.exr"), "-o", "out.####.exr"});
+    ASSERT_EQ(commands.size(), 2u);
+    EXPECT_EQ(commands.words(0)[0], folder.file("f0001/in.exr"));
+    EXPECT_EQ(commands.words(1)[2], "out.0003.exr");
 }
 
 TEST(FrameCommands, FramesDoNotShareAnOutput) {

@@ -9,8 +9,11 @@
 #include <cstdio>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <regex>
 #include <set>
+#include <string_view>
+#include <system_error>
 
 namespace sparselens {
 
@@ -37,21 +40,34 @@ std::string digits(const std::smatch &place, int number) {
     return text;
 }
 
-// The numbers of the files that are there.
+// The number between `before` and `after` in a file's name.
+std::optional<int> number_in(std::string_view file, std::string_view before, std::string_view after) {
+    if (file.size() <= before.size() + after.size() || !file.starts_with(before) || !file.ends_with(after))
+        return {};
+    file.remove_prefix(before.size());
+    file.remove_suffix(after.size());
+    int number = 0;
+    const auto [end, error] = std::from_chars(file.data(), file.data() + file.size(), number);
+    if (error != std::errc() || end != file.data() + file.size()) return {};
+    return number;
+}
+
+// The numbers of the files that are there, ascending. All but the number is taken as it stands: OpenImageIO takes a
+// name for a regular expression, which brackets in it are not, and some of which take forever.
 std::vector<int> numbers_on_disk(const std::string &name) {
     namespace fs = std::filesystem;
-    std::string pattern, ignored;
-    std::vector<int> numbers, found;
-    std::vector<std::string> files;
     std::smatch place;
     std::regex_search(name, place, sequence_pattern());
-    const int width = int(digits(place, 0).size());
-    const std::string printf_style =
-        place.prefix().str() + "%0" + std::to_string(width) + "d" + place.suffix().str();
-    OIIO::Filesystem::scan_for_matching_filenames(printf_style, numbers, files);
-    std::ranges::copy_if(numbers, std::back_inserter(found),
-                         [&](int n) { return fs::exists(file_at(name, n)); });
-    return found;
+    const std::string before = place.prefix(), after = place.suffix();
+    const std::size_t slash = before.rfind('/') + 1; // 0 where there is none
+    const std::string folder = slash > 0 ? before.substr(0, slash) : ".", first = before.substr(slash),
+                      last = after.substr(0, after.find('/'));
+    std::set<int> numbers;
+    std::error_code error, missing; // a folder that is not there has no files
+    for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
+        if (const auto number = number_in(entry->path().filename().native(), first, last))
+            if (fs::exists(file_at(name, *number), missing)) numbers.insert(*number);
+    return {numbers.begin(), numbers.end()};
 }
 
 // What a command line gives an option, "" where it does not.

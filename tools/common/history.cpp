@@ -1,6 +1,7 @@
 #include "common/history.h"
 
 #include "common/one_line.h"
+#include "io/header_edit.h"
 
 #include <ImfStringAttribute.h>
 
@@ -44,11 +45,6 @@ std::string text_of(const Imf::Header &header, const char *name) {
     return text ? text->value() : std::string();
 }
 
-void set_text(Imf::Header &header, const char *name, const std::string &text) {
-    header.erase(name); // an attribute of another type cannot be replaced
-    header.insert(name, Imf::StringAttribute(text));
-}
-
 } // namespace
 
 std::string command_line(const std::string &tool, const std::vector<std::string> &words) {
@@ -72,8 +68,9 @@ void append_history(Imf::Header &header, const ToolContext &tool, const HistoryO
     if (options.none) return;
     std::string history = text_of(header, "Exif:ImageHistory");
     if (!history.empty() && history.back() != '\n') history += '\n';
-    set_text(header, "Exif:ImageHistory", history + tool.command_line);
-    set_text(header, "Software", "sparselens " SPARSELENS_VERSION " : " + tool.command_line);
+    set_attribute(header, "Exif:ImageHistory", Imf::StringAttribute(history + tool.command_line));
+    set_attribute(header, "Software",
+                  Imf::StringAttribute("sparselens " SPARSELENS_VERSION " : " + tool.command_line));
 }
 
 } // namespace sparselens
