@@ -22,6 +22,17 @@ TEST(FrameNumbers, AreThoseOfTheRange) {
     EXPECT_EQ(frame_numbers("1-5y2"), (std::vector{2, 4}));
     for (const char *wrong : {"", "abc", "1-", "1-5x", "1;2", "1-99999999999", "1-9999999", "1 2", "1,,2"})
         EXPECT_THROW(frame_numbers(wrong), UsageError) << wrong;
+    EXPECT_EQ(frame_numbers("5-1x-2,7,7"), (std::vector{5, 3, 1, 7, 7}));
+    for (const char *wrong : {"1,", ",1", "1-2,", "--1", "1-2x3x4"})
+        EXPECT_THROW(frame_numbers(wrong), UsageError) << wrong;
+}
+
+TEST(FrameNumbers, AreAMillionAtMost) {
+    EXPECT_EQ(frame_numbers("1-9999999x10").size(), 1'000'000u);
+    for (const std::string wrong :
+         {"1-1000001", "1-600000,1-600000", "-600000-600000", "1-9999999x9", "1-9999999y2"})
+        EXPECT_EQ(what_of<UsageError>([&] { frame_numbers(wrong); }),
+                  "--frames: '" + wrong + "' are more than a million frames");
 }
 
 TEST(FileAt, PutsTheNumberInEveryPlace) {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -88,14 +89,24 @@ bool names_output(const std::string &option) {
 } // namespace
 
 std::vector<int> frame_numbers(const std::string &range) {
-    static const std::regex valid(
-        R"(-?\d{1,7}(--?\d{1,7}([xy]-?\d{1,7})?)?(,-?\d{1,7}(--?\d{1,7}([xy]-?\d{1,7})?)?)*)");
-    std::vector<int> numbers;
-    if (range.size() > longest_name || !std::regex_match(range, valid) ||
-        !OIIO::Filesystem::enumerate_sequence(range, numbers) || numbers.empty())
-        throw UsageError("--frames: '" + range + "' is no range of frames, as 1-100x2");
-    if (numbers.size() > most_frames)
-        throw UsageError("--frames: '" + range + "' are more than a million frames");
+    // first-last, then x and a step, or y and a step whose numbers are left out
+    static const std::regex part(R"((-?\d{1,7})(?:-(-?\d{1,7})(?:([xy])(-?\d{1,7}))?)?)");
+    const UsageError no_range("--frames: '" + range + "' is no range of frames, as 1-100x2");
+    if (range.size() > longest_name || range.empty()) throw no_range;
+    std::vector<int> numbers, more;
+    for (std::size_t from = 0, to = 0; to < range.size(); from = to + 1) {
+        to = std::min(range.find(',', from), range.size());
+        const std::string text = range.substr(from, to - from);
+        std::smatch match;
+        if (!std::regex_match(text, match, part)) throw no_range;
+        const long first = std::stol(match[1]), last = match[2].matched ? std::stol(match[2]) : first,
+                   step = match[3] == "x" ? std::max(std::abs(std::stol(match[4])), 1L) : 1;
+        if (numbers.size() + std::size_t(std::abs(last - first) / step) >= most_frames) // before making them
+            throw UsageError("--frames: '" + range + "' are more than a million frames");
+        if (!OIIO::Filesystem::enumerate_sequence(text, more)) throw no_range;
+        numbers.insert(numbers.end(), more.begin(), more.end());
+    }
+    if (numbers.empty()) throw no_range;
     return numbers;
 }
 
