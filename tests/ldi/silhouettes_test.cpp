@@ -118,16 +118,24 @@ TEST(Silhouettes, ALampHalfBehindAPostShinesAtItsOwnDepth) {
 
 // A lamp of three by three pixels shows one that is all its own: what its edges show is not what it is.
 TEST(Silhouettes, TheEdgesOfASmallLampArePartsOfIt) {
-    const View view = make_view(windows_of_size(9, 9), {0, 0}, [](int x, int y) {
+    const auto share = [](int x, int y) {
         const float across = x == 4 ? 1 : x == 3 ? 0.6f : x == 5 ? 0.4f : 0;
         const float down = y == 4 ? 1 : y == 3 || y == 5 ? 0.5f : 0;
-        return ViewPixel{.z = across * down >= 0.5f ? 2.0f : 10.0f, .r = 0.1f + 500 * across * down};
+        return across * down;
+    };
+    const View view = make_view(windows_of_size(9, 9), {0, 0}, [&](int x, int y) {
+        return ViewPixel{.z = share(x, y) >= 0.5f ? 2.0f : 10.0f, .r = 0.1f + 500 * share(x, y)};
     });
     const Ldi ldi = separated(view);
     expect_flattens_to(view, ldi);
     double nearer = 0, farther = 0;
     for (std::uint64_t i = 0; i < ldi.samples(); ++i)
         (ldi.z[i] < 5 ? nearer : farther) += double(ldi.values[0][i]);
+    for (std::size_t pixel = 0; pixel < 81; ++pixel) {
+        const float part = share(int(pixel % 9), int(pixel / 9));
+        if (part == 0 || part == 1) continue;
+        EXPECT_NEAR(ldi.values[3][ldi.begin[pixel]], part, 0.02) << pixel;
+    }
     EXPECT_NEAR(nearer, 500 * 2 * 2, 10);
     EXPECT_NEAR(farther, 0.1 * 81, 1);
 }
