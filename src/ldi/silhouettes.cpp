@@ -59,6 +59,10 @@ private:
     bool is_empty(std::size_t pixel) const { return view_.begin[pixel] == view_.begin[pixel + 1]; }
     double depth_of(std::uint64_t i) const { return depths_[i]; }
     bool is_opaque(std::uint64_t i) const { return alpha_at(view_, alpha_, i) >= 1; }
+    // Whether it is of the surface at that depth, and nothing nearer may be mixed into it.
+    bool tells_of(double depth, std::uint64_t i) const {
+        return !(std::abs(depth_of(i) - depth) >= jump_ || (sides_[i] & has_nearer)) && is_opaque(i);
+    }
     Rgb colour_of(std::uint64_t i) const {
         Rgb c;
         for (std::size_t k = 0; k < 3; ++k) c.v[k] = double(view_.values[rgb_[k]][i]);
@@ -125,7 +129,7 @@ std::optional<Estimate> Separation::estimate(int x, int y, double depth, double 
     result.terms.reserve((2 * radius + 1) * (2 * radius + 1));
     double sum = 0;
     around(x, y, radius, [&](std::uint64_t i, int dx, int dy) {
-        if (std::abs(depth_of(i) - depth) >= jump_ || (sides_[i] & has_nearer) || !is_opaque(i)) return;
+        if (!tells_of(depth, i)) return;
         const double weight = nearness[std::size_t(dx * dx + dy * dy)] * (sides_[i] & has_farther ? edge : 1);
         result.terms.push_back({i, weight});
         result.pure = result.pure || !(sides_[i] & has_farther);
@@ -173,7 +177,7 @@ Rgb Separation::purest(int x, int y, double depth, const Rgb &front, const Rgb &
     const Rgb contrast = front.minus(behind);
     Rgb result = front;
     around(x, y, 1, [&](std::uint64_t i, int, int) {
-        if (std::abs(depth_of(i) - depth) >= jump_ || (sides_[i] & has_nearer) || !is_opaque(i)) return;
+        if (!tells_of(depth, i)) return;
         if (const Rgb c = colour_of(i); c.minus(result).dot(contrast) > 0) result = c;
     });
     return result;

@@ -268,7 +268,6 @@ TEST(Warp, SurfacesDoNotMixAndTheHiddenAppears) {
     EXPECT_LE(hidden, std::size_t(20 * 4 * 2 * 3));
 }
 
-// Where samples lie is kept below the pixel: a picture whose colour is its position says so.
 // Left whole, the light of the nearer one would be seen at the depth of the farther one: a small lamp then has a
 // second disc.
 TEST(Warp, WhateverAreTwoSurfacesThePixelBetweenThemIsBoth) {
@@ -287,6 +286,7 @@ TEST(Warp, WhateverAreTwoSurfacesThePixelBetweenThemIsBoth) {
     }
 }
 
+// Where samples lie is kept below the pixel: a picture whose colour is its position says so.
 TEST(Warp, SubPixelPositionsAreKept) {
     TwoPlanes scene = fence();
     scene.front_red = [](double x, double y) { return float(x + 0.25 * y); };
