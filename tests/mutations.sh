@@ -16,29 +16,29 @@ faults=$(
 coc-sign|src/lens/thin_lens.cpp|((z - lens.focus) / z)|((lens.focus - z) / z)
 coc-cancels|src/lens/thin_lens.cpp|(rf \/ lens.focus) \* ((z - lens.focus) \/ z)|rf * (1 / lens.focus - 1 / z)
 coc-no-sky|src/lens/thin_lens.cpp|if (std::isinf(z)) return rf / lens.focus;|
-half-pixel-off|src/dof/sample_blocks.cpp|float(x) + 0.5f + place.dx|float(x) + place.dx
+half-pixel-off|src/dof/lens/sample_blocks.cpp|float(x) + 0.5f + place.dx|float(x) + place.dx
 aspect-dropped|src/lens/lens_samples.cpp|-u.y \* pixel_aspect|-u.y * (pixel_aspect > 0 ? 1 : 2)
-alpha-dropped|src/dof/lens_tile.cpp|(1 - samples_.alpha\[i\])|1.0f
-not-renormalised|src/dof/lens_tile.cpp|sums_\[at\] / known|sums_[at] / total_
-weight-dropped|src/ldi/warp.cpp|out.weight.push_back(float(count))|out.weight.push_back(1.0f)
+alpha-dropped|src/dof/lens/lens_tile.cpp|(1 - samples_.alpha\[i\])|1.0f
+not-renormalised|src/dof/lens/lens_tile.cpp|sums_\[at\] / known|sums_[at] / total_
+weight-dropped|src/warp/warp.cpp|out.weight.push_back(float(count))|out.weight.push_back(1.0f)
 view-moved-wrong-way|src/view/view_mapping.cpp|V2d(focal_px \* position.x|V2d(-focal_px * position.x
 view-y-wrong-way|src/view/view_mapping.cpp|-focal_px \* position.y|focal_px * position.y
 view-approach-wrong-way|src/view/view_mapping.cpp|approach_(view.forward|approach_(-view.forward
-reproject-truncates|src/ldi/reproject.cpp|cell_x = std::floor(x)|cell_x = std::trunc(x)
-unsorted|src/ldi/tidy.cpp|return a.z != b.z ? a.z < b.z : a.z_back < b.z_back;|return a.index < b.index;
-float-accumulator|src/ldi/flatten.cpp|sum += transmittance \* double(ldi.values\[k\]\[i\]);|sum = double(float(sum + transmittance * double(ldi.values[k][i])));
-half-hidden-lamp|src/ldi/silhouettes.cpp|if (!mix) return with_one_pixel(x, y, mixture.near_depth, f);|if (!mix) return {};
-small-lamp-impure|src/ldi/silhouettes.cpp|if (const Rgb c = colour_of(i); c.minus(result).dot(contrast) > 0) result = c;|(void)contrast;
-mixed-left-whole|src/ldi/warp.cpp|options.split_silhouettes ? options.surface_px : 0|options.split_silhouettes ? 2 * options.surface_px : 0
-cluster-weights|src/ldi/cluster.cpp|terms\[t\].coefficient /= weights|(void)weights
-lamps-opaque-alone|src/dof/highlights.cpp|i < block.end; ++i) found|i < block.opaque_end; ++i) found
-lamp-counted-twice|src/dof/highlights.cpp|colours.at(k, f.sample) \*= 1 - f.share;|
-light-made|src/dof/sharpen.cpp|{n.sample\[k\], -shared}|{n.sample[k], 0}
-bad-alpha-kept|src/ldi/bad_values.cpp|return v >= 0 \&\& v <= 1;|return v == v;
-nan-kept|src/ldi/bad_values.cpp|return std::abs(v) <= 1e34f;|return !(std::abs(v) < 0);
+reproject-truncates|src/warp/reproject.cpp|cell_x = std::floor(x)|cell_x = std::trunc(x)
+unsorted|src/deep/tidy.cpp|return a.z != b.z ? a.z < b.z : a.z_back < b.z_back;|return a.index < b.index;
+float-accumulator|src/deep/flatten.cpp|sum += transmittance \* double(ldi.values\[k\]\[i\]);|sum = double(float(sum + transmittance * double(ldi.values[k][i])));
+half-hidden-lamp|src/warp/silhouettes.cpp|if (!mix) return with_one_pixel(x, y, mixture.near_depth, f);|if (!mix) return {};
+small-lamp-impure|src/warp/silhouettes.cpp|if (const Rgb c = colour_of(i); c.minus(result).dot(contrast) > 0) result = c;|(void)contrast;
+mixed-left-whole|src/warp/warp.cpp|options.split_silhouettes ? options.surface_px : 0|options.split_silhouettes ? 2 * options.surface_px : 0
+cluster-weights|src/deep/cluster.cpp|terms\[t\].coefficient /= weights|(void)weights
+lamps-opaque-alone|src/dof/lens/highlights.cpp|i < block.end; ++i) found|i < block.opaque_end; ++i) found
+lamp-counted-twice|src/dof/lens/highlights.cpp|colours.at(k, f.sample) \*= 1 - f.share;|
+light-made|src/dof/lens/sharpen.cpp|{n.sample\[k\], -shared}|{n.sample[k], 0}
+bad-alpha-kept|src/deep/sanitize.cpp|return v >= 0 \&\& v <= 1;|return v == v;
+nan-kept|src/deep/sanitize.cpp|return std::abs(v) <= 1e34f;|return !(std::abs(v) < 0);
 memory-unlimited|src/io/memory_limit.cpp|if (bytes <= allowed) return;|if (bytes <= allowed * 1e9) return;
-half-infinite|src/io/exr_common.cpp|std::clamp(from\[i\], -largest, largest)|std::clamp(from[i], -2 * largest, 2 * largest)
-wrong-samples-read|src/io/exr_deep_part.cpp|ldi.begin\[first + i\]|ldi.begin[first]
+half-infinite|src/io/exr/exr_common.cpp|std::clamp(from\[i\], -largest, largest)|std::clamp(from[i], -2 * largest, 2 * largest)
+wrong-samples-read|src/io/exr/exr_deep_part.cpp|ldi.begin\[first + i\]|ldi.begin[first]
 END
 )
 

@@ -1,10 +1,10 @@
 // dof-accumulate: dense views over the lens, averaged so that the plane of focus stays put.
-#include "common/accumulate_options.h"
-#include "common/averaging.h"
-#include "common/picture_options.h"
-#include "common/pictures.h"
-#include "common/tool.h"
-#include "io/camera_metadata.h"
+#include "harness/tool.h"
+#include "io/camera/camera_metadata.h"
+#include "loading/averaging.h"
+#include "loading/pictures.h"
+#include "options/accumulate_options.h"
+#include "options/picture_options.h"
 
 namespace {
 

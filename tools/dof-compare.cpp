@@ -1,8 +1,8 @@
 // dof-compare: how far a picture is from its reference.
 #include "base/error.h"
-#include "common/region_file.h"
-#include "common/tool.h"
-#include "io/exr_flat.h"
+#include "harness/tool.h"
+#include "io/exr/exr_flat.h"
+#include "loading/region_file.h"
 #include "measure/figures_text.h"
 #include "measure/image_error.h"
 #include "measure/regions.h"

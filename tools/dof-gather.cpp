@@ -1,20 +1,20 @@
 // LDI to lens picture: dof-gather IN.exr -o OUT.exr [lens options] [--method M] [--quality Q]
 //     [--lens-samples N] [--layers K] [--focus-pixel X,Y] [--depth-out FILE]
 //     [--channels LIST] [-d half|float]
-#include "common/channels.h"
-#include "common/colour_options.h"
-#include "common/gather_options.h"
-#include "common/ldi_lens.h"
-#include "common/picture_options.h"
-#include "common/pictures.h"
-#include "common/show.h"
-#include "common/stats.h"
-#include "common/tool.h"
-#include "common/window_options.h"
+#include "deep/front_depth.h"
 #include "dof/methods.h"
-#include "io/camera_metadata.h"
-#include "io/exr_flat.h"
-#include "ldi/front_depth.h"
+#include "harness/stats.h"
+#include "harness/tool.h"
+#include "io/camera/camera_metadata.h"
+#include "io/exr/exr_flat.h"
+#include "loading/ldi_lens.h"
+#include "loading/pictures.h"
+#include "options/channels.h"
+#include "options/colour_options.h"
+#include "options/gather_options.h"
+#include "options/picture_options.h"
+#include "options/show.h"
+#include "options/window_options.h"
 
 using namespace sparselens;
 

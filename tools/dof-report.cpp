@@ -1,11 +1,11 @@
 // dof-report: error against run time, for every kind of system that makes depth of field.
 #include "base/error.h"
-#include "common/tool.h"
-#include "report/measurement.h"
-#include "report/options.h"
-#include "report/outputs.h"
-#include "report/process.h"
-#include "report/summary.h"
+#include "harness/tool.h"
+#include "lab/report/summary.h"
+#include "lab/reporting/measurement.h"
+#include "lab/reporting/options.h"
+#include "lab/reporting/outputs.h"
+#include "lab/reporting/process.h"
 
 #include <cstdio>
 #include <filesystem>

@@ -1,7 +1,7 @@
 // dof-stress: stiff and extreme cases, each with its error, one line a case.
 #include "base/error.h"
-#include "common/tool.h"
-#include "stress/stress_case.h"
+#include "harness/tool.h"
+#include "lab/stress/stress_case.h"
 
 #include <cstdio>
 #include <string>

@@ -1,10 +1,10 @@
 // Renders a test scene: the centre view, views from the lens, deep pictures, and a distributed-ray-tracing
 // reference.
-#include "common/tool.h"
-#include "common/trace_options.h"
-#include "common/trace_outputs.h"
-#include "common/traced_pictures.h"
-#include "trace/scenes.h"
+#include "harness/tool.h"
+#include "lab/trace/scenes.h"
+#include "lab/tracing/trace_options.h"
+#include "lab/tracing/trace_outputs.h"
+#include "lab/tracing/traced_pictures.h"
 
 namespace {
 

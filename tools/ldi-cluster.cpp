@@ -1,11 +1,11 @@
 // Fewer samples a pixel: ldi-cluster IN.exr -o OUT.exr [--tolerance PX] [--layers K] [lens options]
 #include "base/error.h"
-#include "common/history.h"
-#include "common/pictures.h"
-#include "common/stats.h"
-#include "common/tool.h"
-#include "io/camera_metadata.h"
-#include "ldi/cluster.h"
+#include "deep/cluster.h"
+#include "harness/history.h"
+#include "harness/stats.h"
+#include "harness/tool.h"
+#include "io/camera/camera_metadata.h"
+#include "loading/pictures.h"
 
 using namespace sparselens;
 

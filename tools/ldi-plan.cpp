@@ -1,9 +1,9 @@
 // What is worth rendering: ldi-plan CENTER.exr [lens options] [--views N] [--margin PX] -o PLAN.json [--masks DIR]
-#include "common/pictures.h"
-#include "common/plan_options.h"
-#include "common/stats.h"
-#include "common/tool.h"
+#include "harness/stats.h"
+#include "harness/tool.h"
 #include "io/plan_file.h"
+#include "loading/pictures.h"
+#include "options/plan_options.h"
 
 #include <cmath>
 #include <cstdio>

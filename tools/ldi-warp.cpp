@@ -1,14 +1,14 @@
 // Views to LDI: ldi-warp [lens options] CENTER.exr [VIEW.exr ...] [--view X,Y VIEW.exr]... -o LDI.exr
 #include "base/error.h"
-#include "common/colour_options.h"
-#include "common/pictures.h"
-#include "common/stats.h"
-#include "common/tool.h"
-#include "common/warp_options.h"
-#include "io/camera_metadata.h"
-#include "ldi/misplaced_view.h"
-#include "ldi/warp.h"
+#include "harness/stats.h"
+#include "harness/tool.h"
+#include "io/camera/camera_metadata.h"
+#include "loading/pictures.h"
+#include "options/colour_options.h"
+#include "options/warp_options.h"
 #include "view/view_mapping.h"
+#include "warp/pose_check.h"
+#include "warp/warp.h"
 
 #include <cstdio>
 #include <span>

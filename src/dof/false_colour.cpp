@@ -1,6 +1,6 @@
 #include "dof/false_colour.h"
 
-#include "ldi/front_depth.h"
+#include "deep/front_depth.h"
 
 #include <Imath/ImathVec.h>
 

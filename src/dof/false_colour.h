@@ -5,8 +5,8 @@
 #pragma once
 
 #include "base/image.h"
-#include "dof/lens_tiles.h"
-#include "ldi/ldi.h"
+#include "deep/ldi.h"
+#include "dof/lens/lens_tiles.h"
 #include "lens/thin_lens.h"
 
 namespace sparselens {

@@ -1,8 +1,8 @@
 #include "dof/methods.h"
 
-#include "dof/scatter.h"
-#include "dof/selective.h"
-#include "ldi/coloured_alpha.h"
+#include "deep/channel_alpha.h"
+#include "dof/selective/scatter.h"
+#include "dof/selective/selective.h"
 
 #include <array>
 

@@ -3,8 +3,8 @@
 
 #include "base/image.h"
 #include "base/progress.h"
-#include "dof/lens_gather.h"
-#include "ldi/ldi.h"
+#include "deep/ldi.h"
+#include "dof/lens/lens_gather.h"
 #include "lens/thin_lens.h"
 
 #include <span>
@@ -20,7 +20,7 @@ struct GatherOptions {
 struct GatherMethod {
     const char *name;
     // The pixels of a window (EXR coordinates) within the LDI's data window, its channels, each by its
-    // own coverage (ldi/coloured_alpha.h). The LDI is tidy, the lens has a radius above 0.
+    // own coverage (deep/channel_alpha.h). The LDI is tidy, the lens has a radius above 0.
     Image (*gather)(const Ldi &, const ThinLens &, const Imath::Box2i &window, const GatherOptions &,
                     Progress &);
 };

@@ -1,10 +1,10 @@
 #include "io/plan_file.h"
 
 #include "base/error.h"
-#include "io/exr_flat.h"
+#include "io/exr/exr_flat.h"
 #include "io/file_stream.h"
 #include "io/folder.h"
-#include "ldi/rectangles.h"
+#include "plan/rectangles.h"
 
 #include <nlohmann/json.hpp>
 

@@ -11,7 +11,7 @@
 #pragma once
 
 #include "base/image.h"
-#include "ldi/ldi.h"
+#include "deep/ldi.h"
 #include "lens/thin_lens.h"
 
 #include <array>

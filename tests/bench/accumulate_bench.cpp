@@ -1,4 +1,4 @@
-#include "dof/accumulate.h"
+#include "dof/accumulate/accumulate.h"
 
 #include <benchmark/benchmark.h>
 

@@ -1,6 +1,6 @@
 // EXR in and out: an LDI as deep file, a picture as flat one, by the threads OpenEXR was given.
-#include "io/exr_deep.h"
-#include "io/exr_flat.h"
+#include "io/exr/exr_deep.h"
+#include "io/exr/exr_flat.h"
 #include "support/ldi_samples.h"
 #include "support/scratch_folder.h"
 

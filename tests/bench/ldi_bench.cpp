@@ -1,8 +1,8 @@
 // The stages that make LDIs: warping views, putting samples in order, clustering, flattening.
-#include "ldi/cluster.h"
-#include "ldi/warp.h"
+#include "deep/cluster.h"
 #include "support/ldi_samples.h"
 #include "support/views.h"
+#include "warp/warp.h"
 
 #include <benchmark/benchmark.h>
 

@@ -1,7 +1,7 @@
 // A picture of many surfaces through the selective gather and through the scatter that checks it.
 #include "dof/ldi_fixture.h"
-#include "dof/scatter.h"
-#include "dof/selective.h"
+#include "dof/selective/scatter.h"
+#include "dof/selective/selective.h"
 
 #include <benchmark/benchmark.h>
 

@@ -1,7 +1,7 @@
 // The tracer in packets beside its slow reference, and the price of a camera ray with all that belongs to it.
 #include "base/random.h"
-#include "trace/brute_force.h"
-#include "trace/small_scenes.h"
+#include "lab/trace/brute_force.h"
+#include "lab/trace/small_scenes.h"
 
 #include <benchmark/benchmark.h>
 

@@ -1,7 +1,7 @@
 #include "base/progress.h"
 #include "dof/false_colour.h"
 #include "dof/ldi_fixture.h"
-#include "dof/lens_gather.h"
+#include "dof/lens/lens_gather.h"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 // A picture held out by another: by the closed forms of one surface in front of another, and the fast gather against
 // the slow one.
+#include "deep/holdout.h"
 #include "dof/ldi_fixture.h"
-#include "dof/lens_gather.h"
-#include "dof/lens_gather_reference.h"
-#include "ldi/holdout.h"
+#include "dof/lens/lens_gather.h"
+#include "dof/lens/lens_gather_reference.h"
 #include "lens/lens_samples.h"
 
 #include <gtest/gtest.h>

@@ -1,9 +1,9 @@
 // What holds of the lens gather whatever the picture: checked on random LDIs.
 #include "base/random.h"
 #include "dof/ldi_fixture.h"
-#include "dof/lens_gather.h"
-#include "ldi/warp.h"
+#include "dof/lens/lens_gather.h"
 #include "support/views.h"
+#include "warp/warp.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>

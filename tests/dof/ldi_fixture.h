@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/random.h"
-#include "ldi/ldi.h"
+#include "deep/ldi.h"
 #include "lens/thin_lens.h"
 
 #include <algorithm>

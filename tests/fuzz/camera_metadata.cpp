@@ -1,8 +1,8 @@
 // Any values and texts as the camera in a header: read, put on a lens, written, read again.
-#include "io/camera_metadata.h"
+#include "io/camera/camera_metadata.h"
 
-#include "common/lens_options.h"
 #include "fuzz/fuzz.h"
+#include "options/lens_options.h"
 #include "view/lens_views.h"
 
 #include <ImfBoxAttribute.h>

@@ -1,11 +1,11 @@
 // Any words as a command line: the options that the tools share.
-#include "common/channels.h"
-#include "common/frames.h"
-#include "common/lens_options.h"
-#include "common/picture_options.h"
-#include "common/tool.h"
-#include "common/view_list.h"
 #include "fuzz/fuzz.h"
+#include "harness/frames.h"
+#include "harness/tool.h"
+#include "loading/view_list.h"
+#include "options/channels.h"
+#include "options/lens_options.h"
+#include "options/picture_options.h"
 
 #include <sstream>
 #include <vector>

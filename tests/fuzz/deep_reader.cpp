@@ -1,12 +1,12 @@
 // Any bytes as an LDI: read, made good, tidied, clustered, flattened.
+#include "deep/cluster.h"
+#include "deep/front_depth.h"
+#include "deep/order.h"
+#include "deep/sanitize.h"
 #include "fuzz/fuzz.h"
-#include "io/camera_metadata.h"
-#include "io/exr_deep.h"
+#include "io/camera/camera_metadata.h"
+#include "io/exr/exr_deep.h"
 #include "io/memory_limit.h"
-#include "ldi/bad_values.h"
-#include "ldi/cluster.h"
-#include "ldi/front_depth.h"
-#include "ldi/order.h"
 
 using namespace sparselens;
 

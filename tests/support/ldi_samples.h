@@ -1,7 +1,7 @@
 // LDIs as a test writes them down: pixel by pixel, sample by sample.
 #pragma once
 
-#include "ldi/ldi.h"
+#include "deep/ldi.h"
 
 #include <cstdint>
 #include <vector>

@@ -1,7 +1,7 @@
 #include "support/traced.h"
 
+#include "lab/trace/scenes.h"
 #include "lens/lens_points.h"
-#include "trace/scenes.h"
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 // The test scenes as views and references, traced small.
 #pragma once
 
-#include "trace/render.h"
+#include "lab/trace/render.h"
 #include "view/view.h"
 
 #include <string_view>

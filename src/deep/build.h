@@ -1,0 +1,47 @@
+// Making one LDI out of another, pixel by pixel: every stage that sorts, merges or drops samples expresses a new
+// sample as a weighted sum of old ones and builds its result row by row, in parallel.
+#pragma once
+
+#include "deep/ldi.h"
+
+#include <functional>
+#include <span>
+
+namespace sparselens {
+
+// value = sum of coefficient * (value of sample `index`), in every channel, alpha included. Ids come from the
+// first term.
+struct Term {
+    std::uint64_t index;
+    double coefficient;
+};
+
+struct MergedSample {
+    float z, z_back, dx, dy, weight;
+    std::span<const Term> terms; // never empty
+};
+
+// The sample as it stands, without its terms.
+MergedSample placement_of(const Ldi &ldi, std::uint64_t index);
+
+// Appends to the last pixel of `out`.
+void append(Ldi &out, const Ldi &from, const MergedSample &sample);
+void append(Ldi &out, const Ldi &from, std::uint64_t index); // an unchanged copy
+
+// Channels, windows and the presence of z_back, dx, dy, weight as in `like`; no pixels yet.
+Ldi empty_like(const Ldi &like);
+
+// `fill(pixel, out)` appends the samples of each pixel to `out`; rows run in parallel, each to its own piece.
+Ldi build_by_pixels(const Ldi &like, const std::function<void(std::size_t pixel, Ldi &out)> &fill);
+
+// Pieces that follow each other in pixel order (each with its own `begin`, starting at 0) as one.
+Ldi concatenate(const Ldi &like, std::span<const Ldi> pieces);
+
+inline float alpha_at(const Ldi &ldi, std::size_t alpha_channel, std::uint64_t index) {
+    return alpha_channel == npos ? 1.0f : ldi.values[alpha_channel][index];
+}
+inline float back_at(const Ldi &ldi, std::uint64_t index) {
+    return ldi.z_back.empty() ? ldi.z[index] : ldi.z_back[index];
+}
+
+} // namespace sparselens

@@ -1,0 +1,137 @@
+#include "deep/cluster.h"
+
+#include "deep/build.h"
+#include "deep/channel_alpha.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sparselens {
+
+namespace {
+
+constexpr float opaque = 1 - 0x1p-12f; // what half rounds to an alpha of 1
+
+// A pixel's samples, front to back, with their perceptive depths (descending).
+struct Pixel {
+    const Ldi &ldi;
+    std::size_t alpha;
+    std::uint64_t begin, end;
+    double scale;
+    double front(std::uint64_t i) const { return scale / double(ldi.z[i]); }
+    double back(std::uint64_t i) const { return scale / double(back_at(ldi, i)); }
+};
+
+// How many runs of at most `extent` cover the samples, taken greedily from the front: the fewest there are.
+std::size_t count_clusters(const Pixel &p, double extent) {
+    std::size_t count = 0;
+    for (std::uint64_t i = p.begin; i < p.end; ++count) {
+        const double first = p.front(i);
+        for (++i; i < p.end && first - p.back(i) <= extent;) ++i;
+    }
+    return count;
+}
+
+// The smallest extent with which `layers` runs cover the pixel, to one part in a million, by bisection: the
+// count falls as the extent grows.
+double extent_for(const Pixel &p, double tolerance, std::size_t layers) {
+    if (layers == 0 || count_clusters(p, tolerance) <= layers) return tolerance;
+    double too_small = tolerance, enough = p.front(p.begin) - p.back(p.end - 1);
+    while (enough - too_small > 1e-6 * enough) {
+        const double middle = 0.5 * (too_small + enough);
+        (count_clusters(p, middle) <= layers ? enough : too_small) = middle;
+    }
+    return enough;
+}
+
+// The share of each sample of a run in the merged one: front to back, `over`; opaque samples within the
+// tolerance of the first opaque one share what is left by weight; what lies behind is hidden.
+void set_shares(const Pixel &p, std::uint64_t begin, std::uint64_t end, double tolerance,
+                std::vector<Term> &terms) {
+    terms.clear();
+    double transmittance = 1;
+    std::uint64_t i = begin;
+    for (; i < end && alpha_at(p.ldi, p.alpha, i) < opaque; ++i) {
+        terms.push_back({i, transmittance});
+        transmittance *= 1 - double(alpha_at(p.ldi, p.alpha, i));
+    }
+    if (i == end) return;
+    const double surface = p.front(i);
+    const std::size_t first_opaque = terms.size();
+    double weights = 0;
+    for (; i < end && surface - p.back(i) <= tolerance; ++i)
+        if (alpha_at(p.ldi, p.alpha, i) >= opaque) {
+            const double weight = double(placement_of(p.ldi, i).weight);
+            terms.push_back({i, transmittance * weight});
+            weights += weight;
+        }
+    for (std::size_t t = first_opaque; t < terms.size(); ++t) terms[t].coefficient /= weights;
+}
+
+bool holds_volume(const Ldi &ldi, std::uint64_t first, std::uint64_t last) {
+    for (std::uint64_t i = first; i <= last; ++i)
+        if (back_at(ldi, i) > ldi.z[i]) return true;
+    return false;
+}
+
+// Depth, position and weight of the merged sample: means over what each of its samples shows. Where a volume is
+// among them it is a volume, from the nearest to the farthest.
+MergedSample merged_placement(const Pixel &p, std::span<const Term> terms) {
+    const std::uint64_t first = terms.front().index, last = terms.back().index;
+    MergedSample merged = placement_of(p.ldi, first);
+    merged.terms = terms;
+    if (terms.size() == 1) return merged;
+    double shown = 0, inverse_z = 0, dx = 0, dy = 0, weight = 0;
+    for (const Term &term : terms) {
+        const MergedSample s = placement_of(p.ldi, term.index);
+        const double share = std::max(term.coefficient * double(alpha_at(p.ldi, p.alpha, term.index)), 1e-12);
+        shown += share;
+        inverse_z += share / double(s.z);
+        dx += share * double(s.dx);
+        dy += share * double(s.dy);
+        weight += double(s.weight);
+    }
+    if (holds_volume(p.ldi, first, last))
+        merged.z_back = back_at(p.ldi, last);
+    else
+        merged.z = merged.z_back = std::clamp(float(shown / inverse_z), p.ldi.z[first], p.ldi.z[last]);
+    merged.dx = float(dx / shown);
+    merged.dy = float(dy / shown);
+    merged.weight = float(weight);
+    return merged;
+}
+
+// Returns the largest extent of a cluster of the pixel.
+double cluster_pixel(const Pixel &p, const ClusterOptions &options, Ldi &out) {
+    const double extent = extent_for(p, options.tolerance, std::size_t(options.layers));
+    std::vector<Term> terms;
+    double largest = 0;
+    for (std::uint64_t first = p.begin, last = p.begin; first < p.end; first = last) {
+        while (last < p.end && (last == first || p.front(first) - p.back(last) <= extent)) ++last;
+        set_shares(p, first, last, options.tolerance, terms);
+        append(out, p.ldi, merged_placement(p, terms));
+        if (last - first > 1) largest = std::max(largest, p.front(first) - p.back(last - 1));
+    }
+    return largest;
+}
+
+} // namespace
+
+Clustered cluster(const Ldi &ldi, const ClusterOptions &options, Progress &progress) {
+    const std::size_t width = std::size_t(ldi.windows.width());
+    std::vector<double> largest(ldi.windows.pixels());
+    Clustered result;
+    // Which samples a cluster holds is a matter of their depths, whatever their coverage.
+    result.ldi = with_each_coverage(ldi, [&](std::size_t coverage) {
+        progress.start("clustering", std::size_t(ldi.windows.height()));
+        return build_by_pixels(ldi, [&](std::size_t pixel, Ldi &out) {
+            const Pixel p{ldi, coverage, ldi.begin[pixel], ldi.begin[pixel + 1], options.scale};
+            largest[pixel] = cluster_pixel(p, options, out);
+            if ((pixel + 1) % width == 0) progress.advance();
+        });
+    });
+    for (const double extent : largest) result.largest_error = std::max(result.largest_error, extent);
+    return result;
+}
+
+} // namespace sparselens

@@ -1,0 +1,29 @@
+// Fewer samples a pixel, by perceptive depth R F / z, so that the LDI stays refocusable.
+//
+// Samples of one cluster become one: opaque samples within the tolerance are averaged by weight (they are one
+// surface, seen by several views); all else is composited, so that flattening gives what it gave before; what an
+// opaque sample hides from the front is dropped. Depth (as 1 / z) and position become the mean over what each
+// sample shows, a cluster with a volume becomes a volume. In every pixel the CoC of no sample changes by more
+// than the extent of its cluster, R F / z of its front minus that of its back.
+#pragma once
+
+#include "base/progress.h"
+#include "deep/ldi.h"
+
+namespace sparselens {
+
+struct ClusterOptions {
+    double scale = 1;     // R F, pixels times scene units; with tolerance 0 any scale will do
+    double tolerance = 0; // largest extent of a cluster, pixels of CoC; 0: only equal depths
+    int layers = 0;       // most samples a pixel, 0: as many as the tolerance asks for
+};
+
+struct Clustered {
+    Ldi ldi;
+    double largest_error = 0; // bound on the change of any sample's CoC, pixels (at `scale`)
+};
+
+// The input must be tidy.
+Clustered cluster(const Ldi &ldi, const ClusterOptions &options, Progress &progress);
+
+} // namespace sparselens

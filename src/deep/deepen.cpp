@@ -1,0 +1,34 @@
+#include "deep/deepen.h"
+
+#include "base/error.h"
+#include "base/parallel.h"
+
+namespace sparselens {
+
+Ldi samples_of(const View &view, std::span<const Channel> channels) {
+    Ldi ldi;
+    ldi.windows = view.image.windows;
+    ldi.channels.assign(channels.begin(), channels.end());
+    ldi.values.resize(channels.size());
+    const std::size_t alpha = find_channel(view.image.channels, "A"), pixels = view.image.windows.pixels();
+    ldi.begin.assign(pixels + 1, 0);
+    for (std::size_t i = 0; i < pixels; ++i)
+        ldi.begin[i + 1] =
+            ldi.begin[i] + (view.z[i] > 0 && (alpha == npos || view.image.plane(alpha)[i] != 0) ? 1 : 0);
+    const auto take = [&](std::span<const float> from, std::vector<float> &to) {
+        to.resize(ldi.begin.back());
+        for (std::size_t i = 0; i < pixels; ++i)
+            if (ldi.begin[i] != ldi.begin[i + 1]) to[ldi.begin[i]] = from[i];
+    };
+    take(view.z, ldi.z);
+    ldi.weight.assign(ldi.z.size(), 1);
+    parallel_for(channels.size(), [&](std::size_t k) {
+        const std::size_t from = find_channel(view.image.channels, channels[k].name);
+        if (from == npos)
+            throw Error(view.name + ": has no channel " + channels[k].name + ", which the centre view has");
+        take(view.image.plane(from), ldi.values[k]);
+    });
+    return ldi;
+}
+
+} // namespace sparselens

@@ -1,0 +1,41 @@
+#include "base/parallel.h"
+#include "deep/build.h"
+#include "deep/channel_alpha.h"
+#include "deep/ldi.h"
+
+namespace sparselens {
+
+namespace {
+
+void flatten_pixel(const Ldi &ldi, const std::vector<std::size_t> &coverage, std::size_t pixel, Image &out) {
+    const std::size_t plane = out.windows.pixels();
+    for (std::size_t k = 0; k < ldi.channels.size(); ++k) {
+        double transmittance = 1, sum = 0; // double: thousands of thin samples may add up
+        for (std::uint64_t i = ldi.begin[pixel]; i < ldi.begin[pixel + 1] && transmittance > 0; ++i) {
+            sum += transmittance * double(ldi.values[k][i]);
+            transmittance *= 1 - double(alpha_at(ldi, coverage[k], i));
+        }
+        out.values[k * plane + pixel] = float(sum);
+    }
+}
+
+} // namespace
+
+Image flatten(const Ldi &ldi) {
+    Image out(ldi.windows, ldi.channels);
+    const std::vector<std::size_t> coverage = coverage_by_channel(ldi);
+    const std::size_t width = std::size_t(ldi.windows.width());
+    parallel_for(std::size_t(ldi.windows.height()), [&](std::size_t row) {
+        for (std::size_t x = 0; x < width; ++x) {
+            const std::size_t pixel = row * width + x;
+            flatten_pixel(ldi, coverage, pixel, out);
+            for (std::size_t k = 0; k < ldi.channels.size(); ++k)
+                if (ldi.channels[k].type == PixelType::uint32)
+                    out.values[k * out.windows.pixels() + pixel] =
+                        ldi.begin[pixel] < ldi.begin[pixel + 1] ? ldi.values[k][ldi.begin[pixel]] : 0;
+        }
+    });
+    return out;
+}
+
+} // namespace sparselens

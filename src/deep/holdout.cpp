@@ -1,0 +1,63 @@
+#include "deep/holdout.h"
+
+#include "base/parallel.h"
+#include "deep/build.h"
+#include "deep/channel_alpha.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sparselens {
+
+namespace {
+constexpr double rounding = 1e-6; // relative, of a depth that has been through float and perceptive depth
+}
+
+Holdout::Holdout(Ldi ldi) : ldi_(std::move(ldi)), alpha_(ldi_.alpha()) {}
+
+double Holdout::passes(int x, int y, double z) const {
+    if (!ldi_.windows.data.intersects(Imath::V2i(x, y))) return 1;
+    const std::size_t pixel = ldi_.windows.index(x, y);
+    double passed = 1;
+    for (std::uint64_t i = ldi_.begin[pixel]; i < ldi_.begin[pixel + 1] && passed > 0; ++i) {
+        const double front = double(ldi_.z[i]), back = double(back_at(ldi_, i));
+        if (!(front < z * (1 - rounding))) break;
+        const double clear = std::max(0.0, 1 - double(alpha_at(ldi_, alpha_, i)));
+        passed *= back > z ? std::pow(clear, (z - front) / (back - front)) : clear;
+    }
+    return passed;
+}
+
+namespace {
+
+Image flatten_by_alpha(const Ldi &ldi, const Holdout &holdout) {
+    Image out = flatten(ldi); // for the ids
+    const Imath::Box2i &data = ldi.windows.data;
+    const std::size_t alpha = ldi.alpha(), width = std::size_t(ldi.windows.width());
+    parallel_for(std::size_t(ldi.windows.height()), [&](std::size_t row) {
+        std::vector<double> sums(ldi.channels.size());
+        for (std::size_t column = 0; column < width; ++column) {
+            const std::size_t pixel = row * width + column;
+            std::ranges::fill(sums, 0.0);
+            double transmittance = 1;
+            for (std::uint64_t i = ldi.begin[pixel]; i < ldi.begin[pixel + 1] && transmittance > 0; ++i) {
+                const double share = transmittance * holdout.passes(data.min.x + int(column),
+                                                                    data.min.y + int(row), double(ldi.z[i]));
+                for (std::size_t k = 0; k < sums.size(); ++k) sums[k] += share * double(ldi.values[k][i]);
+                transmittance *= 1 - double(alpha_at(ldi, alpha, i));
+            }
+            for (std::size_t k = 0; k < sums.size(); ++k)
+                if (ldi.channels[k].type != PixelType::uint32)
+                    out.values[k * out.windows.pixels() + pixel] = float(sums[k]);
+        }
+    });
+    return out;
+}
+
+} // namespace
+
+Image flatten_held_out(const Ldi &ldi, const Holdout &holdout) {
+    return composited(ldi, [&](const Ldi &one) { return flatten_by_alpha(one, holdout); });
+}
+
+} // namespace sparselens

@@ -1,0 +1,132 @@
+#include "deep/merge.h"
+
+#include "base/parallel.h"
+#include "deep/channel_alpha.h"
+
+#include <algorithm>
+
+namespace sparselens {
+
+namespace {
+
+// The channels of all parts, in the order of the first that has them, of the type with the most bits.
+std::vector<Channel> all_channels(const std::vector<Ldi> &parts) {
+    std::vector<Channel> all;
+    for (const Ldi &part : parts)
+        for (const Channel &channel : part.channels) {
+            const std::size_t k = find_channel(all, channel.name);
+            if (k == npos)
+                all.push_back(channel);
+            else if (all[k].type == PixelType::half)
+                all[k].type = channel.type;
+        }
+    return all;
+}
+
+// What a part's samples have in a channel: values of theirs, else one for all.
+struct Source {
+    const std::vector<float> *values = nullptr;
+    float otherwise = 0;
+    float at(std::uint64_t i) const { return values ? (*values)[i] : otherwise; }
+};
+
+Source source_of(const Ldi &part, const std::vector<Channel> &all, std::size_t k) {
+    const auto named = [&](const std::string &name, float otherwise) {
+        const std::size_t found = find_channel(part.channels, name);
+        return found == npos ? Source{nullptr, otherwise} : Source{&part.values[found], 0};
+    };
+    const bool covers = all[k].type != PixelType::uint32 && coverage_of(all, k) == k;
+    const Source own = named(all[k].name, 0);
+    return own.values || !covers ? own : named("A", 1);
+}
+
+Source array_of(const std::vector<float> &values, float otherwise) {
+    return values.empty() ? Source{nullptr, otherwise} : Source{&values, 0};
+}
+
+Windows all_windows(const std::vector<Ldi> &parts) {
+    Windows windows = parts.front().windows;
+    for (const Ldi &part : parts) windows.data.extendBy(part.windows.data);
+    return windows;
+}
+
+// visit(part, first sample, end, where they go) for every pixel and part.
+template <typename Visit>
+void for_each_run(const std::vector<Ldi> &parts, const Ldi &out, const Visit &visit) {
+    const Imath::Box2i &data = out.windows.data;
+    parallel_for(std::size_t(out.windows.height()), [&](std::size_t row) {
+        const int y = data.min.y + int(row);
+        for (int x = data.min.x; x <= data.max.x; ++x) {
+            std::uint64_t to = out.begin[out.windows.index(x, y)];
+            for (std::size_t p = 0; p < parts.size(); ++p) {
+                if (!parts[p].windows.data.intersects(Imath::V2i(x, y))) continue;
+                const std::size_t pixel = parts[p].windows.index(x, y);
+                const std::uint64_t first = parts[p].begin[pixel], end = parts[p].begin[pixel + 1];
+                visit(p, first, end, to);
+                to += end - first;
+            }
+        }
+    });
+}
+
+std::vector<std::uint64_t> begin_of(const std::vector<Ldi> &parts, const Windows &windows) {
+    std::vector<std::uint64_t> begin(windows.pixels() + 1, 0);
+    for (const Ldi &part : parts)
+        for (std::size_t row = 0, i = 0; row < std::size_t(part.windows.height()); ++row) {
+            const Imath::V2i corner = part.windows.data.min;
+            const std::size_t first = windows.index(corner.x, corner.y + int(row));
+            for (std::size_t x = 0; x < std::size_t(part.windows.width()); ++x, ++i)
+                begin[first + x + 1] += part.begin[i + 1] - part.begin[i];
+        }
+    for (std::size_t i = 1; i < begin.size(); ++i) begin[i] += begin[i - 1];
+    return begin;
+}
+
+} // namespace
+
+bool same_samples(const Ldi &a, const Ldi &b) {
+    return a.windows == b.windows && a.begin == b.begin && a.z == b.z && a.z_back == b.z_back &&
+           a.dx == b.dx && a.dy == b.dy;
+}
+
+void add_layer(Ldi &ldi, Ldi layer, const std::string &name) {
+    for (std::size_t k = 0; k < layer.channels.size(); ++k) {
+        Channel channel = layer.channels[k];
+        if (find_channel(ldi.channels, channel.name) != npos) channel.name = name + "." + channel.name;
+        if (find_channel(ldi.channels, channel.name) != npos) continue;
+        ldi.channels.push_back(channel);
+        ldi.values.push_back(std::move(layer.values[k]));
+    }
+}
+
+Ldi united(const std::vector<Ldi> &parts) {
+    Ldi out;
+    out.windows = all_windows(parts);
+    out.channels = all_channels(parts);
+    out.begin = begin_of(parts, out.windows);
+    const auto fill = [&](std::vector<float> &to, const auto &source) {
+        std::vector<Source> sources;
+        for (const Ldi &part : parts) sources.push_back(source(part));
+        to.resize(out.begin.back());
+        for_each_run(parts, out,
+                     [&](std::size_t p, std::uint64_t first, std::uint64_t end, std::uint64_t at) {
+                         for (std::uint64_t i = first; i < end; ++i) to[at++] = sources[p].at(i);
+                     });
+    };
+    const auto some_have = [&](std::vector<float> Ldi::*array) {
+        return std::ranges::any_of(parts, [&](const Ldi &part) { return !(part.*array).empty(); });
+    };
+    fill(out.z, [](const Ldi &part) { return array_of(part.z, 0); });
+    if (some_have(&Ldi::z_back))
+        fill(out.z_back,
+             [](const Ldi &part) { return Source{part.z_back.empty() ? &part.z : &part.z_back}; });
+    if (some_have(&Ldi::dx)) fill(out.dx, [](const Ldi &part) { return array_of(part.dx, 0); });
+    if (some_have(&Ldi::dy)) fill(out.dy, [](const Ldi &part) { return array_of(part.dy, 0); });
+    if (some_have(&Ldi::weight)) fill(out.weight, [](const Ldi &part) { return array_of(part.weight, 1); });
+    out.values.resize(out.channels.size());
+    for (std::size_t k = 0; k < out.channels.size(); ++k)
+        fill(out.values[k], [&](const Ldi &part) { return source_of(part, out.channels, k); });
+    return out;
+}
+
+} // namespace sparselens

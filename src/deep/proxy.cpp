@@ -1,0 +1,126 @@
+#include "deep/proxy.h"
+
+#include "deep/build.h"
+#include "deep/channel_alpha.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace sparselens {
+
+namespace {
+
+int floor_div(int a, int b) { return a >= 0 ? a / b : -((-a + b - 1) / b); }
+
+// A small pixel at an edge is covered in part, which takes a channel to say so.
+Ldi with_coverage(Ldi ldi) {
+    if (ldi.alpha() != npos) return ldi;
+    ldi.channels.push_back({"A", PixelType::half});
+    ldi.values.emplace_back(ldi.samples(), 1.0f);
+    return ldi;
+}
+
+// A sample of a large pixel, and what of it the flattened picture shows.
+struct Seen {
+    std::uint64_t index;
+    double z;
+    double shown; // the transmittance in front of it
+    double x, y;  // place, in small pixels from the middle of the small one
+};
+
+std::vector<Seen> samples_in(const Ldi &ldi, std::size_t alpha, const Imath::V2i &small, int factor) {
+    std::vector<Seen> seen;
+    for (int y = small.y * factor; y < (small.y + 1) * factor; ++y)
+        for (int x = small.x * factor; x < (small.x + 1) * factor; ++x) {
+            if (!ldi.windows.data.intersects(Imath::V2i(x, y))) continue;
+            const std::size_t pixel = ldi.windows.index(x, y);
+            double shown = 1;
+            for (std::uint64_t i = ldi.begin[pixel]; i < ldi.begin[pixel + 1]; ++i) {
+                const MergedSample s = placement_of(ldi, i);
+                seen.push_back({i, double(s.z), shown, (x + 0.5 + double(s.dx)) / factor - (small.x + 0.5),
+                                (y + 0.5 + double(s.dy)) / factor - (small.y + 0.5)});
+                shown *= 1 - double(alpha_at(ldi, alpha, i));
+            }
+        }
+    std::ranges::stable_sort(seen, {}, &Seen::z);
+    return seen;
+}
+
+float offset(double sum, std::size_t count) { return float(std::clamp(sum / double(count), -0.5, 0.5)); }
+
+// Appends the surfaces of one small pixel.
+void append_surfaces(const Ldi &ldi, std::size_t alpha, const std::vector<Seen> &seen, double pixels,
+                     Ldi &out) {
+    constexpr double same_surface = 1.01; // ratio of depths
+    constexpr double opaque = 1e-4;       // of the light, what is left behind a surface that hides all
+    double left = 1;                      // of the light, behind the surfaces so far
+    std::vector<Term> terms;
+    for (std::size_t begin = 0, end = 0; begin < seen.size(); begin = end) {
+        MergedSample surface = placement_of(ldi, seen[begin].index);
+        double x = 0, y = 0, shown = 0;
+        terms.clear();
+        for (; end < seen.size() && seen[end].z <= same_surface * seen[begin].z; ++end) {
+            const Seen &s = seen[end];
+            x += s.x, y += s.y;
+            shown += s.shown * double(alpha_at(ldi, alpha, s.index)) / pixels;
+            terms.push_back({s.index, (left > opaque ? s.shown / left : 1) / pixels});
+        }
+        surface.dx = offset(x, end - begin), surface.dy = offset(y, end - begin);
+        surface.z_back = surface.z;
+        surface.terms = terms;
+        append(out, ldi, surface);
+        if (ldi.dx.empty()) out.dx.push_back(surface.dx), out.dy.push_back(surface.dy);
+        out.values[alpha].back() = std::min(out.values[alpha].back(), 1.0f); // but for rounding it is
+        left = std::max(0.0, left - shown);
+    }
+}
+
+} // namespace
+
+Imath::Box2i reduced(const Imath::Box2i &box, int factor) {
+    return {{floor_div(box.min.x, factor), floor_div(box.min.y, factor)},
+            {floor_div(box.max.x, factor), floor_div(box.max.y, factor)}};
+}
+
+Ldi padded(Ldi ldi, const Imath::Box2i &data) {
+    Windows windows = ldi.windows;
+    windows.data.extendBy(data);
+    if (windows == ldi.windows) return ldi;
+    std::vector<std::uint64_t> begin{0};
+    begin.reserve(windows.pixels() + 1);
+    for (int y = windows.data.min.y; y <= windows.data.max.y; ++y)
+        for (int x = windows.data.min.x; x <= windows.data.max.x; ++x) {
+            const bool old = ldi.windows.data.intersects(Imath::V2i(x, y));
+            begin.push_back(old ? ldi.begin[ldi.windows.index(x, y) + 1] : begin.back());
+        }
+    ldi.begin = std::move(begin);
+    ldi.windows = windows;
+    return ldi;
+}
+
+Imath::V2i largest_reach(const Ldi &ldi, const ThinLens &lens) {
+    double largest = 0;
+    for (const float z : ldi.z) largest = std::max(largest, std::abs(circle_of_confusion(lens, double(z))));
+    return {int(std::ceil(largest)) + 1, int(std::ceil(largest * lens.pixel_aspect)) + 1};
+}
+
+Ldi proxy(const Ldi &large, int factor) {
+    if (factor == 1) return large;
+    const Ldi ldi = with_coverage(large);
+    Ldi like = empty_like(ldi);
+    Windows &windows = like.windows;
+    windows.display = reduced(windows.display, factor);
+    windows.data = reduced(windows.data, factor);
+    const double pixels = double(factor) * factor;
+    Ldi out = with_each_coverage(ldi, [&](std::size_t coverage) {
+        return build_by_pixels(like, [&](std::size_t pixel, Ldi &row) {
+            const int width = windows.width();
+            const Imath::V2i at = windows.data.min + Imath::V2i(int(pixel) % width, int(pixel) / width);
+            append_surfaces(ldi, coverage, samples_in(ldi, coverage, at, factor), pixels, row);
+        });
+    });
+    return tidy(std::move(out));
+}
+
+} // namespace sparselens

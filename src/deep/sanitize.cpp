@@ -1,0 +1,235 @@
+#include "deep/sanitize.h"
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "deep/channel_alpha.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+
+namespace sparselens {
+
+namespace {
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+constexpr float smallest_depth = std::numeric_limits<float>::min(); // 1 / z is still a float
+
+// The samples of an LDI or of a view, which has one in each pixel.
+struct Samples {
+    const Windows &windows;
+    std::span<const Channel> channels;
+    std::vector<std::span<float>> values; // [channel]
+    std::span<float> z;
+    std::span<const std::uint64_t> begin; // empty: one sample a pixel
+
+    std::uint64_t first(std::size_t pixel) const { return begin.empty() ? pixel : begin[pixel]; }
+};
+
+bool all_of(std::span<const float> values, bool (*good)(float)) {
+    std::atomic<bool> all = true;
+    parallel_runs(values.size(), 65536, [&](std::size_t from, std::size_t to) {
+        if (!std::all_of(values.begin() + std::ptrdiff_t(from), values.begin() + std::ptrdiff_t(to), good))
+            all = false;
+    });
+    return all;
+}
+
+bool is_light(float v) { return std::abs(v) <= 1e34f; }
+bool is_coverage(float v) { return v >= 0 && v <= 1; }
+bool is_depth(float z) { return z >= smallest_depth; }
+
+class Repair {
+public:
+    Repair(const Samples &samples, const std::string &name)
+        : s_(samples), name_(name), alpha_(find_channel(samples.channels, "A")) {}
+
+    BadValues run() {
+        for (std::size_t k = 0; k < s_.values.size(); ++k)
+            if (covers(k) && !all_of(s_.values[k], is_coverage)) repair_coverage(k);
+        if (!all_of(s_.z, is_depth)) repair_depths();
+        hide_uncovered();
+        for (std::size_t k = 0; k < s_.values.size(); ++k)
+            if (!covers(k) && s_.channels[k].type != PixelType::uint32 && !all_of(s_.values[k], is_light))
+                repair_colours(k);
+        return found_;
+    }
+
+private:
+    bool covers(std::size_t channel) const {
+        return s_.channels[channel].type != PixelType::uint32 && coverage_of(s_.channels, channel) == channel;
+    }
+    float alpha(std::uint64_t i) const { return alpha_ == npos ? 1 : s_.values[alpha_][i]; }
+
+    // visit(pixel, sample) for all samples.
+    template <typename Visit>
+    void for_each_sample(const Visit &visit) const {
+        for (std::size_t pixel = 0; pixel < s_.windows.pixels(); ++pixel)
+            for (std::uint64_t i = s_.first(pixel); i < s_.first(pixel + 1); ++i) visit(pixel, i);
+    }
+
+    // visit(sample) for the sample nearest in depth to sample i in each of the neighbours of its pixel; where the
+    // depth of i is bad, for their front samples.
+    template <typename Visit>
+    void for_each_neighbour(std::size_t pixel, std::uint64_t i, const Visit &visit) const {
+        const int width = s_.windows.width(), height = s_.windows.height();
+        const int x = int(pixel % std::size_t(width)), y = int(pixel / std::size_t(width));
+        for (int v = std::max(y - 1, 0); v <= std::min(y + 1, height - 1); ++v)
+            for (int u = std::max(x - 1, 0); u <= std::min(x + 1, width - 1); ++u) {
+                const std::size_t other = std::size_t(v) * std::size_t(width) + std::size_t(u);
+                if (other == pixel || s_.first(other) == s_.first(other + 1)) continue;
+                visit(nearest(other, s_.z[i]));
+            }
+    }
+    std::uint64_t nearest(std::size_t pixel, float z) const {
+        std::uint64_t best = s_.first(pixel);
+        const auto distance = [&](std::uint64_t i) { return std::abs(1 / double(s_.z[i]) - 1 / double(z)); };
+        for (std::uint64_t i = best + 1; i < s_.first(pixel + 1) && is_depth(z); ++i)
+            if (distance(i) < distance(best)) best = i;
+        return best;
+    }
+
+    void repair_coverage(std::size_t channel);
+    void repair_depths();
+    void repair_colours(std::size_t channel);
+    void hide_uncovered() {
+        if (alpha_ == npos) return;
+        parallel_runs(s_.z.size(), 65536, [&](std::size_t from, std::size_t to) {
+            for (std::size_t i = from; i < to; ++i)
+                if (s_.values[alpha_][i] == 0) s_.z[i] = infinity;
+        });
+    }
+
+    // Made at the end, from the values as they came.
+    using Changes = std::vector<std::pair<std::uint64_t, float>>;
+    static void apply(const Changes &changes, std::span<float> values) {
+        for (const auto &[i, value] : changes) values[i] = value;
+    }
+
+    const Samples &s_;
+    const std::string &name_;
+    std::size_t alpha_;
+    BadValues found_;
+};
+
+void Repair::repair_coverage(std::size_t channel) {
+    const std::span<float> values = s_.values[channel];
+    constexpr float rounding = 1.0f / 64;
+    Changes changes;
+    for_each_sample([&](std::size_t pixel, std::uint64_t i) {
+        const float a = values[i];
+        if (is_coverage(a)) return;
+        double sum = 0;
+        int count = 0;
+        for_each_neighbour(pixel, i, [&](std::uint64_t n) {
+            if (!std::isfinite(values[n])) return;
+            sum += double(std::clamp(values[n], 0.0f, 1.0f));
+            ++count;
+        });
+        const float around = count > 0 ? float(sum / count) : 1;
+        changes.emplace_back(i, std::isnan(a) ? around : std::clamp(a, 0.0f, 1.0f));
+        if (!(a >= -rounding && a <= 1 + rounding)) ++found_.alphas;
+    });
+    apply(changes, values);
+}
+
+void Repair::repair_depths() {
+    Changes changes;
+    std::size_t covered = 0, bad = 0, first_bad = 0;
+    float first_depth = 0;
+    for_each_sample([&](std::size_t pixel, std::uint64_t i) {
+        const float z = s_.z[i];
+        if (alpha(i) != 0) ++covered;
+        if (is_depth(z) || alpha(i) == 0) return;
+        if (z >= 0) return changes.emplace_back(i, infinity), void(); // nothing was hit
+        if (bad++ == 0) first_bad = pixel, first_depth = z;
+        std::vector<float> around;
+        for_each_neighbour(pixel, i, [&](std::uint64_t n) {
+            if (is_depth(s_.z[n])) around.push_back(s_.z[n]);
+        });
+        std::ranges::sort(around);
+        changes.emplace_back(i, around.empty() ? infinity : around[(around.size() - 1) / 2]);
+    });
+    if (bad > 0 && 2 * bad >= covered) {
+        const std::size_t width = std::size_t(s_.windows.width());
+        const Imath::V2i p = s_.windows.data.min + Imath::V2i(int(first_bad % width), int(first_bad / width));
+        throw Error(name_ + ": depth " + std::to_string(first_depth) + " in pixel " + std::to_string(p.x) +
+                    "," + std::to_string(p.y) + " is no number above 0 (see --depth, --depth-channel)");
+    }
+    apply(changes, s_.z);
+    found_.depths = bad;
+}
+
+void Repair::repair_colours(std::size_t channel) {
+    const std::span<float> values = s_.values[channel];
+    Changes changes;
+    for_each_sample([&](std::size_t pixel, std::uint64_t i) {
+        if (is_light(values[i])) return;
+        double light = 0, coverage = 0;
+        for_each_neighbour(pixel, i, [&](std::uint64_t n) {
+            if (!is_light(values[n])) return;
+            light += double(values[n]);
+            coverage += double(alpha(n));
+        });
+        changes.emplace_back(i, coverage > 0 ? float(double(alpha(i)) * light / coverage) : 0);
+        ++found_.colours;
+    });
+    apply(changes, values);
+}
+
+// How many of the values are not as `good` says; those become what `nearest` says.
+std::size_t replace(std::vector<float> &values, bool (*good)(float), float (*nearest)(float)) {
+    if (all_of(values, good)) return 0;
+    std::size_t bad = 0;
+    for (float &v : values)
+        if (!good(v)) v = nearest(v), ++bad;
+    return bad;
+}
+
+std::size_t repair_places(Ldi &ldi) {
+    const auto inside = [](float d) { return std::abs(d) <= 0.5f; };
+    const auto clamped = [](float d) { return std::isnan(d) ? 0 : std::clamp(d, -0.5f, 0.5f); };
+    const auto is_weight = [](float w) { return w > 0 && std::isfinite(w); };
+    std::size_t bad = replace(ldi.dx, inside, clamped) + replace(ldi.dy, inside, clamped) +
+                      replace(ldi.weight, is_weight, [](float) { return 1.0f; });
+    for (std::size_t i = 0; i < ldi.z_back.size(); ++i) {
+        if (std::isnan(ldi.z_back[i])) ++bad;
+        if (!(ldi.z_back[i] >= ldi.z[i])) ldi.z_back[i] = ldi.z[i];
+    }
+    return bad;
+}
+
+std::vector<std::span<float>> planes_of(std::vector<std::vector<float>> &values) {
+    return {values.begin(), values.end()};
+}
+
+} // namespace
+
+std::string BadValues::text() const {
+    std::string list;
+    const auto add = [&](std::size_t count, const char *one, const char *many) {
+        if (count > 0) list += (list.empty() ? "" : ", ") + std::to_string(count) + (count == 1 ? one : many);
+    };
+    add(colours, " colour that is not finite", " colours that are not finite");
+    add(alphas, " A outside 0..1", " As outside 0..1");
+    add(depths, " depth that is no number above 0", " depths that are no numbers above 0");
+    add(places, " place or weight that is none", " places or weights that are none");
+    return list + ": made good from the pixels around, A clamped";
+}
+
+BadValues repair_bad_values(Ldi &ldi, const std::string &name) {
+    const Samples samples{ldi.windows, ldi.channels, planes_of(ldi.values), ldi.z, ldi.begin};
+    BadValues found = Repair(samples, name).run();
+    found.places = repair_places(ldi);
+    return found;
+}
+
+BadValues repair_bad_values(View &view) {
+    Samples samples{view.image.windows, view.image.channels, {}, view.z, {}};
+    for (std::size_t k = 0; k < view.image.channels.size(); ++k)
+        samples.values.push_back(view.image.plane(k));
+    return Repair(samples, view.name).run();
+}
+
+} // namespace sparselens

@@ -1,0 +1,35 @@
+// The lens gather: the layered picture seen through each point of the lens separately, so that what hides what
+// is decided where it happens, and the cost does not grow with the area of the blur.
+//
+// Work goes by tiles. A tile that no sample with a CoC of half a pixel or more can reach is the flattened LDI.
+// Any other takes as many lens points as its blur and its contrast ask for.
+#pragma once
+
+#include "base/image.h"
+#include "base/progress.h"
+#include "deep/holdout.h"
+#include "deep/ldi.h"
+#include "dof/lens/lens_tiles.h"
+#include "lens/thin_lens.h"
+
+#include <optional>
+
+namespace sparselens {
+
+enum class Quality { draft, normal, final };
+
+struct LensGatherOptions {
+    Quality quality = Quality::normal;
+    int lens_samples = 0;        // points in every tile; 0: by the quality and what the tile needs
+    LensTiles *chosen = nullptr; // where given: is told what was chosen
+    std::optional<Imath::Box2i> region = {}; // tiles beside it stay as they were rendered
+    const Holdout *holdout = nullptr;        // holds the picture out
+};
+
+// Pixels `window` (EXR coordinates, within the LDI's data window), channels of the LDI. In `window` an empty
+// pixel is transparent to infinity; outside of it, nothing is known. Ids are the front samples'. The LDI is tidy,
+// the lens radius above 0.
+Image lens_gather(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window,
+                  const LensGatherOptions &options, Progress &progress);
+
+} // namespace sparselens

@@ -1,0 +1,234 @@
+#include "dof/lens/lens_tile.h"
+
+#include "dof/lens/tile_projection.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+namespace sparselens {
+
+namespace {
+
+constexpr float same_surface = 0.5f; // pixels of perceptive depth
+
+constexpr float covered_at_all = 1 - 0x1p-24f; // a sample without coverage may still give light
+
+using Colour4 = std::array<float, 4>;
+
+bool out_of_reach(const SampleBlock &b, const LensSample &lens, float x, float y, float size) {
+    const auto [x0, x1] = std::minmax({b.coc_min * lens.x, b.coc_max * lens.x});
+    const auto [y0, y1] = std::minmax({b.coc_min * lens.y, b.coc_max * lens.y});
+    return b.x_max + x1 + 1 < x || b.x_min + x0 - 1 > x + size || b.y_max + y1 + 1 < y ||
+           b.y_min + y0 - 1 > y + size;
+}
+
+} // namespace
+
+LensTile::LensTile(const BlockedSamples &samples, const SampleColours &colours, const Highlights &highlights,
+                   const HeldOut &held_out)
+    : samples_(samples), colours_(colours), highlights_(highlights), held_out_(held_out),
+      front_(stride * stride), transmittance_(stride * stride, 1.0f), veil_(stride * stride),
+      over_(colours.groups * stride * stride * 4), sums_(colours.groups * size * size * 4),
+      spread_(sums_.size()), unknown_(size * size) {}
+
+float LensTile::known_weight(int x, int y) const {
+    const float known = total_ - unknown_[std::size_t(y * size + x)];
+    return known > 1e-6f * total_ ? known : 0; // what rounding leaves of a weight is no knowledge
+}
+
+bool LensTile::dark(int x, int y) const {
+    if (known_weight(x, y) > 0) return false;
+    for (std::size_t k = 0; k < colours_.groups * 4; ++k)
+        if (value(x, y, k) != 0) return false;
+    return true;
+}
+
+float LensTile::value(int x, int y, std::size_t channel) const {
+    const std::size_t pixel = std::size_t(y * size + x),
+                      at = (channel / 4 * size * size + pixel) * 4 + channel % 4;
+    const float known = known_weight(x, y);
+    return (known > 0 ? sums_[at] / known : 0) + spread_[at];
+}
+
+void LensTile::gather(const Imath::V2i &origin, std::span<const std::uint32_t> blocks,
+                      std::span<const LensSample> lens, std::span<const HighlightPixel> spread) {
+    origin_x_ = float(origin.x);
+    origin_y_ = float(origin.y);
+    blocks_.assign(blocks.begin(), blocks.end());
+    collect_partial();
+    std::fill(sums_.begin(), sums_.end(), 0.0f);
+    std::fill(spread_.begin(), spread_.end(), 0.0f);
+    std::fill(unknown_.begin(), unknown_.end(), 0.0f);
+    total_ = 0;
+    for (std::uint32_t k = 0; k < lens.size(); ++k) {
+        total_ += lens[k].weight;
+        see_opaque(lens[k]);
+        see_partial(lens[k]);
+        add_opaque(lens[k].weight);
+        add_partial(lens[k].weight);
+        spread = add_highlights(spread, k);
+        forget_partial();
+    }
+}
+
+void LensTile::collect_partial() {
+    auto &[sample, x, y, coc, cell, highlight] = partial_;
+    sample.clear();
+    for (const std::uint32_t b : blocks_)
+        for (std::uint32_t i = samples_.blocks[b].opaque_end; i < samples_.blocks[b].end; ++i)
+            sample.push_back(i);
+    std::sort(sample.begin(), sample.end(), [&](std::uint32_t a, std::uint32_t b) {
+        return samples_.depth[a] != samples_.depth[b] ? samples_.depth[a] > samples_.depth[b] : a < b;
+    });
+    x.clear();
+    y.clear();
+    coc.clear();
+    highlight.clear();
+    for (const std::uint32_t i : sample) {
+        x.push_back(samples_.x[i]);
+        y.push_back(samples_.y[i]);
+        coc.push_back(samples_.coc[i]);
+        highlight.push_back(std::ranges::binary_search(highlights_.sample, i));
+    }
+    cell.resize(sample.size());
+}
+
+void LensTile::see_opaque(const LensSample &lens) {
+    std::fill(front_.begin(), front_.end(), 0);
+    const Placement placement(lens, origin_x_, origin_y_, stride);
+    std::array<std::int32_t, 256> cells;
+    for (const std::uint32_t b : blocks_) {
+        const SampleBlock &block = samples_.blocks[b];
+        if (out_of_reach(block, lens, origin_x_, origin_y_, float(size))) continue;
+        for (std::uint32_t begin = block.begin; begin < block.opaque_end; begin += cells.size()) {
+            const std::uint32_t count = std::min(std::uint32_t(cells.size()), block.opaque_end - begin);
+            place(placement, &samples_.x[begin], &samples_.y[begin], &samples_.coc[begin], count,
+                  cells.data());
+            const std::uint64_t *key = &samples_.key[begin];
+            for (std::uint32_t i = 0; i < count; ++i) {
+                std::uint64_t &front = front_[std::size_t(cells[i])];
+                front = std::max(front, key[i]);
+            }
+        }
+    }
+}
+
+void LensTile::see_partial(const LensSample &lens) {
+    const Placement placement(lens, origin_x_, origin_y_, stride);
+    const std::size_t count = partial_.sample.size();
+    place(placement, partial_.x.data(), partial_.y.data(), partial_.coc.data(), std::uint32_t(count),
+          partial_.cell.data());
+    for (std::size_t n = 0; n < count; ++n) {
+        const std::uint32_t i = partial_.sample[n];
+        const std::size_t cell = std::size_t(partial_.cell[n]);
+        if (samples_.key[i] < front_[cell]) continue;
+        float &transmittance = transmittance_[cell];
+        if (transmittance == 1) covered_.push_back(std::uint32_t(cell));
+        const float share = transmittance * passes(int(cell) % stride - 1, int(cell) / stride - 1, i);
+        for (std::size_t g = 0; g < colours_.groups; ++g) {
+            const float *colour = &colours_.group(g)[std::size_t(i) * 4];
+            float *over = &over_[(g * stride * stride + cell) * 4];
+            for (int k = 0; k < 4; ++k) over[k] += share * colour[k];
+        }
+        transmittance = std::min(transmittance * (1 - samples_.alpha[i]), covered_at_all);
+        if (partial_.highlight[n]) continue;
+        Veil &veil = veil_[cell];
+        if (veil.transmittance == 1) veil.depth = samples_.depth[i];
+        veil.transmittance = std::min(veil.transmittance * (1 - samples_.alpha[i]), covered_at_all);
+    }
+}
+
+// Adds the picture that the lens point sees of the opaque samples.
+void LensTile::add_opaque(float weight) {
+    const bool held_out = held_out_.by != nullptr;
+    for (std::size_t g = 0; g < colours_.groups; ++g) {
+        const float *colours = colours_.group(g).data();
+        for (int y = 0; y < size; ++y) {
+            const std::uint64_t *front = &front_[std::size_t((y + 1) * stride + 1)];
+            float *sum = &sums_[(g * size * size + std::size_t(y * size)) * 4];
+            for (int x = 0; x < size; ++x, sum += 4) {
+                if (front[x] == 0) {
+                    if (g == 0) unknown_[std::size_t(y * size + x)] += weight;
+                    continue;
+                }
+                Colour4 colour; // a copy: the compiler need not fear that sum overlaps it
+                std::copy_n(colours + std::size_t(std::uint32_t(front[x])) * 4, 4, colour.begin());
+                const float share = held_out ? weight * passes(x, y, std::uint32_t(front[x])) : weight;
+                for (std::size_t k = 0; k < 4; ++k) sum[k] += share * colour[k];
+            }
+        }
+    }
+}
+
+// Puts the partial samples in front of what add_opaque() added.
+void LensTile::add_partial(float weight) {
+    for (const std::uint32_t cell : covered_) {
+        const int x = int(cell) % stride - 1, y = int(cell) / stride - 1;
+        if (x < 0 || y < 0 || x >= size || y >= size) continue;
+        const std::size_t pixel = std::size_t(y * size + x);
+        const bool known = front_[cell] != 0;
+        const float hidden = 1 - transmittance_[cell];
+        if (!known) unknown_[pixel] -= weight * hidden;
+        const float taken = known ? hidden * passes(x, y, std::uint32_t(front_[cell])) : 0;
+        for (std::size_t g = 0; g < colours_.groups; ++g) {
+            const float *over = &over_[(g * stride * stride + cell) * 4];
+            const float *behind = &colours_.group(g)[std::size_t(std::uint32_t(front_[cell])) * 4];
+            float *sum = &sums_[(g * size * size + pixel) * 4];
+            for (int k = 0; k < 4; ++k) sum[k] += weight * (over[k] - (known ? taken * behind[k] : 0));
+        }
+    }
+}
+
+void LensTile::forget_partial() {
+    for (const std::uint32_t cell : covered_) {
+        transmittance_[cell] = 1;
+        veil_[cell] = {};
+        for (std::size_t g = 0; g < colours_.groups; ++g)
+            std::fill_n(&over_[(g * stride * stride + cell) * 4], 4, 0.0f);
+    }
+    covered_.clear();
+}
+
+float LensTile::passes(int x, int y, std::uint32_t sample) const {
+    const bool inside = x >= 0 && y >= 0 && x < size && y < size;
+    if (!held_out_.by || !inside) return 1;
+    const double depth = double(samples_.depth[sample]);
+    const double z = depth > 0 ? held_out_.depth_at_1 / depth : std::numeric_limits<double>::infinity();
+    return float(held_out_.by->passes(held_out_.corner.x + int(origin_x_) + x,
+                                      held_out_.corner.y + int(origin_y_) + y, z));
+}
+
+// Whether what lies at that depth is behind something in a cell, also where a surface is torn there: a crack one
+// cell wide in what is drawn as points must not let a lamp through.
+bool LensTile::hides(int x, int y, float depth) const {
+    const std::uint64_t limit = depth_key(depth + same_surface, 0xffffffffu);
+    const auto front = [&](int column, int row) { // the border holds what fell outside, wherever
+        const bool inside = column >= 0 && row >= 0 && column < size && row < size;
+        return inside && front_[std::size_t((row + 1) * stride + column + 1)] > limit;
+    };
+    return front(x, y) || (front(x - 1, y) && front(x + 1, y)) || (front(x, y - 1) && front(x, y + 1));
+}
+
+// Adds what lens point `lens` sees of the highlights and returns the pixels of the lens points after it.
+std::span<const HighlightPixel> LensTile::add_highlights(std::span<const HighlightPixel> spread,
+                                                         std::uint32_t lens) {
+    std::size_t done = 0;
+    for (; done < spread.size() && spread[done].lens == lens; ++done) {
+        const HighlightPixel &p = spread[done];
+        const std::size_t cell = std::size_t((p.y + 1) * stride + p.x + 1),
+                          pixel = std::size_t(p.y * size + p.x);
+        const std::uint32_t sample = highlights_.sample[p.highlight];
+        if (hides(p.x, p.y, samples_.depth[sample])) continue;
+        const Veil &veil = veil_[cell];
+        const bool veiled = veil.transmittance < 1 && veil.depth > samples_.depth[sample] + same_surface;
+        const float weight = p.weight * (veiled ? veil.transmittance : 1) * passes(p.x, p.y, sample);
+        for (std::size_t g = 0; g < colours_.groups; ++g)
+            for (std::size_t k = 0; k < 4; ++k)
+                spread_[(g * size * size + pixel) * 4 + k] +=
+                    weight * highlights_.light.group(g)[std::size_t(p.highlight) * 4 + k];
+    }
+    return spread.subspan(done);
+}
+
+} // namespace sparselens

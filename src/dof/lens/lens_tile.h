@@ -1,0 +1,94 @@
+// One tile of the lens picture: every lens point sees its own picture of the samples, each a square one pixel
+// wide and high, the nearest opaque one in front; the mean over the lens points is the tile.
+//
+// Samples of partial coverage are composited front to back over the opaque one behind them. A lens point that
+// meets nothing opaque sees what lies behind as unknown: only the light in front of it counts, and the weights
+// are renormalised. lens_gather_reference.h says the same slowly.
+#pragma once
+
+#include "deep/holdout.h"
+#include "dof/lens/highlights.h"
+#include "dof/lens/sample_blocks.h"
+#include "dof/lens/sample_colours.h"
+#include "lens/lens_samples.h"
+
+#include <Imath/ImathBox.h>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace sparselens {
+
+// What holds the picture out, and what its lookups need to be told.
+struct HeldOut {
+    const Holdout *by = nullptr;
+    double depth_at_1 = 1;   // perceptive depth at z = 1
+    Imath::V2i corner{0, 0}; // of the data window that the samples are relative to, EXR coordinates
+};
+
+class LensTile {
+public:
+    static constexpr int size = 64; // pixels wide and high: the buffers of a lens point stay in the cache
+
+    LensTile(const BlockedSamples &samples, const SampleColours &colours, const Highlights &highlights,
+             const HeldOut &held_out = {});
+
+    // Gathers the pixels [origin, origin + size), relative to the data window's corner like the samples, from
+    // the blocks that can reach them. `spread`: highlight_pixels() of the tile.
+    void gather(const Imath::V2i &origin, std::span<const std::uint32_t> blocks,
+                std::span<const LensSample> lens, std::span<const HighlightPixel> spread);
+
+    // The mean over the known lens points at a pixel of the tile, and what highlights spread there. `dark`: no lens
+    // point is known and no highlight reaches it.
+    bool dark(int x, int y) const;
+    float value(int x, int y, std::size_t channel) const;
+
+private:
+    // The buffers have a border of one cell that takes what falls outside.
+    static constexpr int stride = size + 2;
+
+    float known_weight(int x, int y) const; // of the lens points; 0: none
+    void collect_partial();
+    void see_opaque(const LensSample &lens);
+    void see_partial(const LensSample &lens);
+    float passes(int x, int y, std::uint32_t sample) const; // of its light, the holdout
+    bool hides(int x, int y, float depth) const;
+    void add_opaque(float weight);
+    void add_partial(float weight);
+    std::span<const HighlightPixel> add_highlights(std::span<const HighlightPixel> spread,
+                                                   std::uint32_t lens);
+    void forget_partial();
+
+    const BlockedSamples &samples_;
+    const SampleColours &colours_;
+    const Highlights &highlights_;
+    HeldOut held_out_;
+    float origin_x_ = 0, origin_y_ = 0;
+    float total_ = 0; // weight of the lens points
+    std::vector<std::uint32_t> blocks_;
+    // Samples of partial coverage, front to back.
+    struct Partial {
+        std::vector<std::uint32_t> sample;
+        std::vector<float> x, y, coc;        // of each, side by side
+        std::vector<std::int32_t> cell;      // where the lens point at hand sees it
+        std::vector<std::uint8_t> highlight; // whether it is one
+    } partial_;
+    // What partial samples leave of the light of highlights behind them; among themselves these leave all.
+    struct Veil {
+        float depth = 0;         // of the nearest that is no highlight
+        float transmittance = 1; // of all of those
+    };
+    // Of one lens point:
+    std::vector<std::uint64_t> front_;   // [cell]: key of the nearest opaque sample; 0: none
+    std::vector<float> transmittance_;   // [cell]: of the partial samples in front
+    std::vector<Veil> veil_;             // [cell]
+    std::vector<float> over_;            // [group][cell][4]: their colours
+    std::vector<std::uint32_t> covered_; // cells that have any
+    // Of all so far:
+    std::vector<float> sums_;    // [group][pixel][4]
+    std::vector<float> spread_;  // [group][pixel][4]: of the highlights
+    std::vector<float> unknown_; // [pixel]: weight of the lens points that see nothing
+};
+
+} // namespace sparselens

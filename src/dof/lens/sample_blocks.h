@@ -1,0 +1,50 @@
+// The samples of an LDI as the lens gather wants them: structure of arrays, in blocks of neighbouring pixels
+// whose bounds tell at once which lens points bring none of their samples into a tile.
+#pragma once
+
+#include "deep/ldi.h"
+#include "lens/thin_lens.h"
+
+#include <bit>
+#include <cstdint>
+#include <vector>
+
+namespace sparselens {
+
+struct SampleBlock {
+    std::uint32_t begin, opaque_end, end; // opaque samples, then those of partial coverage
+    float x_min, x_max, y_min, y_max;     // of the samples' centres, pixels
+    float coc_min, coc_max;               // pixels, signed
+};
+
+struct BlockedSamples {
+    // One entry a sample, and the backgrounds, opaque, with no colour and no alpha. A pixel that lets light through
+    // to infinity has one there; and if it has samples, one at its last sample's place (though behind all else):
+    // whoever sees that sample sees through it, also where what lies at infinity behind it is not known.
+    std::vector<float> x, y;           // centre, pixels, relative to the data window's corner, y down
+    std::vector<float> coc;            // signed radius, pixels
+    std::vector<float> depth;          // perceptive depth, pixels: larger is nearer
+    std::vector<float> alpha;          // coverage, (0, 1]
+    std::vector<std::uint64_t> key;    // nearer is greater, no two are equal
+    std::vector<std::uint32_t> source; // index into the LDI's samples; `background` for the background
+    static constexpr std::uint32_t background = 0xffffffffu;
+
+    std::vector<SampleBlock> blocks; // row by row
+    int columns = 0, rows = 0;       // of blocks
+    static constexpr int size = 8;   // pixels a block is wide and high
+
+    std::size_t count() const { return x.size(); }
+};
+
+// Orders samples by depth (perceptive, at least 0), then by index; never 0. The index is its lower half.
+inline std::uint64_t depth_key(float depth, std::uint32_t sample) {
+    return (std::uint64_t(std::bit_cast<std::uint32_t>(depth) + 2) << 32) | sample;
+}
+// A background lies behind what the LDI has at infinity.
+inline std::uint64_t background_key(std::uint32_t sample) { return (std::uint64_t(1) << 32) | sample; }
+
+// `known`: the window (EXR coordinates) in which an empty pixel is transparent to infinity; outside of it,
+// nothing is known. Throws Error where the LDI has more samples than 32 bits count.
+BlockedSamples make_blocks(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &known);
+
+} // namespace sparselens

@@ -1,0 +1,246 @@
+#include "dof/lens/sharpen.h"
+
+#include "base/parallel.h"
+#include "deep/build.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace sparselens {
+
+namespace {
+
+constexpr double largest_coc = 4;      // pixels: beyond, the blur of interpolation does not show
+constexpr double same_surface = 0.5;   // pixels of perceptive depth
+constexpr int noise_block = 32;        // pixels
+constexpr double noise_quantile = 0.3; // the calmer part of a block shows its noise, not its detail
+
+// Mean of f (1 - f) over the lens, f the fraction off the grid along one axis, by CoC and by own offset.
+class BlurTable {
+public:
+    BlurTable() {
+        for (int c = 0; c < cocs; ++c)
+            for (int o = 0; o < offsets; ++o)
+                table_[std::size_t(c * offsets + o)] = mean(coc_at(c), offset_at(o));
+    }
+    static constexpr double largest_weight = 0.125; // f (1 - f) is at most 1/4
+    // Half of the mean, which is the weight of the second difference; fades out towards the largest CoC.
+    double weight(double coc, double offset) const {
+        coc = std::abs(coc);
+        if (!(coc < largest_coc)) return 0;
+        // Between entries: what lies in focus on the grid has to come out as exactly 0.
+        const double u = coc / largest_coc * (cocs - 1),
+                     v = std::min(std::abs(offset) * 2, 1.0) * (offsets - 1);
+        const int c = std::min(int(u), cocs - 2), o = std::min(int(v), offsets - 2);
+        const auto along = [&](int row) { return std::lerp(entry(row, o), entry(row, o + 1), v - o); };
+        return 0.5 * std::lerp(along(c), along(c + 1), u - c) * std::min(1.0, 2 * (1 - coc / largest_coc));
+    }
+
+private:
+    static constexpr int cocs = 128, offsets = 16, steps = 64;
+    static double coc_at(int c) { return c * largest_coc / (cocs - 1); }
+    static double offset_at(int o) { return o * 0.5 / (offsets - 1); }
+    double entry(int c, int o) const { return table_[std::size_t(c * offsets + o)]; }
+    // Over the disc, a column at x has a height of sqrt(1 - x^2).
+    static double mean(double coc, double offset) {
+        double sum = 0, area = 0;
+        for (int i = 0; i < steps; ++i) {
+            const double x = (i + 0.5) * 2 / steps - 1, height = std::sqrt(1 - x * x);
+            const double place = offset + coc * x, f = place - std::floor(place);
+            sum += height * f * (1 - f);
+            area += height;
+        }
+        return sum / area;
+    }
+    std::array<double, std::size_t(cocs) * offsets> table_{};
+};
+
+class Sharpener {
+public:
+    Sharpener(const Ldi &ldi, const ThinLens &lens) : ldi_(ldi), lens_(lens), rgb_() {
+        for (std::size_t k = 0; k < 3; ++k)
+            rgb_[k] = find_channel(ldi.channels, std::array{"R", "G", "B"}[k]);
+    }
+    bool usable() const { return std::find(rgb_.begin(), rgb_.end(), npos) == rgb_.end(); }
+
+    void measure_noise();
+    void weigh(); // after measure_noise()
+    // The change of sample i of pixel (x, y): its new value is the sum of the terms.
+    std::array<Term, 5> terms(std::uint64_t i, int x, int y) const;
+
+private:
+    // By which a sample may exchange light with its neighbours.
+    struct Weights { // float: there is one a sample
+        float horizontal, vertical;
+        float most; // share of all this that it may give away
+        double along(std::size_t neighbour) const { return double(neighbour < 2 ? horizontal : vertical); }
+    };
+    struct Neighbours {
+        std::array<std::uint64_t, 4> sample; // left, right, up, down
+        bool horizontal, vertical;           // both of the axis are there
+    };
+    Neighbours neighbours(std::uint64_t i, int x, int y) const;
+    std::uint64_t surface_in(int x, int y, double depth) const;
+    Weights weights(std::uint64_t i, int x, int y) const;
+    double detail(std::uint64_t i, const Neighbours &n) const;
+    double second_difference(std::uint64_t i, std::uint64_t a, std::uint64_t b, std::size_t k) const {
+        const std::vector<float> &v = ldi_.values[rgb_[k]];
+        return double(v[a]) - 2 * double(v[i]) + double(v[b]);
+    }
+
+    static constexpr std::uint64_t none = ~std::uint64_t(0);
+    const Ldi &ldi_;
+    const ThinLens &lens_;
+    std::array<std::size_t, 3> rgb_;
+    std::vector<Weights> weights_; // of each sample
+    std::vector<double> noise_;    // of each block, as detail() measures it
+    BlurTable blur_;
+};
+
+// The sample of a pixel nearest to that depth: of a stack of mist and sheets not just any within reach.
+std::uint64_t Sharpener::surface_in(int x, int y, double depth) const {
+    if (x < 0 || y < 0 || x >= ldi_.windows.width() || y >= ldi_.windows.height()) return none;
+    const std::size_t pixel = std::size_t(y) * std::size_t(ldi_.windows.width()) + std::size_t(x);
+    std::uint64_t found = none;
+    double least = same_surface;
+    for (std::uint64_t i = ldi_.begin[pixel]; i < ldi_.begin[pixel + 1]; ++i) {
+        const double distance = std::abs(perceptive_depth(lens_, double(ldi_.z[i])) - depth);
+        if (distance >= least) continue;
+        found = i;
+        least = distance;
+    }
+    return found;
+}
+
+Sharpener::Neighbours Sharpener::neighbours(std::uint64_t i, int x, int y) const {
+    const double depth = perceptive_depth(lens_, double(ldi_.z[i]));
+    Neighbours n{{surface_in(x - 1, y, depth), surface_in(x + 1, y, depth), surface_in(x, y - 1, depth),
+                  surface_in(x, y + 1, depth)},
+                 false,
+                 false};
+    n.horizontal = n.sample[0] != none && n.sample[1] != none;
+    n.vertical = n.sample[2] != none && n.sample[3] != none;
+    return n;
+}
+
+// Root of the squared second differences of R, G and B along both axes.
+double Sharpener::detail(std::uint64_t i, const Neighbours &n) const {
+    double sum = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double h = n.horizontal ? second_difference(i, n.sample[0], n.sample[1], k) : 0;
+        const double v = n.vertical ? second_difference(i, n.sample[2], n.sample[3], k) : 0;
+        sum += h * h + v * v;
+    }
+    return std::sqrt(sum);
+}
+
+void Sharpener::measure_noise() {
+    const int width = ldi_.windows.width(), height = ldi_.windows.height();
+    const int columns = (width + noise_block - 1) / noise_block,
+              rows = (height + noise_block - 1) / noise_block;
+    noise_.assign(std::size_t(columns * rows), 0);
+    parallel_for(noise_.size(), [&](std::size_t block) {
+        const int left = int(block) % columns * noise_block, top = int(block) / columns * noise_block;
+        std::vector<double> details;
+        for (int y = top; y < std::min(top + noise_block, height); ++y)
+            for (int x = left; x < std::min(left + noise_block, width); ++x) {
+                const std::size_t pixel = std::size_t(y) * std::size_t(width) + std::size_t(x);
+                if (ldi_.begin[pixel] == ldi_.begin[pixel + 1]) continue;
+                const Neighbours n = neighbours(ldi_.begin[pixel], x, y);
+                if (n.horizontal && n.vertical) details.push_back(detail(ldi_.begin[pixel], n));
+            }
+        if (details.empty()) return;
+        const auto at = details.begin() + std::ptrdiff_t(double(details.size() - 1) * noise_quantile);
+        std::nth_element(details.begin(), at, details.end());
+        noise_[block] = *at;
+    });
+}
+
+Sharpener::Weights Sharpener::weights(std::uint64_t i, int x, int y) const {
+    const MergedSample place = placement_of(ldi_, i);
+    const double coc = circle_of_confusion(lens_, double(place.z));
+    Weights w{float(blur_.weight(coc, double(place.dx))),
+              float(blur_.weight(coc * lens_.pixel_aspect, double(place.dy))), 1};
+    if (w.horizontal == 0 && w.vertical == 0) return {0, 0, 0};
+    const Neighbours n = neighbours(i, x, y);
+    if (!n.horizontal) w.horizontal = 0;
+    if (!n.vertical) w.vertical = 0;
+    const int columns = (ldi_.windows.width() + noise_block - 1) / noise_block;
+    const double noise = 5 * noise_[std::size_t(y / noise_block * columns + x / noise_block)],
+                 d = detail(i, n);
+    const double strength = noise > 0 ? (d > 0 ? 1 / (1 + std::pow(noise / d, 4)) : 0) : 1;
+    w.horizontal *= float(strength);
+    w.vertical *= float(strength);
+    for (const std::size_t k : rgb_) {
+        const std::vector<float> &v = ldi_.values[k];
+        double given = 0; // at most, to brighter neighbours: no more than there is
+        for (std::size_t to = 0; to < 4; ++to)
+            if (to < 2 ? n.horizontal : n.vertical)
+                given += 0.5 * (w.along(to) + BlurTable::largest_weight) *
+                         std::max(0.0, double(v[n.sample[to]]) - double(v[i]));
+        if (given * double(w.most) > double(v[i])) w.most = float(std::max(0.0, double(v[i])) / given);
+    }
+    return w;
+}
+
+void Sharpener::weigh() {
+    weights_.resize(ldi_.samples());
+    const std::size_t width = std::size_t(ldi_.windows.width());
+    parallel_for(std::size_t(ldi_.windows.height()), [&](std::size_t row) {
+        for (std::size_t pixel = row * width; pixel < (row + 1) * width; ++pixel)
+            for (std::uint64_t i = ldi_.begin[pixel]; i < ldi_.begin[pixel + 1]; ++i)
+                weights_[i] = weights(i, int(pixel - row * width), int(row));
+    });
+}
+
+std::array<Term, 5> Sharpener::terms(std::uint64_t i, int x, int y) const {
+    std::array<Term, 5> terms;
+    terms.fill({i, 0});
+    terms[0].coefficient = 1;
+    const Weights &own = weights_[i];
+    if (own.most == 0) return terms;
+    const Neighbours n = neighbours(i, x, y);
+    for (std::size_t k = 0; k < 4; ++k) {
+        if (!(k < 2 ? n.horizontal : n.vertical)) continue;
+        // The same for both, so that no light is made or lost.
+        const Weights &other = weights_[n.sample[k]];
+        const double shared = 0.5 * (own.along(k) + other.along(k)) * double(std::min(own.most, other.most));
+        terms[0].coefficient += shared;
+        terms[k + 1] = {n.sample[k], -shared};
+    }
+    return terms;
+}
+
+} // namespace
+
+void sharpen_near_focus(const Ldi &ldi, const ThinLens &lens, const BlockedSamples &samples,
+                        SampleColours &colours) {
+    Sharpener sharpener(ldi, lens);
+    if (!sharpener.usable()) return;
+    sharpener.measure_noise();
+    sharpener.weigh();
+    std::vector<std::uint32_t> blocked(ldi.samples());
+    parallel_runs(samples.count(), 4096, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t b = begin; b < end; ++b)
+            if (samples.source[b] != BlockedSamples::background)
+                blocked[samples.source[b]] = std::uint32_t(b);
+    });
+    const std::size_t width = std::size_t(ldi.windows.width()), alpha = ldi.alpha();
+    parallel_for(std::size_t(ldi.windows.height()), [&](std::size_t row) {
+        for (std::size_t pixel = row * width; pixel < (row + 1) * width; ++pixel)
+            for (std::uint64_t i = ldi.begin[pixel]; i < ldi.begin[pixel + 1]; ++i) {
+                const auto terms = sharpener.terms(i, int(pixel - row * width), int(row));
+                if (terms[0].coefficient == 1) continue;
+                for (std::size_t k = 0; k < ldi.channels.size(); ++k) {
+                    if (k == alpha || ldi.channels[k].type == PixelType::uint32) continue;
+                    double sum = 0;
+                    for (const Term &term : terms)
+                        sum += term.coefficient * double(ldi.values[k][term.index]);
+                    colours.at(k, blocked[i]) = float(sum);
+                }
+            }
+    });
+}
+
+} // namespace sparselens

@@ -1,0 +1,192 @@
+#include "io/camera/camera_attributes.h"
+#include "io/camera/camera_metadata.h"
+#include "view/projection.h"
+
+#include <ImfStringAttribute.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <sstream>
+
+namespace sparselens {
+
+namespace {
+
+std::string text_of(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%g", value);
+    return text;
+}
+
+// The same, but for what programs lose by rounding.
+bool agree(double a, double b) {
+    return a == b || std::abs(a - b) <= 0.01 * std::max(std::abs(a), std::abs(b));
+}
+
+std::vector<Imath::V2d> read_points(const Imf::Header &header) {
+    std::vector<Imath::V2d> points;
+    const auto *text = header.findTypedAttribute<Imf::StringAttribute>("sparselens:lensPoints");
+    std::istringstream in(text ? text->value() : std::string());
+    Imath::V2d p(0, 0);
+    char comma = 0;
+    while (in >> p.x >> comma >> p.y && comma == ',') points.push_back(p);
+    return points;
+}
+
+// Builds the camera of what its attributes say, and notes what says what.
+class Reader {
+public:
+    explicit Reader(const CameraAttributes &attributes) : has_(attributes) {}
+
+    Camera read() {
+        camera_.metres_per_unit = pick({Quantity::metres_per_unit}, "metres per unit", "--scene-unit");
+        camera_.fstop = pick({Quantity::fstop}, "f-number", "--fstop", true);
+        camera_.focus_distance =
+            pick({Quantity::focus_units, Quantity::focus_metres}, "focus distance", "--focus-distance", true);
+        read_placement();
+        read_film();
+        return std::move(camera_);
+    }
+
+private:
+    // The value that the attributes of these quantities agree on; hints only for want of others.
+    std::optional<double> pick(std::initializer_list<Quantity> quantities, const char *what,
+                               const char *option, bool may_be_infinite = false);
+    double in_unit(const NamedNumber &number) const {
+        return number.quantity == Quantity::focus_metres ? number.value / camera_.metres_per_unit.value_or(1)
+                                                         : number.value;
+    }
+    void read_placement();
+    void read_film();
+    void read_projections();
+    void read_principal_point();
+
+    const CameraAttributes &has_;
+    Camera camera_;
+};
+
+std::optional<double> Reader::pick(std::initializer_list<Quantity> quantities, const char *what,
+                                   const char *option, bool may_be_infinite) {
+    const NamedNumber *chosen = nullptr;
+    for (const bool exact : {true, false})
+        for (const NamedNumber &number : has_.numbers) {
+            if (number.exact != exact || std::ranges::find(quantities, number.quantity) == quantities.end() ||
+                (chosen && chosen->exact != exact))
+                continue;
+            const double value = in_unit(number);
+            if (!(value > 0) || (std::isinf(value) && !may_be_infinite)) {
+                camera_.unsure[option] = number.name + " is no " + what;
+                return {};
+            }
+            if (chosen && !agree(value, in_unit(*chosen))) {
+                camera_.unsure[option] = chosen->name + " says " + text_of(in_unit(*chosen)) + ", " +
+                                         number.name + " says " + text_of(value);
+                return {};
+            }
+            if (!chosen) chosen = &number;
+        }
+    if (!chosen) return {};
+    camera_.found.push_back(std::string(what) + " " + text_of(in_unit(*chosen)) + " (" + chosen->name + ")");
+    return in_unit(*chosen);
+}
+
+// The film back of a renderer is cropped to the shape of the picture: how much of it is seen the field tells.
+void Reader::read_film() {
+    camera_.focal_length_mm = pick({Quantity::focal_length}, "focal length", "--focal-length");
+    camera_.sensor_width_mm = pick({Quantity::sensor_width}, "sensor width", "--sensor-width");
+    camera_.field = pick({Quantity::field}, "width of the picture over the focal length", "--sensor-width");
+    const bool field_unsure = !camera_.field && camera_.unsure.contains("--sensor-width");
+    read_projections();
+    read_principal_point();
+    if (!camera_.sensor_width_mm && !(camera_.focal_length_mm && camera_.field) && !field_unsure)
+        camera_.sensor_width_mm = pick({Quantity::film_back}, "film back", "--sensor-width");
+    if (camera_.focal_length_mm && camera_.sensor_width_mm && camera_.field &&
+        !agree(*camera_.sensor_width_mm, *camera_.focal_length_mm * *camera_.field)) {
+        camera_.unsure["--sensor-width"] = "it is said to be " + text_of(*camera_.sensor_width_mm) +
+                                           " mm, but focal length and field of view make it " +
+                                           text_of(*camera_.focal_length_mm * *camera_.field);
+        camera_.sensor_width_mm.reset();
+        camera_.field.reset();
+    }
+    complete_field(camera_);
+}
+
+void Reader::read_placement() {
+    const NamedMatrix *chosen = nullptr;
+    for (const NamedMatrix &matrix : has_.matrices) {
+        if (matrix.kind != NamedMatrix::Kind::world_to_camera) continue;
+        if (!matrix.matrix) {
+            camera_.unsure["--view"] = matrix.name + " is no placement of a camera";
+            return;
+        }
+        const auto place = [](const NamedMatrix &m) { return m.matrix->inverse().translation(); };
+        if (chosen && (place(matrix) - place(*chosen)).length() > 1e-3 * place(matrix).length()) {
+            camera_.unsure["--view"] = chosen->name + " and " + matrix.name + " place it differently";
+            return;
+        }
+        if (!chosen) chosen = &matrix;
+    }
+    if (!chosen) return;
+    camera_.world_to_camera = chosen->matrix;
+    camera_.found.push_back("placement (" + chosen->name + ")");
+}
+
+void Reader::read_projections() {
+    for (const NamedMatrix &matrix : has_.matrices) {
+        if (matrix.kind != NamedMatrix::Kind::world_to_ndc || !matrix.matrix || camera_.world_to_ndc)
+            continue;
+        if (has_.ours) {
+            camera_.world_to_ndc = matrix.matrix;
+            continue;
+        }
+        if (!camera_.world_to_camera) continue;
+        std::optional<double> field = camera_.field;
+        if (!field && camera_.focal_length_mm && camera_.sensor_width_mm)
+            field = *camera_.sensor_width_mm / *camera_.focal_length_mm;
+        const auto projection =
+            read_projection(*matrix.matrix, *camera_.world_to_camera, {matrix.certain, field});
+        if (!projection || (field && !agree(*field, projection->field))) {
+            camera_.unsure["--sensor-width"] =
+                projection ? matrix.name + " makes the picture " + text_of(projection->field) +
+                                 " focal lengths wide, other attributes " + text_of(*field)
+                           : matrix.name + " is no projection that the camera at that place can have";
+            camera_.sensor_width_mm.reset();
+            camera_.field.reset();
+            return;
+        }
+        camera_.world_to_ndc = projection->world_to_ndc;
+        camera_.field = projection->field;
+        camera_.found.push_back("width of the picture over the focal length " + text_of(projection->field) +
+                                " (" + matrix.name + ")");
+        if (projection->looks_backward)
+            for (int row = 0; row < 4; ++row) (*camera_.world_to_camera)[row][2] *= -1;
+    }
+}
+
+void Reader::read_principal_point() {
+    std::optional<Frustum> frustum;
+    if (camera_.world_to_ndc && camera_.world_to_camera)
+        frustum = frustum_of(*camera_.world_to_ndc, *camera_.world_to_camera);
+    camera_.principal_point = frustum ? frustum->principal_point : has_.principal_point;
+    if (!camera_.principal_point) return;
+    Imath::V2d &point = *camera_.principal_point;
+    constexpr double rounding = 4e-6; // see framing_relative_to()
+    if (point.length() < rounding)
+        point = {0, 0};
+    else
+        camera_.found.push_back("optical axis " + text_of(point.x) + "," + text_of(point.y) +
+                                " picture widths right of and below the middle (" +
+                                (frustum ? "worldToNDC" : "screenWindowCenter") + ")");
+}
+
+} // namespace
+
+Camera read_camera(const Imf::Header &header) {
+    const CameraAttributes attributes = find_camera_attributes(header);
+    Camera camera = Reader(attributes).read();
+    camera.lens_points = read_points(header);
+    return camera;
+}
+
+} // namespace sparselens

@@ -1,0 +1,167 @@
+#include "io/display/colour.h"
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "io/display/default_ocio_config.h"
+
+#include <OpenColorIO/OpenColorIO.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <filesystem>
+#include <sstream>
+
+namespace sparselens {
+
+namespace ocio = OCIO_NAMESPACE;
+
+struct ColourTransform::Processor {
+    ocio::ConstCPUProcessorRcPtr cpu;
+};
+
+struct ColourConfig::Impl {
+    std::string name; // for messages
+    ocio::ConstConfigRcPtr config;
+};
+
+namespace {
+
+std::string first_line(const std::string &text) { return text.substr(0, text.find('\n')); }
+
+// What OpenColorIO throws leaves as Error that names the configuration.
+template <typename Work>
+auto with_config_name(const std::string &name, const Work &work) {
+    try {
+        return work();
+    } catch (const ocio::Exception &error) {
+        throw Error(name + ": " + first_line(error.what()));
+    }
+}
+
+ocio::ConstConfigRcPtr config_of(const std::string &file) {
+    if (!file.empty()) return ocio::Config::CreateFromFile(file.c_str());
+    std::istringstream text(default_ocio_config());
+    return ocio::Config::CreateFromStream(text);
+}
+
+// Space, display or view of that name must be there; says which are where it is not.
+void expect_name(const std::string &config, const std::string &name, const std::string &what,
+                 const std::vector<std::string> &there) {
+    if (std::ranges::find(there, name) != there.end()) return;
+    std::string list;
+    for (const std::string &one : there) list += (list.empty() ? "" : ", ") + one;
+    throw Error(config + ": has no " + what + " '" + name + "', only " + list);
+}
+
+std::vector<std::string> spaces_of(const ocio::Config &config) {
+    std::vector<std::string> names;
+    for (int i = 0; i < config.getNumColorSpaces(); ++i)
+        names.emplace_back(config.getColorSpaceNameByIndex(i));
+    return names;
+}
+
+} // namespace
+
+bool ColourTransform::changes_nothing() const { return processor_->cpu->isNoOp(); }
+
+void ColourTransform::apply(std::span<float> r, std::span<float> g, std::span<float> b,
+                            const float *a) const {
+    constexpr std::size_t run = 4096;
+    parallel_runs(r.size(), run, [&](std::size_t from, std::size_t to) {
+        std::vector<float> rgb(3 * (to - from));
+        const auto coverage = [&](std::size_t i) { return a && a[i] > 0 ? a[i] : 1; };
+        for (std::size_t i = from; i < to; ++i) {
+            float *pixel = &rgb[3 * (i - from)];
+            pixel[0] = r[i] / coverage(i), pixel[1] = g[i] / coverage(i), pixel[2] = b[i] / coverage(i);
+        }
+        ocio::PackedImageDesc pixels(rgb.data(), long(to - from), 1, 3);
+        processor_->cpu->apply(pixels);
+        for (std::size_t i = from; i < to; ++i) {
+            const float *pixel = &rgb[3 * (i - from)];
+            r[i] = pixel[0] * coverage(i), g[i] = pixel[1] * coverage(i), b[i] = pixel[2] * coverage(i);
+        }
+    });
+}
+
+ColourConfig::ColourConfig(const std::string &file) {
+    const char *variable = std::getenv("OCIO");
+    const std::string path = !file.empty() ? file : variable ? variable : "";
+    const std::string name = path.empty()   ? "the built-in colour configuration"
+                             : file.empty() ? path + " ($OCIO)"
+                                            : path + " (--colorconfig)";
+    if (!path.empty() && !std::filesystem::is_regular_file(path)) throw Error(name + ": is no file");
+    impl_ = with_config_name(name, [&] { return std::make_shared<const Impl>(Impl{name, config_of(path)}); });
+}
+
+std::string ColourConfig::scene_linear() const {
+    const auto space = impl_->config->getColorSpace(ocio::ROLE_SCENE_LINEAR);
+    if (!space) throw Error(impl_->name + ": says not which space is scene_linear");
+    return space->getName();
+}
+
+std::string ColourConfig::space_of_file(const std::string &path) const {
+    return with_config_name(impl_->name, [&]() -> std::string {
+        const char *name = impl_->config->getColorSpaceFromFilepath(path.c_str());
+        const auto space = impl_->config->getColorSpace(name); // a rule may name a role
+        return space ? space->getName() : name;
+    });
+}
+
+ColourTransform ColourConfig::between(const std::string &from, const std::string &to) const {
+    return with_config_name(impl_->name, [&] {
+        for (const std::string &name : {from, to})
+            if (!impl_->config->getColorSpace(name.c_str()))
+                expect_name(impl_->name, name, "colour space", spaces_of(*impl_->config));
+        ColourTransform transform;
+        const auto processor = impl_->config->getProcessor(from.c_str(), to.c_str());
+        transform.processor_ = std::make_shared<const ColourTransform::Processor>(
+            ColourTransform::Processor{processor->getDefaultCPUProcessor()});
+        return transform;
+    });
+}
+
+ColourTransform ColourConfig::to_display(const std::string &display, const std::string &view) const {
+    const ocio::Config &config = *impl_->config;
+    return with_config_name(impl_->name, [&] {
+        const std::string on = display.empty() ? config.getDefaultDisplay() : display;
+        std::vector<std::string> displays, views;
+        for (int i = 0; i < config.getNumDisplays(); ++i) displays.emplace_back(config.getDisplay(i));
+        expect_name(impl_->name, on, "display", displays);
+        const std::string through = view.empty() ? config.getDefaultView(on.c_str()) : view;
+        for (int i = 0; i < config.getNumViews(on.c_str()); ++i)
+            views.emplace_back(config.getView(on.c_str(), i));
+        expect_name(impl_->name, through, "view of " + on, views);
+        ColourTransform transform;
+        const auto processor = config.getProcessor(scene_linear().c_str(), on.c_str(), through.c_str(),
+                                                   ocio::TRANSFORM_DIR_FORWARD);
+        transform.processor_ = std::make_shared<const ColourTransform::Processor>(
+            ColourTransform::Processor{processor->getDefaultCPUProcessor()});
+        return transform;
+    });
+}
+
+void transform_colours(const ColourTransform &transform, std::span<const Channel> channels,
+                       std::span<const std::span<float>> planes) {
+    if (transform.changes_nothing()) return;
+    const std::size_t alpha = find_channel(channels, "A");
+    for (std::size_t r = 0; r < channels.size(); ++r) {
+        const std::string &name = channels[r].name;
+        if (name != "R" && !name.ends_with(".R")) continue;
+        const std::string layer = name.substr(0, name.size() - 1);
+        const std::size_t g = find_channel(channels, layer + "G"), b = find_channel(channels, layer + "B");
+        if (g == npos || b == npos) continue;
+        const std::array all{r, g, b};
+        if (std::ranges::any_of(all, [&](std::size_t k) { return channels[k].type == PixelType::uint32; }))
+            continue;
+        transform.apply(planes[r], planes[g], planes[b], alpha == npos ? nullptr : planes[alpha].data());
+    }
+}
+
+void transform_colours(const ColourTransform &transform, Image &image) {
+    std::vector<std::span<float>> planes;
+    for (std::size_t k = 0; k < image.channels.size(); ++k) planes.push_back(image.plane(k));
+    transform_colours(transform, image.channels, planes);
+}
+
+} // namespace sparselens

@@ -1,0 +1,39 @@
+#include "base/error.h"
+#include "io/display/oiio_module.h"
+
+#include <dlfcn.h>
+
+#include <filesystem>
+#include <string>
+#include <system_error>
+
+namespace sparselens {
+
+namespace {
+
+// Installed, and in the build folder, programs lie in bin/ and modules in lib/ beside it.
+std::string beside_program(const std::string &module) {
+    std::error_code unknown;
+    const auto program = std::filesystem::read_symlink("/proc/self/exe", unknown);
+    return (program.parent_path().parent_path() / SPARSELENS_MODULES / module).string();
+}
+
+OiioModule load() {
+    const std::string name = SPARSELENS_OIIO_MODULE;
+    void *module = nullptr;
+    for (const std::string &path :
+         {beside_program(name), SPARSELENS_PREFIX "/" SPARSELENS_MODULES "/" + name})
+        if (!module) module = ::dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
+    void *entry = module ? ::dlsym(module, oiio_module_entry) : nullptr;
+    if (!entry) throw Error(std::string("cannot load OpenImageIO: ") + ::dlerror());
+    return reinterpret_cast<OiioModule (*)()>(entry)();
+}
+
+} // namespace
+
+const OiioModule &oiio_module() {
+    static const OiioModule module = load(); // stays loaded
+    return module;
+}
+
+} // namespace sparselens

@@ -1,0 +1,40 @@
+#include "io/display/oiio_module.h"
+
+#include <OpenImageIO/imageio.h>
+
+#include <string>
+
+namespace sparselens {
+
+namespace {
+
+OiioModule::Support support(const char *extension) {
+    const auto file = OIIO::ImageOutput::create(extension);
+    if (!file) return OiioModule::Support::none;
+    return file->supports("alpha") ? OiioModule::Support::alpha : OiioModule::Support::opaque;
+}
+
+bool written(OIIO::ImageOutput &file, const OiioPicture &picture) {
+    OIIO::ImageSpec spec(picture.width, picture.height, picture.channels,
+                         picture.bits == 16 ? OIIO::TypeDesc::UINT16 : OIIO::TypeDesc::UINT8);
+    spec.attribute("oiio:UnassociatedAlpha", 1);
+    spec.attribute("PixelAspectRatio", picture.pixel_aspect);
+    if (!file.open(picture.path, spec)) return false;
+    for (int y = 0; y < picture.height; ++y)
+        if (!file.write_scanline(y, 0, OIIO::TypeDesc::FLOAT, picture.row(picture.source, y))) return false;
+    return file.close();
+}
+
+const char *write(const OiioPicture &picture) {
+    thread_local std::string why;
+    const auto file = OIIO::ImageOutput::create(picture.path);
+    if (file && written(*file, picture)) return nullptr;
+    why = file ? file->geterror() : OIIO::geterror();
+    return why.c_str();
+}
+
+} // namespace
+
+extern "C" OiioModule sparselens_oiio_module() { return {support, write}; }
+
+} // namespace sparselens

@@ -1,0 +1,110 @@
+#include "io/display/shown_picture.h"
+
+#include "base/error.h"
+#include "io/display/oiio_module.h"
+#include "io/file_stream.h"
+#include "io/unfinished.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <vector>
+
+namespace sparselens {
+
+namespace {
+
+// Without the dot, in lower case.
+std::string extension_of(const std::string &path) {
+    std::string extension = std::filesystem::path(path).extension().string();
+    for (char &c : extension) c = char(std::tolower(static_cast<unsigned char>(c)));
+    return extension.empty() ? extension : extension.substr(1);
+}
+
+// Rows of the display window, one at a time: it may be much larger than the picture in it.
+class DisplayRows {
+public:
+    DisplayRows(const Image &image, std::vector<std::size_t> channels, bool divide)
+        : image_(image), channels_(std::move(channels)), divide_(divide),
+          row_(std::size_t(image.windows.display_width()) * channels_.size()) {}
+
+    const float *row(int y) {
+        std::ranges::fill(row_, 0.0f);
+        const Imath::Box2i &display = image_.windows.display, &data = image_.windows.data;
+        const int row = display.min.y + y;
+        if (row < data.min.y || row > data.max.y) return row_.data();
+        for (int x = std::max(display.min.x, data.min.x); x <= std::min(display.max.x, data.max.x); ++x) {
+            float *pixel = &row_[std::size_t(x - display.min.x) * channels_.size()];
+            const float a = divide_ ? image_.at(channels_.back(), x, row) : 1;
+            for (std::size_t k = 0; k < channels_.size(); ++k)
+                pixel[k] = image_.at(channels_[k], x, row) / (k < 3 && a > 0 ? a : 1);
+        }
+        return row_.data();
+    }
+
+private:
+    const Image &image_;
+    std::vector<std::size_t> channels_;
+    bool divide_; // by the last channel, the coverage
+    std::vector<float> row_;
+};
+
+const float *row_of(void *rows, int y) { return static_cast<DisplayRows *>(rows)->row(y); }
+
+// OpenImageIO writes to names, and by no means all of its formats to a stream: to a file of its own, then.
+class TemporaryFile {
+public:
+    explicit TemporaryFile(const std::string &extension)
+        : unfinished_((std::filesystem::temp_directory_path() /
+                       ("sparselens." + std::to_string(::getpid()) + "." + extension))
+                          .string()) {}
+    ~TemporaryFile() { ::unlink(path().c_str()); }
+    TemporaryFile(const TemporaryFile &) = delete;
+    TemporaryFile &operator=(const TemporaryFile &) = delete;
+    const std::string &path() const { return unfinished_.path(); }
+
+private:
+    Unfinished unfinished_;
+};
+
+void copy_to(const std::string &path, const std::string &from) {
+    std::ifstream in(from, std::ios::binary);
+    const std::string bytes(std::istreambuf_iterator<char>(in), {});
+    OutputFile output(path);
+    output.stream().write(bytes.data(), int(bytes.size()));
+    output.commit();
+}
+
+} // namespace
+
+bool is_shown_picture(const std::string &path) {
+    const std::string extension = extension_of(path);
+    if (extension.empty() || extension == "exr") return false;
+    return oiio_module().support(extension.c_str()) != OiioModule::Support::none;
+}
+
+void write_shown_picture(const std::string &path, const Image &image) {
+    std::vector<std::size_t> channels;
+    for (const char *name : {"R", "G", "B"}) channels.push_back(find_channel(image.channels, name));
+    if (std::ranges::find(channels, npos) != channels.end())
+        throw Error(path + ": needs the channels R, G and B; other channels are for OpenEXR");
+    const std::string extension = extension_of(path);
+    const OiioModule &oiio = oiio_module();
+    const std::size_t alpha = find_channel(image.channels, "A");
+    const bool with_alpha = alpha != npos && oiio.support(extension.c_str()) == OiioModule::Support::alpha &&
+                            std::ranges::any_of(image.plane(alpha), [](float a) { return a < 1; });
+    if (with_alpha) channels.push_back(alpha);
+    DisplayRows rows(image, channels, with_alpha);
+    const bool deep_bits = extension.starts_with("tif") || extension == "dpx";
+    const TemporaryFile temporary(extension);
+    const char *failed = oiio.write({temporary.path().c_str(), &rows, row_of, image.windows.display_width(),
+                                     image.windows.display_height(), int(channels.size()), deep_bits ? 16 : 8,
+                                     image.windows.pixel_aspect});
+    if (failed) throw Error(path + ": cannot write: " + failed);
+    copy_to(path, temporary.path());
+}
+
+} // namespace sparselens

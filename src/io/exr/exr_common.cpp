@@ -1,0 +1,112 @@
+#include "io/exr/exr_common.h"
+
+#include <ImfTileDescription.h>
+#include <half.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+
+namespace sparselens {
+
+namespace {
+
+// Attributes that say how pixels are stored in one file, and so must not wander into another.
+bool describes_storage(const std::string &name) {
+    static constexpr std::array names{
+        "channels",         "chunkCount",    "compression", "dataWindow",
+        "deepImageState",   "displayWindow", "lineOrder",   "maxSamplesPerPixel",
+        "pixelAspectRatio", "preview",       "tiles",       "type",
+        "version"};
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+std::size_t depth_channel(const std::vector<Channel> &channels, const std::string &asked) {
+    if (!asked.empty()) return find_channel(channels, asked);
+    for (const char *name : {"Z", "depth.Z"})
+        if (const std::size_t k = find_channel(channels, name); k != npos) return k;
+    for (std::size_t k = 0; k < channels.size(); ++k)
+        if (channels[k].name.ends_with(".Depth.Z")) return k;
+    return npos;
+}
+
+} // namespace
+
+Windows windows_of(const Imf::Header &header) {
+    return {header.displayWindow(), header.dataWindow(), header.pixelAspectRatio()};
+}
+
+double memory_of(const Imf::Header &header, std::size_t values) {
+    const Imath::Box2i &data = header.dataWindow();
+    const double width = double(data.max.x) - double(data.min.x) + 1;
+    const double height = double(data.max.y) - double(data.min.y) + 1;
+    double pixels = width * height;
+    if (header.hasTileDescription()) {
+        const Imf::TileDescription &tile = header.tileDescription();
+        pixels += double(tile.xSize) * double(tile.ySize);
+    }
+    return pixels * double(values * sizeof(float));
+}
+
+std::string find_depth_channel(const std::vector<Channel> &channels, const std::string &asked,
+                               const std::string &path) {
+    const std::size_t k = depth_channel(channels, asked);
+    if (k == npos)
+        throw Error(display_name(path) +
+                    (asked.empty() ? ": has no depth channel (Z, depth.Z, *.Depth.Z); give --depth-channel"
+                                   : ": has no channel " + asked + " (--depth-channel)"));
+    if (channels[k].type == PixelType::uint32)
+        throw Error(display_name(path) + ": its depth channel " + channels[k].name +
+                    " holds integers, not depths");
+    return channels[k].name;
+}
+
+bool has_depth_channel(const std::vector<Channel> &channels, const std::string &asked) {
+    return depth_channel(channels, asked) != npos;
+}
+
+bool is_placement(const std::string &channel) {
+    static constexpr std::array names{"Z", "ZBack", "ldi.dx", "ldi.dy", "ldi.weight"};
+    return std::ranges::find(names, channel) != names.end();
+}
+
+Imf::Header output_header(const Windows &windows, std::span<const Channel> channels,
+                          const Imf::Header &metadata) {
+    Imf::Header header(windows.display, windows.data, windows.pixel_aspect);
+    for (auto it = metadata.begin(); it != metadata.end(); ++it)
+        if (!describes_storage(it.name())) header.insert(it.name(), it.attribute());
+    for (const Channel &channel : channels)
+        header.channels().insert(channel.name, Imf::Channel(imf_type(channel.type)));
+    return header;
+}
+
+Imf::PixelType imf_type(PixelType type) {
+    switch (type) {
+    case PixelType::half: return Imf::HALF;
+    case PixelType::uint32: return Imf::UINT;
+    case PixelType::float32: break;
+    }
+    return Imf::FLOAT;
+}
+
+std::size_t bytes_of(PixelType type) { return type == PixelType::half ? 2 : 4; }
+
+std::size_t store(PixelType type, const float *from, std::size_t count, char *to) {
+    if (count == 0) return 0; // there may be no pointers then
+    if (type != PixelType::half) {
+        std::memcpy(to, from, count * sizeof(float)); // ids keep their bits, see PixelType
+        return 0;
+    }
+    constexpr float largest = 65504, rounded_up = 65520; // from here on a half would be infinite
+    std::size_t clamped = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const float value = std::isfinite(from[i]) ? std::clamp(from[i], -largest, largest) : from[i];
+        if (std::isfinite(from[i]) && std::abs(from[i]) >= rounded_up) ++clamped;
+        const Imath::half rounded(value);
+        std::memcpy(to + 2 * i, &rounded, 2);
+    }
+    return clamped;
+}
+
+} // namespace sparselens

@@ -1,0 +1,196 @@
+#include "io/exr/exr_deep_part.h"
+
+#include "base/error.h"
+#include "io/exr/exr_common.h"
+#include "io/memory_limit.h"
+
+#include <ImfDeepFrameBuffer.h>
+#include <ImfDeepScanLineInputPart.h>
+#include <ImfDeepTiledInputPart.h>
+#include <ImfPartType.h>
+
+#include <algorithm>
+#include <numeric>
+
+namespace sparselens {
+
+namespace {
+
+// Where each channel of a file is read to. What is not listed is not read.
+struct Planes {
+    std::vector<std::pair<std::string, std::vector<float> *>> named;
+    std::vector<PixelType> types;
+    void add(const std::string &name, std::vector<float> &values, PixelType type) {
+        named.emplace_back(name, &values);
+        types.push_back(type);
+    }
+};
+
+// The array of the LDI that a channel fills because of its name, if it does.
+std::vector<float> *placement_array(Ldi &ldi, const std::string &name, const std::string &depth) {
+    if (name == depth) return &ldi.z;
+    if (name == depth + "Back") return &ldi.z_back; // ZBack, depth.ZBack
+    if (name == "ldi.dx") return &ldi.dx;
+    if (name == "ldi.dy") return &ldi.dy;
+    return name == "ldi.weight" ? &ldi.weight : nullptr;
+}
+
+// Sets ldi.channels to what is carried.
+Planes plan_planes(Ldi &ldi, const std::vector<FileChannel> &found, const std::string &depth) {
+    Planes planes;
+    std::vector<std::string> carried;
+    for (const auto &[in_file, channel] : found)
+        if (std::vector<float> *array = placement_array(ldi, channel.name, depth)) {
+            planes.add(in_file, *array, PixelType::float32);
+        } else if (!is_placement(channel.name)) {
+            ldi.channels.push_back(channel);
+            carried.push_back(in_file);
+        }
+    ldi.values.resize(ldi.channels.size());
+    for (std::size_t k = 0; k < ldi.channels.size(); ++k)
+        planes.add(carried[k], ldi.values[k], ldi.channels[k].type);
+    return planes;
+}
+
+Imf::Slice counts_slice(std::vector<unsigned> &counts, const Windows &w) {
+    return Imf::Slice::Make(Imf::UINT, counts.data(), w.data, sizeof(unsigned),
+                            sizeof(unsigned) * std::size_t(w.width()));
+}
+
+void set_counts(Ldi &ldi, const std::vector<unsigned> &counts) {
+    ldi.begin.assign(counts.size() + 1, 0);
+    for (std::size_t i = 0; i < counts.size(); ++i) ldi.begin[i + 1] = ldi.begin[i] + counts[i];
+}
+
+// For rows [first, last] of the data window: where each pixel's samples start in each plane.
+class PointerTable {
+public:
+    PointerTable(const Ldi &ldi, const Planes &planes, int first_row, int last_row,
+                 std::vector<unsigned> &counts) {
+        const Windows &w = ldi.windows;
+        const std::size_t width = std::size_t(w.width());
+        const std::size_t first = w.index(w.data.min.x, first_row);
+        const std::size_t pixels = std::size_t(last_row - first_row + 1) * width;
+        const Imath::Box2i rows({w.data.min.x, first_row}, {w.data.max.x, last_row});
+        pointers_.resize(planes.named.size());
+        buffer_.insertSampleCountSlice(counts_slice(counts, w));
+        for (std::size_t k = 0; k < pointers_.size(); ++k) {
+            pointers_[k].resize(pixels);
+            for (std::size_t i = 0; i < pixels; ++i)
+                pointers_[k][i] = planes.named[k].second->data() + ldi.begin[first + i];
+            const auto type = planes.types[k] == PixelType::uint32 ? Imf::UINT : Imf::FLOAT;
+            const Imf::Slice base =
+                Imf::Slice::Make(type, pointers_[k].data(), rows, sizeof(float *), sizeof(float *) * width);
+            buffer_.insert(planes.named[k].first,
+                           Imf::DeepSlice(type, base.base, base.xStride, base.yStride, sizeof(float)));
+        }
+    }
+    const Imf::DeepFrameBuffer &frame_buffer() const { return buffer_; }
+
+private:
+    std::vector<std::vector<float *>> pointers_;
+    Imf::DeepFrameBuffer buffer_;
+};
+
+void make_room(const Ldi &ldi, const Planes &planes, const DeepSource &source) {
+    const double counts = double(ldi.begin.size()) * sizeof(ldi.begin[0]);
+    const double bytes = double(ldi.begin.back()) * double(planes.named.size() * sizeof(float));
+    check_memory(source.path, source.held + counts + bytes, source.size);
+    for (const auto &[name, values] : planes.named) values->resize(ldi.begin.back());
+}
+
+// OpenEXR allocates what a chunk claims before it finds that the file is not that long. Asked for the raw bytes of a
+// chunk without a place to put them, it only says how many there are.
+template <typename RawSize>
+void check_chunk(const DeepSource &source, const RawSize &raw_size) {
+    std::uint64_t bytes = 0;
+    raw_size(bytes);
+    if (bytes > source.size)
+        throw Error(display_name(source.path) + ": a chunk claims " + std::to_string(bytes) +
+                    " bytes, more than the file has");
+}
+
+// Has the part read its counts of samples, and makes room for them all.
+template <typename Part, typename Read>
+std::vector<unsigned> read_counts(Part &part, const DeepSource &source, Ldi &ldi, const Planes &planes,
+                                  const Read &read) {
+    std::vector<unsigned> counts(ldi.windows.pixels());
+    Imf::DeepFrameBuffer only_counts;
+    only_counts.insertSampleCountSlice(counts_slice(counts, ldi.windows));
+    part.setFrameBuffer(only_counts);
+    read();
+    set_counts(ldi, counts);
+    make_room(ldi, planes, source);
+    return counts;
+}
+
+void read_scanlines(const DeepSource &source, int number, Ldi &ldi, const Planes &planes) {
+    Imf::DeepScanLineInputPart part(source.file, number);
+    const Windows &w = ldi.windows;
+    std::vector<unsigned> counts = read_counts(
+        part, source, ldi, planes, [&] { part.readPixelSampleCounts(w.data.min.y, w.data.max.y); });
+    for (int y = w.data.min.y; y <= w.data.max.y; ++y)
+        check_chunk(source, [&](std::uint64_t &bytes) { part.rawPixelData(y, nullptr, bytes); });
+    constexpr int rows_at_once = 128; // bounds the pointer table, keeps all threads busy
+    for (int y = w.data.min.y; y <= w.data.max.y; y += rows_at_once) {
+        const int last = std::min(y + rows_at_once - 1, w.data.max.y);
+        const PointerTable table(ldi, planes, y, last, counts);
+        part.setFrameBuffer(table.frame_buffer());
+        part.readPixelSampleCounts(y, last); // a new frame buffer forgets the counts
+        part.readPixels(y, last);
+    }
+}
+
+void read_tiles(const DeepSource &source, int number, Ldi &ldi, const Planes &planes) {
+    Imf::DeepTiledInputPart part(source.file, number);
+    const Windows &w = ldi.windows;
+    const int right = part.numXTiles(0) - 1, bottom = part.numYTiles(0) - 1;
+    std::vector<unsigned> counts =
+        read_counts(part, source, ldi, planes, [&] { part.readPixelSampleCounts(0, right, 0, bottom); });
+    for (int ty = 0; ty <= bottom; ++ty)
+        for (int tx = 0; tx <= right; ++tx)
+            check_chunk(source, [&](std::uint64_t &bytes) {
+                int x = tx, y = ty, level_x = 0, level_y = 0;
+                part.rawTileData(x, y, level_x, level_y, nullptr, bytes);
+            });
+    const PointerTable table(ldi, planes, w.data.min.y, w.data.max.y, counts);
+    part.setFrameBuffer(table.frame_buffer());
+    part.readPixelSampleCounts(0, right, 0, bottom);
+    part.readTiles(0, right, 0, bottom);
+}
+
+} // namespace
+
+Ldi read_deep_part(const DeepSource &source, int number, const std::vector<FileChannel> &channels,
+                   const std::string &depth) {
+    const Imf::Header &header = source.file.header(number);
+    Ldi ldi;
+    ldi.windows = windows_of(header);
+    const Planes planes = plan_planes(ldi, channels, depth);
+    const bool tiled = header.type() == Imf::DEEPTILE;
+    constexpr std::size_t counts = 3; // floats' worth: a count and where its samples begin
+    const std::size_t pointers = tiled ? 2 * planes.named.size() : 0; // of scanlines a few rows at a time
+    check_memory(source.path, source.held + memory_of(header, counts + pointers), source.size);
+    if (tiled)
+        read_tiles(source, number, ldi, planes);
+    else
+        read_scanlines(source, number, ldi, planes);
+    return ldi;
+}
+
+Ldi ldi_of_flat(const Image &image, const std::string &depth) {
+    Ldi ldi;
+    ldi.windows = image.windows;
+    std::vector<FileChannel> channels;
+    for (const Channel &channel : image.channels) channels.push_back({channel.name, channel});
+    const Planes planes = plan_planes(ldi, channels, depth);
+    ldi.begin.resize(image.windows.pixels() + 1);
+    std::iota(ldi.begin.begin(), ldi.begin.end(), std::uint64_t{0});
+    for (const auto &[name, values] : planes.named) {
+        const auto plane = image.plane(find_channel(image.channels, name));
+        values->assign(plane.begin(), plane.end());
+    }
+    return ldi;
+}
+
+} // namespace sparselens

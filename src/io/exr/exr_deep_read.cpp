@@ -1,0 +1,135 @@
+#include "deep/channel_alpha.h"
+#include "deep/merge.h"
+#include "io/exr/exr_common.h"
+#include "io/exr/exr_deep.h"
+#include "io/exr/exr_deep_part.h"
+#include "io/exr/exr_flat.h"
+#include "io/exr/exr_header_check.h"
+#include "io/exr/exr_parts.h"
+#include "io/exr/header_edit.h"
+#include "io/memory_limit.h"
+
+#include <ImfPartType.h>
+
+#include <algorithm>
+
+namespace sparselens {
+
+namespace {
+
+std::vector<int> deep_parts(const Imf::MultiPartInputFile &file) {
+    std::vector<int> numbers;
+    for (int part = 0; part < file.parts(); ++part)
+        if (file.header(part).hasType() && Imf::isDeepData(file.header(part).type())) numbers.push_back(part);
+    return numbers;
+}
+
+double memory_held_by(const Ldi &ldi) {
+    return double(ldi.begin.size()) * sizeof(ldi.begin[0]) +
+           double(ldi.begin.back()) * double((ldi.values.size() + 5) * sizeof(float));
+}
+
+// The parts of one view as one picture, see read_ldi().
+class DeepPicture {
+public:
+    DeepPicture(const DeepSource &source, const std::string &view, const std::string &depth_channel)
+        : source_(source), view_(view), asked_(depth_channel) {}
+
+    void add(int number, bool only_as_layer) {
+        const Imf::Header &header = source_.file.header(number);
+        const std::vector<FileChannel> channels = channels_of(header, view_, source_.path);
+        const std::string depth = depth_of(channels);
+        Ldi part = read_deep_part(source_, number, channels, depth);
+        const auto whose = std::ranges::find_if(parts_, [&](const Ldi &other) {
+            return depth.empty() ? part.windows == other.windows && part.begin == other.begin
+                                 : same_samples(part, other);
+        });
+        const std::string name = layer_of(header);
+        if (whose == parts_.end() && only_as_layer) {
+            notes_.push_back("part " + name + " is left out: its samples are not the beauty's");
+            return;
+        }
+        source_.held += memory_held_by(part);
+        if (whose != parts_.end()) return add_layer(*whose, std::move(part), name);
+        if (depth.empty())
+            throw Error(display_name(source_.path) + ": part " + name +
+                        " has no depth channel, and other samples than the parts before it");
+        add_mean_coverage(part);
+        check_types(part);
+        parts_.push_back(std::move(part));
+    }
+
+    bool is_merged() const { return parts_.size() > 1; }
+
+    Ldi whole() {
+        if (!is_merged()) return std::move(parts_[0]);
+        notes_.push_back(std::to_string(parts_.size()) + " deep parts are merged");
+        Imath::Box2i data;
+        for (const Ldi &part : parts_) data.extendBy(part.windows.data);
+        Imf::Header all;
+        all.dataWindow() = data;
+        check_memory(source_.path, 2 * source_.held + memory_of(all, 2), source_.size);
+        return united(parts_);
+    }
+
+    std::vector<std::string> notes() const { return notes_; }
+
+private:
+    void check_types(const Ldi &part) const {
+        for (const Ldi &other : parts_)
+            for (const Channel &channel : part.channels) {
+                const std::size_t k = find_channel(other.channels, channel.name);
+                const auto holds_ids = [](const Channel &c) { return c.type == PixelType::uint32; };
+                if (k != npos && holds_ids(other.channels[k]) != holds_ids(channel))
+                    throw Error(display_name(source_.path) + ": channel " + channel.name +
+                                " holds integers in one deep part and not in another");
+            }
+    }
+
+    // The first part must have one; those after it may be layers of it.
+    std::string depth_of(const std::vector<FileChannel> &found) const {
+        std::vector<Channel> channels;
+        for (const FileChannel &channel : found) channels.push_back(channel.channel);
+        const bool may_lack = !parts_.empty() && !has_depth_channel(channels, asked_);
+        return may_lack ? "" : find_depth_channel(channels, asked_, source_.path);
+    }
+
+    DeepSource source_;
+    std::string view_, asked_;
+    std::vector<Ldi> parts_;
+    std::vector<std::string> notes_;
+};
+
+LdiFile read_flat_as_ldi(const DeepSource &source, const std::string &depth_channel,
+                         const std::string &stereo_view) {
+    const std::string &path = source.path;
+    FlatFile flat = read_flat_part(source.file, path, source.size, stereo_view);
+    check_memory(path, 2 * memory_of(flat.header, flat.image.channels.size() + 1), source.size);
+    const std::string depth = find_depth_channel(flat.image.channels, depth_channel, path);
+    return LdiFile{ldi_of_flat(flat.image, depth), flat.header, false, {}};
+}
+
+} // namespace
+
+LdiFile read_ldi(const std::string &path, const std::string &depth_channel, const std::string &stereo_view) {
+    return with_file_name(path, [&] {
+        const auto stream = open_input(path);
+        check_header(*stream, path);
+        Imf::MultiPartInputFile file(*stream);
+        const DeepSource source{file, path, stream->size()};
+        const std::vector<int> deep = deep_parts(file);
+        if (deep.empty()) return read_flat_as_ldi(source, depth_channel, stereo_view);
+        auto [view, numbers] = parts_of_view(file, deep, stereo_view, path);
+        const auto beauty = [&](int part) { return is_beauty(file.header(part)); };
+        const bool one_beauty = std::ranges::count_if(numbers, beauty) == 1;
+        if (one_beauty) std::stable_partition(numbers.begin(), numbers.end(), beauty);
+        DeepPicture picture(source, view, depth_channel);
+        for (const int part : numbers) picture.add(part, one_beauty && part != numbers.front());
+        Imf::Header header = header_of_view(file.header(numbers.front()), view);
+        if (picture.is_merged()) header = without_attribute(header, "name"); // an object's
+        Ldi ldi = picture.whole();
+        return LdiFile{std::move(ldi), header, true, picture.notes()};
+    });
+}
+
+} // namespace sparselens

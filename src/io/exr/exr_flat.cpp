@@ -1,0 +1,167 @@
+#include "io/exr/exr_flat.h"
+
+#include "deep/channel_alpha.h"
+#include "io/exr/exr_common.h"
+#include "io/exr/exr_header_check.h"
+#include "io/exr/exr_parts.h"
+#include "io/memory_limit.h"
+
+#include <ImfFrameBuffer.h>
+#include <ImfInputPart.h>
+#include <ImfMultiPartInputFile.h>
+#include <ImfOutputFile.h>
+#include <ImfPartType.h>
+
+#include <algorithm>
+
+namespace sparselens {
+
+namespace {
+
+bool is_flat(const Imf::Header &header) { return !header.hasType() || !Imf::isDeepData(header.type()); }
+
+std::vector<int> flat_parts(const Imf::MultiPartInputFile &file, const std::string &path) {
+    std::vector<int> numbers;
+    for (int part = 0; part < file.parts(); ++part)
+        if (is_flat(file.header(part))) numbers.push_back(part);
+    if (numbers.empty()) throw Error(display_name(path) + ": holds no flat picture");
+    return numbers;
+}
+
+// What is read of a part: its channels, by the names they get in the picture.
+struct PartChannels {
+    int part;
+    std::vector<FileChannel> channels;
+};
+
+struct PictureParts {
+    std::string view;
+    std::vector<PartChannels> parts; // not empty
+};
+
+// A channel whose name is taken is one of the part's layer: R of "diffuse" is diffuse.R.
+void add_part(Imf::MultiPartInputFile &file, int number, const std::string &path,
+              std::vector<std::string> &taken, PictureParts &picture) {
+    PartChannels part{number, {}};
+    for (FileChannel &found : channels_of(file.header(number), picture.view, path)) {
+        const auto is_taken = [&](const std::string &name) {
+            return std::ranges::find(taken, name) != taken.end();
+        };
+        std::string &name = found.channel.name;
+        if (is_taken(name)) name = layer_of(file.header(number)) + "." + name;
+        if (is_taken(name)) continue; // the same layer twice: the first is it
+        taken.push_back(name);
+        part.channels.push_back(std::move(found));
+    }
+    picture.parts.push_back(std::move(part));
+}
+
+// The flat parts that make up the view: those of one data window. The beauty first.
+PictureParts parts_of_picture(Imf::MultiPartInputFile &file, const std::string &path,
+                              const std::string &stereo_view) {
+    auto [view, numbers] = parts_of_view(file, flat_parts(file, path), stereo_view, path);
+    const auto beauty = std::ranges::find_if(numbers, [&](int part) { return is_beauty(file.header(part)); });
+    if (beauty != numbers.end()) std::rotate(numbers.begin(), beauty, beauty + 1);
+    PictureParts picture{view, {}};
+    std::vector<std::string> taken;
+    const Windows windows = windows_of(file.header(numbers.front()));
+    for (const int part : numbers)
+        if (windows_of(file.header(part)) == windows) add_part(file, part, path, taken, picture);
+    return picture;
+}
+
+// Reads the part's channels into the picture's from k on; returns which comes next.
+std::size_t read_channels(Imf::MultiPartInputFile &file, const PartChannels &part, Image &image,
+                          std::size_t k) {
+    const Windows &w = image.windows;
+    Imf::FrameBuffer pixels;
+    for (const auto &[in_file, channel] : part.channels) {
+        const auto type = channel.type == PixelType::uint32 ? Imf::UINT : Imf::FLOAT;
+        pixels.insert(in_file, Imf::Slice::Make(type, image.plane(k++).data(), w.data, sizeof(float),
+                                                sizeof(float) * std::size_t(w.width())));
+    }
+    if (part.channels.empty()) return k;
+    Imf::InputPart input(file, part.part);
+    input.setFrameBuffer(pixels);
+    input.readPixels(w.data.min.y, w.data.max.y);
+    return k;
+}
+
+} // namespace
+
+FlatFile read_flat_part(Imf::MultiPartInputFile &file, const std::string &path, std::uint64_t size,
+                        const std::string &stereo_view) {
+    const auto [view, parts] = parts_of_picture(file, path, stereo_view);
+    const Imf::Header &header = file.header(parts.front().part);
+    std::vector<Channel> channels;
+    for (const PartChannels &part : parts)
+        for (const FileChannel &found : part.channels) channels.push_back(found.channel);
+    check_memory(path, memory_of(header, channels.size()), size);
+    Image image(windows_of(header), channels);
+    std::size_t k = 0;
+    for (const PartChannels &part : parts) k = read_channels(file, part, image, k);
+    add_mean_coverage(image);
+    return FlatFile{std::move(image), header_of_view(header, view), size};
+}
+
+FlatFile read_flat_exr(const std::string &path, const std::string &stereo_view) {
+    return with_file_name(path, [&] {
+        const auto stream = open_input(path);
+        check_header(*stream, path);
+        Imf::MultiPartInputFile file(*stream);
+        return read_flat_part(file, path, stream->size(), stereo_view);
+    });
+}
+
+Imf::Header read_flat_header(const std::string &path, const std::string &stereo_view) {
+    return with_file_name(path, [&] {
+        const auto stream = open_input(path);
+        check_header(*stream, path);
+        Imf::MultiPartInputFile file(*stream);
+        const PictureParts picture = parts_of_picture(file, path, stereo_view);
+        return header_of_view(file.header(picture.parts.front().part), picture.view);
+    });
+}
+
+std::vector<float> take_depth(Image &image, const std::string &depth_channel, const std::string &path) {
+    const std::string name = find_depth_channel(image.channels, depth_channel, path);
+    const auto plane = image.plane(find_channel(image.channels, name));
+    std::vector<float> depth(plane.begin(), plane.end());
+    std::vector<Channel> carried;
+    for (const Channel &channel : image.channels)
+        if (channel.name != name && !is_placement(channel.name)) carried.push_back(channel);
+    Image rest(image.windows, carried);
+    for (std::size_t k = 0; k < carried.size(); ++k)
+        std::ranges::copy(image.plane(find_channel(image.channels, carried[k].name)), rest.plane(k).begin());
+    image = std::move(rest);
+    return depth;
+}
+
+std::size_t write_flat_exr(const std::string &path, const Image &image, const Imf::Header &metadata) {
+    return with_file_name(path, [&] {
+        std::size_t clamped = 0;
+        const Windows &w = image.windows;
+        std::vector<std::vector<char>> stored(image.channels.size());
+        Imf::FrameBuffer pixels;
+        for (std::size_t k = 0; k < stored.size(); ++k) {
+            const Channel &channel = image.channels[k];
+            const std::size_t bytes = bytes_of(channel.type);
+            stored[k].resize(w.pixels() * bytes);
+            clamped += store(channel.type, image.plane(k).data(), w.pixels(), stored[k].data());
+            pixels.insert(channel.name, Imf::Slice::Make(imf_type(channel.type), stored[k].data(), w.data,
+                                                         bytes, bytes * std::size_t(w.width())));
+        }
+        Imf::Header header = output_header(w, image.channels, metadata);
+        OutputFile output(path);
+        header.compression() = output.to_pipe() ? Imf::NO_COMPRESSION : Imf::ZIP_COMPRESSION;
+        {
+            Imf::OutputFile file(output.stream(), header);
+            file.setFrameBuffer(pixels);
+            file.writePixels(w.height());
+        }
+        output.commit();
+        return clamped;
+    });
+}
+
+} // namespace sparselens

@@ -1,0 +1,142 @@
+#include "io/exr/exr_parts.h"
+
+#include "base/error.h"
+#include "io/exr/exr_common.h"
+#include "io/exr/header_edit.h"
+
+#include <ImfStandardAttributes.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+
+namespace sparselens {
+
+namespace {
+
+bool is_among(const std::vector<std::string> &names, const std::string &name) {
+    return std::ranges::find(names, name) != names.end();
+}
+
+std::string list_of_views(const Imf::MultiPartInputFile &file, const std::vector<int> &numbers) {
+    std::vector<std::string> all;
+    for (const int part : numbers)
+        for (const std::string &view : views_of(file.header(part)))
+            if (!is_among(all, view)) all.push_back(view);
+    std::string list;
+    for (const std::string &view : all) list += (list.empty() ? "" : ", ") + view;
+    return list;
+}
+
+// A channel's name without the view in it, and that view, or "".
+struct NameInView {
+    std::string plain, view;
+};
+
+NameInView split_name(const std::string &name, const std::vector<std::string> &views) {
+    for (std::size_t begin = 0, dot; (dot = name.find('.', begin)) != std::string::npos; begin = dot + 1) {
+        const std::string component = name.substr(begin, dot - begin);
+        if (is_among(views, component)) return {name.substr(0, begin) + name.substr(dot + 1), component};
+    }
+    const bool in_layer = name.find('.') != std::string::npos;
+    return {name, in_layer || views.empty() ? "" : views.front()};
+}
+
+Channel channel_of(const std::string &name, const Imf::Channel &in_file) {
+    const auto type = in_file.type == Imf::HALF   ? PixelType::half
+                      : in_file.type == Imf::UINT ? PixelType::uint32
+                                                  : PixelType::float32;
+    return {name, type};
+}
+
+void colours_first(std::vector<FileChannel> &channels) {
+    std::ranges::stable_sort(channels, {}, [](const FileChannel &c) {
+        static constexpr std::array first{"R", "G", "B", "A"};
+        return std::ranges::find(first, c.channel.name) - first.begin();
+    });
+}
+
+} // namespace
+
+std::string layer_of(const Imf::Header &header) {
+    std::string name = header.hasName() ? header.name() : std::string();
+    const std::string view = header.hasView() ? "." + header.view() : std::string();
+    if (view.size() > 1 && name.ends_with(view)) name.resize(name.size() - view.size());
+    return name;
+}
+
+bool is_beauty(const Imf::Header &header) {
+    static constexpr std::array names{"", "rgba", "rgb", "beauty", "c", "main", "default"};
+    std::string name = layer_of(header);
+    for (char &c : name) c = char(std::tolower(static_cast<unsigned char>(c)));
+    return std::ranges::find(names, name) != names.end();
+}
+
+std::vector<std::string> views_of(const Imf::Header &header) {
+    if (Imf::hasMultiView(header) && !Imf::multiView(header).empty()) return Imf::multiView(header);
+    if (header.hasView() && !header.view().empty()) return {header.view()};
+    return {};
+}
+
+PartsOfView parts_of_view(const Imf::MultiPartInputFile &file, const std::vector<int> &numbers,
+                          const std::string &asked, const std::string &path) {
+    PartsOfView parts{asked, {}};
+    const auto default_view = [&](int part) {
+        const std::vector<std::string> views = views_of(file.header(part));
+        return views.empty() ? std::string() : views.front();
+    };
+    if (asked.empty() && !numbers.empty()) parts.view = default_view(numbers.front());
+    for (const int part : numbers) {
+        const std::vector<std::string> views = views_of(file.header(part));
+        if (parts.view.empty() ? views.empty() : is_among(views, parts.view)) parts.numbers.push_back(part);
+    }
+    if (!asked.empty() && parts.numbers.empty()) {
+        const std::string list = list_of_views(file, numbers);
+        throw Error(display_name(path) + ": has no stereo view '" + asked + "' (--stereo-view)" +
+                    (list.empty() ? ": it names no views" : ", but " + list));
+    }
+    return parts;
+}
+
+std::vector<FileChannel> channels_of(const Imf::Header &header, const std::string &view,
+                                     const std::string &path) {
+    const bool several = views_of(header).size() > 1;
+    const auto views = several ? views_of(header) : std::vector<std::string>();
+    std::vector<FileChannel> channels, shared;
+    const Imf::ChannelList &list = header.channels();
+    for (auto it = list.begin(); it != list.end(); ++it) {
+        const NameInView name = split_name(it.name(), views);
+        if (several && name.view != view && !name.view.empty()) continue;
+        if (it.channel().xSampling != 1 || it.channel().ySampling != 1)
+            throw Error(display_name(path) + ": channel " + it.name() +
+                        " is subsampled, which is not supported");
+        auto &to = several && name.view.empty() ? shared : channels;
+        to.push_back({it.name(), channel_of(name.plain, it.channel())});
+    }
+    const std::size_t own = channels.size();
+    const auto is_own = [&](const FileChannel &c) {
+        return std::any_of(channels.begin(), channels.begin() + std::ptrdiff_t(own),
+                           [&](const FileChannel &o) { return o.channel.name == c.channel.name; });
+    };
+    for (const FileChannel &channel : shared)
+        if (!is_own(channel)) channels.push_back(channel);
+    std::stable_sort(channels.begin(), channels.end(), [](const FileChannel &p, const FileChannel &q) {
+        return p.channel.name < q.channel.name;
+    });
+    // The same name twice (left.diffuse.R and diffuse.left.R): the first is it.
+    const auto same_name = [](const FileChannel &p, const FileChannel &q) {
+        return p.channel.name == q.channel.name;
+    };
+    channels.erase(std::unique(channels.begin(), channels.end(), same_name), channels.end());
+    colours_first(channels);
+    return channels;
+}
+
+Imf::Header header_of_view(const Imf::Header &header, const std::string &view) {
+    if (!Imf::hasMultiView(header)) return header;
+    Imf::Header result = without_attribute(header, "multiView");
+    if (!view.empty()) result.setView(view);
+    return result;
+}
+
+} // namespace sparselens

@@ -1,0 +1,137 @@
+#include "lab/report/page.h"
+
+#include "lab/report/base64.h"
+#include "lab/report/numbers.h"
+#include "lab/report/page_assets.h"
+#include "lab/report/verdict.h"
+
+namespace sparselens {
+
+namespace {
+
+std::string escaped(const std::string &text) {
+    std::string result;
+    for (const char c : text) switch (c) {
+        case '&': result += "&amp;"; break;
+        case '<': result += "&lt;"; break;
+        case '>': result += "&gt;"; break;
+        case '"': result += "&quot;"; break;
+        default: result += c;
+        }
+    return result;
+}
+
+std::string element(const std::string &tag, const std::string &text) {
+    const std::string name = tag.substr(0, tag.find(' '));
+    return '<' + tag + '>' + escaped(text) + "</" + name + ">\n";
+}
+
+std::string data_url(const char *type, const std::string &bytes) {
+    return std::string("data:") + type + ";base64," + base64(bytes);
+}
+
+// Which of the pictures is chosen on one side of the viewer.
+std::string choice(const char *side, const std::vector<PagePicture> &pictures, std::size_t chosen) {
+    std::string html = std::string("<label>") + side + " <select class=\"" + side + "\">\n";
+    for (std::size_t i = 0; i < pictures.size(); ++i)
+        html += element("option value=\"" + std::to_string(i) + '"' + (i == chosen ? " selected" : ""),
+                        pictures[i].title);
+    return html + "</select></label>\n";
+}
+
+// Left of the slider one picture, right of it another; page.js moves, flips, subtracts and zooms.
+std::string viewer(const std::vector<PagePicture> &pictures) {
+    if (pictures.empty()) return "";
+    std::string html = "<div class=\"viewer\">\n<div class=\"controls\">\n" +
+                       choice("left", pictures, pictures.size() > 1 ? 1 : 0) + choice("right", pictures, 0);
+    html +=
+        "<label>show <select class=\"mode\"><option value=\"slide\">slide</option>"
+        "<option value=\"flip\">flip</option><option value=\"difference\">difference x 8</option>"
+        "</select></label>\n"
+        "<label>zoom <select class=\"zoom\"><option>1</option><option>2</option><option>4</option>"
+        "<option>8</option></select></label>\n"
+        "<label>slider <input class=\"slider\" type=\"range\" min=\"0\" max=\"100\" value=\"50\"></label>\n"
+        "</div>\n<div class=\"frame\"><div class=\"stack\"><img class=\"below\" alt=\"right picture\">"
+        "<img class=\"above\" alt=\"left picture\"></div></div>\n<div class=\"pictures\" hidden>\n";
+    for (const PagePicture &picture : pictures)
+        html += "<img alt=\"" + escaped(picture.title) + "\" src=\"" + data_url("image/png", picture.png) +
+                "\">\n";
+    return html + "</div></div>\n";
+}
+
+std::string cells(const ReportRow &row, const RayTracingCurves &ray_tracing) {
+    const RowVerdict verdict = row_verdict(row, ray_tracing);
+    std::string html = element("td", row.renderer) + element("td", row.processor) + element("td", row.budget);
+    const auto number = [&](const std::string &text) { html += element("td class=\"n\"", text); };
+    number(significant(row.rays, 4));
+    number(significant(total_seconds(row), 3));
+    for (const double seconds : row.seconds) number(seconds > 0 ? significant(seconds, 3) : "");
+    number(row.runs > 0 ? fixed(row.peak_mb, 0) : "");
+    for (const ErrorFigures &errors : row.errors) number(fixed(errors.psnr_tonemapped, 2));
+    number(fixed(row.errors.front().ssim, 4));
+    number(row.causes ? fixed(row.causes->sampling, 2) : "");
+    number(row.causes ? fixed(row.causes->layers, 2) : "");
+    const bool compared = row.role != Role::ray_tracing && total_seconds(row) > 0;
+    number(compared ? reached_text(verdict.seconds, total_seconds(row)) : "");
+    number(compared ? reached_text(verdict.rays) : "");
+    number(compared && verdict.equal_time ? fixed(*verdict.equal_time, 2) : "");
+    number(std::to_string(row.errors.front().nonfinite_image));
+    return html;
+}
+
+std::string table(std::span<const ReportRow> rows) {
+    std::string html = "<div class=\"wide\"><table>\n<thead><tr>\n";
+    for (const char *title : {"renderer", "processor", "budget", "rays", "seconds"})
+        html += element("th", title);
+    for (const char *stage : stage_names) html += element("th", stage);
+    html += element("th", "peak MB") + element("th", "dB");
+    for (const char *region : region_names) html += element("th", region + std::string(" dB"));
+    for (const char *title : {"SSIM", "sampling dB", "layers dB", "equal error: times longer",
+                              "equal error: rays", "equal time: dB better", "not finite"})
+        html += element("th", title);
+    html += "</tr></thead>\n<tbody>\n";
+    const RayTracingCurves ray_tracing = ray_tracing_curves(rows);
+    for (const ReportRow &row : rows) {
+        const char *kind = row.role == Role::sparse_lens   ? " class=\"sparse\""
+                           : row.role == Role::ray_tracing ? " class=\"traced\""
+                                                           : "";
+        html += std::string("<tr") + kind + ">\n" + cells(row, ray_tracing) + "</tr>\n";
+    }
+    return html + "</tbody></table></div>\n";
+}
+
+std::string section(const PageScene &scene) {
+    const std::string name = scene.rows.empty() ? "" : scene.rows.front().scene;
+    std::string html = "<section>\n" + element("h2", name) + "<ul class=\"verdict\">\n";
+    for (const std::string &sentence : scene.sentences) html += element("li", sentence);
+    html += "</ul>\n" + viewer(scene.pictures);
+    for (const std::string &plot : scene.plots)
+        html += "<img class=\"plot\" alt=\"error against cost\" src=\"" + data_url("image/svg+xml", plot) +
+                "\">\n";
+    return html + table(scene.rows) + "</section>\n";
+}
+
+} // namespace
+
+std::string page_as_html(const Page &page) {
+    std::string html = "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+                       "<title>Depth of field: error against time</title>\n<style>\n";
+    html +=
+        page_style + std::string("</style>\n</head>\n<body>\n<h1>Depth of field: error against time</h1>\n");
+    for (const std::string &fact : page.facts) html += element("p class=\"fact\"", fact);
+    html +=
+        "<p>Seconds are wall time, rendering included; rays are camera samples a pixel, all views together, "
+        "since "
+        "a production shader costs more than a test scene's. dB is PSNR of tone-mapped pixels against the "
+        "reference. <i>Sampling</i> is the picture against the same layers seen through many lens points, "
+        "<i>layers</i> is that picture against the reference: what the layers lack. <i>Equal error</i> is "
+        "what "
+        "distributed ray tracing takes for a row's error, as a multiple of the row's time and in rays; "
+        "&lt; and &gt; are bounds where its measured budgets end. <i>Equal time</i> is how much better the "
+        "row is "
+        "than ray tracing of the same time; nothing where none so short or so long was measured.</p>\n";
+    for (const PageScene &scene : page.scenes) html += section(scene);
+    return html + "<script>\n" + page_script + "</script>\n</body>\n</html>\n";
+}
+
+} // namespace sparselens

@@ -1,0 +1,111 @@
+#include "lab/report/plot.h"
+
+#include "lab/report/numbers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace sparselens {
+
+namespace {
+
+struct Line {
+    std::string title;
+    Role role;
+    std::vector<const ReportRow *> rows; // by time
+};
+
+std::vector<Line> lines_of(std::span<const ReportRow> rows) {
+    std::vector<Line> lines;
+    for (const ReportRow &row : rows) {
+        const std::string title = method_name(row);
+        auto line = std::ranges::find(lines, title, &Line::title);
+        if (line == lines.end()) line = lines.insert(line, {title, row.role, {}});
+        line->rows.push_back(&row);
+    }
+    for (Line &line : lines)
+        std::ranges::stable_sort(line.rows, {}, [](const ReportRow *row) { return total_seconds(*row); });
+    return lines;
+}
+
+// seconds, rays, root mean square error; equal pictures have none and no place on a logarithmic axis.
+std::string data_block(const Line &line, std::size_t number) {
+    std::string text = "$line" + std::to_string(number) + " << END\n";
+    for (const ReportRow *row : line.rows)
+        if (std::isfinite(quality(*row)) && total_seconds(*row) > 0)
+            text += significant(total_seconds(*row), 6) + ' ' + significant(row->rays, 6) + ' ' +
+                    significant(std::pow(10, -quality(*row) / 20), 6) + '\n';
+    return text + "END\n";
+}
+
+// In double quotes gnuplot takes $ and ` literally in titles that are noenhanced; only these two end a string.
+std::string quoted(const std::string &text) {
+    std::string result = "\"";
+    for (const char c : text) result += c == '"' || c == '\\' ? std::string("\\") + c : std::string(1, c);
+    return result + '"';
+}
+
+std::string style(const Line &line, std::size_t number) {
+    const char *colours[] = {"#4477aa", "#66ccee", "#228833", "#ccbb44", "#aa3377", "#bbbbbb", "#885522"};
+    const std::string point = " pt " + std::to_string(4 + number % 11);
+    switch (line.role) {
+    case Role::ray_tracing: return "lc rgb \"#000000\" lw 2.5 pt 7 ps 0.7";
+    case Role::sparse_lens:
+        return "lc rgb \"#ee3311\" lw 2 dt " + std::to_string(1 + number % 4) + point + " ps 0.7";
+    case Role::other: break;
+    }
+    return std::string("lc rgb \"") + colours[number % std::size(colours)] + "\" lw 1" + point + " ps 0.6";
+}
+
+// Decibels are linear where the error is logarithmic: the right axis is laid beside the left one.
+std::string ranges(std::span<const ReportRow> rows) {
+    double low = std::numeric_limits<double>::infinity(), high = -low; // dB
+    for (const ReportRow &row : rows)
+        if (std::isfinite(quality(row)))
+            low = std::min(low, quality(row)), high = std::max(high, quality(row));
+    if (!(low <= high)) return "";
+    low = 5 * std::floor((low - 0.5) / 5);
+    high = 5 * std::ceil((high + 0.5) / 5);
+    const auto error = [](double db) { return significant(std::pow(10, -db / 20), 6); };
+    return "set yrange [" + error(high) + ":" + error(low) + "]\nset y2range [" + fixed(high, 0) + ":" +
+           fixed(low, 0) + "]\n";
+}
+
+std::string plot_command(const std::vector<Line> &lines, const char *columns) {
+    std::string text;
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+        text += i == 0 ? "plot " : ", \\\n     ";
+        text += "$line" + std::to_string(i) + " using " + columns + " with linespoints " + style(lines[i], i);
+        text += " title " + quoted(lines[i].title);
+    }
+    return text + '\n';
+}
+
+} // namespace
+
+std::string plot_script(std::span<const ReportRow> rows, const std::string &name) {
+    const std::vector<Line> lines = lines_of(rows);
+    std::string text = "# error against cost; run by gnuplot in the folder of the plots\n"
+                       "set encoding utf8\nset logscale xy\nset grid xtics y2tics lc rgb \"#dddddd\"\n"
+                       "set key outside right top Left reverse noenhanced samplen 2 spacing 0.9 font \",9\"\n"
+                       "set ylabel \"root mean square error, tone-mapped\"\nset ytics nomirror\n"
+                       "set y2tics 5\nset y2label \"PSNR, dB\"\n" +
+                       ranges(rows);
+    for (std::size_t i = 0; i < lines.size(); ++i) text += data_block(lines[i], i);
+    const auto pictures = [&](const std::string &kind, const char *label, const char *columns) {
+        text += "set xlabel \"" + std::string(label) + "\"\nset title " +
+                quoted(rows.empty() ? name : rows.front().scene + ": error against " + kind) +
+                " noenhanced\n";
+        for (const char *terminal : {"svg", "pngcairo"}) {
+            const std::string suffix = terminal == std::string("svg") ? ".svg" : ".png";
+            text += "set terminal " + std::string(terminal) + " size 1000,560 background \"#ffffff\"\n" +
+                    "set output \"" + name + '-' + kind + suffix + "\"\n" + plot_command(lines, columns);
+        }
+    };
+    pictures("seconds", "seconds, rendering included", "1:3");
+    pictures("rays", "camera samples a pixel, all views together", "2:3");
+    return text + "unset output\n";
+}
+
+} // namespace sparselens

@@ -1,0 +1,17 @@
+#include "lab/report/row.h"
+
+#include <numeric>
+
+namespace sparselens {
+
+double total_seconds(const ReportRow &row) {
+    return std::accumulate(row.seconds.begin(), row.seconds.end(), 0.0);
+}
+
+double quality(const ReportRow &row) { return row.errors.front().psnr_tonemapped; }
+
+std::string method_name(const ReportRow &row) {
+    return row.processor.empty() ? row.renderer : row.renderer + ", " + row.processor;
+}
+
+} // namespace sparselens

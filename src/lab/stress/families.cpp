@@ -1,0 +1,15 @@
+#include "lab/stress/stress_case.h"
+
+#include <array>
+
+namespace sparselens {
+
+std::span<const StressFamily> stress_families() {
+    static const std::array families{
+        StressFamily{"depth", depth_stress()}, StressFamily{"blur", blur_stress()},
+        StressFamily{"light", light_stress()}, StressFamily{"shape", shape_stress()},
+        StressFamily{"views", view_stress()},  StressFamily{"scale", scale_stress()}};
+    return families;
+}
+
+} // namespace sparselens

@@ -1,0 +1,145 @@
+#include "lab/trace/scenes.h"
+
+#include "base/error.h"
+#include "lab/trace/materials.h"
+#include "lab/trace/planes.h"
+
+#include <array>
+#include <string>
+
+namespace sparselens {
+
+namespace {
+
+// 36 mm lens on a 36 mm film back: the picture spans x / z from -1/2 to 1/2.
+Camera default_camera(double lens_radius, double focus_distance) {
+    Camera camera;
+    camera.focal_length_mm = 36;
+    camera.sensor_width_mm = 36;
+    camera.fstop = 0.036 / (2 * lens_radius);
+    camera.focus_distance = focus_distance;
+    camera.metres_per_unit = 1;
+    return camera;
+}
+
+// The stage that fence and grass share.
+Scene floor_and_wall() {
+    Scene scene;
+    scene.sky = {0.3f, 0.4f, 0.6f};
+    scene.camera = default_camera(0.06, 5);
+    scene.quads.push_back({{{{-12, -1, 1}, {12, -1, 1}, {12, -1, 30}, {-12, -1, 30}}}, floor_tiles});
+    scene.quads.push_back({{{{-15, -1, 18}, {15, -1, 18}, {15, 10, 18}, {-15, 10, 18}}}, wall_tiles});
+    return scene;
+}
+
+Scene fence() {
+    Scene scene = floor_and_wall();
+    scene.spheres = {{{0, -0.3, 5}, 0.7, dots},
+                     {{1.6, -0.2, 8}, 0.8, stripes},
+                     {{-1.7, -0.4, 3.4}, 0.6, stripes},
+                     {{-2.8, 0.4, 11}, 1.4, dots}};
+    for (int i = 0; i < 14; ++i) {
+        const double x = -1.1 + 0.16 * i, w = 0.02, z = 2.2;
+        scene.quads.push_back({{{{x, -1, z}, {x + w, -1, z}, {x + w, 1, z}, {x, 1, z}}}, dark});
+    }
+    for (int i = 0; i < 40; ++i)
+        scene.spheres.push_back({{-8 + 16 * hash(i, 1, 2), 3 * hash(i, 3, 4), 17}, 0.04, lamp});
+    return scene;
+}
+
+Scene grass() {
+    Scene scene = floor_and_wall();
+    for (int i = 0; i < 60; ++i) {
+        const Imath::V3d centre(-4 + 8 * hash(i, 5, 1), -1 + 2.5 * hash(i, 6, 1), 2 + 10 * hash(i, 7, 1));
+        scene.spheres.push_back({centre, 0.08 + 0.25 * hash(i, 8, 1), i % 2 == 0 ? dots : stripes});
+    }
+    for (int i = 0; i < 200; ++i) {
+        const double x = -3 + 6 * hash(i, 9, 1), z = 1.8 + 8 * hash(i, 10, 1);
+        const double w = 0.01 + 0.01 * hash(i, 2, 2), t = 0.4 * (hash(i, 4, 4) - 0.5);
+        scene.quads.push_back({{{{x, -1, z}, {x + w, -1, z}, {x + w + t, 1, z}, {x + t, 1, z}}}, stripes});
+    }
+    return scene;
+}
+
+// A rectangle at depth z that faces the camera and covers these slopes x / z, y / z.
+Quad facing(double z, double left, double bottom, double right, double top, Material material) {
+    const double x0 = z * left, x1 = z * right, y0 = z * bottom, y1 = z * top;
+    return {{{{x0, y0, z}, {x1, y0, z}, {x1, y1, z}, {x0, y1, z}}}, material};
+}
+
+Scene planes() { return planes_scene(default_camera(0.06, 5)); }
+
+// One plane, in focus across the middle of the picture, from a few lens radii before the camera to the horizon.
+Scene slant() {
+    Scene scene;
+    scene.sky = {0.3f, 0.4f, 0.6f};
+    scene.camera = default_camera(0.06, 5);
+    const auto corner = [](double x, double z) { return Imath::V3d(x, 0.2 * (z - 5), z); };
+    scene.quads.push_back({{{corner(-30, 1), corner(30, 1), corner(30, 50), corner(-30, 50)}}, even_tiles});
+    return scene;
+}
+
+// Square lamps that face the camera, 2 x 2 pixels of the default picture on whole pixels, at depths where R F / z
+// is whole too: there the centre view and the rim views at 0, 90, 180 and 270 degrees hold each lamp's energy
+// exactly, and the rest is the gather's doing.
+Scene lamps() {
+    Scene scene;
+    scene.camera = default_camera(0.12, 5);
+    scene.quads.push_back(facing(64, -2, -2, 2, 2, night));
+    constexpr std::array<double, 6> depths = {1.6, 2.4, 3.2, 9.6, 19.2, 38.4};
+    constexpr double pixel = 1.0 / 640;
+    for (int row = 0; row < 3; ++row)
+        for (int column = 0; column < 6; ++column) {
+            const double left = pixel * (64 + 102 * column - 320), bottom = pixel * (108 - 108 * row);
+            scene.quads.push_back(facing(depths[std::size_t(column + 2 * row) % 6], left, bottom,
+                                         left + 2 * pixel, bottom + 2 * pixel, bright_lamp));
+        }
+    return scene;
+}
+
+// Sheets of partial coverage before an opaque backdrop, and two banks of mist that overlap each other and them.
+Scene mist() {
+    Scene scene;
+    scene.translucent = true;
+    scene.camera = default_camera(0.06, 5);
+    scene.quads = {facing(3, -2, -2, 0.15, 2, near_sheet), facing(5, -0.2, -2, 2, 0.12, focus_sheet),
+                   facing(8, -2, -0.15, 2, 2, far_sheet), facing(14, -3, -3, 3, 3, backdrop)};
+    scene.slabs = {{2, 7, 0.12, {0.55f, 0.6f, 0.7f}}, {4, 11, 0.08, {0.7f, 0.5f, 0.35f}}};
+    return scene;
+}
+
+// Chrome balls and an upright mirror among the spheres of "fence": in and out of focus, what they show depends on
+// where the camera stands, and its sharpness on how far the light came in all.
+Scene mirror() {
+    Scene scene = floor_and_wall();
+    scene.mirrors = true;
+    scene.spheres = {{{0, -0.3, 5}, 0.7, chrome},       {{1.6, -0.2, 8}, 0.8, stripes},
+                     {{-1.7, -0.4, 3.4}, 0.6, chrome},  {{-2.8, 0.4, 11}, 1.4, dots},
+                     {{1.05, -0.7, 3.6}, 0.3, stripes}, {{-0.9, -0.75, 4.2}, 0.25, dots},
+                     {{1, -0.75, 5.6}, 0.25, chrome}};
+    scene.quads.push_back({{{{2.1, -1, 4.6}, {3.4, -1, 7}, {3.4, 1.4, 7}, {2.1, 1.4, 4.6}}}, chrome});
+    return scene;
+}
+
+constexpr SceneEntry scenes[] = {
+    {"fence", "spheres and small bright lamps behind a thin dark fence", fence},
+    {"grass", "spheres among 200 thin slanted blades", grass},
+    {"planes", "textured planes that face the camera, in front of, in and behind focus; in closed form",
+     planes},
+    {"slant", "one plane at a grazing angle, through the plane of focus", slant},
+    {"lamps", "tiny lamps of radiance 1000 far out of focus before a dark wall", lamps},
+    {"mirror", "chrome balls and a mirror: surfaces whose colour depends on the direction", mirror},
+    {"mist", "sheets of partial coverage and overlapping volumes before a textured wall", mist},
+};
+
+} // namespace
+
+std::span<const SceneEntry> scene_table() { return scenes; }
+
+Scene build_scene(std::string_view name) {
+    for (const SceneEntry &entry : scenes)
+        if (name == entry.name) return entry.build();
+    throw Error("no scene is called '" + std::string(name) + "'");
+}
+
+} // namespace sparselens

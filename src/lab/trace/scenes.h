@@ -1,0 +1,22 @@
+// The test scenes by name.
+#pragma once
+
+#include "lab/trace/scene.h"
+
+#include <span>
+#include <string_view>
+
+namespace sparselens {
+
+struct SceneEntry {
+    const char *name;
+    const char *summary;
+    Scene (*build)();
+};
+
+std::span<const SceneEntry> scene_table();
+
+// Error where there is none of that name.
+Scene build_scene(std::string_view name);
+
+} // namespace sparselens

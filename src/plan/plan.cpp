@@ -1,0 +1,203 @@
+#include "plan/plan.h"
+
+#include "base/parallel.h"
+#include "lens/lens_points.h"
+#include "plan/noise.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace sparselens {
+
+namespace {
+
+// What the layers leave of error on scenes without noise is about this, mean square (42 dB): where the noise of a
+// single view is more, it is noise that further samples have to fight.
+constexpr double noise_that_pays = 6.3e-5;
+
+constexpr int least_candidates = 8;
+
+// Pixels: less is rounding of where surfaces land.
+constexpr std::size_t least_gain = 8;
+
+// A ring is kept unless others uncover so much more for each pixel rendered, and about as much in all.
+constexpr double noticeably_more = 1.1, about_as_much = 0.95;
+
+struct Candidate {
+    Imath::V2d u{0, 0};
+    PixelMask hidden, wanted;
+    std::vector<std::uint32_t>
+        uncovers;    // pixels of the centre view behind which something appears, ascending
+    double cost = 0; // pixels to render
+};
+
+// Where the centre view has what a hidden pixel shows: at the depth of what lies beside the hole, on the side that the
+// nearer surface moved away from.
+std::vector<std::uint32_t> uncovered_places(const MovedDepth &moved, const PixelMask &hidden,
+                                            const Imath::V2d &u, double pixel_aspect) {
+    const Imath::V2d step(u.x, -u.y * pixel_aspect);
+    const double longest = 2.0 * std::max(hidden.width(), hidden.height());
+    std::vector<std::uint32_t> places;
+    for (int y = 0; y < hidden.height(); ++y)
+        for (int x = 0; x < hidden.width(); ++x) {
+            if (!hidden.set[std::size_t(y) * std::size_t(hidden.width()) + std::size_t(x)]) continue;
+            float behind = MovedDepth::nothing;
+            for (double t = 1; behind == MovedDepth::nothing && t < longest; ++t) {
+                const int at_x = int(std::lround(x + t * step.x)), at_y = int(std::lround(y + t * step.y));
+                if (at_x < 0 || at_y < 0 || at_x >= hidden.width() || at_y >= hidden.height()) break;
+                behind = moved.depth[std::size_t(at_y) * std::size_t(hidden.width()) + std::size_t(at_x)];
+            }
+            const double depth = double(std::max(behind, 0.0f));
+            const double place_x = std::round(x + depth * step.x), place_y = std::round(y + depth * step.y);
+            if (place_x < 0 || place_y < 0 || place_x >= hidden.width() || place_y >= hidden.height())
+                continue;
+            places.push_back(std::uint32_t(place_y) * std::uint32_t(hidden.width()) + std::uint32_t(place_x));
+        }
+    std::ranges::sort(places);
+    places.erase(std::unique(places.begin(), places.end()), places.end());
+    return places;
+}
+
+Candidate look_from(const View &centre, const ThinLens &lens, const Imath::V2d &u, int margin) {
+    const MovedDepth moved = move_depth(centre.image.windows, centre.z, lens, u);
+    Candidate candidate{u, disoccluded(moved), grown(unseen_by_centre(moved), margin), {}};
+    for (std::size_t i = 0; i < moved.edge.set.size(); ++i) candidate.wanted.set[i] |= moved.edge.set[i];
+    candidate.cost = double(candidate.wanted.count());
+    candidate.uncovers = uncovered_places(moved, candidate.hidden, u, lens.pixel_aspect);
+    return candidate;
+}
+
+// Counts what a choice of candidates uncovers together, as it grows.
+class Uncovered {
+public:
+    explicit Uncovered(std::size_t pixels) : seen_(pixels) {}
+
+    std::size_t gain(const Candidate &candidate) const {
+        return std::size_t(
+            std::ranges::count_if(candidate.uncovers, [&](auto place) { return !seen_[place]; }));
+    }
+    void add(const Candidate &candidate) {
+        total_ += gain(candidate);
+        for (const std::uint32_t place : candidate.uncovers) seen_[place] = 1;
+    }
+    std::size_t total() const { return total_; }
+
+private:
+    std::vector<std::uint8_t> seen_;
+    std::size_t total_ = 0;
+};
+
+using Choice = std::vector<std::size_t>; // indices of candidates, in the order they were chosen
+
+struct Worth {
+    double uncovered = 0, cost = 0;
+};
+
+Worth worth_of(const Choice &choice, std::span<const Candidate> candidates, std::size_t pixels) {
+    Uncovered uncovered(pixels);
+    Worth worth;
+    for (const std::size_t i : choice) {
+        uncovered.add(candidates[i]);
+        worth.cost += candidates[i].cost;
+    }
+    worth.uncovered = double(uncovered.total());
+    return worth;
+}
+
+// One after another the candidate that uncovers most of what is left, for what it costs.
+Choice greedy(std::span<const Candidate> candidates, std::size_t count, std::size_t pixels) {
+    Uncovered uncovered(pixels);
+    Choice choice;
+    while (choice.size() < std::min(count, candidates.size())) {
+        std::size_t best = 0;
+        double most = 0;
+        for (std::size_t i = 0; i < candidates.size(); ++i)
+            if (const double gain = double(uncovered.gain(candidates[i])) / std::max(candidates[i].cost, 1.0);
+                gain > most) {
+                most = gain;
+                best = i;
+            }
+        if (most == 0) break;
+        uncovered.add(candidates[best]);
+        choice.push_back(best);
+    }
+    return choice;
+}
+
+// Spread evenly, from candidate 0 on.
+Choice ring(std::size_t candidates, std::size_t count) {
+    Choice choice;
+    for (std::size_t k = 0; k < count; ++k) choice.push_back(k * candidates / count);
+    return choice;
+}
+
+Choice choose(std::span<const Candidate> candidates, std::size_t count, std::size_t pixels) {
+    const Choice even = ring(candidates.size(), count), best = greedy(candidates, count, pixels);
+    const Worth of_even = worth_of(even, candidates, pixels), of_best = worth_of(best, candidates, pixels);
+    const bool more = of_best.uncovered * of_even.cost > noticeably_more * of_even.uncovered * of_best.cost;
+    return more && of_best.uncovered > about_as_much * of_even.uncovered ? best : even;
+}
+
+OverscanNeed overscan_of(const View &centre, const ThinLens &lens) {
+    const Windows &w = centre.image.windows;
+    const auto largest_coc = [&](Imath::V2i at, const Imath::V2i &step, int count, int most) {
+        double largest = 0;
+        for (int i = 0; i < count; ++i, at += step) {
+            const std::size_t pixel = std::size_t(at.y) * std::size_t(w.width()) + std::size_t(at.x);
+            largest = std::max(largest, std::abs(circle_of_confusion(lens, double(centre.z[pixel]))));
+        }
+        return int(std::min(std::ceil(largest), double(most)));
+    };
+    const int right = w.width() - 1, bottom = w.height() - 1;
+    return {largest_coc({0, 0}, {0, 1}, w.height(), w.width()),
+            largest_coc({0, 0}, {1, 0}, w.width(), w.height()),
+            largest_coc({right, 0}, {0, 1}, w.height(), w.width()),
+            largest_coc({0, bottom}, {1, 0}, w.width(), w.height())};
+}
+
+PixelMask everything(const Imath::Box2i &window) {
+    PixelMask mask(window);
+    std::ranges::fill(mask.set, std::uint8_t{1});
+    return mask;
+}
+
+} // namespace
+
+double Plan::share() const {
+    double sum = 0;
+    for (const PlannedView &view : views) sum += double(view.mask.count()) / double(view.mask.set.size());
+    return sum;
+}
+
+Plan make_plan(const View &centre, const ThinLens &lens, const PlanOptions &options, Progress &progress) {
+    Plan plan;
+    if (lens.radius == 0 || options.views == 0) return plan;
+    plan.overscan = overscan_of(centre, lens);
+    plan.noise = noise_in_lens_picture(centre.image, centre.z, lens, options.noise);
+    plan.full_views = plan.noise > noise_that_pays;
+
+    const int around = options.views * ((least_candidates + options.views - 1) / options.views);
+    const std::vector<Imath::V2d> points = rim_lens_points(around);
+    std::vector<Candidate> candidates(points.size());
+    progress.start("looking from the rim", points.size());
+    parallel_for(points.size(), [&](std::size_t i) {
+        candidates[i] = look_from(centre, lens, points[i], options.margin);
+        progress.advance();
+    });
+    const std::size_t pixels = centre.image.windows.pixels();
+    const std::size_t count = std::min(std::size_t(options.views), candidates.size());
+    Uncovered uncovered(pixels);
+    for (const std::size_t i : choose(candidates, count, pixels)) {
+        const Candidate &candidate = candidates[i];
+        const bool adds = uncovered.gain(candidate) >= least_gain;
+        uncovered.add(candidate);
+        if (!adds && !plan.full_views) continue;
+        plan.views.push_back({candidate.u,
+                              plan.full_views ? everything(centre.image.windows.data) : candidate.wanted,
+                              candidate.hidden.count()});
+    }
+    return plan;
+}
+
+} // namespace sparselens

@@ -1,0 +1,121 @@
+#include "warp/photo_consistency.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace sparselens {
+
+namespace {
+
+constexpr std::size_t block_size = 8;     // pixels
+constexpr double least_ratio = 3;         // noise alone gives up to 1.6, edges of texture up to 2
+constexpr double least_difference = 1e-5; // mean square, tone-mapped: less is not seen
+constexpr double focus_px = 2;            // CoC up to which a surface counts as in focus
+
+// What a block of pixels has shown so far.
+struct Block {
+    double difference = 0, variation = 0; // sums of squares over channels
+    double coc = 0;                       // sum of |CoC|
+    double pixels = 0;
+
+    bool agrees() const {
+        return difference <= least_ratio * variation + least_difference * pixels || coc <= focus_px * pixels;
+    }
+};
+
+// Bounded, so that one bright pixel does not decide for its block.
+double tone_mapped(float v) { return double(v) / (1 + std::abs(double(v))); }
+
+class CentreColours {
+public:
+    explicit CentreColours(const Ldi &centre) : centre_(centre), width_(std::size_t(centre.windows.width())) {
+        for (const char *name : {"R", "G", "B"}) {
+            const std::size_t channel = find_channel(centre.channels, name);
+            if (channel != npos) channels_.push_back(channel);
+        }
+    }
+    std::span<const std::size_t> channels() const { return channels_; }
+
+    // Whether the pixel and the four around it show one sample each: their variation is that of one picture.
+    bool plain(int x, int y) const {
+        const Imath::Box2i &data = centre_.windows.data;
+        if (x <= data.min.x || x >= data.max.x || y <= data.min.y || y >= data.max.y) return false;
+        return single(index(x, y)) &&
+               std::ranges::all_of(around(x, y), [&](std::size_t i) { return single(i); });
+    }
+    double value(int x, int y, std::size_t channel) const { return value_at(index(x, y), channel); }
+    double mean_around(int x, int y, std::size_t channel) const {
+        double sum = 0;
+        for (const std::size_t i : around(x, y)) sum += value_at(i, channel);
+        return sum / 4;
+    }
+
+private:
+    std::size_t index(int x, int y) const {
+        const Imath::V2i &first = centre_.windows.data.min;
+        return std::size_t(y - first.y) * width_ + std::size_t(x - first.x);
+    }
+    std::array<std::size_t, 4> around(int x, int y) const {
+        const std::size_t i = index(x, y);
+        return {i - 1, i + 1, i - width_, i + width_};
+    }
+    bool single(std::size_t i) const { return centre_.begin[i + 1] == centre_.begin[i] + 1; }
+    double value_at(std::size_t i, std::size_t channel) const {
+        return tone_mapped(centre_.values[channel][centre_.begin[i]]);
+    }
+
+    const Ldi &centre_;
+    std::size_t width_;
+    std::vector<std::size_t> channels_;
+};
+
+double rim_mean(const PlacedViews &views, const Surface &surface, std::size_t channel) {
+    double sum = 0, total = 0;
+    for (const PlacedSample &s : surface.samples) {
+        if (s.view == 0) continue;
+        sum += s.weight * tone_mapped(views.value(s, channel));
+        total += s.weight;
+    }
+    return sum / total;
+}
+
+void compare(const PlacedViews &views, const CentreColours &centre, const AgreementOptions &options,
+             const Surface &surface, Block &block) {
+    const int x = surface.samples[0].x, y = surface.samples[0].y;
+    for (const std::size_t channel : centre.channels()) {
+        const double own = centre.value(x, y, channel);
+        const double difference = rim_mean(views, surface, channel) - own;
+        const double variation = centre.mean_around(x, y, channel) - own;
+        block.difference += difference * difference;
+        block.variation += variation * variation;
+    }
+    constexpr double out_of_focus = 2 * focus_px;
+    block.coc +=
+        options.focus ? options.scale * std::abs(surface.inverse_z - 1 / *options.focus) : out_of_focus;
+    block.pixels += 1;
+}
+
+} // namespace
+
+std::vector<bool> find_agreement(const PlacedViews &views, const AgreementOptions &options,
+                                 const Imath::Box2i &data, const Surfaces &surfaces) {
+    const std::size_t width = std::size_t(data.max.x - data.min.x + 1);
+    const std::size_t blocks_across = (width + block_size - 1) / block_size;
+    const auto block_of = [&](std::size_t pixel) {
+        return pixel / width / block_size * blocks_across + pixel % width / block_size;
+    };
+    const CentreColours centre(views.samples(0));
+    std::vector<Block> blocks(block_of(surfaces.pixels() - 1) + blocks_across);
+    for (std::size_t pixel = 0; pixel < surfaces.pixels(); ++pixel)
+        for (const Surface &surface : surfaces.pixel(pixel))
+            if (surface.seen_by_centre() && surface.samples.back().view != 0 &&
+                centre.plain(surface.samples[0].x, surface.samples[0].y))
+                compare(views, centre, options, surface, blocks[block_of(pixel)]);
+    std::vector<bool> agree(surfaces.pixels());
+    for (std::size_t pixel = 0; pixel < surfaces.pixels(); ++pixel)
+        agree[pixel] = blocks[block_of(pixel)].agrees();
+    return agree;
+}
+
+} // namespace sparselens

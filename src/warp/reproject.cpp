@@ -1,0 +1,59 @@
+#include "warp/reproject.h"
+
+#include "base/parallel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace sparselens {
+
+Reprojection::Reprojection(const Ldi &view, const ViewMapping &mapping)
+    : view_(view), mapping_(mapping), reach_(std::size_t(view.windows.height())) {
+    const std::size_t width = std::size_t(view.windows.width());
+    const Imath::Box2i &data = view.windows.data;
+    parallel_for(reach_.size(), [&](std::size_t row) {
+        double nearest = std::numeric_limits<double>::infinity();
+        for (std::uint64_t i = view_.begin[row * width]; i < view_.begin[(row + 1) * width]; ++i)
+            nearest = std::min(nearest, double(view_.z[i]));
+        // Places are linear in the column and in 1 / z: the extremes lie at the ends of both.
+        const double y = double(data.min.y) + double(row) + 0.5;
+        for (const double x : {data.min.x + 0.5, data.max.x + 0.5})
+            for (const double inverse_z : {0.0, 1 / nearest})
+                reach_[row].extendBy(mapping_.at_infinity({x, y}) + mapping_.parallax({x, y}) * inverse_z);
+    });
+}
+
+Imath::Box2i Reprojection::reach() const {
+    constexpr double far_off = 1 << 28; // keeps the box's corners integers
+    Imath::Box2d box;
+    for (const Imath::Box2d &row : reach_) box.extendBy(row);
+    const auto whole = [&](double v) { return int(std::floor(std::clamp(v, -far_off, far_off))); };
+    return {{whole(box.min.x), whole(box.min.y)}, {whole(box.max.x), whole(box.max.y)}};
+}
+
+void Reprojection::append_rows(int first_row, int last_row, std::vector<ReprojectedSample> &out) const {
+    const Imath::Box2i &data = view_.windows.data;
+    const std::size_t width = std::size_t(view_.windows.width());
+    for (std::size_t row = 0; row < reach_.size(); ++row) {
+        if (reach_[row].max.y < first_row || reach_[row].min.y >= last_row + 1) continue;
+        for (std::size_t column = 0; column < width; ++column) {
+            const std::size_t pixel = row * width + column;
+            if (view_.begin[pixel] == view_.begin[pixel + 1]) continue;
+            const Imath::V2d q(double(data.min.x) + double(column) + 0.5,
+                               double(data.min.y) + double(row) + 0.5);
+            const Imath::V2d far = mapping_.at_infinity(q), parallax = mapping_.parallax(q);
+            for (std::uint64_t i = view_.begin[pixel]; i < view_.begin[pixel + 1]; ++i) {
+                const double inverse_z = 1 / double(view_.z[i]);
+                const double y = far.y + parallax.y * inverse_z, cell_y = std::floor(y);
+                if (!(cell_y >= first_row && cell_y <= last_row)) continue;
+                const double x = far.x + parallax.x * inverse_z, cell_x = std::floor(x);
+                if (!(std::abs(cell_x) < 1e9)) continue; // nearer than any picture is wide: not in it
+                out.push_back({int(cell_x), int(cell_y), float(x - cell_x - 0.5), float(y - cell_y - 0.5),
+                               float(inverse_z), std::uint32_t(i)});
+            }
+        }
+    }
+}
+
+} // namespace sparselens

@@ -1,0 +1,41 @@
+// Where the pixels of a rim view lie in the centre view.
+#pragma once
+
+#include "deep/ldi.h"
+#include "view/view_mapping.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace sparselens {
+
+// One view pixel at its place in the centre view.
+struct ReprojectedSample {
+    int x, y;             // centre pixel it falls in, EXR coordinates
+    float dx, dy;         // offset from that pixel's centre, [-1/2, 1/2], y down
+    float inverse_z;      // 1 / planar depth
+    std::uint32_t source; // index into the view's samples
+};
+
+class Reprojection {
+public:
+    // The view's samples lie at the pixel centres, at depths above 0; it must outlive the reprojection.
+    Reprojection(const Ldi &view, const ViewMapping &mapping);
+
+    // A box that holds all pixels in which samples fall.
+    Imath::Box2i reach() const;
+
+    // Appends every sample that falls in rows [first_row, last_row], in source order.
+    void append_rows(int first_row, int last_row, std::vector<ReprojectedSample> &out) const;
+
+    const ViewMapping &mapping() const { return mapping_; }
+
+private:
+    const Ldi &view_;
+    ViewMapping mapping_;
+    std::vector<Imath::Box2d>
+        reach_; // of each source row: a box around the places of its samples, near or far
+};
+
+} // namespace sparselens

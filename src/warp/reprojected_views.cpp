@@ -1,0 +1,89 @@
+#include "warp/reprojected_views.h"
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "deep/deepen.h"
+#include "warp/silhouettes.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <compare>
+#include <numeric>
+
+namespace sparselens {
+
+namespace {
+
+void check(const View &centre, const View &view) {
+    if (view.image.windows.display != centre.image.windows.display)
+        throw Error(view.name + ": its display window differs from the centre view's (" + centre.name + ")");
+}
+
+// By their cameras; where those are one, by what they show: the order they were given in must not matter.
+bool canonically_before(const View *a, const View *b) {
+    const auto camera = [](const View &v) {
+        const Framing &f = v.framing;
+        return std::array{v.position.x, v.position.y,        f.forward,
+                          f.zoom,       f.principal_point.x, f.principal_point.y};
+    };
+    if (camera(*a) != camera(*b)) return camera(*a) < camera(*b);
+    const auto by_bits = [](const std::vector<float> &left, const std::vector<float> &right) {
+        return std::lexicographical_compare_three_way(
+            left.begin(), left.end(), right.begin(), right.end(), [](float l, float r) {
+                return std::bit_cast<std::uint32_t>(l) <=> std::bit_cast<std::uint32_t>(r);
+            });
+    };
+    const auto by_depth = by_bits(a->z, b->z);
+    return by_depth != 0 ? by_depth < 0 : by_bits(a->image.values, b->image.values) < 0;
+}
+
+double nearness(const ReprojectedSample &s) {
+    constexpr double spread = 0.3; // pixels; less is sharper, more averages more noise away
+    const double distance2 = double(s.dx) * double(s.dx) + double(s.dy) * double(s.dy);
+    return std::exp(-0.5 * distance2 / (spread * spread));
+}
+
+} // namespace
+
+PlacedViews::PlacedViews(std::span<const View> views, double focal_px, double scale, double jump) {
+    std::vector<const View *> ordered;
+    for (const View &view : views) {
+        check(views[0], view);
+        ordered.push_back(&view);
+    }
+    std::sort(ordered.begin() + 1, ordered.end(), canonically_before);
+    sources_.resize(ordered.size());
+    parallel_for(ordered.size(), [&](std::size_t v) {
+        Ldi samples = samples_of(*ordered[v], views[0].image.channels);
+        if (jump > 0 && scale > 0) samples = separate_silhouettes(samples, scale, jump);
+        const ViewMapping mapping(ordered[v]->position, focal_px, views[0].image.windows, ordered[v]->framing,
+                                  views[0].framing.principal_point);
+        sources_[v] = std::make_unique<Source>(std::move(samples), mapping);
+    });
+}
+
+PlacedRows PlacedViews::place(const Imath::Box2i &data, int first_row, int last_row) const {
+    const std::size_t width = std::size_t(data.max.x - data.min.x + 1);
+    const auto pixel_of = [&](const ReprojectedSample &s) {
+        return std::size_t(s.y - first_row) * width + std::size_t(s.x - data.min.x);
+    };
+    PlacedRows rows{first_row, {}, {}};
+    rows.begin.assign(width * std::size_t(last_row - first_row + 1) + 1, 0);
+    std::vector<std::vector<ReprojectedSample>> landed(size());
+    for (std::size_t v = 0; v < size(); ++v) {
+        reprojection(v).append_rows(first_row, last_row, landed[v]);
+        std::erase_if(landed[v], [&](const auto &s) { return s.x < data.min.x || s.x > data.max.x; });
+        for (const ReprojectedSample &s : landed[v]) ++rows.begin[pixel_of(s) + 1];
+    }
+    std::partial_sum(rows.begin.begin(), rows.begin.end(), rows.begin.begin());
+    rows.samples.resize(rows.begin.back());
+    std::vector<std::size_t> next(rows.begin.begin(), rows.begin.end() - 1);
+    for (std::uint32_t v = 0; v < size(); ++v)
+        for (const ReprojectedSample &s : landed[v])
+            rows.samples[next[pixel_of(s)]++] = {s, v, 0, double(samples(v).weight[s.source]) * nearness(s)};
+    return rows;
+}
+
+} // namespace sparselens

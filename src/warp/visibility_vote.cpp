@@ -1,0 +1,55 @@
+#include "warp/visibility_vote.h"
+
+#include "deep/build.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sparselens {
+
+namespace {
+
+struct Votes {
+    double there = 0, past = 0;
+};
+
+// What one pixel of a view says: each part of it by what it covers, and what it leaves open looks past everything. A
+// pixel that shows nothing at all may just not have been rendered.
+void count_votes(const Ldi &view, std::size_t alpha, std::size_t pixel, double inverse_z, double tolerance,
+                 Votes &votes) {
+    if (view.begin[pixel] == view.begin[pixel + 1]) return;
+    double left = 1;
+    for (std::uint64_t i = view.begin[pixel]; i < view.begin[pixel + 1]; ++i) {
+        const double covers = std::clamp(double(alpha_at(view, alpha, i)), 0.0, left);
+        const double nearer = 1 / double(view.z[i]) - inverse_z;
+        if (std::abs(nearer) < tolerance)
+            votes.there += covers;
+        else if (nearer < 0)
+            votes.past += covers;
+        left -= covers;
+    }
+    votes.past += left;
+}
+
+} // namespace
+
+double coverage_by_views(const PlacedViews &views, const Imath::V2d &place, double inverse_z,
+                         double tolerance) {
+    const std::size_t alpha = find_channel(views.samples(0).channels, "A");
+    Votes votes;
+    for (std::size_t v = 1; v < views.size(); ++v) {
+        const Ldi &view = views.samples(v);
+        const Imath::V2d seen = views.reprojection(v).mapping().in_view(place, inverse_z);
+        const Imath::Box2i &data = view.windows.data;
+        if (!(seen.x >= data.min.x && seen.x < data.max.x + 1.0)) continue;
+        if (!(seen.y >= data.min.y && seen.y < data.max.y + 1.0)) continue;
+        const std::size_t row = std::size_t(std::floor(seen.y) - data.min.y);
+        const std::size_t column = std::size_t(std::floor(seen.x) - data.min.x);
+        count_votes(view, alpha, row * std::size_t(view.windows.width()) + column, inverse_z, tolerance,
+                    votes);
+    }
+    const double all = votes.there + votes.past;
+    return all > 0 ? std::clamp(2 * votes.there / all - 0.5, 0.0, 1.0) : 1;
+}
+
+} // namespace sparselens

@@ -1,0 +1,149 @@
+#include "warp/warp.h"
+
+#include "base/parallel.h"
+#include "deep/build.h"
+#include "warp/photo_consistency.h"
+#include "warp/visibility_vote.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace sparselens {
+
+namespace {
+
+constexpr int band_rows = 16;
+constexpr int most_overscan = 1024; // pixels an LDI grows beyond the centre view on a side
+
+class Warper {
+public:
+    Warper(std::span<const View> views, const WarpOptions &options);
+    Ldi run(Progress &progress) const;
+
+private:
+    void grow_window();
+    Ldi warp_band(int first_row, int last_row) const;
+    void emit(const Surface &surface, bool agree, Ldi &out) const;
+    void emit_nearest(std::span<const PlacedSample> samples, Ldi &out) const;
+    void emit_mean(std::span<const PlacedSample> samples, Ldi &out) const;
+
+    bool averages() const { return options_.merge == Merge::average; }
+
+    WarpOptions options_;
+    double scale_;     // R F: perceptive depth is scale / z
+    double tolerance_; // of 1 / z, within one surface
+    PlacedViews views_;
+    Ldi layout_; // windows and channels of the result
+};
+
+Warper::Warper(std::span<const View> views, const WarpOptions &options)
+    : options_(options), scale_(options.radius * options.focal_px),
+      tolerance_(scale_ > 0 ? options.surface_px / scale_ : std::numeric_limits<double>::infinity()),
+      views_(views, options.focal_px, scale_,
+             averages() && options.split_silhouettes ? options.surface_px : 0) {
+    layout_.windows = views[0].image.windows;
+    layout_.channels = views[0].image.channels;
+    layout_.values.resize(layout_.channels.size());
+    if (averages()) grow_window();
+}
+
+void Warper::grow_window() {
+    const Imath::Box2i centre = layout_.windows.data;
+    Imath::Box2i &data = layout_.windows.data;
+    for (std::size_t v = 0; v < views_.size(); ++v) data.extendBy(views_.reprojection(v).reach());
+    for (int axis = 0; axis < 2; ++axis) {
+        data.min[axis] = std::max(data.min[axis], centre.min[axis] - most_overscan);
+        data.max[axis] = std::min(data.max[axis], centre.max[axis] + most_overscan);
+    }
+}
+
+// The mean of positions belongs to the mean of colours: where colour is linear, nothing is blurred.
+void Warper::emit_mean(std::span<const PlacedSample> samples, Ldi &out) const {
+    double count = 0, total = 0, dx = 0, dy = 0,
+           inverse_z = 0; // double: views may be many, depths near each other
+    for (const PlacedSample &s : samples) {
+        count += double(views_.samples(s.view).weight[s.source]);
+        total += s.weight;
+        dx += s.weight * double(s.dx);
+        dy += s.weight * double(s.dy);
+        inverse_z += s.weight * double(s.inverse_z);
+    }
+    dx /= total;
+    dy /= total;
+    inverse_z /= total;
+    const Imath::V2d place(samples[0].x + 0.5 + dx, samples[0].y + 0.5 + dy);
+    const double coverage =
+        samples[0].view == 0 ? 1 : coverage_by_views(views_, place, inverse_z, tolerance_);
+    if (coverage == 0) return;
+    const bool alone = samples.size() == 1;
+    out.z.push_back(alone ? views_.samples(samples[0].view).z[samples[0].source] : float(1 / inverse_z));
+    out.dx.push_back(float(dx));
+    out.dy.push_back(float(dy));
+    out.weight.push_back(float(count));
+    for (std::size_t k = 0; k < out.channels.size(); ++k) {
+        double sum = 0;
+        for (const PlacedSample &s : samples) sum += s.weight * double(views_.value(s, k));
+        const bool id = out.channels[k].type == PixelType::uint32;
+        out.values[k].push_back(id ? views_.value(samples[0], k) : float(coverage * (sum / total)));
+    }
+    ++out.begin.back();
+}
+
+// The centre's sample, else the most central one, as it is.
+void Warper::emit_nearest(std::span<const PlacedSample> samples, Ldi &out) const {
+    const auto off_centre = [](const PlacedSample &s) {
+        return s.view == 0 ? -1.0f : s.dx * s.dx + s.dy * s.dy;
+    };
+    const PlacedSample &best = *std::ranges::min_element(samples, {}, off_centre);
+    const Ldi &view = views_.samples(best.view);
+    out.z.push_back(view.z[best.source]);
+    out.dx.push_back(best.dx);
+    out.dy.push_back(best.dy);
+    out.weight.push_back(view.weight[best.source]);
+    for (std::size_t k = 0; k < out.channels.size(); ++k) out.values[k].push_back(views_.value(best, k));
+    ++out.begin.back();
+}
+
+void Warper::emit(const Surface &surface, bool agree, Ldi &out) const {
+    const bool centre_alone = !averages() || (!agree && surface.seen_by_centre());
+    if (centre_alone)
+        emit_nearest(surface.samples, out);
+    else
+        emit_mean(surface.samples, out);
+}
+
+Ldi Warper::warp_band(int first_row, int last_row) const {
+    PlacedRows rows = views_.place(layout_.windows.data, first_row, last_row);
+    const Surfaces surfaces = find_surfaces(views_, tolerance_, rows);
+    std::vector<bool> agree(rows.pixels(), true);
+    if (averages() && options_.test_agreement)
+        agree = find_agreement(views_, {scale_, options_.focus}, layout_.windows.data, surfaces);
+    Ldi out = empty_like(layout_);
+    out.begin.push_back(0);
+    for (std::size_t pixel = 0; pixel < rows.pixels(); ++pixel) {
+        out.begin.push_back(out.begin.back());
+        for (const Surface &surface : surfaces.pixel(pixel)) emit(surface, agree[pixel], out);
+    }
+    return out;
+}
+
+Ldi Warper::run(Progress &progress) const {
+    const Imath::Box2i &data = layout_.windows.data;
+    const std::size_t bands = std::size_t(layout_.windows.height() + band_rows - 1) / band_rows;
+    std::vector<Ldi> pieces(bands);
+    progress.start("warping", bands);
+    parallel_for(bands, [&](std::size_t band) {
+        const int first_row = data.min.y + int(band) * band_rows;
+        pieces[band] = warp_band(first_row, std::min(first_row + band_rows - 1, data.max.y));
+        progress.advance();
+    });
+    return concatenate(layout_, pieces);
+}
+
+} // namespace
+
+Ldi warp(std::span<const View> views, const WarpOptions &options, Progress &progress) {
+    return Warper(views, options).run(progress);
+}
+
+} // namespace sparselens

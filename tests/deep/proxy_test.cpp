@@ -1,0 +1,84 @@
+#include "deep/order.h"
+#include "deep/proxy.h"
+#include "dof/ldi_fixture.h"
+
+#include <gtest/gtest.h>
+
+namespace sparselens {
+namespace {
+
+const ThinLens lens{.radius = 0.06, .focal_px = 640, .focus = 5};
+
+Windows moved(int x, int y, int width, int height) {
+    Windows w = windows_of_size(width, height);
+    w.data = Imath::Box2i({x, y}, {x + width - 1, y + height - 1});
+    return w;
+}
+
+TEST(Reduced, RoundsDownOnBothSidesOfZero) {
+    EXPECT_EQ(reduced(Imath::Box2i({0, 0}, {9, 8}), 2), Imath::Box2i({0, 0}, {4, 4}));
+    EXPECT_EQ(reduced(Imath::Box2i({-3, -4}, {5, 3}), 3), Imath::Box2i({-1, -2}, {1, 1}));
+    EXPECT_EQ(reduced(Imath::Box2i({-3, -4}, {5, 3}), 1), Imath::Box2i({-3, -4}, {5, 3}));
+}
+
+TEST(Padded, LeavesThePictureWhereItIs) {
+    const Ldi ldi = test::random_ldi(moved(3, -2, 7, 5), lens, false, 1);
+    const Ldi out = padded(ldi, Imath::Box2i({1, -3}, {12, 2}));
+    EXPECT_EQ(out.windows.data, Imath::Box2i({1, -3}, {12, 2}));
+    const Image flat = flatten(out);
+    EXPECT_EQ(crop(flat, ldi.windows.data).values, flatten(ldi).values);
+    for (std::size_t k = 0; k < flat.channels.size(); ++k) {
+        EXPECT_EQ(flat.at(k, 1, -3), 0);
+        EXPECT_EQ(flat.at(k, 12, 0), 0);
+    }
+}
+
+// The mean of the pixels that become one; beyond the data window there is nothing.
+double box_mean(const Image &image, std::size_t channel, int x, int y, int factor) {
+    double sum = 0;
+    for (int v = y * factor; v < (y + 1) * factor; ++v)
+        for (int u = x * factor; u < (x + 1) * factor; ++u)
+            if (image.windows.data.intersects(Imath::V2i(u, v))) sum += double(image.at(channel, u, v));
+    return sum / (factor * factor);
+}
+
+TEST(Proxy, FlattensToTheMean) {
+    for (const bool opaque : {true, false})
+        for (const int factor : {1, 2, 3, 5}) {
+            const Ldi ldi = test::random_ldi(moved(-4, 3, 23, 17), lens, opaque, 9);
+            const Ldi out = proxy(ldi, factor);
+            EXPECT_TRUE(order_of(out).sorted && order_of(out).apart);
+            EXPECT_EQ(out.windows.data, reduced(ldi.windows.data, factor));
+            const Image large = flatten(ldi), small = flatten(out);
+            const Imath::Box2i &data = small.windows.data;
+            for (std::size_t k = 0; k < ldi.channels.size(); ++k)
+                for (int y = data.min.y; y <= data.max.y; ++y)
+                    for (int x = data.min.x; x <= data.max.x; ++x)
+                        EXPECT_NEAR(small.at(k, x, y), box_mean(large, k, x, y, factor), 2e-4)
+                            << ldi.channels[k].name << " " << x << "," << y << " by " << factor;
+        }
+}
+
+TEST(Proxy, KeepsWhatIsHidden) {
+    // A wall behind a card that hides all of it: both are there.
+    const Ldi ldi = test::make_ldi(windows_of_size(4, 4), rgba_channels(), [](int, int) {
+        return std::vector<test::Sample>{{2, {1, 0, 0, 1}}, {8, {0, 0.5f, 0, 1}}};
+    });
+    const Ldi out = proxy(ldi, 2);
+    ASSERT_EQ(out.samples(), 8u);
+    EXPECT_EQ(out.z[1], 8);
+    EXPECT_NEAR(out.values[1][1], 0.5f, 1e-6);
+    EXPECT_NEAR(out.values[3][1], 1, 1e-6);
+    EXPECT_NEAR(out.dx[0], 0, 1e-6);
+}
+
+TEST(LargestReach, IsTheLargestBlur) {
+    Ldi ldi = test::make_ldi(windows_of_size(1, 1), rgba_channels(), [](int, int) {
+        return std::vector<test::Sample>{{test::depth_of(lens, -3.5), {1, 1, 1, 0.5f}},
+                                         {test::depth_of(lens, 2), {1, 1, 1, 1}}};
+    });
+    EXPECT_EQ(largest_reach(ldi, lens), Imath::V2i(5, 5));
+}
+
+} // namespace
+} // namespace sparselens

@@ -1,0 +1,23 @@
+// An LDI as the lens gather holds it.
+#pragma once
+
+#include "dof/lens/sample_blocks.h"
+#include "dof/lens/sample_colours.h"
+
+namespace sparselens::test {
+
+struct Blocked {
+    BlockedSamples samples;
+    SampleColours colours; // in the order of the LDI's channels
+
+    Blocked(const Ldi &ldi, const ThinLens &lens) : samples(make_blocks(ldi, lens, ldi.windows.data)) {
+        const std::size_t channels = ldi.channels.size();
+        colours = {(channels + 3) / 4, samples.count(), {}};
+        colours.values.resize(colours.groups * colours.count * 4);
+        for (std::size_t i = 0; i < samples.count(); ++i)
+            for (std::size_t k = 0; k < channels && samples.source[i] != BlockedSamples::background; ++k)
+                colours.at(k, i) = ldi.values[k][samples.source[i]];
+    }
+};
+
+} // namespace sparselens::test

@@ -1,0 +1,161 @@
+// The fast lens gather is the slow one, point for point. The channels bear no colour names: what concerns
+// highlights and sharpening, which the slow one has not, has tests of its own.
+#include "dof/ldi_fixture.h"
+#include "dof/lens/lens_gather.h"
+#include "dof/lens/lens_gather_reference.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace sparselens {
+namespace {
+
+using test::depth_of;
+using test::make_ldi;
+using test::random_unit;
+using test::Sample;
+
+struct Case {
+    const char *name;
+    Imath::Box2i data, window;
+    double aspect = 1;
+    double partial = 0.5; // share of samples whose coverage is partial
+    int most_samples = 3;
+    double smallest_coc = 0; // pixels
+    int lens_samples = 16;
+    bool colour = false; // channels R, G, B: nothing stands out, and nothing is near focus
+    double glowing = 0;  // share of samples that give light and cover nothing
+};
+
+void PrintTo(const Case &c, std::ostream *out) { *out << c.name; }
+
+constexpr double inf = std::numeric_limits<double>::infinity();
+
+ThinLens lens_of(const Case &c) {
+    return {.radius = 0.06, .focal_px = 640, .focus = 5, .pixel_aspect = c.aspect};
+}
+
+// CoC -7 to 7 px, no two depths alike.
+Ldi random_layers(const Case &c, const ThinLens &lens) {
+    Windows windows{c.window, c.data, float(c.aspect)};
+    std::vector<Channel> channels{{"Y"}, {"A"}, {"extra.Y", PixelType::float32}};
+    if (c.colour) channels = rgba_channels();
+    return make_ldi(windows, channels, [&](int x, int y) {
+        std::vector<Sample> samples;
+        const int count = int((c.most_samples + 1) * random_unit(x, y, 1));
+        for (int i = 0; i < count; ++i) {
+            const auto random = [&](std::uint32_t k) {
+                return random_unit(x, y, 100 * k + 7 + std::uint32_t(i));
+            };
+            const double size = c.smallest_coc + (7 - c.smallest_coc) * random(1);
+            const bool glows = random(11) < c.glowing;
+            const float alpha = glows ? 0 : random(2) < c.partial ? 0.1f + 0.5f * float(random(3)) : 1;
+            std::vector<float> values;
+            for (std::uint32_t k = 0; k < channels.size(); ++k)
+                values.push_back(channels[k].name == "A"
+                                     ? alpha
+                                     : (glows ? 0.2f : alpha) * float(0.5 + 0.5 * random(4 + k)));
+            samples.push_back({depth_of(lens, random(8) < 0.5 ? size : -size), values, float(random(9) - 0.5),
+                               float(random(10) - 0.5)});
+        }
+        std::sort(samples.begin(), samples.end(), [](const auto &a, const auto &b) { return a.z < b.z; });
+        return samples;
+    });
+}
+
+// Sums are taken in another order and precision; and where the edge of a sample falls on a point to the last bits
+// of a float, either answer may come: of 10^5 samples seen through a lens point about one.
+void expect_same(const Image &image, const Image &reference) {
+    ASSERT_EQ(image.windows, reference.windows);
+    std::size_t other = 0;
+    for (std::size_t i = 0; i < image.values.size(); ++i)
+        other += std::abs(image.values[i] - reference.values[i]) > 1e-5f;
+    EXPECT_LE(other, image.values.size() / 300);
+}
+
+class LensGatherReference : public testing::TestWithParam<Case> {};
+
+TEST_P(LensGatherReference, IsTheLensGather) {
+    const Case &c = GetParam();
+    const ThinLens lens = lens_of(c);
+    const Ldi ldi = random_layers(c, lens);
+    Progress silent;
+    const Image image = lens_gather(ldi, lens, c.window, {.lens_samples = c.lens_samples}, silent);
+    const auto points = disc_lens_samples(std::size_t(c.lens_samples), c.aspect);
+    expect_same(image, lens_gather_reference(ldi, lens, c.window, points));
+}
+
+constexpr auto box = [](int x0, int y0, int x1, int y1) { return Imath::Box2i({x0, y0}, {x1, y1}); };
+
+const Case cases[] = {
+    {"Opaque", box(0, 0, 75, 15), box(0, 0, 75, 15), 1, 0},
+    {"Partial", box(0, 0, 75, 15), box(0, 0, 75, 15), 1, 0.7},
+    {"AllPartial", box(0, 0, 15, 75), box(0, 0, 15, 75), 1, 1, 5},
+    {"PixelsTwiceAsHigh", box(0, 0, 20, 69), box(0, 0, 20, 69), 2},
+    {"NegativeOrigin", box(-70, -9, 4, 6), box(-70, -9, 4, 6)},
+    {"WindowWithinTheData", box(-20, -12, 60, 15), box(-3, -4, 50, 9)},
+    {"FarFromFocus", box(0, 0, 40, 40), box(0, 0, 40, 40), 1, 0.3, 3, 4.5, 32, true},
+    {"OneLensPoint", box(0, 0, 70, 30), box(0, 0, 70, 30), 1, 0.5, 3, 0, 1},
+    {"Glowing", box(0, 0, 20, 70), box(0, 0, 20, 70), 1, 0.3, 4, 0, 16, false, 0.5},
+    {"ManyLensPoints", box(0, 0, 20, 20), box(0, 0, 20, 20), 1, 0.5, 3, 0, 200},
+};
+
+INSTANTIATE_TEST_SUITE_P(Random, LensGatherReference, testing::ValuesIn(cases),
+                         [](const auto &c) { return c.param.name; });
+
+// The slow gather itself, against answers known beforehand.
+TEST(LensGatherReferenceItself, OneLensPointSeesThePinholePictureShifted) {
+    const ThinLens lens{.radius = 0.06, .focal_px = 640, .focus = 5};
+    const LensSample right{1, 0, 0, 0, 1};
+    const Ldi ldi = make_ldi(windows_of_size(9, 1), {{"Y"}}, [&](int x, int) {
+        return std::vector<Sample>{{depth_of(lens, x == 4 ? -3 : 2), {float(x)}}};
+    });
+    const Image image = lens_gather_reference(ldi, lens, ldi.windows.data, std::span(&right, 1));
+    // Pixels of CoC 2 move two to the right, the one in front three to the left.
+    const float expected[] = {0, 4, 0, 1, 2, 3, 0, 5, 6};
+    for (int x = 0; x < 9; ++x) EXPECT_EQ(image.at(0, x, 0), expected[x]) << x;
+}
+
+TEST(LensGatherReferenceItself, WhatLiesBehindCoverageCountsByWhatIsLeft) {
+    const ThinLens lens{.radius = 0.06, .focal_px = 640, .focus = 5};
+    const LensSample middle{0, 0, 0, 0, 1};
+    const auto gather = [&](const std::vector<Sample> &samples) {
+        const Ldi ldi = make_ldi(windows_of_size(2, 1), {{"Y"}, {"A"}},
+                                 [&](int x, int) { return x == 0 ? samples : std::vector<Sample>{}; });
+        return lens_gather_reference(ldi, lens, ldi.windows.data, std::span(&middle, 1));
+    };
+    const Image opaque = gather({{2, {0.3f, 0.5f}}, {4, {0.8f, 1}}, {6, {9, 1}}});
+    EXPECT_FLOAT_EQ(opaque.at(0, 0, 0), 0.3f + 0.5f * 0.8f);
+    EXPECT_FLOAT_EQ(opaque.at(1, 0, 0), 1);
+    const Image clear = gather({{2, {0.3f, 0.5f}}});
+    EXPECT_FLOAT_EQ(clear.at(0, 0, 0), 0.3f);
+    EXPECT_FLOAT_EQ(clear.at(1, 0, 0), 0.5f);
+    EXPECT_EQ(clear.at(1, 1, 0), 0);
+}
+
+TEST(LensGatherReferenceItself, UnknownIsLeftOut) {
+    const ThinLens lens{.radius = 0.06, .focal_px = 640, .focus = inf}; // CoC 0 at infinity
+    const double z = 0.06 * 640 / 2;                                    // CoC -2
+    // The middle of the lens sees what covers the pixel; the point to the left (thrice as likely) sees it moved
+    // away, and in its place what half-covers a pixel that the picture has not.
+    const LensSample points[] = {{0, 0, 0, 0, 1}, {-1, 0, 0, 0, 3}};
+    Windows windows = windows_of_size(1, 1);
+    windows.data.min.x = -2;
+    const auto gather = [&](bool neighbour) {
+        const Ldi ldi = make_ldi(windows, {{"Y"}, {"A"}}, [&](int x, int) {
+            std::vector<Sample> samples;
+            if (x == -2 && neighbour) samples.push_back({z, {0.2f, 0.5f}});
+            if (x == 0) samples.push_back({z, {0.9f, 1}});
+            return samples;
+        });
+        return lens_gather_reference(ldi, lens, {{0, 0}, {0, 0}}, points);
+    };
+    EXPECT_FLOAT_EQ(gather(false).at(0, 0, 0), 0.9f);
+    EXPECT_FLOAT_EQ(gather(false).at(1, 0, 0), 1);
+    EXPECT_FLOAT_EQ(gather(true).at(0, 0, 0), (0.9f + 3 * 0.2f) / (1 + 3 * 0.5f));
+    EXPECT_FLOAT_EQ(gather(true).at(1, 0, 0), 1);
+}
+
+} // namespace
+} // namespace sparselens

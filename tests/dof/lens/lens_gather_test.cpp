@@ -1,0 +1,402 @@
+#include "dof/ldi_fixture.h"
+#include "dof/lens/lens_gather.h"
+#include "lens/lens_points.h"
+#include "lens/psf.h"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <bit>
+#include <limits>
+#include <map>
+#include <numbers>
+
+namespace sparselens {
+namespace {
+
+using test::depth_of;
+using test::largest_difference;
+using test::make_ldi;
+using test::random_unit;
+using test::Sample;
+
+constexpr double inf = std::numeric_limits<double>::infinity();
+const ThinLens lens{.radius = 0.06, .focal_px = 640, .focus = 5};        // CoC up to 7.7 px behind focus
+const ThinLens far_focus{.radius = 0.06, .focal_px = 640, .focus = inf}; // the background is sharp
+constexpr double rounding = 1e-5; // of sums over the lens points, in float
+const std::vector<Channel> grey{{"Y"}}, grey_alpha{{"Y"}, {"A"}};
+
+Image gather(const Ldi &ldi, const ThinLens &by, const LensGatherOptions &options = {}) {
+    Progress silent;
+    return lens_gather(ldi, by, ldi.windows.data, options, silent);
+}
+
+Image gather(const Ldi &ldi, const ThinLens &by, int lens_samples) {
+    return gather(ldi, by, LensGatherOptions{.lens_samples = lens_samples});
+}
+
+double rms_difference(const Image &a, const Image &b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < a.values.size(); ++i)
+        sum += std::pow(double(a.values[i]) - double(b.values[i]), 2);
+    return std::sqrt(sum / double(a.values.size()));
+}
+
+// What a pixel of a plane of CoC c shows of the pixels of the plane around it: squares displaced by the points of
+// the disc, averaged over the pixel. [(dx, dy)] to weight.
+std::map<std::pair<int, int>, double> disc_of_squares(double c, double aspect) {
+    constexpr int points = 20000;
+    std::map<std::pair<int, int>, double> weights;
+    for (const Imath::V2d &u : spiral_lens_points(points)) {
+        const double x = c * u.x, y = -c * u.y * aspect;
+        const int i = int(std::floor(x)), j = int(std::floor(y));
+        const double s = x - i, t = y - j;
+        weights[{i, j}] += (1 - s) * (1 - t) / points;
+        weights[{i + 1, j}] += s * (1 - t) / points;
+        weights[{i, j + 1}] += (1 - s) * t / points;
+        weights[{i + 1, j + 1}] += s * t / points;
+    }
+    return weights;
+}
+
+double texture(int x, int y) { return random_unit(x, y, 1); }
+
+// A random texture at one CoC, and its convolution.
+struct Plane {
+    Ldi ldi;
+    ThinLens by = lens;
+    Image expected;
+    Imath::Box2i inner; // clear of the border
+
+    Plane(double c, double aspect) {
+        by.pixel_aspect = aspect;
+        Windows windows = windows_of_size(84, 48);
+        windows.pixel_aspect = float(aspect);
+        ldi = make_ldi(windows, grey, [&](int x, int y) {
+            return std::vector<Sample>{{depth_of(by, c), {float(texture(x, y))}}};
+        });
+        expected = Image(windows, grey);
+        inner = {{12, 12}, {71, 35}};
+        const auto weights = disc_of_squares(c, aspect);
+        for (int y = inner.min.y; y <= inner.max.y; ++y)
+            for (int x = inner.min.x; x <= inner.max.x; ++x)
+                for (const auto &[d, weight] : weights)
+                    expected.at(0, x, y) += float(weight * texture(x - d.first, y - d.second));
+    }
+    double rms_error(int lens_samples) const {
+        return rms_difference(crop(gather(ldi, by, lens_samples), inner), crop(expected, inner));
+    }
+};
+
+TEST(LensGather, PlanesAreConvolvedWithTheirDiscs) {
+    for (const double aspect : {1.0, 1.6})
+        for (const double c : {-5.3, -0.7, 2.9, 6.1}) {
+            const Plane plane(c, aspect);
+            const double error = plane.rms_error(256), finer = plane.rms_error(1024);
+            EXPECT_LT(error, 0.02) << c;
+            EXPECT_LT(finer, 0.7 * error) << c;
+        }
+}
+
+TEST(LensGather, ConstantStaysConstantAndOpaque) {
+    std::vector<Channel> channels = rgba_channels();
+    channels.push_back({"extra.Y"});
+    const Ldi ldi = make_ldi(windows_of_size(150, 70), channels, [](int x, int y) {
+        const double c = -14 + 20 * random_unit(x / 9, y / 7, 1);
+        return std::vector<Sample>{{depth_of(lens, c),
+                                    {0.37f, 0.25f, 11, 1, 0.4f},
+                                    float(random_unit(x, y, 2) - 0.5),
+                                    float(random_unit(x, y, 3) - 0.5)}};
+    });
+    for (const Quality quality : {Quality::draft, Quality::normal}) {
+        const Image image = gather(ldi, lens, LensGatherOptions{.quality = quality});
+        const float expected[] = {0.37f, 0.25f, 11, 1, 0.4f};
+        for (std::size_t k = 0; k < channels.size(); ++k)
+            for (const float v : image.plane(k)) ASSERT_NEAR(v, expected[k], rounding * expected[k]);
+    }
+}
+
+TEST(LensGather, LikeStacksGiveTheirComposite) {
+    // The same samples everywhere: however they slide over each other, they show the same.
+    const std::vector<Sample> stack{{depth_of(lens, -6), {0.1f, 0.3f}},
+                                    {depth_of(lens, -5.4), {0.05f, 0.2f}},
+                                    {depth_of(lens, -0.3), {0.4f, 0.5f}},
+                                    {depth_of(lens, 3), {0.3f, 0.4f}}};
+    const Ldi ldi = make_ldi(windows_of_size(60, 40), grey_alpha, [&](int, int) { return stack; });
+    const Image image = gather(ldi, lens), flat = flatten(ldi);
+    const Imath::Box2i inner({16, 16}, {43, 23});
+    EXPECT_LT(largest_difference(crop(image, inner), crop(flat, inner)), 1e-5);
+}
+
+// Random stacks of coverage, light and ids, with a few lamps.
+std::vector<Sample> random_stack(int x, int y, double z, float offset) {
+    std::vector<Sample> samples;
+    const int count = int(4 * random_unit(x, y, 1));
+    for (int i = 0; i < count; ++i) {
+        const auto random = [&](std::uint32_t k) {
+            return float(random_unit(x, y, 100 * k + std::uint32_t(i)));
+        };
+        const float a = random(2) < 0.3f ? 1 : random(3), lamp = random(4) > 0.98f ? 100 : 1;
+        samples.push_back(
+            {z * (1 + 1e-7 * i),
+             {a * lamp * random(5), a * random(6), a * random(7), a, std::bit_cast<float>(i + 1)},
+             offset * (random(8) - 0.5f),
+             offset * (random(9) - 0.5f)});
+    }
+    return samples;
+}
+
+TEST(LensGather, WithoutBlurIsTheFlattenedPicture) {
+    std::vector<Channel> channels = rgba_channels();
+    channels.push_back({"id", PixelType::uint32});
+    // Hardly a lens: whatever the samples, and wherever in their pixels, nothing moves.
+    const Ldi apart = make_ldi(windows_of_size(90, 40), channels,
+                               [](int x, int y) { return random_stack(x, y, 1 + x, 1); });
+    EXPECT_LT(
+        largest_difference(gather(apart, {.radius = 1e-9, .focal_px = 640, .focus = 5}), flatten(apart)),
+        1e-5);
+    // A real lens, all in focus: what shines through to infinity has no light that could be blurred.
+    const Ldi in_focus =
+        make_ldi(windows_of_size(90, 40), channels, [](int x, int y) { return random_stack(x, y, 5, 0); });
+    const Image image = gather(in_focus, lens), flat = flatten(in_focus);
+    for (std::size_t k = 0; k < 4; ++k)
+        for (std::size_t i = 0; i < flat.windows.pixels(); ++i)
+            ASSERT_NEAR(image.plane(k)[i], flat.plane(k)[i], 5e-4 * (1 + flat.plane(k)[i]));
+}
+
+TEST(LensGather, GoesOverIntoTheFlattenedPictureAsBlurGoesTo0) {
+    // Partial samples on the pixels' centres, as others' deep files have them.
+    const auto layers = [](double c) {
+        return make_ldi(windows_of_size(70, 40), grey_alpha, [c](int x, int y) {
+            std::vector<Sample> samples;
+            for (int i = 0; i < 4; ++i) {
+                const float a = i == 3 ? 1 : float(random_unit(x, y, 10 + std::uint32_t(i)));
+                const double place = c * (-1 + 0.5 * i);
+                samples.push_back(
+                    {depth_of(lens, place), {a * float(random_unit(x, y, 20 + std::uint32_t(i))), a}});
+            }
+            return samples;
+        });
+    };
+    double last = 0;
+    for (const double c : {0.01, 0.1, 0.3, 0.49, 0.51, 0.7}) {
+        const Ldi ldi = layers(c);
+        const double difference = rms_difference(gather(ldi, lens, 1024), flatten(ldi));
+        EXPECT_LT(difference, 0.5 * c);
+        EXPECT_GE(difference, last);
+        last = difference;
+    }
+}
+
+// Half of the picture is covered, up to an edge at x = 32.
+Ldi half_plane(const ThinLens &by, double c, double behind, float colour_behind) {
+    return make_ldi(windows_of_size(64, 40), grey_alpha, [=](int x, int) {
+        std::vector<Sample> samples;
+        if (x < 32) samples.push_back({depth_of(by, c), {0.8f, 1}});
+        if (behind != 0) samples.push_back({depth_of(by, behind), {colour_behind, 1}});
+        return samples;
+    });
+}
+
+// The share of a disc of radius r at x < e.
+double share_before(double e, double r) {
+    const double t = std::clamp(e / r, -1.0, 1.0);
+    return 1 - (std::acos(t) - t * std::sqrt(1 - t * t)) / std::numbers::pi;
+}
+
+// The same of the disc averaged over a pixel.
+double share_in_pixel(double e, double r) {
+    double sum = 0;
+    for (int i = 0; i < 100; ++i) sum += share_before(e + (i + 0.5) / 100 - 0.5, r) / 100;
+    return sum;
+}
+
+TEST(LensGather, BlursCoverageAtAnEdgeBeforeNothing) {
+    for (const double c : {-6.0, -2.5}) {
+        const Image image = gather(half_plane(far_focus, c, 0, 0), far_focus, 1024);
+        for (int x = 16; x < 48; ++x) {
+            // Behind what covers a pixel nothing is known, not even that nothing is there.
+            const double share = x < 32 ? 1 : share_in_pixel(32 - (x + 0.5), std::abs(c));
+            ASSERT_NEAR(image.at(1, x, 20), share, 0.01) << x;
+            ASSERT_NEAR(image.at(0, x, 20), 0.8 * share, 0.01) << x;
+        }
+    }
+}
+
+TEST(LensGather, SeesWhatLiesBehindABlurredEdge) {
+    const Image image = gather(half_plane(lens, -6, 3, 0.1f), lens, 1024);
+    for (int x = 16; x < 48; ++x) {
+        const double share = share_in_pixel(32 - (x + 0.5), 6);
+        ASSERT_NEAR(image.at(0, x, 20), 0.8 * share + 0.1 * (1 - share), 0.01) << x;
+        ASSERT_EQ(image.at(1, x, 20), 1) << x;
+    }
+}
+
+TEST(LensGather, ASharpEdgeStaysSharpBeforeWhatIsBlurred) {
+    const Image image = gather(half_plane(lens, 0, 6, 0.1f), lens);
+    for (int x = 8; x < 56; ++x) ASSERT_NEAR(image.at(0, x, 20), x < 32 ? 0.8 : 0.1, rounding) << x;
+}
+
+TEST(LensGather, UnknownIsLeftOut) {
+    // Behind the sharp strip nothing is known: what shows beside it is as if it went on there.
+    const Ldi ldi = make_ldi(windows_of_size(64, 40), grey_alpha, [](int x, int) {
+        return std::vector<Sample>{x >= 24 && x < 40 ? Sample{5, {0.8f, 1}}
+                                                     : Sample{depth_of(lens, 6), {0.1f, 1}}};
+    });
+    const Image image = gather(ldi, lens);
+    for (int x = 0; x < 64; ++x) {
+        ASSERT_NEAR(image.at(0, x, 20), x >= 24 && x < 40 ? 0.8 : 0.1, rounding) << x;
+        ASSERT_EQ(image.at(1, x, 20), 1) << x;
+    }
+}
+
+TEST(LensGather, TransparentSamplesAtInfinityLieOverTheBackground) {
+    const Ldi ldi = make_ldi(windows_of_size(70, 40), grey_alpha, [](int, int) {
+        return std::vector<Sample>{{inf, {0.2f, 0.4f}, 0.25f, -0.25f}};
+    });
+    const Image image = gather(ldi, lens);
+    EXPECT_NEAR(image.at(0, 35, 20), 0.2, 1e-5);
+    EXPECT_NEAR(image.at(1, 35, 20), 0.4, 1e-5);
+}
+
+TEST(LensGather, IdsAreTheFrontSamplesAndNeverBlended) {
+    std::vector<Channel> channels{{"Y"}, {"id", PixelType::uint32}};
+    const Ldi ldi = make_ldi(windows_of_size(40, 30), channels, [](int x, int y) {
+        const auto id = [](unsigned value) { return std::bit_cast<float>(value); };
+        return std::vector<Sample>{{depth_of(lens, -6), {1, id(0x7f800000u + unsigned(x + 40 * y))}},
+                                   {depth_of(lens, 2), {2, id(7)}}};
+    });
+    const Image image = gather(ldi, lens);
+    for (int y = 0; y < 30; ++y)
+        for (int x = 0; x < 40; ++x)
+            ASSERT_EQ(std::bit_cast<std::uint32_t>(image.at(1, x, y)), 0x7f800000u + unsigned(x + 40 * y));
+    EXPECT_NEAR(image.at(0, 20, 15), 1, rounding);
+}
+
+TEST(LensGather, LayersAddUpToTheBeauty) {
+    Ldi ldi = test::random_ldi(windows_of_size(80, 50), lens, false, 3);
+    ldi.channels = rgba_channels();
+    ldi.values.resize(4);
+    for (std::size_t k = 0; k < 3; ++k)
+        for (const bool first : {true, false}) {
+            ldi.channels.push_back({(first ? "first." : "second.") + ldi.channels[k].name});
+            std::vector<float> values = ldi.values[k];
+            for (std::size_t i = 0; i < values.size(); ++i) {
+                const double share = random_unit(int(i), int(k), 5);
+                values[i] *= float(first ? share : 1 - share);
+            }
+            ldi.values.push_back(values);
+        }
+    const Image image = gather(ldi, lens);
+    for (std::size_t k = 0; k < 3; ++k)
+        for (std::size_t i = 0; i < image.windows.pixels(); ++i) {
+            const float beauty = image.plane(k)[i],
+                        sum = image.plane(4 + 2 * k)[i] + image.plane(5 + 2 * k)[i];
+            ASSERT_NEAR(sum, beauty, 1e-5f * (1 + std::abs(beauty)));
+        }
+}
+
+TEST(LensGather, ALayerLikeTheBeautyComesOutLikeIt) {
+    Ldi ldi = test::random_ldi(windows_of_size(80, 50), lens, false, 4);
+    ldi.values[4] = ldi.values[0];
+    const Image image = gather(ldi, lens);
+    for (std::size_t i = 0; i < image.windows.pixels(); ++i) ASSERT_EQ(image.plane(4)[i], image.plane(0)[i]);
+}
+
+// The same pixels under other coordinates.
+Ldi moved(Ldi ldi, const Imath::V2i &by) {
+    for (Imath::Box2i *box : {&ldi.windows.data, &ldi.windows.display}) box->min += by, box->max += by;
+    return ldi;
+}
+
+TEST(LensGather, DoesNotDependOnWhereTheWindowLies) {
+    const Ldi ldi = test::random_ldi(windows_of_size(90, 70), lens, false, 5);
+    const Image image = gather(ldi, lens), other = gather(moved(ldi, {-1000, 77}), lens);
+    EXPECT_EQ(image.values, other.values);
+    EXPECT_EQ(other.windows.data.min, Imath::V2i(-1000, 77));
+}
+
+TEST(LensGather, GivesAPartAsItGivesTheWhole) {
+    // Where no pixel lets light through, a window only says what is written.
+    const Ldi ldi = make_ldi(windows_of_size(150, 90), grey, [](int x, int y) {
+        const double c = -5 + 10 * random_unit(x / 5, y / 5, 1);
+        return std::vector<Sample>{{depth_of(lens, c), {float(texture(x, y))}}};
+    });
+    Progress silent;
+    const Imath::Box2i part({64, 0}, {140, 63}); // on the corner of a tile: the same lens points see it
+    EXPECT_EQ(lens_gather(ldi, lens, part, {}, silent).values, crop(gather(ldi, lens), part).values);
+}
+
+TEST(LensGather, IsTheSameWithAnyNumberOfThreads) {
+    const Ldi ldi = test::random_ldi(windows_of_size(150, 100), lens, false, 6);
+    const auto with = [&](std::size_t threads) {
+        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+        return gather(ldi, lens).values;
+    };
+    const auto one = with(1);
+    EXPECT_EQ(one, with(2));
+    EXPECT_EQ(one, with(3));
+}
+
+// Left and right, up and down are alike, but for the lens points.
+TEST(LensGather, TurnedLayersGiveTheTurnedPicture) {
+    const ThinLens &by = lens;
+    const auto layers = [&](bool turned) {
+        return make_ldi(windows_of_size(70, 50), grey, [&](int x, int y) {
+            const int i = turned ? 69 - x : x, j = turned ? 49 - y : y;
+            std::vector<Sample> samples{{depth_of(by, 4), {float(texture(i, j))}}};
+            if (random_unit(i / 4, j / 6, 2) < 0.3)
+                samples.insert(samples.begin(),
+                               {depth_of(by, -3), {float(1 + texture(i, j))}, turned ? -0.3f : 0.3f, 0});
+            return samples;
+        });
+    };
+    const Image image = gather(layers(false), by, 1024), turned = gather(layers(true), by, 1024);
+    Image back = turned;
+    std::ranges::reverse(back.plane(0));
+    EXPECT_LT(rms_difference(back, image), 0.015);
+    EXPECT_GT(rms_difference(turned, image), 0.1);
+}
+
+TEST(LensGather, OneSampleFarOutOfFocusHarmsNothing) {
+    const auto layers = [](bool huge) {
+        return make_ldi(windows_of_size(100, 70), rgba_channels(), [huge](int x, int y) {
+            const float v = float(texture(x, y));
+            std::vector<Sample> samples{{depth_of(lens, 2), {v, v, v, 1}}};
+            if (huge && x == 50 && y == 30)
+                samples.insert(samples.begin(), {1e-7, {1, 1, 1, 1}}); // CoC 4e8 px
+            return samples;
+        });
+    };
+    // Other lens points, perhaps; the same picture.
+    EXPECT_LT(rms_difference(gather(layers(true), lens), gather(layers(false), lens)), 0.03);
+}
+
+TEST(LensGather, TakesTheSmallestPictures) {
+    for (const std::size_t count : {0u, 1u, 3u}) {
+        const Ldi one = make_ldi(windows_of_size(1, 1), rgba_channels(), [&](int, int) {
+            return std::vector<Sample>(count, {depth_of(lens, -4), {0.25f, 0.5f, 1, 1}});
+        });
+        const Image image = gather(one, lens);
+        const float expected[] = {0.25f, 0.5f, 1, 1};
+        for (std::size_t k = 0; k < 4; ++k) EXPECT_EQ(image.at(k, 0, 0), count ? expected[k] : 0) << k;
+    }
+    const Ldi empty =
+        make_ldi(windows_of_size(100, 3), rgba_channels(), [](int, int) { return std::vector<Sample>{}; });
+    for (const float v : gather(empty, lens).values) EXPECT_EQ(v, 0);
+    const Ldi none{windows_of_size(5, 5), {}, std::vector<std::uint64_t>(26), {}, {}, {}, {}, {}, {}};
+    EXPECT_TRUE(gather(none, lens).values.empty());
+}
+
+TEST(LensGather, TakesDepthsUpToInfinity) {
+    for (const double focus : {5.0, inf}) {
+        const Ldi ldi = make_ldi(windows_of_size(70, 40), grey_alpha, [](int x, int) {
+            return std::vector<Sample>{{x < 35 ? inf : 1e30, {0.7f, 1}}};
+        });
+        const Image image = gather(ldi, {.radius = 0.06, .focal_px = 640, .focus = focus});
+        for (const float v : image.plane(0)) ASSERT_NEAR(v, 0.7f, rounding);
+    }
+}
+
+} // namespace
+} // namespace sparselens

@@ -1,0 +1,172 @@
+#include "base/error.h"
+#include "harness/frames.h"
+#include "harness/progress_lines.h"
+#include "support/scratch_folder.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <string_view>
+
+namespace sparselens {
+namespace {
+
+using Words = std::vector<std::string>;
+
+TEST(FrameNumbers, AreThoseOfTheRange) {
+    EXPECT_EQ(frame_numbers("7"), (std::vector{7}));
+    EXPECT_EQ(frame_numbers("1-7x3"), (std::vector{1, 4, 7}));
+    EXPECT_EQ(frame_numbers("3-1"), (std::vector{3, 2, 1}));
+    EXPECT_EQ(frame_numbers("1,5-6"), (std::vector{1, 5, 6}));
+    EXPECT_EQ(frame_numbers("1-5y2"), (std::vector{2, 4}));
+    for (const char *wrong : {"", "abc", "1-", "1-5x", "1;2", "1-99999999999", "1-9999999", "1 2", "1,,2"})
+        EXPECT_THROW(frame_numbers(wrong), UsageError) << wrong;
+    EXPECT_EQ(frame_numbers("5-1x-2,7,7"), (std::vector{5, 3, 1, 7, 7}));
+    for (const char *wrong : {"1,", ",1", "1-2,", "--1", "1-2x3x4"})
+        EXPECT_THROW(frame_numbers(wrong), UsageError) << wrong;
+}
+
+TEST(FrameNumbers, AreAMillionAtMost) {
+    EXPECT_EQ(frame_numbers("1-9999999x10").size(), 1'000'000u);
+    for (const std::string wrong :
+         {"1-1000001", "1-600000,1-600000", "-600000-600000", "1-9999999x9", "1-9999999y2"})
+        EXPECT_EQ(what_of<UsageError>([&] { frame_numbers(wrong); }),
+                  "--frames: '" + wrong + "' are more than a million frames");
+}
+
+TEST(FileAt, PutsTheNumberInEveryPlace) {
+    EXPECT_EQ(file_at("a.#.exr", 12), "a.0012.exr");
+    EXPECT_EQ(file_at("a.####.exr", 12), "a.0012.exr");
+    EXPECT_EQ(file_at("a.##.exr", 123), "a.123.exr");
+    EXPECT_EQ(file_at("a.%06d.exr", 12), "a.000012.exr");
+    EXPECT_EQ(file_at("a.%d.exr", 12), "a.12.exr");
+    EXPECT_EQ(file_at("%03d/a_v02.%04d.exr", 12), "012/a_v02.0012.exr");
+    EXPECT_EQ(file_at("a.1-9x2##.exr", 3), "a.03.exr");
+    EXPECT_EQ(file_at("100%_%s%n.exr", 3), "100%_%s%n.exr");
+}
+
+TEST(KeyedValue, IsLinearBetweenKeysAndHeldOutside) {
+    EXPECT_EQ(keyed_value("1:5,24:2", 0), 5);
+    EXPECT_EQ(keyed_value("1:5,24:2", 1), 5);
+    EXPECT_EQ(keyed_value("1:5,24:2", 24), 2);
+    EXPECT_EQ(keyed_value("1:5,24:2", 25), 2);
+    EXPECT_DOUBLE_EQ(keyed_value("2:1,4:2,8:-6e0", 3).value(), 1.5);
+    EXPECT_DOUBLE_EQ(keyed_value("8:-6,2:1,4:2", 6).value(), -2);
+    EXPECT_EQ(keyed_value("-3:7", 100), 7);
+}
+
+TEST(KeyedValue, AnInfiniteKeyIsReachedAtItsFrame) {
+    EXPECT_EQ(keyed_value("1:5,3:inf", 1), 5);
+    EXPECT_EQ(keyed_value("1:5,3:inf", 2), INFINITY);
+    EXPECT_EQ(keyed_value("1:inf,3:5", 2), INFINITY);
+    EXPECT_EQ(keyed_value("1:inf,3:5", 3), 5);
+}
+
+TEST(KeyedValue, OtherWordsAreNone) {
+    for (const char *text :
+         {"", "5", "1:", "1:x", "1:5,", "1:5,2", "a:5", "C:\\a.exr", "peel:4", "1:5;2:6", "1.5:2"})
+        EXPECT_FALSE(keyed_value(text, 1)) << text;
+    EXPECT_THROW(keyed_value("1:5,1:6", 1), UsageError);
+}
+
+TEST(FrameCommands, WithoutSequencesTheWordsAreTheCommand) {
+    const Words words{"in.exr", "-o", "out.exr", "--focus-distance", "1:5,24:2"};
+    const FrameCommands commands(words);
+    EXPECT_FALSE(commands.is_range());
+    ASSERT_EQ(commands.size(), 1u);
+    EXPECT_EQ(commands.words(0), words);
+}
+
+TEST(FrameCommands, NamesAndValuesGoByTheFrame) {
+    const FrameCommands commands(
+        {"ldi.exr", "--frames", "1-3", "-o", "out.##.exr", "--focus-distance=1:5,3:2", "7"});
+    ASSERT_EQ(commands.size(), 3u);
+    EXPECT_EQ(commands.number(1), 2);
+    EXPECT_EQ(commands.words(1),
+              (Words{"ldi.exr", "--frames", "1-3", "-o", "out.02.exr", "--focus-distance=3.5", "7"}));
+    EXPECT_EQ(commands.words(2)[5], "--focus-distance=2");
+}
+
+TEST(FrameCommands, RangesOfTheirOwnGoTogether) {
+    const FrameCommands commands({"in.11-13#.exr", "-o", "out.1-3#.exr"});
+    ASSERT_EQ(commands.size(), 3u);
+    EXPECT_EQ(commands.words(2), (Words{"in.0013.exr", "-o", "out.0003.exr"}));
+    const auto lengths = [] { FrameCommands({"in.11-13#.exr", "-o", "out.1-4#.exr"}); };
+    EXPECT_EQ(what_of<UsageError>(lengths), "out.1-4#.exr has 4 frames, not 3");
+}
+
+TEST(FrameCommands, WithoutNumbersTheFilesOnDiskGiveThem) {
+    const ScratchFolder folder;
+    for (const char *name : {"in.0002.exr", "in.0005.exr", "in.x.exr", "out.0001.exr"})
+        put_contents(folder.file(name), "x");
+    const FrameCommands commands({"-o", folder.file("out.####.exr"), folder.file("in.####.exr")});
+    ASSERT_EQ(commands.size(), 2u);
+    EXPECT_EQ(commands.words(0)[2], folder.file("in.0002.exr"));
+    EXPECT_EQ(commands.words(1)[1], folder.file("out.0005.exr"));
+    EXPECT_THROW(FrameCommands({folder.file("no.####.exr"), "-o", "x.exr"}), UsageError);
+    EXPECT_THROW(FrameCommands({folder.file("in.x.exr"), "-o", "x.####.exr"}), UsageError);
+}
+
+// In OpenImageIO's regular expressions the first finds nothing and the second takes years.
+TEST(FrameCommands, WhatElseStandsInAFilesNameStandsForItself) {
+    const ScratchFolder folder;
+    const std::string stars = "t" + std::string(40, '*') + "-o.";
+    for (const std::string &name : Words{"shot [v2]+(final).", stars, "-", ".", ""}) {
+        for (const char *number : {"0007", "0012", "00x7"})
+            put_contents(folder.file(name + number + ".exr"), "x");
+        const FrameCommands commands({folder.file(name + "####.exr"), "-o", folder.file("to/####.exr")});
+        ASSERT_EQ(commands.size(), 2u) << name;
+        EXPECT_EQ(commands.words(1)[0], folder.file(name + "0012.exr"));
+        EXPECT_EQ(commands.words(1)[2], folder.file("to/0012.exr"));
+    }
+    EXPECT_THROW(FrameCommands({folder.file("t**********************************.#e"), "-o", "#"}),
+                 UsageError);
+}
+
+TEST(FrameCommands, TheNumberMayStandInAFoldersName) {
+    const ScratchFolder folder;
+    for (const char *name : {"f0003", "f0001", "f0002", "g0004"}) {
+        std::filesystem::create_directory(folder.file(name));
+        if (std::string_view(name) != "f0002") put_contents(folder.file(name) + "/in.exr", "x");
+    }
+    const FrameCommands commands({folder.file("f####/in.exr"), "-o", "out.####.exr"});
+    ASSERT_EQ(commands.size(), 2u);
+    EXPECT_EQ(commands.words(0)[0], folder.file("f0001/in.exr"));
+    EXPECT_EQ(commands.words(1)[2], "out.0003.exr");
+}
+
+TEST(FrameCommands, FramesDoNotShareAnOutput) {
+    for (const Words &output :
+         {Words{"-o", "out.exr"}, Words{"--output=out.exr"}, Words{"--depth-out", "-"}}) {
+        Words words{"in.#.exr", "--frames", "1-2"};
+        words.insert(words.end(), output.begin(), output.end());
+        EXPECT_THROW(FrameCommands{words}, UsageError) << output[0];
+        words[2] = "2";
+        EXPECT_EQ(FrameCommands(words).size(), 1u);
+    }
+}
+
+// Names are names: a file that is called like a sequence is that file, unless --frames is given.
+TEST(FrameCommands, AFileOfThatNameIsThatFile) {
+    const ScratchFolder folder;
+    put_contents(folder.file("take#2.exr"), "x");
+    EXPECT_FALSE(FrameCommands({folder.file("take#2.exr"), "-o", "x.exr"}).is_range());
+    EXPECT_TRUE(FrameCommands({folder.file("take#2.exr"), "--frames=1-2"}).is_range());
+}
+
+TEST(ProgressLines, AreTheFarms) {
+    EXPECT_EQ(progress_line(ProgressFormat::plain, "tool", 7), "tool: 7%");
+    EXPECT_EQ(progress_line(ProgressFormat::alf, "tool", 7), "ALF_PROGRESS 7%");
+    EXPECT_EQ(progress_line(ProgressFormat::openjd, "tool", 100), "openjd_progress: 100");
+}
+
+TEST(ProgressLines, CountAllFrames) {
+    EXPECT_EQ(overall_percent({0, 1}, 42), 42);
+    EXPECT_EQ(overall_percent({1, 4}, 0), 25);
+    EXPECT_EQ(overall_percent({1, 4}, 50), 37);
+    EXPECT_EQ(overall_percent({3, 4}, 100), 100);
+}
+
+} // namespace
+} // namespace sparselens

@@ -1,0 +1,57 @@
+#include "io/display/png.h"
+#include "support/scratch_folder.h"
+
+#include <OpenImageIO/imagebuf.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+namespace sparselens {
+namespace {
+
+Image noise(int width, int height) {
+    Image image(windows_of_size(width, height), rgba_channels());
+    std::mt19937 generator(1);
+    std::uniform_real_distribution<float> uniform(-0.2f, 1.2f);
+    for (float &value : image.values) value = uniform(generator);
+    return image;
+}
+
+// As OpenImageIO reads it.
+void expect_reads_back(const Image &image) {
+    const ScratchFolder scratch;
+    put_contents(scratch.file("a.png"), png_of(image));
+    const OIIO::ImageBuf read(scratch.file("a.png"));
+    ASSERT_TRUE(read.initialized()) << read.geterror();
+    ASSERT_EQ(read.spec().width, image.windows.width());
+    ASSERT_EQ(read.spec().height, image.windows.height());
+    ASSERT_EQ(read.nchannels(), 3);
+    EXPECT_EQ(read.spec().format, OIIO::TypeUInt8);
+    for (int y = 0; y < image.windows.height(); ++y)
+        for (int x = 0; x < image.windows.width(); ++x)
+            for (int c = 0; c < 3; ++c) {
+                const float value = image.plane(std::size_t(c))[std::size_t(y * image.windows.width() + x)];
+                const float shown = std::isnan(value) ? 0 : std::clamp(value, 0.0f, 1.0f);
+                ASSERT_EQ(std::lround(255 * read.getchannel(x, y, 0, c)), std::lround(255 * shown))
+                    << x << ',' << y;
+            }
+}
+
+TEST(Png, OthersReadWhatWasWritten) {
+    expect_reads_back(noise(1, 1));
+    expect_reads_back(noise(37, 23));
+    expect_reads_back(noise(300, 2));
+}
+
+TEST(Png, TakesWhatIsNoColour) {
+    Image image = noise(5, 4);
+    image.values[0] = std::numeric_limits<float>::quiet_NaN();
+    image.values[1] = std::numeric_limits<float>::infinity();
+    image.values[2] = -std::numeric_limits<float>::infinity();
+    expect_reads_back(image);
+}
+
+} // namespace
+} // namespace sparselens

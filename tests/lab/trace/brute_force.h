@@ -1,0 +1,47 @@
+// The slow, obvious tracer that the fast one is tested against: every primitive, in double, from the textbook.
+#pragma once
+
+#include "lab/trace/tracer.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sparselens {
+
+// Parameter of the nearest point of the sphere's outside, or inf.
+inline double sphere_hit(const Sphere &sphere, const Ray &ray) {
+    const Imath::V3d to_ray = ray.origin - sphere.centre;
+    const double a = ray.direction ^ ray.direction, b = 2 * (to_ray ^ ray.direction);
+    const double c = (to_ray ^ to_ray) - sphere.radius * sphere.radius;
+    const double discriminant = b * b - 4 * a * c;
+    const double t = discriminant < 0 ? -1 : (-b - std::sqrt(discriminant)) / (2 * a);
+    return t > 0 ? t : std::numeric_limits<double>::infinity();
+}
+
+inline double quad_hit(const Quad &quad, const Ray &ray) {
+    const auto &c = quad.corners;
+    const Imath::V3d normal = (c[1] - c[0]) % (c[3] - c[0]);
+    const double t = ((c[0] - ray.origin) ^ normal) / (ray.direction ^ normal);
+    const Imath::V3d p = ray.origin + t * ray.direction;
+    for (std::size_t i = 0; i < 4; ++i) // inside all edges
+        if ((((c[(i + 1) % 4] - c[i]) % (p - c[i])) ^ normal) < 0)
+            return std::numeric_limits<double>::infinity();
+    return t > 0 ? t : std::numeric_limits<double>::infinity();
+}
+
+struct SlowHit {
+    double t;
+    int primitive;
+};
+
+inline std::vector<SlowHit> all_hits(const Scene &scene, const Ray &ray) {
+    std::vector<SlowHit> hits;
+    const auto add = [&](double t) { hits.push_back({t, int(hits.size())}); };
+    for (const Quad &quad : scene.quads) add(quad_hit(quad, ray));
+    for (const Sphere &sphere : scene.spheres) add(sphere_hit(sphere, ray));
+    std::erase_if(hits, [](const SlowHit &hit) { return std::isinf(hit.t); });
+    std::sort(hits.begin(), hits.end(), [](const SlowHit &a, const SlowHit &b) { return a.t < b.t; });
+    return hits;
+}
+
+} // namespace sparselens

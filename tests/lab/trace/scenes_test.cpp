@@ -1,0 +1,87 @@
+#include "lab/trace/materials.h"
+#include "lab/trace/planes.h"
+#include "lab/trace/small_scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+namespace sparselens {
+namespace {
+
+TEST(Scenes, NamesAreUniqueAndLensesComplete) {
+    std::set<std::string> names;
+    for (const SceneEntry &entry : scene_table()) {
+        EXPECT_TRUE(names.insert(entry.name).second) << entry.name;
+        const Camera camera = entry.build().camera;
+        EXPECT_TRUE(camera.focal_length_mm && camera.sensor_width_mm && camera.fstop && camera.focus_distance)
+            << entry.name;
+    }
+    EXPECT_EQ(names, (std::set<std::string>{"fence", "grass", "lamps", "mirror", "mist", "planes", "slant"}));
+}
+
+// Quads are planar, in order around, and convex: what the tracer takes for granted.
+TEST(Scenes, QuadsAreSound) {
+    for (const SceneEntry &entry : scene_table())
+        for (const Quad &quad : entry.build().quads) {
+            const auto &c = quad.corners;
+            const Imath::V3d normal = ((c[2] - c[0]) % (c[3] - c[1])).normalized();
+            for (std::size_t i = 0; i < 4; ++i) {
+                EXPECT_NEAR((c[i] - c[0]) ^ normal, 0, 1e-12) << entry.name;
+                EXPECT_GT(((c[(i + 1) % 4] - c[i]) % (c[(i + 2) % 4] - c[(i + 1) % 4])) ^ normal, 0)
+                    << entry.name;
+            }
+        }
+}
+
+TEST(Scenes, FenceIsAsWritten) {
+    const Scene scene = build_scene("fence");
+    ASSERT_EQ(scene.quads.size(), 2u + 14u);
+    ASSERT_EQ(scene.spheres.size(), 4u + 40u);
+    EXPECT_EQ(scene.spheres[1].centre, Imath::V3d(1.6, -0.2, 8));
+    EXPECT_EQ(scene.spheres[1].radius, 0.8);
+    EXPECT_EQ(scene.spheres[1].material, stripes);
+    EXPECT_NEAR((scene.quads[2 + 13].corners[2] - Imath::V3d(1.0, 1, 2.2)).length(), 0, 1e-12);
+    EXPECT_EQ(scene.quads[2].material, dark);
+    EXPECT_EQ(scene.spheres[4].centre, Imath::V3d(-8 + 16 * 7756041 * 0x1p-24, 3 * hash(0, 3, 4), 17));
+    EXPECT_EQ(scene.sky, Imath::C3f(0.3f, 0.4f, 0.6f));
+    EXPECT_DOUBLE_EQ(*scene.camera.focal_length_mm / 1000 / (2 * *scene.camera.fstop), 0.06);
+    EXPECT_EQ(scene.camera.focus_distance, 5);
+}
+
+TEST(Scenes, GrassIsAsWritten) {
+    const Scene scene = build_scene("grass");
+    ASSERT_EQ(scene.quads.size(), 2u + 200u);
+    ASSERT_EQ(scene.spheres.size(), 60u);
+    EXPECT_EQ(scene.spheres[2].material, dots);
+    EXPECT_EQ(scene.spheres[3].material, stripes);
+    const double x = -3 + 6 * hash(199, 9, 1), w = 0.01 + 0.01 * hash(199, 2, 2);
+    const double t = 0.4 * (5292316 * 0x1p-24 - 0.5);
+    const Imath::V3d top(x + w + t, 1, 1.8 + 8 * hash(199, 10, 1));
+    EXPECT_NEAR((scene.quads.back().corners[2] - top).length(), 0, 1e-12);
+}
+
+TEST(Scenes, PlanesStandInFrontOfInAndBehindFocus) {
+    const auto planes = facing_planes();
+    EXPECT_LT(planes.front().z, 5);
+    EXPECT_EQ(planes[1].z, 5);
+    EXPECT_GT(planes.back().z, 5);
+    for (const FacingPlane &plane : planes)
+        for (const PlaneWave &wave : plane.radiance) EXPECT_GT(wave.mean, wave.amplitude);
+}
+
+// Each lamp is 2 x 2 whole pixels at the default size, where the axis-parallel rim views see it, too.
+TEST(Scenes, LampsLieOnWholePixels) {
+    const Scene scene = build_scene("lamps");
+    const double rf = 0.12 * 640;
+    const auto whole = [](double v) { return std::abs(v - std::round(v)) < 1e-9; };
+    for (std::size_t i = 1; i < scene.quads.size(); ++i) {
+        const auto &c = scene.quads[i].corners;
+        EXPECT_NEAR((c[2].x - c[0].x) * 640 / c[0].z, 2, 1e-9);
+        EXPECT_NEAR((c[2].y - c[0].y) * 640 / c[0].z, 2, 1e-9);
+        EXPECT_TRUE(whole(c[0].x * 640 / c[0].z) && whole(c[0].y * 640 / c[0].z) && whole(rf / c[0].z)) << i;
+    }
+}
+
+} // namespace
+} // namespace sparselens

@@ -1,0 +1,65 @@
+#include "measure/tone_map.h"
+#include "plan/noise.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <random>
+
+namespace sparselens {
+namespace {
+
+constexpr ThinLens lens{.radius = 0.1, .focal_px = 100, .focus = 5};
+
+// Scene-linear value whose tone-mapped value is t.
+float untoned(double t) {
+    const double v = std::pow(t, 2.2);
+    return float(v / (1 - v));
+}
+
+double noise_of(const std::function<double(int x, int y)> &tone_mapped_value, float z = 5) {
+    const Windows windows = windows_of_size(130, 98);
+    Image image(windows, rgba_channels());
+    for (int y = 0; y < 98; ++y)
+        for (int x = 0; x < 130; ++x) {
+            const float value = untoned(tone_mapped_value(x, y));
+            for (std::size_t k = 0; k < 3; ++k) image.at(k, x, y) = value;
+        }
+    const std::vector<float> depth(windows.pixels(), z);
+    return noise_in_lens_picture(image, depth, lens);
+}
+
+TEST(Noise, CleanPicturesHaveNone) {
+    EXPECT_LT(noise_of([](int, int) { return 0.5; }), 1e-9);
+    EXPECT_LT(noise_of([](int x, int) { return 0.2 + 0.004 * x; }), 1e-9);
+    EXPECT_LT(noise_of([](int x, int y) { return (x / 5 + y / 7) % 2 == 0 ? 0.3 : 0.7; }), 2e-6);
+}
+
+TEST(Noise, GaussianNoiseIsMeasured) {
+    for (const double deviation : {0.003, 0.01, 0.04}) {
+        std::mt19937 random(5);
+        std::normal_distribution<double> noise(0.5, deviation);
+        EXPECT_NEAR(noise_of([&](int, int) { return noise(random); }) / (deviation * deviation), 1, 0.2);
+    }
+}
+
+// c = R F / d (z - d) / z: 2 px at z = inf, which averages over 4 pi pixels.
+TEST(Noise, BlurAveragesIt) {
+    const auto noise_at = [](float z) {
+        std::mt19937 random(5);
+        std::normal_distribution<double> noise(0.5, 0.02);
+        return noise_of([&](int, int) { return noise(random); }, z);
+    };
+    EXPECT_NEAR(noise_at(5) / noise_at(INFINITY), 4 * M_PI, 1e-6);
+}
+
+TEST(Noise, IsTakenAsGiven) {
+    const Image image(windows_of_size(40, 40), rgba_channels());
+    const std::vector<float> z(1600, 5.0f);
+    EXPECT_DOUBLE_EQ(noise_in_lens_picture(image, z, lens, 0.1), 0.1 * 0.1);
+    EXPECT_EQ(noise_in_lens_picture(image, z, lens), 0);
+}
+
+} // namespace
+} // namespace sparselens

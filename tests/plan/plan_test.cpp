@@ -1,0 +1,146 @@
+#include "base/error.h"
+#include "io/plan_file.h"
+#include "plan/plan.h"
+#include "support/scratch_folder.h"
+#include "support/traced.h"
+#include "support/views.h"
+#include "warp/warp.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace sparselens {
+namespace {
+
+const ThinLens lens{.radius = 0.1, .focal_px = 100, .focus = 5};
+
+View plane(float z) {
+    return make_view(windows_of_size(48, 32), {0, 0},
+                     [z](int, int) { return ViewPixel{.z = z, .r = 0.5f, .g = 0.5f, .b = 0.5f}; });
+}
+
+View card_before_wall() {
+    return make_view(windows_of_size(80, 60), {0, 0}, [](int x, int y) {
+        const bool card = x >= 30 && x < 50 && y >= 20 && y < 40;
+        return ViewPixel{.z = card ? 2.0f : 10.0f, .r = card ? 1.0f : 0.2f};
+    });
+}
+
+Plan plan_of(const View &centre, const PlanOptions &options = {}, const ThinLens &by = lens) {
+    Progress silent;
+    return make_plan(centre, by, options, silent);
+}
+
+TEST(Plan, OnePlaneAsksForNothing) {
+    for (const float z : {0.5f, 3.0f, 5.0f, 100.0f, std::numeric_limits<float>::infinity()})
+        EXPECT_TRUE(plan_of(plane(z)).views.empty()) << z;
+}
+
+TEST(Plan, ALensOfRadiusZeroAsksForNothing) {
+    ThinLens pinhole = lens;
+    pinhole.radius = 0;
+    EXPECT_TRUE(plan_of(card_before_wall(), {}, pinhole).views.empty());
+    EXPECT_TRUE(plan_of(card_before_wall(), {.views = 0}).views.empty());
+}
+
+// Each side of the card uncovers 4 px from its own side; the views above and below look behind its other two edges.
+TEST(Plan, ACardAsksForStripsAroundIt) {
+    const Plan plan = plan_of(card_before_wall());
+    ASSERT_EQ(plan.views.size(), 4u);
+    for (const PlannedView &view : plan.views) EXPECT_EQ(view.uncovered, 4u * 20);
+    EXPECT_FALSE(plan.full_views);
+    EXPECT_LT(plan.share(), 0.6);
+    EXPECT_GT(plan.share(), 4 * 8 * 24 / 4800.0);
+}
+
+// What the plan asks for is all that it takes: views that are empty elsewhere uncover as much as whole ones.
+TEST(Plan, WhatItAsksForIsWhatIsHidden) {
+    const TracedScene scene("fence", 160, 90);
+    const View centre = scene.view({0, 0}, 4, 0);
+    const Plan plan = plan_of(centre, {}, scene.settings.lens);
+    Progress silent;
+    std::vector<View> whole{centre}, asked{centre};
+    for (const PlannedView &planned : plan.views) {
+        whole.push_back(scene.view(planned.u, 4, 1));
+        asked.push_back(whole.back());
+        for (std::size_t i = 0; i < planned.mask.set.size(); ++i)
+            if (!planned.mask.set[i])
+                for (std::size_t k = 0; k < 4; ++k) asked.back().image.plane(k)[i] = 0;
+    }
+    const WarpOptions options{
+        .focal_px = scene.settings.lens.focal_px, .radius = scene.settings.lens.radius, .merge = Merge::keep};
+    const auto hidden = [&](const std::vector<View> &views) {
+        const Ldi ldi = warp(views, options, silent);
+        return double(ldi.samples() - ldi.windows.pixels());
+    };
+    EXPECT_GT(hidden(whole), 500);
+    EXPECT_GT(hidden(asked), 0.93 * hidden(whole));
+}
+
+TEST(Plan, NoiseAsksForWholeViews) {
+    const Plan clean = plan_of(card_before_wall(), {.noise = 1e-4}),
+               noisy = plan_of(card_before_wall(), {.noise = 0.2});
+    EXPECT_FALSE(clean.full_views);
+    EXPECT_TRUE(noisy.full_views);
+    EXPECT_EQ(noisy.share(), 4);
+}
+
+TEST(Plan, MarginsGrowAndViewsAreCounted) {
+    EXPECT_LT(plan_of(card_before_wall(), {.margin = 0}).share(), plan_of(card_before_wall()).share());
+    EXPECT_EQ(plan_of(card_before_wall(), {.views = 2}).views.size(), 2u);
+    EXPECT_LE(plan_of(card_before_wall(), {.views = 8}).views.size(), 8u);
+}
+
+// c = R F / d (z - d) / z at the edge: 1 px at z = 10, 3 px at z = 2.
+TEST(Plan, OverscanIsTheLargestCocAlongTheEdge) {
+    View view = plane(10);
+    view.z[10] = 2;
+    const OverscanNeed overscan = plan_of(view).overscan;
+    EXPECT_EQ(overscan.top, 3);
+    EXPECT_EQ(overscan.left, 1);
+    EXPECT_EQ(overscan.right, 1);
+    EXPECT_EQ(overscan.bottom, 1);
+}
+
+TEST(PlanFile, MasksAndRectanglesComeBack) {
+    const ScratchFolder folder;
+    const View centre = card_before_wall();
+    const Plan plan = plan_of(centre);
+    const PlanSetting setting{"centre.exr", centre.image.windows, lens, 2};
+    for (const std::string &masks : {folder.file("masks"), std::string()}) {
+        write_plan(folder.file("plan.json"), plan, setting, masks);
+        const PlanRequest read = read_plan(folder.file("plan.json"));
+        EXPECT_EQ(read.display, centre.image.windows.display);
+        ASSERT_EQ(read.views.size(), plan.views.size());
+        for (std::size_t k = 0; k < plan.views.size(); ++k) {
+            EXPECT_EQ(read.views[k].u, plan.views[k].u);
+            const PixelMask &asked = plan.views[k].mask, &back = read.views[k].mask;
+            std::size_t extra = 0;
+            for (int y = asked.data.min.y; y <= asked.data.max.y; ++y)
+                for (int x = asked.data.min.x; x <= asked.data.max.x; ++x) {
+                    const bool there = back.data.intersects(Imath::V2i(x, y)) && back.at(x, y);
+                    EXPECT_TRUE(there || !asked.at(x, y));
+                    extra += there && !asked.at(x, y);
+                }
+            EXPECT_TRUE(masks.empty() || extra == 0);
+        }
+    }
+}
+
+TEST(PlanFile, WhatIsNoPlanIsRefused) {
+    const ScratchFolder folder;
+    for (const char *text : {"", "{", "[]", "{\"display_window\": [0, 0, 9, 9]}",
+                             "{\"display_window\": [9, 9, 0, 0], \"views\": []}",
+                             "{\"display_window\": [0, 0, 9, 9], \"views\": [{\"name\": 3}]}"}) {
+        put_contents(folder.file("plan.json"), text);
+        EXPECT_NE(what_of<Error>([&] { read_plan(folder.file("plan.json")); }).find("plan.json"),
+                  std::string::npos)
+            << text;
+    }
+}
+
+} // namespace
+} // namespace sparselens

@@ -1,0 +1,102 @@
+#include "support/traced.h"
+#include "support/views.h"
+#include "warp/photo_consistency.h"
+#include "warp/warp.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace sparselens {
+namespace {
+
+constexpr double focal_px = 100, radius = 0.06, scale = focal_px * radius;
+const Windows window = windows_of_size(64, 16);
+
+using Colour = std::function<float(double x, double y)>;
+
+// A wall at z = 2.2, on which each view sees colours of its own.
+std::vector<View> wall(const std::function<Colour(const Imath::V2d &camera)> &colour_for, float noise = 0) {
+    std::vector<View> views;
+    for (const Imath::V2d &camera :
+         {Imath::V2d(0, 0), Imath::V2d(radius, 0), Imath::V2d(0, radius), Imath::V2d(-radius, 0)}) {
+        TwoPlanes scene;
+        scene.front_z = 2.2;
+        scene.front_covers = [](double, double) { return true; };
+        scene.front_red = colour_for(camera);
+        scene.noise = noise;
+        views.push_back(scene.view(window, camera));
+    }
+    return views;
+}
+
+// The share of pixels where the views may be averaged.
+double agreement(const std::vector<View> &views, std::optional<double> focus = {}) {
+    const PlacedViews placed(views, focal_px, scale, 0);
+    PlacedRows rows = placed.place(window.data, 0, 15);
+    const auto agree =
+        find_agreement(placed, {scale, focus}, window.data, find_surfaces(placed, 0.5 / scale, rows));
+    return double(std::ranges::count(agree, true)) / double(agree.size());
+}
+
+float stripes(double x) { return float(0.5 + 0.4 * std::sin(0.5 * x)); }
+
+TEST(Agreement, OneTextureSeenByAll) {
+    EXPECT_EQ(agreement(wall([](auto) { return [](double x, double) { return stripes(x); }; })), 1);
+    EXPECT_EQ(agreement(wall(
+                  [](auto) { return [](double x, double) { return std::fmod(x, 10) < 5 ? 1.0f : 0.0f; }; })),
+              1);
+}
+
+TEST(Agreement, NoiseIsNoDisagreement) {
+    const auto grey = [](auto) { return [](double, double) { return 0.5f; }; };
+    for (const float noise : {0.01f, 0.1f, 0.5f}) EXPECT_EQ(agreement(wall(grey, noise)), 1) << noise;
+}
+
+// Another colour, or the same picture somewhere else.
+TEST(Agreement, ReflectionsAreDisagreement) {
+    const auto other_colour = [](const Imath::V2d &camera) {
+        return [camera](double, double) { return camera.x == 0 && camera.y == 0 ? 0.2f : 0.8f; };
+    };
+    EXPECT_EQ(agreement(wall(other_colour)), 0);
+    EXPECT_LT(agreement(wall(other_colour, 0.1f)), 0.1);
+    const auto reflection = [](const Imath::V2d &camera) {
+        return [camera](double x, double) { return stripes(x + 60 * camera.x + 40 * camera.y); };
+    };
+    EXPECT_EQ(agreement(wall(reflection)), 0);
+}
+
+// The lens itself averages what comes from one point in all directions.
+TEST(Agreement, InFocusAllDirectionsCount) {
+    const auto views = wall([](const Imath::V2d &camera) {
+        return [camera](double, double) { return float(0.5 + 4 * camera.x); };
+    });
+    EXPECT_EQ(agreement(views, 2.2), 1);
+    EXPECT_EQ(agreement(views, 2.5), 1); // |CoC| 0.33
+    EXPECT_EQ(agreement(views, 50), 0);
+}
+
+TEST(Agreement, WhatDisagreesIsNotAveraged) {
+    const auto views = wall([](const Imath::V2d &camera) {
+        return [camera](double, double) { return camera.x == 0 && camera.y == 0 ? 0.25f : 0.75f; };
+    });
+    Progress silent;
+    WarpOptions options{.focal_px = focal_px, .radius = radius};
+    const auto red_at = [&](int x, int y) {
+        const Ldi ldi = warp(views, options, silent);
+        const Imath::V2i first = ldi.windows.data.min;
+        const auto pixel =
+            std::size_t(y - first.y) * std::size_t(ldi.windows.width()) + std::size_t(x - first.x);
+        return ldi.values[0][ldi.begin[pixel]];
+    };
+    EXPECT_EQ(red_at(30, 8), 0.25f);
+    options.test_agreement = false;
+    EXPECT_GT(red_at(30, 8), 0.3f);
+    options.test_agreement = true;
+    options.focus = 2.2;
+    EXPECT_GT(red_at(30, 8), 0.3f);
+}
+
+} // namespace
+} // namespace sparselens

@@ -1,0 +1,188 @@
+#include "deep/deepen.h"
+#include "deep/order.h"
+#include "support/ldi_samples.h"
+#include "support/views.h"
+#include "warp/silhouettes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace sparselens {
+namespace {
+
+constexpr float inf = std::numeric_limits<float>::infinity();
+constexpr double scale = 20; // of depths 2 and 10: 8 pixels of CoC apart
+
+Ldi separated(const View &view, double jump = 0.5) {
+    return separate_silhouettes(samples_of(view, view.image.channels), scale, jump);
+}
+
+void expect_flattens_to(const View &view, const Ldi &ldi) {
+    const Image flat = flatten(ldi);
+    for (std::size_t i = 0; i < flat.values.size(); ++i) {
+        const bool empty = view.image.plane(3)[i % flat.windows.pixels()] == 0;
+        const float value = empty ? 0 : view.image.values[i];
+        EXPECT_NEAR(flat.values[i], value, 1e-6 * std::max(1.0, std::abs(double(value))));
+    }
+}
+
+// A vertical edge inside column 8: left of it red at depth 2, right of it green at depth `far_z`. The column itself
+// shows `share` of red, under the depth of what covers its centre.
+View edge(float share, float far_z = 10) {
+    return make_view(windows_of_size(16, 9), {0, 0}, [&](int x, int) {
+        const float red = x < 8 ? 1 : x == 8 ? share : 0;
+        return ViewPixel{.z = red >= 0.5f ? 2 : far_z, .r = red, .g = 1 - red};
+    });
+}
+
+TEST(Silhouettes, MixedPixelsAreTakenApart) {
+    for (const float share : {0.25f, 0.4f, 0.6f, 0.75f}) {
+        const View view = edge(share);
+        const Ldi ldi = separated(view);
+        expect_flattens_to(view, ldi);
+        for (int y = 0; y < 9; ++y)
+            for (int x = 0; x < 16; ++x) {
+                const std::size_t pixel = std::size_t(y * 16 + x);
+                const std::uint64_t front = ldi.begin[pixel], behind = front + 1;
+                ASSERT_EQ(ldi.begin[pixel + 1] - front, x == 8 ? 2u : 1u) << x;
+                if (x != 8) continue;
+                EXPECT_FLOAT_EQ(ldi.z[front], 2);
+                EXPECT_FLOAT_EQ(ldi.z[behind], 10);
+                const float front_rgba[] = {share, 0, 0, share}, behind_rgba[] = {0, 1, 0, 1};
+                for (std::size_t k = 0; k < 4; ++k) {
+                    // Mixed pixels have a say in what the front shows, and "not mixed" one in the share.
+                    EXPECT_NEAR(ldi.values[k][front], front_rgba[k], 0.05);
+                    EXPECT_NEAR(ldi.values[k][behind], behind_rgba[k], 1e-6);
+                }
+            }
+    }
+}
+
+TEST(Silhouettes, TheSkyIsASurfaceToo) {
+    const Ldi ldi = separated(edge(0.4f, inf));
+    const std::uint64_t front = ldi.begin[4 * 16 + 8];
+    ASSERT_EQ(ldi.begin[4 * 16 + 9] - front, 2u);
+    EXPECT_EQ(ldi.z[front], 2);
+    EXPECT_EQ(ldi.z[front + 1], inf);
+}
+
+TEST(Silhouettes, PixelsOfOneSurfaceAreLeftAlone) {
+    for (const float share : {0.0f, 1.0f}) {
+        const View view = edge(share); // a clean edge
+        EXPECT_EQ(separated(view).samples(), 16u * 9);
+    }
+    const View slope = make_view(windows_of_size(16, 9), {0, 0}, [](int x, int y) {
+        return ViewPixel{.z = 5 + 0.1f * float(x), .r = float(x % 2), .g = float(y % 2)};
+    });
+    EXPECT_EQ(separated(slope).samples(), 16u * 9); // no jump, whatever the colours
+}
+
+TEST(Silhouettes, TheJumpSaysWhatPartsSurfaces) {
+    EXPECT_EQ(separated(edge(0.4f), 7.9).samples(), 17u * 9);
+    EXPECT_EQ(separated(edge(0.4f), 8.1).samples(), 16u * 9);
+}
+
+// Where front and back look alike nothing can be told; where a colour is on neither side of them, neither.
+TEST(Silhouettes, WhatCannotBeToldIsLeftAlone) {
+    const View grey = make_view(windows_of_size(16, 9), {0, 0}, [](int x, int) {
+        return ViewPixel{.z = x < 8 ? 2.0f : 10.0f, .r = 0.5f, .g = 0.5f, .b = 0.5f};
+    });
+    EXPECT_EQ(separated(grey).samples(), 16u * 9);
+    View odd = edge(0.5f);
+    for (int y = 0; y < 9; ++y) odd.image.at(2, 8, y) = 5; // blue, of which neither side has any
+    EXPECT_EQ(separated(odd).samples(), 16u * 9);
+}
+
+// Behind the post that ends inside column 8 stands a lamp of columns 8 and 9 in rows 3 to 5, and else a grey wall. Its
+// light is in the post's pixels too, and the mean of what is clear of the post knows nothing of it.
+TEST(Silhouettes, ALampHalfBehindAPostShinesAtItsOwnDepth) {
+    const float lamp = 500, share = 0.6f;
+    const View view = make_view(windows_of_size(16, 9), {0, 0}, [&](int x, int y) {
+        const float behind = x >= 8 && x <= 9 && y >= 3 && y <= 5 ? lamp : 0.5f;
+        const float red = x < 8 ? 0.1f : x == 8 ? share * 0.1f + (1 - share) * behind : behind;
+        return ViewPixel{.z = x <= 8 ? 2.0f : 10.0f, .r = red, .g = red, .b = red};
+    });
+    const Ldi ldi = separated(view);
+    expect_flattens_to(view, ldi);
+    for (int y = 3; y <= 5; ++y) {
+        const std::uint64_t front = ldi.begin[std::size_t(y * 16 + 8)];
+        ASSERT_EQ(ldi.begin[std::size_t(y * 16 + 9)] - front, 2u) << y;
+        EXPECT_FLOAT_EQ(ldi.values[0][front + 1], lamp);
+        EXPECT_NEAR(ldi.values[3][front], share, 0.04); // the lamp has a say in what the post shows
+        EXPECT_LT(ldi.values[0][front], 0.04f * lamp);
+    }
+}
+
+// A lamp of three by three pixels shows one that is all its own: what its edges show is not what it is.
+TEST(Silhouettes, TheEdgesOfASmallLampArePartsOfIt) {
+    const auto share = [](int x, int y) {
+        const float across = x == 4 ? 1 : x == 3 ? 0.6f : x == 5 ? 0.4f : 0;
+        const float down = y == 4 ? 1 : y == 3 || y == 5 ? 0.5f : 0;
+        return across * down;
+    };
+    const View view = make_view(windows_of_size(9, 9), {0, 0}, [&](int x, int y) {
+        return ViewPixel{.z = share(x, y) >= 0.5f ? 2.0f : 10.0f, .r = 0.1f + 500 * share(x, y)};
+    });
+    const Ldi ldi = separated(view);
+    expect_flattens_to(view, ldi);
+    double nearer = 0, farther = 0;
+    for (std::uint64_t i = 0; i < ldi.samples(); ++i)
+        (ldi.z[i] < 5 ? nearer : farther) += double(ldi.values[0][i]);
+    for (std::size_t pixel = 0; pixel < 81; ++pixel) {
+        const float part = share(int(pixel % 9), int(pixel / 9));
+        if (part == 0 || part == 1) continue;
+        EXPECT_NEAR(ldi.values[3][ldi.begin[pixel]], part, 0.02) << pixel;
+    }
+    EXPECT_NEAR(nearer, 500 * 2 * 2, 10);
+    EXPECT_NEAR(farther, 0.1 * 81, 1);
+}
+
+TEST(Silhouettes, PartlyCoveredPixelsAreLeftAlone) {
+    View view = edge(0.5f);
+    for (int y = 0; y < 9; ++y) view.image.at(3, 8, y) = 0.9f;
+    EXPECT_EQ(separated(view).samples(), 16u * 9);
+}
+
+TEST(Silhouettes, FlattenedEveryPictureIsWhatItWas) {
+    for (std::uint32_t seed = 1; seed <= 10; ++seed) {
+        const View view =
+            random_view({Imath::Box2i({0, 0}, {19, 9}), Imath::Box2i({-2, 3}, {17, 30})}, {0, 0}, seed);
+        const Ldi ldi = separated(view);
+        EXPECT_TRUE(order_of(ldi).sorted && order_of(ldi).apart);
+        expect_flattens_to(view, ldi);
+    }
+}
+
+// Negative colours and what is no number: no such pixel makes another one bad.
+TEST(Silhouettes, BadPixelsStayOnePixel) {
+    for (const float bad : {-1.0f, std::nanf(""), inf, -inf}) {
+        View view = edge(0.4f);
+        view.image.at(0, 8, 4) = bad;
+        view.image.at(1, 5, 4) = bad;
+        view.image.at(0, 9, 2) = bad;
+        const Ldi ldi = separated(view);
+        const Image flat = flatten(ldi);
+        for (int y = 0; y < 9; ++y)
+            for (int x = 0; x < 16; ++x) {
+                const bool own =
+                    std::isfinite(view.image.at(0, x, y)) && std::isfinite(view.image.at(1, x, y));
+                EXPECT_EQ(std::isfinite(flat.at(0, x, y)) && std::isfinite(flat.at(1, x, y)), own)
+                    << x << "," << y;
+            }
+    }
+}
+
+TEST(Silhouettes, WithoutColourOrCoverageNothingHappens) {
+    View view = edge(0.4f);
+    view.image.channels[0].name = "Y";
+    EXPECT_EQ(separated(view).samples(), 16u * 9);
+    view = edge(0.4f);
+    view.image.channels[3].name = "Y";
+    EXPECT_EQ(separated(view).samples(), 16u * 9);
+}
+
+} // namespace
+} // namespace sparselens

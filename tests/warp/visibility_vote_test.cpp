@@ -1,0 +1,79 @@
+#include "support/views.h"
+#include "warp/visibility_vote.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace sparselens {
+namespace {
+
+constexpr double focal_px = 100, tolerance = 0.05; // of 1 / z: 2 and 10 are two surfaces
+
+// A card at z = 2 before a wall at z = 10, seen by cameras as far off as given.
+class Views {
+public:
+    Views(const TwoPlanes &scene, const std::vector<Imath::V2d> &cameras) {
+        for (const Imath::V2d &camera : cameras)
+            views_.push_back(scene.view(windows_of_size(40, 10), camera));
+    }
+    double coverage(double x, double y, double z) const {
+        return coverage_by_views(PlacedViews(views_, focal_px, 1, 0), {x, y}, 1 / z, tolerance);
+    }
+
+private:
+    std::vector<View> views_;
+};
+
+TwoPlanes card_up_to(double right) {
+    TwoPlanes scene;
+    scene.front_covers = [right](double x, double) { return x < right; };
+    return scene;
+}
+
+// The cameras show pixel edges of the card where their pixels' centres fall, half a pixel apart here.
+const std::vector<Imath::V2d> cameras{{0, 0}, {0.01, 0}, {0.02, 0}, {0.03, 0}, {0.04, 0}};
+
+TEST(HiddenSurface, IsWholeWhereAllSeeItAndGoneWhereNoneDoes) {
+    const Views views(card_up_to(20), cameras);
+    EXPECT_EQ(views.coverage(12, 5, 2), 1);
+    EXPECT_EQ(views.coverage(26, 5, 2), 0); // all look past it
+    EXPECT_EQ(views.coverage(26, 5, 10), 1);
+}
+
+// What hides a place says nothing about it; nor does a view that does not reach it.
+TEST(HiddenSurface, WhoCannotTellDoesNotVote) {
+    const Views views(card_up_to(20), cameras);
+    EXPECT_EQ(views.coverage(5, 5, 10), 1); // behind the card: nobody saw it
+    EXPECT_EQ(views.coverage(300, 5, 2), 1);
+    EXPECT_EQ(views.coverage(-1e30, 5, 2), 1);
+    EXPECT_EQ(views.coverage(12, 5, std::numeric_limits<double>::infinity()), 1);
+}
+
+// Of two views one half sees it: between a quarter and three quarters coverage is in proportion.
+TEST(HiddenSurface, AnEdgeIsSharedByMajority) {
+    TwoPlanes with = card_up_to(20), without = card_up_to(-100);
+    const Windows w = windows_of_size(40, 10);
+    const auto coverage = [&](int there, int past) {
+        std::vector<View> views{with.view(w, {0, 0})};
+        for (int i = 0; i < there; ++i) views.push_back(with.view(w, {0.02, 0}));
+        for (int i = 0; i < past; ++i) views.push_back(without.view(w, {0.02, 0}));
+        return coverage_by_views(PlacedViews(views, focal_px, 1, 0), {12, 5}, 0.5, tolerance);
+    };
+    EXPECT_EQ(coverage(3, 1), 1);
+    EXPECT_DOUBLE_EQ(coverage(5, 3), 0.75);
+    EXPECT_DOUBLE_EQ(coverage(1, 1), 0.5);
+    EXPECT_EQ(coverage(1, 3), 0);
+    EXPECT_EQ(coverage(0, 1), 0);
+}
+
+// A pixel that is covered in part votes by its parts.
+TEST(HiddenSurface, PartialCoverageVotesInPart) {
+    const Windows w = windows_of_size(8, 8);
+    const auto half = [](int, int) { return ViewPixel{.z = 2, .a = 0.5f}; };
+    const std::vector<View> views{make_view(w, {0, 0}, half), make_view(w, {0, 0}, half)};
+    EXPECT_DOUBLE_EQ(coverage_by_views(PlacedViews(views, focal_px, 1, 0), {4, 4}, 0.5, tolerance), 0.5);
+}
+
+} // namespace
+} // namespace sparselens

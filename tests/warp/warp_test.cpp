@@ -1,0 +1,475 @@
+#include "base/error.h"
+#include "deep/deepen.h"
+#include "deep/order.h"
+#include "support/ldi_samples.h"
+#include "support/scratch_folder.h"
+#include "support/views.h"
+#include "warp/reproject.h"
+#include "warp/visibility_vote.h"
+#include "warp/warp.h"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+
+namespace sparselens {
+namespace {
+
+constexpr float inf = std::numeric_limits<float>::infinity();
+constexpr double focal_px = 100, radius = 0.06;
+// Silhouettes have tests of their own.
+const WarpOptions averaging{.focal_px = focal_px, .radius = radius, .split_silhouettes = false};
+const WarpOptions keeping{.focal_px = focal_px, .radius = radius, .merge = Merge::keep};
+
+Ldi warped(const std::vector<View> &views, const WarpOptions &options = averaging) {
+    Progress silent;
+    return warp(views, options, silent);
+}
+
+void expect_same_bits(const Ldi &a, const Ldi &b) {
+    EXPECT_EQ(a.windows, b.windows);
+    EXPECT_EQ(a.begin, b.begin);
+    EXPECT_EQ(a.z, b.z);
+    EXPECT_EQ(a.dx, b.dx);
+    EXPECT_EQ(a.dy, b.dy);
+    EXPECT_EQ(a.weight, b.weight);
+    EXPECT_EQ(a.values, b.values);
+}
+
+// The samples of pixel (x, y) of an LDI whose data window may have grown.
+TestPixel pixel_at(const Ldi &ldi, int x, int y) {
+    const Windows &w = ldi.windows;
+    return samples_of(ldi,
+                      std::size_t(y - w.data.min.y) * std::size_t(w.width()) + std::size_t(x - w.data.min.x));
+}
+
+template <typename Visit>
+void for_each_pixel(const Imath::Box2i &box, const Visit &visit) {
+    for (int y = box.min.y; y <= box.max.y; ++y)
+        for (int x = box.min.x; x <= box.max.x; ++x) visit(x, y);
+}
+
+// Stripes of a front plane before a back plane.
+TwoPlanes fence() {
+    TwoPlanes scene;
+    scene.front_covers = [](double x, double) { return std::fmod(x + 1000, 16) < 6; };
+    return scene;
+}
+
+// One plane that fills the picture, at a depth by which rim views land between pixels.
+TwoPlanes one_plane(const std::function<float(double, double)> &red) {
+    TwoPlanes scene;
+    scene.front_z = 2.2;
+    scene.front_covers = [](double, double) { return true; };
+    scene.front_red = red;
+    return scene;
+}
+
+std::vector<View> random_views(const Windows &windows, int count) {
+    std::vector<View> views;
+    for (int i = 0; i < count; ++i) {
+        const double angle = 0.7 * i;
+        const Imath::V2d rim = radius * Imath::V2d(std::cos(angle), std::sin(angle));
+        views.push_back(random_view(windows, i == 0 ? Imath::V2d(0, 0) : rim, std::uint32_t(i + 1)));
+    }
+    return views;
+}
+
+TEST(Warp, OneViewIsItsOwnLdi) {
+    const Windows w{Imath::Box2i({0, 0}, {19, 9}), Imath::Box2i({-2, 3}, {12, 30})};
+    const View view = random_view(w, {0, 0}, 1);
+    for (const WarpOptions &options : {averaging, keeping}) {
+        const Ldi ldi = warped({view}, options);
+        EXPECT_EQ(ldi.windows, w);
+        EXPECT_EQ(ldi.channels, view.image.channels);
+        for (std::size_t pixel = 0; pixel < w.pixels(); ++pixel) {
+            const TestPixel samples = samples_of(ldi, pixel);
+            ASSERT_EQ(samples.size(), view.image.plane(3)[pixel] == 0 ? 0u : 1u);
+            if (samples.empty()) continue;
+            EXPECT_EQ(samples[0].z, view.z[pixel]);
+            EXPECT_EQ(samples[0].colour, view.image.plane(0)[pixel]);
+            EXPECT_EQ(samples[0].weight, 1);
+            EXPECT_EQ(samples[0].dx, 0);
+            EXPECT_EQ(samples[0].dy, 0);
+        }
+    }
+}
+
+TEST(Warp, OnePixel) {
+    const auto samples_at = [](float z, const WarpOptions &options) {
+        TwoPlanes scene;
+        scene.back_z = double(z);
+        return pixel_at(warped(five_views(scene, windows_of_size(1, 1), radius), options), 0, 0);
+    };
+    EXPECT_EQ(samples_at(1, averaging).size(), 1u); // the others fall elsewhere
+    EXPECT_EQ(samples_at(1, averaging)[0].weight, 1);
+    EXPECT_EQ(samples_at(1000, averaging)[0].weight, 5);
+    for (const float z : {1.0f, 1000.0f, inf}) {
+        EXPECT_EQ(samples_at(z, keeping).size(), 1u);
+        EXPECT_FLOAT_EQ(samples_at(z, averaging)[0].z, z);
+    }
+}
+
+TEST(Warp, IdenticalViewsChangeNothing) {
+    const View view = random_view(windows_of_size(33, 21), {0, 0}, 5);
+    const Ldi one = warped({view}), five = warped({view, view, view, view, view});
+    EXPECT_EQ(one.begin, five.begin);
+    EXPECT_EQ(one.values, five.values);
+    EXPECT_EQ(five.weight, std::vector<float>(five.samples(), 5));
+    for (std::size_t i = 0; i < one.samples(); ++i) EXPECT_FLOAT_EQ(one.z[i], five.z[i]);
+}
+
+TEST(Warp, KeepLeavesTheCentreViewAsItIs) {
+    const Windows w = windows_of_size(40, 33);
+    for (const auto &views : {random_views(w, 6), five_views(fence(), w, radius)}) {
+        const Ldi ldi = warped(views, keeping);
+        const Image &centre = views[0].image;
+        for (std::size_t pixel = 0; pixel < w.pixels(); ++pixel) {
+            const TestPixel samples = samples_of(ldi, pixel);
+            if (centre.plane(3)[pixel] == 0) {
+                EXPECT_TRUE(samples.empty()); // nothing is added in front of nothing
+                continue;
+            }
+            ASSERT_FALSE(samples.empty());
+            EXPECT_EQ(samples[0].z, views[0].z[pixel]); // so nothing lies before it
+            EXPECT_EQ(samples[0].colour, centre.plane(0)[pixel]);
+            EXPECT_EQ(samples[0].alpha, centre.plane(3)[pixel]);
+            EXPECT_EQ(samples[0].weight, 1);
+        }
+        const Image flat = flatten(ldi);
+        for (std::size_t pixel = 0; pixel < w.pixels(); ++pixel)
+            for (std::size_t k = 0; k < 4; ++k)
+                EXPECT_TRUE(centre.plane(3)[pixel] != 1 || flat.plane(k)[pixel] == centre.plane(k)[pixel]);
+    }
+}
+
+// Whatever the views show: z ascends strictly, so at infinity lies at most one sample.
+TEST(Warp, SamplesAreTidy) {
+    const Windows w = windows_of_size(50, 40);
+    for (const WarpOptions &options : {averaging, keeping}) {
+        const Ldi ldi = warped(random_views(w, 9), options);
+        EXPECT_GT(ldi.samples(), w.pixels());
+        const Order order = order_of(ldi);
+        EXPECT_TRUE(order.sorted && order.apart);
+        EXPECT_TRUE(std::ranges::all_of(ldi.values[3], [](float alpha) { return alpha > 0; }));
+        EXPECT_TRUE(std::ranges::all_of(ldi.weight, [](float weight) { return weight > 0; }));
+        for (const auto *offsets : {&ldi.dx, &ldi.dy})
+            EXPECT_TRUE(std::ranges::all_of(*offsets, [](float d) { return std::abs(d) <= 0.5f; }));
+    }
+}
+
+struct Witness {
+    double depth;     // perceptive
+    float colour;     // not premultiplied
+    Imath::V2d place; // in its pixel, 0..1
+};
+
+// The view pixels that land in a pixel of the centre view.
+class Witnesses {
+public:
+    explicit Witnesses(const std::vector<View> &views) {
+        for (const View &view : views) {
+            const Ldi ldi = samples_of(view, view.image.channels);
+            std::vector<ReprojectedSample> samples;
+            Reprojection(ldi, {view.position, focal_px, ldi.windows}).append_rows(-1000, 1000, samples);
+            for (const ReprojectedSample &s : samples)
+                landed_[{s.x, s.y}].push_back({focal_px * radius * double(s.inverse_z),
+                                               ldi.values[0][s.source] / ldi.values[3][s.source],
+                                               {0.5 + double(s.dx), 0.5 + double(s.dy)}});
+        }
+    }
+    const std::vector<Witness> &at(int x, int y) { return landed_[{x, y}]; }
+
+private:
+    std::map<std::pair<int, int>, std::vector<Witness>> landed_;
+};
+
+double depth_of(float z) { return focal_px * radius / double(z); }
+
+// Extra vision: seeing what no view saw. Every sample's colour lies among those of view pixels that land within a
+// pixel of it, on its surface (no more than surface_px from one of its samples, so twice that from their mean).
+TEST(Warp, NothingIsInvented) {
+    const Windows w = windows_of_size(40, 30);
+    for (const auto &views : {random_views(w, 6), five_views(fence(), w, radius)})
+        for (const WarpOptions &options : {averaging, keeping}) {
+            const Ldi ldi = warped(views, options);
+            Witnesses witnesses(views);
+            for_each_pixel(ldi.windows.data, [&](int x, int y) {
+                for (const TestSample &s : pixel_at(ldi, x, y)) {
+                    float least = inf, most = -inf;
+                    for_each_pixel({{x - 1, y - 1}, {x + 1, y + 1}}, [&](int near_x, int near_y) {
+                        for (const Witness &seen : witnesses.at(near_x, near_y)) {
+                            if (std::abs(seen.depth - depth_of(s.z)) > 2 * options.surface_px) continue;
+                            least = std::min(least, seen.colour);
+                            most = std::max(most, seen.colour);
+                        }
+                    });
+                    EXPECT_GE(s.colour / s.alpha, least - 1e-6f);
+                    EXPECT_LE(s.colour / s.alpha, most + 1e-6f);
+                }
+            });
+        }
+}
+
+// And nothing that is not in front of the centre view's surface, or outside of its picture, or that other views look
+// past, is left out: averaging, every such view pixel has a sample of its surface where it lands.
+TEST(Warp, NothingIsLost) {
+    const Windows w = windows_of_size(40, 30);
+    for (const auto &views : {random_views(w, 6), five_views(fence(), w, radius)}) {
+        const Ldi ldi = warped(views);
+        Witnesses witnesses(views);
+        const PlacedViews placed(views, focal_px, focal_px * radius, 0);
+        const auto past = [&](const Witness &seen, int x, int y) {
+            const double inverse_z = seen.depth / (focal_px * radius);
+            return coverage_by_views(placed, {x + seen.place.x, y + seen.place.y}, inverse_z,
+                                     averaging.surface_px / (focal_px * radius)) < 1;
+        };
+        std::size_t seen_pixels = 0, lost = 0;
+        for_each_pixel(ldi.windows.data, [&](int x, int y) {
+            const TestPixel samples = pixel_at(ldi, x, y);
+            const bool inside = w.data.intersects(Imath::V2i(x, y));
+            const bool empty = inside && views[0].image.at(3, x, y) == 0;
+            const double centre = inside ? depth_of(views[0].z[std::size_t(y * 40 + x)]) : inf;
+            for (const Witness &seen : witnesses.at(x, y)) {
+                ++seen_pixels;
+                const double depth = seen.depth;
+                const bool found = std::ranges::any_of(samples, [&](const TestSample &s) {
+                    return std::abs(depth_of(s.z) - depth) <= 2 * averaging.surface_px;
+                });
+                lost += !(found || empty || depth > centre || past(seen, x, y));
+            }
+        });
+        EXPECT_GT(seen_pixels, 3 * w.pixels());
+        EXPECT_LE(lost,
+                  seen_pixels / 2000); // the vote is on the mean place of a surface's samples in a pixel
+    }
+}
+
+// Red stripes in front of green: no sample mixes them, and behind the stripes' edges the hidden green appears.
+TEST(Warp, SurfacesDoNotMixAndTheHiddenAppears) {
+    const Windows w = windows_of_size(64, 20);
+    const auto views = five_views(fence(), w, radius);
+    const Ldi ldi = warped(views);
+    std::size_t hidden = 0;
+    for_each_pixel(w.data, [&](int x, int y) {
+        for (const TestSample &s : pixel_at(ldi, x, y)) {
+            const bool front = s.z < 5;
+            EXPECT_EQ(s.colour, front ? 1 : 0);
+            hidden += !front && views[0].z[std::size_t(y * 64 + x)] == 2;
+        }
+    });
+    // The stripes move by 2.4 px against the back plane: at each of a stripe's two edges 2 to 3 columns appear.
+    EXPECT_GE(hidden, std::size_t(20 * 4 * 2 * 2));
+    EXPECT_LE(hidden, std::size_t(20 * 4 * 2 * 3));
+}
+
+// Left whole, the light of the nearer one would be seen at the depth of the farther one: a small lamp then has a
+// second disc.
+TEST(Warp, WhateverAreTwoSurfacesThePixelBetweenThemIsBoth) {
+    const View view = make_view(windows_of_size(16, 9), {0, 0}, [](int x, int) {
+        const float red = x < 8 ? 1 : x == 8 ? 0.4f : 0;
+        return ViewPixel{.z = red >= 0.5f ? 2.0f : 10.0f, .r = 1000 * red, .g = 1 - red};
+    });
+    for (const double apart : {0.49, 0.51, 0.99, 1.01, 4.0}) { // pixels of perceptive depth
+        const Ldi ldi = warped({view}, {.focal_px = 100, .radius = apart / (100 * (1 / 2.0 - 1 / 10.0))});
+        const std::uint64_t front = ldi.begin[4 * 16 + 8];
+        ASSERT_EQ(ldi.begin[4 * 16 + 9] - front, apart > 0.5 ? 2u : 1u) << apart;
+        if (apart < 0.5) continue;
+        EXPECT_FLOAT_EQ(ldi.z[front], 2);
+        EXPECT_NEAR(ldi.values[0][front], 400, 1);
+        EXPECT_NEAR(ldi.values[0][front + 1], 0, 1e-3);
+    }
+}
+
+// Where samples lie is kept below the pixel: a picture whose colour is its position says so.
+TEST(Warp, SubPixelPositionsAreKept) {
+    TwoPlanes scene = fence();
+    scene.front_red = [](double x, double y) { return float(x + 0.25 * y); };
+    const Windows w = windows_of_size(64, 20);
+    const Ldi ldi = warped(five_views(scene, w, radius));
+    int checked = 0;
+    for_each_pixel(ldi.windows.data, [&](int x, int y) {
+        for (const TestSample &s : pixel_at(ldi, x, y)) {
+            if (s.z > 5) continue; // of the front plane, whose colour is red
+            ++checked;
+            EXPECT_NEAR(s.colour, x + 0.5 + double(s.dx) + 0.25 * (y + 0.5 + double(s.dy)), 1e-4);
+        }
+    });
+    EXPECT_GT(checked, 24 * 20);
+}
+
+TEST(Warp, AveragingLowersTheNoiseAndKeepsTheMean) {
+    TwoPlanes scene = one_plane([](double, double) { return 0.5f; });
+    scene.noise = 0.5f;
+    const Windows w = windows_of_size(96, 96);
+    const auto views = five_views(scene, w, radius);
+    const Ldi ldi = warped(views);
+    const Imath::Box2i inner({4, 4}, {91, 91}); // where all views land
+    const auto deviation = [&](const auto &value_at) {
+        double sum = 0, squares = 0;
+        for_each_pixel(inner, [&](int x, int y) {
+            const double value = double(value_at(x, y));
+            sum += value;
+            squares += (value - 0.5) * (value - 0.5);
+        });
+        EXPECT_NEAR(sum / (88 * 88), 0.5, 0.01);
+        return std::sqrt(squares / (88 * 88));
+    };
+    double weight = 0;
+    const double before = deviation([&](int x, int y) { return views[0].image.at(0, x, y); });
+    const double after = deviation([&](int x, int y) {
+        const TestPixel samples = pixel_at(ldi, x, y);
+        EXPECT_EQ(samples.size(), 1u);
+        weight += double(samples[0].weight);
+        return samples[0].colour;
+    });
+    EXPECT_NEAR(before, 0.5 / std::sqrt(3.0), 0.01);
+    EXPECT_LT(after, before / 2); // five views: 1 / sqrt(5) at best, if each pixel takes as much of each
+    EXPECT_NEAR(weight / (88 * 88), 5, 0.2);
+}
+
+TEST(Warp, TheOrderOfRimViewsDoesNotMatter) {
+    const Windows w = windows_of_size(40, 30);
+    const auto views = random_views(w, 7);
+    for (const WarpOptions &options : {averaging, keeping}) {
+        const Ldi ldi = warped(views, options);
+        auto shuffled = views;
+        std::reverse(shuffled.begin() + 1, shuffled.end());
+        expect_same_bits(warped(shuffled, options), ldi);
+        std::rotate(shuffled.begin() + 1, shuffled.begin() + 3, shuffled.end());
+        expect_same_bits(warped(shuffled, options), ldi);
+    }
+}
+
+// Also where they stand at one point, as renders of one view with other noise do.
+TEST(Warp, TheOrderOfViewsAtOnePointDoesNotMatter) {
+    const Windows w = windows_of_size(40, 30);
+    auto views = random_views(w, 7);
+    for (View &view : views) view.position = {0.03, 0};
+    views[0].position = {0, 0};
+    for (const WarpOptions &options : {averaging, keeping}) {
+        auto shuffled = views;
+        std::reverse(shuffled.begin() + 1, shuffled.end());
+        expect_same_bits(warped(shuffled, options), warped(views, options));
+    }
+}
+
+TEST(Warp, TheNumberOfThreadsDoesNotMatter) {
+    const auto views = random_views(windows_of_size(40, 90), 5);
+    const auto with_threads = [&](std::size_t threads, const WarpOptions &options) {
+        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+        return warped(views, options);
+    };
+    for (const WarpOptions &options : {averaging, keeping})
+        expect_same_bits(with_threads(1, options), with_threads(4, options));
+}
+
+TEST(Warp, DataWindowsMayDiffer) {
+    const TwoPlanes scene = one_plane([](double x, double) { return float(x); });
+    Windows whole = windows_of_size(40, 30), crop = whole;
+    crop.data = Imath::Box2i({30, -5}, {60, 9});
+    for (const auto &[centre, rim] : {std::pair(whole, crop), std::pair(crop, whole)}) {
+        const std::vector<View> views{scene.view(centre, {0, 0}), scene.view(rim, {0.05, 0.02})};
+        const Ldi kept = warped(views, keeping), ldi = warped(views);
+        EXPECT_EQ(kept.windows, centre);
+        EXPECT_EQ(ldi.windows.display, centre.display);
+        double most_weight = 0;
+        for_each_pixel(centre.data, [&](int x, int y) {
+            ASSERT_EQ(pixel_at(kept, x, y).size(), 1u);
+            ASSERT_EQ(pixel_at(ldi, x, y).size(), 1u); // one plane, whichever view saw it
+            const TestSample s = pixel_at(ldi, x, y)[0];
+            EXPECT_NEAR(s.colour, x + 0.5 + double(s.dx), 1e-4);
+            most_weight = std::max(most_weight, double(s.weight));
+        });
+        EXPECT_EQ(most_weight, 2);
+    }
+}
+
+TEST(Warp, DisplayWindowsMayNot) {
+    View centre = random_view(windows_of_size(8, 8), {0, 0}, 1),
+         rim = random_view(windows_of_size(8, 9), {1, 0}, 2);
+    centre.name = "centre.exr";
+    rim.name = "rim.exr";
+    EXPECT_EQ(what_of<Error>([&] {
+                  warped({centre, rim});
+              }),
+              "rim.exr: its display window differs from the centre view's (centre.exr)");
+}
+
+TEST(Warp, ChannelsAreMatchedByName) {
+    const Windows w = windows_of_size(4, 4);
+    View centre = random_view(w, {0, 0}, 1), rim = centre;
+    std::swap(rim.image.channels[0], rim.image.channels[3]); // A, G, B, R
+    std::ranges::swap_ranges(rim.image.plane(0), rim.image.plane(3));
+    rim.image.channels.push_back({"more"});
+    rim.image.values.resize(5 * w.pixels());
+    EXPECT_EQ(warped({centre, rim}).values, warped({centre, centre}).values);
+    centre.image.channels[1].name = "albedo.G";
+    rim.name = "rim.exr";
+    EXPECT_EQ(what_of<Error>([&] {
+                  warped({centre, rim});
+              }),
+              "rim.exr: has no channel albedo.G, which the centre view has");
+}
+
+TEST(Warp, IdsAreNeverAveraged) {
+    const Windows w = windows_of_size(30, 20);
+    auto views = random_views(w, 5);
+    std::set<float> ids;
+    for (View &view : views) {
+        view.image.channels.push_back({"id", PixelType::uint32});
+        for (std::size_t pixel = 0; pixel < w.pixels(); ++pixel)
+            view.image.values.push_back(float(ids.size() * 977 + 13));
+        ids.insert(view.image.values.back());
+    }
+    const Ldi ldi = warped(views);
+    for (const float id : ldi.values[4]) ASSERT_TRUE(ids.contains(id));
+    const Windows &grown = ldi.windows;
+    for_each_pixel(w.data, [&](int x, int y) {
+        if (views[0].image.at(3, x, y) == 0) return;
+        const std::size_t pixel = std::size_t(y - grown.data.min.y) * std::size_t(grown.width()) +
+                                  std::size_t(x - grown.data.min.x);
+        EXPECT_EQ(ldi.values[4][ldi.begin[pixel]], 13); // the centre view's, which is in front
+    });
+}
+
+TEST(Warp, EmptyPixelsOfRimViewsAddNothing) {
+    const Windows w = windows_of_size(12, 12);
+    const View centre = random_view(w, {0, 0}, 1);
+    const View empty = make_view(w, {0.05, 0}, [](int, int) { return ViewPixel{.z = 0.5f, .r = 9, .a = 0}; });
+    expect_same_bits(warped({centre, empty}), warped({centre}));
+}
+
+// Nothing lies in front of what the centre view shows, and it shows the background.
+TEST(Warp, AnEmptyCentreStaysEmpty) {
+    const Windows w = windows_of_size(12, 12);
+    const View nothing = make_view(w, {0, 0}, [](int, int) { return ViewPixel{.a = 0}; });
+    const View rim = make_view(w, {0.05, 0}, [](int, int) { return ViewPixel{.z = inf, .r = 3}; });
+    EXPECT_EQ(warped({nothing, rim}).samples(), 0u);
+    EXPECT_EQ(warped({nothing, rim}, keeping).samples(), 0u);
+}
+
+// Averaging keeps what rim views saw beside the centre view's picture: a lens sees it there too.
+TEST(Warp, WhatLiesBesideThePictureIsKept) {
+    const TwoPlanes scene = one_plane([](double x, double) { return float(x); });
+    const Windows w = windows_of_size(20, 10);
+    const auto views = five_views(scene, w, radius);
+    const Ldi ldi = warped(views);
+    const int reach = int(std::floor(radius * focal_px / scene.front_z + 0.5));
+    EXPECT_EQ(ldi.windows.data, Imath::Box2i({-reach, -reach}, {19 + reach, 9 + reach}));
+    for_each_pixel({{-reach, 0}, {-1, 9}}, [&](int x, int y) {
+        const TestPixel samples = pixel_at(ldi, x, y);
+        ASSERT_LE(samples.size(), 1u);
+        EXPECT_TRUE(x == -reach || samples.size() == 1); // the last column is reached in part
+        for (const TestSample &s : samples) EXPECT_NEAR(s.colour, x + 0.5 + double(s.dx), 1e-4);
+    });
+    EXPECT_EQ(warped(views, keeping).windows, w);
+}
+
+} // namespace
+} // namespace sparselens

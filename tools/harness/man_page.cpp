@@ -1,0 +1,209 @@
+#include "harness/man_page.h"
+
+#include <algorithm>
+#include <cctype>
+#include <vector>
+
+namespace sparselens {
+
+namespace {
+
+bool is_argument(const CLI::Option &option) {
+    return option.get_lnames().empty() && option.get_snames().empty();
+}
+
+// "N" of CLI11's "N:INT in [0 - 7]".
+std::string type_of(const CLI::Option &option) {
+    const std::string type = option.get_type_name();
+    return type.substr(0, std::min({type.find(":INT in"), type.find(":SIZE"), type.find(":{")}));
+}
+
+// All names, as they are typed.
+std::vector<std::string> names_of(const CLI::Option &option) {
+    std::vector<std::string> names;
+    for (const std::string &name : option.get_snames()) names.push_back("-" + name);
+    for (const std::string &name : option.get_lnames()) names.push_back("--" + name);
+    return names;
+}
+
+// Text as roff shows it: no escapes, no requests at the beginning of a line, minus signs that can be copied.
+std::string roff(const std::string &text) {
+    std::string result;
+    bool line_begins = true;
+    for (const char c : text) {
+        if (line_begins && (c == '.' || c == '\'')) result += "\\&";
+        line_begins = c == '\n';
+        if (c == '\n') result += "\n.br";
+        if (c == '\\')
+            result += "\\e";
+        else if (c == '-')
+            result += "\\-";
+        else
+            result += c;
+    }
+    return result;
+}
+
+std::string bold(const std::string &text) { return "\\fB" + roff(text) + "\\fR"; }
+std::string italic(const std::string &text) { return "\\fI" + roff(text) + "\\fR"; }
+
+std::string upper_case(std::string text) {
+    for (char &c : text) c = char(std::toupper(static_cast<unsigned char>(c)));
+    return text;
+}
+
+std::string synopsis(const CLI::App &app) {
+    std::string line = bold(app.get_name()) + " [" + italic("options") + "]";
+    for (const CLI::Option *option : app.get_options()) {
+        if (!option->get_required() && !is_argument(*option)) continue;
+        const std::string name = is_argument(*option) ? "" : bold(names_of(*option).front()) + " ";
+        const std::string type = type_of(*option).empty() ? option->get_name() : type_of(*option);
+        line += " " + (option->get_required() ? name + italic(type) : "[" + name + italic(type) + "]");
+    }
+    return line + "\n";
+}
+
+std::string entry(const CLI::Option &option) {
+    std::string names;
+    for (const std::string &name : names_of(option)) names += (names.empty() ? "" : ", ") + bold(name);
+    const std::string type =
+        is_argument(option) && type_of(option).empty() ? option.get_name() : type_of(option);
+    if (option.get_expected_max() > 0 && !type.empty()) names += (names.empty() ? "" : " ") + italic(type);
+    const std::string preset = option.get_default_str();
+    return ".TP\n" + names + "\n" + roff(option.get_description()) +
+           (preset.empty() ? "" : roff(" (" + preset + ")")) + "\n";
+}
+
+std::string section(const CLI::App &app, const std::string &group, bool arguments) {
+    std::string text;
+    for (const CLI::Option *option : app.get_options())
+        if (option->get_group() == group && is_argument(*option) == arguments) text += entry(*option);
+    return text;
+}
+
+std::string environment(const CLI::App &app) {
+    std::string text;
+    for (const CLI::Option *option : app.get_options())
+        if (!option->get_envname().empty())
+            text += ".TP\n" + bold(option->get_envname()) + "\nStands for " + bold(names_of(*option).back()) +
+                    " where that is not given.\n";
+    return text;
+}
+
+} // namespace
+
+std::string man_page(const CLI::App &app, const std::string &version) {
+    std::string text = ".TH " + upper_case(app.get_name()) + " 1 \"\" \"sparselens " + version +
+                       "\" \"User Commands\"\n.SH NAME\n" + roff(app.get_name()) + " \\- " +
+                       roff(app.get_description()) + "\n.SH SYNOPSIS\n" + synopsis(app);
+    const std::string arguments = section(app, "Options", true);
+    if (!arguments.empty()) text += ".SH ARGUMENTS\n" + arguments;
+    text += ".SH OPTIONS\n" + section(app, "Options", false);
+    for (const std::string &group : app.get_groups())
+        if (group != "Options") text += ".SS " + group + "\n" + section(app, group, false);
+    return text +
+           ".SH EXIT STATUS\n0 done, 1 failed (input, output, memory), 2 wrong usage.\n.SH ENVIRONMENT\n" +
+           environment(app);
+}
+
+namespace {
+
+// The words that an option takes, "a b" of its type "a|b"; else "".
+std::string words_of(const CLI::Option &option) {
+    std::string words = type_of(option);
+    if (words.find('|') == std::string::npos) return "";
+    std::ranges::replace(words, '|', ' ');
+    return words;
+}
+
+std::string single_quoted(const std::string &text) { // as zsh and, but for backslashes, fish read it
+    std::string result = "'";
+    for (const char c : text) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return result + "'";
+}
+
+std::string zsh_escaped(const std::string &text, const std::string &special) {
+    std::string result;
+    for (const char c : text)
+        result += (special.find(c) == std::string::npos ? "" : "\\") + std::string(1, c);
+    return result;
+}
+
+std::string zsh_value(const CLI::Option &option) {
+    if (option.get_expected_max() == 0) return "";
+    const std::string words = words_of(option);
+    return ":" + zsh_escaped(type_of(option), ":\\") + ":" + (words.empty() ? "_files" : "(" + words + ")");
+}
+
+} // namespace
+
+std::string bash_completion(const CLI::App &app) {
+    std::string function = "_" + app.get_name(), options, cases;
+    std::ranges::replace(function, '-', '_');
+    for (const CLI::Option *option : app.get_options()) {
+        std::string patterns;
+        const std::string words = words_of(*option);
+        for (const std::string &name : names_of(*option)) {
+            options += (options.empty() ? "" : " ") + name;
+            patterns += (patterns.empty() ? "" : "|") + name;
+        }
+        if (patterns.empty() || words.empty()) continue;
+        cases +=
+            "    " + patterns + ") COMPREPLY=($(compgen -W '" + words + "' -- \"$current\")); return ;;\n";
+    }
+    return "# bash completion for " + app.get_name() + "\n" + function +
+           "() {\n    local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD-1]}\n"
+           "    COMPREPLY=()\n    case $previous in\n" +
+           cases + "    esac\n    [[ $current != -* ]] || COMPREPLY=($(compgen -W '" + options +
+           "' -- \"$current\"))\n}\ncomplete -o bashdefault -o default -F " + function + " " +
+           app.get_name() + "\n";
+}
+
+std::string zsh_completion(const CLI::App &app) {
+    std::string specs;
+    for (const CLI::Option *option : app.get_options()) {
+        const std::string value = zsh_value(*option), help = zsh_escaped(option->get_description(), "[]:\\");
+        if (is_argument(*option))
+            specs += " \\\n    " + single_quoted("*:" + zsh_escaped(type_of(*option), ":\\") + ":_files");
+        for (const std::string &name : names_of(*option)) // "*": a second time too
+            specs += " \\\n    " + single_quoted("*" + name + "[" + help + "]" + value);
+    }
+    return "#compdef " + app.get_name() + "\n_arguments -s" + specs + "\n";
+}
+
+std::string fish_completion(const CLI::App &app) {
+    std::string lines;
+    for (const CLI::Option *option : app.get_options()) {
+        if (is_argument(*option)) continue;
+        std::string line = "complete -c " + app.get_name();
+        for (const std::string &name : option->get_snames()) line += " -s " + name;
+        for (const std::string &name : option->get_lnames()) line += " -l " + name;
+        if (option->get_expected_max() > 0) line += " -r";
+        if (const std::string words = words_of(*option); !words.empty())
+            line += " -f -a " + single_quoted(words);
+        lines += line + " -d " + single_quoted(option->get_description()) + "\n";
+    }
+    return lines;
+}
+
+void add_documentation_options(CLI::App &app, const std::string &version) {
+    // CLI11 prints such an exception's text and ends with 0, whatever else is missing.
+    const auto print = [](const std::string &text) { throw CLI::CallForVersion(text, 0); };
+    app.add_flag_callback(
+           "--man", [&app, print, version] { print(man_page(app, version)); },
+           "Print the manual page, for man -l -")
+        ->group("Documentation");
+    app.add_option_function<std::string>(
+           "--completion",
+           [&app, print](const std::string &shell) {
+               print(shell == "zsh"    ? zsh_completion(app)
+                     : shell == "fish" ? fish_completion(app)
+                                       : bash_completion(app));
+           },
+           "Print the completion, for source (zsh: for a file _TOOL in $fpath)")
+        ->type_name("bash|zsh|fish")
+        ->check(CLI::IsMember({"bash", "zsh", "fish"}))
+        ->group("Documentation");
+}
+
+} // namespace sparselens

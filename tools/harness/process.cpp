@@ -1,0 +1,109 @@
+#include "harness/process.h"
+
+#include "base/error.h"
+#include "harness/man_page.h"
+#include "harness/one_line.h"
+#include "io/memory_limit.h"
+#include "io/unfinished.h"
+
+#include <ImfThreading.h>
+#include <tbb/global_control.h>
+#include <tbb/info.h>
+
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <new>
+
+namespace sparselens {
+
+namespace {
+
+int fail(const std::string &tool_name, const std::string &text, int code) {
+    std::fprintf(stderr, "%s: %s\n", tool_name.c_str(), one_line(text).c_str());
+    return code;
+}
+
+// Told to stop: no half-written file is left, and the process dies of the signal as its parent expects.
+extern "C" void stop(int number) {
+    remove_unfinished();
+    std::signal(number, SIG_DFL);
+    std::raise(number);
+}
+
+void handle_signals() {
+    std::signal(SIGPIPE, SIG_IGN); // a reader that went away is an error to report, not a silent death
+    for (const int number : {SIGINT, SIGTERM, SIGHUP})
+        if (std::signal(number, stop) == SIG_IGN) std::signal(number, SIG_IGN); // as under nohup
+}
+
+} // namespace
+
+void add_process_options(CLI::App &app, ProcessOptions &options) {
+    app.set_version_flag("--version", app.get_name() + " (sparselens) " SPARSELENS_VERSION);
+    app.add_flag("-v,--verbose", options.verbose, "Say on stderr what was found and done");
+    app.add_option("--threads", options.threads, "Threads to use, 0 = all the process may use")
+        ->type_name("N")
+        ->envname("CUE_THREADS")
+        ->check(CLI::Range(0, 4096));
+    add_documentation_options(app, SPARSELENS_VERSION);
+}
+
+void add_memory_option(CLI::App &app, ProcessOptions &options) {
+    app.add_option("--max-memory", options.max_memory,
+                   "Memory that reading a file may take, as 4GB (64 MB and 1100 times the file's size)")
+        ->type_name("SIZE")
+        ->transform(CLI::AsSizeValue(false));
+}
+
+std::optional<int> parse_words(CLI::App &app, const std::vector<std::string> &words,
+                               const std::string &where) {
+    try {
+        app.parse(std::vector<std::string>(words.rbegin(), words.rend())); // as CLI11 wants them
+    } catch (const CLI::Success &answer) {                                 // --help, --version
+        return app.exit(answer);
+    } catch (const CLI::RequiredError &error) {
+        // What was not understood says more than what is missing for it.
+        const auto unknown = app.remaining();
+        const std::string text = unknown.empty() ? error.what() : "unknown: " + unknown.front();
+        return fail(app.get_name(), where + text + " (see --help)", 2);
+    } catch (const CLI::ParseError &error) {
+        return fail(app.get_name(), where + error.what() + " (see --help)", 2);
+    }
+    return {};
+}
+
+class Process::ThreadLimit {
+public:
+    explicit ThreadLimit(int threads)
+        : limit_(tbb::global_control::max_allowed_parallelism, std::size_t(threads)) {}
+
+private:
+    tbb::global_control limit_;
+};
+
+Process::Process(const ProcessOptions &options, const ToolContext &tool) {
+    const int threads = options.threads > 0 ? options.threads : tbb::info::default_concurrency();
+    threads_ = std::make_unique<ThreadLimit>(threads);
+    Imf::setGlobalThreadCount(threads > 1 ? threads : 0);
+    set_memory_limit(options.max_memory);
+    handle_signals();
+    tool.say("threads: " + std::to_string(threads));
+}
+
+Process::~Process() = default;
+
+int exit_code_of(const std::string &tool_name, const std::string &where, const std::function<void()> &work) {
+    try {
+        work();
+        return 0;
+    } catch (const UsageError &error) {
+        return fail(tool_name, where + error.what(), 2);
+    } catch (const std::bad_alloc &) {
+        return fail(tool_name, where + "out of memory", 1);
+    } catch (const std::exception &error) {
+        return fail(tool_name, where + error.what(), 1);
+    }
+}
+
+} // namespace sparselens

@@ -1,0 +1,42 @@
+// What the process of a tool does before and around its work.
+#pragma once
+
+#include "harness/tool.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace sparselens {
+
+struct ProcessOptions {
+    int threads = 0; // 0 = all the process may use (its affinity mask)
+    bool verbose = false;
+    std::optional<std::uint64_t> max_memory;
+};
+
+// --version, -v, --threads, --man, --completion.
+void add_process_options(CLI::App &app, ProcessOptions &options);
+void add_memory_option(CLI::App &app, ProcessOptions &options); // --max-memory
+
+// Reads the words. Nothing where there is work to do, else the exit code: --help and the like are answered, a
+// wrong usage is said (`where`: of which frame, or "").
+std::optional<int> parse_words(CLI::App &app, const std::vector<std::string> &words,
+                               const std::string &where = "");
+
+// Threads, memory and signals, for the object's lifetime.
+class Process {
+public:
+    explicit Process(const ProcessOptions &options, const ToolContext &tool);
+    ~Process();
+
+private:
+    class ThreadLimit;
+    std::unique_ptr<ThreadLimit> threads_;
+};
+
+// Runs `work`, says in one line what it throws and returns the exit code.
+int exit_code_of(const std::string &tool_name, const std::string &where, const std::function<void()> &work);
+
+} // namespace sparselens

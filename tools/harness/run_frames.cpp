@@ -1,0 +1,116 @@
+#include "harness/frames.h"
+#include "harness/history.h"
+#include "harness/process.h"
+#include "harness/progress_lines.h"
+#include "harness/tool.h"
+#include "harness/up_to_date.h"
+#include "harness/words.h"
+
+#include <algorithm>
+#include <map>
+
+namespace sparselens {
+
+namespace {
+
+struct FrameOptions {
+    std::string frames; // read by FrameCommands
+    std::string stats;
+    bool skip_bad_frames = false, update = false;
+    ProgressFormat progress = ProgressFormat::terminal;
+};
+
+void add_frame_options(CLI::App &app, FrameOptions &options) {
+    app.add_option("--frames", options.frames,
+                   "Frames, as 1-100x2: names with #### or %04d and values as 1:5.0,24:2.0 go by them")
+        ->type_name("RANGE")
+        ->group("Frames");
+    app.add_flag("--skip-bad-frames", options.skip_bad_frames,
+                 "Go on after a frame that fails (exit 1 at the end)")
+        ->group("Frames");
+    app.add_flag("-u,--update", options.update,
+                 "Leave frames alone whose output is complete and newer than its input")
+        ->group("Frames");
+    app.add_option("--stats", options.stats,
+                   "Append a line of JSON: what was left out, as the picture did not need it; - is stderr")
+        ->type_name("FILE");
+    const std::map<std::string, ProgressFormat> formats{
+        {"plain", ProgressFormat::plain}, {"alf", ProgressFormat::alf}, {"openjd", ProgressFormat::openjd}};
+    app.add_option("--progress", options.progress, "Progress lines for a farm, on stderr (none)")
+        ->type_name("plain|alf|openjd")
+        ->transform(words(formats))
+        ->group("Frames");
+}
+
+// The tool's command line at one frame, understood.
+struct FrameCommand {
+    CLI::App app;
+    FrameOptions frames;
+    ProcessOptions process;
+    Job job;
+
+    FrameCommand(const std::string &name, const std::string &description, const Prepare &prepare)
+        : app(description, name) {
+        job = prepare(app);
+        add_frame_options(app, frames);
+        add_process_options(app, process);
+        add_memory_option(app, process);
+    }
+};
+
+using CommandPtr = std::unique_ptr<FrameCommand>;
+
+std::string frame_name(const FrameCommands &commands, std::size_t i) {
+    return commands.is_range() ? "frame " + std::to_string(commands.number(i)) + ": " : "";
+}
+
+void run_frame(const FrameCommand &command, ToolContext &tool, FrameCount count) {
+    const ProgressFormat format = command.frames.progress;
+    tool.progress = progress_of(format, tool.tool_name, count);
+    tool.stats = command.frames.stats;
+    if (command.frames.update && is_up_to_date(command.app))
+        tool.say("is up to date: " + command.app.get_option("--output")->as<std::string>());
+    else
+        command.job(tool);
+    if (format == ProgressFormat::terminal) return;
+    tool.progress->start("frame", 1);
+    tool.progress->advance();
+}
+
+} // namespace
+
+int run_frames(const std::string &name, const std::string &description, int argc, char **argv,
+               const Prepare &prepare) {
+    std::optional<FrameCommands> commands;
+    int code =
+        exit_code_of(name, "", [&] { commands.emplace(std::vector<std::string>(argv + 1, argv + argc)); });
+    if (code != 0) return code;
+    const std::size_t count = commands->size();
+    const auto parse = [&](std::size_t i, CommandPtr &command) {
+        command = std::make_unique<FrameCommand>(name, description, prepare);
+        return parse_words(command->app, commands->words(i), frame_name(*commands, i));
+    };
+    // Wrong usage is said of all frames before the first is worked on.
+    CommandPtr first, command;
+    for (std::size_t i = 0; i < count; ++i)
+        if (const auto answered = parse(i, i == 0 ? first : command)) return *answered;
+
+    ToolContext tool;
+    tool.tool_name = name;
+    tool.threads = first->process.threads;
+    tool.verbose = first->process.verbose;
+    tool.max_memory = first->process.max_memory;
+    const Process process(first->process, tool);
+    int worst = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        parse(i, command);
+        if (commands->is_range()) tool.frame = commands->number(i);
+        tool.command_line = command_line(name, commands->words(i));
+        code = exit_code_of(name, frame_name(*commands, i), [&] { run_frame(*command, tool, {i, count}); });
+        worst = std::max(worst, code);
+        if (code > 1 || (code == 1 && !first->frames.skip_bad_frames)) break;
+    }
+    return worst;
+}
+
+} // namespace sparselens

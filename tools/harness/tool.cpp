@@ -1,0 +1,36 @@
+#include "harness/tool.h"
+
+#include "harness/history.h"
+#include "harness/one_line.h"
+#include "harness/process.h"
+#include "harness/progress_lines.h"
+
+#include <cstdio>
+
+namespace sparselens {
+
+void ToolContext::say(const std::string &line) const {
+    if (verbose) std::fprintf(stderr, "%s: %s\n", tool_name.c_str(), line.c_str());
+}
+
+void warn(const ToolContext &tool, const std::string &text) {
+    std::fprintf(stderr, "%s: warning: %s\n", tool.tool_name.c_str(), one_line(text).c_str());
+}
+
+int run_tool(CLI::App &app, int argc, char **argv, const Job &job, Reads reads) {
+    ProcessOptions options;
+    add_process_options(app, options);
+    if (reads == Reads::files) add_memory_option(app, options);
+    if (const auto code = parse_words(app, {argv + 1, argv + argc})) return *code;
+    ToolContext tool;
+    tool.tool_name = app.get_name();
+    tool.verbose = options.verbose;
+    tool.threads = options.threads;
+    tool.max_memory = options.max_memory;
+    tool.command_line = command_line(tool.tool_name, {argv + 1, argv + argc});
+    const Process process(options, tool);
+    tool.progress = progress_of(ProgressFormat::terminal, tool.tool_name, {});
+    return exit_code_of(tool.tool_name, "", [&] { job(tool); });
+}
+
+} // namespace sparselens

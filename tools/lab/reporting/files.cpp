@@ -1,0 +1,56 @@
+#include "lab/reporting/files.h"
+
+#include "base/error.h"
+#include "io/file_stream.h"
+#include "io/folder.h"
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+
+namespace sparselens {
+
+std::string contents_of_file(const std::filesystem::path &path) {
+    std::ifstream in(path, std::ios::binary);
+    std::string contents{std::istreambuf_iterator<char>(in), {}};
+    if (!in) throw Error(path.string() + ": cannot be read");
+    return contents;
+}
+
+void write_file(const std::filesystem::path &path, const std::string &contents) {
+    make_folder(path.parent_path().string());
+    OutputFile file(path.string());
+    file.stream().write(contents.data(), int(contents.size()));
+    file.commit();
+}
+
+std::vector<std::string> matching_files(const std::filesystem::path &pattern) {
+    const std::string name = pattern.filename().string();
+    const std::size_t star = name.find('*');
+    std::vector<std::string> files;
+    if (star == std::string::npos || !std::filesystem::is_directory(pattern.parent_path())) return files;
+    const std::string head = name.substr(0, star), tail = name.substr(star + 1);
+    for (const auto &entry : std::filesystem::directory_iterator(pattern.parent_path())) {
+        const std::string file = entry.path().filename().string();
+        if (file.size() >= head.size() + tail.size() && file.starts_with(head) && file.ends_with(tail))
+            files.push_back(entry.path().string());
+    }
+    std::ranges::sort(files);
+    return files;
+}
+
+std::vector<std::string> with_files(const std::vector<std::string> &words, const std::string &folder) {
+    std::vector<std::string> result;
+    for (const std::string &word : words) {
+        const std::filesystem::path path(word);
+        if (path.filename().string().find('*') == std::string::npos) {
+            result.push_back(word);
+            continue;
+        }
+        for (const std::string &file : matching_files(folder / path))
+            result.push_back((path.parent_path() / std::filesystem::path(file).filename()).string());
+    }
+    return result;
+}
+
+} // namespace sparselens

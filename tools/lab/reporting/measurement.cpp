@@ -1,0 +1,152 @@
+#include "lab/reporting/measurement.h"
+
+#include "base/parallel.h"
+#include "io/display/png.h"
+#include "io/exr/exr_flat.h"
+#include "lab/report/numbers.h"
+#include "lab/report/verdict.h"
+#include "lab/reporting/files.h"
+#include "loading/region_file.h"
+#include "measure/tone_map.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <set>
+
+namespace sparselens {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+Image tone_mapped_picture(Image image) {
+    for (float &value : image.values) value = float(tone_mapped(value));
+    return image;
+}
+
+// Of tone-mapped pictures.
+Image difference_picture(Image a, const Image &b) {
+    constexpr float gain = 8;
+    for (std::size_t i = 0; i < a.values.size(); ++i)
+        a.values[i] = gain * std::abs(a.values[i] - b.values[i]);
+    return a;
+}
+
+class SceneMeasurement {
+public:
+    SceneMeasurement(const ScenePlan &plan, std::span<const StepTimes> times, std::string folder,
+                     const ToolContext &tool)
+        : times_(times), folder_(std::move(folder)), windows_(read(plan.reference.picture).windows),
+          reference_(over_reference(plan.reference.picture)),
+          mapped_reference_(tone_mapped_picture(reference_)),
+          bits_(regions_over(windows_, path(plan.centre.picture), plan.lens, {}, tool)) {
+        write_file(path(png_name(plan.reference.folder, "picture")), png_of(mapped_reference_));
+    }
+
+    ReportRow measured(const PlannedRow &planned) const {
+        ReportRow row = planned.row;
+        add_times(planned, row);
+        if (!planned.partial_views.empty()) add_partial_views(planned, row);
+        const Image picture = over_reference(planned.picture);
+        std::ranges::copy(image_error(picture, reference_, bits_, region_names.size()), row.errors.begin());
+        if (!planned.many_points.empty()) {
+            const Image many = over_reference(planned.many_points);
+            row.causes = {image_error(picture, many).front().psnr_tonemapped,
+                          image_error(many, reference_).front().psnr_tonemapped};
+        }
+        const Image mapped = tone_mapped_picture(picture);
+        row.picture = pictures_of(planned) + ".png";
+        row.difference = pictures_of(planned) + "-difference.png";
+        write_file(path(row.picture), png_of(mapped));
+        write_file(path(row.difference), png_of(difference_picture(mapped, mapped_reference_)));
+        return row;
+    }
+
+    static std::string png_name(const std::string &folder, const std::string &name) {
+        return "pictures/" + folder + '/' + name + ".png";
+    }
+
+private:
+    std::string path(const std::string &file) const { return (fs::path(folder_) / file).string(); }
+    Image read(const std::string &file) const { return read_flat_exr(path(file)).image; }
+    Image over_reference(const std::string &file) const {
+        return rgba_over(read(file), windows_, path(file));
+    }
+
+    // Apart from the EXR files, which may be ready-made and lie elsewhere.
+    static std::string pictures_of(const PlannedRow &planned) {
+        const std::string name =
+            planned.row.scene + '/' + method_name(planned.row) + ' ' + planned.row.budget;
+        std::string plain;
+        for (const char c : name) plain += c == ' ' ? '-' : c == '+' ? 'p' : c;
+        std::erase(plain, ',');
+        return "pictures/" + plain;
+    }
+
+    // A pixel without coverage was not rendered.
+    void add_partial_views(const PlannedRow &planned, ReportRow &row) const {
+        for (const std::string &file : matching_files(path(planned.partial_views))) {
+            const Image view = read_flat_exr(file).image;
+            const auto alpha = view.plane(find_channel(view.channels, "A"));
+            const auto rendered = std::ranges::count_if(alpha, [](float a) { return a != 0; });
+            row.rays += double(planned.partial_samples) * double(rendered) / double(windows_.pixels());
+            ++row.views;
+        }
+    }
+
+    void add_times(const PlannedRow &planned, ReportRow &row) const {
+        for (const std::size_t step : planned.steps) {
+            const StepTimes &times = times_[step];
+            for (std::size_t s = 0; s < row.seconds.size(); ++s) row.seconds[s] += times.seconds[s];
+            row.peak_mb = std::max(row.peak_mb, times.peak_mb);
+            row.runs = row.runs == 0 ? times.runs : std::min(row.runs, times.runs);
+        }
+    }
+
+    std::span<const StepTimes> times_;
+    std::string folder_;
+    Windows windows_;
+    Image reference_, mapped_reference_;
+    std::vector<std::uint8_t> bits_;
+};
+
+} // namespace
+
+std::vector<ReportRow> measure_rows(const ScenePlan &plan, std::span<const StepTimes> times,
+                                    const std::string &folder, const ToolContext &tool) {
+    const SceneMeasurement scene(plan, times, folder, tool);
+    std::vector<ReportRow> rows(plan.rows.size());
+    tool.progress->start(plan.name + ": measuring", rows.size());
+    parallel_for(rows.size(), [&](std::size_t i) {
+        rows[i] = scene.measured(plan.rows[i]);
+        tool.progress->advance();
+    });
+    return rows;
+}
+
+std::vector<PagePicture> page_pictures(const ScenePlan &plan, std::span<const ReportRow> rows,
+                                       const std::string &folder) {
+    const auto bytes = [&](const std::string &file) { return contents_of_file(fs::path(folder) / file); };
+    std::vector<PagePicture> pictures{
+        {"reference", bytes(SceneMeasurement::png_name(plan.reference.folder, "picture"))}};
+    std::set<std::string> shown;
+    const auto show = [&](const ReportRow &row) {
+        if (!shown.insert(row.picture).second) return;
+        pictures.push_back({method_name(row) + ", " + row.budget + ": " + fixed(quality(row), 2) + " dB, " +
+                                significant(total_seconds(row), 3) + " s",
+                            bytes(row.picture)});
+    };
+    if (const auto best = scene_verdict(rows).best) show(rows[*best]);
+    std::map<std::string, std::vector<const ReportRow *>> methods;
+    for (const ReportRow &row : rows) methods[method_name(row)].push_back(&row);
+    for (const auto &[name, of_method] : methods) {
+        show(**std::ranges::min_element(of_method, {},
+                                        [](const ReportRow *row) { return total_seconds(*row); }));
+        show(**std::ranges::max_element(of_method, {}, [](const ReportRow *row) { return quality(*row); }));
+    }
+    return pictures;
+}
+
+} // namespace sparselens

@@ -1,0 +1,29 @@
+// What dof-report is asked for.
+#pragma once
+
+#include "lab/reporting/runner.h"
+#include "lab/reporting/systems.h"
+
+#include <CLI/CLI.hpp>
+
+#include <string>
+#include <vector>
+
+namespace sparselens {
+
+struct ReportOptions {
+    std::vector<std::string> scenes;
+    std::string folder;
+    bool quick = false;
+    std::string size;  // empty: by --quick
+    int reference = 0; // 0: by --quick
+    int runs = 0;      // 0: by --quick
+};
+
+void add_report_options(CLI::App &app, ReportOptions &options);
+
+Budgets budgets_of(const ReportOptions &options);
+int runs_of(const ReportOptions &options);
+Detail detail_of(const ReportOptions &options);
+
+} // namespace sparselens

@@ -1,0 +1,110 @@
+#include "lab/reporting/ready_scene.h"
+
+#include "base/error.h"
+#include "lab/report/numbers.h"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+
+namespace sparselens {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// Letters, digits and a few signs: the name becomes part of files' names, of gnuplot's strings, of the page.
+std::string plain_name(const std::string &name) {
+    std::string result;
+    for (const char c : name) result += std::isalnum(static_cast<unsigned char>(c)) || c == '.' ? c : '-';
+    return result;
+}
+
+std::string view_name(std::size_t k) { return "view_" + std::to_string(k) + ".exr"; }
+
+// N of drt_N.exr.
+std::optional<int> rays_of(const std::string &file) {
+    int rays = 0;
+    const char *begin = file.data() + 4, *end = file.data() + file.size();
+    if (!file.starts_with("drt_")) return {};
+    const auto [rest, error] = std::from_chars(begin, end, rays);
+    if (error != std::errc() || std::string(rest, end) != ".exr") return {};
+    return rays;
+}
+
+} // namespace
+
+ReadyScene::ReadyScene(const fs::path &folder)
+    : folder_(fs::absolute(folder).lexically_normal()), camera_(read_camera_summary(folder)) {
+    if (!folder_.has_filename()) folder_ = folder_.parent_path();
+    name_ = plain_name(folder_.filename().string());
+    if (!fs::exists(folder_ / "reference.exr"))
+        throw Error((folder_ / "reference.exr").string() + ": is not there");
+    views_.push_back({folder_, camera_});
+    for (const fs::directory_entry &entry : fs::directory_iterator(folder_))
+        if (entry.is_directory() && fs::exists(entry.path() / "camera.json"))
+            views_.push_back({entry.path(), read_camera_summary(entry.path())});
+    const auto samples = [](const ViewFolder &v) { return v.camera.view_samples; };
+    std::ranges::sort(views_, {}, [&](const ViewFolder &v) { return std::pair(samples(v), v.path); });
+    const auto same = [&](const ViewFolder &a, const ViewFolder &b) { return samples(a) == samples(b); };
+    views_.erase(std::unique(views_.begin(), views_.end(), same), views_.end());
+}
+
+LensOptions ReadyScene::lens() const {
+    return {.focal_length_mm = camera_.focal_mm,
+            .sensor_width_mm = camera_.sensor_width_mm,
+            .fstop = {},
+            .lens_radius = camera_.lens_radius,
+            .focus_distance = camera_.focus_distance,
+            .scene_unit = {}};
+}
+
+std::vector<int> ReadyScene::samples() const {
+    std::vector<int> counts;
+    for (const ViewFolder &folder : views_) counts.push_back(folder.camera.view_samples);
+    return counts;
+}
+
+std::vector<int> ReadyScene::rays() const {
+    std::vector<int> counts;
+    for (const auto &[file, seconds] : camera_.seconds)
+        if (const auto rays = rays_of(file); rays && fs::exists(folder_ / file)) counts.push_back(*rays);
+    std::ranges::sort(counts);
+    return counts;
+}
+
+Rendered ReadyScene::reference(StepList &) const {
+    return {.folder = name_ + "/reference", .picture = (folder_ / "reference.exr").string()};
+}
+
+// Of N views evenly on the rim every (N / rim)-th is taken.
+std::optional<Rendered> ReadyScene::views(int rim, int samples, StepList &) const {
+    const auto found =
+        std::ranges::find_if(views_, [&](const ViewFolder &v) { return v.camera.view_samples == samples; });
+    const std::vector<Imath::V2d> &points = found->camera.views;
+    const auto wanted = std::size_t(rim);
+    if (wanted > points.size() || (wanted > 0 && points.size() % wanted != 0)) return {};
+    Rendered views{.folder = name_ + "/views-" + std::to_string(1 + rim) + "x" + std::to_string(samples),
+                   .picture = (found->path / "center.exr").string(),
+                   .ready_seconds = found->camera.seconds.at("center.exr"),
+                   .views = 1 + rim,
+                   .rays = double((1 + rim) * samples)};
+    for (std::size_t i = 0; i < wanted; ++i) {
+        const std::size_t k = i * (points.size() / wanted);
+        const Imath::V2d position = found->camera.lens_radius * points[k];
+        views.rim.push_back(
+            {(found->path / view_name(k)).string(), shortest(position.x) + ',' + shortest(position.y)});
+        views.ready_seconds += found->camera.seconds.at(view_name(k));
+    }
+    return views;
+}
+
+std::optional<Rendered> ReadyScene::distributed(int rays, StepList &) const {
+    const std::string file = "drt_" + std::to_string(rays) + ".exr";
+    return Rendered{.folder = name_ + "/traced-" + std::to_string(rays),
+                    .picture = (folder_ / file).string(),
+                    .ready_seconds = camera_.seconds.at(file),
+                    .rays = double(rays)};
+}
+
+} // namespace sparselens

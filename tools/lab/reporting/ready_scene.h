@@ -1,0 +1,41 @@
+// A folder of ready-made views, their camera.json telling where they stand and what they took to render.
+#pragma once
+
+#include "lab/reporting/camera_json.h"
+#include "lab/reporting/scene_source.h"
+
+#include <filesystem>
+
+namespace sparselens {
+
+class ReadyScene : public SceneSource {
+public:
+    // Error where the folder lacks its reference, or a camera.json in it cannot be read.
+    explicit ReadyScene(const std::filesystem::path &folder);
+
+    std::string name() const override { return name_; }
+    LensOptions lens() const override;
+    std::vector<int> samples() const override;
+    std::vector<int> rays() const override;
+    std::vector<int> lens_views() const override { return {}; }
+
+    Rendered reference(StepList &steps) const override;
+    std::optional<Rendered> views(int rim, int samples, StepList &steps) const override;
+    std::optional<Rendered> planned(int, int, StepList &) const override { return {}; }
+    std::optional<Rendered> layers(const std::string &, int, StepList &) const override { return {}; }
+    std::optional<Rendered> accumulated(int, StepList &) const override { return {}; }
+    std::optional<Rendered> distributed(int rays, StepList &steps) const override;
+
+private:
+    struct ViewFolder {
+        std::filesystem::path path;
+        CameraSummary camera;
+    };
+
+    std::filesystem::path folder_;
+    std::string name_;
+    std::vector<ViewFolder> views_; // by samples a pixel; of one count once
+    CameraSummary camera_;          // of the folder itself
+};
+
+} // namespace sparselens

@@ -1,0 +1,156 @@
+#include "lab/reporting/traced_scene.h"
+
+#include <charconv>
+#include <cstdio>
+
+namespace sparselens {
+
+namespace {
+
+constexpr int layer_count = 4;       // of depth peeling and strata
+constexpr int lens_view_samples = 4; // a pixel: with fewer, moving the views by parts of a pixel costs much
+
+std::vector<std::string> view_files(const std::string &folder, int rim) {
+    std::vector<std::string> files{folder + "/center.exr"};
+    for (int k = 0; k < rim; ++k) files.push_back(folder + "/view_" + std::to_string(k) + ".exr");
+    return files;
+}
+
+Rendered views_in(const std::string &folder, int rim, std::vector<std::size_t> steps) {
+    Rendered views{.folder = folder, .picture = folder + "/center.exr", .steps = std::move(steps)};
+    for (int k = 0; k < rim; ++k) views.rim.push_back({folder + "/view_" + std::to_string(k) + ".exr", ""});
+    views.views = 1 + rim;
+    return views;
+}
+
+double pixels_of(const std::string &size) {
+    int width = 0, height = 0;
+    const char *end = size.data() + size.size();
+    const auto [x, error] = std::from_chars(size.data(), end, width);
+    if (x != end) std::from_chars(x + 1, end, height);
+    return double(width) * height;
+}
+
+} // namespace
+
+double TracedScene::weight(double rays) const { return 0.1 + rays * pixels_of(budgets_.size) / 1.5e7; }
+
+StepCommand TracedScene::trace(const std::string &folder, int samples, int rim,
+                               std::vector<std::string> more) const {
+    StepCommand command{Stage::render,
+                        {"dof-trace", name_, "--size", budgets_.size, "--spp", std::to_string(samples),
+                         "--views", std::to_string(rim), "-o", folder}};
+    command.words.insert(command.words.end(), more.begin(), more.end());
+    return command;
+}
+
+// Its random numbers are its own: noise it shared with what is measured would pass for agreement.
+Rendered TracedScene::reference(StepList &steps) const {
+    const std::string folder = name_ + "/reference";
+    Step step{
+        .name = folder,
+        .commands = {trace(folder, 1, 0, {"--reference", std::to_string(budgets_.reference), "--seed", "1"})},
+        .outputs = {folder + "/reference.exr"},
+        .timed = false,
+        .weight = weight(budgets_.reference)};
+    const std::size_t made = steps.add(std::move(step));
+    return {.folder = folder, .picture = folder + "/reference.exr", .steps = {made}};
+}
+
+std::optional<Rendered> TracedScene::views(int rim, int samples, StepList &steps) const {
+    const std::string folder = name_ + "/views-" + std::to_string(1 + rim) + "x" + std::to_string(samples);
+    const std::size_t made = steps.add({.name = folder,
+                                        .commands = {trace(folder, samples, rim)},
+                                        .outputs = view_files(folder, rim),
+                                        .weight = weight((1 + rim) * samples)});
+    Rendered views = views_in(folder, rim, {made});
+    views.rays = (1 + rim) * samples;
+    return views;
+}
+
+std::optional<Rendered> TracedScene::layers(const std::string &kind, int samples, StepList &steps) const {
+    const std::string folder =
+        name_ + '/' + kind + "-" + std::to_string(layer_count) + "x" + std::to_string(samples);
+    const std::string picture = folder + "/deep_" + kind + ".exr";
+    const std::size_t made = steps.add(
+        {.name = folder,
+         .commands = {trace(folder, samples, 0, {"--deep", kind + ":" + std::to_string(layer_count)})},
+         .outputs = {picture},
+         .traced = folder,
+         .uncounted = {"center.exr"},
+         .weight = weight((1 + layer_count) * samples)});
+    return Rendered{.folder = folder,
+                    .picture = picture,
+                    .steps = {made},
+                    .rays = double(layer_count * samples)}; // each layer is shaded
+}
+
+std::optional<Rendered> TracedScene::accumulated(int views, StepList &steps) const {
+    const std::string folder = name_ + "/accumulated-" + std::to_string(views), scratch = folder + "/views";
+    const std::string picture = folder + "/picture.exr";
+    StepCommand average{Stage::process, {"dof-accumulate", "-o", picture}};
+    for (int k = 0; k < views; ++k) {
+        char name[32];
+        std::snprintf(name, sizeof name, "/lens_%04d.exr", k);
+        average.words.push_back(scratch + name);
+    }
+    const std::size_t made = steps.add(
+        {.name = folder,
+         .commands = {trace(scratch, lens_view_samples, 0, {"--lens-views", std::to_string(views)}), average},
+         .outputs = {picture},
+         .fresh = scratch,
+         .scratch = true,
+         .traced = scratch,
+         .uncounted = {"center.exr"},
+         .weight = weight(lens_view_samples * views) + 0.06 * views});
+    return Rendered{.folder = folder,
+                    .picture = picture,
+                    .steps = {made},
+                    .views = views,
+                    .rays = double(lens_view_samples * views)};
+}
+
+std::optional<Rendered> TracedScene::distributed(int rays, StepList &steps) const {
+    const std::string folder = name_ + "/traced-" + std::to_string(rays), picture = folder + "/reference.exr";
+    const std::size_t made =
+        steps.add({.name = folder,
+                   .commands = {trace(folder, 1, 0, {"--reference", std::to_string(rays)})},
+                   .outputs = {picture},
+                   .traced = folder,
+                   .uncounted = {"center.exr"},
+                   .weight = weight(rays)});
+    return Rendered{.folder = folder, .picture = picture, .steps = {made}, .rays = double(rays)};
+}
+
+// What a plan asks for is known only when it is there: the views are named by a pattern, their rays counted later.
+std::optional<Rendered> TracedScene::planned(int rim, int samples, StepList &steps) const {
+    if (!can_plan_) return {};
+    const Rendered centre = *views(0, samples, steps);
+    const std::string folder = name_ + "/planned-" + std::to_string(1 + rim) + "x" + std::to_string(samples);
+    const std::string plan = folder + "/plan.json", rendered = folder + "/views";
+    const std::size_t planned =
+        steps.add({.name = folder + "/plan",
+                   .commands = {{Stage::plan,
+                                 {"ldi-plan", centre.picture, "--views", std::to_string(rim), "-o", plan}}},
+                   .inputs = centre.steps,
+                   .outputs = {plan}});
+    const std::size_t made =
+        steps.add({.name = rendered,
+                   .commands = {{Stage::render,
+                                 {"dof-trace", name_, "--size", budgets_.size, "--spp",
+                                  std::to_string(samples), "--plan", plan, "-o", rendered}}},
+                   .inputs = {planned},
+                   .outputs = {rendered + "/camera.json"},
+                   .fresh = rendered,
+                   .traced = rendered,
+                   .uncounted = {"center.exr"},
+                   .weight = weight(samples)});
+    Rendered result = centre;
+    result.folder = folder;
+    result.rim = {{rendered + "/view_*.exr", ""}};
+    result.steps.insert(result.steps.end(), {planned, made});
+    result.planned_samples = samples;
+    return result;
+}
+
+} // namespace sparselens

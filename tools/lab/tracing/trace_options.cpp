@@ -1,0 +1,132 @@
+#include "lab/tracing/trace_options.h"
+
+#include "base/error.h"
+#include "harness/words.h"
+#include "lab/trace/scenes.h"
+
+#include <charconv>
+#include <map>
+
+namespace sparselens {
+
+namespace {
+
+constexpr int largest_side = 65536, largest_count = 1 << 20, largest_seed = 63;
+constexpr std::size_t largest_picture = std::size_t(1) << 28; // pixels
+
+// The whole text as a number in [1, limit].
+bool read_count(std::string_view text, int limit, int &value) {
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    return error == std::errc() && end == text.data() + text.size() && value >= 1 && value <= limit;
+}
+
+bool read_deep(const std::string &text, TraceOptions &options) {
+    const std::size_t colon = text.find(':');
+    const std::string kind = text.substr(0, colon);
+    int layers = 0;
+    if (colon == std::string::npos || !read_count(std::string_view(text).substr(colon + 1), 1024, layers))
+        return false;
+    if (kind != "peel" && kind != "strata") return false;
+    options.deep.push_back({kind == "peel", layers});
+    return true;
+}
+
+// Words and help of the scene table.
+std::map<std::string, std::string> scene_names() {
+    std::map<std::string, std::string> names;
+    for (const SceneEntry &entry : scene_table()) names[entry.name] = entry.name;
+    return names;
+}
+
+std::string scene_help() {
+    std::string text = "Scene:";
+    for (const SceneEntry &entry : scene_table())
+        text += std::string("\n") + entry.name + ": " + entry.summary;
+    return text;
+}
+
+} // namespace
+
+bool read_size(const std::string &text, TraceOptions &options) {
+    const std::size_t x = text.find('x');
+    return x != std::string::npos &&
+           read_count(std::string_view(text).substr(0, x), largest_side, options.width) &&
+           read_count(std::string_view(text).substr(x + 1), largest_side, options.height);
+}
+
+void add_trace_options(CLI::App &app, TraceOptions &options) {
+    const std::map<std::string, Light> lights{{"sun", Light::sun}, {"area", Light::area}};
+    const std::map<std::string, PixelType> types{{"half", PixelType::half}, {"float", PixelType::float32}};
+    app.add_option("SCENE", options.scene, scene_help())
+        ->required()
+        ->type_name("")
+        ->check(CLI::IsMember(scene_names()));
+    app.add_option("-o,--output", options.folder, "Folder of the pictures; made if missing")
+        ->required()
+        ->type_name("DIR");
+    app.add_option("--views", options.views, "Views from the rim of the lens (4)")
+        ->type_name("N")
+        ->check(CLI::Range(0, largest_count));
+    app.add_option("--plan", options.plan,
+                   "Render just what this plan of ldi-plan asks for, not the centre view nor a ring of views")
+        ->type_name("PLAN.json");
+    app.add_option("--lens-views", options.lens_views, "Views spread evenly over the whole lens (0)")
+        ->type_name("N")
+        ->check(CLI::Range(0, largest_count));
+    app.add_option("--spp", options.samples, "Samples a pixel of a view (16)")
+        ->type_name("N")
+        ->check(CLI::Range(1, largest_count));
+    app.add_option("--reference", options.reference,
+                   "Rays a pixel of a distributed-ray-tracing reference (none)")
+        ->type_name("SPP")
+        ->check(CLI::Range(1, largest_count));
+    app.add_option_function<std::string>(
+           "--size",
+           [&options](const std::string &text) {
+               if (!read_size(text, options))
+                   throw CLI::ValidationError("--size", "'" + text + "' is not WIDTHxHEIGHT");
+           },
+           "Display window, pixels (640x360)")
+        ->type_name("WxH");
+    app.add_option("--overscan", options.overscan,
+                   "Pixels rendered beyond the display window on every side (0)")
+        ->type_name("PX")
+        ->check(CLI::Range(0, largest_side));
+    app.add_option("--seed", options.seed,
+                   "Which random numbers: those of different seeds share no noise (0)")
+        ->type_name("N")
+        ->check(CLI::Range(0, largest_seed));
+    app.add_option("--light", options.light, "sun, or area: a square light, one shadow ray a sample (sun)")
+        ->type_name("sun|area")
+        ->transform(words(lights));
+    app.add_option_function<std::vector<std::string>>(
+           "--deep",
+           [&options](const std::vector<std::string> &texts) {
+               for (const std::string &text : texts)
+                   if (!read_deep(text, options))
+                       throw CLI::ValidationError("--deep", "'" + text + "' is not peel:K or strata:K");
+           },
+           "Deep picture from the centre: the K nearest surfaces, or the scene cut into K depth intervals")
+        ->type_name("peel:K|strata:K")
+        ->allow_extra_args(false);
+    app.add_option("-d,--type", options.type, "Type of the colour channels: half or float (half)")
+        ->type_name("half|float")
+        ->transform(words(types));
+    add_lens_options(app, options.lens);
+}
+
+RenderSettings render_settings(const TraceOptions &options, const Camera &camera) {
+    RenderSettings settings{windows_of_size(options.width, options.height), {}, options.light};
+    settings.windows.data.min -= Imath::V2i(options.overscan);
+    settings.windows.data.max += Imath::V2i(options.overscan);
+    if (settings.windows.pixels() > largest_picture)
+        throw UsageError("--size and --overscan ask for more than " + std::to_string(largest_picture) +
+                         " pixels");
+    settings.seed = std::uint32_t(options.seed);
+    settings.lens = resolve_lens(options.lens, camera, settings.windows);
+    settings.lens.focal_px = options.width * *camera.focal_length_mm / *camera.sensor_width_mm;
+    settings.lens.focus = *camera.focus_distance;
+    return settings;
+}
+
+} // namespace sparselens

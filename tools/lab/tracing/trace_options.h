@@ -1,0 +1,45 @@
+// What dof-trace is asked for.
+#pragma once
+
+#include "base/image.h"
+#include "lab/trace/render.h"
+#include "options/lens_options.h"
+
+#include <CLI/CLI.hpp>
+
+#include <string>
+#include <vector>
+
+namespace sparselens {
+
+struct DeepRequest {
+    bool peel; // else strata
+    int layers;
+};
+
+struct TraceOptions {
+    std::string scene;
+    std::string folder;
+    std::string plan; // render what this asks for instead of the centre and the rim views
+    int views = 4, lens_views = 0;
+    int samples = 16;  // of a view
+    int reference = 0; // rays a pixel; 0: no reference
+    int width = 640, height = 360;
+    int overscan = 0; // pixels
+    int seed = 0;     // of the random numbers: pictures of different seeds share no noise
+    Light light = Light::sun;
+    PixelType type = PixelType::half;
+    std::vector<DeepRequest> deep;
+    LensOptions lens;
+};
+
+// "WIDTHxHEIGHT" into options.width and height; false where it is none.
+bool read_size(const std::string &text, TraceOptions &options);
+
+void add_trace_options(CLI::App &app, TraceOptions &options);
+
+// Windows, lens and light; `camera` is the scene's with the options put over it. UsageError where the picture is
+// larger than can be meant.
+RenderSettings render_settings(const TraceOptions &options, const Camera &camera);
+
+} // namespace sparselens

@@ -1,0 +1,41 @@
+// The folder that dof-trace fills: pictures with their cameras, and camera.json, which says what they are.
+#pragma once
+
+#include "deep/ldi.h"
+#include "harness/tool.h"
+#include "lab/trace/render.h"
+#include "view/camera.h"
+
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace sparselens {
+
+class TraceOutputs {
+public:
+    // Makes the folder. Error where that fails.
+    TraceOutputs(std::string folder, Camera camera, RenderSettings settings, PixelType type,
+                 const ToolContext &tool);
+
+    // Renders with `make`, writes DIR/name, notes the time that rendering took. `u`: its lens point.
+    void add(const std::string &name, const Imath::V2d &u, const std::function<Image()> &make);
+    void add_deep(const std::string &name, const std::function<Ldi()> &make);
+
+    // DIR/camera.json. `views`: lens points of the rim views.
+    void write_summary(const std::vector<Imath::V2d> &views, int view_samples, int reference_samples) const;
+
+private:
+    void note(const std::string &name, double seconds);
+    std::string path(const std::string &name) const { return folder_ + "/" + name; }
+
+    std::string folder_;
+    Camera camera_;
+    RenderSettings settings_;
+    PixelType type_;
+    const ToolContext &tool_;
+    std::vector<std::pair<std::string, double>> seconds_;
+};
+
+} // namespace sparselens

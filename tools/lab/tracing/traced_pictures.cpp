@@ -1,0 +1,84 @@
+#include "lab/tracing/traced_pictures.h"
+
+#include "base/error.h"
+#include "io/plan_file.h"
+#include "lab/trace/deep.h"
+#include "lens/lens_points.h"
+
+#include <cstdio>
+
+namespace sparselens {
+
+namespace {
+
+// Streams of random numbers; the reference has 0.
+enum Stream : std::uint32_t { of_centre = 1, of_deep = 0x1000000, of_rim = 0x2000000, of_lens = 0x3000000 };
+
+std::string numbered(const char *format, std::size_t number) {
+    char name[32];
+    std::snprintf(name, sizeof name, format, int(number));
+    return name;
+}
+
+void add_view(const TraceJob &job, const RenderSettings &settings, const std::string &name,
+              const Imath::V2d &u, std::uint32_t stream) {
+    job.outputs.add(name, u, [&] {
+        return render_view(job.tracer, settings, u, job.options.samples, stream, job.progress);
+    });
+}
+
+void add_views(const TraceJob &job, const RenderSettings &settings, const char *format,
+               const std::vector<Imath::V2d> &points, std::uint32_t stream) {
+    for (std::size_t k = 0; k < points.size(); ++k)
+        add_view(job, settings, numbered(format, k), points[k], stream + std::uint32_t(k));
+}
+
+} // namespace
+
+std::vector<Imath::V2d> trace_plan(const TraceJob &job) {
+    const PlanRequest plan = read_plan(job.options.plan);
+    RenderSettings settings = job.settings;
+    if (plan.display != settings.windows.display)
+        throw Error(job.options.plan + ": was made for a picture of another size: see --size");
+    std::vector<Imath::V2d> points;
+    for (std::size_t k = 0; k < plan.views.size(); ++k) {
+        const RequestedView &view = plan.views[k];
+        settings.windows.data = view.mask.data;
+        job.outputs.add(numbered("view_%d.exr", k), view.u, [&] {
+            return render_view(job.tracer, settings, view.u, job.options.samples, of_rim + std::uint32_t(k),
+                               job.progress, view.mask.set);
+        });
+        points.push_back(view.u);
+    }
+    return points;
+}
+
+std::vector<Imath::V2d> trace_rim(const TraceJob &job) {
+    const std::vector<Imath::V2d> rim = rim_lens_points(job.options.views);
+    add_view(job, job.settings, "center.exr", {0, 0}, of_centre);
+    add_views(job, job.settings, "view_%d.exr", rim, of_rim);
+    return rim;
+}
+
+void trace_lens(const TraceJob &job) {
+    RenderSettings to_average = job.settings;
+    to_average.scattered = true;
+    add_views(job, to_average, "lens_%04d.exr", spiral_lens_points(job.options.lens_views), of_lens);
+}
+
+void trace_reference(const TraceJob &job) {
+    if (job.options.reference == 0) return;
+    job.outputs.add("reference.exr", {0, 0}, [&] {
+        return render_reference(job.tracer, job.settings, job.options.reference, job.progress);
+    });
+}
+
+void trace_deep(const TraceJob &job) {
+    for (const DeepRequest &deep : job.options.deep)
+        job.outputs.add_deep(deep.peel ? "deep_peel.exr" : "deep_strata.exr", [&] {
+            const auto render = deep.peel ? render_peeled : render_strata;
+            return render(job.tracer, job.settings, deep.layers, job.options.samples, of_deep, job.progress);
+        });
+}
+
+} // namespace sparselens

@@ -1,0 +1,35 @@
+#include "loading/ldi_lens.h"
+
+#include "base/error.h"
+#include "deep/front_depth.h"
+
+#include <algorithm>
+
+namespace sparselens {
+
+namespace {
+
+double widest_view(const Camera &camera) {
+    double widest = 0;
+    for (const Imath::V2d &point : camera.lens_points) widest = std::max(widest, point.length());
+    return widest;
+}
+
+} // namespace
+
+ThinLens lens_for_ldi(InputLdi &in, const LensOptions &options, const std::optional<Imath::V2i> &focus_pixel,
+                      const ToolContext &tool) {
+    if (focus_pixel) {
+        const float z = front_depth(in.ldi, *focus_pixel);
+        if (!(z > 0)) throw UsageError("--focus-pixel: " + in.name + " shows nothing there");
+        in.camera.focus_distance = double(z);
+    }
+    const ThinLens lens = resolve_lens(options, in.camera, in.ldi.windows);
+    const double widest = widest_view(in.camera);
+    if (widest > 0 && lens.radius > 1.001 * widest)
+        warn(tool,
+             "the lens is wider than the lens points of the views: what it sees beyond them is unknown");
+    return lens;
+}
+
+} // namespace sparselens

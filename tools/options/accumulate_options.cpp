@@ -1,0 +1,26 @@
+#include "options/accumulate_options.h"
+
+#include "harness/words.h"
+#include "options/picture_options.h"
+
+#include <map>
+
+namespace sparselens {
+
+void add_accumulate_options(CLI::App &app, AccumulateOptions &options) {
+    const std::map<std::string, bool> outside{{"unknown", false}, {"transparent", true}};
+    add_lens_view_options(app, options.views);
+    app.add_option("-o,--output", options.output, "The average (EXR)")->required()->type_name("OUT");
+    add_type_option(app, options.as_float);
+    app.add_option(
+           "--outside", options.transparent_outside,
+           "What lies outside a view's data window: unknown (the view does not count there; the default) "
+           "or transparent (black, inside the display window)")
+        ->type_name("unknown|transparent")
+        ->transform(words(outside));
+    add_lens_options(app, options.lens);
+    add_stereo_option(app, options.views.stereo_view);
+    add_history_option(app, options.history);
+}
+
+} // namespace sparselens

@@ -1,0 +1,25 @@
+// The command line of dof-accumulate.
+#pragma once
+
+#include "harness/history.h"
+#include "loading/lens_view_files.h"
+#include "options/lens_options.h"
+
+#include <CLI/CLI.hpp>
+
+#include <string>
+
+namespace sparselens {
+
+struct AccumulateOptions {
+    LensViewOptions views;
+    LensOptions lens;
+    HistoryOptions history;
+    std::string output;
+    bool as_float = false;
+    bool transparent_outside = false;
+};
+
+void add_accumulate_options(CLI::App &app, AccumulateOptions &options);
+
+} // namespace sparselens

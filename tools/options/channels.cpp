@@ -1,0 +1,66 @@
+#include "options/channels.h"
+
+#include "base/error.h"
+#include "deep/channel_alpha.h"
+
+#include <algorithm>
+#include <sstream>
+
+namespace sparselens {
+
+namespace {
+
+bool names(const std::string &item, const std::string &channel) {
+    if (item == "rgba") return channel == "R" || channel == "G" || channel == "B" || channel == "A";
+    return item == channel || channel.starts_with(item + ".");
+}
+
+std::vector<std::string> items_of(const std::string &list) {
+    std::vector<std::string> items;
+    std::istringstream in(list);
+    for (std::string item; std::getline(in, item, ',');) items.push_back(item);
+    return items;
+}
+
+std::vector<bool> chosen(const std::vector<Channel> &channels, const std::string &list) {
+    std::vector<bool> result(channels.size(), list.empty());
+    for (const std::string &item : items_of(list)) {
+        bool found = false;
+        for (std::size_t k = 0; k < channels.size(); ++k)
+            if (names(item, channels[k].name)) found = result[k] = true;
+        if (!found) throw UsageError("--channels: there is no channel or layer '" + item + "'");
+    }
+    return result;
+}
+
+} // namespace
+
+void keep_channels(Ldi &ldi, const std::string &list) {
+    std::vector<bool> keep = chosen(ldi.channels, list);
+    for (std::size_t k = 0; k < keep.size(); ++k)
+        if (names("rgba", ldi.channels[k].name)) keep[k] = true;
+    for (std::size_t k = 0; k < keep.size(); ++k)
+        if (const std::size_t c = coverage_of(ldi.channels, k); keep[k] && c != npos) keep[c] = true;
+    std::size_t kept = 0;
+    for (std::size_t k = 0; k < keep.size(); ++k) {
+        if (!keep[k]) continue;
+        std::swap(ldi.channels[kept], ldi.channels[k]);
+        std::swap(ldi.values[kept++], ldi.values[k]);
+    }
+    ldi.channels.resize(kept);
+    ldi.values.resize(kept);
+}
+
+Image chosen_channels(Image image, const std::string &list) {
+    const std::vector<bool> keep = chosen(image.channels, list);
+    if (std::find(keep.begin(), keep.end(), false) == keep.end()) return image;
+    std::vector<Channel> channels;
+    for (std::size_t k = 0; k < keep.size(); ++k)
+        if (keep[k]) channels.push_back(image.channels[k]);
+    Image result(image.windows, channels);
+    for (std::size_t k = 0, to = 0; k < keep.size(); ++k)
+        if (keep[k]) std::ranges::copy(image.plane(k), result.plane(to++).begin());
+    return result;
+}
+
+} // namespace sparselens

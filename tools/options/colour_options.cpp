@@ -1,0 +1,95 @@
+#include "options/colour_options.h"
+
+#include "base/error.h"
+#include "io/display/shown_picture.h"
+#include "io/exr/exr_flat.h"
+#include "io/file_stream.h"
+#include "io/memory_limit.h"
+
+#include <ImfStringAttribute.h>
+
+#include <optional>
+
+namespace sparselens {
+
+namespace {
+
+// Empty where nothing is to be done.
+std::optional<ColourTransform> to_scene_linear(const ToolContext &tool, const ColourOptions &options,
+                                               const std::string &path, const Imf::Header &header) {
+    const bool ours = header.findTypedAttribute<Imf::StringAttribute>("sparselens:version") != nullptr;
+    if (options.input_space.empty() && (ours || path == "-" || path == display_name("-"))) return {};
+    const ColourConfig config(options.config);
+    const std::string from = options.input_space.empty() ? config.space_of_file(path) : options.input_space;
+    const ColourTransform transform = config.between(from, config.scene_linear());
+    tool.say(display_name(path) + ": colour space " + from);
+    return transform;
+}
+
+ColourTransform output_transform(const ColourOptions &options, bool shown) {
+    const ColourConfig config(options.config);
+    if (!options.output_space.empty()) return config.between(config.scene_linear(), options.output_space);
+    return shown ? config.to_display(options.display, options.view)
+                 : config.between(config.scene_linear(), config.scene_linear());
+}
+
+} // namespace
+
+void add_input_colour_options(CLI::App &app, ColourOptions &options) {
+    app.add_option("--colorconfig", options.config,
+                   "OpenColorIO configuration (else $OCIO, else a built-in one)")
+        ->type_name("FILE")
+        ->group("Colour");
+    app.add_option("--colorspace", options.input_space,
+                   "Colour space of the input (else by the configuration's file rules)")
+        ->type_name("SPACE")
+        ->group("Colour");
+}
+
+void add_output_colour_options(CLI::App &app, ColourOptions &options) {
+    CLI::Option *space = app.add_option("--output-colorspace", options.output_space,
+                                        "Colour space of the output (EXR: scene-linear; others: a display's)")
+                             ->type_name("SPACE")
+                             ->group("Colour");
+    app.add_option("--display", options.display,
+                   "Display that PNG, JPEG and TIFF are made for (the default one)")
+        ->type_name("DISPLAY")
+        ->group("Colour")
+        ->excludes(space);
+    app.add_option("--view-transform", options.view, "How the display shows it (its default view)")
+        ->type_name("VIEW")
+        ->group("Colour")
+        ->excludes(space);
+}
+
+void to_scene_linear(const ToolContext &tool, const ColourOptions &options, const std::string &path,
+                     const Imf::Header &header, Ldi &ldi) {
+    const auto transform = to_scene_linear(tool, options, path, header);
+    if (!transform) return;
+    const std::vector<std::span<float>> planes(ldi.values.begin(), ldi.values.end());
+    transform_colours(*transform, ldi.channels, planes);
+}
+
+void to_scene_linear(const ToolContext &tool, const ColourOptions &options, const std::string &path,
+                     const Imf::Header &header, View &view) {
+    if (const auto transform = to_scene_linear(tool, options, path, header))
+        transform_colours(*transform, view.image);
+}
+
+std::size_t write_picture(const ToolContext &tool, const ColourOptions &options, const std::string &path,
+                          Image image, const Imf::Header &metadata) {
+    const bool shown = is_shown_picture(path);
+    if (!shown && !(options.display.empty() && options.view.empty()))
+        throw UsageError("--display and --view-transform are for PNG, JPEG and TIFF, not for " + path);
+    if (shown || !options.output_space.empty()) transform_colours(output_transform(options, shown), image);
+    if (!shown) return write_flat_exr(path, image, metadata);
+    const Imath::Box2i &display = image.windows.display; // all of it is written
+    check_memory(
+        path, 3.0 * (double(display.max.x) - display.min.x + 1) * (double(display.max.y) - display.min.y + 1),
+        image.values.size() * sizeof(float));
+    write_shown_picture(path, image);
+    tool.say(path + ": written for a display");
+    return 0;
+}
+
+} // namespace sparselens

@@ -1,0 +1,37 @@
+// The command line of dof-gather.
+#pragma once
+
+#include "dof/methods.h"
+#include "harness/history.h"
+#include "options/colour_options.h"
+#include "options/lens_options.h"
+#include "options/show.h"
+#include "options/window_options.h"
+
+#include <CLI/CLI.hpp>
+
+#include <optional>
+#include <string>
+
+namespace sparselens {
+
+struct GatherCommand {
+    LensOptions lens;
+    DepthOptions depth;
+    ColourOptions colour;
+    WindowOptions windows;
+    HistoryOptions history;
+    GatherOptions gather;
+    const GatherMethod *method = &gather_methods().front();
+    std::string input, output, depth_output, channels, holdout;
+    std::optional<Imath::V2i> focus_pixel;
+    bool as_float = false;
+    Show show = Show::picture;
+};
+
+void add_gather_options(CLI::App &app, GatherCommand &options);
+
+// UsageError where options do not go together.
+void check(const GatherCommand &options);
+
+} // namespace sparselens

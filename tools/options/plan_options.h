@@ -1,0 +1,22 @@
+// The command line of ldi-plan.
+#pragma once
+
+#include "options/lens_options.h"
+#include "plan/plan.h"
+
+#include <CLI/CLI.hpp>
+
+#include <string>
+
+namespace sparselens {
+
+struct PlanCommand {
+    std::string centre, output, masks;
+    LensOptions lens;
+    DepthOptions depth;
+    PlanOptions plan;
+};
+
+void add_plan_options(CLI::App &app, PlanCommand &options);
+
+} // namespace sparselens

@@ -1,0 +1,22 @@
+// --show: a picture of what the tool understood, in false colours (dof/false_colour.h), in place of the
+// gathered one.
+#pragma once
+
+#include "deep/ldi.h"
+#include "dof/lens/lens_tiles.h"
+#include "lens/thin_lens.h"
+
+#include <CLI/CLI.hpp>
+
+namespace sparselens {
+
+enum class Show { picture, coc, focus, layers, tiles };
+
+void add_show_option(CLI::App &app, Show &show);
+
+inline bool needs_gather(Show show) { return show == Show::picture || show == Show::tiles; }
+
+// `tiles`: what the gather chose; empty where nothing was gathered. The pixels of `window`.
+Image shown(Show show, const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window, LensTiles tiles);
+
+} // namespace sparselens

@@ -1,0 +1,50 @@
+#include "options/warp_options.h"
+
+#include "harness/words.h"
+
+#include <algorithm>
+#include <map>
+
+namespace sparselens {
+
+void add_warp_options(CLI::App &app, WarpCommand &options) {
+    add_view_list(app, options.views);
+    app.add_option("-o,--output", options.output, "LDI to write, - for standard output")
+        ->type_name("LDI.exr")
+        ->required();
+    const std::map<std::string, Merge> merges{{"average", Merge::average}, {"keep", Merge::keep}};
+    app.add_option("--merge", options.merge,
+                   "average: views of one surface are averaged; keep: one sample a surface, the centre view "
+                   "unchanged")
+        ->type_name("average|keep")
+        ->transform(words(merges));
+    const std::map<std::string, bool> silhouettes{{"split", true}, {"whole", false}};
+    app.add_option("--silhouettes", options.split_silhouettes,
+                   "split: pixels that mix two surfaces become two samples (average); whole: they stay one")
+        ->type_name("split|whole")
+        ->transform(words(silhouettes));
+    const std::map<std::string, bool> agreement{{"test", true}, {"assume", false}};
+    app.add_option("--agreement", options.test_agreement,
+                   "test: out of focus, views that disagree beyond noise (mirrors, glass) are not averaged; "
+                   "assume: all are")
+        ->type_name("test|assume")
+        ->transform(words(agreement));
+    add_lens_options(app, options.lens);
+    add_depth_options(app, options.depth);
+    add_input_colour_options(app, options.colour);
+    add_history_option(app, options.history);
+}
+
+WarpOptions warp_options(const WarpCommand &options, const LoadedViews &loaded) {
+    WarpOptions warp{.merge = options.merge,
+                     .split_silhouettes = options.split_silhouettes,
+                     .test_agreement = options.test_agreement,
+                     .focus = loaded.camera.focus_distance};
+    if (loaded.views.size() == 1) return warp;
+    warp.focal_px = resolve_focal_px(loaded.camera, loaded.views[0].image.windows);
+    warp.radius = lens_radius_of(loaded.camera).value_or(0);
+    for (const View &view : loaded.views) warp.radius = std::max(warp.radius, view.position.length());
+    return warp;
+}
+
+} // namespace sparselens

@@ -1,0 +1,32 @@
+// The command line of ldi-warp.
+#pragma once
+
+#include "harness/history.h"
+#include "loading/view_list.h"
+#include "options/colour_options.h"
+#include "options/lens_options.h"
+#include "warp/warp.h"
+
+#include <CLI/CLI.hpp>
+
+#include <string>
+
+namespace sparselens {
+
+struct WarpCommand {
+    LensOptions lens;
+    DepthOptions depth;
+    ColourOptions colour;
+    HistoryOptions history;
+    ViewList views;
+    Merge merge = Merge::average;
+    bool split_silhouettes = true, test_agreement = true;
+    std::string output;
+};
+
+void add_warp_options(CLI::App &app, WarpCommand &options);
+
+// Perceptive depth is measured at the lens if that is known, else at the outermost view.
+WarpOptions warp_options(const WarpCommand &options, const LoadedViews &loaded);
+
+} // namespace sparselens
