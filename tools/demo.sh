@@ -96,6 +96,7 @@ piped() {
 }
 
 [ -n "$bin" ] || { build >&2; bin=$here/build/bin; }
+[ -x "$bin/dof-trace" ] || { echo "demo: needs dof-trace, so configure with -DSPARSELENS_LAB=ON (package libembree-dev)" >&2; exit 1; }
 exec </dev/null 3>&1 1>&2 # a tool that says something says it to stderr; 3 is for the table
 mkdir -p "$out"
 methods=(lens selective) # of dof-gather; the first one's picture is the one shown

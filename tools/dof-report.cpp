@@ -14,6 +14,7 @@
 namespace {
 
 using namespace sparselens;
+using namespace sparselens::lab;
 namespace fs = std::filesystem;
 
 // The other tools lie beside this one.

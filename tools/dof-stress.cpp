@@ -9,6 +9,7 @@
 namespace {
 
 using namespace sparselens;
+using namespace sparselens::lab;
 
 struct Options {
     std::string one_case;

@@ -9,6 +9,7 @@
 namespace {
 
 using namespace sparselens;
+using namespace sparselens::lab;
 
 void trace(const TraceOptions &options, const ToolContext &tool) {
     const Scene scene = build_scene(options.scene);

@@ -5,7 +5,7 @@
 
 #include <benchmark/benchmark.h>
 
-namespace sparselens {
+namespace sparselens::lab {
 namespace {
 
 // Of a row of pixels, 16 lens points each: as alike as those of a reference.
@@ -50,4 +50,4 @@ BENCHMARK_CAPTURE(render_reference_rows, grass, "grass")->UseRealTime();
 BENCHMARK_CAPTURE(render_reference_rows, mist, "mist")->UseRealTime();
 
 } // namespace
-} // namespace sparselens
+} // namespace sparselens::lab

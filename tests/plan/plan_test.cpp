@@ -15,6 +15,8 @@
 namespace sparselens {
 namespace {
 
+using namespace lab;
+
 const ThinLens lens{.radius = 0.1, .focal_px = 100, .focus = 5};
 
 View plane(float z) {
@@ -58,7 +60,7 @@ TEST(Plan, ACardAsksForStripsAroundIt) {
 
 // What the plan asks for is all that it takes: views that are empty elsewhere uncover as much as whole ones.
 TEST(Plan, WhatItAsksForIsWhatIsHidden) {
-    const TracedScene scene("fence", 160, 90);
+    const SceneCamera scene("fence", 160, 90);
     const View centre = scene.view({0, 0}, 4, 0);
     const Plan plan = plan_of(centre, {}, scene.settings.lens);
     Progress silent;

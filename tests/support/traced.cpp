@@ -5,9 +5,9 @@
 
 #include <algorithm>
 
-namespace sparselens {
+namespace sparselens::lab {
 
-TracedScene::TracedScene(std::string_view name, int width, int height) : tracer(build_scene(name)) {
+SceneCamera::SceneCamera(std::string_view name, int width, int height) : tracer(build_scene(name)) {
     const Camera &camera = tracer.scene().camera;
     settings.windows = windows_of_size(width, height);
     settings.lens.radius = *camera.focal_length_mm / 1000 / (2 * *camera.fstop) / *camera.metres_per_unit;
@@ -15,7 +15,7 @@ TracedScene::TracedScene(std::string_view name, int width, int height) : tracer(
     settings.lens.focus = *camera.focus_distance;
 }
 
-View TracedScene::view(const Imath::V2d &u, int samples, std::uint32_t stream) const {
+View SceneCamera::view(const Imath::V2d &u, int samples, std::uint32_t stream) const {
     Progress silent;
     const Image picture = render_view(tracer, settings, u, samples, stream, silent);
     View view{"view", Image(picture.windows, rgba_channels()), {}, settings.lens.radius * u};
@@ -27,16 +27,16 @@ View TracedScene::view(const Imath::V2d &u, int samples, std::uint32_t stream) c
     return view;
 }
 
-std::vector<View> TracedScene::five_views(int samples) const {
+std::vector<View> SceneCamera::five_views(int samples) const {
     std::vector<View> views{view({0, 0}, samples, 0)};
     for (const Imath::V2d &u : rim_lens_points(4))
         views.push_back(view(u, samples, std::uint32_t(views.size())));
     return views;
 }
 
-Image TracedScene::reference(int samples) const {
+Image SceneCamera::reference(int samples) const {
     Progress silent;
     return render_reference(tracer, settings, samples, silent);
 }
 
-} // namespace sparselens
+} // namespace sparselens::lab

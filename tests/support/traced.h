@@ -7,11 +7,11 @@
 #include <string_view>
 #include <vector>
 
-namespace sparselens {
+namespace sparselens::lab {
 
 // A scene with its own lens; a size in the ratio 16:9 frames what 640x360 does.
-struct TracedScene {
-    TracedScene(std::string_view name, int width, int height);
+struct SceneCamera {
+    SceneCamera(std::string_view name, int width, int height);
 
     View view(const Imath::V2d &u, int samples, std::uint32_t stream) const; // position: lens.radius * u
     std::vector<View> five_views(int samples) const; // the centre, then the rim every 90 degrees
@@ -21,4 +21,4 @@ struct TracedScene {
     RenderSettings settings;
 };
 
-} // namespace sparselens
+} // namespace sparselens::lab

@@ -12,6 +12,8 @@
 namespace sparselens {
 namespace {
 
+using namespace lab;
+
 RenderSettings small_settings() {
     RenderSettings settings;
     settings.windows = windows_of_size(96, 54);

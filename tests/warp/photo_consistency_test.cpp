@@ -11,6 +11,8 @@
 namespace sparselens {
 namespace {
 
+using namespace lab;
+
 constexpr double focal_px = 100, radius = 0.06, scale = focal_px * radius;
 const Windows window = windows_of_size(64, 16);
 

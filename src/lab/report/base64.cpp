@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-namespace sparselens {
+namespace sparselens::lab {
 
 std::string base64(std::span<const char> bytes) {
     constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -18,4 +18,4 @@ std::string base64(std::span<const char> bytes) {
     return text;
 }
 
-} // namespace sparselens
+} // namespace sparselens::lab

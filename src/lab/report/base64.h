@@ -4,8 +4,8 @@
 #include <span>
 #include <string>
 
-namespace sparselens {
+namespace sparselens::lab {
 
 std::string base64(std::span<const char> bytes);
 
-} // namespace sparselens
+} // namespace sparselens::lab

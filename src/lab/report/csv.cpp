@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace sparselens {
+namespace sparselens::lab {
 
 namespace {
 
@@ -87,4 +87,4 @@ std::string report_as_csv(std::span<const ReportRow> rows) {
     return text;
 }
 
-} // namespace sparselens
+} // namespace sparselens::lab

@@ -10,7 +10,7 @@
 #include <span>
 #include <string>
 
-namespace sparselens {
+namespace sparselens::lab {
 
 // `rows` of any number of scenes, those of one scene together: each is compared with its scene's ray tracing.
 std::string report_as_csv(std::span<const ReportRow> rows);
@@ -18,4 +18,4 @@ std::string report_as_csv(std::span<const ReportRow> rows);
 // The rows of one scene after the other.
 std::vector<std::span<const ReportRow>> by_scene(std::span<const ReportRow> rows);
 
-} // namespace sparselens
+} // namespace sparselens::lab

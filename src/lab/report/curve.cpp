@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace sparselens {
+namespace sparselens::lab {
 
 namespace {
 
@@ -48,4 +48,4 @@ Reached reached_at(const Curve &curve, double quality) {
     return {Reached::exactly, cost_between(before, *good, share)};
 }
 
-} // namespace sparselens
+} // namespace sparselens::lab

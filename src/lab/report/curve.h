@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-namespace sparselens {
+namespace sparselens::lab {
 
 struct CurvePoint {
     double cost, quality;
@@ -37,4 +37,4 @@ struct Reached {
 
 Reached reached_at(const Curve &curve, double quality);
 
-} // namespace sparselens
+} // namespace sparselens::lab

@@ -3,7 +3,7 @@
 #include <charconv>
 #include <cmath>
 
-namespace sparselens {
+namespace sparselens::lab {
 
 namespace {
 
@@ -26,4 +26,4 @@ std::string significant(double value, int digits) {
 
 std::string shortest(double value) { return as_text(value, ""); }
 
-} // namespace sparselens
+} // namespace sparselens::lab

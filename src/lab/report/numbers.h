@@ -3,10 +3,10 @@
 
 #include <string>
 
-namespace sparselens {
+namespace sparselens::lab {
 
 std::string fixed(double value, int decimals); // "-" for NaN, "inf"
 std::string significant(double value, int digits);
 std::string shortest(double value); // all digits it takes to read the same value again; "" for NaN
 
-} // namespace sparselens
+} // namespace sparselens::lab

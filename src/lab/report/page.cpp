@@ -5,7 +5,7 @@
 #include "lab/report/page_assets.h"
 #include "lab/report/verdict.h"
 
-namespace sparselens {
+namespace sparselens::lab {
 
 namespace {
 
@@ -134,4 +134,4 @@ std::string page_as_html(const Page &page) {
     return html + "<script>\n" + page_script + "</script>\n</body>\n</html>\n";
 }
 
-} // namespace sparselens
+} // namespace sparselens::lab

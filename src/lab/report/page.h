@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace sparselens {
+namespace sparselens::lab {
 
 struct PagePicture {
     std::string title;
@@ -28,4 +28,4 @@ struct Page {
 
 std::string page_as_html(const Page &page);
 
-} // namespace sparselens
+} // namespace sparselens::lab

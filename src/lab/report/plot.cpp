@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace sparselens {
+namespace sparselens::lab {
 
 namespace {
 
@@ -108,4 +108,4 @@ std::string plot_script(std::span<const ReportRow> rows, const std::string &name
     return text + "unset output\n";
 }
 
-} // namespace sparselens
+} // namespace sparselens::lab

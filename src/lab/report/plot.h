@@ -10,9 +10,9 @@
 #include <span>
 #include <string>
 
-namespace sparselens {
+namespace sparselens::lab {
 
 // `rows` of one scene; `name`: of the files, without what a shell or gnuplot would stumble over.
 std::string plot_script(std::span<const ReportRow> rows, const std::string &name);
 
-} // namespace sparselens
+} // namespace sparselens::lab

@@ -2,7 +2,7 @@
 
 #include <numeric>
 
-namespace sparselens {
+namespace sparselens::lab {
 
 double total_seconds(const ReportRow &row) {
     return std::accumulate(row.seconds.begin(), row.seconds.end(), 0.0);
@@ -14,4 +14,4 @@ std::string method_name(const ReportRow &row) {
     return row.processor.empty() ? row.renderer : row.renderer + ", " + row.processor;
 }
 
-} // namespace sparselens
+} // namespace sparselens::lab

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace sparselens {
+namespace sparselens::lab {
 
 // What a picture's time goes into.
 enum class Stage : std::size_t { render, plan, warp, cluster, process };
@@ -48,4 +48,4 @@ double total_seconds(const ReportRow &row);
 double quality(const ReportRow &row);          // tone-mapped PSNR of the whole picture, dB
 std::string method_name(const ReportRow &row); // renderer and processor: a line in plots
 
-} // namespace sparselens
+} // namespace sparselens::lab

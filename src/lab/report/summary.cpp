@@ -4,7 +4,7 @@
 #include "lab/report/verdict.h"
 #include "measure/text_table.h"
 
-namespace sparselens {
+namespace sparselens::lab {
 
 namespace {
 
@@ -40,4 +40,4 @@ std::string summary_text(std::span<const ReportRow> rows) {
     return text;
 }
 
-} // namespace sparselens
+} // namespace sparselens::lab

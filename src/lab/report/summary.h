@@ -6,8 +6,8 @@
 #include <span>
 #include <string>
 
-namespace sparselens {
+namespace sparselens::lab {
 
 std::string summary_text(std::span<const ReportRow> rows);
 
-} // namespace sparselens
+} // namespace sparselens::lab

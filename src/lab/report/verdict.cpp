@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace sparselens {
+namespace sparselens::lab {
 
 namespace {
 
@@ -140,4 +140,4 @@ std::vector<std::string> verdict_sentences(std::span<const ReportRow> rows, cons
     return text;
 }
 
-} // namespace sparselens
+} // namespace sparselens::lab

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace sparselens {
+namespace sparselens::lab {
 
 // Quality of distributed ray tracing over its seconds, and over its rays a pixel.
 struct RayTracingCurves {
@@ -49,4 +49,4 @@ std::string reached_text(const Reached &reached, double scale = 1);
 // The same as sentences for people, one a line: where each of the two is the better choice.
 std::vector<std::string> verdict_sentences(std::span<const ReportRow> rows, const SceneVerdict &verdict);
 
-} // namespace sparselens
+} // namespace sparselens::lab

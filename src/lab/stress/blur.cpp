@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 
-namespace sparselens {
+namespace sparselens::lab {
 
 namespace {
 
@@ -193,4 +193,4 @@ constexpr std::array cases{
 
 std::span<const StressCase> blur_stress() { return cases; }
 
-} // namespace sparselens
+} // namespace sparselens::lab

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-namespace sparselens {
+namespace sparselens::lab {
 
 namespace {
 
@@ -201,4 +201,4 @@ constexpr std::array cases{
 
 std::span<const StressCase> depth_stress() { return cases; }
 
-} // namespace sparselens
+} // namespace sparselens::lab

@@ -2,7 +2,7 @@
 
 #include <array>
 
-namespace sparselens {
+namespace sparselens::lab {
 
 std::span<const StressFamily> stress_families() {
     static const std::array families{
@@ -12,4 +12,4 @@ std::span<const StressFamily> stress_families() {
     return families;
 }
 
-} // namespace sparselens
+} // namespace sparselens::lab

@@ -8,7 +8,7 @@
 #include <array>
 #include <cstring>
 
-namespace sparselens {
+namespace sparselens::lab {
 
 namespace {
 
@@ -215,4 +215,4 @@ constexpr std::array cases{
 
 std::span<const StressCase> light_stress() { return cases; }
 
-} // namespace sparselens
+} // namespace sparselens::lab

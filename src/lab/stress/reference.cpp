@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace sparselens::stress {
+namespace sparselens::lab::stress {
 
 namespace {
 
@@ -98,4 +98,4 @@ LongPicture long_lens_picture(const Ldi &ldi, const ThinLens &lens, std::span<co
     return picture;
 }
 
-} // namespace sparselens::stress
+} // namespace sparselens::lab::stress

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-namespace sparselens::stress {
+namespace sparselens::lab::stress {
 
 struct LongPicture {
     // [channel][pixel] of the LDI's data window; flattened where no lens point sees anything.
@@ -21,4 +21,4 @@ struct LongPicture {
 
 LongPicture long_lens_picture(const Ldi &ldi, const ThinLens &lens, std::span<const LensSample> points);
 
-} // namespace sparselens::stress
+} // namespace sparselens::lab::stress

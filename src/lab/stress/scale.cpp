@@ -6,7 +6,7 @@
 #include <array>
 #include <chrono>
 
-namespace sparselens {
+namespace sparselens::lab {
 
 namespace {
 
@@ -116,4 +116,4 @@ constexpr std::array cases{
 
 std::span<const StressCase> scale_stress() { return cases; }
 
-} // namespace sparselens
+} // namespace sparselens::lab

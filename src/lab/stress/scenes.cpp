@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <chrono>
 
-namespace sparselens::stress {
+namespace sparselens::lab::stress {
 
 namespace {
 
@@ -129,9 +129,9 @@ StressResult constant_plane(const ThinLens &lens, double z, double colour, int w
     return result;
 }
 
-} // namespace sparselens::stress
+} // namespace sparselens::lab::stress
 
-namespace sparselens {
+namespace sparselens::lab {
 
 double times_plain(const StressResult &result) {
     static const StressResult plain = [] {
@@ -148,4 +148,4 @@ double times_plain(const StressResult &result) {
     return result.seconds / (plain.seconds * std::max(1.0, result.pixels / plain.pixels));
 }
 
-} // namespace sparselens
+} // namespace sparselens::lab

@@ -8,7 +8,7 @@
 #include <functional>
 #include <vector>
 
-namespace sparselens::stress {
+namespace sparselens::lab::stress {
 
 struct Sample {
     double z;
@@ -46,4 +46,4 @@ StressResult against_reference(const Ldi &ldi, const ThinLens &lens, int lens_po
 // A plane of one colour at that depth keeps it.
 StressResult constant_plane(const ThinLens &lens, double z, double colour, int width = 48, int height = 32);
 
-} // namespace sparselens::stress
+} // namespace sparselens::lab::stress

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 
-namespace sparselens {
+namespace sparselens::lab {
 
 namespace {
 
@@ -121,4 +121,4 @@ constexpr std::array cases{
 
 std::span<const StressCase> shape_stress() { return cases; }
 
-} // namespace sparselens
+} // namespace sparselens::lab

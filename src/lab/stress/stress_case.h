@@ -5,7 +5,7 @@
 #include <limits>
 #include <span>
 
-namespace sparselens {
+namespace sparselens::lab {
 
 // What one case measured.
 struct StressResult {
@@ -49,4 +49,4 @@ inline bool holds(const StressCase &c, const StressResult &r) {
 // smaller one the whole.
 double times_plain(const StressResult &result);
 
-} // namespace sparselens
+} // namespace sparselens::lab

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <array>
 
-namespace sparselens {
+namespace sparselens::lab {
 
 namespace {
 
@@ -189,4 +189,4 @@ constexpr std::array cases{
 
 std::span<const StressCase> view_stress() { return cases; }
 
-} // namespace sparselens
+} // namespace sparselens::lab

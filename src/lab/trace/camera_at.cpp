@@ -1,6 +1,6 @@
 #include "lab/trace/camera_at.h"
 
-namespace sparselens {
+namespace sparselens::lab {
 
 Camera camera_at(const Camera &camera, const Windows &windows, const Imath::V2d &offset) {
     Camera moved = camera;
@@ -15,4 +15,4 @@ Camera camera_at(const Camera &camera, const Windows &windows, const Imath::V2d 
     return moved;
 }
 
-} // namespace sparselens
+} // namespace sparselens::lab

@@ -4,10 +4,10 @@
 #include "base/image.h"
 #include "view/camera.h"
 
-namespace sparselens {
+namespace sparselens::lab {
 
 // `camera` moved by `offset` (scene units, x right, y up) in its own plane, with the matrices that say so: the
 // world is the camera space of the centre view. Focal length and sensor width must be known.
 Camera camera_at(const Camera &camera, const Windows &windows, const Imath::V2d &offset);
 
-} // namespace sparselens
+} // namespace sparselens::lab

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace sparselens {
+namespace sparselens::lab {
 
 namespace {
 
@@ -59,4 +59,4 @@ double transmittance(std::span<const Slab> slabs, double z_from, double z_to) {
     return std::exp(-depth);
 }
 
-} // namespace sparselens
+} // namespace sparselens::lab

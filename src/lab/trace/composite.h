@@ -5,7 +5,7 @@
 
 #include <span>
 
-namespace sparselens {
+namespace sparselens::lab {
 
 struct Layer {
     double z;           // planar depth; inf: the sky
@@ -20,4 +20,4 @@ Imath::C4f composite(std::span<const Layer> layers, std::span<const Slab> slabs)
 // Share of light that passes the slabs between two depths.
 double transmittance(std::span<const Slab> slabs, double z_from, double z_to);
 
-} // namespace sparselens
+} // namespace sparselens::lab

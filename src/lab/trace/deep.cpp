@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-namespace sparselens {
+namespace sparselens::lab {
 
 namespace {
 
@@ -173,4 +173,4 @@ Ldi render_strata(const Tracer &tracer, const RenderSettings &settings, int stra
     });
 }
 
-} // namespace sparselens
+} // namespace sparselens::lab

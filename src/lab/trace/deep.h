@@ -6,7 +6,7 @@
 #include "deep/ldi.h"
 #include "lab/trace/render.h"
 
-namespace sparselens {
+namespace sparselens::lab {
 
 // Depth peeling: the `layers` nearest surfaces along the ray through each pixel's centre, hidden ones too.
 // Where a surface is peeled is decided at the pixel centre; its colour and coverage are averaged over those of
@@ -23,4 +23,4 @@ Ldi render_peeled(const Tracer &tracer, const RenderSettings &settings, int laye
 Ldi render_strata(const Tracer &tracer, const RenderSettings &settings, int strata, int samples,
                   std::uint32_t stream, Progress &progress);
 
-} // namespace sparselens
+} // namespace sparselens::lab

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdint>
 
-namespace sparselens {
+namespace sparselens::lab {
 
 namespace {
 
@@ -79,4 +79,4 @@ Paint backdrop(const Imath::V3d &p) {
     return paint;
 }
 
-} // namespace sparselens
+} // namespace sparselens::lab

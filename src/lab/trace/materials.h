@@ -3,7 +3,7 @@
 
 #include "lab/trace/scene.h"
 
-namespace sparselens {
+namespace sparselens::lab {
 
 // Pseudo-random number in [0, 1) of three integers; its bits are part of the scenes' definition.
 double hash(int a, int b, int c);
@@ -32,4 +32,4 @@ Paint focus_sheet(const Imath::V3d &position);
 Paint far_sheet(const Imath::V3d &position);
 Paint backdrop(const Imath::V3d &position);
 
-} // namespace sparselens
+} // namespace sparselens::lab

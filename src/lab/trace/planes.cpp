@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace sparselens {
+namespace sparselens::lab {
 
 namespace {
 
@@ -56,4 +56,4 @@ Scene planes_scene(const Camera &camera) {
     return scene;
 }
 
-} // namespace sparselens
+} // namespace sparselens::lab

@@ -9,7 +9,7 @@
 #include <array>
 #include <span>
 
-namespace sparselens {
+namespace sparselens::lab {
 
 // mean + amplitude sin(frequency . (x / z, y / z) + phase): the frequency counts radians per unit of slope, so
 // that one of radians per pixel is it divided by the focal length in pixels. y up.
@@ -32,4 +32,4 @@ double radiance(const PlaneWave &wave, const Imath::V2d &slope);
 
 Scene planes_scene(const Camera &camera);
 
-} // namespace sparselens
+} // namespace sparselens::lab

@@ -10,7 +10,7 @@
 #include <limits>
 #include <vector>
 
-namespace sparselens {
+namespace sparselens::lab {
 
 namespace {
 
@@ -153,4 +153,4 @@ Image render_reference(const Tracer &tracer, const RenderSettings &settings, int
     return image;
 }
 
-} // namespace sparselens
+} // namespace sparselens::lab

@@ -11,7 +11,7 @@
 #include <cstdint>
 #include <span>
 
-namespace sparselens {
+namespace sparselens::lab {
 
 struct RenderSettings {
     Windows windows;
@@ -43,4 +43,4 @@ Image render_view(const Tracer &tracer, const RenderSettings &settings, const Im
 // point of the lens through its own point of the pixel. R G B A, box filter of one pixel.
 Image render_reference(const Tracer &tracer, const RenderSettings &settings, int samples, Progress &progress);
 
-} // namespace sparselens
+} // namespace sparselens::lab

@@ -6,7 +6,7 @@
 #include <bit>
 #include <cmath>
 
-namespace sparselens {
+namespace sparselens::lab {
 
 namespace {
 
@@ -123,4 +123,4 @@ void PixelSamples::on_light(int x, int y, std::uint32_t first, std::span<Imath::
     pairs(light_pair, x, y, first, out);
 }
 
-} // namespace sparselens
+} // namespace sparselens::lab

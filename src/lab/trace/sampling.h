@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-namespace sparselens {
+namespace sparselens::lab {
 
 class SobolPoints {
 public:
@@ -52,4 +52,4 @@ private:
     std::uint32_t stream_;
 };
 
-} // namespace sparselens
+} // namespace sparselens::lab

@@ -10,7 +10,7 @@
 #include <array>
 #include <vector>
 
-namespace sparselens {
+namespace sparselens::lab {
 
 // What a material says of one of its points.
 struct Paint {
@@ -53,4 +53,4 @@ struct Scene {
     Camera camera;            // its default lens: focal length, film back, f-number, focus, scene unit
 };
 
-} // namespace sparselens
+} // namespace sparselens::lab

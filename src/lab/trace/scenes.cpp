@@ -7,7 +7,7 @@
 #include <array>
 #include <string>
 
-namespace sparselens {
+namespace sparselens::lab {
 
 namespace {
 
@@ -142,4 +142,4 @@ Scene build_scene(std::string_view name) {
     throw Error("no scene is called '" + std::string(name) + "'");
 }
 
-} // namespace sparselens
+} // namespace sparselens::lab

@@ -6,7 +6,7 @@
 #include <span>
 #include <string_view>
 
-namespace sparselens {
+namespace sparselens::lab {
 
 struct SceneEntry {
     const char *name;
@@ -19,4 +19,4 @@ std::span<const SceneEntry> scene_table();
 // Error where there is none of that name.
 Scene build_scene(std::string_view name);
 
-} // namespace sparselens
+} // namespace sparselens::lab

@@ -7,7 +7,7 @@
 #include <cassert>
 #include <cmath>
 
-namespace sparselens {
+namespace sparselens::lab {
 
 namespace {
 
@@ -161,4 +161,4 @@ double visible_depth(const Tracer &tracer, const Ray &ray) {
     return std::numeric_limits<double>::infinity();
 }
 
-} // namespace sparselens
+} // namespace sparselens::lab

@@ -4,7 +4,7 @@
 #include "lab/trace/composite.h"
 #include "lab/trace/tracer.h"
 
-namespace sparselens {
+namespace sparselens::lab {
 
 // sun: albedo (0.9 |n . l| + 0.15), no shadows. area: the first term comes from a square light, estimated by one
 // random point of it and a shadow ray to there: soft shadows, and noise as a path tracer's.
@@ -35,4 +35,4 @@ void trace_layers(const Tracer &tracer, Light light, const Ray &ray, const Imath
 // Slabs have no one depth and do not count.
 double visible_depth(const Tracer &tracer, const Ray &ray);
 
-} // namespace sparselens
+} // namespace sparselens::lab

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <string>
 
-namespace sparselens {
+namespace sparselens::lab {
 
 namespace {
 
@@ -227,4 +227,4 @@ void Tracer::all(const Ray &ray, std::vector<Hit> &hits) const {
     hits.erase(std::unique(hits.begin(), hits.end(), same), hits.end());
 }
 
-} // namespace sparselens
+} // namespace sparselens::lab

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-namespace sparselens {
+namespace sparselens::lab {
 
 // Points origin + t direction, t in (0, reach). Camera rays have direction.z = 1, so that t is planar depth.
 struct Ray {
@@ -49,4 +49,4 @@ private:
     std::unique_ptr<Impl> impl_;
 };
 
-} // namespace sparselens
+} // namespace sparselens::lab

@@ -15,12 +15,14 @@
 namespace sparselens {
 namespace {
 
-Image gather(const Ldi &ldi, const TracedScene &scene, Quality quality = Quality::normal) {
+using namespace lab;
+
+Image gather(const Ldi &ldi, const SceneCamera &scene, Quality quality = Quality::normal) {
     Progress silent;
     return lens_gather(ldi, scene.settings.lens, scene.settings.windows.data, {.quality = quality}, silent);
 }
 
-Ldi warped(const TracedScene &scene, const std::vector<View> &views) {
+Ldi warped(const SceneCamera &scene, const std::vector<View> &views) {
     Progress silent;
     const ThinLens &lens = scene.settings.lens;
     const Ldi ldi = warp(views, {.focal_px = lens.focal_px, .radius = lens.radius}, silent);
@@ -59,7 +61,7 @@ void around(const Image &image, std::size_t channel, const Lamp &lamp, const Vis
 }
 
 // From views between whole pixels of parallax a lamp is a mixed pixel, of partial coverage.
-std::vector<View> nine_views(const TracedScene &scene, int samples) {
+std::vector<View> nine_views(const SceneCamera &scene, int samples) {
     std::vector<View> views = scene.five_views(samples);
     for (const Imath::V2d &u : rim_lens_points(8))
         if (std::abs(u.x * u.y) > 0.1) views.push_back(scene.view(u, samples, std::uint32_t(views.size())));
@@ -67,7 +69,7 @@ std::vector<View> nine_views(const TracedScene &scene, int samples) {
 }
 
 TEST(LensScenes, LampsKeepTheirEnergyInSmoothDiscs) {
-    const TracedScene scene("lamps", 320, 180);
+    const SceneCamera scene("lamps", 320, 180);
     const Image image = gather(warped(scene, scene.five_views(4)), scene);
     for (const Lamp &lamp : lamps_of(scene.settings.lens)) {
         double energy = 0, inside = 0, squares = 0, beyond = 0;
@@ -89,7 +91,7 @@ TEST(LensScenes, LampsKeepTheirEnergyInSmoothDiscs) {
 }
 
 TEST(LensScenes, LampsOfPartialCoverageAreSmoothDiscsToo) {
-    const TracedScene scene("lamps", 640, 360);
+    const SceneCamera scene("lamps", 640, 360);
     const Ldi ldi = warped(scene, nine_views(scene, 4));
     const std::size_t alpha = ldi.alpha(), red = find_channel(ldi.channels, "R");
     int partial = 0;
@@ -112,7 +114,7 @@ TEST(LensScenes, LampsOfPartialCoverageAreSmoothDiscsToo) {
 }
 
 TEST(LensScenes, MistIsItsReference) {
-    const TracedScene scene("mist", 112, 63);
+    const SceneCamera scene("mist", 112, 63);
     Progress silent;
     const Image reference = scene.reference(576);
     const Ldi ldi = tidy(render_peeled(scene.tracer, scene.settings, 4, 16, 1, silent));

@@ -8,7 +8,7 @@
 #include <map>
 #include <sstream>
 
-namespace sparselens {
+namespace sparselens::lab {
 namespace {
 
 // A plain reader of RFC 4180 without line ends in fields.
@@ -101,4 +101,4 @@ TEST(Csv, TimesGivenWithThePicturesHaveNoPeak) {
 }
 
 } // namespace
-} // namespace sparselens
+} // namespace sparselens::lab

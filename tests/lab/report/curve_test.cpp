@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace sparselens {
+namespace sparselens::lab {
 namespace {
 
 const Curve doubling = {{1, 30}, {4, 36}, {16, 42}}; // 3 dB whenever the cost doubles
@@ -65,4 +65,4 @@ TEST(Curve, QualityAndCostAreInverse) {
 }
 
 } // namespace
-} // namespace sparselens
+} // namespace sparselens::lab

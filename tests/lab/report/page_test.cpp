@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace sparselens {
+namespace sparselens::lab {
 namespace {
 
 bool holds(const std::string &text, const std::string &what) { return text.find(what) != std::string::npos; }
@@ -77,4 +77,4 @@ TEST(Summary, SaysWhatTheRowsGained) {
 }
 
 } // namespace
-} // namespace sparselens
+} // namespace sparselens::lab

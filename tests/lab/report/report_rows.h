@@ -5,7 +5,7 @@
 
 #include <string>
 
-namespace sparselens {
+namespace sparselens::lab {
 
 inline ReportRow report_row(Role role, const std::string &renderer, double seconds, double rays,
                             double quality) {
@@ -30,4 +30,4 @@ inline std::vector<ReportRow> ray_tracing_rows() {
             report_row(Role::ray_tracing, "traced", 16, 64, 42)};
 }
 
-} // namespace sparselens
+} // namespace sparselens::lab

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace sparselens {
+namespace sparselens::lab {
 namespace {
 
 std::vector<ReportRow> with(std::vector<ReportRow> more) {
@@ -106,4 +106,4 @@ TEST(Verdict, ClaimsNothingWhereNothingWasMeasured) {
 }
 
 } // namespace
-} // namespace sparselens
+} // namespace sparselens::lab

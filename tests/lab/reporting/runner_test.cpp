@@ -9,7 +9,7 @@
 
 #include <algorithm>
 
-namespace sparselens {
+namespace sparselens::lab {
 namespace {
 
 namespace fs = std::filesystem;
@@ -200,4 +200,4 @@ TEST(Process, TellsTimeAndMemory) {
 }
 
 } // namespace
-} // namespace sparselens
+} // namespace sparselens::lab

@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <set>
 
-namespace sparselens {
+namespace sparselens::lab {
 namespace {
 
 namespace fs = std::filesystem;
@@ -229,4 +229,4 @@ TEST_F(ReadyViews, WhatIsMissingIsNamed) {
 }
 
 } // namespace
-} // namespace sparselens
+} // namespace sparselens::lab

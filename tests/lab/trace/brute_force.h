@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace sparselens {
+namespace sparselens::lab {
 
 // Parameter of the nearest point of the sphere's outside, or inf.
 inline double sphere_hit(const Sphere &sphere, const Ray &ray) {
@@ -44,4 +44,4 @@ inline std::vector<SlowHit> all_hits(const Scene &scene, const Ray &ray) {
     return hits;
 }
 
-} // namespace sparselens
+} // namespace sparselens::lab

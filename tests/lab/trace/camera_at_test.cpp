@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace sparselens {
+namespace sparselens::lab {
 namespace {
 
 // A point of the world lands, through the file's matrices, where the tracer's own rays see it.
@@ -39,4 +39,4 @@ TEST(CameraAt, PositionIsTheLensPoint) {
 }
 
 } // namespace
-} // namespace sparselens
+} // namespace sparselens::lab

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace sparselens {
+namespace sparselens::lab {
 namespace {
 
 constexpr double inf = std::numeric_limits<double>::infinity();
@@ -51,4 +51,4 @@ TEST(Composite, OverlappingSlabsMixByDensity) {
 }
 
 } // namespace
-} // namespace sparselens
+} // namespace sparselens::lab

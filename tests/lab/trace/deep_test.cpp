@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace sparselens {
+namespace sparselens::lab {
 namespace {
 
 Progress silent;
@@ -166,4 +166,4 @@ TEST(RenderDeep, ThreadsDoNotMatter) {
 }
 
 } // namespace
-} // namespace sparselens
+} // namespace sparselens::lab

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace sparselens {
+namespace sparselens::lab {
 namespace {
 
 // Worked out apart from the code, in unbounded integers: numerators over 2^24.
@@ -44,4 +44,4 @@ TEST(Materials, OnlyLampsEmit) {
 }
 
 } // namespace
-} // namespace sparselens
+} // namespace sparselens::lab

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace sparselens {
+namespace sparselens::lab {
 namespace {
 
 constexpr std::size_t red = 0, alpha = 3, depth = 4;
@@ -263,4 +263,4 @@ TEST(Render, OnePixelIsEnough) {
 }
 
 } // namespace
-} // namespace sparselens
+} // namespace sparselens::lab

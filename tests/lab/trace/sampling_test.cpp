@@ -4,7 +4,7 @@
 
 #include <set>
 
-namespace sparselens {
+namespace sparselens::lab {
 namespace {
 
 // 2^k points of every dimension fall one into each of 2^k equal intervals, whatever the scrambling.
@@ -71,4 +71,4 @@ TEST(Sampling, SquaresAreRegularGrids) {
 }
 
 } // namespace
-} // namespace sparselens
+} // namespace sparselens::lab

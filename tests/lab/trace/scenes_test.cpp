@@ -6,7 +6,7 @@
 
 #include <set>
 
-namespace sparselens {
+namespace sparselens::lab {
 namespace {
 
 TEST(Scenes, NamesAreUniqueAndLensesComplete) {
@@ -84,4 +84,4 @@ TEST(Scenes, LampsLieOnWholePixels) {
 }
 
 } // namespace
-} // namespace sparselens
+} // namespace sparselens::lab

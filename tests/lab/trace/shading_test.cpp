@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace sparselens {
+namespace sparselens::lab {
 namespace {
 
 Imath::C4f seen(const Scene &scene, Light light, const Imath::V2d &light_point = {0.5, 0.5}) {
@@ -112,4 +112,4 @@ TEST(Shading, PartialCoverageCompositesEveryHit) {
 }
 
 } // namespace
-} // namespace sparselens
+} // namespace sparselens::lab

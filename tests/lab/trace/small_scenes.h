@@ -5,7 +5,7 @@
 #include "lab/trace/render.h"
 #include "lab/trace/scenes.h"
 
-namespace sparselens {
+namespace sparselens::lab {
 
 // The default lens of most scenes, at any size: F = width.
 inline RenderSettings settings_of_size(int width, int height, double radius = 0.06) {
@@ -29,4 +29,4 @@ inline Quad facing_wall(double z, Material material) {
     return facing_quad(-100, -100, 100, 100, z, material);
 }
 
-} // namespace sparselens
+} // namespace sparselens::lab

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace sparselens {
+namespace sparselens::lab {
 namespace {
 
 // Rays from all over a lens through all over a picture.
@@ -117,4 +117,4 @@ TEST(Tracer, AnEmptySceneIsSky) {
 }
 
 } // namespace
-} // namespace sparselens
+} // namespace sparselens::lab

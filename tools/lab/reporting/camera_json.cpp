@@ -7,7 +7,7 @@
 
 #include <limits>
 
-namespace sparselens {
+namespace sparselens::lab {
 
 namespace {
 
@@ -43,4 +43,4 @@ CameraSummary read_camera_summary(const std::filesystem::path &folder) {
     }
 }
 
-} // namespace sparselens
+} // namespace sparselens::lab

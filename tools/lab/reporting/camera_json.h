@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace sparselens {
+namespace sparselens::lab {
 
 struct CameraSummary {
     int width = 0, height = 0;
@@ -21,4 +21,4 @@ struct CameraSummary {
 // Of the camera.json in that folder. Error, naming the file, where it is missing or not as expected.
 CameraSummary read_camera_summary(const std::filesystem::path &folder);
 
-} // namespace sparselens
+} // namespace sparselens::lab

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <iterator>
 
-namespace sparselens {
+namespace sparselens::lab {
 
 std::string contents_of_file(const std::filesystem::path &path) {
     std::ifstream in(path, std::ios::binary);
@@ -53,4 +53,4 @@ std::vector<std::string> with_files(const std::vector<std::string> &words, const
     return result;
 }
 
-} // namespace sparselens
+} // namespace sparselens::lab

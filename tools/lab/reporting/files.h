@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace sparselens {
+namespace sparselens::lab {
 
 // Error where it cannot be read.
 std::string contents_of_file(const std::filesystem::path &path);
@@ -19,4 +19,4 @@ std::vector<std::string> matching_files(const std::filesystem::path &pattern);
 // Each word whose last part holds a * replaced by the files that match, relative to `folder` as the word is.
 std::vector<std::string> with_files(const std::vector<std::string> &words, const std::string &folder);
 
-} // namespace sparselens
+} // namespace sparselens::lab

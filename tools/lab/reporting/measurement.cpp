@@ -15,7 +15,7 @@
 #include <map>
 #include <set>
 
-namespace sparselens {
+namespace sparselens::lab {
 
 namespace {
 
@@ -149,4 +149,4 @@ std::vector<PagePicture> page_pictures(const ScenePlan &plan, std::span<const Re
     return pictures;
 }
 
-} // namespace sparselens
+} // namespace sparselens::lab

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace sparselens {
+namespace sparselens::lab {
 
 // Measures every row against the scene's reference; `times`: one a step. Writes a PNG of each row's picture and
 // of its difference into NAME/ beside the picture, as tone-mapped as the figures are, the difference eightfold.
@@ -20,4 +20,4 @@ std::vector<ReportRow> measure_rows(const ScenePlan &plan, std::span<const StepT
 std::vector<PagePicture> page_pictures(const ScenePlan &plan, std::span<const ReportRow> rows,
                                        const std::string &folder);
 
-} // namespace sparselens
+} // namespace sparselens::lab

@@ -2,7 +2,7 @@
 
 #include "lab/tracing/trace_options.h"
 
-namespace sparselens {
+namespace sparselens::lab {
 
 void add_report_options(CLI::App &app, ReportOptions &options) {
     app.add_option(
@@ -48,4 +48,4 @@ int runs_of(const ReportOptions &options) { return options.runs > 0 ? options.ru
 
 Detail detail_of(const ReportOptions &options) { return options.quick ? Detail::one_of_each : Detail::all; }
 
-} // namespace sparselens
+} // namespace sparselens::lab

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace sparselens {
+namespace sparselens::lab {
 
 struct ReportOptions {
     std::vector<std::string> scenes;
@@ -26,4 +26,4 @@ Budgets budgets_of(const ReportOptions &options);
 int runs_of(const ReportOptions &options);
 Detail detail_of(const ReportOptions &options);
 
-} // namespace sparselens
+} // namespace sparselens::lab

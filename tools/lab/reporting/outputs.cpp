@@ -18,7 +18,7 @@
 #include <fstream>
 #include <sstream>
 
-namespace sparselens {
+namespace sparselens::lab {
 
 namespace {
 
@@ -86,4 +86,4 @@ void write_report(const std::string &folder, std::span<const MeasuredScene> scen
     write_file(fs::path(folder) / "index.html", page_as_html(page));
 }
 
-} // namespace sparselens
+} // namespace sparselens::lab

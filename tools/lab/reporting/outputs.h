@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace sparselens {
+namespace sparselens::lab {
 
 struct MeasuredScene {
     ScenePlan plan;
@@ -24,4 +24,4 @@ void write_report(const std::string &folder, std::span<const MeasuredScene> scen
 std::string machine_fact(int threads); // what is measured on, and when
 std::string load_fact(); // how busy it is: the mean number of running processes of the last minute
 
-} // namespace sparselens
+} // namespace sparselens::lab

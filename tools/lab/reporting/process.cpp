@@ -13,7 +13,7 @@
 #include <chrono>
 #include <cstring>
 
-namespace sparselens {
+namespace sparselens::lab {
 
 namespace {
 
@@ -99,4 +99,4 @@ ProcessRun run_process(const std::vector<std::string> &command, const std::strin
     return {seconds.count(), double(used.ru_maxrss) / 1024};
 }
 
-} // namespace sparselens
+} // namespace sparselens::lab

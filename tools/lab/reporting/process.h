@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace sparselens {
+namespace sparselens::lab {
 
 struct ProcessRun {
     double seconds = 0; // wall time from start to end
@@ -20,4 +20,4 @@ ProcessRun run_process(const std::vector<std::string> &command, const std::strin
 // The command as one would type it, for messages and records.
 std::string command_line(const std::vector<std::string> &command);
 
-} // namespace sparselens
+} // namespace sparselens::lab

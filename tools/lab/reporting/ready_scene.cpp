@@ -7,7 +7,7 @@
 #include <cctype>
 #include <charconv>
 
-namespace sparselens {
+namespace sparselens::lab {
 
 namespace {
 
@@ -107,4 +107,4 @@ std::optional<Rendered> ReadyScene::distributed(int rays, StepList &) const {
                     .rays = double(rays)};
 }
 
-} // namespace sparselens
+} // namespace sparselens::lab

@@ -6,7 +6,7 @@
 
 #include <filesystem>
 
-namespace sparselens {
+namespace sparselens::lab {
 
 class ReadyScene : public SceneSource {
 public:
@@ -38,4 +38,4 @@ private:
     CameraSummary camera_;          // of the folder itself
 };
 
-} // namespace sparselens
+} // namespace sparselens::lab

@@ -13,7 +13,7 @@
 #include <filesystem>
 #include <map>
 
-namespace sparselens {
+namespace sparselens::lab {
 
 namespace {
 
@@ -163,4 +163,4 @@ std::vector<StepTimes> run_steps(std::span<const Step> steps, const RunOptions &
     return result;
 }
 
-} // namespace sparselens
+} // namespace sparselens::lab

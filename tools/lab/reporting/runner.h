@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace sparselens {
+namespace sparselens::lab {
 
 struct RunOptions {
     std::string tools;  // folder of the programs
@@ -29,4 +29,4 @@ struct RunOptions {
 std::vector<StepTimes> run_steps(std::span<const Step> steps, const RunOptions &options,
                                  const ToolContext &tool);
 
-} // namespace sparselens
+} // namespace sparselens::lab

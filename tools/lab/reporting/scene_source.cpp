@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <filesystem>
 
-namespace sparselens {
+namespace sparselens::lab {
 
 bool can_plan(const std::string &tools) {
     CLI::App trace;
@@ -27,4 +27,4 @@ std::unique_ptr<SceneSource> open_scene(const std::string &scene, const Budgets 
     throw UsageError(scene + ": neither a built-in scene nor a folder with a camera.json");
 }
 
-} // namespace sparselens
+} // namespace sparselens::lab

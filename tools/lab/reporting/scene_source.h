@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace sparselens {
+namespace sparselens::lab {
 
 // How much a report measures.
 struct Budgets {
@@ -65,4 +65,4 @@ bool can_plan(const std::string &tools);
 // it is neither.
 std::unique_ptr<SceneSource> open_scene(const std::string &scene, const Budgets &budgets, bool with_plans);
 
-} // namespace sparselens
+} // namespace sparselens::lab

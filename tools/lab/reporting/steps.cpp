@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace sparselens {
+namespace sparselens::lab {
 
 std::size_t StepList::add(Step step) {
     const auto found = std::ranges::find(steps_, step.name, &Step::name);
@@ -11,4 +11,4 @@ std::size_t StepList::add(Step step) {
     return steps_.size() - 1;
 }
 
-} // namespace sparselens
+} // namespace sparselens::lab

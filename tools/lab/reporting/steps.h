@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace sparselens {
+namespace sparselens::lab {
 
 struct StepCommand {
     Stage stage;
@@ -47,4 +47,4 @@ private:
     std::vector<Step> steps_;
 };
 
-} // namespace sparselens
+} // namespace sparselens::lab

@@ -2,7 +2,7 @@
 
 #include "lab/report/numbers.h"
 
-namespace sparselens {
+namespace sparselens::lab {
 
 namespace {
 
@@ -233,4 +233,4 @@ ScenePlan plan_scene(const SceneSource &scene, const Budgets &budgets, Detail de
     return plan;
 }
 
-} // namespace sparselens
+} // namespace sparselens::lab

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace sparselens {
+namespace sparselens::lab {
 
 // A row before it is measured.
 struct PlannedRow {
@@ -33,4 +33,4 @@ enum class Detail { all, one_of_each };
 // Adds the steps that the scene's rows take.
 ScenePlan plan_scene(const SceneSource &scene, const Budgets &budgets, Detail detail, StepList &steps);
 
-} // namespace sparselens
+} // namespace sparselens::lab

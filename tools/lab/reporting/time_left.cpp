@@ -4,7 +4,7 @@
 
 #include <cstdio>
 
-namespace sparselens {
+namespace sparselens::lab {
 
 TimeLeft::TimeLeft(std::string name)
     : name_(std::move(name)), visible_(isatty(STDERR_FILENO)), start_(std::chrono::steady_clock::now()) {}
@@ -30,4 +30,4 @@ void TimeLeft::begin(const std::string &what) {
 
 void TimeLeft::end(double weight) { done_ += weight; }
 
-} // namespace sparselens
+} // namespace sparselens::lab

@@ -4,7 +4,7 @@
 #include <chrono>
 #include <string>
 
-namespace sparselens {
+namespace sparselens::lab {
 
 class TimeLeft {
 public:
@@ -24,4 +24,4 @@ private:
     int steps_ = 0, step_ = 0;
 };
 
-} // namespace sparselens
+} // namespace sparselens::lab

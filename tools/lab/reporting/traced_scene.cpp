@@ -3,7 +3,7 @@
 #include <charconv>
 #include <cstdio>
 
-namespace sparselens {
+namespace sparselens::lab {
 
 namespace {
 
@@ -153,4 +153,4 @@ std::optional<Rendered> TracedScene::planned(int rim, int samples, StepList &ste
     return result;
 }
 
-} // namespace sparselens
+} // namespace sparselens::lab

@@ -3,7 +3,7 @@
 
 #include "lab/reporting/scene_source.h"
 
-namespace sparselens {
+namespace sparselens::lab {
 
 class TracedScene : public SceneSource {
 public:
@@ -33,4 +33,4 @@ private:
     bool can_plan_;
 };
 
-} // namespace sparselens
+} // namespace sparselens::lab

@@ -7,7 +7,7 @@
 #include <charconv>
 #include <map>
 
-namespace sparselens {
+namespace sparselens::lab {
 
 namespace {
 
@@ -129,4 +129,4 @@ RenderSettings render_settings(const TraceOptions &options, const Camera &camera
     return settings;
 }
 
-} // namespace sparselens
+} // namespace sparselens::lab

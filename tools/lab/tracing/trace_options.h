@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace sparselens {
+namespace sparselens::lab {
 
 struct DeepRequest {
     bool peel; // else strata
@@ -42,4 +42,4 @@ void add_trace_options(CLI::App &app, TraceOptions &options);
 // larger than can be meant.
 RenderSettings render_settings(const TraceOptions &options, const Camera &camera);
 
-} // namespace sparselens
+} // namespace sparselens::lab

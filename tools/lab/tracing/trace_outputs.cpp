@@ -11,7 +11,7 @@
 #include <cmath>
 #include <cstdio>
 
-namespace sparselens {
+namespace sparselens::lab {
 
 namespace {
 
@@ -104,4 +104,4 @@ void TraceOutputs::write_summary(const std::vector<Imath::V2d> &views, int view_
     file.commit();
 }
 
-} // namespace sparselens
+} // namespace sparselens::lab

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace sparselens {
+namespace sparselens::lab {
 
 class TraceOutputs {
 public:
@@ -38,4 +38,4 @@ private:
     std::vector<std::pair<std::string, double>> seconds_;
 };
 
-} // namespace sparselens
+} // namespace sparselens::lab

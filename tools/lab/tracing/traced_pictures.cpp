@@ -7,7 +7,7 @@
 
 #include <cstdio>
 
-namespace sparselens {
+namespace sparselens::lab {
 
 namespace {
 
@@ -81,4 +81,4 @@ void trace_deep(const TraceJob &job) {
         });
 }
 
-} // namespace sparselens
+} // namespace sparselens::lab

@@ -8,7 +8,7 @@
 
 #include <vector>
 
-namespace sparselens {
+namespace sparselens::lab {
 
 struct TraceJob {
     const TraceOptions &options;
@@ -34,4 +34,4 @@ void trace_reference(const TraceJob &job);
 // --deep, each.
 void trace_deep(const TraceJob &job);
 
-} // namespace sparselens
+} // namespace sparselens::lab
