@@ -1,6 +1,7 @@
 // LDI to lens picture: dof-gather IN.exr -o OUT.exr [lens options] [--method M] [--quality Q]
 //     [--lens-samples N] [--layers K] [--focus-pixel X,Y] [--depth-out FILE]
 //     [--channels LIST] [-d half|float]
+#include "deep/flatten.h"
 #include "deep/front_depth.h"
 #include "dof/methods.h"
 #include "harness/stats.h"
@@ -21,7 +22,7 @@ using namespace sparselens;
 namespace {
 
 // What the method makes of the LDI; without a lens, the LDI flattened.
-Image gathered(const GatherCommand &options, const Ldi &ldi, const ThinLens &lens, const Frame &frame,
+Image gathered(const GatherCommand &options, const Ldi &ldi, const ThinLens &lens, const GatherWindows &frame,
                const std::optional<Holdout> &holdout, const ToolContext &tool, LensTiles &tiles) {
     if (lens.radius == 0)
         return crop(holdout ? flatten_held_out(ldi, *holdout) : flatten(ldi), frame.written);
@@ -39,7 +40,7 @@ void run(const GatherCommand &options, const ToolContext &tool, LdiCache &cache)
     ThinLens lens = lens_for_ldi(in, options.lens, options.focus_pixel, tool);
     const auto holdout =
         load_holdout(options.holdout, in.ldi.windows, options.windows.proxy, options.lens, options.depth);
-    const Frame frame = frame_of(options.windows, in, lens);
+    const GatherWindows frame = gather_windows(options.windows, in, lens);
     const Ldi &ldi = frame.changed ? *frame.changed : in.ldi;
     LensTiles tiles;
     Image picture;

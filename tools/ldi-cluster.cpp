@@ -50,7 +50,7 @@ std::optional<double> perceptive_scale(const Options &options, const LoadedLdi &
 void run(const Options &options, const ToolContext &tool) {
     LoadedLdi in = load_ldi(options.input, options.lens, options.depth);
     say_samples(tool, options.input, in);
-    warn_of_bad_values(tool, options.input, in.bad);
+    warn_of_invalid_values(tool, options.input, in.bad);
     ClusterOptions by{.layers = options.layers};
     const auto scale = perceptive_scale(options, in);
     if (scale) by.scale = *scale;

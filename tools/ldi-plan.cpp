@@ -32,7 +32,7 @@ void summarise(const Plan &plan, const View &centre, std::FILE *out) {
 
 void run(const PlanCommand &options, const ToolContext &tool) {
     const LoadedView centre = load_view(options.centre, options.lens, options.depth);
-    warn_of_bad_values(tool, options.centre, centre.bad);
+    warn_of_invalid_values(tool, options.centre, centre.bad);
     const Windows &windows = centre.view.image.windows;
     const Camera camera = camera_with_options(options.lens, centre.camera);
     const ThinLens lens = resolve_lens(options.lens, camera, windows);

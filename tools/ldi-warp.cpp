@@ -18,7 +18,7 @@ using namespace sparselens;
 namespace {
 
 // A view that is not where it is said to be makes an LDI of ghosts.
-void warn_of_misplaced(const ToolContext &tool, std::span<const View> views, double focal_px) {
+void warn_of_wrong_pose(const ToolContext &tool, std::span<const View> views, double focal_px) {
     const auto text = [](const Imath::V2d &p) {
         char both[64];
         std::snprintf(both, sizeof both, "%g,%g", p.x + 0.0, p.y + 0.0); // no -0
@@ -51,14 +51,14 @@ void run(const WarpCommand &options, const ToolContext &tool) {
     say_camera(tool, loaded.views[0].name, loaded.camera);
     say_framings(tool, loaded.views);
     for (std::size_t i = 0; i < loaded.views.size(); ++i)
-        warn_of_bad_values(tool, loaded.views[i].name, loaded.bad[i]);
+        warn_of_invalid_values(tool, loaded.views[i].name, loaded.bad[i]);
     for (View &view : loaded.views) to_scene_linear(tool, options.colour, view.name, loaded.header, view);
     const WarpOptions warp_by = warp_options(options, loaded);
     write_camera(loaded.header, loaded.camera);
     append_history(loaded.header, tool, options.history);
     write_picture_window(loaded.header, loaded.views[0].image.windows.data);
     const Ldi ldi = warp(loaded.views, warp_by, *tool.progress);
-    warn_of_misplaced(tool, loaded.views, warp_by.focal_px);
+    warn_of_wrong_pose(tool, loaded.views, warp_by.focal_px);
     tool.say(std::to_string(loaded.views.size()) + " views, " + std::to_string(ldi.samples()) +
              " samples in " + std::to_string(ldi.windows.pixels()) + " pixels");
     warn_of_clamped(tool, options.output, write_ldi(options.output, ldi, loaded.header));

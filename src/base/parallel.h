@@ -48,7 +48,7 @@ void parallel_for(std::size_t count, const Task &task) {
 
 // task(begin, end) over [0, count) cut into runs of at most `grain`; the cuts depend on count and grain alone.
 template <typename Task>
-void parallel_runs(std::size_t count, std::size_t grain, const Task &task) {
+void parallel_ranges(std::size_t count, std::size_t grain, const Task &task) {
     parallel_for((count + grain - 1) / grain, [&](std::size_t run) {
         const std::size_t begin = run * grain;
         task(begin, begin + grain < count ? begin + grain : count);

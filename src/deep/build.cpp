@@ -6,7 +6,7 @@
 
 namespace sparselens {
 
-MergedSample placement_of(const Ldi &ldi, std::uint64_t i) {
+MergedSample sample_at(const Ldi &ldi, std::uint64_t i) {
     const auto or_else = [i](const std::vector<float> &values, float absent) {
         return values.empty() ? absent : values[i];
     };
@@ -33,7 +33,7 @@ void append(Ldi &out, const Ldi &from, const MergedSample &sample) {
 
 void append(Ldi &out, const Ldi &from, std::uint64_t index) {
     const Term whole{index, 1};
-    MergedSample sample = placement_of(from, index);
+    MergedSample sample = sample_at(from, index);
     sample.terms = {&whole, 1};
     append(out, from, sample);
 }

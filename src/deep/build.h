@@ -22,7 +22,7 @@ struct MergedSample {
 };
 
 // The sample as it stands, without its terms.
-MergedSample placement_of(const Ldi &ldi, std::uint64_t index);
+MergedSample sample_at(const Ldi &ldi, std::uint64_t index);
 
 // Appends to the last pixel of `out`.
 void append(Ldi &out, const Ldi &from, const MergedSample &sample);

@@ -61,7 +61,7 @@ void set_shares(const Pixel &p, std::uint64_t begin, std::uint64_t end, double t
     double weights = 0;
     for (; i < end && surface - p.back(i) <= tolerance; ++i)
         if (alpha_at(p.ldi, p.alpha, i) >= opaque) {
-            const double weight = double(placement_of(p.ldi, i).weight);
+            const double weight = double(sample_at(p.ldi, i).weight);
             terms.push_back({i, transmittance * weight});
             weights += weight;
         }
@@ -78,12 +78,12 @@ bool holds_volume(const Ldi &ldi, std::uint64_t first, std::uint64_t last) {
 // among them it is a volume, from the nearest to the farthest.
 MergedSample merged_placement(const Pixel &p, std::span<const Term> terms) {
     const std::uint64_t first = terms.front().index, last = terms.back().index;
-    MergedSample merged = placement_of(p.ldi, first);
+    MergedSample merged = sample_at(p.ldi, first);
     merged.terms = terms;
     if (terms.size() == 1) return merged;
     double shown = 0, inverse_z = 0, dx = 0, dy = 0, weight = 0;
     for (const Term &term : terms) {
-        const MergedSample s = placement_of(p.ldi, term.index);
+        const MergedSample s = sample_at(p.ldi, term.index);
         const double share = std::max(term.coefficient * double(alpha_at(p.ldi, p.alpha, term.index)), 1e-12);
         shown += share;
         inverse_z += share / double(s.z);

@@ -5,7 +5,7 @@
 
 namespace sparselens {
 
-Ldi samples_of(const View &view, std::span<const Channel> channels) {
+Ldi deepen(const View &view, std::span<const Channel> channels) {
     Ldi ldi;
     ldi.windows = view.image.windows;
     ldi.channels.assign(channels.begin(), channels.end());

@@ -10,6 +10,6 @@ namespace sparselens {
 
 // With the view's channels of these names, in this order; positions are the pixel centres, weights 1. Throws
 // Error, naming the view, where it lacks a channel.
-Ldi samples_of(const View &view, std::span<const Channel> channels);
+Ldi deepen(const View &view, std::span<const Channel> channels);
 
 } // namespace sparselens

@@ -1,7 +1,8 @@
+#include "deep/flatten.h"
+
 #include "base/parallel.h"
 #include "deep/build.h"
 #include "deep/channel_alpha.h"
-#include "deep/ldi.h"
 
 namespace sparselens {
 

@@ -3,6 +3,7 @@
 #include "base/parallel.h"
 #include "deep/build.h"
 #include "deep/channel_alpha.h"
+#include "deep/flatten.h"
 
 #include <algorithm>
 #include <cmath>

@@ -30,16 +30,4 @@ struct Ldi {
     std::size_t alpha() const { return find_channel(channels, "A"); } // npos: all samples opaque
 };
 
-// Sorts every pixel by z (then z_back, then the order they stand in), drops samples that show nothing (neither
-// coverage nor light), splits and merges overlapping volumes and merges points of one depth by the rules of
-// "Interpreting OpenEXR Deep Pixels" (F. Kainz, 2013). Then z ascends strictly: a volume that begins at a point's
-// depth begins one ulp behind it, and at infinity lies at most one sample. A volume that overlaps others and
-// reaches to infinity has no density that could be split, and becomes a point at its front. What is tidy already is
-// handed back as it came.
-Ldi tidy(Ldi ldi);
-
-// The tidy LDI composited front to back in file order: `over`, all channels of `ldi`, its data window, each by its
-// own coverage (coloured_alpha.h).
-Image flatten(const Ldi &ldi);
-
 } // namespace sparselens

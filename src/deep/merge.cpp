@@ -99,7 +99,7 @@ void add_layer(Ldi &ldi, Ldi layer, const std::string &name) {
     }
 }
 
-Ldi united(const std::vector<Ldi> &parts) {
+Ldi deep_merge(const std::vector<Ldi> &parts) {
     Ldi out;
     out.windows = all_windows(parts);
     out.channels = all_channels(parts);

@@ -18,6 +18,6 @@ void add_layer(Ldi &ldi, Ldi layer, const std::string &name);
 // All samples of the parts, as tidy() takes them: pixel by pixel, those of the first part first. The display window is
 // the first part's, the data window what holds all of theirs. A channel that a part does not have is 0
 // there, but for coverage: without A its samples are opaque, without a coloured coverage it is that of A.
-Ldi united(const std::vector<Ldi> &parts);
+Ldi deep_merge(const std::vector<Ldi> &parts);
 
 } // namespace sparselens

@@ -41,7 +41,7 @@ bool are_apart(const std::vector<Extent> &extents) {
 
 Order order_of(const Ldi &ldi) {
     std::atomic<bool> sorted = true, apart = true;
-    parallel_runs(ldi.windows.pixels(), 4096, [&](std::size_t begin, std::size_t end) {
+    parallel_ranges(ldi.windows.pixels(), 4096, [&](std::size_t begin, std::size_t end) {
         std::vector<Extent> extents;
         for (std::size_t pixel = begin; pixel < end; ++pixel) {
             extents.clear();

@@ -2,6 +2,7 @@
 
 #include "deep/build.h"
 #include "deep/channel_alpha.h"
+#include "deep/tidy.h"
 
 #include <algorithm>
 #include <cmath>
@@ -37,7 +38,7 @@ std::vector<Seen> samples_in(const Ldi &ldi, std::size_t alpha, const Imath::V2i
             const std::size_t pixel = ldi.windows.index(x, y);
             double shown = 1;
             for (std::uint64_t i = ldi.begin[pixel]; i < ldi.begin[pixel + 1]; ++i) {
-                const MergedSample s = placement_of(ldi, i);
+                const MergedSample s = sample_at(ldi, i);
                 seen.push_back({i, double(s.z), shown, (x + 0.5 + double(s.dx)) / factor - (small.x + 0.5),
                                 (y + 0.5 + double(s.dy)) / factor - (small.y + 0.5)});
                 shown *= 1 - double(alpha_at(ldi, alpha, i));
@@ -57,7 +58,7 @@ void append_surfaces(const Ldi &ldi, std::size_t alpha, const std::vector<Seen> 
     double left = 1;                      // of the light, behind the surfaces so far
     std::vector<Term> terms;
     for (std::size_t begin = 0, end = 0; begin < seen.size(); begin = end) {
-        MergedSample surface = placement_of(ldi, seen[begin].index);
+        MergedSample surface = sample_at(ldi, seen[begin].index);
         double x = 0, y = 0, shown = 0;
         terms.clear();
         for (; end < seen.size() && seen[end].z <= same_surface * seen[begin].z; ++end) {
@@ -81,28 +82,6 @@ void append_surfaces(const Ldi &ldi, std::size_t alpha, const std::vector<Seen> 
 Imath::Box2i reduced(const Imath::Box2i &box, int factor) {
     return {{floor_div(box.min.x, factor), floor_div(box.min.y, factor)},
             {floor_div(box.max.x, factor), floor_div(box.max.y, factor)}};
-}
-
-Ldi padded(Ldi ldi, const Imath::Box2i &data) {
-    Windows windows = ldi.windows;
-    windows.data.extendBy(data);
-    if (windows == ldi.windows) return ldi;
-    std::vector<std::uint64_t> begin{0};
-    begin.reserve(windows.pixels() + 1);
-    for (int y = windows.data.min.y; y <= windows.data.max.y; ++y)
-        for (int x = windows.data.min.x; x <= windows.data.max.x; ++x) {
-            const bool old = ldi.windows.data.intersects(Imath::V2i(x, y));
-            begin.push_back(old ? ldi.begin[ldi.windows.index(x, y) + 1] : begin.back());
-        }
-    ldi.begin = std::move(begin);
-    ldi.windows = windows;
-    return ldi;
-}
-
-Imath::V2i largest_reach(const Ldi &ldi, const ThinLens &lens) {
-    double largest = 0;
-    for (const float z : ldi.z) largest = std::max(largest, std::abs(circle_of_confusion(lens, double(z))));
-    return {int(std::ceil(largest)) + 1, int(std::ceil(largest * lens.pixel_aspect)) + 1};
 }
 
 Ldi proxy(const Ldi &large, int factor) {

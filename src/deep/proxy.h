@@ -1,16 +1,9 @@
-// What part of the plane an LDI covers, and at which size.
+// A small LDI that stands for a large one, for a quick look.
 #pragma once
 
 #include "deep/ldi.h"
-#include "lens/thin_lens.h"
 
 namespace sparselens {
-
-// The LDI with its data window grown to hold `data`; the new pixels are empty.
-Ldi padded(Ldi ldi, const Imath::Box2i &data);
-
-// How far the lens spreads its samples at most, pixels: the largest |c|, rounded up, across and down.
-Imath::V2i largest_reach(const Ldi &ldi, const ThinLens &lens);
 
 // The pixels that hold those of `box` where `factor` of them, across and down, become one.
 Imath::Box2i reduced(const Imath::Box2i &box, int factor);

@@ -29,7 +29,7 @@ struct Samples {
 
 bool all_of(std::span<const float> values, bool (*good)(float)) {
     std::atomic<bool> all = true;
-    parallel_runs(values.size(), 65536, [&](std::size_t from, std::size_t to) {
+    parallel_ranges(values.size(), 65536, [&](std::size_t from, std::size_t to) {
         if (!std::all_of(values.begin() + std::ptrdiff_t(from), values.begin() + std::ptrdiff_t(to), good))
             all = false;
     });
@@ -45,7 +45,7 @@ public:
     Repair(const Samples &samples, const std::string &name)
         : s_(samples), name_(name), alpha_(find_channel(samples.channels, "A")) {}
 
-    BadValues run() {
+    InvalidValues run() {
         for (std::size_t k = 0; k < s_.values.size(); ++k)
             if (covers(k) && !all_of(s_.values[k], is_coverage)) repair_coverage(k);
         if (!all_of(s_.z, is_depth)) repair_depths();
@@ -95,7 +95,7 @@ private:
     void repair_colours(std::size_t channel);
     void hide_uncovered() {
         if (alpha_ == npos) return;
-        parallel_runs(s_.z.size(), 65536, [&](std::size_t from, std::size_t to) {
+        parallel_ranges(s_.z.size(), 65536, [&](std::size_t from, std::size_t to) {
             for (std::size_t i = from; i < to; ++i)
                 if (s_.values[alpha_][i] == 0) s_.z[i] = infinity;
         });
@@ -110,7 +110,7 @@ private:
     const Samples &s_;
     const std::string &name_;
     std::size_t alpha_;
-    BadValues found_;
+    InvalidValues found_;
 };
 
 void Repair::repair_coverage(std::size_t channel) {
@@ -206,7 +206,7 @@ std::vector<std::span<float>> planes_of(std::vector<std::vector<float>> &values)
 
 } // namespace
 
-std::string BadValues::text() const {
+std::string InvalidValues::text() const {
     std::string list;
     const auto add = [&](std::size_t count, const char *one, const char *many) {
         if (count > 0) list += (list.empty() ? "" : ", ") + std::to_string(count) + (count == 1 ? one : many);
@@ -218,14 +218,14 @@ std::string BadValues::text() const {
     return list + ": made good from the pixels around, A clamped";
 }
 
-BadValues repair_bad_values(Ldi &ldi, const std::string &name) {
+InvalidValues sanitize(Ldi &ldi, const std::string &name) {
     const Samples samples{ldi.windows, ldi.channels, planes_of(ldi.values), ldi.z, ldi.begin};
-    BadValues found = Repair(samples, name).run();
+    InvalidValues found = Repair(samples, name).run();
     found.places = repair_places(ldi);
     return found;
 }
 
-BadValues repair_bad_values(View &view) {
+InvalidValues sanitize(View &view) {
     Samples samples{view.image.windows, view.image.channels, {}, view.z, {}};
     for (std::size_t k = 0; k < view.image.channels.size(); ++k)
         samples.values.push_back(view.image.plane(k));

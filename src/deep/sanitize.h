@@ -26,7 +26,7 @@
 namespace sparselens {
 
 // How many there were. An A that rounding or a filter has put out of its range by less than 1/64 is not counted.
-struct BadValues {
+struct InvalidValues {
     std::size_t colours = 0, alphas = 0, depths = 0, places = 0;
 
     bool any() const { return colours + alphas + depths + places > 0; }
@@ -35,7 +35,7 @@ struct BadValues {
 
 // Depths are planar by now; samples need not be tidy. Error, naming `name` and the first such pixel, where half of
 // what is covered or more has no depth above 0: that is no accident but another convention of depth.
-BadValues repair_bad_values(Ldi &ldi, const std::string &name);
-BadValues repair_bad_values(View &view);
+InvalidValues sanitize(Ldi &ldi, const std::string &name);
+InvalidValues sanitize(View &view);
 
 } // namespace sparselens

@@ -1,7 +1,8 @@
+#include "deep/tidy.h"
+
 #include "base/parallel.h"
 #include "deep/build.h"
 #include "deep/channel_alpha.h"
-#include "deep/ldi.h"
 
 #include <algorithm>
 #include <atomic>
@@ -117,7 +118,7 @@ void tidy_pixel(const Ldi &ldi, std::size_t alpha, std::size_t pixel, Ldi &out) 
         const std::span same(pieces.data() + first, last - first);
         set_merged_factors(same);
         terms.clear();
-        MergedSample merged = placement_of(ldi, same[0].index);
+        MergedSample merged = sample_at(ldi, same[0].index);
         // A point where a volume begins: the volume starts one ulp behind it.
         merged.z = same[0].z > last_z ? same[0].z : std::nextafter(last_z, infinity);
         merged.z_back = std::max(merged.z, same[0].z_back);
@@ -125,7 +126,7 @@ void tidy_pixel(const Ldi &ldi, std::size_t alpha, std::size_t pixel, Ldi &out) 
         merged.weight = 0;
         for (const Piece &p : same) {
             terms.push_back({p.index, p.factor});
-            merged.weight += placement_of(ldi, p.index).weight;
+            merged.weight += sample_at(ldi, p.index).weight;
         }
         merged.terms = terms;
         append(out, ldi, merged);
@@ -146,7 +147,7 @@ Ldi tidied(const Ldi &ldi, std::size_t alpha) {
 Ldi tidy(Ldi ldi) {
     const std::size_t alpha = ldi.alpha();
     std::atomic<bool> all_tidy = true;
-    parallel_runs(ldi.windows.pixels(), 4096, [&](std::size_t begin, std::size_t end) {
+    parallel_ranges(ldi.windows.pixels(), 4096, [&](std::size_t begin, std::size_t end) {
         for (std::size_t pixel = begin; pixel < end && all_tidy; ++pixel)
             if (!is_tidy(ldi, alpha, pixel)) all_tidy = false;
     });

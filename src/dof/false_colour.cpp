@@ -1,5 +1,6 @@
 #include "dof/false_colour.h"
 
+#include "deep/flatten.h"
 #include "deep/front_depth.h"
 
 #include <Imath/ImathVec.h>
@@ -49,12 +50,6 @@ std::vector<float> brightness(const Ldi &ldi) {
 }
 
 } // namespace
-
-std::map<int, int> histogram(const LensTiles &tiles) {
-    std::map<int, int> result;
-    for (const int points : tiles.lens_points) ++result[points];
-    return result;
-}
 
 Image coc_colours(const Ldi &ldi, const ThinLens &lens) {
     const V3f white(1, 1, 1), front(0, 0, 1), behind(1, 0, 0);

@@ -66,7 +66,7 @@ SsimMap ssim_map(std::span<const float> a, std::span<const float> b, int width, 
     const std::vector<double> window_x = ssim_window(size_x), window_y = ssim_window(size_y);
     const std::size_t row_length = std::size_t(width), map_length = std::size_t(map.width);
     constexpr std::size_t rows_a_task = 16;
-    parallel_runs(std::size_t(map.height), rows_a_task, [&](std::size_t begin, std::size_t end) {
+    parallel_ranges(std::size_t(map.height), rows_a_task, [&](std::size_t begin, std::size_t end) {
         MomentRows columns;
         for (std::size_t y = begin; y < end; ++y) {
             for (auto &row : columns) row.assign(row_length, 0.0);

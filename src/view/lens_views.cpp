@@ -75,8 +75,8 @@ Camera with_picture_moved(Camera camera, const Imath::V2d &by) {
 
 } // namespace
 
-LensViews place_on_lens(std::span<const Camera> views, std::span<const std::string> names,
-                        const std::optional<Camera> &centre) {
+LensViews position_on_lens(std::span<const Camera> views, std::span<const std::string> names,
+                           const std::optional<Camera> &centre) {
     if (centre) return seen_from(*centre, views, names);
     LensViews result = seen_from(views.front(), views, names);
     result.centre_guessed = !all_know_their_lens_point(views);

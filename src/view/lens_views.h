@@ -21,8 +21,8 @@ struct LensViews {
 // (each names its own lens point); else the mean of their positions. UsageError: a view has no worldToCamera.
 // Error: axes not parallel, or a view farther in front of or behind the lens centre than any is to its side. Messages
 // name the view by `names`.
-LensViews place_on_lens(std::span<const Camera> views, std::span<const std::string> names,
-                        const std::optional<Camera> &centre);
+LensViews position_on_lens(std::span<const Camera> views, std::span<const std::string> names,
+                           const std::optional<Camera> &centre);
 
 // For pictures that are to be moved whole. Error, naming the view, where its picture is smaller or larger than the
 // centre's, or its camera in front of or behind it by more than a hundredth of the views' spread.

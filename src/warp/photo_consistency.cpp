@@ -70,9 +70,9 @@ private:
     std::vector<std::size_t> channels_;
 };
 
-double rim_mean(const PlacedViews &views, const Surface &surface, std::size_t channel) {
+double rim_mean(const ReprojectedViews &views, const Surface &surface, std::size_t channel) {
     double sum = 0, total = 0;
-    for (const PlacedSample &s : surface.samples) {
+    for (const ViewSample &s : surface.samples) {
         if (s.view == 0) continue;
         sum += s.weight * tone_mapped(views.value(s, channel));
         total += s.weight;
@@ -80,8 +80,8 @@ double rim_mean(const PlacedViews &views, const Surface &surface, std::size_t ch
     return sum / total;
 }
 
-void compare(const PlacedViews &views, const CentreColours &centre, const AgreementOptions &options,
-             const Surface &surface, Block &block) {
+void compare(const ReprojectedViews &views, const CentreColours &centre,
+             const PhotoConsistencyOptions &options, const Surface &surface, Block &block) {
     const int x = surface.samples[0].x, y = surface.samples[0].y;
     for (const std::size_t channel : centre.channels()) {
         const double own = centre.value(x, y, channel);
@@ -98,8 +98,9 @@ void compare(const PlacedViews &views, const CentreColours &centre, const Agreem
 
 } // namespace
 
-std::vector<bool> find_agreement(const PlacedViews &views, const AgreementOptions &options,
-                                 const Imath::Box2i &data, const Surfaces &surfaces) {
+std::vector<bool> find_photo_consistency(const ReprojectedViews &views,
+                                         const PhotoConsistencyOptions &options, const Imath::Box2i &data,
+                                         const Surfaces &surfaces) {
     const std::size_t width = std::size_t(data.max.x - data.min.x + 1);
     const std::size_t blocks_across = (width + block_size - 1) / block_size;
     const auto block_of = [&](std::size_t pixel) {

@@ -12,7 +12,7 @@
 
 namespace sparselens {
 
-struct AgreementOptions {
+struct PhotoConsistencyOptions {
     double scale = 0; // R F: the CoC is scale * (1 / z - 1 / focus)
     // Where a surface is in focus every direction is meant to be averaged: that is what the lens does. Empty: unknown,
     // no surface counts as in focus.
@@ -20,7 +20,8 @@ struct AgreementOptions {
 };
 
 // For each pixel of some rows of `data`, whose surfaces are given: whether the views may be averaged.
-std::vector<bool> find_agreement(const PlacedViews &views, const AgreementOptions &options,
-                                 const Imath::Box2i &data, const Surfaces &surfaces);
+std::vector<bool> find_photo_consistency(const ReprojectedViews &views,
+                                         const PhotoConsistencyOptions &options, const Imath::Box2i &data,
+                                         const Surfaces &surfaces);
 
 } // namespace sparselens

@@ -47,7 +47,7 @@ double nearness(const ReprojectedSample &s) {
 
 } // namespace
 
-PlacedViews::PlacedViews(std::span<const View> views, double focal_px, double scale, double jump) {
+ReprojectedViews::ReprojectedViews(std::span<const View> views, double focal_px, double scale, double jump) {
     std::vector<const View *> ordered;
     for (const View &view : views) {
         check(views[0], view);
@@ -56,7 +56,7 @@ PlacedViews::PlacedViews(std::span<const View> views, double focal_px, double sc
     std::sort(ordered.begin() + 1, ordered.end(), canonically_before);
     sources_.resize(ordered.size());
     parallel_for(ordered.size(), [&](std::size_t v) {
-        Ldi samples = samples_of(*ordered[v], views[0].image.channels);
+        Ldi samples = deepen(*ordered[v], views[0].image.channels);
         if (jump > 0 && scale > 0) samples = separate_silhouettes(samples, scale, jump);
         const ViewMapping mapping(ordered[v]->position, focal_px, views[0].image.windows, ordered[v]->framing,
                                   views[0].framing.principal_point);
@@ -64,12 +64,12 @@ PlacedViews::PlacedViews(std::span<const View> views, double focal_px, double sc
     });
 }
 
-PlacedRows PlacedViews::place(const Imath::Box2i &data, int first_row, int last_row) const {
+ReprojectedRows ReprojectedViews::place(const Imath::Box2i &data, int first_row, int last_row) const {
     const std::size_t width = std::size_t(data.max.x - data.min.x + 1);
     const auto pixel_of = [&](const ReprojectedSample &s) {
         return std::size_t(s.y - first_row) * width + std::size_t(s.x - data.min.x);
     };
-    PlacedRows rows{first_row, {}, {}};
+    ReprojectedRows rows{first_row, {}, {}};
     rows.begin.assign(width * std::size_t(last_row - first_row + 1) + 1, 0);
     std::vector<std::vector<ReprojectedSample>> landed(size());
     for (std::size_t v = 0; v < size(); ++v) {

@@ -11,7 +11,7 @@
 namespace sparselens {
 
 // A sample of a view at its place in the centre view.
-struct PlacedSample : ReprojectedSample {
+struct ViewSample : ReprojectedSample {
     std::uint32_t view;    // 0 is the centre
     std::uint32_t surface; // of the pixel, as find_surfaces() numbers them
     // What it counts in the mean of its surface: a mean of pixels that lie apart is blurred, so the ones near the
@@ -20,35 +20,35 @@ struct PlacedSample : ReprojectedSample {
 };
 
 // Some rows of the centre view, pixel by pixel; within a pixel the views in order.
-struct PlacedRows {
+struct ReprojectedRows {
     int first_row; // EXR coordinate
-    std::vector<PlacedSample> samples;
+    std::vector<ViewSample> samples;
     std::vector<std::size_t> begin; // pixel i, counted along the rows, has samples [begin[i], begin[i + 1])
 
     std::size_t pixels() const { return begin.size() - 1; }
-    std::span<PlacedSample> pixel(std::size_t i) {
+    std::span<ViewSample> pixel(std::size_t i) {
         return std::span(samples).subspan(begin[i], begin[i + 1] - begin[i]);
     }
 };
 
-class PlacedViews {
+class ReprojectedViews {
 public:
     // views[0] is the centre; its channels are every view's. The order of the others does not matter. focal_px and
     // scale: R and R F, see WarpOptions. jump: pixels on silhouettes become two samples where perceptive depth jumps
     // by so many pixels (silhouettes.h); 0: they stay whole. Throws Error where display windows differ or a view
     // lacks a channel of the centre.
-    PlacedViews(std::span<const View> views, double focal_px, double scale, double jump);
+    ReprojectedViews(std::span<const View> views, double focal_px, double scale, double jump);
 
     std::size_t size() const { return sources_.size(); }
     const Ldi &samples(std::size_t view) const { return sources_[view]->ldi; }
     const Reprojection &reprojection(std::size_t view) const { return sources_[view]->reprojection; }
 
-    float value(const PlacedSample &s, std::size_t channel) const {
+    float value(const ViewSample &s, std::size_t channel) const {
         return samples(s.view).values[channel][s.source];
     }
 
     // The samples that fall in rows [first_row, last_row] of the data window.
-    PlacedRows place(const Imath::Box2i &data, int first_row, int last_row) const;
+    ReprojectedRows place(const Imath::Box2i &data, int first_row, int last_row) const;
 
 private:
     struct Source {

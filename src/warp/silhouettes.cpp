@@ -206,7 +206,7 @@ void Separation::emit_mixture(std::uint64_t i, const Mixture &mixture, Ldi &out)
     std::vector<Term> front{{i, 1}};
     for (const Term &term : mixture.behind.terms)
         front.push_back({term.index, -(1 - mixture.share) * term.coefficient});
-    MergedSample sample = placement_of(view_, i);
+    MergedSample sample = sample_at(view_, i);
     sample.z = sample.z_back = float(scale_ / mixture.near_depth);
     sample.terms = front;
     append(out, view_, sample);

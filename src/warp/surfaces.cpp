@@ -11,24 +11,24 @@ constexpr std::uint32_t none = ~0u;
 
 // As std::stable_sort, which allocates memory however few there are; most pixels have no more samples than views.
 template <typename Before>
-void sort_stably(std::span<PlacedSample> samples, const Before &before) {
+void sort_stably(std::span<ViewSample> samples, const Before &before) {
     constexpr std::size_t few = 16;
     if (samples.size() > few) return std::stable_sort(samples.begin(), samples.end(), before);
     for (std::size_t i = 1; i < samples.size(); ++i) {
-        const PlacedSample s = samples[i];
+        const ViewSample s = samples[i];
         std::size_t at = i;
         for (; at > 0 && before(s, samples[at - 1]); --at) samples[at] = samples[at - 1];
         samples[at] = s;
     }
 }
 
-bool one_surface(const PlacedSample &a, const PlacedSample &b, double tolerance) {
+bool one_surface(const ViewSample &a, const ViewSample &b, double tolerance) {
     return std::abs(double(a.inverse_z) - double(b.inverse_z)) < tolerance || a.inverse_z == b.inverse_z;
 }
 
 // Of the samples of a pixel, front to back, those that belong to it.
-std::span<PlacedSample> behind_centre(const PlacedViews &views, double tolerance,
-                                      std::span<PlacedSample> samples) {
+std::span<ViewSample> behind_centre(const ReprojectedViews &views, double tolerance,
+                                    std::span<ViewSample> samples) {
     const auto centre =
         std::find_if(samples.begin(), samples.end(), [](const auto &s) { return s.view == 0; });
     if (centre == samples.end()) {
@@ -41,10 +41,10 @@ std::span<PlacedSample> behind_centre(const PlacedViews &views, double tolerance
 }
 
 // Numbers all samples of the anchor's surface that belong to none yet.
-Surface claim(double tolerance, const PlacedSample &anchor, std::uint32_t number,
-              std::span<PlacedSample> samples) {
+Surface claim(double tolerance, const ViewSample &anchor, std::uint32_t number,
+              std::span<ViewSample> samples) {
     double sum = 0, total = 0;
-    for (PlacedSample &s : samples) {
+    for (ViewSample &s : samples) {
         if (s.surface != none || !one_surface(s, anchor, tolerance)) continue;
         s.surface = number;
         sum += s.weight * double(s.inverse_z);
@@ -54,7 +54,7 @@ Surface claim(double tolerance, const PlacedSample &anchor, std::uint32_t number
 }
 
 // Brings the samples of each surface together, the centre's first.
-void group(std::span<PlacedSample> samples, std::span<Surface> surfaces) {
+void group(std::span<ViewSample> samples, std::span<Surface> surfaces) {
     sort_stably(samples, [](const auto &a, const auto &b) {
         return a.surface != b.surface ? a.surface < b.surface : a.view < b.view;
     });
@@ -65,15 +65,15 @@ void group(std::span<PlacedSample> samples, std::span<Surface> surfaces) {
 }
 
 // Appends those of one pixel.
-void find_in_pixel(const PlacedViews &views, double tolerance, std::span<PlacedSample> samples,
+void find_in_pixel(const ReprojectedViews &views, double tolerance, std::span<ViewSample> samples,
                    std::vector<Surface> &surfaces) {
     if (samples.empty()) return;
     sort_stably(samples, [](const auto &a, const auto &b) { return a.inverse_z > b.inverse_z; });
     samples = behind_centre(views, tolerance, samples);
-    for (PlacedSample &s : samples) s.surface = none;
+    for (ViewSample &s : samples) s.surface = none;
     const std::size_t before = surfaces.size();
     for (const bool centre : {true, false}) // the centre's samples say where surfaces are, before any other
-        for (const PlacedSample &anchor : samples)
+        for (const ViewSample &anchor : samples)
             if (anchor.surface == none && (anchor.view == 0) == centre)
                 surfaces.push_back(
                     claim(tolerance, anchor, std::uint32_t(surfaces.size() - before), samples));
@@ -84,7 +84,7 @@ void find_in_pixel(const PlacedViews &views, double tolerance, std::span<PlacedS
 
 } // namespace
 
-Surfaces find_surfaces(const PlacedViews &views, double tolerance, PlacedRows &rows) {
+Surfaces find_surfaces(const ReprojectedViews &views, double tolerance, ReprojectedRows &rows) {
     Surfaces surfaces;
     surfaces.begin.push_back(0);
     for (std::size_t pixel = 0; pixel < rows.pixels(); ++pixel) {

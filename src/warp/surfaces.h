@@ -9,8 +9,8 @@
 namespace sparselens {
 
 struct Surface {
-    std::span<const PlacedSample> samples; // the centre's first, if it shows the surface; never empty
-    double inverse_z;                      // weighted mean
+    std::span<const ViewSample> samples; // the centre's first, if it shows the surface; never empty
+    double inverse_z;                    // weighted mean
 
     bool seen_by_centre() const { return samples[0].view == 0; }
 };
@@ -18,7 +18,7 @@ struct Surface {
 // Of some rows of the centre view.
 struct Surfaces {
     std::vector<Surface> list;      // front to back within a pixel; refer to the rows' samples
-    std::vector<std::size_t> begin; // pixel i, as in PlacedRows, has surfaces [begin[i], begin[i + 1])
+    std::vector<std::size_t> begin; // pixel i, as in ReprojectedRows, has surfaces [begin[i], begin[i + 1])
 
     std::size_t pixels() const { return begin.size() - 1; }
     std::span<const Surface> pixel(std::size_t i) const {
@@ -29,6 +29,6 @@ struct Surfaces {
 // Two samples show one surface where their 1 / z differ by less than `tolerance` (inf: always). Samples in front of
 // what the centre view shows, or where it shows that nothing is, do not belong to the pixel: only the rounding of
 // their place brought them there. Reorders the samples of each pixel.
-Surfaces find_surfaces(const PlacedViews &views, double tolerance, PlacedRows &rows);
+Surfaces find_surfaces(const ReprojectedViews &views, double tolerance, ReprojectedRows &rows);
 
 } // namespace sparselens

@@ -33,8 +33,8 @@ void count_votes(const Ldi &view, std::size_t alpha, std::size_t pixel, double i
 
 } // namespace
 
-double coverage_by_views(const PlacedViews &views, const Imath::V2d &place, double inverse_z,
-                         double tolerance) {
+double visibility_vote(const ReprojectedViews &views, const Imath::V2d &place, double inverse_z,
+                       double tolerance) {
     const std::size_t alpha = find_channel(views.samples(0).channels, "A");
     Votes votes;
     for (std::size_t v = 1; v < views.size(); ++v) {

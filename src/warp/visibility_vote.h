@@ -13,7 +13,7 @@ namespace sparselens {
 // of the rim views that can tell see it there, 0 where a quarter or less do, between them in proportion; 1 where no
 // view can tell. A view can tell unless something nearer hides the place, or it lies outside the view. Depths whose
 // inverses differ by less than `tolerance` are the same.
-double coverage_by_views(const PlacedViews &views, const Imath::V2d &place, double inverse_z,
-                         double tolerance);
+double visibility_vote(const ReprojectedViews &views, const Imath::V2d &place, double inverse_z,
+                       double tolerance);
 
 } // namespace sparselens

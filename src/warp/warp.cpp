@@ -24,15 +24,15 @@ private:
     void grow_window();
     Ldi warp_band(int first_row, int last_row) const;
     void emit(const Surface &surface, bool agree, Ldi &out) const;
-    void emit_nearest(std::span<const PlacedSample> samples, Ldi &out) const;
-    void emit_mean(std::span<const PlacedSample> samples, Ldi &out) const;
+    void emit_nearest(std::span<const ViewSample> samples, Ldi &out) const;
+    void emit_mean(std::span<const ViewSample> samples, Ldi &out) const;
 
     bool averages() const { return options_.merge == Merge::average; }
 
     WarpOptions options_;
     double scale_;     // R F: perceptive depth is scale / z
     double tolerance_; // of 1 / z, within one surface
-    PlacedViews views_;
+    ReprojectedViews views_;
     Ldi layout_; // windows and channels of the result
 };
 
@@ -58,10 +58,10 @@ void Warper::grow_window() {
 }
 
 // The mean of positions belongs to the mean of colours: where colour is linear, nothing is blurred.
-void Warper::emit_mean(std::span<const PlacedSample> samples, Ldi &out) const {
+void Warper::emit_mean(std::span<const ViewSample> samples, Ldi &out) const {
     double count = 0, total = 0, dx = 0, dy = 0,
            inverse_z = 0; // double: views may be many, depths near each other
-    for (const PlacedSample &s : samples) {
+    for (const ViewSample &s : samples) {
         count += double(views_.samples(s.view).weight[s.source]);
         total += s.weight;
         dx += s.weight * double(s.dx);
@@ -72,8 +72,7 @@ void Warper::emit_mean(std::span<const PlacedSample> samples, Ldi &out) const {
     dy /= total;
     inverse_z /= total;
     const Imath::V2d place(samples[0].x + 0.5 + dx, samples[0].y + 0.5 + dy);
-    const double coverage =
-        samples[0].view == 0 ? 1 : coverage_by_views(views_, place, inverse_z, tolerance_);
+    const double coverage = samples[0].view == 0 ? 1 : visibility_vote(views_, place, inverse_z, tolerance_);
     if (coverage == 0) return;
     const bool alone = samples.size() == 1;
     out.z.push_back(alone ? views_.samples(samples[0].view).z[samples[0].source] : float(1 / inverse_z));
@@ -82,7 +81,7 @@ void Warper::emit_mean(std::span<const PlacedSample> samples, Ldi &out) const {
     out.weight.push_back(float(count));
     for (std::size_t k = 0; k < out.channels.size(); ++k) {
         double sum = 0;
-        for (const PlacedSample &s : samples) sum += s.weight * double(views_.value(s, k));
+        for (const ViewSample &s : samples) sum += s.weight * double(views_.value(s, k));
         const bool id = out.channels[k].type == PixelType::uint32;
         out.values[k].push_back(id ? views_.value(samples[0], k) : float(coverage * (sum / total)));
     }
@@ -90,11 +89,11 @@ void Warper::emit_mean(std::span<const PlacedSample> samples, Ldi &out) const {
 }
 
 // The centre's sample, else the most central one, as it is.
-void Warper::emit_nearest(std::span<const PlacedSample> samples, Ldi &out) const {
-    const auto off_centre = [](const PlacedSample &s) {
+void Warper::emit_nearest(std::span<const ViewSample> samples, Ldi &out) const {
+    const auto off_centre = [](const ViewSample &s) {
         return s.view == 0 ? -1.0f : s.dx * s.dx + s.dy * s.dy;
     };
-    const PlacedSample &best = *std::ranges::min_element(samples, {}, off_centre);
+    const ViewSample &best = *std::ranges::min_element(samples, {}, off_centre);
     const Ldi &view = views_.samples(best.view);
     out.z.push_back(view.z[best.source]);
     out.dx.push_back(best.dx);
@@ -113,11 +112,11 @@ void Warper::emit(const Surface &surface, bool agree, Ldi &out) const {
 }
 
 Ldi Warper::warp_band(int first_row, int last_row) const {
-    PlacedRows rows = views_.place(layout_.windows.data, first_row, last_row);
+    ReprojectedRows rows = views_.place(layout_.windows.data, first_row, last_row);
     const Surfaces surfaces = find_surfaces(views_, tolerance_, rows);
     std::vector<bool> agree(rows.pixels(), true);
-    if (averages() && options_.test_agreement)
-        agree = find_agreement(views_, {scale_, options_.focus}, layout_.windows.data, surfaces);
+    if (averages() && options_.test_photo_consistency)
+        agree = find_photo_consistency(views_, {scale_, options_.focus}, layout_.windows.data, surfaces);
     Ldi out = empty_like(layout_);
     out.begin.push_back(0);
     for (std::size_t pixel = 0; pixel < rows.pixels(); ++pixel) {

@@ -26,8 +26,8 @@ struct WarpOptions {
     Merge merge = Merge::average;
     double surface_px = 0.5;
     bool split_silhouettes = true; // average: pixels that mix two surfaces become two samples (silhouettes.h)
-    bool test_agreement = true;    // average: not where views disagree, out of focus (agreement.h)
-    std::optional<double> focus = {}; // of the lens, if known, scene units
+    bool test_photo_consistency = true; // average: not where views disagree, out of focus (agreement.h)
+    std::optional<double> focus = {};   // of the lens, if known, scene units
 };
 
 // views[0] is the centre; its windows and channels are the LDI's. The result does not depend on the order of the

@@ -16,12 +16,12 @@ TEST(Parallel, EveryPieceRunsOnce) {
 
 TEST(Parallel, RunsCoverTheRangeInPiecesOfTheGrain) {
     std::vector<std::size_t> length(100);
-    parallel_runs(100, 32, [&](std::size_t begin, std::size_t end) {
+    parallel_ranges(100, 32, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) length[i] += end - begin;
     });
     for (std::size_t i = 0; i < 96; ++i) EXPECT_EQ(length[i], 32u) << i;
     for (std::size_t i = 96; i < 100; ++i) EXPECT_EQ(length[i], 4u) << i;
-    parallel_runs(0, 32, [](std::size_t, std::size_t) { FAIL(); });
+    parallel_ranges(0, 32, [](std::size_t, std::size_t) { FAIL(); });
 }
 
 TEST(Parallel, WhatAPieceThrowsReachesTheCaller) {

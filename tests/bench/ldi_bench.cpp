@@ -1,5 +1,7 @@
 // The stages that make LDIs: warping views, putting samples in order, clustering, flattening.
 #include "deep/cluster.h"
+#include "deep/flatten.h"
+#include "deep/tidy.h"
 #include "support/ldi_samples.h"
 #include "support/views.h"
 #include "warp/warp.h"

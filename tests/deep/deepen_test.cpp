@@ -9,9 +9,9 @@
 namespace sparselens {
 namespace {
 
-TEST(ViewSamples, PixelsThatShowSomethingAreSamples) {
+TEST(Deepen, PixelsThatShowSomethingAreSamples) {
     const View view = random_view({Imath::Box2i({0, 0}, {9, 9}), Imath::Box2i({-3, 2}, {12, 20})}, {1, 2}, 3);
-    const Ldi ldi = samples_of(view, view.image.channels);
+    const Ldi ldi = deepen(view, view.image.channels);
     EXPECT_EQ(ldi.windows, view.image.windows);
     EXPECT_EQ(ldi.weight, std::vector<float>(ldi.samples(), 1));
     EXPECT_TRUE(ldi.dx.empty() && ldi.dy.empty() && ldi.z_back.empty());
@@ -25,20 +25,20 @@ TEST(ViewSamples, PixelsThatShowSomethingAreSamples) {
     }
 }
 
-TEST(ViewSamples, ChannelsComeInTheOrderAskedFor) {
+TEST(Deepen, ChannelsComeInTheOrderAskedFor) {
     const View view = random_view(windows_of_size(2, 2), {0, 0}, 1);
-    const Ldi ldi = samples_of(view, std::vector<Channel>{{"A"}, {"G"}});
+    const Ldi ldi = deepen(view, std::vector<Channel>{{"A"}, {"G"}});
     ASSERT_EQ(ldi.values.size(), 2u);
     EXPECT_EQ(ldi.alpha(), 0u);
     EXPECT_EQ(ldi.values[1][0], view.image.plane(1)[ldi.begin[1] == 1 ? 0 : 1]);
-    EXPECT_EQ(what_of<Error>([&] { samples_of(view, std::vector<Channel>{{"albedo.R"}}); }),
+    EXPECT_EQ(what_of<Error>([&] { deepen(view, std::vector<Channel>{{"albedo.R"}}); }),
               "view: has no channel albedo.R, which the centre view has");
 }
 
-TEST(ViewSamples, WithoutAlphaEverythingIsVisible) {
+TEST(Deepen, WithoutAlphaEverythingIsVisible) {
     View view = random_view(windows_of_size(8, 8), {0, 0}, 1);
     view.image = Image(view.image.windows, {{"Y"}});
-    EXPECT_EQ(samples_of(view, view.image.channels).samples(), 64u);
+    EXPECT_EQ(deepen(view, view.image.channels).samples(), 64u);
 }
 
 } // namespace

@@ -1,3 +1,4 @@
+#include "deep/flatten.h"
 #include "deep/ldi.h"
 #include "support/composite.h"
 #include "support/ldi_samples.h"

@@ -1,4 +1,6 @@
+#include "deep/flatten.h"
 #include "deep/merge.h"
+#include "deep/tidy.h"
 #include "support/composite.h"
 #include "support/ldi_samples.h"
 
@@ -9,11 +11,11 @@
 namespace sparselens {
 namespace {
 
-TEST(Unite, SamplesOfAllPartsLieInTheWindowThatHoldsThemAll) {
+TEST(DeepMerge, SamplesOfAllPartsLieInTheWindowThatHoldsThemAll) {
     Ldi left = ldi_of({{{.z = 2, .colour = 0.5f}}, {{.z = 3}}}), right = ldi_of({{{.z = 1}, {.z = 4}}, {}});
     left.windows.data = Imath::Box2i({0, 0}, {1, 0});
     right.windows.data = Imath::Box2i({1, 0}, {1, 1});
-    const Ldi both = united({left, right});
+    const Ldi both = deep_merge({left, right});
     EXPECT_EQ(both.windows.display, left.windows.display);
     EXPECT_EQ(both.windows.data, Imath::Box2i({0, 0}, {1, 1}));
     EXPECT_EQ(both.begin, (std::vector<std::uint64_t>{0, 1, 4, 4, 4}));
@@ -22,14 +24,14 @@ TEST(Unite, SamplesOfAllPartsLieInTheWindowThatHoldsThemAll) {
     EXPECT_EQ(tidy(both).z, (std::vector<float>{2, 1, 3, 4}));
 }
 
-TEST(Unite, WhatAPartDoesNotHaveIsNothingThere) {
+TEST(DeepMerge, WhatAPartDoesNotHaveIsNothingThere) {
     Ldi a = ldi_of({{{.z = 2, .colour = 3, .alpha = 0.5f}}}),
         b = ldi_of({{{.z = 1, .z_back = 1.5f, .weight = 4, .dx = 0.25f}}});
     a.channels = {{"R"}, {"G"}, {"B"}, {"A"}};
     a.dx = a.dy = a.weight = {};
     b.channels = {{"R", PixelType::float32}, {"N.x"}, {"id", PixelType::uint32}, {"AR"}};
     b.values = {{7}, {8}, {9}, {0.125f}};
-    const Ldi both = united({a, b});
+    const Ldi both = deep_merge({a, b});
     const std::vector<Channel> all{{"R", PixelType::float32}, {"G"}, {"B"}, {"A"}, {"N.x"},
                                    {"id", PixelType::uint32}, {"AR"}};
     EXPECT_EQ(both.channels, all);
@@ -41,17 +43,17 @@ TEST(Unite, WhatAPartDoesNotHaveIsNothingThere) {
     EXPECT_EQ(both.values, values);
 }
 
-TEST(Unite, WithoutColouredAlphaAPartCoversAllColoursAlike) {
+TEST(DeepMerge, WithoutColouredAlphaAPartCoversAllColoursAlike) {
     Ldi a = ldi_of({{{.z = 2, .alpha = 0.5f}}}), b = a;
     b.channels = {{"R"}, {"AR"}, {"AG"}, {"AB"}};
     b.values = {{1}, {0.125f}, {0.25f}, {0.75f}};
-    const Ldi both = united({a, b});
+    const Ldi both = deep_merge({a, b});
     for (const auto &[name, value] : {std::pair("AR", 0.125f), {"AG", 0.25f}, {"AB", 0.75f}})
         EXPECT_EQ(both.values[find_channel(both.channels, name)], (std::vector<float>{0.5f, value})) << name;
 }
 
 // An object's samples cut out of a whole and put back make the whole.
-TEST(Unite, OfDisjointSamplesIsTheWhole) {
+TEST(DeepMerge, OfDisjointSamplesIsTheWhole) {
     const Ldi whole = tidy(random_ldi({.width = 20, .height = 10}));
     std::array<std::vector<TestPixel>, 2> parts;
     for (std::size_t pixel = 0; pixel < whole.windows.pixels(); ++pixel) {
@@ -63,11 +65,11 @@ TEST(Unite, OfDisjointSamplesIsTheWhole) {
         ldis.push_back(ldi_of(part));
         ldis.back().windows = whole.windows;
     }
-    const Image expected = flatten(whole), picture = flatten(tidy(united(ldis)));
+    const Image expected = flatten(whole), picture = flatten(tidy(deep_merge(ldis)));
     EXPECT_EQ(picture.values, expected.values);
 }
 
-TEST(Unite, LayersHaveTheSameSamples) {
+TEST(DeepMerge, LayersHaveTheSameSamples) {
     Ldi beauty = ldi_of({{{.z = 1}, {.z = 2}}}), diffuse = beauty;
     diffuse.channels = {{"R"}, {"N.x"}, {"G"}, {"A"}};
     beauty.channels.push_back({"diffuse.A"});

@@ -1,4 +1,6 @@
+#include "deep/flatten.h"
 #include "deep/order.h"
+#include "deep/pad.h"
 #include "deep/proxy.h"
 #include "dof/ldi_fixture.h"
 

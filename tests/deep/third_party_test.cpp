@@ -1,6 +1,8 @@
 // Deep files of others, where they are at hand: read, made tidy, clustered, written, flattened.
 #include "deep/cluster.h"
+#include "deep/flatten.h"
 #include "deep/order.h"
+#include "deep/tidy.h"
 #include "io/exr/exr_deep.h"
 #include "support/scratch_folder.h"
 #include "support/shared_files.h"

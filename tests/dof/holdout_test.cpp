@@ -1,5 +1,6 @@
 // A picture held out by another: by the closed forms of one surface in front of another, and the fast gather against
 // the slow one.
+#include "deep/flatten.h"
 #include "deep/holdout.h"
 #include "dof/ldi_fixture.h"
 #include "dof/lens/lens_gather.h"

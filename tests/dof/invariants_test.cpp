@@ -1,5 +1,6 @@
 // What holds of the lens gather whatever the picture: checked on random LDIs.
 #include "base/random.h"
+#include "deep/tidy.h"
 #include "dof/ldi_fixture.h"
 #include "dof/lens/lens_gather.h"
 #include "support/views.h"

@@ -1,5 +1,6 @@
 // Further layers are defocused with the visibility of the beauty: light layers that add up to it still do, whatever
 // is done for highlights and near focus. Ids are never mixed.
+#include "deep/tidy.h"
 #include "dof/ldi_fixture.h"
 #include "dof/methods.h"
 

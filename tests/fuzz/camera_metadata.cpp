@@ -100,7 +100,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
     fuzz::may_fail([&] { resolve_lens({}, centre, windows); });
     fuzz::may_fail([&] {
         const std::array<std::string, 1> names{"rim"};
-        place_on_lens({&rim, 1}, names, centre);
+        position_on_lens({&rim, 1}, names, centre);
     });
     fuzz::may_fail([&] { moved_across_lens(centre, {1, 2}); });
     write_camera(header, centre);

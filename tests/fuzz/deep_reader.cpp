@@ -1,8 +1,10 @@
 // Any bytes as an LDI: read, made good, tidied, clustered, flattened.
 #include "deep/cluster.h"
+#include "deep/flatten.h"
 #include "deep/front_depth.h"
 #include "deep/order.h"
 #include "deep/sanitize.h"
+#include "deep/tidy.h"
 #include "fuzz/fuzz.h"
 #include "io/camera/camera_metadata.h"
 #include "io/exr/exr_deep.h"
@@ -16,7 +18,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
     fuzz::may_fail([&] {
         LdiFile in = read_ldi(file.path());
         order_of(in.ldi);
-        repair_bad_values(in.ldi, "fuzz");
+        sanitize(in.ldi, "fuzz");
         const Ldi ldi = tidy(std::move(in.ldi));
         Progress silent;
         const Clustered fewer = cluster(ldi, {.scale = 100, .tolerance = 0.25, .layers = 3}, silent);

@@ -15,8 +15,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
         FlatFile flat = read_flat_exr(file.path());
         View view{"fuzz", std::move(flat.image), {}};
         view.z = take_depth(view.image, {}, "fuzz");
-        repair_bad_values(view);
-        samples_of(view, view.image.channels);
+        sanitize(view);
+        deepen(view, view.image.channels);
     });
     return 0;
 }

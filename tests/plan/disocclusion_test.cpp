@@ -30,7 +30,7 @@ std::string row(const PixelMask &mask, int y) {
 
 // A card in pixels 20 to 29 at z = 2 before a wall at z = 10: seen from the right it moves 5 px to the left, the
 // wall 1. What opens is 4 px wide, right of the card.
-TEST(HiddenPixels, WhatOpensBesideACard) {
+TEST(Disocclusion, WhatOpensBesideACard) {
     const MovedDepth from_right = moved([](int x, int) { return x >= 20 && x < 30 ? 2.0f : 10.0f; });
     for (int y = 0; y < 20; ++y)
         EXPECT_EQ(row(disoccluded(from_right), y), std::string(25, '.') + "####" + std::string(31, '.'));
@@ -42,7 +42,7 @@ TEST(HiddenPixels, WhatOpensBesideACard) {
 }
 
 // One surface has no cracks, however it slants or bends, and at any depth.
-TEST(HiddenPixels, OneSurfaceHidesNothing) {
+TEST(Disocclusion, OneSurfaceHidesNothing) {
     const std::vector<std::function<float(int, int)>> surfaces{
         [](int, int) { return 3.7f; }, [](int, int) { return inf; },
         [](int x, int) { return 10 / (0.9f + 0.08f * float(x)); },
@@ -56,7 +56,7 @@ TEST(HiddenPixels, OneSurfaceHidesNothing) {
 }
 
 // Seen from the right, pixels at the right edge show what lies beyond the centre view's frame.
-TEST(HiddenPixels, BeyondTheFrame) {
+TEST(Disocclusion, BeyondTheFrame) {
     const MovedDepth wall = moved([](int, int) { return 2.0f; });
     EXPECT_EQ(row(unseen_by_centre(wall), 3).substr(0, 54), std::string(54, '.'));
     EXPECT_EQ(row(unseen_by_centre(wall), 3).substr(56), "####");
@@ -67,7 +67,7 @@ TEST(HiddenPixels, BeyondTheFrame) {
     EXPECT_EQ(row(sky.edge, 3), std::string(55, '.') + "#####");
 }
 
-TEST(HiddenPixels, GrowingIsByWholeBoxes) {
+TEST(Disocclusion, GrowingIsByWholeBoxes) {
     PixelMask mask(Imath::Box2i({-5, -5}, {5, 5}));
     mask.set[mask.index(-1, 2)] = 1;
     mask.set[mask.index(5, -5)] = 1;

@@ -37,7 +37,7 @@ void expect_at(const Camera &camera, double x, double y) {
 
 TEST(LensViews, RelativeToTheCameraAtTheCentre) {
     const std::vector<Camera> views{camera_at(0.1, 0.2), camera_at(-0.3, 0)};
-    const LensViews placed = place_on_lens(views, names, camera_at(0, 0));
+    const LensViews placed = position_on_lens(views, names, camera_at(0, 0));
     expect_positions(placed, {{0.1, 0.2}, {-0.3, 0}});
     EXPECT_FALSE(placed.centre_guessed);
     expect_at(placed.centre, 0, 0);
@@ -47,7 +47,7 @@ TEST(LensViews, ViewsThatKnowTheirLensPointKnowTheCentre) {
     std::vector<Camera> views{camera_at(0.1, 0.2), camera_at(-0.3, 0)};
     views[0].lens_points = {{0.1, 0.2}};
     views[1].lens_points = {{-0.3, 0}};
-    const LensViews placed = place_on_lens(views, names, {});
+    const LensViews placed = position_on_lens(views, names, {});
     expect_positions(placed, {{0.1, 0.2}, {-0.3, 0}});
     EXPECT_FALSE(placed.centre_guessed);
     expect_at(placed.centre, 0, 0);
@@ -55,7 +55,7 @@ TEST(LensViews, ViewsThatKnowTheirLensPointKnowTheCentre) {
 
 TEST(LensViews, ElseTheMeanOfThePositions) {
     const std::vector<Camera> views{camera_at(1, 0), camera_at(2, 0), camera_at(2, 1), camera_at(1, 1)};
-    const LensViews placed = place_on_lens(views, names, {});
+    const LensViews placed = position_on_lens(views, names, {});
     expect_positions(placed, {{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}});
     EXPECT_TRUE(placed.centre_guessed);
     expect_at(placed.centre, 1.5, 0.5);
@@ -76,13 +76,13 @@ TEST(LensViews, WorldToNdcFollowsTheCamera) {
 
 TEST(LensViews, RefusesWhatIsNoLens) {
     const std::vector<Camera> far_behind{camera_at(0.1, 0), camera_at(-0.1, 0, 0.11)};
-    EXPECT_THROW(place_on_lens(far_behind, names, camera_at(0, 0)), Error);
+    EXPECT_THROW(position_on_lens(far_behind, names, camera_at(0, 0)), Error);
     Camera turned = camera_at(0, 0);
     Imath::M44d turn;
     turn.rotate(Imath::V3d(0, 0.1, 0));
     turned.world_to_camera = *turned.world_to_camera * turn;
-    EXPECT_THROW(place_on_lens(std::vector{camera_at(0, 0), turned}, names, {}), Error);
-    EXPECT_THROW(place_on_lens(std::vector{camera_at(0, 0), Camera()}, names, {}), UsageError);
+    EXPECT_THROW(position_on_lens(std::vector{camera_at(0, 0), turned}, names, {}), Error);
+    EXPECT_THROW(position_on_lens(std::vector{camera_at(0, 0), Camera()}, names, {}), UsageError);
 }
 
 // `camera`, with a projection whose axis is off the middle by this share of the picture's width, right and down.
@@ -100,7 +100,7 @@ TEST(LensViews, FramingsAreThoseOfTheirFrusta) {
     const std::vector<Camera> views{
         framed(camera_at(0.1, 0), {-0.02, 0}), framed(camera_at(-0.1, 0), {0.02, 0.01}),
         framed(camera_at(0, 0.1, 0.05), {0, 0}, 0.51), framed(camera_at(0, -0.1), {0, 0})};
-    const LensViews placed = place_on_lens(views, names, framed(camera_at(0, 0), {0, 0}));
+    const LensViews placed = position_on_lens(views, names, framed(camera_at(0, 0), {0, 0}));
     ASSERT_EQ(placed.framings.size(), 4u);
     EXPECT_EQ(placed.framings[0], (Framing{.principal_point = {-0.02, 0}}));
     EXPECT_EQ(placed.framings[1], (Framing{.principal_point = {0.02, 0.01}}));
@@ -142,7 +142,7 @@ TEST(LensViews, TheMiddleOfConvergingFrustaIsTheirMean) {
     const std::vector<Camera> views{
         framed(camera_at(0.1, 0), {-0.02, 0}), framed(camera_at(-0.1, 0), {0.02, 0}),
         framed(camera_at(0, 0.1), {0, 0.02}), framed(camera_at(0, -0.1), {0, -0.02})};
-    const LensViews placed = place_on_lens(views, names, {});
+    const LensViews placed = position_on_lens(views, names, {});
     ASSERT_TRUE(placed.centre.principal_point && placed.centre.world_to_ndc);
     EXPECT_LT(placed.centre.principal_point->length(), 1e-6);
     const auto frustum = frustum_of(*placed.centre.world_to_ndc, *placed.centre.world_to_camera);
@@ -154,7 +154,7 @@ TEST(LensViews, PicturesAreMovedWholeInOnePlaneOnly) {
     const Camera centre = framed(camera_at(0, 0), {0, 0});
     const auto why = [&](const Camera &odd) {
         const std::vector<Camera> views{framed(camera_at(0.1, 0), {-0.02, 0}), odd};
-        return what_of<Error>([&] { require_one_plane(place_on_lens(views, names, centre), names); });
+        return what_of<Error>([&] { require_one_plane(position_on_lens(views, names, centre), names); });
     };
     EXPECT_EQ(why(framed(camera_at(-0.1, 0), {0.02, 0})), "(nothing was thrown)");
     EXPECT_EQ(why(framed(camera_at(-0.1, 0, 0.01), {0, 0})),
@@ -166,7 +166,7 @@ TEST(LensViews, PicturesAreMovedWholeInOnePlaneOnly) {
 TEST(LensViews, RoundingFarFromTheOriginIsNoDepth) {
     std::vector<Camera> views{camera_at(0.01, 0), camera_at(-0.01, 0)};
     for (Camera &view : views) view.world_to_camera = Imath::M44d(Imath::M44f(*view.world_to_camera));
-    EXPECT_NO_THROW(place_on_lens(views, names, {}));
+    EXPECT_NO_THROW(position_on_lens(views, names, {}));
 }
 
 } // namespace

@@ -68,7 +68,7 @@ TEST(Framings, APlaneLandsWhereItIs) {
             const Framing &framing = framings[k];
             const View view =
                 make_view(picture, positions[k], [&](int, int) { return ViewPixel{.z = float(z)}; });
-            const Ldi ldi = samples_of(view, view.image.channels);
+            const Ldi ldi = deepen(view, view.image.channels);
             std::vector<ReprojectedSample> samples;
             Reprojection(ldi, {positions[k], focal_px, picture, framing}).append_rows(-1000, 1000, samples);
             ASSERT_EQ(samples.size(), picture.pixels());
@@ -90,7 +90,7 @@ TEST(Framings, SamplesFallWithinTheReachAndInOneBand) {
     const Windows w = grown({{-5, -3}, {60, 42}}, {0, 0});
     for (std::size_t k = 0; k < positions.size(); ++k) {
         const View view = random_view(w, positions[k], 4);
-        const Ldi ldi = samples_of(view, view.image.channels);
+        const Ldi ldi = deepen(view, view.image.channels);
         const Reprojection reprojection(ldi, {positions[k], focal_px, w, any_framings[k], {0.01, 0.02}});
         std::vector<ReprojectedSample> all, band;
         reprojection.append_rows(-10'000, 10'000, all);

@@ -35,29 +35,29 @@ std::vector<View> wall(const std::function<Colour(const Imath::V2d &camera)> &co
 
 // The share of pixels where the views may be averaged.
 double agreement(const std::vector<View> &views, std::optional<double> focus = {}) {
-    const PlacedViews placed(views, focal_px, scale, 0);
-    PlacedRows rows = placed.place(window.data, 0, 15);
+    const ReprojectedViews placed(views, focal_px, scale, 0);
+    ReprojectedRows rows = placed.place(window.data, 0, 15);
     const auto agree =
-        find_agreement(placed, {scale, focus}, window.data, find_surfaces(placed, 0.5 / scale, rows));
+        find_photo_consistency(placed, {scale, focus}, window.data, find_surfaces(placed, 0.5 / scale, rows));
     return double(std::ranges::count(agree, true)) / double(agree.size());
 }
 
 float stripes(double x) { return float(0.5 + 0.4 * std::sin(0.5 * x)); }
 
-TEST(Agreement, OneTextureSeenByAll) {
+TEST(PhotoConsistency, OneTextureSeenByAll) {
     EXPECT_EQ(agreement(wall([](auto) { return [](double x, double) { return stripes(x); }; })), 1);
     EXPECT_EQ(agreement(wall(
                   [](auto) { return [](double x, double) { return std::fmod(x, 10) < 5 ? 1.0f : 0.0f; }; })),
               1);
 }
 
-TEST(Agreement, NoiseIsNoDisagreement) {
+TEST(PhotoConsistency, NoiseIsNoDisagreement) {
     const auto grey = [](auto) { return [](double, double) { return 0.5f; }; };
     for (const float noise : {0.01f, 0.1f, 0.5f}) EXPECT_EQ(agreement(wall(grey, noise)), 1) << noise;
 }
 
 // Another colour, or the same picture somewhere else.
-TEST(Agreement, ReflectionsAreDisagreement) {
+TEST(PhotoConsistency, ReflectionsAreDisagreement) {
     const auto other_colour = [](const Imath::V2d &camera) {
         return [camera](double, double) { return camera.x == 0 && camera.y == 0 ? 0.2f : 0.8f; };
     };
@@ -70,7 +70,7 @@ TEST(Agreement, ReflectionsAreDisagreement) {
 }
 
 // The lens itself averages what comes from one point in all directions.
-TEST(Agreement, InFocusAllDirectionsCount) {
+TEST(PhotoConsistency, InFocusAllDirectionsCount) {
     const auto views = wall([](const Imath::V2d &camera) {
         return [camera](double, double) { return float(0.5 + 4 * camera.x); };
     });
@@ -79,7 +79,7 @@ TEST(Agreement, InFocusAllDirectionsCount) {
     EXPECT_EQ(agreement(views, 50), 0);
 }
 
-TEST(Agreement, WhatDisagreesIsNotAveraged) {
+TEST(PhotoConsistency, WhatDisagreesIsNotAveraged) {
     const auto views = wall([](const Imath::V2d &camera) {
         return [camera](double, double) { return camera.x == 0 && camera.y == 0 ? 0.25f : 0.75f; };
     });
@@ -93,9 +93,9 @@ TEST(Agreement, WhatDisagreesIsNotAveraged) {
         return ldi.values[0][ldi.begin[pixel]];
     };
     EXPECT_EQ(red_at(30, 8), 0.25f);
-    options.test_agreement = false;
+    options.test_photo_consistency = false;
     EXPECT_GT(red_at(30, 8), 0.3f);
-    options.test_agreement = true;
+    options.test_photo_consistency = true;
     options.focus = 2.2;
     EXPECT_GT(red_at(30, 8), 0.3f);
 }

@@ -37,13 +37,13 @@ View said_to_stand_at(View view, const Imath::V2d &position) {
     return view;
 }
 
-TEST(MisplacedView, OneInItsPlaceAgrees) {
+TEST(PoseCheck, OneInItsPlaceAgrees) {
     const View centre = card_before_wall({0, 0});
     for (const Imath::V2d &at : {Imath::V2d(0.1, 0), Imath::V2d(0, -0.1), Imath::V2d(0.06, 0.08)})
         EXPECT_FALSE(better_position(centre, card_before_wall(at), focal_px)) << at;
 }
 
-TEST(MisplacedView, AWrongSignOrAxisIsFound) {
+TEST(PoseCheck, AWrongSignOrAxisIsFound) {
     const View centre = card_before_wall({0, 0}), view = card_before_wall({0.15, 0.05});
     for (const Imath::V2d &wrong :
          {Imath::V2d(-0.15, -0.05), Imath::V2d(0.15, -0.05), Imath::V2d(0.05, 0.15)}) {
@@ -55,7 +55,7 @@ TEST(MisplacedView, AWrongSignOrAxisIsFound) {
 
 // A planned view without margin: the little that lands on what the centre shows are mixed pixels of an edge, and
 // contradicts it.
-TEST(MisplacedView, WhatTheCentreCannotSeeSaysNothing) {
+TEST(PoseCheck, WhatTheCentreCannotSeeSaysNothing) {
     const View centre = card_before_wall({0, 0});
     View view = card_before_wall({0.1, 0});
     const Windows &w = view.image.windows;

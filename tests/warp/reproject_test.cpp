@@ -20,7 +20,7 @@ std::vector<ReprojectedSample> reprojected(float z, const Imath::V2d &position, 
     const View view = make_view(
         w, position, [&](int x, int y) { return ViewPixel{.z = z, .a = x == 10 && y == 10 ? 1.0f : 0.0f}; });
     std::vector<ReprojectedSample> samples;
-    const Ldi ldi = samples_of(view, view.image.channels);
+    const Ldi ldi = deepen(view, view.image.channels);
     Reprojection(ldi, {position, 100, ldi.windows}).append_rows(-1000, 1000, samples);
     return samples;
 }
@@ -73,8 +73,7 @@ TEST(Reprojection, ReachIsWhereSamplesFall) {
         const View view = make_view(windows_of_size(21, 11), position, [&](int x, int) {
             return x < 3 ? ViewPixel{.z = empty_z, .a = 0} : ViewPixel{.z = z};
         });
-        return Reprojection(samples_of(view, view.image.channels), {position, 100, view.image.windows})
-            .reach();
+        return Reprojection(deepen(view, view.image.channels), {position, 100, view.image.windows}).reach();
     };
     EXPECT_EQ(reach({0, 0}, 4), Imath::Box2i({0, 0}, {20, 10}));
     EXPECT_EQ(reach({1e6, 1e6}, inf), Imath::Box2i({0, 0}, {20, 10}));
@@ -90,7 +89,7 @@ TEST(Reprojection, NoSampleFallsOutsideTheReach) {
     const Windows w{Imath::Box2i({0, 0}, {63, 47}), Imath::Box2i({-5, -3}, {60, 50})};
     for (const Imath::V2d &position : {Imath::V2d(0.03, 0.05), Imath::V2d(-0.02, -0.07)}) {
         const View view = random_view(w, position, 4);
-        const Ldi ldi = samples_of(view, view.image.channels);
+        const Ldi ldi = deepen(view, view.image.channels);
         const Reprojection reprojection(ldi, {position, 100, ldi.windows});
         std::vector<ReprojectedSample> all;
         reprojection.append_rows(-10'000, 10'000, all);
@@ -104,7 +103,7 @@ TEST(Reprojection, BandsShareTheSamples) {
     const Windows w{Imath::Box2i({0, 0}, {63, 47}), Imath::Box2i({-5, -3}, {60, 50})};
     for (const Imath::V2d &position : {Imath::V2d(0.03, 0.05), Imath::V2d(-0.02, -0.07), Imath::V2d(0, 0)}) {
         const View view = random_view(w, position, 4);
-        const Ldi ldi = samples_of(view, view.image.channels);
+        const Ldi ldi = deepen(view, view.image.channels);
         const Reprojection reprojection(ldi, {position, 100, ldi.windows});
         std::vector<ReprojectedSample> all, band;
         reprojection.append_rows(-10'000, 10'000, all);
@@ -129,7 +128,7 @@ TEST(Reprojection, WithoutAlphaEverythingIsVisible) {
     View view = random_view(windows_of_size(8, 8), {0, 0}, 1);
     view.image = Image(view.image.windows, {{"Y"}});
     std::vector<ReprojectedSample> samples;
-    const Ldi ldi = samples_of(view, view.image.channels);
+    const Ldi ldi = deepen(view, view.image.channels);
     Reprojection(ldi, {view.position, 100, ldi.windows}).append_rows(0, 7, samples);
     EXPECT_EQ(samples.size(), 64u);
 }

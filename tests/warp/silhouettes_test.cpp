@@ -1,4 +1,5 @@
 #include "deep/deepen.h"
+#include "deep/flatten.h"
 #include "deep/order.h"
 #include "support/ldi_samples.h"
 #include "support/views.h"
@@ -17,7 +18,7 @@ constexpr float inf = std::numeric_limits<float>::infinity();
 constexpr double scale = 20; // of depths 2 and 10: 8 pixels of CoC apart
 
 Ldi separated(const View &view, double jump = 0.5) {
-    return separate_silhouettes(samples_of(view, view.image.channels), scale, jump);
+    return separate_silhouettes(deepen(view, view.image.channels), scale, jump);
 }
 
 void expect_flattens_to(const View &view, const Ldi &ldi) {

@@ -18,7 +18,7 @@ public:
             views_.push_back(scene.view(windows_of_size(40, 10), camera));
     }
     double coverage(double x, double y, double z) const {
-        return coverage_by_views(PlacedViews(views_, focal_px, 1, 0), {x, y}, 1 / z, tolerance);
+        return visibility_vote(ReprojectedViews(views_, focal_px, 1, 0), {x, y}, 1 / z, tolerance);
     }
 
 private:
@@ -34,7 +34,7 @@ TwoPlanes card_up_to(double right) {
 // The cameras show pixel edges of the card where their pixels' centres fall, half a pixel apart here.
 const std::vector<Imath::V2d> cameras{{0, 0}, {0.01, 0}, {0.02, 0}, {0.03, 0}, {0.04, 0}};
 
-TEST(HiddenSurface, IsWholeWhereAllSeeItAndGoneWhereNoneDoes) {
+TEST(VisibilityVote, IsWholeWhereAllSeeItAndGoneWhereNoneDoes) {
     const Views views(card_up_to(20), cameras);
     EXPECT_EQ(views.coverage(12, 5, 2), 1);
     EXPECT_EQ(views.coverage(26, 5, 2), 0); // all look past it
@@ -42,7 +42,7 @@ TEST(HiddenSurface, IsWholeWhereAllSeeItAndGoneWhereNoneDoes) {
 }
 
 // What hides a place says nothing about it; nor does a view that does not reach it.
-TEST(HiddenSurface, WhoCannotTellDoesNotVote) {
+TEST(VisibilityVote, WhoCannotTellDoesNotVote) {
     const Views views(card_up_to(20), cameras);
     EXPECT_EQ(views.coverage(5, 5, 10), 1); // behind the card: nobody saw it
     EXPECT_EQ(views.coverage(300, 5, 2), 1);
@@ -51,14 +51,14 @@ TEST(HiddenSurface, WhoCannotTellDoesNotVote) {
 }
 
 // Of two views one half sees it: between a quarter and three quarters coverage is in proportion.
-TEST(HiddenSurface, AnEdgeIsSharedByMajority) {
+TEST(VisibilityVote, AnEdgeIsSharedByMajority) {
     TwoPlanes with = card_up_to(20), without = card_up_to(-100);
     const Windows w = windows_of_size(40, 10);
     const auto coverage = [&](int there, int past) {
         std::vector<View> views{with.view(w, {0, 0})};
         for (int i = 0; i < there; ++i) views.push_back(with.view(w, {0.02, 0}));
         for (int i = 0; i < past; ++i) views.push_back(without.view(w, {0.02, 0}));
-        return coverage_by_views(PlacedViews(views, focal_px, 1, 0), {12, 5}, 0.5, tolerance);
+        return visibility_vote(ReprojectedViews(views, focal_px, 1, 0), {12, 5}, 0.5, tolerance);
     };
     EXPECT_EQ(coverage(3, 1), 1);
     EXPECT_DOUBLE_EQ(coverage(5, 3), 0.75);
@@ -68,11 +68,11 @@ TEST(HiddenSurface, AnEdgeIsSharedByMajority) {
 }
 
 // A pixel that is covered in part votes by its parts.
-TEST(HiddenSurface, PartialCoverageVotesInPart) {
+TEST(VisibilityVote, PartialCoverageVotesInPart) {
     const Windows w = windows_of_size(8, 8);
     const auto half = [](int, int) { return ViewPixel{.z = 2, .a = 0.5f}; };
     const std::vector<View> views{make_view(w, {0, 0}, half), make_view(w, {0, 0}, half)};
-    EXPECT_DOUBLE_EQ(coverage_by_views(PlacedViews(views, focal_px, 1, 0), {4, 4}, 0.5, tolerance), 0.5);
+    EXPECT_DOUBLE_EQ(visibility_vote(ReprojectedViews(views, focal_px, 1, 0), {4, 4}, 0.5, tolerance), 0.5);
 }
 
 } // namespace

@@ -1,5 +1,6 @@
 #include "base/error.h"
 #include "deep/deepen.h"
+#include "deep/flatten.h"
 #include "deep/order.h"
 #include "support/ldi_samples.h"
 #include "support/scratch_folder.h"
@@ -174,7 +175,7 @@ class Witnesses {
 public:
     explicit Witnesses(const std::vector<View> &views) {
         for (const View &view : views) {
-            const Ldi ldi = samples_of(view, view.image.channels);
+            const Ldi ldi = deepen(view, view.image.channels);
             std::vector<ReprojectedSample> samples;
             Reprojection(ldi, {view.position, focal_px, ldi.windows}).append_rows(-1000, 1000, samples);
             for (const ReprojectedSample &s : samples)
@@ -223,11 +224,11 @@ TEST(Warp, NothingIsLost) {
     for (const auto &views : {random_views(w, 6), five_views(fence(), w, radius)}) {
         const Ldi ldi = warped(views);
         Witnesses witnesses(views);
-        const PlacedViews placed(views, focal_px, focal_px * radius, 0);
+        const ReprojectedViews placed(views, focal_px, focal_px * radius, 0);
         const auto past = [&](const Witness &seen, int x, int y) {
             const double inverse_z = seen.depth / (focal_px * radius);
-            return coverage_by_views(placed, {x + seen.place.x, y + seen.place.y}, inverse_z,
-                                     averaging.surface_px / (focal_px * radius)) < 1;
+            return visibility_vote(placed, {x + seen.place.x, y + seen.place.y}, inverse_z,
+                                   averaging.surface_px / (focal_px * radius)) < 1;
         };
         std::size_t seen_pixels = 0, lost = 0;
         for_each_pixel(ldi.windows.data, [&](int x, int y) {

@@ -42,7 +42,7 @@ InputLdi LdiCache::load(const std::string &path, const std::string &channels, co
         tool.say("reading " + path);
         auto entry = std::make_shared<Entry>(Entry{key, load_ldi(path, lens, depth), {}});
         say_samples(tool, path, entry->loaded);
-        warn_of_bad_values(tool, path, entry->loaded.bad);
+        warn_of_invalid_values(tool, path, entry->loaded.bad);
         to_scene_linear(tool, colour, path, entry->loaded.header, entry->loaded.ldi);
         entry->channels_left_out = keep_and_tell(entry->loaded.ldi, channels);
         last_ = std::move(entry);

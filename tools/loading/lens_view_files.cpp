@@ -31,7 +31,7 @@ void place_by_metadata(std::span<LensViewFile> views, const std::vector<Imf::Hea
         if (!centre->world_to_camera)
             throw UsageError(centre_file + ": its camera is unknown (no worldToCamera)");
     }
-    const LensViews placed = place_on_lens(cameras, names, centre);
+    const LensViews placed = position_on_lens(cameras, names, centre);
     require_one_plane(placed, names);
     for (std::size_t i = 0; i < views.size(); ++i) views[i].position = placed.positions[i];
     result.centre = placed.centre;

@@ -4,6 +4,7 @@
 #include "deep/build.h"
 #include "deep/channel_alpha.h"
 #include "deep/proxy.h"
+#include "deep/tidy.h"
 #include "io/camera/camera_metadata.h"
 #include "io/exr/exr_flat.h"
 #include "io/file_stream.h"
@@ -67,7 +68,7 @@ LoadedLdi load_ldi(const std::string &path, const LensOptions &lens, const Depth
             ldi.z[i] = read.planar(ldi.z[i], pixel);
             if (!ldi.z_back.empty()) ldi.z_back[i] = read.planar(ldi.z_back[i], pixel);
         }
-    const BadValues bad = repair_bad_values(ldi, display_name(path));
+    const InvalidValues bad = sanitize(ldi, display_name(path));
     const std::size_t in_file = ldi.samples();
     ldi = tidy(std::move(ldi));
     const std::size_t invisible = in_file - std::min(in_file, ldi.samples());
@@ -93,7 +94,7 @@ LoadedView load_view(const std::string &path, const LensOptions &lens, const Dep
     const Camera camera = camera_with_options(lens, with_frustum_of(otherwise, loaded.camera));
     const DepthReader read(view.image.windows, depth, camera);
     for (std::size_t i = 0; i < view.z.size(); ++i) view.z[i] = read.planar(view.z[i], i);
-    loaded.bad = repair_bad_values(view);
+    loaded.bad = sanitize(view);
     return loaded;
 }
 
@@ -115,7 +116,7 @@ void warn_of_clamped(const ToolContext &tool, const std::string &path, std::size
                        " values beyond the range of half are clamped to 65504");
 }
 
-void warn_of_bad_values(const ToolContext &tool, const std::string &path, const BadValues &bad) {
+void warn_of_invalid_values(const ToolContext &tool, const std::string &path, const InvalidValues &bad) {
     if (bad.any()) warn(tool, display_name(path) + ": " + bad.text());
 }
 

@@ -1,6 +1,6 @@
 // How the tools load what they work on: depth made planar, camera and lens put together.
 //
-// What no picture can mean is made good (bad_values.h) and counted; the caller says so, see warn_of_bad_values().
+// What no picture can mean is made good (bad_values.h) and counted; the caller says so, see warn_of_invalid_values().
 #pragma once
 
 #include "deep/holdout.h"
@@ -23,7 +23,7 @@ struct LoadedLdi {
     Ldi ldi; // tidy
     Imf::Header header;
     Camera camera; // of the header, with the options over it
-    BadValues bad;
+    InvalidValues bad;
     std::size_t invisible =
         0; // samples of the file that show nothing, or are one with another: tidy() left them out
     std::vector<std::string> notes; // see LdiFile
@@ -40,7 +40,7 @@ struct LoadedView {
     View view; // at the origin: the caller knows where it stands
     Imf::Header header;
     Camera camera; // of the header alone
-    BadValues bad;
+    InvalidValues bad;
 };
 
 // What the file does not say of its frustum, which ray lengths need, is as in `otherwise`.
@@ -55,6 +55,6 @@ void say_camera(const ToolContext &tool, const std::string &path, const Camera &
 
 // Each one line on stderr, where there were any; `clamped` is what write_flat_exr and write_ldi return.
 void warn_of_clamped(const ToolContext &tool, const std::string &path, std::size_t clamped);
-void warn_of_bad_values(const ToolContext &tool, const std::string &path, const BadValues &bad);
+void warn_of_invalid_values(const ToolContext &tool, const std::string &path, const InvalidValues &bad);
 
 } // namespace sparselens

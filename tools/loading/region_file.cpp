@@ -10,7 +10,7 @@ std::vector<std::uint8_t> regions_over(const Windows &target, const std::string 
                                        const LensOptions &lens_options, const DepthOptions &depth,
                                        const ToolContext &tool) {
     const LoadedLdi in = load_ldi(file, lens_options, depth);
-    warn_of_bad_values(tool, file, in.bad);
+    warn_of_invalid_values(tool, file, in.bad);
     const Windows &windows = in.ldi.windows;
     if (windows.display_width() != target.display_width() ||
         windows.display_height() != target.display_height())

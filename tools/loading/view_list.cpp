@@ -46,7 +46,7 @@ LoadedViews load_views(const ViewList &list, const LensOptions &lens, const Dept
     for (const Camera &camera : std::span(cameras).subspan(1))
         rim_cameras.push_back(camera_with_options(lens, camera));
     const Camera centre = camera_with_options(lens, cameras[0]);
-    const LensViews placed = place_on_lens(rim_cameras, rim_files, centre);
+    const LensViews placed = position_on_lens(rim_cameras, rim_files, centre);
     for (std::size_t i = 0; i < placed.positions.size(); ++i)
         put(loaded.views[i + 1], placed.positions[i], placed.framings[i]);
     loaded.views[0].framing.principal_point = centre.principal_point.value_or(Imath::V2d(0, 0));

@@ -19,13 +19,13 @@ struct ViewList {
 void add_view_list(CLI::App &app, ViewList &list);
 
 struct LoadedViews {
-    std::vector<View> views;    // the centre view first
-    Imf::Header header;         // of the centre view
-    Camera camera;              // of the centre view, with the options over it; the lens points of all views
-    std::vector<BadValues> bad; // of each view
+    std::vector<View> views; // the centre view first
+    Imf::Header header;      // of the centre view
+    Camera camera;           // of the centre view, with the options over it; the lens points of all views
+    std::vector<InvalidValues> bad; // of each view
 };
 
-// A view's position comes from --view, else from worldToCamera (see place_on_lens, whose errors it throws); its framing
+// A view's position comes from --view, else from worldToCamera (see position_on_lens, whose errors it throws); its framing
 // from its metadata, else it is the centre view's.
 LoadedViews load_views(const ViewList &list, const LensOptions &lens, const DepthOptions &depth);
 

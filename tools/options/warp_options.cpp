@@ -24,7 +24,7 @@ void add_warp_options(CLI::App &app, WarpCommand &options) {
         ->type_name("split|whole")
         ->transform(words(silhouettes));
     const std::map<std::string, bool> agreement{{"test", true}, {"assume", false}};
-    app.add_option("--agreement", options.test_agreement,
+    app.add_option("--agreement", options.test_photo_consistency,
                    "test: out of focus, views that disagree beyond noise (mirrors, glass) are not averaged; "
                    "assume: all are")
         ->type_name("test|assume")
@@ -38,7 +38,7 @@ void add_warp_options(CLI::App &app, WarpCommand &options) {
 WarpOptions warp_options(const WarpCommand &options, const LoadedViews &loaded) {
     WarpOptions warp{.merge = options.merge,
                      .split_silhouettes = options.split_silhouettes,
-                     .test_agreement = options.test_agreement,
+                     .test_photo_consistency = options.test_photo_consistency,
                      .focus = loaded.camera.focus_distance};
     if (loaded.views.size() == 1) return warp;
     warp.focal_px = resolve_focal_px(loaded.camera, loaded.views[0].image.windows);

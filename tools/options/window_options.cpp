@@ -1,6 +1,7 @@
 #include "options/window_options.h"
 
 #include "base/error.h"
+#include "deep/pad.h"
 #include "deep/proxy.h"
 #include "harness/words.h"
 #include "io/camera/camera_metadata.h"
@@ -81,9 +82,9 @@ void add_window_options(CLI::App &app, WindowOptions &options) {
         ->group("Windows");
 }
 
-Frame frame_of(const WindowOptions &options, const InputLdi &in, ThinLens &lens) {
+GatherWindows gather_windows(const WindowOptions &options, const InputLdi &in, ThinLens &lens) {
     lens.focal_px /= options.proxy;
-    Frame frame{reduced(read_picture_window(in.header), options.proxy), {}, {}};
+    GatherWindows frame{reduced(read_picture_window(in.header), options.proxy), {}, {}};
     if (options.proxy > 1) frame.changed = proxy(in.ldi, options.proxy);
     const auto made = [&]() -> const Ldi & { return frame.changed ? *frame.changed : in.ldi; };
     if (options.overscan == OutputOverscan::grow && lens.radius > 0) {

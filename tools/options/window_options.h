@@ -25,7 +25,7 @@ struct WindowOptions {
 void add_window_options(CLI::App &app, WindowOptions &options);
 
 // What is gathered, and which part of it is written.
-struct Frame {
+struct GatherWindows {
     Imath::Box2i gathered, written;
     std::optional<Ldi> changed; // of which; none: the LDI as it was
 };
@@ -33,6 +33,6 @@ struct Frame {
 // Makes the lens, and of the LDI a copy, that of the proxy; the copy is grown where asked.
 // UsageError: a region or a display window that holds no pixel of the picture. Error: a picture grown beyond what the
 // memory of the LDI justifies (memory_limit.h).
-Frame frame_of(const WindowOptions &options, const InputLdi &in, ThinLens &lens);
+GatherWindows gather_windows(const WindowOptions &options, const InputLdi &in, ThinLens &lens);
 
 } // namespace sparselens

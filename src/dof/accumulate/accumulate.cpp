@@ -136,7 +136,7 @@ void accumulate(Accumulation &accumulation, const Image &view, const Imath::V2d 
     const bool seen = across.begin < across.end && down.begin < down.end;
     constexpr std::size_t rows_a_task = 16;
     const std::size_t rows = seen ? std::size_t(down.end - down.begin) : 0;
-    parallel_runs(rows, rows_a_task, [&](std::size_t begin, std::size_t end) {
+    parallel_ranges(rows, rows_a_task, [&](std::size_t begin, std::size_t end) {
         const int top = down.begin + int(begin), bottom = down.begin + int(end);
         for (std::size_t k = 0; k < channels.size(); ++k)
             if (accumulation.channels[k].type != PixelType::uint32)
@@ -157,7 +157,7 @@ Image average(const Accumulation &accumulation) {
         const double *sums = accumulation.sums.data() + k * pixels;
         const std::span<float> values = image.plane(k);
         const bool ids = image.channels[k].type == PixelType::uint32;
-        parallel_runs(pixels, 65536, [&](std::size_t begin, std::size_t end) {
+        parallel_ranges(pixels, 65536, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) {
                 if (ids)
                     values[i] = std::bit_cast<float>(std::uint32_t(sums[i]));

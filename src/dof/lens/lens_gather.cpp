@@ -1,6 +1,7 @@
 #include "dof/lens/lens_gather.h"
 
 #include "base/parallel.h"
+#include "deep/flatten.h"
 #include "dof/lens/highlights.h"
 #include "dof/lens/lens_tile.h"
 #include "dof/lens/sample_blocks.h"
@@ -24,7 +25,7 @@ constexpr float in_focus = 0.5f; // pixels: what has no larger CoC is as it was 
 SampleColours make_colours(const Ldi &ldi, const BlockedSamples &samples) {
     const std::size_t channels = ldi.channels.size(), groups = (channels + 3) / 4, count = samples.count();
     SampleColours colours{groups, count, std::vector<float>(groups * count * 4)};
-    parallel_runs(count, 4096, [&](std::size_t begin, std::size_t end) {
+    parallel_ranges(count, 4096, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i)
             for (std::size_t k = 0; k < channels && samples.source[i] != BlockedSamples::background; ++k)
                 colours.at(k, i) = ldi.values[k][samples.source[i]];

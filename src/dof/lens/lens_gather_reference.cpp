@@ -2,6 +2,7 @@
 
 #include "base/parallel.h"
 #include "deep/build.h"
+#include "deep/flatten.h"
 
 #include <algorithm>
 #include <cmath>
@@ -29,7 +30,7 @@ std::vector<PlacedSample> place_samples(const Ldi &ldi, const ThinLens &lens, co
         const Imath::V2d middle(at.x + 0.5, at.y + 0.5);
         double transmittance = 1;
         for (std::uint64_t i = ldi.begin[pixel]; i < ldi.begin[pixel + 1]; ++i) {
-            const MergedSample s = placement_of(ldi, i);
+            const MergedSample s = sample_at(ldi, i);
             const double z = double(s.z), a = double(alpha_at(ldi, alpha, i));
             placed.push_back({middle + Imath::V2d(double(s.dx), double(s.dy)), circle_of_confusion(lens, z),
                               perceptive_depth(lens, z), a, i});

@@ -96,15 +96,15 @@ void LensTile::collect_partial() {
 
 void LensTile::see_opaque(const LensSample &lens) {
     std::fill(front_.begin(), front_.end(), 0);
-    const Placement placement(lens, origin_x_, origin_y_, stride);
+    const TileProjection projection(lens, origin_x_, origin_y_, stride);
     std::array<std::int32_t, 256> cells;
     for (const std::uint32_t b : blocks_) {
         const SampleBlock &block = samples_.blocks[b];
         if (out_of_reach(block, lens, origin_x_, origin_y_, float(size))) continue;
         for (std::uint32_t begin = block.begin; begin < block.opaque_end; begin += cells.size()) {
             const std::uint32_t count = std::min(std::uint32_t(cells.size()), block.opaque_end - begin);
-            place(placement, &samples_.x[begin], &samples_.y[begin], &samples_.coc[begin], count,
-                  cells.data());
+            project_to_cells(projection, &samples_.x[begin], &samples_.y[begin], &samples_.coc[begin], count,
+                             cells.data());
             const std::uint64_t *key = &samples_.key[begin];
             for (std::uint32_t i = 0; i < count; ++i) {
                 std::uint64_t &front = front_[std::size_t(cells[i])];
@@ -115,10 +115,10 @@ void LensTile::see_opaque(const LensSample &lens) {
 }
 
 void LensTile::see_partial(const LensSample &lens) {
-    const Placement placement(lens, origin_x_, origin_y_, stride);
+    const TileProjection projection(lens, origin_x_, origin_y_, stride);
     const std::size_t count = partial_.sample.size();
-    place(placement, partial_.x.data(), partial_.y.data(), partial_.coc.data(), std::uint32_t(count),
-          partial_.cell.data());
+    project_to_cells(projection, partial_.x.data(), partial_.y.data(), partial_.coc.data(),
+                     std::uint32_t(count), partial_.cell.data());
     for (std::size_t n = 0; n < count; ++n) {
         const std::uint32_t i = partial_.sample[n];
         const std::size_t cell = std::size_t(partial_.cell[n]);

@@ -20,7 +20,7 @@ struct Found {
 };
 
 Found sample_at(const Ldi &ldi, const ThinLens &lens, int x, int y, float alpha, std::uint64_t i) {
-    const MergedSample place = placement_of(ldi, i);
+    const MergedSample place = sample_at(ldi, i);
     const double z = double(place.z);
     return {float(x) + 0.5f + place.dx,
             float(y) + 0.5f + place.dy,

@@ -158,7 +158,7 @@ void Sharpener::measure_noise() {
 }
 
 Sharpener::Weights Sharpener::weights(std::uint64_t i, int x, int y) const {
-    const MergedSample place = placement_of(ldi_, i);
+    const MergedSample place = sample_at(ldi_, i);
     const double coc = circle_of_confusion(lens_, double(place.z));
     Weights w{float(blur_.weight(coc, double(place.dx))),
               float(blur_.weight(coc * lens_.pixel_aspect, double(place.dy))), 1};
@@ -221,7 +221,7 @@ void sharpen_near_focus(const Ldi &ldi, const ThinLens &lens, const BlockedSampl
     sharpener.measure_noise();
     sharpener.weigh();
     std::vector<std::uint32_t> blocked(ldi.samples());
-    parallel_runs(samples.count(), 4096, [&](std::size_t begin, std::size_t end) {
+    parallel_ranges(samples.count(), 4096, [&](std::size_t begin, std::size_t end) {
         for (std::size_t b = begin; b < end; ++b)
             if (samples.source[b] != BlockedSamples::background)
                 blocked[samples.source[b]] = std::uint32_t(b);

@@ -2,7 +2,7 @@
 
 namespace sparselens {
 
-Placement::Placement(const LensSample &lens, float corner_x, float corner_y, int row)
+TileProjection::TileProjection(const LensSample &lens, float corner_x, float corner_y, int row)
     : lens_x(lens.x), lens_y(lens.y), tile_x(corner_x), tile_y(corner_y), shift_x(lens.pixel_x + 1),
       shift_y(lens.pixel_y + 1), stride(row) {}
 
@@ -11,7 +11,7 @@ Placement::Placement(const LensSample &lens, float corner_x, float corner_y, int
 #ifndef __SANITIZE_THREAD__
 [[gnu::target_clones("default,avx2")]]
 #endif
-void place(const Placement &p, const float *x, const float *y, const float *coc, std::uint32_t count,
+void project_to_cells(const TileProjection &p, const float *x, const float *y, const float *coc, std::uint32_t count,
            std::int32_t *cells) {
     const int stride = p.stride; // copies: the compiler need not fear that cells overlap them
     const float limit = float(stride - 1);

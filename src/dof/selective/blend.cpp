@@ -20,7 +20,7 @@ int depth_bin(double coc) {
     return int(std::floor(std::copysign(bent / bin_width, coc)));
 }
 
-double frame_share(const Imath::Box2i &data, double pixel_aspect, int x, int y, double radius) {
+double window_share(const Imath::Box2i &data, double pixel_aspect, int x, int y, double radius) {
     const double left = x + 0.5 - data.min.x, right = data.max.x + 0.5 - x;
     const double above = y + 0.5 - data.min.y, below = data.max.y + 0.5 - y, high = radius * pixel_aspect;
     if (left >= radius && right >= radius && above >= high && below >= high) return 1;

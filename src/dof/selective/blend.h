@@ -14,7 +14,7 @@
 // nobody saw keeps its coverage.
 //
 // Near the picture's border the part of a PSF's disc that lies outside is unknown at all depths; sums are divided
-// by the part that lies inside (frame_share).
+// by the part that lies inside (window_share).
 #pragma once
 
 #include <Imath/ImathBox.h>
@@ -37,7 +37,7 @@ inline constexpr std::size_t sums_before_colours = 2;
 inline constexpr double least_known = 1e-12;
 
 // The part of a disc of that radius around pixel (x, y) that lies in the data window.
-double frame_share(const Imath::Box2i &data, double pixel_aspect, int x, int y, double radius);
+double window_share(const Imath::Box2i &data, double pixel_aspect, int x, int y, double radius);
 
 // Blends the layers of one pixel, front to back, each its sums. Sets the colours and returns alpha.
 double blend_layers(std::span<const double> layers, std::span<double> colours);

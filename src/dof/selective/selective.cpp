@@ -37,22 +37,22 @@ bool covers(double radius, const Imath::Box2d &centres, const Imath::Box2d &tile
 // One tile at work: the sums of the bin that is being gathered, and the layers made of the bins before it.
 class TileGather {
 public:
-    TileGather(const CellGrid &grid, std::size_t layers, const Imath::Box2i &data, double pixel_aspect)
+    TileGather(const SplatBlocks &grid, std::size_t layers, const Imath::Box2i &data, double pixel_aspect)
         : grid_(grid), data_(data), pixel_aspect_(pixel_aspect), sums_(grid.size() * tile_pixels),
           uniform_(grid.size()), layers_(tile_pixels, layers, grid.colours) {}
 
-    // `cells` are the indices of those that may reach the tile, front to back.
-    void gather(const Imath::Box2i &tile, std::span<const std::size_t> cells);
+    // `blocks` are the indices of those that may reach the tile, front to back.
+    void gather(const Imath::Box2i &tile, std::span<const std::size_t> blocks);
     double blend(int x, int y, std::span<double> colours) const {
         return layers_.blend(index_in(tile_, x, y), colours);
     }
 
 private:
     void finish_bin();
-    void add_cell(std::size_t index);
+    void add_block(std::size_t index);
     void add_splat(std::size_t splat);
 
-    const CellGrid &grid_;
+    const SplatBlocks &grid_;
     Imath::Box2i data_;
     double pixel_aspect_;
     Imath::Box2i tile_;
@@ -63,31 +63,31 @@ private:
     TileLayers layers_;
 };
 
-void TileGather::gather(const Imath::Box2i &tile, std::span<const std::size_t> cells) {
+void TileGather::gather(const Imath::Box2i &tile, std::span<const std::size_t> blocks) {
     tile_ = tile;
     layers_.clear();
     touched_.makeEmpty();
     const Imath::Box2d area = area_of(tile);
     bool first = true;
-    for (const std::size_t index : cells) {
-        const Cell &cell = grid_.cells[index];
-        if (!cell.reach.intersects(area)) continue;
-        if (!first && cell.bin != bin_) finish_bin();
+    for (const std::size_t index : blocks) {
+        const SplatBlock &block = grid_.blocks[index];
+        if (!block.reach.intersects(area)) continue;
+        if (!first && block.bin != bin_) finish_bin();
         first = false;
-        bin_ = cell.bin;
-        add_cell(index);
+        bin_ = block.bin;
+        add_block(index);
     }
     finish_bin();
 }
 
-void TileGather::add_cell(std::size_t index) {
-    const Cell &cell = grid_.cells[index];
-    if (covers(cell.smallest, cell.centres, area_of(tile_), pixel_aspect_)) {
+void TileGather::add_block(std::size_t index) {
+    const SplatBlock &block = grid_.blocks[index];
+    if (covers(block.smallest, block.centres, area_of(tile_), pixel_aspect_)) {
         for (std::size_t k = 0; k < uniform_.size(); ++k) uniform_[k] += grid_.sums[index * grid_.size() + k];
         touched_.extendBy(tile_);
         return;
     }
-    for (std::size_t i = cell.begin; i < cell.end; ++i) add_splat(i);
+    for (std::size_t i = block.begin; i < block.end; ++i) add_splat(i);
 }
 
 void TileGather::add_splat(std::size_t splat) {
@@ -117,7 +117,7 @@ void TileGather::finish_bin() {
             const double known = sums[tile_pixels];
             if (known > least_known) {
                 const double radius = sums[(size - 1) * tile_pixels] / known;
-                const double scale = 1 / frame_share(data_, pixel_aspect_, x, y, radius);
+                const double scale = 1 / window_share(data_, pixel_aspect_, x, y, radius);
                 layers_.add(index_in(tile_, x, y), bin_, sums, tile_pixels, scale);
             }
             for (std::size_t k = 0; k < size; ++k) sums[k * tile_pixels] = 0;
@@ -135,10 +135,10 @@ void write_tile(Image &image, const SplatSource &source, const Imath::Box2i &til
         }
 }
 
-std::vector<std::size_t> cells_reaching_rows(const CellGrid &grid, int first, int last) {
+std::vector<std::size_t> blocks_reaching_rows(const SplatBlocks &grid, int first, int last) {
     std::vector<std::size_t> found;
-    for (std::size_t i = 0; i < grid.cells.size(); ++i)
-        if (grid.cells[i].reach.max.y >= first && grid.cells[i].reach.min.y <= last + 1) found.push_back(i);
+    for (std::size_t i = 0; i < grid.blocks.size(); ++i)
+        if (grid.blocks[i].reach.max.y >= first && grid.blocks[i].reach.min.y <= last + 1) found.push_back(i);
     return found;
 }
 
@@ -148,7 +148,7 @@ Image selective_gather(const Ldi &ldi, const ThinLens &lens, const SelectiveOpti
                        Progress &progress) {
     if (options.layers < 1) throw UsageError("the number of layers must be at least 1");
     const SplatSource source(ldi, lens);
-    const CellGrid grid = make_cells(source);
+    const SplatBlocks grid = make_splat_blocks(source);
     Image image = image_with_ids(ldi);
     const Imath::Box2i &data = ldi.windows.data;
     // No pixel has more layers than there are bins, and memory is set aside for as many as it may have.
@@ -159,12 +159,12 @@ Image selective_gather(const Ldi &ldi, const ThinLens &lens, const SelectiveOpti
     progress.start("selective gather", tiles_in(ldi.windows.height()) * tiles_in(ldi.windows.width()));
     parallel_for(tiles_in(ldi.windows.height()), [&](std::size_t row) {
         const int top = data.min.y + int(row) * tile_size, bottom = std::min(top + tile_size - 1, data.max.y);
-        const std::vector<std::size_t> cells = cells_reaching_rows(grid, top, bottom);
+        const std::vector<std::size_t> blocks = blocks_reaching_rows(grid, top, bottom);
         parallel_for(tiles_in(ldi.windows.width()), [&](std::size_t column) {
             const int left = data.min.x + int(column) * tile_size;
             const Imath::Box2i tile({left, top}, {std::min(left + tile_size - 1, data.max.x), bottom});
             TileGather &worker = workers.local();
-            worker.gather(tile, cells);
+            worker.gather(tile, blocks);
             write_tile(image, source, tile, worker);
             progress.advance();
         });

@@ -1,6 +1,6 @@
 // Selective gather: each destination pixel gathers the samples whose PSF covers it, clusters them into a few
 // layers by perceptive depth and blends those front to back (blend.h states the rule). Tiles make it fast: a
-// tile looks only at the cells of samples that can reach it (cells.h). scatter.h is its slow reference.
+// tile looks only at the blocks of samples that can reach it (splat_blocks.h). scatter.h is its slow reference.
 #pragma once
 
 #include "base/image.h"

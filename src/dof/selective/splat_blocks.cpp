@@ -10,31 +10,31 @@ namespace sparselens {
 
 namespace {
 
-constexpr int block_size = 16; // pixels
+constexpr int square_size = 16; // pixels
 
-struct Blocks {
+struct Squares {
     int width, height, across;
 
-    explicit Blocks(const Windows &windows)
-        : width(windows.width()), height(windows.height()), across((width + block_size - 1) / block_size) {}
+    explicit Squares(const Windows &windows)
+        : width(windows.width()), height(windows.height()), across((width + square_size - 1) / square_size) {}
 
     std::size_t count() const {
-        return std::size_t(across) * std::size_t((height + block_size - 1) / block_size);
+        return std::size_t(across) * std::size_t((height + square_size - 1) / square_size);
     }
 
     template <typename Visit>
-    void for_each_pixel(std::size_t block, const Visit &visit) const {
-        const int left = int(block) % across * block_size, top = int(block) / across * block_size;
-        for (int y = top; y < std::min(top + block_size, height); ++y)
-            for (int x = left; x < std::min(left + block_size, width); ++x)
+    void for_each_pixel(std::size_t square, const Visit &visit) const {
+        const int left = int(square) % across * square_size, top = int(square) / across * square_size;
+        for (int y = top; y < std::min(top + square_size, height); ++y)
+            for (int x = left; x < std::min(left + square_size, width); ++x)
                 visit(std::size_t(y) * std::size_t(width) + std::size_t(x));
     }
 };
 
-// The splats of a block front to back; equal bins stay in pixel order.
-std::vector<Splat> splats_of_block(const SplatSource &source, const Blocks &blocks, std::size_t block) {
+// The splats of a square front to back; equal bins stay in pixel order.
+std::vector<Splat> splats_of_square(const SplatSource &source, const Squares &squares, std::size_t square) {
     std::vector<Splat> splats;
-    blocks.for_each_pixel(block, [&](std::size_t pixel) {
+    squares.for_each_pixel(square, [&](std::size_t pixel) {
         source.for_each(pixel, [&](const Splat &splat) { splats.push_back(splat); });
     });
     std::stable_sort(splats.begin(), splats.end(),
@@ -42,7 +42,7 @@ std::vector<Splat> splats_of_block(const SplatSource &source, const Blocks &bloc
     return splats;
 }
 
-void put_values(CellGrid &grid, std::size_t at, const Splat &splat, const SplatSource &source) {
+void put_values(SplatBlocks &grid, std::size_t at, const Splat &splat, const SplatSource &source) {
     float *value = &grid.values[at * grid.size()];
     *value++ = float(splat.coverage);
     *value++ = float(splat.known);
@@ -50,40 +50,41 @@ void put_values(CellGrid &grid, std::size_t at, const Splat &splat, const SplatS
     *value = float(splat.known * std::abs(splat.coc));
 }
 
-void extend(Cell &cell, const Splat &splat, double pixel_aspect) {
+void extend(SplatBlock &block, const Splat &splat, double pixel_aspect) {
     const double radius = std::abs(splat.coc);
     const Imath::V2d extent(radius, radius * pixel_aspect);
-    cell.centres.extendBy(splat.position);
-    cell.reach.extendBy(splat.position - extent);
-    cell.reach.extendBy(splat.position + extent);
-    cell.smallest = cell.begin == cell.end ? radius : std::min(cell.smallest, radius);
-    ++cell.end;
+    block.centres.extendBy(splat.position);
+    block.reach.extendBy(splat.position - extent);
+    block.reach.extendBy(splat.position + extent);
+    block.smallest = block.begin == block.end ? radius : std::min(block.smallest, radius);
+    ++block.end;
 }
 
-// Stores a block's splats from `first` on and returns its cells.
-std::vector<Cell> store_block(CellGrid &grid, std::size_t first, std::span<const Splat> splats,
-                              const SplatSource &source) {
-    std::vector<Cell> cells;
+// Stores a square's splats from `first` on and returns its blocks.
+std::vector<SplatBlock> store_square(SplatBlocks &grid, std::size_t first, std::span<const Splat> splats,
+                                     const SplatSource &source) {
+    std::vector<SplatBlock> blocks;
     for (std::size_t i = 0; i < splats.size(); ++i) {
         const Splat &splat = splats[i];
         const std::size_t at = first + i;
-        if (cells.empty() || cells.back().bin != splat.bin) cells.push_back({splat.bin, at, at, {}, {}, 0});
-        extend(cells.back(), splat, source.lens().pixel_aspect);
+        if (blocks.empty() || blocks.back().bin != splat.bin)
+            blocks.push_back({splat.bin, at, at, {}, {}, 0});
+        extend(blocks.back(), splat, source.lens().pixel_aspect);
         grid.x[at] = splat.position.x;
         grid.y[at] = splat.position.y;
         grid.radius[at] = std::abs(splat.coc);
         put_values(grid, at, splat, source);
     }
-    return cells;
+    return blocks;
 }
 
 // Double sums: they stand for any number of splats.
-void sum_cells(CellGrid &grid, double pixel_aspect) {
-    grid.sums.assign(grid.cells.size() * grid.size(), 0);
-    parallel_for(grid.cells.size(), [&](std::size_t index) {
-        const Cell &cell = grid.cells[index];
-        if (cell.smallest < 0.5) return; // cannot cover a tile, not even of one pixel
-        for (std::size_t i = cell.begin; i < cell.end; ++i) {
+void sum_blocks(SplatBlocks &grid, double pixel_aspect) {
+    grid.sums.assign(grid.blocks.size() * grid.size(), 0);
+    parallel_for(grid.blocks.size(), [&](std::size_t index) {
+        const SplatBlock &block = grid.blocks[index];
+        if (block.smallest < 0.5) return; // cannot cover a tile, not even of one pixel
+        for (std::size_t i = block.begin; i < block.end; ++i) {
             const double weight = 1 / (std::numbers::pi * grid.radius[i] * grid.radius[i] * pixel_aspect);
             for (std::size_t k = 0; k < grid.size(); ++k)
                 grid.sums[index * grid.size() + k] += weight * double(grid.value(i)[k]);
@@ -93,30 +94,31 @@ void sum_cells(CellGrid &grid, double pixel_aspect) {
 
 } // namespace
 
-CellGrid make_cells(const SplatSource &source) {
-    const Blocks blocks(source.ldi().windows);
-    std::vector<std::size_t> first(blocks.count() + 1, 0);
-    parallel_for(blocks.count(), [&](std::size_t block) {
-        blocks.for_each_pixel(block, [&](std::size_t pixel) {
-            source.for_each(pixel, [&](const Splat &) { ++first[block + 1]; });
+SplatBlocks make_splat_blocks(const SplatSource &source) {
+    const Squares squares(source.ldi().windows);
+    std::vector<std::size_t> first(squares.count() + 1, 0);
+    parallel_for(squares.count(), [&](std::size_t square) {
+        squares.for_each_pixel(square, [&](std::size_t pixel) {
+            source.for_each(pixel, [&](const Splat &) { ++first[square + 1]; });
         });
     });
     for (std::size_t i = 1; i < first.size(); ++i) first[i] += first[i - 1];
 
-    CellGrid grid;
+    SplatBlocks grid;
     grid.colours = source.colours().size();
     for (auto *array : {&grid.x, &grid.y, &grid.radius}) array->resize(first.back());
     grid.values.resize(first.back() * grid.size());
-    std::vector<std::vector<Cell>> cells(blocks.count());
-    parallel_for(blocks.count(), [&](std::size_t block) {
-        cells[block] = store_block(grid, first[block], splats_of_block(source, blocks, block), source);
+    std::vector<std::vector<SplatBlock>> blocks(squares.count());
+    parallel_for(squares.count(), [&](std::size_t square) {
+        blocks[square] = store_square(grid, first[square], splats_of_square(source, squares, square), source);
     });
-    for (const auto &of_block : cells) grid.cells.insert(grid.cells.end(), of_block.begin(), of_block.end());
-    std::stable_sort(grid.cells.begin(), grid.cells.end(),
-                     [](const Cell &a, const Cell &b) { return a.bin < b.bin; });
-    for (std::size_t i = 0; i < grid.cells.size(); ++i)
-        grid.bins += i == 0 || grid.cells[i].bin != grid.cells[i - 1].bin;
-    sum_cells(grid, source.lens().pixel_aspect);
+    for (const auto &of_square : blocks)
+        grid.blocks.insert(grid.blocks.end(), of_square.begin(), of_square.end());
+    std::stable_sort(grid.blocks.begin(), grid.blocks.end(),
+                     [](const SplatBlock &a, const SplatBlock &b) { return a.bin < b.bin; });
+    for (std::size_t i = 0; i < grid.blocks.size(); ++i)
+        grid.bins += i == 0 || grid.blocks[i].bin != grid.blocks[i - 1].bin;
+    sum_blocks(grid, source.lens().pixel_aspect);
     return grid;
 }
 

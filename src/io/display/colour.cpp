@@ -68,7 +68,7 @@ bool ColourTransform::changes_nothing() const { return processor_->cpu->isNoOp()
 void ColourTransform::apply(std::span<float> r, std::span<float> g, std::span<float> b,
                             const float *a) const {
     constexpr std::size_t run = 4096;
-    parallel_runs(r.size(), run, [&](std::size_t from, std::size_t to) {
+    parallel_ranges(r.size(), run, [&](std::size_t from, std::size_t to) {
         std::vector<float> rgb(3 * (to - from));
         const auto coverage = [&](std::size_t i) { return a && a[i] > 0 ? a[i] : 1; };
         for (std::size_t i = from; i < to; ++i) {

@@ -66,7 +66,7 @@ bool has_depth_channel(const std::vector<Channel> &channels, const std::string &
     return depth_channel(channels, asked) != npos;
 }
 
-bool is_placement(const std::string &channel) {
+bool is_position_channel(const std::string &channel) {
     static constexpr std::array names{"Z", "ZBack", "ldi.dx", "ldi.dy", "ldi.weight"};
     return std::ranges::find(names, channel) != names.end();
 }

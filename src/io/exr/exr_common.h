@@ -29,7 +29,7 @@ bool has_depth_channel(const std::vector<Channel> &channels, const std::string &
 
 // Whether the channel says where a sample lies, in our files: Z, ZBack, ldi.dx, ldi.dy or ldi.weight. Such a
 // channel is never carried along as if it were a colour.
-bool is_placement(const std::string &channel);
+bool is_position_channel(const std::string &channel);
 
 // A fresh header with these windows and channels that keeps all of `metadata` that does not describe how its
 // own pixels were stored.

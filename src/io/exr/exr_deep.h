@@ -22,7 +22,7 @@ struct LdiFile {
 // The deep parts of one view of the file, else the flat ones (read_flat_exr). Of several deep parts:
 // - one that has its samples where another has, or no depth and as many in every pixel, is a layer of it (an AOV):
 //   R of the part "diffuse" becomes diffuse.R;
-// - the others are an object each, and all their samples are in the picture (see united());
+// - the others are an object each, and all their samples are in the picture (see deep_merge());
 // - but where just one bears a beauty's name (exr_parts.h), that is the whole picture, and what is no layer of it
 //   is left out.
 // `stereo_view` empty: the default view (exr_parts.h). A is made of AR, AG, AB where it is missing. `depth_channel`

@@ -42,7 +42,7 @@ Planes plan_planes(Ldi &ldi, const std::vector<FileChannel> &found, const std::s
     for (const auto &[in_file, channel] : found)
         if (std::vector<float> *array = placement_array(ldi, channel.name, depth)) {
             planes.add(in_file, *array, PixelType::float32);
-        } else if (!is_placement(channel.name)) {
+        } else if (!is_position_channel(channel.name)) {
             ldi.channels.push_back(channel);
             carried.push_back(in_file);
         }

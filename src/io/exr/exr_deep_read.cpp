@@ -69,7 +69,7 @@ public:
         Imf::Header all;
         all.dataWindow() = data;
         check_memory(source_.path, 2 * source_.held + memory_of(all, 2), source_.size);
-        return united(parts_);
+        return deep_merge(parts_);
     }
 
     std::vector<std::string> notes() const { return notes_; }

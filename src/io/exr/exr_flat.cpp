@@ -129,7 +129,7 @@ std::vector<float> take_depth(Image &image, const std::string &depth_channel, co
     std::vector<float> depth(plane.begin(), plane.end());
     std::vector<Channel> carried;
     for (const Channel &channel : image.channels)
-        if (channel.name != name && !is_placement(channel.name)) carried.push_back(channel);
+        if (channel.name != name && !is_position_channel(channel.name)) carried.push_back(channel);
     Image rest(image.windows, carried);
     for (std::size_t k = 0; k < carried.size(); ++k)
         std::ranges::copy(image.plane(find_channel(image.channels, carried[k].name)), rest.plane(k).begin());

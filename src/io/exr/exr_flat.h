@@ -30,7 +30,7 @@ FlatFile read_flat_part(Imf::MultiPartInputFile &file, const std::string &path, 
                         const std::string &stereo_view);
 
 // Takes the depth channel out of the picture (see read_ldi for how it is found), and drops what else says where
-// a sample lies (see is_placement), which is nothing to be carried like a colour.
+// a sample lies (see is_position_channel), which is nothing to be carried like a colour.
 std::vector<float> take_depth(Image &image, const std::string &depth_channel, const std::string &path);
 
 // Channels are stored in their own types. Of `metadata` everything is kept that does not describe the pixels

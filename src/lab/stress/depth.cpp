@@ -1,3 +1,4 @@
+#include "deep/flatten.h"
 #include "deep/sanitize.h"
 #include "lab/stress/scenes.h"
 #include "view/view.h"
@@ -144,7 +145,7 @@ StressResult bad_depth(float bad, std::size_t counted) {
         });
     };
     Ldi ldi = plane(bad);
-    const bool right_count = repair_bad_values(ldi, "stress").depths == counted;
+    const bool right_count = sanitize(ldi, "stress").depths == counted;
     const Ldi expected = plane(counted == 0 ? infinity : float(depth_of(lens, 3)));
     result.error = off_from(gather(ldi, lens, result), gather(expected, lens, result), ldi.windows.data);
     if (!right_count) result.error = INFINITY;

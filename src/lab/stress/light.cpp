@@ -1,4 +1,5 @@
 #include "deep/sanitize.h"
+#include "deep/tidy.h"
 #include "io/exr/exr_common.h"
 #include "lab/stress/scenes.h"
 
@@ -107,7 +108,7 @@ StressResult negative_lamp() {
 StressResult bad_colour(float bad) {
     StressResult result;
     Ldi ldi = lamp_ldi(0.5f, bad);
-    const BadValues found = repair_bad_values(ldi, "stress");
+    const InvalidValues found = sanitize(ldi, "stress");
     const Image image = gather(ldi, plain_lens(), result, 0);
     result.error = found.colours == 3 ? off_from(image, 0, image.windows.data, 0.5) : INFINITY;
     result.energy = sum_of(image, 0) / (0.5 * width * height) - 1;
@@ -121,9 +122,9 @@ StressResult colour_minus_inf() { return bad_colour(-INFINITY); }
 StressResult bad_alpha(float bad, float good) {
     StressResult result;
     Ldi ldi = lamp_ldi(0.5f, 0.5f, bad);
-    const BadValues found = repair_bad_values(ldi, "stress");
+    const InvalidValues found = sanitize(ldi, "stress");
     Ldi expected = lamp_ldi(0.5f, 0.5f, good);
-    repair_bad_values(expected, "stress"); // an A of 0 has no depth
+    sanitize(expected, "stress"); // an A of 0 has no depth
     result.error = found.alphas == 1 && ldi.values[3] == expected.values[3] ? 0 : 1;
     result.error =
         std::max(result.error, off_from(gather(ldi, plain_lens(), result, 0),

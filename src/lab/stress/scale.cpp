@@ -1,3 +1,4 @@
+#include "deep/flatten.h"
 #include "dof/selective/scatter.h"
 #include "dof/selective/selective.h"
 #include "lab/stress/scenes.h"

@@ -1,5 +1,6 @@
 #include "base/error.h"
 #include "base/random.h"
+#include "deep/flatten.h"
 #include "dof/accumulate/accumulate.h"
 #include "lab/stress/scenes.h"
 #include "view/view.h"

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-Ldi frame_of(const RenderSettings &settings) {
+Ldi empty_ldi(const RenderSettings &settings) {
     Ldi ldi;
     ldi.windows = settings.windows;
     ldi.channels = rgba_channels();
@@ -76,10 +76,10 @@ private:
 template <typename Fill>
 Ldi build(const Tracer &tracer, const RenderSettings &settings, int samples, std::uint32_t stream,
           const char *stage, Progress &progress, const Fill &fill) {
-    const Ldi frame = frame_of(settings);
+    const Ldi like = empty_ldi(settings);
     const PixelSamples points(samples, true, seeded(settings, stream));
     progress.start(stage, settings.windows.pixels());
-    return build_by_pixels(frame, [&](std::size_t pixel, Ldi &out) {
+    return build_by_pixels(like, [&](std::size_t pixel, Ldi &out) {
         fill(PixelRays(tracer, settings, points, pixel_position(settings.windows, pixel)), out);
         append_slabs(out, tracer.scene().slabs);
         progress.advance();

@@ -1,3 +1,4 @@
+#include "deep/flatten.h"
 #include "dof/ldi_fixture.h"
 #include "dof/lens/lens_gather.h"
 #include "lens/lens_points.h"

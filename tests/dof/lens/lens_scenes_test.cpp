@@ -1,5 +1,6 @@
 // The whole way from a scene to the lens picture, at small size, at the default quality.
 #include "deep/cluster.h"
+#include "deep/tidy.h"
 #include "dof/lens/lens_gather.h"
 #include "lab/trace/deep.h"
 #include "lens/lens_points.h"

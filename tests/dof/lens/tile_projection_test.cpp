@@ -19,7 +19,7 @@ int cell_of(const LensSample &lens, double corner_x, double corner_y, double x, 
     return int(std::clamp(row, 0.0, stride - 1.0)) * stride + int(std::clamp(column, 0.0, stride - 1.0));
 }
 
-TEST(Placement, SamplesFallWhereTheLensPointSeesThem) {
+TEST(TileProjection, SamplesFallWhereTheLensPointSeesThem) {
     const LensSample lens{0.75f, -0.5f, 0.25f, -0.125f, 1};
     const float corner_x = 64, corner_y = 128;
     std::mt19937 random(3);
@@ -32,18 +32,19 @@ TEST(Placement, SamplesFallWhereTheLensPointSeesThem) {
     }
     x.push_back(corner_x), y.push_back(corner_y), coc.push_back(0);
     std::vector<std::int32_t> cells(x.size(), -1);
-    place(Placement(lens, corner_x, corner_y, stride), x.data(), y.data(), coc.data(),
-          std::uint32_t(x.size()), cells.data());
+    project_to_cells(TileProjection(lens, corner_x, corner_y, stride), x.data(), y.data(), coc.data(),
+                     std::uint32_t(x.size()), cells.data());
     for (std::size_t i = 0; i < x.size(); ++i)
         EXPECT_EQ(cells[i], cell_of(lens, double(corner_x), double(corner_y), double(x[i]), double(y[i]),
                                     double(coc[i])))
             << i;
 }
 
-TEST(Placement, WhatIsFarAwayOrNotANumberFallsInTheBorder) {
+TEST(TileProjection, WhatIsFarAwayOrNotANumberFallsInTheBorder) {
     const std::vector<float> x = {1e30f, -1e30f, 4, std::nanf("")}, y = {4, 4, -1e30f, 4}, coc = {0, 0, 0, 0};
     std::vector<std::int32_t> cells(4);
-    place(Placement({0, 0, 0, 0, 1}, 0, 0, stride), x.data(), y.data(), coc.data(), 4, cells.data());
+    project_to_cells(TileProjection({0, 0, 0, 0, 1}, 0, 0, stride), x.data(), y.data(), coc.data(), 4,
+                     cells.data());
     EXPECT_EQ(cells, (std::vector<std::int32_t>{5 * stride + stride - 1, 5 * stride, 5, 5 * stride}));
 }
 

@@ -86,12 +86,12 @@ TEST(Blend, OpaqueIsExactlyOpaque) {
 
 TEST(Blend, FrameShareIsWhatLiesInside) {
     const Imath::Box2i data({-10, 5}, {29, 24});
-    EXPECT_EQ(frame_share(data, 1, 5, 14, 9), 1);
-    EXPECT_NEAR(frame_share(data, 1, -10, 14, 1e-3), 1, 1e-12);
-    EXPECT_NEAR(frame_share(data, 1, 9, 14, 1e4), 40 * 20 / (std::numbers::pi * 1e8), 1e-12);
+    EXPECT_EQ(window_share(data, 1, 5, 14, 9), 1);
+    EXPECT_NEAR(window_share(data, 1, -10, 14, 1e-3), 1, 1e-12);
+    EXPECT_NEAR(window_share(data, 1, 9, 14, 1e4), 40 * 20 / (std::numbers::pi * 1e8), 1e-12);
     // Half a pixel from a straight border: half the disc and a strip of nearly 0.5 x 2 r.
-    EXPECT_NEAR(frame_share(data, 1, -10, 14, 5), 0.5 + (0.5 * 2 * 5) / (std::numbers::pi * 25), 1e-3);
-    EXPECT_NEAR(frame_share(data, 2, 5, 5, 4), 0.5 + (0.5 * 2 * 4) / (std::numbers::pi * 32), 1e-3);
+    EXPECT_NEAR(window_share(data, 1, -10, 14, 5), 0.5 + (0.5 * 2 * 5) / (std::numbers::pi * 25), 1e-3);
+    EXPECT_NEAR(window_share(data, 2, 5, 5, 4), 0.5 + (0.5 * 2 * 4) / (std::numbers::pi * 32), 1e-3);
 }
 
 constexpr double bin_coverage = 0.3;

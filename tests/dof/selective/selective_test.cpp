@@ -1,4 +1,5 @@
 #include "base/error.h"
+#include "deep/flatten.h"
 #include "dof/ldi_fixture.h"
 #include "dof/selective/selective.h"
 #include "lens/psf.h"

@@ -420,7 +420,7 @@ TEST(CameraErrors, OfPlacesNameView) {
         const Camera view = read_camera(h);
         const std::string name = "rim.exr";
         try {
-            place_on_lens({&view, 1}, {&name, 1}, centre);
+            position_on_lens({&view, 1}, {&name, 1}, centre);
             return std::string();
         } catch (const UsageError &error) {
             return std::string(error.what());

@@ -1,5 +1,7 @@
 // Files of several parts and views, as others write them.
 #include "base/error.h"
+#include "deep/flatten.h"
+#include "deep/tidy.h"
 #include "io/exr/exr_deep.h"
 #include "io/exr/exr_flat.h"
 #include "io/exr/exr_parts.h"

@@ -1,3 +1,5 @@
+#include "deep/flatten.h"
+#include "deep/tidy.h"
 #include "lab/trace/deep.h"
 #include "lab/trace/small_scenes.h"
 

@@ -21,7 +21,7 @@ struct Budgets {
     std::vector<int> rays{4, 16, 64, 256, 1024};       // a pixel, distributed over the lens
 };
 
-struct PlacedView {
+struct PositionedView {
     std::string path;
     std::string position; // "X,Y" in scene units from the centre; empty: in the file's metadata
 };
@@ -30,7 +30,7 @@ struct PlacedView {
 struct Rendered {
     std::string folder{};  // for what is made of it, within the report's
     std::string picture{}; // the centre view, deep layers, or the final picture
-    std::vector<PlacedView> rim{};
+    std::vector<PositionedView> rim{};
     std::vector<std::size_t> steps{}; // whose time it took
     double ready_seconds = 0;         // the time it took where no step made it
     int views = 1;

@@ -44,7 +44,7 @@ public:
         Layers rendered{rendered_.picture, rendered_.steps};
         if (rendered_.rim.empty()) return rendered;
         Words views{"ldi-warp", rendered_.picture};
-        for (const PlacedView &view : rendered_.rim)
+        for (const PositionedView &view : rendered_.rim)
             views = std::move(views) +
                     (view.position.empty() ? Words{view.path} : Words{"--view", view.position, view.path});
         return then(rendered, Stage::warp, "warped", views, lens_);
@@ -82,7 +82,7 @@ private:
                   .weight = weight};
         if (rendered_.steps.empty()) { // ready-made
             step.given = {rendered_.picture};
-            for (const PlacedView &view : rendered_.rim) step.given.push_back(view.path);
+            for (const PositionedView &view : rendered_.rim) step.given.push_back(view.path);
         }
         Layers made{file, from.steps};
         made.steps.push_back(steps_.add(std::move(step)));
