@@ -3,7 +3,6 @@ include(CMakePackageConfigHelpers)
 
 install(TARGETS sparselens EXPORT sparselens-targets ARCHIVE LIBRARY)
 install(TARGETS sparselens_oiio LIBRARY DESTINATION ${SPARSELENS_MODULES})
-install(DIRECTORY src/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/sparselens FILES_MATCHING PATTERN "*.h")
 install(EXPORT sparselens-targets NAMESPACE sparselens:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/sparselens)
 
 configure_package_config_file(cmake/sparselens-config.cmake.in sparselens-config.cmake

@@ -36,7 +36,7 @@ lamp-counted-twice|src/dof/lens/highlights.cpp|colours.at(k, f.sample) \*= 1 - f
 light-made|src/dof/lens/sharpen.cpp|{n.sample\[k\], -shared}|{n.sample[k], 0}
 bad-alpha-kept|src/deep/sanitize.cpp|return v >= 0 \&\& v <= 1;|return v == v;
 nan-kept|src/deep/sanitize.cpp|return std::abs(v) <= 1e34f;|return !(std::abs(v) < 0);
-memory-unlimited|src/io/memory_limit.cpp|if (bytes <= allowed) return;|if (bytes <= allowed * 1e9) return;
+memory-unlimited|src/io/files/memory_limit.cpp|if (bytes <= allowed) return;|if (bytes <= allowed * 1e9) return;
 half-infinite|src/io/exr/exr_common.cpp|std::clamp(from\[i\], -largest, largest)|std::clamp(from[i], -2 * largest, 2 * largest)
 wrong-samples-read|src/io/exr/exr_deep_part.cpp|ldi.begin\[first + i\]|ldi.begin[first]
 END

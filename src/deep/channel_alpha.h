@@ -11,7 +11,7 @@
 // time with the colours that it covers; nothing else has to know.
 #pragma once
 
-#include "deep/ldi.h"
+#include "ldi.h"
 
 #include <functional>
 #include <vector>

@@ -7,8 +7,8 @@
 // than the extent of its cluster, R F / z of its front minus that of its back.
 #pragma once
 
-#include "base/progress.h"
-#include "deep/ldi.h"
+#include "../base/progress.h"
+#include "ldi.h"
 
 namespace sparselens {
 

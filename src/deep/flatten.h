@@ -1,7 +1,7 @@
 // A deep picture seen without a lens.
 #pragma once
 
-#include "deep/ldi.h"
+#include "ldi.h"
 
 namespace sparselens {
 

@@ -1,7 +1,7 @@
 // Depth of what each pixel shows first.
 #pragma once
 
-#include "deep/ldi.h"
+#include "ldi.h"
 
 namespace sparselens {
 

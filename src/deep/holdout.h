@@ -2,7 +2,7 @@
 // sharp, as it will be where it is put back: the light is held out at the pixel where it arrives.
 #pragma once
 
-#include "deep/ldi.h"
+#include "ldi.h"
 
 namespace sparselens {
 

@@ -6,7 +6,7 @@
 // infinity.
 #pragma once
 
-#include "base/image.h"
+#include "../base/image.h"
 
 #include <cstdint>
 #include <span>

@@ -1,7 +1,7 @@
 // Several layered pictures of one camera as one: an object each, or a layer each of the same samples.
 #pragma once
 
-#include "deep/ldi.h"
+#include "ldi.h"
 
 #include <string>
 #include <vector>

@@ -1,7 +1,7 @@
 // How orderly the samples of a deep picture are, as the attribute deepImageState of OpenEXR means it.
 #pragma once
 
-#include "deep/ldi.h"
+#include "ldi.h"
 
 namespace sparselens {
 

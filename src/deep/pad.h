@@ -1,8 +1,8 @@
 // An LDI with room around it, and how much room a lens needs.
 #pragma once
 
-#include "deep/ldi.h"
-#include "lens/thin_lens.h"
+#include "../lens/thin_lens.h"
+#include "ldi.h"
 
 namespace sparselens {
 

@@ -1,7 +1,7 @@
 // A small LDI that stands for a large one, for a quick look.
 #pragma once
 
-#include "deep/ldi.h"
+#include "ldi.h"
 
 namespace sparselens {
 

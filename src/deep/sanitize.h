@@ -17,8 +17,8 @@
 // depth.
 #pragma once
 
-#include "deep/ldi.h"
-#include "view/view.h"
+#include "../view/view.h"
+#include "ldi.h"
 
 #include <cstddef>
 #include <string>

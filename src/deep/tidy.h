@@ -1,7 +1,7 @@
 // A deep picture brought into the state that every stage works on: sorted, and without overlaps.
 #pragma once
 
-#include "deep/ldi.h"
+#include "ldi.h"
 
 namespace sparselens {
 

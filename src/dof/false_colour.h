@@ -4,10 +4,10 @@
 // alone, never on the rest of the picture, so that frames can be compared.
 #pragma once
 
-#include "base/image.h"
-#include "deep/ldi.h"
-#include "dof/lens/lens_tiles.h"
-#include "lens/thin_lens.h"
+#include "../base/image.h"
+#include "../deep/ldi.h"
+#include "../lens/thin_lens.h"
+#include "lens/lens_tiles.h"
 
 namespace sparselens {
 

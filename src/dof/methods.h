@@ -1,11 +1,11 @@
 // The ways from an LDI to the lens picture, by name.
 #pragma once
 
-#include "base/image.h"
-#include "base/progress.h"
-#include "deep/ldi.h"
-#include "dof/lens/lens_gather.h"
-#include "lens/thin_lens.h"
+#include "../base/image.h"
+#include "../base/progress.h"
+#include "../deep/ldi.h"
+#include "../lens/thin_lens.h"
+#include "lens/lens_gather.h"
 
 #include <span>
 

@@ -2,8 +2,8 @@
 
 #include "base/error.h"
 #include "io/exr/exr_flat.h"
-#include "io/file_stream.h"
-#include "io/folder.h"
+#include "io/files/file_stream.h"
+#include "io/files/folder.h"
 #include "plan/rectangles.h"
 
 #include <nlohmann/json.hpp>

@@ -11,7 +11,7 @@
 // A, half: 1 is asked for) is named relative to the plan's folder. Errors (Error) name the file and what is wrong.
 #pragma once
 
-#include "plan/plan.h"
+#include "../plan/plan.h"
 
 #include <string>
 

@@ -2,7 +2,7 @@
 // locale.
 #pragma once
 
-#include "measure/image_error.h"
+#include "image_error.h"
 
 #include <span>
 #include <string>

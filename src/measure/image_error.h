@@ -13,7 +13,7 @@
 // with every SSIM window that holds it. Figures of no pixels at all are NaN.
 #pragma once
 
-#include "base/image.h"
+#include "../base/image.h"
 
 #include <array>
 #include <cstddef>

@@ -10,9 +10,9 @@
 // A pixel may belong to several, or to none.
 #pragma once
 
-#include "base/image.h"
-#include "deep/ldi.h"
-#include "lens/thin_lens.h"
+#include "../base/image.h"
+#include "../deep/ldi.h"
+#include "../lens/thin_lens.h"
 
 #include <array>
 #include <cstdint>

@@ -5,8 +5,8 @@
 // beyond the frame is taken to go on as the frame's edge does.
 #pragma once
 
-#include "base/image.h"
-#include "lens/thin_lens.h"
+#include "../base/image.h"
+#include "../lens/thin_lens.h"
 
 #include <cstdint>
 #include <span>

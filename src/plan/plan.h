@@ -1,9 +1,9 @@
 // What is worth rendering besides the centre view, told from the centre view and the lens.
 #pragma once
 
-#include "base/progress.h"
-#include "plan/disocclusion.h"
-#include "view/view.h"
+#include "../base/progress.h"
+#include "../view/view.h"
+#include "disocclusion.h"
 
 #include <optional>
 #include <string>

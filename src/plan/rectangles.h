@@ -1,7 +1,7 @@
 // Few rectangles that hold all that a mask asks for: renderers crop by rectangles.
 #pragma once
 
-#include "plan/disocclusion.h"
+#include "disocclusion.h"
 
 namespace sparselens {
 

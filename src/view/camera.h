@@ -1,7 +1,7 @@
 // What a file or a command line says about the camera that took a picture. Every value may be unknown.
 #pragma once
 
-#include "view/framing.h"
+#include "framing.h"
 
 #include <Imath/ImathMatrix.h>
 #include <Imath/ImathVec.h>

@@ -1,7 +1,7 @@
 // Depth as renderers write it, made planar.
 #pragma once
 
-#include "base/image.h"
+#include "../base/image.h"
 
 #include <Imath/ImathVec.h>
 

@@ -1,7 +1,7 @@
 // Many views of one lens: where each stood on it.
 #pragma once
 
-#include "view/camera.h"
+#include "camera.h"
 
 #include <optional>
 #include <span>

@@ -1,8 +1,8 @@
 // A rendered picture with depth, and where its camera stood.
 #pragma once
 
-#include "base/image.h"
-#include "view/framing.h"
+#include "../base/image.h"
+#include "framing.h"
 
 #include <Imath/ImathVec.h>
 

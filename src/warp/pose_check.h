@@ -5,7 +5,7 @@
 // is hidden from the centre; never one in front of what the centre shows.
 #pragma once
 
-#include "view/view.h"
+#include "../view/view.h"
 
 #include <optional>
 

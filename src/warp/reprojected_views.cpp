@@ -2,7 +2,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
-#include "deep/deepen.h"
+#include "warp/deepen.h"
 #include "warp/silhouettes.h"
 
 #include <algorithm>

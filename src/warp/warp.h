@@ -4,9 +4,9 @@
 // belong to one surface where their perceptive depths R F / z differ by less than `surface_px` pixels.
 #pragma once
 
-#include "base/progress.h"
-#include "deep/ldi.h"
-#include "view/view.h"
+#include "../base/progress.h"
+#include "../deep/ldi.h"
+#include "../view/view.h"
 
 #include <optional>
 #include <span>

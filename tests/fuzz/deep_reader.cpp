@@ -8,7 +8,7 @@
 #include "fuzz/fuzz.h"
 #include "io/camera/camera_metadata.h"
 #include "io/exr/exr_deep.h"
-#include "io/memory_limit.h"
+#include "io/files/memory_limit.h"
 
 using namespace sparselens;
 

@@ -1,9 +1,9 @@
 // Any bytes as a rendered view: header, pixels, depth, made good.
-#include "deep/deepen.h"
 #include "deep/sanitize.h"
 #include "fuzz/fuzz.h"
 #include "io/exr/exr_flat.h"
-#include "io/memory_limit.h"
+#include "io/files/memory_limit.h"
+#include "warp/deepen.h"
 
 using namespace sparselens;
 

@@ -1,7 +1,7 @@
 // Views whose frusta are shifted, of another focal length, or that stand before or behind the lens, warped.
-#include "deep/deepen.h"
 #include "support/ldi_samples.h"
 #include "support/views.h"
+#include "warp/deepen.h"
 #include "warp/pose_check.h"
 #include "warp/reproject.h"
 #include "warp/warp.h"

@@ -1,6 +1,6 @@
-#include "deep/deepen.h"
 #include "lens/thin_lens.h"
 #include "support/views.h"
+#include "warp/deepen.h"
 #include "warp/reproject.h"
 
 #include <gtest/gtest.h>

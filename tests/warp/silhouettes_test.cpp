@@ -1,8 +1,8 @@
-#include "deep/deepen.h"
 #include "deep/flatten.h"
 #include "deep/order.h"
 #include "support/ldi_samples.h"
 #include "support/views.h"
+#include "warp/deepen.h"
 #include "warp/silhouettes.h"
 
 #include <gtest/gtest.h>

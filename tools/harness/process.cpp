@@ -3,8 +3,8 @@
 #include "base/error.h"
 #include "harness/man_page.h"
 #include "harness/one_line.h"
-#include "io/memory_limit.h"
-#include "io/unfinished.h"
+#include "io/files/memory_limit.h"
+#include "io/files/unfinished.h"
 
 #include <ImfThreading.h>
 #include <tbb/global_control.h>

@@ -2,7 +2,7 @@
 
 #include "base/error.h"
 #include "dof/accumulate/accumulate.h"
-#include "io/memory_limit.h"
+#include "io/files/memory_limit.h"
 
 #include <algorithm>
 

@@ -7,7 +7,7 @@
 #include "deep/tidy.h"
 #include "io/camera/camera_metadata.h"
 #include "io/exr/exr_flat.h"
-#include "io/file_stream.h"
+#include "io/files/file_stream.h"
 
 #include <algorithm>
 #include <limits>

@@ -3,8 +3,8 @@
 #include "base/error.h"
 #include "io/display/shown_picture.h"
 #include "io/exr/exr_flat.h"
-#include "io/file_stream.h"
-#include "io/memory_limit.h"
+#include "io/files/file_stream.h"
+#include "io/files/memory_limit.h"
 
 #include <ImfStringAttribute.h>
 

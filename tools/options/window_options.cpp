@@ -5,7 +5,7 @@
 #include "deep/proxy.h"
 #include "harness/words.h"
 #include "io/camera/camera_metadata.h"
-#include "io/memory_limit.h"
+#include "io/files/memory_limit.h"
 
 #include <algorithm>
 #include <charconv>

@@ -19,7 +19,7 @@
 //     parabolas without limits           34.3        48.8    linear, but dark rings and negatives around lamps
 #pragma once
 
-#include "base/image.h"
+#include "../../base/image.h"
 
 #include <Imath/ImathVec.h>
 

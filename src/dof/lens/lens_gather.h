@@ -5,12 +5,12 @@
 // Any other takes as many lens points as its blur and its contrast ask for.
 #pragma once
 
-#include "base/image.h"
-#include "base/progress.h"
-#include "deep/holdout.h"
-#include "deep/ldi.h"
-#include "dof/lens/lens_tiles.h"
-#include "lens/thin_lens.h"
+#include "../../base/image.h"
+#include "../../base/progress.h"
+#include "../../deep/holdout.h"
+#include "../../deep/ldi.h"
+#include "../../lens/thin_lens.h"
+#include "lens_tiles.h"
 
 #include <optional>
 

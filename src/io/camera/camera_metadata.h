@@ -2,7 +2,7 @@
 // (f-number), pinholeFocalLength (mm), and sparselens:* for what has no standard name.
 #pragma once
 
-#include "view/camera.h"
+#include "../../view/camera.h"
 
 #include <ImfHeader.h>
 

@@ -4,7 +4,7 @@
 // Errors (Error) name the configuration, and the colour space, display or view that it does not have.
 #pragma once
 
-#include "base/image.h"
+#include "../../base/image.h"
 
 #include <memory>
 #include <span>

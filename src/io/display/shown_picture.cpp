@@ -2,8 +2,8 @@
 
 #include "base/error.h"
 #include "io/display/oiio_module.h"
-#include "io/file_stream.h"
-#include "io/unfinished.h"
+#include "io/files/file_stream.h"
+#include "io/files/unfinished.h"
 
 #include <unistd.h>
 

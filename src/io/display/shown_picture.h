@@ -1,7 +1,7 @@
 // Pictures as programs without OpenEXR open them: PNG, JPEG, TIFF and whatever else OpenImageIO writes.
 #pragma once
 
-#include "base/image.h"
+#include "../../base/image.h"
 
 #include <string>
 

@@ -3,7 +3,7 @@
 
 #include "base/error.h"
 #include "base/image.h"
-#include "io/file_stream.h"
+#include "io/files/file_stream.h"
 
 #include <ImfChannelList.h>
 #include <ImfHeader.h>

@@ -3,7 +3,7 @@
 // Errors (Error): what cannot be opened, read or written, naming the file and the channel.
 #pragma once
 
-#include "deep/ldi.h"
+#include "../../deep/ldi.h"
 
 #include <ImfHeader.h>
 

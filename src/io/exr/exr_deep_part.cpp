@@ -2,7 +2,7 @@
 
 #include "base/error.h"
 #include "io/exr/exr_common.h"
-#include "io/memory_limit.h"
+#include "io/files/memory_limit.h"
 
 #include <ImfDeepFrameBuffer.h>
 #include <ImfDeepScanLineInputPart.h>

@@ -7,7 +7,7 @@
 #include "io/exr/exr_header_check.h"
 #include "io/exr/exr_parts.h"
 #include "io/exr/header_edit.h"
-#include "io/memory_limit.h"
+#include "io/files/memory_limit.h"
 
 #include <ImfPartType.h>
 

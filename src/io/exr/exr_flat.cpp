@@ -4,7 +4,7 @@
 #include "io/exr/exr_common.h"
 #include "io/exr/exr_header_check.h"
 #include "io/exr/exr_parts.h"
-#include "io/memory_limit.h"
+#include "io/files/memory_limit.h"
 
 #include <ImfFrameBuffer.h>
 #include <ImfInputPart.h>

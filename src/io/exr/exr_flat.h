@@ -4,7 +4,7 @@
 // Errors (Error): what cannot be opened, read or written, naming the file and the channel.
 #pragma once
 
-#include "base/image.h"
+#include "../../base/image.h"
 
 #include <ImfHeader.h>
 #include <ImfMultiPartInputFile.h>

@@ -5,7 +5,7 @@
 // value, an empty name ends the header; of several parts another empty name ends the list.
 #pragma once
 
-#include "io/file_stream.h"
+#include "io/files/file_stream.h"
 
 #include <string>
 

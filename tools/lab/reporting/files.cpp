@@ -1,8 +1,8 @@
 #include "lab/reporting/files.h"
 
 #include "base/error.h"
-#include "io/file_stream.h"
-#include "io/folder.h"
+#include "io/files/file_stream.h"
+#include "io/files/folder.h"
 
 #include <algorithm>
 #include <fstream>

@@ -1,7 +1,7 @@
 #include "lab/reporting/runner.h"
 
 #include "base/error.h"
-#include "io/folder.h"
+#include "io/files/folder.h"
 #include "lab/reporting/camera_json.h"
 #include "lab/reporting/files.h"
 #include "lab/reporting/process.h"

@@ -3,8 +3,8 @@
 #include "io/camera/camera_metadata.h"
 #include "io/exr/exr_deep.h"
 #include "io/exr/exr_flat.h"
-#include "io/file_stream.h"
-#include "io/folder.h"
+#include "io/files/file_stream.h"
+#include "io/files/folder.h"
 #include "lab/trace/camera_at.h"
 
 #include <chrono>

@@ -1,8 +1,8 @@
 #include "base/error.h"
-#include "deep/deepen.h"
 #include "support/ldi_samples.h"
 #include "support/scratch_folder.h"
 #include "support/views.h"
+#include "warp/deepen.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 #include "base/error.h"
-#include "io/file_stream.h"
+#include "io/files/file_stream.h"
 #include "support/scratch_folder.h"
 
 #include <fcntl.h>

@@ -1,4 +1,4 @@
-#include "io/file_stream.h"
+#include "io/files/file_stream.h"
 
 #include "base/error.h"
 

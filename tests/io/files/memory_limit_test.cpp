@@ -1,5 +1,5 @@
 #include "base/error.h"
-#include "io/memory_limit.h"
+#include "io/files/memory_limit.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "io/unfinished.h"
+#include "io/files/unfinished.h"
 
 #include <unistd.h>
 

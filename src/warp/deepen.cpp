@@ -1,4 +1,4 @@
-#include "deep/deepen.h"
+#include "warp/deepen.h"
 
 #include "base/error.h"
 #include "base/parallel.h"

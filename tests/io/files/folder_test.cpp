@@ -1,5 +1,5 @@
 #include "base/error.h"
-#include "io/folder.h"
+#include "io/files/folder.h"
 #include "support/scratch_folder.h"
 
 #include <gtest/gtest.h>

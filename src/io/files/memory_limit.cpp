@@ -1,7 +1,7 @@
-#include "io/memory_limit.h"
+#include "io/files/memory_limit.h"
 
 #include "base/error.h"
-#include "io/file_stream.h"
+#include "io/files/file_stream.h"
 
 #include <atomic>
 #include <cmath>

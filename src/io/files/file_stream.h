@@ -7,7 +7,7 @@
 // Errors (Error) name the file and the system's reason.
 #pragma once
 
-#include "io/unfinished.h"
+#include "io/files/unfinished.h"
 
 #include <ImfIO.h>
 
