@@ -5,7 +5,7 @@
 // values[(k * height + row) * width + column].
 #pragma once
 
-#include <Imath/ImathBox.h>
+#include "grid.h"
 
 #include <cstddef>
 #include <span>
@@ -30,13 +30,12 @@ struct Windows {
     Imath::Box2i data;    // which pixels are stored
     float pixel_aspect = 1;
 
-    int width() const { return data.max.x - data.min.x + 1; }
-    int height() const { return data.max.y - data.min.y + 1; }
-    std::size_t pixels() const { return std::size_t(width()) * std::size_t(height()); }
-    // Of the pixel (x, y) of the data window, EXR coordinates, row by row.
-    std::size_t index(int x, int y) const {
-        return std::size_t(y - data.min.y) * std::size_t(width()) + std::size_t(x - data.min.x);
-    }
+    Grid grid() const { return Grid(data); } // of the pixels that are stored, in EXR coordinates
+    int width() const { return grid().width(); }
+    int height() const { return grid().height(); }
+    std::size_t pixels() const { return grid().size(); }
+    std::size_t index(int x, int y) const { return grid().index(x, y); }
+    Imath::V2i pixel(std::size_t index) const { return grid().pixel(index); }
     int display_width() const { return display.max.x - display.min.x + 1; }
     int display_height() const { return display.max.y - display.min.y + 1; }
     bool operator==(const Windows &) const = default;

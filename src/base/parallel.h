@@ -6,6 +6,8 @@
 // goes on with half a result.
 #pragma once
 
+#include "base/grid.h"
+
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_group.h>
@@ -49,7 +51,7 @@ void parallel_for(std::size_t count, const Task &task) {
 // task(begin, end) over [0, count) cut into runs of at most `grain`; the cuts depend on count and grain alone.
 template <typename Task>
 void parallel_ranges(std::size_t count, std::size_t grain, const Task &task) {
-    parallel_for((count + grain - 1) / grain, [&](std::size_t run) {
+    parallel_for(pieces_of(count, grain), [&](std::size_t run) {
         const std::size_t begin = run * grain;
         task(begin, begin + grain < count ? begin + grain : count);
     });

@@ -47,15 +47,15 @@ Ldi empty_like(const Ldi &like) {
 }
 
 Ldi build_by_pixels(const Ldi &like, const std::function<void(std::size_t, Ldi &)> &fill) {
-    const std::size_t width = std::size_t(like.windows.width()), height = std::size_t(like.windows.height());
-    std::vector<Ldi> rows(height);
-    parallel_for(height, [&](std::size_t row) {
-        Ldi &piece = rows[row] = empty_like(like);
-        piece.begin.reserve(width + 1);
+    const Grid grid(like.windows.width(), like.windows.height());
+    std::vector<Ldi> rows(std::size_t(grid.height()));
+    parallel_for(rows.size(), [&](std::size_t y) {
+        Ldi &piece = rows[y] = empty_like(like);
+        piece.begin.reserve(std::size_t(grid.width()) + 1);
         piece.begin.push_back(0);
-        for (std::size_t x = 0; x < width; ++x) {
+        for (int x = 0; x < grid.width(); ++x) {
             piece.begin.push_back(piece.begin.back());
-            fill(row * width + x, piece);
+            fill(grid.index(x, int(y)), piece);
         }
     });
     return concatenate(like, rows);

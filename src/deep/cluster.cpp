@@ -118,7 +118,6 @@ double cluster_pixel(const Pixel &p, const ClusterOptions &options, Ldi &out) {
 } // namespace
 
 Clustered cluster(const Ldi &ldi, const ClusterOptions &options, Progress &progress) {
-    const std::size_t width = std::size_t(ldi.windows.width());
     std::vector<double> largest(ldi.windows.pixels());
     Clustered result;
     // Which samples a cluster holds is a matter of their depths, whatever their coverage.
@@ -127,7 +126,7 @@ Clustered cluster(const Ldi &ldi, const ClusterOptions &options, Progress &progr
         return build_by_pixels(ldi, [&](std::size_t pixel, Ldi &out) {
             const Pixel p{ldi, coverage, ldi.begin[pixel], ldi.begin[pixel + 1], options.scale};
             largest[pixel] = cluster_pixel(p, options, out);
-            if ((pixel + 1) % width == 0) progress.advance();
+            if (ldi.windows.pixel(pixel).x == ldi.windows.data.max.x) progress.advance();
         });
     });
     for (const double extent : largest) result.largest_error = std::max(result.largest_error, extent);

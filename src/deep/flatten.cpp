@@ -25,10 +25,10 @@ void flatten_pixel(const Ldi &ldi, const std::vector<std::size_t> &coverage, std
 Image flatten(const Ldi &ldi) {
     Image out(ldi.windows, ldi.channels);
     const std::vector<std::size_t> coverage = coverage_by_channel(ldi);
-    const std::size_t width = std::size_t(ldi.windows.width());
-    parallel_for(std::size_t(ldi.windows.height()), [&](std::size_t row) {
-        for (std::size_t x = 0; x < width; ++x) {
-            const std::size_t pixel = row * width + x;
+    const Grid grid(ldi.windows.width(), ldi.windows.height());
+    parallel_for(std::size_t(grid.height()), [&](std::size_t y) {
+        for (int x = 0; x < grid.width(); ++x) {
+            const std::size_t pixel = grid.index(x, int(y));
             flatten_pixel(ldi, coverage, pixel, out);
             for (std::size_t k = 0; k < ldi.channels.size(); ++k)
                 if (ldi.channels[k].type == PixelType::uint32)

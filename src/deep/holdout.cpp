@@ -34,16 +34,16 @@ namespace {
 Image flatten_by_alpha(const Ldi &ldi, const Holdout &holdout) {
     Image out = flatten(ldi); // for the ids
     const Imath::Box2i &data = ldi.windows.data;
-    const std::size_t alpha = ldi.alpha(), width = std::size_t(ldi.windows.width());
+    const std::size_t alpha = ldi.alpha();
     parallel_for(std::size_t(ldi.windows.height()), [&](std::size_t row) {
         std::vector<double> sums(ldi.channels.size());
-        for (std::size_t column = 0; column < width; ++column) {
-            const std::size_t pixel = row * width + column;
+        const int y = data.min.y + int(row);
+        for (int x = data.min.x; x <= data.max.x; ++x) {
+            const std::size_t pixel = ldi.windows.index(x, y);
             std::ranges::fill(sums, 0.0);
             double transmittance = 1;
             for (std::uint64_t i = ldi.begin[pixel]; i < ldi.begin[pixel + 1] && transmittance > 0; ++i) {
-                const double share = transmittance * holdout.passes(data.min.x + int(column),
-                                                                    data.min.y + int(row), double(ldi.z[i]));
+                const double share = transmittance * holdout.passes(x, y, double(ldi.z[i]));
                 for (std::size_t k = 0; k < sums.size(); ++k) sums[k] += share * double(ldi.values[k][i]);
                 transmittance *= 1 - double(alpha_at(ldi, alpha, i));
             }

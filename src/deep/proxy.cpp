@@ -94,9 +94,8 @@ Ldi proxy(const Ldi &large, int factor) {
     const double pixels = double(factor) * factor;
     Ldi out = with_each_coverage(ldi, [&](std::size_t coverage) {
         return build_by_pixels(like, [&](std::size_t pixel, Ldi &row) {
-            const int width = windows.width();
-            const Imath::V2i at = windows.data.min + Imath::V2i(int(pixel) % width, int(pixel) / width);
-            append_surfaces(ldi, coverage, samples_in(ldi, coverage, at, factor), pixels, row);
+            append_surfaces(ldi, coverage, samples_in(ldi, coverage, windows.pixel(pixel), factor), pixels,
+                            row);
         });
     });
     return tidy(std::move(out));

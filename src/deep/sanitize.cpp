@@ -73,11 +73,11 @@ private:
     // depth of i is bad, for their front samples.
     template <typename Visit>
     void for_each_neighbour(std::size_t pixel, std::uint64_t i, const Visit &visit) const {
-        const int width = s_.windows.width(), height = s_.windows.height();
-        const int x = int(pixel % std::size_t(width)), y = int(pixel / std::size_t(width));
-        for (int v = std::max(y - 1, 0); v <= std::min(y + 1, height - 1); ++v)
-            for (int u = std::max(x - 1, 0); u <= std::min(x + 1, width - 1); ++u) {
-                const std::size_t other = std::size_t(v) * std::size_t(width) + std::size_t(u);
+        const Imath::V2i at = s_.windows.pixel(pixel);
+        const Imath::Box2i &data = s_.windows.data;
+        for (int y = std::max(at.y - 1, data.min.y); y <= std::min(at.y + 1, data.max.y); ++y)
+            for (int x = std::max(at.x - 1, data.min.x); x <= std::min(at.x + 1, data.max.x); ++x) {
+                const std::size_t other = s_.windows.index(x, y);
                 if (other == pixel || s_.first(other) == s_.first(other + 1)) continue;
                 visit(nearest(other, s_.z[i]));
             }
@@ -152,8 +152,7 @@ void Repair::repair_depths() {
         changes.emplace_back(i, around.empty() ? infinity : around[(around.size() - 1) / 2]);
     });
     if (bad > 0 && 2 * bad >= covered) {
-        const std::size_t width = std::size_t(s_.windows.width());
-        const Imath::V2i p = s_.windows.data.min + Imath::V2i(int(first_bad % width), int(first_bad / width));
+        const Imath::V2i p = s_.windows.pixel(first_bad);
         throw Error(name_ + ": depth " + std::to_string(first_depth) + " in pixel " + std::to_string(p.x) +
                     "," + std::to_string(p.y) + " is no number above 0 (see --depth, --depth-channel)");
     }

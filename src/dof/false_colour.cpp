@@ -82,10 +82,9 @@ Image tile_colours(const LensTiles &tiles, const Windows &windows) {
         const float t = std::clamp((std::log2(float(points)) - 4) / 8, 0.0f, 1.0f); // 16 .. 4096
         return t < 0.5f ? mix(few, some, 2 * t) : mix(some, many, 2 * t - 1);
     };
-    return paint(windows, [&](std::size_t i) {
-        const int x = int(i % std::size_t(windows.width())), y = int(i / std::size_t(windows.width()));
-        return colour(tiles.lens_points[std::size_t(y / tiles.size * tiles.columns + x / tiles.size)]);
-    });
+    const Tiles places(windows.data, tiles.size);
+    return paint(windows,
+                 [&](std::size_t i) { return colour(tiles.lens_points[places.tile_of(windows.pixel(i))]); });
 }
 
 } // namespace sparselens

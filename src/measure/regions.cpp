@@ -124,8 +124,7 @@ std::vector<std::uint8_t> bits_over(std::span<const std::uint8_t> bits, const Wi
         for (int x = target.data.min.x; x <= target.data.max.x; ++x, ++i) {
             const Imath::V2i p = Imath::V2i(x, y) + shift;
             if (!from.data.intersects(p)) continue;
-            const Imath::V2i q = p - from.data.min;
-            result[i] = bits[std::size_t(q.y) * std::size_t(from.width()) + std::size_t(q.x)];
+            result[i] = bits[from.index(p.x, p.y)];
         }
     return result;
 }

@@ -14,7 +14,7 @@ constexpr double one_surface = 1; // pixels of displacement between neighbours
 class Mover {
 public:
     Mover(const Windows &windows, std::span<const float> z, const ThinLens &lens, const Imath::V2d &u)
-        : data_(windows.data), width_(windows.width()), height_(windows.height()),
+        : data_(windows.data), grid_(windows.width(), windows.height()),
           shift_(-u.x, u.y * lens.pixel_aspect), depth_(z.size()) {
         std::transform(z.begin(), z.end(), depth_.begin(),
                        [&](float value) { return perceptive_depth(lens, double(value)); });
@@ -23,15 +23,16 @@ public:
     MovedDepth run() const {
         MovedDepth moved{PixelMask(data_), PixelMask(data_),
                          std::vector<float>(depth_.size(), MovedDepth::nothing)};
-        for (int row = 0; row < height_; ++row)
-            for (int column = 0; column < width_; ++column)
+        for (int row = 0; row < grid_.height(); ++row)
+            for (int column = 0; column < grid_.width(); ++column)
                 if (std::isfinite(depth(column, row))) move(column, row, moved);
-        for (int row = 0; row < height_; ++row)
-            open_edge({shift_.x < 0 ? width_ - 1 : 0, row}, {shift_.x < 0 ? -1 : 1, 0},
-                      std::abs(shift_.x) * nearest_along(shift_.x < 0 ? width_ - 1 : 0, row, 0, 1), moved);
-        for (int column = 0; column < width_; ++column)
-            open_edge({column, shift_.y < 0 ? height_ - 1 : 0}, {0, shift_.y < 0 ? -1 : 1},
-                      std::abs(shift_.y) * nearest_along(column, shift_.y < 0 ? height_ - 1 : 0, 1, 0),
+        for (int row = 0; row < grid_.height(); ++row)
+            open_edge({shift_.x < 0 ? grid_.width() - 1 : 0, row}, {shift_.x < 0 ? -1 : 1, 0},
+                      std::abs(shift_.x) * nearest_along(shift_.x < 0 ? grid_.width() - 1 : 0, row, 0, 1),
+                      moved);
+        for (int column = 0; column < grid_.width(); ++column)
+            open_edge({column, shift_.y < 0 ? grid_.height() - 1 : 0}, {0, shift_.y < 0 ? -1 : 1},
+                      std::abs(shift_.y) * nearest_along(column, shift_.y < 0 ? grid_.height() - 1 : 0, 1, 0),
                       moved);
         return moved;
     }
@@ -50,20 +51,16 @@ private:
 
     void open_edge(Imath::V2i at, const Imath::V2i &inwards, double pixels, MovedDepth &moved) const {
         for (int i = 0; i < int(std::min(std::ceil(pixels), 1e9)) && in_frame(at.x, at.y); ++i, at += inwards)
-            moved.edge.set[std::size_t(at.y) * std::size_t(width_) + std::size_t(at.x)] = 1;
+            moved.edge.set[grid_.index(at.x, at.y)] = 1;
     }
 
-    double depth(int column, int row) const {
-        return depth_[std::size_t(row) * std::size_t(width_) + std::size_t(column)];
-    }
-    bool in_frame(int column, int row) const {
-        return column >= 0 && row >= 0 && column < width_ && row < height_;
-    }
+    double depth(int column, int row) const { return depth_[grid_.index(column, row)]; }
+    bool in_frame(int column, int row) const { return grid_.contains(column, row); }
 
     // How far the pixel reaches towards its neighbour (dx, dy), along that axis, from its own moved centre: halfway to
     // the neighbour's if they are one surface; without end over the frame's edge.
     double reach(int column, int row, int dx, int dy) const {
-        if (!in_frame(column + dx, row + dy)) return width_ + height_;
+        if (!in_frame(column + dx, row + dy)) return grid_.width() + grid_.height();
         const double step = depth(column + dx, row + dy) - depth(column, row);
         if (!(std::abs(step) <= one_surface)) return 0.5;
         return 0.5 * (1 + step * (dx != 0 ? dx * shift_.x : dy * shift_.y));
@@ -75,11 +72,11 @@ private:
         const Imath::Box2d box({first(x - reach(column, row, -1, 0)), first(y - reach(column, row, 0, -1))},
                                {first(x + reach(column, row, 1, 0)), first(y + reach(column, row, 0, 1))});
         const Imath::Box2d own({first(x - 1), first(y - 1)}, {first(x + 1), first(y + 1)});
-        const int x0 = int(std::max(box.min.x, 0.0)), x1 = int(std::min(box.max.x, double(width_)));
-        const int y0 = int(std::max(box.min.y, 0.0)), y1 = int(std::min(box.max.y, double(height_)));
+        const int x0 = int(std::max(box.min.x, 0.0)), x1 = int(std::min(box.max.x, double(grid_.width())));
+        const int y0 = int(std::max(box.min.y, 0.0)), y1 = int(std::min(box.max.y, double(grid_.height())));
         for (int to_y = y0; to_y < y1; ++to_y)
             for (int to_x = x0; to_x < x1; ++to_x) {
-                const std::size_t to = std::size_t(to_y) * std::size_t(width_) + std::size_t(to_x);
+                const std::size_t to = grid_.index(to_x, to_y);
                 moved.depth[to] = std::max(moved.depth[to], float(d));
                 const bool near =
                     to_x >= own.min.x && to_x < own.max.x && to_y >= own.min.y && to_y < own.max.y;
@@ -88,7 +85,7 @@ private:
     }
 
     Imath::Box2i data_;
-    int width_, height_;
+    Grid grid_;                 // of the window, from its corner
     Imath::V2d shift_;          // of perceptive depth 1, pixels, y down
     std::vector<double> depth_; // perceptive
 };
@@ -97,15 +94,15 @@ private:
 // the margins around it would cost more than it brings: on "grass" half as much again, for 0.5 dB.
 void close_cracks(PixelMask &mask) {
     const PixelMask before = mask;
-    const int width = mask.width(), height = mask.height();
+    const Grid grid(mask.width(), mask.height());
     const auto crack = [&](std::size_t i, std::size_t step) {
         return !before.set[i - step] && !before.set[i + step];
     };
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x) {
-            const std::size_t i = std::size_t(y) * std::size_t(width) + std::size_t(x);
-            const bool across = x > 0 && x < width - 1 && crack(i, 1);
-            const bool down = y > 0 && y < height - 1 && crack(i, std::size_t(width));
+    for (int y = 0; y < grid.height(); ++y)
+        for (int x = 0; x < grid.width(); ++x) {
+            const std::size_t i = grid.index(x, y);
+            const bool across = x > 0 && x < grid.width() - 1 && crack(i, 1);
+            const bool down = y > 0 && y < grid.height() - 1 && crack(i, std::size_t(grid.width()));
             if (across || down) mask.set[i] = 0;
         }
 }
@@ -147,12 +144,12 @@ PixelMask unseen_by_centre(const MovedDepth &moved) {
 
 PixelMask grown(const PixelMask &mask, int margin) {
     PixelMask rows(mask.data), both(mask.data);
-    const std::size_t width = std::size_t(mask.width());
-    for (int y = 0; y < mask.height(); ++y)
-        grow_line(&mask.set[std::size_t(y) * width], &rows.set[std::size_t(y) * width], mask.width(), 1,
-                  margin);
-    for (int x = 0; x < mask.width(); ++x)
-        grow_line(&rows.set[std::size_t(x)], &both.set[std::size_t(x)], mask.height(), width, margin);
+    const Grid grid(mask.width(), mask.height());
+    for (int y = 0; y < grid.height(); ++y)
+        grow_line(&mask.set[grid.index(0, y)], &rows.set[grid.index(0, y)], grid.width(), 1, margin);
+    for (int x = 0; x < grid.width(); ++x)
+        grow_line(&rows.set[grid.index(x, 0)], &both.set[grid.index(x, 0)], grid.height(),
+                  std::size_t(grid.width()), margin);
     return both;
 }
 

@@ -20,13 +20,11 @@ struct PixelMask {
     std::vector<std::uint8_t> set; // 0 or 1, row by row
 
     PixelMask() = default;
-    explicit PixelMask(const Imath::Box2i &window)
-        : data(window), set(std::size_t(width()) * std::size_t(height())) {}
-    int width() const { return data.max.x - data.min.x + 1; }
-    int height() const { return data.max.y - data.min.y + 1; }
-    std::size_t index(int x, int y) const {
-        return std::size_t(y - data.min.y) * std::size_t(width()) + std::size_t(x - data.min.x);
-    }
+    explicit PixelMask(const Imath::Box2i &window) : data(window), set(grid().size()) {}
+    Grid grid() const { return Grid(data); }
+    int width() const { return grid().width(); }
+    int height() const { return grid().height(); }
+    std::size_t index(int x, int y) const { return grid().index(x, y); }
     bool at(int x, int y) const { return set[index(x, y)] != 0; }
     std::size_t count() const;
 };

@@ -30,14 +30,14 @@ std::vector<double> brightness(const Image &image) {
 
 // Variance of the noise in the block at (x, y), which lies inside the picture's border; 0 where it is not noise that
 // shows.
-double block_variance(const std::vector<double> &picture, int width, int x, int y) {
+double block_variance(const std::vector<double> &picture, const Grid &grid, int x, int y) {
+    const Grid block(block_size, block_size);
     std::array<double, block_size * block_size> residual;
-    for (int row = 0; row < block_size; ++row)
-        for (int column = 0; column < block_size; ++column) {
-            const double *p = &picture[std::size_t(y + row) * std::size_t(width) + std::size_t(x + column)];
-            residual[std::size_t(row * block_size + column)] =
-                std::abs(*p - (p[-1] + p[1] + p[-width] + p[width]) / 4);
-        }
+    for (std::size_t i = 0; i < residual.size(); ++i) {
+        const Imath::V2i at = block.pixel(i) + Imath::V2i(x, y);
+        const double *p = &picture[grid.index(at.x, at.y)];
+        residual[i] = std::abs(*p - (p[-1] + p[1] + p[-grid.width()] + p[grid.width()]) / 4);
+    }
     std::ranges::sort(residual);
     constexpr double spread = 1.25;                  // variance of a value less the mean of four others
     const auto quantile = [&](std::size_t quarter) { // between two values
@@ -52,18 +52,15 @@ double block_variance(const std::vector<double> &picture, int width, int x, int 
 
 double noise_in_lens_picture(const Image &image, std::span<const float> z, const ThinLens &lens,
                              std::optional<double> deviation) {
-    const int width = image.windows.width(), height = image.windows.height();
+    const Grid grid(image.windows.width(), image.windows.height());
     const std::vector<double> picture = deviation ? std::vector<double>{} : brightness(image);
     double sum = 0;
     int blocks = 0;
-    for (int y = 1; y + block_size < height; y += block_size)
-        for (int x = 1; x + block_size < width; x += block_size) {
-            const int middle_x = x + block_size / 2, middle_y = y + block_size / 2;
-            const double depth =
-                double(z[std::size_t(middle_y) * std::size_t(width) + std::size_t(middle_x)]);
+    for (int y = 1; y + block_size < grid.height(); y += block_size)
+        for (int x = 1; x + block_size < grid.width(); x += block_size) {
+            const double depth = double(z[grid.index(x + block_size / 2, y + block_size / 2)]);
             const double coc = circle_of_confusion(lens, depth);
-            const double variance =
-                deviation ? *deviation * *deviation : block_variance(picture, width, x, y);
+            const double variance = deviation ? *deviation * *deviation : block_variance(picture, grid, x, y);
             sum += variance / std::max(1.0, std::numbers::pi * coc * coc);
             ++blocks;
         }

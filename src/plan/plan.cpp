@@ -37,22 +37,22 @@ struct Candidate {
 std::vector<std::uint32_t> uncovered_places(const MovedDepth &moved, const PixelMask &hidden,
                                             const Imath::V2d &u, double pixel_aspect) {
     const Imath::V2d step(u.x, -u.y * pixel_aspect);
-    const double longest = 2.0 * std::max(hidden.width(), hidden.height());
+    const Grid grid(hidden.width(), hidden.height());
+    const double longest = 2.0 * std::max(grid.width(), grid.height());
     std::vector<std::uint32_t> places;
-    for (int y = 0; y < hidden.height(); ++y)
-        for (int x = 0; x < hidden.width(); ++x) {
-            if (!hidden.set[std::size_t(y) * std::size_t(hidden.width()) + std::size_t(x)]) continue;
+    for (int y = 0; y < grid.height(); ++y)
+        for (int x = 0; x < grid.width(); ++x) {
+            if (!hidden.set[grid.index(x, y)]) continue;
             float behind = MovedDepth::nothing;
             for (double t = 1; behind == MovedDepth::nothing && t < longest; ++t) {
                 const int at_x = int(std::lround(x + t * step.x)), at_y = int(std::lround(y + t * step.y));
-                if (at_x < 0 || at_y < 0 || at_x >= hidden.width() || at_y >= hidden.height()) break;
-                behind = moved.depth[std::size_t(at_y) * std::size_t(hidden.width()) + std::size_t(at_x)];
+                if (!grid.contains(at_x, at_y)) break;
+                behind = moved.depth[grid.index(at_x, at_y)];
             }
             const double depth = double(std::max(behind, 0.0f));
             const double place_x = std::round(x + depth * step.x), place_y = std::round(y + depth * step.y);
-            if (place_x < 0 || place_y < 0 || place_x >= hidden.width() || place_y >= hidden.height())
-                continue;
-            places.push_back(std::uint32_t(place_y) * std::uint32_t(hidden.width()) + std::uint32_t(place_x));
+            if (place_x < 0 || place_y < 0 || place_x >= grid.width() || place_y >= grid.height()) continue;
+            places.push_back(std::uint32_t(grid.index(int(place_x), int(place_y))));
         }
     std::ranges::sort(places);
     places.erase(std::unique(places.begin(), places.end()), places.end());
@@ -177,7 +177,7 @@ Plan make_plan(const View &centre, const ThinLens &lens, const PlanOptions &opti
     plan.noise = noise_in_lens_picture(centre.image, centre.z, lens, options.noise);
     plan.full_views = plan.noise > noise_that_pays;
 
-    const int around = options.views * ((least_candidates + options.views - 1) / options.views);
+    const int around = options.views * pieces_of(least_candidates, options.views);
     const std::vector<Imath::V2d> points = rim_lens_points(around);
     std::vector<Candidate> candidates(points.size());
     progress.start("looking from the rim", points.size());

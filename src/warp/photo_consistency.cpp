@@ -8,7 +8,7 @@ namespace sparselens {
 
 namespace {
 
-constexpr std::size_t block_size = 8;     // pixels
+constexpr int block_size = 8;             // pixels
 constexpr double least_ratio = 3;         // noise alone gives up to 1.6, edges of texture up to 2
 constexpr double least_difference = 1e-5; // mean square, tone-mapped: less is not seen
 constexpr double focus_px = 2;            // CoC up to which a surface counts as in focus
@@ -29,7 +29,7 @@ double tone_mapped(float v) { return double(v) / (1 + std::abs(double(v))); }
 
 class CentreColours {
 public:
-    explicit CentreColours(const Ldi &centre) : centre_(centre), width_(std::size_t(centre.windows.width())) {
+    explicit CentreColours(const Ldi &centre) : centre_(centre), grid_(centre.windows.grid()) {
         for (const char *name : {"R", "G", "B"}) {
             const std::size_t channel = find_channel(centre.channels, name);
             if (channel != npos) channels_.push_back(channel);
@@ -41,10 +41,10 @@ public:
     bool plain(int x, int y) const {
         const Imath::Box2i &data = centre_.windows.data;
         if (x <= data.min.x || x >= data.max.x || y <= data.min.y || y >= data.max.y) return false;
-        return single(index(x, y)) &&
+        return single(grid_.index(x, y)) &&
                std::ranges::all_of(around(x, y), [&](std::size_t i) { return single(i); });
     }
-    double value(int x, int y, std::size_t channel) const { return value_at(index(x, y), channel); }
+    double value(int x, int y, std::size_t channel) const { return value_at(grid_.index(x, y), channel); }
     double mean_around(int x, int y, std::size_t channel) const {
         double sum = 0;
         for (const std::size_t i : around(x, y)) sum += value_at(i, channel);
@@ -52,13 +52,8 @@ public:
     }
 
 private:
-    std::size_t index(int x, int y) const {
-        const Imath::V2i &first = centre_.windows.data.min;
-        return std::size_t(y - first.y) * width_ + std::size_t(x - first.x);
-    }
     std::array<std::size_t, 4> around(int x, int y) const {
-        const std::size_t i = index(x, y);
-        return {i - 1, i + 1, i - width_, i + width_};
+        return {grid_.index(x - 1, y), grid_.index(x + 1, y), grid_.index(x, y - 1), grid_.index(x, y + 1)};
     }
     bool single(std::size_t i) const { return centre_.begin[i + 1] == centre_.begin[i] + 1; }
     double value_at(std::size_t i, std::size_t channel) const {
@@ -66,7 +61,7 @@ private:
     }
 
     const Ldi &centre_;
-    std::size_t width_;
+    Grid grid_;
     std::vector<std::size_t> channels_;
 };
 
@@ -101,13 +96,12 @@ void compare(const ReprojectedViews &views, const CentreColours &centre,
 std::vector<bool> find_photo_consistency(const ReprojectedViews &views,
                                          const PhotoConsistencyOptions &options, const Imath::Box2i &data,
                                          const Surfaces &surfaces) {
-    const std::size_t width = std::size_t(data.max.x - data.min.x + 1);
-    const std::size_t blocks_across = (width + block_size - 1) / block_size;
-    const auto block_of = [&](std::size_t pixel) {
-        return pixel / width / block_size * blocks_across + pixel % width / block_size;
-    };
+    const int width = Grid(data).width();
+    const Grid grid(width, int(surfaces.pixels() / std::size_t(width)));
+    const Tiles tiles(grid.box(), block_size);
+    const auto block_of = [&](std::size_t pixel) { return tiles.tile_of(grid.pixel(pixel)); };
     const CentreColours centre(views.samples(0));
-    std::vector<Block> blocks(block_of(surfaces.pixels() - 1) + blocks_across);
+    std::vector<Block> blocks(tiles.count());
     for (std::size_t pixel = 0; pixel < surfaces.pixels(); ++pixel)
         for (const Surface &surface : surfaces.pixel(pixel))
             if (surface.seen_by_centre() && surface.samples.back().view != 0 &&

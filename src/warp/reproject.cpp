@@ -10,14 +10,15 @@ namespace sparselens {
 
 Reprojection::Reprojection(const Ldi &view, const ViewMapping &mapping)
     : view_(view), mapping_(mapping), reach_(std::size_t(view.windows.height())) {
-    const std::size_t width = std::size_t(view.windows.width());
     const Imath::Box2i &data = view.windows.data;
     parallel_for(reach_.size(), [&](std::size_t row) {
         double nearest = std::numeric_limits<double>::infinity();
-        for (std::uint64_t i = view_.begin[row * width]; i < view_.begin[(row + 1) * width]; ++i)
-            nearest = std::min(nearest, double(view_.z[i]));
+        const int row_y = data.min.y + int(row);
+        const std::uint64_t first = view_.begin[view_.windows.index(data.min.x, row_y)];
+        const std::uint64_t end = view_.begin[view_.windows.index(data.max.x, row_y) + 1];
+        for (std::uint64_t i = first; i < end; ++i) nearest = std::min(nearest, double(view_.z[i]));
         // Places are linear in the column and in 1 / z: the extremes lie at the ends of both.
-        const double y = double(data.min.y) + double(row) + 0.5;
+        const double y = row_y + 0.5;
         for (const double x : {data.min.x + 0.5, data.max.x + 0.5})
             for (const double inverse_z : {0.0, 1 / nearest})
                 reach_[row].extendBy(mapping_.at_infinity({x, y}) + mapping_.parallax({x, y}) * inverse_z);
@@ -34,14 +35,14 @@ Imath::Box2i Reprojection::reach() const {
 
 void Reprojection::append_rows(int first_row, int last_row, std::vector<ReprojectedSample> &out) const {
     const Imath::Box2i &data = view_.windows.data;
-    const std::size_t width = std::size_t(view_.windows.width());
+    const Grid grid = view_.windows.grid();
     for (std::size_t row = 0; row < reach_.size(); ++row) {
         if (reach_[row].max.y < first_row || reach_[row].min.y >= last_row + 1) continue;
-        for (std::size_t column = 0; column < width; ++column) {
-            const std::size_t pixel = row * width + column;
+        const int from_y = data.min.y + int(row);
+        for (int from_x = data.min.x; from_x <= data.max.x; ++from_x) {
+            const std::size_t pixel = grid.index(from_x, from_y);
             if (view_.begin[pixel] == view_.begin[pixel + 1]) continue;
-            const Imath::V2d q(double(data.min.x) + double(column) + 0.5,
-                               double(data.min.y) + double(row) + 0.5);
+            const Imath::V2d q(from_x + 0.5, from_y + 0.5);
             const Imath::V2d far = mapping_.at_infinity(q), parallax = mapping_.parallax(q);
             for (std::uint64_t i = view_.begin[pixel]; i < view_.begin[pixel + 1]; ++i) {
                 const double inverse_z = 1 / double(view_.z[i]);

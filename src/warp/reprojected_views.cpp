@@ -65,12 +65,10 @@ ReprojectedViews::ReprojectedViews(std::span<const View> views, double focal_px,
 }
 
 ReprojectedRows ReprojectedViews::place(const Imath::Box2i &data, int first_row, int last_row) const {
-    const std::size_t width = std::size_t(data.max.x - data.min.x + 1);
-    const auto pixel_of = [&](const ReprojectedSample &s) {
-        return std::size_t(s.y - first_row) * width + std::size_t(s.x - data.min.x);
-    };
+    const Grid grid(Imath::Box2i({data.min.x, first_row}, {data.max.x, last_row}));
+    const auto pixel_of = [&](const ReprojectedSample &s) { return grid.index(s.x, s.y); };
     ReprojectedRows rows{first_row, {}, {}};
-    rows.begin.assign(width * std::size_t(last_row - first_row + 1) + 1, 0);
+    rows.begin.assign(grid.size() + 1, 0);
     std::vector<std::vector<ReprojectedSample>> landed(size());
     for (std::size_t v = 0; v < size(); ++v) {
         reprojection(v).append_rows(first_row, last_row, landed[v]);

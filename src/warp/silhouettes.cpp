@@ -53,9 +53,6 @@ private:
     template <typename Visit>
     void around(int x, int y, int reach, const Visit &visit) const;
 
-    std::size_t pixel_of(int x, int y) const {
-        return std::size_t(y) * std::size_t(view_.windows.width()) + std::size_t(x);
-    }
     bool is_empty(std::size_t pixel) const { return view_.begin[pixel] == view_.begin[pixel + 1]; }
     double depth_of(std::uint64_t i) const { return depths_[i]; }
     bool is_opaque(std::uint64_t i) const { return alpha_at(view_, alpha_, i) >= 1; }
@@ -70,6 +67,7 @@ private:
     }
 
     const Ldi &view_;
+    Grid grid_; // of its window, from its corner
     double scale_, jump_;
     std::size_t alpha_;
     std::array<std::size_t, 3> rgb_;
@@ -79,7 +77,8 @@ private:
 };
 
 Separation::Separation(const Ldi &view, double scale, double jump)
-    : view_(view), scale_(scale), jump_(jump), alpha_(view.alpha()), rgb_(), usable_(true) {
+    : view_(view), grid_(view.windows.width(), view.windows.height()), scale_(scale), jump_(jump),
+      alpha_(view.alpha()), rgb_(), usable_(true) {
     for (std::size_t k = 0; k < 3; ++k) {
         rgb_[k] = find_channel(view.channels, std::array{"R", "G", "B"}[k]);
         usable_ = usable_ && rgb_[k] != npos;
@@ -88,15 +87,15 @@ Separation::Separation(const Ldi &view, double scale, double jump)
     std::ranges::transform(view.z, depths_.begin(), [scale](float z) { return scale / double(z); });
     sides_.assign(view.samples(), inside);
     if (!usable_ || alpha_ == npos) return;
-    parallel_for(std::size_t(view.windows.height()), [&](std::size_t y) {
-        for (int x = 0; x < view_.windows.width(); ++x)
-            if (const std::size_t pixel = pixel_of(x, int(y)); !is_empty(pixel))
+    parallel_for(std::size_t(grid_.height()), [&](std::size_t y) {
+        for (int x = 0; x < grid_.width(); ++x)
+            if (const std::size_t pixel = grid_.index(x, int(y)); !is_empty(pixel))
                 sides_[view_.begin[pixel]] = side_of(x, int(y));
     });
 }
 
 unsigned char Separation::side_of(int x, int y) const {
-    const double own = depth_of(view_.begin[pixel_of(x, y)]);
+    const double own = depth_of(view_.begin[grid_.index(x, y)]);
     unsigned char side = inside;
     around(x, y, 1, [&](std::uint64_t i, int, int) {
         if (depth_of(i) > own + jump_) side |= has_nearer;
@@ -107,10 +106,9 @@ unsigned char Separation::side_of(int x, int y) const {
 
 template <typename Visit>
 void Separation::around(int x, int y, int reach, const Visit &visit) const {
-    const int width = view_.windows.width(), height = view_.windows.height();
-    for (int v = std::max(y - reach, 0); v <= std::min(y + reach, height - 1); ++v)
-        for (int u = std::max(x - reach, 0); u <= std::min(x + reach, width - 1); ++u) {
-            const std::size_t pixel = pixel_of(u, v);
+    for (int v = std::max(y - reach, 0); v <= std::min(y + reach, grid_.height() - 1); ++v)
+        for (int u = std::max(x - reach, 0); u <= std::min(x + reach, grid_.width() - 1); ++u) {
+            const std::size_t pixel = grid_.index(u, v);
             if (!is_empty(pixel)) visit(view_.begin[pixel], u - x, v - y);
         }
 }
@@ -145,7 +143,7 @@ std::optional<Estimate> Separation::estimate(int x, int y, double depth, double 
 }
 
 std::optional<Mixture> Separation::mixture_of(int x, int y) const {
-    const std::uint64_t own = view_.begin[pixel_of(x, y)];
+    const std::uint64_t own = view_.begin[grid_.index(x, y)];
     const bool own_is_far = sides_[own] & has_nearer;
     Mixture mixture{depth_of(own), depth_of(own), 0, {}};
     double nearest = 3; // of the farther pixels around; those at the edges before those at the corners
@@ -186,7 +184,7 @@ Rgb Separation::purest(int x, int y, double depth, const Rgb &front, const Rgb &
 // What lies behind may be smaller than what a mean looks at: a lamp, a stripe. Then it is the one of the farther
 // pixels around that the colour fits best.
 std::optional<Mixture> Separation::with_one_pixel(int x, int y, double near_depth, const Rgb &front) const {
-    const std::uint64_t own = view_.begin[pixel_of(x, y)];
+    const std::uint64_t own = view_.begin[grid_.index(x, y)];
     const bool own_is_far = sides_[own] & has_nearer;
     std::optional<Mixture> best;
     double least = std::numeric_limits<double>::infinity();
@@ -219,10 +217,10 @@ void Separation::emit_mixture(std::uint64_t i, const Mixture &mixture, Ldi &out)
 void Separation::emit_pixel(std::size_t pixel, Ldi &out) const {
     if (is_empty(pixel)) return;
     const std::uint64_t own = view_.begin[pixel];
-    const std::size_t width = std::size_t(view_.windows.width());
-    if (sides_[own] != inside && is_opaque(own))
-        if (const auto mixture = mixture_of(int(pixel % width), int(pixel / width)))
-            return emit_mixture(own, *mixture, out);
+    if (sides_[own] != inside && is_opaque(own)) {
+        const Imath::V2i at = grid_.pixel(pixel);
+        if (const auto mixture = mixture_of(at.x, at.y)) return emit_mixture(own, *mixture, out);
+    }
     append(out, view_, own);
 }
 

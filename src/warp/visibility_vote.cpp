@@ -43,10 +43,8 @@ double visibility_vote(const ReprojectedViews &views, const Imath::V2d &place, d
         const Imath::Box2i &data = view.windows.data;
         if (!(seen.x >= data.min.x && seen.x < data.max.x + 1.0)) continue;
         if (!(seen.y >= data.min.y && seen.y < data.max.y + 1.0)) continue;
-        const std::size_t row = std::size_t(std::floor(seen.y) - data.min.y);
-        const std::size_t column = std::size_t(std::floor(seen.x) - data.min.x);
-        count_votes(view, alpha, row * std::size_t(view.windows.width()) + column, inverse_z, tolerance,
-                    votes);
+        const std::size_t pixel = view.windows.index(int(std::floor(seen.x)), int(std::floor(seen.y)));
+        count_votes(view, alpha, pixel, inverse_z, tolerance, votes);
     }
     const double all = votes.there + votes.past;
     return all > 0 ? std::clamp(2 * votes.there / all - 0.5, 0.0, 1.0) : 1;

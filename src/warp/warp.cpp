@@ -127,13 +127,12 @@ Ldi Warper::warp_band(int first_row, int last_row) const {
 }
 
 Ldi Warper::run(Progress &progress) const {
-    const Imath::Box2i &data = layout_.windows.data;
-    const std::size_t bands = std::size_t(layout_.windows.height() + band_rows - 1) / band_rows;
-    std::vector<Ldi> pieces(bands);
-    progress.start("warping", bands);
-    parallel_for(bands, [&](std::size_t band) {
-        const int first_row = data.min.y + int(band) * band_rows;
-        pieces[band] = warp_band(first_row, std::min(first_row + band_rows - 1, data.max.y));
+    const Tiles bands(layout_.windows.data, layout_.windows.width(), band_rows);
+    std::vector<Ldi> pieces(bands.count());
+    progress.start("warping", bands.count());
+    parallel_for(bands.count(), [&](std::size_t band) {
+        const Imath::Box2i rows = bands.box(band);
+        pieces[band] = warp_band(rows.min.y, rows.max.y);
         progress.advance();
     });
     return concatenate(layout_, pieces);

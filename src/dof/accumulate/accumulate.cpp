@@ -197,9 +197,8 @@ std::size_t fill_nonfinite(Image &image, const std::vector<Channel> &channels) {
         const std::span<const float> plane = image.plane(k);
         for (std::size_t i = 0; i < plane.size(); ++i) {
             if (std::isfinite(plane[i])) continue;
-            const int x = w.data.min.x + int(i % std::size_t(w.width()));
-            const int y = w.data.min.y + int(i / std::size_t(w.width()));
-            repairs.emplace_back(k * w.pixels() + i, mean_of_neighbours(image, k, x, y));
+            const Imath::V2i at = w.pixel(i);
+            repairs.emplace_back(k * w.pixels() + i, mean_of_neighbours(image, k, at.x, at.y));
         }
     }
     for (const auto &[index, value] : repairs) image.values[index] = value;

@@ -40,8 +40,8 @@ Imath::Box2i footprint(const Splat &splat, double pixel_aspect, const Imath::Box
 // For each pixel of the box, in rows, what falls into it.
 std::vector<std::vector<Fragment>> fragments_in(const Imath::Box2i &box, const std::vector<Splat> &splats,
                                                 double pixel_aspect) {
-    const std::size_t width = std::size_t(box.size().x) + 1;
-    std::vector<std::vector<Fragment>> fragments(width * std::size_t(box.max.y - box.min.y + 1));
+    const Grid grid(box);
+    std::vector<std::vector<Fragment>> fragments(grid.size());
     for (std::size_t i = 0; i < splats.size(); ++i) {
         const Psf psf{splats[i].position, std::abs(splats[i].coc), pixel_aspect};
         const Imath::Box2i touched = footprint(splats[i], pixel_aspect, box);
@@ -49,8 +49,7 @@ std::vector<std::vector<Fragment>> fragments_in(const Imath::Box2i &box, const s
             for (int x = touched.min.x; x <= touched.max.x; ++x) {
                 const double weight = psf_weight(psf, x, y);
                 if (weight == 0) continue;
-                const std::size_t pixel = std::size_t(y - box.min.y) * width + std::size_t(x - box.min.x);
-                fragments[pixel].push_back({splats[i].bin, weight, i});
+                fragments[grid.index(x, y)].push_back({splats[i].bin, weight, i});
             }
     }
     return fragments;
@@ -135,17 +134,13 @@ Image scatter(const Ldi &ldi, const ThinLens &lens, const ScatterOptions &option
     constexpr double in_flight = 64;
     const double pixels = double(options.fragments) / in_flight /
                           std::max(1.0, fragments_per_pixel(splats, data, lens.pixel_aspect));
-    const int width = ldi.windows.width(), height = ldi.windows.height();
+    const int width = ldi.windows.width();
     const int part_width = int(std::clamp(pixels, 1.0, double(width)));
     const int part_height = int(std::clamp(pixels / width, 1.0, 32.0));
-    const int across = (width + part_width - 1) / part_width, down = (height + part_height - 1) / part_height;
-    progress.start("scatter", std::size_t(across) * std::size_t(down));
-    parallel_for(std::size_t(across) * std::size_t(down), [&](std::size_t part) {
-        const Imath::V2i corner(data.min.x + int(part) % across * part_width,
-                                data.min.y + int(part) / across * part_height);
-        const Imath::Box2i box(corner, {std::min(corner.x + part_width - 1, data.max.x),
-                                        std::min(corner.y + part_height - 1, data.max.y)});
-        scatter_into(image, box, splats, source);
+    const Tiles parts(data, part_width, part_height);
+    progress.start("scatter", parts.count());
+    parallel_for(parts.count(), [&](std::size_t part) {
+        scatter_into(image, parts.box(part), splats, source);
         progress.advance();
     });
     return image;

@@ -19,10 +19,6 @@ constexpr int tile_size = 32; // pixels
 static_assert(tile_size <= PsfRows::max_size);
 constexpr std::size_t tile_pixels = std::size_t(tile_size) * tile_size;
 
-std::size_t index_in(const Imath::Box2i &tile, int x, int y) {
-    return std::size_t(y - tile.min.y) * tile_size + std::size_t(x - tile.min.x);
-}
-
 Imath::Box2d area_of(const Imath::Box2i &tile) {
     return {Imath::V2d(tile.min), Imath::V2d(tile.max) + Imath::V2d(1, 1)};
 }
@@ -44,7 +40,7 @@ public:
     // `blocks` are the indices of those that may reach the tile, front to back.
     void gather(const Imath::Box2i &tile, std::span<const std::size_t> blocks);
     double blend(int x, int y, std::span<double> colours) const {
-        return layers_.blend(index_in(tile_, x, y), colours);
+        return layers_.blend(pixels_.index(x, y), colours);
     }
 
 private:
@@ -56,6 +52,7 @@ private:
     Imath::Box2i data_;
     double pixel_aspect_;
     Imath::Box2i tile_;
+    Grid pixels_; // of the sums: tile_size wide and high, also where the tile is smaller
     int bin_ = 0;
     Imath::Box2i touched_;        // pixels of the tile that have sums
     std::vector<double> sums_;    // [sum][tile_size][tile_size]
@@ -65,6 +62,7 @@ private:
 
 void TileGather::gather(const Imath::Box2i &tile, std::span<const std::size_t> blocks) {
     tile_ = tile;
+    pixels_ = Grid({tile.min, tile.min + Imath::V2i(tile_size - 1)});
     layers_.clear();
     touched_.makeEmpty();
     const Imath::Box2d area = area_of(tile);
@@ -102,7 +100,7 @@ void TileGather::add_splat(std::size_t splat) {
         touched_.extendBy(Imath::Box2i({begin, row}, {end - 1, row}));
         const double *weight = weights.data() + (begin - tile_.min.x);
         for (std::size_t k = 0; k < value.size(); ++k) {
-            double *sum = &sums_[k * tile_pixels + index_in(tile_, begin, row)];
+            double *sum = &sums_[k * tile_pixels + pixels_.index(begin, row)];
             for (int i = 0; i < end - begin; ++i) sum[i] += weight[i] * double(value[k]);
         }
     }
@@ -112,13 +110,13 @@ void TileGather::finish_bin() {
     const std::size_t size = grid_.size();
     for (int y = touched_.min.y; y <= touched_.max.y; ++y)
         for (int x = touched_.min.x; x <= touched_.max.x; ++x) {
-            double *sums = &sums_[index_in(tile_, x, y)];
+            double *sums = &sums_[pixels_.index(x, y)];
             for (std::size_t k = 0; k < size; ++k) sums[k * tile_pixels] += uniform_[k];
             const double known = sums[tile_pixels];
             if (known > least_known) {
                 const double radius = sums[(size - 1) * tile_pixels] / known;
                 const double scale = 1 / window_share(data_, pixel_aspect_, x, y, radius);
-                layers_.add(index_in(tile_, x, y), bin_, sums, tile_pixels, scale);
+                layers_.add(pixels_.index(x, y), bin_, sums, tile_pixels, scale);
             }
             for (std::size_t k = 0; k < size; ++k) sums[k * tile_pixels] = 0;
         }
@@ -153,16 +151,15 @@ Image selective_gather(const Ldi &ldi, const ThinLens &lens, const SelectiveOpti
     const Imath::Box2i &data = ldi.windows.data;
     // No pixel has more layers than there are bins, and memory is set aside for as many as it may have.
     const std::size_t layers = std::clamp(grid.bins, std::size_t(1), std::size_t(options.layers));
-    const auto tiles_in = [](int length) { return std::size_t((length + tile_size - 1) / tile_size); };
+    const Tiles tiles(data, tile_size);
     tbb::enumerable_thread_specific<TileGather> workers(
         [&] { return TileGather(grid, layers, data, lens.pixel_aspect); });
-    progress.start("selective gather", tiles_in(ldi.windows.height()) * tiles_in(ldi.windows.width()));
-    parallel_for(tiles_in(ldi.windows.height()), [&](std::size_t row) {
-        const int top = data.min.y + int(row) * tile_size, bottom = std::min(top + tile_size - 1, data.max.y);
-        const std::vector<std::size_t> blocks = blocks_reaching_rows(grid, top, bottom);
-        parallel_for(tiles_in(ldi.windows.width()), [&](std::size_t column) {
-            const int left = data.min.x + int(column) * tile_size;
-            const Imath::Box2i tile({left, top}, {std::min(left + tile_size - 1, data.max.x), bottom});
+    progress.start("selective gather", tiles.count());
+    parallel_for(std::size_t(tiles.rows()), [&](std::size_t row) {
+        const Imath::Box2i leftmost = tiles.box(0, int(row));
+        const std::vector<std::size_t> blocks = blocks_reaching_rows(grid, leftmost.min.y, leftmost.max.y);
+        parallel_for(std::size_t(tiles.columns()), [&](std::size_t column) {
+            const Imath::Box2i tile = tiles.box(int(column), int(row));
             TileGather &worker = workers.local();
             worker.gather(tile, blocks);
             write_tile(image, source, tile, worker);

@@ -12,31 +12,18 @@ namespace {
 
 constexpr int square_size = 16; // pixels
 
-struct Squares {
-    int width, height, across;
-
-    explicit Squares(const Windows &windows)
-        : width(windows.width()), height(windows.height()), across((width + square_size - 1) / square_size) {}
-
-    std::size_t count() const {
-        return std::size_t(across) * std::size_t((height + square_size - 1) / square_size);
-    }
-
-    template <typename Visit>
-    void for_each_pixel(std::size_t square, const Visit &visit) const {
-        const int left = int(square) % across * square_size, top = int(square) / across * square_size;
-        for (int y = top; y < std::min(top + square_size, height); ++y)
-            for (int x = left; x < std::min(left + square_size, width); ++x)
-                visit(std::size_t(y) * std::size_t(width) + std::size_t(x));
-    }
-};
+// visit(splat) for what the pixels of a square hold.
+template <typename Visit>
+void for_each_splat(const SplatSource &source, const Imath::Box2i &square, const Visit &visit) {
+    for (int y = square.min.y; y <= square.max.y; ++y)
+        for (int x = square.min.x; x <= square.max.x; ++x)
+            source.for_each(source.ldi().windows.index(x, y), visit);
+}
 
 // The splats of a square front to back; equal bins stay in pixel order.
-std::vector<Splat> splats_of_square(const SplatSource &source, const Squares &squares, std::size_t square) {
+std::vector<Splat> splats_of_square(const SplatSource &source, const Imath::Box2i &square) {
     std::vector<Splat> splats;
-    squares.for_each_pixel(square, [&](std::size_t pixel) {
-        source.for_each(pixel, [&](const Splat &splat) { splats.push_back(splat); });
-    });
+    for_each_splat(source, square, [&](const Splat &splat) { splats.push_back(splat); });
     std::stable_sort(splats.begin(), splats.end(),
                      [](const auto &a, const auto &b) { return a.bin < b.bin; });
     return splats;
@@ -95,12 +82,10 @@ void sum_blocks(SplatBlocks &grid, double pixel_aspect) {
 } // namespace
 
 SplatBlocks make_splat_blocks(const SplatSource &source) {
-    const Squares squares(source.ldi().windows);
+    const Tiles squares(source.ldi().windows.data, square_size);
     std::vector<std::size_t> first(squares.count() + 1, 0);
     parallel_for(squares.count(), [&](std::size_t square) {
-        squares.for_each_pixel(square, [&](std::size_t pixel) {
-            source.for_each(pixel, [&](const Splat &) { ++first[square + 1]; });
-        });
+        for_each_splat(source, squares.box(square), [&](const Splat &) { ++first[square + 1]; });
     });
     for (std::size_t i = 1; i < first.size(); ++i) first[i] += first[i - 1];
 
@@ -110,7 +95,8 @@ SplatBlocks make_splat_blocks(const SplatSource &source) {
     grid.values.resize(first.back() * grid.size());
     std::vector<std::vector<SplatBlock>> blocks(squares.count());
     parallel_for(squares.count(), [&](std::size_t square) {
-        blocks[square] = store_square(grid, first[square], splats_of_square(source, squares, square), source);
+        blocks[square] =
+            store_square(grid, first[square], splats_of_square(source, squares.box(square)), source);
     });
     for (const auto &of_square : blocks)
         grid.blocks.insert(grid.blocks.end(), of_square.begin(), of_square.end());

@@ -4,15 +4,15 @@
 
 namespace sparselens {
 
-SplatSource::SplatSource(const Ldi &ldi, const ThinLens &lens) : ldi_(ldi), lens_(lens), alpha_(ldi.alpha()) {
+SplatSource::SplatSource(const Ldi &ldi, const ThinLens &lens)
+    : ldi_(ldi), grid_(ldi.windows.grid()), lens_(lens), alpha_(ldi.alpha()) {
     if (alpha() != npos) alphas_ = ldi.values[alpha()].data();
     for (std::size_t i = 0; i < ldi.channels.size(); ++i)
         if (i != alpha() && ldi.channels[i].type != PixelType::uint32) colours_.push_back(i);
 }
 
 Imath::V2d SplatSource::position(std::size_t pixel, std::size_t sample) const {
-    const std::size_t width = std::size_t(ldi_.windows.width());
-    const Imath::V2i corner = ldi_.windows.data.min + Imath::V2i(int(pixel % width), int(pixel / width));
+    const Imath::V2i corner = grid_.pixel(pixel);
     // An offset of exactly 1/2 would put a sharp sample into the next pixel.
     constexpr double limit = 0.5 - 0x1p-20;
     const auto offset = [&](const std::vector<float> &offsets) {

@@ -52,6 +52,7 @@ private:
     Imath::V2d position(std::size_t pixel, std::size_t sample) const;
 
     const Ldi &ldi_;
+    Grid grid_;
     ThinLens lens_;
     std::size_t alpha_;
     const float *alphas_ = nullptr;

@@ -28,8 +28,7 @@ std::vector<Placed> place(const Ldi &ldi, const ThinLens &lens) {
     const std::size_t alpha = ldi.alpha();
     constexpr long double infinity = std::numeric_limits<long double>::infinity();
     for (std::size_t pixel = 0; pixel < w.pixels(); ++pixel) {
-        const long double x = (long double)(w.data.min.x + int(pixel) % w.width()) + 0.5L;
-        const long double y = (long double)(w.data.min.y + int(pixel) / w.width()) + 0.5L;
+        const long double x = (long double)w.pixel(pixel).x + 0.5L, y = (long double)w.pixel(pixel).y + 0.5L;
         long double passed = 1;
         for (std::uint64_t i = ldi.begin[pixel]; i < ldi.begin[pixel + 1]; ++i) {
             const long double a = alpha == npos ? 1.0L : (long double)ldi.values[alpha][i], z = ldi.z[i];
@@ -69,8 +68,7 @@ LongPicture long_lens_picture(const Ldi &ldi, const ThinLens &lens, std::span<co
     LongPicture picture{std::vector<long double>(channels * pixels), std::vector<bool>(pixels, true)};
     std::vector<char> sure(pixels, 1); // of its own: bits of a vector<bool> cannot be written by two threads
     parallel_for(pixels, [&](std::size_t pixel) {
-        const long double x = (long double)(w.data.min.x + int(pixel) % w.width()) + 0.5L;
-        const long double y = (long double)(w.data.min.y + int(pixel) / w.width()) + 0.5L;
+        const long double x = (long double)w.pixel(pixel).x + 0.5L, y = (long double)w.pixel(pixel).y + 0.5L;
         std::vector<long double> sum(channels);
         long double weight = 0;
         for (const LensSample &point : points) {

@@ -21,11 +21,6 @@ Ldi empty_ldi(const RenderSettings &settings) {
     return ldi;
 }
 
-Imath::V2i pixel_position(const Windows &windows, std::size_t pixel) {
-    const std::size_t width = std::size_t(windows.width());
-    return windows.data.min + Imath::V2i(int(pixel % width), int(pixel / width));
-}
-
 // Premultiplied colour and alpha as the last sample of the last pixel.
 void append(Ldi &ldi, bool volumes, double z, double z_back, const Imath::V4d &rgba) {
     ldi.z.push_back(float(z));
@@ -80,7 +75,7 @@ Ldi build(const Tracer &tracer, const RenderSettings &settings, int samples, std
     const PixelSamples points(samples, true, seeded(settings, stream));
     progress.start(stage, settings.windows.pixels());
     return build_by_pixels(like, [&](std::size_t pixel, Ldi &out) {
-        fill(PixelRays(tracer, settings, points, pixel_position(settings.windows, pixel)), out);
+        fill(PixelRays(tracer, settings, points, settings.windows.pixel(pixel)), out);
         append_slabs(out, tracer.scene().slabs);
         progress.advance();
     });
@@ -146,7 +141,7 @@ void cut(const PixelRays &rays, std::size_t count, double nearest, bool volumes,
 double nearest_depth(const Tracer &tracer, const RenderSettings &settings) {
     double nearest = infinity;
     for (std::size_t pixel = 0; pixel < settings.windows.pixels(); ++pixel) {
-        const Imath::V2i p = pixel_position(settings.windows, pixel);
+        const Imath::V2i p = settings.windows.pixel(pixel);
         const Ray ray = view_ray(settings, {0, 0}, {p.x + 0.5, p.y + 0.5});
         Hit hit;
         tracer.nearest({&ray, 1}, {&hit, 1});
