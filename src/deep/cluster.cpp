@@ -124,7 +124,7 @@ Clustered cluster(const Ldi &ldi, const ClusterOptions &options, Progress &progr
     result.ldi = with_each_coverage(ldi, [&](std::size_t coverage) {
         progress.start("clustering", std::size_t(ldi.windows.height()));
         return build_by_pixels(ldi, [&](std::size_t pixel, Ldi &out) {
-            const Pixel p{ldi, coverage, ldi.begin[pixel], ldi.begin[pixel + 1], options.scale};
+            const Pixel p{ldi, coverage, ldi.pixel(pixel).from, ldi.pixel(pixel).to, options.scale};
             largest[pixel] = cluster_pixel(p, options, out);
             if (ldi.windows.pixel(pixel).x == ldi.windows.data.max.x) progress.advance();
         });

@@ -12,7 +12,8 @@ void flatten_pixel(const Ldi &ldi, const std::vector<std::size_t> &coverage, std
     const std::size_t plane = out.windows.pixels();
     for (std::size_t k = 0; k < ldi.channels.size(); ++k) {
         double transmittance = 1, sum = 0; // double: thousands of thin samples may add up
-        for (std::uint64_t i = ldi.begin[pixel]; i < ldi.begin[pixel + 1] && transmittance > 0; ++i) {
+        for (const std::uint64_t i : ldi.pixel(pixel)) {
+            if (!(transmittance > 0)) break;
             sum += transmittance * double(ldi.values[k][i]);
             transmittance *= 1 - double(alpha_at(ldi, coverage[k], i));
         }
@@ -33,7 +34,7 @@ Image flatten(const Ldi &ldi) {
             for (std::size_t k = 0; k < ldi.channels.size(); ++k)
                 if (ldi.channels[k].type == PixelType::uint32)
                     out.values[k * out.windows.pixels() + pixel] =
-                        ldi.begin[pixel] < ldi.begin[pixel + 1] ? ldi.values[k][ldi.begin[pixel]] : 0;
+                        ldi.pixel(pixel).empty() ? 0 : ldi.values[k][ldi.pixel(pixel).front()];
         }
     });
     return out;

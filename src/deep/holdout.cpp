@@ -20,7 +20,8 @@ double Holdout::passes(int x, int y, double z) const {
     if (!ldi_.windows.data.intersects(Imath::V2i(x, y))) return 1;
     const std::size_t pixel = ldi_.windows.index(x, y);
     double passed = 1;
-    for (std::uint64_t i = ldi_.begin[pixel]; i < ldi_.begin[pixel + 1] && passed > 0; ++i) {
+    for (const std::uint64_t i : ldi_.pixel(pixel)) {
+        if (!(passed > 0)) break;
         const double front = double(ldi_.z[i]), back = double(back_at(ldi_, i));
         if (!(front < z * (1 - rounding))) break;
         const double clear = std::max(0.0, 1 - double(alpha_at(ldi_, alpha_, i)));
@@ -42,7 +43,8 @@ Image flatten_by_alpha(const Ldi &ldi, const Holdout &holdout) {
             const std::size_t pixel = ldi.windows.index(x, y);
             std::ranges::fill(sums, 0.0);
             double transmittance = 1;
-            for (std::uint64_t i = ldi.begin[pixel]; i < ldi.begin[pixel + 1] && transmittance > 0; ++i) {
+            for (const std::uint64_t i : ldi.pixel(pixel)) {
+                if (!(transmittance > 0)) break;
                 const double share = transmittance * holdout.passes(x, y, double(ldi.z[i]));
                 for (std::size_t k = 0; k < sums.size(); ++k) sums[k] += share * double(ldi.values[k][i]);
                 transmittance *= 1 - double(alpha_at(ldi, alpha, i));

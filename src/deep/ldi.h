@@ -1,18 +1,41 @@
 // The layered depth image: in each pixel any number of samples, sorted by depth. One structure of arrays serves
 // an LDI of ours, a deep file of anyone's and a flat picture with depth (one sample a pixel).
 //
-// Pixel i = row * width + column of the data window owns samples [begin[i], begin[i + 1]).
+// Pixel i of the data window, counted row by row (base/grid.h), owns samples [begin[i], begin[i + 1]).
 // Colours are premultiplied by coverage and scene-linear; what is not covered is transparent background at
 // infinity.
 #pragma once
 
 #include "../base/image.h"
 
+#include <cassert>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 namespace sparselens {
+
+// The samples of one pixel, front to back, as their indices [from, to): for (const std::uint64_t i : ldi.pixel(p)).
+struct SampleRange {
+    class Iterator {
+    public:
+        explicit Iterator(std::uint64_t index) : index_(index) {}
+        std::uint64_t operator*() const { return index_; }
+        Iterator &operator++() { return ++index_, *this; }
+        bool operator==(const Iterator &) const = default;
+
+    private:
+        std::uint64_t index_;
+    };
+
+    std::uint64_t from, to;
+
+    Iterator begin() const { return Iterator(from); }
+    Iterator end() const { return Iterator(to); }
+    std::uint64_t size() const { return to - from; }
+    bool empty() const { return from == to; }
+    std::uint64_t front() const { return from; } // of what is not empty
+};
 
 struct Ldi {
     Windows windows;
@@ -27,6 +50,10 @@ struct Ldi {
     std::vector<std::vector<float>> values; // [channel][sample]
 
     std::size_t samples() const { return z.size(); }
+    SampleRange pixel(std::size_t i) const {
+        assert(i + 1 < begin.size());
+        return {begin[i], begin[i + 1]};
+    }
     std::size_t alpha() const { return find_channel(channels, "A"); } // npos: all samples opaque
 };
 

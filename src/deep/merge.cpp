@@ -50,20 +50,19 @@ Windows all_windows(const std::vector<Ldi> &parts) {
     return windows;
 }
 
-// visit(part, first sample, end, where they go) for every pixel and part.
+// visit(part, its samples, where they go) for every pixel and part.
 template <typename Visit>
 void for_each_run(const std::vector<Ldi> &parts, const Ldi &out, const Visit &visit) {
     const Imath::Box2i &data = out.windows.data;
     parallel_for(std::size_t(out.windows.height()), [&](std::size_t row) {
         const int y = data.min.y + int(row);
         for (int x = data.min.x; x <= data.max.x; ++x) {
-            std::uint64_t to = out.begin[out.windows.index(x, y)];
+            std::uint64_t to = out.pixel(out.windows.index(x, y)).from;
             for (std::size_t p = 0; p < parts.size(); ++p) {
                 if (!parts[p].windows.data.intersects(Imath::V2i(x, y))) continue;
-                const std::size_t pixel = parts[p].windows.index(x, y);
-                const std::uint64_t first = parts[p].begin[pixel], end = parts[p].begin[pixel + 1];
-                visit(p, first, end, to);
-                to += end - first;
+                const SampleRange samples = parts[p].pixel(parts[p].windows.index(x, y));
+                visit(p, samples, to);
+                to += samples.size();
             }
         }
     });
@@ -76,7 +75,7 @@ std::vector<std::uint64_t> begin_of(const std::vector<Ldi> &parts, const Windows
             const Imath::V2i corner = part.windows.data.min;
             const std::size_t first = windows.index(corner.x, corner.y + int(row));
             for (std::size_t x = 0; x < std::size_t(part.windows.width()); ++x, ++i)
-                begin[first + x + 1] += part.begin[i + 1] - part.begin[i];
+                begin[first + x + 1] += part.pixel(i).size();
         }
     for (std::size_t i = 1; i < begin.size(); ++i) begin[i] += begin[i - 1];
     return begin;
@@ -108,10 +107,9 @@ Ldi deep_merge(const std::vector<Ldi> &parts) {
         std::vector<Source> sources;
         for (const Ldi &part : parts) sources.push_back(source(part));
         to.resize(out.begin.back());
-        for_each_run(parts, out,
-                     [&](std::size_t p, std::uint64_t first, std::uint64_t end, std::uint64_t at) {
-                         for (std::uint64_t i = first; i < end; ++i) to[at++] = sources[p].at(i);
-                     });
+        for_each_run(parts, out, [&](std::size_t p, const SampleRange &samples, std::uint64_t at) {
+            for (const std::uint64_t i : samples) to[at++] = sources[p].at(i);
+        });
     };
     const auto some_have = [&](std::vector<float> Ldi::*array) {
         return std::ranges::any_of(parts, [&](const Ldi &part) { return !(part.*array).empty(); });

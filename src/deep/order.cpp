@@ -45,8 +45,7 @@ Order order_of(const Ldi &ldi) {
         std::vector<Extent> extents;
         for (std::size_t pixel = begin; pixel < end; ++pixel) {
             extents.clear();
-            for (std::uint64_t i = ldi.begin[pixel]; i < ldi.begin[pixel + 1]; ++i)
-                extents.emplace_back(ldi.z[i], back_at(ldi, i));
+            for (const std::uint64_t i : ldi.pixel(pixel)) extents.emplace_back(ldi.z[i], back_at(ldi, i));
             if (is_sorted_strictly(extents)) {
                 if (!are_apart(extents)) apart = false;
                 continue;

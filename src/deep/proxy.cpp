@@ -37,7 +37,7 @@ std::vector<Seen> samples_in(const Ldi &ldi, std::size_t alpha, const Imath::V2i
             if (!ldi.windows.data.intersects(Imath::V2i(x, y))) continue;
             const std::size_t pixel = ldi.windows.index(x, y);
             double shown = 1;
-            for (std::uint64_t i = ldi.begin[pixel]; i < ldi.begin[pixel + 1]; ++i) {
+            for (const std::uint64_t i : ldi.pixel(pixel)) {
                 const MergedSample s = sample_at(ldi, i);
                 seen.push_back({i, double(s.z), shown, (x + 0.5 + double(s.dx)) / factor - (small.x + 0.5),
                                 (y + 0.5 + double(s.dy)) / factor - (small.y + 0.5)});

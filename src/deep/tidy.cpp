@@ -30,9 +30,9 @@ bool visible(const Ldi &ldi, std::size_t alpha, std::uint64_t i) {
 }
 
 bool is_tidy(const Ldi &ldi, std::size_t alpha, std::size_t pixel) {
-    for (std::uint64_t i = ldi.begin[pixel]; i < ldi.begin[pixel + 1]; ++i) {
+    for (const std::uint64_t i : ldi.pixel(pixel)) {
         if (!visible(ldi, alpha, i)) return false;
-        if (i > ldi.begin[pixel] && !(back_at(ldi, i - 1) <= ldi.z[i] && ldi.z[i - 1] < ldi.z[i]))
+        if (i > ldi.pixel(pixel).front() && !(back_at(ldi, i - 1) <= ldi.z[i] && ldi.z[i - 1] < ldi.z[i]))
             return false;
     }
     return true;
@@ -95,7 +95,7 @@ float finite_back(const Ldi &ldi, std::uint64_t i) {
 std::vector<Piece> sorted_pieces(const Ldi &ldi, std::size_t alpha, std::size_t pixel) {
     std::vector<Piece> pieces;
     bool volumes = false;
-    for (std::uint64_t i = ldi.begin[pixel]; i < ldi.begin[pixel + 1]; ++i)
+    for (const std::uint64_t i : ldi.pixel(pixel))
         if (visible(ldi, alpha, i)) {
             pieces.push_back({ldi.z[i], finite_back(ldi, i), alpha_at(ldi, alpha, i), 1, i});
             volumes = volumes || pieces.back().z_back > pieces.back().z;
@@ -136,7 +136,7 @@ void tidy_pixel(const Ldi &ldi, std::size_t alpha, std::size_t pixel, Ldi &out) 
 Ldi tidied(const Ldi &ldi, std::size_t alpha) {
     return build_by_pixels(ldi, [&](std::size_t pixel, Ldi &out) {
         if (is_tidy(ldi, alpha, pixel))
-            for (std::uint64_t i = ldi.begin[pixel]; i < ldi.begin[pixel + 1]; ++i) append(out, ldi, i);
+            for (const std::uint64_t i : ldi.pixel(pixel)) append(out, ldi, i);
         else
             tidy_pixel(ldi, alpha, pixel, out);
     });

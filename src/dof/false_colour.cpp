@@ -71,7 +71,7 @@ Image layer_colours(const Ldi &ldi) {
                                             V3f(0, 1, 1),    V3f(0, 1, 0),          V3f(1, 1, 0),
                                             V3f(1, 0.5f, 0), V3f(1, 0, 0),          V3f(1, 1, 1)};
     return paint(ldi.windows, [&](std::size_t i) {
-        return palette[std::min<std::size_t>(ldi.begin[i + 1] - ldi.begin[i], palette.size() - 1)];
+        return palette[std::min<std::size_t>(ldi.pixel(i).size(), palette.size() - 1)];
     });
 }
 

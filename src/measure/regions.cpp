@@ -97,8 +97,8 @@ std::vector<double> grown_jumps(std::span<const float> c, std::size_t width, std
 std::vector<float> front_circles_of_confusion(const Ldi &ldi, const ThinLens &lens) {
     std::vector<float> c(ldi.windows.pixels());
     for (std::size_t i = 0; i < c.size(); ++i) {
-        const bool empty = ldi.begin[i] == ldi.begin[i + 1];
-        c[i] = float(circle_of_confusion(lens, empty ? infinity : ldi.z[ldi.begin[i]]));
+        const SampleRange samples = ldi.pixel(i);
+        c[i] = float(circle_of_confusion(lens, samples.empty() ? infinity : ldi.z[samples.front()]));
     }
     return c;
 }

@@ -18,7 +18,7 @@ Ldi deepen(const View &view, std::span<const Channel> channels) {
     const auto take = [&](std::span<const float> from, std::vector<float> &to) {
         to.resize(ldi.begin.back());
         for (std::size_t i = 0; i < pixels; ++i)
-            if (ldi.begin[i] != ldi.begin[i + 1]) to[ldi.begin[i]] = from[i];
+            if (!ldi.pixel(i).empty()) to[ldi.pixel(i).front()] = from[i];
     };
     take(view.z, ldi.z);
     ldi.weight.assign(ldi.z.size(), 1);

@@ -55,9 +55,9 @@ private:
     std::array<std::size_t, 4> around(int x, int y) const {
         return {grid_.index(x - 1, y), grid_.index(x + 1, y), grid_.index(x, y - 1), grid_.index(x, y + 1)};
     }
-    bool single(std::size_t i) const { return centre_.begin[i + 1] == centre_.begin[i] + 1; }
+    bool single(std::size_t i) const { return centre_.pixel(i).size() == 1; }
     double value_at(std::size_t i, std::size_t channel) const {
-        return tone_mapped(centre_.values[channel][centre_.begin[i]]);
+        return tone_mapped(centre_.values[channel][centre_.pixel(i).front()]);
     }
 
     const Ldi &centre_;

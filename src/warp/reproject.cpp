@@ -14,9 +14,9 @@ Reprojection::Reprojection(const Ldi &view, const ViewMapping &mapping)
     parallel_for(reach_.size(), [&](std::size_t row) {
         double nearest = std::numeric_limits<double>::infinity();
         const int row_y = data.min.y + int(row);
-        const std::uint64_t first = view_.begin[view_.windows.index(data.min.x, row_y)];
-        const std::uint64_t end = view_.begin[view_.windows.index(data.max.x, row_y) + 1];
-        for (std::uint64_t i = first; i < end; ++i) nearest = std::min(nearest, double(view_.z[i]));
+        const SampleRange of_row{view_.pixel(view_.windows.index(data.min.x, row_y)).from,
+                                 view_.pixel(view_.windows.index(data.max.x, row_y)).to};
+        for (const std::uint64_t i : of_row) nearest = std::min(nearest, double(view_.z[i]));
         // Places are linear in the column and in 1 / z: the extremes lie at the ends of both.
         const double y = row_y + 0.5;
         for (const double x : {data.min.x + 0.5, data.max.x + 0.5})
@@ -41,10 +41,10 @@ void Reprojection::append_rows(int first_row, int last_row, std::vector<Reprojec
         const int from_y = data.min.y + int(row);
         for (int from_x = data.min.x; from_x <= data.max.x; ++from_x) {
             const std::size_t pixel = grid.index(from_x, from_y);
-            if (view_.begin[pixel] == view_.begin[pixel + 1]) continue;
+            if (view_.pixel(pixel).empty()) continue;
             const Imath::V2d q(from_x + 0.5, from_y + 0.5);
             const Imath::V2d far = mapping_.at_infinity(q), parallax = mapping_.parallax(q);
-            for (std::uint64_t i = view_.begin[pixel]; i < view_.begin[pixel + 1]; ++i) {
+            for (const std::uint64_t i : view_.pixel(pixel)) {
                 const double inverse_z = 1 / double(view_.z[i]);
                 const double y = far.y + parallax.y * inverse_z, cell_y = std::floor(y);
                 if (!(cell_y >= first_row && cell_y <= last_row)) continue;

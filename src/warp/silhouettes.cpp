@@ -53,7 +53,8 @@ private:
     template <typename Visit>
     void around(int x, int y, int reach, const Visit &visit) const;
 
-    bool is_empty(std::size_t pixel) const { return view_.begin[pixel] == view_.begin[pixel + 1]; }
+    std::uint64_t own_sample(int x, int y) const { return view_.pixel(grid_.index(x, y)).front(); }
+    bool is_empty(std::size_t pixel) const { return view_.pixel(pixel).empty(); }
     double depth_of(std::uint64_t i) const { return depths_[i]; }
     bool is_opaque(std::uint64_t i) const { return alpha_at(view_, alpha_, i) >= 1; }
     // Whether it is of the surface at that depth, and nothing nearer may be mixed into it.
@@ -90,12 +91,12 @@ Separation::Separation(const Ldi &view, double scale, double jump)
     parallel_for(std::size_t(grid_.height()), [&](std::size_t y) {
         for (int x = 0; x < grid_.width(); ++x)
             if (const std::size_t pixel = grid_.index(x, int(y)); !is_empty(pixel))
-                sides_[view_.begin[pixel]] = side_of(x, int(y));
+                sides_[view_.pixel(pixel).front()] = side_of(x, int(y));
     });
 }
 
 unsigned char Separation::side_of(int x, int y) const {
-    const double own = depth_of(view_.begin[grid_.index(x, y)]);
+    const double own = depth_of(own_sample(x, y));
     unsigned char side = inside;
     around(x, y, 1, [&](std::uint64_t i, int, int) {
         if (depth_of(i) > own + jump_) side |= has_nearer;
@@ -109,7 +110,7 @@ void Separation::around(int x, int y, int reach, const Visit &visit) const {
     for (int v = std::max(y - reach, 0); v <= std::min(y + reach, grid_.height() - 1); ++v)
         for (int u = std::max(x - reach, 0); u <= std::min(x + reach, grid_.width() - 1); ++u) {
             const std::size_t pixel = grid_.index(u, v);
-            if (!is_empty(pixel)) visit(view_.begin[pixel], u - x, v - y);
+            if (!is_empty(pixel)) visit(view_.pixel(pixel).front(), u - x, v - y);
         }
 }
 
@@ -143,7 +144,7 @@ std::optional<Estimate> Separation::estimate(int x, int y, double depth, double 
 }
 
 std::optional<Mixture> Separation::mixture_of(int x, int y) const {
-    const std::uint64_t own = view_.begin[grid_.index(x, y)];
+    const std::uint64_t own = own_sample(x, y);
     const bool own_is_far = sides_[own] & has_nearer;
     Mixture mixture{depth_of(own), depth_of(own), 0, {}};
     double nearest = 3; // of the farther pixels around; those at the edges before those at the corners
@@ -184,7 +185,7 @@ Rgb Separation::purest(int x, int y, double depth, const Rgb &front, const Rgb &
 // What lies behind may be smaller than what a mean looks at: a lamp, a stripe. Then it is the one of the farther
 // pixels around that the colour fits best.
 std::optional<Mixture> Separation::with_one_pixel(int x, int y, double near_depth, const Rgb &front) const {
-    const std::uint64_t own = view_.begin[grid_.index(x, y)];
+    const std::uint64_t own = own_sample(x, y);
     const bool own_is_far = sides_[own] & has_nearer;
     std::optional<Mixture> best;
     double least = std::numeric_limits<double>::infinity();
@@ -216,7 +217,7 @@ void Separation::emit_mixture(std::uint64_t i, const Mixture &mixture, Ldi &out)
 
 void Separation::emit_pixel(std::size_t pixel, Ldi &out) const {
     if (is_empty(pixel)) return;
-    const std::uint64_t own = view_.begin[pixel];
+    const std::uint64_t own = view_.pixel(pixel).front();
     if (sides_[own] != inside && is_opaque(own)) {
         const Imath::V2i at = grid_.pixel(pixel);
         if (const auto mixture = mixture_of(at.x, at.y)) return emit_mixture(own, *mixture, out);

@@ -17,9 +17,9 @@ struct Votes {
 // pixel that shows nothing at all may just not have been rendered.
 void count_votes(const Ldi &view, std::size_t alpha, std::size_t pixel, double inverse_z, double tolerance,
                  Votes &votes) {
-    if (view.begin[pixel] == view.begin[pixel + 1]) return;
+    if (view.pixel(pixel).empty()) return;
     double left = 1;
-    for (std::uint64_t i = view.begin[pixel]; i < view.begin[pixel + 1]; ++i) {
+    for (const std::uint64_t i : view.pixel(pixel)) {
         const double covers = std::clamp(double(alpha_at(view, alpha, i)), 0.0, left);
         const double nearer = 1 / double(view.z[i]) - inverse_z;
         if (std::abs(nearer) < tolerance)

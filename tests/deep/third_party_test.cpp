@@ -25,8 +25,7 @@ protected:
 
 std::size_t most_samples(const Ldi &ldi) {
     std::uint64_t most = 0;
-    for (std::size_t i = 0; i + 1 < ldi.begin.size(); ++i)
-        most = std::max(most, ldi.begin[i + 1] - ldi.begin[i]);
+    for (std::size_t i = 0; i + 1 < ldi.begin.size(); ++i) most = std::max(most, ldi.pixel(i).size());
     return most;
 }
 

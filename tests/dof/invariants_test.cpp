@@ -89,8 +89,8 @@ TEST(Invariants, OrderOfSamplesDoesNotMatter) {
     Ldi reversed = ldi;
     for (std::size_t pixel = 0; pixel + 1 < ldi.begin.size(); ++pixel) {
         const auto reverse = [&](std::vector<float> &values) {
-            std::reverse(values.begin() + std::ptrdiff_t(ldi.begin[pixel]),
-                         values.begin() + std::ptrdiff_t(ldi.begin[pixel + 1]));
+            std::reverse(values.begin() + std::ptrdiff_t(ldi.pixel(pixel).from),
+                         values.begin() + std::ptrdiff_t(ldi.pixel(pixel).to));
         };
         for (auto *values : {&reversed.z, &reversed.dx, &reversed.dy}) reverse(*values);
         for (auto &values : reversed.values) reverse(values);
@@ -167,7 +167,7 @@ Ldi mirrored(const Ldi &ldi) {
         const std::size_t width = std::size_t(ldi.windows.width());
         const std::size_t pixel = std::size_t(y) * width + width - 1 - std::size_t(x);
         std::vector<Sample> samples;
-        for (std::uint64_t i = ldi.begin[pixel]; i < ldi.begin[pixel + 1]; ++i) {
+        for (const std::uint64_t i : ldi.pixel(pixel)) {
             Sample s{double(ldi.z[i]), {}, -ldi.dx[i], ldi.dy[i]};
             for (const auto &values : ldi.values) s.values.push_back(values[i]);
             samples.push_back(s);

@@ -64,7 +64,7 @@ Ldi ldi_of(const std::vector<TestPixel> &pixels) {
 
 TestPixel samples_of(const Ldi &ldi, std::size_t pixel) {
     TestPixel samples;
-    for (std::uint64_t i = ldi.begin[pixel]; i < ldi.begin[pixel + 1]; ++i)
+    for (const std::uint64_t i : ldi.pixel(pixel))
         samples.push_back({ldi.z[i], ldi.values[0][i], ldi.values[3][i],
                            ldi.z_back.empty() ? ldi.z[i] : ldi.z_back[i], ldi.weight[i], ldi.dx[i],
                            ldi.dy[i]});

@@ -17,9 +17,9 @@ TEST(Deepen, PixelsThatShowSomethingAreSamples) {
     EXPECT_TRUE(ldi.dx.empty() && ldi.dy.empty() && ldi.z_back.empty());
     ASSERT_EQ(ldi.begin.size(), view.z.size() + 1);
     for (std::size_t pixel = 0; pixel < view.z.size(); ++pixel) {
-        const std::uint64_t i = ldi.begin[pixel];
-        ASSERT_EQ(ldi.begin[pixel + 1] - i, view.image.plane(3)[pixel] == 0 ? 0u : 1u);
-        if (i == ldi.begin[pixel + 1]) continue;
+        ASSERT_EQ(ldi.pixel(pixel).size(), view.image.plane(3)[pixel] == 0 ? 0u : 1u);
+        if (ldi.pixel(pixel).empty()) continue;
+        const std::uint64_t i = ldi.pixel(pixel).front();
         EXPECT_EQ(ldi.z[i], view.z[pixel]);
         for (std::size_t k = 0; k < 4; ++k) EXPECT_EQ(ldi.values[k][i], view.image.plane(k)[pixel]);
     }

@@ -53,7 +53,7 @@ std::size_t samples_no_view_saw(const Ldi &ldi, const std::vector<View> &views, 
     const Imath::Box2i &data = ldi.windows.data;
     for (int y = data.min.y; y <= data.max.y; ++y)
         for (int x = data.min.x; x <= data.max.x; ++x, ++pixel)
-            for (std::uint64_t i = ldi.begin[pixel]; i < ldi.begin[pixel + 1]; ++i) {
+            for (const std::uint64_t i : ldi.pixel(pixel)) {
                 const Imath::V2d offset =
                     ldi.dx.empty() ? Imath::V2d(0, 0) : Imath::V2d(double(ldi.dx[i]), double(ldi.dy[i]));
                 const Imath::V2d p = Imath::V2d(x + 0.5, y + 0.5) + offset;

@@ -135,7 +135,7 @@ void for_each_sample(const Ldi &ldi, const Visit &visit) {
     for (int y = data.min.y; y <= data.max.y; ++y)
         for (int x = data.min.x; x <= data.max.x; ++x, ++pixel) {
             if (x < 8 || x >= width - 8 || y < 8 || y >= height - 8) continue;
-            for (std::uint64_t i = ldi.begin[pixel]; i < ldi.begin[pixel + 1]; ++i)
+            for (const std::uint64_t i : ldi.pixel(pixel))
                 visit(Imath::V2d(x + 0.5 + double(ldi.dx[i]), y + 0.5 + double(ldi.dy[i])), ldi.z[i],
                       ldi.values[3][i], ldi.values[0][i], ldi.values[1][i]);
         }

@@ -90,7 +90,7 @@ TEST(PhotoConsistency, WhatDisagreesIsNotAveraged) {
         const Imath::V2i first = ldi.windows.data.min;
         const auto pixel =
             std::size_t(y - first.y) * std::size_t(ldi.windows.width()) + std::size_t(x - first.x);
-        return ldi.values[0][ldi.begin[pixel]];
+        return ldi.values[0][ldi.pixel(pixel).front()];
     };
     EXPECT_EQ(red_at(30, 8), 0.25f);
     options.test_photo_consistency = false;

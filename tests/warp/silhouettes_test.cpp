@@ -47,8 +47,8 @@ TEST(Silhouettes, MixedPixelsAreTakenApart) {
         for (int y = 0; y < 9; ++y)
             for (int x = 0; x < 16; ++x) {
                 const std::size_t pixel = std::size_t(y * 16 + x);
-                const std::uint64_t front = ldi.begin[pixel], behind = front + 1;
-                ASSERT_EQ(ldi.begin[pixel + 1] - front, x == 8 ? 2u : 1u) << x;
+                const std::uint64_t front = ldi.pixel(pixel).front(), behind = front + 1;
+                ASSERT_EQ(ldi.pixel(pixel).size(), x == 8 ? 2u : 1u) << x;
                 if (x != 8) continue;
                 EXPECT_FLOAT_EQ(ldi.z[front], 2);
                 EXPECT_FLOAT_EQ(ldi.z[behind], 10);
@@ -64,8 +64,8 @@ TEST(Silhouettes, MixedPixelsAreTakenApart) {
 
 TEST(Silhouettes, TheSkyIsASurfaceToo) {
     const Ldi ldi = separated(edge(0.4f, inf));
-    const std::uint64_t front = ldi.begin[4 * 16 + 8];
-    ASSERT_EQ(ldi.begin[4 * 16 + 9] - front, 2u);
+    const std::uint64_t front = ldi.pixel(4 * 16 + 8).front();
+    ASSERT_EQ(ldi.pixel(4 * 16 + 8).size(), 2u);
     EXPECT_EQ(ldi.z[front], 2);
     EXPECT_EQ(ldi.z[front + 1], inf);
 }
@@ -109,8 +109,9 @@ TEST(Silhouettes, ALampHalfBehindAPostShinesAtItsOwnDepth) {
     const Ldi ldi = separated(view);
     expect_flattens_to(view, ldi);
     for (int y = 3; y <= 5; ++y) {
-        const std::uint64_t front = ldi.begin[std::size_t(y * 16 + 8)];
-        ASSERT_EQ(ldi.begin[std::size_t(y * 16 + 9)] - front, 2u) << y;
+        const SampleRange samples = ldi.pixel(ldi.windows.index(8, y));
+        const std::uint64_t front = samples.front();
+        ASSERT_EQ(samples.size(), 2u) << y;
         EXPECT_FLOAT_EQ(ldi.values[0][front + 1], lamp);
         EXPECT_NEAR(ldi.values[3][front], share, 0.04); // the lamp has a say in what the post shows
         EXPECT_LT(ldi.values[0][front], 0.04f * lamp);
@@ -135,7 +136,7 @@ TEST(Silhouettes, TheEdgesOfASmallLampArePartsOfIt) {
     for (std::size_t pixel = 0; pixel < 81; ++pixel) {
         const float part = share(int(pixel % 9), int(pixel / 9));
         if (part == 0 || part == 1) continue;
-        EXPECT_NEAR(ldi.values[3][ldi.begin[pixel]], part, 0.02) << pixel;
+        EXPECT_NEAR(ldi.values[3][ldi.pixel(pixel).front()], part, 0.02) << pixel;
     }
     EXPECT_NEAR(nearer, 500 * 2 * 2, 10);
     EXPECT_NEAR(farther, 0.1 * 81, 1);

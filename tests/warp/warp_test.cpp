@@ -278,8 +278,8 @@ TEST(Warp, WhateverAreTwoSurfacesThePixelBetweenThemIsBoth) {
     });
     for (const double apart : {0.49, 0.51, 0.99, 1.01, 4.0}) { // pixels of perceptive depth
         const Ldi ldi = warped({view}, {.focal_px = 100, .radius = apart / (100 * (1 / 2.0 - 1 / 10.0))});
-        const std::uint64_t front = ldi.begin[4 * 16 + 8];
-        ASSERT_EQ(ldi.begin[4 * 16 + 9] - front, apart > 0.5 ? 2u : 1u) << apart;
+        const std::uint64_t front = ldi.pixel(4 * 16 + 8).front();
+        ASSERT_EQ(ldi.pixel(4 * 16 + 8).size(), apart > 0.5 ? 2u : 1u) << apart;
         if (apart < 0.5) continue;
         EXPECT_FLOAT_EQ(ldi.z[front], 2);
         EXPECT_NEAR(ldi.values[0][front], 400, 1);
@@ -435,7 +435,7 @@ TEST(Warp, IdsAreNeverAveraged) {
         if (views[0].image.at(3, x, y) == 0) return;
         const std::size_t pixel = std::size_t(y - grown.data.min.y) * std::size_t(grown.width()) +
                                   std::size_t(x - grown.data.min.x);
-        EXPECT_EQ(ldi.values[4][ldi.begin[pixel]], 13); // the centre view's, which is in front
+        EXPECT_EQ(ldi.values[4][ldi.pixel(pixel).front()], 13); // the centre view's, which is in front
     });
 }
 

@@ -32,7 +32,7 @@ Image image_with_ids(const Ldi &ldi) {
         if (ldi.channels[channel].type != PixelType::uint32) continue;
         const std::span<float> plane = image.plane(channel);
         for (std::size_t pixel = 0; pixel < plane.size(); ++pixel)
-            if (ldi.begin[pixel] < ldi.begin[pixel + 1]) plane[pixel] = ldi.values[channel][ldi.begin[pixel]];
+            if (!ldi.pixel(pixel).empty()) plane[pixel] = ldi.values[channel][ldi.pixel(pixel).front()];
     }
     return image;
 }

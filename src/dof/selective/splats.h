@@ -71,7 +71,7 @@ void SplatSource::for_each(std::size_t pixel, const Visit &visit) const {
     constexpr double too_little = 1e-7; // what rounding leaves of a covered pixel
     double passed = 1;                  // what the samples of the current layer let through
     std::optional<Splat> last;
-    for (std::size_t i = ldi_.begin[pixel]; i < ldi_.begin[pixel + 1]; ++i) {
+    for (const std::uint64_t i : ldi_.pixel(pixel)) {
         const double alpha = alphas_ ? std::clamp(double(alphas_[i]), 0.0, 1.0) : 1.0;
         if (alpha <= 0) continue;
         const double coc = circle_of_confusion(lens_, double(ldi_.z[i]));

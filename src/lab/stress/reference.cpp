@@ -30,14 +30,14 @@ std::vector<Placed> place(const Ldi &ldi, const ThinLens &lens) {
     for (std::size_t pixel = 0; pixel < w.pixels(); ++pixel) {
         const long double x = (long double)w.pixel(pixel).x + 0.5L, y = (long double)w.pixel(pixel).y + 0.5L;
         long double passed = 1;
-        for (std::uint64_t i = ldi.begin[pixel]; i < ldi.begin[pixel + 1]; ++i) {
+        for (const std::uint64_t i : ldi.pixel(pixel)) {
             const long double a = alpha == npos ? 1.0L : (long double)ldi.values[alpha][i], z = ldi.z[i];
             const long double dx = ldi.dx.empty() ? 0 : ldi.dx[i], dy = ldi.dy.empty() ? 0 : ldi.dy[i];
             placed.push_back({x + dx, y + dy, coc_at(lens, z), z, a, i, false});
             passed *= 1 - a;
         }
         if (passed == 0) continue;
-        if (ldi.begin[pixel] < ldi.begin[pixel + 1]) {
+        if (!ldi.pixel(pixel).empty()) {
             const Placed last = placed.back();
             placed.push_back({last.x, last.y, last.coc, infinity, 1, 0, true});
         }
@@ -52,7 +52,7 @@ std::vector<Placed> place(const Ldi &ldi, const ThinLens &lens) {
 long double flattened(const Ldi &ldi, std::size_t pixel, std::size_t channel) {
     const std::size_t alpha = ldi.alpha();
     long double passed = 1, sum = 0;
-    for (std::uint64_t i = ldi.begin[pixel]; i < ldi.begin[pixel + 1]; ++i) {
+    for (const std::uint64_t i : ldi.pixel(pixel)) {
         sum += passed * (long double)ldi.values[channel][i];
         passed *= 1 - (alpha == npos ? 1.0L : (long double)ldi.values[alpha][i]);
     }

@@ -169,7 +169,7 @@ TEST(Selective, MirroredInMirroredOut) {
             const int from_x = horizontal ? 74 - x : x, from_y = horizontal ? y : 32 - y;
             const std::size_t pixel = std::size_t(from_y * 75 + from_x);
             std::vector<Sample> samples;
-            for (std::size_t i = ldi.begin[pixel]; i < ldi.begin[pixel + 1]; ++i) {
+            for (const std::uint64_t i : ldi.pixel(pixel)) {
                 Sample sample{double(ldi.z[i]), {}, ldi.dx[i], ldi.dy[i]};
                 (horizontal ? sample.dx : sample.dy) *= -1;
                 for (const auto &values : ldi.values) sample.values.push_back(values[i]);

@@ -161,7 +161,7 @@ struct ForeignDeep {
     ForeignDeep(Ldi &ldi, const std::string &depth_name) : header(ldi.windows.display, ldi.windows.data) {
         const std::size_t width = std::size_t(ldi.windows.width());
         for (std::size_t i = 0; i + 1 < ldi.begin.size(); ++i)
-            counts.push_back(unsigned(ldi.begin[i + 1] - ldi.begin[i]));
+            counts.push_back(unsigned(ldi.pixel(i).size()));
         buffer.insertSampleCountSlice(Imf::Slice::Make(Imf::UINT, counts.data(), ldi.windows.data,
                                                        sizeof(unsigned), sizeof(unsigned) * width));
         pointers.reserve(ldi.channels.size() + 1);

@@ -52,7 +52,7 @@ protected:
         const std::size_t width = std::size_t(ldi.windows.width());
         std::vector<unsigned> counts;
         for (std::size_t i = 0; i + 1 < ldi.begin.size(); ++i)
-            counts.push_back(unsigned(ldi.begin[i + 1] - ldi.begin[i]));
+            counts.push_back(unsigned(ldi.pixel(i).size()));
         std::vector<std::vector<char *>> pointers;
         pointers.reserve(ldi.channels.size() + 1);
         Imf::DeepFrameBuffer buffer;

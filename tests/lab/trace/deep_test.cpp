@@ -25,8 +25,8 @@ Scene sheet_and_wall() {
 }
 
 std::vector<float> depths(const Ldi &ldi, std::size_t pixel) {
-    return {ldi.z.begin() + std::ptrdiff_t(ldi.begin[pixel]),
-            ldi.z.begin() + std::ptrdiff_t(ldi.begin[pixel + 1])};
+    return {ldi.z.begin() + std::ptrdiff_t(ldi.pixel(pixel).from),
+            ldi.z.begin() + std::ptrdiff_t(ldi.pixel(pixel).to)};
 }
 
 TEST(RenderPeeled, SurfacesComeInOrder) {
@@ -69,7 +69,7 @@ TEST(RenderPeeled, FirstDepthIsTheCentreViews) {
         const std::vector<float> z = depths(ldi, pixel);
         EXPECT_EQ(z.front(), view.plane(4)[pixel]);
         EXPECT_TRUE(std::is_sorted(z.begin(), z.end()));
-        EXPECT_FLOAT_EQ(ldi.values[0][ldi.begin[pixel]], view.plane(0)[pixel]);
+        EXPECT_FLOAT_EQ(ldi.values[0][ldi.pixel(pixel).front()], view.plane(0)[pixel]);
     }
 }
 
@@ -103,8 +103,8 @@ TEST(RenderStrata, EdgesCoverInPart) {
     Scene scene;
     scene.quads = {facing_quad(-9, -9, 0, 9, 4, white_light)}; // to the middle of pixel 4
     const Ldi ldi = render_strata(Tracer(scene), settings, 3, 16, 1, silent);
-    const std::size_t first = ldi.begin[4];
-    ASSERT_EQ(ldi.begin[5] - first, 2u);
+    const std::size_t first = ldi.pixel(4).front();
+    ASSERT_EQ(ldi.pixel(4).size(), 2u);
     EXPECT_FLOAT_EQ(ldi.values[3][first], 0.5f);
     EXPECT_FLOAT_EQ(ldi.values[3][first + 1], 1); // the sky as if the lamp were not there
     EXPECT_EQ(ldi.z[first], 4);
@@ -130,7 +130,7 @@ TEST(RenderDeep, SlabsAreVolumeSamples) {
     const Tracer tracer(scene);
     for (const Ldi &ldi : {render_peeled(tracer, settings, 2, 1, 1, silent),
                            render_strata(tracer, settings, 2, 1, 1, silent)}) {
-        const std::size_t end = ldi.begin[1];
+        const std::size_t end = ldi.pixel(0).to;
         ASSERT_GE(end, 3u);
         EXPECT_EQ(ldi.z[end - 2], 2);
         EXPECT_EQ(ldi.z_back[end - 2], 6);
