@@ -61,6 +61,16 @@ std::size_t find_channel(std::span<const Channel> channels, std::string_view nam
     return npos;
 }
 
+std::array<std::size_t, 3> find_rgb(std::span<const Channel> channels) {
+    std::array<std::size_t, 3> found{};
+    for (std::size_t k = 0; k < found.size(); ++k) found[k] = find_channel(channels, rgb_names[k]);
+    return found;
+}
+
+bool all_found(const std::array<std::size_t, 3> &channels) {
+    return std::ranges::find(channels, npos) == channels.end();
+}
+
 std::vector<Channel> rgba_channels() {
     return {{"R", PixelType::half}, {"G", PixelType::half}, {"B", PixelType::half}, {"A", PixelType::half}};
 }

@@ -7,6 +7,7 @@
 
 #include "grid.h"
 
+#include <array>
 #include <cstddef>
 #include <span>
 #include <string>
@@ -64,6 +65,13 @@ Image crop(const Image &image, const Imath::Box2i &data);
 // Index of the channel of that name, or npos.
 inline constexpr std::size_t npos = std::size_t(-1);
 std::size_t find_channel(std::span<const Channel> channels, std::string_view name);
+
+// Indices of R, G and B, npos for what is missing.
+inline constexpr std::array rgb_names{"R", "G", "B"};
+std::array<std::size_t, 3> find_rgb(std::span<const Channel> channels);
+
+// Whether none of the three is missing.
+bool all_found(const std::array<std::size_t, 3> &channels);
 
 // R, G, B, A as half.
 std::vector<Channel> rgba_channels();

@@ -8,17 +8,12 @@ namespace sparselens {
 
 namespace {
 
-constexpr std::array colours{"R", "G", "B"};
 constexpr std::array coverages{"AR", "AG", "AB"};
 
 std::array<std::size_t, 3> coverages_of_layer(std::span<const Channel> channels, const std::string &layer) {
     std::array<std::size_t, 3> found{};
     for (std::size_t c = 0; c < found.size(); ++c) found[c] = find_channel(channels, layer + coverages[c]);
     return found;
-}
-
-bool all_there(const std::array<std::size_t, 3> &found) {
-    return std::ranges::find(found, npos) == found.end();
 }
 
 // Where A is made of others: those.
@@ -29,9 +24,7 @@ std::array<std::size_t, 3> parts_of_missing_alpha(std::span<const Channel> chann
 }
 
 std::ptrdiff_t place_of_alpha(std::span<const Channel> channels) {
-    std::ptrdiff_t place = 0;
-    for (const char *colour : colours) place += find_channel(channels, colour) == npos ? 0 : 1;
-    return place;
+    return std::ranges::count_if(find_rgb(channels), [](std::size_t k) { return k != npos; });
 }
 
 // Both of one size, as is `mean`.
@@ -51,7 +44,7 @@ Ldi of_one_coverage(const Ldi &ldi, const Covered &covered) {
         one.channels.push_back(ldi.channels[k]);
         one.values.push_back(ldi.values[k]);
     };
-    for (const char *colour : colours) add(find_channel(ldi.channels, colour));
+    for (const std::size_t k : find_rgb(ldi.channels)) add(k);
     for (const std::size_t k : covered.channels)
         if (k != covered.coverage) add(k);
     one.channels.push_back({"A", ldi.channels[covered.coverage].type});
@@ -67,13 +60,13 @@ std::size_t coverage_of(std::span<const Channel> channels, std::size_t k) {
     const std::size_t end_of_layer = name.rfind('.') + 1; // 0: of no layer
     const std::string last = name.substr(end_of_layer);
     const auto is_last = [&](const char *c) { return last == c; };
-    std::size_t c = std::size_t(std::ranges::find_if(colours, is_last) - colours.begin());
+    std::size_t c = std::size_t(std::ranges::find_if(rgb_names, is_last) - rgb_names.begin());
     if (c == 3) c = std::size_t(std::ranges::find_if(coverages, is_last) - coverages.begin());
     if (c == 3 || channels[k].type == PixelType::uint32) return alpha;
     const auto own = coverages_of_layer(channels, name.substr(0, end_of_layer));
-    if (all_there(own)) return own[c];
+    if (all_found(own)) return own[c];
     const auto of_picture = coverages_of_layer(channels, "");
-    return all_there(of_picture) ? of_picture[c] : alpha;
+    return all_found(of_picture) ? of_picture[c] : alpha;
 }
 
 std::vector<std::size_t> coverage_by_channel(const Ldi &ldi) {
@@ -88,7 +81,7 @@ std::vector<std::size_t> coverage_by_channel(const Ldi &ldi) {
 
 void add_mean_coverage(Ldi &ldi) {
     const auto parts = parts_of_missing_alpha(ldi.channels);
-    if (!all_there(parts)) return;
+    if (!all_found(parts)) return;
     std::vector<float> mean(ldi.samples());
     set_mean({ldi.values[parts[0]], ldi.values[parts[1]], ldi.values[parts[2]]}, mean);
     const std::ptrdiff_t place = place_of_alpha(ldi.channels);
@@ -98,7 +91,7 @@ void add_mean_coverage(Ldi &ldi) {
 
 void add_mean_coverage(Image &image) {
     const auto parts = parts_of_missing_alpha(image.channels);
-    if (!all_there(parts)) return;
+    if (!all_found(parts)) return;
     const std::ptrdiff_t place = place_of_alpha(image.channels),
                          pixels = std::ptrdiff_t(image.windows.pixels());
     std::vector<float> mean(image.windows.pixels());

@@ -40,8 +40,7 @@ auto front_coc(const Ldi &ldi, const ThinLens &lens) {
 std::vector<float> brightness(const Ldi &ldi) {
     const Image flat = flatten(ldi);
     std::vector<float> sum(ldi.windows.pixels(), 0);
-    for (const char *name : {"R", "G", "B"}) {
-        const std::size_t k = find_channel(flat.channels, name);
+    for (const std::size_t k : find_rgb(flat.channels)) {
         for (std::size_t i = 0; k != npos && i < sum.size(); ++i)
             sum[i] += std::max(0.0f, flat.plane(k)[i]) / 3;
     }

@@ -17,8 +17,7 @@ constexpr int block_size = 8;
 std::vector<double> brightness(const Image &image) {
     std::vector<double> mean(image.windows.pixels());
     double channels = 0;
-    for (const char *name : {"R", "G", "B"}) {
-        const std::size_t channel = find_channel(image.channels, name);
+    for (const std::size_t channel : find_rgb(image.channels)) {
         if (channel == npos) continue;
         ++channels;
         const auto plane = image.plane(channel);

@@ -30,10 +30,8 @@ double tone_mapped(float v) { return double(v) / (1 + std::abs(double(v))); }
 class CentreColours {
 public:
     explicit CentreColours(const Ldi &centre) : centre_(centre), grid_(centre.windows.grid()) {
-        for (const char *name : {"R", "G", "B"}) {
-            const std::size_t channel = find_channel(centre.channels, name);
+        for (const std::size_t channel : find_rgb(centre.channels))
             if (channel != npos) channels_.push_back(channel);
-        }
     }
     std::span<const std::size_t> channels() const { return channels_; }
 

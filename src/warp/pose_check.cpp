@@ -18,11 +18,9 @@ constexpr double at_least = 0.02;      // less: rounding, noise
 // The colours that both views have: the index of each in either.
 std::vector<std::pair<std::size_t, std::size_t>> common_colours(const View &centre, const View &view) {
     std::vector<std::pair<std::size_t, std::size_t>> common;
-    for (const char *name : {"R", "G", "B"}) {
-        const std::size_t c = find_channel(centre.image.channels, name),
-                          v = find_channel(view.image.channels, name);
-        if (c != npos && v != npos) common.emplace_back(c, v);
-    }
+    const auto of_centre = find_rgb(centre.image.channels), of_view = find_rgb(view.image.channels);
+    for (std::size_t k = 0; k < 3; ++k)
+        if (of_centre[k] != npos && of_view[k] != npos) common.emplace_back(of_centre[k], of_view[k]);
     return common;
 }
 

@@ -24,7 +24,7 @@ constexpr double least_share_of_one = 0.1;      // and less of either may as wel
 // What a surface shows around a pixel: a mean over samples.
 struct Estimate {
     std::vector<Term> terms; // coefficients sum to 1
-    Rgb colour;
+    Imath::V3d colour{0, 0, 0};
     bool pure = false; // some of them are pixels that nothing else is mixed into
 };
 
@@ -45,8 +45,8 @@ private:
     unsigned char side_of(int x, int y) const;
     std::optional<Mixture> mixture_of(int x, int y) const;
     std::optional<Estimate> estimate(int x, int y, double depth, double edge) const;
-    Rgb purest(int x, int y, double depth, const Rgb &front, const Rgb &behind) const;
-    std::optional<Mixture> with_one_pixel(int x, int y, double near_depth, const Rgb &front) const;
+    Imath::V3d purest(int x, int y, double depth, const Imath::V3d &front, const Imath::V3d &behind) const;
+    std::optional<Mixture> with_one_pixel(int x, int y, double near_depth, const Imath::V3d &front) const;
     void emit_mixture(std::uint64_t i, const Mixture &mixture, Ldi &out) const;
 
     // visit(sample, dx, dy) for the samples of the pixels within `reach` of (x, y).
@@ -61,10 +61,9 @@ private:
     bool tells_of(double depth, std::uint64_t i) const {
         return !(std::abs(depth_of(i) - depth) >= jump_ || (sides_[i] & has_nearer)) && is_opaque(i);
     }
-    Rgb colour_of(std::uint64_t i) const {
-        Rgb c;
-        for (std::size_t k = 0; k < 3; ++k) c.v[k] = double(view_.values[rgb_[k]][i]);
-        return c;
+    Imath::V3d colour_of(std::uint64_t i) const {
+        const auto value = [&](std::size_t k) { return double(view_.values[rgb_[k]][i]); };
+        return {value(0), value(1), value(2)};
     }
 
     const Ldi &view_;
@@ -72,22 +71,17 @@ private:
     double scale_, jump_;
     std::size_t alpha_;
     std::array<std::size_t, 3> rgb_;
-    bool usable_;
     std::vector<double> depths_;       // of each sample, perceptive
     std::vector<unsigned char> sides_; // of the first sample of each pixel
 };
 
 Separation::Separation(const Ldi &view, double scale, double jump)
     : view_(view), grid_(view.windows.width(), view.windows.height()), scale_(scale), jump_(jump),
-      alpha_(view.alpha()), rgb_(), usable_(true) {
-    for (std::size_t k = 0; k < 3; ++k) {
-        rgb_[k] = find_channel(view.channels, std::array{"R", "G", "B"}[k]);
-        usable_ = usable_ && rgb_[k] != npos;
-    }
+      alpha_(view.alpha()), rgb_(find_rgb(view.channels)) {
     depths_.resize(view.samples());
     std::ranges::transform(view.z, depths_.begin(), [scale](float z) { return scale / double(z); });
     sides_.assign(view.samples(), inside);
-    if (!usable_ || alpha_ == npos) return;
+    if (alpha_ == npos || !all_found(rgb_)) return;
     parallel_for(std::size_t(grid_.height()), [&](std::size_t y) {
         for (int x = 0; x < grid_.width(); ++x)
             if (const std::size_t pixel = grid_.index(x, int(y)); !is_empty(pixel))
@@ -137,8 +131,7 @@ std::optional<Estimate> Separation::estimate(int x, int y, double depth, double 
     if (sum < least_support) return {};
     for (Term &term : result.terms) {
         term.coefficient /= sum;
-        const Rgb c = colour_of(term.index);
-        for (std::size_t k = 0; k < 3; ++k) result.colour.v[k] += term.coefficient * c.v[k];
+        result.colour += term.coefficient * colour_of(term.index);
     }
     return result;
 }
@@ -161,7 +154,7 @@ std::optional<Mixture> Separation::mixture_of(int x, int y) const {
                behind = estimate(x, y, mixture.far_depth, 1);
     if (!front) return {};
     if (!behind) return with_one_pixel(x, y, mixture.near_depth, front->colour);
-    const Rgb f =
+    const Imath::V3d f =
         front->pure ? front->colour : purest(x, y, mixture.near_depth, front->colour, behind->colour);
     const auto mix = unmix(colour_of(own), f, behind->colour, own_is_far, largest_residual);
     if (!mix) return with_one_pixel(x, y, mixture.near_depth, f);
@@ -172,26 +165,28 @@ std::optional<Mixture> Separation::mixture_of(int x, int y) const {
 
 // Of the pixels of a surface that shows none without an edge, as a wire or a small lamp, the one least mixed: that
 // which differs most from what is behind.
-Rgb Separation::purest(int x, int y, double depth, const Rgb &front, const Rgb &behind) const {
-    const Rgb contrast = front.minus(behind);
-    Rgb result = front;
+Imath::V3d Separation::purest(int x, int y, double depth, const Imath::V3d &front,
+                              const Imath::V3d &behind) const {
+    const Imath::V3d contrast = front - behind;
+    Imath::V3d result = front;
     around(x, y, 1, [&](std::uint64_t i, int, int) {
         if (!tells_of(depth, i)) return;
-        if (const Rgb c = colour_of(i); c.minus(result).dot(contrast) > 0) result = c;
+        if (const Imath::V3d c = colour_of(i); (c - result).dot(contrast) > 0) result = c;
     });
     return result;
 }
 
 // What lies behind may be smaller than what a mean looks at: a lamp, a stripe. Then it is the one of the farther
 // pixels around that the colour fits best.
-std::optional<Mixture> Separation::with_one_pixel(int x, int y, double near_depth, const Rgb &front) const {
+std::optional<Mixture> Separation::with_one_pixel(int x, int y, double near_depth,
+                                                  const Imath::V3d &front) const {
     const std::uint64_t own = own_sample(x, y);
     const bool own_is_far = sides_[own] & has_nearer;
     std::optional<Mixture> best;
     double least = std::numeric_limits<double>::infinity();
     around(x, y, 1, [&](std::uint64_t i, int, int) {
         if (i == own || depth_of(i) >= near_depth - jump_ || !is_opaque(i)) return;
-        const Rgb b = colour_of(i);
+        const Imath::V3d b = colour_of(i);
         const auto mix = unmix(colour_of(own), front, b, own_is_far, largest_residual_of_one);
         if (!mix || mix->residual >= least) return;
         if (std::min(mix->share, 1 - mix->share) < least_share_of_one) return;

@@ -1,16 +1,11 @@
 // How much of each of two colours is in a third: c = a F + (1 - a) B.
 #pragma once
 
-#include <array>
+#include <Imath/ImathVec.h>
+
 #include <optional>
 
 namespace sparselens {
-
-struct Rgb {
-    std::array<double, 3> v{};
-    double dot(const Rgb &o) const { return v[0] * o.v[0] + v[1] * o.v[1] + v[2] * o.v[2]; }
-    Rgb minus(const Rgb &o) const { return {{v[0] - o.v[0], v[1] - o.v[1], v[2] - o.v[2]}}; }
-};
 
 struct Mix {
     double share;    // a, of F
@@ -21,6 +16,7 @@ struct Mix {
 // of c without B is light: (1 - a) B is nowhere more than c. Nothing where F and B are too like to tell, where c is
 // farther from the line than largest_residual, where so little of one is in it that it is not worth telling, or a
 // colour is no number.
-std::optional<Mix> unmix(const Rgb &c, const Rgb &f, const Rgb &b, bool mostly_b, double largest_residual);
+std::optional<Mix> unmix(const Imath::V3d &c, const Imath::V3d &f, const Imath::V3d &b, bool mostly_b,
+                         double largest_residual);
 
 } // namespace sparselens

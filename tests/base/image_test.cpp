@@ -55,6 +55,15 @@ TEST(Image, ChannelsAreFoundByTheirFullName) {
     EXPECT_EQ(find_channel({}, "R"), npos);
 }
 
+TEST(Image, ColoursAreFoundWhereverTheyAre) {
+    const auto found = find_rgb(std::vector<Channel>{{"A"}, {"B"}, {"diffuse.R"}, {"G"}, {"R"}});
+    EXPECT_EQ(found, (std::array<std::size_t, 3>{4, 3, 1}));
+    EXPECT_TRUE(all_found(found));
+    const auto red_and_blue = find_rgb(std::vector<Channel>{{"R"}, {"B"}});
+    EXPECT_EQ(red_and_blue, (std::array<std::size_t, 3>{0, npos, 1}));
+    EXPECT_FALSE(all_found(red_and_blue));
+}
+
 TEST(Image, RgbaIsHalf) {
     const auto channels = rgba_channels();
     ASSERT_EQ(channels.size(), 4u);

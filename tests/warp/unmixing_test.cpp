@@ -8,13 +8,11 @@
 namespace sparselens {
 namespace {
 
-constexpr Rgb red{{1, 0.1, 0}}, green{{0, 0.8, 0.2}};
+using Imath::V3d;
 
-Rgb mixed(double share, const Rgb &f, const Rgb &b) {
-    Rgb c;
-    for (std::size_t k = 0; k < 3; ++k) c.v[k] = share * f.v[k] + (1 - share) * b.v[k];
-    return c;
-}
+const V3d red{1, 0.1, 0}, green{0, 0.8, 0.2};
+
+V3d mixed(double share, const V3d &f, const V3d &b) { return share * f + (1 - share) * b; }
 
 TEST(Unmix, FindsTheShareOfTheFirst) {
     for (const double share : {0.05, 0.25, 0.45, 0.55, 0.75, 0.95}) {
@@ -26,20 +24,19 @@ TEST(Unmix, FindsTheShareOfTheFirst) {
 }
 
 TEST(Unmix, TheShareIsOnTheSideOfThePixelsDepth) {
-    const Rgb bright{{1, 1, 0.5}}, dark{{0, 0.2, 0.1}};
+    const V3d bright{1, 1, 0.5}, dark{0, 0.2, 0.1};
     EXPECT_DOUBLE_EQ(unmix(mixed(0.55, bright, dark), bright, dark, true, 0.2)->share, 0.5);
     EXPECT_DOUBLE_EQ(unmix(mixed(0.45, bright, dark), bright, dark, false, 0.2)->share, 0.5);
     EXPECT_FALSE(unmix(mixed(0.9, bright, dark), bright, dark, true, 0.2));
 }
 
 TEST(Unmix, SaysHowFarTheColourIsFromTheLine) {
-    Rgb c = mixed(0.4, red, green);
-    const Rgb contrast = red.minus(green);
+    V3d c = mixed(0.4, red, green);
+    const V3d contrast = red - green;
     const double size = std::sqrt(contrast.dot(contrast));
     // At a right angle to the line: it has little blue.
-    const double along = contrast.v[2] / size;
-    for (std::size_t k = 0; k < 3; ++k)
-        c.v[k] += 0.15 * ((k == 2 ? size : 0) - along * contrast.v[k]) / std::sqrt(1 - along * along);
+    const double along = contrast[2] / size;
+    c += 0.15 * (V3d(0, 0, size) - along * contrast) / std::sqrt(1 - along * along);
     const auto mix = unmix(c, red, green, true, 0.2);
     ASSERT_TRUE(mix);
     EXPECT_NEAR(mix->residual, 0.15, 0.01);
@@ -47,12 +44,12 @@ TEST(Unmix, SaysHowFarTheColourIsFromTheLine) {
 }
 
 TEST(Unmix, LeavesLightInFront) {
-    const Rgb dark{{0, 0, 0}}, bright{{1, 1, 1}};
+    const V3d dark{0, 0, 0}, bright{1, 1, 1};
     for (const double level : {0.05, 0.3, 0.49, 0.55}) {
-        const Rgb c{{level, level * 0.95, level * 1.05}};
+        const V3d c{level, level * 0.95, level * 1.05};
         const auto mix = unmix(c, dark, bright, level > 0.5, 0.2);
         ASSERT_TRUE(mix) << level;
-        for (std::size_t k = 0; k < 3; ++k) EXPECT_LE((1 - mix->share) * bright.v[k], c.v[k] * (1 + 1e-12));
+        for (int k = 0; k < 3; ++k) EXPECT_LE((1 - mix->share) * bright[k], c[k] * (1 + 1e-12));
     }
 }
 
@@ -61,7 +58,7 @@ TEST(Unmix, SaysNothingWhereNothingCanBeTold) {
     EXPECT_FALSE(unmix(red, red, green, false, 0.2));  // not mixed
     EXPECT_FALSE(unmix(green, red, green, true, 0.2)); // nor this
     for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity()}) {
-        const Rgb wrong{{0.5, bad, 0}}, half = mixed(0.5, red, green);
+        const V3d wrong{0.5, bad, 0}, half = mixed(0.5, red, green);
         EXPECT_FALSE(unmix(wrong, red, green, true, 0.2));
         EXPECT_FALSE(unmix(half, wrong, green, true, 0.2));
         EXPECT_FALSE(unmix(half, red, wrong, true, 0.2));

@@ -87,15 +87,15 @@ bool is_shown_picture(const std::string &path) {
 }
 
 void write_shown_picture(const std::string &path, const Image &image) {
-    std::vector<std::size_t> channels;
-    for (const char *name : {"R", "G", "B"}) channels.push_back(find_channel(image.channels, name));
-    if (std::ranges::find(channels, npos) != channels.end())
+    const auto rgb = find_rgb(image.channels);
+    if (!all_found(rgb))
         throw Error(path + ": needs the channels R, G and B; other channels are for OpenEXR");
     const std::string extension = extension_of(path);
     const OiioModule &oiio = oiio_module();
     const std::size_t alpha = find_channel(image.channels, "A");
     const bool with_alpha = alpha != npos && oiio.support(extension.c_str()) == OiioModule::Support::alpha &&
                             std::ranges::any_of(image.plane(alpha), [](float a) { return a < 1; });
+    std::vector<std::size_t> channels(rgb.begin(), rgb.end());
     if (with_alpha) channels.push_back(alpha);
     DisplayRows rows(image, channels, with_alpha);
     const bool deep_bits = extension.starts_with("tif") || extension == "dpx";
