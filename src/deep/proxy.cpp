@@ -53,19 +53,21 @@ float offset(double sum, std::size_t count) { return float(std::clamp(sum / doub
 // Appends the surfaces of one small pixel.
 void append_surfaces(const Ldi &ldi, std::size_t alpha, const std::vector<Seen> &seen, double pixels,
                      Ldi &out) {
-    constexpr double same_surface = 1.01; // ratio of depths
-    constexpr double opaque = 1e-4;       // of the light, what is left behind a surface that hides all
-    double left = 1;                      // of the light, behind the surfaces so far
+    // The depths of one surface differ by no more than this ratio. It is not in pixels, as the lens is not known here.
+    constexpr double surface_depth_ratio = 1.01;
+    // Of the light; less is what rounding leaves behind surfaces that hide everything.
+    constexpr double nothing_left = 1e-4;
+    double left = 1; // of the light, behind the surfaces so far
     std::vector<Term> terms;
     for (std::size_t begin = 0, end = 0; begin < seen.size(); begin = end) {
         MergedSample surface = sample_at(ldi, seen[begin].index);
         double x = 0, y = 0, shown = 0;
         terms.clear();
-        for (; end < seen.size() && seen[end].z <= same_surface * seen[begin].z; ++end) {
+        for (; end < seen.size() && seen[end].z <= surface_depth_ratio * seen[begin].z; ++end) {
             const Seen &s = seen[end];
             x += s.x, y += s.y;
             shown += s.shown * double(alpha_at(ldi, alpha, s.index)) / pixels;
-            terms.push_back({s.index, (left > opaque ? s.shown / left : 1) / pixels});
+            terms.push_back({s.index, (left > nothing_left ? s.shown / left : 1) / pixels});
         }
         surface.dx = offset(x, end - begin), surface.dy = offset(y, end - begin);
         surface.z_back = surface.z;

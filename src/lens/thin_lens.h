@@ -19,6 +19,10 @@ struct ThinLens {
 // focus distance, which is why clustering by it keeps a picture refocusable.
 double perceptive_depth(const ThinLens &lens, double z);
 
+// Perceptive depths that differ by less, in pixels, count as one surface: seen from the rim of the lens the two move
+// apart by less than half a pixel, so that pictures of both fall into the same pixels.
+inline constexpr double one_surface_px = 0.5;
+
 // Signed CoC radius in pixels: < 0 in front of focus. Never NaN for z and focus in (0, inf].
 double circle_of_confusion(const ThinLens &lens, double z);
 

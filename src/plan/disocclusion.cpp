@@ -8,7 +8,7 @@ namespace sparselens {
 
 namespace {
 
-constexpr double one_surface = 1; // pixels of displacement between neighbours
+constexpr double unbroken = 1; // pixels that neighbours move apart: by more, and a gap opens between them
 
 // The centre view's pixels at their places in the rim view.
 class Mover {
@@ -62,7 +62,7 @@ private:
     double reach(int column, int row, int dx, int dy) const {
         if (!in_frame(column + dx, row + dy)) return grid_.width() + grid_.height();
         const double step = depth(column + dx, row + dy) - depth(column, row);
-        if (!(std::abs(step) <= one_surface)) return 0.5;
+        if (!(std::abs(step) <= unbroken)) return 0.5;
         return 0.5 * (1 + step * (dx != 0 ? dx * shift_.x : dy * shift_.y));
     }
 

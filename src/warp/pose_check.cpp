@@ -11,7 +11,7 @@ namespace sparselens {
 namespace {
 
 constexpr double samples_a_side = 160; // of the view's pixels, enough to tell
-constexpr double same_surface = 1;     // pixels of parallax
+constexpr double same_depth = 1;       // pixels of parallax: either view's place is known to a pixel
 constexpr double clearly = 0.7;        // times the disagreement
 constexpr double at_least = 0.02;      // less: rounding, noise
 
@@ -95,8 +95,8 @@ double disagreement(const View &centre, const View &view, const Imath::V2d &posi
         const double in_front = scale / in_view.depth(q) - scale / in_centre.depth(p);
         const bool nothing = !in_centre.show_something(p);
         ++compared;
-        if (!nothing && in_front < -same_surface) return; // hidden from the centre, as it may be
-        sum += nothing || in_front > same_surface ? 1 : relative_difference(p, q);
+        if (!nothing && in_front < -same_depth) return; // hidden from the centre, as it may be
+        sum += nothing || in_front > same_depth ? 1 : relative_difference(p, q);
     });
     return compared > 0 ? sum / double(compared) : 0;
 }

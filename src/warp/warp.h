@@ -6,6 +6,7 @@
 
 #include "../base/progress.h"
 #include "../deep/ldi.h"
+#include "../lens/thin_lens.h"
 #include "../view/view.h"
 
 #include <optional>
@@ -24,7 +25,7 @@ struct WarpOptions {
     double focal_px = 1; // focal length, pixels
     double radius = 0;   // aperture radius that perceptive depth is measured at, scene units
     Merge merge = Merge::average;
-    double surface_px = 0.5;
+    double surface_px = one_surface_px;
     bool split_silhouettes = true; // average: pixels that mix two surfaces become two samples (silhouettes.h)
     bool test_photo_consistency = true; // average: not where views disagree, out of focus (agreement.h)
     std::optional<double> focus = {};   // of the lens, if known, scene units
