@@ -26,7 +26,7 @@ view-y-wrong-way|src/view/view_mapping.cpp|-focal_px \* position.y|focal_px * po
 view-approach-wrong-way|src/view/view_mapping.cpp|approach_(view.forward|approach_(-view.forward
 reproject-truncates|src/warp/reproject.cpp|cell_x = std::floor(x)|cell_x = std::trunc(x)
 unsorted|src/deep/tidy.cpp|return a.z != b.z ? a.z < b.z : a.z_back < b.z_back;|return a.index < b.index;
-float-accumulator|src/deep/flatten.cpp|sum += transmittance \* double(ldi.values\[k\]\[i\]);|sum = double(float(sum + transmittance * double(ldi.values[k][i])));
+float-accumulator|src/deep/flatten.cpp|sum += transmittance \* ldi.values\[k\]\[i\];|sum = double(float(sum + transmittance * ldi.values[k][i]));
 half-hidden-lamp|src/warp/silhouettes.cpp|if (!mix) return with_one_pixel(x, y, mixture.near_depth, f);|if (!mix) return {};
 small-lamp-impure|src/warp/silhouettes.cpp|if (const Imath::V3d c = colour_of(i); (c - result).dot(contrast) > 0) result = c;|(void)contrast;
 mixed-left-whole|src/warp/warp.cpp|options.split_silhouettes ? options.surface_px : 0|options.split_silhouettes ? 2 * options.surface_px : 0

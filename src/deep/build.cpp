@@ -24,8 +24,7 @@ void append(Ldi &out, const Ldi &from, const MergedSample &sample) {
                             (sample.terms.size() == 1 && sample.terms[0].coefficient == 1);
         double sum = 0; // many small coefficients: float would lose the small ones
         if (!copied)
-            for (const Term &term : sample.terms)
-                sum += term.coefficient * double(from.values[k][term.index]);
+            for (const Term &term : sample.terms) sum += term.coefficient * from.values[k][term.index];
         out.values[k].push_back(copied ? from.values[k][sample.terms[0].index] : float(sum));
     }
     ++out.begin.back();

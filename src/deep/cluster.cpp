@@ -20,8 +20,8 @@ struct Pixel {
     std::size_t alpha;
     std::uint64_t begin, end;
     double scale;
-    double front(std::uint64_t i) const { return scale / double(ldi.z[i]); }
-    double back(std::uint64_t i) const { return scale / double(back_at(ldi, i)); }
+    double front(std::uint64_t i) const { return scale / ldi.z[i]; }
+    double back(std::uint64_t i) const { return scale / back_at(ldi, i); }
 };
 
 // How many runs of at most `extent` cover the samples, taken greedily from the front: the fewest there are.
@@ -63,7 +63,7 @@ void set_shares(const Pixel &p, std::uint64_t begin, std::uint64_t end, double t
     double weights = 0;
     for (; i < end && surface - p.back(i) <= tolerance; ++i)
         if (alpha_at(p.ldi, p.alpha, i) >= opaque_in_half) {
-            const double weight = double(sample_at(p.ldi, i).weight);
+            const double weight = sample_at(p.ldi, i).weight;
             terms.push_back({i, transmittance * weight});
             weights += weight;
         }
@@ -86,12 +86,12 @@ MergedSample merged_placement(const Pixel &p, std::span<const Term> terms) {
     double shown = 0, inverse_z = 0, dx = 0, dy = 0, weight = 0;
     for (const Term &term : terms) {
         const MergedSample s = sample_at(p.ldi, term.index);
-        const double share = std::max(term.coefficient * double(alpha_at(p.ldi, p.alpha, term.index)), 1e-12);
+        const double share = std::max(term.coefficient * alpha_at(p.ldi, p.alpha, term.index), 1e-12);
         shown += share;
-        inverse_z += share / double(s.z);
-        dx += share * double(s.dx);
-        dy += share * double(s.dy);
-        weight += double(s.weight);
+        inverse_z += share / s.z;
+        dx += share * s.dx;
+        dy += share * s.dy;
+        weight += s.weight;
     }
     if (holds_volume(p.ldi, first, last))
         merged.z_back = back_at(p.ldi, last);

@@ -14,7 +14,7 @@ void flatten_pixel(const Ldi &ldi, const std::vector<std::size_t> &coverage, std
         double transmittance = 1, sum = 0; // double: thousands of thin samples may add up
         for (const std::uint64_t i : ldi.pixel(pixel)) {
             if (!(transmittance > 0)) break;
-            sum += transmittance * double(ldi.values[k][i]);
+            sum += transmittance * ldi.values[k][i];
             transmittance *= 1 - double(alpha_at(ldi, coverage[k], i));
         }
         out.values[k * plane + pixel] = float(sum);

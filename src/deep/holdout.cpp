@@ -22,7 +22,7 @@ double Holdout::passes(int x, int y, double z) const {
     double passed = 1;
     for (const std::uint64_t i : ldi_.pixel(pixel)) {
         if (!(passed > 0)) break;
-        const double front = double(ldi_.z[i]), back = double(back_at(ldi_, i));
+        const double front = ldi_.z[i], back = back_at(ldi_, i);
         if (!(front < z * (1 - rounding))) break;
         const double clear = std::max(0.0, 1 - double(alpha_at(ldi_, alpha_, i)));
         passed *= back > z ? std::pow(clear, (z - front) / (back - front)) : clear;
@@ -45,8 +45,8 @@ Image flatten_by_alpha(const Ldi &ldi, const Holdout &holdout) {
             double transmittance = 1;
             for (const std::uint64_t i : ldi.pixel(pixel)) {
                 if (!(transmittance > 0)) break;
-                const double share = transmittance * holdout.passes(x, y, double(ldi.z[i]));
-                for (std::size_t k = 0; k < sums.size(); ++k) sums[k] += share * double(ldi.values[k][i]);
+                const double share = transmittance * holdout.passes(x, y, ldi.z[i]);
+                for (std::size_t k = 0; k < sums.size(); ++k) sums[k] += share * ldi.values[k][i];
                 transmittance *= 1 - double(alpha_at(ldi, alpha, i));
             }
             for (std::size_t k = 0; k < sums.size(); ++k)

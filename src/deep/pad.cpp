@@ -23,7 +23,7 @@ Ldi padded(Ldi ldi, const Imath::Box2i &data) {
 
 Imath::V2i largest_reach(const Ldi &ldi, const ThinLens &lens) {
     double largest = 0;
-    for (const float z : ldi.z) largest = std::max(largest, std::abs(circle_of_confusion(lens, double(z))));
+    for (const float z : ldi.z) largest = std::max(largest, std::abs(circle_of_confusion(lens, z)));
     return {int(std::ceil(largest)) + 1, int(std::ceil(largest * lens.pixel_aspect)) + 1};
 }
 

@@ -39,8 +39,8 @@ std::vector<Seen> samples_in(const Ldi &ldi, std::size_t alpha, const Imath::V2i
             double shown = 1;
             for (const std::uint64_t i : ldi.pixel(pixel)) {
                 const MergedSample s = sample_at(ldi, i);
-                seen.push_back({i, double(s.z), shown, (x + 0.5 + double(s.dx)) / factor - (small.x + 0.5),
-                                (y + 0.5 + double(s.dy)) / factor - (small.y + 0.5)});
+                seen.push_back({i, s.z, shown, (x + 0.5 + s.dx) / factor - (small.x + 0.5),
+                                (y + 0.5 + s.dy) / factor - (small.y + 0.5)});
                 shown *= 1 - double(alpha_at(ldi, alpha, i));
             }
         }
@@ -66,7 +66,7 @@ void append_surfaces(const Ldi &ldi, std::size_t alpha, const std::vector<Seen> 
         for (; end < seen.size() && seen[end].z <= surface_depth_ratio * seen[begin].z; ++end) {
             const Seen &s = seen[end];
             x += s.x, y += s.y;
-            shown += s.shown * double(alpha_at(ldi, alpha, s.index)) / pixels;
+            shown += s.shown * alpha_at(ldi, alpha, s.index) / pixels;
             terms.push_back({s.index, (left > nothing_left ? s.shown / left : 1) / pixels});
         }
         surface.dx = offset(x, end - begin), surface.dy = offset(y, end - begin);

@@ -124,7 +124,7 @@ void Repair::repair_coverage(std::size_t channel) {
         int count = 0;
         for_each_neighbour(pixel, i, [&](std::uint64_t n) {
             if (!std::isfinite(values[n])) return;
-            sum += double(std::clamp(values[n], 0.0f, 1.0f));
+            sum += std::clamp(values[n], 0.0f, 1.0f);
             ++count;
         });
         const float around = count > 0 ? float(sum / count) : 1;
@@ -168,10 +168,10 @@ void Repair::repair_colours(std::size_t channel) {
         double light = 0, coverage = 0;
         for_each_neighbour(pixel, i, [&](std::uint64_t n) {
             if (!is_light(values[n])) return;
-            light += double(values[n]);
-            coverage += double(alpha(n));
+            light += values[n];
+            coverage += alpha(n);
         });
-        changes.emplace_back(i, coverage > 0 ? float(double(alpha(i)) * light / coverage) : 0);
+        changes.emplace_back(i, coverage > 0 ? float(alpha(i) * light / coverage) : 0);
         ++found_.colours;
     });
     apply(changes, values);

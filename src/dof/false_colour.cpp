@@ -32,7 +32,7 @@ Image paint(const Windows &windows, const Colour &colour) {
 // CoC of what each pixel shows first.
 auto front_coc(const Ldi &ldi, const ThinLens &lens) {
     return [depth = front_depth(ldi), lens](std::size_t i) {
-        return float(circle_of_confusion(lens, double(depth.plane(0)[i])));
+        return float(circle_of_confusion(lens, depth.plane(0)[i]));
     };
 }
 

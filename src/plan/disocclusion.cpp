@@ -17,7 +17,7 @@ public:
         : data_(windows.data), grid_(windows.width(), windows.height()),
           shift_(-u.x, u.y * lens.pixel_aspect), depth_(z.size()) {
         std::transform(z.begin(), z.end(), depth_.begin(),
-                       [&](float value) { return perceptive_depth(lens, double(value)); });
+                       [&](float value) { return perceptive_depth(lens, value); });
     }
 
     MovedDepth run() const {

@@ -21,7 +21,7 @@ std::vector<double> brightness(const Image &image) {
         if (channel == npos) continue;
         ++channels;
         const auto plane = image.plane(channel);
-        for (std::size_t i = 0; i < mean.size(); ++i) mean[i] += tone_mapped(double(plane[i]));
+        for (std::size_t i = 0; i < mean.size(); ++i) mean[i] += tone_mapped(plane[i]);
     }
     for (double &value : mean) value /= std::max(channels, 1.0);
     return mean;
@@ -57,7 +57,7 @@ double noise_in_lens_picture(const Image &image, std::span<const float> z, const
     int blocks = 0;
     for (int y = 1; y + block_size < grid.height(); y += block_size)
         for (int x = 1; x + block_size < grid.width(); x += block_size) {
-            const double depth = double(z[grid.index(x + block_size / 2, y + block_size / 2)]);
+            const double depth = z[grid.index(x + block_size / 2, y + block_size / 2)];
             const double coc = circle_of_confusion(lens, depth);
             const double variance = deviation ? *deviation * *deviation : block_variance(picture, grid, x, y);
             sum += variance / std::max(1.0, std::numbers::pi * coc * coc);

@@ -49,7 +49,7 @@ std::vector<std::uint32_t> uncovered_places(const MovedDepth &moved, const Pixel
                 if (!grid.contains(at_x, at_y)) break;
                 behind = moved.depth[grid.index(at_x, at_y)];
             }
-            const double depth = double(std::max(behind, 0.0f));
+            const double depth = std::max(behind, 0.0f);
             const double place_x = std::round(x + depth * step.x), place_y = std::round(y + depth * step.y);
             if (place_x < 0 || place_y < 0 || place_x >= grid.width() || place_y >= grid.height()) continue;
             places.push_back(std::uint32_t(grid.index(int(place_x), int(place_y))));
@@ -145,7 +145,7 @@ OverscanNeed overscan_of(const View &centre, const ThinLens &lens) {
         double largest = 0;
         for (int i = 0; i < count; ++i, at += step) {
             const std::size_t pixel = std::size_t(at.y) * std::size_t(w.width()) + std::size_t(at.x);
-            largest = std::max(largest, std::abs(circle_of_confusion(lens, double(centre.z[pixel]))));
+            largest = std::max(largest, std::abs(circle_of_confusion(lens, centre.z[pixel])));
         }
         return int(std::min(std::ceil(largest), double(most)));
     };

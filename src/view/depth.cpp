@@ -18,7 +18,7 @@ double planar_depth(DepthMeaning meaning, double value, int x, int y, const Wind
     if (meaning == DepthMeaning::inverse) return 1 / (value == 0 ? 0.0 : value); // -0 too is infinitely far
     const Imath::V2d axis = in_pixels(principal_point, windows);
     const double right = x + 0.5 - axis.x;
-    const double down = (y + 0.5 - axis.y) / double(windows.pixel_aspect);
+    const double down = (y + 0.5 - axis.y) / windows.pixel_aspect;
     return value / std::sqrt(1 + (right * right + down * down) / (focal_px * focal_px));
 }
 

@@ -9,7 +9,7 @@ Imath::V2d in_pixels(const Imath::V2d &principal_point, const Windows &windows) 
     const Imath::V2d middle((double(display.min.x) + display.max.x + 1) / 2,
                             (double(display.min.y) + display.max.y + 1) / 2);
     const double width = double(display.max.x) - display.min.x + 1;
-    return middle + width * Imath::V2d(principal_point.x, principal_point.y * double(windows.pixel_aspect));
+    return middle + width * Imath::V2d(principal_point.x, principal_point.y * windows.pixel_aspect);
 }
 
 ViewMapping::ViewMapping(const Imath::V2d &position, double focal_px, const Windows &windows,
@@ -17,8 +17,8 @@ ViewMapping::ViewMapping(const Imath::V2d &position, double focal_px, const Wind
     : unzoom_(1 / view.zoom), approach_(view.forward * unzoom_) {
     const Imath::V2d own = in_pixels(view.principal_point, windows);
     offset_ = in_pixels(centre_principal_point, windows) - own * unzoom_;
-    step_ = Imath::V2d(focal_px * position.x, -focal_px * position.y * double(windows.pixel_aspect)) +
-            own * approach_;
+    step_ =
+        Imath::V2d(focal_px * position.x, -focal_px * position.y * windows.pixel_aspect) + own * approach_;
 }
 
 Imath::V2d ViewMapping::in_view(const Imath::V2d &p, double inverse_z) const {

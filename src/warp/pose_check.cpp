@@ -32,7 +32,7 @@ public:
     bool show_something(const Imath::V2i &p) const {
         return depth(p) > 0 && (alpha_ == npos || view_.image.at(alpha_, p.x, p.y) > 0);
     }
-    double depth(const Imath::V2i &p) const { return double(view_.z[view_.image.windows.index(p.x, p.y)]); }
+    double depth(const Imath::V2i &p) const { return view_.z[view_.image.windows.index(p.x, p.y)]; }
 
 private:
     const View &view_;
@@ -78,7 +78,7 @@ double disagreement(const View &centre, const View &view, const Imath::V2d &posi
     const auto relative_difference = [&](const Imath::V2i &p, const Imath::V2i &q) {
         double off = 0, light = 1e-6; // both dark: no difference
         for (const auto &[c, v] : colours) {
-            const double a = double(centre.image.at(c, p.x, p.y)), b = double(view.image.at(v, q.x, q.y));
+            const double a = centre.image.at(c, p.x, p.y), b = view.image.at(v, q.x, q.y);
             off += std::abs(a - b);
             light += std::abs(a) + std::abs(b);
         }

@@ -80,7 +80,7 @@ ReprojectedRows ReprojectedViews::place(const Imath::Box2i &data, int first_row,
     std::vector<std::size_t> next(rows.begin.begin(), rows.begin.end() - 1);
     for (std::uint32_t v = 0; v < size(); ++v)
         for (const ReprojectedSample &s : landed[v])
-            rows.samples[next[pixel_of(s)]++] = {s, v, 0, double(samples(v).weight[s.source]) * nearness(s)};
+            rows.samples[next[pixel_of(s)]++] = {s, v, 0, samples(v).weight[s.source] * nearness(s)};
     return rows;
 }
 

@@ -79,7 +79,7 @@ Separation::Separation(const Ldi &view, double scale, double jump)
     : view_(view), grid_(view.windows.width(), view.windows.height()), scale_(scale), jump_(jump),
       alpha_(view.alpha()), rgb_(find_rgb(view.channels)) {
     depths_.resize(view.samples());
-    std::ranges::transform(view.z, depths_.begin(), [scale](float z) { return scale / double(z); });
+    std::ranges::transform(view.z, depths_.begin(), [scale](float z) { return scale / z; });
     sides_.assign(view.samples(), inside);
     if (alpha_ == npos || !all_found(rgb_)) return;
     parallel_for(std::size_t(grid_.height()), [&](std::size_t y) {

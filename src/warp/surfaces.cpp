@@ -47,7 +47,7 @@ Surface claim(double tolerance, const ViewSample &anchor, std::uint32_t number,
     for (ViewSample &s : samples) {
         if (s.surface != none || !one_surface(s, anchor, tolerance)) continue;
         s.surface = number;
-        sum += s.weight * double(s.inverse_z);
+        sum += s.weight * s.inverse_z;
         total += s.weight;
     }
     return {{}, sum / total};

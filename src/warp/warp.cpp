@@ -62,11 +62,11 @@ void Warper::emit_mean(std::span<const ViewSample> samples, Ldi &out) const {
     double count = 0, total = 0, dx = 0, dy = 0,
            inverse_z = 0; // double: views may be many, depths near each other
     for (const ViewSample &s : samples) {
-        count += double(views_.samples(s.view).weight[s.source]);
+        count += views_.samples(s.view).weight[s.source];
         total += s.weight;
-        dx += s.weight * double(s.dx);
-        dy += s.weight * double(s.dy);
-        inverse_z += s.weight * double(s.inverse_z);
+        dx += s.weight * s.dx;
+        dy += s.weight * s.dy;
+        inverse_z += s.weight * s.inverse_z;
     }
     dx /= total;
     dy /= total;
@@ -81,7 +81,7 @@ void Warper::emit_mean(std::span<const ViewSample> samples, Ldi &out) const {
     out.weight.push_back(float(count));
     for (std::size_t k = 0; k < out.channels.size(); ++k) {
         double sum = 0;
-        for (const ViewSample &s : samples) sum += s.weight * double(views_.value(s, k));
+        for (const ViewSample &s : samples) sum += s.weight * views_.value(s, k);
         const bool id = out.channels[k].type == PixelType::uint32;
         out.values[k].push_back(id ? views_.value(samples[0], k) : float(coverage * (sum / total)));
     }

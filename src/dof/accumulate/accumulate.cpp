@@ -76,8 +76,7 @@ void add_moved_along_x(const Line &line, float part, Line &integrals, double *su
     const std::size_t count = line.size() - 5;
     for (std::size_t i = 0; i < integrals.size(); ++i)
         integrals[i] = integral_inside(line[i], line[i + 1], line[i + 2], line[i + 3], line[i + 4], part);
-    for (std::size_t i = 0; i < count; ++i)
-        sums[i] += double(line[i + 2] + (integrals[i + 1] - integrals[i]));
+    for (std::size_t i = 0; i < count; ++i) sums[i] += line[i + 2] + (integrals[i + 1] - integrals[i]);
 }
 
 // Rows [begin, end) of the target.
@@ -180,7 +179,7 @@ float mean_of_neighbours(const Image &image, std::size_t channel, int x, int y) 
         for (int u = std::max(x - 1, window.min.x); u <= std::min(x + 1, window.max.x); ++u) {
             const float value = image.at(channel, u, v);
             if (!std::isfinite(value)) continue;
-            sum += double(value);
+            sum += value;
             ++count;
         }
     return count == 0 ? 0.0f : float(sum / count);

@@ -101,7 +101,7 @@ void TileGather::add_splat(std::size_t splat) {
         const double *weight = weights.data() + (begin - tile_.min.x);
         for (std::size_t k = 0; k < value.size(); ++k) {
             double *sum = &sums_[k * tile_pixels + pixels_.index(begin, row)];
-            for (int i = 0; i < end - begin; ++i) sum[i] += weight[i] * double(value[k]);
+            for (int i = 0; i < end - begin; ++i) sum[i] += weight[i] * value[k];
         }
     }
 }

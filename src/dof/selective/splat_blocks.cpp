@@ -74,7 +74,7 @@ void sum_blocks(SplatBlocks &grid, double pixel_aspect) {
         for (std::size_t i = block.begin; i < block.end; ++i) {
             const double weight = 1 / (std::numbers::pi * grid.radius[i] * grid.radius[i] * pixel_aspect);
             for (std::size_t k = 0; k < grid.size(); ++k)
-                grid.sums[index * grid.size() + k] += weight * double(grid.value(i)[k]);
+                grid.sums[index * grid.size() + k] += weight * grid.value(i)[k];
         }
     });
 }
