@@ -154,16 +154,16 @@ LumaPlanes add_pixel_errors(const Image &image, const Image &reference, const Pi
     return luma;
 }
 
-void add_similarity(const SsimMap &ssim, std::size_t image_width, const PixelSets &sets,
+void add_similarity(const SsimMap &ssim, const Grid &pixels, const PixelSets &sets,
                     std::vector<RowSums> &rows) {
-    const std::size_t width = std::size_t(ssim.width), left = std::size_t(ssim.centre_x);
+    const Grid windows(ssim.width, ssim.height);
     parallel_for(std::size_t(ssim.height), [&](std::size_t y) {
-        const std::size_t first_centre = (y + std::size_t(ssim.centre_y)) * image_width + left;
-        for (std::size_t x = 0; x < width; ++x) {
-            const double value = ssim.values[y * width + x];
+        for (int x = 0; x < ssim.width; ++x) {
+            const double value = ssim.values[windows.index(x, int(y))];
             if (std::isnan(value)) continue; // the window holds a pixel that is not finite
+            const std::size_t centre = pixels.index(x + ssim.centre_x, int(y) + ssim.centre_y);
             for (std::size_t set = 0; set < sets.count; ++set) {
-                if (!sets.holds(set, first_centre + x)) continue;
+                if (!sets.holds(set, centre)) continue;
                 rows[y][set].ssim += value;
                 ++rows[y][set].windows;
             }
@@ -201,7 +201,7 @@ std::vector<ErrorFigures> image_error(const Image &image, const Image &reference
     const int width = image.windows.width(), height = image.windows.height();
     std::vector<RowSums> rows(std::size_t(height), RowSums(sets.count));
     const LumaPlanes luma = add_pixel_errors(image, reference, sets, rows);
-    add_similarity(ssim_map(luma.image, luma.reference, width, height), std::size_t(width), sets, rows);
+    add_similarity(ssim_map(luma.image, luma.reference, width, height), Grid(width, height), sets, rows);
     std::vector<ErrorFigures> figures(sets.count);
     parallel_for(sets.count, [&](std::size_t set) {
         Sums sums;

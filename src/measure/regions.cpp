@@ -53,10 +53,9 @@ void lower_envelope(std::span<const double> f, double spacing, std::span<double>
 }
 
 // -r^2 at both pixels of each jump, r their reach; infinity elsewhere.
-std::vector<double> jumps(std::span<const float> c, std::size_t width, std::size_t height,
-                          double pixel_aspect) {
+std::vector<double> jumps(std::span<const float> c, const Grid &grid, double pixel_aspect) {
     // A disc that covers the picture is as large as is needed; larger ones would only cost digits.
-    const double largest = double(width) + double(height) / pixel_aspect;
+    const double largest = grid.width() + grid.height() / pixel_aspect;
     std::vector<double> reach(c.size(), infinity);
     const auto mark = [&](std::size_t i, std::size_t j) {
         if (!(std::abs(double(c[i]) - double(c[j])) > 1)) return;
@@ -65,29 +64,28 @@ std::vector<double> jumps(std::span<const float> c, std::size_t width, std::size
         reach[i] = std::min(reach[i], -r * r);
         reach[j] = std::min(reach[j], -r * r);
     };
-    for (std::size_t y = 0; y < height; ++y)
-        for (std::size_t x = 0; x < width; ++x) {
-            const std::size_t i = y * width + x;
-            if (x + 1 < width) mark(i, i + 1);
-            if (y + 1 < height) mark(i, i + width);
+    for (int y = 0; y < grid.height(); ++y)
+        for (int x = 0; x < grid.width(); ++x) {
+            if (x + 1 < grid.width()) mark(grid.index(x, y), grid.index(x + 1, y));
+            if (y + 1 < grid.height()) mark(grid.index(x, y), grid.index(x, y + 1));
         }
     return reach;
 }
 
 // Where the discs around the jumps lie: values <= 0.
-std::vector<double> grown_jumps(std::span<const float> c, std::size_t width, std::size_t height,
-                                double pixel_aspect) {
-    std::vector<double> field = jumps(c, width, height, pixel_aspect);
+std::vector<double> grown_jumps(std::span<const float> c, const Grid &grid, double pixel_aspect) {
+    std::vector<double> field = jumps(c, grid, pixel_aspect);
+    const std::size_t width = std::size_t(grid.width()), height = std::size_t(grid.height());
     parallel_for(height, [&](std::size_t y) {
-        const std::span row = std::span(field).subspan(y * width, width);
+        const std::span row = std::span(field).subspan(grid.index(0, int(y)), width);
         const std::vector<double> before(row.begin(), row.end());
         lower_envelope(before, 1, row);
     });
     parallel_for(width, [&](std::size_t x) {
         std::vector<double> before(height), after(height);
-        for (std::size_t y = 0; y < height; ++y) before[y] = field[y * width + x];
+        for (std::size_t y = 0; y < height; ++y) before[y] = field[grid.index(int(x), int(y))];
         lower_envelope(before, 1 / pixel_aspect, after);
-        for (std::size_t y = 0; y < height; ++y) field[y * width + x] = after[y];
+        for (std::size_t y = 0; y < height; ++y) field[grid.index(int(x), int(y))] = after[y];
     });
     return field;
 }
@@ -104,8 +102,7 @@ std::vector<float> front_circles_of_confusion(const Ldi &ldi, const ThinLens &le
 }
 
 std::vector<std::uint8_t> region_bits(std::span<const float> c, int width, int height, double pixel_aspect) {
-    const std::vector<double> silhouettes =
-        grown_jumps(c, std::size_t(width), std::size_t(height), pixel_aspect);
+    const std::vector<double> silhouettes = grown_jumps(c, Grid(width, height), pixel_aspect);
     std::vector<std::uint8_t> bits(c.size());
     for (std::size_t i = 0; i < c.size(); ++i) {
         const float size = std::abs(c[i]);
