@@ -1,7 +1,7 @@
 // A picture of many surfaces through the selective gather and through the scatter that checks it.
-#include "dof/ldi_fixture.h"
 #include "dof/selective/scatter.h"
 #include "dof/selective/selective.h"
+#include "support/lens_ldi.h"
 
 #include <benchmark/benchmark.h>
 
@@ -10,9 +10,7 @@ namespace {
 
 const ThinLens lens{.radius = 0.06, .focal_px = 640, .focus = 5};
 
-Ldi picture(int width, int height) {
-    return test::random_ldi(windows_of_size(width, height), lens, false, 1);
-}
+Ldi picture(int width, int height) { return random_surfaces(windows_of_size(width, height), lens, false, 1); }
 
 // The lens opened `range` times, in tenths: the largest CoC is 6 px at 1.
 ThinLens opened(const benchmark::State &state) {

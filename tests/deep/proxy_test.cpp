@@ -2,7 +2,7 @@
 #include "deep/order.h"
 #include "deep/pad.h"
 #include "deep/proxy.h"
-#include "dof/ldi_fixture.h"
+#include "support/lens_ldi.h"
 
 #include <gtest/gtest.h>
 
@@ -24,7 +24,7 @@ TEST(Reduced, RoundsDownOnBothSidesOfZero) {
 }
 
 TEST(Padded, LeavesThePictureWhereItIs) {
-    const Ldi ldi = test::random_ldi(moved(3, -2, 7, 5), lens, false, 1);
+    const Ldi ldi = random_surfaces(moved(3, -2, 7, 5), lens, false, 1);
     const Ldi out = padded(ldi, Imath::Box2i({1, -3}, {12, 2}));
     EXPECT_EQ(out.windows.data, Imath::Box2i({1, -3}, {12, 2}));
     const Image flat = flatten(out);
@@ -47,7 +47,7 @@ double box_mean(const Image &image, std::size_t channel, int x, int y, int facto
 TEST(Proxy, FlattensToTheMean) {
     for (const bool opaque : {true, false})
         for (const int factor : {1, 2, 3, 5}) {
-            const Ldi ldi = test::random_ldi(moved(-4, 3, 23, 17), lens, opaque, 9);
+            const Ldi ldi = random_surfaces(moved(-4, 3, 23, 17), lens, opaque, 9);
             const Ldi out = proxy(ldi, factor);
             EXPECT_TRUE(order_of(out).sorted && order_of(out).apart);
             EXPECT_EQ(out.windows.data, reduced(ldi.windows.data, factor));
@@ -63,8 +63,8 @@ TEST(Proxy, FlattensToTheMean) {
 
 TEST(Proxy, KeepsWhatIsHidden) {
     // A wall behind a card that hides all of it: both are there.
-    const Ldi ldi = test::make_ldi(windows_of_size(4, 4), rgba_channels(), [](int, int) {
-        return std::vector<test::Sample>{{2, {1, 0, 0, 1}}, {8, {0, 0.5f, 0, 1}}};
+    const Ldi ldi = make_ldi(windows_of_size(4, 4), rgba_channels(), [](int, int) {
+        return std::vector<Sample>{{2, {1, 0, 0, 1}}, {8, {0, 0.5f, 0, 1}}};
     });
     const Ldi out = proxy(ldi, 2);
     ASSERT_EQ(out.samples(), 8u);
@@ -75,9 +75,9 @@ TEST(Proxy, KeepsWhatIsHidden) {
 }
 
 TEST(LargestReach, IsTheLargestBlur) {
-    Ldi ldi = test::make_ldi(windows_of_size(1, 1), rgba_channels(), [](int, int) {
-        return std::vector<test::Sample>{{test::depth_of(lens, -3.5), {1, 1, 1, 0.5f}},
-                                         {test::depth_of(lens, 2), {1, 1, 1, 1}}};
+    Ldi ldi = make_ldi(windows_of_size(1, 1), rgba_channels(), [](int, int) {
+        return std::vector<Sample>{{depth_of(lens, -3.5), {1, 1, 1, 0.5f}},
+                                   {depth_of(lens, 2), {1, 1, 1, 1}}};
     });
     EXPECT_EQ(largest_reach(ldi, lens), Imath::V2i(5, 5));
 }

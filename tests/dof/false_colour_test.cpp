@@ -1,7 +1,7 @@
 #include "base/progress.h"
 #include "dof/false_colour.h"
-#include "dof/ldi_fixture.h"
 #include "dof/lens/lens_gather.h"
+#include "support/lens_ldi.h"
 
 #include <gtest/gtest.h>
 
@@ -19,8 +19,8 @@ Imath::V3f colour_at(const Image &image, int x, int y) {
 
 // One row; pixel x has its samples at these depths, of brightness 1.
 Ldi row(const std::vector<std::vector<double>> &depths) {
-    return test::make_ldi(windows_of_size(int(depths.size()), 1), rgba_channels(), [&](int x, int) {
-        std::vector<test::Sample> samples;
+    return make_ldi(windows_of_size(int(depths.size()), 1), rgba_channels(), [&](int x, int) {
+        std::vector<Sample> samples;
         for (const double z : depths[std::size_t(x)]) samples.push_back({z, {1, 1, 1, 1}});
         return samples;
     });
@@ -29,7 +29,7 @@ Ldi row(const std::vector<std::vector<double>> &depths) {
 TEST(FalseColour, CocIsBlueInFrontAndRedBehind) {
     const double inf = std::numeric_limits<double>::infinity();
     const Image image =
-        coc_colours(row({{5}, {test::depth_of(lens, -8), 5}, {test::depth_of(lens, 2)}, {inf}, {}}), lens);
+        coc_colours(row({{5}, {depth_of(lens, -8), 5}, {depth_of(lens, 2)}, {inf}, {}}), lens);
     const auto near = [](const Imath::V3f &a, const Imath::V3f &b) { return a.equalWithAbsError(b, 1e-5f); };
     EXPECT_TRUE(near(colour_at(image, 0, 0), {1, 1, 1}));
     EXPECT_TRUE(near(colour_at(image, 1, 0), {0.5f, 0.5f, 1}));
@@ -39,8 +39,7 @@ TEST(FalseColour, CocIsBlueInFrontAndRedBehind) {
 }
 
 TEST(FalseColour, FocusIsGreenWhereTheCocIsUnderAPixel) {
-    const Image image =
-        focus_colours(row({{test::depth_of(lens, 0.9)}, {test::depth_of(lens, -1.1)}, {}}), lens);
+    const Image image = focus_colours(row({{depth_of(lens, 0.9)}, {depth_of(lens, -1.1)}, {}}), lens);
     EXPECT_EQ(colour_at(image, 0, 0),
               Imath::V3f(0.25f, 0.75f, 0.25f)); // brightness 1 is tone-mapped to a half
     EXPECT_EQ(colour_at(image, 1, 0), Imath::V3f(0.25f, 0.25f, 0.25f));
@@ -76,8 +75,8 @@ TEST(FalseColour, TilesShowTheirLensPoints) {
 // What the gather says it chose: nothing for tiles in focus, which are copied; the number asked for elsewhere.
 TEST(LensTiles, SayWhatTheGatherChose) {
     const Windows windows = windows_of_size(200, 70); // 4 x 2 tiles
-    const Ldi ldi = test::make_ldi(windows, rgba_channels(), [&](int x, int) {
-        return std::vector<test::Sample>{{test::depth_of(lens, x < 100 ? 0 : 3), {1, 1, 1, 1}}};
+    const Ldi ldi = make_ldi(windows, rgba_channels(), [&](int x, int) {
+        return std::vector<Sample>{{depth_of(lens, x < 100 ? 0 : 3), {1, 1, 1, 1}}};
     });
     LensTiles chosen;
     Progress silent;

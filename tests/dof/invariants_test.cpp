@@ -1,8 +1,8 @@
 // What holds of the lens gather whatever the picture: checked on random LDIs.
 #include "base/random.h"
 #include "deep/tidy.h"
-#include "dof/ldi_fixture.h"
 #include "dof/lens/lens_gather.h"
+#include "support/lens_ldi.h"
 #include "support/views.h"
 #include "warp/warp.h"
 
@@ -10,15 +10,11 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace sparselens {
 namespace {
-
-using test::depth_of;
-using test::make_ldi;
-using test::random_unit;
-using test::Sample;
 
 const ThinLens lens{.radius = 0.06, .focal_px = 640, .focus = 5}; // CoC up to 7.7 px behind focus
 
@@ -146,7 +142,7 @@ TEST(Invariants, MovedByWholeTilesItIsTheSamePicture) {
     const Image expected = part(gather(on_canvas(at, 3)), at - margin, size);
     for (const Imath::V2i &by : {Imath::V2i(64, 0), {0, 64}, {128, 64}}) {
         const Image moved = part(gather(on_canvas(at + by, 3)), at + by - margin, size);
-        EXPECT_EQ(test::largest_difference(moved, expected), 0) << by;
+        EXPECT_EQ(largest_difference(moved, expected), 0) << by;
     }
 }
 

@@ -1,19 +1,18 @@
 // Further layers are defocused with the visibility of the beauty: light layers that add up to it still do, whatever
 // is done for highlights and near focus. Ids are never mixed.
 #include "deep/tidy.h"
-#include "dof/ldi_fixture.h"
 #include "dof/methods.h"
+#include "support/lens_ldi.h"
 
 #include <gtest/gtest.h>
 #include <half.h>
 
+#include <algorithm>
 #include <bit>
+#include <cmath>
 
 namespace sparselens {
 namespace {
-
-using test::random_unit;
-using test::Sample;
 
 constexpr int layers = 3;
 const ThinLens lens{.radius = 0.06, .focal_px = 640, .focus = 5};
@@ -25,7 +24,7 @@ Ldi lit_by_layers(const Windows &windows) {
         for (const char *name : {"R", "G", "B"})
             channels.push_back({"light" + std::to_string(l) + "." + name});
     channels.push_back({"id", PixelType::uint32});
-    return test::make_ldi(windows, channels, [&](int x, int y) {
+    return make_ldi(windows, channels, [&](int x, int y) {
         std::vector<Sample> samples;
         for (int i = 0; i < 1 + int(2 * random_unit(x, y, 3)); ++i) {
             const auto random = [&](std::uint32_t k) { return random_unit(x, y, 31 * k + std::uint32_t(i)); };
@@ -38,8 +37,8 @@ Ldi lit_by_layers(const Windows &windows) {
                     values[k] += values.back();
                 }
             values.push_back(std::bit_cast<float>(0x7fc00000u + std::uint32_t(x + 100 * y + 10000 * i)));
-            samples.push_back({test::depth_of(lens, -5 + 3 * i + 0.5 * random(40)), values,
-                               float(random(5) - 0.5), float(random(6) - 0.5)});
+            samples.push_back({depth_of(lens, -5 + 3 * i + 0.5 * random(40)), values, float(random(5) - 0.5),
+                               float(random(6) - 0.5)});
         }
         return samples;
     });

@@ -8,27 +8,12 @@ namespace sparselens {
 
 namespace {
 
-Ldi ldi_of(const std::vector<TestPixel> &pixels, const Windows &windows, bool volumes) {
-    Ldi ldi;
-    ldi.windows = windows;
-    ldi.channels = rgba_channels();
-    ldi.values.resize(4);
-    ldi.begin.push_back(0);
-    for (const TestPixel &pixel : pixels) {
-        for (const TestSample &s : pixel) {
-            ldi.z.push_back(s.z);
-            if (volumes) ldi.z_back.push_back(s.z_back == 0 ? s.z : s.z_back);
-            ldi.dx.push_back(s.dx);
-            ldi.dy.push_back(s.dy);
-            ldi.weight.push_back(s.weight);
-            ldi.values[0].push_back(s.colour);
-            ldi.values[1].push_back(s.colour / 2);
-            ldi.values[2].push_back(s.colour / 4);
-            ldi.values[3].push_back(s.alpha);
-        }
-        ldi.begin.push_back(ldi.z.size());
-    }
-    return ldi;
+std::vector<Sample> coloured(const TestPixel &pixel) {
+    std::vector<Sample> samples;
+    for (const TestSample &s : pixel)
+        samples.push_back(
+            {double(s.z), {s.colour, s.colour / 2, s.colour / 4, s.alpha}, s.dx, s.dy, s.z_back, s.weight});
+    return samples;
 }
 
 class Numbers {
@@ -55,11 +40,34 @@ TestSample random_sample(const RandomLdi &how, Numbers &numbers) {
 
 } // namespace
 
+Ldi make_ldi(const Windows &windows, const std::vector<Channel> &channels,
+             const std::function<std::vector<Sample>(int x, int y)> &samples_at) {
+    Ldi ldi;
+    ldi.windows = windows;
+    ldi.channels = channels;
+    ldi.values.resize(channels.size());
+    ldi.begin.push_back(0);
+    bool volumes = false;
+    for (int y = windows.data.min.y; y <= windows.data.max.y; ++y)
+        for (int x = windows.data.min.x; x <= windows.data.max.x; ++x) {
+            for (const Sample &s : samples_at(x, y)) {
+                volumes |= s.z_back != 0;
+                ldi.z.push_back(float(s.z));
+                ldi.z_back.push_back(s.z_back == 0 ? float(s.z) : s.z_back);
+                ldi.dx.push_back(s.dx);
+                ldi.dy.push_back(s.dy);
+                ldi.weight.push_back(s.weight);
+                for (std::size_t k = 0; k < channels.size(); ++k) ldi.values[k].push_back(s.values[k]);
+            }
+            ldi.begin.push_back(ldi.z.size());
+        }
+    if (!volumes) ldi.z_back.clear();
+    return ldi;
+}
+
 Ldi ldi_of(const std::vector<TestPixel> &pixels) {
-    const bool volumes = std::ranges::any_of(pixels, [](const TestPixel &p) {
-        return std::ranges::any_of(p, [](const auto &s) { return s.z_back != 0; });
-    });
-    return ldi_of(pixels, windows_of_size(int(pixels.size()), 1), volumes);
+    return make_ldi(windows_of_size(int(pixels.size()), 1), rgba_channels(),
+                    [&](int x, int) { return coloured(pixels[std::size_t(x)]); });
 }
 
 TestPixel samples_of(const Ldi &ldi, std::size_t pixel) {
@@ -73,13 +81,16 @@ TestPixel samples_of(const Ldi &ldi, std::size_t pixel) {
 
 Ldi random_ldi(const RandomLdi &how) {
     Numbers numbers(how.seed);
-    std::vector<TestPixel> pixels(std::size_t(how.width * how.height));
-    for (TestPixel &pixel : pixels) {
-        pixel.resize(std::size_t(numbers.below(how.most_samples + 1)));
+    return make_ldi(windows_of_size(how.width, how.height), rgba_channels(), [&](int, int) {
+        TestPixel pixel(std::size_t(numbers.below(how.most_samples + 1)));
         for (TestSample &s : pixel) s = random_sample(how, numbers);
         if (!how.shuffled) std::ranges::stable_sort(pixel, {}, &TestSample::z);
-    }
-    return ldi_of(pixels, windows_of_size(how.width, how.height), how.volume_share > 0);
+        return coloured(pixel);
+    });
+}
+
+double random_unit(int a, int b, std::uint32_t stream) {
+    return unit_interval(mix_bits(std::uint32_t(a), mix_bits(std::uint32_t(b), stream)));
 }
 
 } // namespace sparselens

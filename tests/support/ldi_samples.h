@@ -1,12 +1,26 @@
-// LDIs as a test writes them down: pixel by pixel, sample by sample.
+// LDIs as a test writes them down: pixel by pixel, sample by sample; and at random.
 #pragma once
 
 #include "deep/ldi.h"
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace sparselens {
+
+struct Sample {
+    double z;
+    std::vector<float> values; // one for each channel
+    float dx = 0, dy = 0;
+    float z_back = 0; // 0: z
+    float weight = 1;
+};
+
+// samples_at(x, y): what the pixel holds, in EXR coordinates. z_back only where a sample has one; dx, dy and weight
+// always.
+Ldi make_ldi(const Windows &windows, const std::vector<Channel> &channels,
+             const std::function<std::vector<Sample>(int x, int y)> &samples_at);
 
 // R, G and B are colour, colour / 2 and colour / 4 (premultiplied); a point unless z_back is given.
 struct TestSample {
@@ -18,7 +32,7 @@ struct TestSample {
 };
 using TestPixel = std::vector<TestSample>;
 
-// One row of pixels, channels R, G, B, A; z_back only where a sample has one; dx, dy and weight always.
+// One row of pixels, channels R, G, B, A.
 Ldi ldi_of(const std::vector<TestPixel> &pixels);
 
 // The samples of a pixel of such an LDI, z_back filled in.
@@ -36,5 +50,8 @@ struct RandomLdi {
 
 // Colours in [0, 1], alpha in [0, 1], z in [1, 10]. The same arguments give the same LDI.
 Ldi random_ldi(const RandomLdi &how);
+
+// [0, 1), the same for the same arguments.
+double random_unit(int a, int b, std::uint32_t stream);
 
 } // namespace sparselens

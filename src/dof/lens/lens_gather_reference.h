@@ -1,11 +1,13 @@
-// The lens gather, slow and obvious: for each pixel and each lens point, all samples of the LDI are tried. Tests
-// the fast one.
+// The lens gather, slow and obvious: every lens point of every pixel tries every sample, in long double, from the
+// formulas of design.md section 1 and nothing else of this library's kernels. Tests the fast one.
 //
 // A lens point looks through one point of the pixel. It sees the samples whose unit square, displaced by their
 // CoC, covers that point, front to back: coverage is taken for independent, and the first opaque one ends it.
 // Inside `window` a pixel that lets light through to infinity has an opaque, colourless, transparent background
 // there, and another one that moves with its last sample, behind everything. A lens point that meets nothing opaque
-// does not know what lies behind: it counts by what it does know, which is the coverage that it met.
+// does not know what lies behind: it counts by what it does know, which is the coverage that it met. Coverage of
+// 0.9995 or more is full, and a pixel of which less than 1/2048 is left lets no light through: such differences are
+// what rounding to halves makes.
 #pragma once
 
 #include "base/image.h"
@@ -15,12 +17,33 @@
 #include "lens/thin_lens.h"
 
 #include <span>
+#include <vector>
 
 namespace sparselens {
 
-// As lens_gather, with these lens points everywhere, without highlights and sharpening. Samples count as opaque
-// at A = 1; ids are the front samples'.
-Image lens_gather_reference(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window,
-                            std::span<const LensSample> points, const Holdout *holdout = nullptr);
+// What a channel of a pixel is, and between which values any right answer lies: where the edge of a sample passes a
+// lens point closer than float arithmetic can tell, rounding decides whether the point sees it, and both are right.
+struct ReferenceValue {
+    long double value = 0;
+    long double least = 0, most = 0; // exact extremes of the light; where coverage varies too, bounds of them
+
+    long double off(float other) const; // how far it lies outside; infinite if it is no number
+};
+
+struct ReferencePicture {
+    Windows windows;
+    std::vector<ReferenceValue> values; // [channel][pixel]
+    std::vector<bool> sure;             // [pixel]: no edge of a sample is that close; least == most == value
+
+    const ReferenceValue &at(std::size_t channel, int x, int y) const {
+        return values[channel * windows.pixels() + windows.index(x, y)];
+    }
+    double unsure_share() const; // of the pixels
+};
+
+// As lens_gather, with these lens points everywhere, without highlights and sharpening. Ids are the
+// front samples'. The flattened LDI where no lens point sees anything.
+ReferencePicture lens_gather_reference(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window,
+                                       std::span<const LensSample> points, const Holdout *holdout = nullptr);
 
 } // namespace sparselens

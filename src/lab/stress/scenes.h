@@ -41,7 +41,8 @@ double off_from(const Image &image, std::size_t channel, const Imath::Box2i &box
 double off_from(const Image &image, const Image &expected, const Imath::Box2i &box);
 double sum_of(const Image &image, std::size_t channel);
 
-// The fast gather against reference.h, relative to the largest value.
+// The fast gather against lens_gather_reference.h: how far a value lies outside of what that allows, relative to the
+// largest value.
 StressResult against_reference(const Ldi &ldi, const ThinLens &lens, int lens_points = 64);
 // A plane of one colour at that depth keeps it.
 StressResult constant_plane(const ThinLens &lens, double z, double colour, int width = 48, int height = 32);

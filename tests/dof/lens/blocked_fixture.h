@@ -4,13 +4,13 @@
 #include "dof/lens/sample_blocks.h"
 #include "dof/lens/sample_colours.h"
 
-namespace sparselens::test {
+namespace sparselens {
 
-struct Blocked {
+struct BlockedLdi {
     BlockedSamples samples;
     SampleColours colours; // in the order of the LDI's channels
 
-    Blocked(const Ldi &ldi, const ThinLens &lens) : samples(make_blocks(ldi, lens, ldi.windows.data)) {
+    BlockedLdi(const Ldi &ldi, const ThinLens &lens) : samples(make_blocks(ldi, lens, ldi.windows.data)) {
         const std::size_t channels = ldi.channels.size();
         colours = {(channels + 3) / 4, samples.count(), {}};
         colours.values.resize(colours.groups * colours.count * 4);
@@ -20,4 +20,4 @@ struct Blocked {
     }
 };
 
-} // namespace sparselens::test
+} // namespace sparselens

@@ -1,26 +1,24 @@
-#include "dof/ldi_fixture.h"
 #include "dof/lens/blocked_fixture.h"
 #include "dof/lens/highlights.h"
 #include "dof/lens/lens_gather.h"
 #include "lens/psf.h"
+#include "support/lens_ldi.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <functional>
 #include <numeric>
 
 namespace sparselens {
 namespace {
 
-using test::depth_of;
-using test::make_ldi;
-using test::random_unit;
-using test::Sample;
-
 const ThinLens wide{.radius = 1.2, .focal_px = 640, .focus = 5}; // CoC up to 153 px behind focus
 constexpr std::size_t red = 0, alpha = 3;
 
-struct Blocked : test::Blocked {
-    using test::Blocked::Blocked;
+struct Blocked : BlockedLdi {
+    using BlockedLdi::BlockedLdi;
     Highlights take() {
         const std::size_t brightness[] = {0, 1, 2};
         return take_highlights(samples, brightness, brightness, colours);

@@ -1,25 +1,21 @@
 #include "deep/flatten.h"
-#include "dof/ldi_fixture.h"
 #include "dof/lens/lens_gather.h"
 #include "lens/lens_points.h"
 #include "lens/psf.h"
+#include "support/lens_ldi.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include <algorithm>
 #include <bit>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <numbers>
 
 namespace sparselens {
 namespace {
-
-using test::depth_of;
-using test::largest_difference;
-using test::make_ldi;
-using test::random_unit;
-using test::Sample;
 
 constexpr double inf = std::numeric_limits<double>::infinity();
 const ThinLens lens{.radius = 0.06, .focal_px = 640, .focus = 5};        // CoC up to 7.7 px behind focus
@@ -275,7 +271,7 @@ TEST(LensGather, IdsAreTheFrontSamplesAndNeverBlended) {
 }
 
 TEST(LensGather, LayersAddUpToTheBeauty) {
-    Ldi ldi = test::random_ldi(windows_of_size(80, 50), lens, false, 3);
+    Ldi ldi = random_surfaces(windows_of_size(80, 50), lens, false, 3);
     ldi.channels = rgba_channels();
     ldi.values.resize(4);
     for (std::size_t k = 0; k < 3; ++k)
@@ -298,7 +294,7 @@ TEST(LensGather, LayersAddUpToTheBeauty) {
 }
 
 TEST(LensGather, ALayerLikeTheBeautyComesOutLikeIt) {
-    Ldi ldi = test::random_ldi(windows_of_size(80, 50), lens, false, 4);
+    Ldi ldi = random_surfaces(windows_of_size(80, 50), lens, false, 4);
     ldi.values[4] = ldi.values[0];
     const Image image = gather(ldi, lens);
     for (std::size_t i = 0; i < image.windows.pixels(); ++i) ASSERT_EQ(image.plane(4)[i], image.plane(0)[i]);
@@ -311,7 +307,7 @@ Ldi moved(Ldi ldi, const Imath::V2i &by) {
 }
 
 TEST(LensGather, DoesNotDependOnWhereTheWindowLies) {
-    const Ldi ldi = test::random_ldi(windows_of_size(90, 70), lens, false, 5);
+    const Ldi ldi = random_surfaces(windows_of_size(90, 70), lens, false, 5);
     const Image image = gather(ldi, lens), other = gather(moved(ldi, {-1000, 77}), lens);
     EXPECT_EQ(image.values, other.values);
     EXPECT_EQ(other.windows.data.min, Imath::V2i(-1000, 77));
@@ -329,7 +325,7 @@ TEST(LensGather, GivesAPartAsItGivesTheWhole) {
 }
 
 TEST(LensGather, IsTheSameWithAnyNumberOfThreads) {
-    const Ldi ldi = test::random_ldi(windows_of_size(150, 100), lens, false, 6);
+    const Ldi ldi = random_surfaces(windows_of_size(150, 100), lens, false, 6);
     const auto with = [&](std::size_t threads) {
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
         return gather(ldi, lens).values;

@@ -1,16 +1,14 @@
-#include "dof/ldi_fixture.h"
 #include "dof/lens/sample_blocks.h"
+#include "support/lens_ldi.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <set>
 
 namespace sparselens {
 namespace {
-
-using test::make_ldi;
-using test::Sample;
 
 constexpr double inf = std::numeric_limits<double>::infinity();
 const ThinLens lens{.radius = 0.06, .focal_px = 640, .focus = 5};
@@ -22,7 +20,7 @@ bool is_background(const BlockedSamples &samples, std::size_t i) {
 TEST(SampleBlocks, HoldEverySampleOnceAtItsPlace) {
     Windows windows = windows_of_size(45, 21);
     windows.data = {{-13, 4}, {31, 24}};
-    const Ldi ldi = test::random_ldi(windows, lens, false, 1);
+    const Ldi ldi = random_surfaces(windows, lens, false, 1);
     const BlockedSamples samples = make_blocks(ldi, lens, ldi.windows.data);
     std::vector<int> pixel_of(ldi.samples());
     for (std::size_t p = 0; p < windows.pixels(); ++p)
@@ -42,7 +40,7 @@ TEST(SampleBlocks, HoldEverySampleOnceAtItsPlace) {
 }
 
 TEST(SampleBlocks, FollowEachOtherAndBoundWhatTheyHold) {
-    const Ldi ldi = test::random_ldi(windows_of_size(45, 21), lens, false, 2);
+    const Ldi ldi = random_surfaces(windows_of_size(45, 21), lens, false, 2);
     const BlockedSamples samples = make_blocks(ldi, lens, ldi.windows.data);
     ASSERT_EQ(samples.blocks.size(), std::size_t(samples.columns * samples.rows));
     std::uint32_t next = 0;
@@ -101,7 +99,7 @@ TEST(SampleBlocks, WithoutCoverageAllSamplesAreOpaque) {
 }
 
 TEST(SampleBlocks, KeysGoByDepth) {
-    const Ldi ldi = test::random_ldi(windows_of_size(45, 21), lens, false, 3);
+    const Ldi ldi = random_surfaces(windows_of_size(45, 21), lens, false, 3);
     const BlockedSamples samples = make_blocks(ldi, lens, ldi.windows.data);
     ASSERT_EQ(samples.key.size(), samples.count());
     std::set<std::uint64_t> keys(samples.key.begin(), samples.key.end());

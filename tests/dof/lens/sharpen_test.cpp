@@ -1,21 +1,18 @@
-#include "dof/ldi_fixture.h"
 #include "dof/lens/blocked_fixture.h"
 #include "dof/lens/lens_gather.h"
 #include "dof/lens/sharpen.h"
+#include "support/lens_ldi.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
+#include <cmath>
+#include <functional>
 #include <numbers>
 
 namespace sparselens {
 namespace {
-
-using test::Blocked;
-using test::depth_of;
-using test::make_ldi;
-using test::random_unit;
-using test::Sample;
 
 const ThinLens lens{.radius = 0.06, .focal_px = 640, .focus = 5};
 
@@ -30,7 +27,7 @@ Ldi plane(double c, const std::function<double(int x, int y)> &value,
 
 // Largest change of a sample in a channel.
 double change(const Ldi &ldi, std::size_t channel = 0) {
-    Blocked blocked(ldi, lens);
+    BlockedLdi blocked(ldi, lens);
     const SampleColours before = blocked.colours;
     sharpen_near_focus(ldi, lens, blocked.samples, blocked.colours);
     double largest = 0;
@@ -88,7 +85,7 @@ TEST(Sharpen, RestoresWhatInterpolationBlurs) {
 TEST(Sharpen, LeavesNoiseAlone) {
     const auto noise = [](int x, int y) { return 0.5 + 0.1 * (random_unit(x, y, 1) - 0.5); };
     const Ldi ldi = plane(1, noise);
-    Blocked blocked(ldi, lens);
+    BlockedLdi blocked(ldi, lens);
     const SampleColours before = blocked.colours;
     sharpen_near_focus(ldi, lens, blocked.samples, blocked.colours);
     double squares = 0;
@@ -106,7 +103,7 @@ TEST(Sharpen, NeverMakesLightNegative) {
         return random_unit(x, y, 1) > 0.9 ? 100 * random_unit(x, y, 2) : 0.01 * random_unit(x, y, 3);
     };
     const Ldi ldi = plane(0.8, lamps);
-    Blocked blocked(ldi, lens);
+    BlockedLdi blocked(ldi, lens);
     sharpen_near_focus(ldi, lens, blocked.samples, blocked.colours);
     for (std::size_t i = 0; i < blocked.colours.count; ++i)
         for (std::size_t k = 0; k < 3; ++k) ASSERT_GE(blocked.colours.at(k, i), -1e-6f);
@@ -122,7 +119,7 @@ TEST(Sharpen, ChangesAllLayersByTheSameWeightsAndNeitherCoverageNorIds) {
         const float v = float(checks(x, y)), id = std::bit_cast<float>(std::uint32_t(x));
         return std::vector<Sample>{{depth_of(lens, 1), {v, v / 2, v / 4, 0.9f, v, 1 - v, id}}};
     });
-    Blocked blocked(ldi, lens);
+    BlockedLdi blocked(ldi, lens);
     const SampleColours before = blocked.colours;
     sharpen_near_focus(ldi, lens, blocked.samples, blocked.colours);
     for (std::size_t i = 0; i < before.count; ++i) {
@@ -145,7 +142,7 @@ TEST(Sharpen, TellsTheSamplesOfAStackApart) {
             if (x == 20) samples.erase(samples.begin());
             return samples;
         });
-        Blocked blocked(ldi, lens);
+        BlockedLdi blocked(ldi, lens);
         const SampleColours before = blocked.colours;
         sharpen_near_focus(ldi, lens, blocked.samples, blocked.colours);
         for (std::size_t i = 0; i < before.count; ++i) {

@@ -1,9 +1,10 @@
-#include "dof/ldi_fixture.h"
 #include "dof/selective/blend.h"
+#include "support/lens_ldi.h"
 
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <numbers>
 #include <vector>
 
@@ -77,7 +78,7 @@ TEST(Blend, OpaqueIsExactlyOpaque) {
     for (int i = 0; i < 1000; ++i) {
         std::vector<Layer> layers;
         for (int k = 0; k <= i % 5; ++k) {
-            const double coverage = test::random_unit(i, k, 1) + 1e-9;
+            const double coverage = random_unit(i, k, 1) + 1e-9;
             layers.push_back({coverage, coverage, 1});
         }
         EXPECT_EQ(float(blend(layers, colour)), 1.0f);

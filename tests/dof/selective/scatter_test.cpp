@@ -1,15 +1,11 @@
-#include "dof/ldi_fixture.h"
 #include "dof/selective/scatter.h"
 #include "dof/selective/selective.h"
+#include "support/lens_ldi.h"
 
 #include <gtest/gtest.h>
 
 namespace sparselens {
 namespace {
-
-using test::depth_of;
-using test::make_ldi;
-using test::Sample;
 
 const ThinLens lens{.radius = 0.06, .focal_px = 640, .focus = 5};
 
@@ -46,8 +42,8 @@ TEST(Scatter, AgreesWithTheSelectiveGather) {
         ThinLens by = lens;
         by.pixel_aspect = double(windows.pixel_aspect);
         if (i == 3) by.focus = 1e9;
-        const Ldi ldi = test::random_ldi(windows, lens, i % 2 == 0, 20 + i);
-        EXPECT_LT(test::largest_difference(scattered(ldi, by), gathered(ldi, by)), 1e-4) << "LDI " << i;
+        const Ldi ldi = random_surfaces(windows, lens, i % 2 == 0, 20 + i);
+        EXPECT_LT(largest_difference(scattered(ldi, by), gathered(ldi, by)), 1e-4) << "LDI " << i;
     }
 }
 
@@ -56,17 +52,17 @@ TEST(Scatter, AgreesWhereOnePixelIsHugelyBlurred) {
         const ThinLens wide{.radius = 6, .focal_px = 640, .focus = 5};
         const Ldi ldi = make_ldi(windows_of_size(80, 70), rgba_channels(), [&](int x, int y) {
             std::vector<Sample> samples{
-                {5 + 0.01 * test::random_unit(x, y, 1), {float(test::random_unit(x, y, 2)), 0.5f, 0.2f, 1}}};
+                {5 + 0.01 * random_unit(x, y, 1), {float(random_unit(x, y, 2)), 0.5f, 0.2f, 1}}};
             if (x == 41 && y == 17)
                 samples.insert(samples.begin(), Sample{depth_of(wide, c), {1000, 10, 1, 1}});
             return samples;
         });
-        EXPECT_LT(test::largest_difference(scattered(ldi, wide), gathered(ldi, wide)), 1e-4) << "c " << c;
+        EXPECT_LT(largest_difference(scattered(ldi, wide), gathered(ldi, wide)), 1e-4) << "c " << c;
     }
 }
 
 TEST(Scatter, PartsOfAnySizeGiveTheSamePicture) {
-    const Ldi ldi = test::random_ldi(windows_of_size(40, 37), lens, false, 2);
+    const Ldi ldi = random_surfaces(windows_of_size(40, 37), lens, false, 2);
     const Image whole = scattered(ldi, lens);
     for (const std::size_t fragments : {std::size_t(1), std::size_t(100000), std::size_t(3000000)})
         EXPECT_EQ(scattered(ldi, lens, fragments).values, whole.values);

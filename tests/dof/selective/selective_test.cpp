@@ -1,23 +1,20 @@
 #include "base/error.h"
 #include "deep/flatten.h"
-#include "dof/ldi_fixture.h"
 #include "dof/selective/selective.h"
 #include "lens/psf.h"
+#include "support/lens_ldi.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include <algorithm>
 #include <bit>
+#include <cmath>
 #include <limits>
 #include <numbers>
 
 namespace sparselens {
 namespace {
-
-using test::depth_of;
-using test::make_ldi;
-using test::random_unit;
-using test::Sample;
 
 constexpr double inf = std::numeric_limits<double>::infinity();
 const ThinLens lens{.radius = 0.06, .focal_px = 640, .focus = 5};
@@ -91,7 +88,7 @@ TEST(Selective, LikeStacksGiveTheirComposite) {
                                     {depth_of(lens, 3), {0.3f, 0.4f}}};
     const Ldi ldi = make_ldi(windows_of_size(40, 40), grey_alpha, [&](int, int) { return stack; });
     const Image image = gather(ldi, lens), flat = flatten(ldi);
-    EXPECT_LT(test::largest_difference(image, flat), 1e-5);
+    EXPECT_LT(largest_difference(image, flat), 1e-5);
 }
 
 TEST(Selective, SharpSamplesAreFlattened) {
@@ -103,7 +100,7 @@ TEST(Selective, SharpSamplesAreFlattened) {
         }
         return samples;
     });
-    EXPECT_LT(test::largest_difference(gather(ldi, lens), flatten(ldi)), 1e-6);
+    EXPECT_LT(largest_difference(gather(ldi, lens), flatten(ldi)), 1e-6);
 }
 
 // A lamp of radiance 1 in pixel (x, y) with CoC c, in front of a black plane in focus.
@@ -163,7 +160,7 @@ TEST(Selective, PixelAspectMakesEllipses) {
 
 TEST(Selective, MirroredInMirroredOut) {
     const Windows windows = windows_of_size(75, 33);
-    const Ldi ldi = test::random_ldi(windows, lens, false, 5);
+    const Ldi ldi = random_surfaces(windows, lens, false, 5);
     const auto mirrored = [&](bool horizontal) {
         return make_ldi(windows, ldi.channels, [&, horizontal](int x, int y) {
             const int from_x = horizontal ? 74 - x : x, from_y = horizontal ? y : 32 - y;
@@ -251,10 +248,10 @@ TEST(Selective, BlurredEdgeAgainstNothingHasItsAlpha) {
 }
 
 TEST(Selective, FewerLayersMixDepths) {
-    const Ldi ldi = test::random_ldi(windows_of_size(50, 40), lens, true, 3);
+    const Ldi ldi = random_surfaces(windows_of_size(50, 40), lens, true, 3);
     const Image two = gather(ldi, lens, 2), three = gather(ldi, lens, 3), many = gather(ldi, lens, 32);
-    EXPECT_GT(test::largest_difference(two, three), 0.05);
-    EXPECT_GT(test::largest_difference(three, many), 0.05);
+    EXPECT_GT(largest_difference(two, three), 0.05);
+    EXPECT_GT(largest_difference(three, many), 0.05);
     EXPECT_THROW(gather(ldi, lens, 0), UsageError);
 }
 
@@ -274,7 +271,7 @@ TEST(Selective, IdsAreTheFrontSamplesAndNeverBlended) {
 }
 
 TEST(Selective, SameBitsWithAnyNumberOfThreads) {
-    const Ldi ldi = test::random_ldi(windows_of_size(150, 140), lens, false, 9);
+    const Ldi ldi = random_surfaces(windows_of_size(150, 140), lens, false, 9);
     const auto with_threads = [&](std::size_t threads) {
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
         return gather(ldi, lens).values;
@@ -312,13 +309,13 @@ TEST(Selective, WindowsAreKept) {
     windows.display = {{0, 0}, {39, 29}};
     windows.data = {{-13, -7}, {22, 18}};
     windows.pixel_aspect = 1;
-    const Ldi there = test::random_ldi(windows, lens, false, 6);
+    const Ldi there = random_surfaces(windows, lens, false, 6);
     const Image image = gather(there, lens);
     EXPECT_EQ(image.windows, windows);
     EXPECT_EQ(image.channels, there.channels);
     Ldi at_origin = there;
     at_origin.windows = windows_of_size(36, 26);
-    EXPECT_LT(test::largest_difference(gather(at_origin, lens), image), 1e-5);
+    EXPECT_LT(largest_difference(gather(at_origin, lens), image), 1e-5);
 }
 
 TEST(Selective, HugeBlurIsTheMeanAndQuick) {
