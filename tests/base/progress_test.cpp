@@ -10,12 +10,6 @@
 namespace sparselens {
 namespace {
 
-TEST(Progress, WithoutAListenerNothingHappens) {
-    Progress progress;
-    progress.start("nothing", 3);
-    progress.advance();
-}
-
 TEST(Progress, EachPercentIsSaidAtMostOnceAndTheLastIsOneHundred) {
     std::mutex guard;
     std::vector<int> said;

@@ -1,4 +1,3 @@
-#include "support/traced.h"
 #include "support/views.h"
 #include "warp/photo_consistency.h"
 #include "warp/warp.h"
@@ -10,8 +9,6 @@
 
 namespace sparselens {
 namespace {
-
-using namespace lab;
 
 constexpr double focal_px = 100, radius = 0.06, scale = focal_px * radius;
 const Windows window = windows_of_size(64, 16);

@@ -1,85 +1,21 @@
-#include "base/error.h"
+// What a warp makes of views: whose pixels become samples, and where they lie.
 #include "deep/flatten.h"
 #include "deep/order.h"
-#include "support/ldi_samples.h"
-#include "support/scratch_folder.h"
-#include "support/views.h"
 #include "warp/deepen.h"
 #include "warp/reproject.h"
 #include "warp/visibility_vote.h"
-#include "warp/warp.h"
+#include "warp/warp_fixture.h"
 
 #include <gtest/gtest.h>
-#include <tbb/global_control.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
-#include <set>
 
 namespace sparselens {
 namespace {
 
-constexpr float inf = std::numeric_limits<float>::infinity();
-constexpr double focal_px = 100, radius = 0.06;
-// Silhouettes have tests of their own.
-const WarpOptions averaging{.focal_px = focal_px, .radius = radius, .split_silhouettes = false};
-const WarpOptions keeping{.focal_px = focal_px, .radius = radius, .merge = Merge::keep};
-
-Ldi warped(const std::vector<View> &views, const WarpOptions &options = averaging) {
-    Progress silent;
-    return warp(views, options, silent);
-}
-
-void expect_same_bits(const Ldi &a, const Ldi &b) {
-    EXPECT_EQ(a.windows, b.windows);
-    EXPECT_EQ(a.begin, b.begin);
-    EXPECT_EQ(a.z, b.z);
-    EXPECT_EQ(a.dx, b.dx);
-    EXPECT_EQ(a.dy, b.dy);
-    EXPECT_EQ(a.weight, b.weight);
-    EXPECT_EQ(a.values, b.values);
-}
-
-// The samples of pixel (x, y) of an LDI whose data window may have grown.
-TestPixel pixel_at(const Ldi &ldi, int x, int y) {
-    const Windows &w = ldi.windows;
-    return samples_of(ldi,
-                      std::size_t(y - w.data.min.y) * std::size_t(w.width()) + std::size_t(x - w.data.min.x));
-}
-
-template <typename Visit>
-void for_each_pixel(const Imath::Box2i &box, const Visit &visit) {
-    for (int y = box.min.y; y <= box.max.y; ++y)
-        for (int x = box.min.x; x <= box.max.x; ++x) visit(x, y);
-}
-
-// Stripes of a front plane before a back plane.
-TwoPlanes fence() {
-    TwoPlanes scene;
-    scene.front_covers = [](double x, double) { return std::fmod(x + 1000, 16) < 6; };
-    return scene;
-}
-
-// One plane that fills the picture, at a depth by which rim views land between pixels.
-TwoPlanes one_plane(const std::function<float(double, double)> &red) {
-    TwoPlanes scene;
-    scene.front_z = 2.2;
-    scene.front_covers = [](double, double) { return true; };
-    scene.front_red = red;
-    return scene;
-}
-
-std::vector<View> random_views(const Windows &windows, int count) {
-    std::vector<View> views;
-    for (int i = 0; i < count; ++i) {
-        const double angle = 0.7 * i;
-        const Imath::V2d rim = radius * Imath::V2d(std::cos(angle), std::sin(angle));
-        views.push_back(random_view(windows, i == 0 ? Imath::V2d(0, 0) : rim, std::uint32_t(i + 1)));
-    }
-    return views;
-}
+using namespace warping;
 
 TEST(Warp, OneViewIsItsOwnLdi) {
     const Windows w{Imath::Box2i({0, 0}, {19, 9}), Imath::Box2i({-2, 3}, {12, 30})};
@@ -332,144 +268,6 @@ TEST(Warp, AveragingLowersTheNoiseAndKeepsTheMean) {
     EXPECT_NEAR(before, 0.5 / std::sqrt(3.0), 0.01);
     EXPECT_LT(after, before / 2); // five views: 1 / sqrt(5) at best, if each pixel takes as much of each
     EXPECT_NEAR(weight / (88 * 88), 5, 0.2);
-}
-
-TEST(Warp, TheOrderOfRimViewsDoesNotMatter) {
-    const Windows w = windows_of_size(40, 30);
-    const auto views = random_views(w, 7);
-    for (const WarpOptions &options : {averaging, keeping}) {
-        const Ldi ldi = warped(views, options);
-        auto shuffled = views;
-        std::reverse(shuffled.begin() + 1, shuffled.end());
-        expect_same_bits(warped(shuffled, options), ldi);
-        std::rotate(shuffled.begin() + 1, shuffled.begin() + 3, shuffled.end());
-        expect_same_bits(warped(shuffled, options), ldi);
-    }
-}
-
-// Also where they stand at one point, as renders of one view with other noise do.
-TEST(Warp, TheOrderOfViewsAtOnePointDoesNotMatter) {
-    const Windows w = windows_of_size(40, 30);
-    auto views = random_views(w, 7);
-    for (View &view : views) view.position = {0.03, 0};
-    views[0].position = {0, 0};
-    for (const WarpOptions &options : {averaging, keeping}) {
-        auto shuffled = views;
-        std::reverse(shuffled.begin() + 1, shuffled.end());
-        expect_same_bits(warped(shuffled, options), warped(views, options));
-    }
-}
-
-TEST(Warp, TheNumberOfThreadsDoesNotMatter) {
-    const auto views = random_views(windows_of_size(40, 90), 5);
-    const auto with_threads = [&](std::size_t threads, const WarpOptions &options) {
-        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-        return warped(views, options);
-    };
-    for (const WarpOptions &options : {averaging, keeping})
-        expect_same_bits(with_threads(1, options), with_threads(4, options));
-}
-
-TEST(Warp, DataWindowsMayDiffer) {
-    const TwoPlanes scene = one_plane([](double x, double) { return float(x); });
-    Windows whole = windows_of_size(40, 30), crop = whole;
-    crop.data = Imath::Box2i({30, -5}, {60, 9});
-    for (const auto &[centre, rim] : {std::pair(whole, crop), std::pair(crop, whole)}) {
-        const std::vector<View> views{scene.view(centre, {0, 0}), scene.view(rim, {0.05, 0.02})};
-        const Ldi kept = warped(views, keeping), ldi = warped(views);
-        EXPECT_EQ(kept.windows, centre);
-        EXPECT_EQ(ldi.windows.display, centre.display);
-        double most_weight = 0;
-        for_each_pixel(centre.data, [&](int x, int y) {
-            ASSERT_EQ(pixel_at(kept, x, y).size(), 1u);
-            ASSERT_EQ(pixel_at(ldi, x, y).size(), 1u); // one plane, whichever view saw it
-            const TestSample s = pixel_at(ldi, x, y)[0];
-            EXPECT_NEAR(s.colour, x + 0.5 + double(s.dx), 1e-4);
-            most_weight = std::max(most_weight, double(s.weight));
-        });
-        EXPECT_EQ(most_weight, 2);
-    }
-}
-
-TEST(Warp, DisplayWindowsMayNot) {
-    View centre = random_view(windows_of_size(8, 8), {0, 0}, 1),
-         rim = random_view(windows_of_size(8, 9), {1, 0}, 2);
-    centre.name = "centre.exr";
-    rim.name = "rim.exr";
-    EXPECT_EQ(what_of<Error>([&] {
-                  warped({centre, rim});
-              }),
-              "rim.exr: its display window differs from the centre view's (centre.exr)");
-}
-
-TEST(Warp, ChannelsAreMatchedByName) {
-    const Windows w = windows_of_size(4, 4);
-    View centre = random_view(w, {0, 0}, 1), rim = centre;
-    std::swap(rim.image.channels[0], rim.image.channels[3]); // A, G, B, R
-    std::ranges::swap_ranges(rim.image.plane(0), rim.image.plane(3));
-    rim.image.channels.push_back({"more"});
-    rim.image.values.resize(5 * w.pixels());
-    EXPECT_EQ(warped({centre, rim}).values, warped({centre, centre}).values);
-    centre.image.channels[1].name = "albedo.G";
-    rim.name = "rim.exr";
-    EXPECT_EQ(what_of<Error>([&] {
-                  warped({centre, rim});
-              }),
-              "rim.exr: has no channel albedo.G, which the centre view has");
-}
-
-TEST(Warp, IdsAreNeverAveraged) {
-    const Windows w = windows_of_size(30, 20);
-    auto views = random_views(w, 5);
-    std::set<float> ids;
-    for (View &view : views) {
-        view.image.channels.push_back({"id", PixelType::uint32});
-        for (std::size_t pixel = 0; pixel < w.pixels(); ++pixel)
-            view.image.values.push_back(float(ids.size() * 977 + 13));
-        ids.insert(view.image.values.back());
-    }
-    const Ldi ldi = warped(views);
-    for (const float id : ldi.values[4]) ASSERT_TRUE(ids.contains(id));
-    const Windows &grown = ldi.windows;
-    for_each_pixel(w.data, [&](int x, int y) {
-        if (views[0].image.at(3, x, y) == 0) return;
-        const std::size_t pixel = std::size_t(y - grown.data.min.y) * std::size_t(grown.width()) +
-                                  std::size_t(x - grown.data.min.x);
-        EXPECT_EQ(ldi.values[4][ldi.pixel(pixel).front()], 13); // the centre view's, which is in front
-    });
-}
-
-TEST(Warp, EmptyPixelsOfRimViewsAddNothing) {
-    const Windows w = windows_of_size(12, 12);
-    const View centre = random_view(w, {0, 0}, 1);
-    const View empty = make_view(w, {0.05, 0}, [](int, int) { return ViewPixel{.z = 0.5f, .r = 9, .a = 0}; });
-    expect_same_bits(warped({centre, empty}), warped({centre}));
-}
-
-// Nothing lies in front of what the centre view shows, and it shows the background.
-TEST(Warp, AnEmptyCentreStaysEmpty) {
-    const Windows w = windows_of_size(12, 12);
-    const View nothing = make_view(w, {0, 0}, [](int, int) { return ViewPixel{.a = 0}; });
-    const View rim = make_view(w, {0.05, 0}, [](int, int) { return ViewPixel{.z = inf, .r = 3}; });
-    EXPECT_EQ(warped({nothing, rim}).samples(), 0u);
-    EXPECT_EQ(warped({nothing, rim}, keeping).samples(), 0u);
-}
-
-// Averaging keeps what rim views saw beside the centre view's picture: a lens sees it there too.
-TEST(Warp, WhatLiesBesideThePictureIsKept) {
-    const TwoPlanes scene = one_plane([](double x, double) { return float(x); });
-    const Windows w = windows_of_size(20, 10);
-    const auto views = five_views(scene, w, radius);
-    const Ldi ldi = warped(views);
-    const int reach = int(std::floor(radius * focal_px / scene.front_z + 0.5));
-    EXPECT_EQ(ldi.windows.data, Imath::Box2i({-reach, -reach}, {19 + reach, 9 + reach}));
-    for_each_pixel({{-reach, 0}, {-1, 9}}, [&](int x, int y) {
-        const TestPixel samples = pixel_at(ldi, x, y);
-        ASSERT_LE(samples.size(), 1u);
-        EXPECT_TRUE(x == -reach || samples.size() == 1); // the last column is reached in part
-        for (const TestSample &s : samples) EXPECT_NEAR(s.colour, x + 0.5 + double(s.dx), 1e-4);
-    });
-    EXPECT_EQ(warped(views, keeping).windows, w);
 }
 
 } // namespace

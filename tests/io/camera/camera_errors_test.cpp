@@ -1,0 +1,151 @@
+// What is missing, wrong or contradictory in a header is an error that names the option to give.
+#include "base/error.h"
+#include "io/camera/camera_headers.h"
+#include "io/camera/camera_metadata.h"
+#include "options/lens_options.h"
+#include "view/lens_views.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace sparselens {
+namespace {
+
+using namespace camera_headers;
+
+// What resolving the lens of a header says, with these options.
+std::string complaint(const Write &write, LensOptions options = {}) {
+    Imf::Header header(64, 36);
+    write(header, Pose());
+    try {
+        resolve_lens(options, camera_with_options(options, read_camera(header)), windows);
+        return "";
+    } catch (const UsageError &error) {
+        return error.what();
+    }
+}
+
+// `write` with one attribute spoilt, or taken away.
+Write spoilt(const char *renderer, const char *attribute, std::optional<double> value) {
+    const auto found =
+        std::ranges::find_if(renderers(), [&](const Renderer &r) { return std::string(r.name) == renderer; });
+    return [=](Imf::Header &h, const Pose &p) {
+        found->write(h, p);
+        h.erase(attribute);
+        if (value) put(h, attribute, *value);
+    };
+}
+
+TEST(CameraErrors, NameTheOptionThatIsMissing) {
+    EXPECT_EQ(complaint(spoilt("standard", "focus", {})),
+              "the focus distance is unknown: give --focus-distance");
+    EXPECT_EQ(complaint(spoilt("standard", "aperture", {})),
+              "the aperture is unknown: give --fstop or --lens-radius");
+    EXPECT_EQ(complaint(spoilt("standard", "pinholeFocalLength", {})),
+              "the focal length is unknown: give --focal-length");
+    EXPECT_EQ(complaint(spoilt("standard", "worldToNDC", {})),
+              "the sensor width is unknown: give --sensor-width");
+    LensOptions with_focus;
+    with_focus.focus_distance = focus;
+    EXPECT_EQ(complaint(spoilt("V-Ray", "cameraFov", {}), with_focus), ""); // the film back is there
+    EXPECT_EQ(complaint(spoilt("V-Ray", "cameraTransform", {}), with_focus), "");
+    EXPECT_EQ(complaint(spoilt("Redshift", "rs/camera/aperture", {})),
+              "the focal length is unknown: give --focal-length");
+}
+
+TEST(CameraErrors, NameTheAttributeThatIsWrong) {
+    const auto expect = [](const char *renderer, const char *attribute, double value, const char *option) {
+        LensOptions options;
+        if (std::string(renderer) == "V-Ray") options.focus_distance = focus;
+        const std::string text = complaint(spoilt(renderer, attribute, value), options);
+        EXPECT_NE(text.find(attribute), text.npos) << attribute << ": " << text;
+        EXPECT_NE(text.find(std::string("give ") + option), text.npos) << attribute << ": " << text;
+    };
+    expect("standard", "focus", -1, "--focus-distance");
+    expect("standard", "aperture", 0, "--fstop");
+    expect("standard", "pinholeFocalLength", std::nan(""), "--focal-length");
+    expect("V-Ray", "cameraFov", 190, "--sensor-width");
+    expect("V-Ray", "cameraFocalLength", -35, "--focal-length");
+    expect("Redshift", "rs/camera/DOFFocusDistance", 0, "--focus-distance");
+    expect("Unreal", "unreal/camera/FinalImage/fstop", -2, "--fstop");
+    expect("RenderMan", "Exif:FocalLength", 0, "--focal-length");
+}
+
+TEST(CameraErrors, NameWhatContradicts) {
+    const auto both = [](const char *name, double value) {
+        return [=](Imf::Header &h, const Pose &p) {
+            write_standard(h, p);
+            put(h, name, value);
+        };
+    };
+    LensOptions options;
+    std::string text = complaint(both("cameraFocalLength", 50));
+    EXPECT_NE(text.find("pinholeFocalLength says 35, cameraFocalLength says 50"), text.npos) << text;
+    EXPECT_NE(text.find("give --focal-length"), text.npos);
+    EXPECT_EQ(complaint(both("cameraFocalLength", 35.1)), ""); // rounded
+    options.focal_length_mm = 50;
+    EXPECT_EQ(complaint(both("cameraFocalLength", 50), options), ""); // the option settles it
+    text = complaint(both("sparselens:sensorWidth", 36));
+    EXPECT_NE(text.find("give --sensor-width"), text.npos) << text;
+    options = {};
+    options.sensor_width_mm = 36;
+    EXPECT_EQ(complaint(both("sparselens:sensorWidth", 36), options), "");
+    text = complaint(both("cameraFov", 90));
+    EXPECT_NE(text.find("worldToNDC"), text.npos) << text;
+    text = complaint(both("rs/camera/DOFFocusDistance", 7));
+    EXPECT_NE(text.find("focus says 6.5"), text.npos) << text;
+    EXPECT_NE(text.find("give --focus-distance"), text.npos) << text;
+}
+
+TEST(CameraErrors, OfPlacesNameView) {
+    Camera centre = read_camera([] {
+        Imf::Header h(64, 36);
+        write_standard(h, Pose());
+        return h;
+    }());
+    const auto why = [&](const Write &spoil) {
+        Imf::Header h(64, 36);
+        write_standard(h, Pose({0.25, 0}));
+        spoil(h, Pose({0.25, 0}));
+        const Camera view = read_camera(h);
+        const std::string name = "rim.exr";
+        try {
+            position_on_lens({&view, 1}, {&name, 1}, centre);
+            return std::string();
+        } catch (const UsageError &error) {
+            return std::string(error.what());
+        }
+    };
+    const auto nothing = [](Imf::Header &, const Pose &) {};
+    EXPECT_EQ(why(nothing), "");
+    EXPECT_EQ(why([](Imf::Header &h, const Pose &) { h.erase("worldToCamera"); }),
+              "rim.exr: its camera is unknown (no worldToCamera): give --view X,Y rim.exr");
+    EXPECT_EQ(why([](Imf::Header &h, const Pose &) { put(h, "worldToCamera", Imath::M44d(0.0)); }),
+              "rim.exr: its camera is unknown (worldToCamera is no placement of a camera): give --view X,Y "
+              "rim.exr");
+    EXPECT_EQ(why([](Imf::Header &h, const Pose &) {
+                  put(h, "cameraTransform", standard_camera(Pose({5, 0})).inverse());
+              }),
+              "rim.exr: its camera is unknown (worldToCamera and cameraTransform place it differently): give "
+              "--view "
+              "X,Y rim.exr");
+}
+
+// What we write is what we read: attributes of the renderer that have come along do not speak against it.
+TEST(CameraErrors, DoNotComeFromWhatTheOptionsReplaced) {
+    Imf::Header header(64, 36);
+    write_unreal(header, Pose(), "unreal/camera/FinalImage/", "unreal/camera/");
+    LensOptions options;
+    options.focal_length_mm = 50;
+    const Camera changed = camera_with_options(options, read_camera(header));
+    write_camera(header, changed);
+    const Camera again = read_camera(header);
+    EXPECT_EQ(again.focal_length_mm, 50);
+    EXPECT_TRUE(again.unsure.empty());
+}
+
+} // namespace
+} // namespace sparselens
