@@ -1,37 +1,13 @@
-// The stages that make LDIs: warping views, putting samples in order, clustering, flattening.
+// What is done to an LDI: putting its samples in order, clustering, flattening.
 #include "deep/cluster.h"
 #include "deep/flatten.h"
 #include "deep/tidy.h"
 #include "support/ldi_samples.h"
-#include "support/views.h"
-#include "warp/warp.h"
 
 #include <benchmark/benchmark.h>
 
-#include <cmath>
-
 namespace sparselens {
 namespace {
-
-// Stripes before a back plane, noisy, as five views: 640 x 360.
-std::vector<View> views() {
-    TwoPlanes scene;
-    scene.focal_px = 640;
-    scene.noise = 0.1f;
-    scene.front_covers = [](double x, double) { return std::fmod(x + 10'000, 100) < 40; };
-    return five_views(scene, windows_of_size(640, 360), 0.06);
-}
-
-void warping(benchmark::State &state) {
-    const std::vector<View> five = views();
-    const WarpOptions options{.focal_px = 640,
-                              .radius = 0.06,
-                              .merge = state.range(0) ? Merge::average : Merge::keep,
-                              .split_silhouettes = state.range(0) == 2};
-    Progress silent;
-    for (auto _ : state) benchmark::DoNotOptimize(warp(five, options, silent).z.data());
-    state.SetItemsProcessed(state.iterations() * std::int64_t(5 * five[0].z.size()));
-}
 
 // Points, of which half of the pixels are out of order; then with volumes that overlap.
 void tidying(benchmark::State &state) {
@@ -65,11 +41,6 @@ void flattening(benchmark::State &state) {
     state.SetItemsProcessed(state.iterations() * std::int64_t(ldi.samples()));
 }
 
-BENCHMARK(warping)
-    ->ArgName("keep_average_split")
-    ->DenseRange(0, 2)
-    ->UseRealTime()
-    ->Unit(benchmark::kMillisecond);
 BENCHMARK(tidying)->ArgName("volumes")->Arg(0)->Arg(1)->UseRealTime()->Unit(benchmark::kMillisecond);
 BENCHMARK(tidying_the_tidy)->UseRealTime()->Unit(benchmark::kMillisecond);
 BENCHMARK(clustering)->ArgName("layers")->Arg(0)->Arg(4)->UseRealTime()->Unit(benchmark::kMillisecond);
