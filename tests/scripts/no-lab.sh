@@ -1,0 +1,39 @@
+#!/bin/bash
+# Without Embree: the project configures, the laboratory is off by itself, and no command that builds or links what is
+# left names Embree, the laboratory or a header of either. With it demanded, the error says what to do.
+#
+#   tests/scripts/no-lab.sh [build]     build: the library and the tools for pictures too, without optimisation
+#
+# Alone it proves what the build would be made of, in seconds, not that it compiles: that takes minutes, and `build`.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/../.."
+exec </dev/null
+
+build=$(mktemp -d)
+trap 'rm -rf "$build"' EXIT
+configure() {
+    cmake -S . -B "$build" -G Ninja -DCMAKE_DISABLE_FIND_PACKAGE_embree=ON -DCMAKE_BUILD_TYPE=Debug \
+        -DCMAKE_CXX_FLAGS_DEBUG=-O0 -DSPARSELENS_BENCHMARKS=OFF "$@" >"$build/said" 2>&1
+}
+
+if configure -DSPARSELENS_LAB=ON; then
+    echo "the laboratory is configured without Embree"
+    exit 1
+fi
+grep -q 'SPARSELENS_LAB=OFF' "$build/said" || { cat "$build/said"; exit 1; }
+
+rm "$build/CMakeCache.txt"
+configure || { cat "$build/said"; exit 1; }
+grep -q '^SPARSELENS_LAB:BOOL=OFF$' "$build/CMakeCache.txt" || { echo "the laboratory is on without Embree"; exit 1; }
+ninja -C "$build" -t commands >"$build/commands"
+grep -q 'dof-gather' "$build/commands" || { echo "no dof-gather is built"; exit 1; }
+if grep -iE 'embree|sparselens_lab|(src|tools|tests)/lab/' "$build/commands"; then
+    echo "these commands need the laboratory"
+    exit 1
+fi
+if grep -rnE '#include [<"](embree|lab/)' src tools --include='*.h' --include='*.cpp' | grep -vE '^(src|tools)/lab/|^tools/dof-(report|stress|trace)\.cpp:'; then
+    echo "these files need the laboratory"
+    exit 1
+fi
+
+[ "${1:-}" != build ] || ninja -C "$build" sparselens dof-accumulate dof-compare dof-gather ldi-cluster ldi-plan ldi-warp
