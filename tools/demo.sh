@@ -1,7 +1,7 @@
 #!/bin/bash
 # The whole chain on one scene: installs and builds what is missing, traces five pinhole views of "fence" and
 # their ray-traced reference, makes the defocused picture from the views, measures it against the reference,
-# and writes pictures into demo/. The table at the end goes to stdout, all else to stderr.
+# and writes pictures into demo/. The table, and what to look at, go to stdout at the end, all else to stderr.
 #
 #   tools/demo.sh [--size WxH] [--spp N] [--reference N] [--bin DIR] [-o DIR]
 #
@@ -130,3 +130,18 @@ strip "$out/fence.png" 480
 strip "$out/fence-small.png" 240
 
 printf '%s\n' "${table[@]}" >&3
+
+# What to look at, and how to go on. Paths are quoted as a shell needs them.
+cat >&3 <<END
+
+Look at these pictures (PNG for the screen, EXR for everything else):
+  $out/fence.png  before, after and the reference, with details
+  $result  the best picture (${result%.exr}.png)
+  $center  the centre view that it was made from (${center%.exr}.png)
+  $reference  the reference (${reference%.exr}.png)
+
+The best one was made by
+  $(printf '%q ' "$bin/dof-gather" "$out/ldi.exr" --method "${methods[0]}" -o "$result")
+Go on with another focus, for example on the fence:
+  $(printf '%q ' "$bin/dof-gather" "$out/ldi.exr" --focus-distance 2.2 -o "$out/on-the-fence.png")
+END

@@ -1,22 +1,80 @@
-# README.md keeps its word: scripts it names exist, tools it names are built, and its shell examples run, in the
-# order they stand in, in an empty folder.
+# The documents keep their word. README.md is short; relative links resolve; tools and scripts that are named are there;
+# docs/code.md finds its functions; the package list is the build's; and the shell examples of README.md and docs/*.md run,
+# each document's in a scratch folder of its own, in the order they stand in.
 #   bash readme.sh BIN_DIR
 . "$(dirname "$0")/../tools/check.sh"
 readme=$source_dir/README.md
+cd "$source_dir"
+documents=(README.md CONTRIBUTING.md CHANGELOG.md docs/*.md share/blender/README.md)
+cd "$scratch"
+PATH=$bin:$PATH
 
-readme_block sh >commands
-grep -q . commands || fail "README.md has no shell examples"
+# blocks DOCUMENT LANGUAGE: the contents of all its fenced blocks of that language.
+blocks() { sed -n "/^\`\`\`$2\$/,/^\`\`\`\$/{/^\`\`\`/d;p}" "$source_dir/$1"; }
+
+# README.md is at most 800 words, its lines at most 120 characters but those of tables and links.
+words=$(wc -w <"$readme")
+[ "$words" -le 800 ] || fail "README.md has $words words (800 at most)"
+long=$(grep -vE '^\||\]\(' "$readme" | LC_ALL=C.UTF-8 grep -nE '^.{121}' || true)
+[ -z "$long" ] || fail "README.md has lines of more than 120 characters: $long"
+
+# matches PATTERN FILE: each once, one a line; none is no error.
+matches() { grep -ohE "$1" "$2" | sort -u || true; }
+
+# What is named is there.
+for document in "${documents[@]}"; do
+    folder=$source_dir/$(dirname "$document")
+    matches '\]\([^)]+\)' "$source_dir/$document" | sed -E 's/^\]\(//;s/\)$//;s/#.*//' | while read -r link; do
+        [[ -z $link || $link == *://* || -e $folder/$link ]] || fail "$document links to $link, which is not there"
+    done
+    matches '\b(src|tools|tests|share)/[A-Za-z0-9_./-]+\.(h|cpp|sh|py|txt)\b' "$source_dir/$document" |
+        while read -r file; do
+            [[ -e $source_dir/$file || $file == *NAME* ]] || fail "$document names $file, which is not there"
+        done
+    matches '(^|[ `|(])(ldi|dof)-[a-z]+\b' "$source_dir/$document" | tr -d ' `|(' | while read -r tool; do
+        [ -x "$bin/$tool" ] || fail "$document names $tool, which is not built"
+    done
+done
+for document in "$source_dir"/docs/*.md; do
+    name=$(basename "$document")
+    [ "$name" = README.md ] || grep -qF "($name)" "$source_dir/docs/README.md" || fail "docs/README.md lacks $name"
+done
+
+# The table of docs/code.md: | question | `file` | `function` |
+rows=$(sed -nE 's/^\| .* \| `([^`]+)` \| `([^`]+)` \|$/\1 \2/p' "$source_dir/docs/code.md")
+[ "$(wc -l <<<"$rows")" -ge 10 ] || fail "docs/code.md has no table of files and functions"
+while read -r file name; do
+    grep -qw "$name" "$source_dir/$file" || fail "docs/code.md: $file has no $name"
+done <<<"$rows"
+
+# The packages to build by hand are those that the build installs.
+packages() { tr -s ' \\\n' '\n' | grep -v '^$' | sort; }
+by_script=$(sed -nE "/^build='/,/'\$/{s/^build=//;s/'//g;p}" "$source_dir/tools/install-deps.sh" | packages)
+by_hand=$(blocks README.md text | sed -n '/apt-get install/,/[^\\]$/{s/.*apt-get install//;p}' | packages)
+[ "$by_script" = "$by_hand" ] || fail "README.md's packages: $(diff <(echo "$by_script") <(echo "$by_hand"))"
+
+# run DOCUMENT: its shell examples, but for the project's own scripts.
+run() {
+    blocks "$1" sh | grep -vE '^\./' >"$scratch/example" || true
+    (cd "$2" && bash -euo pipefail "$scratch/example" >"$scratch/stdout" 2>"$scratch/stderr" </dev/null) ||
+        fail "the examples of $1: $(cat "$scratch/stderr")"
+}
+
+blocks README.md sh >commands
 for script in ./tools/demo.sh ./tests/run.sh; do
     grep -qF "$script" commands || fail "README.md does not name $script"
-done
-grep -E '^\./' commands | while read -r script _; do
     [ -x "$source_dir/$script" ] || fail "README.md names $script, which is no executable script"
 done
-grep -oE '\]\([^):#]+' "$readme" | cut -c 3- | while read -r link; do
-    [ -e "$source_dir/$link" ] || fail "README.md links to $link, which is not there"
+mkdir readme
+run README.md readme
+
+# Documents begin where the README's example ends, with smaller pictures.
+mkdir start
+dof-trace fence --size 160x90 --views 4 --spp 4 -o start/views
+ldi-warp start/views/center.exr start/views/view_*.exr -o - | ldi-cluster - -o start/fence.ldi.exr
+for document in "${documents[@]:1}"; do
+    [ -n "$(blocks "$document" sh)" ] || continue
+    echo "examples of $document"
+    cp -r start "${document//\//_}"
+    run "$document" "${document//\//_}"
 done
-grep -ohE '\b(ldi|dof)-[a-z]+\b' "$readme" | sort -u | while read -r tool; do
-    [ -x "$bin/$tool" ] || fail "README.md names $tool, which is not built"
-done
-grep -vE '^\./' commands >example
-PATH=$bin:$PATH bash -euo pipefail example >stdout 2>stderr </dev/null || fail "the README's examples: $(cat stderr)"
