@@ -6,7 +6,7 @@
 namespace sparselens {
 
 // The tidy LDI composited front to back in file order: `over`, all channels of `ldi`, its data window, each by its
-// own coverage (coloured_alpha.h).
+// own coverage (channel_alpha.h).
 Image flatten(const Ldi &ldi);
 
 } // namespace sparselens

@@ -5,7 +5,7 @@
 //       or beyond 1e34: sums of
 //       it would overflow
 //   A that is not a number        the mean of the pixels around it
-//   A outside 0..1                clamped (and so AR, AG, AB, see coloured_alpha.h)
+//   A outside 0..1                clamped (and so AR, AG, AB, see channel_alpha.h)
 //   depth NaN or negative         that of a pixel around it (the median), infinity where none has a good one
 //   depth 0, or so small that     infinity: nothing was hit
 //       1 / z is no float

@@ -34,7 +34,7 @@ struct ReprojectedRows {
 class ReprojectedViews {
 public:
     // views[0] is the centre; its channels are every view's. The order of the others does not matter. focal_px and
-    // scale: R and R F, see WarpOptions. jump: pixels on silhouettes become two samples where perceptive depth jumps
+    // scale: F and R F, see WarpOptions. jump: pixels on silhouettes become two samples where perceptive depth jumps
     // by so many pixels (silhouettes.h); 0: they stay whole. Throws Error where display windows differ or a view
     // lacks a channel of the centre.
     ReprojectedViews(std::span<const View> views, double focal_px, double scale, double jump);

@@ -16,7 +16,7 @@ namespace sparselens {
 
 enum class Merge {
     // Rim samples join the centre samples of the same surface, weighted; the rest are averaged with each other, and
-    // cover what the views' majority gives them (hidden_surface.h).
+    // cover what the views' majority gives them (visibility_vote.h).
     average,
     keep, // one sample a surface, the centre's where it has one; nothing in front of the centre's sample
 };
@@ -27,8 +27,9 @@ struct WarpOptions {
     Merge merge = Merge::average;
     double surface_px = one_surface_px;
     bool split_silhouettes = true; // average: pixels that mix two surfaces become two samples (silhouettes.h)
-    bool test_photo_consistency = true; // average: not where views disagree, out of focus (agreement.h)
-    std::optional<double> focus = {};   // of the lens, if known, scene units
+    bool test_photo_consistency =
+        true;                         // average: not where views disagree, out of focus (photo_consistency.h)
+    std::optional<double> focus = {}; // of the lens, if known, scene units
 };
 
 // views[0] is the centre; its windows and channels are the LDI's. The result does not depend on the order of the
