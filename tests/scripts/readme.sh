@@ -35,6 +35,16 @@ for document in "${documents[@]}"; do
         [ -x "$bin/$tool" ] || fail "$document names $tool, which is not built"
     done
 done
+# Options are those of a tool, or of a program that the project's own scripts call.
+{
+    for tool in "$bin"/ldi-* "$bin"/dof-*; do "$tool" --help; done
+    cat "$source_dir"/tools/*.sh "$source_dir"/tests/*.sh "$source_dir"/tests/*/*.sh "$source_dir"/share/blender/*.py "$source_dir"/tests/CMakeLists.txt
+} >options
+for document in "${documents[@]}"; do
+    matches '(^|[ `(])--[a-z][a-z_-]+' "$source_dir/$document" | tr -d ' `(' | while read -r option; do
+        grep -qwF -e "$option" options || fail "$document names the option $option, which no tool has"
+    done
+done
 for document in "$source_dir"/docs/*.md; do
     name=$(basename "$document")
     [ "$name" = README.md ] || grep -qF "($name)" "$source_dir/docs/README.md" || fail "docs/README.md lacks $name"
