@@ -7,7 +7,7 @@
 # there; exit 1, with one line saying why, when it is not and cannot be had.
 set -eu
 
-build='g++ cmake ninja-build pkg-config libcli11-dev libembree-dev libhwy-dev libimath-dev libopencolorio-dev
+build='g++ cmake ninja-build pkg-config libcli11-dev libembree-dev libfmt-dev libimath-dev libopencolorio-dev
        libopenexr-dev libopenimageio-dev libtbb-dev nlohmann-json3-dev zlib1g-dev'
 demo='fonts-dejavu-core openimageio-tools'
 lint='clang-14 clang-format-14 clang-tidy-14'
