@@ -7,7 +7,6 @@ find_package(CLI11 CONFIG REQUIRED)
 find_package(fmt 9.1 CONFIG REQUIRED)
 find_package(nlohmann_json 3.11 CONFIG REQUIRED)
 find_package(Threads REQUIRED)
-find_package(ZLIB REQUIRED)
 # By pkg-config: what Debian has for CMake lies where CMake does not look, and names folders that do not exist.
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(OpenColorIO REQUIRED IMPORTED_TARGET OpenColorIO>=2.1)

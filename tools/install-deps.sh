@@ -8,7 +8,7 @@
 set -eu
 
 build='g++ cmake ninja-build pkg-config libcli11-dev libembree-dev libfmt-dev libimath-dev libopencolorio-dev
-       libopenexr-dev libopenimageio-dev libtbb-dev nlohmann-json3-dev zlib1g-dev'
+       libopenexr-dev libopenimageio-dev libtbb-dev nlohmann-json3-dev'
 demo='fonts-dejavu-core openimageio-tools'
 lint='clang-14 clang-format-14 clang-tidy-14'
 report='chromium gnuplot-nox'

@@ -2,9 +2,12 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "base/text.h"
 #include "io/display/default_ocio_config.h"
 
 #include <OpenColorIO/OpenColorIO.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -45,13 +48,11 @@ ocio::ConstConfigRcPtr config_of(const std::string &file) {
     return ocio::Config::CreateFromStream(text);
 }
 
-// Space, display or view of that name must be there; says which are where it is not.
+// Throws Error, with the list of what there is, where no space, display or view has that name.
 void expect_name(const std::string &config, const std::string &name, const std::string &what,
                  const std::vector<std::string> &there) {
-    if (std::ranges::find(there, name) != there.end()) return;
-    std::string list;
-    for (const std::string &one : there) list += (list.empty() ? "" : ", ") + one;
-    throw Error(config + ": has no " + what + " '" + name + "', only " + list);
+    if (is_among(there, name)) return;
+    throw Error(fmt::format("{}: has no {} '{}', only {}", config, what, name, fmt::join(there, ", ")));
 }
 
 std::vector<std::string> spaces_of(const ocio::Config &config) {
@@ -90,13 +91,13 @@ ColourConfig::ColourConfig(const std::string &file) {
     const std::string name = path.empty()   ? "the built-in colour configuration"
                              : file.empty() ? path + " ($OCIO)"
                                             : path + " (--colorconfig)";
-    if (!path.empty() && !std::filesystem::is_regular_file(path)) throw Error(name + ": is no file");
+    if (!path.empty() && !std::filesystem::is_regular_file(path)) throw Error(name + ": no such file");
     impl_ = with_config_name(name, [&] { return std::make_shared<const Impl>(Impl{name, config_of(path)}); });
 }
 
 std::string ColourConfig::scene_linear() const {
     const auto space = impl_->config->getColorSpace(ocio::ROLE_SCENE_LINEAR);
-    if (!space) throw Error(impl_->name + ": says not which space is scene_linear");
+    if (!space) throw Error(impl_->name + ": has no role scene_linear");
     return space->getName();
 }
 

@@ -25,7 +25,8 @@ OiioModule load() {
          {beside_program(name), SPARSELENS_PREFIX "/" SPARSELENS_MODULES "/" + name})
         if (!module) module = ::dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
     void *entry = module ? ::dlsym(module, oiio_module_entry) : nullptr;
-    if (!entry) throw Error(std::string("cannot load OpenImageIO: ") + ::dlerror());
+    if (!entry)
+        throw Error(std::string("cannot load OpenImageIO, which writes PNG, JPEG and TIFF: ") + ::dlerror());
     return reinterpret_cast<OiioModule (*)()>(entry)();
 }
 

@@ -1,14 +1,17 @@
 #include "io/display/shown_picture.h"
 
 #include "base/error.h"
+#include "base/text.h"
 #include "io/display/oiio_module.h"
 #include "io/files/file_stream.h"
 #include "io/files/unfinished.h"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <filesystem>
 #include <fstream>
 #include <vector>
@@ -19,8 +22,7 @@ namespace {
 
 // Without the dot, in lower case.
 std::string extension_of(const std::string &path) {
-    std::string extension = std::filesystem::path(path).extension().string();
-    for (char &c : extension) c = char(std::tolower(static_cast<unsigned char>(c)));
+    const std::string extension = lower_case(std::filesystem::path(path).extension().string());
     return extension.empty() ? extension : extension.substr(1);
 }
 
@@ -54,12 +56,12 @@ private:
 
 const float *row_of(void *rows, int y) { return static_cast<DisplayRows *>(rows)->row(y); }
 
-// OpenImageIO writes to names, and by no means all of its formats to a stream: to a file of its own, then.
+// A temporary file for OpenImageIO, which writes all formats to a file but only some of them to a stream.
 class TemporaryFile {
 public:
     explicit TemporaryFile(const std::string &extension)
         : unfinished_((std::filesystem::temp_directory_path() /
-                       ("sparselens." + std::to_string(::getpid()) + "." + extension))
+                       fmt::format("sparselens.{}-{}.{}", ::getpid(), number_++, extension))
                           .string()) {}
     ~TemporaryFile() { ::unlink(path().c_str()); }
     TemporaryFile(const TemporaryFile &) = delete;
@@ -67,6 +69,7 @@ public:
     const std::string &path() const { return unfinished_.path(); }
 
 private:
+    static inline std::atomic<unsigned> number_ = 0; // threads may write at the same time
     Unfinished unfinished_;
 };
 
@@ -89,7 +92,7 @@ bool is_shown_picture(const std::string &path) {
 void write_shown_picture(const std::string &path, const Image &image) {
     const auto rgb = find_rgb(image.channels);
     if (!all_found(rgb))
-        throw Error(path + ": needs the channels R, G and B; other channels are for OpenEXR");
+        throw Error(path + ": needs the channels R, G and B: write other channels to an EXR file");
     const std::string extension = extension_of(path);
     const OiioModule &oiio = oiio_module();
     const std::size_t alpha = find_channel(image.channels, "A");

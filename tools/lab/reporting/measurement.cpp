@@ -1,13 +1,16 @@
 #include "lab/reporting/measurement.h"
 
 #include "base/parallel.h"
-#include "io/display/png.h"
+#include "io/display/shown_picture.h"
 #include "io/exr/exr_flat.h"
+#include "io/files/folder.h"
 #include "lab/report/numbers.h"
 #include "lab/report/verdict.h"
 #include "lab/reporting/files.h"
 #include "loading/region_file.h"
 #include "measure/tone_map.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -34,6 +37,15 @@ Image difference_picture(Image a, const Image &b) {
     return a;
 }
 
+// Writes the first three channels, over the data window, as PNG: 0 becomes 0, 1 becomes 255, NaN becomes 0.
+void write_png(const std::string &path, const Image &image) {
+    Image rgb(windows_of_size(image.windows.width(), image.windows.height()), {{"R"}, {"G"}, {"B"}});
+    for (std::size_t c = 0; c < rgb.channels.size(); ++c)
+        std::ranges::copy(image.plane(c), rgb.plane(c).begin());
+    make_folder(fs::path(path).parent_path().string());
+    write_shown_picture(path, rgb);
+}
+
 class SceneMeasurement {
 public:
     SceneMeasurement(const ScenePlan &plan, std::span<const StepTimes> times, std::string folder,
@@ -42,7 +54,7 @@ public:
           reference_(over_reference(plan.reference.picture)),
           mapped_reference_(tone_mapped_picture(reference_)),
           bits_(regions_over(windows_, path(plan.centre.picture), plan.lens, {}, tool)) {
-        write_file(path(png_name(plan.reference.folder, "picture")), png_of(mapped_reference_));
+        write_png(path(png_name(plan.reference.folder, "picture")), mapped_reference_);
     }
 
     ReportRow measured(const PlannedRow &planned) const {
@@ -59,8 +71,8 @@ public:
         const Image mapped = tone_mapped_picture(picture);
         row.picture = pictures_of(planned) + ".png";
         row.difference = pictures_of(planned) + "-difference.png";
-        write_file(path(row.picture), png_of(mapped));
-        write_file(path(row.difference), png_of(difference_picture(mapped, mapped_reference_)));
+        write_png(path(row.picture), mapped);
+        write_png(path(row.difference), difference_picture(mapped, mapped_reference_));
         return row;
     }
 
@@ -134,8 +146,8 @@ std::vector<PagePicture> page_pictures(const ScenePlan &plan, std::span<const Re
     std::set<std::string> shown;
     const auto show = [&](const ReportRow &row) {
         if (!shown.insert(row.picture).second) return;
-        pictures.push_back({method_name(row) + ", " + row.budget + ": " + fixed(quality(row), 2) + " dB, " +
-                                significant(total_seconds(row), 3) + " s",
+        pictures.push_back({fmt::format("{}, {}: {} dB, {} s", method_name(row), row.budget,
+                                        fixed(quality(row), 2), significant(total_seconds(row), 3)),
                             bytes(row.picture)});
     };
     if (const auto best = scene_verdict(rows).best) show(rows[*best]);

@@ -1,4 +1,5 @@
-#include "io/display/png.h"
+#include "base/parallel.h"
+#include "io/display/shown_picture.h"
 #include "support/scratch_folder.h"
 
 #include <OpenImageIO/imagebuf.h>
@@ -12,7 +13,7 @@ namespace sparselens {
 namespace {
 
 Image noise(int width, int height) {
-    Image image(windows_of_size(width, height), rgba_channels());
+    Image image(windows_of_size(width, height), {{"R"}, {"G"}, {"B"}});
     std::mt19937 generator(1);
     std::uniform_real_distribution<float> uniform(-0.2f, 1.2f);
     for (float &value : image.values) value = uniform(generator);
@@ -20,10 +21,8 @@ Image noise(int width, int height) {
 }
 
 // As OpenImageIO reads it.
-void expect_reads_back(const Image &image) {
-    const ScratchFolder scratch;
-    put_contents(scratch.file("a.png"), png_of(image));
-    const OIIO::ImageBuf read(scratch.file("a.png"));
+void expect_reads_back(const std::string &file, const Image &image) {
+    const OIIO::ImageBuf read(file);
     ASSERT_TRUE(read.initialized()) << read.geterror();
     ASSERT_EQ(read.spec().width, image.windows.width());
     ASSERT_EQ(read.spec().height, image.windows.height());
@@ -39,18 +38,32 @@ void expect_reads_back(const Image &image) {
             }
 }
 
-TEST(Png, OthersReadWhatWasWritten) {
+void expect_reads_back(const Image &image) {
+    const ScratchFolder scratch;
+    write_shown_picture(scratch.file("a.png"), image);
+    expect_reads_back(scratch.file("a.png"), image);
+}
+
+TEST(ShownPicture, OthersReadWhatWasWritten) {
     expect_reads_back(noise(1, 1));
     expect_reads_back(noise(37, 23));
     expect_reads_back(noise(300, 2));
 }
 
-TEST(Png, TakesWhatIsNoColour) {
+TEST(ShownPicture, CutsOffWhatIsOutsideOfTheRange) {
     Image image = noise(5, 4);
     image.values[0] = std::numeric_limits<float>::quiet_NaN();
     image.values[1] = std::numeric_limits<float>::infinity();
     image.values[2] = -std::numeric_limits<float>::infinity();
     expect_reads_back(image);
+}
+
+TEST(ShownPicture, ThreadsMayWriteAtTheSameTime) {
+    const ScratchFolder scratch;
+    const auto file = [&](std::size_t i) { return scratch.file("a" + std::to_string(i) + ".png"); };
+    const auto image = [](std::size_t i) { return noise(20 + int(i), 10); };
+    parallel_for(24, [&](std::size_t i) { write_shown_picture(file(i), image(i)); });
+    for (std::size_t i = 0; i < 24; ++i) expect_reads_back(file(i), image(i));
 }
 
 } // namespace

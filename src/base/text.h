@@ -1,0 +1,22 @@
+// Small helpers for text. They work on bytes and ignore the locale: only the letters of ASCII have a case.
+#pragma once
+
+#include <algorithm>
+#include <iterator>
+#include <string>
+#include <string_view>
+
+namespace sparselens {
+
+std::string lower_case(std::string text);
+std::string upper_case(std::string text);
+
+// The text in single quotes, as a POSIX shell reads it: it's becomes 'it'\''s'.
+std::string single_quoted(std::string_view text);
+
+// Whether `word` is one of `words`, a range of strings.
+bool is_among(const auto &words, std::string_view word) {
+    return std::ranges::find(words, word) != std::ranges::end(words);
+}
+
+} // namespace sparselens
