@@ -2,7 +2,9 @@
 
 #include "measure/text_table.h"
 
-#include <charconv>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
 #include <cmath>
 #include <vector>
 
@@ -10,39 +12,25 @@ namespace sparselens {
 
 namespace {
 
-std::string shortest(double value) {
-    char text[32];
-    return {text, std::to_chars(text, text + sizeof text, value).ptr};
-}
+std::string six_digits(double value) { return std::isnan(value) ? "-" : fmt::format("{:.6g}", value); }
 
-std::string six_digits(double value) {
-    if (std::isnan(value)) return "-";
-    char text[32];
-    return {text, std::to_chars(text, text + sizeof text, value, std::chars_format::general, 6).ptr};
-}
+using Json = nlohmann::ordered_json;
 
-std::string members(const ErrorFigures &figures, const std::string &indent) {
-    std::string json;
-    for (const Figure &figure : figure_table) {
-        const double value = figures.*figure.value;
-        json +=
-            indent + '"' + figure.name + "\": " + (std::isfinite(value) ? shortest(value) : "null") + ",\n";
-    }
-    json += indent + "\"pixels\": " + std::to_string(figures.pixels) + ",\n";
-    json += indent + "\"nonfinite\": {\"image\": " + std::to_string(figures.nonfinite_image) +
-            ", \"reference\": " + std::to_string(figures.nonfinite_reference) + "}";
+// Numbers keep all their digits; what is not finite is written as null, since JSON has no infinity.
+Json json_of(const ErrorFigures &figures) {
+    Json json;
+    for (const Figure &figure : figure_table) json[figure.name] = figures.*figure.value;
+    json["pixels"] = figures.pixels;
+    json["nonfinite"] = {{"image", figures.nonfinite_image}, {"reference", figures.nonfinite_reference}};
     return json;
 }
 
 } // namespace
 
 std::string figures_as_json(const ErrorFigures &whole, std::span<const NamedFigures> regions) {
-    std::string json = "{\n" + members(whole, "  ");
-    for (std::size_t r = 0; r < regions.size(); ++r) {
-        json += r == 0 ? ",\n  \"regions\": {\n" : ",\n";
-        json += "    \"" + regions[r].name + "\": {\n" + members(regions[r].figures, "      ") + "\n    }";
-    }
-    return json + (regions.empty() ? "\n}\n" : "\n  }\n}\n");
+    Json json = json_of(whole);
+    for (const NamedFigures &region : regions) json["regions"][region.name] = json_of(region.figures);
+    return json.dump(2) + '\n';
 }
 
 std::string figures_as_table(const ErrorFigures &whole, std::span<const NamedFigures> regions) {
@@ -56,7 +44,7 @@ std::string figures_as_table(const ErrorFigures &whole, std::span<const NamedFig
     }
     const auto count_row = [&](const char *name, std::size_t ErrorFigures::*count) {
         TextRow &row = rows.emplace_back(TextRow{name});
-        for (const NamedFigures &column : columns) row.push_back(std::to_string(column.figures.*count));
+        for (const NamedFigures &column : columns) row.push_back(fmt::to_string(column.figures.*count));
     };
     count_row("pixels", &ErrorFigures::pixels);
     count_row("nonfinite (image)", &ErrorFigures::nonfinite_image);

@@ -8,12 +8,10 @@ compare=$bin/dof-compare
 
 # figure KEY [REGION]: a number out of the JSON in the file stdout.
 figure() {
-    local block=${2:-}
-    if [ -z "$block" ]; then
-        sed -n "s/^  \"$1\": \(.*\)/\1/p" stdout
-    else
-        sed -n "/^    \"$block\": {/,/^    }/s/^      \"$1\": \(.*\)/\1/p" stdout
-    fi | sed 's/,$//'
+    python3 -c 'import json, sys
+figures = json.load(open("stdout"))
+if sys.argv[2]: figures = figures["regions"][sys.argv[2]]
+print(json.dumps(figures[sys.argv[1]]))' "$1" "${2:-}"
 }
 # is KEY EXPECTED [REGION] [TOLERANCE]
 is() {

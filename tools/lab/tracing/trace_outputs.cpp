@@ -7,24 +7,15 @@
 #include "io/files/folder.h"
 #include "lab/trace/camera_at.h"
 
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 
 namespace sparselens::lab {
 
 namespace {
-
-std::string text_of(double value, const char *format) {
-    char text[32];
-    std::snprintf(text, sizeof text, format, value);
-    return text;
-}
-
-// JSON knows no infinity.
-std::string json(double value, const char *format = "%.17g") {
-    return std::isfinite(value) ? text_of(value, format) : "null";
-}
 
 void set_colour_type(std::vector<Channel> &channels, PixelType type) {
     for (Channel &channel : channels)
@@ -47,13 +38,13 @@ TraceOutputs::TraceOutputs(std::string folder, Camera camera, RenderSettings set
       tool_(tool) {
     make_folder(folder_);
     const ThinLens &lens = settings_.lens;
-    tool_.say("lens radius " + text_of(lens.radius, "%g") + ", focus distance " + text_of(lens.focus, "%g") +
-              ", focal length " + text_of(lens.focal_px, "%g") + " pixels");
+    tool_.say(fmt::format("lens radius {:g}, focus distance {:g}, focal length {:g} pixels", lens.radius,
+                          lens.focus, lens.focal_px));
 }
 
 void TraceOutputs::note(const std::string &name, double seconds) {
     seconds_.emplace_back(name, seconds);
-    tool_.say(path(name) + ": " + text_of(seconds, "%.3f") + " s");
+    tool_.say(fmt::format("{}: {:.3f} s", path(name), seconds));
 }
 
 void TraceOutputs::add(const std::string &name, const Imath::V2d &u, const std::function<Image()> &make) {
@@ -78,27 +69,20 @@ void TraceOutputs::add_deep(const std::string &name, const std::function<Ldi()> 
 
 void TraceOutputs::write_summary(const std::vector<Imath::V2d> &views, int view_samples,
                                  int reference_samples) const {
-    std::string text = "{\n";
-    const auto put = [&](const char *key, const std::string &value) {
-        text += std::string(" \"") + key + "\": " + value + ",\n";
-    };
-    put("width", std::to_string(settings_.windows.display_width()));
-    put("height", std::to_string(settings_.windows.display_height()));
-    put("focal_mm", json(*camera_.focal_length_mm));
-    put("sensor_width_mm", json(*camera_.sensor_width_mm));
-    put("fstop", json(*camera_.fstop));
-    put("focus_distance", json(*camera_.focus_distance));
-    put("lens_radius", json(settings_.lens.radius));
-    std::string points;
-    for (const Imath::V2d &u : views)
-        points += (points.empty() ? "[" : ", [") + json(u.x) + ", " + json(u.y) + "]";
-    put("views", "[" + points + "]");
-    put("view_spp", std::to_string(view_samples));
-    put("ref_spp", std::to_string(reference_samples));
-    std::string seconds;
-    for (const auto &[name, time] : seconds_)
-        seconds += (seconds.empty() ? "\n  \"" : ",\n  \"") + name + "\": " + json(time, "%.3f");
-    text += " \"seconds\": {" + seconds + "\n }\n}\n";
+    nlohmann::ordered_json json{{"width", settings_.windows.display_width()},
+                                {"height", settings_.windows.display_height()},
+                                {"focal_mm", *camera_.focal_length_mm},
+                                {"sensor_width_mm", *camera_.sensor_width_mm},
+                                {"fstop", *camera_.fstop},
+                                {"focus_distance", *camera_.focus_distance},
+                                {"lens_radius", settings_.lens.radius},
+                                {"views", nlohmann::ordered_json::array()},
+                                {"view_spp", view_samples},
+                                {"ref_spp", reference_samples},
+                                {"seconds", nlohmann::ordered_json::object()}};
+    for (const Imath::V2d &u : views) json["views"].push_back({u.x, u.y});
+    for (const auto &[name, time] : seconds_) json["seconds"][name] = std::round(time * 1000) / 1000;
+    const std::string text = json.dump(1) + '\n'; // infinity as null
     OutputFile file(path("camera.json"));
     file.stream().write(text.data(), int(text.size()));
     file.commit();
