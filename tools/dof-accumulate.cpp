@@ -1,10 +1,12 @@
-// dof-accumulate: dense views over the lens, averaged so that the plane of focus stays put.
+// dof-accumulate: averages dense views from the lens, shifted so that the plane of focus stays in place.
 #include "harness/tool.h"
 #include "io/camera/camera_metadata.h"
 #include "loading/averaging.h"
 #include "loading/pictures.h"
 #include "options/accumulate_options.h"
 #include "options/picture_options.h"
+
+#include <fmt/format.h>
 
 namespace {
 
@@ -23,10 +25,11 @@ void accumulate_files(const AccumulateOptions &options, const ToolContext &tool)
     LensViewFiles files = open_lens_views(options.views);
     files.centre = camera_with_options(options.lens, files.centre);
     if (files.centre_guessed && files.views.size() > 1)
-        warn(tool, "the lens centre is taken to be the mean of the views' positions; --center FILE says "
-                   "where it is");
+        warn(tool,
+             "the lens centre is assumed to be the mean of the positions of the views; give --center FILE to "
+             "set it");
     const ThinLens lens = stop_down(files, options.lens);
-    tool.say(std::to_string(files.views.size()) + " views");
+    tool.say(fmt::format("{} views", files.views.size()));
     const Image image = average_views(files, lens, options.transparent_outside, tool);
     const Image picture = in_type(image, options.as_float);
     Imf::Header header = header_of(files);
@@ -37,7 +40,7 @@ void accumulate_files(const AccumulateOptions &options, const ToolContext &tool)
 } // namespace
 
 int main(int argc, char **argv) {
-    CLI::App app("Average of views from many points of a lens (the accumulation buffer)", "dof-accumulate");
+    CLI::App app("Averages views from many points of the lens (the accumulation buffer)", "dof-accumulate");
     AccumulateOptions options;
     add_accumulate_options(app, options);
     return run_tool(app, argc, argv, [&](const ToolContext &tool) { accumulate_files(options, tool); });

@@ -23,24 +23,31 @@ struct Options {
 };
 
 void add_options(CLI::App &app, Options &options) {
-    app.add_option("A", options.image, "Picture to judge (EXR, - for standard input)")->required();
-    app.add_option("REF", options.reference, "Reference: compared over its data window")->required();
+    app.add_option("IN", options.image, "Picture to judge (EXR); - for standard input")
+        ->required()
+        ->type_name("");
+    app.add_option("REF", options.reference,
+                   "Reference (EXR), over whose data window the pictures are compared")
+        ->required()
+        ->type_name("");
     app.add_flag("--json", options.json, "Print JSON instead of a table");
     CLI::Option *regions =
         app.add_option(
                "--regions", options.regions,
-               "LDI (deep EXR, or flat with depth) that tells what is in focus, blurred, a silhouette")
+               "Also compare by region: in focus, blurred, silhouettes, as this LDI tells (deep EXR, or flat "
+               "with depth)")
             ->type_name("LDI");
     add_lens_options(app, options.lens);
     add_depth_options(app, options.depth);
     for (CLI::Option *option : app.get_options())
         if (option->get_group() == "Lens" && !option->check_lname("stereo-view"))
-            option->needs(regions); // they say how to read it
+            option->needs(regions); // they say how to read that file
 }
 
 void compare(const Options &options, const ToolContext &tool) {
     const auto from_stdin = {options.image == "-", options.reference == "-", options.regions == "-"};
-    if (std::ranges::count(from_stdin, true) > 1) throw UsageError("standard input cannot be read twice");
+    if (std::ranges::count(from_stdin, true) > 1)
+        throw UsageError("standard input (-) cannot be read twice: give one file by its name");
     const Image reference_file = read_flat_exr(options.reference, options.depth.view).image;
     const Windows &windows = reference_file.windows;
     const Image reference = rgba_over(reference_file, windows, options.reference);
@@ -57,13 +64,13 @@ void compare(const Options &options, const ToolContext &tool) {
     const auto as_text = options.json ? figures_as_json : figures_as_table;
     const std::string text = as_text(figures.front(), regions);
     if (std::fputs(text.c_str(), stdout) == EOF || std::fflush(stdout) != 0)
-        throw Error("standard output: cannot be written");
+        throw Error("standard output: cannot write");
 }
 
 } // namespace
 
 int main(int argc, char **argv) {
-    CLI::App app("Error figures of a picture against a reference", "dof-compare");
+    CLI::App app("Prints how far a picture is from its reference", "dof-compare");
     Options options;
     add_options(app, options);
     return run_tool(app, argc, argv, [&](const ToolContext &tool) { compare(options, tool); });

@@ -1,6 +1,4 @@
-// LDI to lens picture: dof-gather IN.exr -o OUT.exr [lens options] [--method M] [--quality Q]
-//     [--lens-samples N] [--layers K] [--focus-pixel X,Y] [--depth-out FILE]
-//     [--channels LIST] [-d half|float]
+// dof-gather: makes the picture that a lens takes from a layered depth image.
 #include "deep/flatten.h"
 #include "deep/front_depth.h"
 #include "dof/methods.h"
@@ -21,7 +19,7 @@ using namespace sparselens;
 
 namespace {
 
-// What the method makes of the LDI; without a lens, the LDI flattened.
+// The picture by the chosen method; for a lens of radius 0, the flattened LDI.
 Image gathered(const GatherCommand &options, const Ldi &ldi, const ThinLens &lens, const GatherWindows &frame,
                const std::optional<Holdout> &holdout, const ToolContext &tool, LensTiles &tiles) {
     if (lens.radius == 0)
@@ -62,8 +60,8 @@ void run(const GatherCommand &options, const ToolContext &tool, LdiCache &cache)
 } // namespace
 
 int main(int argc, char **argv) {
-    LdiCache cache; // a pull of focus over one file reads it once
-    return run_frames("dof-gather", "Gathers the picture a lens would have taken from a layered depth image",
+    LdiCache cache; // for a focus pull over one file, which is read once
+    return run_frames("dof-gather", "Gathers the picture that a lens takes from a layered depth image (LDI)",
                       argc, argv, [&](CLI::App &app) {
                           const auto options = std::make_shared<GatherCommand>();
                           add_gather_options(app, *options);

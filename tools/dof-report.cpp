@@ -1,4 +1,4 @@
-// dof-report: error against run time, for every kind of system that makes depth of field.
+// dof-report: measures the error against the run time of every kind of system that makes depth of field.
 #include "base/error.h"
 #include "harness/tool.h"
 #include "lab/report/summary.h"
@@ -17,7 +17,7 @@ using namespace sparselens;
 using namespace sparselens::lab;
 namespace fs = std::filesystem;
 
-// The other tools lie beside this one.
+// The other tools lie in the folder of this one.
 std::string folder_of_tools() { return fs::read_symlink("/proc/self/exe").parent_path().string(); }
 
 RunOptions run_options(const ReportOptions &options, const ToolContext &tool) {
@@ -30,7 +30,7 @@ RunOptions run_options(const ReportOptions &options, const ToolContext &tool) {
 
 void print(const std::string &text) {
     if (std::fputs(text.c_str(), stdout) == EOF || std::fflush(stdout) != 0)
-        throw Error("standard output: cannot be written");
+        throw Error("standard output: cannot write");
 }
 
 std::vector<MeasuredScene> plan_scenes(const ReportOptions &options, const RunOptions &run, StepList &steps) {
@@ -41,7 +41,7 @@ std::vector<MeasuredScene> plan_scenes(const ReportOptions &options, const RunOp
     for (const std::string &scene : options.scenes.empty() ? usual : options.scenes) {
         const auto source = open_scene(scene, budgets, can_plan(run.tools));
         if (!names.insert(source->name()).second)
-            throw UsageError(scene + ": there is another scene called " + source->name());
+            throw UsageError(scene + ": another scene is called " + source->name() + " too");
         scenes.push_back({plan_scene(*source, budgets, detail_of(options), steps), {}});
     }
     return scenes;
@@ -67,7 +67,8 @@ void report(const ReportOptions &options, const std::string &command, const Tool
 } // namespace
 
 int main(int argc, char **argv) {
-    CLI::App app("Error against run time of every kind of system that makes depth of field, on your scene",
+    CLI::App app("Measures the error and the run time of every kind of system that makes depth of field, on "
+                 "your scene",
                  "dof-report");
     ReportOptions options;
     add_report_options(app, options);

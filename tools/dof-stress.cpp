@@ -1,7 +1,9 @@
-// dof-stress: stiff and extreme cases, each with its error, one line a case.
+// dof-stress: runs stiff and extreme cases and prints the error of each, one line per case.
 #include "base/error.h"
 #include "harness/tool.h"
 #include "lab/stress/stress_case.h"
+
+#include <fmt/format.h>
 
 #include <cstdio>
 #include <string>
@@ -22,9 +24,7 @@ struct Tally {
 
 std::string energy_text(const StressResult &result) {
     if (std::isnan(result.energy)) return "-";
-    char text[32];
-    std::snprintf(text, sizeof text, "%.1e", result.energy);
-    return text;
+    return fmt::format("{:.1e}", result.energy);
 }
 
 StressResult run_guarded(const StressCase &c, std::string &thrown) {
@@ -43,13 +43,12 @@ void print_case(const Options &options, const StressFamily &family, const Stress
     ++tally.run;
     tally.failed += pass ? 0 : 1;
     if (options.markdown)
-        std::printf("| %s | %s | %.1e | %.1e | %s | %s | %s |\n", c.name, c.claim, result.error, c.bound,
-                    energy_text(result).c_str(), c.reason, pass ? "pass" : "FAIL");
+        fmt::print("| {} | {} | {:.1e} | {:.1e} | {} | {} | {} |\n", c.name, c.claim, result.error, c.bound,
+                   energy_text(result), c.reason, pass ? "pass" : "FAIL");
     else
-        std::printf("%-28s error %.1e of %.1e  energy %8s  time %5.1fx  %s%s\n",
-                    (std::string(family.name) + "/" + c.name).c_str(), result.error, c.bound,
-                    energy_text(result).c_str(), times_plain(result),
-                    thrown.empty() ? "" : (thrown + "  ").c_str(), pass ? "pass" : "FAIL");
+        fmt::print("{:<28} error {:.1e} of {:.1e}  energy {:>8}  time {:5.1f}x  {}{}\n",
+                   fmt::format("{}/{}", family.name, c.name), result.error, c.bound, energy_text(result),
+                   times_plain(result), thrown.empty() ? "" : thrown + "  ", pass ? "pass" : "FAIL");
     std::fflush(stdout);
 }
 
@@ -57,27 +56,29 @@ void stress(const Options &options) {
     Tally tally;
     for (const StressFamily &family : stress_families()) {
         if (options.markdown)
-            std::printf("\n## %s\n\n| case | what is measured | error | bound | energy | why this bound | "
-                        "|\n|---|---|---|---|---|---|---|\n",
-                        family.name);
+            fmt::print("\n## {}\n\n| case | what is measured | error | bound | energy | why this bound | "
+                       "|\n|---|---|---|---|---|---|---|\n",
+                       family.name);
         for (const StressCase &c : family.cases)
             if (options.one_case.empty() || options.one_case == c.name ||
-                options.one_case == std::string(family.name) + "/" + c.name)
+                options.one_case == fmt::format("{}/{}", family.name, c.name))
                 print_case(options, family, c, tally);
     }
-    if (tally.run == 0) throw UsageError("--case: there is no case '" + options.one_case + "'");
-    if (tally.failed > 0)
-        throw Error(std::to_string(tally.failed) + " of " + std::to_string(tally.run) + " cases fail");
+    if (tally.run == 0)
+        throw UsageError(
+            fmt::format("--case: no case is called '{}'; without --case all are listed", options.one_case));
+    if (tally.failed > 0) throw Error(fmt::format("{} of {} cases fail", tally.failed, tally.run));
 }
 
 } // namespace
 
 int main(int argc, char **argv) {
-    CLI::App app("Stiff and extreme cases of depth of field, each with its error", "dof-stress");
+    CLI::App app("Runs stiff and extreme cases of depth of field and prints the error of each", "dof-stress");
     Options options;
-    app.add_option("--case", options.one_case, "This case alone (its name, or FAMILY/NAME)")
+    app.add_option("--case", options.one_case, "Run only the case of this name, or of this FAMILY/NAME")
         ->type_name("NAME");
-    app.add_flag("--markdown", options.markdown, "Tables for docs/stress.md, with the reason for each bound");
+    app.add_flag("--markdown", options.markdown,
+                 "Print the tables of docs/stress.md, with the reason for each bound");
     return run_tool(
         app, argc, argv, [&](const ToolContext &) { stress(options); }, Reads::nothing);
 }

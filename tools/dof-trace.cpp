@@ -1,4 +1,4 @@
-// Renders a test scene: the centre view, views from the lens, deep pictures, and a distributed-ray-tracing
+// dof-trace: renders a test scene: the centre view, views from the lens, deep pictures, and a distributed-ray-tracing
 // reference.
 #include "harness/tool.h"
 #include "lab/trace/scenes.h"
@@ -29,7 +29,7 @@ void trace(const TraceOptions &options, const ToolContext &tool) {
 } // namespace
 
 int main(int argc, char **argv) {
-    CLI::App app("Render a test scene: pinhole views from the lens, and the reference to compare with.",
+    CLI::App app("Renders a test scene: pinhole views from the lens, and the reference to compare with",
                  "dof-trace");
     TraceOptions options;
     add_trace_options(app, options);

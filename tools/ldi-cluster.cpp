@@ -1,4 +1,4 @@
-// Fewer samples a pixel: ldi-cluster IN.exr -o OUT.exr [--tolerance PX] [--layers K] [lens options]
+// ldi-cluster: merges the samples of each pixel to fewer.
 #include "base/error.h"
 #include "deep/cluster.h"
 #include "harness/history.h"
@@ -6,6 +6,8 @@
 #include "harness/tool.h"
 #include "io/camera/camera_metadata.h"
 #include "loading/pictures.h"
+
+#include <fmt/format.h>
 
 using namespace sparselens;
 
@@ -21,16 +23,17 @@ struct Options {
 };
 
 void add_options(CLI::App &app, Options &options) {
-    app.add_option("input", options.input, "LDI, any deep EXR or flat RGBA+Z; - for standard input")
-        ->type_name("IN.exr")
+    app.add_option("IN", options.input, "LDI, any deep EXR or flat RGBA+Z; - for standard input")
+        ->type_name("")
         ->required();
-    app.add_option("-o,--output", options.output, "LDI to write, - for standard output")
+    app.add_option("-o,--output", options.output, "LDI to write; - for standard output")
         ->type_name("OUT.exr")
         ->required();
-    app.add_option("--tolerance", options.tolerance, "Merge what differs by less, pixels of CoC (0.25)")
+    app.add_option("--tolerance", options.tolerance,
+                   "Merge samples whose circles of confusion differ by less, in pixels (default: 0.25)")
         ->type_name("PX")
         ->check(number("a number of at least 0", {.zero_allowed = true}));
-    app.add_option("--layers", options.layers, "At most K samples a pixel, 0 = no limit")
+    app.add_option("--layers", options.layers, "Keep at most K samples per pixel; 0: no limit (default: 0)")
         ->type_name("K")
         ->check(CLI::Range(0, 1 << 20));
     add_lens_options(app, options.lens);
@@ -38,7 +41,8 @@ void add_options(CLI::App &app, Options &options) {
     add_history_option(app, options.history);
 }
 
-// R F. The tolerance needs it; --layers alone does without, as inverse depth needs no scale to be compared.
+// R F, in pixels times scene units. The tolerance needs it; --layers alone does not, because inverse depths are
+// compared without a scale.
 std::optional<double> perceptive_scale(const Options &options, const LoadedLdi &in) {
     const bool lens_known =
         lens_radius_of(in.camera) && focal_length_px(in.camera, in.ldi.windows.display_width());
@@ -56,9 +60,9 @@ void run(const Options &options, const ToolContext &tool) {
     if (scale) by.scale = *scale;
     if (scale) by.tolerance = options.tolerance.value_or(0.25);
     const Clustered out = cluster(in.ldi, by, *tool.progress);
-    tool.say(std::to_string(in.ldi.samples()) + " samples to " + std::to_string(out.ldi.samples()) +
-             (scale ? ", CoC changed by at most " + std::to_string(out.largest_error) + " px"
-                    : ", by inverse depth alone: the lens is unknown"));
+    tool.say(fmt::format("{} samples to {}, ", in.ldi.samples(), out.ldi.samples()) +
+             (scale ? fmt::format("CoC changed by at most {:.6f} px", out.largest_error)
+                    : "by inverse depth alone, because the lens is unknown"));
     write_camera(in.header, in.camera);
     append_history(in.header, tool, options.history);
     warn_of_clamped(tool, options.output, write_ldi(options.output, out.ldi, in.header));

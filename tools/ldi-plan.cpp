@@ -1,9 +1,11 @@
-// What is worth rendering: ldi-plan CENTER.exr [lens options] [--views N] [--margin PX] -o PLAN.json [--masks DIR]
+// ldi-plan: plans which views from the rim of the lens, and which of their pixels, are worth rendering.
 #include "harness/stats.h"
 #include "harness/tool.h"
 #include "io/plan_file.h"
 #include "loading/pictures.h"
 #include "options/plan_options.h"
+
+#include <fmt/format.h>
 
 #include <cmath>
 #include <cstdio>
@@ -15,19 +17,19 @@ namespace {
 void summarise(const Plan &plan, const View &centre, std::FILE *out) {
     const double pixels = double(centre.image.windows.pixels());
     for (const PlannedView &view : plan.views)
-        std::fprintf(out, "view at lens point (%.3f, %.3f): %.1f %% of a full view, %zu pixels uncovered\n",
-                     view.u.x, view.u.y, 100 * double(view.mask.count()) / pixels, view.uncovered);
+        fmt::print(out, "view at lens point ({:.3f}, {:.3f}): {:.1f} % of a full view, {} pixels uncovered\n",
+                   view.u.x, view.u.y, 100 * double(view.mask.count()) / pixels, view.uncovered);
     if (plan.views.empty())
-        std::fprintf(out, "no further view is worth rendering\n");
+        fmt::print(out, "no further view is worth rendering\n");
     else
-        std::fprintf(out, "in all %.2f of a full view\n", plan.share());
+        fmt::print(out, "in total {:.2f} of a full view\n", plan.share());
     if (plan.noise > 0)
-        std::fprintf(out, "noise left in the lens picture of this view: %.1f dB; %s\n",
-                     -10 * std::log10(plan.noise),
-                     plan.full_views ? "full views pay, as further samples" : "full views would not pay");
+        fmt::print(
+            out, "noise left in the lens picture of this view: {:.1f} dB; {}\n", -10 * std::log10(plan.noise),
+            plan.full_views ? "full views are worth it, as further samples" : "full views are not worth it");
     const OverscanNeed &o = plan.overscan;
-    std::fprintf(out, "overscan for the lens, pixels: left %d, top %d, right %d, bottom %d\n", o.left, o.top,
-                 o.right, o.bottom);
+    fmt::print(out, "overscan that the lens needs, in pixels: left {}, top {}, right {}, bottom {}\n", o.left,
+               o.top, o.right, o.bottom);
 }
 
 void run(const PlanCommand &options, const ToolContext &tool) {
@@ -47,7 +49,7 @@ void run(const PlanCommand &options, const ToolContext &tool) {
 int main(int argc, char **argv) {
     return run_frames(
         "ldi-plan",
-        "Says which views from the rim of the lens, and which of their pixels, are worth rendering", argc,
+        "Plans which views from the rim of the lens, and which of their pixels, are worth rendering", argc,
         argv, [&](CLI::App &app) {
             const auto options = std::make_shared<PlanCommand>();
             add_plan_options(app, *options);

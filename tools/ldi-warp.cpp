@@ -1,4 +1,4 @@
-// Views to LDI: ldi-warp [lens options] CENTER.exr [VIEW.exr ...] [--view X,Y VIEW.exr]... -o LDI.exr
+// ldi-warp: warps a centre view and views from the rim of the lens into one layered depth image.
 #include "base/error.h"
 #include "harness/stats.h"
 #include "harness/tool.h"
@@ -10,39 +10,38 @@
 #include "warp/pose_check.h"
 #include "warp/warp.h"
 
-#include <cstdio>
+#include <fmt/format.h>
+
 #include <span>
 
 using namespace sparselens;
 
 namespace {
 
-// A view that is not where it is said to be makes an LDI of ghosts.
+// Warns of views whose stated position is wrong: they make an LDI with ghosts.
 void warn_of_wrong_pose(const ToolContext &tool, std::span<const View> views, double focal_px) {
     const auto text = [](const Imath::V2d &p) {
-        char both[64];
-        std::snprintf(both, sizeof both, "%g,%g", p.x + 0.0, p.y + 0.0); // no -0
-        return std::string(both);
-    };
+        return fmt::format("{:g},{:g}", p.x + 0.0, p.y + 0.0);
+    }; // no -0
     for (const View &view : views.subspan(1))
         if (const auto better = better_position(views[0], view, focal_px))
-            warn(tool, view.name + ": disagrees with the centre view where it is said to stand, at " +
-                           text(view.position) + "; it would agree at " + text(*better));
+            warn(tool,
+                 fmt::format(
+                     "{}: disagrees with the centre view at its stated position {}; it would agree at {}",
+                     view.name, text(view.position), text(*better)));
 }
 
-// A view that the centre view frames otherwise is told of: a frustum misread makes ghosts, too.
+// Reports views whose framing differs from that of the centre view: a frustum that is misread makes ghosts, too.
 void say_framings(const ToolContext &tool, std::span<const View> views) {
     for (const View &view : views.subspan(1)) {
         const Framing &centre = views[0].framing, &own = view.framing;
         if (own == Framing{.principal_point = centre.principal_point}) continue;
         const Imath::V2d axis = in_pixels(own.principal_point, view.image.windows) -
                                 in_pixels(centre.principal_point, view.image.windows);
-        char text[160];
-        std::snprintf(
-            text, sizeof text,
-            ": optical axis %g,%g pixels from the centre view's, focal length %g times its, %g in front",
-            axis.x, axis.y, own.zoom, own.forward);
-        tool.say(view.name + text);
+        tool.say(fmt::format(
+            "{}: optical axis {:g},{:g} pixels from that of the centre view, focal length {:g} times "
+            "that of the centre view, {:g} scene units in front of it",
+            view.name, axis.x, axis.y, own.zoom, own.forward));
     }
 }
 
@@ -59,8 +58,8 @@ void run(const WarpCommand &options, const ToolContext &tool) {
     write_picture_window(loaded.header, loaded.views[0].image.windows.data);
     const Ldi ldi = warp(loaded.views, warp_by, *tool.progress);
     warn_of_wrong_pose(tool, loaded.views, warp_by.focal_px);
-    tool.say(std::to_string(loaded.views.size()) + " views, " + std::to_string(ldi.samples()) +
-             " samples in " + std::to_string(ldi.windows.pixels()) + " pixels");
+    tool.say(fmt::format("{} views, {} samples in {} pixels", loaded.views.size(), ldi.samples(),
+                         ldi.windows.pixels()));
     warn_of_clamped(tool, options.output, write_ldi(options.output, ldi, loaded.header));
     write_stats(tool, warp_stats(loaded.views, ldi));
 }
@@ -68,11 +67,12 @@ void run(const WarpCommand &options, const ToolContext &tool) {
 } // namespace
 
 int main(int argc, char **argv) {
-    return run_frames("ldi-warp",
-                      "Warps a centre view and views from the rim of the lens into one layered depth image",
-                      argc, argv, [&](CLI::App &app) {
-                          const auto options = std::make_shared<WarpCommand>();
-                          add_warp_options(app, *options);
-                          return [options](const ToolContext &tool) { run(*options, tool); };
-                      });
+    return run_frames(
+        "ldi-warp",
+        "Warps a centre view and views from the rim of the lens into one layered depth image (LDI)", argc,
+        argv, [&](CLI::App &app) {
+            const auto options = std::make_shared<WarpCommand>();
+            add_warp_options(app, *options);
+            return [options](const ToolContext &tool) { run(*options, tool); };
+        });
 }

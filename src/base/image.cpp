@@ -2,6 +2,8 @@
 
 #include "base/error.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace sparselens {
@@ -16,8 +18,7 @@ namespace {
 std::size_t count_of(const Windows &w, std::size_t channels) {
     const double count = double(w.width()) * double(w.height()) * double(channels);
     if (count > 0x1p48)
-        throw Error("a picture of " + std::to_string(w.width()) + " x " + std::to_string(w.height()) +
-                    " pixels is too large");
+        throw Error(fmt::format("a picture of {} x {} pixels is too large", w.width(), w.height()));
     return channels * w.pixels();
 }
 } // namespace

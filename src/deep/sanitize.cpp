@@ -4,6 +4,9 @@
 #include "base/parallel.h"
 #include "deep/channel_alpha.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -153,8 +156,9 @@ void Repair::repair_depths() {
     });
     if (bad > 0 && 2 * bad >= covered) {
         const Imath::V2i p = s_.windows.pixel(first_bad);
-        throw Error(name_ + ": depth " + std::to_string(first_depth) + " in pixel " + std::to_string(p.x) +
-                    "," + std::to_string(p.y) + " is no number above 0 (see --depth, --depth-channel)");
+        throw Error(fmt::format(
+            "{}: depth {:g} in pixel {},{} is not a number above 0 (see --depth, --depth-channel)", name_,
+            first_depth, p.x, p.y));
     }
     apply(changes, s_.z);
     found_.depths = bad;
@@ -206,15 +210,15 @@ std::vector<std::span<float>> planes_of(std::vector<std::vector<float>> &values)
 } // namespace
 
 std::string InvalidValues::text() const {
-    std::string list;
+    std::vector<std::string> list;
     const auto add = [&](std::size_t count, const char *one, const char *many) {
-        if (count > 0) list += (list.empty() ? "" : ", ") + std::to_string(count) + (count == 1 ? one : many);
+        if (count > 0) list.push_back(fmt::format("{} {}", count, count == 1 ? one : many));
     };
-    add(colours, " colour that is not finite", " colours that are not finite");
-    add(alphas, " A outside 0..1", " As outside 0..1");
-    add(depths, " depth that is no number above 0", " depths that are no numbers above 0");
-    add(places, " place or weight that is none", " places or weights that are none");
-    return list + ": made good from the pixels around, A clamped";
+    add(colours, "colour that is not finite", "colours that are not finite");
+    add(alphas, "alpha outside 0..1", "alphas outside 0..1");
+    add(depths, "depth that is not above 0", "depths that are not above 0");
+    add(places, "invalid position or weight", "invalid positions or weights");
+    return fmt::format("{}: replaced from neighbouring pixels, alpha clamped", fmt::join(list, ", "));
 }
 
 InvalidValues sanitize(Ldi &ldi, const std::string &name) {

@@ -6,6 +6,7 @@
 #include "io/files/folder.h"
 #include "plan/rectangles.h"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -22,7 +23,7 @@ using Json = nlohmann::ordered_json;
 
 Json json_of(const Imath::Box2i &box) { return {box.min.x, box.min.y, box.max.x, box.max.y}; }
 
-// JSON knows no infinity.
+// JSON has no infinity.
 Json json_of(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 Imath::Box2i bounds_of(const std::vector<Imath::Box2i> &boxes) {
@@ -59,7 +60,7 @@ Imath::Box2i box_of(const Json &json) {
     const Imath::Box2i box({json.at(0), json.at(1)}, {json.at(2), json.at(3)});
     constexpr double most = 1 << 28; // pixels: no picture has more
     const double width = double(box.max.x) - box.min.x + 1, height = double(box.max.y) - box.min.y + 1;
-    if (!(width > 0 && height > 0 && width * height <= most)) throw Error("a window of no sound size");
+    if (!(width > 0 && height > 0 && width * height <= most)) throw Error("a window is empty or too large");
     return box;
 }
 
@@ -87,8 +88,7 @@ PixelMask mask_of(const Json &view, const fs::path &folder) {
 
 std::string read_text(const std::string &path) {
     const auto stream = open_input(path);
-    if (stream->size() > std::uint64_t(std::numeric_limits<int>::max()))
-        throw Error("is too large for a plan");
+    if (stream->size() > std::uint64_t(std::numeric_limits<int>::max())) throw Error("too large for a plan");
     std::string text(std::size_t(stream->size()), '\0');
     if (!text.empty()) stream->read(text.data(), int(text.size()));
     return text;
@@ -118,7 +118,7 @@ void write_plan(const std::string &path, const Plan &plan, const PlanSetting &se
           {"bottom", plan.overscan.bottom}}},
         {"views", Json::array()}};
     for (std::size_t k = 0; k < plan.views.size(); ++k) {
-        const std::string name = "view_" + std::to_string(k);
+        const std::string name = fmt::format("view_{}", k);
         Json view = json_of(plan.views[k], name, lens);
         if (!masks.empty()) view["mask"] = write_mask(path, masks, name, plan.views[k].mask, setting.windows);
         json["views"].push_back(view);
@@ -140,7 +140,7 @@ PlanRequest read_plan(const std::string &path) {
         }
         return request;
     } catch (const nlohmann::json::exception &error) {
-        throw Error(display_name(path) + ": is no plan of ldi-plan: " + error.what());
+        throw Error(fmt::format("{}: not a plan of ldi-plan: {}", display_name(path), error.what()));
     } catch (const Error &error) {
         const std::string what = error.what();
         throw Error(what.starts_with(display_name(path)) ? what : display_name(path) + ": " + what);

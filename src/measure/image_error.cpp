@@ -5,6 +5,8 @@
 #include "measure/ssim.h"
 #include "measure/tone_map.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -176,15 +178,16 @@ void add_similarity(const SsimMap &ssim, const Grid &pixels, const PixelSets &se
 Image rgba_over(const Image &image, const Windows &target, const std::string &file) {
     const Windows &from = image.windows;
     if (from.display_width() != target.display_width() || from.display_height() != target.display_height())
-        throw Error(file + ": the display window is " + std::to_string(from.display_width()) + "x" +
-                    std::to_string(from.display_height()) + ", the reference's " +
-                    std::to_string(target.display_width()) + "x" + std::to_string(target.display_height()));
+        throw Error(fmt::format("{}: the display window is {}x{}, that of the reference {}x{}", file,
+                                from.display_width(), from.display_height(), target.display_width(),
+                                target.display_height()));
     Image result(target, rgba_channels());
     const Imath::V2i shift = from.display.min - target.display.min;
     for (std::size_t c = 0; c < rgba; ++c) {
         const std::size_t channel = find_channel(image.channels, result.channels[c].name);
         if (channel == npos && c != alpha)
-            throw Error(file + ": no channel " + result.channels[c].name + " to compare");
+            throw Error(
+                fmt::format("{}: has no channel {}, which is compared", file, result.channels[c].name));
         for (int y = target.data.min.y; y <= target.data.max.y; ++y)
             for (int x = target.data.min.x; x <= target.data.max.x; ++x) {
                 const Imath::V2i p = Imath::V2i(x, y) + shift;

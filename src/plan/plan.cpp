@@ -180,7 +180,7 @@ Plan make_plan(const View &centre, const ThinLens &lens, const PlanOptions &opti
     const int around = options.views * pieces_of(least_candidates, options.views);
     const std::vector<Imath::V2d> points = rim_lens_points(around);
     std::vector<Candidate> candidates(points.size());
-    progress.start("looking from the rim", points.size());
+    progress.start("planning", points.size());
     parallel_for(points.size(), [&](std::size_t i) {
         candidates[i] = look_from(centre, lens, points[i], options.margin);
         progress.advance();

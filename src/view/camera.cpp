@@ -3,6 +3,8 @@
 #include "base/error.h"
 #include "view/projection.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 namespace sparselens {
@@ -47,8 +49,10 @@ Framing framing_relative_to(const Camera &centre, const Camera &view, const std:
     const Imath::V2d axis = centre.principal_point.value_or(Imath::V2d(0, 0));
     Framing framing{0, relative_zoom(centre, view), view.principal_point.value_or(axis)};
     if (!(framing.zoom >= 0.5 && framing.zoom <= 2))
-        throw Error(what + ": its focal length is too far from the centre view's, " +
-                    std::to_string(framing.zoom) + " times that; --focal-length and --sensor-width set both");
+        throw Error(
+            fmt::format("{}: its focal length is too far from that of the centre view, {:g} times as long: "
+                        "give --focal-length and --sensor-width to set both",
+                        what, framing.zoom));
     if (std::abs(framing.zoom - 1) < rounding) framing.zoom = 1;
     if ((framing.principal_point - axis).length() < rounding) framing.principal_point = axis;
     return framing;

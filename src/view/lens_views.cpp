@@ -2,6 +2,8 @@
 
 #include "base/error.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -45,8 +47,8 @@ LensViews seen_from(const Camera &origin, std::span<const Camera> views, std::sp
     for (std::size_t i = 0; i < views.size(); ++i) {
         const auto position = position_relative_to(origin, views[i], names[i]);
         if (!position)
-            throw UsageError(names[i] + ": its camera is unknown (" + why_not_placed(origin, views[i]) +
-                             "): give --view X,Y " + names[i]);
+            throw UsageError(fmt::format("{0}: its camera is unknown ({1}): give --view X,Y {0}", names[i],
+                                         why_not_placed(origin, views[i])));
         placed.positions.emplace_back(position->x, position->y);
         placed.framings.push_back(framing_relative_to(origin, views[i], names[i]));
         placed.framings.back().forward = position->z;
@@ -55,7 +57,8 @@ LensViews seen_from(const Camera &origin, std::span<const Camera> views, std::sp
     for (std::size_t i = 0; i < views.size(); ++i) {
         double &forward = placed.framings[i].forward;
         if (std::abs(forward) > spread + rounding(views[i]))
-            throw Error(names[i] + ": stands in front of or behind the other views; a lens is flat");
+            throw Error(names[i] +
+                        ": stands in front of or behind the other views, but a lens is flat: leave it out");
         if (std::abs(forward) <= 1e-4 * spread + rounding(views[i])) forward = 0;
     }
     return placed;
@@ -96,9 +99,10 @@ void require_one_plane(const LensViews &views, std::span<const std::string> name
     const double spread = spread_of(views.positions);
     for (std::size_t i = 0; i < views.framings.size(); ++i) {
         if (std::abs(views.framings[i].forward) > 0.01 * spread)
-            throw Error(names[i] + ": stands in front of or behind the other views; a lens is flat");
+            throw Error(names[i] +
+                        ": stands in front of or behind the other views, but a lens is flat: leave it out");
         if (std::abs(views.framings[i].zoom - 1) > 1e-4)
-            throw Error(names[i] + ": its focal length differs from the other views'");
+            throw Error(names[i] + ": its focal length differs from that of the other views");
     }
 }
 

@@ -3,6 +3,8 @@
 #include "base/error.h"
 #include "base/parallel.h"
 
+#include <fmt/format.h>
+
 namespace sparselens {
 
 Ldi deepen(const View &view, std::span<const Channel> channels) {
@@ -25,7 +27,8 @@ Ldi deepen(const View &view, std::span<const Channel> channels) {
     parallel_for(channels.size(), [&](std::size_t k) {
         const std::size_t from = find_channel(view.image.channels, channels[k].name);
         if (from == npos)
-            throw Error(view.name + ": has no channel " + channels[k].name + ", which the centre view has");
+            throw Error(
+                fmt::format("{}: has no channel {}, which the centre view has", view.name, channels[k].name));
         take(view.image.plane(from), ldi.values[k]);
     });
     return ldi;

@@ -5,6 +5,8 @@
 #include "warp/deepen.h"
 #include "warp/silhouettes.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -18,7 +20,8 @@ namespace {
 
 void check(const View &centre, const View &view) {
     if (view.image.windows.display != centre.image.windows.display)
-        throw Error(view.name + ": its display window differs from the centre view's (" + centre.name + ")");
+        throw Error(fmt::format("{}: its display window differs from that of the centre view ({})", view.name,
+                                centre.name));
 }
 
 // By their cameras; where those are one, by what they show: the order they were given in must not matter.

@@ -14,7 +14,7 @@ struct Table {
     Table() {
         app.add_option("in", in, ".exr or 'png'\nof any\\size")->type_name("IN.exr")->required();
         app.add_option("-o,--out-put", out, "Where to")->type_name("FILE")->required();
-        app.add_option("--how", how, "Which way")->type_name("fast|well")->default_str("well");
+        app.add_option("--how", how, "Which way")->type_name("fast|well");
         app.add_option("-n", n, "How often")
             ->type_name("N")
             ->check(CLI::Range(0, 7))
@@ -31,8 +31,8 @@ TEST(ManPage, HasWhatTheTableHas) {
           "\\fBdo\\-it\\fR [\\fIoptions\\fR] \\fIIN.exr\\fR \\fB\\-o\\fR \\fIFILE\\fR\n",
           ".SH ARGUMENTS\n.TP\n\\fIIN.exr\\fR\n\\&.exr or 'png'\n.br", "of any\\esize\n",
           "\\fB\\-o\\fR, \\fB\\-\\-out\\-put\\fR \\fIFILE\\fR\nWhere to\n",
-          "\\fB\\-\\-how\\fR \\fIfast|well\\fR\nWhich way (well)\n",
-          ".SS More\n.TP\n\\fB\\-n\\fR \\fIN\\fR\nHow often\n", "\\fBTIMES\\fR\nStands for \\fB\\-n\\fR"})
+          "\\fB\\-\\-how\\fR \\fIfast|well\\fR\nWhich way\n",
+          ".SS More\n.TP\n\\fB\\-n\\fR \\fIN\\fR\nHow often\n", "\\fBTIMES\\fR\nThe value of \\fB\\-n\\fR"})
         EXPECT_NE(page.find(line), std::string::npos) << line << "\nis not in\n" << page;
 }
 

@@ -68,7 +68,7 @@ TEST_F(Pictures, OtherDepthsAreErrorsThatNameThePixel) {
         for (const std::string &what :
              {what_of<Error>([&] { depths_of_view(); }), what_of<Error>([&] { depths_of_ldi(); })}) {
             EXPECT_TRUE(what.starts_with(path + ": depth ")) << what;
-            EXPECT_NE(what.find(" in pixel 1,0 is no number above 0"), std::string::npos) << what;
+            EXPECT_NE(what.find(" in pixel 1,0 is not a number above 0"), std::string::npos) << what;
         }
     }
 }

@@ -310,7 +310,8 @@ TEST(RgbaOver, RefusesWhatCannotBeComparedNamingTheFile) {
         }
         return "";
     };
-    EXPECT_EQ(message(Image(windows_of_size(3, 3), {{"R"}, {"B"}})), "some.exr: no channel G to compare");
+    EXPECT_EQ(message(Image(windows_of_size(3, 3), {{"R"}, {"B"}})),
+              "some.exr: has no channel G, which is compared");
     EXPECT_NE(message(constant(4, 3, {})).find("some.exr: the display window is 4x3"), std::string::npos);
 }
 

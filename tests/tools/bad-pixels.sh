@@ -33,10 +33,10 @@ done
 for bad in nan -3 -inf; do
     one_pixel "0.5,0.5,0.5,1,$bad" bad.exr
     exits 0 "$bin/dof-gather" bad.exr -o out.exr -d float "${lens[@]}" "${radius[@]}"
-    says_only 'bad.exr: 1 depth that is no number above 0'
+    says_only 'bad.exr: 1 depth that is not above 0'
     idiff -q -fail 1e-6 -warn 1e-6 out.exr good.exr || fail "a depth of $bad shows in the picture"
 done
 one_pixel 0.5,0.5,0.5,1.5,10 bad.exr
 exits 0 "$bin/dof-gather" bad.exr -o out.exr -d float "${lens[@]}" "${radius[@]}"
-says_only 'bad.exr: 1 A outside 0..1'
+says_only 'bad.exr: 1 alpha outside 0..1'
 idiff -q -fail 1e-6 -warn 1e-6 out.exr good.exr || fail "an A of 1.5 shows in the picture"

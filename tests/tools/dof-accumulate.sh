@@ -98,7 +98,7 @@ holds out.exr 32 24 2.5
 rm -f none.exr
 fails_saying 2 'no views' "$accumulate" "${lens[@]}" -o none.exr
 fails_saying 2 output "$accumulate" center.exr
-fails_saying 2 "'1;2' is not X,Y" "$accumulate" --view '1;2' center.exr "${lens[@]}" -o none.exr
+fails_saying 2 "must be X,Y.*'1;2'" "$accumulate" --view '1;2' center.exr "${lens[@]}" -o none.exr
 fails_saying 2 'focus distance.*--focus-distance' "$accumulate" "${views[@]}" --focal-length 36 --sensor-width 36 -o none.exr
 fails_saying 2 'focal length.*--focal-length' "$accumulate" "${views[@]}" -o none.exr
 fails_saying 2 'center.exr.*worldToCamera.*--view' "$accumulate" center.exr left.exr "${lens[@]}" -o none.exr

@@ -201,4 +201,4 @@ fails_saying 1 'cut.exr' "$gather" cut.exr -o x.exr
 [ ! -e x.exr ] || fail "a failure wrote x.exr"
 survives_failure "$gather" cut.exr
 fails_saying 2 '--output' "$gather" ldi.exr
-fails_saying 2 'input' "$gather" -o x.exr
+fails_saying 2 'IN' "$gather" -o x.exr

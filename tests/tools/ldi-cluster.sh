@@ -116,5 +116,5 @@ fails_saying 1 'standard stream' "$cluster" - -o x.exr
 [ ! -e x.exr ] || fail "a failure wrote x.exr"
 survives_failure "$cluster" cut.exr
 fails_saying 2 '--output' "$cluster" ldi.exr
-fails_saying 2 'input' "$cluster" -o x.exr
+fails_saying 2 'IN' "$cluster" -o x.exr
 fails_saying 2 'other.exr' "$cluster" ldi.exr other.exr -o x.exr

@@ -3,6 +3,7 @@
 #include "base/error.h"
 
 #include <OpenImageIO/filesystem.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <charconv>
@@ -36,9 +37,7 @@ std::string digits(const std::smatch &place, int number) {
         width = hashes.size() == 1 ? 4 : int(std::min<std::size_t>(hashes.size(), 32));
     else if (place[3].matched)
         std::from_chars(&*place[3].first, &*place[3].first + place[3].length(), width);
-    char text[128];
-    std::snprintf(text, sizeof text, "%0*d", width, number);
-    return text;
+    return fmt::format("{:0{}}", number, width);
 }
 
 // The number between `before` and `after` in a file's name.
@@ -91,7 +90,8 @@ bool names_output(const std::string &option) {
 std::vector<int> frame_numbers(const std::string &range) {
     // first-last, then x and a step, or y and a step whose numbers are left out
     static const std::regex part(R"((-?\d{1,7})(?:-(-?\d{1,7})(?:([xy])(-?\d{1,7}))?)?)");
-    const UsageError no_range("--frames: '" + range + "' is no range of frames, as 1-100x2");
+    const UsageError no_range(
+        fmt::format("--frames: invalid frame range '{}' (expected e.g. 1-100x2)", range));
     if (range.size() > longest_name || range.empty()) throw no_range;
     std::vector<int> numbers, more;
     for (std::size_t from = 0, to = 0; to < range.size(); from = to + 1) {
@@ -102,7 +102,7 @@ std::vector<int> frame_numbers(const std::string &range) {
         const long first = std::stol(match[1]), last = match[2].matched ? std::stol(match[2]) : first,
                    step = match[3] == "x" ? std::max(std::abs(std::stol(match[4])), 1L) : 1;
         if (numbers.size() + std::size_t(std::abs(last - first) / step) >= most_frames) // before making them
-            throw UsageError("--frames: '" + range + "' are more than a million frames");
+            throw UsageError(fmt::format("--frames: '{}' has more than a million frames", range));
         if (!OIIO::Filesystem::enumerate_sequence(text, more)) throw no_range;
         numbers.insert(numbers.end(), more.begin(), more.end());
     }
@@ -122,7 +122,7 @@ std::optional<double> keyed_value(const std::string &text, int frame) {
         const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), value);
         if (error != std::errc() || end != number.data() + number.size()) return {};
         if (!keys.emplace(std::stoi(m[1]), value).second)
-            throw UsageError("'" + text + "' gives frame " + m[1].str() + " twice");
+            throw UsageError(fmt::format("'{}' gives frame {} twice", text, m[1].str()));
     }
     if (keys.empty() || text.back() == ',') return {};
     const auto after = keys.lower_bound(frame);
@@ -174,15 +174,15 @@ FrameCommands::FrameCommands(const std::vector<std::string> &words) {
     }
     if (numbers_.empty() && input) numbers_ = numbers_on_disk(input->value);
     if (numbers_.empty() && any)
-        throw UsageError(any->value + " stands for a sequence of files, and none is there: give --frames");
+        throw UsageError(any->value + " stands for a sequence of files, but none exists: give --frames");
     for (const Word &word : words_)
         if (!word.own_numbers.empty() && word.own_numbers.size() != numbers_.size())
-            throw UsageError(word.value + " has " + std::to_string(word.own_numbers.size()) +
-                             " frames, not " + std::to_string(numbers_.size()));
+            throw UsageError(fmt::format("{} has {} frames, not {}", word.value, word.own_numbers.size(),
+                                         numbers_.size()));
     for (const Word &word : words_)
         if (word.is_output && !word.is_sequence && size() > 1)
-            throw UsageError(word.value + " would be written " + std::to_string(size()) +
-                             " times: put #### into its name");
+            throw UsageError(
+                fmt::format("{} would be written {} times: put #### into its name", word.value, size()));
     if (is_range()) this->words(0); // says what is wrong with keys
 }
 
@@ -192,9 +192,7 @@ std::string FrameCommands::word_at(const Word &word, std::size_t i) const {
                file_at(word.value, word.own_numbers.empty() ? numbers_[i] : word.own_numbers[i]);
     const auto value = keyed_value(word.value, numbers_[i]);
     if (!value) return word.before + word.value;
-    char text[64];
-    const auto end = std::to_chars(text, text + sizeof text, *value).ptr;
-    return word.before + std::string(text, end);
+    return word.before + fmt::to_string(*value);
 }
 
 std::vector<std::string> FrameCommands::words(std::size_t i) const {

@@ -1,5 +1,6 @@
 #include "harness/history.h"
 
+#include "base/text.h"
 #include "harness/one_line.h"
 #include "io/exr/header_edit.h"
 
@@ -14,30 +15,24 @@ namespace sparselens {
 
 namespace {
 
-// Options that say nothing of the picture; those with a value take the next word.
+// Options without influence on the picture; those with a value take the next word.
 constexpr std::array silent_options{"-o",           "--output", "--depth-out", "--threads",
                                     "--max-memory", "--stats",  "--frames",    "--progress"};
 constexpr std::array silent_flags{"-v", "--verbose", "-u", "--update", "--skip-bad-frames"};
 
-bool is_among(const auto &names, std::string_view word) {
-    return std::ranges::find(names, word) != names.end();
-}
-
-// "--threads=4", "-oOUT.exr": option and value in a word.
+// "--threads=4", "-oOUT.exr": option and value in one word.
 bool is_silent_with_value(const std::string &word) {
     return (word.starts_with("-o") && word.size() > 2) ||
            (word.starts_with("--") && is_among(silent_options, word.substr(0, word.find('='))));
 }
 
-std::string quoted(const std::string &word) {
+std::string quoted_if_needed(const std::string &word) {
     const auto is_plain = [](char c) {
         return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
                std::string_view("-_=+,./:@%#").find(c) != std::string_view::npos;
     };
     if (!word.empty() && std::ranges::all_of(word, is_plain)) return word;
-    std::string result = "'";
-    for (const char c : word) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return result + "'";
+    return single_quoted(word);
 }
 
 std::string text_of(const Imf::Header &header, const char *name) {
@@ -53,14 +48,14 @@ std::string command_line(const std::string &tool, const std::vector<std::string>
         if (is_among(silent_options, words[i]))
             ++i; // and its value
         else if (!is_among(silent_flags, words[i]) && !is_silent_with_value(words[i]))
-            line += " " + quoted(one_line(words[i]));
+            line += " " + quoted_if_needed(one_line(words[i]));
     }
     return line;
 }
 
 void add_history_option(CLI::App &app, HistoryOptions &options) {
     app.add_flag("--no-history", options.none,
-                 "Write no command line into the metadata (Exif:ImageHistory, Software)")
+                 "Do not record the command line in the metadata, in Exif:ImageHistory and Software")
         ->envname("SPARSELENS_NO_HISTORY");
 }
 

@@ -1,7 +1,11 @@
 #include "harness/man_page.h"
 
+#include "base/text.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
-#include <cctype>
 #include <vector>
 
 namespace sparselens {
@@ -12,10 +16,12 @@ bool is_argument(const CLI::Option &option) {
     return option.get_lnames().empty() && option.get_snames().empty();
 }
 
-// "N" of CLI11's "N:INT in [0 - 7]".
+// "N" of CLI11's "N:INT in [0 - 7]"; of an argument without a type, its name.
 std::string type_of(const CLI::Option &option) {
-    const std::string type = option.get_type_name();
-    return type.substr(0, std::min({type.find(":INT in"), type.find(":SIZE"), type.find(":{")}));
+    const std::string all = option.get_type_name();
+    const std::string type =
+        all.substr(0, std::min({all.find(":INT in"), all.find(":SIZE"), all.find(":{")}));
+    return type.empty() && is_argument(option) ? option.get_name() : type;
 }
 
 // All names, as they are typed.
@@ -47,31 +53,24 @@ std::string roff(const std::string &text) {
 std::string bold(const std::string &text) { return "\\fB" + roff(text) + "\\fR"; }
 std::string italic(const std::string &text) { return "\\fI" + roff(text) + "\\fR"; }
 
-std::string upper_case(std::string text) {
-    for (char &c : text) c = char(std::toupper(static_cast<unsigned char>(c)));
-    return text;
-}
-
 std::string synopsis(const CLI::App &app) {
     std::string line = bold(app.get_name()) + " [" + italic("options") + "]";
     for (const CLI::Option *option : app.get_options()) {
         if (!option->get_required() && !is_argument(*option)) continue;
         const std::string name = is_argument(*option) ? "" : bold(names_of(*option).front()) + " ";
-        const std::string type = type_of(*option).empty() ? option->get_name() : type_of(*option);
+        const std::string type = type_of(*option);
         line += " " + (option->get_required() ? name + italic(type) : "[" + name + italic(type) + "]");
     }
     return line + "\n";
 }
 
 std::string entry(const CLI::Option &option) {
-    std::string names;
-    for (const std::string &name : names_of(option)) names += (names.empty() ? "" : ", ") + bold(name);
-    const std::string type =
-        is_argument(option) && type_of(option).empty() ? option.get_name() : type_of(option);
+    std::vector<std::string> bold_names;
+    for (const std::string &name : names_of(option)) bold_names.push_back(bold(name));
+    std::string names = fmt::format("{}", fmt::join(bold_names, ", "));
+    const std::string type = type_of(option);
     if (option.get_expected_max() > 0 && !type.empty()) names += (names.empty() ? "" : " ") + italic(type);
-    const std::string preset = option.get_default_str();
-    return ".TP\n" + names + "\n" + roff(option.get_description()) +
-           (preset.empty() ? "" : roff(" (" + preset + ")")) + "\n";
+    return ".TP\n" + names + "\n" + roff(option.get_description()) + "\n";
 }
 
 std::string section(const CLI::App &app, const std::string &group, bool arguments) {
@@ -85,8 +84,8 @@ std::string environment(const CLI::App &app) {
     std::string text;
     for (const CLI::Option *option : app.get_options())
         if (!option->get_envname().empty())
-            text += ".TP\n" + bold(option->get_envname()) + "\nStands for " + bold(names_of(*option).back()) +
-                    " where that is not given.\n";
+            text += ".TP\n" + bold(option->get_envname()) + "\nThe value of " +
+                    bold(names_of(*option).back()) + " where the option is not given.\n";
     return text;
 }
 
@@ -102,7 +101,7 @@ std::string man_page(const CLI::App &app, const std::string &version) {
     for (const std::string &group : app.get_groups())
         if (group != "Options") text += ".SS " + group + "\n" + section(app, group, false);
     return text +
-           ".SH EXIT STATUS\n0 done, 1 failed (input, output, memory), 2 wrong usage.\n.SH ENVIRONMENT\n" +
+           ".SH EXIT STATUS\n0: done; 1: failed (input, output, memory); 2: usage error.\n.SH ENVIRONMENT\n" +
            environment(app);
 }
 
@@ -114,12 +113,6 @@ std::string words_of(const CLI::Option &option) {
     if (words.find('|') == std::string::npos) return "";
     std::ranges::replace(words, '|', ' ');
     return words;
-}
-
-std::string single_quoted(const std::string &text) { // as zsh and, but for backslashes, fish read it
-    std::string result = "'";
-    for (const char c : text) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return result + "'";
 }
 
 std::string zsh_escaped(const std::string &text, const std::string &special) {
@@ -138,25 +131,29 @@ std::string zsh_value(const CLI::Option &option) {
 } // namespace
 
 std::string bash_completion(const CLI::App &app) {
-    std::string function = "_" + app.get_name(), options, cases;
+    std::string function = "_" + app.get_name(), cases;
+    std::vector<std::string> all_names;
     std::ranges::replace(function, '-', '_');
     for (const CLI::Option *option : app.get_options()) {
-        std::string patterns;
-        const std::string words = words_of(*option);
-        for (const std::string &name : names_of(*option)) {
-            options += (options.empty() ? "" : " ") + name;
-            patterns += (patterns.empty() ? "" : "|") + name;
-        }
-        if (patterns.empty() || words.empty()) continue;
-        cases +=
-            "    " + patterns + ") COMPREPLY=($(compgen -W '" + words + "' -- \"$current\")); return ;;\n";
+        const std::vector<std::string> names = names_of(*option);
+        all_names.insert(all_names.end(), names.begin(), names.end());
+        if (const std::string words = words_of(*option); !names.empty() && !words.empty())
+            cases += fmt::format("    {}) COMPREPLY=($(compgen -W '{}' -- \"$current\")); return ;;\n",
+                                 fmt::join(names, "|"), words);
     }
-    return "# bash completion for " + app.get_name() + "\n" + function +
-           "() {\n    local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD-1]}\n"
-           "    COMPREPLY=()\n    case $previous in\n" +
-           cases + "    esac\n    [[ $current != -* ]] || COMPREPLY=($(compgen -W '" + options +
-           "' -- \"$current\"))\n}\ncomplete -o bashdefault -o default -F " + function + " " +
-           app.get_name() + "\n";
+    return fmt::format(
+        "# bash completion for {tool}\n"
+        "{function}() {{\n"
+        "    local current=${{COMP_WORDS[COMP_CWORD]}} previous=${{COMP_WORDS[COMP_CWORD-1]}}\n"
+        "    COMPREPLY=()\n"
+        "    case $previous in\n"
+        "{cases}"
+        "    esac\n"
+        "    [[ $current != -* ]] || COMPREPLY=($(compgen -W '{options}' -- \"$current\"))\n"
+        "}}\n"
+        "complete -o bashdefault -o default -F {function} {tool}\n",
+        fmt::arg("tool", app.get_name()), fmt::arg("function", function), fmt::arg("cases", cases),
+        fmt::arg("options", fmt::join(all_names, " ")));
 }
 
 std::string zsh_completion(const CLI::App &app) {
@@ -191,7 +188,7 @@ void add_documentation_options(CLI::App &app, const std::string &version) {
     const auto print = [](const std::string &text) { throw CLI::CallForVersion(text, 0); };
     app.add_flag_callback(
            "--man", [&app, print, version] { print(man_page(app, version)); },
-           "Print the manual page, for man -l -")
+           "Print the manual page, e.g. for man -l -")
         ->group("Documentation");
     app.add_option_function<std::string>(
            "--completion",
@@ -200,7 +197,7 @@ void add_documentation_options(CLI::App &app, const std::string &version) {
                      : shell == "fish" ? fish_completion(app)
                                        : bash_completion(app));
            },
-           "Print the completion, for source (zsh: for a file _TOOL in $fpath)")
+           "Print a completion script, to be sourced; for zsh, to be saved as _TOOL in $fpath")
         ->type_name("bash|zsh|fish")
         ->check(CLI::IsMember({"bash", "zsh", "fish"}))
         ->group("Documentation");

@@ -7,6 +7,7 @@
 #include "io/files/unfinished.h"
 
 #include <ImfThreading.h>
+#include <fmt/format.h>
 #include <tbb/global_control.h>
 #include <tbb/info.h>
 
@@ -20,11 +21,11 @@ namespace sparselens {
 namespace {
 
 int fail(const std::string &tool_name, const std::string &text, int code) {
-    std::fprintf(stderr, "%s: %s\n", tool_name.c_str(), one_line(text).c_str());
+    fmt::print(stderr, "{}: {}\n", tool_name, one_line(text));
     return code;
 }
 
-// Told to stop: no half-written file is left, and the process dies of the signal as its parent expects.
+// On a signal to stop: removes half-written files and dies of the signal, as the parent process expects.
 extern "C" void stop(int number) {
     remove_unfinished();
     std::signal(number, SIG_DFL);
@@ -41,8 +42,9 @@ void handle_signals() {
 
 void add_process_options(CLI::App &app, ProcessOptions &options) {
     app.set_version_flag("--version", app.get_name() + " (sparselens) " SPARSELENS_VERSION);
-    app.add_flag("-v,--verbose", options.verbose, "Say on stderr what was found and done");
-    app.add_option("--threads", options.threads, "Threads to use, 0 = all the process may use")
+    app.add_flag("-v,--verbose", options.verbose, "Report on stderr what was found and done");
+    app.add_option("--threads", options.threads,
+                   "Number of threads; 0 uses all that the process may use (default: 0)")
         ->type_name("N")
         ->envname("CUE_THREADS")
         ->check(CLI::Range(0, 4096));
@@ -50,8 +52,9 @@ void add_process_options(CLI::App &app, ProcessOptions &options) {
 }
 
 void add_memory_option(CLI::App &app, ProcessOptions &options) {
-    app.add_option("--max-memory", options.max_memory,
-                   "Memory that reading a file may take, as 4GB (64 MB and 1100 times the file's size)")
+    app.add_option(
+           "--max-memory", options.max_memory,
+           "Memory limit for reading a file, e.g. 4GB (default: 64 MB plus 1100 times the size of the file)")
         ->type_name("SIZE")
         ->transform(CLI::AsSizeValue(false));
 }
@@ -63,9 +66,9 @@ std::optional<int> parse_words(CLI::App &app, const std::vector<std::string> &wo
     } catch (const CLI::Success &answer) {                                 // --help, --version
         return app.exit(answer);
     } catch (const CLI::RequiredError &error) {
-        // What was not understood says more than what is missing for it.
+        // An argument that was not understood tells more than what is missing because of it.
         const auto unknown = app.remaining();
-        const std::string text = unknown.empty() ? error.what() : "unknown: " + unknown.front();
+        const std::string text = unknown.empty() ? error.what() : "unknown argument: " + unknown.front();
         return fail(app.get_name(), where + text + " (see --help)", 2);
     } catch (const CLI::ParseError &error) {
         return fail(app.get_name(), where + error.what() + " (see --help)", 2);
@@ -88,7 +91,7 @@ Process::Process(const ProcessOptions &options, const ToolContext &tool) {
     Imf::setGlobalThreadCount(threads > 1 ? threads : 0);
     set_memory_limit(options.max_memory);
     handle_signals();
-    tool.say("threads: " + std::to_string(threads));
+    tool.say(fmt::format("threads: {}", threads));
 }
 
 Process::~Process() = default;

@@ -1,5 +1,6 @@
 #include "harness/progress_lines.h"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <cstdio>
@@ -12,12 +13,11 @@ namespace {
 Progress::Listener terminal_listener(const std::string &tool_name) {
     if (!isatty(STDERR_FILENO)) return {};
     return [tool_name](const std::string &stage, int percent) {
-        std::fprintf(stderr, "\r%s: %s %3d%%%s", tool_name.c_str(), stage.c_str(), percent,
-                     percent == 100 ? "\n" : "");
+        fmt::print(stderr, "\r{}: {} {:3}%{}", tool_name, stage, percent, percent == 100 ? "\n" : "");
     };
 }
 
-// What threads reach out of order is said in order.
+// The last percentage that was printed: threads may reach theirs out of order.
 struct Said {
     std::mutex guard;
     int percent = -1;
@@ -26,13 +26,13 @@ struct Said {
 Progress::Listener farm_listener(ProgressFormat format, const std::string &tool_name, FrameCount frames) {
     const int before = overall_percent(frames, 0);
     auto said = std::make_shared<Said>();
-    said->percent = frames.done > 0 ? before : -1; // the frame before has said so
+    said->percent = frames.done > 0 ? before : -1; // the frame before has printed it
     return [=](const std::string &, int percent) {
         const std::lock_guard lock(said->guard);
         const int overall = overall_percent(frames, percent);
         if (overall <= said->percent) return;
         said->percent = overall;
-        std::fprintf(stderr, "%s\n", progress_line(format, tool_name, overall).c_str());
+        fmt::print(stderr, "{}\n", progress_line(format, tool_name, overall));
     };
 }
 
@@ -43,14 +43,13 @@ int overall_percent(const FrameCount &frames, int percent) {
 }
 
 std::string progress_line(ProgressFormat format, const std::string &tool_name, int percent) {
-    const std::string number = std::to_string(percent);
     switch (format) {
-    case ProgressFormat::alf: return "ALF_PROGRESS " + number + "%";
-    case ProgressFormat::openjd: return "openjd_progress: " + number;
+    case ProgressFormat::alf: return fmt::format("ALF_PROGRESS {}%", percent);
+    case ProgressFormat::openjd: return fmt::format("openjd_progress: {}", percent);
     case ProgressFormat::terminal:
     case ProgressFormat::plain: break;
     }
-    return tool_name + ": " + number + "%";
+    return fmt::format("{}: {}%", tool_name, percent);
 }
 
 std::unique_ptr<Progress> progress_of(ProgressFormat format, const std::string &tool_name,

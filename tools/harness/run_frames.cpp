@@ -6,6 +6,8 @@
 #include "harness/up_to_date.h"
 #include "harness/words.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 
@@ -21,28 +23,30 @@ struct FrameOptions {
 };
 
 void add_frame_options(CLI::App &app, FrameOptions &options) {
-    app.add_option("--frames", options.frames,
-                   "Frames, as 1-100x2: names with #### or %04d and values as 1:5.0,24:2.0 go by them")
+    app.add_option(
+           "--frames", options.frames,
+           "Frames to process, e.g. 1-100x2; file names may hold #### or %04d, and values may be keyed, e.g. "
+           "1:5.0,24:2.0")
         ->type_name("RANGE")
         ->group("Frames");
     app.add_flag("--skip-bad-frames", options.skip_bad_frames,
-                 "Go on after a frame that fails (exit 1 at the end)")
+                 "Continue after a frame that fails, and exit with code 1 at the end")
         ->group("Frames");
     app.add_flag("-u,--update", options.update,
-                 "Leave frames alone whose output is complete and newer than its input")
+                 "Skip frames whose output is complete and newer than the input")
         ->group("Frames");
-    app.add_option("--stats", options.stats,
-                   "Append a line of JSON: what was left out, as the picture did not need it; - is stderr")
+    app.add_option("--stats", options.stats, "Append statistics as one line of JSON; - for stderr")
         ->type_name("FILE");
     const std::map<std::string, ProgressFormat> formats{
         {"plain", ProgressFormat::plain}, {"alf", ProgressFormat::alf}, {"openjd", ProgressFormat::openjd}};
-    app.add_option("--progress", options.progress, "Progress lines for a farm, on stderr (none)")
+    app.add_option("--progress", options.progress,
+                   "Print progress lines for a render farm on stderr (default: none)")
         ->type_name("plain|alf|openjd")
         ->transform(words(formats))
         ->group("Frames");
 }
 
-// The tool's command line at one frame, understood.
+// The command line of the tool at one frame, parsed.
 struct FrameCommand {
     CLI::App app;
     FrameOptions frames;
@@ -61,7 +65,7 @@ struct FrameCommand {
 using CommandPtr = std::unique_ptr<FrameCommand>;
 
 std::string frame_name(const FrameCommands &commands, std::size_t i) {
-    return commands.is_range() ? "frame " + std::to_string(commands.number(i)) + ": " : "";
+    return commands.is_range() ? fmt::format("frame {}: ", commands.number(i)) : "";
 }
 
 void run_frame(const FrameCommand &command, ToolContext &tool, FrameCount count) {
@@ -69,7 +73,7 @@ void run_frame(const FrameCommand &command, ToolContext &tool, FrameCount count)
     tool.progress = progress_of(format, tool.tool_name, count);
     tool.stats = command.frames.stats;
     if (command.frames.update && is_up_to_date(command.app))
-        tool.say("is up to date: " + command.app.get_option("--output")->as<std::string>());
+        tool.say(command.app.get_option("--output")->as<std::string>() + " is up to date");
     else
         command.job(tool);
     if (format == ProgressFormat::terminal) return;
@@ -90,7 +94,7 @@ int run_frames(const std::string &name, const std::string &description, int argc
         command = std::make_unique<FrameCommand>(name, description, prepare);
         return parse_words(command->app, commands->words(i), frame_name(*commands, i));
     };
-    // Wrong usage is said of all frames before the first is worked on.
+    // Usage errors of any frame are reported before the first frame is worked on.
     CommandPtr first, command;
     for (std::size_t i = 0; i < count; ++i)
         if (const auto answered = parse(i, i == 0 ? first : command)) return *answered;

@@ -3,6 +3,7 @@
 #include "base/error.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -13,7 +14,7 @@ namespace sparselens {
 
 namespace {
 
-// Cropped and masked views do not give them all.
+// Cropped and masked views hold only a part of the pixels.
 std::size_t pixels_given(const View &view) {
     const std::size_t alpha = find_channel(view.image.channels, "A");
     if (alpha == npos) return view.image.windows.pixels();
@@ -59,7 +60,7 @@ Stats gather_stats(const InputLdi &in, const LensTiles &tiles) {
         if (number == 0)
             copied = std::size_t(count);
         else
-            points[std::to_string(number)] = count;
+            points[fmt::to_string(number)] = count;
     }
     return {{"input_read", in.read_now},
             {"samples_invisible", in.invisible},
@@ -79,7 +80,7 @@ void write_stats(const ToolContext &tool, const Stats &fields) {
     const bool to_stderr = tool.stats == "-";
     const int file =
         to_stderr ? STDERR_FILENO : open(tool.stats.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
-    // At once: lines of stages that share the file do not mix.
+    // In one call, so that the lines of stages that share the file do not mix.
     const bool written = file >= 0 && write(file, text.data(), text.size()) == ssize_t(text.size());
     const int reason = errno;
     if (!to_stderr && file >= 0) close(file);

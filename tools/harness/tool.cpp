@@ -5,16 +5,16 @@
 #include "harness/process.h"
 #include "harness/progress_lines.h"
 
-#include <cstdio>
+#include <fmt/format.h>
 
 namespace sparselens {
 
 void ToolContext::say(const std::string &line) const {
-    if (verbose) std::fprintf(stderr, "%s: %s\n", tool_name.c_str(), line.c_str());
+    if (verbose) fmt::print(stderr, "{}: {}\n", tool_name, line);
 }
 
 void warn(const ToolContext &tool, const std::string &text) {
-    std::fprintf(stderr, "%s: warning: %s\n", tool.tool_name.c_str(), one_line(text).c_str());
+    fmt::print(stderr, "{}: warning: {}\n", tool.tool_name, one_line(text));
 }
 
 int run_tool(CLI::App &app, int argc, char **argv, const Job &job, Reads reads) {

@@ -2,24 +2,27 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <map>
 #include <string>
+#include <vector>
 
 namespace sparselens {
 
-// Turns each word into its value's number, which CLI11 reads into an enum or a bool; anything else, numbers
-// included, is a usage error that names the words.
+// Turns each word into the number of its value, which CLI11 reads into an enum or a bool. Anything else, numbers
+// included, is a usage error that lists the words.
 template <typename Value>
 CLI::Validator words(const std::map<std::string, Value> &values) {
     const auto look_up = [values](std::string &text) -> std::string {
         const auto found = values.find(text);
         if (found == values.end()) {
-            std::string all;
-            for (const auto &[word, value] : values) all += (all.empty() ? "" : "|") + word;
-            return "'" + text + "' is none of " + all;
+            std::vector<std::string> all;
+            for (const auto &[word, value] : values) all.push_back(word);
+            return fmt::format("must be one of {}, not '{}'", fmt::join(all, ", "), text);
         }
-        text = std::to_string(static_cast<int>(found->second));
+        text = fmt::to_string(static_cast<int>(found->second));
         return {};
     };
     return CLI::Validator(look_up, "");

@@ -10,12 +10,14 @@ namespace sparselens {
 void add_accumulate_options(CLI::App &app, AccumulateOptions &options) {
     const std::map<std::string, bool> outside{{"unknown", false}, {"transparent", true}};
     add_lens_view_options(app, options.views);
-    app.add_option("-o,--output", options.output, "The average (EXR)")->required()->type_name("OUT");
+    app.add_option("-o,--output", options.output, "Average to write (EXR); - for standard output")
+        ->required()
+        ->type_name("OUT.exr");
     add_type_option(app, options.as_float);
-    app.add_option(
-           "--outside", options.transparent_outside,
-           "What lies outside a view's data window: unknown (the view does not count there; the default) "
-           "or transparent (black, inside the display window)")
+    app.add_option("--outside", options.transparent_outside,
+                   "What lies outside the data window of a view. unknown: the view does not count there; "
+                   "transparent: "
+                   "black, within the display window (default: unknown)")
         ->type_name("unknown|transparent")
         ->transform(words(outside));
     add_lens_options(app, options.lens);

@@ -3,6 +3,9 @@
 #include "base/error.h"
 #include "deep/channel_alpha.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <sstream>
 
@@ -22,13 +25,21 @@ std::vector<std::string> items_of(const std::string &list) {
     return items;
 }
 
+std::vector<std::string> names_of(const std::vector<Channel> &channels) {
+    std::vector<std::string> names;
+    for (const Channel &channel : channels) names.push_back(channel.name);
+    return names;
+}
+
 std::vector<bool> chosen(const std::vector<Channel> &channels, const std::string &list) {
     std::vector<bool> result(channels.size(), list.empty());
     for (const std::string &item : items_of(list)) {
         bool found = false;
         for (std::size_t k = 0; k < channels.size(); ++k)
             if (names(item, channels[k].name)) found = result[k] = true;
-        if (!found) throw UsageError("--channels: there is no channel or layer '" + item + "'");
+        if (!found)
+            throw UsageError(fmt::format("--channels: no channel or layer '{}'; the file has {}", item,
+                                         fmt::join(names_of(channels), ", ")));
     }
     return result;
 }

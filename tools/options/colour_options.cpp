@@ -14,7 +14,7 @@ namespace sparselens {
 
 namespace {
 
-// Empty where nothing is to be done.
+// Empty where there is nothing to do.
 std::optional<ColourTransform> to_scene_linear(const ToolContext &tool, const ColourOptions &options,
                                                const std::string &path, const Imf::Header &header) {
     const bool ours = header.findTypedAttribute<Imf::StringAttribute>("sparselens:version") != nullptr;
@@ -37,26 +37,28 @@ ColourTransform output_transform(const ColourOptions &options, bool shown) {
 
 void add_input_colour_options(CLI::App &app, ColourOptions &options) {
     app.add_option("--colorconfig", options.config,
-                   "OpenColorIO configuration (else $OCIO, else a built-in one)")
+                   "OpenColorIO configuration (default: $OCIO, else the built-in one)")
         ->type_name("FILE")
         ->group("Colour");
     app.add_option("--colorspace", options.input_space,
-                   "Colour space of the input (else by the configuration's file rules)")
+                   "Colour space of the input (default: by the file rules of the configuration)")
         ->type_name("SPACE")
         ->group("Colour");
 }
 
 void add_output_colour_options(CLI::App &app, ColourOptions &options) {
-    CLI::Option *space = app.add_option("--output-colorspace", options.output_space,
-                                        "Colour space of the output (EXR: scene-linear; others: a display's)")
-                             ->type_name("SPACE")
-                             ->group("Colour");
+    CLI::Option *space =
+        app.add_option("--output-colorspace", options.output_space,
+                       "Colour space of the output (default: scene-linear for EXR, else that of the display)")
+            ->type_name("SPACE")
+            ->group("Colour");
     app.add_option("--display", options.display,
-                   "Display that PNG, JPEG and TIFF are made for (the default one)")
+                   "Display for which PNG, JPEG and TIFF are made (default: that of the configuration)")
         ->type_name("DISPLAY")
         ->group("Colour")
         ->excludes(space);
-    app.add_option("--view-transform", options.view, "How the display shows it (its default view)")
+    app.add_option("--view-transform", options.view,
+                   "View transform of the display (default: that of the display)")
         ->type_name("VIEW")
         ->group("Colour")
         ->excludes(space);
@@ -80,15 +82,15 @@ std::size_t write_picture(const ToolContext &tool, const ColourOptions &options,
                           Image image, const Imf::Header &metadata) {
     const bool shown = is_shown_picture(path);
     if (!shown && !(options.display.empty() && options.view.empty()))
-        throw UsageError("--display and --view-transform are for PNG, JPEG and TIFF, not for " + path);
+        throw UsageError("--display and --view-transform apply to PNG, JPEG and TIFF, not to " + path);
     if (shown || !options.output_space.empty()) transform_colours(output_transform(options, shown), image);
     if (!shown) return write_flat_exr(path, image, metadata);
-    const Imath::Box2i &display = image.windows.display; // all of it is written
+    const Imath::Box2i &display = image.windows.display; // written as a whole
     check_memory(
         path, 3.0 * (double(display.max.x) - display.min.x + 1) * (double(display.max.y) - display.min.y + 1),
         image.values.size() * sizeof(float));
     write_shown_picture(path, image);
-    tool.say(path + ": written for a display");
+    tool.say(path + ": written with a display transform");
     return 0;
 }
 

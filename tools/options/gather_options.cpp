@@ -4,37 +4,47 @@
 #include "harness/words.h"
 #include "options/picture_options.h"
 
+#include <fmt/format.h>
+
 namespace sparselens {
 
 void add_gather_options(CLI::App &app, GatherCommand &options) {
-    app.add_option("input", options.input, "LDI, any deep EXR or flat RGBA+Z; - for standard input")
-        ->type_name("IN.exr")
+    const char *lens_group = "Method lens";
+    app.add_option("IN", options.input, "LDI, any deep EXR or flat RGBA+Z; - for standard input")
+        ->type_name("")
         ->required();
     app.add_option("-o,--output", options.output,
-                   "Picture to write: EXR, or PNG, JPEG, TIFF; - for standard output")
+                   "Picture to write (EXR, PNG, JPEG or TIFF); - for standard output")
         ->type_name("OUT.exr")
         ->required();
     add_method_option(app, options.method);
     const std::map<std::string, Quality> qualities{
         {"draft", Quality::draft}, {"normal", Quality::normal}, {"final", Quality::final}};
-    app.add_option("--quality", options.gather.lens.quality, "Error against time (lens; normal)")
+    app.add_option("--quality", options.gather.lens.quality, "Trade of error against time (default: normal)")
         ->type_name("draft|normal|final")
+        ->group(lens_group)
         ->transform(words(qualities));
-    app.add_option("--lens-samples", options.gather.lens.lens_samples,
-                   "Lens points everywhere (lens), 0 = by the quality and what the picture needs")
+    app.add_option(
+           "--lens-samples", options.gather.lens.lens_samples,
+           "Number of lens points in every tile; 0: as many as the quality and the picture need (default: 0)")
         ->type_name("N")
+        ->group(lens_group)
         ->check(CLI::Range(0, 1 << 20));
-    app.add_option("--layers", options.gather.layers, "Layers a pixel keeps apart (selective)")
+    app.add_option("--layers", options.gather.layers,
+                   fmt::format("Layers kept apart in each pixel (default: {})", options.gather.layers))
         ->type_name("K")
-        ->check(CLI::Range(1, 4096))
-        ->capture_default_str();
-    add_pixel_option(app, "--focus-pixel", options.focus_pixel, "Focus on what this pixel shows");
+        ->group("Method selective")
+        ->check(CLI::Range(1, 4096));
+    add_pixel_option(app, "--focus-pixel", options.focus_pixel,
+                     "Focus on the front surface in this pixel, in EXR coordinates");
     app.add_option("--holdout", options.holdout,
-                   "Deep EXR that hides what is behind it, and stays sharp (lens)")
-        ->type_name("DEEP.exr");
-    app.add_option("--depth-out", options.depth_output, "Write the depth of the front samples")
+                   "Deep EXR that hides what is behind it and is itself not rendered")
+        ->type_name("DEEP.exr")
+        ->group(lens_group);
+    app.add_option("--depth-out", options.depth_output, "Also write the depth of the front samples (EXR)")
         ->type_name("FILE");
-    app.add_option("--channels", options.channels, "Channels or layers to gather, comma-separated (all)")
+    app.add_option("--channels", options.channels,
+                   "Channels or layers to gather, comma-separated (default: all)")
         ->type_name("LIST");
     add_type_option(app, options.as_float);
     add_show_option(app, options.show);
@@ -53,7 +63,7 @@ void check(const GatherCommand &options) {
     if (!options.holdout.empty() && options.method != &gather_methods().front())
         throw UsageError("--holdout works with --method lens only");
     if (options.show == Show::tiles && options.method != &gather_methods().front())
-        throw UsageError("--show tiles: only --method lens works by tiles");
+        throw UsageError("--show tiles works with --method lens only");
 }
 
 } // namespace sparselens

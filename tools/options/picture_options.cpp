@@ -3,7 +3,11 @@
 #include "base/error.h"
 #include "harness/words.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <cmath>
+#include <vector>
 
 namespace sparselens {
 
@@ -19,7 +23,7 @@ std::optional<Imath::V2d> parse_pair(const std::string &text) {
 
 Imath::V2d view_offset(const std::string &text) {
     const auto offset = parse_pair(text);
-    if (!offset) throw UsageError("--view: '" + text + "' is not X,Y");
+    if (!offset) throw UsageError(fmt::format("--view: must be X,Y (e.g. 0.05,0), not '{}'", text));
     return *offset;
 }
 
@@ -30,31 +34,33 @@ void add_pixel_option(CLI::App &app, const std::string &name, std::optional<Imat
         constexpr double most = 1 << 30;
         const bool whole = pair && std::trunc(pair->x) == pair->x && std::trunc(pair->y) == pair->y;
         if (!whole || std::abs(pair->x) > most || std::abs(pair->y) > most)
-            throw CLI::ValidationError(name, "'" + text + "' is not X,Y in whole pixels");
+            throw CLI::ValidationError(
+                name, fmt::format("must be X,Y in whole pixels (e.g. 320,180), not '{}'", text));
         pixel = Imath::V2i(*pair);
     };
     app.add_option_function<std::string>(name, read, help)->type_name("X,Y");
 }
 
 void add_method_option(CLI::App &app, const GatherMethod *&method) {
-    std::string names;
-    for (const GatherMethod &m : gather_methods()) names += (names.empty() ? "" : "|") + std::string(m.name);
+    std::vector<std::string> names;
+    for (const GatherMethod &m : gather_methods()) names.emplace_back(m.name);
     const auto read = [&method, names](const std::string &text) {
         for (const GatherMethod &m : gather_methods())
             if (text == m.name) {
                 method = &m;
                 return;
             }
-        throw CLI::ValidationError("--method", "'" + text + "' is none of " + names);
+        throw CLI::ValidationError("--method",
+                                   fmt::format("must be one of {}, not '{}'", fmt::join(names, ", "), text));
     };
-    app.add_option_function<std::string>("--method", read, "How to gather")
-        ->type_name(names)
-        ->default_str(gather_methods().front().name);
+    app.add_option_function<std::string>("--method", read,
+                                         fmt::format("Gather method (default: {})", names.front()))
+        ->type_name(fmt::format("{}", fmt::join(names, "|")));
 }
 
 void add_type_option(CLI::App &app, bool &as_float) {
     const std::map<std::string, bool> types{{"half", false}, {"float", true}};
-    app.add_option("-d", as_float, "Type of the colours written (half)")
+    app.add_option("-d", as_float, "Type of the colour channels written (default: half)")
         ->type_name("half|float")
         ->transform(words(types));
 }

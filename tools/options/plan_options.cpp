@@ -1,28 +1,33 @@
 #include "options/plan_options.h"
 
+#include <fmt/format.h>
+
 namespace sparselens {
 
 void add_plan_options(CLI::App &app, PlanCommand &options) {
-    app.add_option("CENTER", options.centre, "the centre view: colour and depth")
-        ->type_name("CENTER.exr")
+    app.add_option("CENTER", options.centre, "Centre view, with colour and depth (EXR)")
+        ->type_name("")
         ->required();
-    app.add_option("-o,--output", options.output, "plan to write, - for standard output")
+    app.add_option("-o,--output", options.output, "Plan to write; - for standard output")
         ->type_name("PLAN.json")
         ->required();
-    app.add_option("--masks", options.masks, "folder for a mask a view: A is 1 in the pixels asked for")
+    app.add_option("--masks", options.masks,
+                   "Folder for one mask per view, whose A is 1 in the pixels to render")
         ->type_name("DIR");
-    app.add_option("--views", options.plan.views, "rim views, at most")
+    app.add_option(
+           "--views", options.plan.views,
+           fmt::format("Largest number of views from the rim of the lens (default: {})", options.plan.views))
         ->type_name("N")
-        ->check(CLI::Range(0, 64))
-        ->capture_default_str();
-    app.add_option("--margin", options.plan.margin, "pixels around what the centre view does not see")
+        ->check(CLI::Range(0, 64));
+    app.add_option("--margin", options.plan.margin,
+                   fmt::format("Pixels added around what the centre view does not see (default: {})",
+                               options.plan.margin))
         ->type_name("PX")
-        ->check(CLI::Range(0, 1024))
-        ->capture_default_str();
+        ->check(CLI::Range(0, 1024));
     app.add_option("--noise", options.plan.noise,
-                   "standard deviation of a pixel's noise, tone-mapped (default: measured)")
+                   "Standard deviation of the noise of a tone-mapped pixel (default: measured)")
         ->type_name("SIGMA")
-        ->check(number("a standard deviation", {.zero_allowed = true}));
+        ->check(number("a number of at least 0", {.zero_allowed = true}));
     add_lens_options(app, options.lens);
     add_depth_options(app, options.depth);
 }

@@ -8,9 +8,10 @@ namespace sparselens {
 void add_show_option(CLI::App &app, Show &show) {
     const std::map<std::string, Show> shows{
         {"coc", Show::coc}, {"focus", Show::focus}, {"layers", Show::layers}, {"tiles", Show::tiles}};
-    app.add_option("--show", show,
-                   "Write, in false colours: the circle of confusion, what is in focus, samples a pixel, "
-                   "lens points a tile")
+    app.add_option(
+           "--show", show,
+           "Write false colours instead of the picture. coc: circle of confusion; focus: what is in focus; "
+           "layers: samples per pixel; tiles: lens points per tile, with --method lens")
         ->type_name("coc|focus|layers|tiles")
         ->transform(words(shows));
 }

@@ -9,24 +9,28 @@ namespace sparselens {
 
 void add_warp_options(CLI::App &app, WarpCommand &options) {
     add_view_list(app, options.views);
-    app.add_option("-o,--output", options.output, "LDI to write, - for standard output")
+    app.add_option("-o,--output", options.output, "LDI to write; - for standard output")
         ->type_name("LDI.exr")
         ->required();
     const std::map<std::string, Merge> merges{{"average", Merge::average}, {"keep", Merge::keep}};
     app.add_option("--merge", options.merge,
-                   "average: views of one surface are averaged; keep: one sample a surface, the centre view "
-                   "unchanged")
+                   "average: average the views of a surface; keep: keep one sample per surface and leave the "
+                   "centre view "
+                   "unchanged (default: average)")
         ->type_name("average|keep")
         ->transform(words(merges));
     const std::map<std::string, bool> silhouettes{{"split", true}, {"whole", false}};
     app.add_option("--silhouettes", options.split_silhouettes,
-                   "split: pixels that mix two surfaces become two samples (average); whole: they stay one")
+                   "With --merge average, split: pixels that mix two surfaces become two samples; whole: "
+                   "they stay one "
+                   "(default: split)")
         ->type_name("split|whole")
         ->transform(words(silhouettes));
     const std::map<std::string, bool> agreement{{"test", true}, {"assume", false}};
     app.add_option("--agreement", options.test_photo_consistency,
-                   "test: out of focus, views that disagree beyond noise (mirrors, glass) are not averaged; "
-                   "assume: all are")
+                   "With --merge average, test: views that disagree out of focus beyond noise (mirrors, "
+                   "glass) are not "
+                   "averaged; assume: all are averaged (default: test)")
         ->type_name("test|assume")
         ->transform(words(agreement));
     add_lens_options(app, options.lens);

@@ -7,6 +7,8 @@
 #include "io/camera/camera_metadata.h"
 #include "io/files/memory_limit.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 
@@ -31,7 +33,7 @@ std::optional<Imath::Box2i> parse_box(const std::string &text) {
 Imath::Box2i common(const Imath::Box2i &a, const Imath::Box2i &b, const char *what) {
     const Imath::Box2i box({std::max(a.min.x, b.min.x), std::max(a.min.y, b.min.y)},
                            {std::min(a.max.x, b.max.x), std::min(a.max.y, b.max.y)});
-    if (box.isEmpty()) throw UsageError(std::string(what) + " holds no pixel of the picture");
+    if (box.isEmpty()) throw UsageError(fmt::format("{} holds no pixel of the picture", what));
     return box;
 }
 
@@ -43,7 +45,7 @@ Imath::Box2i grown(const Imath::Box2i &data, const Imath::V2i &reach, const Imat
              std::max(data.max.y, std::min(display.max.y, data.max.y + reach.y))}};
 }
 
-// A few near samples in a huge display window may ask for a picture of gigabytes.
+// A few near samples in a huge display window may require a picture of gigabytes.
 void check_growth(const InputLdi &in, const Ldi &ldi, const Imath::Box2i &window) {
     const double pixels =
         (double(window.max.x) - window.min.x + 1) * (double(window.max.y) - window.min.y + 1);
@@ -57,14 +59,14 @@ void check_growth(const InputLdi &in, const Ldi &ldi, const Imath::Box2i &window
 void add_window_options(CLI::App &app, WindowOptions &options) {
     const std::map<std::string, OutputOverscan> overscans{
         {"keep", OutputOverscan::keep}, {"grow", OutputOverscan::grow}, {"crop", OutputOverscan::crop}};
-    app.add_option(
-           "--overscan", options.overscan,
-           "keep: the pixels of the file; grow: and as far into an empty display window as the blur reaches; "
-           "crop: those in the display window (keep)")
+    app.add_option("--overscan", options.overscan,
+                   "Pixels to make. keep: those of the file; grow: also those of the display window that the "
+                   "blur reaches; "
+                   "crop: those in the display window (default: keep)")
         ->type_name("keep|grow|crop")
         ->transform(words(overscans))
         ->group("Windows");
-    app.add_option("--proxy", options.proxy, "A picture of 1/N the size (1)")
+    app.add_option("--proxy", options.proxy, "Make a picture of 1/N the size (default: 1)")
         ->type_name("N")
         ->check(CLI::Range(1, 1024))
         ->group("Windows");
@@ -73,11 +75,12 @@ void add_window_options(CLI::App &app, WindowOptions &options) {
            [&options](const std::string &text) {
                options.region = parse_box(text);
                if (!options.region)
-                   throw CLI::ValidationError("--region", "'" + text +
-                                                              "' is not X0,Y0,X1,Y1, left, top, right, "
-                                                              "bottom, the last two included");
+                   throw CLI::ValidationError("--region",
+                                              fmt::format("must be X0,Y0,X1,Y1 (left, top, right and bottom, "
+                                                          "all included), not '{}'",
+                                                          text));
            },
-           "Only these pixels of the full-size picture, EXR coordinates, the last included")
+           "Make only these pixels of the full-size picture, in EXR coordinates, the last ones included")
         ->type_name("X0,Y0,X1,Y1")
         ->group("Windows");
 }

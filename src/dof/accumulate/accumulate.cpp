@@ -4,6 +4,8 @@
 #include "base/parallel.h"
 #include "dof/accumulate/parabolic_shift.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -106,9 +108,10 @@ std::vector<std::size_t> channels_in(const Image &view, const std::vector<Channe
     std::vector<std::size_t> indices;
     for (const Channel &channel : channels) {
         const std::size_t found = find_channel(view.channels, channel.name);
-        if (found == npos) throw Error(file + ": has no channel " + channel.name);
+        if (found == npos) throw Error(fmt::format("{}: has no channel {}", file, channel.name));
         if ((view.channels[found].type == PixelType::uint32) != (channel.type == PixelType::uint32))
-            throw Error(file + ": channel " + channel.name + " is of another type than in the first view");
+            throw Error(
+                fmt::format("{}: channel {} has another type than in the first view", file, channel.name));
         indices.push_back(found);
     }
     return indices;

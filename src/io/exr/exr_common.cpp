@@ -1,6 +1,9 @@
 #include "io/exr/exr_common.h"
 
+#include "base/text.h"
+
 #include <ImfTileDescription.h>
+#include <fmt/format.h>
 #include <half.h>
 
 #include <algorithm>
@@ -12,14 +15,14 @@ namespace sparselens {
 
 namespace {
 
-// Attributes that say how pixels are stored in one file, and so must not wander into another.
+// Attributes that describe how one file stores its pixels, and so must not be copied into another.
 bool describes_storage(const std::string &name) {
     static constexpr std::array names{
         "channels",         "chunkCount",    "compression", "dataWindow",
         "deepImageState",   "displayWindow", "lineOrder",   "maxSamplesPerPixel",
         "pixelAspectRatio", "preview",       "tiles",       "type",
         "version"};
-    return std::find(names.begin(), names.end(), name) != names.end();
+    return is_among(names, name);
 }
 
 std::size_t depth_channel(const std::vector<Channel> &channels, const std::string &asked) {
@@ -53,12 +56,14 @@ std::string find_depth_channel(const std::vector<Channel> &channels, const std::
                                const std::string &path) {
     const std::size_t k = depth_channel(channels, asked);
     if (k == npos)
-        throw Error(display_name(path) +
-                    (asked.empty() ? ": has no depth channel (Z, depth.Z, *.Depth.Z); give --depth-channel"
-                                   : ": has no channel " + asked + " (--depth-channel)"));
+        throw Error(
+            asked.empty()
+                ? fmt::format("{}: has no depth channel (Z, depth.Z or *.Depth.Z): give --depth-channel",
+                              display_name(path))
+                : fmt::format("{}: has no channel {} (--depth-channel)", display_name(path), asked));
     if (channels[k].type == PixelType::uint32)
-        throw Error(display_name(path) + ": its depth channel " + channels[k].name +
-                    " holds integers, not depths");
+        throw Error(fmt::format("{}: the depth channel {} holds integers, not depths", display_name(path),
+                                channels[k].name));
     return channels[k].name;
 }
 
@@ -68,7 +73,7 @@ bool has_depth_channel(const std::vector<Channel> &channels, const std::string &
 
 bool is_position_channel(const std::string &channel) {
     static constexpr std::array names{"Z", "ZBack", "ldi.dx", "ldi.dy", "ldi.weight"};
-    return std::ranges::find(names, channel) != names.end();
+    return is_among(names, channel);
 }
 
 Imf::Header output_header(const Windows &windows, std::span<const Channel> channels,

@@ -8,6 +8,7 @@
 #include <ImfDeepScanLineInputPart.h>
 #include <ImfDeepTiledInputPart.h>
 #include <ImfPartType.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <numeric>
@@ -106,8 +107,8 @@ void check_chunk(const DeepSource &source, const RawSize &raw_size) {
     std::uint64_t bytes = 0;
     raw_size(bytes);
     if (bytes > source.size)
-        throw Error(display_name(source.path) + ": a chunk claims " + std::to_string(bytes) +
-                    " bytes, more than the file has");
+        throw Error(fmt::format("{}: a chunk claims {} bytes, more than the file has",
+                                display_name(source.path), bytes));
 }
 
 // Has the part read its counts of samples, and makes room for them all.

@@ -10,6 +10,7 @@
 #include "io/files/memory_limit.h"
 
 #include <ImfPartType.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 
@@ -46,14 +47,16 @@ public:
         });
         const std::string name = layer_of(header);
         if (whose == parts_.end() && only_as_layer) {
-            notes_.push_back("part " + name + " is left out: its samples are not the beauty's");
+            notes_.push_back(
+                fmt::format("part {} is left out: its samples are not those of the beauty", name));
             return;
         }
         source_.held += memory_held_by(part);
         if (whose != parts_.end()) return add_layer(*whose, std::move(part), name);
         if (depth.empty())
-            throw Error(display_name(source_.path) + ": part " + name +
-                        " has no depth channel, and other samples than the parts before it");
+            throw Error(
+                fmt::format("{}: part {} has neither a depth channel nor the samples of an earlier part",
+                            display_name(source_.path), name));
         add_mean_coverage(part);
         check_types(part);
         parts_.push_back(std::move(part));
@@ -63,7 +66,7 @@ public:
 
     Ldi whole() {
         if (!is_merged()) return std::move(parts_[0]);
-        notes_.push_back(std::to_string(parts_.size()) + " deep parts are merged");
+        notes_.push_back(fmt::format("{} deep parts are merged", parts_.size()));
         Imath::Box2i data;
         for (const Ldi &part : parts_) data.extendBy(part.windows.data);
         Imf::Header all;
@@ -81,8 +84,9 @@ private:
                 const std::size_t k = find_channel(other.channels, channel.name);
                 const auto holds_ids = [](const Channel &c) { return c.type == PixelType::uint32; };
                 if (k != npos && holds_ids(other.channels[k]) != holds_ids(channel))
-                    throw Error(display_name(source_.path) + ": channel " + channel.name +
-                                " holds integers in one deep part and not in another");
+                    throw Error(
+                        fmt::format("{}: channel {} holds integers in one deep part but not in another",
+                                    display_name(source_.path), channel.name));
             }
     }
 

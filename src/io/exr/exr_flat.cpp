@@ -24,7 +24,7 @@ std::vector<int> flat_parts(const Imf::MultiPartInputFile &file, const std::stri
     std::vector<int> numbers;
     for (int part = 0; part < file.parts(); ++part)
         if (is_flat(file.header(part))) numbers.push_back(part);
-    if (numbers.empty()) throw Error(display_name(path) + ": holds no flat picture");
+    if (numbers.empty()) throw Error(display_name(path) + ": contains no flat image");
     return numbers;
 }
 

@@ -2,6 +2,8 @@
 
 #include "base/error.h"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <string_view>
 
@@ -66,13 +68,14 @@ private:
     void check_attribute(const std::string &name, const std::string &type, std::uint64_t bytes) {
         const std::uint64_t begin = in_.tellg();
         if (bytes > in_.size() - begin)
-            fail(name, "claims " + std::to_string(bytes) + " bytes, more than the file has");
+            fail(name, fmt::format("claims {} bytes, more than the file has", bytes));
         for (const FixedSize &fixed : fixed_sizes)
-            if (fixed.type == type && fixed.bytes != bytes) fail(name, "is not of the size of its type");
-        if (type == "chlist" && channels() != begin + bytes) fail(name, "is not of the size that it claims");
-        if (type == "preview" && !is_preview(bytes)) fail(name, "is not of the size that it claims");
+            if (fixed.type == type && fixed.bytes != bytes) fail(name, "does not have the size of its type");
+        if (type == "chlist" && channels() != begin + bytes)
+            fail(name, "does not have the size that it claims");
+        if (type == "preview" && !is_preview(bytes)) fail(name, "does not have the size that it claims");
         if (type == "stringvector" && !is_list(begin + bytes))
-            fail(name, "is not of the size that it claims");
+            fail(name, "does not have the size that it claims");
         in_.seekg(begin + bytes);
     }
 
@@ -96,11 +99,11 @@ private:
     }
 
     [[noreturn]] void fail(const std::string &name, const std::string &what) const {
-        throw Error(display_name(path_) + ": attribute " + name + " " + what);
+        throw Error(fmt::format("{}: attribute {} {}", display_name(path_), name, what));
     }
     void skip(std::uint64_t bytes) {
         const std::uint64_t at = in_.tellg();
-        if (bytes > in_.size() - at) throw Error(display_name(path_) + ": the file ends too early");
+        if (bytes > in_.size() - at) throw Error(display_name(path_) + ": the file is truncated");
         in_.seekg(at + bytes);
     }
     unsigned char byte() {
@@ -118,7 +121,7 @@ private:
         for (unsigned char c = byte(); c != 0; c = byte()) {
             name += char(c);
             if (name.size() > longest_name)
-                throw Error(display_name(path_) + ": a name in its header does not end");
+                throw Error(display_name(path_) + ": a name in the header does not end");
         }
         return name;
     }

@@ -1,31 +1,27 @@
 #include "io/exr/exr_parts.h"
 
 #include "base/error.h"
+#include "base/text.h"
 #include "io/exr/exr_common.h"
 #include "io/exr/header_edit.h"
 
 #include <ImfStandardAttributes.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 
 namespace sparselens {
 
 namespace {
 
-bool is_among(const std::vector<std::string> &names, const std::string &name) {
-    return std::ranges::find(names, name) != names.end();
-}
-
-std::string list_of_views(const Imf::MultiPartInputFile &file, const std::vector<int> &numbers) {
+std::vector<std::string> all_views(const Imf::MultiPartInputFile &file, const std::vector<int> &numbers) {
     std::vector<std::string> all;
     for (const int part : numbers)
         for (const std::string &view : views_of(file.header(part)))
             if (!is_among(all, view)) all.push_back(view);
-    std::string list;
-    for (const std::string &view : all) list += (list.empty() ? "" : ", ") + view;
-    return list;
+    return all;
 }
 
 // A channel's name without the view in it, and that view, or "".
@@ -67,9 +63,7 @@ std::string layer_of(const Imf::Header &header) {
 
 bool is_beauty(const Imf::Header &header) {
     static constexpr std::array names{"", "rgba", "rgb", "beauty", "c", "main", "default"};
-    std::string name = layer_of(header);
-    for (char &c : name) c = char(std::tolower(static_cast<unsigned char>(c)));
-    return std::ranges::find(names, name) != names.end();
+    return is_among(names, lower_case(layer_of(header)));
 }
 
 std::vector<std::string> views_of(const Imf::Header &header) {
@@ -91,9 +85,10 @@ PartsOfView parts_of_view(const Imf::MultiPartInputFile &file, const std::vector
         if (parts.view.empty() ? views.empty() : is_among(views, parts.view)) parts.numbers.push_back(part);
     }
     if (!asked.empty() && parts.numbers.empty()) {
-        const std::string list = list_of_views(file, numbers);
-        throw Error(display_name(path) + ": has no stereo view '" + asked + "' (--stereo-view)" +
-                    (list.empty() ? ": it names no views" : ", but " + list));
+        const std::vector<std::string> all = all_views(file, numbers);
+        throw Error(fmt::format("{}: has no stereo view '{}' (--stereo-view): {}", display_name(path), asked,
+                                all.empty() ? std::string("it names no views")
+                                            : fmt::format("its views are {}", fmt::join(all, ", "))));
     }
     return parts;
 }
@@ -108,8 +103,8 @@ std::vector<FileChannel> channels_of(const Imf::Header &header, const std::strin
         const NameInView name = split_name(it.name(), views);
         if (several && name.view != view && !name.view.empty()) continue;
         if (it.channel().xSampling != 1 || it.channel().ySampling != 1)
-            throw Error(display_name(path) + ": channel " + it.name() +
-                        " is subsampled, which is not supported");
+            throw Error(fmt::format("{}: channel {} is subsampled, which is not supported",
+                                    display_name(path), it.name()));
         auto &to = several && name.view.empty() ? shared : channels;
         to.push_back({it.name(), channel_of(name.plain, it.channel())});
     }

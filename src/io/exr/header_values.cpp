@@ -1,5 +1,7 @@
 #include "io/exr/header_values.h"
 
+#include "base/text.h"
+
 #include <ImfBoxAttribute.h>
 #include <ImfDoubleAttribute.h>
 #include <ImfFloatAttribute.h>
@@ -9,7 +11,6 @@
 #include <ImfVecAttribute.h>
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <string_view>
@@ -19,12 +20,6 @@ namespace sparselens {
 namespace {
 
 using Numbers = std::vector<double>;
-
-std::string lower(std::string_view text) {
-    std::string result(text);
-    for (char &c : result) c = char(std::tolower(static_cast<unsigned char>(c)));
-    return result;
-}
 
 std::string without_prefixes(std::string key) {
     for (bool found = true; found;) {
@@ -108,14 +103,14 @@ std::vector<HeaderValue> header_values(const Imf::Header &header) {
     std::vector<HeaderValue> values;
     for (auto it = header.begin(); it != header.end(); ++it) {
         const auto *text = value_of<std::string>(it.attribute());
-        values.push_back({it.name(), without_prefixes(lower(it.name())), numbers_in(it.attribute()),
+        values.push_back({it.name(), without_prefixes(lower_case(it.name())), numbers_in(it.attribute()),
                           text ? *text : std::string()});
     }
     return values;
 }
 
 const HeaderValue *find_value(const std::vector<HeaderValue> &values, const std::string &name) {
-    const std::string pattern = lower(name);
+    const std::string pattern = lower_case(name);
     const auto found =
         std::ranges::find_if(values, [&](const HeaderValue &value) { return matches(value.key, pattern); });
     return found == values.end() ? nullptr : &*found;

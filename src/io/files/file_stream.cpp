@@ -3,6 +3,7 @@
 #include "base/error.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -26,14 +27,14 @@ public:
 
     bool read(char c[], int n) override {
         if (n < 0 || std::uint64_t(n) > bytes_.size() - position_)
-            throw Error(std::string(fileName()) + ": the file ends too early");
+            throw Error(std::string(fileName()) + ": the file is truncated");
         std::memcpy(c, bytes_.data() + position_, std::size_t(n));
         position_ += std::uint64_t(n);
         return position_ < bytes_.size();
     }
     std::uint64_t tellg() override { return position_; }
     void seekg(std::uint64_t position) override {
-        if (position > bytes_.size()) throw Error(std::string(fileName()) + ": the file ends too early");
+        if (position > bytes_.size()) throw Error(std::string(fileName()) + ": the file is truncated");
         position_ = position;
     }
     std::uint64_t size() const override { return bytes_.size(); }
@@ -51,7 +52,7 @@ public:
 
     bool read(char c[], int n) override {
         if (n < 0 || std::fread(c, 1, std::size_t(n), file_) != std::size_t(n))
-            throw Error(std::string(fileName()) + ": the file ends too early");
+            throw Error(std::string(fileName()) + ": the file is truncated");
         return true;
     }
     std::uint64_t tellg() override { return std::uint64_t(ftello(file_)); }
@@ -80,9 +81,9 @@ std::vector<char> read_whole(const std::string &path, int descriptor) {
         if (got < 0) fail(path, "cannot read");
         if (got == 0) break;
         used += std::size_t(got);
-        // Whatever else flows in may never end.
+        // A stream of anything else may never end.
         if (used >= sizeof exr_magic && std::memcmp(bytes.data(), exr_magic, sizeof exr_magic) != 0)
-            throw Error(display_name(path) + ": is no EXR file");
+            throw Error(display_name(path) + ": not an EXR file");
     }
     bytes.resize(used);
     return bytes;
@@ -184,10 +185,9 @@ OutputFile::OutputFile(const std::string &path) : path_(path) {
         const std::filesystem::path target = follow_links(path);
         target_ = target.string();
         constexpr std::size_t longest = 200; // file systems take 255, the rest of the name included
-        const std::string name =
-            "." + target.filename().string().substr(0, longest) + "." + std::to_string(::getpid());
+        const std::string name = target.filename().string().substr(0, longest);
         for (int attempt = 0; attempt < 100 && descriptor_ < 0; ++attempt) {
-            const std::string unique = name + "-" + std::to_string(attempt) + ".partial";
+            const std::string unique = fmt::format(".{}.{}-{}.partial", name, ::getpid(), attempt);
             temporary_ = std::make_unique<Unfinished>((target.parent_path() / unique).string());
             descriptor_ = ::open(temporary_->path().c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
             if (descriptor_ < 0 && errno != EEXIST) break;

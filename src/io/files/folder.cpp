@@ -9,7 +9,7 @@ namespace sparselens {
 void make_folder(const std::string &path) {
     std::error_code error;
     std::filesystem::create_directories(path, error);
-    if (error) throw Error(path + ": cannot make the folder: " + error.message());
+    if (error) throw Error(path + ": cannot create the folder: " + error.message());
 }
 
 } // namespace sparselens

@@ -3,6 +3,8 @@
 #include "base/error.h"
 #include "io/files/file_stream.h"
 
+#include <fmt/format.h>
+
 #include <atomic>
 #include <cmath>
 
@@ -15,9 +17,7 @@ constexpr std::uint64_t by_size = 0;
 
 std::atomic<std::uint64_t> process_limit = by_size;
 
-std::string megabytes(double bytes) {
-    return std::to_string(std::llround(std::ceil(bytes / (1024 * 1024)))) + " MB";
-}
+std::string megabytes(double bytes) { return fmt::format("{:.0f} MB", std::ceil(bytes / (1024 * 1024))); }
 
 } // namespace
 
@@ -27,8 +27,9 @@ void check_memory(const std::string &path, double bytes, std::uint64_t file_size
     const std::uint64_t set = process_limit;
     const double allowed = set == by_size ? base_bytes + bytes_per_byte * double(file_size) : double(set);
     if (bytes <= allowed) return;
-    throw Error(display_name(path) + ": asks for " + megabytes(bytes) + " of memory, more than " +
-                (set == by_size ? "a file of its size may; --max-memory allows it" : "--max-memory allows"));
+    throw Error(fmt::format("{}: asks for {} of memory, more than {}", display_name(path), megabytes(bytes),
+                            set == by_size ? "is usual for a file of its size: give --max-memory to allow it"
+                                           : "--max-memory allows"));
 }
 
 } // namespace sparselens

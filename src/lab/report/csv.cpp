@@ -3,6 +3,8 @@
 #include "lab/report/numbers.h"
 #include "lab/report/verdict.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace sparselens::lab {
@@ -32,9 +34,9 @@ std::string exact(const Reached &reached) {
 void add_errors(const std::string &prefix, const ErrorFigures &errors, Fields &fields) {
     for (const Figure &figure : figure_table)
         fields.emplace_back(prefix + figure.name, shortest(errors.*figure.value));
-    fields.emplace_back(prefix + "pixels", std::to_string(errors.pixels));
-    fields.emplace_back(prefix + "nonfinite_image", std::to_string(errors.nonfinite_image));
-    fields.emplace_back(prefix + "nonfinite_reference", std::to_string(errors.nonfinite_reference));
+    fields.emplace_back(prefix + "pixels", fmt::to_string(errors.pixels));
+    fields.emplace_back(prefix + "nonfinite_image", fmt::to_string(errors.nonfinite_image));
+    fields.emplace_back(prefix + "nonfinite_reference", fmt::to_string(errors.nonfinite_reference));
 }
 
 Fields fields_of(const ReportRow &row, const RayTracingCurves &ray_tracing) {
@@ -42,12 +44,12 @@ Fields fields_of(const ReportRow &row, const RayTracingCurves &ray_tracing) {
                   {"renderer", row.renderer},
                   {"processor", row.processor},
                   {"budget", row.budget},
-                  {"views", std::to_string(row.views)},
+                  {"views", fmt::to_string(row.views)},
                   {"rays", shortest(row.rays)},
                   {"seconds", shortest(total_seconds(row))}};
     for (std::size_t s = 0; s < stage_names.size(); ++s)
         fields.emplace_back(std::string("seconds_") + stage_names[s], shortest(row.seconds[s]));
-    fields.emplace_back("runs", std::to_string(row.runs));
+    fields.emplace_back("runs", fmt::to_string(row.runs));
     fields.emplace_back("peak_mb", row.runs > 0 ? shortest(row.peak_mb) : "");
     add_errors("", row.errors.front(), fields);
     for (std::size_t r = 0; r < region_names.size(); ++r)

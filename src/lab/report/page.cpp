@@ -5,6 +5,8 @@
 #include "lab/report/page_assets.h"
 #include "lab/report/verdict.h"
 
+#include <fmt/format.h>
+
 namespace sparselens::lab {
 
 namespace {
@@ -34,7 +36,7 @@ std::string data_url(const char *type, const std::string &bytes) {
 std::string choice(const char *side, const std::vector<PagePicture> &pictures, std::size_t chosen) {
     std::string html = std::string("<label>") + side + " <select class=\"" + side + "\">\n";
     for (std::size_t i = 0; i < pictures.size(); ++i)
-        html += element("option value=\"" + std::to_string(i) + '"' + (i == chosen ? " selected" : ""),
+        html += element("option value=\"" + fmt::to_string(i) + '"' + (i == chosen ? " selected" : ""),
                         pictures[i].title);
     return html + "</select></label>\n";
 }
@@ -75,7 +77,7 @@ std::string cells(const ReportRow &row, const RayTracingCurves &ray_tracing) {
     number(compared ? reached_text(verdict.seconds, total_seconds(row)) : "");
     number(compared ? reached_text(verdict.rays) : "");
     number(compared && verdict.equal_time ? fixed(*verdict.equal_time, 2) : "");
-    number(std::to_string(row.errors.front().nonfinite_image));
+    number(fmt::to_string(row.errors.front().nonfinite_image));
     return html;
 }
 

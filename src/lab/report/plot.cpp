@@ -2,6 +2,8 @@
 
 #include "lab/report/numbers.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -31,7 +33,7 @@ std::vector<Line> lines_of(std::span<const ReportRow> rows) {
 
 // seconds, rays, root mean square error; equal pictures have none and no place on a logarithmic axis.
 std::string data_block(const Line &line, std::size_t number) {
-    std::string text = "$line" + std::to_string(number) + " << END\n";
+    std::string text = fmt::format("$line{} << END\n", number);
     for (const ReportRow *row : line.rows)
         if (std::isfinite(quality(*row)) && total_seconds(*row) > 0)
             text += significant(total_seconds(*row), 6) + ' ' + significant(row->rays, 6) + ' ' +
@@ -48,14 +50,14 @@ std::string quoted(const std::string &text) {
 
 std::string style(const Line &line, std::size_t number) {
     const char *colours[] = {"#4477aa", "#66ccee", "#228833", "#ccbb44", "#aa3377", "#bbbbbb", "#885522"};
-    const std::string point = " pt " + std::to_string(4 + number % 11);
+    const std::string point = fmt::format(" pt {}", 4 + number % 11);
     switch (line.role) {
     case Role::ray_tracing: return "lc rgb \"#000000\" lw 2.5 pt 7 ps 0.7";
     case Role::sparse_lens:
-        return "lc rgb \"#ee3311\" lw 2 dt " + std::to_string(1 + number % 4) + point + " ps 0.7";
+        return fmt::format("lc rgb \"#ee3311\" lw 2 dt {}{} ps 0.7", 1 + number % 4, point);
     case Role::other: break;
     }
-    return std::string("lc rgb \"") + colours[number % std::size(colours)] + "\" lw 1" + point + " ps 0.6";
+    return fmt::format("lc rgb \"{}\" lw 1{} ps 0.6", colours[number % std::size(colours)], point);
 }
 
 // Decibels are linear where the error is logarithmic: the right axis is laid beside the left one.
@@ -76,7 +78,7 @@ std::string plot_command(const std::vector<Line> &lines, const char *columns) {
     std::string text;
     for (std::size_t i = 0; i < lines.size(); ++i) {
         text += i == 0 ? "plot " : ", \\\n     ";
-        text += "$line" + std::to_string(i) + " using " + columns + " with linespoints " + style(lines[i], i);
+        text += fmt::format("$line{} using {} with linespoints {}", i, columns, style(lines[i], i));
         text += " title " + quoted(lines[i].title);
     }
     return text + '\n';

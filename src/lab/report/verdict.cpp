@@ -2,6 +2,8 @@
 
 #include "lab/report/numbers.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -37,10 +39,9 @@ std::string figures_text(const ReportRow &row) {
 }
 
 std::string beaten_sentence(std::span<const ReportRow> rows, const Beaten &beaten) {
-    const std::string others = beaten.others == 0 ? ""
-                               : beaten.others == 1
-                                   ? ", as is another row"
-                                   : ", as are " + std::to_string(beaten.others) + " other rows";
+    const std::string others = beaten.others == 0   ? ""
+                               : beaten.others == 1 ? ", as is another row"
+                                                    : fmt::format(", as are {} other rows", beaten.others);
     return row_text(rows[beaten.row]) + " (" + figures_text(rows[beaten.row]) +
            ") is a poor choice: " + row_text(rows[beaten.by]) + " (" + figures_text(rows[beaten.by]) +
            ") is no slower and no worse" + others + ".";

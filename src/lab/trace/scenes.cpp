@@ -4,6 +4,8 @@
 #include "lab/trace/materials.h"
 #include "lab/trace/planes.h"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <string>
 
@@ -139,7 +141,7 @@ std::span<const SceneEntry> scene_table() { return scenes; }
 Scene build_scene(std::string_view name) {
     for (const SceneEntry &entry : scenes)
         if (name == entry.name) return entry.build();
-    throw Error("no scene is called '" + std::string(name) + "'");
+    throw Error(fmt::format("no scene is called '{}'", name));
 }
 
 } // namespace sparselens::lab

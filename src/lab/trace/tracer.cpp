@@ -3,6 +3,7 @@
 #include "base/error.h"
 
 #include <embree3/rtcore.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -140,7 +141,7 @@ Tracer::Tracer(const Scene &scene) : impl_(std::make_unique<Impl>()) {
         impl_->shapes.push_back({sphere.centre, {}, sphere.radius, sphere.material});
     impl_->device.reset(rtcNewDevice(nullptr));
     if (!impl_->device)
-        throw Error("Embree cannot be started: error " + std::to_string(rtcGetDeviceError(nullptr)));
+        throw Error(fmt::format("Embree cannot be started: error {}", int(rtcGetDeviceError(nullptr))));
     impl_->embree.reset(rtcNewScene(impl_->device.get()));
     rtcSetSceneFlags(impl_->embree.get(),
                      RTCSceneFlags(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
@@ -148,7 +149,7 @@ Tracer::Tracer(const Scene &scene) : impl_(std::make_unique<Impl>()) {
     add_spheres(impl_->device.get(), impl_->embree.get(), scene.spheres);
     rtcCommitScene(impl_->embree.get());
     const RTCError error = rtcGetDeviceError(impl_->device.get());
-    if (error != RTC_ERROR_NONE) throw Error("Embree refuses the scene: error " + std::to_string(error));
+    if (error != RTC_ERROR_NONE) throw Error(fmt::format("Embree refuses the scene: error {}", int(error)));
 }
 
 Tracer::~Tracer() = default;

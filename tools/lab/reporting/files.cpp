@@ -13,7 +13,7 @@ namespace sparselens::lab {
 std::string contents_of_file(const std::filesystem::path &path) {
     std::ifstream in(path, std::ios::binary);
     std::string contents{std::istreambuf_iterator<char>(in), {}};
-    if (!in) throw Error(path.string() + ": cannot be read");
+    if (!in) throw Error(path.string() + ": cannot read");
     return contents;
 }
 

@@ -2,31 +2,38 @@
 
 #include "lab/tracing/trace_options.h"
 
+#include <fmt/format.h>
+
 namespace sparselens::lab {
 
 void add_report_options(CLI::App &app, ReportOptions &options) {
     app.add_option(
            "SCENE", options.scenes,
            "Built-in scenes of dof-trace, or folders of ready-made views with a reference and a camera.json "
-           "(fence grass lamps)")
+           "(default: fence grass lamps)")
         ->type_name("");
     app.add_option("-o,--output", options.folder,
-                   "Folder of the report; what is there already is not measured again")
+                   "Folder for the report; what was measured there before is not measured again")
         ->required()
         ->type_name("DIR");
-    app.add_flag("--quick", options.quick, "Small pictures, few budgets, one variant of each method");
-    app.add_option("--size", options.size, "Of built-in scenes, pixels (640x360; quick: 160x90)")
+    app.add_flag("--quick", options.quick, "Use small pictures, few budgets and one variant of each method");
+    app.add_option("--size", options.size,
+                   "Size of the built-in scenes, in pixels (default: 640x360, with --quick 160x90)")
         ->type_name("WxH")
         ->check([](const std::string &text) {
             TraceOptions ignored;
-            return read_size(text, ignored) ? "" : '\'' + text + "' is not WIDTHxHEIGHT";
+            return read_size(text, ignored)
+                       ? std::string()
+                       : fmt::format("must be WIDTHxHEIGHT (e.g. 640x360), not '{}'", text);
         });
-    app.add_option("--reference", options.reference,
-                   "Rays a pixel of the reference of built-in scenes (4096; quick: 1024)")
+    app.add_option(
+           "--reference", options.reference,
+           "Rays per pixel of the reference of the built-in scenes (default: 4096, with --quick 1024)")
         ->type_name("SPP")
         ->check(CLI::Range(1, 1 << 20));
     app.add_option("--runs", options.runs,
-                   "Times are medians of so many runs; long steps are run fewer times (3; quick: 1)")
+                   "Number of runs whose median time is taken; long steps are run fewer times (default: 3, "
+                   "with --quick 1)")
         ->type_name("N")
         ->check(CLI::Range(1, 1000));
 }

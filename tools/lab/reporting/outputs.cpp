@@ -9,6 +9,7 @@
 #include "lab/reporting/measurement.h"
 #include "lab/reporting/process.h"
 
+#include <fmt/format.h>
 #include <tbb/info.h>
 #include <unistd.h>
 
@@ -60,7 +61,7 @@ std::string today() {
 
 std::string machine_fact(int threads) {
     const int used = threads > 0 ? threads : tbb::info::default_concurrency();
-    return processor() + ", threads: " + std::to_string(used) + ", " + today();
+    return fmt::format("{}, threads: {}, {}", processor(), used, today());
 }
 
 std::string load_fact() {

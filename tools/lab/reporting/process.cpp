@@ -3,6 +3,8 @@
 #include "base/error.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <spawn.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
@@ -27,7 +29,7 @@ namespace {
 class Words {
 public:
     Words() : descriptor_(memfd_create("stderr", MFD_CLOEXEC)) {
-        if (descriptor_ < 0) throw Error(std::string("memfd_create: ") + std::strerror(errno));
+        if (descriptor_ < 0) throw Error(fmt::format("memfd_create: {}", std::strerror(errno)));
     }
     ~Words() { close(descriptor_); }
     Words(const Words &) = delete;
@@ -71,9 +73,7 @@ private:
 } // namespace
 
 std::string command_line(const std::vector<std::string> &command) {
-    std::string line;
-    for (const std::string &word : command) line += (line.empty() ? "" : " ") + word;
-    return line;
+    return fmt::format("{}", fmt::join(command, " "));
 }
 
 ProcessRun run_process(const std::vector<std::string> &command, const std::string &folder) {
@@ -86,16 +86,16 @@ ProcessRun run_process(const std::vector<std::string> &command, const std::strin
     const auto start = std::chrono::steady_clock::now();
     pid_t child = 0;
     const int error = posix_spawnp(&child, arguments[0], actions.get(), nullptr, arguments.data(), environ);
-    if (error != 0) fail(command, std::string("cannot be started: ") + std::strerror(error));
+    if (error != 0) fail(command, fmt::format("cannot be started: {}", std::strerror(error)));
     int status = 0;
     rusage used{};
     while (wait4(child, &status, 0, &used) < 0)
-        if (errno != EINTR) fail(command, std::string("wait4: ") + std::strerror(errno));
+        if (errno != EINTR) fail(command, fmt::format("wait4: {}", std::strerror(errno)));
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
 
-    if (WIFSIGNALED(status)) fail(command, "ended by signal " + std::to_string(WTERMSIG(status)));
+    if (WIFSIGNALED(status)) fail(command, fmt::format("ended by signal {}", WTERMSIG(status)));
     if (WEXITSTATUS(status) != 0)
-        fail(command, "exit code " + std::to_string(WEXITSTATUS(status)) + ": " + words.last_line());
+        fail(command, fmt::format("exit code {}: {}", WEXITSTATUS(status), words.last_line()));
     return {seconds.count(), double(used.ru_maxrss) / 1024};
 }
 

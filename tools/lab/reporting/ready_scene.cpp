@@ -3,6 +3,8 @@
 #include "base/error.h"
 #include "lab/report/numbers.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 #include <charconv>
@@ -20,7 +22,7 @@ std::string plain_name(const std::string &name) {
     return result;
 }
 
-std::string view_name(std::size_t k) { return "view_" + std::to_string(k) + ".exr"; }
+std::string view_name(std::size_t k) { return fmt::format("view_{}.exr", k); }
 
 // N of drt_N.exr.
 std::optional<int> rays_of(const std::string &file) {
@@ -39,7 +41,7 @@ ReadyScene::ReadyScene(const fs::path &folder)
     if (!folder_.has_filename()) folder_ = folder_.parent_path();
     name_ = plain_name(folder_.filename().string());
     if (!fs::exists(folder_ / "reference.exr"))
-        throw Error((folder_ / "reference.exr").string() + ": is not there");
+        throw Error((folder_ / "reference.exr").string() + ": no such file");
     views_.push_back({folder_, camera_});
     for (const fs::directory_entry &entry : fs::directory_iterator(folder_))
         if (entry.is_directory() && fs::exists(entry.path() / "camera.json"))
@@ -84,7 +86,7 @@ std::optional<Rendered> ReadyScene::views(int rim, int samples, StepList &) cons
     const std::vector<Imath::V2d> &points = found->camera.views;
     const auto wanted = std::size_t(rim);
     if (wanted > points.size() || (wanted > 0 && points.size() % wanted != 0)) return {};
-    Rendered views{.folder = name_ + "/views-" + std::to_string(1 + rim) + "x" + std::to_string(samples),
+    Rendered views{.folder = fmt::format("{}/views-{}x{}", name_, 1 + rim, samples),
                    .picture = (found->path / "center.exr").string(),
                    .ready_seconds = found->camera.seconds.at("center.exr"),
                    .views = 1 + rim,
@@ -100,8 +102,8 @@ std::optional<Rendered> ReadyScene::views(int rim, int samples, StepList &) cons
 }
 
 std::optional<Rendered> ReadyScene::distributed(int rays, StepList &) const {
-    const std::string file = "drt_" + std::to_string(rays) + ".exr";
-    return Rendered{.folder = name_ + "/traced-" + std::to_string(rays),
+    const std::string file = fmt::format("drt_{}.exr", rays);
+    return Rendered{.folder = fmt::format("{}/traced-{}", name_, rays),
                     .picture = (folder_ / file).string(),
                     .ready_seconds = camera_.seconds.at(file),
                     .rays = double(rays)};

@@ -7,6 +7,7 @@
 #include "lab/reporting/process.h"
 #include "lab/reporting/time_left.h"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -38,15 +39,15 @@ public:
 
     // What the step is: equal exactly where running it again would give the same.
     std::string identity(const Step &step, const std::vector<std::string> &inputs) {
-        std::string text = "threads " + std::to_string(options_.threads) + '\n';
+        std::string text = fmt::format("threads {}\n", options_.threads);
         for (const StepCommand &command : step.commands)
             text += program_hash(command.words[0]) + ' ' + command_line(command.words) + '\n';
         for (const std::string &input : inputs) text += input + '\n';
         for (const std::string &file : step.given)
-            text += file + ' ' + std::to_string(fs::file_size(file)) + ' ' +
-                    std::to_string(fs::last_write_time(file).time_since_epoch().count()) + '\n';
-        if (step.timed) text += "runs " + std::to_string(options_.runs) + '\n';
-        return std::to_string(hash_of(text));
+            text += file + ' ' + fmt::to_string(fs::file_size(file)) + ' ' +
+                    fmt::to_string(fs::last_write_time(file).time_since_epoch().count()) + '\n';
+        if (step.timed) text += fmt::format("runs {}\n", options_.runs);
+        return fmt::to_string(hash_of(text));
     }
 
     std::optional<StepTimes> recorded(const Step &step, const std::string &identity) const {
@@ -87,7 +88,7 @@ private:
     std::string program_hash(const std::string &program) {
         auto [found, is_new] = programs_.try_emplace(program);
         if (is_new)
-            found->second = std::to_string(hash_of(contents_of_file(fs::path(options_.tools) / program)));
+            found->second = fmt::to_string(hash_of(contents_of_file(fs::path(options_.tools) / program)));
         return found->second;
     }
 
@@ -96,9 +97,9 @@ private:
         for (const StepCommand &command : step.commands) {
             std::vector<std::string> words = with_files(command.words, options_.folder);
             words[0] = (fs::path(options_.tools) / words[0]).string();
-            words.insert(words.end(), {"--threads", std::to_string(options_.threads)});
+            words.insert(words.end(), {"--threads", fmt::to_string(options_.threads)});
             if (options_.max_memory)
-                words.insert(words.end(), {"--max-memory", std::to_string(*options_.max_memory)});
+                words.insert(words.end(), {"--max-memory", fmt::to_string(*options_.max_memory)});
             const ProcessRun run = run_process(words, options_.folder);
             times.seconds[std::size_t(command.stage)] += run.seconds;
             times.peak_mb = std::max(times.peak_mb, run.peak_mb);

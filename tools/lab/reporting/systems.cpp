@@ -2,6 +2,8 @@
 
 #include "lab/report/numbers.h"
 
+#include <fmt/format.h>
+
 namespace sparselens::lab {
 
 namespace {
@@ -64,7 +66,7 @@ public:
     // Not part of anybody's time.
     std::string many_points() {
         const Layers from = warp();
-        const Words words{"--method", "lens", "--lens-samples", std::to_string(budgets_.many_points)};
+        const Words words{"--method", "lens", "--lens-samples", fmt::to_string(budgets_.many_points)};
         const Layers made =
             then(from, Stage::process, "many-points", {"dof-gather", from.file}, words + lens_, 4, false);
         return made.file;
@@ -104,7 +106,7 @@ struct Processor {
 
 template <int K>
 Layers selective(Chain &chain) {
-    const std::string k = std::to_string(K);
+    const std::string k = fmt::to_string(K);
     return chain.gathered(chain.layers("clustered-" + k, {"--layers", k}), "selective-" + k,
                           {"--method", "selective", "--layers", k});
 }
@@ -187,7 +189,7 @@ PlannedRow row_of(const SceneSource &scene, const System &system, int budget, co
     ReportRow row;
     row.scene = scene.name();
     row.renderer = system.renderer;
-    row.budget = std::to_string(budget) + ' ' + system.unit + (budget == 1 ? "" : "s");
+    row.budget = fmt::format("{} {}{}", budget, system.unit, budget == 1 ? "" : "s");
     row.views = rendered.views;
     row.rays = rendered.rays;
     row.seconds[std::size_t(Stage::render)] = rendered.ready_seconds;

@@ -1,5 +1,6 @@
 #include "lab/reporting/time_left.h"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <cstdio>
@@ -24,8 +25,8 @@ void TimeLeft::begin(const std::string &what) {
     const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start_;
     const double scale = done_ > 0 ? passed.count() / done_ : 1;
     const int seconds = int((expected_ - done_) * scale);
-    std::fprintf(stderr, "\r\033[K%s: %d of %d, %d:%02d left: %s", name_.c_str(), step_, steps_, seconds / 60,
-                 seconds % 60, what.c_str());
+    fmt::print(stderr, "\r\033[K{}: {} of {}, {}:{:02} left: {}", name_, step_, steps_, seconds / 60,
+               seconds % 60, what);
 }
 
 void TimeLeft::end(double weight) { done_ += weight; }

@@ -1,5 +1,7 @@
 #include "lab/reporting/traced_scene.h"
 
+#include <fmt/format.h>
+
 #include <charconv>
 #include <cstdio>
 
@@ -12,13 +14,13 @@ constexpr int lens_view_samples = 4; // a pixel: with fewer, moving the views by
 
 std::vector<std::string> view_files(const std::string &folder, int rim) {
     std::vector<std::string> files{folder + "/center.exr"};
-    for (int k = 0; k < rim; ++k) files.push_back(folder + "/view_" + std::to_string(k) + ".exr");
+    for (int k = 0; k < rim; ++k) files.push_back(fmt::format("{}/view_{}.exr", folder, k));
     return files;
 }
 
 Rendered views_in(const std::string &folder, int rim, std::vector<std::size_t> steps) {
     Rendered views{.folder = folder, .picture = folder + "/center.exr", .steps = std::move(steps)};
-    for (int k = 0; k < rim; ++k) views.rim.push_back({folder + "/view_" + std::to_string(k) + ".exr", ""});
+    for (int k = 0; k < rim; ++k) views.rim.push_back({fmt::format("{}/view_{}.exr", folder, k), ""});
     views.views = 1 + rim;
     return views;
 }
@@ -38,8 +40,8 @@ double TracedScene::weight(double rays) const { return 0.1 + rays * pixels_of(bu
 StepCommand TracedScene::trace(const std::string &folder, int samples, int rim,
                                std::vector<std::string> more) const {
     StepCommand command{Stage::render,
-                        {"dof-trace", name_, "--size", budgets_.size, "--spp", std::to_string(samples),
-                         "--views", std::to_string(rim), "-o", folder}};
+                        {"dof-trace", name_, "--size", budgets_.size, "--spp", fmt::to_string(samples),
+                         "--views", fmt::to_string(rim), "-o", folder}};
     command.words.insert(command.words.end(), more.begin(), more.end());
     return command;
 }
@@ -49,7 +51,7 @@ Rendered TracedScene::reference(StepList &steps) const {
     const std::string folder = name_ + "/reference";
     Step step{
         .name = folder,
-        .commands = {trace(folder, 1, 0, {"--reference", std::to_string(budgets_.reference), "--seed", "1"})},
+        .commands = {trace(folder, 1, 0, {"--reference", fmt::to_string(budgets_.reference), "--seed", "1"})},
         .outputs = {folder + "/reference.exr"},
         .timed = false,
         .weight = weight(budgets_.reference)};
@@ -58,7 +60,7 @@ Rendered TracedScene::reference(StepList &steps) const {
 }
 
 std::optional<Rendered> TracedScene::views(int rim, int samples, StepList &steps) const {
-    const std::string folder = name_ + "/views-" + std::to_string(1 + rim) + "x" + std::to_string(samples);
+    const std::string folder = fmt::format("{}/views-{}x{}", name_, 1 + rim, samples);
     const std::size_t made = steps.add({.name = folder,
                                         .commands = {trace(folder, samples, rim)},
                                         .outputs = view_files(folder, rim),
@@ -69,12 +71,11 @@ std::optional<Rendered> TracedScene::views(int rim, int samples, StepList &steps
 }
 
 std::optional<Rendered> TracedScene::layers(const std::string &kind, int samples, StepList &steps) const {
-    const std::string folder =
-        name_ + '/' + kind + "-" + std::to_string(layer_count) + "x" + std::to_string(samples);
+    const std::string folder = fmt::format("{}/{}-{}x{}", name_, kind, layer_count, samples);
     const std::string picture = folder + "/deep_" + kind + ".exr";
     const std::size_t made = steps.add(
         {.name = folder,
-         .commands = {trace(folder, samples, 0, {"--deep", kind + ":" + std::to_string(layer_count)})},
+         .commands = {trace(folder, samples, 0, {"--deep", fmt::format("{}:{}", kind, layer_count)})},
          .outputs = {picture},
          .traced = folder,
          .uncounted = {"center.exr"},
@@ -86,17 +87,13 @@ std::optional<Rendered> TracedScene::layers(const std::string &kind, int samples
 }
 
 std::optional<Rendered> TracedScene::accumulated(int views, StepList &steps) const {
-    const std::string folder = name_ + "/accumulated-" + std::to_string(views), scratch = folder + "/views";
+    const std::string folder = fmt::format("{}/accumulated-{}", name_, views), scratch = folder + "/views";
     const std::string picture = folder + "/picture.exr";
     StepCommand average{Stage::process, {"dof-accumulate", "-o", picture}};
-    for (int k = 0; k < views; ++k) {
-        char name[32];
-        std::snprintf(name, sizeof name, "/lens_%04d.exr", k);
-        average.words.push_back(scratch + name);
-    }
+    for (int k = 0; k < views; ++k) average.words.push_back(fmt::format("{}/lens_{:04}.exr", scratch, k));
     const std::size_t made = steps.add(
         {.name = folder,
-         .commands = {trace(scratch, lens_view_samples, 0, {"--lens-views", std::to_string(views)}), average},
+         .commands = {trace(scratch, lens_view_samples, 0, {"--lens-views", fmt::to_string(views)}), average},
          .outputs = {picture},
          .fresh = scratch,
          .scratch = true,
@@ -111,10 +108,10 @@ std::optional<Rendered> TracedScene::accumulated(int views, StepList &steps) con
 }
 
 std::optional<Rendered> TracedScene::distributed(int rays, StepList &steps) const {
-    const std::string folder = name_ + "/traced-" + std::to_string(rays), picture = folder + "/reference.exr";
+    const std::string folder = fmt::format("{}/traced-{}", name_, rays), picture = folder + "/reference.exr";
     const std::size_t made =
         steps.add({.name = folder,
-                   .commands = {trace(folder, 1, 0, {"--reference", std::to_string(rays)})},
+                   .commands = {trace(folder, 1, 0, {"--reference", fmt::to_string(rays)})},
                    .outputs = {picture},
                    .traced = folder,
                    .uncounted = {"center.exr"},
@@ -126,19 +123,19 @@ std::optional<Rendered> TracedScene::distributed(int rays, StepList &steps) cons
 std::optional<Rendered> TracedScene::planned(int rim, int samples, StepList &steps) const {
     if (!can_plan_) return {};
     const Rendered centre = *views(0, samples, steps);
-    const std::string folder = name_ + "/planned-" + std::to_string(1 + rim) + "x" + std::to_string(samples);
+    const std::string folder = fmt::format("{}/planned-{}x{}", name_, 1 + rim, samples);
     const std::string plan = folder + "/plan.json", rendered = folder + "/views";
     const std::size_t planned =
         steps.add({.name = folder + "/plan",
                    .commands = {{Stage::plan,
-                                 {"ldi-plan", centre.picture, "--views", std::to_string(rim), "-o", plan}}},
+                                 {"ldi-plan", centre.picture, "--views", fmt::to_string(rim), "-o", plan}}},
                    .inputs = centre.steps,
                    .outputs = {plan}});
     const std::size_t made =
         steps.add({.name = rendered,
                    .commands = {{Stage::render,
                                  {"dof-trace", name_, "--size", budgets_.size, "--spp",
-                                  std::to_string(samples), "--plan", plan, "-o", rendered}}},
+                                  fmt::to_string(samples), "--plan", plan, "-o", rendered}}},
                    .inputs = {planned},
                    .outputs = {rendered + "/camera.json"},
                    .fresh = rendered,

@@ -4,6 +4,8 @@
 #include "harness/words.h"
 #include "lab/trace/scenes.h"
 
+#include <fmt/format.h>
+
 #include <charconv>
 #include <map>
 
@@ -40,8 +42,7 @@ std::map<std::string, std::string> scene_names() {
 
 std::string scene_help() {
     std::string text = "Scene:";
-    for (const SceneEntry &entry : scene_table())
-        text += std::string("\n") + entry.name + ": " + entry.summary;
+    for (const SceneEntry &entry : scene_table()) text += fmt::format("\n{}: {}", entry.name, entry.summary);
     return text;
 }
 
@@ -61,42 +62,52 @@ void add_trace_options(CLI::App &app, TraceOptions &options) {
         ->required()
         ->type_name("")
         ->check(CLI::IsMember(scene_names()));
-    app.add_option("-o,--output", options.folder, "Folder of the pictures; made if missing")
+    app.add_option("-o,--output", options.folder, "Folder for the pictures; made if missing")
         ->required()
         ->type_name("DIR");
-    app.add_option("--views", options.views, "Views from the rim of the lens (4)")
+    app.add_option("--views", options.views,
+                   fmt::format("Number of views from the rim of the lens (default: {})", options.views))
         ->type_name("N")
         ->check(CLI::Range(0, largest_count));
     app.add_option("--plan", options.plan,
-                   "Render just what this plan of ldi-plan asks for, not the centre view nor a ring of views")
+                   "Render only what this plan of ldi-plan asks for, without the centre view and the views "
+                   "of --views")
         ->type_name("PLAN.json");
-    app.add_option("--lens-views", options.lens_views, "Views spread evenly over the whole lens (0)")
+    app.add_option(
+           "--lens-views", options.lens_views,
+           fmt::format("Number of views spread evenly over the whole lens (default: {})", options.lens_views))
         ->type_name("N")
         ->check(CLI::Range(0, largest_count));
-    app.add_option("--spp", options.samples, "Samples a pixel of a view (16)")
+    app.add_option("--spp", options.samples,
+                   fmt::format("Samples per pixel of a view (default: {})", options.samples))
         ->type_name("N")
         ->check(CLI::Range(1, largest_count));
     app.add_option("--reference", options.reference,
-                   "Rays a pixel of a distributed-ray-tracing reference (none)")
+                   "Rays per pixel of a reference by distributed ray tracing (default: no reference)")
         ->type_name("SPP")
         ->check(CLI::Range(1, largest_count));
     app.add_option_function<std::string>(
            "--size",
            [&options](const std::string &text) {
                if (!read_size(text, options))
-                   throw CLI::ValidationError("--size", "'" + text + "' is not WIDTHxHEIGHT");
+                   throw CLI::ValidationError(
+                       "--size", fmt::format("must be WIDTHxHEIGHT (e.g. 640x360), not '{}'", text));
            },
-           "Display window, pixels (640x360)")
+           fmt::format("Size of the display window, in pixels (default: {}x{})", options.width,
+                       options.height))
         ->type_name("WxH");
     app.add_option("--overscan", options.overscan,
-                   "Pixels rendered beyond the display window on every side (0)")
+                   fmt::format("Pixels rendered beyond the display window on every side (default: {})",
+                               options.overscan))
         ->type_name("PX")
         ->check(CLI::Range(0, largest_side));
     app.add_option("--seed", options.seed,
-                   "Which random numbers: those of different seeds share no noise (0)")
+                   fmt::format("Seed of the random numbers; different seeds share no noise (default: {})",
+                               options.seed))
         ->type_name("N")
         ->check(CLI::Range(0, largest_seed));
-    app.add_option("--light", options.light, "sun, or area: a square light, one shadow ray a sample (sun)")
+    app.add_option("--light", options.light,
+                   "sun: parallel light; area: a square light, one shadow ray per sample (default: sun)")
         ->type_name("sun|area")
         ->transform(words(lights));
     app.add_option_function<std::vector<std::string>>(
@@ -104,12 +115,15 @@ void add_trace_options(CLI::App &app, TraceOptions &options) {
            [&options](const std::vector<std::string> &texts) {
                for (const std::string &text : texts)
                    if (!read_deep(text, options))
-                       throw CLI::ValidationError("--deep", "'" + text + "' is not peel:K or strata:K");
+                       throw CLI::ValidationError(
+                           "--deep", fmt::format("must be peel:K or strata:K (e.g. peel:3), not '{}'", text));
            },
-           "Deep picture from the centre: the K nearest surfaces, or the scene cut into K depth intervals")
+           "Also render a deep picture from the lens centre. peel: the K nearest surfaces; strata: the scene "
+           "cut into "
+           "K depth intervals")
         ->type_name("peel:K|strata:K")
         ->allow_extra_args(false);
-    app.add_option("-d,--type", options.type, "Type of the colour channels: half or float (half)")
+    app.add_option("-d,--type", options.type, "Type of the colour channels (default: half)")
         ->type_name("half|float")
         ->transform(words(types));
     add_lens_options(app, options.lens);
@@ -120,8 +134,7 @@ RenderSettings render_settings(const TraceOptions &options, const Camera &camera
     settings.windows.data.min -= Imath::V2i(options.overscan);
     settings.windows.data.max += Imath::V2i(options.overscan);
     if (settings.windows.pixels() > largest_picture)
-        throw UsageError("--size and --overscan ask for more than " + std::to_string(largest_picture) +
-                         " pixels");
+        throw UsageError(fmt::format("--size and --overscan ask for more than {} pixels", largest_picture));
     settings.seed = std::uint32_t(options.seed);
     settings.lens = resolve_lens(options.lens, camera, settings.windows);
     settings.lens.focal_px = options.width * *camera.focal_length_mm / *camera.sensor_width_mm;

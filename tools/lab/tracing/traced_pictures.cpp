@@ -5,7 +5,7 @@
 #include "lab/trace/deep.h"
 #include "lens/lens_points.h"
 
-#include <cstdio>
+#include <fmt/format.h>
 
 namespace sparselens::lab {
 
@@ -14,12 +14,6 @@ namespace {
 // Streams of random numbers; the reference has 0.
 enum Stream : std::uint32_t { of_centre = 1, of_deep = 0x1000000, of_rim = 0x2000000, of_lens = 0x3000000 };
 
-std::string numbered(const char *format, std::size_t number) {
-    char name[32];
-    std::snprintf(name, sizeof name, format, int(number));
-    return name;
-}
-
 void add_view(const TraceJob &job, const RenderSettings &settings, const std::string &name,
               const Imath::V2d &u, std::uint32_t stream) {
     job.outputs.add(name, u, [&] {
@@ -27,10 +21,10 @@ void add_view(const TraceJob &job, const RenderSettings &settings, const std::st
     });
 }
 
-void add_views(const TraceJob &job, const RenderSettings &settings, const char *format,
+void add_views(const TraceJob &job, const RenderSettings &settings, fmt::format_string<std::size_t &> format,
                const std::vector<Imath::V2d> &points, std::uint32_t stream) {
     for (std::size_t k = 0; k < points.size(); ++k)
-        add_view(job, settings, numbered(format, k), points[k], stream + std::uint32_t(k));
+        add_view(job, settings, fmt::format(format, k), points[k], stream + std::uint32_t(k));
 }
 
 } // namespace
@@ -39,12 +33,12 @@ std::vector<Imath::V2d> trace_plan(const TraceJob &job) {
     const PlanRequest plan = read_plan(job.options.plan);
     RenderSettings settings = job.settings;
     if (plan.display != settings.windows.display)
-        throw Error(job.options.plan + ": was made for a picture of another size: see --size");
+        throw Error(job.options.plan + ": made for a picture of another size: give the same --size as there");
     std::vector<Imath::V2d> points;
     for (std::size_t k = 0; k < plan.views.size(); ++k) {
         const RequestedView &view = plan.views[k];
         settings.windows.data = view.mask.data;
-        job.outputs.add(numbered("view_%d.exr", k), view.u, [&] {
+        job.outputs.add(fmt::format("view_{}.exr", k), view.u, [&] {
             return render_view(job.tracer, settings, view.u, job.options.samples, of_rim + std::uint32_t(k),
                                job.progress, view.mask.set);
         });
@@ -56,14 +50,14 @@ std::vector<Imath::V2d> trace_plan(const TraceJob &job) {
 std::vector<Imath::V2d> trace_rim(const TraceJob &job) {
     const std::vector<Imath::V2d> rim = rim_lens_points(job.options.views);
     add_view(job, job.settings, "center.exr", {0, 0}, of_centre);
-    add_views(job, job.settings, "view_%d.exr", rim, of_rim);
+    add_views(job, job.settings, "view_{}.exr", rim, of_rim);
     return rim;
 }
 
 void trace_lens(const TraceJob &job) {
     RenderSettings to_average = job.settings;
     to_average.scattered = true;
-    add_views(job, to_average, "lens_%04d.exr", spiral_lens_points(job.options.lens_views), of_lens);
+    add_views(job, to_average, "lens_{:04}.exr", spiral_lens_points(job.options.lens_views), of_lens);
 }
 
 void trace_reference(const TraceJob &job) {
