@@ -1,7 +1,7 @@
 # Install rules and a package config: find_package(sparselens) gives the target sparselens::sparselens.
 include(CMakePackageConfigHelpers)
 
-install(TARGETS sparselens EXPORT sparselens-targets ARCHIVE LIBRARY)
+install(TARGETS sparselens EXPORT sparselens-targets ARCHIVE LIBRARY RUNTIME)
 install(TARGETS sparselens_oiio LIBRARY DESTINATION ${SPARSELENS_MODULES})
 install(EXPORT sparselens-targets NAMESPACE sparselens:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/sparselens)
 

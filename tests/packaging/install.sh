@@ -29,6 +29,8 @@ readme_block cpp >consumer/pull-focus.cpp
     echo 'file(GLOB headers headers/*.cpp)'
     echo 'add_library(headers OBJECT ${headers})'
     echo 'target_link_libraries(headers PRIVATE sparselens::sparselens)'
+    echo 'add_library(plugin MODULE pull-focus.cpp)' # needs position-independent code
+    echo 'target_link_libraries(plugin PRIVATE sparselens::sparselens)'
 } >consumer/CMakeLists.txt
 logged cmake -S consumer -B consumer/build -G Ninja -DCMAKE_CXX_COMPILER="$compiler" \
     -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_CXX_FLAGS=-ffp-contract=off
