@@ -38,7 +38,7 @@ void add_gather_options(CLI::App &app, GatherCommand &options) {
     add_pixel_option(app, "--focus-pixel", options.focus_pixel,
                      "Focus on the front surface in this pixel, in EXR coordinates");
     app.add_option("--holdout", options.holdout,
-                   "Deep EXR that hides what is behind it and is itself not rendered")
+                   "Deep EXR that hides what is behind it; it stays sharp and is not shown itself")
         ->type_name("DEEP.exr")
         ->group(lens_group);
     app.add_option("--depth-out", options.depth_output, "Also write the depth of the front samples (EXR)")
