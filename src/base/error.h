@@ -1,4 +1,4 @@
-// The two ways a job can fail, told apart by the tools' exit codes.
+// The two ways in which a job can fail. The tools tell them apart by their exit codes.
 #pragma once
 
 #include <stdexcept>
@@ -6,12 +6,12 @@
 
 namespace sparselens {
 
-// Input, output or memory: exit 1. Messages name what they are about: file, part, channel or parameter.
+// A failure of input, output or memory: exit code 1. The message names the file, part, channel or parameter.
 struct Error : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-// The command line asks for what cannot be done, or leaves out what is needed: exit 2.
+// The command line asks for something impossible, or lacks something needed: exit code 2.
 struct UsageError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };

@@ -1,4 +1,4 @@
-// A flat multichannel picture in memory, planar, in the pixel geometry of EXR.
+// A flat picture of several channels in memory: planar, in the pixel geometry of EXR.
 //
 // Windows are EXR's: integer pixel boxes, max inclusive, y down; pixel (i, j) covers [i, i+1) x [j, j+1) and
 // its centre lies at (i + 1/2, j + 1/2). Values of channel k, row y - data.min.y, column x - data.min.x lie at
@@ -16,19 +16,19 @@
 
 namespace sparselens {
 
-// How a channel is stored in a file. In memory every value is a float; an id channel (uint32) keeps its 32 bits
-// in the float's place (std::bit_cast), so it may be copied but never calculated with.
+// How a channel is stored in a file. In memory every value is a float. An id channel (uint32) keeps its 32 bits in
+// the place of the float (std::bit_cast): ids may be copied, but calculations with them are meaningless.
 enum class PixelType { half, float32, uint32 };
 
 struct Channel {
-    std::string name; // the full EXR name, layer included: "R", "diffuse.R"
+    std::string name; // the full EXR name with the layer: "R", "diffuse.R"
     PixelType type = PixelType::half;
     bool operator==(const Channel &) const = default;
 };
 
 struct Windows {
-    Imath::Box2i display; // what the camera frames; the sensor width spans it
-    Imath::Box2i data;    // which pixels are stored
+    Imath::Box2i display; // the frame of the camera, which the sensor width spans
+    Imath::Box2i data;    // the pixels that are stored
     float pixel_aspect = 1;
 
     Grid grid() const { return Grid(data); } // of the pixels that are stored, in EXR coordinates
@@ -42,7 +42,7 @@ struct Windows {
     bool operator==(const Windows &) const = default;
 };
 
-// Display and data window both [0, width) x [0, height).
+// The display window and the data window are both [0, width) x [0, height).
 Windows windows_of_size(int width, int height);
 
 struct Image {
@@ -59,10 +59,10 @@ struct Image {
     float at(std::size_t channel, int x, int y) const;
 };
 
-// The pixels of `data`, which lies within the image's data window.
+// The pixels of `data`, which must lie within the data window of the image.
 Image crop(const Image &image, const Imath::Box2i &data);
 
-// Index of the channel of that name, or npos.
+// The index of the channel of that name, or npos.
 inline constexpr std::size_t npos = std::size_t(-1);
 std::size_t find_channel(std::span<const Channel> channels, std::string_view name);
 
@@ -73,7 +73,7 @@ std::array<std::size_t, 3> find_rgb(std::span<const Channel> channels);
 // Whether none of the three is missing.
 bool all_found(const std::array<std::size_t, 3> &channels);
 
-// R, G, B, A as half.
+// The channels R, G, B and A, as half.
 std::vector<Channel> rgba_channels();
 
 } // namespace sparselens

@@ -1,9 +1,9 @@
-// Loops over independent pieces of work on all the threads the tool was given.
+// Loops over independent pieces of work, on all the threads that the tool was given.
 //
-// A piece may write only what belongs to it, so a result never depends on the number of threads or on the
-// order in which pieces run. Exceptions thrown by a piece end the loop and reach the caller. A loop within a piece
-// has a context of its own: where another piece of the outer loop throws, the inner loop still finishes, and nobody
-// goes on with half a result.
+// A piece may write only what belongs to it, so the result never depends on the number of threads or on the order in
+// which the pieces run. An exception thrown by a piece ends the loop and reaches the caller. A loop within a piece has
+// a context of its own: when another piece of the outer loop throws, the inner loop still finishes, so that no code
+// continues with an incomplete result.
 #pragma once
 
 #include "base/grid.h"
@@ -20,7 +20,7 @@
 
 namespace sparselens {
 
-// A moment that others come after. Only ThreadSanitizer has to be told: TBB, which is not compiled with it, sees to it.
+// A happens-before edge that ThreadSanitizer cannot see, because TBB is not instrumented.
 class Moment {
 public:
 #ifdef __SANITIZE_THREAD__
@@ -32,13 +32,13 @@ public:
 #endif
 };
 
-// task(i) for every i in [0, count).
+// Calls task(i) for every i in [0, count).
 template <typename Task>
 void parallel_for(std::size_t count, const Task &task) {
     tbb::task_group_context own(tbb::task_group_context::isolated);
     Moment begun, done;
     begun.reached();
-    // What it captures was written before the loop began, which is not known until it says so.
+    // The captured variables were written before the loop began, which ThreadSanitizer knows only after passed().
     const auto piece = [&](std::size_t i) __attribute__((no_sanitize("thread"))) {
         begun.passed();
         task(i);
@@ -48,7 +48,7 @@ void parallel_for(std::size_t count, const Task &task) {
     done.passed();
 }
 
-// task(begin, end) over [0, count) cut into runs of at most `grain`; the cuts depend on count and grain alone.
+// Calls task(begin, end) for ranges of at most `grain` that make up [0, count) and depend on count and grain alone.
 template <typename Task>
 void parallel_ranges(std::size_t count, std::size_t grain, const Task &task) {
     parallel_for(pieces_of(count, grain), [&](std::size_t run) {

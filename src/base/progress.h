@@ -1,4 +1,4 @@
-// A progress line for long work: written by whoever watches (a terminal, a farm), fed by whoever works.
+// The progress of long work: the code that works reports it, and a listener (a terminal, a render farm) shows it.
 #pragma once
 
 #include <atomic>
@@ -10,8 +10,8 @@ namespace sparselens {
 
 class Progress {
 public:
-    // Called with the name of the stage and whole percents, each at most once, from the thread that reached it;
-    // empty: silence.
+    // Called with the name of the stage and a whole percentage, at most once for each, on the thread that reached
+    // it. An empty listener reports nothing.
     using Listener = std::function<void(const std::string &stage, int percent)>;
 
     Progress() = default;

@@ -1,4 +1,4 @@
-// Deterministic numbers for sampling: hashes and a low-discrepancy sequence. No state, no seed from outside.
+// Deterministic numbers for sampling: hashes and a low-discrepancy sequence, without state and without a seed.
 #pragma once
 
 #include <Imath/ImathVec.h>
@@ -19,7 +19,7 @@ constexpr std::uint32_t mix_bits(std::uint32_t h) {
 
 constexpr std::uint32_t mix_bits(std::uint32_t a, std::uint32_t b) { return mix_bits(a ^ mix_bits(b)); }
 
-// [0, 1), exact in float and double.
+// A number in [0, 1), exact in float and in double.
 constexpr double unit_interval(std::uint32_t h) { return double(h >> 8) * 0x1p-24; }
 
 // Point `index` of the two-dimensional Kronecker sequence with the plastic number (M. Roberts, "The

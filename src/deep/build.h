@@ -1,5 +1,5 @@
-// Making one LDI out of another, pixel by pixel: every stage that sorts, merges or drops samples expresses a new
-// sample as a weighted sum of old ones and builds its result row by row, in parallel.
+// Builds one LDI from another, pixel by pixel: every stage that sorts, merges or drops samples expresses a new sample
+// as a weighted sum of old ones and builds its result row by row, in parallel.
 #pragma once
 
 #include "deep/ldi.h"
@@ -9,8 +9,8 @@
 
 namespace sparselens {
 
-// value = sum of coefficient * (value of sample `index`), in every channel, alpha included. Ids come from the
-// first term.
+// value = sum of coefficient * (value of sample `index`), in every channel including alpha. Ids come from the first
+// term.
 struct Term {
     std::uint64_t index;
     double coefficient;
@@ -21,7 +21,7 @@ struct MergedSample {
     std::span<const Term> terms; // never empty
 };
 
-// The sample as it stands, without its terms.
+// The new sample without its terms.
 MergedSample sample_at(const Ldi &ldi, std::uint64_t index);
 
 // Appends to the last pixel of `out`.
@@ -34,7 +34,7 @@ Ldi empty_like(const Ldi &like);
 // `fill(pixel, out)` appends the samples of each pixel to `out`; rows run in parallel, each to its own piece.
 Ldi build_by_pixels(const Ldi &like, const std::function<void(std::size_t pixel, Ldi &out)> &fill);
 
-// Pieces that follow each other in pixel order (each with its own `begin`, starting at 0) as one.
+// Joins pieces that follow each other in pixel order, each with a `begin` that starts at 0.
 Ldi concatenate(const Ldi &like, std::span<const Ldi> pieces);
 
 inline float alpha_at(const Ldi &ldi, std::size_t alpha_channel, std::uint64_t index) {

@@ -1,14 +1,14 @@
-// Coloured alpha: coverage that differs from colour to colour, as of tinted glass and coloured smoke. By the
+// Per-channel alpha: coverage that differs between the colours, as for tinted glass and coloured smoke. By the
 // conventions of OpenEXR ("Technical Introduction", channel names; "Interpreting OpenEXR Deep Pixels") AR, AG and AB
 // are the coverage of R, G and B: composited, R of what lies behind is attenuated by AR, not by A.
 //
 // Which channel covers which, by the last part of its name (R of "diffuse.R"):
 //
-//   R, AR; G, AG; B, AB     the AR, AG, AB of the same layer, where it has them; else those of the picture
-//   all others              A, which is (AR + AG + AB) / 3 where the file has none (as OpenImageIO has it)
+//   R, AR; G, AG; B, AB     AR, AG, AB of the same layer if it has them, else those of the picture
+//   all others              A, which is (AR + AG + AB) / 3 where the file has none (as in OpenImageIO)
 //
-// Coverage is coloured where all three are there. What composites does it once for each channel of coverage, each
-// time with the colours that it covers; nothing else has to know.
+// Alpha is per channel where all three exist. Code that composites does so once for each channel of coverage, each time
+// with the colours that it covers; no other code has to know.
 #pragma once
 
 #include "ldi.h"
@@ -18,32 +18,32 @@
 
 namespace sparselens {
 
-// Makes A of AR, AG and AB where it is missing; else nothing.
+// Makes A of AR, AG and AB where A is missing.
 void add_mean_coverage(Ldi &ldi);
 void add_mean_coverage(Image &image);
 
-// The channel that covers channel k, npos: none does. Of a channel of coverage that is itself.
+// The channel that covers channel k, or npos. A channel of coverage is covered by itself.
 std::size_t coverage_of(std::span<const Channel> channels, std::size_t k);
 
-// The same of every channel of the LDI, but A where a coloured coverage is that of A in every sample.
+// The same for every channel of the LDI, but A where a per-channel alpha equals A in every sample.
 std::vector<std::size_t> coverage_by_channel(const Ldi &ldi);
 
-// A channel of coverage and those that it covers, itself among them.
+// A channel of coverage and the channels that it covers, including itself.
 struct Covered {
-    std::size_t coverage; // npos: there is none, all is opaque
+    std::size_t coverage; // npos: none, everything is opaque
     std::vector<std::size_t> channels;
 };
 
-// All channels of the LDI, by what covers them: A first, and alone where coverage is not coloured.
+// All channels of the LDI by their coverage: A first, and A alone where alpha is not per channel.
 std::vector<Covered> by_coverage(const Ldi &ldi);
 
-// make(alpha) makes an LDI out of another by its coverage channel `alpha`: the same samples whichever it is, each
-// with the values of all channels. Returns that of A, with the values that every channel has by its own coverage.
+// make(alpha) makes an LDI from another one by its coverage channel `alpha`: the same samples for each `alpha`, with
+// the values of all channels. Returns that of A, where every channel has its values by its own coverage.
 Ldi with_each_coverage(const Ldi &ldi, const std::function<Ldi(std::size_t alpha)> &make);
 
-// composite(ldi) makes a picture of an LDI whose coverage is its channel A. Returns that of an LDI with coloured
-// coverage. What it is given has besides the channels at hand R, G and B: by coverage and brightness it is decided
-// how pictures are gathered.
+// composite(ldi) makes a picture of an LDI whose coverage is its channel A. Returns that of an LDI with per-channel
+// alpha. The LDIs that it is given always have R, G and B, because coverage and brightness decide how a picture is
+// gathered.
 Image composited(const Ldi &ldi, const std::function<Image(const Ldi &)> &composite);
 
 } // namespace sparselens

@@ -1,10 +1,10 @@
-// Fewer samples a pixel, by perceptive depth R F / z, so that the LDI stays refocusable.
+// Fewer samples per pixel, by perceptive depth R F / z, so that the LDI can still be refocused.
 //
-// Samples of one cluster become one: opaque samples within the tolerance are averaged by weight (they are one
-// surface, seen by several views); all else is composited, so that flattening gives what it gave before; what an
-// opaque sample hides from the front is dropped. Depth (as 1 / z) and position become the mean over what each
-// sample shows, a cluster with a volume becomes a volume. In every pixel the CoC of no sample changes by more
-// than the extent of its cluster, R F / z of its front minus that of its back.
+// The samples of a cluster become one sample. Opaque samples within the tolerance are averaged by weight (they are one
+// surface, seen by several views); other samples are composited, so that the flattened picture does not change; samples
+// behind an opaque one are dropped. Depth (as 1 / z) and position become means, weighted by what each sample shows; a
+// cluster with a volume becomes a volume. The CoC of no sample changes by more than the extent of its cluster, which is
+// R F / z of its front minus that of its back.
 #pragma once
 
 #include "../base/progress.h"
@@ -15,7 +15,7 @@ namespace sparselens {
 struct ClusterOptions {
     double scale = 1;     // R F, pixels times scene units; with tolerance 0 any scale will do
     double tolerance = 0; // largest extent of a cluster, pixels of CoC; 0: only equal depths
-    int layers = 0;       // most samples a pixel, 0: as many as the tolerance asks for
+    int layers = 0;       // most samples per pixel; 0: as many as the tolerance requires
 };
 
 struct Clustered {

@@ -5,8 +5,8 @@
 
 namespace sparselens {
 
-// The tidy LDI composited front to back in file order: `over`, all channels of `ldi`, its data window, each by its
-// own coverage (channel_alpha.h).
+// Composites the tidy LDI front to back, in file order, by `over`: all channels of `ldi` over its data window, each by
+// its own coverage (channel_alpha.h).
 Image flatten(const Ldi &ldi);
 
 } // namespace sparselens

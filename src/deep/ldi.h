@@ -1,9 +1,8 @@
-// The layered depth image: in each pixel any number of samples, sorted by depth. One structure of arrays serves
-// an LDI of ours, a deep file of anyone's and a flat picture with depth (one sample a pixel).
+// The layered depth image (LDI): any number of samples in each pixel, sorted by depth. One structure of arrays holds
+// our own LDIs, deep files of other programs and flat pictures with depth (one sample per pixel).
 //
 // Pixel i of the data window, counted row by row (base/grid.h), owns samples [begin[i], begin[i + 1]).
-// Colours are premultiplied by coverage and scene-linear; what is not covered is transparent background at
-// infinity.
+// Colours are scene-linear and premultiplied by coverage. What is not covered is transparent background at infinity.
 #pragma once
 
 #include "../base/image.h"
@@ -39,10 +38,10 @@ struct SampleRange {
 
 struct Ldi {
     Windows windows;
-    std::vector<Channel> channels;    // what is carried: R, G, B, A and further layers; not Z or ldi.*
+    std::vector<Channel> channels;    // R, G, B, A and further layers, without Z and ldi.*
     std::vector<std::uint64_t> begin; // pixels + 1 entries, the first 0
 
-    // One entry a sample, in pixel order.
+    // One entry per sample, in pixel order.
     std::vector<float> z;      // planar depth of the front, scene units, (0, inf]
     std::vector<float> z_back; // >= z; empty where no sample has an extent (points)
     std::vector<float> dx, dy; // offset from the pixel centre, [-1/2, 1/2], y down; empty means 0

@@ -1,14 +1,14 @@
-// How orderly the samples of a deep picture are, as the attribute deepImageState of OpenEXR means it.
+// How the samples of a deep picture are ordered, in the sense of the attribute deepImageState of OpenEXR.
 #pragma once
 
 #include "ldi.h"
 
 namespace sparselens {
 
-// sorted: in every pixel z, then z_back, ascend. apart: in no pixel do samples overlap: no two points at one
-// depth, no point inside a volume (at its ends it may lie), no two volumes with a common stretch. Definitions:
-// ImfDeepImageState.h of OpenEXR, SORTED and NON_OVERLAPPING; both are TIDY. Depths that are no numbers are
-// neither.
+// sorted: z, then z_back, ascend in every pixel. apart: no samples of a pixel overlap, that is, no two points have the
+// same depth, no point lies inside a volume (it may lie at an end), and no two volumes have a stretch in common. These
+// are SORTED and NON_OVERLAPPING of ImfDeepImageState.h of OpenEXR; both together are TIDY. With a depth of NaN the
+// samples are neither.
 struct Order {
     bool sorted = true, apart = true;
 };

@@ -1,7 +1,7 @@
-// Pictures, in false colours, of what the gather makes of an LDI.
+// Pictures in false colours of how the gather treats an LDI.
 //
-// Windows are the LDI's; R, G, B in [0, 1] as a screen shows them, A is 1. The colours depend on the pixel
-// alone, never on the rest of the picture, so that frames can be compared.
+// The windows are those of the LDI; R, G and B are display values in [0, 1], and A is 1. The colours depend only on the
+// pixel, never on the rest of the picture, so that frames can be compared.
 #pragma once
 
 #include "../base/image.h"
@@ -11,19 +11,19 @@
 
 namespace sparselens {
 
-// CoC c of what each pixel shows first: white in focus, blue in front of it, red behind, half of the way at
-// |c| = 8 pixels. An empty pixel is sky.
+// The CoC c of the front sample of each pixel: white in focus, blue in front of it, red behind it, and half of the way
+// at |c| = 8 pixels. An empty pixel is sky.
 Image coc_colours(const Ldi &ldi, const ThinLens &lens);
 
-// The flattened picture in dark grey, brightness tone-mapped, v / (1 + v); green where what shows first is in
-// focus, |c| < 1 pixel.
+// The flattened picture in dark grey, with the brightness tone-mapped by v / (1 + v); green where the front sample is
+// in focus, |c| < 1 pixel.
 Image focus_colours(const Ldi &ldi, const ThinLens &lens);
 
-// Samples a pixel: 0 black, 1 grey, 2 blue, 3 cyan, 4 green, 5 yellow, 6 orange, 7 red, more white.
+// Samples per pixel: 0 black, 1 grey, 2 blue, 3 cyan, 4 green, 5 yellow, 6 orange, 7 red, more white.
 Image layer_colours(const Ldi &ldi);
 
-// Lens points a tile: none (copied) black, else from blue (16) by green to red (4096), by their logarithm.
-// `windows`: of the picture that the tiles divide.
+// Lens points per tile: none (copied) black, else by their logarithm from blue (16) through green to red (4096).
+// `windows` are those of the picture that the tiles divide.
 Image tile_colours(const LensTiles &tiles, const Windows &windows);
 
 } // namespace sparselens

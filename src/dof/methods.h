@@ -1,4 +1,4 @@
-// The ways from an LDI to the lens picture, by name.
+// The methods that make the lens picture from an LDI, by name.
 #pragma once
 
 #include "../base/image.h"
@@ -11,21 +11,21 @@
 
 namespace sparselens {
 
-// What can be asked of a method; each uses what concerns it.
+// The options of all methods; each uses its own.
 struct GatherOptions {
-    int layers = 8;         // selective: most layers a destination pixel keeps apart
+    int layers = 8;         // selective: the largest number of layers kept apart in a pixel
     LensGatherOptions lens; // lens: quality, lens points
 };
 
 struct GatherMethod {
     const char *name;
-    // The pixels of a window (EXR coordinates) within the LDI's data window, its channels, each by its
-    // own coverage (deep/channel_alpha.h). The LDI is tidy, the lens has a radius above 0.
+    // Gathers the pixels of a window (EXR coordinates) within the data window of the LDI: all its channels, each by its
+    // own coverage (deep/channel_alpha.h). The LDI must be tidy and the lens radius above 0.
     Image (*gather)(const Ldi &, const ThinLens &, const Imath::Box2i &window, const GatherOptions &,
                     Progress &);
 };
 
-// The default first.
+// The default method first.
 std::span<const GatherMethod> gather_methods();
 
 } // namespace sparselens

@@ -1,4 +1,4 @@
-// Plans on disk: what ldi-plan found worth rendering, as JSON with, if asked for, a mask EXR a view.
+// Plans on disk: what ldi-plan found worth rendering, as JSON and, on request, with one EXR mask per view.
 //
 //   {"version": 1, "center": FILE, "display_window": [x0, y0, x1, y1], "data_window": [...],
 //    "lens": {"radius": R, "focal_px": F, "focus_distance": D or null for infinity},
@@ -7,8 +7,9 @@
 //    "views": [{"name": "view_0", "lens_point": [ux, uy], "position": [X, Y], "share": S, "uncovered": PIXELS,
 //               "data_window": [...], "rectangles": [[x0, y0, x1, y1], ...], "mask": FILE}, ...]}
 //
-// Windows and rectangles are in EXR pixel coordinates, corners included; shares are of one full view; a mask (channel
-// A, half: 1 is asked for) is named relative to the plan's folder. Errors (Error) name the file and what is wrong.
+// Windows and rectangles are in EXR pixel coordinates, corners included; shares are shares of one full view. The name
+// of a mask (channel A, half, 1 in the pixels to render) is relative to the folder of the plan. Throws Error, naming
+// the file and the problem.
 #pragma once
 
 #include "../plan/plan.h"
@@ -18,20 +19,20 @@
 namespace sparselens {
 
 struct PlanSetting {
-    std::string centre; // the file planned for
+    std::string centre; // the file of the centre view
     Windows windows;
     ThinLens lens;
     int margin;
 };
 
-// `masks`: a folder, made if missing, or empty.
+// `masks` is a folder, created if missing, or empty for no masks.
 void write_plan(const std::string &path, const Plan &plan, const PlanSetting &setting,
                 const std::string &masks);
 
 struct RequestedView {
     std::string name;
     Imath::V2d u;   // lens point
-    PixelMask mask; // over the smallest window that holds it
+    PixelMask mask; // over the smallest window that contains it
 };
 
 struct PlanRequest {

@@ -1,5 +1,5 @@
-// Points on the lens: where views are rendered from, where rays leave. Unit disc, y up; every set is even in
-// area, in a fixed order.
+// Points on the lens, from which views are rendered and rays start. They lie in the unit disc, y up. Every set covers
+// the area evenly and has a fixed order.
 #pragma once
 
 #include <Imath/ImathVec.h>
@@ -12,11 +12,11 @@ namespace sparselens {
 std::vector<Imath::V2d> rim_lens_points(int n);
 
 // n points spread over the disc on a golden-angle spiral (H. Vogel, "A better way to construct the sunflower
-// head", 1979). One point: the centre.
+// head", 1979). A single point is the centre.
 std::vector<Imath::V2d> spiral_lens_points(int n);
 
-// Maps the unit square to the unit disc, areas kept in proportion and neighbours kept together (P. Shirley and
-// K. Chiu, "A low distortion map between disk and square", 1997).
+// Maps the unit square to the unit disc, preserving the proportions of areas and keeping neighbours together
+// (P. Shirley and K. Chiu, "A low distortion map between disk and square", 1997).
 Imath::V2d disc_point(const Imath::V2d &square);
 
 } // namespace sparselens

@@ -1,7 +1,7 @@
-// The aperture as the gather sees it: weighted points on the lens, each with a place inside the pixel through
-// which it looks. Any aperture is such a set; the gather knows nothing else of the lens's shape.
+// The aperture as the gather sees it: weighted points on the lens, each with a position inside the pixel through which
+// it looks. Any aperture can be described by such a set; the gather knows nothing else about the shape of the lens.
 //
-// A set with n points integrates over lens and pixel at once (four dimensions), evenly in area on both.
+// A set of n points integrates over the lens and the pixel at once (four dimensions), evenly in area on both.
 #pragma once
 
 #include <cstddef>
@@ -11,11 +11,11 @@ namespace sparselens {
 
 struct LensSample {
     float x, y;             // displacement of a point of CoC 1, pixels, y down: (u.x, -u.y * pixel aspect)
-    float pixel_x, pixel_y; // where in the pixel, [-1/2, 1/2)
+    float pixel_x, pixel_y; // position in the pixel, [-1/2, 1/2)
     float weight;           // > 0
 };
 
-// A disc of n >= 1 equal weights.
+// A disc of n >= 1 points of equal weight.
 std::vector<LensSample> disc_lens_samples(std::size_t n, double pixel_aspect);
 
 } // namespace sparselens

@@ -1,10 +1,10 @@
-// The point spread function of a sample out of focus: its light spread evenly over the disc of its circle of
-// confusion, seen by square-edged pixels (a box filter one pixel wide).
+// The point spread function of a sample out of focus: its light is spread evenly over the disc of its circle of
+// confusion and seen by square pixels (a box filter one pixel wide).
 //
-// Centre and pixels are in EXR pixel coordinates, y down; the disc is an ellipse, `radius` wide and
-// radius * pixel_aspect high. The weight of a pixel is area(disc and pixel) / area(disc): the share of the
-// light that falls into it. The weights of all pixels sum to 1. A radius of 0 is a point: all its light falls
-// into the pixel that holds it.
+// The centre and the pixels are in EXR pixel coordinates, y down. The disc is an ellipse with the half axes `radius`
+// and radius * pixel_aspect. The weight of a pixel is area(disc and pixel) / area(disc), the share of the light that
+// falls into it. The weights of all pixels sum to 1. A radius of 0 is a point, whose light all falls into the pixel
+// that contains it.
 #pragma once
 
 #include <Imath/ImathBox.h>
@@ -16,38 +16,38 @@ namespace sparselens {
 
 struct Psf {
     Imath::V2d centre;
-    double radius = 0; // [0, 1e4] pixels are tested
+    double radius = 0; // pixels; tested up to 1e4
     double pixel_aspect = 1;
 };
 
-// Below this radius a disc is taken for a point.
+// A disc of a smaller radius is treated as a point.
 inline constexpr double smallest_psf_radius = 1e-9;
 
-// The share of the light that falls into a box (EXR pixel coordinates), in closed form; error below 1e-14.
+// The share of the light that falls into a box (EXR pixel coordinates), in closed form; the error is below 1e-14.
 double psf_share(const Psf &psf, const Imath::Box2d &box);
 
-// The slow reference: the weight of pixel (x, y), in long double; error below 1e-9 of a pixel's area.
+// The slow reference: the weight of pixel (x, y), in long double; the error is below 1e-9 of the area of a pixel.
 double psf_weight(const Psf &psf, int x, int y);
 
-// The fast form: the weights in one row of pixels after the other, within a box. Error below 1e-6 of a pixel's
-// area. The arc is cut where it crosses edges of pixels; what lies under each piece is a trapezoid and the
-// segment between arc and chord. Square roots are taken once for each row and column of edges and each piece.
+// The fast form: the weights within a box, row by row. The error is below 1e-6 of the area of a pixel. The arc is cut
+// where it crosses the edges of pixels; the area under each piece is that of a trapezoid and of the segment between
+// the arc and its chord. One square root is taken for each row and column of edges and for each piece.
 class PsfRows {
 public:
     static constexpr int max_size = 64;
 
-    // The box is not empty, and at most max_size wide and high.
+    // The box must not be empty, and is at most max_size wide and high.
     PsfRows(const Psf &psf, const Imath::Box2i &box);
 
-    // Rows of the box that the disc touches.
+    // The rows of the box that the disc touches.
     int begin_row() const { return rows_.begin; }
     int end_row() const { return rows_.end; }
 
     struct Span {
         int begin = 0, end = 0; // columns
     };
-    // The columns of the box that the disc touches in row y of [begin_row, end_row); weights[x - box.min.x] is
-    // set for those and left alone elsewhere.
+    // The columns of the box that the disc touches in row y of [begin_row, end_row). Sets weights[x - box.min.x] for
+    // these columns and leaves the others as they are.
     Span row(int y, double *weights) const;
 
 private:
@@ -63,8 +63,7 @@ private:
     bool point_;
     double area_to_weight_;
     Span rows_, columns_;
-    // Half the chord of the disc along each edge between columns, and along each edge between rows, of those
-    // that the disc touches.
+    // Half the chord of the disc along each edge between columns and between rows that the disc touches.
     Table height_, width_;
 };
 

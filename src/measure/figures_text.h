@@ -1,5 +1,4 @@
-// Error figures as text: JSON for scripts, a table for people. Numbers are written with a point, whatever the
-// locale.
+// Error figures as text: JSON for scripts, a table for people. Numbers have a decimal point in every locale.
 #pragma once
 
 #include "image_error.h"
@@ -10,16 +9,16 @@
 namespace sparselens {
 
 struct NamedFigures {
-    std::string name; // of the region
+    std::string name; // that of the region
     ErrorFigures figures;
 };
 
-// One object: the figures of the whole picture by name, "pixels", "nonfinite": {"image": , "reference": },
-// and, where there are regions, "regions": {NAME: the same for the region}. What is infinite or unknown is
-// null; other numbers keep all their digits.
+// One object: the figures of the whole picture by name, "pixels", "nonfinite": {"image": , "reference": } and, where
+// there are regions, "regions": {NAME: the same for the region}. A figure that is infinite or unknown is null; other
+// numbers keep all their digits.
 std::string figures_as_json(const ErrorFigures &whole, std::span<const NamedFigures> regions);
 
-// A row a figure, a column for the whole picture and for each region.
+// One row per figure, with a column for the whole picture and one for each region.
 std::string figures_as_table(const ErrorFigures &whole, std::span<const NamedFigures> regions);
 
 } // namespace sparselens

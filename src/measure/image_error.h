@@ -1,16 +1,16 @@
-// How far a picture is from its reference: the figures of design.md section 6, over R, G and B.
+// How far a picture is from its reference: the figures of docs/design.md section 6, over R, G and B.
 //
-// With a the picture, b the reference, means over the three channels of the compared pixels:
-//   psnr             -10 log10 of the mean of (a - b)^2, dB: peak 1; infinite where they are equal
-//   psnr_tonemapped  the same of tone-mapped values (tone_map.h)
+// Let a be the picture and b the reference. Means are taken over the three channels of the compared pixels:
+//   psnr             -10 log10 of the mean of (a - b)^2, dB: peak 1; infinite where a = b
+//   psnr_tonemapped  the same for tone-mapped values (tone_map.h)
 //   relmse           mean of (a - b)^2 / (b^2 + 0.01)
 //   smape            mean of |a - b| / (|a| + |b| + 0.01), [0, 1)
 //   ssim             mean structural similarity (ssim.h) of the luma (Rec. 709 weights) of the tone-mapped
-//                    channels; a region counts the windows centred in it
+//                    channels; a region counts the windows that are centred in it
 //   p99              the smallest |a - b| that at least 99 % of the channel values do not exceed
-//   max, max_alpha   the largest |a - b|, and that of A
-// A pixel with a channel (R, G, B or A) that is infinite or NaN in either picture is counted and left out,
-// with every SSIM window that holds it. Figures of no pixels at all are NaN.
+//   max, max_alpha   the largest |a - b| of the colours, and that of A
+// A pixel with a channel (R, G, B or A) that is infinite or NaN in either picture is counted and left out, as is every
+// SSIM window that contains it. The figures of an empty set of pixels are NaN.
 #pragma once
 
 #include "../base/image.h"
@@ -44,13 +44,13 @@ inline constexpr std::array<Figure, 8> figure_table{{{"psnr", &ErrorFigures::psn
                                                      {"max", &ErrorFigures::max},
                                                      {"max_alpha", &ErrorFigures::max_alpha}}};
 
-// R, G, B, A of `image` over `target`'s data window, the corners of the display windows put onto each other.
-// Pixels that are not in `image` are transparent black; without A those that are have A = 1.
-// Error, naming `file`: no channel R, G or B; a display window of another size.
+// R, G, B and A of `image` over the data window of `target`; the corners of the display windows coincide. Pixels
+// outside `image` are transparent black. Without a channel A, the pixels inside have A = 1.
+// Throws Error, naming `file`, where a channel R, G or B is missing or the display window has another size.
 Image rgba_over(const Image &image, const Windows &target, const std::string &file);
 
-// Figures over all pixels, then over the pixels of each of `regions` regions: pixel i belongs to region r < 8
-// where bit r of region_bits[i] is set. Both pictures as rgba_over() gives them, of the same data window.
+// The figures over all pixels, then over the pixels of each of `regions` regions: pixel i belongs to region r < 8 if
+// bit r of region_bits[i] is set. Both pictures are as rgba_over() returns them and have the same data window.
 std::vector<ErrorFigures> image_error(const Image &image, const Image &reference,
                                       std::span<const std::uint8_t> region_bits = {},
                                       std::size_t regions = 0);

@@ -1,13 +1,12 @@
-// The three parts of a picture whose errors are told apart: design.md section 6.
+// The three regions of a picture for which errors are given separately: docs/design.md section 6.
 //
 // Each is a set of pixels, given by the signed CoC radius c (pixels) of the front sample of every pixel:
 //   in_focus     |c| < 1
 //   blurred      |c| > 8
-//   silhouettes  within the local |c| of a jump of c larger than 1 between two neighbours (of the four),
-//   where
-//                the local |c| is the larger of the two at the jump and at least 1. It is measured from the
-//                centres of the two pixels, in y stretched by the pixel aspect as the CoC itself is.
-// A pixel may belong to several, or to none.
+//   silhouettes  within the local |c| of a jump of c larger than 1 between two of the four neighbours, where the local
+//                |c| is the larger of the two at the jump, and at least 1. Distances are measured from the centres of
+//                the two pixels, in y stretched by the pixel aspect like the CoC itself.
+// A pixel may belong to several regions or to none.
 #pragma once
 
 #include "../base/image.h"
@@ -24,17 +23,16 @@ namespace sparselens {
 inline constexpr std::array<const char *, 3> region_names{"in_focus", "blurred", "silhouettes"};
 enum RegionBit : std::uint8_t { in_focus_bit = 1, blurred_bit = 2, silhouettes_bit = 4 };
 
-// Signed CoC radius of the front sample of each pixel of a tidy LDI; an empty pixel is background at
-// infinity.
+// The signed CoC radius of the front sample of each pixel of a tidy LDI. An empty pixel is background at infinity.
 std::vector<float> front_circles_of_confusion(const Ldi &ldi, const ThinLens &lens);
 
-// RegionBit set of each pixel; `c` holds width * height values in rows. The time does not depend on the sizes
-// of c.
+// The RegionBits of each pixel; `c` holds width * height values, row by row. The run time does not depend on the
+// values of c.
 std::vector<std::uint8_t> region_bits(std::span<const float> c, int width, int height,
                                       double pixel_aspect = 1);
 
-// The bits over another data window, the corners of the display windows put onto each other: a pixel outside
-// of `from` belongs to no region.
+// The bits over another data window; the corners of the display windows coincide. A pixel outside `from` belongs to no
+// region.
 std::vector<std::uint8_t> bits_over(std::span<const std::uint8_t> bits, const Windows &from,
                                     const Windows &target);
 

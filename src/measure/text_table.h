@@ -9,8 +9,8 @@ namespace sparselens {
 
 using TextRow = std::vector<std::string>;
 
-// Columns two spaces apart: the first `left` of them flush left, the others flush right. All rows have as many
-// cells as the first; no blanks at the ends of lines.
+// Columns are two spaces apart; the first `left` of them are left-aligned, the others right-aligned. All rows have as
+// many cells as the first. Lines have no trailing blanks.
 std::string text_table(std::span<const TextRow> rows, std::size_t left = 1);
 
 } // namespace sparselens

@@ -1,8 +1,9 @@
-// What a view from the rim of the lens would show and the centre view does not, found from the centre's depth alone:
-// its pixels are moved to where the rim view sees them (design.md section 1); where none lands, something else shows.
+// What a view from the rim of the lens would show but the centre view does not, found from the depth of the centre
+// alone: its pixels are moved to where the rim view sees them (docs/design.md section 1). Where none lands, the rim
+// view shows something else.
 //
-// Neighbouring pixels whose places differ by no more than a pixel are one surface, which has no cracks. What lies
-// beyond the frame is taken to go on as the frame's edge does.
+// Neighbouring pixels whose positions differ by at most a pixel are one surface without cracks. Beyond the border of
+// the picture the scene is assumed to continue like its edge.
 #pragma once
 
 #include "../base/image.h"
@@ -14,7 +15,7 @@
 
 namespace sparselens {
 
-// One value a pixel of a data window.
+// One value per pixel of a data window.
 struct PixelMask {
     Imath::Box2i data{{0, 0}, {-1, -1}};
     std::vector<std::uint8_t> set; // 0 or 1, row by row
@@ -29,8 +30,8 @@ struct PixelMask {
     std::size_t count() const;
 };
 
-// The rim view's picture of the centre view: perceptive depth R F / z of what lands in each of its pixels, the
-// nearest; `nothing` where none does. The data window is the centre view's.
+// The centre view as seen from the rim view: the perceptive depth R F / z of the nearest pixel that lands in each
+// pixel, or `nothing`. The data window is that of the centre view.
 struct MovedDepth {
     static constexpr float nothing = -1;
     PixelMask edge;   // where something may come in from beyond the frame, as near as what stands at its edge
@@ -38,17 +39,17 @@ struct MovedDepth {
     std::vector<float> depth; // of that, or of what goes on beyond the frame
 };
 
-// z: planar depth of the pixels of windows.data, inf where nothing is; u: the rim view's lens point.
+// z: the planar depth of the pixels of windows.data, inf where they are empty; u: the lens point of the rim view.
 MovedDepth move_depth(const Windows &windows, std::span<const float> z, const ThinLens &lens,
                       const Imath::V2d &u);
 
-// Pixels of the rim view that nothing lands in, cracks one pixel wide closed.
+// The pixels of the rim view in which nothing lands, without cracks of one pixel.
 PixelMask disoccluded(const MovedDepth &moved);
 
-// The same, and those that show what lies beyond the centre view's frame.
+// The same, and the pixels that show what lies beyond the border of the centre view.
 PixelMask unseen_by_centre(const MovedDepth &moved);
 
-// Everything within `margin` pixels (largest of both axes) of what is set.
+// All pixels within `margin` pixels, along each axis, of those that are set.
 PixelMask grown(const PixelMask &mask, int margin);
 
 } // namespace sparselens

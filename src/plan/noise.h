@@ -1,8 +1,8 @@
-// How noisy a rendered picture is, and how much of that a lens leaves.
+// The noise of a rendered picture, and how much of it a lens leaves.
 //
-// Noise is told from texture by its distribution: in a block of pixels, what differs from the mean of the four
-// neighbours is Gaussian if it is noise (quartile and median of its magnitude in the ratio 0.3186 to 0.6745 of a
-// Gaussian's), but sparse if it is edges. Blocks that are not Gaussian say nothing, and count as without noise.
+// Noise is distinguished from texture by its distribution: in a block of pixels, the differences from the mean of the
+// four neighbours are Gaussian for noise (the quartile and the median of their magnitudes are in the ratio 0.3186 to
+// 0.6745), but sparse for edges. Blocks that are not Gaussian count as free of noise.
 #pragma once
 
 #include "base/image.h"

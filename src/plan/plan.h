@@ -1,4 +1,4 @@
-// What is worth rendering besides the centre view, told from the centre view and the lens.
+// What is worth rendering in addition to the centre view, derived from the centre view and the lens.
 #pragma once
 
 #include "../base/progress.h"
@@ -11,7 +11,7 @@
 namespace sparselens {
 
 struct PlanOptions {
-    int views = 4;  // at most so many
+    int views = 4;  // the largest number of views
     int margin = 2; // pixels around what the centre view does not see: edges are told apart from both sides
     std::optional<double> noise = {}; // standard deviation of a pixel's noise, tone-mapped; empty: measured
 };
@@ -19,16 +19,16 @@ struct PlanOptions {
 struct PlannedView {
     Imath::V2d u; // lens point
     PixelMask mask;
-    std::size_t uncovered = 0; // pixels that something nearer hides from the centre view, margin not counted
+    std::size_t uncovered = 0; // pixels that something nearer hides from the centre view, without the margin
 };
 
-// Pixels beyond each edge of the frame from which the lens brings light inside: the largest CoC along the edge.
+// The pixels beyond each border from which the lens brings light inside: the largest CoC along that border.
 struct OverscanNeed {
     int left = 0, top = 0, right = 0, bottom = 0;
 };
 
 struct Plan {
-    std::vector<PlannedView> views; // none: the centre view is enough
+    std::vector<PlannedView> views; // empty: the centre view is enough
     OverscanNeed overscan;
     double noise = 0; // mean square, tone-mapped, in the lens picture of the centre view alone (noise.h)
     bool full_views = false; // noise is the larger error: whole views pay as further samples
@@ -36,8 +36,9 @@ struct Plan {
     double share() const; // of one full view, all views together
 };
 
-// Candidate views stand evenly on the rim, eight or more; of them the even ring of `views` is taken, from the right
-// on, unless others uncover noticeably more; and those that add nothing are left out. `centre` stands at the origin.
+// The candidates are eight or more views, spaced evenly on the rim. Of these the even ring of `views` views is taken,
+// starting at the right, unless others uncover noticeably more; views that add nothing are left out. `centre` stands at
+// the origin.
 Plan make_plan(const View &centre, const ThinLens &lens, const PlanOptions &options, Progress &progress);
 
 } // namespace sparselens

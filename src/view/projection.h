@@ -1,9 +1,9 @@
-// Projection matrices as renderers write them, brought to one convention.
+// Projection matrices as renderers write them, converted to one convention.
 //
-// A point of the world times worldToNDC, divided by its w, is a place in the picture: in OpenEXR's standard (0,0) is
-// the upper left and (1,1) the lower right corner of the display window; others write clip space, where the lower
-// left corner is (-1,-1) and the upper right (1,1), or leave y upward. Matrices act on row vectors, but may be
-// stored the other way round.
+// A point of the world times worldToNDC, divided by its w, is a position in the picture. In the standard of OpenEXR,
+// (0,0) is the upper left and (1,1) the lower right corner of the display window. Other writers use clip space, where
+// the lower left corner is (-1,-1) and the upper right one (1,1), or let y point up. Matrices act on row vectors, but
+// may be stored transposed.
 #pragma once
 
 #include <Imath/ImathMatrix.h>
@@ -15,26 +15,26 @@ namespace sparselens {
 
 struct Projection {
     double field;             // width of the picture over the focal length, (0, inf)
-    Imath::M44d world_to_ndc; // as OpenEXR's standard has it
-    bool looks_backward;      // world_to_camera has the scene at negative z: its z must change sign
+    Imath::M44d world_to_ndc; // in the standard of OpenEXR
+    bool looks_backward;      // world_to_camera puts the scene at negative z, so that its z must change sign
 };
 
-// What a worldToNDC in OpenEXR's standard says of the picture.
+// What a worldToNDC in the standard of OpenEXR tells about the picture.
 struct Frustum {
     double field;               // width of the picture over the focal length, (0, inf)
     Imath::V2d principal_point; // see Camera::principal_point
 };
 
-// Empty where it is no perspective projection from the place of that camera.
+// Empty where the matrix is not a perspective projection from the position of that camera.
 std::optional<Frustum> frustum_of(const Imath::M44d &world_to_ndc, const Imath::M44d &world_to_camera);
 
 struct ProjectionHints {
-    bool clip_space = false;     // known to be clip space, else either
-    std::optional<double> field; // as other attributes have it: tells the conventions apart
+    bool clip_space = false;     // known to be clip space; else it may be either
+    std::optional<double> field; // from other attributes; it tells the conventions apart
 };
 
-// Empty where `world_to_ndc` is no perspective projection from the place of that camera, or mirrors the picture, or
-// is so far off-axis that without a hint both conventions are as likely.
+// Empty where `world_to_ndc` is not a perspective projection from the position of that camera, mirrors the picture, or
+// is so far off-axis that without a hint both conventions are equally likely.
 std::optional<Projection> read_projection(const Imath::M44d &world_to_ndc, const Imath::M44d &world_to_camera,
                                           const ProjectionHints &hints);
 

@@ -1,4 +1,4 @@
-// A rendered picture with depth, and where its camera stood.
+// A rendered picture with depth, and the position of its camera.
 #pragma once
 
 #include "../base/image.h"
@@ -13,11 +13,11 @@ namespace sparselens {
 
 struct View {
     std::string name; // for messages
-    Image image;      // what is carried: R, G, B, A and further layers, without depth; premultiplied
-    // Depth of each pixel: planar, from the centre view's camera on, scene units, up to inf. At 0 or less nothing is
-    // shown: that lies behind the centre view's camera.
+    Image image;      // R, G, B, A and further layers, premultiplied, without depth
+    // The depth of each pixel: planar, measured from the camera of the centre view, in scene units, up to inf. A pixel
+    // of depth 0 or less shows nothing: it would lie behind that camera.
     std::vector<float> z;
-    // Of the camera, seen from the centre view's: scene units, x right, y up, axes parallel.
+    // The position of the camera relative to that of the centre view: scene units, x right, y up, parallel axes.
     Imath::V2d position{0, 0};
     Framing framing = {};
 };

@@ -1,13 +1,14 @@
-// Where the centre view shows what another view shows, and the other way round; the cameras' axes are parallel.
+// Where the centre view shows what another view shows, and vice versa. The axes of the cameras are parallel.
 //
-// With F the centre view's focal length, c and c' the principal points of the centre view and of the view, s the
-// view's zoom and (X, Y, Z) the place of its camera, what it shows at q at depth z lies in the centre view at
+// Let F be the focal length of the centre view, c and c' the principal points of the centre view and of the view, s the
+// zoom of the view and (X, Y, Z) the position of its camera. What the view shows at q at depth z lies in the centre
+// view at
 //
 //     p = c + (q - c') / s + (F (X, -Y) - Z (q - c') / s) / z
 //
-// by similar triangles (with wide pixels, Y counts by their aspect). Z, as all depths here, is measured from the centre
-// view's camera. Where both frame the scene alike (c = c', s = 1, Z = 0) it is p = q + (F / z) (X, -Y), to the bit.
-// Places are in pixels, y down.
+// by similar triangles (Y is multiplied by the pixel aspect). Z, like all depths here, is measured from the camera of
+// the centre view. Where both views frame the scene alike (c = c', s = 1, Z = 0), this is exactly p = q + (F / z) (X,
+// -Y). Positions are in pixels, y down.
 #pragma once
 
 #include "base/image.h"
@@ -15,20 +16,20 @@
 
 namespace sparselens {
 
-// Of a principal point, pixels: from the middle of the display window in display widths (see Camera).
+// A principal point, given in display widths from the middle of the display window (see Camera), in pixels.
 Imath::V2d in_pixels(const Imath::V2d &principal_point, const Windows &windows);
 
 class ViewMapping {
 public:
-    // `position` of the view's camera: scene units, x right, y up. focal_px: F.
+    // `position`: that of the camera of the view, scene units, x right, y up. `focal_px`: F.
     ViewMapping(const Imath::V2d &position, double focal_px, const Windows &windows, const Framing &view = {},
                 const Imath::V2d &centre_principal_point = {0, 0});
 
-    // p is at_infinity(q) + parallax(q) / z.
+    // p = at_infinity(q) + parallax(q) / z.
     Imath::V2d at_infinity(const Imath::V2d &q) const { return q * unzoom_ + offset_; }
     Imath::V2d parallax(const Imath::V2d &q) const { return step_ - q * approach_; }
 
-    // Where the view shows what the centre view shows at p; NaN: nowhere, it lies behind the view's camera.
+    // Where the view shows what the centre view shows at p; NaN where that lies behind the camera of the view.
     Imath::V2d in_view(const Imath::V2d &p, double inverse_z) const;
 
 private:

@@ -1,4 +1,4 @@
-// A view as an LDI: one sample in each pixel that shows something: A not 0, depth above 0.
+// A view as an LDI, with one sample in each pixel that shows something (A is not 0, depth is above 0).
 #pragma once
 
 #include "deep/ldi.h"
@@ -8,7 +8,7 @@
 
 namespace sparselens {
 
-// With the view's channels of these names, in this order; positions are the pixel centres, weights 1. Throws
+// The LDI has the channels of these names, in this order. Positions are the pixel centres and weights are 1. Throws
 // Error, naming the view, where it lacks a channel.
 Ldi deepen(const View &view, std::span<const Channel> channels);
 

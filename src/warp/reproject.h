@@ -10,9 +10,9 @@
 
 namespace sparselens {
 
-// One view pixel at its place in the centre view.
+// A pixel of a view at its position in the centre view.
 struct ReprojectedSample {
-    int x, y;             // centre pixel it falls in, EXR coordinates
+    int x, y;             // the pixel of the centre view, EXR coordinates
     float dx, dy;         // offset from that pixel's centre, [-1/2, 1/2], y down
     float inverse_z;      // 1 / planar depth
     std::uint32_t source; // index into the view's samples
@@ -20,13 +20,13 @@ struct ReprojectedSample {
 
 class Reprojection {
 public:
-    // The view's samples lie at the pixel centres, at depths above 0; it must outlive the reprojection.
+    // The samples of the view lie at the pixel centres, at depths above 0. The view must outlive the reprojection.
     Reprojection(const Ldi &view, const ViewMapping &mapping);
 
-    // A box that holds all pixels in which samples fall.
+    // A box that contains all pixels into which samples fall.
     Imath::Box2i reach() const;
 
-    // Appends every sample that falls in rows [first_row, last_row], in source order.
+    // Appends every sample that falls into the rows [first_row, last_row], in source order.
     void append_rows(int first_row, int last_row, std::vector<ReprojectedSample> &out) const;
 
     const ViewMapping &mapping() const { return mapping_; }
@@ -34,8 +34,7 @@ public:
 private:
     const Ldi &view_;
     ViewMapping mapping_;
-    std::vector<Imath::Box2d>
-        reach_; // of each source row: a box around the places of its samples, near or far
+    std::vector<Imath::Box2d> reach_; // of each source row: a box around the positions of its samples
 };
 
 } // namespace sparselens

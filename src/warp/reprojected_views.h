@@ -1,4 +1,5 @@
-// Views laid over the centre view: every sample of every view in the centre pixel it falls in.
+// Views reprojected onto the centre view: every sample of every view in the pixel of the centre view into which it
+// falls.
 #pragma once
 
 #include "view/view.h"
@@ -10,12 +11,12 @@
 
 namespace sparselens {
 
-// A sample of a view at its place in the centre view.
+// A sample of a view at its position in the centre view.
 struct ViewSample : ReprojectedSample {
     std::uint32_t view;    // 0 is the centre
     std::uint32_t surface; // of the pixel, as find_surfaces() numbers them
-    // What it counts in the mean of its surface: a mean of pixels that lie apart is blurred, so the ones near the
-    // middle of the pixel count more.
+    // The weight in the mean of its surface. Because a mean of pixels that lie apart is blurred, samples near the
+    // middle of the pixel have more weight.
     double weight;
 };
 
@@ -33,10 +34,10 @@ struct ReprojectedRows {
 
 class ReprojectedViews {
 public:
-    // views[0] is the centre; its channels are every view's. The order of the others does not matter. focal_px and
-    // scale: F and R F, see WarpOptions. jump: pixels on silhouettes become two samples where perceptive depth jumps
-    // by so many pixels (silhouettes.h); 0: they stay whole. Throws Error where display windows differ or a view
-    // lacks a channel of the centre.
+    // views[0] is the centre, whose channels every view must have. The order of the others does not matter. `focal_px`
+    // is F and `scale` is R F, see WarpOptions. Pixels on silhouettes become two samples where perceptive depth jumps
+    // by `jump` pixels (silhouettes.h); with a jump of 0 they stay whole. Throws Error where display windows differ or
+    // a view lacks a channel of the centre.
     ReprojectedViews(std::span<const View> views, double focal_px, double scale, double jump);
 
     std::size_t size() const { return sources_.size(); }
@@ -47,7 +48,7 @@ public:
         return samples(s.view).values[channel][s.source];
     }
 
-    // The samples that fall in rows [first_row, last_row] of the data window.
+    // The samples that fall into the rows [first_row, last_row] of the data window.
     ReprojectedRows place(const Imath::Box2i &data, int first_row, int last_row) const;
 
 private:

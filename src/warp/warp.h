@@ -1,7 +1,7 @@
-// Views to LDI: a centre view and any number of rim views warped into the centre's pixels.
+// From views to an LDI: a centre view and any number of rim views are warped into the pixels of the centre view.
 //
-// No sample is invented: each one is a pixel of some view, or an average of pixels of one surface. Two samples
-// belong to one surface where their perceptive depths R F / z differ by less than `surface_px` pixels.
+// No sample is invented: each one is a pixel of some view, or an average of pixels of one surface. Two samples belong
+// to the same surface if their perceptive depths R F / z differ by less than `surface_px` pixels.
 #pragma once
 
 #include "../base/progress.h"
@@ -15,26 +15,27 @@
 namespace sparselens {
 
 enum class Merge {
-    // Rim samples join the centre samples of the same surface, weighted; the rest are averaged with each other, and
-    // cover what the views' majority gives them (visibility_vote.h).
+    // Rim samples are averaged, by weight, with the centre sample of the same surface; the others are averaged with
+    // each other, with the coverage that the vote of the views gives them (visibility_vote.h).
     average,
-    keep, // one sample a surface, the centre's where it has one; nothing in front of the centre's sample
+    keep, // one sample per surface, that of the centre if it has one; nothing in front of the centre sample
 };
 
 struct WarpOptions {
     double focal_px = 1; // focal length, pixels
-    double radius = 0;   // aperture radius that perceptive depth is measured at, scene units
+    double radius = 0;   // the aperture radius that perceptive depth refers to, scene units
     Merge merge = Merge::average;
     double surface_px = one_surface_px;
-    bool split_silhouettes = true; // average: pixels that mix two surfaces become two samples (silhouettes.h)
-    bool test_photo_consistency =
-        true;                         // average: not where views disagree, out of focus (photo_consistency.h)
+    // With Merge::average: pixels that mix two surfaces become two samples (silhouettes.h).
+    bool split_silhouettes = true;
+    // With Merge::average: views that disagree out of focus are not averaged (photo_consistency.h).
+    bool test_photo_consistency = true;
     std::optional<double> focus = {}; // of the lens, if known, scene units
 };
 
-// views[0] is the centre; its windows and channels are the LDI's. The result does not depend on the order of the
-// others. Rim channels are matched by name. Throws Error where display windows differ or a rim view lacks a
-// channel of the centre.
+// views[0] is the centre, whose windows and channels the LDI has. The result does not depend on the order of the
+// others. Channels of rim views are matched by name. Throws Error where display windows differ or a rim view lacks a
+// channel of the centre view.
 Ldi warp(std::span<const View> views, const WarpOptions &options, Progress &progress);
 
 } // namespace sparselens

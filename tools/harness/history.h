@@ -1,5 +1,5 @@
-// What was done to a picture, in its metadata, by the names that OpenImageIO uses: the attribute Exif:ImageHistory
-// gets one line more, the command; Software says by what that was done.
+// The history of a picture in its metadata, under the names that OpenImageIO uses: the command is appended as a line to
+// the attribute Exif:ImageHistory, and Software names the program.
 #pragma once
 
 #include "harness/tool.h"
@@ -12,8 +12,8 @@
 
 namespace sparselens {
 
-// The command line as a shell reads it, in one line. Left out is what does not change the picture: where it is written,
-// threads, memory, messages and which other frames are made. So the same work gives the same bytes.
+// The command line as a shell reads it, in one line, without the options that do not change the picture: the output,
+// threads, memory, messages and the other frames. So the same work gives the same bytes.
 std::string command_line(const std::string &tool, const std::vector<std::string> &words);
 
 struct HistoryOptions {

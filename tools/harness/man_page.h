@@ -1,4 +1,4 @@
-// The option table of a tool, as --help prints it, in further forms.
+// The options of a tool, which --help prints, in other forms.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -7,17 +7,17 @@
 
 namespace sparselens {
 
-// For man(1), in roff: name, synopsis, arguments, options by group, exit status, environment.
+// A manual page for man(1), in roff: name, synopsis, arguments, options by group, exit status, environment.
 std::string man_page(const CLI::App &app, const std::string &version);
 
 // For bash: the options, the words that an option takes (its type "a|b"), else file names.
 std::string bash_completion(const CLI::App &app);
 
-// For zsh (a function _TOOL that $fpath finds) and for fish: the same, with what each option is for.
+// The same for zsh (a function _TOOL that is found in $fpath) and for fish, with a description of each option.
 std::string zsh_completion(const CLI::App &app);
 std::string fish_completion(const CLI::App &app);
 
-// --man and --completion, which print them.
+// Adds --man and --completion, which print them.
 void add_documentation_options(CLI::App &app, const std::string &version);
 
 } // namespace sparselens

@@ -1,4 +1,4 @@
-// Text that others had a say in, on its way to a terminal.
+// Text from other programs or files that is printed to a terminal.
 #pragma once
 
 #include <cctype>
@@ -6,8 +6,7 @@
 
 namespace sparselens {
 
-// One line, whatever a library put into its message or a file into its names; no control character reaches the
-// terminal.
+// The text as one line without control characters, whatever the message of a library or the names in a file contain.
 inline std::string one_line(std::string text) {
     for (char &c : text)
         if (std::iscntrl(static_cast<unsigned char>(c))) c = ' ';

@@ -1,4 +1,4 @@
-// What the process of a tool does before and around its work.
+// What the process of a tool does before and after its work.
 #pragma once
 
 #include "harness/tool.h"
@@ -11,7 +11,7 @@
 namespace sparselens {
 
 struct ProcessOptions {
-    int threads = 0; // 0 = all the process may use (its affinity mask)
+    int threads = 0; // 0: all that the process may use (its affinity mask)
     bool verbose = false;
     std::optional<std::uint64_t> max_memory;
 };
@@ -20,12 +20,12 @@ struct ProcessOptions {
 void add_process_options(CLI::App &app, ProcessOptions &options);
 void add_memory_option(CLI::App &app, ProcessOptions &options); // --max-memory
 
-// Reads the words. Nothing where there is work to do, else the exit code: --help and the like are answered, a
-// wrong usage is said (`where`: of which frame, or "").
+// Parses the words. Returns nothing where there is work to do, else the exit code, after answering --help and the like
+// or reporting a usage error. `where` names the frame in the message, or is empty.
 std::optional<int> parse_words(CLI::App &app, const std::vector<std::string> &words,
                                const std::string &where = "");
 
-// Threads, memory and signals, for the object's lifetime.
+// Sets threads, memory limit and signal handlers for the lifetime of the object.
 class Process {
 public:
     explicit Process(const ProcessOptions &options, const ToolContext &tool);
@@ -36,7 +36,7 @@ private:
     std::unique_ptr<ThreadLimit> threads_;
 };
 
-// Runs `work`, says in one line what it throws and returns the exit code.
+// Runs `work`, reports what it throws in one line and returns the exit code.
 int exit_code_of(const std::string &tool_name, const std::string &where, const std::function<void()> &work);
 
 } // namespace sparselens

@@ -1,5 +1,5 @@
-// --stats: what a stage left out, as one line of JSON a stage and frame, so that the stages of a pipe can
-// share a file. docs/stats.md says what the keys mean.
+// --stats: statistics on the work that a stage left out, as one line of JSON per stage and frame, so that the stages of
+// a pipe can share a file. docs/stats.md explains the keys.
 #pragma once
 
 #include "deep/cluster.h"
@@ -20,10 +20,10 @@ using Stats = nlohmann::ordered_json;
 Stats plan_stats(const Plan &plan, int views_allowed, const Windows &centre);
 Stats warp_stats(std::span<const View> views, const Ldi &ldi);
 Stats cluster_stats(const LoadedLdi &in, const Clustered &out);
-Stats gather_stats(const InputLdi &in, const LensTiles &tiles); // no tiles: nothing was gathered by them
+Stats gather_stats(const InputLdi &in, const LensTiles &tiles); // no tiles: nothing was gathered by tiles
 
-// Appends a line with the tool's name, the frame where there are several, and `fields`, to the file that
-// --stats names (- is stderr). Nothing where there is none. Error where it cannot be written.
+// Appends a line with the name of the tool, the frame if there are several, and `fields` to the file that --stats names
+// (- for stderr). Does nothing without --stats. Throws Error where the file cannot be written.
 void write_stats(const ToolContext &tool, const Stats &fields);
 
 } // namespace sparselens

@@ -1,4 +1,4 @@
-// What every executable shares: common options, exit codes, one clear line for an error.
+// What all tools share: common options, exit codes, and one clear line for an error.
 #pragma once
 
 #include "base/progress.h"
@@ -14,36 +14,36 @@
 namespace sparselens {
 
 struct ToolContext {
-    int threads = 0;                         // 0 = all the process may use
-    bool verbose = false;                    // say on stderr what was found and done
-    std::optional<std::uint64_t> max_memory; // that reading a file may take, bytes; empty: by its size
+    int threads = 0;                         // 0: all that the process may use
+    bool verbose = false;                    // report on stderr what was found and done
+    std::optional<std::uint64_t> max_memory; // bytes for reading a file; empty: by its size
     std::unique_ptr<Progress> progress;      // never null
-    std::string stats;                       // where write_stats() writes; empty: nowhere
-    std::optional<int> frame;                // of a range
-    std::string command_line;                // what it was asked to do, see history.h
+    std::string stats;                       // the file of write_stats(); empty: none
+    std::optional<int> frame;                // the number of the frame in a range
+    std::string command_line;                // see history.h
 
-    // Printed to stderr with the tool's name in front, where --verbose asks for it.
+    // With --verbose, prints the line to stderr after the name of the tool.
     void say(const std::string &line) const;
     std::string tool_name;
 };
 
 using Job = std::function<void(const ToolContext &)>;
 
-// What the tool reads: --max-memory, which limits it, is for those alone that read files.
+// What the tool reads: only tools that read files have --max-memory.
 enum class Reads { files, nothing };
 
-// Adds --version, -v, --threads to `app`, parses, runs `job` and turns what happens into an exit code:
-// 0 done, 1 failed (Error, memory, any exception), 2 wrong usage (CLI11's errors, UsageError).
+// Adds --version, -v and --threads to `app`, parses the command line, runs `job` and returns the exit code: 0 done,
+// 1 failed (Error, memory, any exception), 2 usage error (the errors of CLI11, UsageError).
 int run_tool(CLI::App &app, int argc, char **argv, const Job &job, Reads reads = Reads::files);
 
-// The same for each frame of a range (frames.h), with --frames, --skip-bad-frames, -u, --progress and
-// --stats. `prepare` adds the tool's options to an app and returns what does the work they ask for; it is
-// called anew for every frame.
+// The same for each frame of a range (frames.h), with --frames, --skip-bad-frames, -u, --progress and --stats.
+// `prepare` adds the options of the tool to an app and returns the job that they describe; it is called again for every
+// frame.
 using Prepare = std::function<Job(CLI::App &)>;
 int run_frames(const std::string &name, const std::string &description, int argc, char **argv,
                const Prepare &prepare);
 
-// A warning on stderr, always printed: "tool: warning: text".
+// Prints a warning to stderr, with or without --verbose: "tool: warning: text".
 void warn(const ToolContext &tool, const std::string &text);
 
 } // namespace sparselens

@@ -5,8 +5,8 @@
 
 namespace sparselens {
 
-// Every output that the options name is there, complete, and not older than any file that another option
-// names. What the options say else is not looked at: another f-number needs another name, or no -u.
+// Whether every output that the options name exists, is complete, and is not older than any file that another option
+// names. Other options are not compared: another f-number needs another output name, or no -u.
 bool is_up_to_date(const CLI::App &parsed);
 
 } // namespace sparselens

@@ -31,7 +31,7 @@ struct GatherCommand {
 
 void add_gather_options(CLI::App &app, GatherCommand &options);
 
-// UsageError where options do not go together.
+// Throws UsageError where options contradict each other.
 void check(const GatherCommand &options);
 
 } // namespace sparselens

@@ -1,4 +1,4 @@
-// Options that tools which write pictures share.
+// Options of the tools that write pictures.
 #pragma once
 
 #include "base/image.h"
@@ -11,21 +11,21 @@
 
 namespace sparselens {
 
-// "X,Y" as two finite numbers, or nothing.
+// The two finite numbers of "X,Y", or nothing.
 std::optional<Imath::V2d> parse_pair(const std::string &text);
 
-// The X,Y of --view: scene units, x right, y up. UsageError where it is none.
+// The X,Y of --view: scene units, x right, y up. Throws UsageError where the text is not X,Y.
 Imath::V2d view_offset(const std::string &text);
 
-// `name` X,Y: a pixel in EXR coordinates, y down.
+// Adds the option `name` X,Y: a pixel in EXR coordinates, y down.
 void add_pixel_option(CLI::App &app, const std::string &name, std::optional<Imath::V2i> &pixel,
                       const std::string &help);
 
-// --method, by the table of methods.
+// Adds --method, with the names of the table of methods.
 void add_method_option(CLI::App &app, const GatherMethod *&method);
 
-// -d half|float: the type colours are written in.
+// Adds -d half|float: the type in which colours are written.
 void add_type_option(CLI::App &app, bool &as_float);
-Image in_type(Image image, bool as_float); // half channels become float where asked
+Image in_type(Image image, bool as_float); // half channels become float if `as_float`
 
 } // namespace sparselens

@@ -1,4 +1,4 @@
-// --show: a picture of what the tool understood, in false colours (dof/false_colour.h), in place of the
+// The option --show: a picture in false colours (dof/false_colour.h) of what the tool understood, in place of the
 // gathered one.
 #pragma once
 
@@ -16,7 +16,7 @@ void add_show_option(CLI::App &app, Show &show);
 
 inline bool needs_gather(Show show) { return show == Show::picture || show == Show::tiles; }
 
-// `tiles`: what the gather chose; empty where nothing was gathered. The pixels of `window`.
+// The false colours over `window`. `tiles` is what the gather chose, empty where nothing was gathered.
 Image shown(Show show, const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window, LensTiles tiles);
 
 } // namespace sparselens

@@ -26,7 +26,7 @@ struct WarpCommand {
 
 void add_warp_options(CLI::App &app, WarpCommand &options);
 
-// Perceptive depth is measured at the lens if that is known, else at the outermost view.
+// Perceptive depth refers to the lens radius if that is known, else to the distance of the outermost view.
 WarpOptions warp_options(const WarpCommand &options, const LoadedViews &loaded);
 
 } // namespace sparselens

@@ -1,4 +1,4 @@
-// Which pixels a tool makes, and at which size.
+// The pixels that a tool makes, and their size.
 #pragma once
 
 #include "lens/thin_lens.h"
@@ -12,27 +12,27 @@ namespace sparselens {
 
 enum class OutputOverscan {
     keep, // the pixels of the file
-    grow, // and into the display window as far as the blur of what is there reaches: around it is nothing
+    grow, // also those of the display window that the blur reaches; around the data window there is nothing
     crop, // those in the display window
 };
 
 struct WindowOptions {
     OutputOverscan overscan = OutputOverscan::keep;
-    int proxy = 1;                      // so many pixels, across and down, become one
-    std::optional<Imath::Box2i> region; // of the full-size picture
+    int proxy = 1;                      // this number of pixels, across and down, becomes one
+    std::optional<Imath::Box2i> region; // in the full-size picture
 };
 
 void add_window_options(CLI::App &app, WindowOptions &options);
 
-// What is gathered, and which part of it is written.
+// The pixels that are gathered, and those of them that are written.
 struct GatherWindows {
     Imath::Box2i gathered, written;
-    std::optional<Ldi> changed; // of which; none: the LDI as it was
+    std::optional<Ldi> changed; // the LDI to gather; empty: the LDI as it was read
 };
 
-// Makes the lens, and of the LDI a copy, that of the proxy; the copy is grown where asked.
-// UsageError: a region or a display window that holds no pixel of the picture. Error: a picture grown beyond what the
-// memory of the LDI justifies (memory_limit.h).
+// Scales `lens` and a copy of the LDI down to the proxy, and pads the copy if --overscan=grow.
+// Throws UsageError where a region or a display window contains no pixel of the picture, and Error where the padded
+// picture needs more memory than the LDI justifies (memory_limit.h).
 GatherWindows gather_windows(const WindowOptions &options, const InputLdi &in, ThinLens &lens);
 
 } // namespace sparselens

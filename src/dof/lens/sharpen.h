@@ -16,7 +16,7 @@ namespace sparselens {
 
 // Every channel of a sample is changed by the same weights (so that layers still add up to the beauty), chosen
 // such that R, G and B do not become negative; what a sample gains its neighbours lose, so that light is kept.
-// `colours` are those of the LDI, one entry for each of `samples`.
+// `colours` holds the colours of `samples` (sample_colours.h).
 void sharpen_near_focus(const Ldi &ldi, const ThinLens &lens, const BlockedSamples &samples,
                         SampleColours &colours);
 

@@ -1,7 +1,6 @@
-// Scatter: the conceptual algorithm. Each sample is spread into its PSF with the exact kernel, each
-// destination pixel keeps the list of what fell into it, sorts it by depth and blends it by the rule of
-// blend.h, with as many layers as there are. Slow and obvious: it is what the selective gather is checked
-// against.
+// Scatter, the conceptual algorithm: each sample is spread over its PSF with the exact kernel. Each destination pixel
+// keeps a list of the fragments that fall into it, sorts it by depth and blends it by the rule of blend.h, with any
+// number of layers. It is slow and obvious, and serves as the reference of the selective gather.
 #pragma once
 
 #include "base/image.h"
@@ -16,7 +15,7 @@ struct ScatterOptions {
                             << 24; // held in memory at a time, about; the picture is worked on in parts
 };
 
-// As selective_gather.
+// Like selective_gather().
 Image scatter(const Ldi &ldi, const ThinLens &lens, const ScatterOptions &options, Progress &progress);
 
 } // namespace sparselens

@@ -1,6 +1,6 @@
-// Selective gather: each destination pixel gathers the samples whose PSF covers it, clusters them into a few
-// layers by perceptive depth and blends those front to back (blend.h states the rule). Tiles make it fast: a
-// tile looks only at the blocks of samples that can reach it (splat_blocks.h). scatter.h is its slow reference.
+// The selective gather: each destination pixel gathers the samples whose PSF covers it, clusters them into a few layers
+// by perceptive depth and blends these front to back (blend.h states the rule). Tiles make it fast: a tile visits only
+// the blocks of samples that can reach it (splat_blocks.h). scatter.h is its slow reference.
 #pragma once
 
 #include "base/image.h"
@@ -11,11 +11,11 @@
 namespace sparselens {
 
 struct SelectiveOptions {
-    int layers = 8; // most a destination pixel keeps apart, >= 1
+    int layers = 8; // the largest number of layers kept apart in a pixel, >= 1
 };
 
-// Windows and channels are the LDI's; where nothing is known the picture is transparent. Ids are the front
-// samples'. The LDI is tidy; the lens may have any radius > 0.
+// The windows and channels are those of the LDI; where nothing is known the picture is transparent. Ids are those of
+// the front samples. The LDI must be tidy; the lens may have any radius > 0.
 Image selective_gather(const Ldi &ldi, const ThinLens &lens, const SelectiveOptions &options,
                        Progress &progress);
 

@@ -1,6 +1,6 @@
-// The splats of an LDI in the order in which a gather wants them: cut into blocks, one a bin of depth in a
-// square of pixels, sorted front to back. What bounds a block (where it lies, how far it reaches) lets a tile
-// take or leave all of it at once, so that one huge circle of confusion costs only its own block.
+// The splats of an LDI in the order in which a gather needs them: cut into blocks, one per bin of depth in a square of
+// pixels, sorted front to back. The bounds of a block (its position and reach) let a tile accept or reject it as a
+// whole, so that a single huge circle of confusion costs only its own block.
 #pragma once
 
 #include "dof/selective/splats.h"
@@ -20,7 +20,7 @@ struct SplatBlock {
 };
 
 struct SplatBlocks {
-    // One entry a splat, block by block.
+    // One entry per splat, block by block.
     std::vector<double> x, y, radius;
     std::vector<float> values;         // [splat][size()]: coverage, known, colours, known * radius
     std::size_t colours = 0, bins = 0; // how many

@@ -1,4 +1,4 @@
-// share/ocio/config.ocio, carried within the library.
+// The text of share/ocio/config.ocio, compiled into the library.
 #pragma once
 
 namespace sparselens {

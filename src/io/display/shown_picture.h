@@ -1,4 +1,4 @@
-// Pictures as programs without OpenEXR open them: PNG, JPEG, TIFF and whatever else OpenImageIO writes.
+// Pictures for programs that cannot open OpenEXR: PNG, JPEG, TIFF and the other formats that OpenImageIO writes.
 #pragma once
 
 #include "../../base/image.h"
@@ -7,13 +7,14 @@
 
 namespace sparselens {
 
-// Whether the name ends like that of a format other than OpenEXR that OpenImageIO can write.
+// Whether the extension is that of a format, other than OpenEXR, that OpenImageIO can write.
 bool is_shown_picture(const std::string &path);
 
-// R, G, B (values as the screen shows them, premultiplied) of the display window; where the data window leaves it
-// uncovered, black. 8 bits, in TIFF and DPX 16. Where A is below 1 somewhere, and the format has alpha, it is written
-// too, and the colours unpremultiplied. Appears whole or not at all, as all outputs (see OutputFile).
-// Error: no R, G, B, or what OpenImageIO refuses, naming the file.
+// Writes R, G and B (display values, premultiplied) of the display window, black outside the data window, with 8 bits,
+// or 16 in TIFF and DPX: 0 and less becomes 0, 1 and more the largest value, NaN becomes 0. If A is below 1 somewhere
+// and the format has alpha, A is written too and the colours are unpremultiplied. The output is atomic (see
+// OutputFile). Any number of threads may write at the same time. Throws Error, naming the file, where R, G or B is
+// missing or OpenImageIO fails.
 void write_shown_picture(const std::string &path, const Image &image);
 
 } // namespace sparselens

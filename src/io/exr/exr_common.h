@@ -1,4 +1,4 @@
-// What the flat and the deep EXR code share. Not for use outside io/.
+// Functions that the flat and the deep EXR code share. Not for use outside io/.
 #pragma once
 
 #include "base/error.h"
@@ -16,34 +16,34 @@ namespace sparselens {
 
 Windows windows_of(const Imf::Header &header);
 
-// What a picture takes in memory that holds `values` floats a pixel, and one tile of its file (bytes).
+// The memory, in bytes, of a picture with `values` floats per pixel and of one tile of its file.
 double memory_of(const Imf::Header &header, std::size_t values);
 
-// The name of the depth channel: `asked`, or where that is empty Z, depth.Z or *.Depth.Z. Error where there is
-// none, or where it holds integers.
+// The name of the depth channel: `asked`, or if that is empty Z, depth.Z or *.Depth.Z. Throws Error where there is no
+// such channel, or where it holds integers.
 std::string find_depth_channel(const std::vector<Channel> &channels, const std::string &asked,
                                const std::string &path);
 
-// Whether there is one, of whatever type.
+// Whether there is a depth channel, of any type.
 bool has_depth_channel(const std::vector<Channel> &channels, const std::string &asked);
 
-// Whether the channel says where a sample lies, in our files: Z, ZBack, ldi.dx, ldi.dy or ldi.weight. Such a
-// channel is never carried along as if it were a colour.
+// Whether the channel holds the position or weight of a sample in our files: Z, ZBack, ldi.dx, ldi.dy or ldi.weight.
+// Such a channel is never carried along like a colour.
 bool is_position_channel(const std::string &channel);
 
-// A fresh header with these windows and channels that keeps all of `metadata` that does not describe how its
-// own pixels were stored.
+// A new header with these windows and channels. It keeps all of `metadata` except what describes how its own pixels
+// were stored.
 Imf::Header output_header(const Windows &windows, std::span<const Channel> channels,
                           const Imf::Header &metadata);
 
 Imf::PixelType imf_type(PixelType type);
 std::size_t bytes_of(PixelType type);
 
-// Stores floats as the channel's type, `count` values from `from` to `to`. Finite values beyond half's range
-// become its largest, never infinity; returns how many there were.
+// Stores `count` floats of `from` in the type of the channel to `to`. Finite values beyond the range of half become the
+// largest half, never infinity. Returns the number of such values.
 std::size_t store(PixelType type, const float *from, std::size_t count, char *to);
 
-// Calls work(); what OpenEXR throws leaves as Error that names the file.
+// Calls work() and turns what OpenEXR throws into an Error that names the file.
 template <typename Work>
 auto with_file_name(const std::string &path, const Work &work) {
     try {

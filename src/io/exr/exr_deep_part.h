@@ -12,21 +12,21 @@
 
 namespace sparselens {
 
-// The file that is read; its size is what it may ask memory for.
+// The file that is read; its size limits the memory that it may ask for.
 struct DeepSource {
     Imf::MultiPartInputFile &file;
     const std::string &path;
     std::uint64_t size;
-    double held = 0; // bytes that what has been read of it takes
+    double held = 0; // bytes of memory that the parts read so far take
 };
 
-// These of the part's channels: `depth` and depthBack, those that place samples, the others as values. `depth` empty:
-// there is none, and z stays empty. Samples come as they stand in the file. Error, naming the file: damage, or more
-// memory than it may ask for.
+// Reads `channels` of the part: `depth` and depthBack, those that position samples, and the others as values. If
+// `depth` is empty there is no depth, and z stays empty. Samples are returned as they stand in the file. Throws Error,
+// naming the file, where it is damaged or asks for more memory than it may.
 Ldi read_deep_part(const DeepSource &source, int number, const std::vector<FileChannel> &channels,
                    const std::string &depth);
 
-// A flat picture, one sample a pixel.
+// A flat picture as an LDI of one sample per pixel.
 Ldi ldi_of_flat(const Image &image, const std::string &depth);
 
 } // namespace sparselens

@@ -1,7 +1,7 @@
-// Flat EXR files: any part layout, scanline or tiled, any compression; every channel comes as float in memory.
+// Flat EXR files of any part layout and compression, scanline or tiled. In memory every channel is float.
 //
-// Metadata travels as OpenEXR's own header, untouched. `-` stands for standard input and output.
-// Errors (Error): what cannot be opened, read or written, naming the file and the channel.
+// Metadata is carried in the header of OpenEXR, unchanged. `-` stands for standard input and output.
+// Throws Error, naming the file and the channel, where something cannot be opened, read or written.
 #pragma once
 
 #include "../../base/image.h"
@@ -15,27 +15,28 @@ namespace sparselens {
 
 struct FlatFile {
     Image image;
-    Imf::Header header;          // of the part the channels came from
-    std::uint64_t file_size = 0; // bytes: what it may ask memory for, see check_memory()
+    Imf::Header header;          // that of the part with the beauty
+    std::uint64_t file_size = 0; // bytes; limits the memory that it may ask for, see check_memory()
 };
 
-// The flat parts of one view of the file as one picture: the beauty (by its part's name, else the first part), then
-// all others of its windows, a channel whose name is taken as one of its part's layer. `stereo_view` empty: the
-// file's default view (see exr_parts.h); A is made of AR, AG, AB where it is missing (see coloured_alpha.h).
+// The flat parts of one view of the file as one picture: the beauty (by the name of the part, else the first part),
+// then all other parts of the same windows. A channel whose name is taken becomes one of the layer of its part. An
+// empty `stereo_view` is the default view of the file (see exr_parts.h). A missing A is made of AR, AG and AB (see
+// channel_alpha.h).
 FlatFile read_flat_exr(const std::string &path, const std::string &stereo_view = {});
-// Of the beauty's part, without reading pixels.
+// The header of the part with the beauty, without reading pixels.
 Imf::Header read_flat_header(const std::string &path, const std::string &stereo_view = {});
-// `path`: for messages; `size` of the file, bytes.
+// `path` is for messages; `size` is that of the file, in bytes.
 FlatFile read_flat_part(Imf::MultiPartInputFile &file, const std::string &path, std::uint64_t size,
                         const std::string &stereo_view);
 
-// Takes the depth channel out of the picture (see read_ldi for how it is found), and drops what else says where
-// a sample lies (see is_position_channel), which is nothing to be carried like a colour.
+// Takes the depth channel out of the picture (see read_ldi for how it is found) and drops the other channels with
+// positions of samples (see is_position_channel), which must not be carried along like colours.
 std::vector<float> take_depth(Image &image, const std::string &depth_channel, const std::string &path);
 
-// Channels are stored in their own types. Of `metadata` everything is kept that does not describe the pixels
-// themselves (windows, channels, tiling); compression is ZIP. Returns how many values were
-// beyond what a half holds and became its largest, 65504.
+// Stores channels in their own types, with ZIP compression, or uncompressed into a pipe. Keeps all of `metadata` that
+// does not describe the pixels themselves (windows, channels, tiling). Returns the number of values beyond the range of
+// half, which became its largest value, 65504.
 std::size_t write_flat_exr(const std::string &path, const Image &image, const Imf::Header &metadata);
 
 } // namespace sparselens

@@ -1,8 +1,9 @@
-// A look at the headers of an EXR file before OpenEXR reads them: it allocates what an attribute claims, and finds
-// out afterwards that the file is not that long.
+// Checks the headers of an EXR file before OpenEXR reads them, because OpenEXR allocates the memory that an attribute
+// claims before it finds that the file is not that long.
 //
-// Layout: "OpenEXR File Layout" (openexr.com): after magic number and version, attributes of name, type, size and
-// value, an empty name ends the header; of several parts another empty name ends the list.
+// The layout is that of "OpenEXR File Layout" (openexr.com): the magic number and the version are followed by
+// attributes of name, type, size and value. An empty name ends a header; in a file of several parts another one ends
+// the list.
 #pragma once
 
 #include "io/files/file_stream.h"
@@ -11,8 +12,9 @@
 
 namespace sparselens {
 
-// Error, naming file and attribute, where one is larger than the file or not of its type's size, or where the header
-// does not end. What is no EXR file is left for OpenEXR to say. Leaves the stream at its beginning.
+// Throws Error, naming the file and the attribute, where an attribute is larger than the file or does not have the size
+// of its type, or where the header does not end. A file that is not an EXR file is left for OpenEXR to report. Leaves
+// the stream at its beginning.
 void check_header(InputStream &in, const std::string &path);
 
 } // namespace sparselens

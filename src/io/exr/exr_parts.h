@@ -1,10 +1,10 @@
-// The parts of a file, the views of a stereo file ("left", "right", ...), and which parts and channels are whose. Not
-// for use outside io/.
+// The parts of a file and the views of a stereo file ("left", "right", ...): which parts and channels belong to which
+// view. Not for use outside io/.
 //
-// Parts say their view by the attribute `view`; a single part may hold several views, which `multiView` lists, the
-// default first ("Storing Multi-View Images in OpenEXR Files", P. Hillman, F. Kainz, 2007). There VIEW.R and
-// LAYER.VIEW.R, or as others write it VIEW.LAYER.R, are R and LAYER.R of the view; R alone is the default view's; a
-// layer whose name holds no view is of all views that have none of that name of their own.
+// The attribute `view` names the view of a part. A single part may hold several views, which `multiView` lists, the
+// default view first ("Storing Multi-View Images in OpenEXR Files", P. Hillman, F. Kainz, 2007). In such a part VIEW.R
+// and LAYER.VIEW.R (or VIEW.LAYER.R, as some write it) are R and LAYER.R of the view, and R alone belongs to the
+// default view. A layer whose name contains no view belongs to all views that have no layer of that name of their own.
 #pragma once
 
 #include "base/image.h"
@@ -17,31 +17,32 @@
 
 namespace sparselens {
 
-// The part's name without its view, which the file format makes part of it: "diffuse" of "diffuse.left".
+// The name of the part without its view, which the file format includes: "diffuse" of "diffuse.left".
 std::string layer_of(const Imf::Header &header);
 
-// Whether the part bears a name that renderers give to the beauty, or none.
+// Whether the part has a name that renderers give to the beauty, or no name.
 bool is_beauty(const Imf::Header &header);
 
-// The views that are in a part, the default first. Empty: it does not say.
+// The views of a part, the default first. Empty where the part does not name them.
 std::vector<std::string> views_of(const Imf::Header &header);
 
-// Of the parts `numbers`, those of the view: `asked`, else the default view of the first of them (all that name no
-// view, if that one names none). Error, listing the views of those parts: there is none of the name asked for.
+// Those of the parts `numbers` that belong to the view `asked`, or if that is empty to the default view of the first
+// part (if that part names no view, all parts that name none). Throws Error, listing the views of the parts, where
+// there is no view of that name.
 struct PartsOfView {
-    std::string view; // empty: the file has none
+    std::string view; // empty: the file names none
     std::vector<int> numbers;
 };
 PartsOfView parts_of_view(const Imf::MultiPartInputFile &file, const std::vector<int> &numbers,
                           const std::string &asked, const std::string &path);
 
-// A channel as the file names it and as the picture of one view does.
+// A channel by its name in the file and as a channel of the picture of one view.
 struct FileChannel {
     std::string in_file;
     Channel channel;
 };
 
-// The part's channels in the view, R, G, B, A first, then by name. Error where one of them is subsampled.
+// The channels of the part in the view: R, G, B, A first, then by name. Throws Error where one is subsampled.
 std::vector<FileChannel> channels_of(const Imf::Header &header, const std::string &view,
                                      const std::string &path);
 

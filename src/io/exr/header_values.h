@@ -1,4 +1,4 @@
-// The attributes of an EXR header as numbers and texts, by names that do not depend on who wrote them.
+// The attributes of an EXR header as numbers and texts, by names that do not depend on the program that wrote them.
 #pragma once
 
 #include <ImfHeader.h>
@@ -10,17 +10,17 @@ namespace sparselens {
 
 struct HeaderValue {
     std::string name; // as the file spells it
-    // Lower case, without the "exr/", "nuke/", "input/", "openexr:" that Nuke and OpenImageIO put before names.
+    // In lower case, without the prefixes "exr/", "nuke/", "input/" and "openexr:" of Nuke and OpenImageIO.
     std::string key;
-    // Of numbers, vectors, boxes (min, max) and matrices (row by row); of a text, those it consists of ("1,0,0",
-    // "{1 0 0}"), else none.
+    // The elements of a number, vector, box (min, max) or matrix (row by row); of a text that consists of numbers
+    // ("1,0,0", "{1 0 0}") those numbers; else empty.
     std::vector<double> numbers;
     std::string text;
 };
 
 std::vector<HeaderValue> header_values(const Imf::Header &header);
 
-// The first whose key is `name`, whatever its case; a * in it stands for one part between slashes. Null: none.
+// The first value whose key is `name`, in any case, or null. A * in `name` stands for one part between slashes.
 const HeaderValue *find_value(const std::vector<HeaderValue> &values, const std::string &name);
 
 } // namespace sparselens

@@ -1,11 +1,11 @@
-// Folders for what is written.
+// Folders for output.
 #pragma once
 
 #include <string>
 
 namespace sparselens {
 
-// Makes the folder, and those it lies in, where they are missing. Error, naming it, where it cannot be made.
+// Creates the folder and its parents where they are missing. Throws Error, naming it, where that fails.
 void make_folder(const std::string &path);
 
 } // namespace sparselens

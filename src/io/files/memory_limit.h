@@ -1,8 +1,8 @@
-// How much memory a file may ask for: a few bytes of header can claim a picture of terabytes, so readers ask here
+// How much memory a file may ask for. A header of a few bytes can claim a picture of terabytes, so readers check here
 // before they allocate.
 //
-// Without another limit that is 64 MB and 1100 times the file's size: deflate, the densest of EXR's compressions
-// that keep all bits, packs at most 1032 bytes into one.
+// The default limit is 64 MB plus 1100 times the size of the file: deflate, the densest lossless compression of EXR,
+// packs at most 1032 bytes into one.
 #pragma once
 
 #include <cstdint>
@@ -11,11 +11,11 @@
 
 namespace sparselens {
 
-// For the whole process, before anything is read; empty: by each file's size.
+// Sets the limit of the process, before anything is read. Empty: the default limit, by the size of each file.
 void set_memory_limit(std::optional<std::uint64_t> bytes);
 
-// Error, naming the file and --max-memory, where `bytes` are more than a file of that size may ask for. `bytes` is a
-// double because what a header claims may overflow any integer.
+// Throws Error, naming the file and --max-memory, where a file of that size may not ask for so many bytes. `bytes` is a
+// double because the claim of a header may overflow any integer.
 void check_memory(const std::string &path, double bytes, std::uint64_t file_size);
 
 } // namespace sparselens

@@ -1,4 +1,4 @@
-// Base64 of RFC 4648, padded: how a page carries its pictures within itself.
+// Base64 of RFC 4648, with padding, by which a page embeds its pictures.
 #pragma once
 
 #include <span>

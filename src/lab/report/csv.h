@@ -1,8 +1,8 @@
-// report.csv: a line a row, after RFC 4180 (commas, CRLF left out as every reader takes LF, quotes where needed).
+// report.csv: one line per row, after RFC 4180 (commas, quotes where needed), but with LF, which every reader accepts.
 //
-// Seconds are wall time, total and by stage; rays are camera samples a pixel of all views together; then every
-// figure of measure/image_error.h over the whole picture and, prefixed by its name, over each region. What was not
-// measured, or has no value, is empty; the PSNR of equal pictures is inf.
+// Seconds are wall time, in total and by stage; rays are camera samples per pixel, all views together. Then follow the
+// figures of measure/image_error.h over the whole picture and, with its name as a prefix, over each region. What was
+// not measured, or has no value, is empty; the PSNR of equal pictures is inf.
 #pragma once
 
 #include "lab/report/row.h"
@@ -12,10 +12,11 @@
 
 namespace sparselens::lab {
 
-// `rows` of any number of scenes, those of one scene together: each is compared with its scene's ray tracing.
+// `rows` may be of several scenes, with those of one scene together; each is compared with the ray tracing of its
+// scene.
 std::string report_as_csv(std::span<const ReportRow> rows);
 
-// The rows of one scene after the other.
+// The rows of the scenes, one scene after the other.
 std::vector<std::span<const ReportRow>> by_scene(std::span<const ReportRow> rows);
 
 } // namespace sparselens::lab

@@ -1,7 +1,8 @@
-// A measured curve of quality over cost: what it says between its points, never beyond them.
+// A measured curve of quality over cost, which is interpolated between its points and never extrapolated.
 //
-// Cost (seconds, or rays a pixel) is above 0, quality is in dB of PSNR. Between neighbouring points quality is linear
-// in the logarithm of cost, as it is for plain Monte Carlo: twice the samples, half the mean square error, 3 dB.
+// The cost (seconds, or rays per pixel) is above 0; the quality is in dB of PSNR. Between neighbouring points the
+// quality is linear in the logarithm of the cost, as for plain Monte Carlo: twice the samples halve the mean square
+// error, 3 dB.
 #pragma once
 
 #include <optional>
@@ -15,21 +16,21 @@ struct CurvePoint {
     bool operator==(const CurvePoint &) const = default;
 };
 
-// Sorted by cost, costs all different.
+// Sorted by cost; all costs are different.
 using Curve = std::vector<CurvePoint>;
 
-// Of points at one cost the best is kept; points that are not finite, or of no cost, say nothing.
+// Keeps the best of several points at one cost, and drops points that are not finite or have no cost.
 Curve curve_of(std::span<const CurvePoint> points);
 
-// Quality at that cost; nothing where it lies outside of the measured costs.
+// The quality at that cost, or nothing where it lies outside the measured costs.
 std::optional<double> quality_at(const Curve &curve, double cost);
 
-// At which cost a curve first reaches a quality. The ends of the curve are bounds, not estimates.
+// The cost at which a curve first reaches a quality. The ends of the curve are bounds, not estimates.
 struct Reached {
     enum Bound {
         exactly, // at `cost`, interpolated
-        at_most, // the first point is that good already
-        beyond,  // no point is: `cost` is the largest measured
+        at_most, // the first point already has that quality
+        beyond,  // no point has that quality: `cost` is the largest measured
         unknown  // the curve has no points
     } bound = unknown;
     double cost = 0;

@@ -1,4 +1,4 @@
-// Numbers as reports print them, with a point whatever the locale.
+// Numbers as reports print them, with a decimal point in every locale.
 #pragma once
 
 #include <string>
@@ -7,6 +7,6 @@ namespace sparselens::lab {
 
 std::string fixed(double value, int decimals); // "-" for NaN, "inf"
 std::string significant(double value, int digits);
-std::string shortest(double value); // all digits it takes to read the same value again; "" for NaN
+std::string shortest(double value); // the fewest digits that read back as the same value; "" for NaN
 
 } // namespace sparselens::lab

@@ -1,4 +1,4 @@
-// The report as one HTML page that opens without a server: pictures, plots, style and script are within it.
+// The report as one HTML page with embedded pictures, plots, style and script, which opens without a server.
 #pragma once
 
 #include "lab/report/row.h"
@@ -11,18 +11,19 @@ namespace sparselens::lab {
 
 struct PagePicture {
     std::string title;
-    std::string png; // the file's bytes
+    std::string png; // the bytes of the file
 };
 
 struct PageScene {
     std::span<const ReportRow> rows;
     std::vector<std::string> sentences; // the verdict
     std::vector<std::string> plots;     // SVG files
-    std::vector<PagePicture> pictures;  // of one size; the first is the reference, the second shown beside it
+    // All of the same size; the first is the reference, the second is shown beside it.
+    std::vector<PagePicture> pictures;
 };
 
 struct Page {
-    std::vector<std::string> facts; // machine, command, date: a line each
+    std::vector<std::string> facts; // machine, command, date: one line each
     std::vector<PageScene> scenes;
 };
 

@@ -1,4 +1,4 @@
-// Style and script of the page: share/report/page.css and page.js, compiled in.
+// The style and the script of the page: share/report/page.css and page.js, compiled in.
 #pragma once
 
 namespace sparselens::lab {

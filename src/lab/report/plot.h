@@ -1,8 +1,8 @@
-// The plots of a report as a gnuplot script: error against seconds and against rays, both axes logarithmic, a line
-// a method.
+// The plots of a report as a gnuplot script: error against seconds and against rays, with logarithmic axes and one line
+// per method.
 //
-// Error is the root mean square of tone-mapped differences, 10^(-psnr_tonemapped / 20); the right axis says it in
-// dB. The script writes NAME-seconds and NAME-rays, .svg and .png, into the folder it is run in.
+// The error is the root mean square of tone-mapped differences, 10^(-psnr_tonemapped / 20); the right axis shows it in
+// dB. The script writes NAME-seconds and NAME-rays, as .svg and .png, into the folder where it is run.
 #pragma once
 
 #include "lab/report/row.h"
@@ -12,7 +12,7 @@
 
 namespace sparselens::lab {
 
-// `rows` of one scene; `name`: of the files, without what a shell or gnuplot would stumble over.
+// `rows` are of one scene. `name` is that of the files, without characters that are special to a shell or gnuplot.
 std::string plot_script(std::span<const ReportRow> rows, const std::string &name);
 
 } // namespace sparselens::lab

@@ -1,5 +1,5 @@
-// One measurement of a report: a scene, a way of making depth of field, what it was allowed, what it took, how far
-// from the reference it came.
+// One measurement of a report: the scene, the method of making depth of field, its budget, its time, and its distance
+// from the reference.
 #pragma once
 
 #include "measure/image_error.h"
@@ -13,39 +13,39 @@
 
 namespace sparselens::lab {
 
-// What a picture's time goes into.
+// The stages that the time of a picture is divided into.
 enum class Stage : std::size_t { render, plan, warp, cluster, process };
 inline constexpr std::array<const char *, 5> stage_names{"render", "plan", "warp", "cluster", "process"};
 
-// Where a row stands in the comparison.
+// The role of a row in the comparison.
 enum class Role {
     other,
-    sparse_lens, // sparse views seen through each point of the lens: what sparselens is for
-    ray_tracing  // distributed over the lens: what all else is measured against
+    sparse_lens, // sparse views seen through each point of the lens: the method of sparselens
+    ray_tracing  // distributed over the lens: the method that others are compared with
 };
 
-// Errors of two kinds, each the tone-mapped PSNR (dB) of one picture against another.
+// The two causes of error, each as the tone-mapped PSNR (dB) of one picture against another.
 struct ErrorCauses {
-    double sampling; // the row's picture against the same layers seen through many lens points
-    double layers;   // that picture against the reference: what the layers lack
+    double sampling; // the picture against the same layers seen through many lens points
+    double layers;   // the latter against the reference: what the layers lack
 };
 
 struct ReportRow {
     std::string scene, renderer, processor;
-    std::string budget; // of the renderer: "16 samples"
+    std::string budget; // that of the renderer: "16 samples"
     Role role = Role::other;
     int views = 1;
-    double rays = 0;                 // camera samples a pixel, all views together
+    double rays = 0;                 // camera samples per pixel, all views together
     std::array<double, 5> seconds{}; // wall time of each Stage
-    int runs = 0;                    // medians of so many; 0: times were given with the pictures
+    int runs = 0;                    // the times are medians of so many runs; 0: they came with the pictures
     double peak_mb = 0;              // memory of the largest process, MiB
     std::array<ErrorFigures, 1 + region_names.size()> errors{}; // the whole picture, then each region
     std::optional<ErrorCauses> causes;
-    std::string picture, difference; // PNG, relative to the report's folder
+    std::string picture, difference; // PNG files, relative to the folder of the report
 };
 
 double total_seconds(const ReportRow &row);
 double quality(const ReportRow &row);          // tone-mapped PSNR of the whole picture, dB
-std::string method_name(const ReportRow &row); // renderer and processor: a line in plots
+std::string method_name(const ReportRow &row); // renderer and processor: one line in the plots
 
 } // namespace sparselens::lab

@@ -1,4 +1,4 @@
-// The report in a terminal: a table of one scene's rows, and what they say.
+// The report in a terminal: a table of the rows of one scene, and the verdict.
 #pragma once
 
 #include "lab/report/row.h"

@@ -1,6 +1,6 @@
-// What a scene's rows say: when sparse views seen through the lens are worth it, and when tracing the lens is.
+// The verdict of the rows of a scene: where sparse views seen through the lens are worth it, and where ray tracing is.
 //
-// All from measured curves of distributed ray tracing (lab/report/curve.h): interpolated, never extrapolated.
+// It follows from measured curves of distributed ray tracing (lab/report/curve.h), which are never extrapolated.
 #pragma once
 
 #include "lab/report/curve.h"
@@ -14,39 +14,39 @@
 
 namespace sparselens::lab {
 
-// Quality of distributed ray tracing over its seconds, and over its rays a pixel.
+// The quality of distributed ray tracing over its seconds, and over its rays per pixel.
 struct RayTracingCurves {
     Curve by_seconds, by_rays;
 };
 RayTracingCurves ray_tracing_curves(std::span<const ReportRow> rows);
 
-// One row beside ray tracing.
+// One row compared with ray tracing.
 struct RowVerdict {
-    Reached seconds, rays; // what ray tracing takes for the row's error
+    Reached seconds, rays; // what ray tracing takes for the error of the row
     std::optional<double>
-        equal_time; // dB the row is better in the same time; nothing outside of what was measured
+        equal_time; // by how many dB the row is better in the same time; empty outside the measured range
 };
 RowVerdict row_verdict(const ReportRow &row, const RayTracingCurves &ray_tracing);
 
-// Indices are into the scene's rows.
+// All numbers are indices of the rows of the scene.
 struct Beaten {
-    std::size_t row, by; // `by` takes no longer and is no worse, and is better in one of the two
-    std::size_t others;  // so many more do as well; `by` has the least error of them all
+    std::size_t row, by; // `by` is no slower and no worse, and better in one of the two
+    std::size_t others;  // the number of other such rows; `by` has the least error of them all
 };
 
 struct SceneVerdict {
     std::optional<std::size_t> best;         // the sparse row with the lens gather of least error
-    Reached crossing_seconds, crossing_rays; // where ray tracing passes it
+    Reached crossing_seconds, crossing_rays; // where ray tracing reaches its quality
     std::vector<std::size_t> slower;         // sparse lens rows worse than ray tracing of the same time
-    std::size_t below = 0;                   // how many sparse lens rows take less time than the crossing
-    std::vector<Beaten> beaten;              // those of them that rows of other systems beat
+    std::size_t below = 0;      // the number of sparse lens rows that are faster than the crossing
+    std::vector<Beaten> beaten; // those of them that are beaten by rows of other systems
 };
 SceneVerdict scene_verdict(std::span<const ReportRow> rows);
 
-// "3.2", "< 3.2" or "> 3.2" in the unit given, "-" where nothing is known; `scale` divides the cost.
+// "3.2", "< 3.2" or "> 3.2", or "-" where nothing is known; the cost is divided by `scale`.
 std::string reached_text(const Reached &reached, double scale = 1);
 
-// The same as sentences for people, one a line: where each of the two is the better choice.
+// The same in sentences for people, one per line: where each of the two is the better choice.
 std::vector<std::string> verdict_sentences(std::span<const ReportRow> rows, const SceneVerdict &verdict);
 
 } // namespace sparselens::lab

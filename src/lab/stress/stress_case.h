@@ -1,4 +1,4 @@
-// Stiff and extreme cases, each with what it should give and how far it may be off: the table behind dof-stress.
+// Stiff and extreme cases, each with its expected result and a bound on the error: the table behind dof-stress.
 #pragma once
 
 #include <cmath>
@@ -7,20 +7,20 @@
 
 namespace sparselens::lab {
 
-// What one case measured.
+// The measurements of one case.
 struct StressResult {
-    double error = 0; // as the case's claim says; at most its bound
-    double energy =
-        std::numeric_limits<double>::quiet_NaN(); // relative change of the sum of light; NaN: has no meaning
-    double seconds = 0, pixels = 0;               // of the kernel alone
+    double error = 0; // as the claim of the case defines it; at most its bound
+    // The relative change of the sum of light; NaN where it has no meaning.
+    double energy = std::numeric_limits<double>::quiet_NaN();
+    double seconds = 0, pixels = 0; // for the kernel alone
 };
 
 struct StressCase {
     const char *name;
     const char *claim; // what is compared with what
     double bound;
-    const char *reason;    // for the bound
-    StressResult (*run)(); // what it throws is a failure
+    const char *reason;    // the reason for the bound
+    StressResult (*run)(); // an exception is a failure
 };
 
 struct StressFamily {
@@ -37,7 +37,7 @@ std::span<const StressCase> scale_stress();
 
 std::span<const StressFamily> stress_families();
 
-// Light may neither be lost nor made: docs/tolerances.md, section 3.
+// Light may be neither lost nor created: docs/tolerances.md, section 3.
 inline constexpr double energy_bound = 1e-4;
 
 inline bool energy_is_kept(const StressResult &r) { return !(std::abs(r.energy) > energy_bound); }
@@ -45,8 +45,8 @@ inline bool holds(const StressCase &c, const StressResult &r) {
     return r.error <= c.bound && energy_is_kept(r);
 }
 
-// Time against the plain case: a textured plane at a CoC of 4 pixels. Of a larger picture the time a pixel, of a
-// smaller one the whole.
+// The time relative to the plain case, a textured plane at a CoC of 4 pixels: per pixel for a larger picture, in total
+// for a smaller one.
 double times_plain(const StressResult &result);
 
 } // namespace sparselens::lab

@@ -1,6 +1,6 @@
-// Deep pictures from the centre of the lens, as other renderers of the literature deliver them. Colours are
-// premultiplied; the sky is a sample of alpha 1 at z = inf. A scene's slabs follow as samples with Z and ZBack,
-// whole and untidied.
+// Deep pictures from the centre of the lens, as other renderers in the literature produce them. Colours are
+// premultiplied; the sky is a sample of alpha 1 at z = inf. The slabs of the scene follow as samples with Z and ZBack,
+// whole and not tidied.
 #pragma once
 
 #include "deep/ldi.h"
@@ -8,18 +8,18 @@
 
 namespace sparselens::lab {
 
-// Depth peeling: the `layers` nearest surfaces along the ray through each pixel's centre, hidden ones too.
-// Where a surface is peeled is decided at the pixel centre; its colour and coverage are averaged over those of
-// the pixel's samples that meet it, so textures are filtered and no sample mixes two surfaces.
+// Depth peeling: the `layers` nearest surfaces along the ray through the centre of each pixel, including hidden ones.
+// The depth of a surface is that at the pixel centre. Its colour and coverage are averages over those samples of the
+// pixel that meet it, so textures are filtered and no sample mixes two surfaces.
 Ldi render_peeled(const Tracer &tracer, const RenderSettings &settings, int layers, int samples,
                   std::uint32_t stream, Progress &progress);
 
-// The scene cut by planes into `strata` depth intervals, equal in perceptive depth from the nearest visible
-// surface to infinity (the first one begins at the camera); each is rendered as if the others were not there, box
-// filter, one depth a sample, at the pixel centre where the stratum has one. What lies behind another surface of
-// its own stratum is lost; what another stratum hides is there, wherever the rays of the centre go. In a pixel
-// where a surface crosses from one stratum to the next each holds its share of it, and `over` lets a little of the
-// background through between them: the known seams of such renderers.
+// The scene, cut by planes into `strata` depth intervals that are equal in perceptive depth from the nearest visible
+// surface to infinity (the first one begins at the camera). Each is rendered as if the others did not exist, with a box
+// filter and one depth per sample, at the pixel centre where the stratum has one. A surface that another surface of its
+// own stratum hides is lost; one that another stratum hides is kept. In a pixel where a surface crosses from one
+// stratum to the next, each stratum holds its share of the surface, and `over` lets a little of the background through
+// between them: these are the known seams of such renderers.
 Ldi render_strata(const Tracer &tracer, const RenderSettings &settings, int strata, int samples,
                   std::uint32_t stream, Progress &progress);
 

@@ -5,7 +5,7 @@
 
 namespace sparselens::lab {
 
-// Pseudo-random number in [0, 1) of three integers; its bits are part of the scenes' definition.
+// A pseudo-random number in [0, 1) from three integers; its bits are part of the definition of the scenes.
 double hash(int a, int b, int c);
 
 Paint floor_tiles(const Imath::V3d &position);
@@ -15,18 +15,18 @@ Paint stripes(const Imath::V3d &position);
 Paint dark(const Imath::V3d &position);
 Paint lamp(const Imath::V3d &position); // radiance (60, 48, 30)
 
-// Of the scene "slant": tiles that look equally large from the origin wherever they lie, so that detail stays the
-// same while blur changes, and none is finer than a pixel.
+// For the scene "slant": tiles that look equally large from the origin wherever they lie, so that the detail stays the
+// same while the blur changes, and none is finer than a pixel.
 Paint even_tiles(const Imath::V3d &position);
 
-// Of the scene "lamps": radiance 1000; radiance (0.02, 0.02, 0.025).
+// For the scene "lamps": radiance 1000; radiance (0.02, 0.02, 0.025).
 Paint bright_lamp(const Imath::V3d &position);
 Paint night(const Imath::V3d &position);
 
-// Of the scene "mirror": what it shows depends on where it is seen from.
+// For the scene "mirror": the colour depends on the direction of view.
 Paint chrome(const Imath::V3d &position);
 
-// Of the scene "mist": all emit; the sheets cover in part.
+// For the scene "mist": all materials emit; the sheets have partial coverage.
 Paint near_sheet(const Imath::V3d &position);
 Paint focus_sheet(const Imath::V3d &position);
 Paint far_sheet(const Imath::V3d &position);

@@ -1,5 +1,5 @@
-// The scene "planes" in closed form: rectangles that face the camera, textured with plane waves, so that what
-// any filter makes of them can be calculated.
+// The scene "planes" in closed form: rectangles that face the camera, textured with plane waves, so that the result of
+// any filter can be calculated.
 #pragma once
 
 #include "lab/trace/scene.h"
@@ -11,8 +11,8 @@
 
 namespace sparselens::lab {
 
-// mean + amplitude sin(frequency . (x / z, y / z) + phase): the frequency counts radians per unit of slope, so
-// that one of radians per pixel is it divided by the focal length in pixels. y up.
+// mean + amplitude sin(frequency . (x / z, y / z) + phase), y up. The frequency is in radians per unit of slope;
+// divided by the focal length in pixels it is in radians per pixel.
 struct PlaneWave {
     double mean, amplitude;
     Imath::V2d frequency;
@@ -21,11 +21,11 @@ struct PlaneWave {
 
 struct FacingPlane {
     double z;
-    Imath::Box2d slopes;               // where it is: x / z and y / z
-    std::array<PlaneWave, 3> radiance; // of R, G, B; it emits
+    Imath::Box2d slopes;               // its extent in x / z and y / z
+    std::array<PlaneWave, 3> radiance; // of R, G and B; the plane emits
 };
 
-// Nearest first; the last one fills the picture, and more.
+// The nearest first; the last one fills more than the picture.
 std::span<const FacingPlane> facing_planes();
 
 double radiance(const PlaneWave &wave, const Imath::V2d &slope);

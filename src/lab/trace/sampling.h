@@ -1,7 +1,7 @@
-// Sample points for ray tracing: a Sobol sequence with its own Owen scrambling in every pixel. Points of one
-// pixel fill the unit cube evenly, those of different pixels have nothing to do with each other.
+// Sample points for ray tracing: a Sobol sequence with separate Owen scrambling in every pixel. The points of one pixel
+// fill the unit cube evenly; those of different pixels are independent.
 //
-// Neither class holds state: any part of any pixel's points can be asked for, in any order, from any thread.
+// Neither class has state: any part of the points of any pixel can be computed, in any order, on any thread.
 #pragma once
 
 #include <Imath/ImathVec.h>
@@ -29,17 +29,17 @@ private:
     std::array<std::vector<std::uint32_t>, dimensions> reversed_; // lowest bit first
 };
 
-// The samples of a picture: where in its pixel each one lies, where on the lens, where on the light. Three pairs
+// The samples of a picture: the position of each one in its pixel, on the lens and on the light. They are three pairs
 // of coordinates of one Sobol point, all in the unit square.
 class PixelSamples {
 public:
-    // regular, and count = n * n: positions in the pixel are an n x n grid, the same in every pixel.
-    // `stream` tells pictures apart, so that their noise is independent.
+    // If `regular` and count = n * n, the positions in the pixel are an n x n grid, the same in every pixel.
+    // `stream` distinguishes pictures, so that their noise is independent.
     PixelSamples(int count, bool regular, std::uint32_t stream);
 
     int count() const { return int(points_.count()); }
 
-    // Of samples [first, first + out.size()) of pixel (x, y).
+    // Those of samples [first, first + out.size()) of pixel (x, y).
     void in_pixel(int x, int y, std::uint32_t first, std::span<Imath::V2d> out) const;
     void on_lens(int x, int y, std::uint32_t first, std::span<Imath::V2d> out) const;
     void on_light(int x, int y, std::uint32_t first, std::span<Imath::V2d> out) const;
@@ -48,7 +48,7 @@ private:
     void pairs(std::size_t dimension, int x, int y, std::uint32_t first, std::span<Imath::V2d> out) const;
 
     SobolPoints points_;
-    std::vector<Imath::V2d> grid_; // empty: not regular
+    std::vector<Imath::V2d> grid_; // empty if not regular
     std::uint32_t stream_;
 };
 

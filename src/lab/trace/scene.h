@@ -1,5 +1,5 @@
-// What a test scene is made of: a handful of primitives with procedural materials, before a camera at the
-// origin that looks along +z with y up (x right). Lengths are scene units, light is scene-linear.
+// The elements of a test scene: a few primitives with procedural materials in front of a camera at the origin, which
+// looks along +z with x right and y up. Lengths are in scene units; light is scene-linear.
 #pragma once
 
 #include "view/camera.h"
@@ -12,22 +12,22 @@
 
 namespace sparselens::lab {
 
-// What a material says of one of its points.
+// A material at one of its points.
 struct Paint {
-    Imath::C3f colour;  // albedo, [0, 1]; radiance where it emits; not premultiplied
-    float coverage = 1; // share of what lies behind that it hides, [0, 1]
-    bool emits = false; // neither sun nor lamp changes it
-    float mirror = 0;   // share of the light that a perfect mirror sends instead of the colour, [0, 1]
+    Imath::C3f colour;  // albedo, [0, 1], or radiance if it emits; not premultiplied
+    float coverage = 1; // the share of the background that it hides, [0, 1]
+    bool emits = false; // independent of the sun and the light
+    float mirror = 0;   // share of a perfect mirror in place of the colour, [0, 1]
 };
 
 using Material = Paint (*)(const Imath::V3d &position);
 
 struct Quad {
-    std::array<Imath::V3d, 4> corners; // in order around it, in one plane
+    std::array<Imath::V3d, 4> corners; // in order, in one plane
     Material material;
 };
 
-// Its outside is visible, its inside is not.
+// Visible from outside only.
 struct Sphere {
     Imath::V3d centre;
     double radius;
@@ -35,22 +35,22 @@ struct Sphere {
 };
 
 // A homogeneous volume between two planes that face the camera. A ray that crosses it from z0 to z1 loses
-// 1 - exp(-density (z1 - z0)) of what comes from behind, whatever its slant: optical depth counts planar depth,
-// so one deep sample with Z and ZBack holds it exactly, for every lens point.
+// 1 - exp(-density (z1 - z0)) of the light from behind, whatever its slant: optical depth is proportional to planar
+// depth, so that one deep sample with Z and ZBack describes the slab exactly for every lens point.
 struct Slab {
     double z_front, z_back;
     double density;    // optical depth per scene unit of planar z
-    Imath::C3f colour; // radiance of the slab were it opaque
+    Imath::C3f colour; // radiance of the slab if it were opaque
 };
 
 struct Scene {
     std::vector<Quad> quads;
     std::vector<Sphere> spheres;
     std::vector<Slab> slabs;
-    bool mirrors = false;     // a material reflects: every hit has to be asked
-    bool translucent = false; // slabs, or coverage below 1: a ray has to composite every hit
-    Imath::C3f sky{0, 0, 0};  // radiance of what hits nothing; alpha 1, at z = inf
-    Camera camera;            // its default lens: focal length, film back, f-number, focus, scene unit
+    bool mirrors = false;     // some material reflects, so every hit is checked
+    bool translucent = false; // there are slabs, or coverage below 1: rays composite every hit
+    Imath::C3f sky{0, 0, 0};  // radiance of rays without a hit; alpha 1, z = inf
+    Camera camera;            // the default lens: focal length, sensor width, f-number, focus, scene unit
 };
 
 } // namespace sparselens::lab

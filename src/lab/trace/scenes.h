@@ -16,7 +16,7 @@ struct SceneEntry {
 
 std::span<const SceneEntry> scene_table();
 
-// Error where there is none of that name.
+// Throws Error where no scene has that name.
 Scene build_scene(std::string_view name);
 
 } // namespace sparselens::lab

@@ -1,4 +1,4 @@
-// What the hits of camera rays look like, and what a ray brings back.
+// The appearance of what camera rays hit, and the light that a ray returns.
 #pragma once
 
 #include "lab/trace/composite.h"
@@ -6,33 +6,33 @@
 
 namespace sparselens::lab {
 
-// sun: albedo (0.9 |n . l| + 0.15), no shadows. area: the first term comes from a square light, estimated by one
-// random point of it and a shadow ray to there: soft shadows, and noise as a path tracer's.
+// sun: albedo (0.9 |n . l| + 0.15), without shadows. area: the first term comes from a square light and is estimated by
+// one random point of the light and a shadow ray to it, which gives soft shadows and the noise of a path tracer.
 enum class Light { sun, area };
 
-// Colour (not premultiplied) and coverage of what each ray hits; mirrors show one bounce. light_points: one a hit,
-// in the unit square, even over it; the sun does not look at them.
+// The colour (not premultiplied) and coverage of what each ray hits; mirrors show one bounce. `light_points` are one
+// per hit, spread evenly over the unit square; the sun does not use them.
 void shade(const Tracer &tracer, Light light, std::span<const Ray> rays, std::span<const Hit> hits,
            std::span<const Imath::V2d> light_points, std::span<Imath::C4f> out);
 
-// What each ray brings back: colour and alpha, premultiplied. light_points: one a ray. Rays of one call should
-// be alike.
+// The premultiplied colour and alpha that each ray returns. `light_points` are one per ray. The rays of one call should
+// be similar.
 void trace_radiance(const Tracer &tracer, Light light, std::span<const Ray> rays,
                     std::span<const Imath::V2d> light_points, std::span<Imath::C4f> out);
 
-// Everything along a ray, visible or not, the sky last; kept from ray to ray to spare allocations.
+// Everything along a ray, visible or not, the sky last. Reused from ray to ray to avoid allocations.
 struct LayerBuffers {
     std::vector<Ray> rays;
     std::vector<Hit> hits;
     std::vector<Imath::V2d> light_points;
     std::vector<Imath::C4f> colours;
-    std::vector<Layer> layers; // one a hit
+    std::vector<Layer> layers; // one per hit
 };
 void trace_layers(const Tracer &tracer, Light light, const Ray &ray, const Imath::V2d &light_point,
                   LayerBuffers &buffers);
 
-// The one depth of a ray in a scene of partial coverage: where surfaces have covered half of what lies behind.
-// Slabs have no one depth and do not count.
+// The single depth of a ray in a scene of partial coverage: that at which surfaces have covered half of the background.
+// Slabs have no single depth and do not count.
 double visible_depth(const Tracer &tracer, const Ray &ray);
 
 } // namespace sparselens::lab

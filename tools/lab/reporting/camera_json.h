@@ -1,4 +1,4 @@
-// camera.json, which lies beside the pictures dof-trace renders and beside ready-made ones.
+// camera.json, which lies beside the pictures of dof-trace and beside ready-made ones.
 #pragma once
 
 #include <Imath/ImathVec.h>
@@ -14,11 +14,11 @@ struct CameraSummary {
     int width = 0, height = 0;
     double focal_mm = 0, sensor_width_mm = 0, focus_distance = 0, lens_radius = 0;
     std::vector<Imath::V2d> views;         // lens points of view_0.exr, ..., unit disc, y up
-    int view_samples = 0;                  // a pixel
-    std::map<std::string, double> seconds; // that each picture took to render
+    int view_samples = 0;                  // per pixel
+    std::map<std::string, double> seconds; // the render time of each picture
 };
 
-// Of the camera.json in that folder. Error, naming the file, where it is missing or not as expected.
+// Reads the camera.json in that folder. Throws Error, naming the file, where it is missing or invalid.
 CameraSummary read_camera_summary(const std::filesystem::path &folder);
 
 } // namespace sparselens::lab

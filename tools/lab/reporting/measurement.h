@@ -1,4 +1,4 @@
-// From the files that the steps left to the rows of the report.
+// Makes the rows of the report from the files that the steps wrote.
 #pragma once
 
 #include "harness/tool.h"
@@ -11,12 +11,12 @@
 
 namespace sparselens::lab {
 
-// Measures every row against the scene's reference; `times`: one a step. Writes a PNG of each row's picture and
-// of its difference into NAME/ beside the picture, as tone-mapped as the figures are, the difference eightfold.
+// Measures every row against the reference of the scene; `times` are one per step. Writes PNG files of the picture of
+// each row and of its difference, tone-mapped like the figures, the difference multiplied by 8.
 std::vector<ReportRow> measure_rows(const ScenePlan &plan, std::span<const StepTimes> times,
                                     const std::string &folder, const ToolContext &tool);
 
-// For the page's viewer: the reference, the best of the sparse views, then each method's fastest and best.
+// The pictures of the page: the reference, the best of the sparse views, then the fastest and best of each method.
 std::vector<PagePicture> page_pictures(const ScenePlan &plan, std::span<const ReportRow> rows,
                                        const std::string &folder);
 

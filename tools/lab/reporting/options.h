@@ -1,4 +1,4 @@
-// What dof-report is asked for.
+// The command line of dof-report.
 #pragma once
 
 #include "lab/reporting/runner.h"

@@ -1,4 +1,4 @@
-// The report's files: report.csv, plots/, index.html.
+// The files of the report: report.csv, plots/, index.html.
 #pragma once
 
 #include "harness/tool.h"
@@ -16,12 +16,12 @@ struct MeasuredScene {
     std::vector<ReportRow> rows;
 };
 
-// `facts`: lines about machine and command for the page. Plots need gnuplot; without it they are left out, with a
-// warning.
+// `facts` are lines about the machine and the command for the page. Plots need gnuplot; without it they are left out,
+// with a warning.
 void write_report(const std::string &folder, std::span<const MeasuredScene> scenes,
                   std::vector<std::string> facts, const ToolContext &tool);
 
-std::string machine_fact(int threads); // what is measured on, and when
-std::string load_fact(); // how busy it is: the mean number of running processes of the last minute
+std::string machine_fact(int threads); // the machine and the date
+std::string load_fact();               // its load: the mean number of running processes in the last minute
 
 } // namespace sparselens::lab

@@ -1,4 +1,4 @@
-// Other programs as child processes: no shell, so file names need no quoting.
+// Runs other programs as child processes, without a shell, so that file names need no quoting.
 #pragma once
 
 #include <string>
@@ -8,16 +8,16 @@ namespace sparselens::lab {
 
 struct ProcessRun {
     double seconds = 0; // wall time from start to end
-    double peak_mb = 0; // largest memory it had resident, MiB
+    double peak_mb = 0; // largest resident memory, MiB
 };
 
-// Runs command[0] with the other words as arguments in `folder` and waits for its end. Its standard input is
-// empty, what it writes to standard output is dropped. The peak includes what the caller itself has resident when
-// it starts the child (the kernel counts so), so callers keep small while they measure.
-// Error, with the command and the last line of its standard error, where it cannot start or does not exit with 0.
+// Runs command[0] with the other words as arguments in `folder` and waits for its end. Its standard input is empty, and
+// its standard output is discarded. The kernel includes the resident memory of the caller at the start of the child in
+// the peak, so callers should stay small while they measure. Throws Error, with the command and the last line of its
+// standard error, where it cannot start or does not exit with 0.
 ProcessRun run_process(const std::vector<std::string> &command, const std::string &folder);
 
-// The command as one would type it, for messages and records.
+// The command as one would type it (without quoting), for messages and records.
 std::string command_line(const std::vector<std::string> &command);
 
 } // namespace sparselens::lab

@@ -1,4 +1,4 @@
-// A folder of ready-made views, their camera.json telling where they stand and what they took to render.
+// A folder of ready-made views, whose camera.json holds their positions and render times.
 #pragma once
 
 #include "lab/reporting/camera_json.h"
@@ -10,7 +10,7 @@ namespace sparselens::lab {
 
 class ReadyScene : public SceneSource {
 public:
-    // Error where the folder lacks its reference, or a camera.json in it cannot be read.
+    // Throws Error where the folder lacks its reference, or a camera.json in it cannot be read.
     explicit ReadyScene(const std::filesystem::path &folder);
 
     std::string name() const override { return name_; }
@@ -34,7 +34,7 @@ private:
 
     std::filesystem::path folder_;
     std::string name_;
-    std::vector<ViewFolder> views_; // by samples a pixel; of one count once
+    std::vector<ViewFolder> views_; // by samples per pixel; each number once
     CameraSummary camera_;          // of the folder itself
 };
 

@@ -1,8 +1,8 @@
-// Runs steps one at a time and remembers each, so that a report goes on where it stopped.
+// Runs steps one at a time and records each, so that a report continues where it stopped.
 //
-// A step's record (steps/NAME.json in the report's folder) holds what it was: its commands, the contents of the
-// programs, the records of its inputs, size and time of the files it was given. While that is unchanged and its
-// outputs are there, the step is not run again. Damaged records count as none.
+// The record of a step (steps/NAME.json in the folder of the report) holds its commands, the contents of the programs,
+// the records of its inputs, and the sizes and times of the files that it was given. While these are unchanged and its
+// outputs exist, the step is not run again. A damaged record counts as missing.
 #pragma once
 
 #include "harness/tool.h"
@@ -18,14 +18,14 @@ namespace sparselens::lab {
 
 struct RunOptions {
     std::string tools;  // folder of the programs
-    std::string folder; // of the report
-    int threads = 0;    // of every program
-    int runs = 3;       // of a step that is timed; its times are their medians
-    double enough = 3;  // seconds: a step whose runs took longer together is not run again
-    std::optional<std::uint64_t> max_memory = {}; // of every program, for reading a file
+    std::string folder; // that of the report
+    int threads = 0;    // for every program
+    int runs = 3;       // of a timed step, whose times are medians
+    double enough = 3;  // seconds; a step whose runs took longer in total is not run again
+    std::optional<std::uint64_t> max_memory = {}; // for every program, for reading a file
 };
 
-// One a step, in their order.
+// The times of the steps, in their order.
 std::vector<StepTimes> run_steps(std::span<const Step> steps, const RunOptions &options,
                                  const ToolContext &tool);
 

@@ -1,4 +1,4 @@
-// The work behind a report: steps that run programs, each after those whose files it reads.
+// The work behind a report: steps that run programs, each after the steps whose files it reads.
 #pragma once
 
 #include "lab/report/row.h"
@@ -12,25 +12,25 @@ namespace sparselens::lab {
 struct StepCommand {
     Stage stage;
     std::vector<std::string>
-        words; // program first, as it lies in the folder of the tools; paths relative to the report
+        words; // the program, by its name in the folder of the tools, and arguments; paths are relative to the report
 };
 
 struct Step {
     std::string name{}; // unique, fit for a file name; may hold /
     std::vector<StepCommand> commands{};
-    std::vector<std::size_t> inputs{};  // of earlier steps
-    std::vector<std::string> given{};   // files read that no step makes
-    std::vector<std::string> outputs{}; // files that are there afterwards
-    std::string fresh{};                // a folder emptied beforehand; empty: none
+    std::vector<std::size_t> inputs{};  // indices of earlier steps
+    std::vector<std::string> given{};   // files that are read but made by no step
+    std::vector<std::string> outputs{}; // files that exist afterwards
+    std::string fresh{};                // a folder that is emptied first; empty: none
     bool scratch = false;               // that folder is needed between the commands only
-    // Pictures that a dof-trace rendered into this folder beside what is wanted: their seconds are taken off.
+    // Pictures that dof-trace rendered into this folder in addition; their seconds are subtracted.
     std::string traced{};
     std::vector<std::string> uncounted{};
-    bool timed = true; // else it is run once: nobody asks how long it took
-    double weight = 1; // seconds it might take: for the time left alone
+    bool timed = true; // else it is run once, because its time is not needed
+    double weight = 1; // estimated seconds, used only for the time left
 };
 
-// What running a step gave: medians.
+// The times of a step, as medians.
 struct StepTimes {
     std::array<double, 5> seconds{}; // by Stage
     double peak_mb = 0;
@@ -39,7 +39,7 @@ struct StepTimes {
 
 class StepList {
 public:
-    // The step's index; one of a name is kept once.
+    // Returns the index of the step; a step of the same name is kept once.
     std::size_t add(Step step);
     const std::vector<Step> &steps() const { return steps_; }
 

@@ -1,4 +1,4 @@
-// A line on a terminal: what is being done, how much of it there is, how long it may take. Silent elsewhere.
+// A line on a terminal with the current step, the number of steps and the time left. Prints nothing elsewhere.
 #pragma once
 
 #include <chrono>
@@ -9,9 +9,9 @@ namespace sparselens::lab {
 class TimeLeft {
 public:
     explicit TimeLeft(std::string name);
-    ~TimeLeft(); // wipes the line
+    ~TimeLeft(); // clears the line
 
-    // Work is weighed in seconds as guessed beforehand; guesses are scaled by how wrong they were so far.
+    // The weight of work is its estimated time in seconds; estimates are scaled by the times measured so far.
     void expect(double weight);
     void begin(const std::string &what);
     void end(double weight);

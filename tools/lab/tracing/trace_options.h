@@ -1,4 +1,4 @@
-// What dof-trace is asked for.
+// The command line of dof-trace.
 #pragma once
 
 #include "base/image.h"
@@ -20,10 +20,10 @@ struct DeepRequest {
 struct TraceOptions {
     std::string scene;
     std::string folder;
-    std::string plan; // render what this asks for instead of the centre and the rim views
+    std::string plan; // a plan to render instead of the centre view and the rim views
     int views = 4, lens_views = 0;
-    int samples = 16;  // of a view
-    int reference = 0; // rays a pixel; 0: no reference
+    int samples = 16;  // per pixel of a view
+    int reference = 0; // rays per pixel; 0: no reference
     int width = 640, height = 360;
     int overscan = 0; // pixels
     int seed = 0;     // of the random numbers: pictures of different seeds share no noise
@@ -33,13 +33,13 @@ struct TraceOptions {
     LensOptions lens;
 };
 
-// "WIDTHxHEIGHT" into options.width and height; false where it is none.
+// Reads "WIDTHxHEIGHT" into options.width and height; false where the text is not of that form.
 bool read_size(const std::string &text, TraceOptions &options);
 
 void add_trace_options(CLI::App &app, TraceOptions &options);
 
-// Windows, lens and light; `camera` is the scene's with the options put over it. UsageError where the picture is
-// larger than can be meant.
+// The windows, the lens and the light; `camera` is that of the scene, changed by the options. Throws UsageError where
+// the picture is unreasonably large.
 RenderSettings render_settings(const TraceOptions &options, const Camera &camera);
 
 } // namespace sparselens::lab

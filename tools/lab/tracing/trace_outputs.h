@@ -1,4 +1,4 @@
-// The folder that dof-trace fills: pictures with their cameras, and camera.json, which says what they are.
+// The output folder of dof-trace: pictures with their cameras, and camera.json, which describes them.
 #pragma once
 
 #include "deep/ldi.h"
@@ -15,15 +15,15 @@ namespace sparselens::lab {
 
 class TraceOutputs {
 public:
-    // Makes the folder. Error where that fails.
+    // Creates the folder; throws Error where that fails.
     TraceOutputs(std::string folder, Camera camera, RenderSettings settings, PixelType type,
                  const ToolContext &tool);
 
-    // Renders with `make`, writes DIR/name, notes the time that rendering took. `u`: its lens point.
+    // Renders with `make`, writes DIR/name and records the time that rendering took. `u` is the lens point.
     void add(const std::string &name, const Imath::V2d &u, const std::function<Image()> &make);
     void add_deep(const std::string &name, const std::function<Ldi()> &make);
 
-    // DIR/camera.json. `views`: lens points of the rim views.
+    // Writes DIR/camera.json; an infinite number is written as null. `views` are the lens points of the rim views.
     void write_summary(const std::vector<Imath::V2d> &views, int view_samples, int reference_samples) const;
 
 private:

@@ -1,5 +1,5 @@
-// The pictures of a scene that dof-trace writes. Each has random numbers of its own: its noise does not depend on what
-// else is rendered.
+// The pictures of a scene that dof-trace writes. Each has its own random numbers, so its noise does not depend on the
+// other pictures.
 #pragma once
 
 #include "lab/trace/tracer.h"
@@ -18,20 +18,20 @@ struct TraceJob {
     Progress &progress;
 };
 
-// The views of --plan, of each the pixels that it asks for. Their lens points. Error: it was made for a picture of
-// another size.
+// Renders the pixels that --plan asks for in each of its views, and returns their lens points. Throws Error where the
+// plan was made for a picture of another size.
 std::vector<Imath::V2d> trace_plan(const TraceJob &job);
 
-// The centre view and --views from the rim of the lens, whose lens points it returns.
+// Renders the centre view and --views views from the rim of the lens, and returns the lens points of the latter.
 std::vector<Imath::V2d> trace_rim(const TraceJob &job);
 
-// --lens-views over the whole lens.
+// Renders --lens-views views from the whole lens.
 void trace_lens(const TraceJob &job);
 
-// By distributed ray tracing, where --reference asks for it.
+// Renders the reference by distributed ray tracing, if --reference asks for it.
 void trace_reference(const TraceJob &job);
 
-// --deep, each.
+// Renders the deep picture of each --deep.
 void trace_deep(const TraceJob &job);
 
 } // namespace sparselens::lab
