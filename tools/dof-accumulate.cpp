@@ -1,6 +1,6 @@
 // dof-accumulate: averages dense views from the lens, shifted so that the plane of focus stays in place.
 #include "harness/tool.h"
-#include "io/camera/camera_metadata.h"
+#include "io/camera/camera_write.h"
 #include "loading/averaging.h"
 #include "loading/pictures.h"
 #include "options/accumulate_options.h"

@@ -4,7 +4,7 @@
 #include "dof/methods.h"
 #include "harness/stats.h"
 #include "harness/tool.h"
-#include "io/camera/camera_metadata.h"
+#include "io/camera/camera_write.h"
 #include "io/exr/exr_flat.h"
 #include "loading/ldi_lens.h"
 #include "loading/pictures.h"

@@ -4,7 +4,7 @@
 #include "harness/history.h"
 #include "harness/stats.h"
 #include "harness/tool.h"
-#include "io/camera/camera_metadata.h"
+#include "io/camera/camera_write.h"
 #include "loading/pictures.h"
 
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 #include "base/error.h"
 #include "harness/stats.h"
 #include "harness/tool.h"
-#include "io/camera/camera_metadata.h"
+#include "io/camera/camera_write.h"
 #include "loading/pictures.h"
 #include "options/colour_options.h"
 #include "options/warp_options.h"

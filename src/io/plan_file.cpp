@@ -4,6 +4,7 @@
 #include "io/exr/exr_flat.h"
 #include "io/files/file_stream.h"
 #include "io/files/folder.h"
+#include "io/files/text_file.h"
 #include "plan/rectangles.h"
 
 #include <fmt/format.h>
@@ -12,7 +13,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <limits>
 
 namespace sparselens {
 
@@ -86,14 +86,6 @@ PixelMask mask_of(const Json &view, const fs::path &folder) {
     return mask;
 }
 
-std::string read_text(const std::string &path) {
-    const auto stream = open_input(path);
-    if (stream->size() > std::uint64_t(std::numeric_limits<int>::max())) throw Error("too large for a plan");
-    std::string text(std::size_t(stream->size()), '\0');
-    if (!text.empty()) stream->read(text.data(), int(text.size()));
-    return text;
-}
-
 } // namespace
 
 void write_plan(const std::string &path, const Plan &plan, const PlanSetting &setting,
@@ -123,15 +115,12 @@ void write_plan(const std::string &path, const Plan &plan, const PlanSetting &se
         if (!masks.empty()) view["mask"] = write_mask(path, masks, name, plan.views[k].mask, setting.windows);
         json["views"].push_back(view);
     }
-    const std::string text = json.dump(1) + "\n";
-    OutputFile file(path);
-    file.stream().write(text.data(), int(text.size()));
-    file.commit();
+    write_text_file(path, json.dump(1) + "\n");
 }
 
 PlanRequest read_plan(const std::string &path) {
     try {
-        const Json json = Json::parse(read_text(path));
+        const Json json = Json::parse(read_text_file(path));
         PlanRequest request{box_of(json.at("display_window")), {}};
         for (const Json &view : json.at("views")) {
             const Json &u = view.at("lens_point");

@@ -1,7 +1,7 @@
 // Any values and texts as the camera in a header: read, put on a lens, written, read again.
-#include "io/camera/camera_metadata.h"
-
 #include "fuzz/fuzz.h"
+#include "io/camera/camera_read.h"
+#include "io/camera/camera_write.h"
 #include "options/lens_options.h"
 #include "view/lens_views.h"
 

@@ -6,7 +6,7 @@
 #include "deep/sanitize.h"
 #include "deep/tidy.h"
 #include "fuzz/fuzz.h"
-#include "io/camera/camera_metadata.h"
+#include "io/camera/camera_read.h"
 #include "io/exr/exr_deep.h"
 #include "io/files/memory_limit.h"
 

@@ -1,6 +1,6 @@
 #include "loading/ldi_cache.h"
 
-#include "io/camera/camera_metadata.h"
+#include "io/camera/camera_read.h"
 #include "options/channels.h"
 
 #include <tuple>

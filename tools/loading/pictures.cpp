@@ -5,7 +5,7 @@
 #include "deep/channel_alpha.h"
 #include "deep/proxy.h"
 #include "deep/tidy.h"
-#include "io/camera/camera_metadata.h"
+#include "io/camera/camera_read.h"
 #include "io/exr/exr_flat.h"
 #include "io/files/file_stream.h"
 

@@ -4,7 +4,7 @@
 #include "deep/pad.h"
 #include "deep/proxy.h"
 #include "harness/words.h"
-#include "io/camera/camera_metadata.h"
+#include "io/camera/camera_read.h"
 #include "io/files/memory_limit.h"
 
 #include <fmt/format.h>

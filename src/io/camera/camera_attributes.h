@@ -17,6 +17,10 @@
 
 namespace sparselens {
 
+// What has no standard name, and is no quantity.
+inline constexpr const char *lens_points_name = "sparselens:lensPoints"; // text "x,y x,y ...", scene units
+inline constexpr const char *picture_window_name = "sparselens:dataWindow";
+
 enum class Quantity {
     focal_length, // mm
     sensor_width, // mm, spans the display window

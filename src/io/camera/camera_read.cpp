@@ -1,7 +1,9 @@
+#include "io/camera/camera_read.h"
+
 #include "io/camera/camera_attributes.h"
-#include "io/camera/camera_metadata.h"
 #include "view/projection.h"
 
+#include <ImfBoxAttribute.h>
 #include <ImfStringAttribute.h>
 
 #include <algorithm>
@@ -26,7 +28,7 @@ bool agree(double a, double b) {
 
 std::vector<Imath::V2d> read_points(const Imf::Header &header) {
     std::vector<Imath::V2d> points;
-    const auto *text = header.findTypedAttribute<Imf::StringAttribute>("sparselens:lensPoints");
+    const auto *text = header.findTypedAttribute<Imf::StringAttribute>(lens_points_name);
     std::istringstream in(text ? text->value() : std::string());
     Imath::V2d p(0, 0);
     char comma = 0;
@@ -187,6 +189,14 @@ Camera read_camera(const Imf::Header &header) {
     Camera camera = Reader(attributes).read();
     camera.lens_points = read_points(header);
     return camera;
+}
+
+Imath::Box2i read_picture_window(const Imf::Header &header) {
+    const Imath::Box2i &data = header.dataWindow();
+    const auto *a = header.findTypedAttribute<Imf::Box2iAttribute>(picture_window_name);
+    if (!a || a->value().isEmpty() || !data.intersects(a->value().min) || !data.intersects(a->value().max))
+        return data;
+    return a->value();
 }
 
 } // namespace sparselens

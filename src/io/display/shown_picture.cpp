@@ -3,7 +3,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "io/display/oiio_module.h"
-#include "io/files/file_stream.h"
+#include "io/files/text_file.h"
 #include "io/files/unfinished.h"
 
 #include <fmt/format.h>
@@ -13,7 +13,6 @@
 #include <array>
 #include <atomic>
 #include <filesystem>
-#include <fstream>
 #include <vector>
 
 namespace sparselens {
@@ -73,14 +72,6 @@ private:
     Unfinished unfinished_;
 };
 
-void copy_to(const std::string &path, const std::string &from) {
-    std::ifstream in(from, std::ios::binary);
-    const std::string bytes(std::istreambuf_iterator<char>(in), {});
-    OutputFile output(path);
-    output.stream().write(bytes.data(), int(bytes.size()));
-    output.commit();
-}
-
 } // namespace
 
 bool is_shown_picture(const std::string &path) {
@@ -107,7 +98,7 @@ void write_shown_picture(const std::string &path, const Image &image) {
                                      image.windows.display_height(), int(channels.size()), deep_bits ? 16 : 8,
                                      image.windows.pixel_aspect});
     if (failed) throw Error(path + ": cannot write: " + failed);
-    copy_to(path, temporary.path());
+    write_text_file(path, read_text_file(temporary.path()));
 }
 
 } // namespace sparselens

@@ -1,7 +1,7 @@
 // What is missing, wrong or contradictory in a header is an error that names the option to give.
 #include "base/error.h"
 #include "io/camera/camera_headers.h"
-#include "io/camera/camera_metadata.h"
+#include "io/camera/camera_read.h"
 #include "options/lens_options.h"
 #include "view/lens_views.h"
 

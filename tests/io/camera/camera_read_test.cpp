@@ -1,6 +1,7 @@
 // Headers as each renderer writes them give the camera that rendered.
 #include "io/camera/camera_headers.h"
-#include "io/camera/camera_metadata.h"
+#include "io/camera/camera_read.h"
+#include "io/camera/camera_write.h"
 #include "options/lens_options.h"
 #include "view/lens_views.h"
 

@@ -1,27 +1,15 @@
 #include "lab/reporting/files.h"
 
-#include "base/error.h"
-#include "io/files/file_stream.h"
 #include "io/files/folder.h"
+#include "io/files/text_file.h"
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 
 namespace sparselens::lab {
 
-std::string contents_of_file(const std::filesystem::path &path) {
-    std::ifstream in(path, std::ios::binary);
-    std::string contents{std::istreambuf_iterator<char>(in), {}};
-    if (!in) throw Error(path.string() + ": cannot read");
-    return contents;
-}
-
 void write_file(const std::filesystem::path &path, const std::string &contents) {
     make_folder(path.parent_path().string());
-    OutputFile file(path.string());
-    file.stream().write(contents.data(), int(contents.size()));
-    file.commit();
+    write_text_file(path.string(), contents);
 }
 
 std::vector<std::string> matching_files(const std::filesystem::path &pattern) {

@@ -1,4 +1,4 @@
-// Whole files as strings, and files by pattern.
+// Files that a report writes, and files by pattern.
 #pragma once
 
 #include <filesystem>
@@ -6,9 +6,6 @@
 #include <vector>
 
 namespace sparselens::lab {
-
-// Throws Error where the file cannot be read.
-std::string contents_of_file(const std::filesystem::path &path);
 
 // Creates the folder if it is missing. The output is atomic.
 void write_file(const std::filesystem::path &path, const std::string &contents);

@@ -4,6 +4,7 @@
 #include "io/display/shown_picture.h"
 #include "io/exr/exr_flat.h"
 #include "io/files/folder.h"
+#include "io/files/text_file.h"
 #include "lab/report/numbers.h"
 #include "lab/report/verdict.h"
 #include "lab/reporting/files.h"
@@ -140,7 +141,9 @@ std::vector<ReportRow> measure_rows(const ScenePlan &plan, std::span<const StepT
 
 std::vector<PagePicture> page_pictures(const ScenePlan &plan, std::span<const ReportRow> rows,
                                        const std::string &folder) {
-    const auto bytes = [&](const std::string &file) { return contents_of_file(fs::path(folder) / file); };
+    const auto bytes = [&](const std::string &file) {
+        return read_text_file((fs::path(folder) / file).string());
+    };
     std::vector<PagePicture> pictures{
         {"reference", bytes(SceneMeasurement::png_name(plan.reference.folder, "picture"))}};
     std::set<std::string> shown;

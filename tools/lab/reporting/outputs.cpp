@@ -1,6 +1,7 @@
 #include "lab/reporting/outputs.h"
 
 #include "base/error.h"
+#include "io/files/text_file.h"
 #include "lab/report/csv.h"
 #include "lab/report/numbers.h"
 #include "lab/report/plot.h"
@@ -40,7 +41,7 @@ std::vector<std::string> draw_plots(const fs::path &folder, const MeasuredScene 
     run_process({"gnuplot", script}, folder.string());
     std::vector<std::string> plots;
     for (const char *kind : {"-seconds.svg", "-rays.svg"})
-        plots.push_back(contents_of_file(folder / (scene.plan.name + kind)));
+        plots.push_back(read_text_file((folder / (scene.plan.name + kind)).string()));
     return plots;
 }
 

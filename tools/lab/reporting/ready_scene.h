@@ -1,8 +1,8 @@
 // A folder of ready-made views, whose camera.json holds their positions and render times.
 #pragma once
 
-#include "lab/reporting/camera_json.h"
 #include "lab/reporting/scene_source.h"
+#include "lab/tracing/camera_json.h"
 
 #include <filesystem>
 

@@ -2,10 +2,11 @@
 
 #include "base/error.h"
 #include "io/files/folder.h"
-#include "lab/reporting/camera_json.h"
+#include "io/files/text_file.h"
 #include "lab/reporting/files.h"
 #include "lab/reporting/process.h"
 #include "lab/reporting/time_left.h"
+#include "lab/tracing/camera_json.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -54,7 +55,7 @@ public:
         const auto there = [&](const std::string &file) { return fs::exists(path(file)); };
         if (!std::ranges::all_of(step.outputs, there) || !there(record_of(step))) return {};
         try {
-            const auto json = nlohmann::json::parse(contents_of_file(path(record_of(step))));
+            const auto json = nlohmann::json::parse(read_text_file(path(record_of(step)).string()));
             if (json.at("identity") != identity) return {};
             return StepTimes{json.at("seconds"), json.at("peak_mb"), json.at("runs")};
         } catch (const nlohmann::json::exception &) {
@@ -88,7 +89,7 @@ private:
     std::string program_hash(const std::string &program) {
         auto [found, is_new] = programs_.try_emplace(program);
         if (is_new)
-            found->second = fmt::to_string(hash_of(contents_of_file(fs::path(options_.tools) / program)));
+            found->second = fmt::to_string(hash_of(read_text_file((fs::path(options_.tools) / program).string())));
         return found->second;
     }
 

@@ -1,10 +1,10 @@
 #include "lab/tracing/trace_outputs.h"
 
-#include "io/camera/camera_metadata.h"
+#include "io/camera/camera_write.h"
 #include "io/exr/exr_deep.h"
 #include "io/exr/exr_flat.h"
-#include "io/files/file_stream.h"
 #include "io/files/folder.h"
+#include "io/files/text_file.h"
 #include "lab/trace/camera_at.h"
 
 #include <fmt/format.h>
@@ -82,10 +82,7 @@ void TraceOutputs::write_summary(const std::vector<Imath::V2d> &views, int view_
                                 {"seconds", nlohmann::ordered_json::object()}};
     for (const Imath::V2d &u : views) json["views"].push_back({u.x, u.y});
     for (const auto &[name, time] : seconds_) json["seconds"][name] = std::round(time * 1000) / 1000;
-    const std::string text = json.dump(1) + '\n'; // infinity as null
-    OutputFile file(path("camera.json"));
-    file.stream().write(text.data(), int(text.size()));
-    file.commit();
+    write_text_file(path("camera.json"), json.dump(1) + '\n'); // infinity as null
 }
 
 } // namespace sparselens::lab

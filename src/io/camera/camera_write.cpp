@@ -1,5 +1,6 @@
-#include "io/camera/camera_metadata.h"
+#include "io/camera/camera_write.h"
 
+#include "io/camera/camera_attributes.h"
 #include "io/exr/header_edit.h"
 
 #include <ImfBoxAttribute.h>
@@ -17,8 +18,6 @@ namespace {
 constexpr const char *focal_length_name = "pinholeFocalLength";     // mm
 constexpr const char *sensor_width_name = "sparselens:sensorWidth"; // mm
 constexpr const char *metres_per_unit_name = "sparselens:metresPerUnit";
-constexpr const char *lens_points_name = "sparselens:lensPoints"; // "x,y x,y ...", scene units
-constexpr const char *picture_window_name = "sparselens:dataWindow";
 constexpr const char *version_name = "sparselens:version";
 
 std::string points_text(const std::vector<Imath::V2d> &points) {
@@ -51,14 +50,6 @@ void write_camera(Imf::Header &header, const Camera &camera) {
     if (!camera.lens_points.empty())
         set_attribute(header, lens_points_name, Imf::StringAttribute(points_text(camera.lens_points)));
     set_attribute(header, version_name, Imf::StringAttribute(SPARSELENS_VERSION));
-}
-
-Imath::Box2i read_picture_window(const Imf::Header &header) {
-    const Imath::Box2i &data = header.dataWindow();
-    const auto *a = header.findTypedAttribute<Imf::Box2iAttribute>(picture_window_name);
-    if (!a || a->value().isEmpty() || !data.intersects(a->value().min) || !data.intersects(a->value().max))
-        return data;
-    return a->value();
 }
 
 void write_picture_window(Imf::Header &header, const Imath::Box2i &window) {

@@ -1,4 +1,5 @@
-#include "io/camera/camera_metadata.h"
+#include "io/camera/camera_read.h"
+#include "io/camera/camera_write.h"
 
 #include <ImfDoubleAttribute.h>
 #include <ImfFloatAttribute.h>

@@ -1,0 +1,31 @@
+#include "base/error.h"
+#include "io/files/text_file.h"
+#include "support/scratch_folder.h"
+
+#include <gtest/gtest.h>
+
+namespace sparselens {
+namespace {
+
+TEST(TextFile, AnyBytesComeBack) {
+    const ScratchFolder scratch;
+    const std::string path = scratch.file("file");
+    for (const std::string &text :
+         {std::string("two\nlines\r\n"), std::string("a\0b\xff", 4), std::string()}) {
+        write_text_file(path, text);
+        EXPECT_EQ(contents_of(path), text);
+        EXPECT_EQ(read_text_file(path), text);
+    }
+}
+
+TEST(TextFile, ErrorsNameTheFile) {
+    const ScratchFolder scratch;
+    const std::string lost = scratch.file("none/file");
+    const std::string read = what_of<Error>([&] { read_text_file(lost); });
+    EXPECT_TRUE(read.starts_with(lost + ": cannot open: ")) << read;
+    const std::string written = what_of<Error>([&] { write_text_file(lost, "text"); });
+    EXPECT_TRUE(written.starts_with(lost + ": ")) << written;
+}
+
+} // namespace
+} // namespace sparselens
