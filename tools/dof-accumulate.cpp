@@ -2,7 +2,7 @@
 #include "harness/tool.h"
 #include "io/camera/camera_write.h"
 #include "loading/averaging.h"
-#include "loading/pictures.h"
+#include "loading/notices.h"
 #include "options/accumulate_options.h"
 #include "options/picture_options.h"
 

@@ -6,6 +6,7 @@
 #include "measure/figures_text.h"
 #include "measure/image_error.h"
 #include "measure/regions.h"
+#include "options/lens_options.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -18,7 +19,7 @@ using namespace sparselens;
 struct Options {
     std::string image, reference, regions;
     bool json = false;
-    LensOptions lens;
+    LensValues lens;
     DepthOptions depth;
 };
 
@@ -56,7 +57,7 @@ void compare(const Options &options, const ToolContext &tool) {
 
     std::vector<std::uint8_t> bits;
     if (!options.regions.empty())
-        bits = regions_over(windows, options.regions, options.lens, options.depth, tool);
+        bits = regions_over(windows, options.regions, {options.lens, options.depth}, tool);
     const auto figures = image_error(image, reference, bits, bits.empty() ? 0 : region_names.size());
 
     std::vector<NamedFigures> regions;

@@ -2,12 +2,14 @@
 #include "deep/flatten.h"
 #include "deep/front_depth.h"
 #include "dof/methods.h"
-#include "harness/stats.h"
 #include "harness/tool.h"
 #include "io/camera/camera_write.h"
 #include "io/exr/exr_flat.h"
+#include "loading/gather_windows.h"
+#include "loading/holdout_file.h"
 #include "loading/ldi_lens.h"
-#include "loading/pictures.h"
+#include "loading/notices.h"
+#include "loading/stage_stats.h"
 #include "options/channels.h"
 #include "options/colour_options.h"
 #include "options/gather_options.h"
@@ -32,12 +34,11 @@ Image gathered(const GatherCommand &options, const Ldi &ldi, const ThinLens &len
 }
 
 void run(const GatherCommand &options, const ToolContext &tool, LdiCache &cache) {
-    InputLdi in =
-        cache.load(options.input, options.channels, options.lens, options.depth, options.colour, tool);
+    const OpenOptions by{options.lens, options.depth};
+    OpenedLdi &in = cache.load(options.input, options.channels, by, options.colour, tool);
     say_camera(tool, options.input, in.camera);
-    ThinLens lens = lens_for_ldi(in, options.lens, options.focus_pixel, tool);
-    const auto holdout =
-        load_holdout(options.holdout, in.ldi.windows, options.windows.proxy, options.lens, options.depth);
+    ThinLens lens = lens_for_ldi(in, options.focus_pixel, tool);
+    const auto holdout = open_holdout(options.holdout, in.ldi.windows, options.windows.proxy, by);
     const GatherWindows frame = gather_windows(options.windows, in, lens);
     const Ldi &ldi = frame.changed ? *frame.changed : in.ldi;
     LensTiles tiles;
@@ -47,14 +48,15 @@ void run(const GatherCommand &options, const ToolContext &tool, LdiCache &cache)
             chosen_channels(gathered(options, ldi, lens, frame, holdout, tool, tiles), options.channels);
     if (options.show != Show::picture)
         picture = crop(shown(options.show, ldi, lens, frame.gathered, tiles), frame.written);
-    write_camera(in.header, in.camera);
-    append_history(in.header, tool, options.history);
+    Imf::Header header = in.header;
+    write_camera(header, in.camera);
+    append_history(header, tool, options.history);
     if (!options.depth_output.empty())
-        write_flat_exr(options.depth_output, crop(front_depth(ldi), frame.written), in.header);
+        write_flat_exr(options.depth_output, crop(front_depth(ldi), frame.written), header);
     picture = in_type(std::move(picture), options.as_float);
     warn_of_clamped(tool, options.output,
-                    write_picture(tool, options.colour, options.output, std::move(picture), in.header));
-    write_stats(tool, gather_stats(in, tiles));
+                    write_picture(tool, options.colour, options.output, std::move(picture), header));
+    write_stats(tool, gather_stats(cache, tiles));
 }
 
 } // namespace

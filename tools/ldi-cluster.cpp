@@ -2,10 +2,13 @@
 #include "base/error.h"
 #include "deep/cluster.h"
 #include "harness/history.h"
-#include "harness/stats.h"
 #include "harness/tool.h"
 #include "io/camera/camera_write.h"
-#include "loading/pictures.h"
+#include "io/exr/exr_deep.h"
+#include "io/open_ldi.h"
+#include "loading/notices.h"
+#include "loading/stage_stats.h"
+#include "options/lens_options.h"
 
 #include <fmt/format.h>
 
@@ -14,7 +17,7 @@ using namespace sparselens;
 namespace {
 
 struct Options {
-    LensOptions lens;
+    LensValues lens;
     DepthOptions depth;
     HistoryOptions history;
     std::string input, output;
@@ -43,17 +46,17 @@ void add_options(CLI::App &app, Options &options) {
 
 // R F, in pixels times scene units. The tolerance needs it; --layers alone does not, because inverse depths are
 // compared without a scale.
-std::optional<double> perceptive_scale(const Options &options, const LoadedLdi &in) {
+std::optional<double> perceptive_scale(const Options &options, const OpenedLdi &in) {
     const bool lens_known =
         lens_radius_of(in.camera) && focal_length_px(in.camera, in.ldi.windows.display_width());
     if (!lens_known && !options.tolerance && options.layers > 0) return {};
-    const double radius = resolve_radius(options.lens, in.camera);
+    const double radius = resolve_radius(in.camera);
     return radius > 0 ? radius * resolve_focal_px(in.camera, in.ldi.windows) : 0;
 }
 
 void run(const Options &options, const ToolContext &tool) {
-    LoadedLdi in = load_ldi(options.input, options.lens, options.depth);
-    say_samples(tool, options.input, in);
+    OpenedLdi in = open_ldi(options.input, {options.lens, options.depth});
+    say_samples(tool, in);
     warn_of_invalid_values(tool, options.input, in.bad);
     ClusterOptions by{.layers = options.layers};
     const auto scale = perceptive_scale(options, in);

@@ -1,8 +1,9 @@
 // ldi-plan: plans which views from the rim of the lens, and which of their pixels, are worth rendering.
-#include "harness/stats.h"
 #include "harness/tool.h"
+#include "io/open_view.h"
 #include "io/plan_file.h"
-#include "loading/pictures.h"
+#include "loading/notices.h"
+#include "loading/stage_stats.h"
 #include "options/plan_options.h"
 
 #include <fmt/format.h>
@@ -33,11 +34,10 @@ void summarise(const Plan &plan, const View &centre, std::FILE *out) {
 }
 
 void run(const PlanCommand &options, const ToolContext &tool) {
-    const LoadedView centre = load_view(options.centre, options.lens, options.depth);
+    const OpenedView centre = open_view(options.centre, {options.lens, options.depth});
     warn_of_invalid_values(tool, options.centre, centre.bad);
     const Windows &windows = centre.view.image.windows;
-    const Camera camera = camera_with_options(options.lens, centre.camera);
-    const ThinLens lens = resolve_lens(options.lens, camera, windows);
+    const ThinLens lens = centre.lens();
     const Plan plan = make_plan(centre.view, lens, options.plan, *tool.progress);
     write_plan(options.output, plan, {options.centre, windows, lens, options.plan.margin}, options.masks);
     write_stats(tool, plan_stats(plan, options.plan.views, windows));

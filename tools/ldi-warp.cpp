@@ -1,9 +1,11 @@
 // ldi-warp: warps a centre view and views from the rim of the lens into one layered depth image.
 #include "base/error.h"
-#include "harness/stats.h"
 #include "harness/tool.h"
 #include "io/camera/camera_write.h"
-#include "loading/pictures.h"
+#include "io/exr/exr_deep.h"
+#include "loading/notices.h"
+#include "loading/stage_stats.h"
+#include "loading/views.h"
 #include "options/colour_options.h"
 #include "options/warp_options.h"
 #include "view/view_mapping.h"
@@ -12,6 +14,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstdio>
 #include <span>
 
 using namespace sparselens;
@@ -45,23 +49,36 @@ void say_framings(const ToolContext &tool, std::span<const View> views) {
     }
 }
 
+// Perceptive depth refers to the lens radius if that is known, else to the distance of the outermost view.
+WarpOptions warp_options(const WarpCommand &options, const OpenedViews &in) {
+    WarpOptions warp{.merge = options.merge,
+                     .split_silhouettes = options.split_silhouettes,
+                     .test_photo_consistency = options.test_photo_consistency,
+                     .focus = in.camera.focus_distance};
+    if (in.views.size() == 1) return warp;
+    warp.focal_px = resolve_focal_px(in.camera, in.views[0].image.windows);
+    warp.radius = lens_radius_of(in.camera).value_or(0);
+    for (const View &view : in.views) warp.radius = std::max(warp.radius, view.position.length());
+    return warp;
+}
+
 void run(const WarpCommand &options, const ToolContext &tool) {
-    LoadedViews loaded = load_views(options.views, options.lens, options.depth);
-    say_camera(tool, loaded.views[0].name, loaded.camera);
-    say_framings(tool, loaded.views);
-    for (std::size_t i = 0; i < loaded.views.size(); ++i)
-        warn_of_invalid_values(tool, loaded.views[i].name, loaded.bad[i]);
-    for (View &view : loaded.views) to_scene_linear(tool, options.colour, view.name, loaded.header, view);
-    const WarpOptions warp_by = warp_options(options, loaded);
-    write_camera(loaded.header, loaded.camera);
-    append_history(loaded.header, tool, options.history);
-    write_picture_window(loaded.header, loaded.views[0].image.windows.data);
-    const Ldi ldi = warp(loaded.views, warp_by, *tool.progress);
-    warn_of_wrong_pose(tool, loaded.views, warp_by.focal_px);
-    tool.say(fmt::format("{} views, {} samples in {} pixels", loaded.views.size(), ldi.samples(),
+    OpenedViews in = open_views(options.views, {options.lens, options.depth});
+    say_camera(tool, in.views[0].name, in.camera);
+    say_framings(tool, in.views);
+    for (std::size_t i = 0; i < in.views.size(); ++i)
+        warn_of_invalid_values(tool, in.views[i].name, in.bad[i]);
+    for (View &view : in.views) to_scene_linear(tool, options.colour, view.name, in.header, view);
+    const WarpOptions warp_by = warp_options(options, in);
+    write_camera(in.header, in.camera);
+    append_history(in.header, tool, options.history);
+    write_picture_window(in.header, in.views[0].image.windows.data);
+    const Ldi ldi = warp(in.views, warp_by, *tool.progress);
+    warn_of_wrong_pose(tool, in.views, warp_by.focal_px);
+    tool.say(fmt::format("{} views, {} samples in {} pixels", in.views.size(), ldi.samples(),
                          ldi.windows.pixels()));
-    warn_of_clamped(tool, options.output, write_ldi(options.output, ldi, loaded.header));
-    write_stats(tool, warp_stats(loaded.views, ldi));
+    warn_of_clamped(tool, options.output, write_ldi(options.output, ldi, in.header));
+    write_stats(tool, warp_stats(in.views, ldi));
 }
 
 } // namespace

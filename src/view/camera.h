@@ -18,6 +18,7 @@ struct Camera {
     std::optional<double> focal_length_mm; // (0, inf)
     std::optional<double> sensor_width_mm; // (0, inf), spans the display window
     std::optional<double> fstop;           // (0, inf]
+    std::optional<double> lens_radius;     // of the aperture, scene units, [0, inf): as a user gave it
     std::optional<double> focus_distance;  // scene units, (0, inf]
     std::optional<double> metres_per_unit; // (0, inf)
     // Width of the picture over the focal length, (0, inf): known from a field of view or a projection matrix where

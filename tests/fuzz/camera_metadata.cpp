@@ -2,8 +2,8 @@
 #include "fuzz/fuzz.h"
 #include "io/camera/camera_read.h"
 #include "io/camera/camera_write.h"
-#include "options/lens_options.h"
 #include "view/lens_views.h"
+#include "view/resolve_lens.h"
 
 #include <ImfBoxAttribute.h>
 #include <ImfDoubleAttribute.h>
@@ -97,7 +97,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
     const Camera rim = take_camera(bytes, rim_header);
     const Windows windows = windows_of_size(64, 48);
     read_picture_window(header);
-    fuzz::may_fail([&] { resolve_lens({}, centre, windows); });
+    fuzz::may_fail([&] { resolve_lens(centre, windows); });
     fuzz::may_fail([&] {
         const std::array<std::string, 1> names{"rim"};
         position_on_lens({&rim, 1}, names, centre);

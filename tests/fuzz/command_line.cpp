@@ -2,10 +2,10 @@
 #include "fuzz/fuzz.h"
 #include "harness/frames.h"
 #include "harness/tool.h"
-#include "loading/view_list.h"
 #include "options/channels.h"
 #include "options/lens_options.h"
 #include "options/picture_options.h"
+#include "options/view_list.h"
 
 #include <sstream>
 #include <vector>
@@ -15,7 +15,7 @@ using namespace sparselens;
 namespace {
 
 struct Options {
-    LensOptions lens;
+    LensValues lens;
     DepthOptions depth;
     ViewList views;
     const GatherMethod *method = nullptr;
@@ -26,7 +26,7 @@ struct Options {
 
 void use(const Options &options) {
     const Camera camera = camera_with_options(options.lens, {});
-    fuzz::may_fail([&] { resolve_lens(options.lens, camera, windows_of_size(64, 48)); });
+    fuzz::may_fail([&] { resolve_lens(camera, windows_of_size(64, 48)); });
     for (const auto &[offset, file] : options.views.placed)
         fuzz::may_fail([&, &text = offset] { view_offset(text); });
     Ldi ldi;

@@ -11,9 +11,9 @@ namespace sparselens {
 namespace {
 
 // The aperture where the options ask for one: only then are views left out for standing outside of it.
-std::optional<double> radius_asked_for(const LensViewFiles &files, const LensOptions &options) {
+std::optional<double> radius_asked_for(const LensViewFiles &files, const LensValues &options) {
     if (!options.fstop && !options.lens_radius) return {};
-    return resolve_radius(options, files.centre);
+    return resolve_radius(files.centre);
 }
 
 // A header may claim any display window: what it adds counts as what the file asks for.
@@ -30,7 +30,7 @@ Image with_surroundings(const std::string &path, const FlatFile &file) {
 
 } // namespace
 
-ThinLens stop_down(LensViewFiles &files, const LensOptions &options) {
+ThinLens stop_down(LensViewFiles &files, const LensValues &options) {
     constexpr double rounding = 1e-5; // of positions in metadata, relative
     const std::optional<double> radius = radius_asked_for(files, options);
     if (radius)
@@ -38,10 +38,9 @@ ThinLens stop_down(LensViewFiles &files, const LensOptions &options) {
             return view.position.length() > *radius * (1 + rounding);
         });
     if (files.views.empty()) throw Error("no view stands within the aperture asked for");
-    LensOptions moving = options;
-    moving.fstop.reset();
+    Camera moving = files.centre;
     moving.lens_radius = radius == 0.0 ? 0 : 1;
-    return resolve_lens(moving, files.centre, files.windows);
+    return resolve_lens(moving, files.windows);
 }
 
 Image average_views(LensViewFiles &files, const ThinLens &lens, bool transparent_outside,

@@ -2,39 +2,37 @@
 #pragma once
 
 #include "harness/tool.h"
-#include "loading/pictures.h"
+#include "io/open_ldi.h"
 #include "options/colour_options.h"
-#include "options/lens_options.h"
 
-#include <ImfHeader.h>
-
-#include <memory>
+#include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace sparselens {
 
-// What a frame works on: the file's samples, its own copy of header and camera.
-struct InputLdi {
-    std::string name; // of the file, for messages
-    const Ldi &ldi;   // tidy; the cache's
-    Imf::Header header;
-    Camera camera;                                     // of the header, with the options over it
-    bool read_now;                                     // not left from an earlier frame
-    std::size_t invisible;                             // see LoadedLdi
-    const std::vector<std::string> &channels_left_out; // the cache's
-};
-
 class LdiCache {
 public:
-    // load_ldi(), to_scene_linear() and keep_channels() where the last file was another or was read otherwise; warns
-    // of bad values then. What was returned before is gone.
-    InputLdi load(const std::string &path, const std::string &channels, const LensOptions &lens,
-                  const DepthOptions &depth, const ColourOptions &colour, const ToolContext &tool);
+    // open_ldi(), to_scene_linear() and keep_channels() where the last file was another or was read otherwise; warns
+    // of invalid values then. The camera is always by the options given. What was returned before is gone.
+    OpenedLdi &load(const std::string &path, const std::string &channels, const OpenOptions &options,
+                    const ColourOptions &colour, const ToolContext &tool);
+
+    // Of the last load(): what it returned, whether it read the file, and which channels of it were left out.
+    const OpenedLdi &last() const { return *last_; }
+    bool read_now() const { return read_now_; }
+    const std::vector<std::string> &channels_left_out() const { return channels_left_out_; }
 
 private:
-    struct Entry;
-    std::shared_ptr<const Entry> last_;
+    // All that the samples depend on: depth as ray distance becomes planar by the focal length.
+    using Key = std::tuple<std::string, std::string, DepthMeaning, std::string, double, std::string,
+                           std::optional<double>, std::optional<double>, std::string, std::string>;
+
+    Key key_;
+    std::optional<OpenedLdi> last_;
+    bool read_now_ = false;
+    std::vector<std::string> channels_left_out_;
 };
 
 } // namespace sparselens

@@ -17,14 +17,13 @@ double widest_view(const Camera &camera) {
 
 } // namespace
 
-ThinLens lens_for_ldi(InputLdi &in, const LensOptions &options, const std::optional<Imath::V2i> &focus_pixel,
-                      const ToolContext &tool) {
+ThinLens lens_for_ldi(OpenedLdi &in, const std::optional<Imath::V2i> &focus_pixel, const ToolContext &tool) {
     if (focus_pixel) {
         const float z = front_depth(in.ldi, *focus_pixel);
         if (!(z > 0)) throw UsageError("--focus-pixel: " + in.name + " shows nothing there");
         in.camera.focus_distance = double(z);
     }
-    const ThinLens lens = resolve_lens(options, in.camera, in.ldi.windows);
+    const ThinLens lens = in.lens();
     const double widest = widest_view(in.camera);
     if (widest > 0 && lens.radius > 1.001 * widest)
         warn(tool,

@@ -1,27 +1,15 @@
-// The views of a lens as a command line names them: VIEW.exr, whose camera is in its metadata, and
-// --view X,Y VIEW.exr, moved X right and Y up of the lens centre (scene units).
+// The views of a lens that a command line names, each at its position on the lens.
 #pragma once
 
 #include "io/exr/exr_flat.h"
+#include "options/lens_view_options.h"
 #include "view/lens_views.h"
-
-#include <CLI/CLI.hpp>
 
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace sparselens {
-
-struct LensViewOptions {
-    std::vector<std::string> files;
-    std::vector<std::pair<std::string, std::string>> placed; // "X,Y" and file
-    std::string centre;                                      // a file whose camera stands at the lens centre
-    std::string stereo_view;                                 // empty: the files' default view
-};
-
-void add_lens_view_options(CLI::App &app, LensViewOptions &options);
 
 struct LensViewFile {
     std::string path;

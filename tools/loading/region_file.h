@@ -2,7 +2,7 @@
 #pragma once
 
 #include "harness/tool.h"
-#include "options/lens_options.h"
+#include "io/open_options.h"
 
 #include <cstdint>
 #include <string>
@@ -13,7 +13,6 @@ namespace sparselens {
 // RegionBit set of each pixel of `target`'s data window, by the front samples of the file: deep, or flat with depth.
 // Error, naming it: its display window is of another size. UsageError: a lens value that is nowhere to be found.
 std::vector<std::uint8_t> regions_over(const Windows &target, const std::string &file,
-                                       const LensOptions &lens_options, const DepthOptions &depth,
-                                       const ToolContext &tool);
+                                       const OpenOptions &options, const ToolContext &tool);
 
 } // namespace sparselens

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "harness/history.h"
-#include "loading/lens_view_files.h"
 #include "options/lens_options.h"
+#include "options/lens_view_options.h"
 
 #include <CLI/CLI.hpp>
 
@@ -13,7 +13,7 @@ namespace sparselens {
 
 struct AccumulateOptions {
     LensViewOptions views;
-    LensOptions lens;
+    LensValues lens;
     HistoryOptions history;
     std::string output;
     bool as_float = false;

@@ -16,7 +16,7 @@
 namespace sparselens {
 
 struct GatherCommand {
-    LensOptions lens;
+    LensValues lens;
     DepthOptions depth;
     ColourOptions colour;
     WindowOptions windows;

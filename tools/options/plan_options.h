@@ -12,7 +12,7 @@ namespace sparselens {
 
 struct PlanCommand {
     std::string centre, output, masks;
-    LensOptions lens;
+    LensValues lens;
     DepthOptions depth;
     PlanOptions plan;
 };

@@ -2,7 +2,6 @@
 
 #include "harness/words.h"
 
-#include <algorithm>
 #include <map>
 
 namespace sparselens {
@@ -37,18 +36,6 @@ void add_warp_options(CLI::App &app, WarpCommand &options) {
     add_depth_options(app, options.depth);
     add_input_colour_options(app, options.colour);
     add_history_option(app, options.history);
-}
-
-WarpOptions warp_options(const WarpCommand &options, const LoadedViews &loaded) {
-    WarpOptions warp{.merge = options.merge,
-                     .split_silhouettes = options.split_silhouettes,
-                     .test_photo_consistency = options.test_photo_consistency,
-                     .focus = loaded.camera.focus_distance};
-    if (loaded.views.size() == 1) return warp;
-    warp.focal_px = resolve_focal_px(loaded.camera, loaded.views[0].image.windows);
-    warp.radius = lens_radius_of(loaded.camera).value_or(0);
-    for (const View &view : loaded.views) warp.radius = std::max(warp.radius, view.position.length());
-    return warp;
 }
 
 } // namespace sparselens

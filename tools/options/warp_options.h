@@ -2,9 +2,9 @@
 #pragma once
 
 #include "harness/history.h"
-#include "loading/view_list.h"
 #include "options/colour_options.h"
 #include "options/lens_options.h"
+#include "options/view_list.h"
 #include "warp/warp.h"
 
 #include <CLI/CLI.hpp>
@@ -14,7 +14,7 @@
 namespace sparselens {
 
 struct WarpCommand {
-    LensOptions lens;
+    LensValues lens;
     DepthOptions depth;
     ColourOptions colour;
     HistoryOptions history;
@@ -25,8 +25,5 @@ struct WarpCommand {
 };
 
 void add_warp_options(CLI::App &app, WarpCommand &options);
-
-// Perceptive depth refers to the lens radius if that is known, else to the distance of the outermost view.
-WarpOptions warp_options(const WarpCommand &options, const LoadedViews &loaded);
 
 } // namespace sparselens

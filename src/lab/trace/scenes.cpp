@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "lab/trace/materials.h"
 #include "lab/trace/planes.h"
+#include "lens/f_number.h"
 
 #include <fmt/format.h>
 
@@ -18,7 +19,7 @@ Camera default_camera(double lens_radius, double focus_distance) {
     Camera camera;
     camera.focal_length_mm = 36;
     camera.sensor_width_mm = 36;
-    camera.fstop = 0.036 / (2 * lens_radius);
+    camera.fstop = fstop_of(lens_radius, *camera.focal_length_mm);
     camera.focus_distance = focus_distance;
     camera.metres_per_unit = 1;
     return camera;

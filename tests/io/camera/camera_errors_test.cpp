@@ -2,6 +2,7 @@
 #include "base/error.h"
 #include "io/camera/camera_headers.h"
 #include "io/camera/camera_read.h"
+#include "io/camera/camera_write.h"
 #include "options/lens_options.h"
 #include "view/lens_views.h"
 

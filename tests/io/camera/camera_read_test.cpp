@@ -2,8 +2,8 @@
 #include "io/camera/camera_headers.h"
 #include "io/camera/camera_read.h"
 #include "io/camera/camera_write.h"
-#include "options/lens_options.h"
 #include "view/lens_views.h"
+#include "view/resolve_lens.h"
 
 #include <ImfStandardAttributes.h>
 #include <gtest/gtest.h>
@@ -26,11 +26,11 @@ protected:
 
 TEST_P(CameraOf, IsTheOneThatRendered) {
     const Camera read = camera();
-    LensOptions options;
+    LensValues options;
     if (!GetParam().knows_focus) options.focus_distance = focus;
     if (!GetParam().knows_fstop) options.fstop = fstop;
     const Camera complete = camera_with_options(options, read);
-    const ThinLens lens = resolve_lens(options, complete, windows);
+    const ThinLens lens = resolve_lens(complete, windows);
     EXPECT_NEAR(lens.focal_px, 64 * focal / film, 1e-3);
     EXPECT_NEAR(lens.focus, focus, 1e-5);
     EXPECT_NEAR(lens.radius, focal / 1000 / (2 * fstop) / complete.metres_per_unit.value_or(1), 1e-6);

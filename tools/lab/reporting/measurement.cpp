@@ -54,7 +54,7 @@ public:
         : times_(times), folder_(std::move(folder)), windows_(read(plan.reference.picture).windows),
           reference_(over_reference(plan.reference.picture)),
           mapped_reference_(tone_mapped_picture(reference_)),
-          bits_(regions_over(windows_, path(plan.centre.picture), plan.lens, {}, tool)) {
+          bits_(regions_over(windows_, path(plan.centre.picture), {.lens = plan.lens}, tool)) {
         write_png(path(png_name(plan.reference.folder, "picture")), mapped_reference_);
     }
 

@@ -52,7 +52,7 @@ ReadyScene::ReadyScene(const fs::path &folder)
     views_.erase(std::unique(views_.begin(), views_.end(), same), views_.end());
 }
 
-LensOptions ReadyScene::lens() const {
+LensValues ReadyScene::lens() const {
     return {.focal_length_mm = camera_.focal_mm,
             .sensor_width_mm = camera_.sensor_width_mm,
             .fstop = {},

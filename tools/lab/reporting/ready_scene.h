@@ -14,7 +14,7 @@ public:
     explicit ReadyScene(const std::filesystem::path &folder);
 
     std::string name() const override { return name_; }
-    LensOptions lens() const override;
+    LensValues lens() const override;
     std::vector<int> samples() const override;
     std::vector<int> rays() const override;
     std::vector<int> lens_views() const override { return {}; }

@@ -89,7 +89,8 @@ private:
     std::string program_hash(const std::string &program) {
         auto [found, is_new] = programs_.try_emplace(program);
         if (is_new)
-            found->second = fmt::to_string(hash_of(read_text_file((fs::path(options_.tools) / program).string())));
+            found->second =
+                fmt::to_string(hash_of(read_text_file((fs::path(options_.tools) / program).string())));
         return found->second;
     }
 

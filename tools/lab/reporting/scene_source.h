@@ -2,7 +2,7 @@
 #pragma once
 
 #include "lab/reporting/steps.h"
-#include "options/lens_options.h"
+#include "view/resolve_lens.h"
 
 #include <memory>
 #include <optional>
@@ -43,7 +43,7 @@ public:
     virtual ~SceneSource() = default;
 
     virtual std::string name() const = 0;         // the name of the scene, usable as a file name
-    virtual LensOptions lens() const = 0;         // what the metadata of the pictures lacks
+    virtual LensValues lens() const = 0;          // what the metadata of the pictures lacks
     virtual std::vector<int> samples() const = 0; // budgets of views
     virtual std::vector<int> rays() const = 0;    // budgets of ray tracing over the lens
     virtual std::vector<int> lens_views() const = 0;

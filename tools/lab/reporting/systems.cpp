@@ -16,7 +16,7 @@ Words operator+(Words a, const Words &b) {
 }
 
 // The options as they are given to a tool.
-Words words_of(const LensOptions &lens) {
+Words words_of(const LensValues &lens) {
     Words words;
     const auto add = [&](const char *option, const std::optional<double> &value) {
         if (value) words = std::move(words) + Words{option, shortest(*value)};

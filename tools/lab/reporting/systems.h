@@ -21,7 +21,7 @@ struct PlannedRow {
 
 struct ScenePlan {
     std::string name;
-    LensOptions lens;
+    LensValues lens;
     Rendered reference;
     Rendered centre; // its depths define the regions of the picture
     std::vector<PlannedRow> rows;

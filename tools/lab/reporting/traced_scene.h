@@ -11,7 +11,7 @@ public:
         : name_(std::move(name)), budgets_(std::move(budgets)), can_plan_(can_plan) {}
 
     std::string name() const override { return name_; }
-    LensOptions lens() const override { return {}; }
+    LensValues lens() const override { return {}; }
     std::vector<int> samples() const override { return budgets_.samples; }
     std::vector<int> rays() const override { return budgets_.rays; }
     std::vector<int> lens_views() const override { return budgets_.lens_views; }

@@ -136,8 +136,8 @@ RenderSettings render_settings(const TraceOptions &options, const Camera &camera
     if (settings.windows.pixels() > largest_picture)
         throw UsageError(fmt::format("--size and --overscan ask for more than {} pixels", largest_picture));
     settings.seed = std::uint32_t(options.seed);
-    settings.lens = resolve_lens(options.lens, camera, settings.windows);
-    settings.lens.focal_px = options.width * *camera.focal_length_mm / *camera.sensor_width_mm;
+    settings.lens = resolve_lens(camera, settings.windows);
+    settings.lens.focal_px = resolve_focal_px(camera, settings.windows); // a pinhole has them, too
     settings.lens.focus = *camera.focus_distance;
     return settings;
 }

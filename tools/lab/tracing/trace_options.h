@@ -30,7 +30,7 @@ struct TraceOptions {
     Light light = Light::sun;
     PixelType type = PixelType::half;
     std::vector<DeepRequest> deep;
-    LensOptions lens;
+    LensValues lens;
 };
 
 // Reads "WIDTHxHEIGHT" into options.width and height; false where the text is not of that form.

@@ -1,6 +1,9 @@
 #include "base/error.h"
+#include "io/camera/camera_write.h"
+#include "io/exr/exr_deep.h"
 #include "io/exr/exr_flat.h"
-#include "loading/pictures.h"
+#include "io/open_ldi.h"
+#include "io/open_view.h"
 #include "support/ldi_samples.h"
 #include "support/scratch_folder.h"
 
@@ -14,7 +17,7 @@ namespace {
 
 constexpr float inf = std::numeric_limits<float>::infinity();
 
-class Pictures : public testing::Test {
+class Opened : public testing::Test {
 protected:
     ScratchFolder folder;
     std::string path = folder.file("picture.exr");
@@ -30,39 +33,39 @@ protected:
         header.screenWindowCenter() = screen_window_centre;
         write_flat_exr(path, image, header);
     }
-    std::vector<float> depths_of_view(const DepthOptions &depth = {}, const LensOptions &lens = {}) {
-        return load_view(path, lens, depth).view.z;
+    std::vector<float> depths_of_view(const DepthOptions &depth = {}, const LensValues &lens = {}) {
+        return open_view(path, {lens, depth}).view.z;
     }
-    std::vector<float> depths_of_ldi(const DepthOptions &depth = {}, const LensOptions &lens = {}) {
-        return load_ldi(path, lens, depth).ldi.z;
+    std::vector<float> depths_of_ldi(const DepthOptions &depth = {}, const LensValues &lens = {}) {
+        return open_ldi(path, {lens, depth}).ldi.z;
     }
 };
 
-TEST_F(Pictures, PlanarDepthComesAsItIs) {
+TEST_F(Opened, PlanarDepthComesAsItIs) {
     write({1, 2.5f, 1e9f, inf}, {1, 1, 0.5f, 1});
     EXPECT_EQ(depths_of_view(), (std::vector<float>{1, 2.5f, 1e9f, inf}));
     EXPECT_EQ(depths_of_ldi(), (std::vector<float>{1, 2.5f, 1e9f, inf}));
 }
 
-TEST_F(Pictures, SkyIsInfinitelyFar) {
+TEST_F(Opened, SkyIsInfinitelyFar) {
     write({1, 65504, 1e10f, 1e30f}, {1, 1, 0.5f, 1});
     EXPECT_EQ(depths_of_view(), (std::vector<float>{1, inf, inf, inf}));
     EXPECT_EQ(depths_of_ldi(), (std::vector<float>{1, inf, inf, inf}));
 }
 
-TEST_F(Pictures, ZeroSaysThatNothingWasHit) {
+TEST_F(Opened, ZeroSaysThatNothingWasHit) {
     write({0, 2, -0.0f}, {1, 1, 1});
     EXPECT_EQ(depths_of_view(), (std::vector<float>{inf, 2, inf}));
     EXPECT_EQ(depths_of_ldi(), (std::vector<float>{inf, 2, inf}));
 }
 
-TEST_F(Pictures, WithoutCoverageAnyDepthDoes) {
+TEST_F(Opened, WithoutCoverageAnyDepthDoes) {
     write({-1, 2, std::nanf("")}, {0, 1, 0});
     EXPECT_EQ(depths_of_view(), (std::vector<float>{inf, 2, inf}));
     EXPECT_EQ(depths_of_ldi(), (std::vector<float>{2}));
 }
 
-TEST_F(Pictures, OtherDepthsAreErrorsThatNameThePixel) {
+TEST_F(Opened, OtherDepthsAreErrorsThatNameThePixel) {
     for (const float bad : {-3.0f, std::nanf(""), -inf}) {
         write({1, bad}, {1, 1});
         for (const std::string &what :
@@ -73,7 +76,7 @@ TEST_F(Pictures, OtherDepthsAreErrorsThatNameThePixel) {
     }
 }
 
-TEST_F(Pictures, InverseDepth) {
+TEST_F(Opened, InverseDepth) {
     write({0.5f, 0, 4}, {1, 1, 1});
     const DepthOptions inverse{.meaning = DepthMeaning::inverse, .channel = {}};
     EXPECT_EQ(depths_of_view(inverse), (std::vector<float>{2, inf, 0.25f}));
@@ -81,10 +84,10 @@ TEST_F(Pictures, InverseDepth) {
 }
 
 // F = 1 pixel, and the optical axis goes through the first of three pixels, a third of the width left of the middle.
-TEST_F(Pictures, DistanceFollowsAShiftedLens) {
+TEST_F(Opened, DistanceFollowsAShiftedLens) {
     write({2, 2, 2}, {1, 1, 1}, {1.0f / 3, 0});
     const DepthOptions distance{.meaning = DepthMeaning::distance, .channel = {}};
-    LensOptions lens;
+    LensValues lens;
     lens.focal_length_mm = 12;
     lens.sensor_width_mm = 36;
     const std::vector<float> expected{2, float(std::sqrt(2.0)), float(2 / std::sqrt(5.0))};
@@ -93,22 +96,22 @@ TEST_F(Pictures, DistanceFollowsAShiftedLens) {
 }
 
 // What a rim view does not say of its frustum is as in the centre.
-TEST_F(Pictures, DistanceInASilentViewIsAsInTheCentre) {
+TEST_F(Opened, DistanceInASilentViewIsAsInTheCentre) {
     write({2, 2, 2}, {1, 1, 1});
     const DepthOptions distance{.meaning = DepthMeaning::distance, .channel = {}};
     Camera centre;
     centre.field = 3;
     centre.principal_point = {-1.0 / 3, 0};
-    const std::vector<float> z = load_view(path, {}, distance, centre).view.z;
+    const std::vector<float> z = open_view(path, {.depth = distance}, centre).view.z;
     EXPECT_NEAR(z[0], 2, 1e-6);
     EXPECT_NEAR(z[1], std::sqrt(2.0), 1e-6);
 }
 
 // F = 1 pixel, three pixels in a row: 45 degrees on either side of the axis.
-TEST_F(Pictures, DistanceNeedsTheFocalLength) {
+TEST_F(Opened, DistanceNeedsTheFocalLength) {
     write({2, 2, 2}, {1, 1, 1});
     const DepthOptions distance{.meaning = DepthMeaning::distance, .channel = {}};
-    LensOptions lens;
+    LensValues lens;
     EXPECT_THROW(depths_of_view(distance, lens), UsageError);
     EXPECT_THROW(depths_of_ldi(distance, lens), UsageError);
     lens.focal_length_mm = 12;
@@ -118,16 +121,81 @@ TEST_F(Pictures, DistanceNeedsTheFocalLength) {
     EXPECT_EQ(depths_of_ldi(distance, lens), (std::vector<float>{slanted, 2, slanted}));
 }
 
-TEST_F(Pictures, DeepFilesComeTidyBackDepthsToo) {
+TEST_F(Opened, DeepFilesComeTidyBackDepthsToo) {
     write_ldi(path,
               ldi_of({{{.z = 0.25f, .alpha = 0.5f, .z_back = 0.125f},
                        {.z = 0.5f, .alpha = 0.5f},
                        {.z = 9, .colour = 0, .alpha = 0}}}),
               Imf::Header());
     const DepthOptions inverse{.meaning = DepthMeaning::inverse, .channel = {}};
-    const Ldi ldi = load_ldi(path, {}, inverse).ldi;
+    const Ldi ldi = open_ldi(path, {.depth = inverse}).ldi;
     EXPECT_EQ(ldi.z, (std::vector<float>{2, 4}));
     EXPECT_EQ(ldi.z_back, (std::vector<float>{2, 8}));
+}
+
+// A lens of radius 1 cm and F = 6 pixels, focused at 4 m.
+Imf::Header header_with_lens() {
+    Camera camera;
+    camera.focal_length_mm = 50;
+    camera.sensor_width_mm = 25;
+    camera.fstop = 2.5;
+    camera.focus_distance = 4;
+    Imf::Header header;
+    write_camera(header, camera);
+    return header;
+}
+
+TEST_F(Opened, AnLdiHasTheLensOfItsFile) {
+    write_ldi(path, ldi_of({{{.z = 1}}, {{.z = 2}}, {{.z = 3}}}), header_with_lens());
+    const OpenedLdi in = open_ldi(path);
+    EXPECT_EQ(in.name, path);
+    EXPECT_NEAR(in.lens().radius, 0.01, 1e-9);
+    EXPECT_DOUBLE_EQ(in.lens().focal_px, 2 * in.ldi.windows.display_width());
+    EXPECT_EQ(in.lens().focus, 4);
+    const ThinLens changed = open_ldi(path, {.lens = {.lens_radius = 0.25, .focus_distance = 3}}).lens();
+    EXPECT_EQ(changed.radius, 0.25);
+    EXPECT_EQ(changed.focus, 3);
+    EXPECT_DOUBLE_EQ(changed.focal_px, in.lens().focal_px);
+}
+
+TEST_F(Opened, AViewHasTheLensOfItsFile) {
+    Image image(windows_of_size(3, 1), {{"R"}, {"A"}, {"Z", PixelType::float32}});
+    std::ranges::fill(image.values, 1.0f);
+    write_flat_exr(path, image, header_with_lens());
+    const OpenedView in = open_view(path);
+    EXPECT_NEAR(in.lens().radius, 0.01, 1e-9);
+    EXPECT_DOUBLE_EQ(in.lens().focal_px, 6);
+    EXPECT_EQ(in.lens().focus, 4);
+    EXPECT_EQ(open_view(path, {.lens = {.focus_distance = 3}}).lens().focus, 3);
+}
+
+TEST_F(Opened, WithoutALensTheLensIsAnErrorAndTheSamplesAreNot) {
+    write({1, 2}, {1, 1});
+    const OpenedLdi in = open_ldi(path);
+    EXPECT_EQ(in.ldi.samples(), 2u);
+    EXPECT_EQ(what_of<UsageError>([&] { in.lens(); }),
+              "the aperture is unknown: give --fstop or --lens-radius");
+    const OpenedView view = open_view(path);
+    EXPECT_THROW(view.lens(), UsageError);
+}
+
+TEST_F(Opened, RepairsAreCounted) {
+    write({1, -3, 2}, {1, 1, 1});
+    const OpenedLdi in = open_ldi(path);
+    EXPECT_TRUE(in.bad.any());
+    for (const float z : in.ldi.z) EXPECT_GT(z, 0);
+    EXPECT_TRUE(open_view(path).bad.any());
+    write({1, 3, 2}, {1, 1, 0});
+    const OpenedLdi sound = open_ldi(path);
+    EXPECT_FALSE(sound.bad.any());
+    EXPECT_EQ(sound.invisible, 1u); // without coverage
+}
+
+TEST_F(Opened, WhatIsNotThereIsAnErrorThatNamesIt) {
+    const std::string lost = folder.file("lost.exr");
+    for (const std::string &what :
+         {what_of<Error>([&] { open_ldi(lost); }), what_of<Error>([&] { open_view(lost); })})
+        EXPECT_TRUE(what.starts_with(lost + ": ")) << what;
 }
 
 } // namespace

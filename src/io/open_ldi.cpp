@@ -1,0 +1,43 @@
+#include "io/open_ldi.h"
+
+#include "deep/tidy.h"
+#include "io/camera/camera_read.h"
+#include "io/exr/exr_deep.h"
+#include "io/files/file_stream.h"
+#include "view/depth_reader.h"
+
+#include <algorithm>
+
+namespace sparselens {
+
+namespace {
+
+void make_planar(Ldi &ldi, const DepthOptions &depth, const Camera &camera) {
+    const DepthReader read(ldi.windows, depth.meaning, depth.far, camera);
+    for (std::size_t pixel = 0; pixel + 1 < ldi.begin.size(); ++pixel)
+        for (std::uint64_t i = ldi.begin[pixel]; i < ldi.begin[pixel + 1]; ++i) {
+            ldi.z[i] = read.planar(ldi.z[i], pixel);
+            if (!ldi.z_back.empty()) ldi.z_back[i] = read.planar(ldi.z_back[i], pixel);
+        }
+}
+
+} // namespace
+
+OpenedLdi open_ldi(const std::string &path, const OpenOptions &options) {
+    LdiFile file = read_ldi(path, options.depth.channel, options.depth.view);
+    OpenedLdi opened{.name = display_name(path),
+                     .ldi = std::move(file.ldi),
+                     .header = std::move(file.header),
+                     .camera = {},
+                     .bad = {},
+                     .notes = std::move(file.notes)};
+    opened.camera = camera_with_options(options.lens, read_camera(opened.header));
+    make_planar(opened.ldi, options.depth, opened.camera);
+    opened.bad = sanitize(opened.ldi, opened.name);
+    const std::size_t in_file = opened.ldi.samples();
+    opened.ldi = tidy(std::move(opened.ldi));
+    opened.invisible = in_file - std::min(in_file, opened.ldi.samples());
+    return opened;
+}
+
+} // namespace sparselens

@@ -1,0 +1,37 @@
+// An LDI from a file, ready for use: depth is planar, invalid values are repaired, samples are tidy, and camera and lens
+// are those of the file with the user's values over them.
+#pragma once
+
+#include "../deep/ldi.h"
+#include "../deep/sanitize.h"
+#include "../view/camera.h"
+#include "open_options.h"
+
+#include <ImfHeader.h>
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace sparselens {
+
+struct OpenedLdi {
+    std::string name; // of the file, for messages
+    Ldi ldi;          // tidy
+    Imf::Header header;
+    Camera camera;     // of the header, with the user's values over it
+    InvalidValues bad; // what was repaired
+    std::size_t invisible =
+        0; // samples of the file that tidy() left out: they show nothing, or are one with another
+    std::vector<std::string> notes; // see LdiFile
+
+    // UsageError: a value of the lens is unknown (see resolve_lens.h).
+    ThinLens lens() const { return resolve_lens(camera, ldi.windows); }
+};
+
+// Opens any deep EXR, or a flat one with depth; `-` is standard input.
+// Error: the file cannot be read, or most of its depths are invalid (see sanitize()). UsageError: its depth is the
+// length of the ray, and the focal length is unknown.
+OpenedLdi open_ldi(const std::string &path, const OpenOptions &options = {});
+
+} // namespace sparselens

@@ -1,0 +1,39 @@
+#include "io/open_view.h"
+
+#include "io/camera/camera_read.h"
+#include "io/exr/exr_flat.h"
+#include "io/files/file_stream.h"
+#include "view/depth_reader.h"
+
+namespace sparselens {
+
+namespace {
+
+// `camera`, with the frustum of another one where it knows nothing of its own.
+Camera with_frustum_of(const Camera &other, Camera camera) {
+    if (!camera.focal_length_mm && !camera.sensor_width_mm && !camera.field) {
+        camera.focal_length_mm = other.focal_length_mm;
+        camera.sensor_width_mm = other.sensor_width_mm;
+        camera.field = other.field;
+    }
+    if (!camera.principal_point) camera.principal_point = other.principal_point;
+    return camera;
+}
+
+} // namespace
+
+OpenedView open_view(const std::string &path, const OpenOptions &options, const Camera &otherwise) {
+    FlatFile file = read_flat_exr(path, options.depth.view);
+    OpenedView opened{{display_name(path), std::move(file.image), {}}, std::move(file.header), {}, {}};
+    View &view = opened.view;
+    view.z = take_depth(view.image, options.depth.channel, path);
+    const Camera own = read_camera(opened.header);
+    opened.camera = camera_with_options(options.lens, own);
+    const Camera frustum = camera_with_options(options.lens, with_frustum_of(otherwise, own));
+    const DepthReader read(view.image.windows, options.depth.meaning, options.depth.far, frustum);
+    for (std::size_t i = 0; i < view.z.size(); ++i) view.z[i] = read.planar(view.z[i], i);
+    opened.bad = sanitize(view);
+    return opened;
+}
+
+} // namespace sparselens

@@ -1,0 +1,32 @@
+// A rendered view from a file, ready for use: depth is planar, invalid values are repaired, and the camera is that of
+// the file with the user's values over it.
+#pragma once
+
+#include "../deep/sanitize.h"
+#include "../view/camera.h"
+#include "../view/view.h"
+#include "open_options.h"
+
+#include <ImfHeader.h>
+
+#include <string>
+
+namespace sparselens {
+
+struct OpenedView {
+    View view; // at the origin: the caller knows where it stands
+    Imf::Header header;
+    Camera camera;     // of the header, with the user's values over it
+    InvalidValues bad; // what was repaired
+
+    // UsageError: a value of the lens is unknown (see resolve_lens.h).
+    ThinLens lens() const { return resolve_lens(camera, view.image.windows); }
+};
+
+// Opens a flat EXR with a depth channel; `-` is standard input. What the file does not say of its frustum, which ray
+// lengths need, is as in `otherwise`.
+// Error: the file cannot be read, or most of its depths are invalid (see sanitize()). UsageError: its depth is the
+// length of the ray, and the focal length is unknown.
+OpenedView open_view(const std::string &path, const OpenOptions &options = {}, const Camera &otherwise = {});
+
+} // namespace sparselens

@@ -1,0 +1,26 @@
+#include "view/depth_reader.h"
+
+#include "view/resolve_lens.h"
+
+#include <limits>
+
+namespace sparselens {
+
+DepthReader::DepthReader(const Windows &windows, DepthMeaning meaning, double far, const Camera &camera)
+    : windows_(windows), meaning_(meaning), far_(far),
+      focal_px_(meaning == DepthMeaning::distance ? resolve_focal_px(camera, windows) : 1),
+      principal_point_(camera.principal_point.value_or(Imath::V2d(0, 0))) {}
+
+float DepthReader::planar(float value, std::size_t i) const {
+    if (is_sky(meaning_, double(value), far_)) return std::numeric_limits<float>::infinity();
+    if (meaning_ == DepthMeaning::planar) return value;
+    const Imath::V2i p = pixel(i);
+    return float(planar_depth(meaning_, double(value), p.x, p.y, windows_, focal_px_, principal_point_));
+}
+
+Imath::V2i DepthReader::pixel(std::size_t i) const {
+    const std::size_t width = std::size_t(windows_.width());
+    return windows_.data.min + Imath::V2i(int(i % width), int(i / width));
+}
+
+} // namespace sparselens

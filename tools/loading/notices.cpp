@@ -1,0 +1,30 @@
+#include "loading/notices.h"
+
+#include "deep/channel_alpha.h"
+#include "io/files/file_stream.h"
+
+namespace sparselens {
+
+void say_samples(const ToolContext &tool, const OpenedLdi &in) {
+    for (const std::string &note : in.notes) tool.say(in.name + ": " + note);
+    if (tool.verbose && by_coverage(in.ldi).size() > 1)
+        tool.say(in.name + ": coverage is coloured (AR, AG, AB): each colour has its own");
+}
+
+void say_camera(const ToolContext &tool, const std::string &path, const Camera &camera) {
+    for (const std::string &found : camera.found) tool.say(display_name(path) + ": " + found);
+    for (const auto &[option, reason] : camera.unsure)
+        tool.say(display_name(path) + ": " + reason + "; " + option + " settles it");
+}
+
+void warn_of_clamped(const ToolContext &tool, const std::string &path, std::size_t clamped) {
+    if (clamped > 0)
+        warn(tool, display_name(path) + ": " + std::to_string(clamped) +
+                       " values beyond the range of half are clamped to 65504");
+}
+
+void warn_of_invalid_values(const ToolContext &tool, const std::string &path, const InvalidValues &bad) {
+    if (bad.any()) warn(tool, display_name(path) + ": " + bad.text());
+}
+
+} // namespace sparselens

@@ -1,0 +1,68 @@
+#include "loading/stage_stats.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace sparselens {
+
+namespace {
+
+// Cropped and masked views do not give them all.
+std::size_t pixels_given(const View &view) {
+    const std::size_t alpha = find_channel(view.image.channels, "A");
+    if (alpha == npos) return view.image.windows.pixels();
+    return std::size_t(std::ranges::count_if(view.image.plane(alpha), [](float a) { return a > 0; }));
+}
+
+} // namespace
+
+Stats plan_stats(const Plan &plan, int views_allowed, const Windows &centre) {
+    std::size_t asked = 0;
+    for (const PlannedView &view : plan.views) asked += view.mask.count();
+    return {{"views", plan.views.size()},
+            {"views_left_out", std::size_t(views_allowed) - plan.views.size()},
+            {"pixels", asked},
+            {"pixels_left_out", std::size_t(views_allowed) * centre.pixels() - asked}};
+}
+
+Stats warp_stats(std::span<const View> views, const Ldi &ldi) {
+    std::size_t given = 0, empty = 0;
+    for (const View &view : views) {
+        const std::size_t pixels = pixels_given(view);
+        given += pixels;
+        empty += pixels == 0 ? 1 : 0;
+    }
+    const std::size_t all = views.size() * views[0].image.windows.pixels();
+    return {{"views", views.size()},    {"views_empty", empty},
+            {"pixels_given", given},    {"pixels_not_given", all - std::min(all, given)},
+            {"samples", ldi.samples()}, {"samples_merged", given - std::min(given, ldi.samples())}};
+}
+
+Stats cluster_stats(const OpenedLdi &in, const Clustered &out) {
+    return {{"samples_invisible", in.invisible},
+            {"samples_read", in.ldi.samples()},
+            {"samples", out.ldi.samples()},
+            {"samples_merged", in.ldi.samples() - out.ldi.samples()},
+            {"largest_coc_change", out.largest_error}};
+}
+
+Stats gather_stats(const LdiCache &cache, const LensTiles &tiles) {
+    Stats points = Stats::object();
+    std::size_t copied = 0;
+    for (const auto &[number, count] : histogram(tiles)) {
+        if (number == 0)
+            copied = std::size_t(count);
+        else
+            points[fmt::to_string(number)] = count;
+    }
+    return {{"input_read", cache.read_now()},
+            {"samples_invisible", cache.last().invisible},
+            {"samples", cache.last().ldi.samples()},
+            {"channels_left_out", cache.channels_left_out()},
+            {"tiles", tiles.lens_points.size()},
+            {"tiles_copied", copied},
+            {"lens_points", points}};
+}
+
+} // namespace sparselens

@@ -1,0 +1,20 @@
+// What each stage says in its line of --stats.
+#pragma once
+
+#include "deep/cluster.h"
+#include "dof/lens/lens_tiles.h"
+#include "harness/stats.h"
+#include "loading/ldi_cache.h"
+#include "plan/plan.h"
+#include "view/view.h"
+
+#include <span>
+
+namespace sparselens {
+
+Stats plan_stats(const Plan &plan, int views_allowed, const Windows &centre);
+Stats warp_stats(std::span<const View> views, const Ldi &ldi);
+Stats cluster_stats(const OpenedLdi &in, const Clustered &out);
+Stats gather_stats(const LdiCache &cache, const LensTiles &tiles); // no tiles: nothing was gathered by them
+
+} // namespace sparselens

@@ -1,0 +1,22 @@
+// The views on a command line, opened, each at its position.
+#pragma once
+
+#include "io/open_view.h"
+#include "options/view_list.h"
+
+#include <vector>
+
+namespace sparselens {
+
+struct OpenedViews {
+    std::vector<View> views; // the centre view first
+    Imf::Header header;      // of the centre view
+    Camera camera;           // of the centre view, with the options over it; the lens points of all views
+    std::vector<InvalidValues> bad; // of each view
+};
+
+// A view's position comes from --view, else from worldToCamera (see position_on_lens, whose errors it throws); its framing
+// from its metadata, else it is the centre view's.
+OpenedViews open_views(const ViewList &list, const OpenOptions &options);
+
+} // namespace sparselens
