@@ -2,6 +2,7 @@
 
 #include "deep/build.h"
 #include "deep/channel_alpha.h"
+#include "lens/perceptive_depth.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,8 +21,8 @@ struct Pixel {
     std::size_t alpha;
     std::uint64_t begin, end;
     double scale;
-    double front(std::uint64_t i) const { return scale / ldi.z[i]; }
-    double back(std::uint64_t i) const { return scale / back_at(ldi, i); }
+    double front(std::uint64_t i) const { return perceptive_depth(scale, ldi.z[i]); }
+    double back(std::uint64_t i) const { return perceptive_depth(scale, back_at(ldi, i)); }
 };
 
 // How many runs of at most `extent` cover the samples, taken greedily from the front: the fewest there are.

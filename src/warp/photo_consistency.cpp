@@ -85,7 +85,7 @@ void compare(const ReprojectedViews &views, const CentreColours &centre,
     }
     constexpr double out_of_focus = 2 * focus_px;
     block.coc +=
-        options.focus ? options.scale * std::abs(surface.inverse_z - 1 / *options.focus) : out_of_focus;
+        options.lens ? std::abs(circle_of_confusion(*options.lens, 1 / surface.inverse_z)) : out_of_focus;
     block.pixels += 1;
 }
 

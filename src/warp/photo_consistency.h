@@ -6,6 +6,7 @@
 // equally large; a reflection that moves relative to its surface makes the difference larger.
 #pragma once
 
+#include "lens/thin_lens.h"
 #include "warp/surfaces.h"
 
 #include <optional>
@@ -13,10 +14,9 @@
 namespace sparselens {
 
 struct PhotoConsistencyOptions {
-    double scale = 0; // R F: the CoC is scale * (1 / z - 1 / focus)
     // On a surface in focus all directions are averaged, as the lens does. Empty: the focus is unknown, and no surface
     // counts as in focus.
-    std::optional<double> focus = {};
+    std::optional<ThinLens> lens = {};
 };
 
 // For each pixel of some rows of `data`, whose surfaces are given, whether the views may be averaged.

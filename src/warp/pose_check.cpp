@@ -1,5 +1,6 @@
 #include "warp/pose_check.h"
 
+#include "lens/perceptive_depth.h"
 #include "view/view_mapping.h"
 
 #include <algorithm>
@@ -92,7 +93,8 @@ double disagreement(const View &centre, const View &view, const Imath::V2d &posi
               landed.y < inside.max.y + 1.0))
             return;
         const Imath::V2i p(int(std::floor(landed.x)), int(std::floor(landed.y)));
-        const double in_front = scale / in_view.depth(q) - scale / in_centre.depth(p);
+        const double in_front =
+            perceptive_depth(scale, in_view.depth(q)) - perceptive_depth(scale, in_centre.depth(p));
         const bool nothing = !in_centre.show_something(p);
         ++compared;
         if (!nothing && in_front < -same_depth) return; // hidden from the centre, as it may be

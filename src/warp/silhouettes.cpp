@@ -2,6 +2,7 @@
 
 #include "base/parallel.h"
 #include "deep/build.h"
+#include "lens/perceptive_depth.h"
 #include "warp/unmixing.h"
 
 #include <algorithm>
@@ -79,7 +80,8 @@ Separation::Separation(const Ldi &view, double scale, double jump)
     : view_(view), grid_(view.windows.width(), view.windows.height()), scale_(scale), jump_(jump),
       alpha_(view.alpha()), rgb_(find_rgb(view.channels)) {
     depths_.resize(view.samples());
-    std::ranges::transform(view.z, depths_.begin(), [scale](float z) { return scale / z; });
+    std::ranges::transform(view.z, depths_.begin(),
+                           [scale](float z) { return perceptive_depth(scale, double(z)); });
     sides_.assign(view.samples(), inside);
     if (alpha_ == npos || !all_found(rgb_)) return;
     parallel_for(std::size_t(grid_.height()), [&](std::size_t y) {
@@ -201,10 +203,10 @@ void Separation::emit_mixture(std::uint64_t i, const Mixture &mixture, Ldi &out)
     for (const Term &term : mixture.behind.terms)
         front.push_back({term.index, -(1 - mixture.share) * term.coefficient});
     MergedSample sample = sample_at(view_, i);
-    sample.z = sample.z_back = float(scale_ / mixture.near_depth);
+    sample.z = sample.z_back = float(depth_of_perceptive(scale_, mixture.near_depth));
     sample.terms = front;
     append(out, view_, sample);
-    sample.z = sample.z_back = float(scale_ / mixture.far_depth);
+    sample.z = sample.z_back = float(depth_of_perceptive(scale_, mixture.far_depth));
     sample.weight = estimate_weight;
     sample.terms = mixture.behind.terms;
     append(out, view_, sample);

@@ -2,11 +2,13 @@
 
 #include "base/parallel.h"
 #include "deep/build.h"
+#include "lens/perceptive_depth.h"
 #include "warp/photo_consistency.h"
 #include "warp/visibility_vote.h"
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 namespace sparselens {
 
@@ -30,17 +32,21 @@ private:
     bool averages() const { return options_.merge == Merge::average; }
 
     WarpOptions options_;
-    double scale_;     // R F: perceptive depth is scale / z
-    double tolerance_; // of 1 / z, within one surface
+    double scale_;                    // R F: perceptive depth is scale / z
+    double tolerance_;                // of 1 / z, within one surface
+    std::optional<ThinLens> focused_; // where the focus is known
     ReprojectedViews views_;
     Ldi layout_; // windows and channels of the result
 };
 
 Warper::Warper(std::span<const View> views, const WarpOptions &options)
     : options_(options), scale_(options.radius * options.focal_px),
-      tolerance_(scale_ > 0 ? options.surface_px / scale_ : std::numeric_limits<double>::infinity()),
+      tolerance_(scale_ > 0 ? inverse_depth_step(scale_, options.surface_px)
+                            : std::numeric_limits<double>::infinity()),
       views_(views, options.focal_px, scale_,
              averages() && options.split_silhouettes ? options.surface_px : 0) {
+    if (options.focus)
+        focused_ = ThinLens{.radius = options.radius, .focal_px = options.focal_px, .focus = *options.focus};
     layout_.windows = views[0].image.windows;
     layout_.channels = views[0].image.channels;
     layout_.values.resize(layout_.channels.size());
@@ -116,7 +122,7 @@ Ldi Warper::warp_band(int first_row, int last_row) const {
     const Surfaces surfaces = find_surfaces(views_, tolerance_, rows);
     std::vector<bool> agree(rows.pixels(), true);
     if (averages() && options_.test_photo_consistency)
-        agree = find_photo_consistency(views_, {scale_, options_.focus}, layout_.windows.data, surfaces);
+        agree = find_photo_consistency(views_, {focused_}, layout_.windows.data, surfaces);
     Ldi out = empty_like(layout_);
     out.begin.push_back(0);
     for (std::size_t pixel = 0; pixel < rows.pixels(); ++pixel) {

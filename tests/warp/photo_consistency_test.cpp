@@ -34,8 +34,10 @@ std::vector<View> wall(const std::function<Colour(const Imath::V2d &camera)> &co
 double agreement(const std::vector<View> &views, std::optional<double> focus = {}) {
     const ReprojectedViews placed(views, focal_px, scale, 0);
     ReprojectedRows rows = placed.place(window.data, 0, 15);
+    PhotoConsistencyOptions options;
+    if (focus) options.lens = ThinLens{.radius = radius, .focal_px = focal_px, .focus = *focus};
     const auto agree =
-        find_photo_consistency(placed, {scale, focus}, window.data, find_surfaces(placed, 0.5 / scale, rows));
+        find_photo_consistency(placed, options, window.data, find_surfaces(placed, 0.5 / scale, rows));
     return double(std::ranges::count(agree, true)) / double(agree.size());
 }
 

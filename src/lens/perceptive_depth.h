@@ -1,0 +1,15 @@
+// Perceptive depth R F / z, pixels, by the lens's scale R F (pixels times scene units) alone: for what compares depths
+// and needs no focus. See perceptive_depth(lens, z) in thin_lens.h.
+#pragma once
+
+namespace sparselens {
+
+inline double perceptive_depth(double scale, double z) { return scale / z; }
+
+// The inverse: the depth that has this perceptive depth.
+inline double depth_of_perceptive(double scale, double perceptive) { return scale / perceptive; }
+
+// How far 1 / z of two depths lies apart that differ by so much in perceptive depth.
+inline double inverse_depth_step(double scale, double perceptive) { return perceptive / scale; }
+
+} // namespace sparselens

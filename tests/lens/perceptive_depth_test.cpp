@@ -1,0 +1,25 @@
+#include "lens/perceptive_depth.h"
+#include "lens/thin_lens.h"
+
+#include <gtest/gtest.h>
+
+namespace sparselens {
+namespace {
+
+constexpr ThinLens lens{.radius = 0.06, .focal_px = 640, .focus = 5};
+constexpr double scale = lens.radius * lens.focal_px;
+
+TEST(PerceptiveDepth, IsThatOfTheLens) {
+    for (const double z : {0.25, 3.0, 1e9}) {
+        EXPECT_EQ(perceptive_depth(scale, z), perceptive_depth(lens, z));
+        EXPECT_DOUBLE_EQ(depth_of_perceptive(scale, perceptive_depth(scale, z)), z);
+    }
+}
+
+TEST(PerceptiveDepth, AStepOfItIsOneOfInverseDepth) {
+    const double near = perceptive_depth(scale, 2), far = perceptive_depth(scale, 8);
+    EXPECT_DOUBLE_EQ(inverse_depth_step(scale, near - far), 1.0 / 2 - 1.0 / 8);
+}
+
+} // namespace
+} // namespace sparselens
