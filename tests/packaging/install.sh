@@ -1,5 +1,6 @@
-# Installs the build into a scratch prefix, builds the README's library example against it with find_package,
-# and runs that: it must give what the installed dof-gather gives. Every installed header must compile on its own.
+# Installs the build into a scratch prefix, builds the example of docs/library.md against it with find_package, and runs
+# that: it must give what the installed dof-gather gives, in eight lines at most, and without Embree. Every installed
+# header must compile on its own.
 #   bash install.sh BIN_DIR BUILD_DIR COMPILER
 . "$(dirname "$0")/../tools/check.sh"
 build=$2 compiler=$3 prefix=$scratch/prefix
@@ -21,11 +22,13 @@ mkdir -p consumer/headers
 done
 [ -n "$(ls consumer/headers)" ] || fail "no headers were installed"
 
-readme_block cpp >consumer/pull-focus.cpp
+readme_block cpp docs/library.md >consumer/pull-focus.cpp
+lines=$(sed -n '/^int main/,/^}/p' consumer/pull-focus.cpp | sed '1d;$d' | wc -l)
+[ "$lines" -ge 1 ] && [ "$lines" -le 8 ] || fail "the example's main() has $lines lines"
 {
     echo 'cmake_minimum_required(VERSION 3.25)'
     echo 'project(consumer LANGUAGES CXX)'
-    readme_block cmake
+    readme_block cmake docs/library.md
     echo 'file(GLOB headers headers/*.cpp)'
     echo 'add_library(headers OBJECT ${headers})'
     echo 'target_link_libraries(headers PRIVATE sparselens::sparselens)'
@@ -35,6 +38,12 @@ readme_block cpp >consumer/pull-focus.cpp
 logged cmake -S consumer -B consumer/build -G Ninja -DCMAKE_CXX_COMPILER="$compiler" \
     -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_CXX_FLAGS=-ffp-contract=off
 logged cmake --build consumer/build -j 2
+! grep -ril embree "$prefix/lib"/*/cmake/sparselens "$prefix"/lib/cmake/sparselens 2>/dev/null ||
+    fail "the installed package asks for Embree"
+! grep -qi embree consumer/build/build.ninja || fail "the consumer is linked with Embree"
+ldd consumer/build/pull-focus >libraries
+grep -q libc libraries || fail "ldd says nothing"
+! grep -i embree libraries || fail "the consumer loads Embree"
 
 logged "$prefix/bin/dof-trace" fence --size 640x40 --views 1 --spp 1 -o views
 logged "$prefix/bin/ldi-warp" views/center.exr views/view_0.exr -o fence.ldi.exr

@@ -48,5 +48,5 @@ answers_help() {
     fails_saying 2 no-such-option "$bin/$tool" "$@" --no-such-option
 }
 
-# readme_block LANGUAGE: the contents of all README.md's fenced blocks of that language.
-readme_block() { sed -n "/^\`\`\`$1\$/,/^\`\`\`\$/{/^\`\`\`/d;p}" "$source_dir/README.md"; }
+# readme_block LANGUAGE [DOCUMENT]: the contents of all fenced blocks of that language in README.md, or in the document.
+readme_block() { sed -n "/^\`\`\`$1\$/,/^\`\`\`\$/{/^\`\`\`/d;p}" "$source_dir/${2:-README.md}"; }
