@@ -19,7 +19,7 @@ LensValues parsed(std::vector<std::string> words) {
     return options;
 }
 
-TEST(LensValues, AreRead) {
+TEST(LensOptions, AreRead) {
     const LensValues options = parsed({"--focal-length", "50", "--sensor-width", "36", "--fstop", "1.4",
                                        "--focus-distance", "2.5", "--scene-unit", "0.01"});
     EXPECT_EQ(options.focal_length_mm, 50);
@@ -33,7 +33,7 @@ TEST(LensValues, AreRead) {
     EXPECT_EQ(parsed({"--focus-distance", "inf"}).focus_distance, inf);
 }
 
-TEST(LensValues, WrongValuesAreRefused) {
+TEST(LensOptions, WrongValuesAreRefused) {
     for (const char *option :
          {"--focal-length", "--sensor-width", "--fstop", "--focus-distance", "--scene-unit"})
         for (const char *value : {"abc", "nan", "0", "-1", "", "1x", "-inf"})
