@@ -3,8 +3,8 @@
 #include "io/camera/camera_headers.h"
 #include "io/camera/camera_read.h"
 #include "io/camera/camera_write.h"
-#include "options/lens_options.h"
 #include "view/lens_views.h"
+#include "view/resolve_lens.h"
 
 #include <gtest/gtest.h>
 
@@ -18,11 +18,11 @@ namespace {
 using namespace camera_headers;
 
 // What resolving the lens of a header says, with these options.
-std::string complaint(const Write &write, LensOptions options = {}) {
+std::string complaint(const Write &write, LensValues options = {}) {
     Imf::Header header(64, 36);
     write(header, Pose());
     try {
-        resolve_lens(options, camera_with_options(options, read_camera(header)), windows);
+        resolve_lens(camera_with_options(options, read_camera(header)), windows);
         return "";
     } catch (const UsageError &error) {
         return error.what();
@@ -49,7 +49,7 @@ TEST(CameraErrors, NameTheOptionThatIsMissing) {
               "the focal length is unknown: give --focal-length");
     EXPECT_EQ(complaint(spoilt("standard", "worldToNDC", {})),
               "the sensor width is unknown: give --sensor-width");
-    LensOptions with_focus;
+    LensValues with_focus;
     with_focus.focus_distance = focus;
     EXPECT_EQ(complaint(spoilt("V-Ray", "cameraFov", {}), with_focus), ""); // the film back is there
     EXPECT_EQ(complaint(spoilt("V-Ray", "cameraTransform", {}), with_focus), "");
@@ -59,7 +59,7 @@ TEST(CameraErrors, NameTheOptionThatIsMissing) {
 
 TEST(CameraErrors, NameTheAttributeThatIsWrong) {
     const auto expect = [](const char *renderer, const char *attribute, double value, const char *option) {
-        LensOptions options;
+        LensValues options;
         if (std::string(renderer) == "V-Ray") options.focus_distance = focus;
         const std::string text = complaint(spoilt(renderer, attribute, value), options);
         EXPECT_NE(text.find(attribute), text.npos) << attribute << ": " << text;
@@ -82,7 +82,7 @@ TEST(CameraErrors, NameWhatContradicts) {
             put(h, name, value);
         };
     };
-    LensOptions options;
+    LensValues options;
     std::string text = complaint(both("cameraFocalLength", 50));
     EXPECT_NE(text.find("pinholeFocalLength says 35, cameraFocalLength says 50"), text.npos) << text;
     EXPECT_NE(text.find("give --focal-length"), text.npos);
@@ -139,7 +139,7 @@ TEST(CameraErrors, OfPlacesNameView) {
 TEST(CameraErrors, DoNotComeFromWhatTheOptionsReplaced) {
     Imf::Header header(64, 36);
     write_unreal(header, Pose(), "unreal/camera/FinalImage/", "unreal/camera/");
-    LensOptions options;
+    LensValues options;
     options.focal_length_mm = 50;
     const Camera changed = camera_with_options(options, read_camera(header));
     write_camera(header, changed);
