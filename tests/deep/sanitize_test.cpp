@@ -101,8 +101,7 @@ TEST(InvalidValues, MostDepthsBadIsAnotherConvention) {
                           [](int x, int) { return ViewPixel{.z = x < 2 ? -3.0f : 4.0f}; });
     view.name = "x.exr";
     const std::string what = what_of<Error>([&] { sanitize(view); });
-    EXPECT_EQ(what,
-              "x.exr: depth -3.000000 in pixel 0,0 is no number above 0 (see --depth, --depth-channel)");
+    EXPECT_EQ(what, "x.exr: depth -3 in pixel 0,0 is not a number above 0 (see --depth, --depth-channel)");
 }
 
 TEST(InvalidValues, InDeepPicturesTheNeighbourNearestInDepthFills) {
@@ -125,9 +124,8 @@ TEST(InvalidValues, PlacesAndWeightsOfADeepPicture) {
 
 TEST(InvalidValues, AreSaidInOneLine) {
     EXPECT_EQ((InvalidValues{.colours = 2, .depths = 1}).text(),
-              "2 colours that are not finite, 1 depth that is no number above 0: made good from the pixels "
-              "around, A "
-              "clamped");
+              "2 colours that are not finite, 1 depth that is not above 0: replaced from "
+              "neighbouring pixels, alpha clamped");
 }
 
 } // namespace

@@ -32,7 +32,7 @@ TEST(FrameNumbers, AreAMillionAtMost) {
     for (const std::string wrong :
          {"1-1000001", "1-600000,1-600000", "-600000-600000", "1-9999999x9", "1-9999999y2"})
         EXPECT_EQ(what_of<UsageError>([&] { frame_numbers(wrong); }),
-                  "--frames: '" + wrong + "' are more than a million frames");
+                  "--frames: '" + wrong + "' has more than a million frames");
 }
 
 TEST(FileAt, PutsTheNumberInEveryPlace) {

@@ -80,7 +80,7 @@ TEST(WarpedViews, DisplayWindowsMayNot) {
     EXPECT_EQ(what_of<Error>([&] {
                   warped({centre, rim});
               }),
-              "rim.exr: its display window differs from the centre view's (centre.exr)");
+              "rim.exr: its display window differs from that of the centre view (centre.exr)");
 }
 
 TEST(WarpedViews, ChannelsAreMatchedByName) {

@@ -250,7 +250,7 @@ TEST_F(ExrDeep, TheDeepPartIsTheOneThatIsRead) {
 
 TEST_F(ExrDeep, ADeepFileIsNoFlatPicture) {
     write_ldi(path, ldi_of({{{.z = 1}}}), Imf::Header());
-    EXPECT_EQ(what_of<Error>([&] { read_flat_exr(path); }), path + ": holds no flat picture");
+    EXPECT_EQ(what_of<Error>([&] { read_flat_exr(path); }), path + ": contains no flat image");
 }
 
 TEST_F(ExrDeep, AFlatPictureIsReadAsOneSampleAPixel) {

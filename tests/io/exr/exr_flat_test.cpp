@@ -287,7 +287,7 @@ TEST(TakeDepth, AnotherZIsNotCarried) {
 TEST(TakeDepth, IdsAreNoDepth) {
     Image image = with_depths({{"Z", PixelType::uint32}});
     EXPECT_EQ(what_of<Error>([&] { take_depth(image, "", "f.exr"); }),
-              "f.exr: its depth channel Z holds integers, not depths");
+              "f.exr: the depth channel Z holds integers, not depths");
 }
 
 } // namespace

@@ -64,8 +64,8 @@ TEST_F(HeaderCheck, AttributesLargerThanTheFile) {
 TEST_F(HeaderCheck, AttributesOfAnotherSizeThanTheirTypes) {
     for (const char *type : {"box2i", "float", "m44f", "tiledesc"})
         EXPECT_EQ(said(one_part + attribute("any", type, "123") + '\0'),
-                  "attribute any is not of the size of its type");
-    const std::string claims = "attribute any is not of the size that it claims";
+                  "attribute any does not have the size of its type");
+    const std::string claims = "attribute any does not have the size that it claims";
     const std::string channel = text("R") + std::string(16, '\1');
     EXPECT_EQ(said(one_part + attribute("any", "chlist", channel + '\0') + '\0'), "");
     EXPECT_EQ(said(one_part + attribute("any", "chlist", channel) + '\0' + '\0'), claims);
@@ -77,9 +77,9 @@ TEST_F(HeaderCheck, AttributesOfAnotherSizeThanTheirTypes) {
 }
 
 TEST_F(HeaderCheck, HeadersThatDoNotEnd) {
-    EXPECT_EQ(said(one_part), "the file ends too early");
-    EXPECT_EQ(said(one_part + attribute("any", "thing", "value")), "the file ends too early");
-    EXPECT_EQ(said(one_part + std::string(300, 'x') + '\0'), "a name in its header does not end");
+    EXPECT_EQ(said(one_part), "the file is truncated");
+    EXPECT_EQ(said(one_part + attribute("any", "thing", "value")), "the file is truncated");
+    EXPECT_EQ(said(one_part + std::string(300, 'x') + '\0'), "a name in the header does not end");
 }
 
 } // namespace

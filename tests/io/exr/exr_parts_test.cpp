@@ -150,12 +150,12 @@ TEST_F(ExrParts, APartThatLiesNowhereIsAnError) {
     other.begin = {0, 2, 2};
     write({{"hero", "", object(4, 1)}, {"ids", "", other, ""}});
     EXPECT_EQ(what_of<Error>([&] { read_ldi(path); }),
-              path + ": part ids has no depth channel, and other samples than the parts before it");
+              path + ": part ids has neither a depth channel nor the samples of an earlier part");
     Ldi ids = object(3, 1);
     ids.channels[0].type = PixelType::uint32;
     write({{"hero", "", object(4, 1)}, {"ids", "", ids}});
     EXPECT_EQ(what_of<Error>([&] { read_ldi(path); }),
-              path + ": channel R holds integers in one deep part and not in another");
+              path + ": channel R holds integers in one deep part but not in another");
 }
 
 TEST_F(ExrParts, DeepViewsAreChosen) {
@@ -164,7 +164,7 @@ TEST_F(ExrParts, DeepViewsAreChosen) {
     EXPECT_EQ(read_ldi(path, "", "right").ldi.z[0], 2);
     EXPECT_EQ(read_ldi(path, "", "right").header.view(), "right");
     EXPECT_EQ(what_of<Error>([&] { read_ldi(path, "", "middle"); }),
-              path + ": has no stereo view 'middle' (--stereo-view), but left, right");
+              path + ": has no stereo view 'middle' (--stereo-view): its views are left, right");
 }
 
 TEST_F(ExrParts, ViewsOfOnePartAreToldByTheirChannels) {

@@ -146,7 +146,7 @@ TEST_F(FileStream, ReadsAndSeeksInFiles) {
     in->read(text.data(), 3);
     EXPECT_EQ(text.substr(0, 3), "567");
     EXPECT_EQ(in->tellg(), 8u);
-    EXPECT_EQ(what_of<Error>([&] { in->read(text.data(), 3); }), path + ": the file ends too early");
+    EXPECT_EQ(what_of<Error>([&] { in->read(text.data(), 3); }), path + ": the file is truncated");
 }
 
 TEST_F(FileStream, ErrorsNameTheFileAndTheReason) {

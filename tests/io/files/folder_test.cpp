@@ -23,7 +23,7 @@ TEST(MakeFolder, NamesWhatItCannotMake) {
     put_contents(file, "text");
     for (const std::string &folder : {file, file + "/under"}) {
         const std::string what = what_of<Error>([&] { make_folder(folder); });
-        EXPECT_TRUE(what.starts_with(folder + ": cannot make the folder: ")) << what;
+        EXPECT_TRUE(what.starts_with(folder + ": cannot create the folder: ")) << what;
     }
     EXPECT_EQ(contents_of(file), "text");
 }

@@ -36,9 +36,8 @@ TEST_F(MemoryLimit, SaysWhichFileAsksForHowMuch) {
         check_memory("x.exr", 100 * megabyte, 0);
         FAIL();
     } catch (const Error &error) {
-        EXPECT_STREQ(
-            error.what(),
-            "x.exr: asks for 100 MB of memory, more than a file of its size may; --max-memory allows it");
+        EXPECT_STREQ(error.what(), "x.exr: asks for 100 MB of memory, more than is usual for a file of its "
+                                   "size: give --max-memory to allow it");
     }
 }
 
