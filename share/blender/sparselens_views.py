@@ -1,30 +1,28 @@
-"""Renders what sparselens needs of a Blender scene: the centre view and views from the rim of the lens.
+"""Renders what sparselens needs of a Blender scene: the centre view and views
+from the rim of the lens.
 
 As a script:
-    blender -b scene.blend -P sparselens_views.py -- -o DIR [--views N] [--plan PLAN.json] [--frame N] [--samples N]
-        [--lens-views N]
-As an add-on: install this file under Preferences > Add-ons; the panel is in the camera's properties.
+    blender -b shot.blend -P sparselens_views.py -- -o DIR [--help]
+As an add-on: install this file under Preferences > Add-ons; the panel is in
+the camera's properties.
 
-The scene's camera says all: focal length, sensor, depth of field (focus distance or object, f-stop). Depth of field
-itself is switched off while rendering; each view is a pinhole picture, its camera moved in its own plane by the
-aperture's radius, focal length / (2 f-number). Works with Cycles and EEVEE. Files: DIR/center.exr and DIR/view_K.exr,
-RGBA (half) and Z (float, planar), with the camera in the EXR attributes that ldi-warp reads. With a plan of ldi-plan
-only its rectangles are rendered, one file each: DIR/view_K_R.exr.
+Each view is a pinhole picture. It is rendered through a camera that this
+script makes, and which stands where the scene's camera stands at that frame,
+moved in the plane of the lens by the radius of the lens, focal length /
+(2 f-number). Nothing animates the made camera, so the render cannot move it;
+the scene's own camera is only read, after keys, drivers and constraints have
+been evaluated. Works with Cycles and EEVEE.
 
---lens-views adds DIR/lens_KKKK.exr, views spread evenly over the whole lens: their average (dof-accumulate --center
-DIR/center.exr) is what a renderer without depth of field of its own would have to make.
-
-Then, in a shell:
-    ldi-warp DIR/center.exr DIR/view_*.exr -o - | ldi-cluster - -o - | dof-gather - -o defocused.exr
+README.md, beside this file, says what is written.
 """
 
 bl_info = {
     "name": "sparselens views",
     "author": "sparselens",
-    "version": (0, 1, 0),
+    "version": (0, 2, 0),
     "blender": (3, 4, 0),
     "location": "Properties > Camera > sparselens",
-    "description": "Renders the views that sparselens makes depth of field from",
+    "description": "Renders the views that sparselens makes depth of field of",
     "category": "Render",
 }
 
@@ -32,191 +30,480 @@ import argparse
 import json
 import math
 import os
+import re
 import struct
 import sys
+import traceback
+from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass
 
 import bpy
-from mathutils import Matrix, Vector
+from mathutils import Matrix
 
 
-# --- EXR attributes -------------------------------------------------------------------------------------------------
+# --- EXR headers -------------------------------------------------------------
 
 
-def attribute(name, kind, value):
-    """One header attribute: name and type end with a zero byte, then the size and the bytes, little endian."""
-    return name.encode() + b"\0" + kind.encode() + b"\0" + struct.pack("<i", len(value)) + value
+def exr_int(value):
+    return "int", struct.pack("<i", value)
 
 
-def float_attribute(name, value):
-    return attribute(name, "float", struct.pack("<f", value))
+def exr_text(value):
+    return "string", value.encode()
 
 
-def matrix_attribute(name, matrix):
-    """EXR multiplies row vectors, Blender column vectors: the transpose is written."""
-    return attribute(name, "m44f", struct.pack("<16f", *[matrix[row][column] for column in range(4) for row in range(4)]))
+def exr_float(value):
+    return "float", struct.pack("<f", value)
 
 
-def header_end(data):
-    """Position of the zero byte that ends the header of a file of one part, and whether its pixels are tiled."""
-    version = struct.unpack_from("<i", data, 4)[0]
-    if data[:4] != b"\x76\x2f\x31\x01" or version & 0x1800:
-        raise ValueError("is no flat EXR of one part")
-    at, chunks = 8, {}
+def exr_point(x, y):
+    return "v2f", struct.pack("<2f", x, y)
+
+
+def exr_box(x, y, width, height):
+    """A window of pixels; y points down, the last pixel is included."""
+    corners = x, y, x + width - 1, y + height - 1
+    return "box2i", struct.pack("<4i", *corners)
+
+
+def exr_matrix(matrix):
+    """EXR multiplies row vectors, Blender columns: write the transpose."""
+    return "m44f", struct.pack("<16f", *[x for row in matrix.transposed()
+                                         for x in row])
+
+
+def read_header(data):
+    """The attributes of an EXR of one part, {name: (type, bytes)}, and the
+    position behind the header."""
+    magic, version = struct.unpack_from("<2i", data)
+    if magic != 20000630 or version & 0x1a00:
+        raise ValueError("not a flat scanline EXR of one part")
+    at, attributes = 8, {}
     while data[at] != 0:
         name_end = data.index(b"\0", at)
         type_end = data.index(b"\0", name_end + 1)
-        size = struct.unpack_from("<i", data, type_end + 1)[0]
-        chunks[data[at:name_end].decode()] = data[type_end + 5:type_end + 5 + size]
-        at = type_end + 5 + size
-    return at, chunks
+        start = type_end + 5
+        end = start + struct.unpack_from("<i", data, type_end + 1)[0]
+        attributes[data[at:name_end].decode()] = (
+            data[name_end + 1:type_end].decode(), data[start:end])
+        at = end
+    return attributes, at + 1
 
 
-def rows_a_chunk(compression):
-    return {0: 1, 1: 1, 2: 1, 3: 16, 4: 32, 5: 16, 6: 32, 7: 32, 8: 32, 9: 256}[compression]
+def header_bytes(data, attributes):
+    """Magic number and version as in `data`, then the attributes."""
+    parts = [data[:8]]
+    for name, (kind, value) in attributes.items():
+        parts += [name.encode(), b"\0", kind.encode(), b"\0",
+                  struct.pack("<i", len(value)), value]
+    return b"".join(parts) + b"\0"
 
 
-def add_attributes(path, attributes):
-    """Puts attributes into the header of a scanline EXR; the offsets behind it move along."""
-    with open(path, "rb") as file:
-        data = file.read()
-    end, header = header_end(data)
-    window = struct.unpack("<4i", header["dataWindow"])
-    chunks = -(-(window[3] - window[1] + 1) // rows_a_chunk(header["compression"][0]))
-    extra = b"".join(attributes)
-    offsets = struct.unpack_from("<%dQ" % chunks, data, end + 1)
-    moved = struct.pack("<%dQ" % chunks, *[offset + len(extra) for offset in offsets])
-    with open(path + ".partial", "wb") as file:
-        file.write(data[:end] + extra + b"\0" + moved + data[end + 1 + 8 * chunks:])
-    os.replace(path + ".partial", path)
+ROWS_A_CHUNK = {0: 1, 1: 1, 2: 1, 3: 16, 4: 32, 5: 16, 6: 32, 7: 32, 8: 32,
+                9: 256}  # by the number of the compression
 
 
-# --- The camera -----------------------------------------------------------------------------------------------------
+def with_attributes(data, attributes):
+    """The bytes of an EXR with these attributes added or replaced. The chunks
+    are kept; their table of offsets moves, and so do their rows where the
+    data window does."""
+    header, end = read_header(data)
+    _, top, _, bottom = struct.unpack("<4i", header["dataWindow"][1])
+    rows = ROWS_A_CHUNK[header["compression"][1][0]]
+    count = (bottom - top) // rows + 1
+    header.update(attributes)
+    down = struct.unpack("<4i", header["dataWindow"][1])[1] - top
+
+    start = header_bytes(data, header)
+    moved = len(start) - end
+    offsets = struct.unpack_from("<%dQ" % count, data, end)
+    result = bytearray(start + data[end:])
+    struct.pack_into("<%dQ" % count, result, len(start),
+                     *[offset + moved for offset in offsets])
+    for offset in offsets:
+        row = struct.unpack_from("<i", data, offset)[0]
+        struct.pack_into("<i", result, offset + moved, row + down)
+    return bytes(result)
 
 
-class Lens:
-    """What the scene's camera says of its lens, in Blender's units, which Cycles takes for metres."""
-
-    def __init__(self, scene):
-        camera = scene.camera
-        data, render = camera.data, scene.render
-        if data.type != "PERSP":
-            raise ValueError("camera '%s' is not a perspective one" % camera.name)
-        width = render.resolution_x * render.resolution_percentage // 100
-        height = render.resolution_y * render.resolution_percentage // 100
-        aspect = render.pixel_aspect_y / render.pixel_aspect_x
-        by_height = data.sensor_fit == "VERTICAL" or (data.sensor_fit == "AUTO" and width < height * aspect)
-        sensor = data.sensor_height if data.sensor_fit == "VERTICAL" else data.sensor_width
-        self.focal_length = data.lens
-        self.sensor_width = sensor * width / (height * aspect) if by_height else sensor
-        self.shift = (data.shift_x, data.shift_y)
-        self.fstop = data.dof.aperture_fstop
-        self.radius = data.lens / 1000 / (2 * self.fstop)
-        self.size = (width, height)
-        self.pixel_aspect = aspect
-        self.focus_distance = data.dof.focus_distance
-        if data.dof.focus_object:
-            towards = camera.matrix_world.inverted() @ data.dof.focus_object.matrix_world.translation
-            self.focus_distance = -towards.z
-
-    def world_to_camera(self, matrix_world):
-        """Camera space of the EXR attribute: x right, y up, looking along -z, as Blender's own."""
-        return matrix_world.inverted()
-
-    def attributes(self, matrix_world):
-        return [
-            float_attribute("pinholeFocalLength", self.focal_length),
-            float_attribute("aperture", self.fstop),
-            float_attribute("focus", self.focus_distance),
-            float_attribute("sparselens:sensorWidth", self.sensor_width),
-            float_attribute("sparselens:metresPerUnit", 1.0),
-            matrix_attribute("worldToCamera", self.world_to_camera(matrix_world)),
-        ]
+# --- The camera at a frame ---------------------------------------------------
 
 
-# --- Rendering ------------------------------------------------------------------------------------------------------
+@dataclass
+class Shot:
+    """What the scene's camera is at one frame, for one eye, after animation,
+    drivers and constraints. Blender's units, which Cycles takes for metres."""
+
+    camera: str            # its name
+    placement: Matrix      # from camera to world, without a scale
+    size: tuple            # of the picture, pixels
+    pixel_aspect: float    # width of a pixel over its height
+    focal_length: float    # mm
+    sensor_width: float    # mm, across the picture
+    shift: tuple           # right and up, in widths of the picture
+    clip: tuple            # nearest and farthest depth
+    fstop: float
+    focus_distance: float
+    blades: int            # 0: a round aperture
+    rotation: float        # of the blades, radians
+    ratio: float           # 1: round; 2: twice as high as wide
+
+    @property
+    def lens_radius(self):
+        return self.focal_length / 1000 / (2 * self.fstop)
 
 
-class PinholeSetting:
-    """Depth of field off, EXR with Z on; afterwards everything is as it was."""
+@dataclass
+class Eye:
+    """A view of a stereo scene, or the only one."""
 
-    def __init__(self, scene):
-        self.scene = scene
+    name: str = ""
+    file_suffix: str = ""
+    camera_suffix: str = ""
+    side: int = 0  # of a stereo pair made of one camera: -1 left, 1 right
 
-    def __enter__(self):
-        scene = self.scene
-        render, settings = scene.render, scene.render.image_settings
-        self.kept = [(scene.camera.data.dof, "use_dof"), (scene.camera, "matrix_world"), (scene, "camera"),
-                     (render, "filepath"), (render, "use_border"), (render, "use_crop_to_border"),
-                     (render, "border_min_x"), (render, "border_min_y"), (render, "border_max_x"),
-                     (render, "border_max_y"), (render, "use_compositing"), (render, "use_sequencer"),
-                     (settings, "file_format"), (settings, "color_mode"), (settings, "color_depth"),
-                     (settings, "use_zbuffer"), (settings, "exr_codec")]
-        self.values = [getattr(thing, name) for thing, name in self.kept]
-        self.values = [value.copy() if isinstance(value, Matrix) else value for value in self.values]
-        self.passes = [(layer, layer.use_pass_z) for layer in scene.view_layers]
-        scene.camera.data.dof.use_dof = False
-        render.use_compositing = render.use_sequencer = render.use_border = False
-        settings.file_format, settings.color_mode, settings.color_depth = "OPEN_EXR", "RGBA", "16"
-        settings.use_zbuffer, settings.exr_codec = True, "ZIP"
-        for layer in scene.view_layers:
-            layer.use_pass_z = True
-        return self
 
-    def __exit__(self, *_):
-        for (thing, name), value in zip(self.kept, self.values):
+def eyes_of(scene):
+    """The eyes that the scene asks for, as its Stereoscopy panel has it."""
+    render = scene.render
+    if not render.use_multiview:
+        return [Eye()]
+    if render.views_format == "MULTIVIEW":
+        return [Eye(view.name, view.file_suffix, view.camera_suffix)
+                for view in render.views if view.use]
+    return [Eye(view.name, view.file_suffix,
+                side=-1 if view.name == "left" else 1)
+            for view in render.stereo_views if view.use]
+
+
+def camera_of(scene, eye):
+    """The camera object of an eye. The cameras of a multi-view scene differ
+    in the end of their names."""
+    camera = scene.camera
+    if camera is None:
+        raise ValueError("scene '%s' has no camera: set one in the scene's "
+                         "properties" % scene.name)
+    endings = [view.camera_suffix for view in scene.render.views]
+    endings = [end for end in endings if camera.name.endswith(end)]
+    if eye.camera_suffix and endings:
+        longest = max(endings, key=len)
+        base = camera.name[:len(camera.name) - len(longest)]
+        return scene.objects.get(base + eye.camera_suffix, camera)
+    return camera
+
+
+def without_scale(matrix):
+    result = matrix.to_3x3()
+    for column in range(3):
+        result.col[column] = result.col[column].normalized()
+    return Matrix.Translation(matrix.translation) @ result.to_4x4()
+
+
+def stereo_offset(stereo, side):
+    """Where an eye of a stereo pair stands in the space of its camera."""
+    centred = stereo.pivot == "CENTER"
+    if not centred and side == (-1 if stereo.pivot == "LEFT" else 1):
+        return Matrix()
+    distance = side * stereo.interocular_distance * (0.5 if centred else 1)
+    move = Matrix.Translation((distance, 0, 0))
+    if stereo.convergence_mode != "TOE":
+        return move
+    turn = Matrix.Rotation(
+        side * math.atan(stereo.interocular_distance / 2
+                         / stereo.convergence_distance), 4, "Y")
+    return move @ turn if centred else turn @ move @ turn
+
+
+def stereo_shift(data, side):
+    """What an eye of an off-axis stereo pair adds to the lens shift, in
+    Blender's unit of that, which is a sensor width here whatever the fit."""
+    stereo = data.stereo
+    if side == 0 or stereo.convergence_mode != "OFFAXIS":
+        return 0
+    moved = stereo_offset(stereo, side).translation.x
+    return -moved / data.sensor_width * data.lens / stereo.convergence_distance
+
+
+def focus_distance_of(data, placement, depsgraph):
+    """Depth of the plane of focus; that of the focus object, or of its bone,
+    where there is one."""
+    target = data.dof.focus_object
+    if target is None:
+        return data.dof.focus_distance
+    target = target.evaluated_get(depsgraph)
+    matrix = target.matrix_world
+    bone = data.dof.focus_subtarget
+    if bone and target.pose and bone in target.pose.bones:
+        matrix = matrix @ target.pose.bones[bone].matrix
+    return abs((placement.inverted() @ matrix.translation).z)
+
+
+def picture_size(render):
+    return (render.resolution_x * render.resolution_percentage // 100,
+            render.resolution_y * render.resolution_percentage // 100)
+
+
+def shot_of(scene, eye):
+    """The camera of an eye at the scene's current frame."""
+    depsgraph = bpy.context.evaluated_depsgraph_get()
+    camera = camera_of(scene, eye).evaluated_get(depsgraph)
+    data, render = camera.data, scene.render
+    if camera.type != "CAMERA" or data.type != "PERSP":
+        raise ValueError("camera '%s' is not a perspective one" % camera.name)
+    if eye.side and data.stereo.use_spherical_stereo:
+        raise ValueError("camera '%s' has spherical stereo, whose views do "
+                         "not stand on one lens: switch it off" % camera.name)
+    width, height = picture_size(render)
+    square_height = height * render.pixel_aspect_y / render.pixel_aspect_x
+    fit = data.sensor_fit
+    if fit == "AUTO":
+        fit = "HORIZONTAL" if width >= square_height else "VERTICAL"
+    by_height = fit == "VERTICAL"
+    sensor = (data.sensor_height if data.sensor_fit == "VERTICAL"
+              else data.sensor_width)
+    fitted = square_height if by_height else width  # pixels of `sensor`
+
+    placement = without_scale(camera.matrix_world)
+    if eye.side:
+        placement = placement @ stereo_offset(data.stereo, eye.side)
+    shift = data.shift_x + stereo_shift(data, eye.side), data.shift_y
+    return Shot(
+        camera=camera.name, placement=placement, size=(width, height),
+        pixel_aspect=render.pixel_aspect_x / render.pixel_aspect_y,
+        focal_length=data.lens, sensor_width=sensor * width / fitted,
+        shift=(shift[0] * fitted / width, shift[1] * fitted / width),
+        clip=(data.clip_start, data.clip_end), fstop=data.dof.aperture_fstop,
+        focus_distance=focus_distance_of(data, placement, depsgraph),
+        blades=data.dof.aperture_blades, rotation=data.dof.aperture_rotation,
+        ratio=data.dof.aperture_ratio)
+
+
+def camera_attributes(shot, placement):
+    """The EXR attributes of a view. Camera space in EXR: x right, y up, z
+    forward, where Blender's z points backward."""
+    field = shot.sensor_width / shot.focal_length
+    to_camera = Matrix.Diagonal((1, 1, -1, 1)) @ placement.inverted()
+    return {
+        "Camera": exr_text(shot.camera),
+        "pinholeFocalLength": exr_float(shot.focal_length),
+        "aperture": exr_float(shot.fstop),
+        "focus": exr_float(shot.focus_distance),
+        "worldToCamera": exr_matrix(to_camera),
+        "screenWindowWidth": exr_float(field),
+        "screenWindowCenter": exr_point(shot.shift[0] * field,
+                                        shot.shift[1] * field),
+        "pixelAspectRatio": exr_float(shot.pixel_aspect),
+        "sparselens:sensorWidth": exr_float(shot.sensor_width),
+        "sparselens:metresPerUnit": exr_float(1),
+        "aperture_blades": exr_int(shot.blades),
+        "aperture_rotation": exr_float(shot.rotation),
+        "aperture_ratio": exr_float(shot.ratio),
+    }
+
+
+# --- Rendering ---------------------------------------------------------------
+
+
+@contextmanager
+def changed(thing, **values):
+    """Properties with other values for a while."""
+    before = {name: getattr(thing, name) for name in values}
+    try:
+        for name, value in values.items():
             setattr(thing, name, value)
-        for layer, use in self.passes:
-            layer.use_pass_z = use
+        yield
+    finally:
+        for name, value in before.items():
+            setattr(thing, name, value)
 
-    def render(self, path, lens, home, u, box=None):
-        """One view from lens point u (x right, y up); box: pixels x0, y0, x1, y1, y down, corners included."""
-        scene, render = self.scene, self.scene.render
-        scene.camera.matrix_world = home @ Matrix.Translation(Vector((lens.radius * u[0], lens.radius * u[1], 0)))
-        render.use_border = box is not None
-        render.use_crop_to_border = False
-        if box:
-            width, height = lens.size
-            render.border_min_x, render.border_max_x = box[0] / width, (box[2] + 1) / width
-            render.border_min_y, render.border_max_y = 1 - (box[3] + 1) / height, 1 - box[1] / height
-        render.filepath = os.path.abspath(path)
+
+@contextmanager
+def still_camera(scene):
+    """A camera without animation and without depth of field takes the place
+    of the scene's for a while. Markers let go of their cameras meanwhile, or
+    the render would switch to one of them."""
+    data = bpy.data.cameras.new("sparselens view")
+    made = bpy.data.objects.new("sparselens view", data)
+    scene.collection.objects.link(made)
+    try:
+        with ExitStack() as stack:
+            for marker in scene.timeline_markers:
+                stack.enter_context(changed(marker, camera=None))
+            stack.enter_context(changed(scene, camera=made))
+            yield made
+    finally:
+        bpy.data.objects.remove(made)
+        bpy.data.cameras.remove(data)
+
+
+@contextmanager
+def render_settings(scene, shot, overscan, multilayer):
+    """EXR with depth, of the picture grown by `overscan` pixels on each side,
+    and of nothing else than the views; afterwards all is as it was."""
+    render = scene.render
+    with ExitStack() as stack:
+        stack.enter_context(changed(
+            render.image_settings,
+            file_format="OPEN_EXR_MULTILAYER" if multilayer else "OPEN_EXR",
+            color_mode="RGBA", color_depth="16", exr_codec="ZIP",
+            use_zbuffer=True, color_management="FOLLOW_SCENE"))
+        stack.enter_context(changed(
+            render, filepath="", use_multiview=False, use_compositing=False,
+            use_sequencer=False, use_stamp=False, use_border=False,
+            use_crop_to_border=False, border_min_x=0, border_max_x=1,
+            border_min_y=0, border_max_y=1, resolution_percentage=100,
+            resolution_x=shot.size[0] + 2 * overscan,
+            resolution_y=shot.size[1] + 2 * overscan))
+        for layer in scene.view_layers:
+            stack.enter_context(changed(layer, use_pass_z=True))
+        yield
+
+
+def aim(camera, shot, placement, overscan):
+    """Puts the made camera where a view is seen from. It sees `overscan`
+    pixels more on each side; the sensor grows by as much."""
+    camera.matrix_world = placement
+    data, grown = camera.data, 1 + 2 * overscan / shot.size[0]
+    data.lens, data.sensor_fit = shot.focal_length, "HORIZONTAL"
+    data.sensor_width = shot.sensor_width * grown
+    data.shift_x, data.shift_y = [shift / grown for shift in shot.shift]
+    data.clip_start, data.clip_end = shot.clip
+
+
+def set_border(render, box, overscan):
+    """Renders only a box of pixels, x0, y0, x1, y1, y down, corners included.
+    A quarter of a pixel keeps the edges from being rounded down."""
+    render.use_border = box is not None
+    if box is None:
+        return
+    x0, y0, x1, y1 = [side + overscan for side in box]
+    width, height = render.resolution_x, render.resolution_y
+    render.border_min_x = (x0 + 0.25) / width
+    render.border_max_x = (x1 + 1.25) / width
+    render.border_min_y = (height - y1 - 1 + 0.25) / height
+    render.border_max_y = (height - y0 + 0.25) / height
+
+
+def render_view(scene, path, shot, u, overscan, box=None):
+    """Renders what is seen from lens point u (x right, y up; the lens has the
+    radius 1). The file appears complete or not at all."""
+    radius = shot.lens_radius
+    placement = shot.placement @ Matrix.Translation(
+        (radius * u[0], radius * u[1], 0))
+    aim(scene.camera, shot, placement, overscan)
+    set_border(scene.render, box, overscan)
+    width, height = shot.size
+    attributes = camera_attributes(shot, placement)
+    attributes["displayWindow"] = exr_box(0, 0, width, height)
+    attributes["dataWindow"] = exr_box(
+        -overscan, -overscan, width + 2 * overscan, height + 2 * overscan)
+
+    partial = path + ".partial.exr"
+    scene.render.filepath = partial
+    try:
         bpy.ops.render.render(write_still=True, scene=scene.name)
-        add_attributes(render.filepath, lens.attributes(scene.camera.matrix_world))
+        with open(partial, "rb") as file:
+            data = with_attributes(file.read(), attributes)
+        with open(partial, "wb") as file:
+            file.write(data)
+        os.replace(partial, path)
+    finally:
+        if os.path.exists(partial):
+            os.remove(partial)
 
 
 def rim_points(count):
-    return [(math.cos(2 * math.pi * k / count), math.sin(2 * math.pi * k / count)) for k in range(count)]
+    angles = [2 * math.pi * k / count for k in range(count)]
+    return [(math.cos(angle), math.sin(angle)) for angle in angles]
 
 
 def spiral_points(count):
-    """Even in area over the lens: the golden angle, as sunflowers do."""
+    """Points spread evenly over the lens, as sunflowers have their seeds."""
     golden = math.pi * (3 - math.sqrt(5))
     polar = [(math.sqrt((k + 0.5) / count), k * golden) for k in range(count)]
-    return [(radius * math.cos(angle), radius * math.sin(angle)) for radius, angle in polar]
+    return [(radius * math.cos(angle), radius * math.sin(angle))
+            for radius, angle in polar]
 
 
-def set_samples(scene, samples):
-    scene.cycles.samples = scene.eevee.taa_render_samples = samples
+def views_of_plan(plan):
+    """Names, lens points and boxes of what a plan of ldi-plan asks for; it
+    was made from the centre view, which is there already."""
+    return [("%s_%d" % (view["name"], number), view["lens_point"], box)
+            for view in plan["views"]
+            for number, box in enumerate(view["rectangles"])]
 
 
-def render_views(scene, folder, views=4, plan=None, lens_views=0):
-    """Renders into `folder`; with a plan just what it asks for, without the centre view it was made from."""
-    lens, home = Lens(scene), scene.camera.matrix_world.copy()
+def views_of_lens(rim, spread):
+    """The centre, `rim` views from the rim and `spread` all over the lens."""
+    return ([("center", (0, 0), None)]
+            + [("view_%d" % k, u, None)
+               for k, u in enumerate(rim_points(rim))]
+            + [("lens_%04d" % k, u, None)
+               for k, u in enumerate(spiral_points(spread))])
+
+
+def numbered(name, frame):
+    """The name with the frame's number for each run of #."""
+    return re.sub("#+", lambda run: "%0*d" % (
+        4 if len(run[0]) == 1 else len(run[0]), frame), name)
+
+
+def warn(text):
+    print("sparselens_views.py: warning:", text, file=sys.stderr)
+
+
+def render_frame(scene, pattern, views, eyes, overscan=0, multilayer=False):
+    """Renders the views of the current frame into the files of `pattern`,
+    where * stands for the name of a view and #### for the frame."""
+    shots = [(eye, shot_of(scene, eye)) for eye in eyes]
+    if scene.render.use_motion_blur:
+        warn("motion blur is on: objects blur, but the camera stands still "
+             "in each view")
+    for eye, shot in shots:
+        with render_settings(scene, shot, overscan, multilayer), \
+                still_camera(scene):
+            for name, u, box in views:
+                path = pattern.replace("*", name + eye.file_suffix)
+                path = numbered(path, scene.frame_current)
+                render_view(scene, path, shot, u, overscan, box)
+
+
+def render_frames(scene, frames, pattern, views_at, eyes, **options):
+    """The same for several frames; views_at(frame) are the views of one."""
+    before = scene.frame_current
+    try:
+        for frame in frames:
+            scene.frame_set(frame)
+            render_frame(scene, pattern, views_at(frame), eyes, **options)
+    finally:
+        scene.frame_set(before)
+
+
+def file_pattern(folder, several_frames):
     os.makedirs(folder, exist_ok=True)
-    with PinholeSetting(scene) as setting:
-        if plan:
-            for view in plan["views"]:
-                for number, box in enumerate(view["rectangles"]):
-                    name = "%s_%d.exr" % (view["name"], number)
-                    setting.render(os.path.join(folder, name), lens, home, view["lens_point"], box)
-            return
-        setting.render(os.path.join(folder, "center.exr"), lens, home, (0, 0))
-        for number, u in enumerate(rim_points(views)):
-            setting.render(os.path.join(folder, "view_%d.exr" % number), lens, home, u)
-        for number, u in enumerate(spiral_points(lens_views)):
-            setting.render(os.path.join(folder, "lens_%04d.exr" % number), lens, home, u)
+    name = "*.####.exr" if several_frames else "*.exr"
+    return os.path.join(os.path.abspath(folder), name)
 
 
-# --- Add-on ---------------------------------------------------------------------------------------------------------
+# --- Add-on ------------------------------------------------------------------
+
+
+class SPARSELENS_Settings(bpy.types.PropertyGroup):
+    folder: bpy.props.StringProperty(
+        name="Folder", description="Where the views go", subtype="DIR_PATH",
+        default="//views/")
+    views: bpy.props.IntProperty(
+        name="Rim Views", description="Views from the rim of the lens",
+        default=4, min=0, max=64)
+    overscan: bpy.props.IntProperty(
+        name="Overscan", description="Pixels rendered beyond each side",
+        default=0, min=0, max=4096, subtype="PIXEL")
+    multilayer: bpy.props.BoolProperty(
+        name="All Passes",
+        description="Multilayer EXR with all passes of the view layers")
+    animation: bpy.props.BoolProperty(
+        name="Animation",
+        description="All frames of the scene, else the current one")
 
 
 class SPARSELENS_OT_render_views(bpy.types.Operator):
@@ -226,9 +513,18 @@ class SPARSELENS_OT_render_views(bpy.types.Operator):
     bl_label = "Render Views"
 
     def execute(self, context):
-        scene = context.scene
+        scene, settings = context.scene, context.scene.sparselens
+        frames = [scene.frame_current]
+        if settings.animation:
+            frames = range(scene.frame_start, scene.frame_end + 1,
+                           scene.frame_step)
         try:
-            render_views(scene, bpy.path.abspath(scene.sparselens_folder), scene.sparselens_views)
+            pattern = file_pattern(bpy.path.abspath(settings.folder),
+                                   settings.animation)
+            views = views_of_lens(settings.views, 0)
+            render_frames(scene, frames, pattern, lambda frame: views,
+                          eyes_of(scene), overscan=settings.overscan,
+                          multilayer=settings.multilayer)
         except (ValueError, OSError, RuntimeError) as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
@@ -237,57 +533,157 @@ class SPARSELENS_OT_render_views(bpy.types.Operator):
 
 class SPARSELENS_PT_panel(bpy.types.Panel):
     bl_label = "sparselens"
-    bl_space_type, bl_region_type, bl_context = "PROPERTIES", "WINDOW", "data"
+    bl_space_type = "PROPERTIES"
+    bl_region_type = "WINDOW"
+    bl_context = "data"
 
     @classmethod
     def poll(cls, context):
         return context.camera is not None
 
     def draw(self, context):
-        self.layout.prop(context.scene, "sparselens_folder")
-        self.layout.prop(context.scene, "sparselens_views")
+        self.layout.use_property_split = True
+        for name in SPARSELENS_Settings.__annotations__:
+            self.layout.prop(context.scene.sparselens, name)
         self.layout.operator("sparselens.render_views")
 
 
+CLASSES = (SPARSELENS_Settings, SPARSELENS_OT_render_views,
+           SPARSELENS_PT_panel)
+
+
 def register():
-    bpy.types.Scene.sparselens_folder = bpy.props.StringProperty(
-        name="Folder", description="Where the views go", subtype="DIR_PATH", default="//views/")
-    bpy.types.Scene.sparselens_views = bpy.props.IntProperty(
-        name="Rim views", description="Views from the rim of the lens", default=4, min=0, max=64)
-    bpy.utils.register_class(SPARSELENS_OT_render_views)
-    bpy.utils.register_class(SPARSELENS_PT_panel)
+    for made in CLASSES:
+        bpy.utils.register_class(made)
+    bpy.types.Scene.sparselens = bpy.props.PointerProperty(
+        type=SPARSELENS_Settings)
 
 
 def unregister():
-    bpy.utils.unregister_class(SPARSELENS_PT_panel)
-    bpy.utils.unregister_class(SPARSELENS_OT_render_views)
-    del bpy.types.Scene.sparselens_folder, bpy.types.Scene.sparselens_views
+    del bpy.types.Scene.sparselens
+    for made in reversed(CLASSES):
+        bpy.utils.unregister_class(made)
+
+
+# --- Script ------------------------------------------------------------------
+
+
+def frame_numbers(text):
+    """The frames of "1-24", "1-100x2" or "3,5-7", in that order."""
+    numbers = []
+    for part in text.split(","):
+        match = re.fullmatch(r"(-?\d+)(?:-(-?\d+)(?:x([1-9]\d*))?)?", part)
+        if not match:
+            raise argparse.ArgumentTypeError(
+                "invalid frame range '%s' (expected e.g. 1-100x2)" % text)
+        first = int(match[1])
+        last = first if match[2] is None else int(match[2])
+        step = int(match[3] or 1)
+        numbers += (range(first, last + 1, step) if first <= last
+                    else range(first, last - 1, -step))
+    return numbers
+
+
+def natural_number(text):
+    if not re.fullmatch(r"\d{1,6}", text):
+        raise argparse.ArgumentTypeError("'%s' is not a number from 0" % text)
+    return int(text)
+
+
+def read_options(arguments):
+    parser = argparse.ArgumentParser(
+        prog="sparselens_views.py",
+        usage="blender -b SCENE.blend -P sparselens_views.py -- -o DIR "
+              "[options]",
+        description="Renders the centre view and the views from the rim of "
+                    "the lens, from the scene's camera.")
+    add = parser.add_argument
+    add("-o", "--output", required=True, metavar="DIR",
+        help="folder of the views: center.exr, view_0.exr, ...")
+    add("--views", type=natural_number, default=4, metavar="N",
+        help="views from the rim of the lens (default: 4)")
+    frames = parser.add_mutually_exclusive_group()
+    frames.add_argument(
+        "--frame", type=int, metavar="N",
+        help="frame to render (default: the scene's current one)")
+    frames.add_argument(
+        "--frames", type=frame_numbers, metavar="RANGE",
+        help="frames to render, e.g. 1-24; the files are center.####.exr, "
+             "view_0.####.exr, ...")
+    add("--samples", type=natural_number, metavar="N",
+        help="samples a pixel (default: the scene's)")
+    add("--overscan", type=natural_number, default=0, metavar="PX",
+        help="pixels to render beyond each side of the picture (default: 0)")
+    add("--multilayer", action="store_true",
+        help="multilayer EXR with all passes of the view layers, AOVs and "
+             "Cryptomatte too (default: colour and depth)")
+    add("--eye", metavar="NAME",
+        help="view of a stereo scene, e.g. left (default: all of them, the "
+             "eye's suffix in the names of the files)")
+    add("--plan", metavar="PLAN.json",
+        help="render only what this file of ldi-plan asks for, a file a "
+             "rectangle: view_0_0.exr, ...; plan.####.json for --frames")
+    add("--lens-views", type=natural_number, default=0, metavar="N",
+        help="also render N views spread over the lens, lens_0000.exr, ..., "
+             "whose average (dof-accumulate) is the true picture")
+    options = parser.parse_args(arguments)
+    if options.samples == 0:
+        parser.error("argument --samples: 0 samples make no picture")
+    return options
+
+
+def chosen_eyes(scene, name):
+    eyes = eyes_of(scene)
+    if name is None:
+        return eyes
+    chosen = [eye for eye in eyes if eye.name == name]
+    if not chosen:
+        raise ValueError("--eye: the scene has no eye '%s'; it has: %s" % (
+            name, ", ".join(eye.name or "one without a name" for eye in eyes)))
+    return chosen
 
 
 def main(arguments):
-    parser = argparse.ArgumentParser(prog="sparselens_views.py")
-    parser.add_argument("-o", "--output", required=True, metavar="DIR")
-    parser.add_argument("--views", type=int, default=4, metavar="N")
-    parser.add_argument("--plan", metavar="PLAN.json")
-    parser.add_argument("--lens-views", type=int, default=0, metavar="N")
-    parser.add_argument("--samples", type=int, metavar="N", help="a pixel; else the scene's own")
-    parser.add_argument("--frame", type=int, metavar="N")
-    options = parser.parse_args(arguments)
+    options = read_options(arguments)
     scene = bpy.context.scene
-    if options.frame is not None:
-        scene.frame_set(options.frame)
-    plan = None
-    if options.plan:
-        with open(options.plan) as file:
-            plan = json.load(file)
+    eyes = chosen_eyes(scene, options.eye)
+    if options.plan and len(eyes) > 1:
+        raise ValueError("--plan: a plan is made for one eye: name it (--eye)")
     if options.samples:
-        set_samples(scene, options.samples)
-    render_views(scene, options.output, options.views, plan, options.lens_views)
+        scene.cycles.samples = options.samples
+        scene.eevee.taa_render_samples = options.samples
+
+    def views_at(frame):
+        if not options.plan:
+            return views_of_lens(options.views, options.lens_views)
+        with open(numbered(options.plan, frame)) as file:
+            return views_of_plan(json.load(file))
+
+    frames = options.frames
+    if frames is None:
+        frames = [scene.frame_current if options.frame is None
+                  else options.frame]
+    render_frames(scene, frames,
+                  file_pattern(options.output, options.frames is not None),
+                  views_at, eyes, overscan=options.overscan,
+                  multilayer=options.multilayer)
 
 
-if __name__ == "__main__" and "--" in sys.argv:
+def run_as_script():
+    """Blender goes on after an exception, and ends with 0: end it here."""
+    after = sys.argv.index("--") + 1 if "--" in sys.argv else len(sys.argv)
     try:
-        main(sys.argv[sys.argv.index("--") + 1:])
+        main(sys.argv[after:])
     except (ValueError, OSError, RuntimeError) as error:
-        print("sparselens_views.py:", error, file=sys.stderr)
+        print("sparselens_views.py: error:", error, file=sys.stderr)
         sys.exit(1)
+    except Exception:
+        traceback.print_exc()
+        sys.exit(1)
+
+
+if __name__ == "__main__":
+    if bpy.app.background or "--" in sys.argv:
+        run_as_script()
+    else:
+        register()  # from Blender's text editor
