@@ -1,60 +1,12 @@
 #!/bin/bash
-# Blender to picture: renders a scene with Cycles, and with EEVEE, by share/blender/sparselens_views.py, makes depth of
-# field from the views, and compares with the truth (Cycles' own depth of field; the average of many lens views of
-# EEVEE) and with the best setting of Blender's own Defocus node.
-#   bash run.sh BIN_DIR [WIDTHxHEIGHT [TRUTH_SAMPLES [LENS_VIEWS]]]     480x270, 96, 24; the acceptance figures: 480x270 512 256
-. "$(dirname "$0")/../tools/check.sh"
-command -v blender >/dev/null || skip "needs blender"
-command -v oiiotool >/dev/null || skip "needs oiiotool (openimageio-tools)"
-size=${2:-480x270} truth_samples=${3:-96} lens_views=${4:-24}
-scene=$source_dir/tests/blender/scene.py
-views=$source_dir/share/blender/sparselens_views.py
-
-decibels() { "$bin/dof-compare" "$1" "$2" | awk '$1 == "psnr_tonemapped" { print $2 }'; }
-better() { awk -v a="$1" -v b="$2" -v by="$3" 'BEGIN { exit !(a >= b + by) }' || fail "$4: $1 dB against $2, less than $3 better"; }
-quietly() { "$@" >said 2>&1 || fail "$*: $(tail -n 5 said)"; }
-
-# defocused VIEWS OUT: the shell recipe.
-defocused() {
-    "$bin/ldi-warp" "$1"/center.exr "$1"/view_*.exr -o - | "$bin/ldi-cluster" - -o - | "$bin/dof-gather" - -o "$2"
-}
-
-# best_node VIEWS TRUTH: the least error of the Defocus node over its f-stops, which are not the camera's.
-best_node() {
-    local fstops=(1 2 4 5.6 8 11 16 22) fstop
-    oiiotool "$1"/center.exr --ch Z,Z,Z --chnames R,G,B -d float -o depth.exr
-    quietly blender -b cycles.blend -P "$scene" -- CYCLES "$size" defocus "$PWD/$1/center.exr" "$PWD/depth.exr" "$PWD/node_" "${fstops[@]}"
-    grep -oE 'DEFOCUS .*' said >&2
-    for fstop in "${fstops[@]}"; do
-        case $fstop in *.*) ;; *) fstop=$fstop.0 ;; esac
-        decibels "node_$fstop.exr" "$2"
-    done | sort -g | tail -n 1
-}
-
-quietly blender -b -P "$scene" -- CYCLES "$size" save "$PWD/cycles.blend"
-quietly blender -b cycles.blend -P "$views" -- -o cycles --views 4 --samples 16
-quietly blender -b cycles.blend -P "$scene" -- CYCLES "$size" truth "$truth_samples" "$PWD/truth.exr"
-started=$(date +%s.%N)
-defocused cycles picture.exr
-echo "the shell recipe: $(awk -v a="$started" -v b="$(date +%s.%N)" 'BEGIN { printf "%.2f", b - a }') s"
-ours=$(decibels picture.exr truth.exr) node=$(best_node cycles truth.exr)
-echo "Cycles: $ours dB, Defocus node at best $node dB"
-better "$ours" "$node" 12 Cycles
-
-# A plan, rendered by its rectangles, several files a view.
-"$bin/ldi-plan" cycles/center.exr --noise 0 -o plan.json >/dev/null
-quietly blender -b cycles.blend -P "$views" -- -o planned --plan plan.json --samples 16
-"$bin/ldi-warp" cycles/center.exr planned/view_*.exr -o planned.ldi.exr
-"$bin/dof-gather" planned.ldi.exr -o planned.exr
-echo "Cycles, as planned: $(decibels planned.exr truth.exr) dB"
-better "$(decibels planned.exr truth.exr)" "$node" 9 "Cycles, as planned"
-
-command -v xvfb-run >/dev/null || { echo "EEVEE not tried: needs xvfb-run (xvfb, xauth)"; exit 0; }
-quietly xvfb-run -a blender -b cycles.blend -P "$scene" -- BLENDER_EEVEE "$size" save "$PWD/eevee.blend"
-quietly xvfb-run -a blender -b eevee.blend -P "$views" -- -o eevee --views 4
-quietly xvfb-run -a blender -b eevee.blend -P "$views" -- -o lens --views 0 --lens-views "$lens_views" --samples 4
-"$bin/dof-accumulate" lens/lens_*.exr --center lens/center.exr -o eevee_truth.exr
-defocused eevee eevee.exr
-ours=$(decibels eevee.exr eevee_truth.exr) node=$(best_node eevee eevee_truth.exr)
-echo "EEVEE: $ours dB, Defocus node at best $node dB"
-better "$ours" "$node" $((lens_views >= 256 ? 8 : 4)) EEVEE # fewer views are a truth of their own noise
+# The tests of share/blender; run by hand, for they need Blender and time.
+#   bash run.sh BIN_DIR [WIDTHxHEIGHT [TRUTH_SAMPLES [LENS_VIEWS [SAMPLES]]]]      240x135, 96, 24, 16
+# script.sh: what the script renders; animation.sh: animated cameras against Cycles' own lens; picture.sh: against
+# Blender's Defocus node. The figures of docs/blender.md: 480x270 512 256 64, which takes hours.
+set -euo pipefail
+here=$(dirname "${BASH_SOURCE[0]}")
+bin=${1:?usage: bash run.sh BIN_DIR [WIDTHxHEIGHT [TRUTH_SAMPLES [LENS_VIEWS [SAMPLES]]]]}
+size=${2:-240x135} truth_samples=${3:-96} lens_views=${4:-24} samples=${5:-16}
+bash "$here/script.sh" "$bin"
+bash "$here/animation.sh" "$bin" "$size" "$truth_samples" "$samples"
+bash "$here/picture.sh" "$bin" "$size" "$truth_samples" "$lens_views" "$samples"

@@ -1,0 +1,62 @@
+"""Runs the add-on on a scene full of settings of its own, and fails where one of them is changed afterwards.
+
+    blender -b SCENE.blend -P addon.py -- sparselens_views.py DIR
+"""
+
+import importlib.util
+import sys
+
+import bpy
+
+
+def values(thing):
+    """The simple properties of a thing, and what its pointers point to."""
+    found = {}
+    for prop in thing.bl_rna.properties:
+        value = getattr(thing, prop.identifier)
+        if prop.type in {"BOOLEAN", "INT", "FLOAT", "STRING", "ENUM"}:
+            found[prop.identifier] = value if not hasattr(value, "__len__") else tuple(value)
+        elif prop.type == "POINTER":
+            found[prop.identifier] = str(value)
+    return found
+
+
+def state(scene):
+    camera = scene.camera
+    things = {"scene": scene, "render": scene.render, "files": scene.render.image_settings, "camera": camera,
+              "lens": camera.data, "depth of field": camera.data.dof, "layer": scene.view_layers[0]}
+    things.update({marker.name: marker for marker in scene.timeline_markers})
+    found = {(name, prop): value for name, thing in things.items() for prop, value in values(thing).items()}
+    found["objects"], found["cameras"] = sorted(bpy.data.objects.keys()), sorted(bpy.data.cameras.keys())
+    return found
+
+
+def main(path, folder):
+    spec = importlib.util.spec_from_file_location("sparselens_views", path)
+    addon = importlib.util.module_from_spec(spec)
+    sys.modules[spec.name] = addon
+    spec.loader.exec_module(addon)
+    addon.register()
+
+    scene = bpy.context.scene
+    scene.frame_set(3)
+    scene.cycles.samples = 2
+    files, render = scene.render.image_settings, scene.render
+    files.color_depth = "16"
+    files.file_format = "JPEG"
+    render.use_border, render.border_min_x, render.use_stamp = True, 0.25, True
+    render.filepath, render.resolution_x, render.resolution_percentage = "//mine", 48, 200
+    render.resolution_y = 27
+    scene.sparselens.folder, scene.sparselens.overscan = folder, 3
+
+    before = state(scene)
+    if bpy.ops.sparselens.render_views() != {"FINISHED"}:
+        sys.exit("the add-on rendered nothing")
+    after = state(scene)
+    changes = [key for key in before if before[key] != after.get(key)]
+    addon.unregister()
+    if changes or set(before) != set(after):
+        sys.exit("changed: %s" % [(key, before[key], after.get(key)) for key in changes])
+
+
+main(*sys.argv[sys.argv.index("--") + 1:])

@@ -1,0 +1,40 @@
+#!/bin/bash
+# Six frames of animated cameras against Cycles' own lens, frame by frame; and an element over a transparent film.
+#   bash animation.sh BIN_DIR [WIDTHxHEIGHT [TRUTH_SAMPLES [SAMPLES]]]      240x135, 96, 16 a view
+. "$(dirname "$0")/common.sh"
+size=${2:-240x135} truth_samples=${3:-96} samples=${4:-16}
+
+# rendered KIND LAST: the views of the frames 1 to LAST of KIND.blend, and the truth, into the folder KIND.
+rendered() {
+    in_blender "$1.blend" -P "$views" -- -o "$1" --frames "1-$2" --samples "$samples"
+    in_blender "$1.blend" -P "$variants" -- render "$truth_samples" 1 "$2" "$PWD/$1/truth.####.exr"
+}
+
+# error KIND FRAME: dB of the picture that is made of the views.
+error() {
+    local frame
+    frame=$(printf %04d "$2")
+    defocused picture.exr "$1/center.$frame.exr" "$1"/view_{0..3}."$frame.exr"
+    decibels picture.exr "$1/truth.$frame.exr"
+}
+
+in_blender -P "$scene" -- CYCLES "$size" save "$PWD/still.blend"
+rendered still 1
+still=$(error still 1)
+echo "still: $still dB ($size, $samples samples a view, truth of $truth_samples)"
+
+# Keys, a path, keys and a Track To: every frame as good as the still, but for 1 dB.
+for kind in keys path track; do
+    variant still $kind
+    rendered $kind 6
+    figures=()
+    for frame in {1..6}; do figures+=("$(error $kind "$frame")"); done
+    echo "$kind, frames 1 to 6: ${figures[*]} dB"
+    for figure in "${figures[@]}"; do better "$figure" "$still" -1 "$kind"; done
+    unlike $kind/truth.0001.exr $kind/truth.0006.exr 30 # it did move
+done
+
+# A transparent film: a figure to look at, for partly covered pixels with the depth of the sky still cost much.
+variant still film
+rendered film 1
+echo "transparent film: $(error film 1) dB"

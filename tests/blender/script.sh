@@ -1,0 +1,127 @@
+#!/bin/bash
+# What share/blender/sparselens_views.py renders, on pictures of 96x54: cameras that are animated in every way, frames,
+# eyes, framing, overscan, passes, errors, and that the add-on leaves the scene as it was. A few minutes.
+#   bash script.sh BIN_DIR
+. "$(dirname "$0")/common.sh"
+in_blender -P "$scene" -- CYCLES 96x54 save "$PWD/small.blend"
+
+# An animated camera gives the views of one that stands still where it is at that frame: 60 dB leave room for the
+# rounding of its matrix. The views differ from each other: none of them was moved back.
+for kind in keys path track driver child marker lens; do
+    variant small $kind
+    in_blender $kind.blend -P "$variants" -- still 4 "$PWD/still.blend"
+    in_blender $kind.blend -P "$views" -- -o $kind --frames 4 --samples 4 --views 2
+    in_blender still.blend -P "$views" -- -o still --samples 4 --views 2
+    for view in center view_0 view_1; do alike $kind/$view.0004.exr still/$view.exr 60; done
+    for view in view_0 view_1; do unlike $kind/center.0004.exr $kind/$view.0004.exr 30; done
+    unlike $kind/view_0.0004.exr $kind/view_1.0004.exr 30
+    echo "$kind: the views of a camera that stands still"
+done
+
+# The same with EEVEE.
+in_blender keys.blend -P "$variants" -- eevee "$PWD/eevee.blend"
+if eevee_runs eevee; then
+    in_blender eevee.blend -P "$variants" -- still 4 "$PWD/still.blend"
+    in_eevee eevee.blend -P "$views" -- -o eevee --frames 4 --samples 1 --views 1
+    in_eevee still.blend -P "$views" -- -o eevee_still --samples 1 --views 1
+    for view in center view_0; do alike eevee/$view.0004.exr eevee_still/$view.exr 60; done
+    unlike eevee/center.0004.exr eevee/view_0.0004.exr 30
+    echo "EEVEE: the views of a camera that stands still"
+fi
+
+# Several frames in one process are what each of them is alone, and differ.
+in_blender keys.blend -P "$views" -- -o range --frames 1-5x2,6 --samples 4 --views 1
+[ "$(cd range && echo *)" = "$(echo {center,view_0}.000{1,3,5,6}.exr)" ] || fail "--frames wrote $(ls range)"
+in_blender keys.blend -P "$views" -- -o alone --frame 5 --samples 4 --views 1
+alike range/view_0.0005.exr alone/view_0.exr 60
+unlike range/center.0001.exr range/center.0005.exr 30
+for what in worldToCamera focus aperture pinholeFocalLength aperture_blades aperture_rotation aperture_ratio; do
+    exrheader alone/center.exr | grep "^$what (" >/dev/null || fail "no $what in the header"
+done
+
+# What the picture shows, by Blender's own pinhole render: shift, fit, pixels that are not square, a percentage. Noise
+# of the same seed is the same, so 60 dB; with overscan every pixel has another seed, so 36 dB at 128 samples.
+variant small pinhole,framing
+in_blender pinhole,framing.blend -P "$views" -- -o framing --samples 128 --views 0
+in_blender pinhole,framing.blend -P "$variants" -- render 128 1 1 "$PWD/own.####.exr"
+alike framing/center.exr own.0001.exr 60
+in_blender pinhole,framing.blend -P "$views" -- -o over --samples 128 --views 0 --overscan 9
+exrheader over/center.exr >header
+grep -Fq 'dataWindow (type box2i): (-9 -9) - (84 51)' header || fail "--overscan: $(grep dataWindow header)"
+grep -Fq 'displayWindow (type box2i): (0 0) - (75 42)' header || fail "--overscan: $(grep displayWindow header)"
+grep -Fq 'pixelAspectRatio (type float): 1.25' header || fail "$(grep pixelAspectRatio header)"
+oiiotool over/center.exr --crop 76x43+0+0 -o inside.exr
+alike inside.exr framing/center.exr 36
+echo "framing and overscan: as Blender's own picture"
+
+# Eyes of a stereo scene, by Blender's own stereo render. The right eye has a seed of its own there: 36 dB; a wrong
+# convergence is at 31 dB and less.
+for kind in offaxis offaxis_left parallel toe toe_left cameras; do
+    variant small "pinhole,$kind"
+    in_blender "pinhole,$kind.blend" -P "$views" -- -o $kind --samples 128 --views 0
+    in_blender "pinhole,$kind.blend" -P "$variants" -- render 128 1 1 "$PWD/own.####.exr"
+    alike $kind/center_L.exr own.0001_L.exr 36
+    alike $kind/center_R.exr own.0001_R.exr 36
+    echo "$kind: both eyes as Blender's own"
+done
+in_blender pinhole,cameras.blend -P "$views" -- -o right --samples 4 --eye right
+[ "$(cd right && echo *)" = "$(echo center_R.exr view_{0..3}_R.exr)" ] || fail "--eye right wrote $(ls right)"
+
+# All passes, Cryptomatte with its metadata too; the picture made of them is that of colour and depth alone, once
+# ldi-warp says that it takes Combined for the beauty.
+variant small passes
+in_blender passes.blend -P "$views" -- -o layers --samples 4 --multilayer
+in_blender passes.blend -P "$views" -- -o plain --samples 4
+for view in center view_0 view_1 view_2 view_3; do
+    exrheader layers/$view.exr >header
+    for what in "ViewLayer.Combined.R," "ViewLayer.Depth.Z," "ViewLayer.DiffCol.R," "ViewLayer.Normal.X," \
+        "ViewLayer.CryptoObject00.r," cryptomatte/ sparselens:sensorWidth; do
+        grep -Fq "$what" header || fail "--multilayer: no $what in $view.exr"
+    done
+    oiiotool layers/$view.exr --ch 'R=ViewLayer.Combined.R,G=ViewLayer.Combined.G,B=ViewLayer.Combined.B' -o combined.exr
+    oiiotool plain/$view.exr --ch R,G,B -o beauty.exr
+    alike combined.exr beauty.exr 90
+done
+"$bin/ldi-warp" -v layers/center.exr layers/view_*.exr -o layers.ldi.exr 2>said
+if grep -q Combined said; then
+    "$bin/ldi-cluster" layers.ldi.exr -o - | "$bin/dof-gather" - -o layers.exr
+    defocused plain.exr plain/center.exr plain/view_*.exr
+    alike layers.exr plain.exr 90
+    echo "multilayer: the picture of single-layer views"
+else
+    echo "multilayer: the picture not compared; ldi-warp -v does not say that it takes Combined for the beauty"
+fi
+
+# Errors: what happened, on stderr, and not 0.
+complains() {
+    local code=$1 pattern=$2
+    shift 2
+    exits "$code" blender -b "$@"
+    grep -Eq -e "$pattern" stderr || fail "'$pattern' is not in: $(cat stderr)"
+}
+variant small homeless
+variant small panorama
+complains 1 "has no camera" homeless.blend -P "$views" -- -o none
+complains 1 "not a perspective one" panorama.blend -P "$views" -- -o none
+complains 1 "no eye 'middle'.*right" pinhole,cameras.blend -P "$views" -- -o none --eye middle
+complains 1 "name it \(--eye\)" pinhole,cameras.blend -P "$views" -- -o none --plan plan.json
+complains 1 "No such file" small.blend -P "$views" -- -o none --plan missing.json
+complains 2 "usage: blender -b" small.blend -P "$views"
+complains 2 "invalid frame range" small.blend -P "$views" -- -o none --frames 1-
+complains 2 "not allowed with" small.blend -P "$views" -- -o none --frames 1-2 --frame 1
+[ -z "$(ls none 2>/dev/null)" ] || fail "an error left files: $(ls none)"
+echo "errors: said, with their exit codes"
+
+# The add-on renders the same, and leaves the scene as it was; so does installing.
+in_blender marker.blend -P "$source_dir/tests/blender/addon.py" -- "$views" "$PWD/addon"
+in_blender marker.blend -P "$views" -- -o marker --frame 3 --samples 2 --overscan 3
+alike addon/center.exr marker/center.exr 90
+alike addon/view_3.exr marker/view_3.exr 90
+echo "add-on: the same views, the scene unchanged"
+if cmake --install "$bin/.." --prefix "$PWD/installed" >said 2>&1; then
+    in_blender small.blend -P installed/share/sparselens/blender/sparselens_views.py -- -o installed/views --samples 1 --views 0
+    [ -s installed/views/center.exr ] || fail "the installed script wrote nothing"
+    echo "installed: the script runs"
+else
+    echo "installing not tried: $bin is not of a complete build ($(tail -n 1 said))"
+fi

@@ -1,0 +1,194 @@
+"""Variants of the scene of scene.py for the tests of share/blender.
+
+    blender -b SCENE.blend -P variants.py -- KIND[,KIND...] OUT.blend
+        KIND: a function below whose name begins with make_
+    blender -b SCENE.blend -P variants.py -- still FRAME OUT.blend
+        the same frame with a camera that nothing animates
+    blender -b SCENE.blend -P variants.py -- render SAMPLES FIRST LAST OUT.####.exr
+        the frames as Blender itself renders them; with several eyes OUT.####_L.exr and OUT.####_R.exr
+"""
+
+import math
+import sys
+
+import bpy
+from mathutils import Matrix
+
+LAST = 6  # frame at which every motion ends
+
+
+def key(thing, prop, first, last):
+    """Two keys, at the frames 1 and LAST."""
+    for frame, value in ((1, first), (LAST, last)):
+        setattr(thing, prop, value)
+        thing.keyframe_insert(prop, frame=frame)
+
+
+def empty(scene, name, location):
+    made = bpy.data.objects.new(name, None)
+    made.location = location
+    scene.collection.objects.link(made)
+    return made
+
+
+def make_keys(scene, camera):
+    key(camera, "location", (0, 0, 0.8), (0.35, 0.1, 0.9))
+    key(camera, "rotation_euler", (math.pi / 2, 0, 0), (math.pi / 2 - 0.01, 0.03, 0.04))
+
+
+def make_path(scene, camera):
+    curve = bpy.data.curves.new("path", "CURVE")
+    curve.dimensions, curve.path_duration = "3D", LAST - 1
+    spline = curve.splines.new("POLY")
+    spline.points.add(2)
+    for point, place in zip(spline.points, ((0, 0, 0.8), (0.2, 0.05, 0.85), (0.35, 0, 0.95))):
+        point.co = (*place, 1)
+    path = bpy.data.objects.new("path", curve)
+    scene.collection.objects.link(path)
+    camera.location = 0, 0, 0
+    follow = camera.constraints.new("FOLLOW_PATH")
+    follow.target, follow.use_fixed_location = path, True
+    key(follow, "offset_factor", 0, 1)
+
+
+def make_track(scene, camera):
+    key(camera, "location", (0, 0, 0.8), (0.5, 0.1, 1.0))
+    track = camera.constraints.new("TRACK_TO")
+    track.target = empty(scene, "target", (0, 4, 0.8))
+    track.track_axis, track.up_axis = "TRACK_NEGATIVE_Z", "UP_Y"
+
+
+def make_driver(scene, camera):
+    """An expression so simple that Blender needs no leave to run scripts."""
+    camera.driver_add("location", 0).driver.expression = "frame * 0.05"
+
+
+def make_child(scene, camera):
+    """A parent that moves, turns and is scaled, and a Child Of on top of it."""
+    parent, other = empty(scene, "parent", (0, 0, 0)), empty(scene, "other", (0, 0, 0))
+    camera.parent = parent
+    parent.scale = 2, 2, 2
+    camera.location.z = 0.4
+    key(parent, "rotation_euler", (0, 0, 0), (0, 0, 0.05))
+    key(other, "location", (0, 0, 0), (0.3, 0, 0))
+    camera.constraints.new("CHILD_OF").target = other
+
+
+def make_marker(scene, camera):
+    """A marker at frame 3 cuts to another camera."""
+    other = bpy.data.objects.new("other", camera.data.copy())
+    scene.collection.objects.link(other)
+    other.matrix_world = Matrix.Translation((0.3, 0.1, 0)) @ camera.matrix_world
+    for frame, bound in ((1, camera), (3, other)):
+        scene.timeline_markers.new(bound.name, frame=frame).camera = bound
+
+
+def make_lens(scene, camera):
+    """Zoom, f-stop, lens shift and focus pulled; the focus is an object's."""
+    target = empty(scene, "target", (0, 3, 0.8))
+    camera.data.dof.focus_object = target
+    key(camera.data, "lens", 40, 60)
+    key(camera.data, "shift_x", 0, 0.05)
+    key(camera.data.dof, "aperture_fstop", 0.5, 0.7)
+    key(target, "location", (0.5, 3, 0.8), (0.5, 5, 0.8))
+
+
+def make_film(scene, camera):
+    """The wall is gone, and behind the floor's edge there is nothing."""
+    bpy.data.objects.remove(scene.objects["Plane.001"])
+    scene.render.film_transparent = True
+
+
+def make_framing(scene, camera):
+    """What the picture's edges depend on: shift, fit, pixels that are not square, a percentage."""
+    camera.data.shift_x, camera.data.shift_y = 0.06, -0.04
+    camera.data.sensor_fit, camera.data.sensor_height = "VERTICAL", 20
+    scene.render.pixel_aspect_x = 1.25
+    scene.render.resolution_percentage = 80
+
+
+def make_pinhole(scene, camera):
+    camera.data.dof.use_dof = False
+
+
+def make_passes(scene, camera):
+    layer = scene.view_layers[0]
+    layer.use_pass_normal = layer.use_pass_diffuse_color = layer.use_pass_cryptomatte_object = True
+
+
+def make_homeless(scene, camera):
+    scene.camera = None
+
+
+def make_panorama(scene, camera):
+    camera.data.type = "PANO"
+
+
+def stereo(mode, pivot):
+    def make(scene, camera):
+        scene.render.use_multiview = True
+        data = camera.data.stereo
+        data.convergence_mode, data.pivot = mode, pivot
+        data.interocular_distance, data.convergence_distance = 0.2, 3
+    return make
+
+
+make_offaxis, make_parallel = stereo("OFFAXIS", "CENTER"), stereo("PARALLEL", "RIGHT")
+make_offaxis_left, make_toe = stereo("OFFAXIS", "LEFT"), stereo("TOE", "CENTER")
+make_toe_left = stereo("TOE", "LEFT")
+
+
+def make_cameras(scene, camera):
+    """A camera for each eye."""
+    other = bpy.data.objects.new("Camera_R", camera.data.copy())
+    scene.collection.objects.link(other)
+    other.matrix_world = Matrix.Translation((0.2, 0, 0.05)) @ camera.matrix_world
+    camera.name = "Camera_L"
+    scene.render.use_multiview, scene.render.views_format = True, "MULTIVIEW"
+
+
+def make_eevee(scene, camera):
+    scene.render.engine = "BLENDER_EEVEE"
+
+
+def make_still(scene, frame):
+    """Puts a camera that nothing animates where the scene's is, with its lens."""
+    scene.frame_set(frame)
+    seen = scene.camera.evaluated_get(bpy.context.evaluated_depsgraph_get())
+    made = bpy.data.objects.new("still", bpy.data.cameras.new("still"))
+    scene.collection.objects.link(made)
+    made.matrix_world = seen.matrix_world.normalized()
+    for name in ("lens", "sensor_width", "sensor_height", "sensor_fit", "shift_x", "shift_y"):
+        setattr(made.data, name, getattr(seen.data, name))
+    made.data.dof.aperture_fstop = seen.data.dof.aperture_fstop
+    made.data.dof.focus_distance = seen.data.dof.focus_distance
+    if seen.data.dof.focus_object:
+        target = seen.data.dof.focus_object.matrix_world.translation
+        made.data.dof.focus_distance = -(seen.matrix_world.normalized().inverted() @ target).z
+    scene.timeline_markers.clear()
+    scene.camera = made
+
+
+def render(scene, samples, first, last, path):
+    settings = scene.render.image_settings
+    settings.file_format, settings.color_mode, settings.color_depth = "OPEN_EXR", "RGBA", "16"
+    scene.cycles.samples = samples
+    for frame in range(first, last + 1):
+        scene.frame_set(frame)
+        scene.render.filepath = path.replace("####", "%04d" % frame)
+        bpy.ops.render.render(write_still=True)
+
+
+def main(action, *rest):
+    scene = bpy.context.scene
+    if action == "render":
+        return render(scene, *[int(number) for number in rest[:3]], rest[3])
+    if action == "still":
+        make_still(scene, int(rest[0]))
+    else:
+        for kind in action.split(","):
+            globals()["make_" + kind](scene, scene.camera)
+    bpy.ops.wm.save_as_mainfile(filepath=rest[-1])
+
+
+main(*sys.argv[sys.argv.index("--") + 1:])
