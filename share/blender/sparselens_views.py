@@ -452,9 +452,9 @@ def warn(text):
     print("sparselens_views.py: warning:", text, file=sys.stderr)
 
 
-def render_frame(scene, pattern, views, eyes, overscan=0, multilayer=False):
-    """Renders the views of the current frame into the files of `pattern`,
-    where * stands for the name of a view and #### for the frame."""
+def render_frame(scene, folder, ending, views, eyes, overscan=0,
+                 multilayer=False):
+    """Renders the views of the current frame into the folder."""
     shots = [(eye, shot_of(scene, eye)) for eye in eyes]
     if scene.render.use_motion_blur:
         warn("motion blur is on: objects blur, but the camera stands still "
@@ -463,26 +463,24 @@ def render_frame(scene, pattern, views, eyes, overscan=0, multilayer=False):
         with render_settings(scene, shot, overscan, multilayer), \
                 still_camera(scene):
             for name, u, box in views:
-                path = pattern.replace("*", name + eye.file_suffix)
-                path = numbered(path, scene.frame_current)
+                path = os.path.join(folder, name + eye.file_suffix + ending)
                 render_view(scene, path, shot, u, overscan, box)
 
 
-def render_frames(scene, frames, pattern, views_at, eyes, **options):
-    """The same for several frames; views_at(frame) are the views of one."""
-    before = scene.frame_current
+def render_frames(scene, frames, folder, views_at, eyes, several=False,
+                  **options):
+    """The same for a list of frames; views_at(frame) are the views of one.
+    With `several` the names carry the frame's number."""
+    folder, before = os.path.abspath(folder), scene.frame_current
+    os.makedirs(folder, exist_ok=True)
     try:
         for frame in frames:
             scene.frame_set(frame)
-            render_frame(scene, pattern, views_at(frame), eyes, **options)
+            ending = ".%04d.exr" % frame if several else ".exr"
+            render_frame(scene, folder, ending, views_at(frame), eyes,
+                         **options)
     finally:
         scene.frame_set(before)
-
-
-def file_pattern(folder, several_frames):
-    os.makedirs(folder, exist_ok=True)
-    name = "*.####.exr" if several_frames else "*.exr"
-    return os.path.join(os.path.abspath(folder), name)
 
 
 # --- Add-on ------------------------------------------------------------------
@@ -519,11 +517,11 @@ class SPARSELENS_OT_render_views(bpy.types.Operator):
             frames = range(scene.frame_start, scene.frame_end + 1,
                            scene.frame_step)
         try:
-            pattern = file_pattern(bpy.path.abspath(settings.folder),
-                                   settings.animation)
             views = views_of_lens(settings.views, 0)
-            render_frames(scene, frames, pattern, lambda frame: views,
-                          eyes_of(scene), overscan=settings.overscan,
+            render_frames(scene, frames, bpy.path.abspath(settings.folder),
+                          lambda frame: views, eyes_of(scene),
+                          several=settings.animation,
+                          overscan=settings.overscan,
                           multilayer=settings.multilayer)
         except (ValueError, OSError, RuntimeError) as error:
             self.report({"ERROR"}, str(error))
@@ -663,10 +661,9 @@ def main(arguments):
     if frames is None:
         frames = [scene.frame_current if options.frame is None
                   else options.frame]
-    render_frames(scene, frames,
-                  file_pattern(options.output, options.frames is not None),
-                  views_at, eyes, overscan=options.overscan,
-                  multilayer=options.multilayer)
+    render_frames(scene, frames, options.output, views_at, eyes,
+                  several=options.frames is not None,
+                  overscan=options.overscan, multilayer=options.multilayer)
 
 
 def run_as_script():
