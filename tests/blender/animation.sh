@@ -1,8 +1,8 @@
 #!/bin/bash
 # Six frames of animated cameras against Cycles' own lens, frame by frame; and an element over a transparent film.
-#   bash animation.sh BIN_DIR [WIDTHxHEIGHT [TRUTH_SAMPLES [SAMPLES]]]      240x135, 96, 16 a view
+#   bash animation.sh BIN_DIR [WIDTHxHEIGHT [TRUTH_SAMPLES [SAMPLES]]]      480x270, 96, 16 a view
 . "$(dirname "$0")/common.sh"
-size=${2:-240x135} truth_samples=${3:-96} samples=${4:-16}
+size=${2:-480x270} truth_samples=${3:-96} samples=${4:-16}
 
 # rendered KIND LAST: the views of the frames 1 to LAST of KIND.blend, and the truth, into the folder KIND.
 rendered() {

@@ -2,9 +2,9 @@
 # Blender to picture: renders a scene with Cycles, and with EEVEE, by share/blender/sparselens_views.py, makes depth of
 # field from the views, and compares with the truth (Cycles' own depth of field; the average of many lens views of
 # EEVEE) and with the best setting of Blender's own Defocus node.
-#   bash picture.sh BIN_DIR [WIDTHxHEIGHT [TRUTH_SAMPLES [LENS_VIEWS [SAMPLES]]]]     240x135, 96, 24, 16 a view
+#   bash picture.sh BIN_DIR [WIDTHxHEIGHT [TRUTH_SAMPLES [LENS_VIEWS [SAMPLES]]]]     480x270, 96, 24, 16 a view
 . "$(dirname "$0")/common.sh"
-size=${2:-240x135} truth_samples=${3:-96} lens_views=${4:-24} samples=${5:-16}
+size=${2:-480x270} truth_samples=${3:-96} lens_views=${4:-24} samples=${5:-16}
 
 # best_node VIEWS TRUTH: the least error of the Defocus node over its f-stops, which are not the camera's.
 best_node() {
