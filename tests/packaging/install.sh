@@ -15,6 +15,8 @@ for tool in "$bin"/ldi-* "$bin"/dof-*; do
     done
 done
 
+[ -s "$prefix/share/sparselens/blender/sparselens_views.py" ] || fail "the Blender script is not installed"
+
 mkdir -p consumer/headers
 (cd "$prefix/include/sparselens" && find . -name '*.h') | while read -r header; do
     header=${header#./}
