@@ -158,9 +158,9 @@ TEST(LensViews, PicturesAreMovedWholeInOnePlaneOnly) {
     };
     EXPECT_EQ(why(framed(camera_at(-0.1, 0), {0.02, 0})), "(nothing was thrown)");
     EXPECT_EQ(why(framed(camera_at(-0.1, 0, 0.01), {0, 0})),
-              "b.exr: stands in front of or behind the other views; a lens is flat");
+              "b.exr: stands in front of or behind the other views, but a lens is flat: leave it out");
     EXPECT_EQ(why(framed(camera_at(-0.1, 0), {0, 0}, 0.51)),
-              "b.exr: its focal length differs from the other views'");
+              "b.exr: its focal length differs from that of the other views");
 }
 
 TEST(LensViews, RoundingFarFromTheOriginIsNoDepth) {

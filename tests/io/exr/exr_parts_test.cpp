@@ -142,7 +142,7 @@ TEST_F(ExrParts, OneBeautyIsTheWholePicture) {
     const LdiFile file = read_ldi(path);
     EXPECT_EQ(file.ldi.z, (std::vector<float>{4, 5}));
     EXPECT_NE(find_channel(file.ldi.channels, "diffuse.R"), npos);
-    EXPECT_EQ(file.notes, (Names{"part fog is left out: its samples are not the beauty's"}));
+    EXPECT_EQ(file.notes, (Names{"part fog is left out: its samples are not those of the beauty"}));
 }
 
 TEST_F(ExrParts, APartThatLiesNowhereIsAnError) {
