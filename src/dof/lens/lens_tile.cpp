@@ -101,7 +101,8 @@ void LensTile::see_opaque(const LensSample &lens) {
     for (const std::uint32_t b : blocks_) {
         const SampleBlock &block = samples_.blocks[b];
         if (out_of_reach(block, lens, origin_x_, origin_y_, float(size))) continue;
-        for (std::uint32_t begin = block.begin; begin < block.opaque_end; begin += cells.size()) {
+        for (std::uint32_t begin = block.begin; begin < block.opaque_end;
+             begin += std::uint32_t(cells.size())) {
             const std::uint32_t count = std::min(std::uint32_t(cells.size()), block.opaque_end - begin);
             project_to_cells(projection, &samples_.x[begin], &samples_.y[begin], &samples_.coc[begin], count,
                              cells.data());
