@@ -2,6 +2,7 @@
 #include "base/error.h"
 #include "harness/tool.h"
 #include "io/exr/exr_flat.h"
+#include "loading/notices.h"
 #include "loading/region_file.h"
 #include "measure/figures_text.h"
 #include "measure/image_error.h"
@@ -49,11 +50,15 @@ void compare(const Options &options, const ToolContext &tool) {
     const auto from_stdin = {options.image == "-", options.reference == "-", options.regions == "-"};
     if (std::ranges::count(from_stdin, true) > 1)
         throw UsageError("standard input (-) cannot be read twice: give one file by its name");
-    const Image reference_file = read_flat_exr(options.reference, options.depth.view).image;
+    const auto read = [&](const std::string &path) {
+        FlatFile file = read_flat_exr(path, options.depth.view);
+        say_reading(tool, path, file.notes, file.warnings);
+        return std::move(file.image);
+    };
+    const Image reference_file = read(options.reference);
     const Windows &windows = reference_file.windows;
     const Image reference = rgba_over(reference_file, windows, options.reference);
-    const Image image =
-        rgba_over(read_flat_exr(options.image, options.depth.view).image, windows, options.image);
+    const Image image = rgba_over(read(options.image), windows, options.image);
 
     std::vector<std::uint8_t> bits;
     if (!options.regions.empty())

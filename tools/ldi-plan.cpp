@@ -35,6 +35,7 @@ void summarise(const Plan &plan, const View &centre, std::FILE *out) {
 
 void run(const PlanCommand &options, const ToolContext &tool) {
     const OpenedView centre = open_view(options.centre, {options.lens, options.depth});
+    say_reading(tool, options.centre, centre.notes, centre.warnings);
     warn_of_invalid_values(tool, options.centre, centre.bad);
     const Windows &windows = centre.view.image.windows;
     const ThinLens lens = centre.lens();

@@ -66,8 +66,10 @@ void run(const WarpCommand &options, const ToolContext &tool) {
     OpenedViews in = open_views(options.views, {options.lens, options.depth});
     say_camera(tool, in.views[0].name, in.camera);
     say_framings(tool, in.views);
-    for (std::size_t i = 0; i < in.views.size(); ++i)
+    for (std::size_t i = 0; i < in.views.size(); ++i) {
+        say_reading(tool, in.views[i].name, in.notes[i], in.warnings[i]);
         warn_of_invalid_values(tool, in.views[i].name, in.bad[i]);
+    }
     for (View &view : in.views) to_scene_linear(tool, options.colour, view.name, in.header, view);
     const WarpOptions warp_by = warp_options(options, in);
     write_camera(in.header, in.camera);

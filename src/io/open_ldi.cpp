@@ -30,7 +30,8 @@ OpenedLdi open_ldi(const std::string &path, const OpenOptions &options) {
                      .header = std::move(file.header),
                      .camera = {},
                      .bad = {},
-                     .notes = std::move(file.notes)};
+                     .notes = std::move(file.notes),
+                     .warnings = std::move(file.warnings)};
     opened.camera = camera_with_options(options.lens, read_camera(opened.header));
     make_planar(opened.ldi, options.depth, opened.camera);
     opened.bad = sanitize(opened.ldi, opened.name);

@@ -23,7 +23,7 @@ struct OpenedLdi {
     InvalidValues bad; // what was repaired
     std::size_t invisible =
         0; // samples of the file that tidy() left out: they show nothing, or are one with another
-    std::vector<std::string> notes; // see LdiFile
+    std::vector<std::string> notes, warnings; // see LdiFile
 
     // UsageError: a value of the lens is unknown (see resolve_lens.h).
     ThinLens lens() const { return resolve_lens(camera, ldi.windows); }

@@ -1,6 +1,7 @@
 #include "io/open_view.h"
 
 #include "io/camera/camera_read.h"
+#include "io/exr/exr_common.h"
 #include "io/exr/exr_flat.h"
 #include "io/files/file_stream.h"
 #include "view/depth_reader.h"
@@ -24,8 +25,14 @@ Camera with_frustum_of(const Camera &other, Camera camera) {
 
 OpenedView open_view(const std::string &path, const OpenOptions &options, const Camera &otherwise) {
     FlatFile file = read_flat_exr(path, options.depth.view);
-    OpenedView opened{{display_name(path), std::move(file.image), {}}, std::move(file.header), {}, {}};
+    OpenedView opened{{display_name(path), std::move(file.image), {}},
+                      std::move(file.header),
+                      {},
+                      {},
+                      std::move(file.notes),
+                      std::move(file.warnings)};
     View &view = opened.view;
+    opened.notes.push_back("depth: " + find_depth_channel(view.image.channels, options.depth.channel, path));
     view.z = take_depth(view.image, options.depth.channel, path);
     const Camera own = read_camera(opened.header);
     opened.camera = camera_with_options(options.lens, own);

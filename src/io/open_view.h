@@ -10,14 +10,16 @@
 #include <ImfHeader.h>
 
 #include <string>
+#include <vector>
 
 namespace sparselens {
 
 struct OpenedView {
     View view; // at the origin: the caller knows where it stands
     Imf::Header header;
-    Camera camera;     // of the header, with the user's values over it
-    InvalidValues bad; // what was repaired
+    Camera camera;                                      // of the header, with the user's values over it
+    InvalidValues bad;                                  // what was repaired
+    std::vector<std::string> notes = {}, warnings = {}; // see FlatFile
 
     // UsageError: a value of the lens is unknown (see resolve_lens.h).
     ThinLens lens() const { return resolve_lens(camera, view.image.windows); }

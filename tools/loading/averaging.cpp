@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "dof/accumulate/accumulate.h"
 #include "io/files/memory_limit.h"
+#include "loading/notices.h"
 
 #include <algorithm>
 
@@ -48,8 +49,9 @@ Image average_views(LensViewFiles &files, const ThinLens &lens, bool transparent
     std::optional<Accumulation> sum;
     tool.progress->start("averaging", files.views.size());
     for (LensViewFile &file : files.views) {
-        Image view =
-            transparent_outside ? with_surroundings(file.path, file.take_pixels()) : file.take_pixels().image;
+        FlatFile read = file.take_pixels();
+        say_reading(tool, file.path, read.notes, read.warnings);
+        Image view = transparent_outside ? with_surroundings(file.path, read) : std::move(read.image);
         if (!sum) sum = start_accumulation(view.windows, view.channels);
         const std::size_t bad = fill_nonfinite(view, sum->channels);
         if (bad > 0)

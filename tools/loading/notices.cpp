@@ -5,8 +5,14 @@
 
 namespace sparselens {
 
+void say_reading(const ToolContext &tool, const std::string &path, const std::vector<std::string> &notes,
+                 const std::vector<std::string> &warnings) {
+    for (const std::string &note : notes) tool.say(display_name(path) + ": " + note);
+    for (const std::string &warning : warnings) warn(tool, display_name(path) + ": " + warning);
+}
+
 void say_samples(const ToolContext &tool, const OpenedLdi &in) {
-    for (const std::string &note : in.notes) tool.say(in.name + ": " + note);
+    say_reading(tool, in.name, in.notes, in.warnings);
     if (tool.verbose && by_coverage(in.ldi).size() > 1)
         tool.say(in.name + ": coverage is coloured (AR, AG, AB): each colour has its own");
 }

@@ -8,7 +8,11 @@
 
 namespace sparselens {
 
-// With --verbose: what was made of the parts of the file, and whether coverage is coloured.
+// What the reader of a file noted with --verbose, and its warnings always.
+void say_reading(const ToolContext &tool, const std::string &path, const std::vector<std::string> &notes,
+                 const std::vector<std::string> &warnings);
+
+// The same of an LDI; with --verbose also whether coverage is coloured.
 void say_samples(const ToolContext &tool, const OpenedLdi &in);
 
 // With --verbose: what the file says about its camera, and which attribute says so.

@@ -10,6 +10,7 @@ namespace sparselens {
 std::vector<std::uint8_t> regions_over(const Windows &target, const std::string &file,
                                        const OpenOptions &options, const ToolContext &tool) {
     const OpenedLdi in = open_ldi(file, options);
+    say_samples(tool, in);
     warn_of_invalid_values(tool, file, in.bad);
     const Windows &windows = in.ldi.windows;
     if (windows.display_width() != target.display_width() ||

@@ -19,6 +19,8 @@ void put(View &view, const Imath::V2d &position, const Framing &framing) {
 void add(OpenedViews &to, OpenedView &opened) {
     to.views.push_back(std::move(opened.view));
     to.bad.push_back(opened.bad);
+    to.notes.push_back(std::move(opened.notes));
+    to.warnings.push_back(std::move(opened.warnings));
 }
 
 } // namespace

@@ -12,7 +12,8 @@ struct OpenedViews {
     std::vector<View> views; // the centre view first
     Imf::Header header;      // of the centre view
     Camera camera;           // of the centre view, with the options over it; the lens points of all views
-    std::vector<InvalidValues> bad; // of each view
+    std::vector<InvalidValues> bad;                        // of each view
+    std::vector<std::vector<std::string>> notes, warnings; // of each view, see OpenedView
 };
 
 // A view's position comes from --view, else from worldToCamera (see position_on_lens, whose errors it throws); its framing

@@ -4,6 +4,7 @@
 
 #include <ImfTileDescription.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <half.h>
 
 #include <algorithm>
@@ -23,6 +24,12 @@ bool describes_storage(const std::string &name) {
         "pixelAspectRatio", "preview",       "tiles",       "type",
         "version"};
     return is_among(names, name);
+}
+
+std::string what_there_is(const std::vector<Channel> &channels) {
+    std::vector<std::string> names;
+    for (const Channel &channel : channels) names.push_back(channel.name);
+    return names.empty() ? "it has no channels" : "its channels are " + first_of(names);
 }
 
 std::size_t depth_channel(const std::vector<Channel> &channels, const std::string &asked) {
@@ -58,13 +65,22 @@ std::string find_depth_channel(const std::vector<Channel> &channels, const std::
     if (k == npos)
         throw Error(
             asked.empty()
-                ? fmt::format("{}: has no depth channel (Z, depth.Z or *.Depth.Z): give --depth-channel",
-                              display_name(path))
-                : fmt::format("{}: has no channel {} (--depth-channel)", display_name(path), asked));
+                ? fmt::format("{}: has no depth channel (Z, depth.Z or *.Depth.Z): give --depth-channel; {}",
+                              display_name(path), what_there_is(channels))
+                : fmt::format("{}: has no channel {} (--depth-channel); {}", display_name(path), asked,
+                              what_there_is(channels)));
     if (channels[k].type == PixelType::uint32)
         throw Error(fmt::format("{}: the depth channel {} holds integers, not depths", display_name(path),
                                 channels[k].name));
     return channels[k].name;
+}
+
+std::string first_of(const std::vector<std::string> &names) {
+    constexpr std::size_t most = 40; // in a line that can be read
+    const std::size_t listed = std::min(most, names.size());
+    const std::string list =
+        fmt::format("{}", fmt::join(names.begin(), names.begin() + std::ptrdiff_t(listed), ", "));
+    return listed == names.size() ? list : fmt::format("{} and {} more", list, names.size() - listed);
 }
 
 bool has_depth_channel(const std::vector<Channel> &channels, const std::string &asked) {

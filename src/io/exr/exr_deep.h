@@ -15,8 +15,9 @@ namespace sparselens {
 struct LdiFile {
     Ldi ldi;
     Imf::Header header;
-    bool deep = true;               // false: the file is a flat picture
-    std::vector<std::string> notes; // how several parts were combined
+    bool deep = true;                  // false: the file is a flat picture
+    std::vector<std::string> notes;    // what was taken for what, and how several parts were combined
+    std::vector<std::string> warnings; // what is hardly meant
 };
 
 // Reads the deep parts of one view of the file, else the flat ones (read_flat_exr). Of several deep parts:
@@ -25,6 +26,7 @@ struct LdiFile {
 // - the other parts are one object each, and the picture has the samples of all of them (see deep_merge());
 // - but if exactly one part has the name of a beauty (exr_parts.h), that part is the whole picture, and parts that are
 //   not layers of it are left out.
+// If no part has a channel R, G or B, a layer with the name of a beauty (exr_beauty.h) becomes R, G, B and A.
 // An empty `stereo_view` is the default view (exr_parts.h). A missing A is made of AR, AG and AB. If `depth_channel` is
 // empty, Z, depth.Z and *.Depth.Z are tried; the back depths are in NAMEBack. Samples are returned as they stand in the
 // file (see tidy); a flat picture has one per pixel.

@@ -1,5 +1,7 @@
+#include "base/text.h"
 #include "deep/channel_alpha.h"
 #include "deep/merge.h"
+#include "io/exr/exr_beauty.h"
 #include "io/exr/exr_common.h"
 #include "io/exr/exr_deep.h"
 #include "io/exr/exr_deep_part.h"
@@ -36,9 +38,16 @@ public:
     DeepPicture(const DeepSource &source, const std::string &view, const std::string &depth_channel)
         : source_(source), view_(view), asked_(depth_channel) {}
 
+    // Layers of these parts have to stand for the beauty, where none of them has a colour outside of all layers.
+    void find_beauty(const std::vector<int> &numbers) {
+        for (const int number : numbers)
+            for (const FileChannel &found : channels_of(source_.file.header(number), view_, source_.path))
+                if (is_among(rgb_names, found.channel.name)) beauty_in_layer_ = false;
+    }
+
     void add(int number, bool only_as_layer) {
         const Imf::Header &header = source_.file.header(number);
-        const std::vector<FileChannel> channels = channels_of(header, view_, source_.path);
+        const std::vector<FileChannel> channels = named_channels(header);
         const std::string depth = depth_of(channels);
         Ldi part = read_deep_part(source_, number, channels, depth);
         const auto whose = std::ranges::find_if(parts_, [&](const Ldi &other) {
@@ -47,9 +56,13 @@ public:
         });
         const std::string name = layer_of(header);
         if (whose == parts_.end() && only_as_layer) {
-            notes_.push_back(
+            warnings_.push_back(
                 fmt::format("part {} is left out: its samples are not those of the beauty", name));
             return;
+        }
+        if (parts_.empty()) {
+            notes_.push_back(beauty_note(channels, source_.file.parts() > 1 ? name : std::string()));
+            notes_.push_back("depth: " + depth);
         }
         source_.held += memory_held_by(part);
         if (whose != parts_.end()) return add_layer(*whose, std::move(part), name);
@@ -76,8 +89,25 @@ public:
     }
 
     std::vector<std::string> notes() const { return notes_; }
+    std::vector<std::string> warnings() const { return warnings_; }
 
 private:
+    std::vector<FileChannel> named_channels(const Imf::Header &header) {
+        std::vector<FileChannel> found = channels_of(header, view_, source_.path);
+        if (!beauty_in_layer_) return found;
+        const std::vector<Channel> channels = plain(found);
+        if (const std::string layer = beauty_layer(channels); !layer.empty())
+            name_beauty(found, layer, channels);
+        if (parts_.empty()) warnings_ = beauty_warnings(channels);
+        return found;
+    }
+
+    static std::vector<Channel> plain(const std::vector<FileChannel> &found) {
+        std::vector<Channel> channels;
+        for (const FileChannel &channel : found) channels.push_back(channel.channel);
+        return channels;
+    }
+
     void check_types(const Ldi &part) const {
         for (const Ldi &other : parts_)
             for (const Channel &channel : part.channels) {
@@ -92,8 +122,7 @@ private:
 
     // The first part must have one; those after it may be layers of it.
     std::string depth_of(const std::vector<FileChannel> &found) const {
-        std::vector<Channel> channels;
-        for (const FileChannel &channel : found) channels.push_back(channel.channel);
+        const std::vector<Channel> channels = plain(found);
         const bool may_lack = !parts_.empty() && !has_depth_channel(channels, asked_);
         return may_lack ? "" : find_depth_channel(channels, asked_, source_.path);
     }
@@ -101,7 +130,8 @@ private:
     DeepSource source_;
     std::string view_, asked_;
     std::vector<Ldi> parts_;
-    std::vector<std::string> notes_;
+    std::vector<std::string> notes_, warnings_;
+    bool beauty_in_layer_ = true;
 };
 
 LdiFile read_flat_as_ldi(const DeepSource &source, const std::string &depth_channel,
@@ -110,7 +140,9 @@ LdiFile read_flat_as_ldi(const DeepSource &source, const std::string &depth_chan
     FlatFile flat = read_flat_part(source.file, path, source.size, stereo_view);
     check_memory(path, 2 * memory_of(flat.header, flat.image.channels.size() + 1), source.size);
     const std::string depth = find_depth_channel(flat.image.channels, depth_channel, path);
-    return LdiFile{ldi_of_flat(flat.image, depth), flat.header, false, {}};
+    flat.notes.push_back("depth: " + depth);
+    return LdiFile{ldi_of_flat(flat.image, depth), flat.header, false, std::move(flat.notes),
+                   std::move(flat.warnings)};
 }
 
 } // namespace
@@ -128,11 +160,12 @@ LdiFile read_ldi(const std::string &path, const std::string &depth_channel, cons
         const bool one_beauty = std::ranges::count_if(numbers, beauty) == 1;
         if (one_beauty) std::stable_partition(numbers.begin(), numbers.end(), beauty);
         DeepPicture picture(source, view, depth_channel);
+        picture.find_beauty(numbers);
         for (const int part : numbers) picture.add(part, one_beauty && part != numbers.front());
         Imf::Header header = header_of_view(file.header(numbers.front()), view);
         if (picture.is_merged()) header = without_attribute(header, "name"); // an object's
         Ldi ldi = picture.whole();
-        return LdiFile{std::move(ldi), header, true, picture.notes()};
+        return LdiFile{std::move(ldi), header, true, picture.notes(), picture.warnings()};
     });
 }
 

@@ -1,7 +1,7 @@
-#include "io/exr/exr_flat.h"
-
 #include "deep/channel_alpha.h"
+#include "io/exr/exr_beauty.h"
 #include "io/exr/exr_common.h"
+#include "io/exr/exr_flat.h"
 #include "io/exr/exr_header_check.h"
 #include "io/exr/exr_parts.h"
 #include "io/files/memory_limit.h"
@@ -36,8 +36,28 @@ struct PartChannels {
 
 struct PictureParts {
     std::string view;
-    std::vector<PartChannels> parts; // not empty
+    std::vector<PartChannels> parts; // not empty, the beauty first
+    std::vector<std::string> notes = {}, warnings = {};
+
+    std::vector<Channel> channels() const {
+        std::vector<Channel> all;
+        for (const PartChannels &part : parts)
+            for (const FileChannel &found : part.channels) all.push_back(found.channel);
+        return all;
+    }
 };
+
+// What the picture takes for R, G, B and A, and what it says of that.
+void find_beauty(const Imf::MultiPartInputFile &file, PictureParts &picture) {
+    const std::vector<Channel> channels = picture.channels();
+    picture.warnings = beauty_warnings(channels);
+    if (const std::string layer = beauty_layer(channels); !layer.empty())
+        for (PartChannels &part : picture.parts) name_beauty(part.channels, layer, channels);
+    for (const PartChannels &part : picture.parts)
+        if (std::ranges::any_of(part.channels, [](const FileChannel &c) { return c.channel.name == "R"; }))
+            picture.notes.push_back(beauty_note(
+                part.channels, file.parts() > 1 ? layer_of(file.header(part.part)) : std::string()));
+}
 
 // A channel whose name is taken is one of the part's layer: R of "diffuse" is diffuse.R.
 void add_part(Imf::MultiPartInputFile &file, int number, const std::string &path,
@@ -62,11 +82,12 @@ PictureParts parts_of_picture(Imf::MultiPartInputFile &file, const std::string &
     auto [view, numbers] = parts_of_view(file, flat_parts(file, path), stereo_view, path);
     const auto beauty = std::ranges::find_if(numbers, [&](int part) { return is_beauty(file.header(part)); });
     if (beauty != numbers.end()) std::rotate(numbers.begin(), beauty, beauty + 1);
-    PictureParts picture{view, {}};
+    PictureParts picture{.view = view, .parts = {}};
     std::vector<std::string> taken;
     const Windows windows = windows_of(file.header(numbers.front()));
     for (const int part : numbers)
         if (windows_of(file.header(part)) == windows) add_part(file, part, path, taken, picture);
+    find_beauty(file, picture);
     return picture;
 }
 
@@ -91,17 +112,16 @@ std::size_t read_channels(Imf::MultiPartInputFile &file, const PartChannels &par
 
 FlatFile read_flat_part(Imf::MultiPartInputFile &file, const std::string &path, std::uint64_t size,
                         const std::string &stereo_view) {
-    const auto [view, parts] = parts_of_picture(file, path, stereo_view);
-    const Imf::Header &header = file.header(parts.front().part);
-    std::vector<Channel> channels;
-    for (const PartChannels &part : parts)
-        for (const FileChannel &found : part.channels) channels.push_back(found.channel);
+    PictureParts picture = parts_of_picture(file, path, stereo_view);
+    const Imf::Header &header = file.header(picture.parts.front().part);
+    const std::vector<Channel> channels = picture.channels();
     check_memory(path, memory_of(header, channels.size()), size);
     Image image(windows_of(header), channels);
     std::size_t k = 0;
-    for (const PartChannels &part : parts) k = read_channels(file, part, image, k);
+    for (const PartChannels &part : picture.parts) k = read_channels(file, part, image, k);
     add_mean_coverage(image);
-    return FlatFile{std::move(image), header_of_view(header, view), size};
+    return FlatFile{std::move(image), header_of_view(header, picture.view), size, std::move(picture.notes),
+                    std::move(picture.warnings)};
 }
 
 FlatFile read_flat_exr(const std::string &path, const std::string &stereo_view) {

@@ -10,18 +10,22 @@
 #include <ImfMultiPartInputFile.h>
 
 #include <string>
+#include <vector>
 
 namespace sparselens {
 
 struct FlatFile {
     Image image;
-    Imf::Header header;          // that of the part with the beauty
-    std::uint64_t file_size = 0; // bytes; limits the memory that it may ask for, see check_memory()
+    Imf::Header header;                  // that of the part with the beauty
+    std::uint64_t file_size = 0;         // bytes; limits the memory that it may ask for, see check_memory()
+    std::vector<std::string> notes = {}; // what was taken for what
+    std::vector<std::string> warnings = {}; // what is hardly meant
 };
 
 // The flat parts of one view of the file as one picture: the beauty (by the name of the part, else the first part),
 // then all other parts of the same windows. A channel whose name is taken becomes one of the layer of its part. An
-// empty `stereo_view` is the default view of the file (see exr_parts.h). A missing A is made of AR, AG and AB (see
+// If nothing is named R, G or B, the layer with
+// the name of a beauty is (exr_beauty.h: ViewLayer.Combined, Ci). An empty `stereo_view` is the default view of the file (see exr_parts.h). A missing A is made of AR, AG and AB (see
 // channel_alpha.h).
 FlatFile read_flat_exr(const std::string &path, const std::string &stereo_view = {});
 // The header of the part with the beauty, without reading pixels.

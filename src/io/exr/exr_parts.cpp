@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "io/exr/exr_beauty.h"
 #include "io/exr/exr_common.h"
 #include "io/exr/header_edit.h"
 
@@ -45,13 +46,6 @@ Channel channel_of(const std::string &name, const Imf::Channel &in_file) {
     return {name, type};
 }
 
-void colours_first(std::vector<FileChannel> &channels) {
-    std::ranges::stable_sort(channels, {}, [](const FileChannel &c) {
-        static constexpr std::array first{"R", "G", "B", "A"};
-        return std::ranges::find(first, c.channel.name) - first.begin();
-    });
-}
-
 } // namespace
 
 std::string layer_of(const Imf::Header &header) {
@@ -62,8 +56,8 @@ std::string layer_of(const Imf::Header &header) {
 }
 
 bool is_beauty(const Imf::Header &header) {
-    static constexpr std::array names{"", "rgba", "rgb", "beauty", "c", "main", "default"};
-    return is_among(names, lower_case(layer_of(header)));
+    const std::string layer = layer_of(header);
+    return layer.empty() || is_beauty_name(layer);
 }
 
 std::vector<std::string> views_of(const Imf::Header &header) {
@@ -125,6 +119,13 @@ std::vector<FileChannel> channels_of(const Imf::Header &header, const std::strin
     channels.erase(std::unique(channels.begin(), channels.end(), same_name), channels.end());
     colours_first(channels);
     return channels;
+}
+
+void colours_first(std::vector<FileChannel> &channels) {
+    std::ranges::stable_sort(channels, {}, [](const FileChannel &c) {
+        static constexpr std::array first{"R", "G", "B", "A"};
+        return std::ranges::find(first, c.channel.name) - first.begin();
+    });
 }
 
 Imf::Header header_of_view(const Imf::Header &header, const std::string &view) {

@@ -20,7 +20,7 @@ namespace sparselens {
 // The name of the part without its view, which the file format includes: "diffuse" of "diffuse.left".
 std::string layer_of(const Imf::Header &header);
 
-// Whether the part has a name that renderers give to the beauty, or no name.
+// Whether the part has a name that renderers give to the beauty (exr_beauty.h), or no name.
 bool is_beauty(const Imf::Header &header);
 
 // The views of a part, the default first. Empty where the part does not name them.
@@ -45,6 +45,9 @@ struct FileChannel {
 // The channels of the part in the view: R, G, B, A first, then by name. Throws Error where one is subsampled.
 std::vector<FileChannel> channels_of(const Imf::Header &header, const std::string &view,
                                      const std::string &path);
+
+// R, G, B and A go first; the others keep their order.
+void colours_first(std::vector<FileChannel> &channels);
 
 // The header of a picture of that view alone.
 Imf::Header header_of_view(const Imf::Header &header, const std::string &view);

@@ -121,7 +121,8 @@ TEST_F(ExrParts, DeepPartsAreObjectsOfOnePicture) {
     EXPECT_EQ(tidy(file.ldi).z, (std::vector<float>{2, 4, 3, 5}));
     EXPECT_EQ(flatten(tidy(file.ldi)).plane(0)[0], 0.25f + 0.5f * 0.5f);
     EXPECT_FALSE(file.header.hasName());
-    EXPECT_EQ(file.notes, (Names{"2 deep parts are merged"}));
+    EXPECT_EQ(file.notes,
+              (Names{"beauty: R, G, B; coverage: A (part hero)", "depth: Z", "2 deep parts are merged"}));
 }
 
 TEST_F(ExrParts, ADeepPartOfTheSameSamplesIsALayer) {
@@ -142,7 +143,7 @@ TEST_F(ExrParts, OneBeautyIsTheWholePicture) {
     const LdiFile file = read_ldi(path);
     EXPECT_EQ(file.ldi.z, (std::vector<float>{4, 5}));
     EXPECT_NE(find_channel(file.ldi.channels, "diffuse.R"), npos);
-    EXPECT_EQ(file.notes, (Names{"part fog is left out: its samples are not those of the beauty"}));
+    EXPECT_EQ(file.warnings, (Names{"part fog is left out: its samples are not those of the beauty"}));
 }
 
 TEST_F(ExrParts, APartThatLiesNowhereIsAnError) {
