@@ -1,5 +1,5 @@
 #!/bin/bash
-# Files as other renderers write them: the beauty in a layer.
+# Files as other renderers write them: the beauty in a layer, parts of different data windows.
 . "$(dirname "$0")/check.sh"
 for tool in oiiotool idiff; do command -v $tool >/dev/null || skip "needs $tool (openimageio-tools)"; done
 gather=$bin/dof-gather
@@ -31,3 +31,12 @@ oiiotool plain.exr --chnames R,G,B,A,far -o far.exr
 fails_saying 1 'far.exr: has no depth channel.*--depth-channel; its channels are R, G, B, A, far' \
     "$gather" far.exr -o x.exr "${lens[@]}"
 
+# A depth part over the whole picture beside a cropped colour part.
+oiiotool plain.exr --ch R,G,B,A --cut 12x8+6+4 --attrib oiio:subimagename rgba -o colour.exr
+oiiotool plain.exr --ch Z --attrib oiio:subimagename depth -o depth.exr
+oiiotool colour.exr depth.exr --siappend -o parts.exr
+oiiotool plain.exr --ch R,G,B,A --cut 12x8+6+4 --crop 24x16+0+0 -o cropped.exr
+oiiotool cropped.exr depth.exr --chappend -o united.exr
+exits 0 "$gather" united.exr -o expected.exr "${lens[@]}"
+exits 0 "$gather" parts.exr -o out.exr "${lens[@]}"
+same out.exr expected.exr "parts of two data windows"

@@ -165,7 +165,10 @@ LdiFile read_ldi(const std::string &path, const std::string &depth_channel, cons
         Imf::Header header = header_of_view(file.header(numbers.front()), view);
         if (picture.is_merged()) header = without_attribute(header, "name"); // an object's
         Ldi ldi = picture.whole();
-        return LdiFile{std::move(ldi), header, true, picture.notes(), picture.warnings()};
+        std::vector<std::string> notes = picture.notes();
+        if (const auto flat = std::size_t(file.parts()) - deep.size(); flat > 0)
+            notes.push_back(fmt::format("{} flat parts are not used beside the deep ones", flat));
+        return LdiFile{std::move(ldi), header, true, std::move(notes), picture.warnings()};
     });
 }
 

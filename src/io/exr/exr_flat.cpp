@@ -1,7 +1,8 @@
+#include "io/exr/exr_flat.h"
+
 #include "deep/channel_alpha.h"
 #include "io/exr/exr_beauty.h"
 #include "io/exr/exr_common.h"
-#include "io/exr/exr_flat.h"
 #include "io/exr/exr_header_check.h"
 #include "io/exr/exr_parts.h"
 #include "io/files/memory_limit.h"
@@ -11,6 +12,7 @@
 #include <ImfMultiPartInputFile.h>
 #include <ImfOutputFile.h>
 #include <ImfPartType.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 
@@ -36,6 +38,7 @@ struct PartChannels {
 
 struct PictureParts {
     std::string view;
+    Windows windows;                 // those of all parts
     std::vector<PartChannels> parts; // not empty, the beauty first
     std::vector<std::string> notes = {}, warnings = {};
 
@@ -50,7 +53,7 @@ struct PictureParts {
 // What the picture takes for R, G, B and A, and what it says of that.
 void find_beauty(const Imf::MultiPartInputFile &file, PictureParts &picture) {
     const std::vector<Channel> channels = picture.channels();
-    picture.warnings = beauty_warnings(channels);
+    for (std::string &warning : beauty_warnings(channels)) picture.warnings.push_back(std::move(warning));
     if (const std::string layer = beauty_layer(channels); !layer.empty())
         for (PartChannels &part : picture.parts) name_beauty(part.channels, layer, channels);
     for (const PartChannels &part : picture.parts)
@@ -69,29 +72,72 @@ void add_part(Imf::MultiPartInputFile &file, int number, const std::string &path
         };
         std::string &name = found.channel.name;
         if (is_taken(name)) name = layer_of(file.header(number)) + "." + name;
-        if (is_taken(name)) continue; // the same layer twice: the first is it
+        if (is_taken(name)) { // the same layer twice
+            picture.warnings.push_back(
+                fmt::format("channel {} of part {} is not used: there is one of that name", found.in_file,
+                            layer_of(file.header(number))));
+            continue;
+        }
         taken.push_back(name);
         part.channels.push_back(std::move(found));
     }
     picture.parts.push_back(std::move(part));
 }
 
-// The flat parts that make up the view: those of one data window. The beauty first.
+// Pictures of other display windows are not of the same camera.
+bool fits(const Windows &part, const Windows &picture) {
+    return part.display == picture.display && part.pixel_aspect == picture.pixel_aspect;
+}
+
+// The flat parts that make up the view, over the window that contains them all. The beauty first.
 PictureParts parts_of_picture(Imf::MultiPartInputFile &file, const std::string &path,
                               const std::string &stereo_view) {
     auto [view, numbers] = parts_of_view(file, flat_parts(file, path), stereo_view, path);
     const auto beauty = std::ranges::find_if(numbers, [&](int part) { return is_beauty(file.header(part)); });
     if (beauty != numbers.end()) std::rotate(numbers.begin(), beauty, beauty + 1);
-    PictureParts picture{.view = view, .parts = {}};
+    PictureParts picture{view, windows_of(file.header(numbers.front())), {}};
     std::vector<std::string> taken;
-    const Windows windows = windows_of(file.header(numbers.front()));
-    for (const int part : numbers)
-        if (windows_of(file.header(part)) == windows) add_part(file, part, path, taken, picture);
+    for (const int part : numbers) {
+        const Windows windows = windows_of(file.header(part));
+        if (!fits(windows, picture.windows)) {
+            picture.warnings.push_back(
+                fmt::format("part {} is not used: its display window is not that of part {}",
+                            layer_of(file.header(part)), layer_of(file.header(numbers.front()))));
+            continue;
+        }
+        picture.windows.data.extendBy(windows.data);
+        add_part(file, part, path, taken, picture);
+    }
     find_beauty(file, picture);
     return picture;
 }
 
-// Reads the part's channels into the picture's from k on; returns which comes next.
+Imf::Header header_of(const Imf::MultiPartInputFile &file, const PictureParts &picture) {
+    Imf::Header header = header_of_view(file.header(picture.parts.front().part), picture.view);
+    header.dataWindow() = picture.windows.data;
+    return header;
+}
+
+// Where the colours do not fill the window of the picture, and nothing says so: their coverage, 1 in their own window.
+struct MissingCoverage {
+    Imath::Box2i covered; // empty: none is missing
+    MissingCoverage(const Imf::MultiPartInputFile &file, const PictureParts &picture) {
+        const std::vector<Channel> channels = picture.channels();
+        if (find_channel(channels, "A") != npos || find_channel(channels, "AR") != npos) return;
+        for (const PartChannels &part : picture.parts)
+            for (const FileChannel &found : part.channels)
+                if (found.channel.name == "R") covered = file.header(part.part).dataWindow();
+        if (covered == picture.windows.data) covered.makeEmpty();
+    }
+    void fill(Image &image) const {
+        const std::size_t a = find_channel(image.channels, "A");
+        for (int y = covered.min.y; y <= covered.max.y; ++y)
+            for (int x = covered.min.x; x <= covered.max.x; ++x) image.at(a, x, y) = 1;
+    }
+};
+
+// Reads the part's channels into the picture's from k on; returns which comes next. The picture stays 0 outside of the
+// part's window; a depth of 0 is that of nothing.
 std::size_t read_channels(Imf::MultiPartInputFile &file, const PartChannels &part, Image &image,
                           std::size_t k) {
     const Windows &w = image.windows;
@@ -104,7 +150,8 @@ std::size_t read_channels(Imf::MultiPartInputFile &file, const PartChannels &par
     if (part.channels.empty()) return k;
     Imf::InputPart input(file, part.part);
     input.setFrameBuffer(pixels);
-    input.readPixels(w.data.min.y, w.data.max.y);
+    const Imath::Box2i &own = file.header(part.part).dataWindow();
+    input.readPixels(own.min.y, own.max.y);
     return k;
 }
 
@@ -113,15 +160,17 @@ std::size_t read_channels(Imf::MultiPartInputFile &file, const PartChannels &par
 FlatFile read_flat_part(Imf::MultiPartInputFile &file, const std::string &path, std::uint64_t size,
                         const std::string &stereo_view) {
     PictureParts picture = parts_of_picture(file, path, stereo_view);
-    const Imf::Header &header = file.header(picture.parts.front().part);
-    const std::vector<Channel> channels = picture.channels();
+    const Imf::Header header = header_of(file, picture);
+    std::vector<Channel> channels = picture.channels();
+    const MissingCoverage missing(file, picture);
+    if (!missing.covered.isEmpty()) channels.push_back({"A"});
     check_memory(path, memory_of(header, channels.size()), size);
-    Image image(windows_of(header), channels);
+    Image image(picture.windows, channels);
     std::size_t k = 0;
     for (const PartChannels &part : picture.parts) k = read_channels(file, part, image, k);
+    if (!missing.covered.isEmpty()) missing.fill(image);
     add_mean_coverage(image);
-    return FlatFile{std::move(image), header_of_view(header, picture.view), size, std::move(picture.notes),
-                    std::move(picture.warnings)};
+    return FlatFile{std::move(image), header, size, std::move(picture.notes), std::move(picture.warnings)};
 }
 
 FlatFile read_flat_exr(const std::string &path, const std::string &stereo_view) {
@@ -138,8 +187,7 @@ Imf::Header read_flat_header(const std::string &path, const std::string &stereo_
         const auto stream = open_input(path);
         check_header(*stream, path);
         Imf::MultiPartInputFile file(*stream);
-        const PictureParts picture = parts_of_picture(file, path, stereo_view);
-        return header_of_view(file.header(picture.parts.front().part), picture.view);
+        return header_of(file, parts_of_picture(file, path, stereo_view));
     });
 }
 
