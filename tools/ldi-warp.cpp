@@ -70,7 +70,8 @@ void run(const WarpCommand &options, const ToolContext &tool) {
         say_reading(tool, in.views[i].name, in.notes[i], in.warnings[i]);
         warn_of_invalid_values(tool, in.views[i].name, in.bad[i]);
     }
-    for (View &view : in.views) to_scene_linear(tool, options.colour, view.name, in.header, view);
+    const Imf::Header as_read = in.header;
+    for (View &view : in.views) in.header = to_linear(tool, options.colour, view.name, as_read, view);
     const WarpOptions warp_by = warp_options(options, in);
     write_camera(in.header, in.camera);
     append_history(in.header, tool, options.history);

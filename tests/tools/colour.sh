@@ -47,6 +47,37 @@ exits 0 "$bin/ldi-warp" in.exr -o ldi.exr --merge keep --colorconfig encoded.oci
 exits 0 "$bin/dof-gather" ldi.exr -o warped.exr -d float "${flat[@]}"
 within warped.exr linear.exr 5e-4 "ldi-warp --colorconfig"
 
+# chromaticities name the space of the input, unless --colorspace does. EXR stays in its linear space, and says which.
+chromaticities() { exrheader "$1" | sed -n '/^chromaticities/,/white/p'; }
+oiiotool in.exr --attrib:type=float[8] chromaticities 0.713,0.293,0.165,0.83,0.128,0.044,0.32168,0.33767 -o ap1.exr
+exits 0 "$bin/dof-gather" ap1.exr -o kept.exr -d float "${flat[@]}" -v
+grep -q 'colour space ACEScg' stderr || fail "chromaticities are ignored: $(cat stderr)"
+within kept.exr plain.exr 0 "chromaticities change an EXR"
+chromaticities kept.exr | grep -q '0.713' || fail "kept.exr: $(chromaticities kept.exr)"
+exits 0 "$bin/dof-gather" in.exr -o stays.exr -d float "${flat[@]}" --colorspace ACEScg
+within stays.exr plain.exr 0 "--colorspace ACEScg changes an EXR"
+chromaticities stays.exr | grep -q '0.713' || fail "--colorspace ACEScg is not said: $(chromaticities stays.exr)"
+exits 0 "$bin/dof-gather" ap1.exr -o out709.exr -d float "${flat[@]}" --output-colorspace 'Linear Rec.709'
+oiiotool --colorconfig "$config" in.exr --ch R,G,B,A --colorconvert ACEScg 'Linear Rec.709' -o expected.exr
+within out709.exr expected.exr 1e-5 "from chromaticities to --output-colorspace"
+chromaticities out709.exr | grep -q '0.64' || fail "stale chromaticities: $(chromaticities out709.exr)"
+exits 0 "$bin/dof-gather" ap1.exr -o encoded.exr -d float "${flat[@]}" --output-colorspace 'Gamma 2.2'
+[ -z "$(chromaticities encoded.exr)" ] || fail "chromaticities of an encoded space: $(chromaticities encoded.exr)"
+exits 0 "$bin/dof-gather" ap1.exr -o plain709.exr -d float "${flat[@]}" --colorspace 'Linear Rec.709'
+chromaticities plain709.exr | grep -q '0.64' || fail "--colorspace does not go before chromaticities"
+exits 0 "$bin/ldi-warp" ap1.exr -o ap1.ldi.exr --merge keep
+for name in ap1.exr ap1.ldi.exr; do
+    exits 0 "$bin/dof-gather" "$name" -o shown.png "${flat[@]}"
+    oiiotool --colorconfig "$config" in.exr --ch R,G,B --colorconvert ACEScg 'Linear Rec.709' --ociodisplay sRGB Standard \
+        -d float -o expected.exr
+    oiiotool shown.png -d float -o shown.exr
+    within shown.exr expected.exr 0.0023 "$name by its chromaticities through a display"
+done
+oiiotool in.exr --attrib:type=float[8] chromaticities 0.7,0.3,0.2,0.7,0.1,0.1,0.33,0.33 -o odd.exr
+exits 0 "$bin/dof-gather" odd.exr -o x.png "${flat[@]}"
+grep -q 'warning: odd.exr: its chromaticities .*--colorspace' stderr || fail "odd chromaticities: $(cat stderr)"
+rm x.png
+
 # Out: any space, and through a display and a view.
 exits 0 "$bin/dof-gather" in.exr -o acescg.exr -d float "${flat[@]}" --output-colorspace ACEScg
 oiiotool --colorconfig "$config" in.exr --ch R,G,B,A --colorconvert 'Linear Rec.709' ACEScg -o expected.exr

@@ -32,7 +32,7 @@ OpenedLdi &LdiCache::load(const std::string &path, const std::string &channels, 
         OpenedLdi opened = open_ldi(path, options);
         say_samples(tool, opened);
         warn_of_invalid_values(tool, path, opened.bad);
-        to_scene_linear(tool, colour, path, opened.header, opened.ldi);
+        opened.header = to_linear(tool, colour, path, opened.header, opened.ldi);
         channels_left_out_ = keep_and_tell(opened.ldi, channels);
         key_ = key;
         last_ = std::move(opened);

@@ -14,7 +14,7 @@ namespace sparselens {
 
 class LdiCache {
 public:
-    // open_ldi(), to_scene_linear() and keep_channels() where the last file was another or was read otherwise; warns
+    // open_ldi(), to_linear() and keep_channels() where the last file was another or was read otherwise; warns
     // of invalid values then. The camera is always by the options given. What was returned before is gone.
     OpenedLdi &load(const std::string &path, const std::string &channels, const OpenOptions &options,
                     const ColourOptions &colour, const ToolContext &tool);

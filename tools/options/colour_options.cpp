@@ -3,9 +3,12 @@
 #include "base/error.h"
 #include "io/display/shown_picture.h"
 #include "io/exr/exr_flat.h"
+#include "io/exr/header_edit.h"
 #include "io/files/file_stream.h"
 #include "io/files/memory_limit.h"
 
+#include <ImfChromaticitiesAttribute.h>
+#include <ImfStandardAttributes.h>
 #include <ImfStringAttribute.h>
 
 #include <optional>
@@ -14,23 +17,66 @@ namespace sparselens {
 
 namespace {
 
-// Empty where there is nothing to do.
-std::optional<ColourTransform> to_scene_linear(const ToolContext &tool, const ColourOptions &options,
-                                               const std::string &path, const Imf::Header &header) {
-    const bool ours = header.findTypedAttribute<Imf::StringAttribute>("sparselens:version") != nullptr;
-    if (options.input_space.empty() && (ours || path == "-" || path == display_name("-"))) return {};
-    const ColourConfig config(options.config);
-    const std::string from = options.input_space.empty() ? config.space_of_file(path) : options.input_space;
-    const ColourTransform transform = config.between(from, config.scene_linear());
-    tool.say(display_name(path) + ": colour space " + from);
-    return transform;
+// With the attribute chromaticities, or without one.
+Imf::Header with_chromaticities(const Imf::Header &header, const std::optional<Imf::Chromaticities> &value) {
+    if (!value) return without_attribute(header, "chromaticities");
+    Imf::Header result = header;
+    set_attribute(result, "chromaticities", Imf::ChromaticitiesAttribute(*value));
+    return result;
 }
 
-ColourTransform output_transform(const ColourOptions &options, bool shown) {
+bool is_pipe(const std::string &path) { return path == "-" || path == display_name("-"); }
+
+// What the file says of its space, if it says anything.
+std::optional<std::string> space_by_attribute(const ToolContext &tool, const ColourConfig &config,
+                                              const std::string &path, const Imf::Header &header) {
+    const auto space = config.linear_space(Imf::chromaticities(header));
+    if (!space)
+        warn(tool, display_name(path) +
+                       ": its chromaticities are of no colour space that the colour configuration "
+                       "names; they are taken for scene-linear: give --colorspace");
+    return space;
+}
+
+struct LinearColours {
+    Imf::Header header;                            // says in which space they are
+    std::optional<ColourTransform> transform = {}; // to there; empty: there is nothing to do
+};
+
+LinearColours linear_colours(const ToolContext &tool, const ColourOptions &options, const std::string &path,
+                             const Imf::Header &header) {
+    const bool says = Imf::hasChromaticities(header), asked = !options.input_space.empty();
+    const bool ours = header.findTypedAttribute<Imf::StringAttribute>("sparselens:version") != nullptr;
+    if (!asked && !says && (ours || is_pipe(path))) return {header};
     const ColourConfig config(options.config);
-    if (!options.output_space.empty()) return config.between(config.scene_linear(), options.output_space);
-    return shown ? config.to_display(options.display, options.view)
-                 : config.between(config.scene_linear(), config.scene_linear());
+    std::string from = options.input_space;
+    if (!asked && says) {
+        const auto space = space_by_attribute(tool, config, path, header);
+        if (!space) return {header};
+        from = *space;
+    }
+    if (from.empty()) from = config.space_of_file(path);
+    tool.say(display_name(path) + ": colour space " + from);
+    const auto own = config.chromaticities_of(from);
+    const std::string to = own ? from : config.scene_linear();
+    // A file without the attribute is of Rec.709, by the definition of OpenEXR, and need not say so.
+    const bool silent =
+        own && !asked && !says && config.linear_space({}) == from && config.scene_linear() == from;
+    LinearColours result{silent ? header : with_chromaticities(header, config.chromaticities_of(to))};
+    if (!own) result.transform = config.between(from, to);
+    return result;
+}
+
+// The space of pixels that to_linear() has seen, or that have never been in a file.
+std::string space_of(const ColourConfig &config, const Imf::Header &header) {
+    if (!Imf::hasChromaticities(header)) return config.scene_linear();
+    return config.linear_space(Imf::chromaticities(header)).value_or(config.scene_linear());
+}
+
+ColourTransform output_transform(const ColourConfig &config, const ColourOptions &options,
+                                 const std::string &from) {
+    return options.output_space.empty() ? config.to_display(options.display, options.view, from)
+                                        : config.between(from, options.output_space);
 }
 
 } // namespace
@@ -41,15 +87,17 @@ void add_input_colour_options(CLI::App &app, ColourOptions &options) {
         ->type_name("FILE")
         ->group("Colour");
     app.add_option("--colorspace", options.input_space,
-                   "Colour space of the input (default: by the file rules of the configuration)")
+                   "Colour space of the input (default: by its chromaticities, else the file rules of the "
+                   "configuration)")
         ->type_name("SPACE")
         ->group("Colour");
 }
 
 void add_output_colour_options(CLI::App &app, ColourOptions &options) {
     CLI::Option *space =
-        app.add_option("--output-colorspace", options.output_space,
-                       "Colour space of the output (default: scene-linear for EXR, else that of the display)")
+        app.add_option(
+               "--output-colorspace", options.output_space,
+               "Colour space of the output (default: that of the input for EXR, else that of the display)")
             ->type_name("SPACE")
             ->group("Colour");
     app.add_option("--display", options.display,
@@ -64,18 +112,19 @@ void add_output_colour_options(CLI::App &app, ColourOptions &options) {
         ->excludes(space);
 }
 
-void to_scene_linear(const ToolContext &tool, const ColourOptions &options, const std::string &path,
-                     const Imf::Header &header, Ldi &ldi) {
-    const auto transform = to_scene_linear(tool, options, path, header);
-    if (!transform) return;
+Imf::Header to_linear(const ToolContext &tool, const ColourOptions &options, const std::string &path,
+                      const Imf::Header &header, Ldi &ldi) {
+    LinearColours to = linear_colours(tool, options, path, header);
     const std::vector<std::span<float>> planes(ldi.values.begin(), ldi.values.end());
-    transform_colours(*transform, ldi.channels, planes);
+    if (to.transform) transform_colours(*to.transform, ldi.channels, planes);
+    return std::move(to.header);
 }
 
-void to_scene_linear(const ToolContext &tool, const ColourOptions &options, const std::string &path,
-                     const Imf::Header &header, View &view) {
-    if (const auto transform = to_scene_linear(tool, options, path, header))
-        transform_colours(*transform, view.image);
+Imf::Header to_linear(const ToolContext &tool, const ColourOptions &options, const std::string &path,
+                      const Imf::Header &header, View &view) {
+    LinearColours to = linear_colours(tool, options, path, header);
+    if (to.transform) transform_colours(*to.transform, view.image);
+    return std::move(to.header);
 }
 
 std::size_t write_picture(const ToolContext &tool, const ColourOptions &options, const std::string &path,
@@ -83,8 +132,13 @@ std::size_t write_picture(const ToolContext &tool, const ColourOptions &options,
     const bool shown = is_shown_picture(path);
     if (!shown && !(options.display.empty() && options.view.empty()))
         throw UsageError("--display and --view-transform apply to PNG, JPEG and TIFF, not to " + path);
-    if (shown || !options.output_space.empty()) transform_colours(output_transform(options, shown), image);
-    if (!shown) return write_flat_exr(path, image, metadata);
+    Imf::Header header = metadata;
+    if (shown || !options.output_space.empty()) {
+        const ColourConfig config(options.config);
+        transform_colours(output_transform(config, options, space_of(config, metadata)), image);
+        header = with_chromaticities(metadata, config.chromaticities_of(options.output_space));
+    }
+    if (!shown) return write_flat_exr(path, image, header);
     const Imath::Box2i &display = image.windows.display; // written as a whole
     check_memory(
         path, 3.0 * (double(display.max.x) - display.min.x + 1) * (double(display.max.y) - display.min.y + 1),

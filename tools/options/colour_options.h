@@ -21,15 +21,17 @@ struct ColourOptions {
 void add_input_colour_options(CLI::App &app, ColourOptions &options);
 void add_output_colour_options(CLI::App &app, ColourOptions &options); // of the output
 
-// Converts the colours of a file to scene-linear, from --colorspace. Without it, files of these tools are scene-linear,
-// and the file rules of the configuration name the colour space of other files.
-void to_scene_linear(const ToolContext &tool, const ColourOptions &options, const std::string &path,
-                     const Imf::Header &header, Ldi &ldi);
-void to_scene_linear(const ToolContext &tool, const ColourOptions &options, const std::string &path,
-                     const Imf::Header &header, View &view);
+// Makes the colours of a file linear, and returns its header, whose attribute chromaticities then says of which space
+// they are. Their space in the file is --colorspace, else that of its chromaticities; else files of these tools are
+// scene-linear, and the file rules of the configuration name the space of other files. Colours in a linear space with
+// known chromaticities stay as they are; all others become scene-linear.
+Imf::Header to_linear(const ToolContext &tool, const ColourOptions &options, const std::string &path,
+                      const Imf::Header &header, Ldi &ldi);
+Imf::Header to_linear(const ToolContext &tool, const ColourOptions &options, const std::string &path,
+                      const Imf::Header &header, View &view);
 
-// Writes a picture of scene-linear colours: as OpenEXR in --output-colorspace (default: scene-linear); as PNG, JPEG,
-// TIFF and the like in --output-colorspace, else through --display and --view-transform (default: those of the
+// Writes a picture of linear colours, in the space of the chromaticities of `metadata`, else scene-linear: as OpenEXR in
+// --output-colorspace (default: in its own space), which chromaticities then say; as PNG, JPEG, TIFF and the like in --output-colorspace, else through --display and --view-transform (default: those of the
 // configuration). Throws UsageError for a display with an OpenEXR file. Returns what write_flat_exr returns.
 std::size_t write_picture(const ToolContext &tool, const ColourOptions &options, const std::string &path,
                           Image image, const Imf::Header &metadata);

@@ -62,6 +62,44 @@ std::vector<std::string> spaces_of(const ocio::Config &config) {
     return names;
 }
 
+// Linear spaces by what they are (ITU-R BT.709 and BT.2020, SMPTE RP 431-2 with D65, S-2014-004 and ST 2065-1 of the
+// Academy), and the names that the configurations of OpenColorIO, the Academy and Blender give them.
+struct LinearSpace {
+    Imf::Chromaticities chromaticities;
+    std::vector<const char *> names;
+};
+
+const std::vector<LinearSpace> &linear_spaces() {
+    using V = Imath::V2f;
+    static const V d65(0.3127f, 0.3290f), aces_white(0.32168f, 0.33767f);
+    static const std::vector<LinearSpace> spaces{
+        {{V(0.64f, 0.33f), V(0.30f, 0.60f), V(0.15f, 0.06f), d65},
+         {"lin_rec709", "Linear Rec.709", "Linear Rec.709 (sRGB)", "lin_rec709_srgb", "lin_srgb",
+          "Utility - Linear - sRGB", "Utility - Linear - Rec.709"}},
+        {{V(0.713f, 0.293f), V(0.165f, 0.830f), V(0.128f, 0.044f), aces_white},
+         {"ACEScg", "lin_ap1", "ACES - ACEScg"}},
+        {{V(0.7347f, 0.2653f), V(0, 1), V(0.0001f, -0.0770f), aces_white},
+         {"ACES2065-1", "lin_ap0", "ACES - ACES2065-1"}},
+        {{V(0.708f, 0.292f), V(0.170f, 0.797f), V(0.131f, 0.046f), d65},
+         {"lin_rec2020", "Linear Rec.2020", "Utility - Linear - Rec.2020"}},
+        {{V(0.680f, 0.320f), V(0.265f, 0.690f), V(0.150f, 0.060f), d65}, {"lin_p3d65", "Linear P3-D65"}}};
+    return spaces;
+}
+
+// Headers round these numbers, to three places or more.
+bool same_chromaticities(const Imf::Chromaticities &a, const Imf::Chromaticities &b) {
+    constexpr float rounding = 1e-3f;
+    return a.red.equalWithAbsError(b.red, rounding) && a.green.equalWithAbsError(b.green, rounding) &&
+           a.blue.equalWithAbsError(b.blue, rounding) && a.white.equalWithAbsError(b.white, rounding);
+}
+
+// The name that the configuration itself gives to the space, if it has it.
+std::optional<std::string> own_name(const ocio::Config &config, const std::string &name) {
+    const auto space = config.getColorSpace(name.c_str());
+    if (!space) return {};
+    return space->getName();
+}
+
 } // namespace
 
 bool ColourTransform::changes_nothing() const { return processor_->cpu->isNoOp(); }
@@ -122,7 +160,25 @@ ColourTransform ColourConfig::between(const std::string &from, const std::string
     });
 }
 
-ColourTransform ColourConfig::to_display(const std::string &display, const std::string &view) const {
+std::optional<std::string> ColourConfig::linear_space(const Imf::Chromaticities &chromaticities) const {
+    for (const LinearSpace &space : linear_spaces())
+        if (same_chromaticities(space.chromaticities, chromaticities))
+            for (const char *name : space.names)
+                if (const auto own = own_name(*impl_->config, name)) return own;
+    return {};
+}
+
+std::optional<Imf::Chromaticities> ColourConfig::chromaticities_of(const std::string &space) const {
+    const auto asked = own_name(*impl_->config, space);
+    if (!asked) return {};
+    for (const LinearSpace &linear : linear_spaces())
+        for (const char *name : linear.names)
+            if (own_name(*impl_->config, name) == asked) return linear.chromaticities;
+    return {};
+}
+
+ColourTransform ColourConfig::to_display(const std::string &display, const std::string &view,
+                                         const std::string &from) const {
     const ocio::Config &config = *impl_->config;
     return with_config_name(impl_->name, [&] {
         const std::string on = display.empty() ? config.getDefaultDisplay() : display;
@@ -134,8 +190,8 @@ ColourTransform ColourConfig::to_display(const std::string &display, const std::
             views.emplace_back(config.getView(on.c_str(), i));
         expect_name(impl_->name, through, "view of " + on, views);
         ColourTransform transform;
-        const auto processor = config.getProcessor(scene_linear().c_str(), on.c_str(), through.c_str(),
-                                                   ocio::TRANSFORM_DIR_FORWARD);
+        const auto processor = config.getProcessor((from.empty() ? scene_linear() : from).c_str(), on.c_str(),
+                                                   through.c_str(), ocio::TRANSFORM_DIR_FORWARD);
         transform.processor_ = std::make_shared<const ColourTransform::Processor>(
             ColourTransform::Processor{processor->getDefaultCPUProcessor()});
         return transform;

@@ -6,7 +6,10 @@
 
 #include "../../base/image.h"
 
+#include <ImfChromaticities.h>
+
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -35,8 +38,14 @@ public:
     std::string scene_linear() const;                         // the space in which all work is done
     std::string space_of_file(const std::string &path) const; // by the file rules
     ColourTransform between(const std::string &from, const std::string &to) const;
-    // From scene-linear. Empty names stand for the default display and its default view.
-    ColourTransform to_display(const std::string &display, const std::string &view) const;
+    // Empty names stand for the default display and its default view, and for scene_linear().
+    ColourTransform to_display(const std::string &display, const std::string &view,
+                               const std::string &from = {}) const;
+
+    // The linear space of these primaries and this white, if the configuration has it under one of its usual names; and
+    // the primaries and white of such a space, by any name of it. Nothing for all other spaces.
+    std::optional<std::string> linear_space(const Imf::Chromaticities &chromaticities) const;
+    std::optional<Imf::Chromaticities> chromaticities_of(const std::string &space) const;
 
 private:
     struct Impl;

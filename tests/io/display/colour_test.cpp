@@ -131,5 +131,50 @@ TEST(Colour, WhatIsNotThereIsNamed) {
               std::string::npos);
 }
 
+// Primaries and white as renderers write them, rounded.
+TEST(Colour, ChromaticitiesNameALinearSpace) {
+    const ColourConfig config;
+    using V = Imath::V2f;
+    const Imf::Chromaticities ap1(V(0.713f, 0.293f), V(0.165f, 0.83f), V(0.128f, 0.044f),
+                                  V(0.3217f, 0.3377f));
+    const Imf::Chromaticities ap0(V(0.7347f, 0.2653f), V(0, 1), V(0.0001f, -0.077f), V(0.32168f, 0.33767f));
+    const Imf::Chromaticities odd(V(0.7f, 0.3f), V(0.2f, 0.7f), V(0.1f, 0.1f), V(0.33f, 0.33f));
+    EXPECT_EQ(config.linear_space(ap1), "ACEScg");
+    EXPECT_EQ(config.linear_space(ap0), "ACES2065-1");
+    EXPECT_EQ(config.linear_space({}), "Linear Rec.709"); // what a file has that says nothing
+    EXPECT_EQ(config.linear_space(odd), std::nullopt);
+}
+
+TEST(Colour, LinearSpacesHaveChromaticitiesByAnyOfTheirNames) {
+    const ColourConfig config;
+    for (const char *name : {"ACEScg", "acescg", "lin_ap1"}) {
+        const auto found = config.chromaticities_of(name);
+        ASSERT_TRUE(found) << name;
+        EXPECT_EQ(config.linear_space(*found), "ACEScg");
+    }
+    EXPECT_TRUE(config.chromaticities_of("scene_linear")); // a role
+    for (const char *name : {"sRGB", "Gamma 2.2", "Raw", "nowhere", ""})
+        EXPECT_FALSE(config.chromaticities_of(name)) << name;
+}
+
+// The matrices of the configuration are those of the chromaticities that the table gives their names: white stays
+// white, and red, green and blue of the space lie on its primaries.
+TEST(Colour, ChromaticitiesAreThoseOfTheMatrices) {
+    const ColourConfig config;
+    const Imath::M44f of_709 = Imf::RGBtoXYZ(Imf::Chromaticities(), 1);
+    for (const char *name :
+         {"Linear Rec.2020", "Linear P3-D65"}) { // with the white of Rec.709: nothing is adapted
+        const ColourTransform transform = config.between(name, "Linear Rec.709");
+        const Imath::M44f own = Imf::RGBtoXYZ(config.chromaticities_of(name).value(), 1);
+        for (int k = 0; k < 3; ++k) {
+            Imath::V3f rgb(0, 0, 0);
+            rgb[k] = 1;
+            const Image out = transformed(transform, pixel({red, green, blue}, {rgb.x, rgb.y, rgb.z}));
+            const Imath::V3f by_709 = Imath::V3f(out.values[0], out.values[1], out.values[2]) * of_709;
+            EXPECT_TRUE(by_709.equalWithAbsError(rgb * own, 1e-4f)) << name << " " << k;
+        }
+    }
+}
+
 } // namespace
 } // namespace sparselens
