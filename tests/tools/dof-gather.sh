@@ -179,7 +179,7 @@ oiiotool z4.exr --mulc 1,1,1,1,-1 -o behind.exr
 fails_saying 1 'behind.exr: depth -4.* in pixel 0,0' "$gather" behind.exr -o x.exr --lens-radius 0
 rm x.exr
 
-# Standard input and output, all three tools; odd names; output equal to input.
+# Standard input and output, all three tools; odd names.
 "$gather" - -o - <ldi.exr | cat >piped.exr
 same_pixels piped.exr out.exr "through a pipe"
 exits 0 "$bin/ldi-cluster" ldi.exr -o clustered.exr
@@ -189,9 +189,25 @@ same piped.exr chain.exr "the chain in a pipe"
 cp ldi.exr ./"-it's \"odd\".exr"
 exits 0 "$gather" -o "out put.exr" -- "-it's \"odd\".exr"
 same "out put.exr" out.exr "odd names"
-cp ldi.exr same.exr
-exits 0 "$gather" same.exr -o same.exr
-same same.exr out.exr "output equal to input"
+
+# An output that is an input, by whatever name, is refused before anything is read or written.
+cp ldi.exr input.exr
+cp ldi.exr input.copy.exr
+ln -s input.exr soft.exr
+ln input.exr hard.exr
+for output in input.exr ./input.exr "$PWD/input.exr" soft.exr hard.exr; do
+    fails_saying 2 "--output $output would overwrite the input input.exr: name another output" "$gather" input.exr -o "$output"
+    fails_saying 2 "--depth-out $output would overwrite the input input.exr" "$gather" input.exr -o x.exr --depth-out "$output"
+    fails_saying 2 "--output $output would overwrite the input input.exr" "$gather" ldi.exr -o "$output" --holdout input.exr
+done
+fails_saying 2 '--output input.exr would overwrite the input soft.exr' "$gather" soft.exr -o input.exr
+fails_saying 2 '--stats input.exr would overwrite' "$gather" input.exr -o x.exr --stats input.exr
+fails_saying 2 '--output and --depth-out name the same file: -' "$gather" ldi.exr -o - --depth-out -
+ln -s x.exr x.link.exr
+fails_saying 2 '--output and --depth-out name the same file: x.link.exr' "$gather" ldi.exr -o x.exr --depth-out x.link.exr
+same input.exr input.copy.exr "refused outputs"
+[ ! -e x.exr ] || fail "a refused command wrote x.exr"
+exits 0 "$gather" ldi.exr -o /dev/null --depth-out /dev/null
 
 # Failures: one line, exit 1, the old output as it was.
 fails_saying 1 'missing.exr: cannot open: No such file' "$gather" missing.exr -o x.exr

@@ -180,3 +180,20 @@ fails_saying 2 'pinholeFocalLength says 35, cameraFocalLength says 50.*give --fo
 exits 0 "$bin/dof-gather" both.exr -o out.exr -d float --focus-distance 4 --focal-length 50
 idiff -q -fail 1e-4 -warn 1e-4 out.exr options.exr >idiff.txt || fail "--focal-length settles it"
 [ ! -e x.exr ] || fail "a failure wrote x.exr"
+
+# No tool of the chain overwrites what it reads; a second name of the file makes no difference.
+cp one.exr kept.exr
+ln -s one.exr soft.exr
+known=(--lens-radius 0.1 --focal-length 50 --sensor-width 36 --focus-distance 4)
+for output in one.exr soft.exr; do
+    fails_saying 2 "--output $output would overwrite the input one.exr" "$bin/ldi-warp" one.exr -o $output
+    fails_saying 2 "--output $output would overwrite the input one.exr" "$bin/ldi-warp" kept.exr --view 0.1,0 one.exr -o $output "${known[@]}"
+    fails_saying 2 "--output $output would overwrite the input one.exr" "$bin/ldi-cluster" one.exr -o $output --layers 1
+    fails_saying 2 "--output $output would overwrite the input one.exr" "$bin/ldi-plan" one.exr -o $output "${known[@]}"
+    fails_saying 2 "--output $output would overwrite the input one.exr" "$bin/dof-accumulate" --view 0,0 kept.exr --view 1,0 one.exr -o $output --lens-radius 0
+    fails_saying 2 "--output $output would overwrite the input one.exr" "$bin/dof-accumulate" --view 0,0 kept.exr --center one.exr -o $output
+done
+mkdir masked
+ln one.exr masked/view_0.exr
+fails_saying 2 '--masks masked/view_0.exr would overwrite the input one.exr' "$bin/ldi-plan" one.exr -o plan.json --masks masked "${known[@]}"
+same one.exr kept.exr "an input that is no output"

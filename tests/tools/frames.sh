@@ -65,9 +65,9 @@ exits 0 "$bin/ldi-warp" "####/center.####.exr" "####/view_0.####.exr" --view 0,0
 exits 0 "$bin/ldi-warp" views/center.exr views/view_0.exr --view 0,0.06 views/view_1.exr -o one.exr
 for frame in 0010 0011 0013; do same ldi.$frame.exr one.exr "ldi-warp at frame $frame"; done
 exits 0 "$bin/ldi-cluster" ldi.####.exr -o cluster.####.exr --tolerance 1
-exits 0 "$bin/ldi-cluster" one.exr -o one.exr --tolerance 1
+exits 0 "$bin/ldi-cluster" one.exr -o less.exr --tolerance 1
 [ "$(count 'cluster.*.exr')" -eq 3 ] || fail "the numbers on disk: $(ls)"
-same cluster.0013.exr one.exr "ldi-cluster of a sequence"
+same cluster.0013.exr less.exr "ldi-cluster of a sequence"
 exits 0 "$gather" cluster.10-11#.exr -o out.1-2%02d.exr --depth-out z.1-2#.exr
 [ -e out.01.exr ] && [ -e out.02.exr ] && [ -e z.0002.exr ] || fail "ranges in names: $(ls)"
 exits 0 "$bin/ldi-plan" %04d/center.%04d.exr -o plan.#.json --frames 10-11
@@ -128,3 +128,12 @@ threads 2 env CUE_THREADS=3 "$gather" --threads 2
 threads "$(nproc)" env CUE_THREADS=3 "$gather" --threads 0
 threads 1 taskset -c "$(taskset -cp $$ | sed -E 's/.*: ([0-9]+).*/\1/')" "$gather"
 fails_saying 2 'CUE_THREADS|threads' env CUE_THREADS=many "$gather" ldi.exr -o x.exr
+
+# Nor is any frame's input the output of another frame, whether it exists or not.
+cp ldi.exr chain.0001.exr
+fails_saying 2 'chain.0001.exr would overwrite the input chain.0001.exr' "$bin/ldi-cluster" chain.#.exr -o chain.#.exr --frames 1-2
+fails_saying 2 'chain.0002.exr would overwrite the input chain.0002.exr' "$bin/ldi-cluster" chain.1-2#.exr -o chain.2-3#.exr
+fails_saying 2 'chain.0002.exr would overwrite the input ./chain.0002.exr' "$bin/ldi-cluster" ./chain.1-2#.exr -o chain.2-3#.exr
+cmp -s ldi.exr chain.0001.exr || fail "an input was overwritten"
+[ ! -e chain.0002.exr ] || fail "a refused command wrote chain.0002.exr"
+

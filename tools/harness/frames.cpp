@@ -1,6 +1,7 @@
 #include "harness/frames.h"
 
 #include "base/error.h"
+#include "harness/named_files.h"
 
 #include <OpenImageIO/filesystem.h>
 #include <fmt/format.h>
@@ -80,11 +81,6 @@ std::string value_of(const std::string &option, const std::vector<std::string> &
     return value;
 }
 
-bool names_output(const std::string &option) {
-    static const std::set<std::string> outputs{"-o", "--output", "--depth-out"};
-    return outputs.contains(option);
-}
-
 } // namespace
 
 std::vector<int> frame_numbers(const std::string &range) {
@@ -149,7 +145,7 @@ FrameCommands::Word FrameCommands::read_word(const std::string &text, const std:
     Word word;
     word.before = text.substr(0, start);
     word.value = text.substr(start);
-    word.is_output = names_output(is_option ? text.substr(0, start - 1) : previous);
+    word.is_output = is_output_word(is_option ? text.substr(0, start - 1) : previous);
     std::smatch place;
     std::error_code error;
     if (word.value.size() > longest_name || (names_are_names && std::filesystem::exists(word.value, error)))

@@ -1,5 +1,6 @@
 #include "harness/frames.h"
 #include "harness/history.h"
+#include "harness/named_files.h"
 #include "harness/process.h"
 #include "harness/progress_lines.h"
 #include "harness/tool.h"
@@ -72,7 +73,7 @@ void run_frame(const FrameCommand &command, ToolContext &tool, FrameCount count)
     const ProgressFormat format = command.frames.progress;
     tool.progress = progress_of(format, tool.tool_name, count);
     tool.stats = command.frames.stats;
-    if (command.frames.update && is_up_to_date(command.app))
+    if (command.frames.update && is_up_to_date(named_files(command.app)))
         tool.say(command.app.get_option("--output")->as<std::string>() + " is up to date");
     else
         command.job(tool);
@@ -96,8 +97,14 @@ int run_frames(const std::string &name, const std::string &description, int argc
     };
     // Usage errors of any frame are reported before the first frame is worked on.
     CommandPtr first, command;
-    for (std::size_t i = 0; i < count; ++i)
-        if (const auto answered = parse(i, i == 0 ? first : command)) return *answered;
+    std::vector<NamedFiles> files;
+    for (std::size_t i = 0; i < count; ++i) {
+        CommandPtr &parsed = i == 0 ? first : command;
+        if (const auto answered = parse(i, parsed)) return *answered;
+        files.push_back(named_files(parsed->app));
+    }
+    code = exit_code_of(name, "", [&] { refuse_overwriting(files); });
+    if (code != 0) return code;
 
     ToolContext tool;
     tool.tool_name = name;

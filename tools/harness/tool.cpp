@@ -1,6 +1,7 @@
 #include "harness/tool.h"
 
 #include "harness/history.h"
+#include "harness/named_files.h"
 #include "harness/one_line.h"
 #include "harness/process.h"
 #include "harness/progress_lines.h"
@@ -30,7 +31,11 @@ int run_tool(CLI::App &app, int argc, char **argv, const Job &job, Reads reads) 
     tool.command_line = command_line(tool.tool_name, {argv + 1, argv + argc});
     const Process process(options, tool);
     tool.progress = progress_of(ProgressFormat::terminal, tool.tool_name, {});
-    return exit_code_of(tool.tool_name, "", [&] { job(tool); });
+    return exit_code_of(tool.tool_name, "", [&] {
+        const NamedFiles files = named_files(app);
+        refuse_overwriting({&files, 1});
+        job(tool);
+    });
 }
 
 } // namespace sparselens

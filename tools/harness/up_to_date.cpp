@@ -4,20 +4,12 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <string>
-#include <vector>
 
 namespace sparselens {
 
 namespace {
 
 namespace fs = std::filesystem;
-
-bool is_output(const CLI::Option &option) {
-    return option.check_lname("output") || option.check_lname("depth-out");
-}
-
-bool is_log(const CLI::Option &option) { return option.check_lname("stats"); }
 
 // Outputs appear whole or not at all; but a full disk elsewhere, or a copy that was stopped, may have left less.
 bool is_complete(const fs::path &file) {
@@ -28,22 +20,12 @@ bool is_complete(const fs::path &file) {
 
 } // namespace
 
-bool is_up_to_date(const CLI::App &parsed) {
-    std::vector<fs::path> outputs, inputs;
+bool is_up_to_date(const NamedFiles &files) {
     std::error_code error;
-    for (const CLI::Option *option : parsed.get_options()) {
-        if (is_log(*option)) continue;
-        for (const std::string &name : option->results()) {
-            if (is_output(*option))
-                outputs.emplace_back(name);
-            else if (fs::is_regular_file(name, error))
-                inputs.emplace_back(name);
-        }
-    }
-    const auto time = [&](const fs::path &file) { return fs::last_write_time(file, error); };
-    return !outputs.empty() && std::ranges::all_of(outputs, [&](const fs::path &output) {
-        return is_complete(output) && std::ranges::all_of(inputs, [&](const fs::path &input) {
-                   return time(input) <= time(output);
+    const auto time = [&](const std::string &file) { return fs::last_write_time(file, error); };
+    return !files.outputs.empty() && std::ranges::all_of(files.outputs, [&](const NamedFile &output) {
+        return is_complete(output.path) && std::ranges::all_of(files.inputs, [&](const NamedFile &input) {
+                   return !fs::is_regular_file(input.path, error) || time(input.path) <= time(output.path);
                });
     });
 }

@@ -58,8 +58,6 @@ void add_gather_options(CLI::App &app, GatherCommand &options) {
 }
 
 void check(const GatherCommand &options) {
-    if (options.depth_output == options.output)
-        throw UsageError("--depth-out and --output name the same file: " + options.output);
     if (!options.holdout.empty() && options.method != &gather_methods().front())
         throw UsageError("--holdout works with --method lens only");
     if (options.show == Show::tiles && options.method != &gather_methods().front())

@@ -1,0 +1,101 @@
+#include "harness/named_files.h"
+
+#include "base/error.h"
+#include "base/text.h"
+
+#include <fmt/format.h>
+#include <sys/stat.h>
+
+#include <array>
+#include <filesystem>
+#include <map>
+
+namespace sparselens {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array output_options{"--output", "--depth-out"};
+constexpr std::array input_options{"--view", "--center", "--holdout", "--colorconfig", "--regions", "--plan"};
+
+bool is_input(const CLI::Option &option) {
+    return option.get_positional() || is_among(input_options, option.get_name());
+}
+
+void add(std::vector<NamedFile> &files, const CLI::Option &option) {
+    const std::size_t step = option.get_name() == "--view" ? 2 : 1; // X,Y and the file
+    const std::vector<std::string> &words = option.results();
+    for (std::size_t i = step - 1; i < words.size(); i += step)
+        files.push_back({option.get_name(), words[i]});
+}
+
+// ldi-plan writes view_0.exr, view_1.exr, ... into the folder.
+void add_masks(std::vector<NamedFile> &files, const CLI::Option &option) {
+    constexpr int most_views = 64;
+    std::error_code error;
+    for (const std::string &folder : option.results())
+        for (int k = 0; k < most_views; ++k) {
+            const fs::path mask = fs::path(folder) / fmt::format("view_{}.exr", k);
+            if (fs::exists(mask, error)) files.push_back({option.get_name(), mask.string()});
+        }
+}
+
+// What two names of one file have in common; empty for a folder or a device.
+std::string identity(const std::string &path) {
+    if (path == "-") return path;
+    struct stat info {};
+    if (::stat(path.c_str(), &info) == 0)
+        return S_ISREG(info.st_mode) ? fmt::format("{}:{}", info.st_dev, info.st_ino) : "";
+    std::error_code error;
+    return fs::weakly_canonical(path, error).string();
+}
+
+using Readers = std::map<std::string, std::string>; // the identity of a file that is read, and its name
+
+// A file that does not exist may be written by one frame and read by the next.
+Readers readers_of(std::span<const NamedFiles> commands) {
+    Readers readers;
+    std::error_code error;
+    for (const NamedFiles &files : commands)
+        for (const NamedFile &input : files.inputs)
+            if (input.path != "-" && (commands.size() > 1 || fs::exists(input.path, error)))
+                readers.emplace(identity(input.path), input.path);
+    readers.erase("");
+    return readers;
+}
+
+} // namespace
+
+bool is_output_word(std::string_view word) { return word == "-o" || is_among(output_options, word); }
+
+NamedFiles named_files(const CLI::App &parsed) {
+    NamedFiles files;
+    for (const CLI::Option *option : parsed.get_options()) {
+        if (is_among(output_options, option->get_name())) add(files.outputs, *option);
+        if (option->get_name() == "--stats") add(files.also_written, *option);
+        if (option->get_name() == "--masks") add_masks(files.also_written, *option);
+        if (is_input(*option)) add(files.inputs, *option);
+    }
+    return files;
+}
+
+void refuse_overwriting(std::span<const NamedFiles> commands) {
+    const Readers readers = readers_of(commands);
+    std::map<std::string, std::string> writers; // the identity of a file that is written, and the option
+    for (const NamedFiles &files : commands)
+        for (const auto *written : {&files.outputs, &files.also_written})
+            for (const auto &[option, path] : *written) {
+                const std::string file = identity(path);
+                if (file.empty()) continue;
+                if (const auto reader = readers.find(file); reader != readers.end())
+                    throw UsageError(fmt::format("{} {} would overwrite the input {}: name another output",
+                                                 option, path, reader->second));
+                const auto [writer, is_new] = writers.emplace(file, option);
+                if (!is_new && writer->second != option)
+                    throw UsageError(
+                        fmt::format("{} and {} name the same file: {}", writer->second, option, path));
+            }
+}
+
+} // namespace sparselens

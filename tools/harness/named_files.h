@@ -1,0 +1,32 @@
+// Which files a command line reads and which it writes: the one table of the options whose values are files.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sparselens {
+
+// Whether this word of a command line is an option whose value is an output: -o, --output, --depth-out.
+bool is_output_word(std::string_view word);
+
+struct NamedFile {
+    std::string option, path;
+};
+
+struct NamedFiles {
+    std::vector<NamedFile> outputs, inputs;
+    std::vector<NamedFile> also_written; // beside the outputs: --stats, and the files of --masks that exist
+};
+
+NamedFiles named_files(const CLI::App &parsed);
+
+// Of the frames of a range, or of one command: throws UsageError where an output is a file that any of them reads, or
+// where two options write one file. Files are compared as files, through symbolic and hard links; folders and devices
+// are not compared.
+void refuse_overwriting(std::span<const NamedFiles> commands);
+
+} // namespace sparselens
