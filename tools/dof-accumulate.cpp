@@ -31,7 +31,7 @@ void accumulate_files(const AccumulateOptions &options, const ToolContext &tool)
     const ThinLens lens = stop_down(files, options.lens);
     tool.say(fmt::format("{} views", files.views.size()));
     const Image image = average_views(files, lens, options.transparent_outside, tool);
-    const Image picture = in_type(image, options.as_float);
+    const Image picture = in_type(image, options.type);
     Imf::Header header = header_of(files);
     append_history(header, tool, options.history);
     warn_of_clamped(tool, options.output, write_flat_exr(options.output, picture, header));

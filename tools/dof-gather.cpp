@@ -53,7 +53,7 @@ void run(const GatherCommand &options, const ToolContext &tool, LdiCache &cache)
     append_history(header, tool, options.history);
     if (!options.depth_output.empty())
         write_flat_exr(options.depth_output, crop(front_depth(ldi), frame.written), header);
-    picture = in_type(std::move(picture), options.as_float);
+    picture = in_type(std::move(picture), options.type);
     warn_of_clamped(tool, options.output,
                     write_picture(tool, options.colour, options.output, std::move(picture), header));
     write_stats(tool, gather_stats(cache, tiles));
@@ -67,9 +67,6 @@ int main(int argc, char **argv) {
                       argc, argv, [&](CLI::App &app) {
                           const auto options = std::make_shared<GatherCommand>();
                           add_gather_options(app, *options);
-                          return [&cache, options](const ToolContext &tool) {
-                              check(*options);
-                              run(*options, tool, cache);
-                          };
+                          return [&cache, options](const ToolContext &tool) { run(*options, tool, cache); };
                       });
 }

@@ -20,7 +20,7 @@ struct Options {
     ViewList views;
     const GatherMethod *method = nullptr;
     std::optional<Imath::V2i> pixel;
-    bool as_float = false;
+    std::optional<PixelType> type;
     std::string channels;
 };
 
@@ -57,7 +57,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
     add_depth_options(app, options.depth);
     add_method_option(app, options.method);
     add_pixel_option(app, "--focus-pixel", options.pixel, "");
-    add_type_option(app, options.as_float);
+    add_type_option(app, options.type);
     app.add_option("--channels", options.channels, "");
     const int code =
         run_tool(app, int(arguments.size()), arguments.data(), [&](const ToolContext &) { use(options); });

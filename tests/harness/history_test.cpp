@@ -46,6 +46,10 @@ TEST(CommandLine, LeavesOutWhatChangesNoPicture) {
               "t in.exr --outside transparent -d float");
 }
 
+TEST(CommandLine, KeepsAllThatFollowsTheEndOfOptions) {
+    EXPECT_EQ(command_line("t", {"-v", "--", "-v", "-o", "x.exr"}), "t -- -v -o x.exr");
+}
+
 std::string text_of(const Imf::Header &header, const char *name) {
     return header.typedAttribute<Imf::StringAttribute>(name).value();
 }

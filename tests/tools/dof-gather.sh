@@ -136,7 +136,36 @@ oiiotool float.exr -d half -o rounded.exr
 same_pixels rounded.exr out.exr "-d float, rounded"
 if idiff -q -fail 0 -warn 0 float.exr out.exr >idiff.txt; then fail "-d float changes nothing"; fi
 exits 0 "$gather" ldi.exr -o half.exr -d half
-same half.exr out.exr "-d half is the default"
+same half.exr out.exr "-d half of half"
+oiiotool ldi.exr -d float -o float.ldi.exr
+exits 0 "$gather" float.ldi.exr -o half.exr
+says half.exr '^ +R, 32-bit floating-point'
+exits 0 "$gather" float.ldi.exr -o half.exr -d half
+says half.exr '^ +R, 16-bit floating-point'
+same_pixels half.exr out.exr "-d half of float"
+
+# What the chosen method would ignore is refused.
+for text in '--quality final --method selective' '--lens-samples 9 --method scatter' '--holdout ldi.exr --method scatter'; do
+    # shellcheck disable=SC2086
+    fails_saying 2 "^dof-gather: ${text%% *}: works with --method lens only" "$gather" ldi.exr -o y.exr $text
+done
+for method in lens scatter; do
+    fails_saying 2 '^dof-gather: --layers: works with --method selective only' "$gather" ldi.exr -o y.exr --layers 2 --method $method
+done
+fails_saying 2 '^dof-gather: --layers: works with --method selective only' "$gather" ldi.exr -o y.exr --layers 2
+
+# An option that is given twice is named with what it was given; -- ends options.
+fails_saying 2 '^dof-gather: --fstop is given 2 times, with the values 2, 4: give it once' "$gather" -v ldi.exr -o y.exr --fstop 2 --fstop 4
+fails_saying 2 '^dof-gather: --output is given 2 times, with the values y.exr, z.exr' "$gather" ldi.exr -o y.exr -o z.exr
+fails_saying 2 '^dof-gather: --output is required' "$gather" -- ldi.exr
+fails_saying 2 '^dof-gather: unknown argument: -d' "$gather" -o y.exr -- ldi.exr -d
+cp ldi.exr ./-v
+cp ldi.exr ./--quality=final
+for name in -v --quality=final; do
+    exits 0 "$gather" -o dash.exr -- $name
+    same dash.exr out.exr "-- $name"
+    [ ! -s stderr ] || fail "-- $name is not a name: $(cat stderr)"
+done
 
 # Threads do not matter, whatever the method; -v changes no picture.
 for method in lens selective scatter; do

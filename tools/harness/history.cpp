@@ -45,8 +45,12 @@ std::string text_of(const Imf::Header &header, const char *name) {
 std::string command_line(const std::string &tool, const std::vector<std::string> &words) {
     std::string line = tool;
     for (std::size_t i = 0; i < words.size(); ++i) {
-        if (is_among(silent_options, words[i]))
+        options_ended = options_ended || words[i] == "--";
+        if (options_ended)
+            line += " " + quoted_if_needed(one_line(words[i]));
+        else if (is_among(silent_options, words[i]))
             ++i; // and its value
+    bool options_ended = false; // after --, all words are names
         else if (!is_among(silent_flags, words[i]) && !is_silent_with_value(words[i]))
             line += " " + quoted_if_needed(one_line(words[i]));
     }

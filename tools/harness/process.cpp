@@ -8,6 +8,7 @@
 
 #include <ImfThreading.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <tbb/global_control.h>
 #include <tbb/info.h>
 
@@ -38,6 +39,18 @@ void handle_signals() {
         if (std::signal(number, stop) == SIG_IGN) std::signal(number, SIG_IGN); // as under nohup
 }
 
+// What is wrong with the words: an argument that was not understood tells more than what is missing because of it.
+std::string explanation(const CLI::App &app, const CLI::ParseError &error) {
+    for (const std::string &argument : app.remaining())
+        if (argument != "--") return "unknown argument: " + argument;
+    if (dynamic_cast<const CLI::ArgumentMismatch *>(&error))
+        for (const CLI::Option *option : app.get_options())
+            if (option->get_items_expected_max() == 1 && option->count() > 1)
+                return fmt::format("{} is given {} times, with the values {}: give it once",
+                                   option->get_name(), option->count(), fmt::join(option->results(), ", "));
+    return error.what();
+}
+
 } // namespace
 
 void add_process_options(CLI::App &app, ProcessOptions &options) {
@@ -65,13 +78,8 @@ std::optional<int> parse_words(CLI::App &app, const std::vector<std::string> &wo
         app.parse(std::vector<std::string>(words.rbegin(), words.rend())); // as CLI11 wants them
     } catch (const CLI::Success &answer) {                                 // --help, --version
         return app.exit(answer);
-    } catch (const CLI::RequiredError &error) {
-        // An argument that was not understood tells more than what is missing because of it.
-        const auto unknown = app.remaining();
-        const std::string text = unknown.empty() ? error.what() : "unknown argument: " + unknown.front();
-        return fail(app.get_name(), where + text + " (see --help)", 2);
     } catch (const CLI::ParseError &error) {
-        return fail(app.get_name(), where + error.what() + " (see --help)", 2);
+        return fail(app.get_name(), where + explanation(app, error) + " (see --help)", 2);
     }
     return {};
 }

@@ -13,7 +13,7 @@ void add_accumulate_options(CLI::App &app, AccumulateOptions &options) {
     app.add_option("-o,--output", options.output, "Average to write (EXR); - for standard output")
         ->required()
         ->type_name("OUT.exr");
-    add_type_option(app, options.as_float);
+    add_type_option(app, options.type);
     app.add_option("--outside", options.transparent_outside,
                    "What lies outside the data window of a view. unknown: the view does not count there; "
                    "transparent: "

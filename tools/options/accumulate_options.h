@@ -7,6 +7,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <optional>
 #include <string>
 
 namespace sparselens {
@@ -16,7 +17,7 @@ struct AccumulateOptions {
     LensValues lens;
     HistoryOptions history;
     std::string output;
-    bool as_float = false;
+    std::optional<PixelType> type; // -d
     bool transparent_outside = false;
 };
 

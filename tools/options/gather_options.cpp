@@ -1,12 +1,28 @@
 #include "options/gather_options.h"
 
-#include "base/error.h"
 #include "harness/words.h"
+#include "options/only_with.h"
 #include "options/picture_options.h"
 
 #include <fmt/format.h>
 
 namespace sparselens {
+
+namespace {
+
+constexpr OnlyWith method_options[] = {{"--quality", "--method", "lens"},
+                                       {"--lens-samples", "--method", "lens"},
+                                       {"--holdout", "--method", "lens"},
+                                       {"--layers", "--method", "selective"}};
+
+// Throws where options contradict each other.
+void check(const CLI::App &parsed, const GatherCommand &options) {
+    refuse_ignored(parsed, method_options, "--method", options.method->name);
+    if (options.show == Show::tiles && options.method != &gather_methods().front())
+        throw CLI::ValidationError("--show tiles", "works with --method lens only");
+}
+
+} // namespace
 
 void add_gather_options(CLI::App &app, GatherCommand &options) {
     const char *lens_group = "Method lens";
@@ -46,7 +62,7 @@ void add_gather_options(CLI::App &app, GatherCommand &options) {
     app.add_option("--channels", options.channels,
                    "Channels or layers to gather, comma-separated (default: all)")
         ->type_name("LIST");
-    add_type_option(app, options.as_float);
+    add_type_option(app, options.type);
     add_show_option(app, options.show);
     add_lens_options(app, options.lens);
     add_depth_options(app, options.depth);
@@ -55,13 +71,7 @@ void add_gather_options(CLI::App &app, GatherCommand &options) {
     add_window_options(app, options.windows);
     add_history_option(app, options.history);
     app.get_option("--focus-pixel")->excludes("--focus-distance");
-}
-
-void check(const GatherCommand &options) {
-    if (!options.holdout.empty() && options.method != &gather_methods().front())
-        throw UsageError("--holdout works with --method lens only");
-    if (options.show == Show::tiles && options.method != &gather_methods().front())
-        throw UsageError("--show tiles works with --method lens only");
+    app.final_callback([&app, &options] { check(app, options); });
 }
 
 } // namespace sparselens

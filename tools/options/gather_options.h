@@ -25,13 +25,11 @@ struct GatherCommand {
     const GatherMethod *method = &gather_methods().front();
     std::string input, output, depth_output, channels, holdout;
     std::optional<Imath::V2i> focus_pixel;
-    bool as_float = false;
+    std::optional<PixelType> type; // -d
     Show show = Show::picture;
 };
 
+// `options` must stay where it is until the command line is parsed, which throws where options contradict each other.
 void add_gather_options(CLI::App &app, GatherCommand &options);
-
-// Throws UsageError where options contradict each other.
-void check(const GatherCommand &options);
 
 } // namespace sparselens

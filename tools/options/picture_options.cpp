@@ -1,12 +1,12 @@
 #include "options/picture_options.h"
 
 #include "base/error.h"
-#include "harness/words.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <cmath>
+#include <map>
 #include <vector>
 
 namespace sparselens {
@@ -58,16 +58,22 @@ void add_method_option(CLI::App &app, const GatherMethod *&method) {
         ->type_name(fmt::format("{}", fmt::join(names, "|")));
 }
 
-void add_type_option(CLI::App &app, bool &as_float) {
-    const std::map<std::string, bool> types{{"half", false}, {"float", true}};
-    app.add_option("-d", as_float, "Type of the colour channels written (default: half)")
-        ->type_name("half|float")
-        ->transform(words(types));
+void add_type_option(CLI::App &app, std::optional<PixelType> &type) {
+    const std::map<std::string, PixelType> types{{"half", PixelType::half}, {"float", PixelType::float32}};
+    const auto read = [&type, types](const std::string &text) {
+        const auto found = types.find(text);
+        if (found == types.end())
+            throw CLI::ValidationError("-d", fmt::format("must be one of float, half, not '{}'", text));
+        type = found->second;
+    };
+    app.add_option_function<std::string>("-d", read,
+                                         "Type of the channels written (default: that of the input)")
+        ->type_name("half|float");
 }
 
-Image in_type(Image image, bool as_float) {
+Image in_type(Image image, std::optional<PixelType> type) {
     for (Channel &channel : image.channels)
-        if (as_float && channel.type == PixelType::half) channel.type = PixelType::float32;
+        if (type && channel.type != PixelType::uint32) channel.type = *type;
     return image;
 }
 

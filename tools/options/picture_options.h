@@ -24,8 +24,9 @@ void add_pixel_option(CLI::App &app, const std::string &name, std::optional<Imat
 // Adds --method, with the names of the table of methods.
 void add_method_option(CLI::App &app, const GatherMethod *&method);
 
-// Adds -d half|float: the type in which colours are written.
-void add_type_option(CLI::App &app, bool &as_float);
-Image in_type(Image image, bool as_float); // half channels become float if `as_float`
+// Adds -d half|float: the type in which channels are written, else that of the input.
+void add_type_option(CLI::App &app, std::optional<PixelType> &type);
+Image in_type(Image image,
+              std::optional<PixelType> type); // all channels but those of ids, which are integers
 
 } // namespace sparselens
