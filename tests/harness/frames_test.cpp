@@ -46,6 +46,13 @@ TEST(FileAt, PutsTheNumberInEveryPlace) {
     EXPECT_EQ(file_at("100%_%s%n.exr", 3), "100%_%s%n.exr");
 }
 
+// The value of a list of numbers at a frame.
+std::optional<double> keyed_value(const std::string &text, int frame) {
+    const std::optional<Keys> keys = parse_keys(text, KeyKind::number);
+    if (!keys) return {};
+    return std::stod(word_at_frame(*keys, frame));
+}
+
 TEST(KeyedValue, IsLinearBetweenKeysAndHeldOutside) {
     EXPECT_EQ(keyed_value("1:5,24:2", 0), 5);
     EXPECT_EQ(keyed_value("1:5,24:2", 1), 5);
@@ -68,6 +75,54 @@ TEST(KeyedValue, OtherWordsAreNone) {
          {"", "5", "1:", "1:x", "1:5,", "1:5,2", "a:5", "C:\\a.exr", "peel:4", "1:5;2:6", "1.5:2"})
         EXPECT_FALSE(keyed_value(text, 1)) << text;
     EXPECT_THROW(keyed_value("1:5,1:6", 1), UsageError);
+}
+
+TEST(KeyedValue, MayHaveThousandsOfKeys) {
+    std::string text = "0:0";
+    for (int frame = 1; frame < 20'000; ++frame) text += "," + std::to_string(frame) + ":" + std::to_string(2 * frame);
+    EXPECT_EQ(keyed_value(text, 12'345), 24'690);
+}
+
+TEST(KeyedPixel, IsRoundedToWholePixels) {
+    const auto at = [](const std::string &text, int frame) {
+        const std::optional<Keys> keys = parse_keys(text, KeyKind::pixel);
+        return keys ? word_at_frame(*keys, frame) : "";
+    };
+    EXPECT_EQ(at("1:10,20;3:30,-41", 1), "10,20");
+    EXPECT_EQ(at("1:10,20;3:30,-41", 2), "20,-10"); // -10.5 to even
+    EXPECT_EQ(at("1:10,20;3:30,-41", 9), "30,-41");
+    EXPECT_EQ(at("7:3,4", 1), "3,4");
+    for (const char *wrong : {"10,20", "1:10", "1:10,20;", "1:10,20,3:30,40", "1:1.5,2", "1:inf,2", "1:1,2,3"})
+        EXPECT_EQ(at(wrong, 1), "") << wrong;
+}
+
+TEST(KeysOfAFile, AreOneALineOrMore) {
+    const ScratchFolder folder;
+    const std::string file = folder.file("focus.txt");
+    put_contents(file, "# frame:distance\n1:5.0\r\n\n 11:4,21:3 \n");
+    EXPECT_EQ(word_at_frame(read_keys(file, KeyKind::number), 16), "3.5");
+    put_contents(file, "1:10,20\n3:30,40;5:1,2");
+    EXPECT_EQ(word_at_frame(read_keys(file, KeyKind::pixel), 2), "20,30");
+    const auto message = [&](const char *contents) {
+        put_contents(file, contents);
+        return what_of<UsageError>([&] { read_keys(file, KeyKind::number); });
+    };
+    EXPECT_EQ(message("1:5\nhello\n"), file + ": line 2 is 'hello', not FRAME:VALUE (e.g. 1:5.0)");
+    EXPECT_EQ(message("1:5\n1:6\n"), "frame 1 has two keys, the second is '1:6'");
+    EXPECT_EQ(message("# none\n"), file + ": holds no keys, such as 1:5.0");
+}
+
+TEST(FrameCommands, KeysComeFromAFileToo) {
+    const ScratchFolder folder;
+    put_contents(folder.file("focus.txt"), "1:5\n3:3\n");
+    const std::string at = "@" + folder.file("focus.txt");
+    const Words words{"in.exr", "-o", "out.#.exr", "--frames", "1-3", "--focus-distance", at};
+    EXPECT_EQ(FrameCommands(words).words(1)[6], "4");
+    EXPECT_EQ(FrameCommands({"--frames", "2", "--focus-distance=" + at}).words(0)[2], "--focus-distance=4");
+    EXPECT_EQ(FrameCommands({"--frames", "1", "-o", "@x.exr"}).words(0)[3], "@x.exr");
+    EXPECT_EQ(FrameCommands({"--frames", "1", "--", "--focus-distance", "@x"}).words(0)[4], "@x");
+    EXPECT_THROW(FrameCommands({"in.exr", "-o", "out.exr", "--focus-distance", at}), UsageError);
+    EXPECT_EQ(FrameCommands({"--frames", "2", "--focus-pixel", "1:0,0;3:10,6"}).words(0)[3], "5,3");
 }
 
 TEST(FrameCommands, WithoutSequencesTheWordsAreTheCommand) {

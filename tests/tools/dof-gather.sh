@@ -77,6 +77,10 @@ fails_saying 2 '--focus-pixel' "$gather" ldi.exr -o x.exr --focus-pixel 1000,100
 fails_saying 2 '--focus-pixel' "$gather" ldi.exr -o x.exr --focus-pixel -1000,-1
 fails_saying 2 '--focus-distance' "$gather" ldi.exr -o x.exr --focus-pixel 1,0 --focus-distance 3
 
+# -v says which distance that is.
+exits 0 "$gather" ldi.exr -o x.exr --focus-pixel 1,0 -v
+grep -qx 'dof-gather: focus distance 18, that of pixel 1,0' stderr || fail "-v does not say the distance: $(cat stderr)"
+
 # --depth-out: the depth of the front, as float.
 exits 0 "$gather" keep.exr -o x.exr --depth-out depth.exr
 says depth.exr '^ +Z, 32-bit floating-point'

@@ -1,17 +1,18 @@
 #include "harness/frames.h"
 
 #include "base/error.h"
+#include "base/text.h"
 #include "harness/named_files.h"
 
 #include <OpenImageIO/filesystem.h>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
-#include <map>
 #include <optional>
 #include <regex>
 #include <set>
@@ -81,6 +82,10 @@ std::string value_of(const std::string &option, const std::vector<std::string> &
     return value;
 }
 
+// The options whose values may be keyed by frame, in a word or in a file (@keys.txt).
+constexpr std::array keyed_options{"--focus-distance", "--fstop",      "--lens-radius", "--focal-length",
+                                   "--sensor-width",   "--scene-unit", "--focus-pixel"};
+
 } // namespace
 
 std::vector<int> frame_numbers(const std::string &range) {
@@ -106,29 +111,6 @@ std::vector<int> frame_numbers(const std::string &range) {
     return numbers;
 }
 
-std::optional<double> keyed_value(const std::string &text, int frame) {
-    static const std::regex key(R"((-?\d{1,9}):([-+.0-9a-zA-Z]+)(,|$))");
-    std::map<int, double> keys;
-    if (text.size() > longest_name) return {};
-    auto from = text.begin();
-    for (std::smatch m; from != text.end(); from = m[0].second) {
-        if (!std::regex_search(from, text.end(), m, key, std::regex_constants::match_continuous)) return {};
-        double value = 0;
-        const std::string number = m[2];
-        const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), value);
-        if (error != std::errc() || end != number.data() + number.size()) return {};
-        if (!keys.emplace(std::stoi(m[1]), value).second)
-            throw UsageError(fmt::format("'{}' gives frame {} twice", text, m[1].str()));
-    }
-    if (keys.empty() || text.back() == ',') return {};
-    const auto after = keys.lower_bound(frame);
-    if (after == keys.end()) return keys.rbegin()->second;
-    if (after->first == frame || after == keys.begin()) return after->second;
-    const auto before = std::prev(after);
-    const double t = double(frame - before->first) / double(after->first - before->first);
-    return (1 - t) * before->second + t * after->second; // keeps an infinite end infinite
-}
-
 std::string file_at(const std::string &name, int number) {
     std::string result;
     auto from = name.begin();
@@ -142,13 +124,21 @@ FrameCommands::Word FrameCommands::read_word(const std::string &text, const std:
                                              bool names_are_names) {
     const bool is_option = text.starts_with("--") && text.find('=') != std::string::npos;
     const std::size_t start = is_option ? text.find('=') + 1 : 0;
+    const std::string option = is_option ? text.substr(0, start - 1) : previous;
     Word word;
     word.before = text.substr(0, start);
     word.value = text.substr(start);
-    word.is_output = is_output_word(is_option ? text.substr(0, start - 1) : previous);
+    word.is_output = is_output_word(option);
+    const KeyKind kind = option == "--focus-pixel" ? KeyKind::pixel : KeyKind::number;
+    word.keys_from_file = is_among(keyed_options, option) && word.value.starts_with('@');
+    if (word.keys_from_file)
+        word.keys = read_keys(word.value.substr(1), kind);
+    else if (option.starts_with('-'))
+        word.keys = parse_keys(word.value, kind);
     std::smatch place;
     std::error_code error;
-    if (word.value.size() > longest_name || (names_are_names && std::filesystem::exists(word.value, error)))
+    if (word.keys || word.value.size() > longest_name ||
+        (names_are_names && std::filesystem::exists(word.value, error)))
         return word;
     word.is_sequence = std::regex_search(word.value, place, sequence_pattern());
     if (word.is_sequence && place[1].matched) word.own_numbers = frame_numbers(place[1]);
@@ -158,8 +148,11 @@ FrameCommands::Word FrameCommands::read_word(const std::string &text, const std:
 FrameCommands::FrameCommands(const std::vector<std::string> &words) {
     const std::string range = value_of("--frames", words);
     if (!range.empty()) numbers_ = frame_numbers(range);
-    for (std::size_t i = 0; i < words.size(); ++i)
-        words_.push_back(read_word(words[i], i > 0 ? words[i - 1] : "", range.empty()));
+    bool options_ended = false; // after --, all words are names
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        words_.push_back(read_word(words[i], i > 0 && !options_ended ? words[i - 1] : "", range.empty()));
+        options_ended = options_ended || words[i] == "--";
+    }
 
     const Word *any = nullptr, *input = nullptr;
     for (const Word &word : words_) {
@@ -179,16 +172,16 @@ FrameCommands::FrameCommands(const std::vector<std::string> &words) {
         if (word.is_output && !word.is_sequence && size() > 1)
             throw UsageError(
                 fmt::format("{} would be written {} times: put #### into its name", word.value, size()));
-    if (is_range()) this->words(0); // says what is wrong with keys
+    for (const Word &word : words_)
+        if (word.keys_from_file && !is_range())
+            throw UsageError(word.value + " holds a value for each frame: give --frames");
 }
 
 std::string FrameCommands::word_at(const Word &word, std::size_t i) const {
     if (word.is_sequence)
         return word.before +
                file_at(word.value, word.own_numbers.empty() ? numbers_[i] : word.own_numbers[i]);
-    const auto value = keyed_value(word.value, numbers_[i]);
-    if (!value) return word.before + word.value;
-    return word.before + fmt::to_string(*value);
+    return word.before + (word.keys ? word_at_frame(*word.keys, numbers_[i]) : word.value);
 }
 
 std::vector<std::string> FrameCommands::words(std::size_t i) const {

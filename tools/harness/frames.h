@@ -2,9 +2,11 @@
 //
 // A word that names a sequence of files stands for one file per frame: shot.####.exr, shot.%04d.exr, or with a range of
 // its own shot.1-24#.exr, so that sequences of different numbers can be combined. A single # stands for four digits (as
-// in oiiotool), several for as many digits (as in Nuke). A word of values keyed by frame, 1:5.0,24:2.0, stands for the
-// value at the frame: linear between the keys, and constant before the first and after the last.
+// in oiiotool), several for as many digits (as in Nuke). A word of values keyed by frame (keys.h), 1:5.0,24:2.0, stands
+// for the value at the frame; @keys.txt after a lens option stands for the keys in that file.
 #pragma once
+
+#include "harness/keys.h"
 
 #include <optional>
 #include <string>
@@ -15,10 +17,6 @@ namespace sparselens {
 // The numbers of a range such as "1-100x2", "3,5-7" or "10-1", in that order (the sequence descriptions of
 // OpenImageIO). Throws UsageError where the range is invalid or has more than a million frames.
 std::vector<int> frame_numbers(const std::string &range);
-
-// The value of "FRAME:VALUE,..." at a frame, or nothing where the text is not such a list. Throws UsageError where a
-// frame is given twice.
-std::optional<double> keyed_value(const std::string &text, int frame);
 
 // The name with every #, ##, ... and %04d replaced by the number.
 std::string file_at(const std::string &name, int number);
@@ -39,7 +37,8 @@ public:
 private:
     struct Word {
         std::string before, value; // "--option=" and the rest; else "" and the word
-        bool is_sequence = false, is_output = false;
+        bool is_sequence = false, is_output = false, keys_from_file = false;
+        std::optional<Keys> keys;
         std::vector<int> own_numbers; // those of a sequence with a range of its own
     };
     static Word read_word(const std::string &text, const std::string &previous, bool names_are_names);

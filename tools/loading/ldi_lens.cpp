@@ -3,6 +3,8 @@
 #include "base/error.h"
 #include "deep/front_depth.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace sparselens {
@@ -22,6 +24,7 @@ ThinLens lens_for_ldi(OpenedLdi &in, const std::optional<Imath::V2i> &focus_pixe
         const float z = front_depth(in.ldi, *focus_pixel);
         if (!(z > 0)) throw UsageError("--focus-pixel: " + in.name + " shows nothing there");
         in.camera.focus_distance = double(z);
+        tool.say(fmt::format("focus distance {:g}, that of pixel {},{}", z, focus_pixel->x, focus_pixel->y));
     }
     const ThinLens lens = in.lens();
     const double widest = widest_view(in.camera);

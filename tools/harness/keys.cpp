@@ -1,0 +1,114 @@
+#include "harness/keys.h"
+
+#include "base/error.h"
+#include "io/files/text_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <iterator>
+#include <sstream>
+#include <system_error>
+
+namespace sparselens {
+
+namespace {
+
+constexpr std::ptrdiff_t most_digits = 9; // of the number of a frame
+
+// The number that is all of the text.
+template <typename Number>
+std::optional<Number> whole_number(std::string_view text) {
+    Number value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size()) return {};
+    return value;
+}
+
+std::optional<KeyValue> parse_value(std::string_view text, KeyKind kind) {
+    const std::size_t comma = kind == KeyKind::pixel ? text.find(',') : text.size();
+    if (comma == text.npos) return {};
+    const auto x = whole_number<double>(text.substr(0, comma));
+    const auto y =
+        kind == KeyKind::pixel ? whole_number<double>(text.substr(comma + 1)) : std::optional<double>(0);
+    if (!x || !y) return {};
+    const auto is_whole = [](double v) { return std::isfinite(v) && std::trunc(v) == v; };
+    if (kind == KeyKind::pixel && !(is_whole(*x) && is_whole(*y))) return {};
+    return KeyValue{*x, *y};
+}
+
+// Adds FRAME:VALUE; false where the text is not that.
+bool add_key(Keys &keys, std::string_view text) {
+    const std::size_t colon = text.find(':');
+    if (colon == text.npos) return false;
+    const std::string_view number = text.substr(0, colon);
+    const auto frame = whole_number<int>(number);
+    const auto value = parse_value(text.substr(colon + 1), keys.kind);
+    if (!frame || !value || std::ssize(number) > most_digits + (number.starts_with('-') ? 1 : 0))
+        return false;
+    if (!keys.by_frame.emplace(*frame, *value).second)
+        throw UsageError(fmt::format("frame {} has two keys, the second is '{}'", *frame, text));
+    return true;
+}
+
+// Adds the keys of a list; false where the text is not a list.
+bool add_keys(Keys &keys, std::string_view text) {
+    const char separator = keys.kind == KeyKind::pixel ? ';' : ',';
+    for (std::size_t from = 0, to = 0; to < text.size(); from = to + 1) {
+        to = std::min(text.find(separator, from), text.size());
+        if (!add_key(keys, text.substr(from, to - from))) return false;
+    }
+    return !text.empty() && text.back() != separator;
+}
+
+std::string_view trimmed(std::string_view text) {
+    constexpr std::string_view blank = " \t\r";
+    const std::size_t first = text.find_first_not_of(blank);
+    if (first == text.npos) return {};
+    return text.substr(first, text.find_last_not_of(blank) - first + 1);
+}
+
+} // namespace
+
+std::optional<Keys> parse_keys(std::string_view text, KeyKind kind) {
+    Keys keys{kind, {}};
+    if (!add_keys(keys, text)) return {};
+    return keys;
+}
+
+Keys read_keys(const std::string &path, KeyKind kind) {
+    Keys keys{kind, {}};
+    std::istringstream lines(read_text_file(path));
+    int number = 0;
+    for (std::string line; std::getline(lines, line);) {
+        ++number;
+        const std::string_view text = trimmed(line);
+        if (text.empty() || text.starts_with('#')) continue;
+        if (!add_keys(keys, text))
+            throw UsageError(fmt::format("{}: line {} is '{}', not {}", path, number, text,
+                                         kind == KeyKind::pixel ? "FRAME:X,Y (e.g. 1:320,180)"
+                                                                : "FRAME:VALUE (e.g. 1:5.0)"));
+    }
+    if (keys.by_frame.empty()) throw UsageError(path + ": holds no keys, such as 1:5.0");
+    return keys;
+}
+
+std::string word_at_frame(const Keys &keys, int frame) {
+    const auto word = [&](const KeyValue &value) {
+        if (keys.kind == KeyKind::number) return fmt::to_string(value.x);
+        return fmt::format("{:.0f},{:.0f}", value.x, value.y);
+    };
+    const auto after = keys.by_frame.lower_bound(frame);
+    if (after == keys.by_frame.end()) return word(keys.by_frame.rbegin()->second);
+    if (after->first == frame || after == keys.by_frame.begin()) return word(after->second);
+    const auto &[first, from] = *std::prev(after);
+    const double t = double(frame - first) / double(after->first - first);
+    const auto mix = [t](double a, double b) {
+        return (1 - t) * a + t * b;
+    }; // keeps an infinite end infinite
+    return word({mix(from.x, after->second.x), mix(from.y, after->second.y)});
+}
+
+} // namespace sparselens
