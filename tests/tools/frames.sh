@@ -56,6 +56,46 @@ touch ldi.exr
 exits 0 "${pull[@]}" -v
 if grep -q 'up to date' stderr; then fail "without -u frames are left out"; fi
 
+# -u redoes what another command made, by the history of the output; where there is none, it says so, once.
+done_by() { # FRAMES COMMAND...: so many frames are made again
+    exits 0 "${@:2}" -u -v
+    [ "$((4 - $(grep -c 'is up to date' stderr)))" -eq "$1" ] || fail "not $1 frames again: ${*:2} ($(cat stderr))"
+}
+few=("$gather" ldi.exr -o few.####.exr --frames 1-4)
+exits 0 "${few[@]}" --focus-distance 1:5,4:2
+done_by 0 "${few[@]}" --focus-distance 1:5,4:3
+[ "$(grep -c 'warning: -u did not compare' stderr)" -eq 1 ] || fail "-u does not say that it did not compare: $(cat stderr)"
+unset SPARSELENS_NO_HISTORY
+rm few.*.exr
+done_by 4 "${few[@]}" --focus-distance 1:5,4:2
+done_by 0 "${few[@]}" --focus-distance 1:5,4:2
+if grep -q 'did not compare' stderr; then fail "-u says that it did not compare: $(cat stderr)"; fi
+done_by 0 "${few[@]}" --focus-distance 1:5,4:2 --threads 1
+done_by 3 "${few[@]}" --focus-distance 1:5,4:3
+done_by 4 "${few[@]}" --focus-distance 1:5,4:3 --fstop 2
+exits 0 "$gather" ldi.exr -o last.few.exr --focus-distance 3 --fstop 2 --no-history
+same_pixels few.0004.exr last.few.exr "-u after another command"
+done_by 0 "${few[@]}" --focus-distance 5 --no-history
+grep -q 'warning: -u did not compare the options of few.0001.exr' stderr || fail "--no-history -u: $(cat stderr)"
+export SPARSELENS_NO_HISTORY=1
+
+# Keys: thousands of them, in a file too; pixels by frame.
+seq 0 5000 | awk '{ printf "%s%d:%.3f", NR > 1 ? "," : "", $1, 2 + $1 / 10 }' >keys.txt
+exits 0 "$gather" ldi.exr -o keys.#.exr --frames 3,7 --focus-distance "$(cat keys.txt)"
+exits 0 "$gather" ldi.exr -o one.exr --focus-distance 2.3
+same keys.0003.exr one.exr "thousands of keys"
+tr , '\n' <keys.txt >focus.txt
+for file in keys.txt focus.txt; do
+    exits 0 "$gather" ldi.exr -o from.#.exr --frames 3,7 --focus-distance @$file
+    same from.0007.exr keys.0007.exr "keys from $file"
+done
+fails_saying 2 '@focus.txt holds a value for each frame: give --frames' "$gather" ldi.exr -o one.exr --focus-distance @focus.txt
+fails_saying 1 'nothing.txt' "$gather" ldi.exr -o from.#.exr --frames 3 --focus-distance @nothing.txt
+exits 0 "$gather" ldi.exr -o pixel.#.exr --frames 1-3 --focus-pixel '1:1,0;3:41,30' -v
+grep -qx 'dof-gather: focus distance .*, that of pixel 21,15' stderr || fail "--focus-pixel by frame: $(cat stderr)"
+exits 0 "$gather" ldi.exr -o one.exr --focus-pixel 21,15
+same pixel.0002.exr one.exr "--focus-pixel by frame"
+
 # Sequences through the chain: numbers from disk, from --frames, from the names; one number for all names.
 for frame in 0010 0011 0013; do
     mkdir $frame
@@ -90,6 +130,15 @@ fails_saying 2 'wrong.1-2#.exr has 2 frames, not 3' "$gather" a.1-3#.exr -o wron
 fails_saying 2 'wrong.exr would be written 3 times' "$gather" ldi.exr -o wrong.exr --frames 1-3
 fails_saying 2 'no.####.exr stands for a sequence' "$gather" no.####.exr -o wrong.exr
 [ "$(count 'wrong*')" -eq 0 ] || fail "wrong usage writes $(ls wrong*)"
+
+# Nor is any frame's input the output of another frame, whether it exists or not.
+cp ldi.exr chain.0001.exr
+fails_saying 2 'chain.0001.exr would overwrite the input chain.0001.exr' "$bin/ldi-cluster" chain.#.exr -o chain.#.exr --frames 1-2
+fails_saying 2 'chain.0002.exr would overwrite the input chain.0002.exr' "$bin/ldi-cluster" chain.1-2#.exr -o chain.2-3#.exr
+fails_saying 2 'chain.0002.exr would overwrite the input ./chain.0002.exr' "$bin/ldi-cluster" ./chain.1-2#.exr -o chain.2-3#.exr
+cmp -s ldi.exr chain.0001.exr || fail "an input was overwritten"
+[ ! -e chain.0002.exr ] || fail "a refused command wrote chain.0002.exr"
+
 cp ldi.exr 'take#2.exr'
 exits 0 "$gather" 'take#2.exr' -o one.exr
 exits 0 "$gather" ldi.exr -o two.exr
@@ -107,7 +156,10 @@ progress() { # FORMAT PATTERN COMMAND...: on stderr nothing but lines of the pat
 }
 pull=("$gather" ldi.exr -o pull.####.exr --frames 1-4 --focus-distance 1:5.0,4:2.0)
 progress plain 'dof-gather: ([0-9]+)%' "${pull[@]}"
+unset SPARSELENS_NO_HISTORY # -u compares the commands
+exits 0 "${pull[@]}"
 progress alf 'ALF_PROGRESS ([0-9]+)%' "${pull[@]}" -u
+export SPARSELENS_NO_HISTORY=1
 for percent in 25 50 75; do grep -qx $percent percents || fail "frames up to date do not count: $(cat percents)"; done
 progress openjd 'openjd_progress: ([0-9]+)' "$bin/ldi-warp" views/center.exr "${rim[@]}" -o x.exr
 progress alf 'ALF_PROGRESS ([0-9]+)%' "$bin/ldi-cluster" ldi.exr -o x.exr
@@ -128,12 +180,3 @@ threads 2 env CUE_THREADS=3 "$gather" --threads 2
 threads "$(nproc)" env CUE_THREADS=3 "$gather" --threads 0
 threads 1 taskset -c "$(taskset -cp $$ | sed -E 's/.*: ([0-9]+).*/\1/')" "$gather"
 fails_saying 2 'CUE_THREADS|threads' env CUE_THREADS=many "$gather" ldi.exr -o x.exr
-
-# Nor is any frame's input the output of another frame, whether it exists or not.
-cp ldi.exr chain.0001.exr
-fails_saying 2 'chain.0001.exr would overwrite the input chain.0001.exr' "$bin/ldi-cluster" chain.#.exr -o chain.#.exr --frames 1-2
-fails_saying 2 'chain.0002.exr would overwrite the input chain.0002.exr' "$bin/ldi-cluster" chain.1-2#.exr -o chain.2-3#.exr
-fails_saying 2 'chain.0002.exr would overwrite the input ./chain.0002.exr' "$bin/ldi-cluster" ./chain.1-2#.exr -o chain.2-3#.exr
-cmp -s ldi.exr chain.0001.exr || fail "an input was overwritten"
-[ ! -e chain.0002.exr ] || fail "a refused command wrote chain.0002.exr"
-

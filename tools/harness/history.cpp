@@ -4,11 +4,14 @@
 #include "harness/one_line.h"
 #include "io/exr/header_edit.h"
 
+#include <ImfMultiPartInputFile.h>
 #include <ImfStringAttribute.h>
+#include <ImfTestFile.h>
 
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <exception>
 #include <string_view>
 
 namespace sparselens {
@@ -44,13 +47,13 @@ std::string text_of(const Imf::Header &header, const char *name) {
 
 std::string command_line(const std::string &tool, const std::vector<std::string> &words) {
     std::string line = tool;
+    bool options_ended = false; // after --, all words are names
     for (std::size_t i = 0; i < words.size(); ++i) {
         options_ended = options_ended || words[i] == "--";
         if (options_ended)
             line += " " + quoted_if_needed(one_line(words[i]));
         else if (is_among(silent_options, words[i]))
             ++i; // and its value
-    bool options_ended = false; // after --, all words are names
         else if (!is_among(silent_flags, words[i]) && !is_silent_with_value(words[i]))
             line += " " + quoted_if_needed(one_line(words[i]));
     }
@@ -61,6 +64,23 @@ void add_history_option(CLI::App &app, HistoryOptions &options) {
     app.add_flag("--no-history", options.none,
                  "Do not record the command line in the metadata, in Exif:ImageHistory and Software")
         ->envname("SPARSELENS_NO_HISTORY");
+}
+
+bool records_history(const CLI::App &parsed) {
+    const CLI::Option *none = parsed.get_option_no_throw("--no-history");
+    return none && none->count() == 0;
+}
+
+std::optional<std::string> last_command(const std::string &path) {
+    if (!Imf::isOpenExrFile(path.c_str())) return {};
+    try {
+        const Imf::MultiPartInputFile file(path.c_str());
+        const std::string history = text_of(file.header(0), "Exif:ImageHistory");
+        if (history.empty()) return {};
+        return history.substr(history.rfind('\n') + 1);
+    } catch (const std::exception &) {
+        return {};
+    }
 }
 
 void append_history(Imf::Header &header, const ToolContext &tool, const HistoryOptions &options) {

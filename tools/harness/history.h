@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 #include <ImfHeader.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,12 @@ struct HistoryOptions {
     bool none = false;
 };
 void add_history_option(CLI::App &app, HistoryOptions &options);
+
+// Whether the options, parsed, record the command line.
+bool records_history(const CLI::App &parsed);
+
+// The last line of the history of an EXR file; empty where it has none, or is not an EXR file.
+std::optional<std::string> last_command(const std::string &path);
 
 // Appends tool.command_line.
 void append_history(Imf::Header &header, const ToolContext &tool, const HistoryOptions &options = {});

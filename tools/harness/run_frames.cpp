@@ -34,7 +34,7 @@ void add_frame_options(CLI::App &app, FrameOptions &options) {
                  "Continue after a frame that fails, and exit with code 1 at the end")
         ->group("Frames");
     app.add_flag("-u,--update", options.update,
-                 "Skip frames whose output is complete and newer than the input")
+                 "Skip frames whose output is complete, newer than the input, and made by the same command")
         ->group("Frames");
     app.add_option("--stats", options.stats, "Append statistics as one line of JSON; - for stderr")
         ->type_name("FILE");
@@ -69,14 +69,25 @@ std::string frame_name(const FrameCommands &commands, std::size_t i) {
     return commands.is_range() ? fmt::format("frame {}: ", commands.number(i)) : "";
 }
 
-void run_frame(const FrameCommand &command, ToolContext &tool, FrameCount count) {
+// Whether -u leaves the frame alone. `warned`: the one warning of the whole range was given.
+bool is_up_to_date(const CLI::App &parsed, const ToolContext &tool, bool &warned) {
+    const NamedFiles files = named_files(parsed);
+    const Freshness found = freshness_of(files, records_history(parsed) ? tool.command_line : "");
+    if (found == Freshness::stale) return false;
+    const std::string &output = files.outputs.front().path;
+    if (found == Freshness::not_compared && !warned)
+        warn(tool, "-u did not compare the options of " + output +
+                       " with those given, because no command line is recorded for it");
+    warned = warned || found == Freshness::not_compared;
+    tool.say(output + " is up to date");
+    return true;
+}
+
+void run_frame(const FrameCommand &command, ToolContext &tool, FrameCount count, bool &warned) {
     const ProgressFormat format = command.frames.progress;
     tool.progress = progress_of(format, tool.tool_name, count);
     tool.stats = command.frames.stats;
-    if (command.frames.update && is_up_to_date(named_files(command.app)))
-        tool.say(command.app.get_option("--output")->as<std::string>() + " is up to date");
-    else
-        command.job(tool);
+    if (!command.frames.update || !is_up_to_date(command.app, tool, warned)) command.job(tool);
     if (format == ProgressFormat::terminal) return;
     tool.progress->start("frame", 1);
     tool.progress->advance();
@@ -113,11 +124,14 @@ int run_frames(const std::string &name, const std::string &description, int argc
     tool.max_memory = first->process.max_memory;
     const Process process(first->process, tool);
     int worst = 0;
+    bool warned = false;
     for (std::size_t i = 0; i < count; ++i) {
         parse(i, command);
         if (commands->is_range()) tool.frame = commands->number(i);
         tool.command_line = command_line(name, commands->words(i));
-        code = exit_code_of(name, frame_name(*commands, i), [&] { run_frame(*command, tool, {i, count}); });
+        code = exit_code_of(name, frame_name(*commands, i), [&] {
+            run_frame(*command, tool, {i, count}, warned);
+        });
         worst = std::max(worst, code);
         if (code > 1 || (code == 1 && !first->frames.skip_bad_frames)) break;
     }

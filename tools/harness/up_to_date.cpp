@@ -1,9 +1,12 @@
 #include "harness/up_to_date.h"
 
+#include "harness/history.h"
+
 #include <ImfCheckFile.h>
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 
 namespace sparselens {
 
@@ -18,16 +21,34 @@ bool is_complete(const fs::path &file) {
     return file.extension() != ".exr" || !Imf::checkOpenEXRFile(file.c_str());
 }
 
-} // namespace
-
-bool is_up_to_date(const NamedFiles &files) {
+bool is_newest(const std::string &output, const std::vector<NamedFile> &inputs) {
     std::error_code error;
     const auto time = [&](const std::string &file) { return fs::last_write_time(file, error); };
-    return !files.outputs.empty() && std::ranges::all_of(files.outputs, [&](const NamedFile &output) {
-        return is_complete(output.path) && std::ranges::all_of(files.inputs, [&](const NamedFile &input) {
-                   return !fs::is_regular_file(input.path, error) || time(input.path) <= time(output.path);
-               });
+    return std::ranges::all_of(inputs, [&](const NamedFile &input) {
+        return !fs::is_regular_file(input.path, error) || time(input.path) <= time(output);
     });
+}
+
+// An output without history of its own has that of its input, whose last command is another tool's.
+Freshness compare_command(const std::string &output, const std::string &command_line) {
+    const std::optional<std::string> last = last_command(output);
+    const std::string tool = command_line.substr(0, command_line.find(' ')) + ' ';
+    if (command_line.empty() || !last || !last->starts_with(tool)) return Freshness::not_compared;
+    return *last == command_line ? Freshness::fresh : Freshness::stale;
+}
+
+} // namespace
+
+Freshness freshness_of(const NamedFiles &files, const std::string &command_line) {
+    if (files.outputs.empty()) return Freshness::stale;
+    Freshness all = Freshness::fresh;
+    for (const NamedFile &output : files.outputs) {
+        if (!is_complete(output.path) || !is_newest(output.path, files.inputs)) return Freshness::stale;
+        const Freshness own = compare_command(output.path, command_line);
+        if (own == Freshness::stale) return own;
+        if (own == Freshness::not_compared) all = own;
+    }
+    return all;
 }
 
 } // namespace sparselens

@@ -3,10 +3,17 @@
 
 #include "harness/named_files.h"
 
+#include <string>
+
 namespace sparselens {
 
-// Whether every output that the options name exists, is complete, and is not older than any file that is read. Other
-// options are not compared: another f-number needs another output name, or no -u.
-bool is_up_to_date(const NamedFiles &files);
+enum class Freshness {
+    stale, // there is work to do
+    fresh, // every output exists, is complete, is not older than any input, and was made by this command
+    not_compared, // the same, but which command made it is unknown: an output has no history, or none was asked for
+};
+
+// `command_line` is that of the frame (history.h), which begins with the name of the tool; empty: it is not compared.
+Freshness freshness_of(const NamedFiles &files, const std::string &command_line);
 
 } // namespace sparselens
