@@ -10,16 +10,41 @@ namespace sparselens {
 
 namespace {
 
-[[noreturn]] void refuse(const Camera &camera, const char *what, const char *option, const char *advice) {
-    const auto reason = camera.unsure.find(option);
-    throw UsageError(std::string(what) + " is unknown" +
-                     (reason == camera.unsure.end() ? "" : " (" + reason->second + ")") + ": give " + advice);
-}
+// What is unknown, why, and the options that settle it.
+class Missing {
+public:
+    explicit Missing(const Camera &camera) : camera_(camera) {}
 
-double need(const std::optional<double> &value, const Camera &camera, const char *what, const char *option) {
-    if (!value) refuse(camera, what, option, option);
-    return *value;
-}
+    void add(const std::string &what, const char *option, const std::string &advice) {
+        const auto reason = camera_.unsure.find(option);
+        const std::string why = reason == camera_.unsure.end() ? "" : " (" + reason->second + ")";
+        const std::string text = what + " is unknown" + why + ": give " + advice;
+        if (text_.find(text) == std::string::npos) text_ += (text_.empty() ? "" : "; ") + text;
+    }
+    void add_focal_length() { add("the focal length", "--focal-length", "--focal-length"); }
+
+    // What the radius of the aperture lacks.
+    void add_radius() {
+        if (!camera_.fstop)
+            add("the aperture", "--fstop", "--fstop or --lens-radius");
+        else
+            add_focal_length();
+    }
+
+    // What the focal length in pixels lacks.
+    void add_focal_px() {
+        if (!camera_.focal_length_mm) add_focal_length();
+        if (!camera_.sensor_width_mm) add("the sensor width", "--sensor-width", "--sensor-width");
+    }
+
+    void refuse() const {
+        if (!text_.empty()) throw UsageError(text_);
+    }
+
+private:
+    const Camera &camera_;
+    std::string text_;
+};
 
 } // namespace
 
@@ -53,24 +78,33 @@ std::optional<double> lens_radius_of(const Camera &camera) {
 
 double resolve_radius(const Camera &camera) {
     const std::optional<double> radius = lens_radius_of(camera);
-    if (radius) return *radius;
-    if (!camera.fstop) refuse(camera, "the aperture", "--fstop", "--fstop or --lens-radius");
-    refuse(camera, "the focal length", "--focal-length", "--focal-length");
+    Missing missing(camera);
+    if (!radius) missing.add_radius();
+    missing.refuse();
+    return *radius;
 }
 
 double resolve_focal_px(const Camera &camera, const Windows &windows) {
     const auto focal_px = focal_length_px(camera, windows.display_width());
-    if (focal_px) return *focal_px;
-    need(camera.focal_length_mm, camera, "the focal length", "--focal-length");
-    refuse(camera, "the sensor width", "--sensor-width", "--sensor-width");
+    Missing missing(camera);
+    if (!focal_px) missing.add_focal_px();
+    missing.refuse();
+    return *focal_px;
 }
 
 ThinLens resolve_lens(const Camera &camera, const Windows &windows) {
-    ThinLens lens{.radius = resolve_radius(camera), .pixel_aspect = windows.pixel_aspect};
-    if (lens.radius == 0) return lens;
-    lens.focal_px = resolve_focal_px(camera, windows);
-    lens.focus = need(camera.focus_distance, camera, "the focus distance", "--focus-distance");
-    return lens;
+    const std::optional<double> radius = lens_radius_of(camera);
+    if (radius == 0.0) return {.radius = 0, .pixel_aspect = windows.pixel_aspect};
+    const auto focal_px = focal_length_px(camera, windows.display_width());
+    Missing missing(camera);
+    if (!radius) missing.add_radius();
+    if (!focal_px) missing.add_focal_px();
+    if (!camera.focus_distance) missing.add("the focus distance", "--focus-distance", "--focus-distance");
+    missing.refuse();
+    return {.radius = *radius,
+            .focal_px = *focal_px,
+            .focus = *camera.focus_distance,
+            .pixel_aspect = windows.pixel_aspect};
 }
 
 } // namespace sparselens

@@ -125,3 +125,7 @@ fails_saying 2 '--display' "$bin/dof-gather" in.exr -o x.png "${flat[@]}" --disp
 fails_saying 1 'x.png: needs the channels R, G and B' "$bin/dof-gather" in.exr -o x.png "${flat[@]}" --channels A
 fails_saying 1 'no/such/x.png' "$bin/dof-gather" in.exr -o no/such/x.png "${flat[@]}"
 [ ! -e x.exr ] && [ ! -e x.png ] || fail "a failure wrote something"
+
+# A configuration of OpenColorIO's own is not a file: it is OpenColorIO that answers, since version 2.2 with the picture.
+"$bin/dof-gather" in.exr -o own.exr "${flat[@]}" --colorconfig ocio://default 2>stderr || grep -q 'ocio://default' stderr || fail "ocio://default: $(cat stderr)"
+if grep -q 'no such file' stderr; then fail "ocio://default is taken for a file"; fi

@@ -210,6 +210,7 @@ idiff -q -fail 0 -warn 0 planar.exr by_name.exr || fail "--depth-channel"
 fails_saying 1 'named.exr.*--depth-channel' "$gather" named.exr -o x.exr --lens-radius 0
 oiiotool z4.exr --mulc 1,1,1,1,-1 -o behind.exr
 fails_saying 1 'behind.exr: depth -4.* in pixel 0,0' "$gather" behind.exr -o x.exr --lens-radius 0
+fails_saying 2 'aperture.*--fstop.*focal length.*--focal-length.*sensor.*--sensor-width.*--focus-distance' "$gather" z4.exr -o x.exr
 rm x.exr
 
 # Standard input and output, all three tools; odd names.
@@ -244,7 +245,10 @@ exits 0 "$gather" ldi.exr -o /dev/null --depth-out /dev/null
 
 # Failures: one line, exit 1, the old output as it was.
 fails_saying 1 'missing.exr: cannot open: No such file' "$gather" missing.exr -o x.exr
-fails_saying 1 'no/such/x.exr: cannot write: No such file' "$gather" ldi.exr -o no/such/x.exr
+exits 0 "$gather" ldi.exr -o new/folder/x.exr --depth-out other/folder/z.exr
+same new/folder/x.exr out.exr "folders are made"
+[ -s other/folder/z.exr ] || fail "no folder for --depth-out"
+fails_saying 1 'ldi.exr/x.exr|ldi.exr: cannot create the folder' "$gather" ldi.exr -o ldi.exr/x.exr
 head -c 9000 ldi.exr >cut.exr
 fails_saying 1 'cut.exr' "$gather" cut.exr -o x.exr
 [ ! -e x.exr ] || fail "a failure wrote x.exr"

@@ -129,7 +129,8 @@ ColourConfig::ColourConfig(const std::string &file) {
     const std::string name = path.empty()   ? "the built-in colour configuration"
                              : file.empty() ? path + " ($OCIO)"
                                             : path + " (--colorconfig)";
-    if (!path.empty() && !std::filesystem::is_regular_file(path)) throw Error(name + ": no such file");
+    const bool is_file = !path.empty() && !path.starts_with("ocio://"); // else OpenColorIO's own
+    if (is_file && !std::filesystem::is_regular_file(path)) throw Error(name + ": no such file");
     impl_ = with_config_name(name, [&] { return std::make_shared<const Impl>(Impl{name, config_of(path)}); });
 }
 

@@ -1,6 +1,7 @@
 #include "io/files/file_stream.h"
 
 #include "base/error.h"
+#include "io/files/folder.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -184,6 +185,7 @@ OutputFile::OutputFile(const std::string &path) : path_(path) {
     } else {
         const std::filesystem::path target = follow_links(path);
         target_ = target.string();
+        if (target.has_parent_path()) make_folder(target.parent_path().string());
         constexpr std::size_t longest = 200; // file systems take 255, the rest of the name included
         const std::string name = target.filename().string().substr(0, longest);
         for (int attempt = 0; attempt < 100 && descriptor_ < 0; ++attempt) {

@@ -1,7 +1,7 @@
 // Input and output of bytes for the EXR readers and writers: whole files, pipes and standard streams.
 //
 // Output is atomic: it is written to a temporary file beside the target (.NAME.PID-N.partial, where a long NAME is cut
-// off), which commit() renames. Symbolic links are followed, and the umask applies. Devices, pipes and standard output
+// off), which commit() renames. Missing folders are made, symbolic links are followed, and the umask applies. Devices, pipes and standard output
 // (`-`) cannot be replaced by renaming: their bytes are held in memory and written by commit().
 // Throws Error, naming the file and the reason of the system.
 #pragma once
