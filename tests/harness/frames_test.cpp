@@ -79,7 +79,8 @@ TEST(KeyedValue, OtherWordsAreNone) {
 
 TEST(KeyedValue, MayHaveThousandsOfKeys) {
     std::string text = "0:0";
-    for (int frame = 1; frame < 20'000; ++frame) text += "," + std::to_string(frame) + ":" + std::to_string(2 * frame);
+    for (int frame = 1; frame < 20'000; ++frame)
+        text += "," + std::to_string(frame) + ":" + std::to_string(2 * frame);
     EXPECT_EQ(keyed_value(text, 12'345), 24'690);
 }
 
@@ -92,7 +93,8 @@ TEST(KeyedPixel, IsRoundedToWholePixels) {
     EXPECT_EQ(at("1:10,20;3:30,-41", 2), "20,-10"); // -10.5 to even
     EXPECT_EQ(at("1:10,20;3:30,-41", 9), "30,-41");
     EXPECT_EQ(at("7:3,4", 1), "3,4");
-    for (const char *wrong : {"10,20", "1:10", "1:10,20;", "1:10,20,3:30,40", "1:1.5,2", "1:inf,2", "1:1,2,3"})
+    for (const char *wrong :
+         {"10,20", "1:10", "1:10,20;", "1:10,20,3:30,40", "1:1.5,2", "1:inf,2", "1:1,2,3"})
         EXPECT_EQ(at(wrong, 1), "") << wrong;
 }
 

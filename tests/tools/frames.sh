@@ -80,7 +80,7 @@ grep -q 'warning: -u did not compare the options of few.0001.exr' stderr || fail
 export SPARSELENS_NO_HISTORY=1
 
 # Keys: thousands of them, in a file too; pixels by frame.
-seq 0 5000 | awk '{ printf "%s%d:%.3f", NR > 1 ? "," : "", $1, 2 + $1 / 10 }' >keys.txt
+seq 0 5000 | awk '{ printf "%s%d:%.3f", (NR > 1 ? "," : ""), $1, 2 + $1 / 10 }' >keys.txt
 exits 0 "$gather" ldi.exr -o keys.#.exr --frames 3,7 --focus-distance "$(cat keys.txt)"
 exits 0 "$gather" ldi.exr -o one.exr --focus-distance 2.3
 same keys.0003.exr one.exr "thousands of keys"

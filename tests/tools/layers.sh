@@ -32,10 +32,10 @@ fails_saying 1 'far.exr: has no depth channel.*--depth-channel; its channels are
     "$gather" far.exr -o x.exr "${lens[@]}"
 
 # A depth part over the whole picture beside a cropped colour part.
-oiiotool plain.exr --ch R,G,B,A --cut 12x8+6+4 --attrib oiio:subimagename rgba -o colour.exr
+oiiotool plain.exr --ch R,G,B,A --crop 12x8+6+4 --attrib oiio:subimagename rgba -o colour.exr
 oiiotool plain.exr --ch Z --attrib oiio:subimagename depth -o depth.exr
 oiiotool colour.exr depth.exr --siappend -o parts.exr
-oiiotool plain.exr --ch R,G,B,A --cut 12x8+6+4 --crop 24x16+0+0 -o cropped.exr
+oiiotool plain.exr --ch R,G,B,A --crop 12x8+6+4 --crop 24x16+0+0 -o cropped.exr
 oiiotool cropped.exr depth.exr --chappend -o united.exr
 exits 0 "$gather" united.exr -o expected.exr "${lens[@]}"
 exits 0 "$gather" parts.exr -o out.exr "${lens[@]}"

@@ -104,8 +104,8 @@ cp ldi.exr ./"-it's \"odd\".exr"
 exits 0 "$cluster" -o "out put.exr" -- "-it's \"odd\".exr"
 same "out put.exr" out.exr "odd names"
 cp ldi.exr same.exr
-exits 0 "$cluster" same.exr -o same.exr
-same same.exr out.exr "output equal to input"
+fails_saying 2 "would overwrite the input same.exr" "$cluster" same.exr -o same.exr
+same same.exr ldi.exr "a refused output"
 
 # Failures: one line, exit 1, the old output as it was.
 fails_saying 1 'missing.exr: cannot open: No such file' "$cluster" missing.exr -o x.exr

@@ -103,10 +103,11 @@ TEST(ResolveLens, WhatIsMissingNamesItsOption) {
     EXPECT_EQ(message(&Camera::sensor_width_mm), "the sensor width is unknown: give --sensor-width");
     EXPECT_EQ(message(&Camera::fstop), "the aperture is unknown: give --fstop or --lens-radius");
     EXPECT_EQ(message(&Camera::focus_distance), "the focus distance is unknown: give --focus-distance");
-    EXPECT_EQ(what_of<UsageError>([&] { resolve_lens({}, hundred); }),
-              "the aperture is unknown: give --fstop or --lens-radius; the focal length is unknown: give "
-              "--focal-length; the sensor width is unknown: give --sensor-width; the focus distance is unknown: "
-              "give --focus-distance");
+    EXPECT_EQ(
+        what_of<UsageError>([&] { resolve_lens({}, hundred); }),
+        "the aperture is unknown: give --fstop or --lens-radius; the focal length is unknown: give "
+        "--focal-length; the sensor width is unknown: give --sensor-width; the focus distance is unknown: "
+        "give --focus-distance");
 }
 
 TEST(ResolveLens, APinholeNeedsNothingElse) {

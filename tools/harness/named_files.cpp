@@ -47,8 +47,11 @@ std::string identity(const std::string &path) {
     struct stat info {};
     if (::stat(path.c_str(), &info) == 0)
         return S_ISREG(info.st_mode) ? fmt::format("{}:{}", info.st_dev, info.st_ino) : "";
-    std::error_code error;
-    return fs::weakly_canonical(path, error).string();
+    std::error_code error; // it is not there yet: where would it be written?
+    fs::path target = path;
+    for (int links = 0; links < 40 && fs::is_symlink(target, error); ++links)
+        target = target.parent_path() / fs::read_symlink(target, error);
+    return fs::weakly_canonical(fs::absolute(target, error), error).string();
 }
 
 using Readers = std::map<std::string, std::string>; // the identity of a file that is read, and its name

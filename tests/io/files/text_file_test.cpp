@@ -23,8 +23,10 @@ TEST(TextFile, ErrorsNameTheFile) {
     const std::string lost = scratch.file("none/file");
     const std::string read = what_of<Error>([&] { read_text_file(lost); });
     EXPECT_TRUE(read.starts_with(lost + ": cannot open: ")) << read;
-    const std::string written = what_of<Error>([&] { write_text_file(lost, "text"); });
-    EXPECT_TRUE(written.starts_with(lost + ": ")) << written;
+    const std::string file = scratch.file("file"), under = file + "/under";
+    write_text_file(file, "text");
+    const std::string written = what_of<Error>([&] { write_text_file(under, "text"); });
+    EXPECT_TRUE(written.starts_with(file + ": ")) << written;
 }
 
 } // namespace
