@@ -123,7 +123,7 @@ fails_saying 1 'gone.ocio.*OCIO' env OCIO=gone.ocio "$bin/dof-gather" in.exr -o 
 fails_saying 2 '--display' "$bin/dof-gather" in.exr -o x.exr "${flat[@]}" --display sRGB
 fails_saying 2 '--display' "$bin/dof-gather" in.exr -o x.png "${flat[@]}" --display sRGB --output-colorspace sRGB
 fails_saying 1 'x.png: needs the channels R, G and B' "$bin/dof-gather" in.exr -o x.png "${flat[@]}" --channels A
-fails_saying 1 'no/such/x.png' "$bin/dof-gather" in.exr -o no/such/x.png "${flat[@]}"
+fails_saying 1 'in.exr: cannot create the folder' "$bin/dof-gather" in.exr -o in.exr/x.png "${flat[@]}"
 [ ! -e x.exr ] && [ ! -e x.png ] || fail "a failure wrote something"
 
 # A configuration of OpenColorIO's own is not a file: it is OpenColorIO that answers, since version 2.2 with the picture.

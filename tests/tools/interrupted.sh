@@ -92,7 +92,7 @@ else
 fi
 chmod 755 out
 untouched "read-only folder"
-fails_saying 1 'no/such/folder/x.exr: cannot write: No such file' "${gather[@]}" -o no/such/folder/x.exr
+fails_saying 1 'ldi.exr: cannot create the folder: Not a directory' "${gather[@]}" -o ldi.exr/x.exr
 fails_saying 1 'cannot write' "${gather[@]}" -o out
 untouched "output is a folder"
 fails_saying 1 'cannot write: No space left' "${gather[@]}" -o /dev/full
