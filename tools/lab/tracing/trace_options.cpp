@@ -46,18 +46,8 @@ std::string scene_help() {
     return text;
 }
 
-} // namespace
-
-bool read_size(const std::string &text, TraceOptions &options) {
-    const std::size_t x = text.find('x');
-    return x != std::string::npos &&
-           read_count(std::string_view(text).substr(0, x), largest_side, options.width) &&
-           read_count(std::string_view(text).substr(x + 1), largest_side, options.height);
-}
-
-void add_trace_options(CLI::App &app, TraceOptions &options) {
-    const std::map<std::string, Light> lights{{"sun", Light::sun}, {"area", Light::area}};
-    const std::map<std::string, PixelType> types{{"half", PixelType::half}, {"float", PixelType::float32}};
+// What is rendered: the scene, and which pictures of it.
+void add_picture_options(CLI::App &app, TraceOptions &options) {
     app.add_option("SCENE", options.scene, scene_help())
         ->required()
         ->type_name("")
@@ -86,6 +76,12 @@ void add_trace_options(CLI::App &app, TraceOptions &options) {
                    "Rays per pixel of a reference by distributed ray tracing (default: no reference)")
         ->type_name("SPP")
         ->check(CLI::Range(1, largest_count));
+}
+
+// How it is rendered: the size, the light, the layers and the type of the channels.
+void add_rendering_options(CLI::App &app, TraceOptions &options) {
+    const std::map<std::string, Light> lights{{"sun", Light::sun}, {"area", Light::area}};
+    const std::map<std::string, PixelType> types{{"half", PixelType::half}, {"float", PixelType::float32}};
     app.add_option_function<std::string>(
            "--size",
            [&options](const std::string &text) {
@@ -126,6 +122,20 @@ void add_trace_options(CLI::App &app, TraceOptions &options) {
     app.add_option("-d,--type", options.type, "Type of the colour channels (default: half)")
         ->type_name("half|float")
         ->transform(words(types));
+}
+
+} // namespace
+
+bool read_size(const std::string &text, TraceOptions &options) {
+    const std::size_t x = text.find('x');
+    return x != std::string::npos &&
+           read_count(std::string_view(text).substr(0, x), largest_side, options.width) &&
+           read_count(std::string_view(text).substr(x + 1), largest_side, options.height);
+}
+
+void add_trace_options(CLI::App &app, TraceOptions &options) {
+    add_picture_options(app, options);
+    add_rendering_options(app, options);
     add_lens_options(app, options.lens);
 }
 
