@@ -150,10 +150,10 @@ exits 0 "$warp" "it's a \"centre\" view.exr" -o "out put.exr"
 exits 0 "$warp" -o ./-out.exr -- -dash.exr
 same "out put.exr" ./-out.exr "odd names"
 
-# The output may be an input.
+# The output may not be an input.
 cp $center same.exr
-exits 0 "$warp" same.exr "${rim[@]}" -o same.exr
-same same.exr average.exr "output equal to input"
+fails_saying 2 "would overwrite the input same.exr" "$warp" same.exr "${rim[@]}" -o same.exr
+same same.exr $center "a refused output"
 
 # Failures: one line, exit 1, the old output as it was.
 fails_saying 1 'missing.exr: cannot open: No such file' "$warp" missing.exr -o x.exr
