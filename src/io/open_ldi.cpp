@@ -15,7 +15,7 @@ namespace {
 void make_planar(Ldi &ldi, const DepthOptions &depth, const Camera &camera) {
     const DepthReader read(ldi.windows, depth.meaning, depth.far, camera);
     for (std::size_t pixel = 0; pixel + 1 < ldi.begin.size(); ++pixel)
-        for (std::uint64_t i = ldi.begin[pixel]; i < ldi.begin[pixel + 1]; ++i) {
+        for (const std::uint64_t i : ldi.pixel(pixel)) {
             ldi.z[i] = read.planar(ldi.z[i], pixel);
             if (!ldi.z_back.empty()) ldi.z_back[i] = read.planar(ldi.z_back[i], pixel);
         }

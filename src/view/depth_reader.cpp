@@ -14,13 +14,8 @@ DepthReader::DepthReader(const Windows &windows, DepthMeaning meaning, double fa
 float DepthReader::planar(float value, std::size_t i) const {
     if (is_sky(meaning_, double(value), far_)) return std::numeric_limits<float>::infinity();
     if (meaning_ == DepthMeaning::planar) return value;
-    const Imath::V2i p = pixel(i);
+    const Imath::V2i p = windows_.pixel(i);
     return float(planar_depth(meaning_, double(value), p.x, p.y, windows_, focal_px_, principal_point_));
-}
-
-Imath::V2i DepthReader::pixel(std::size_t i) const {
-    const std::size_t width = std::size_t(windows_.width());
-    return windows_.data.min + Imath::V2i(int(i % width), int(i / width));
 }
 
 } // namespace sparselens

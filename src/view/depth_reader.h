@@ -17,8 +17,6 @@ public:
     float planar(float value, std::size_t i) const;
 
 private:
-    Imath::V2i pixel(std::size_t i) const;
-
     const Windows &windows_;
     DepthMeaning meaning_;
     double far_, focal_px_;
