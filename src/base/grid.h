@@ -1,5 +1,5 @@
-// The pixels of a rectangle, counted row by row, and rectangles cut into tiles. The only place where an index is made
-// of coordinates, or coordinates of an index. Coordinates and indices are checked in debug builds.
+// The pixels of a rectangle, counted row by row, and rectangles cut into tiles. Coordinates are converted to an index,
+// and back, only here. Both are checked in debug builds.
 #pragma once
 
 #include <Imath/ImathBox.h>
@@ -10,7 +10,7 @@
 
 namespace sparselens {
 
-// How many pieces of at most `size`, > 0, make up `length`, >= 0.
+// The number of pieces of at most `size` (> 0) that cover `length` (>= 0).
 template <typename Count>
 constexpr Count pieces_of(Count length, Count size) {
     return (length + size - 1) / size;
@@ -46,8 +46,8 @@ private:
     int width_ = 0, height_ = 0;
 };
 
-// A box cut into tiles from its upper left corner on, counted row by row; those at the right and lower edge may be
-// smaller than the others.
+// A box cut into tiles, counted row by row from its upper left corner. Tiles at the right and lower edge may be
+// smaller.
 class Tiles {
 public:
     Tiles(const Imath::Box2i &box, int width, int height) // of a tile, > 0

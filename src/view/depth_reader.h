@@ -1,4 +1,4 @@
-// A picture's depth channel, made planar.
+// Converts the depth channel of a picture to planar depth.
 #pragma once
 
 #include "base/image.h"
@@ -9,11 +9,12 @@ namespace sparselens {
 
 class DepthReader {
 public:
-    // What the channel holds; what lies at `far` or beyond is the sky, in the channel's unit. UsageError: the length
-    // of the ray needs the focal length, and it is unknown. `windows` are those of the picture, and must stay.
+    // `meaning` is what the channel holds; values at `far` or beyond, in its unit, are sky. `windows` are those of the
+    // picture and must outlive the reader. Throws UsageError if ray lengths are to be converted and the focal length is
+    // unknown.
     DepthReader(const Windows &windows, DepthMeaning meaning, double far, const Camera &camera);
 
-    // Of the i-th pixel of the data window. What is no depth stays none (see sanitize.h).
+    // The planar depth of the i-th pixel of the data window. An invalid value stays invalid (see sanitize.h).
     float planar(float value, std::size_t i) const;
 
 private:

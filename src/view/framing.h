@@ -1,5 +1,5 @@
-// How a view's camera frames the scene otherwise than the centre view's; their axes are parallel. By default alike,
-// with the optical axis through the middle of the picture.
+// How the framing of a view differs from that of the centre view. Their optical axes are parallel. By default both
+// frame the scene alike, and the optical axis passes through the middle of the picture.
 #pragma once
 
 #include <Imath/ImathVec.h>

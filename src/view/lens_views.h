@@ -1,4 +1,4 @@
-// Many views of one lens: where each stood on it.
+// Where each of many views lies on their lens.
 #pragma once
 
 #include "camera.h"
@@ -17,18 +17,19 @@ struct LensViews {
     bool centre_guessed = false;       // it is only the mean of the views' positions
 };
 
-// From the views' worldToCamera. The lens centre is where `centre` stands; else where the views say it is
-// (each names its own lens point); else the mean of their positions. UsageError: a view has no worldToCamera.
-// Error: axes not parallel, or a view farther in front of or behind the lens centre than any is to its side. Messages
-// name the view by `names`.
+// Computes the positions from the worldToCamera of the views. The lens centre is the position of `centre`, if given;
+// else what the views say it is, if each names its own lens point; else the mean of their positions. Throws UsageError
+// if a view has no worldToCamera, and Error if the axes are not parallel or a view lies farther in front of or behind
+// the lens centre than any lies beside it. Messages name the view by `names`.
 LensViews position_on_lens(std::span<const Camera> views, std::span<const std::string> names,
                            const std::optional<Camera> &centre);
 
-// For pictures that are to be moved whole. Error, naming the view, where its picture is smaller or larger than the
-// centre's, or its camera in front of or behind it by more than a hundredth of the views' spread.
+// For pictures that are shifted as a whole. Throws Error, naming the view, if its picture is smaller or larger than
+// that of the centre, or if its camera lies in front of or behind the centre by more than a hundredth of the spread of
+// the views.
 void require_one_plane(const LensViews &views, std::span<const std::string> names);
 
-// `camera` moved across the lens, x right, y up, scene units: its matrices follow.
+// `camera` moved across the lens (x right, y up, scene units), with its matrices.
 Camera moved_across_lens(Camera camera, const Imath::V2d &by);
 
 } // namespace sparselens

@@ -10,7 +10,7 @@ namespace sparselens {
 
 namespace {
 
-// What is unknown, why, and the options that settle it.
+// Collects the values that are unknown, why, and the options to give.
 class Missing {
 public:
     explicit Missing(const Camera &camera) : camera_(camera) {}
@@ -23,7 +23,7 @@ public:
     }
     void add_focal_length() { add("the focal length", "--focal-length", "--focal-length"); }
 
-    // What the radius of the aperture lacks.
+    // Adds the values that the radius of the aperture needs.
     void add_radius() {
         if (!camera_.fstop)
             add("the aperture", "--fstop", "--fstop or --lens-radius");
@@ -31,7 +31,7 @@ public:
             add_focal_length();
     }
 
-    // What the focal length in pixels lacks.
+    // Adds the values that the focal length in pixels needs.
     void add_focal_px() {
         if (!camera_.focal_length_mm) add_focal_length();
         if (!camera_.sensor_width_mm) add("the sensor width", "--sensor-width", "--sensor-width");
@@ -52,7 +52,7 @@ Camera camera_with_options(const LensValues &values, Camera camera) {
     const auto put = [](std::optional<double> &value, const std::optional<double> &given) {
         if (given) value = given;
     };
-    // The file's focus is in metres: with another scene unit it is as many units more or fewer.
+    // The focus distance of the file keeps its length in metres.
     if (values.scene_unit && camera.focus_distance)
         *camera.focus_distance *= camera.metres_per_unit.value_or(1) / *values.scene_unit;
     put(camera.focal_length_mm, values.focal_length_mm);

@@ -1,5 +1,5 @@
-// From what a file and its user say of a camera to a lens. What neither says is a UsageError that names the option
-// which settles it.
+// Makes a lens from the camera values of a file and of its user. A value that is in neither is a UsageError, which
+// names the option to give.
 #pragma once
 
 #include "../base/image.h"
@@ -10,7 +10,7 @@
 
 namespace sparselens {
 
-// What a user says of the lens. Every value may be left to the file.
+// Lens values of the user. A value that is empty is left to the file.
 struct LensValues {
     std::optional<double> focal_length_mm = {}; // (0, inf)
     std::optional<double> sensor_width_mm = {}; // (0, inf), spans the display window
@@ -20,22 +20,22 @@ struct LensValues {
     std::optional<double> scene_unit = {};      // its length in metres, (0, inf)
 };
 
-// The file's camera with the user's values over it. A radius becomes the f-number, too, where the focal length is
-// known; another scene unit leaves the file's focus where it is in metres.
+// The camera of the file, with the values of the user in place of its own. If a radius is given and the focal length is
+// known, the f-number follows. Another scene unit does not change the focus distance of the file in metres.
 Camera camera_with_options(const LensValues &values, Camera from_file);
 
-// Radius of the aperture, scene units: as it was given, else by the f-number; empty where neither is known, or the
-// focal length is missing.
+// The radius of the aperture in scene units: the one given, else from the f-number. Empty if neither is known, or if
+// the focal length, which the f-number needs, is unknown.
 std::optional<double> lens_radius_of(const Camera &camera);
 
-// The same, or UsageError.
+// The same, but throws UsageError where it would be empty.
 double resolve_radius(const Camera &camera);
 
-// Focal length in pixels, or UsageError. `windows` gives the display width.
+// The focal length in pixels; throws UsageError if it is unknown. `windows` gives the display width.
 double resolve_focal_px(const Camera &camera, const Windows &windows);
 
-// The lens, or UsageError. A lens of radius 0 (radius 0, f-number inf) needs no other value. `windows` gives the
-// display width and the pixel aspect.
+// The lens; throws UsageError, which names all missing values. A lens of radius 0 (or f-number inf) needs no other
+// value. `windows` gives the display width and the pixel aspect.
 ThinLens resolve_lens(const Camera &camera, const Windows &windows);
 
 } // namespace sparselens

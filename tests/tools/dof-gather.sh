@@ -66,7 +66,7 @@ done
 
 # A wider lens than the views stood on is a warning, in one line.
 exits 0 "$gather" ldi.exr -o wide.exr --lens-radius 0.09
-grep -q '^dof-gather: warning: the lens is wider' stderr && [ "$(wc -l <stderr)" -eq 1 ] || fail "no warning: $(cat stderr)"
+grep -q '^dof-gather: warning: the aperture is larger' stderr && [ "$(wc -l <stderr)" -eq 1 ] || fail "no warning: $(cat stderr)"
 
 # --focus-pixel takes the depth of what is in front there.
 exits 0 "$gather" ldi.exr -o pixel.exr --focus-pixel 1,0 --depth-out depth.exr
@@ -79,7 +79,7 @@ fails_saying 2 '--focus-distance' "$gather" ldi.exr -o x.exr --focus-pixel 1,0 -
 
 # -v says which distance that is.
 exits 0 "$gather" ldi.exr -o x.exr --focus-pixel 1,0 -v
-grep -qx 'dof-gather: focus distance 18, that of pixel 1,0' stderr || fail "-v does not say the distance: $(cat stderr)"
+grep -qx 'dof-gather: the focus distance is 18, the depth of pixel 1,0' stderr || fail "-v does not say the distance: $(cat stderr)"
 
 # --depth-out: the depth of the front, as float.
 exits 0 "$gather" keep.exr -o x.exr --depth-out depth.exr

@@ -82,7 +82,7 @@ pane 1,0.5,0.25,1,1,1 5 wall.exr
 oiiotool glass.exr wall.exr --deepmerge -o coloured.exr
 oiiotool coloured.exr --flatten --ch R,G,B -d float -o oiio.exr
 exits 0 "$bin/dof-gather" coloured.exr -o out.exr "${flat[@]}" -v
-grep -q 'coverage is coloured' stderr || fail "-v does not say that coverage is coloured"
+grep -q 'each colour has its own coverage' stderr || fail "-v does not say that there is per-channel alpha"
 [ "$(names out.exr)" = "A AB AG AR B G R " ] || fail "coloured alpha: $(names out.exr)"
 oiiotool out.exr --ch R,G,B -o cut.exr
 same cut.exr oiio.exr "coloured alpha, flattened"

@@ -92,7 +92,7 @@ done
 fails_saying 2 '@focus.txt holds a value for each frame: give --frames' "$gather" ldi.exr -o one.exr --focus-distance @focus.txt
 fails_saying 1 'nothing.txt' "$gather" ldi.exr -o from.#.exr --frames 3 --focus-distance @nothing.txt
 exits 0 "$gather" ldi.exr -o pixel.#.exr --frames 1-3 --focus-pixel '1:1,0;3:41,30' -v
-grep -qx 'dof-gather: focus distance .*, that of pixel 21,15' stderr || fail "--focus-pixel by frame: $(cat stderr)"
+grep -qx 'dof-gather: the focus distance is .*, the depth of pixel 21,15' stderr || fail "--focus-pixel by frame: $(cat stderr)"
 exits 0 "$gather" ldi.exr -o one.exr --focus-pixel 21,15
 same pixel.0002.exr one.exr "--focus-pixel by frame"
 

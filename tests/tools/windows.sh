@@ -32,7 +32,7 @@ done
 for box in 1,2,3 a,b,c,d 5,5,4,9 1,2,3,4,5 ''; do
     fails_saying 2 '--region' "$bin/dof-gather" ldi.exr -o x.exr --region "$box"
 done
-fails_saying 2 'region holds no pixel' "$bin/dof-gather" ldi.exr -o x.exr --region 500,500,600,600
+fails_saying 2 'region contains no pixel' "$bin/dof-gather" ldi.exr -o x.exr --region 500,500,600,600
 
 # --proxy: without a lens the mean of the pixels; with one, what the large picture's mean is, but for the coarser samples.
 exits 0 "$bin/dof-gather" ldi.exr -o flat.exr --lens-radius 0 -d float

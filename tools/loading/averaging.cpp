@@ -5,19 +5,21 @@
 #include "io/files/memory_limit.h"
 #include "loading/notices.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace sparselens {
 
 namespace {
 
-// The aperture where the options ask for one: only then are views left out for standing outside of it.
+// The aperture, if the options ask for one: only then are views outside of it left out.
 std::optional<double> radius_asked_for(const LensViewFiles &files, const LensValues &options) {
     if (!options.fstop && !options.lens_radius) return {};
     return resolve_radius(files.centre);
 }
 
-// A header may claim any display window: what it adds counts as what the file asks for.
+// A header may claim any display window, so the pixels that it adds are counted against the size of the file.
 Image with_surroundings(const std::string &path, const FlatFile &file) {
     const Imath::Box2i &display = file.image.windows.display, &data = file.image.windows.data;
     const auto extent = [](int a, int b, int c, int d) {
@@ -38,7 +40,9 @@ ThinLens stop_down(LensViewFiles &files, const LensValues &options) {
         std::erase_if(files.views, [&](const LensViewFile &view) {
             return view.position.length() > *radius * (1 + rounding);
         });
-    if (files.views.empty()) throw Error("no view stands within the aperture asked for");
+    if (files.views.empty())
+        throw Error(
+            "all views lie outside the aperture; use a larger one (--lens-radius, or a smaller --fstop)");
     Camera moving = files.centre;
     moving.lens_radius = radius == 0.0 ? 0 : 1;
     return resolve_lens(moving, files.windows);
@@ -55,8 +59,8 @@ Image average_views(LensViewFiles &files, const ThinLens &lens, bool transparent
         if (!sum) sum = start_accumulation(view.windows, view.channels);
         const std::size_t bad = fill_nonfinite(view, sum->channels);
         if (bad > 0)
-            warn(tool,
-                 file.path + ": " + std::to_string(bad) + " values are not finite; filled from neighbours");
+            warn(tool, fmt::format("{}: {} values are not finite and were replaced from neighbouring pixels",
+                                   file.path, bad));
         const Imath::V2d shift = file.shift + seen_from_centre(lens, {0, 0}, lens.focus, file.position);
         accumulate(*sum, view, shift, file.path);
         tool.progress->advance();

@@ -1,4 +1,4 @@
-// Views of a lens, from files, averaged.
+// Averages the views of a lens, which are read from files.
 #pragma once
 
 #include "harness/tool.h"
@@ -7,13 +7,14 @@
 
 namespace sparselens {
 
-// The lens that moves the views; its radius is 1, so that lens points are in scene units: moving needs no aperture.
-// Where the options ask for one, views outside of it are left out; a pinhole moves nothing and needs nothing else.
-// Error: no view stands within the aperture. UsageError: the focal length or the focus is unknown.
+// The lens by which the views are shifted. Shifting needs no aperture, so its radius is 1 and lens points are in scene
+// units. If the options give an aperture, the views outside of it are removed from `files`. A pinhole shifts nothing
+// and needs no other value. Throws Error if no view is left, and UsageError if the focal length or the focus is
+// unknown.
 ThinLens stop_down(LensViewFiles &files, const LensValues &options);
 
-// Reads one view after the other. What lies outside a view's data window is black if `transparent_outside`, else the
-// view does not count there. Values that are not finite are filled, with a warning.
+// Reads the views one after another and returns their mean. Outside its data window, a view is black and transparent if
+// `transparent_outside`; otherwise it does not count there. Values that are not finite are replaced, with a warning.
 Image average_views(LensViewFiles &files, const ThinLens &lens, bool transparent_outside,
                     const ToolContext &tool);
 

@@ -17,7 +17,7 @@ namespace {
 Imath::Box2i common(const Imath::Box2i &a, const Imath::Box2i &b, const char *what) {
     const Imath::Box2i box({std::max(a.min.x, b.min.x), std::max(a.min.y, b.min.y)},
                            {std::min(a.max.x, b.max.x), std::min(a.max.y, b.max.y)});
-    if (box.isEmpty()) throw UsageError(fmt::format("{} holds no pixel of the picture", what));
+    if (box.isEmpty()) throw UsageError(fmt::format("{} contains no pixel of the picture", what));
     return box;
 }
 

@@ -11,7 +11,8 @@ std::optional<Holdout> open_holdout(const std::string &path, const Windows &wind
     if (path.empty()) return {};
     OpenedLdi in = open_ldi(path, options);
     if (in.ldi.windows.display != windows.display)
-        throw Error(in.name + ": its display window is not that of the picture it holds out");
+        throw Error(in.name + ": its display window differs from that of the picture it holds out; use a "
+                              "holdout of the same size");
     return Holdout(proxy_factor == 1 ? std::move(in.ldi) : proxy(in.ldi, proxy_factor));
 }
 

@@ -9,7 +9,8 @@
 
 namespace sparselens {
 
-// None where the path is empty. Made a proxy. Error: its display window is not `windows`'.
+// Empty if the path is empty. The picture is reduced by `proxy_factor`. Throws Error if its display window differs from
+// that of `windows`.
 std::optional<Holdout> open_holdout(const std::string &path, const Windows &windows, int proxy_factor,
                                     const OpenOptions &options);
 

@@ -22,15 +22,18 @@ double widest_view(const Camera &camera) {
 ThinLens lens_for_ldi(OpenedLdi &in, const std::optional<Imath::V2i> &focus_pixel, const ToolContext &tool) {
     if (focus_pixel) {
         const float z = front_depth(in.ldi, *focus_pixel);
-        if (!(z > 0)) throw UsageError("--focus-pixel: " + in.name + " shows nothing there");
+        if (!(z > 0))
+            throw UsageError("--focus-pixel: " + in.name +
+                             " has no sample there; choose a pixel that shows something");
         in.camera.focus_distance = double(z);
-        tool.say(fmt::format("focus distance {:g}, that of pixel {},{}", z, focus_pixel->x, focus_pixel->y));
+        tool.say(fmt::format("the focus distance is {:g}, the depth of pixel {},{}", z, focus_pixel->x,
+                             focus_pixel->y));
     }
     const ThinLens lens = in.lens();
     const double widest = widest_view(in.camera);
     if (widest > 0 && lens.radius > 1.001 * widest)
-        warn(tool,
-             "the lens is wider than the lens points of the views: what it sees beyond them is unknown");
+        warn(tool, "the aperture is larger than the one the views were rendered for; what it sees beyond "
+                   "them is unknown");
     return lens;
 }
 

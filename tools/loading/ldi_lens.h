@@ -8,9 +8,8 @@
 
 namespace sparselens {
 
-// Of the LDI's camera, focused on what `focus_pixel` (EXR coordinates) shows, if it is given; this
-// then becomes the camera's focus. Warns where the lens sees further around things than the views did.
-// UsageError: that pixel shows nothing.
+// The lens of the LDI's camera. If `focus_pixel` (EXR coordinates) is given, the lens and the camera are focused on
+// what that pixel shows; UsageError if it shows nothing. Warns if the aperture is larger than the one of the views.
 ThinLens lens_for_ldi(OpenedLdi &in, const std::optional<Imath::V2i> &focus_pixel, const ToolContext &tool);
 
 } // namespace sparselens

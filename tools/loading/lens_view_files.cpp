@@ -29,7 +29,8 @@ void place_by_metadata(std::span<LensViewFile> views, const std::vector<Imf::Hea
     if (!centre_file.empty()) {
         centre = result.centre;
         if (!centre->world_to_camera)
-            throw UsageError(centre_file + ": its camera is unknown (no worldToCamera)");
+            throw UsageError(centre_file +
+                             ": there is no worldToCamera attribute, so the place of its camera is unknown");
     }
     const LensViews placed = position_on_lens(cameras, names, centre);
     require_one_plane(placed, names);
@@ -65,7 +66,7 @@ LensViewFiles open_lens_views(const LensViewOptions &options) {
         result.views.push_back({path, {0, 0}, {0, 0}, {}, options.stereo_view});
     for (const auto &[position, path] : options.placed)
         result.views.push_back({path, view_offset(position), {0, 0}, {}, options.stereo_view});
-    if (result.views.empty()) throw UsageError("no views are given");
+    if (result.views.empty()) throw UsageError("no views are given; name their files");
     std::vector<Imf::Header> headers;
     for (LensViewFile &view : result.views) headers.push_back(open_header(view));
     result.windows = windows_of(headers.front());

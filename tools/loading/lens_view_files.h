@@ -1,4 +1,4 @@
-// The views of a lens that a command line names, each at its position on the lens.
+// The views of a lens that are named on a command line, and where each lies on the lens.
 #pragma once
 
 #include "io/exr/exr_flat.h"
@@ -15,21 +15,21 @@ struct LensViewFile {
     std::string path;
     Imath::V2d position;    // on the lens: relative to its centre, scene units, x right, y up
     Imath::V2d shift{0, 0}; // from the point where its optical axis meets the picture to the centre's, pixels
-    std::optional<FlatFile> pixels; // already read: standard input gives them only once
+    std::optional<FlatFile> pixels; // set if they were read already: standard input can be read only once
     std::string stereo_view;        // of the file
-    FlatFile take_pixels();         // reads them where they are not
+    FlatFile take_pixels();         // reads them if needed
 };
 
 struct LensViewFiles {
     std::vector<LensViewFile> views; // not empty
-    Imf::Header header;              // of the centre's file where one is named, else of the first view
+    Imf::Header header;              // of the centre's file if one is named, else of the first view
     Windows windows;                 // of the first view
     Camera centre;                   // what is known of the camera at the lens centre
     bool centre_guessed = false;     // see LensViews
 };
 
-// Reads the headers. UsageError: no views, a malformed X,Y, a view that cannot be placed. Error: display
-// windows that differ, views that do not lie in one plane (require_one_plane).
+// Reads the headers. Throws UsageError if there are no views, an X,Y is malformed or the position of a view is unknown,
+// and Error if display windows differ or the views do not lie in one plane (require_one_plane).
 LensViewFiles open_lens_views(const LensViewOptions &options);
 
 } // namespace sparselens

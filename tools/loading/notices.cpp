@@ -3,6 +3,8 @@
 #include "deep/channel_alpha.h"
 #include "io/files/file_stream.h"
 
+#include <fmt/format.h>
+
 namespace sparselens {
 
 void say_reading(const ToolContext &tool, const std::string &path, const std::vector<std::string> &notes,
@@ -14,7 +16,7 @@ void say_reading(const ToolContext &tool, const std::string &path, const std::ve
 void say_samples(const ToolContext &tool, const OpenedLdi &in) {
     say_reading(tool, in.name, in.notes, in.warnings);
     if (tool.verbose && by_coverage(in.ldi).size() > 1)
-        tool.say(in.name + ": coverage is coloured (AR, AG, AB): each colour has its own");
+        tool.say(in.name + ": each colour has its own coverage (AR, AG, AB)");
 }
 
 void say_camera(const ToolContext &tool, const std::string &path, const Camera &camera) {
@@ -25,8 +27,8 @@ void say_camera(const ToolContext &tool, const std::string &path, const Camera &
 
 void warn_of_clamped(const ToolContext &tool, const std::string &path, std::size_t clamped) {
     if (clamped > 0)
-        warn(tool, display_name(path) + ": " + std::to_string(clamped) +
-                       " values beyond the range of half are clamped to 65504");
+        warn(tool, fmt::format("{}: {} values beyond the range of half are clamped to 65504",
+                               display_name(path), clamped));
 }
 
 void warn_of_invalid_values(const ToolContext &tool, const std::string &path, const InvalidValues &bad) {

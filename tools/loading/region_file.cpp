@@ -5,6 +5,8 @@
 #include "loading/notices.h"
 #include "measure/regions.h"
 
+#include <fmt/format.h>
+
 namespace sparselens {
 
 std::vector<std::uint8_t> regions_over(const Windows &target, const std::string &file,
@@ -15,10 +17,12 @@ std::vector<std::uint8_t> regions_over(const Windows &target, const std::string 
     const Windows &windows = in.ldi.windows;
     if (windows.display_width() != target.display_width() ||
         windows.display_height() != target.display_height())
-        throw Error(file + ": the display window differs in size from the reference's");
+        throw Error(file + ": its display window differs in size from that of the reference; use a file of "
+                           "the same picture");
     const ThinLens lens = in.lens();
-    tool.say("regions by a lens of radius " + std::to_string(lens.radius) + ", focal length " +
-             std::to_string(lens.focal_px) + " pixels, focused at " + std::to_string(lens.focus));
+    tool.say(fmt::format(
+        "the regions are those of a lens of radius {:g}, focal length {:g} pixels, focused at {:g}",
+        lens.radius, lens.focal_px, lens.focus));
     const std::vector<float> c = front_circles_of_confusion(in.ldi, lens);
     return bits_over(region_bits(c, windows.width(), windows.height(), lens.pixel_aspect), windows, target);
 }

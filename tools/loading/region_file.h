@@ -1,4 +1,4 @@
-// The regions of a picture (measure/regions.h) as an LDI tells them.
+// The regions of a picture (measure/regions.h), found from an LDI.
 #pragma once
 
 #include "harness/tool.h"
@@ -10,8 +10,9 @@
 
 namespace sparselens {
 
-// RegionBit set of each pixel of `target`'s data window, by the front samples of the file: deep, or flat with depth.
-// Error, naming it: its display window is of another size. UsageError: a lens value that is nowhere to be found.
+// The RegionBit set of each pixel of the data window of `target`, from the front samples of the file, which is deep or
+// flat with depth. Throws Error, naming the file, if its display window has another size, and UsageError if a lens
+// value is neither in the options nor in the file.
 std::vector<std::uint8_t> regions_over(const Windows &target, const std::string &file,
                                        const OpenOptions &options, const ToolContext &tool);
 

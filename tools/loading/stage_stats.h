@@ -1,4 +1,4 @@
-// What each stage says in its line of --stats.
+// The figures of each stage for its line of --stats.
 #pragma once
 
 #include "deep/cluster.h"
@@ -15,6 +15,6 @@ namespace sparselens {
 Stats plan_stats(const Plan &plan, int views_allowed, const Windows &centre);
 Stats warp_stats(std::span<const View> views, const Ldi &ldi);
 Stats cluster_stats(const OpenedLdi &in, const Clustered &out);
-Stats gather_stats(const LdiCache &cache, const LensTiles &tiles); // no tiles: nothing was gathered by them
+Stats gather_stats(const LdiCache &cache, const LensTiles &tiles); // no tiles: not gathered by tiles
 
 } // namespace sparselens

@@ -1,4 +1,4 @@
-// The views on a command line, opened, each at its position.
+// Opens the views of a command line and positions each on the lens.
 #pragma once
 
 #include "io/open_view.h"
@@ -16,8 +16,8 @@ struct OpenedViews {
     std::vector<std::vector<std::string>> notes, warnings; // of each view, see OpenedView
 };
 
-// A view's position comes from --view, else from worldToCamera (see position_on_lens, whose errors it throws); its framing
-// from its metadata, else it is the centre view's.
+// The position of a view comes from --view, else from worldToCamera (see position_on_lens, whose errors are thrown).
+// Its framing comes from its metadata, else it is that of the centre view.
 OpenedViews open_views(const ViewList &list, const OpenOptions &options);
 
 } // namespace sparselens

@@ -2,6 +2,8 @@
 
 #include "harness/words.h"
 
+#include <CLI/CLI.hpp>
+
 #include <cmath>
 #include <map>
 
@@ -26,37 +28,42 @@ void add_lens_options(CLI::App &app, LensValues &options) {
         return app.add_option(name, value, help)->type_name(unit)->group("Lens");
     };
     add("--focal-length", options.focal_length_mm, "MM", "Focal length")->check(positive);
-    add("--sensor-width", options.sensor_width_mm, "MM", "Width of the film back (spans the display window)")
+    add("--sensor-width", options.sensor_width_mm, "MM",
+        "Width of the film back; it spans the display window")
         ->check(positive);
     CLI::Option *fstop = add("--fstop", options.fstop, "N", "F-number, or inf")->check(positive_or_inf);
-    add("--lens-radius", options.lens_radius, "R", "Radius of the aperture, scene units (instead of --fstop)")
+    add("--lens-radius", options.lens_radius, "R",
+        "Radius of the aperture, in scene units; instead of --fstop")
         ->check(not_negative)
         ->excludes(fstop);
-    add("--focus-distance", options.focus_distance, "D", "Focus distance, scene units, or inf")
+    add("--focus-distance", options.focus_distance, "D", "Focus distance, in scene units, or inf")
         ->check(positive_or_inf);
-    add("--scene-unit", options.scene_unit, "METRES", "Length of a scene unit (1)")->check(positive);
+    add("--scene-unit", options.scene_unit, "METRES", "Length of a scene unit (default: 1)")->check(positive);
 }
 
 void add_depth_options(CLI::App &app, DepthOptions &options) {
     const std::map<std::string, DepthMeaning> meanings{{"z", DepthMeaning::planar},
                                                        {"distance", DepthMeaning::distance},
                                                        {"inverse", DepthMeaning::inverse}};
-    app.add_option("--depth", options.meaning, "What depth channels hold: z, distance or inverse (z)")
+    app.add_option("--depth", options.meaning,
+                   "What depth channels hold: planar z, the distance from the camera along the ray, or the "
+                   "inverse 1 / z (default: z)")
         ->type_name("z|distance|inverse")
         ->transform(words(meanings))
         ->group("Lens");
-    app.add_option("--far", options.far, "Depth from which on there is only sky, as the far clip (1e10)")
+    app.add_option("--far", options.far, "Depths beyond this are sky (default: 1e10)")
         ->type_name("D")
         ->check(number("a number above 0", {.infinity_allowed = true}))
         ->group("Lens");
-    app.add_option("--depth-channel", options.channel, "Depth channel (else Z, depth.Z, *.Depth.Z are tried)")
+    app.add_option("--depth-channel", options.channel,
+                   "Depth channel (default: the first of Z, depth.Z and *.Depth.Z)")
         ->type_name("NAME")
         ->group("Lens");
     add_stereo_option(app, options.view);
 }
 
 void add_stereo_option(CLI::App &app, std::string &view) {
-    app.add_option("--stereo-view", view, "View of stereo files to read, as right (their default one)")
+    app.add_option("--stereo-view", view, "Stereo view to read, e.g. right (default: the file's first)")
         ->type_name("NAME")
         ->group("Lens");
 }

@@ -1,6 +1,6 @@
-// What renderers and compositors call the camera in EXR headers: the one table of names, and how their values are
-// read. Names are matched whatever their case and whatever stands before them of "exr/", "nuke/", "input/" and
-// "openexr:" (what Nuke and OpenImageIO put there or take away).
+// The names that renderers and compositors give to camera attributes in EXR headers, in one table, and how their values
+// are read. Names are matched regardless of case, and with or without the prefixes "exr/", "nuke/", "input/" and
+// "openexr:", which Nuke and OpenImageIO add or remove.
 //
 // Sources: OpenEXR's StandardAttributes page and ImfStandardAttributes.h; OpenImageIO's table in exrinput.cpp;
 // headers of V-Ray files on the web; Maxon's page "EXR Metadata" of Redshift; Unreal's
@@ -17,7 +17,7 @@
 
 namespace sparselens {
 
-// What has no standard name, and is no quantity.
+// Attributes without a standard name that are not quantities.
 inline constexpr const char *lens_points_name = "sparselens:lensPoints"; // text "x,y x,y ...", scene units
 inline constexpr const char *picture_window_name = "sparselens:dataWindow";
 
@@ -32,12 +32,12 @@ enum class Quantity {
     metres_per_unit,
 };
 
-// A number under a name in the table.
+// A number that a header has under a name of the table.
 struct NamedNumber {
     Quantity quantity;
     std::string name; // as the file spells it
-    double value;     // in the quantity's unit; NaN where it is none
-    bool exact;       // false: only a hint, for want of a better one (a nominal focal length)
+    double value;     // in the unit of the quantity; NaN if it is not a number
+    bool exact;       // false: only a hint, used if there is nothing better (a nominal focal length)
 };
 
 struct NamedMatrix {
@@ -52,13 +52,13 @@ struct NamedMatrix {
 struct CameraAttributes {
     std::vector<NamedNumber> numbers; // in the table's order
     std::vector<NamedMatrix> matrices;
-    // By screenWindowCenter and screenWindowWidth, see Camera; empty where they are at rest, as programs without a
-    // camera write them.
+    // From screenWindowCenter and screenWindowWidth, see Camera. Empty if they have their default values, which
+    // programs without a camera write.
     std::optional<Imath::V2d> principal_point;
-    bool ours = false; // written by us: nothing of others is listed
+    bool ours = false; // written by this project: attributes of other programs are then not listed
 };
 
-// All that the header has of them.
+// All camera attributes of the header.
 CameraAttributes find_camera_attributes(const Imf::Header &header);
 
 } // namespace sparselens

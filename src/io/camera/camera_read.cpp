@@ -5,23 +5,19 @@
 
 #include <ImfBoxAttribute.h>
 #include <ImfStringAttribute.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <sstream>
 
 namespace sparselens {
 
 namespace {
 
-std::string text_of(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%g", value);
-    return text;
-}
+std::string text_of(double value) { return fmt::format("{:g}", value); }
 
-// The same, but for what programs lose by rounding.
+// Equal to within what programs lose by rounding.
 bool agree(double a, double b) {
     return a == b || std::abs(a - b) <= 0.01 * std::max(std::abs(a), std::abs(b));
 }
@@ -36,7 +32,7 @@ std::vector<Imath::V2d> read_points(const Imf::Header &header) {
     return points;
 }
 
-// Builds the camera of what its attributes say, and notes what says what.
+// Builds the camera from its attributes, and notes which attribute gave which value.
 class Reader {
 public:
     explicit Reader(const CameraAttributes &attributes) : has_(attributes) {}
@@ -52,7 +48,7 @@ public:
     }
 
 private:
-    // The value that the attributes of these quantities agree on; hints only for want of others.
+    // The value that the attributes of these quantities agree on. Hints are used only if there is nothing else.
     std::optional<double> pick(std::initializer_list<Quantity> quantities, const char *what,
                                const char *option, bool may_be_infinite = false);
     double in_unit(const NamedNumber &number) const {
@@ -78,7 +74,7 @@ std::optional<double> Reader::pick(std::initializer_list<Quantity> quantities, c
                 continue;
             const double value = in_unit(number);
             if (!(value > 0) || (std::isinf(value) && !may_be_infinite)) {
-                camera_.unsure[option] = number.name + " is no " + what;
+                camera_.unsure[option] = number.name + " is not a valid " + what;
                 return {};
             }
             if (chosen && !agree(value, in_unit(*chosen))) {
@@ -93,7 +89,7 @@ std::optional<double> Reader::pick(std::initializer_list<Quantity> quantities, c
     return in_unit(*chosen);
 }
 
-// The film back of a renderer is cropped to the shape of the picture: how much of it is seen the field tells.
+// A renderer crops its film back to the shape of the picture. The field tells how much of it is seen.
 void Reader::read_film() {
     camera_.focal_length_mm = pick({Quantity::focal_length}, "focal length", "--focal-length");
     camera_.sensor_width_mm = pick({Quantity::sensor_width}, "sensor width", "--sensor-width");
@@ -119,19 +115,19 @@ void Reader::read_placement() {
     for (const NamedMatrix &matrix : has_.matrices) {
         if (matrix.kind != NamedMatrix::Kind::world_to_camera) continue;
         if (!matrix.matrix) {
-            camera_.unsure["--view"] = matrix.name + " is no placement of a camera";
+            camera_.unsure["--view"] = matrix.name + " is not a valid camera position";
             return;
         }
         const auto place = [](const NamedMatrix &m) { return m.matrix->inverse().translation(); };
         if (chosen && (place(matrix) - place(*chosen)).length() > 1e-3 * place(matrix).length()) {
-            camera_.unsure["--view"] = chosen->name + " and " + matrix.name + " place it differently";
+            camera_.unsure["--view"] = chosen->name + " and " + matrix.name + " give different positions";
             return;
         }
         if (!chosen) chosen = &matrix;
     }
     if (!chosen) return;
     camera_.world_to_camera = chosen->matrix;
-    camera_.found.push_back("placement (" + chosen->name + ")");
+    camera_.found.push_back("position (" + chosen->name + ")");
 }
 
 void Reader::read_projections() {
@@ -152,7 +148,7 @@ void Reader::read_projections() {
             camera_.unsure["--sensor-width"] =
                 projection ? matrix.name + " makes the picture " + text_of(projection->field) +
                                  " focal lengths wide, other attributes " + text_of(*field)
-                           : matrix.name + " is no projection that the camera at that place can have";
+                           : matrix.name + " is not a projection of the camera at that position";
             camera_.sensor_width_mm.reset();
             camera_.field.reset();
             return;

@@ -1,5 +1,6 @@
-// Camera and lens as EXR headers have them: the standard attributes worldToCamera, worldToNDC, focus (metres), aperture
-// (f-number), pinholeFocalLength (mm), sparselens:* for what has no standard name, and what other programs write.
+// Reads the camera and the lens from EXR headers: the standard attributes worldToCamera, worldToNDC, focus (metres),
+// aperture (f-number) and pinholeFocalLength (mm), sparselens:* for values without a standard name, and the attributes
+// of other programs.
 #pragma once
 
 #include "../../view/camera.h"
@@ -9,13 +10,13 @@
 
 namespace sparselens {
 
-// By the standard's attributes and those of other programs (camera_attributes.h); where sparselens:version stands,
-// by ours alone. What is missing, no number or out of range, or said twice and differently, is unknown, and why is
-// noted (Camera::unsure). worldToNDC comes in the standard's convention, whatever the file's.
+// Reads the standard attributes and those of other programs (camera_attributes.h), or only ours if the header has
+// sparselens:version. A value that is missing, invalid, out of range or contradictory is unknown; the reason is in
+// Camera::unsure. worldToNDC is converted to the convention of the standard.
 Camera read_camera(const Imf::Header &header);
 
-// Of an LDI whose data window has grown beyond that of its centre view: the centre view's data window, which is
-// that of the pictures made from it. Else the header's own.
+// The data window of pictures made from an LDI. The LDI may have grown beyond its centre view; the pictures have the
+// data window of the centre view. For other files: the data window of the header.
 Imath::Box2i read_picture_window(const Imf::Header &header);
 
 } // namespace sparselens

@@ -1,4 +1,4 @@
-// Camera and lens into EXR headers, as camera_read.h reads them.
+// Writes the camera and the lens into EXR headers, as camera_read.h reads them.
 #pragma once
 
 #include "../../view/camera.h"
@@ -8,10 +8,10 @@
 
 namespace sparselens {
 
-// Writes what is known (and sparselens:version), leaves the rest of the header alone.
+// Writes the values that are known, and sparselens:version. The rest of the header is left alone.
 void write_camera(Imf::Header &header, const Camera &camera);
 
-// The data window of the pictures made from an LDI (see read_picture_window).
+// Writes the data window of the pictures that are made from an LDI (see read_picture_window).
 void write_picture_window(Imf::Header &header, const Imath::Box2i &window);
 
 } // namespace sparselens

@@ -124,15 +124,17 @@ TEST(CameraErrors, OfPlacesNameView) {
     EXPECT_EQ(why(nothing), "");
     EXPECT_EQ(why([](Imf::Header &h, const Pose &) { h.erase("worldToCamera"); }),
               "rim.exr: its camera is unknown (no worldToCamera): give --view X,Y rim.exr");
-    EXPECT_EQ(why([](Imf::Header &h, const Pose &) { put(h, "worldToCamera", Imath::M44d(0.0)); }),
-              "rim.exr: its camera is unknown (worldToCamera is no placement of a camera): give --view X,Y "
-              "rim.exr");
-    EXPECT_EQ(why([](Imf::Header &h, const Pose &) {
-                  put(h, "cameraTransform", standard_camera(Pose({5, 0})).inverse());
-              }),
-              "rim.exr: its camera is unknown (worldToCamera and cameraTransform place it differently): give "
-              "--view "
-              "X,Y rim.exr");
+    EXPECT_EQ(
+        why([](Imf::Header &h, const Pose &) { put(h, "worldToCamera", Imath::M44d(0.0)); }),
+        "rim.exr: its camera is unknown (worldToCamera is not a valid camera position): give --view X,Y "
+        "rim.exr");
+    EXPECT_EQ(
+        why([](Imf::Header &h, const Pose &) {
+            put(h, "cameraTransform", standard_camera(Pose({5, 0})).inverse());
+        }),
+        "rim.exr: its camera is unknown (worldToCamera and cameraTransform give different positions): give "
+        "--view "
+        "X,Y rim.exr");
 }
 
 // What we write is what we read: attributes of the renderer that have come along do not speak against it.
