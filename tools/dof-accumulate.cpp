@@ -6,6 +6,7 @@
 #include "options/accumulate_options.h"
 #include "options/picture_options.h"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 namespace {

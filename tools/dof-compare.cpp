@@ -9,6 +9,8 @@
 #include "measure/regions.h"
 #include "options/lens_options.h"
 
+#include <CLI/CLI.hpp>
+
 #include <algorithm>
 #include <cstdio>
 #include <vector>

@@ -7,6 +7,8 @@
 #include "lab/reporting/outputs.h"
 #include "lab/reporting/process.h"
 
+#include <CLI/CLI.hpp>
+
 #include <cstdio>
 #include <filesystem>
 #include <set>

@@ -3,6 +3,7 @@
 #include "harness/tool.h"
 #include "lab/stress/stress_case.h"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <cstdio>

@@ -6,6 +6,8 @@
 #include "lab/tracing/trace_outputs.h"
 #include "lab/tracing/traced_pictures.h"
 
+#include <CLI/CLI.hpp>
+
 namespace {
 
 using namespace sparselens;

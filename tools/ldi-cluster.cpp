@@ -10,6 +10,7 @@
 #include "loading/stage_stats.h"
 #include "options/lens_options.h"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 using namespace sparselens;

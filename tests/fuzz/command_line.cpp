@@ -7,6 +7,8 @@
 #include "options/picture_options.h"
 #include "options/view_list.h"
 
+#include <CLI/CLI.hpp>
+
 #include <sstream>
 #include <vector>
 

@@ -1,5 +1,6 @@
 #include "harness/man_page.h"
 
+#include <CLI/CLI.hpp>
 #include <gtest/gtest.h>
 
 namespace sparselens {

@@ -1,5 +1,6 @@
 #include "options/lens_options.h"
 
+#include <CLI/CLI.hpp>
 #include <gtest/gtest.h>
 
 #include <limits>

@@ -4,6 +4,7 @@
 #include "harness/one_line.h"
 #include "io/exr/header_edit.h"
 
+#include <CLI/CLI.hpp>
 #include <ImfMultiPartInputFile.h>
 #include <ImfStringAttribute.h>
 #include <ImfTestFile.h>

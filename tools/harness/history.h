@@ -2,9 +2,9 @@
 // the attribute Exif:ImageHistory, and Software names the program.
 #pragma once
 
+#include "harness/cli.h"
 #include "harness/tool.h"
 
-#include <CLI/CLI.hpp>
 #include <ImfHeader.h>
 
 #include <optional>

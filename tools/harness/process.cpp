@@ -6,6 +6,7 @@
 #include "io/files/memory_limit.h"
 #include "io/files/unfinished.h"
 
+#include <CLI/CLI.hpp>
 #include <ImfThreading.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -7,6 +7,7 @@
 #include "harness/up_to_date.h"
 #include "harness/words.h"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>

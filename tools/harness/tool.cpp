@@ -6,6 +6,7 @@
 #include "harness/process.h"
 #include "harness/progress_lines.h"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 namespace sparselens {

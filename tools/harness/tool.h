@@ -2,8 +2,7 @@
 #pragma once
 
 #include "base/progress.h"
-
-#include <CLI/CLI.hpp>
+#include "harness/cli.h"
 
 #include <cstdint>
 #include <functional>

@@ -3,6 +3,8 @@
 #include "harness/words.h"
 #include "options/picture_options.h"
 
+#include <CLI/CLI.hpp>
+
 #include <map>
 
 namespace sparselens {

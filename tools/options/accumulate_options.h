@@ -1,11 +1,10 @@
 // The command line of dof-accumulate.
 #pragma once
 
+#include "harness/cli.h"
 #include "harness/history.h"
 #include "options/lens_options.h"
 #include "options/lens_view_options.h"
-
-#include <CLI/CLI.hpp>
 
 #include <optional>
 #include <string>

@@ -7,6 +7,7 @@
 #include "io/files/file_stream.h"
 #include "io/files/memory_limit.h"
 
+#include <CLI/CLI.hpp>
 #include <ImfChromaticitiesAttribute.h>
 #include <ImfStandardAttributes.h>
 #include <ImfStringAttribute.h>

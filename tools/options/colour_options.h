@@ -2,11 +2,11 @@
 #pragma once
 
 #include "deep/ldi.h"
+#include "harness/cli.h"
 #include "harness/tool.h"
 #include "io/display/colour.h"
 #include "view/view.h"
 
-#include <CLI/CLI.hpp>
 #include <ImfHeader.h>
 
 #include <string>

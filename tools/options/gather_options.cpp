@@ -4,6 +4,7 @@
 #include "options/only_with.h"
 #include "options/picture_options.h"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 namespace sparselens {

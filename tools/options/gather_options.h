@@ -2,13 +2,12 @@
 #pragma once
 
 #include "dof/methods.h"
+#include "harness/cli.h"
 #include "harness/history.h"
 #include "options/colour_options.h"
 #include "options/lens_options.h"
 #include "options/show.h"
 #include "options/window_options.h"
-
-#include <CLI/CLI.hpp>
 
 #include <optional>
 #include <string>

@@ -1,9 +1,8 @@
 // The lens options that every tool shares.
 #pragma once
 
+#include "harness/cli.h"
 #include "io/open_options.h"
-
-#include <CLI/CLI.hpp>
 
 #include <string>
 

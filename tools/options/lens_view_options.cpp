@@ -1,5 +1,7 @@
 #include "options/lens_view_options.h"
 
+#include <CLI/CLI.hpp>
+
 namespace sparselens {
 
 void add_lens_view_options(CLI::App &app, LensViewOptions &options) {

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 

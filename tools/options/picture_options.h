@@ -3,8 +3,7 @@
 
 #include "base/image.h"
 #include "dof/methods.h"
-
-#include <CLI/CLI.hpp>
+#include "harness/cli.h"
 
 #include <optional>
 #include <string>

@@ -1,5 +1,6 @@
 #include "options/plan_options.h"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 namespace sparselens {

@@ -1,10 +1,9 @@
 // The command line of ldi-plan.
 #pragma once
 
+#include "harness/cli.h"
 #include "options/lens_options.h"
 #include "plan/plan.h"
-
-#include <CLI/CLI.hpp>
 
 #include <string>
 

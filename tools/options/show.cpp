@@ -3,6 +3,8 @@
 #include "dof/false_colour.h"
 #include "harness/words.h"
 
+#include <CLI/CLI.hpp>
+
 namespace sparselens {
 
 void add_show_option(CLI::App &app, Show &show) {

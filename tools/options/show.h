@@ -4,9 +4,8 @@
 
 #include "deep/ldi.h"
 #include "dof/lens/lens_tiles.h"
+#include "harness/cli.h"
 #include "lens/thin_lens.h"
-
-#include <CLI/CLI.hpp>
 
 namespace sparselens {
 

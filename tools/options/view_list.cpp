@@ -1,5 +1,7 @@
 #include "options/view_list.h"
 
+#include <CLI/CLI.hpp>
+
 namespace sparselens {
 
 void add_view_list(CLI::App &app, ViewList &list) {

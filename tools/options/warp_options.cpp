@@ -2,6 +2,8 @@
 
 #include "harness/words.h"
 
+#include <CLI/CLI.hpp>
+
 #include <map>
 
 namespace sparselens {

@@ -1,13 +1,12 @@
 // The command line of ldi-warp.
 #pragma once
 
+#include "harness/cli.h"
 #include "harness/history.h"
 #include "options/colour_options.h"
 #include "options/lens_options.h"
 #include "options/view_list.h"
 #include "warp/warp.h"
-
-#include <CLI/CLI.hpp>
 
 #include <string>
 

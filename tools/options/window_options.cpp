@@ -2,6 +2,7 @@
 
 #include "harness/words.h"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <charconv>

@@ -1,7 +1,8 @@
 // The pixels that a tool makes, and their size.
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include "harness/cli.h"
+
 #include <Imath/ImathBox.h>
 
 #include <optional>

@@ -2,6 +2,7 @@
 
 #include "lab/tracing/trace_options.h"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 namespace sparselens::lab {

@@ -1,10 +1,9 @@
 // The command line of dof-report.
 #pragma once
 
+#include "harness/cli.h"
 #include "lab/reporting/runner.h"
 #include "lab/reporting/systems.h"
-
-#include <CLI/CLI.hpp>
 
 #include <string>
 #include <vector>

@@ -6,6 +6,8 @@
 #include "lab/trace/scenes.h"
 #include "lab/tracing/trace_options.h"
 
+#include <CLI/CLI.hpp>
+
 #include <algorithm>
 #include <filesystem>
 

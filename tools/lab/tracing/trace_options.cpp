@@ -4,6 +4,7 @@
 #include "harness/words.h"
 #include "lab/trace/scenes.h"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <charconv>

@@ -2,10 +2,9 @@
 #pragma once
 
 #include "base/image.h"
+#include "harness/cli.h"
 #include "lab/trace/render.h"
 #include "options/lens_options.h"
-
-#include <CLI/CLI.hpp>
 
 #include <string>
 #include <vector>
