@@ -1,5 +1,6 @@
 // dof-compare: how far a picture is from its reference.
 #include "base/error.h"
+#include "harness/examples.h"
 #include "harness/tool.h"
 #include "io/exr/exr_flat.h"
 #include "loading/notices.h"
@@ -46,6 +47,9 @@ void add_options(CLI::App &app, Options &options) {
     for (CLI::Option *option : app.get_options())
         if (option->get_group() == "Lens" && !option->check_lname("stereo-view"))
             option->needs(regions); // they say how to read that file
+    add_examples(app, {{"Compare a picture with its reference", "dof-compare picture.exr reference.exr"},
+                       {"... also in focus, in the blur and at silhouettes, as JSON",
+                        "dof-compare picture.exr reference.exr --regions ldi.exr --json"}});
 }
 
 void compare(const Options &options, const ToolContext &tool) {

@@ -1,6 +1,7 @@
 // dof-gather: makes the picture that a lens takes from a layered depth image.
 #include "deep/flatten.h"
 #include "deep/front_depth.h"
+#include "dof/defocused_holdout.h"
 #include "dof/methods.h"
 #include "harness/tool.h"
 #include "io/camera/camera_write.h"
@@ -21,9 +22,10 @@ using namespace sparselens;
 
 namespace {
 
-// The picture by the chosen method; for a lens of radius 0, the flattened LDI.
-Image gathered(const GatherCommand &options, const Ldi &ldi, const ThinLens &lens, const GatherWindows &frame,
-               const std::optional<Holdout> &holdout, const ToolContext &tool, LensTiles &tiles) {
+// The picture by the chosen method, held out by what stays sharp; for a lens of radius 0, the flattened LDI.
+Image gathered_sharp(const GatherCommand &options, const Ldi &ldi, const ThinLens &lens,
+                     const GatherWindows &frame, const std::optional<Holdout> &holdout,
+                     const ToolContext &tool, LensTiles &tiles) {
     if (lens.radius == 0)
         return crop(holdout ? flatten_held_out(ldi, *holdout) : flatten(ldi), frame.written);
     GatherOptions by = options.gather;
@@ -31,6 +33,15 @@ Image gathered(const GatherCommand &options, const Ldi &ldi, const ThinLens &len
     by.lens.holdout = holdout ? &*holdout : nullptr;
     by.lens.chosen = &tiles;
     return crop(options.method->gather(ldi, lens, frame.gathered, by, *tool.progress), frame.written);
+}
+
+Image gathered(const GatherCommand &options, const Ldi &ldi, const ThinLens &lens, const GatherWindows &frame,
+               const std::optional<Ldi> &holdout, const ToolContext &tool, LensTiles &tiles) {
+    if (holdout && options.holdout_defocused)
+        return without_holdout(
+            gathered_sharp(options, with_holdout(ldi, *holdout), lens, frame, {}, tool, tiles));
+    const auto sharp = holdout ? std::optional<Holdout>(*holdout) : std::nullopt;
+    return gathered_sharp(options, ldi, lens, frame, sharp, tool, tiles);
 }
 
 void run(const GatherCommand &options, const ToolContext &tool, LdiCache &cache) {

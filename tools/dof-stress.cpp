@@ -1,5 +1,6 @@
 // dof-stress: runs stiff and extreme cases and prints the error of each, one line per case.
 #include "base/error.h"
+#include "harness/examples.h"
 #include "harness/tool.h"
 #include "lab/stress/stress_case.h"
 
@@ -80,6 +81,7 @@ int main(int argc, char **argv) {
         ->type_name("NAME");
     app.add_flag("--markdown", options.markdown,
                  "Print the tables of docs/stress.md, with the reason for each bound");
+    add_examples(app, {{"Run one case", "dof-stress --case z_nan"}});
     return run_tool(
         app, argc, argv, [&](const ToolContext &) { stress(options); }, Reads::nothing);
 }

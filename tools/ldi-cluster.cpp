@@ -1,11 +1,12 @@
-// ldi-cluster: merges the samples of each pixel to fewer.
+// ldi-cluster: merges deep pictures, and the samples of each pixel to fewer.
 #include "base/error.h"
 #include "deep/cluster.h"
+#include "harness/examples.h"
 #include "harness/history.h"
 #include "harness/tool.h"
 #include "io/camera/camera_write.h"
 #include "io/exr/exr_deep.h"
-#include "io/open_ldi.h"
+#include "loading/merged_ldi.h"
 #include "loading/notices.h"
 #include "loading/stage_stats.h"
 #include "options/lens_options.h"
@@ -21,14 +22,16 @@ struct Options {
     LensValues lens;
     DepthOptions depth;
     HistoryOptions history;
-    std::string input, output;
+    std::vector<std::string> inputs;
+    std::string output;
     std::optional<double> tolerance;
     int layers = 0;
 };
 
 void add_options(CLI::App &app, Options &options) {
-    app.add_option("IN", options.input, "LDI, any deep EXR or flat RGBA+Z; - for standard input")
-        ->type_name("")
+    app.add_option("IN", options.inputs,
+                   "LDI, any deep EXR or flat RGBA+Z; - for standard input. Several are merged by depth")
+        ->type_name("...")
         ->required();
     app.add_option("-o,--output", options.output, "LDI to write; - for standard output")
         ->type_name("OUT.exr")
@@ -43,6 +46,9 @@ void add_options(CLI::App &app, Options &options) {
     add_lens_options(app, options.lens);
     add_depth_options(app, options.depth);
     add_history_option(app, options.history);
+    add_examples(app, {{"Merge samples that no lens tells apart", "ldi-cluster ldi.exr -o small.exr"},
+                       {"Merge the deep pictures of two elements by depth, and change nothing else",
+                        "ldi-cluster front.exr back.exr -o shot.exr --tolerance 0"}});
 }
 
 // R F, in pixels times scene units. The tolerance needs it; --layers alone does not, because inverse depths are
@@ -56,9 +62,7 @@ std::optional<double> perceptive_scale(const Options &options, const OpenedLdi &
 }
 
 void run(const Options &options, const ToolContext &tool) {
-    OpenedLdi in = open_ldi(options.input, {options.lens, options.depth});
-    say_samples(tool, in);
-    warn_of_invalid_values(tool, options.input, in.bad);
+    OpenedLdi in = open_merged(options.inputs, {options.lens, options.depth}, tool);
     ClusterOptions by{.layers = options.layers};
     const auto scale = perceptive_scale(options, in);
     if (scale) by.scale = *scale;

@@ -1,6 +1,6 @@
 // Any words as a command line: the options that the tools share.
 #include "fuzz/fuzz.h"
-#include "harness/frames.h"
+#include "harness/commands/frames.h"
 #include "harness/tool.h"
 #include "options/channels.h"
 #include "options/lens_options.h"

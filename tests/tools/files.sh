@@ -62,6 +62,16 @@ fails_saying 1 'left, right' "$bin/dof-accumulate" --view 0,0 stereo.exr -o x.ex
 fails_saying 1 'left, right' "$bin/dof-compare" stereo.exr stereo.exr --stereo-view middle
 fails_saying 1 "one.exr: .*names no views" "$bin/dof-gather" one.exr -o x.exr "${flat[@]}" --stereo-view left
 
+# --stereo-view all: one run for each view, the same as naming it; %V is the name.
+exits 0 "$bin/dof-gather" stereo.exr -o 'eye.%V.exr' "${flat[@]}" --stereo-view all
+for eye in left right; do
+    exits 0 "$bin/dof-gather" stereo.exr -o one-eye.exr "${flat[@]}" --stereo-view $eye
+    same eye.$eye.exr one-eye.exr "--stereo-view all, $eye"
+done
+fails_saying 2 'put %V' "$bin/dof-gather" stereo.exr -o x.exr "${flat[@]}" --stereo-view all
+fails_saying 1 'one.exr: it names no stereo views' "$bin/dof-gather" one.exr -o 'x.%V.exr' "${flat[@]}" --stereo-view=all
+fails_saying 2 'needs the name of the input' "$bin/dof-gather" - -o 'x.%V.exr' "${flat[@]}" --stereo-view all
+
 # Several views in one part.
 oiiotool one.exr --ch R,G,B,A,Z -d float -o left.exr
 oiiotool diffuse.exr depth.exr --chappend -d float -o right_view.exr

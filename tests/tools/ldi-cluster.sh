@@ -117,4 +117,19 @@ fails_saying 1 'standard stream' "$cluster" - -o x.exr
 survives_failure "$cluster" cut.exr
 fails_saying 2 '--output' "$cluster" ldi.exr
 fails_saying 2 'IN' "$cluster" -o x.exr
-fails_saying 2 'other.exr' "$cluster" ldi.exr other.exr -o x.exr
+fails_saying 1 'other.exr: cannot open' "$cluster" ldi.exr other.exr -o x.exr
+
+# Several deep files are merged by depth: the same as what oiiotool makes of them, in either order.
+oiiotool --pattern constant:color=0.25,0.5,0.125,0.5,4 16x8 5 --chnames R,G,B,A,Z -d float --deepen -o near.exr
+oiiotool --pattern constant:color=0.5,0.25,1,1,9 16x8 5 --chnames R,G,B,A,Z -d float --deepen -o far.exr
+exits 0 "$cluster" near.exr far.exr -o merged.exr --layers 9
+exits 0 "$cluster" far.exr near.exr -o swapped.exr --layers 9
+oiiotool merged.exr --flatten --ch R,G,B,A -o merged-flat.exr
+oiiotool far.exr near.exr --deepmerge --flatten --ch R,G,B,A -o expected-flat.exr
+idiff -q -fail 1e-3 -warn 1e-3 merged-flat.exr expected-flat.exr >idiff.txt || fail "merged: $(cat idiff.txt)"
+oiiotool swapped.exr --flatten --ch R,G,B,A -o swapped-flat.exr
+idiff -q -fail 0 -warn 0 merged-flat.exr swapped-flat.exr >idiff.txt || fail "the order of the files matters: $(cat idiff.txt)"
+[ "$(oiiotool --dumpdata merged.exr | grep -c '^ *Pixel (0, 0).*2 samples')" -eq 1 ] || fail "not two samples a pixel"
+oiiotool --pattern constant:color=0.5,0.25,1,1,9 24x8 5 --chnames R,G,B,A,Z -d float --deepen -o wide.exr
+fails_saying 1 'wide.exr: its display window differs from that of near.exr' "$cluster" near.exr wide.exr -o x.exr --layers 9
+fails_saying 2 'merged.exr would overwrite the input merged.exr' "$cluster" near.exr merged.exr -o merged.exr --layers 9

@@ -76,6 +76,14 @@ exits 0 "$bin/dof-gather" card.exr -o held.exr "${lens[@]}" --holdout wall.exr
 same held.exr front.exr "--holdout hides what is in front of it"
 fails_saying 2 '--holdout' "$bin/dof-gather" wall.exr -o x.exr "${lens[@]}" --holdout card.exr --method scatter
 fails_saying 1 'element.exr.*display window' "$bin/dof-gather" wall.exr -o x.exr "${lens[@]}" --holdout element.exr
+
+# --holdout-defocused: the holdout is blurred as in the scene of both; here it is black, so the colours are that scene's.
+oiiotool card.exr --flatten --ch R,G,B,A,Z --mulc 0,0,0,1,1 --deepen -o black.exr
+exits 0 "$bin/ldi-cluster" wall.exr black.exr -o both.exr --tolerance 0 --focal-length 50 --sensor-width 36 --lens-radius 0.05
+exits 0 "$bin/dof-gather" both.exr -o expected.exr "${lens[@]}" --channels R,G,B
+exits 0 "$bin/dof-gather" wall.exr -o held.exr "${lens[@]}" --holdout card.exr --holdout-defocused --channels R,G,B
+idiff -q -fail 1e-5 -warn 1e-5 held.exr expected.exr >idiff.txt || fail "--holdout-defocused ($(cat idiff.txt))"
+fails_saying 2 'holdout' "$bin/dof-gather" wall.exr -o x.exr "${lens[@]}" --holdout-defocused
 [ ! -e x.exr ] || fail "a failure wrote x.exr"
 
 # A display window of billions of pixels around a few: nothing that fills it is made of a small file.

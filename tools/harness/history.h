@@ -2,7 +2,7 @@
 // the attribute Exif:ImageHistory, and Software names the program.
 #pragma once
 
-#include "harness/cli.h"
+#include "harness/commands/cli.h"
 #include "harness/tool.h"
 
 #include <ImfHeader.h>

@@ -1,6 +1,7 @@
 #include "harness/man_page.h"
 
 #include "base/text.h"
+#include "harness/examples.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -90,6 +91,11 @@ std::string environment(const CLI::App &app) {
     return text;
 }
 
+std::string examples(const CLI::App &app) {
+    const std::string text = examples_text(app);
+    return text.empty() ? "" : ".SH EXAMPLES\n.nf\n" + roff(text) + ".fi\n";
+}
+
 } // namespace
 
 std::string man_page(const CLI::App &app, const std::string &version) {
@@ -103,7 +109,7 @@ std::string man_page(const CLI::App &app, const std::string &version) {
         if (group != "Options") text += ".SS " + group + "\n" + section(app, group, false);
     return text +
            ".SH EXIT STATUS\n0: done; 1: failed (input, output, memory); 2: usage error.\n.SH ENVIRONMENT\n" +
-           environment(app);
+           environment(app) + examples(app);
 }
 
 namespace {

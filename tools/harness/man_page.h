@@ -1,7 +1,7 @@
 // The options of a tool, which --help prints, in other forms.
 #pragma once
 
-#include "harness/cli.h"
+#include "harness/commands/cli.h"
 
 #include <string>
 

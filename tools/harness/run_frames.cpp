@@ -1,11 +1,14 @@
-#include "harness/frames.h"
+#include "base/error.h"
+#include "harness/commands/frames.h"
+#include "harness/commands/named_files.h"
+#include "harness/commands/stereo_commands.h"
 #include "harness/history.h"
-#include "harness/named_files.h"
 #include "harness/process.h"
 #include "harness/progress_lines.h"
 #include "harness/tool.h"
 #include "harness/up_to_date.h"
 #include "harness/words.h"
+#include "io/exr/stereo_views.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -48,6 +51,14 @@ void add_frame_options(CLI::App &app, FrameOptions &options) {
         ->group("Frames");
 }
 
+void explain_all_views(CLI::App &app) {
+    CLI::Option *option = app.get_option_no_throw("--stereo-view");
+    if (option)
+        option->description(
+            "Stereo view to read, e.g. right; all: one run for each view, whose name replaces %V in "
+            "the names of files (default: the file's first)");
+}
+
 // The command line of the tool at one frame, parsed.
 struct FrameCommand {
     CLI::App app;
@@ -61,6 +72,7 @@ struct FrameCommand {
         add_frame_options(app, frames);
         add_process_options(app, process);
         add_memory_option(app, process);
+        explain_all_views(app);
     }
 };
 
@@ -94,13 +106,11 @@ void run_frame(const FrameCommand &command, ToolContext &tool, FrameCount count,
     tool.progress->advance();
 }
 
-} // namespace
-
-int run_frames(const std::string &name, const std::string &description, int argc, char **argv,
-               const Prepare &prepare) {
+// All frames of one command line.
+int run_words(const std::string &name, const std::string &description, const std::vector<std::string> &words,
+              const Prepare &prepare) {
     std::optional<FrameCommands> commands;
-    int code =
-        exit_code_of(name, "", [&] { commands.emplace(std::vector<std::string>(argv + 1, argv + argc)); });
+    int code = exit_code_of(name, "", [&] { commands.emplace(words); });
     if (code != 0) return code;
     const std::size_t count = commands->size();
     const auto parse = [&](std::size_t i, CommandPtr &command) {
@@ -136,6 +146,37 @@ int run_frames(const std::string &name, const std::string &description, int argc
         worst = std::max(worst, code);
         if (code > 1 || (code == 1 && !first->frames.skip_bad_frames)) break;
     }
+    return worst;
+}
+
+// The views that the first input of the first frame names.
+std::vector<std::string> views_of_input(const std::string &name, const std::string &description,
+                                        const std::vector<std::string> &words, const Prepare &prepare) {
+    FrameCommand command(name, description, prepare);
+    parse_words(command.app, FrameCommands(words).words(0));
+    const std::vector<NamedFile> inputs = named_files(command.app).inputs;
+    const auto input = std::ranges::find_if(
+        inputs, [](const NamedFile &file) { return file.option == "IN" || file.option == "views"; });
+    if (input == inputs.end() || input->path == "-")
+        throw UsageError("--stereo-view all needs the name of the input, because it reads it once per view");
+    const std::vector<std::string> views = stereo_views(input->path);
+    if (views.empty()) throw Error(input->path + ": it names no stereo views; leave out --stereo-view all");
+    return views;
+}
+
+} // namespace
+
+int run_frames(const std::string &name, const std::string &description, int argc, char **argv,
+               const Prepare &prepare) {
+    const std::vector<std::string> words(argv + 1, argv + argc);
+    if (!asks_for_all_views(words)) return run_words(name, description, words, prepare);
+    std::vector<std::vector<std::string>> commands;
+    int worst = exit_code_of(name, "", [&] {
+        for (const std::string &view : views_of_input(name, description, words, prepare))
+            commands.push_back(words_for_view(words, view));
+    });
+    for (const auto &command : commands)
+        worst = std::max(worst, run_words(name, description, command, prepare));
     return worst;
 }
 

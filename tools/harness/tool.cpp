@@ -1,7 +1,7 @@
 #include "harness/tool.h"
 
+#include "harness/commands/named_files.h"
 #include "harness/history.h"
-#include "harness/named_files.h"
 #include "harness/one_line.h"
 #include "harness/process.h"
 #include "harness/progress_lines.h"

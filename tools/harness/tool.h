@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/progress.h"
-#include "harness/cli.h"
+#include "harness/commands/cli.h"
 
 #include <cstdint>
 #include <functional>

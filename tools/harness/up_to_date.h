@@ -1,7 +1,7 @@
 // Whether a frame needs no work (-u).
 #pragma once
 
-#include "harness/named_files.h"
+#include "harness/commands/named_files.h"
 
 #include <string>
 

@@ -6,14 +6,14 @@
 
 namespace sparselens {
 
-std::optional<Holdout> open_holdout(const std::string &path, const Windows &windows, int proxy_factor,
-                                    const OpenOptions &options) {
+std::optional<Ldi> open_holdout(const std::string &path, const Windows &windows, int proxy_factor,
+                                const OpenOptions &options) {
     if (path.empty()) return {};
     OpenedLdi in = open_ldi(path, options);
     if (in.ldi.windows.display != windows.display)
         throw Error(in.name + ": its display window differs from that of the picture it holds out; use a "
                               "holdout of the same size");
-    return Holdout(proxy_factor == 1 ? std::move(in.ldi) : proxy(in.ldi, proxy_factor));
+    return proxy_factor == 1 ? std::move(in.ldi) : proxy(in.ldi, proxy_factor);
 }
 
 } // namespace sparselens

@@ -1,5 +1,6 @@
 #include "options/accumulate_options.h"
 
+#include "harness/examples.h"
 #include "harness/words.h"
 #include "options/picture_options.h"
 
@@ -25,6 +26,8 @@ void add_accumulate_options(CLI::App &app, AccumulateOptions &options) {
     add_lens_options(app, options.lens);
     add_stereo_option(app, options.views.stereo_view);
     add_history_option(app, options.history);
+    add_examples(app, {{"Average views that say where their cameras stood",
+                        "dof-accumulate view_*.exr --center center.exr -o average.exr"}});
 }
 
 } // namespace sparselens

@@ -1,7 +1,7 @@
 // The command line of dof-accumulate.
 #pragma once
 
-#include "harness/cli.h"
+#include "harness/commands/cli.h"
 #include "harness/history.h"
 #include "options/lens_options.h"
 #include "options/lens_view_options.h"

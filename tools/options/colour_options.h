@@ -2,7 +2,7 @@
 #pragma once
 
 #include "deep/ldi.h"
-#include "harness/cli.h"
+#include "harness/commands/cli.h"
 #include "harness/tool.h"
 #include "io/display/colour.h"
 #include "view/view.h"

@@ -1,5 +1,6 @@
 #include "options/gather_options.h"
 
+#include "harness/examples.h"
 #include "harness/words.h"
 #include "options/only_with.h"
 #include "options/picture_options.h"
@@ -55,9 +56,13 @@ void add_gather_options(CLI::App &app, GatherCommand &options) {
     add_pixel_option(app, "--focus-pixel", options.focus_pixel,
                      "Focus on the front surface in this pixel, in EXR coordinates");
     app.add_option("--holdout", options.holdout,
-                   "Deep EXR that hides what is behind it; it stays sharp and is not shown itself")
+                   "Deep EXR that hides what is behind it and is not shown itself; it stays sharp")
         ->type_name("DEEP.exr")
         ->group(lens_group);
+    app.add_flag("--holdout-defocused", options.holdout_defocused,
+                 "The holdout is part of the scene and out of focus like the rest, rather than sharp")
+        ->group(lens_group)
+        ->needs("--holdout");
     app.add_option("--depth-out", options.depth_output, "Also write the depth of the front samples (EXR)")
         ->type_name("FILE");
     app.add_option("--channels", options.channels,
@@ -72,6 +77,16 @@ void add_gather_options(CLI::App &app, GatherCommand &options) {
     add_window_options(app, options.windows);
     add_history_option(app, options.history);
     app.get_option("--focus-pixel")->excludes("--focus-distance");
+    add_examples(
+        app,
+        {{"Make the picture through the lens that the file describes", "dof-gather ldi.exr -o picture.exr"},
+         {"Focus on what pixel 100,60 shows, stop down, and write a PNG",
+          "dof-gather ldi.exr -o picture.png --focus-pixel 100,60 --fstop 2"},
+         {"Pull the focus over 12 frames",
+          "dof-gather ldi.exr -o pull.####.exr --frames 1-12 --focus-distance 1:2.0,12:5.0"},
+         {"Defocus one flat render that does not describe its lens",
+          "dof-gather beauty.exr -o picture.exr --focal-length 35 --sensor-width 36 --fstop 0.5 "
+          "--focus-distance 5"}});
     app.final_callback([&app, &options] { check(app, options); });
 }
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "dof/methods.h"
-#include "harness/cli.h"
+#include "harness/commands/cli.h"
 #include "harness/history.h"
 #include "options/colour_options.h"
 #include "options/lens_options.h"
@@ -23,6 +23,7 @@ struct GatherCommand {
     GatherOptions gather;
     const GatherMethod *method = &gather_methods().front();
     std::string input, output, depth_output, channels, holdout;
+    bool holdout_defocused = false;
     std::optional<Imath::V2i> focus_pixel;
     std::optional<PixelType> type; // -d
     Show show = Show::picture;

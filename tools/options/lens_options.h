@@ -1,7 +1,7 @@
 // The lens options that every tool shares.
 #pragma once
 
-#include "harness/cli.h"
+#include "harness/commands/cli.h"
 #include "io/open_options.h"
 
 #include <string>

@@ -2,7 +2,7 @@
 // --view X,Y VIEW.exr, moved X right and Y up of the lens centre (scene units).
 #pragma once
 
-#include "harness/cli.h"
+#include "harness/commands/cli.h"
 
 #include <string>
 #include <utility>

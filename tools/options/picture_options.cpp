@@ -54,8 +54,14 @@ void add_method_option(CLI::App &app, const GatherMethod *&method) {
         throw CLI::ValidationError("--method",
                                    fmt::format("must be one of {}, not '{}'", fmt::join(names, ", "), text));
     };
-    app.add_option_function<std::string>("--method", read,
-                                         fmt::format("Gather method (default: {})", names.front()))
+    app.add_option_function<std::string>(
+           "--method", read,
+           fmt::format("Gather method. lens: what hides what is decided for every "
+                       "point of the lens; selective: a few blurred layers per pixel, "
+                       "the published method; scatter: each sample spread exactly, a "
+                       "slow check of selective that takes minutes where the blur is "
+                       "large (default: {})",
+                       names.front()))
         ->type_name(fmt::format("{}", fmt::join(names, "|")));
 }
 

@@ -3,7 +3,7 @@
 
 #include "base/image.h"
 #include "dof/methods.h"
-#include "harness/cli.h"
+#include "harness/commands/cli.h"
 
 #include <optional>
 #include <string>

@@ -1,5 +1,7 @@
 #include "options/plan_options.h"
 
+#include "harness/examples.h"
+
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
@@ -31,6 +33,8 @@ void add_plan_options(CLI::App &app, PlanCommand &options) {
         ->check(number("a number of at least 0", {.zero_allowed = true}));
     add_lens_options(app, options.lens);
     add_depth_options(app, options.depth);
+    add_examples(app, {{"Plan at most four views, and write a mask for each",
+                        "ldi-plan center.exr -o plan.json --masks masks"}});
 }
 
 } // namespace sparselens

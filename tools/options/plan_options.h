@@ -1,7 +1,7 @@
 // The command line of ldi-plan.
 #pragma once
 
-#include "harness/cli.h"
+#include "harness/commands/cli.h"
 #include "options/lens_options.h"
 #include "plan/plan.h"
 

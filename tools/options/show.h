@@ -4,7 +4,7 @@
 
 #include "deep/ldi.h"
 #include "dof/lens/lens_tiles.h"
-#include "harness/cli.h"
+#include "harness/commands/cli.h"
 #include "lens/thin_lens.h"
 
 namespace sparselens {

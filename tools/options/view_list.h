@@ -1,7 +1,7 @@
 // The views on a command line: CENTER.exr [VIEW.exr ...] [--view X,Y VIEW.exr]...
 #pragma once
 
-#include "harness/cli.h"
+#include "harness/commands/cli.h"
 
 #include <string>
 #include <utility>

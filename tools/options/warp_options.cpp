@@ -1,5 +1,6 @@
 #include "options/warp_options.h"
 
+#include "harness/examples.h"
 #include "harness/words.h"
 
 #include <CLI/CLI.hpp>
@@ -38,6 +39,13 @@ void add_warp_options(CLI::App &app, WarpCommand &options) {
     add_depth_options(app, options.depth);
     add_input_colour_options(app, options.colour);
     add_history_option(app, options.history);
+    add_examples(
+        app, {{"Warp views that say where their cameras stood", "ldi-warp center.exr view_*.exr -o ldi.exr"},
+              {"Warp views that do not, of a lens that they do not describe either",
+               "ldi-warp center.exr --view 0.06,0 right.exr --view -0.06,0 left.exr -o ldi.exr "
+               "--focal-length 36 --sensor-width 36 --lens-radius 0.06 --focus-distance 5"},
+              {"Warp, cluster and gather in a pipe",
+               "ldi-warp center.exr view_*.exr -o - | ldi-cluster - -o - | dof-gather - -o picture.exr"}});
 }
 
 } // namespace sparselens

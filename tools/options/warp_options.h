@@ -1,7 +1,7 @@
 // The command line of ldi-warp.
 #pragma once
 
-#include "harness/cli.h"
+#include "harness/commands/cli.h"
 #include "harness/history.h"
 #include "options/colour_options.h"
 #include "options/lens_options.h"

@@ -1,7 +1,7 @@
 // The pixels that a tool makes, and their size.
 #pragma once
 
-#include "harness/cli.h"
+#include "harness/commands/cli.h"
 
 #include <Imath/ImathBox.h>
 

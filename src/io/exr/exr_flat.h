@@ -22,12 +22,12 @@ struct FlatFile {
     std::vector<std::string> warnings = {}; // what is hardly meant
 };
 
-// The flat parts of one view of the file as one picture: the beauty (by the name of the part, else the first part),
-// then all other parts of the same display window. The data window contains those of all parts; outside its own, a
-// part is 0, which as a depth is that of nothing. Parts that are not used are named in the warnings. A channel whose name is taken becomes one of the layer of its part. An
-// If nothing is named R, G or B, the layer with
-// the name of a beauty is (exr_beauty.h: ViewLayer.Combined, Ci). An empty `stereo_view` is the default view of the file (see exr_parts.h). A missing A is made of AR, AG and AB (see
-// channel_alpha.h).
+// The flat parts of one view of the file as one picture: the beauty (by the name of the part, else the first part), then
+// all other parts of the same display window. The data window contains those of all parts; outside its own, a part is 0,
+// which as a depth is that of nothing. Parts that are not used are named in the warnings. A channel whose name is taken
+// becomes one of the layer of its part. If nothing is named R, G or B, the layer with the name of a beauty is taken for it
+// (exr_beauty.h: ViewLayer.Combined, Ci). An empty `stereo_view` is the default view of the file (see exr_parts.h). A
+// missing A is made of AR, AG and AB (see channel_alpha.h).
 FlatFile read_flat_exr(const std::string &path, const std::string &stereo_view = {});
 // The header of the part with the beauty, without reading pixels.
 Imf::Header read_flat_header(const std::string &path, const std::string &stereo_view = {});

@@ -1,5 +1,6 @@
 #include "lab/reporting/options.h"
 
+#include "harness/examples.h"
 #include "lab/tracing/trace_options.h"
 
 #include <CLI/CLI.hpp>
@@ -37,6 +38,10 @@ void add_report_options(CLI::App &app, ReportOptions &options) {
                    "with --quick 1)")
         ->type_name("N")
         ->check(CLI::Range(1, 1000));
+    add_examples(
+        app,
+        {{"Measure small pictures of one scene, in under a minute", "dof-report fence --quick -o report"},
+         {"Measure your own views, which have a reference and a camera.json", "dof-report shot -o report"}});
 }
 
 Budgets budgets_of(const ReportOptions &options) {

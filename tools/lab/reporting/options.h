@@ -1,7 +1,7 @@
 // The command line of dof-report.
 #pragma once
 
-#include "harness/cli.h"
+#include "harness/commands/cli.h"
 #include "lab/reporting/runner.h"
 #include "lab/reporting/systems.h"
 

@@ -1,6 +1,7 @@
 #include "lab/tracing/trace_options.h"
 
 #include "base/error.h"
+#include "harness/examples.h"
 #include "harness/words.h"
 #include "lab/trace/scenes.h"
 
@@ -138,6 +139,10 @@ void add_trace_options(CLI::App &app, TraceOptions &options) {
     add_picture_options(app, options);
     add_rendering_options(app, options);
     add_lens_options(app, options.lens);
+    add_examples(app,
+                 {{"Render the centre view and four from the rim of the lens", "dof-trace fence -o views"},
+                  {"Render a reference of 256 rays per pixel, too, in a small picture",
+                   "dof-trace grass -o small --size 160x90 --reference 256"}});
 }
 
 RenderSettings render_settings(const TraceOptions &options, const Camera &camera) {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/image.h"
-#include "harness/cli.h"
+#include "harness/commands/cli.h"
 #include "lab/trace/render.h"
 #include "options/lens_options.h"
 

@@ -1,8 +1,8 @@
-#include "harness/frames.h"
+#include "harness/commands/frames.h"
 
 #include "base/error.h"
 #include "base/text.h"
-#include "harness/named_files.h"
+#include "harness/commands/named_files.h"
 
 #include <OpenImageIO/filesystem.h>
 #include <fmt/format.h>

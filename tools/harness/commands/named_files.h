@@ -1,7 +1,7 @@
 // Which files a command line reads and which it writes: the one table of the options whose values are files.
 #pragma once
 
-#include "harness/cli.h"
+#include "harness/commands/cli.h"
 
 #include <span>
 #include <string>

@@ -1,4 +1,4 @@
-#include "harness/keys.h"
+#include "harness/commands/keys.h"
 
 #include "base/error.h"
 #include "io/files/text_file.h"

@@ -1,4 +1,4 @@
-#include "harness/named_files.h"
+#include "harness/commands/named_files.h"
 
 #include "base/error.h"
 #include "base/text.h"

@@ -1,5 +1,5 @@
 #include "base/error.h"
-#include "harness/frames.h"
+#include "harness/commands/frames.h"
 #include "harness/progress_lines.h"
 #include "support/scratch_folder.h"
 

@@ -6,7 +6,7 @@
 // for the value at the frame; @keys.txt after a lens option stands for the keys in that file.
 #pragma once
 
-#include "harness/keys.h"
+#include "harness/commands/keys.h"
 
 #include <optional>
 #include <string>

@@ -1,0 +1,37 @@
+#!/bin/bash
+# The examples of --help: every tool has some, the manual page has the same, and each runs as it stands.
+. "$(dirname "$0")/check.sh"
+export PATH=$bin:$PATH
+
+dof-trace fence --size 160x90 --spp 1 --views 2 -o .
+dof-trace fence --size 160x90 --spp 1 --views 0 --reference 1 -o traced
+cp traced/reference.exr reference.exr
+cp view_0.exr right.exr
+cp view_1.exr left.exr
+cp center.exr beauty.exr
+ldi-warp center.exr view_*.exr -o ldi.exr
+cp ldi.exr front.exr
+cp ldi.exr back.exr
+dof-gather ldi.exr -o picture.exr
+rm -r traced
+
+# What takes long has a script of its own, which runs it smaller, or needs what is not here.
+elsewhere='^dof-report '
+ran=0
+for tool in "$bin"/dof-* "$bin"/ldi-*; do
+    name=$(basename "$tool")
+    "$tool" --help | sed -n '/^Examples:/,$p' | sed -n 's/^      //p' >commands
+    [ -s commands ] || fail "$name --help shows no example"
+    grep -Ev "(^| )$name " commands && fail "these examples of $name do not use it"
+    "$tool" --man | sed -n '/^\.SH EXAMPLES/,$p' | sed 's/\\//g; s/\.br//' >page
+    while IFS= read -r command; do
+        grep -qF -e "${command%%|*}" page || fail "the manual page of $name lacks: $command"
+        [[ $command =~ $elsewhere ]] && continue
+        mkdir run
+        cp -- *.exr run
+        (cd run && bash -ec "$command" >said 2>&1) || fail "$command: $(cat run/said)"
+        rm -r run
+        ran=$((ran + 1))
+    done <commands
+done
+[ "$ran" -ge 15 ] || fail "only $ran examples were run"

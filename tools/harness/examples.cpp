@@ -1,0 +1,23 @@
+#include "harness/examples.h"
+
+#include <CLI/CLI.hpp>
+
+namespace sparselens {
+
+namespace {
+const std::string heading = "Examples:\n";
+}
+
+void add_examples(CLI::App &app, std::initializer_list<Example> examples) {
+    std::string text = heading;
+    for (const auto &[purpose, command] : examples)
+        text += std::string("  ") + purpose + ":\n      " + command + "\n";
+    app.footer(text);
+}
+
+std::string examples_text(const CLI::App &app) {
+    const std::string text = app.get_footer();
+    return text.starts_with(heading) ? text.substr(heading.size()) : "";
+}
+
+} // namespace sparselens
