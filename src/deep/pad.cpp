@@ -5,6 +5,10 @@
 
 namespace sparselens {
 
+namespace {
+constexpr double sharp = 0.5; // pixels; a smaller CoC spreads nothing (lens_gather.h)
+}
+
 Ldi padded(Ldi ldi, const Imath::Box2i &data) {
     Windows windows = ldi.windows;
     windows.data.extendBy(data);
@@ -21,10 +25,25 @@ Ldi padded(Ldi ldi, const Imath::Box2i &data) {
     return ldi;
 }
 
-Imath::V2i largest_reach(const Ldi &ldi, const ThinLens &lens) {
-    double largest = 0;
-    for (const float z : ldi.z) largest = std::max(largest, std::abs(circle_of_confusion(lens, z)));
-    return {int(std::ceil(largest)) + 1, int(std::ceil(largest * lens.pixel_aspect)) + 1};
+Imath::Box2i reached_display(const Ldi &ldi, const ThinLens &lens) {
+    const Imath::Box2i &display = ldi.windows.display;
+    Imath::Box2d reached;
+    for (std::size_t pixel = 0; pixel < ldi.windows.pixels(); ++pixel) {
+        double largest = 0; // of the CoCs in this pixel
+        for (const std::uint64_t i : ldi.pixel(pixel))
+            largest = std::max(largest, std::abs(circle_of_confusion(lens, ldi.z[i])));
+        if (largest < sharp) continue;
+        const Imath::V2d at(ldi.windows.pixel(pixel)),
+            reach(std::ceil(largest) + 1, std::ceil(largest * lens.pixel_aspect) + 1);
+        reached.extendBy(Imath::Box2d(at - reach, at + reach));
+    }
+    Imath::Box2i box;
+    for (int axis = 0; axis < 2; ++axis) {
+        if (reached.max[axis] < display.min[axis] || reached.min[axis] > display.max[axis]) return {};
+        box.min[axis] = int(std::max(reached.min[axis], double(display.min[axis])));
+        box.max[axis] = int(std::min(reached.max[axis], double(display.max[axis])));
+    }
+    return box;
 }
 
 } // namespace sparselens

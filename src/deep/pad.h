@@ -1,4 +1,4 @@
-// An LDI with padding around it, and the padding that a lens needs.
+// An LDI with padding around it, and the pixels that a lens spreads it over.
 #pragma once
 
 #include "../lens/thin_lens.h"
@@ -9,7 +9,8 @@ namespace sparselens {
 // The LDI with its data window grown to contain `data`; the new pixels are empty.
 Ldi padded(Ldi ldi, const Imath::Box2i &data);
 
-// How far the lens spreads its samples at most, in pixels across and down: the largest |c|, rounded up.
-Imath::V2i largest_reach(const Ldi &ldi, const ThinLens &lens);
+// The pixels of the display window that the lens spreads samples over, each by its own CoC, from half a pixel on. Empty
+// where there are none.
+Imath::Box2i reached_display(const Ldi &ldi, const ThinLens &lens);
 
 } // namespace sparselens

@@ -74,12 +74,28 @@ TEST(Proxy, KeepsWhatIsHidden) {
     EXPECT_NEAR(out.dx[0], 0, 1e-6);
 }
 
-TEST(LargestReach, IsTheLargestBlur) {
-    Ldi ldi = make_ldi(windows_of_size(1, 1), rgba_channels(), [](int, int) {
-        return std::vector<Sample>{{depth_of(lens, -3.5), {1, 1, 1, 0.5f}},
-                                   {depth_of(lens, 2), {1, 1, 1, 1}}};
+// A pixel of CoC -3.5 and 2, one of CoC 0.9 and one that is sharp, 20 pixels apart: each spreads by its own.
+TEST(ReachedDisplay, IsWhatEachSampleIsSpreadOver) {
+    Windows windows = moved(30, 10, 41, 1);
+    windows.display = Imath::Box2i({0, 0}, {99, 12});
+    const auto columns = [&](double left, double middle, double right) {
+        return make_ldi(windows, rgba_channels(), [&](int x, int) {
+            std::vector<Sample> samples;
+            if (x == 30)
+                samples = {{depth_of(lens, left), {1, 1, 1, 0.5f}}, {depth_of(lens, 2), {1, 1, 1, 1}}};
+            if (x == 50) samples = {{depth_of(lens, middle), {1, 1, 1, 1}}};
+            if (x == 70) samples = {{depth_of(lens, right), {1, 1, 1, 1}}};
+            return samples;
+        });
+    };
+    EXPECT_EQ(reached_display(columns(-3.5, 0.9, 0.4), lens), Imath::Box2i({25, 5}, {52, 12}));
+    EXPECT_EQ(reached_display(columns(-3.5, 0.9, 1.5), lens), Imath::Box2i({25, 5}, {73, 12}));
+    EXPECT_EQ(reached_display(columns(-60, 0.9, 0.4), lens),
+              Imath::Box2i({0, 0}, {91, 12})); // and no farther
+    const Ldi sharp = make_ldi(windows, rgba_channels(), [](int, int) {
+        return std::vector<Sample>{{5, {1, 1, 1, 1}}};
     });
-    EXPECT_EQ(largest_reach(ldi, lens), Imath::V2i(5, 5));
+    EXPECT_TRUE(reached_display(sharp, lens).isEmpty());
 }
 
 } // namespace

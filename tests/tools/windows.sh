@@ -11,9 +11,11 @@ exits 0 "$bin/dof-gather" ldi.exr -o full.exr
 expect_window full.exr dataWindow '(-8 -8) - (167 103)'
 expect_window full.exr displayWindow '(0 0) - (159 95)'
 
-# --overscan crop: the display window; keep is the default.
-exits 0 "$bin/dof-gather" ldi.exr -o keep.exr --overscan keep
-same keep.exr full.exr "--overscan keep"
+# A picture that fills its display window is the same with and without growth. --overscan crop: the display window.
+for overscan in keep grow; do
+    exits 0 "$bin/dof-gather" ldi.exr -o $overscan.exr --overscan $overscan
+    cmp -s $overscan.exr full.exr || fail "--overscan $overscan"
+done
 exits 0 "$bin/dof-gather" ldi.exr -o crop.exr --overscan crop
 expect_window crop.exr dataWindow '(0 0) - (159 95)'
 oiiotool full.exr --crop 0,0,159,95 -o expected.exr
@@ -49,17 +51,32 @@ psnr=$(sed -nE 's/.*"psnr_tonemapped": *([0-9.]+).*/\1/p' stdout | head -1)
 [ "${psnr%.*}" -ge 30 ] || fail "--proxy 2 is $psnr dB from the reduced picture"
 fails_saying 2 '--proxy' "$bin/dof-gather" ldi.exr -o x.exr --proxy 0
 
-# --overscan grow: an element whose data window is tight in an empty frame keeps its light, and its blur its shape.
+# --overscan: an element whose data window is tight in an empty frame keeps its light, and its blur its shape, unless
+# its pixels are kept. It grows by its own blur, and where it is sharp not at all.
 oiiotool --pattern constant:color=0.5,0.25,1,1,2 12x12 5 --chnames R,G,B,A,Z --origin +40+30 --fullsize 100x80 -d float \
     -o element.exr
-lens=(--focal-length 50 --sensor-width 36 --lens-radius 0.05 --focus-distance 4 -d float) # CoC 1.7 px of 100
-exits 0 "$bin/dof-gather" element.exr -o tight.exr "${lens[@]}"
+focal=(--focal-length 50 --sensor-width 36 -d float)
+lens=("${focal[@]}" --lens-radius 0.05 --focus-distance 4) # CoC 1.7 px of 100
+exits 0 "$bin/dof-gather" element.exr -o tight.exr "${lens[@]}" --overscan keep
 expect_window tight.exr dataWindow '(40 30) - (51 41)'
-exits 0 "$bin/dof-gather" element.exr -o grown.exr "${lens[@]}" --overscan grow
+exits 0 "$bin/dof-gather" element.exr -o grown.exr "${lens[@]}" --depth-out depth.exr
 expect_window grown.exr dataWindow '(37 27) - (54 44)'
+expect_window depth.exr dataWindow '(37 27) - (54 44)'
+exits 0 "$bin/dof-gather" element.exr -o named.exr "${lens[@]}" --overscan grow
+cmp -s grown.exr named.exr || fail "--overscan grow is not the default"
 oiiotool grown.exr --fullpixels --printstats >stats
 awk '/Stats Avg/ {found = 1; sum = $6 * 18 * 18; if (sum < 142 || sum > 146) exit 1} END {exit !found}' stats ||
     fail "--overscan grow does not keep the light: $(cat stats)"
+exits 0 "$bin/dof-gather" element.exr -o sharp.exr "${focal[@]}" --lens-radius 0.05 --focus-distance 2
+expect_window sharp.exr dataWindow '(40 30) - (51 41)'
+exits 0 "$bin/dof-gather" element.exr -o sharp.exr --lens-radius 0
+expect_window sharp.exr dataWindow '(40 30) - (51 41)'
+exits 0 "$bin/dof-gather" element.exr -o grown.exr "${focal[@]}" --lens-radius 5 --focus-distance 4 # CoC 174 px: all of the display window
+expect_window grown.exr dataWindow '(0 0) - (99 79)'
+for method in selective scatter; do
+    exits 0 "$bin/dof-gather" element.exr -o grown.exr "${lens[@]}" --method $method
+    expect_window grown.exr dataWindow '(37 27) - (54 44)'
+done
 
 # --holdout: what is behind it goes, at its edge from one pixel to the next; what is in front stays.
 oiiotool --pattern constant:color=0.5,0.5,0.5,1,20 40x20 5 --chnames R,G,B,A,Z -d float -o wall.exr
@@ -89,7 +106,7 @@ fails_saying 2 'holdout' "$bin/dof-gather" wall.exr -o x.exr "${lens[@]}" --hold
 # A display window of billions of pixels around a few: nothing that fills it is made of a small file.
 oiiotool --pattern constant:color=0.5,0.5,0.5,1,4 16x16 5 --chnames R,G,B,A,Z --fullsize 60000x60000+0+0 -o vast.exr
 vast() { "$bin/dof-gather" vast.exr --focal-length 50 --sensor-width 36 --focus-distance 2 "$@"; }
-exits 0 vast --lens-radius 0.1 -o x.exr
-exits 0 vast --lens-radius 0.001 --overscan grow -o x.exr
-fails_saying 1 'vast.exr.*memory.*--max-memory' vast --lens-radius 0.1 --overscan grow -o grown.exr
-fails_saying 1 'x.png.*memory.*--max-memory' vast --lens-radius 0.1 -o x.png
+exits 0 vast --lens-radius 0.1 --overscan keep -o x.exr
+exits 0 vast --lens-radius 0.001 -o x.exr
+fails_saying 1 'vast.exr.*memory.*--max-memory.*--overscan=keep' vast --lens-radius 0.1 -o grown.exr
+fails_saying 1 'x.png.*memory.*--max-memory' vast --lens-radius 0.1 --overscan keep -o x.png

@@ -21,12 +21,9 @@ Imath::Box2i common(const Imath::Box2i &a, const Imath::Box2i &b, const char *wh
     return box;
 }
 
-// `data` grown by `reach` where there is display window beyond it.
-Imath::Box2i grown(const Imath::Box2i &data, const Imath::V2i &reach, const Imath::Box2i &display) {
-    return {{std::min(data.min.x, std::max(display.min.x, data.min.x - reach.x)),
-             std::min(data.min.y, std::max(display.min.y, data.min.y - reach.y))},
-            {std::max(data.max.x, std::min(display.max.x, data.max.x + reach.x)),
-             std::max(data.max.y, std::min(display.max.y, data.max.y + reach.y))}};
+// Whether no display window lies beyond `data`.
+bool holds(const Imath::Box2i &data, const Imath::Box2i &display) {
+    return data.intersects(display.min) && data.intersects(display.max);
 }
 
 // A few near samples in a huge display window may require a picture of gigabytes.
@@ -34,8 +31,22 @@ void check_growth(const OpenedLdi &in, const Ldi &ldi, const Imath::Box2i &windo
     const double pixels =
         (double(window.max.x) - window.min.x + 1) * (double(window.max.y) - window.min.y + 1);
     const std::size_t channels = ldi.channels.size() * sizeof(float), offset = sizeof(ldi.begin[0]);
-    check_memory(in.name, pixels * double(channels + offset),
-                 ldi.samples() * channels + ldi.windows.pixels() * offset);
+    try {
+        check_memory(in.name, pixels * double(channels + offset),
+                     ldi.samples() * channels + ldi.windows.pixels() * offset);
+    } catch (const Error &e) {
+        throw Error(fmt::format("{}; --overscan=keep cuts the blur off at the data window", e.what()));
+    }
+}
+
+// `ldi` with its pixels as far as the blur reaches into the display window, which becomes part of `picture`; empty if
+// it reaches nothing beyond `picture`.
+std::optional<Ldi> grown(const OpenedLdi &in, const Ldi &ldi, const ThinLens &lens, Imath::Box2i &picture) {
+    const Imath::Box2i before = picture;
+    if (lens.radius > 0 && !holds(picture, ldi.windows.display)) picture.extendBy(reached_display(ldi, lens));
+    if (picture == before) return {};
+    check_growth(in, ldi, picture);
+    return padded(ldi, picture);
 }
 
 } // namespace
@@ -45,11 +56,8 @@ GatherWindows gather_windows(const WindowOptions &options, const OpenedLdi &in, 
     GatherWindows frame{reduced(read_picture_window(in.header), options.proxy), {}, {}};
     if (options.proxy > 1) frame.changed = proxy(in.ldi, options.proxy);
     const auto made = [&]() -> const Ldi & { return frame.changed ? *frame.changed : in.ldi; };
-    if (options.overscan == OutputOverscan::grow && lens.radius > 0) {
-        frame.gathered = grown(frame.gathered, largest_reach(made(), lens), made().windows.display);
-        check_growth(in, made(), frame.gathered);
-        frame.changed = padded(made(), frame.gathered);
-    }
+    if (options.overscan == OutputOverscan::grow)
+        if (auto padded = grown(in, made(), lens, frame.gathered)) frame.changed = std::move(padded);
     frame.written = frame.gathered;
     if (options.overscan == OutputOverscan::crop)
         frame.written = common(frame.written, made().windows.display, "--overscan crop: the display window");

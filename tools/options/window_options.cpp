@@ -29,12 +29,13 @@ std::optional<Imath::Box2i> parse_box(const std::string &text) {
 
 void add_window_options(CLI::App &app, WindowOptions &options) {
     const std::map<std::string, OutputOverscan> overscans{
-        {"keep", OutputOverscan::keep}, {"grow", OutputOverscan::grow}, {"crop", OutputOverscan::crop}};
-    app.add_option("--overscan", options.overscan,
-                   "Pixels to make. keep: those of the file; grow: also those of the display window that the "
-                   "blur reaches; "
-                   "crop: those in the display window (default: keep)")
-        ->type_name("keep|grow|crop")
+        {"grow", OutputOverscan::grow}, {"keep", OutputOverscan::keep}, {"crop", OutputOverscan::crop}};
+    app.add_option(
+           "--overscan", options.overscan,
+           "Pixels to make. grow: those of the file, and as far into an empty display window as the "
+           "blur reaches; keep: those of the file, where the blur is cut off; crop: those of the file "
+           "that lie in the display window (default: grow)")
+        ->type_name("grow|keep|crop")
         ->transform(words(overscans))
         ->group("Windows");
     app.add_option("--proxy", options.proxy, "Make a picture of 1/N the size (default: 1)")

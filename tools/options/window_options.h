@@ -10,13 +10,13 @@
 namespace sparselens {
 
 enum class OutputOverscan {
-    keep, // the pixels of the file
-    grow, // also those of the display window that the blur reaches; around the data window there is nothing
-    crop, // those in the display window
+    grow, // those of the file and those of the display window that the blur reaches; around the data window is nothing
+    keep, // those of the file
+    crop, // those of the file that lie in the display window
 };
 
 struct WindowOptions {
-    OutputOverscan overscan = OutputOverscan::keep;
+    OutputOverscan overscan = OutputOverscan::grow;
     int proxy = 1;                      // this number of pixels, across and down, becomes one
     std::optional<Imath::Box2i> region; // in the full-size picture
 };
