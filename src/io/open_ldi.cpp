@@ -5,6 +5,7 @@
 #include "io/exr/exr_deep.h"
 #include "io/files/file_stream.h"
 #include "view/depth_reader.h"
+#include "warp/edge_depths.h"
 
 #include <algorithm>
 
@@ -35,6 +36,8 @@ OpenedLdi open_ldi(const std::string &path, const OpenOptions &options) {
     opened.camera = camera_with_options(options.lens, read_camera(opened.header));
     make_planar(opened.ldi, options.depth, opened.camera);
     opened.bad = sanitize(opened.ldi, opened.name);
+    if (const std::size_t settled = file.deep ? 0 : settle_edge_depths(opened.ldi))
+        opened.notes.push_back(edge_note(settled));
     const std::size_t in_file = opened.ldi.samples();
     opened.ldi = tidy(std::move(opened.ldi));
     opened.invisible = in_file - std::min(in_file, opened.ldi.samples());

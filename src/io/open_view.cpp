@@ -5,6 +5,7 @@
 #include "io/exr/exr_flat.h"
 #include "io/files/file_stream.h"
 #include "view/depth_reader.h"
+#include "warp/edge_depths.h"
 
 namespace sparselens {
 
@@ -40,6 +41,7 @@ OpenedView open_view(const std::string &path, const OpenOptions &options, const 
     const DepthReader read(view.image.windows, options.depth.meaning, options.depth.far, frustum);
     for (std::size_t i = 0; i < view.z.size(); ++i) view.z[i] = read.planar(view.z[i], i);
     opened.bad = sanitize(view);
+    if (const std::size_t settled = settle_edge_depths(view)) opened.notes.push_back(edge_note(settled));
     return opened;
 }
 

@@ -42,15 +42,24 @@ protected:
 };
 
 TEST_F(Opened, PlanarDepthComesAsItIs) {
-    write({1, 2.5f, 1e9f, inf}, {1, 1, 0.5f, 1});
+    write({1, 2.5f, 1e9f, inf}, {1, 1, 1, 1});
     EXPECT_EQ(depths_of_view(), (std::vector<float>{1, 2.5f, 1e9f, inf}));
     EXPECT_EQ(depths_of_ldi(), (std::vector<float>{1, 2.5f, 1e9f, inf}));
 }
 
 TEST_F(Opened, SkyIsInfinitelyFar) {
-    write({1, 65504, 1e10f, 1e30f}, {1, 1, 0.5f, 1});
+    write({1, 65504, 1e10f, 1e30f}, {1, 1, 1, 1});
     EXPECT_EQ(depths_of_view(), (std::vector<float>{1, inf, inf, inf}));
     EXPECT_EQ(depths_of_ldi(), (std::vector<float>{1, inf, inf, inf}));
+}
+
+// As a renderer writes the edge of an element over nothing.
+TEST_F(Opened, PartlyCoveredPixelsOfTheSkyTakeTheDepthBesideThem) {
+    write({4, 1e10f, 1e10f, 5}, {1, 0.5f, 0, 1});
+    EXPECT_EQ(depths_of_view(), (std::vector<float>{4, 4, inf, 5}));
+    EXPECT_EQ(depths_of_ldi(), (std::vector<float>{4, 4, 5}));
+    EXPECT_EQ(open_view(path).notes.back(), "1 pixel on an edge takes the depth of the surface it shows");
+    EXPECT_EQ(open_ldi(path).notes.back(), "1 pixel on an edge takes the depth of the surface it shows");
 }
 
 TEST_F(Opened, ZeroSaysThatNothingWasHit) {

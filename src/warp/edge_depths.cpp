@@ -1,0 +1,231 @@
+#include "warp/edge_depths.h"
+
+#include "base/parallel.h"
+#include "warp/unmixing.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace sparselens {
+
+namespace {
+
+constexpr float far_beyond = 16;          // times the depth of what is beside
+constexpr double sky = 1e10;              // what renderers write of it, which a filter mixes in
+constexpr double same_depth = 0.02;       // relative
+constexpr double worth_of_coverage = 0.1; // against a relative difference of colours
+constexpr double apart = 1.1;             // two surfaces: the ratio of their depths, at least
+constexpr double clearly_mixed = 0.05;    // of either surface, at least, in a depth
+constexpr double same_share = 0.15;       // of a surface, in depth and in colour
+constexpr double largest_mix_residual =
+    0.15;                            // distance of the colour from the line between the two, see unmix()
+constexpr double least_mixed = 0.08; // of edges: filtered depth has 0.18 and more, other has up to 0.04
+
+// A picture of one sample in each pixel.
+struct Pixels {
+    Grid grid; // from its corner
+    std::array<std::span<const float>, 3> rgb;
+    std::span<const float> alpha; // empty: opaque
+    std::span<const float> z;
+
+    float coverage(std::size_t i) const { return alpha.empty() ? 1 : alpha[i]; }
+    bool shows_surface(std::size_t i) const { return coverage(i) > 0 && std::isfinite(z[i]); }
+    Imath::V3d colour(std::size_t i) const {
+        const auto value = [&](std::size_t k) { return rgb[k].empty() ? 0 : double(rgb[k][i]); };
+        return {value(0), value(1), value(2)};
+    }
+};
+
+// Without coverage, relative to their size: [0, 1] of light that is not negative.
+double colour_difference(const Pixels &pixels, std::size_t a, std::size_t b) {
+    const Imath::V3d of_a = pixels.colour(a) / double(pixels.coverage(a)),
+                     of_b = pixels.colour(b) / double(pixels.coverage(b));
+    double off = 0, light = 1e-6; // both dark: no difference
+    for (int k = 0; k < 3; ++k) {
+        off += std::abs(of_a[k] - of_b[k]);
+        light += std::abs(of_a[k]) + std::abs(of_b[k]);
+    }
+    return off / light;
+}
+
+// What the pixels around a partly covered one say of its depth.
+struct Surroundings {
+    float farthest = 0; // of those that cover more
+    float best = 0;     // the depth of that which explains it best; 0: there is none
+};
+
+Surroundings look_around(const Pixels &pixels, int x, int y, int reach) {
+    const Grid &grid = pixels.grid;
+    const std::size_t own = grid.index(x, y);
+    const bool own_shows = pixels.shows_surface(own);
+    Surroundings found;
+    double least = std::numeric_limits<double>::infinity();
+    for (int v = std::max(y - reach, 0); v <= std::min(y + reach, grid.height() - 1); ++v)
+        for (int u = std::max(x - reach, 0); u <= std::min(x + reach, grid.width() - 1); ++u) {
+            const std::size_t other = grid.index(u, v);
+            if (other == own || !pixels.shows_surface(other)) continue;
+            if (own_shows && !(pixels.coverage(other) > pixels.coverage(own))) continue;
+            found.farthest = std::max(found.farthest, pixels.z[other]);
+            const double cost = colour_difference(pixels, own, other) +
+                                worth_of_coverage * (1 - double(pixels.coverage(other)));
+            if (cost >= least) continue;
+            least = cost;
+            found.best = pixels.z[other];
+        }
+    return found;
+}
+
+std::optional<float> depth_of_partly_covered(const Pixels &pixels, int x, int y) {
+    const std::size_t own = pixels.grid.index(x, y);
+    const float z = pixels.z[own];
+    for (const int reach : {1, 2}) {
+        const Surroundings around = look_around(pixels, x, y, reach);
+        if (around.best == 0) continue;
+        const double of_zeros = double(pixels.coverage(own)) * double(around.best);
+        const bool wrong =
+            z > far_beyond * around.farthest || std::abs(double(z) - of_zeros) < same_depth * of_zeros;
+        if (!wrong || std::abs(z - around.best) < same_depth * around.best) return {};
+        return around.best;
+    }
+    return {};
+}
+
+// Two pixels on opposite sides of another, of surfaces that are clearly apart, and how much of the nearer one is in
+// the depth of the pixel between.
+struct Sides {
+    std::size_t near, far;
+    double share;
+};
+
+std::optional<Sides> sides_of(const Pixels &pixels, int x, int y, const Imath::V2i &step) {
+    const Grid &grid = pixels.grid;
+    if (!grid.contains(x - step.x, y - step.y) || !grid.contains(x + step.x, y + step.y)) return {};
+    Sides sides{grid.index(x - step.x, y - step.y), grid.index(x + step.x, y + step.y), 0};
+    if (pixels.z[sides.near] > pixels.z[sides.far]) std::swap(sides.near, sides.far);
+    const double near = pixels.z[sides.near], far = std::min(double(pixels.z[sides.far]), sky);
+    if (!(far > apart * near)) return {};
+    if (pixels.coverage(sides.near) < 1 || pixels.coverage(sides.far) < 1) return {};
+    sides.share = (far - double(pixels.z[grid.index(x, y)])) / (far - near);
+    return sides;
+}
+
+// Whether the colour is mixed as the depth is.
+bool is_mixed(const Pixels &pixels, std::size_t own, const Sides &sides) {
+    if (!(sides.share > clearly_mixed && sides.share < 1 - clearly_mixed)) return false;
+    const auto mix = unmix(pixels.colour(own), pixels.colour(sides.near), pixels.colour(sides.far),
+                           sides.share < 0.5, largest_mix_residual);
+    return mix && std::abs(mix->share - sides.share) <= same_share;
+}
+
+// What an opaque pixel says: whether it lies between two surfaces, whether it is a mixture of those right beside it,
+// and the depth of the one that it shows more of. A filter may be wider than a pixel, so that the pixels right beside
+// it may be mixed themselves: of several mixtures it is that of the two that are farthest apart.
+struct Edge {
+    bool parted = false, mixed = false;
+    std::optional<float> depth;
+};
+
+Edge edge_at(const Pixels &pixels, int x, int y) {
+    constexpr std::array directions{Imath::V2i(1, 0), Imath::V2i(0, 1), Imath::V2i(1, 1), Imath::V2i(1, -1)};
+    const std::size_t own = pixels.grid.index(x, y);
+    Edge edge;
+    double widest = 0;
+    for (const int distance : {1, 2})
+        for (const Imath::V2i &direction : directions) {
+            const auto sides = sides_of(pixels, x, y, direction * distance);
+            if (!sides) continue;
+            edge.parted = edge.parted || distance == 1;
+            if (!is_mixed(pixels, own, *sides)) continue;
+            edge.mixed = edge.mixed || distance == 1;
+            const double width = 1 / double(pixels.z[sides->near]) - 1 / double(pixels.z[sides->far]);
+            if (width <= widest) continue;
+            widest = width;
+            edge.depth = pixels.z[sides->share < 0.5 ? sides->far : sides->near];
+        }
+    return edge;
+}
+
+// What was found in a row of pixels.
+struct Row {
+    std::vector<std::pair<std::size_t, float>> partly_covered, opaque; // pixels, and their new depths
+    std::size_t parted = 0, mixed = 0;
+};
+
+Row row_at(const Pixels &pixels, int y) {
+    Row row;
+    for (int x = 0; x < pixels.grid.width(); ++x) {
+        const std::size_t own = pixels.grid.index(x, y);
+        const float coverage = pixels.coverage(own);
+        if (coverage <= 0) continue;
+        if (coverage < 1) {
+            if (const auto depth = depth_of_partly_covered(pixels, x, y))
+                row.partly_covered.emplace_back(own, *depth);
+            continue;
+        }
+        const Edge edge = edge_at(pixels, x, y);
+        row.parted += edge.parted;
+        row.mixed += edge.mixed;
+        if (edge.depth) row.opaque.emplace_back(own, *edge.depth);
+    }
+    return row;
+}
+
+// Replaces them all at once: none is taken from a depth that was replaced before it.
+std::size_t settle(const Pixels &pixels, std::span<float> z) {
+    std::vector<Row> rows(std::size_t(pixels.grid.height()));
+    parallel_for(rows.size(), [&](std::size_t y) { rows[y] = row_at(pixels, int(y)); });
+    std::size_t count = 0, parted = 0, mixed = 0;
+    const auto replace = [&](const auto &changes) {
+        for (const auto &[i, depth] : changes) z[i] = depth;
+        count += changes.size();
+    };
+    for (const Row &row : rows) {
+        parted += row.parted;
+        mixed += row.mixed;
+        replace(row.partly_covered);
+    }
+    const bool filtered = double(mixed) > least_mixed * double(parted);
+    for (const Row &row : rows)
+        if (filtered) replace(row.opaque);
+    return count;
+}
+
+// plane(k) is that of channel k.
+template <typename Plane>
+Pixels pixels_of(const Windows &windows, std::span<const Channel> channels, std::span<const float> z,
+                 const Plane &plane) {
+    const std::array rgb = find_rgb(channels);
+    const std::size_t alpha = find_channel(channels, "A");
+    Pixels pixels{Grid(windows.width(), windows.height()), {}, {}, z};
+    for (std::size_t k = 0; k < rgb.size(); ++k)
+        if (rgb[k] != npos) pixels.rgb[k] = plane(rgb[k]);
+    if (alpha != npos) pixels.alpha = plane(alpha);
+    return pixels;
+}
+
+} // namespace
+
+std::size_t settle_edge_depths(View &view) {
+    const Image &image = view.image;
+    return settle(
+        pixels_of(image.windows, image.channels, view.z, [&](std::size_t k) { return image.plane(k); }),
+        view.z);
+}
+
+std::size_t settle_edge_depths(Ldi &ldi) {
+    return settle(pixels_of(ldi.windows, ldi.channels, ldi.z,
+                            [&](std::size_t k) { return std::span<const float>(ldi.values[k]); }),
+                  ldi.z);
+}
+
+std::string edge_note(std::size_t settled) {
+    return settled == 1 ? "1 pixel on an edge takes the depth of the surface it shows"
+                        : fmt::format("{} pixels on edges take the depth of the surface they show", settled);
+}
+
+} // namespace sparselens

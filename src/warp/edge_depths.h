@@ -1,0 +1,32 @@
+// The depth of pixels on the edge of a surface, where the renderer wrote that of no surface in the pixel.
+//
+// A renderer takes the depth of such a pixel from one of its samples, or filters it like a colour:
+//
+//   - The pixel is partly covered (0 < A < 1), and its depth is that of the nothing beside the surface: infinite,
+//     or more than 16 times that of each more covered pixel around it, or A times that of one, which is the mean of a
+//     surface and of zeros. It becomes the depth of the pixel around it that explains it best: its colour without
+//     coverage is similar, and it is well covered. "Around" are the eight neighbours, else the 24 within two pixels.
+//   - The pixel is opaque, and its depth and its colour are mixed of those of two pixels on opposite sides in the same
+//     proportion. It takes the depth of that which it shows more of. This is done only in a picture where many edges
+//     are like that: its depth is filtered. In others it is chance.
+//
+// Colour and coverage stay, so that what lies behind a partly covered pixel shows.
+#pragma once
+
+#include "deep/ldi.h"
+#include "view/view.h"
+
+#include <cstddef>
+#include <string>
+
+namespace sparselens {
+
+// How many depths were replaced. Depths are planar, > 0 up to inf; colours are premultiplied, and all values valid (see
+// sanitize.h). An Ldi must have one sample in each pixel.
+std::size_t settle_edge_depths(View &view);
+std::size_t settle_edge_depths(Ldi &ldi);
+
+// What a reader notes of it.
+std::string edge_note(std::size_t settled);
+
+} // namespace sparselens

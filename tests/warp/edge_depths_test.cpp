@@ -1,0 +1,196 @@
+#include "base/random.h"
+#include "deep/flatten.h"
+#include "dof/selective/scatter.h"
+#include "lens/lens_points.h"
+#include "support/views.h"
+#include "warp/deepen.h"
+#include "warp/edge_depths.h"
+#include "warp/warp.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+
+namespace sparselens {
+namespace {
+
+constexpr float inf = std::numeric_limits<float>::infinity();
+
+// Premultiplied, of this colour.
+ViewPixel covered(float z, float a, float r = 1, float g = 1) {
+    return {.z = z, .r = a * r, .g = a * g, .a = a};
+}
+
+View row_of(const std::vector<ViewPixel> &pixels) {
+    return make_view(windows_of_size(int(pixels.size()), 1), {0, 0},
+                     [&](int x, int) { return pixels[std::size_t(x)]; });
+}
+
+// The depths of a row of pixels, once they are settled.
+std::vector<float> settled(const std::vector<ViewPixel> &pixels) {
+    View view = row_of(pixels);
+    settle_edge_depths(view);
+    return view.z;
+}
+
+using Depths = std::vector<float>;
+
+TEST(EdgeDepths, APartlyCoveredPixelOfTheSkyTakesTheDepthBesideIt) {
+    EXPECT_EQ(settled({covered(3, 1), covered(inf, 0.4f), covered(inf, 0)}), (Depths{3, 3, inf}));
+    EXPECT_EQ(settled({covered(3, 1), covered(1e9f, 0.4f), covered(inf, 0)}), (Depths{3, 3, inf}));
+    EXPECT_EQ(settled({covered(3, 1), covered(1.2f, 0.4f), covered(inf, 0)}),
+              (Depths{3, 3, inf})); // 0 mixed in
+    EXPECT_EQ(settled({covered(3, 1), covered(inf, 0.9f), covered(inf, 0.1f), covered(inf, 0)}),
+              (Depths{3, 3, 3, inf}));                                          // two pixels away
+    EXPECT_EQ(settled({covered(inf, 0.5f), covered(4, 0.5f)}), (Depths{4, 4})); // a hair is nowhere whole
+}
+
+TEST(EdgeDepths, TheColourSaysWhichSurfaceItIs) {
+    EXPECT_EQ(settled({covered(3, 1, 1, 0), covered(inf, 0.4f, 1, 0.1f), covered(8, 1, 0, 1)}),
+              (Depths{3, 3, 8}));
+    EXPECT_EQ(settled({covered(3, 1, 1, 0), covered(inf, 0.4f, 0.1f, 1), covered(8, 1, 0, 1)}),
+              (Depths{3, 8, 8}));
+    EXPECT_EQ(settled({covered(3, 0.5f), covered(inf, 0.4f), covered(8, 1)}),
+              (Depths{3, 8, 8})); // else coverage
+}
+
+TEST(EdgeDepths, OtherDepthsStay) {
+    for (const auto &pixels : std::vector<std::vector<ViewPixel>>{
+             {covered(3, 1), covered(inf, 1), covered(inf, 0)},            // an opaque sky
+             {covered(3, 1), covered(inf, 0), covered(inf, 0)},            // nothing
+             {covered(3, 1), covered(10, 0.5f), covered(inf, 0)},          // a hair behind it
+             {covered(3, 1), covered(3.01f, 0.99f), covered(inf, 0)},      // an edge of its own depth
+             {covered(inf, 0.5f), covered(inf, 0.4f), covered(inf, 0.5f)}, // smoke in the sky
+             {covered(3, 1), covered(inf, 0), covered(inf, 0), covered(inf, 0.5f)}}) { // and beside something
+        const View view = row_of(pixels);
+        EXPECT_EQ(settled(pixels), view.z);
+    }
+}
+
+TEST(EdgeDepths, AnLdiOfOneSampleAPixelIsAView) {
+    View view = row_of({covered(3, 1), covered(inf, 0.4f), covered(8, 0.9f)});
+    Ldi ldi = deepen(view, view.image.channels);
+    EXPECT_EQ(settle_edge_depths(ldi), 1u);
+    EXPECT_EQ(ldi.z, (Depths{3, 3, 8}));
+    EXPECT_EQ(ldi.values[3], (std::vector<float>{1, 0.4f, 0.9f}));
+}
+
+// A red disc of radius 8 before a green wall, or the sky; its edge mixes both in colour. `depth(share)` is that of a
+// pixel.
+template <typename Depth>
+View disc_before_wall(const Depth &depth) {
+    return make_view(windows_of_size(32, 32), {0, 0}, [&](int x, int y) {
+        int inside = 0;
+        for (int k = 0; k < 64; ++k)
+            inside += std::hypot(x + (k % 8 + 0.5) / 8 - 16.3, y + (k / 8 + 0.5) / 8 - 15.8) < 8;
+        const float share = float(inside) / 64;
+        return ViewPixel{.z = depth(share, x, y), .r = share, .g = 1 - share};
+    });
+}
+
+TEST(EdgeDepths, FilteredDepthBecomesThatOfTheSurfaceShownMost) {
+    for (const float wall : {10.0f, 1e10f}) {
+        View view = disc_before_wall([&](float share, int, int) {
+            return share == 0 && wall == 1e10f ? inf : share * 2 + (1 - share) * wall;
+        });
+        EXPECT_GT(settle_edge_depths(view), 20u);
+        for (std::size_t i = 0; i < view.z.size(); ++i) {
+            const float share = view.image.plane(0)[i];
+            if (share < 0.1f || share > 0.9f || (share > 0.4f && share < 0.6f)) continue;
+            EXPECT_EQ(view.z[i], share > 0.5f ? 2 : wall == 1e10f ? inf : wall) << share;
+        }
+    }
+}
+
+// One sample says the depth of each pixel, and a few lie between by chance: nothing is filtered.
+TEST(EdgeDepths, DepthThatIsNotFilteredStays) {
+    View view = disc_before_wall([](float share, int x, int y) {
+        if (x == 24 && y < 18) return share * 2 + (1 - share) * 10;
+        return unit_interval(mix_bits(std::uint32_t(x), std::uint32_t(y))) < double(share) ? 2.0f : 10.0f;
+    });
+    const std::vector<float> before = view.z;
+    EXPECT_EQ(settle_edge_depths(view), 0u);
+    EXPECT_EQ(view.z, before);
+}
+
+// Lamps over nothing, seen through a lens: discs (where the centre view shows their centres, and their radius, in
+// pixels) at a depth. Half of their edge pixels have the depth of the sky, as in Cycles with a transparent film.
+struct Lamp {
+    double x, y, radius, z;
+};
+const std::vector<Lamp> lamps{{24, 24, 3, 2}, {70, 24, 3.4, 12}, {30, 70, 9.3, 2.6}, {72, 66, 6, 7}};
+const ThinLens lens{.radius = 0.1, .focal_px = 200, .focus = 4}; // CoC -5 to 3.3 px
+
+double coverage_at(int x, int y, const Imath::V2d &position) {
+    int inside = 0;
+    for (int k = 0; k < 64; ++k)
+        inside += std::ranges::any_of(lamps, [&](const Lamp &lamp) {
+            return std::hypot(x + (k % 8 + 0.5) / 8 - lamp.x + lens.focal_px / lamp.z * position.x,
+                              y + (k / 8 + 0.5) / 8 - lamp.y - lens.focal_px / lamp.z * position.y) <
+                   lamp.radius;
+        });
+    return inside / 64.0;
+}
+
+View lamps_from(const Imath::V2d &position) {
+    const std::uint32_t view =
+        mix_bits(std::uint32_t(1000 * position.x + 500), std::uint32_t(1000 * position.y + 500));
+    return make_view(windows_of_size(96, 96), position, [&](int x, int y) {
+        const double a = coverage_at(x, y, position);
+        const auto distance = [&](const Lamp &lamp) {
+            return std::hypot(x + 0.5 - lamp.x + lens.focal_px / lamp.z * position.x,
+                              y + 0.5 - lamp.y - lens.focal_px / lamp.z * position.y) -
+                   lamp.radius;
+        };
+        const Lamp &own = *std::ranges::min_element(lamps, {}, distance);
+        const bool hit = unit_interval(mix_bits(view, std::uint32_t(96 * y + x))) < a;
+        return covered(hit ? float(own.z) : inf, float(a), 5, 3);
+    });
+}
+
+// The mean of what is seen through the lens.
+Image truth() {
+    Image sum(windows_of_size(96, 96), rgba_channels());
+    const auto points = spiral_lens_points(200);
+    for (const Imath::V2d &u : points)
+        for (int y = 0; y < 96; ++y)
+            for (int x = 0; x < 96; ++x) {
+                int inside = 0; // of four points in the pixel
+                for (int k = 0; k < 4; ++k)
+                    inside += std::ranges::any_of(lamps, [&](const Lamp &lamp) {
+                        const Imath::V2d at =
+                            seen_through(lens, {lamp.x, lamp.y}, circle_of_confusion(lens, lamp.z), u);
+                        return std::hypot(x + (k % 2 + 0.5) / 2 - at.x, y + (k / 2 + 0.5) / 2 - at.y) <
+                               lamp.radius;
+                    });
+                sum.at(3, x, y) += float(inside) / 4 / float(points.size());
+            }
+    return sum;
+}
+
+TEST(EdgeDepths, LampsOverNothingKeepTheirWidth) {
+    std::vector<View> views;
+    for (const Imath::V2d &u : {Imath::V2d(0, 0), {1, 0}, {0, 1}, {-1, 0}, {0, -1}}) {
+        views.push_back(lamps_from(lens.radius * u));
+        settle_edge_depths(views.back());
+    }
+    Progress silent;
+    const Ldi ldi = warp(views, {.focal_px = lens.focal_px, .radius = lens.radius}, silent);
+    const Image picture = crop(scatter(ldi, lens, {}, silent), windows_of_size(96, 96).data), right = truth();
+    double squares = 0;
+    for (int y = 0; y < 96; ++y)
+        for (int x = 0; x < 96; ++x) {
+            const double off = double(picture.at(3, x, y) - right.at(3, x, y));
+            squares += off * off;
+            EXPECT_NEAR(off, 0, 0.1) << x << "," << y;
+            const bool empty = right.at(3, x, y) == 0;
+            EXPECT_LT(picture.at(3, x, y), empty ? 0.01f : 1.001f) << x << "," << y; // no halo
+        }
+    EXPECT_LT(std::sqrt(squares / (96 * 96)), 0.012);
+}
+
+} // namespace
+} // namespace sparselens
