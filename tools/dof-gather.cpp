@@ -63,10 +63,12 @@ void run(const GatherCommand &options, const ToolContext &tool, LdiCache &cache)
     write_camera(header, in.camera);
     append_history(header, tool, options.history);
     if (!options.depth_output.empty())
-        write_flat_exr(options.depth_output, crop(front_depth(ldi), frame.written), header);
+        write_flat_exr(options.depth_output, crop(front_depth(ldi), frame.written), header,
+                       options.compression);
     picture = in_type(std::move(picture), options.type);
     warn_of_clamped(tool, options.output,
-                    write_picture(tool, options.colour, options.output, std::move(picture), header));
+                    write_picture(tool, options.colour, options.output, std::move(picture), header,
+                                  options.compression));
     write_stats(tool, gather_stats(cache, tiles));
 }
 

@@ -10,6 +10,7 @@
 #include "loading/notices.h"
 #include "loading/stage_stats.h"
 #include "options/lens_options.h"
+#include "options/picture_options.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -26,6 +27,7 @@ struct Options {
     std::string output;
     std::optional<double> tolerance;
     int layers = 0;
+    AskedCompression compression;
 };
 
 void add_options(CLI::App &app, Options &options) {
@@ -43,6 +45,7 @@ void add_options(CLI::App &app, Options &options) {
     app.add_option("--layers", options.layers, "Keep at most K samples per pixel; 0: no limit (default: 0)")
         ->type_name("K")
         ->check(CLI::Range(0, 1 << 20));
+    add_compression_option(app, options.compression, true);
     add_lens_options(app, options.lens);
     add_depth_options(app, options.depth);
     add_history_option(app, options.history);
@@ -73,7 +76,8 @@ void run(const Options &options, const ToolContext &tool) {
                     : "by inverse depth alone, because the lens is unknown"));
     write_camera(in.header, in.camera);
     append_history(in.header, tool, options.history);
-    warn_of_clamped(tool, options.output, write_ldi(options.output, out.ldi, in.header));
+    warn_of_clamped(tool, options.output,
+                    write_ldi(options.output, out.ldi, in.header, options.compression));
     write_stats(tool, cluster_stats(in, out));
 }
 

@@ -80,7 +80,7 @@ void run(const WarpCommand &options, const ToolContext &tool) {
     warn_of_wrong_pose(tool, in.views, warp_by.focal_px);
     tool.say(fmt::format("{} views, {} samples in {} pixels", in.views.size(), ldi.samples(),
                          ldi.windows.pixels()));
-    warn_of_clamped(tool, options.output, write_ldi(options.output, ldi, in.header));
+    warn_of_clamped(tool, options.output, write_ldi(options.output, ldi, in.header, options.compression));
     write_stats(tool, warp_stats(in.views, ldi));
 }
 

@@ -17,6 +17,7 @@ void add_accumulate_options(CLI::App &app, AccumulateOptions &options) {
         ->required()
         ->type_name("OUT.exr");
     add_type_option(app, options.type);
+    add_compression_option(app, options.compression, false);
     app.add_option("--outside", options.transparent_outside,
                    "What lies outside the data window of a view. unknown: the view does not count there; "
                    "transparent: "

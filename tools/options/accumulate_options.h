@@ -5,6 +5,7 @@
 #include "harness/history.h"
 #include "options/lens_options.h"
 #include "options/lens_view_options.h"
+#include "options/picture_options.h"
 
 #include <optional>
 #include <string>
@@ -17,6 +18,7 @@ struct AccumulateOptions {
     HistoryOptions history;
     std::string output;
     std::optional<PixelType> type; // -d
+    AskedCompression compression;
     bool transparent_outside = false;
 };
 

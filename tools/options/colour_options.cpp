@@ -129,17 +129,19 @@ Imf::Header to_linear(const ToolContext &tool, const ColourOptions &options, con
 }
 
 std::size_t write_picture(const ToolContext &tool, const ColourOptions &options, const std::string &path,
-                          Image image, const Imf::Header &metadata) {
+                          Image image, const Imf::Header &metadata,
+                          std::optional<Imf::Compression> compression) {
     const bool shown = is_shown_picture(path);
     if (!shown && !(options.display.empty() && options.view.empty()))
         throw UsageError("--display and --view-transform apply to PNG, JPEG and TIFF, not to " + path);
+    if (shown && compression) throw UsageError("--compression applies to EXR, not to " + path);
     Imf::Header header = metadata;
     if (shown || !options.output_space.empty()) {
         const ColourConfig config(options.config);
         transform_colours(output_transform(config, options, space_of(config, metadata)), image);
         header = with_chromaticities(metadata, config.chromaticities_of(options.output_space));
     }
-    if (!shown) return write_flat_exr(path, image, header);
+    if (!shown) return write_flat_exr(path, image, header, compression);
     const Imath::Box2i &display = image.windows.display; // written as a whole
     check_memory(
         path, 3.0 * (double(display.max.x) - display.min.x + 1) * (double(display.max.y) - display.min.y + 1),

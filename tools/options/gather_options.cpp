@@ -69,6 +69,7 @@ void add_gather_options(CLI::App &app, GatherCommand &options) {
                    "Channels or layers to gather, comma-separated (default: all)")
         ->type_name("LIST");
     add_type_option(app, options.type);
+    add_compression_option(app, options.compression, false);
     add_show_option(app, options.show);
     add_lens_options(app, options.lens);
     add_depth_options(app, options.depth);

@@ -6,6 +6,7 @@
 #include "harness/history.h"
 #include "options/colour_options.h"
 #include "options/lens_options.h"
+#include "options/picture_options.h"
 #include "options/show.h"
 #include "options/window_options.h"
 
@@ -26,6 +27,7 @@ struct GatherCommand {
     bool holdout_defocused = false;
     std::optional<Imath::V2i> focus_pixel;
     std::optional<PixelType> type; // -d
+    AskedCompression compression;
     Show show = Show::picture;
 };
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <vector>
@@ -76,6 +77,22 @@ void add_type_option(CLI::App &app, std::optional<PixelType> &type) {
     app.add_option_function<std::string>("-d", read,
                                          "Type of the channels written (default: that of the input)")
         ->type_name("half|float");
+}
+
+void add_compression_option(CLI::App &app, AskedCompression &compression, bool deep) {
+    const auto read = [&compression, deep](const std::string &text) {
+        const auto found = std::ranges::find(compressions(), text, &NamedCompression::name);
+        if (found == compressions().end() || (deep && !found->deep))
+            throw CLI::ValidationError("--compression",
+                                       fmt::format("{} files have one of {}, not '{}'", deep ? "deep" : "flat",
+                                                   compression_names(deep, ", "), text));
+        compression = found->value;
+    };
+    app.add_option_function<std::string>(
+           "--compression", read,
+           deep ? "Compression of the LDI (default: that of a deep input, else zips; none into a pipe)"
+                : "Compression of EXR (default: that of a flat input, else zip; none into a pipe)")
+        ->type_name(compression_names(deep, "|"));
 }
 
 Image in_type(Image image, std::optional<PixelType> type) {

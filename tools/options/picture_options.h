@@ -4,6 +4,7 @@
 #include "base/image.h"
 #include "dof/methods.h"
 #include "harness/commands/cli.h"
+#include "io/exr/compression.h"
 
 #include <optional>
 #include <string>
@@ -22,6 +23,10 @@ void add_pixel_option(CLI::App &app, const std::string &name, std::optional<Imat
 
 // Adds --method, with the names of the table of methods.
 void add_method_option(CLI::App &app, const GatherMethod *&method);
+
+// Adds --compression, with the names that flat or deep files may have; empty: as output_compression() says.
+using AskedCompression = std::optional<Imf::Compression>;
+void add_compression_option(CLI::App &app, AskedCompression &compression, bool deep);
 
 // Adds -d half|float: the type in which channels are written, else that of the input.
 void add_type_option(CLI::App &app, std::optional<PixelType> &type);

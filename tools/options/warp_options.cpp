@@ -2,6 +2,7 @@
 
 #include "harness/examples.h"
 #include "harness/words.h"
+#include "options/picture_options.h"
 
 #include <CLI/CLI.hpp>
 
@@ -35,6 +36,7 @@ void add_warp_options(CLI::App &app, WarpCommand &options) {
                    "averaged; assume: all are averaged (default: test)")
         ->type_name("test|assume")
         ->transform(words(agreement));
+    add_compression_option(app, options.compression, true);
     add_lens_options(app, options.lens);
     add_depth_options(app, options.depth);
     add_input_colour_options(app, options.colour);

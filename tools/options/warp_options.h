@@ -5,6 +5,7 @@
 #include "harness/history.h"
 #include "options/colour_options.h"
 #include "options/lens_options.h"
+#include "options/picture_options.h"
 #include "options/view_list.h"
 #include "warp/warp.h"
 
@@ -21,6 +22,7 @@ struct WarpCommand {
     Merge merge = Merge::average;
     bool split_silhouettes = true, test_photo_consistency = true;
     std::string output;
+    AskedCompression compression;
 };
 
 void add_warp_options(CLI::App &app, WarpCommand &options);

@@ -4,9 +4,11 @@
 #pragma once
 
 #include "../../deep/ldi.h"
+#include "compression.h"
 
 #include <ImfHeader.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,9 +35,10 @@ struct LdiFile {
 LdiFile read_ldi(const std::string &path, const std::string &depth_channel = {},
                  const std::string &stereo_view = {});
 
-// Writes a scanline deep EXR file, with ZIPS compression, or uncompressed into a pipe; deepImageState describes the
-// samples. Keeps all of `metadata` that does not describe its own pixels. Returns the number of values that became the
-// largest half, as write_flat_exr does.
-std::size_t write_ldi(const std::string &path, const Ldi &ldi, const Imf::Header &metadata);
+// Writes a scanline deep EXR file, compressed as compression.h says; deepImageState describes the samples. Keeps all of
+// `metadata` that does not describe its own pixels. Returns the number of values that became the largest half, as
+// write_flat_exr does.
+std::size_t write_ldi(const std::string &path, const Ldi &ldi, const Imf::Header &metadata,
+                      std::optional<Imf::Compression> compression = {});
 
 } // namespace sparselens

@@ -82,7 +82,8 @@ std::size_t write_rows(Imf::DeepScanLineOutputFile &file, const Ldi &ldi,
 
 } // namespace
 
-std::size_t write_ldi(const std::string &path, const Ldi &ldi, const Imf::Header &metadata) {
+std::size_t write_ldi(const std::string &path, const Ldi &ldi, const Imf::Header &metadata,
+                      std::optional<Imf::Compression> compression) {
     return with_file_name(path, [&] {
         const std::vector<StoredChannel> stored = stored_channels(ldi);
         std::vector<Channel> channels;
@@ -91,7 +92,7 @@ std::size_t write_ldi(const std::string &path, const Ldi &ldi, const Imf::Header
         header.setType(Imf::DEEPSCANLINE);
         Imf::addDeepImageState(header, state_of(ldi));
         OutputFile output(path);
-        header.compression() = output.to_pipe() ? Imf::NO_COMPRESSION : Imf::ZIPS_COMPRESSION;
+        header.compression() = output_compression(true, compression, output.to_pipe(), metadata);
         std::size_t clamped = 0;
         {
             Imf::DeepScanLineOutputFile file(output.stream(), header);

@@ -112,8 +112,10 @@ PictureParts parts_of_picture(Imf::MultiPartInputFile &file, const std::string &
     return picture;
 }
 
-Imf::Header header_of(const Imf::MultiPartInputFile &file, const PictureParts &picture) {
+Imf::Header header_of(const Imf::MultiPartInputFile &file, const PictureParts &picture,
+                      const std::string &path) {
     Imf::Header header = header_of_view(file.header(picture.parts.front().part), picture.view);
+    if (is_standard_stream(path)) header.compression() = Imf::ZIP_COMPRESSION; // a pipe's says nothing of the picture
     header.dataWindow() = picture.windows.data;
     return header;
 }
@@ -160,7 +162,7 @@ std::size_t read_channels(Imf::MultiPartInputFile &file, const PartChannels &par
 FlatFile read_flat_part(Imf::MultiPartInputFile &file, const std::string &path, std::uint64_t size,
                         const std::string &stereo_view) {
     PictureParts picture = parts_of_picture(file, path, stereo_view);
-    const Imf::Header header = header_of(file, picture);
+    const Imf::Header header = header_of(file, picture, path);
     std::vector<Channel> channels = picture.channels();
     const MissingCoverage missing(file, picture);
     if (!missing.covered.isEmpty()) channels.push_back({"A"});
@@ -187,7 +189,7 @@ Imf::Header read_flat_header(const std::string &path, const std::string &stereo_
         const auto stream = open_input(path);
         check_header(*stream, path);
         Imf::MultiPartInputFile file(*stream);
-        return header_of(file, parts_of_picture(file, path, stereo_view));
+        return header_of(file, parts_of_picture(file, path, stereo_view), path);
     });
 }
 
@@ -205,7 +207,8 @@ std::vector<float> take_depth(Image &image, const std::string &depth_channel, co
     return depth;
 }
 
-std::size_t write_flat_exr(const std::string &path, const Image &image, const Imf::Header &metadata) {
+std::size_t write_flat_exr(const std::string &path, const Image &image, const Imf::Header &metadata,
+                           std::optional<Imf::Compression> compression) {
     return with_file_name(path, [&] {
         std::size_t clamped = 0;
         const Windows &w = image.windows;
@@ -221,7 +224,7 @@ std::size_t write_flat_exr(const std::string &path, const Image &image, const Im
         }
         Imf::Header header = output_header(w, image.channels, metadata);
         OutputFile output(path);
-        header.compression() = output.to_pipe() ? Imf::NO_COMPRESSION : Imf::ZIP_COMPRESSION;
+        header.compression() = output_compression(false, compression, output.to_pipe(), metadata);
         {
             Imf::OutputFile file(output.stream(), header);
             file.setFrameBuffer(pixels);

@@ -5,10 +5,12 @@
 #pragma once
 
 #include "../../base/image.h"
+#include "compression.h"
 
 #include <ImfHeader.h>
 #include <ImfMultiPartInputFile.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,9 +41,10 @@ FlatFile read_flat_part(Imf::MultiPartInputFile &file, const std::string &path, 
 // positions of samples (see is_position_channel), which must not be carried along like colours.
 std::vector<float> take_depth(Image &image, const std::string &depth_channel, const std::string &path);
 
-// Stores channels in their own types, with ZIP compression, or uncompressed into a pipe. Keeps all of `metadata` that
-// does not describe the pixels themselves (windows, channels, tiling). Returns the number of values beyond the range of
-// half, which became its largest value, 65504.
-std::size_t write_flat_exr(const std::string &path, const Image &image, const Imf::Header &metadata);
+// Stores channels in their own types, compressed as compression.h says. Keeps all of `metadata` that does not describe the
+// pixels themselves (windows, channels, tiling). Returns the number of values beyond the range of half, which became its
+// largest value, 65504.
+std::size_t write_flat_exr(const std::string &path, const Image &image, const Imf::Header &metadata,
+                           std::optional<Imf::Compression> compression = {});
 
 } // namespace sparselens

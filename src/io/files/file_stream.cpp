@@ -121,6 +121,8 @@ std::filesystem::path follow_links(const std::string &path) {
 
 } // namespace
 
+bool is_standard_stream(const std::string &path) { return path == "-"; }
+
 std::string display_name(const std::string &path) { return path == "-" ? "standard stream" : path; }
 
 std::unique_ptr<InputStream> open_input(const std::string &path) {

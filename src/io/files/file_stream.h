@@ -48,6 +48,9 @@ private:
     std::unique_ptr<Buffer> buffer_;
 };
 
+// Whether `path` stands for standard input or output.
+bool is_standard_stream(const std::string &path);
+
 // The name of the file in messages.
 std::string display_name(const std::string &path);
 

@@ -1,0 +1,60 @@
+#include "io/exr/compression.h"
+
+#include "base/error.h"
+
+#include <ImfPartType.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+namespace sparselens {
+
+namespace {
+
+constexpr std::array methods{
+    NamedCompression{"none", Imf::NO_COMPRESSION, true},
+    NamedCompression{"rle", Imf::RLE_COMPRESSION, true},
+    NamedCompression{"zips", Imf::ZIPS_COMPRESSION, true},
+    NamedCompression{"zip", Imf::ZIP_COMPRESSION, false},
+    NamedCompression{"piz", Imf::PIZ_COMPRESSION, false},
+    NamedCompression{"pxr24", Imf::PXR24_COMPRESSION, false},
+    NamedCompression{"b44", Imf::B44_COMPRESSION, false},
+    NamedCompression{"b44a", Imf::B44A_COMPRESSION, false},
+    NamedCompression{"dwaa", Imf::DWAA_COMPRESSION, false},
+    NamedCompression{"dwab", Imf::DWAB_COMPRESSION, false},
+};
+
+const NamedCompression *method_of(Imf::Compression value) {
+    const auto found = std::ranges::find(methods, value, &NamedCompression::value);
+    return found == methods.end() ? nullptr : &*found;
+}
+
+bool is_deep(const Imf::Header &header) { return header.hasType() && Imf::isDeepData(header.type()); }
+
+} // namespace
+
+std::span<const NamedCompression> compressions() { return methods; }
+
+std::string compression_names(bool deep, const std::string &separator) {
+    std::vector<std::string> names;
+    for (const NamedCompression &method : methods)
+        if (method.deep || !deep) names.emplace_back(method.name);
+    return fmt::format("{}", fmt::join(names, separator));
+}
+
+Imf::Compression output_compression(bool deep, std::optional<Imf::Compression> asked, bool to_pipe,
+                                    const Imf::Header &metadata) {
+    const auto allowed = [deep](const NamedCompression *method) { return method && (method->deep || !deep); };
+    if (asked && !allowed(method_of(*asked)))
+        throw UsageError("--compression: deep files may have " + compression_names(true, ", ") + " only");
+    if (asked) return *asked;
+    if (to_pipe) return Imf::NO_COMPRESSION;
+    const NamedCompression *own = method_of(metadata.compression());
+    if (is_deep(metadata) == deep && allowed(own)) return own->value;
+    return deep ? Imf::ZIPS_COMPRESSION : Imf::ZIP_COMPRESSION;
+}
+
+} // namespace sparselens

@@ -1,0 +1,30 @@
+// How the pixels of an EXR file are compressed: the names of the methods, and which of them a file may have.
+#pragma once
+
+#include <ImfCompression.h>
+#include <ImfHeader.h>
+
+#include <optional>
+#include <span>
+#include <string>
+
+namespace sparselens {
+
+struct NamedCompression {
+    const char *name; // as OpenEXR and OpenImageIO spell it
+    Imf::Compression value;
+    bool deep; // deep files may have it (OpenEXR 3.1)
+};
+
+std::span<const NamedCompression> compressions();
+
+// The names that flat or deep files may have, separated by `separator`.
+std::string compression_names(bool deep, const std::string &separator);
+
+// The compression of a new file: what is asked for, else none into a pipe, else that of `metadata` where it is the header
+// of a file of the same kind (flat or deep), else ZIP (flat) or ZIPS (deep). Throws UsageError where a deep file may not
+// have what is asked for.
+Imf::Compression output_compression(bool deep, std::optional<Imf::Compression> asked, bool to_pipe,
+                                    const Imf::Header &metadata);
+
+} // namespace sparselens

@@ -1,0 +1,51 @@
+#!/bin/bash
+# --compression, and what each kind of output has without it.
+. "$(dirname "$0")/check.sh"
+for tool in oiiotool idiff; do command -v $tool >/dev/null || skip "needs $tool (openimageio-tools)"; done
+lens=(--focal-length 50 --sensor-width 36 --lens-radius 0.1 --focus-distance 2)
+compression_is() { # FILE METHOD
+    oiiotool --info -v "$1" | grep -q "compression: \"$2\"" || fail "$1 is not $2: $(oiiotool --info -v "$1" | grep compression)"
+}
+
+# A pattern that halves and DCT coefficients do not hold exactly.
+oiiotool --pattern fill:topleft=0.1,0.5,0.2,0.5,4:bottomright=0.9,0.2,0.1,1,4 24x16 5 --chnames R,G,B,A,Z -d float -o plain.exr
+for method in none rle zips zip piz pxr24 b44 b44a dwaa dwab; do
+    oiiotool plain.exr --compression $method -o in.$method.exr
+    exits 0 "$bin/dof-gather" plain.exr -o out.exr "${lens[@]}" --compression $method
+    compression_is out.exr $method
+    # Flat pictures keep the compression of a flat input.
+    exits 0 "$bin/dof-gather" in.$method.exr -o out.exr --depth-out depth.exr "${lens[@]}"
+    compression_is out.exr $method
+    compression_is depth.exr $method
+    exits 0 "$bin/dof-accumulate" --view 0,0 in.$method.exr -o out.exr "${lens[@]}"
+    compression_is out.exr $method
+done
+exits 0 "$bin/dof-accumulate" --view 0,0 plain.exr -o out.exr "${lens[@]}" --compression rle
+compression_is out.exr rle
+
+# LDIs: zips of flat views, and of a deep file its own.
+exits 0 "$bin/ldi-warp" in.piz.exr -o zips.exr
+compression_is zips.exr zips
+for method in none rle zips; do
+    exits 0 "$bin/ldi-warp" plain.exr -o ldi.exr --compression $method
+    compression_is ldi.exr $method
+    exits 0 "$bin/ldi-cluster" ldi.exr -o out.exr --layers 1
+    compression_is out.exr $method
+    exits 0 "$bin/ldi-cluster" zips.exr -o out.exr --layers 1 --compression $method
+    compression_is out.exr $method
+done
+# A flat picture of a deep file, and what comes through a pipe, have the default.
+exits 0 "$bin/ldi-warp" plain.exr -o ldi.exr --compression none
+exits 0 "$bin/dof-gather" ldi.exr -o out.exr "${lens[@]}"
+compression_is out.exr zip
+"$bin/ldi-warp" plain.exr -o - | "$bin/ldi-cluster" - -o out.exr --layers 1
+compression_is out.exr zips
+"$bin/dof-gather" plain.exr -o - "${lens[@]}" | "$bin/dof-accumulate" --view 0,0 - -o out.exr "${lens[@]}"
+compression_is out.exr zip
+
+# What the kind of output cannot have is wrong usage.
+for tool in ldi-warp ldi-cluster; do
+    fails_saying 2 "--compression: deep files have one of none, rle, zips, not 'piz'" "$bin/$tool" plain.exr -o x.exr --compression piz
+done
+fails_saying 2 "--compression: flat files have one of none, rle, .*, dwab, not 'lzw'" "$bin/dof-gather" plain.exr -o x.exr --compression lzw
+fails_saying 2 "--compression applies to EXR, not to x.png" "$bin/dof-gather" plain.exr -o x.png "${lens[@]}" --compression zip
