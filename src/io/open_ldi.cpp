@@ -2,6 +2,7 @@
 
 #include "deep/tidy.h"
 #include "io/camera/camera_read.h"
+#include "io/depth_range.h"
 #include "io/exr/exr_deep.h"
 #include "io/files/file_stream.h"
 #include "view/depth_reader.h"
@@ -13,8 +14,8 @@ namespace sparselens {
 
 namespace {
 
-void make_planar(Ldi &ldi, const DepthOptions &depth, const Camera &camera) {
-    const DepthReader read(ldi.windows, depth.meaning, depth.far, camera);
+void make_planar(Ldi &ldi, DepthMeaning meaning, const DepthRange &range, const Camera &camera) {
+    const DepthReader read(ldi.windows, meaning, range, camera);
     for (std::size_t pixel = 0; pixel + 1 < ldi.begin.size(); ++pixel)
         for (const std::uint64_t i : ldi.pixel(pixel)) {
             ldi.z[i] = read.planar(ldi.z[i], pixel);
@@ -34,7 +35,9 @@ OpenedLdi open_ldi(const std::string &path, const OpenOptions &options) {
                      .notes = std::move(file.notes),
                      .warnings = std::move(file.warnings)};
     opened.camera = camera_with_options(options.lens, read_camera(opened.header));
-    make_planar(opened.ldi, options.depth, opened.camera);
+    if (const auto warning = normalized_warning(options.depth, opened.ldi.z))
+        opened.warnings.push_back(*warning);
+    make_planar(opened.ldi, options.depth.meaning, depth_range(options.depth, opened.header), opened.camera);
     opened.bad = sanitize(opened.ldi, opened.name);
     if (const std::size_t settled = file.deep ? 0 : settle_edge_depths(opened.ldi))
         opened.notes.push_back(edge_note(settled));

@@ -4,6 +4,7 @@
 #include "../view/depth.h"
 #include "../view/resolve_lens.h"
 
+#include <optional>
 #include <string>
 
 namespace sparselens {
@@ -12,7 +13,9 @@ struct DepthOptions {
     DepthMeaning meaning = DepthMeaning::planar;
     std::string channel = {}; // empty: Z, depth.Z and *.Depth.Z are tried
     std::string view = {};    // of a stereo file; empty: the default one
-    double far = 1e10;        // what lies there or beyond is the sky, in the unit of the depth channel
+    // In the unit of the depth channel: what lies at `far` (1e10) or beyond is the sky; both planes are needed where depth
+    // is normalized (see depth_range.h).
+    std::optional<double> near = {}, far = {};
 };
 
 struct OpenOptions {

@@ -1,6 +1,7 @@
 #include "io/open_view.h"
 
 #include "io/camera/camera_read.h"
+#include "io/depth_range.h"
 #include "io/exr/exr_common.h"
 #include "io/exr/exr_flat.h"
 #include "io/files/file_stream.h"
@@ -38,7 +39,9 @@ OpenedView open_view(const std::string &path, const OpenOptions &options, const 
     const Camera own = read_camera(opened.header);
     opened.camera = camera_with_options(options.lens, own);
     const Camera frustum = camera_with_options(options.lens, with_frustum_of(otherwise, own));
-    const DepthReader read(view.image.windows, options.depth.meaning, options.depth.far, frustum);
+    if (const auto warning = normalized_warning(options.depth, view.z)) opened.warnings.push_back(*warning);
+    const DepthReader read(view.image.windows, options.depth.meaning,
+                           depth_range(options.depth, opened.header), frustum);
     for (std::size_t i = 0; i < view.z.size(); ++i) view.z[i] = read.planar(view.z[i], i);
     opened.bad = sanitize(view);
     if (const std::size_t settled = settle_edge_depths(view)) opened.notes.push_back(edge_note(settled));

@@ -9,10 +9,9 @@ namespace sparselens {
 
 class DepthReader {
 public:
-    // `meaning` is what the channel holds; values at `far` or beyond, in its unit, are sky. `windows` are those of the
-    // picture and must outlive the reader. Throws UsageError if ray lengths are to be converted and the focal length is
-    // unknown.
-    DepthReader(const Windows &windows, DepthMeaning meaning, double far, const Camera &camera);
+    // `meaning` is what the channel holds, and `range` is in the unit of its depths. `windows` are those of the picture and
+    // must outlive the reader. Throws UsageError if ray lengths are to be converted and the focal length is unknown.
+    DepthReader(const Windows &windows, DepthMeaning meaning, const DepthRange &range, const Camera &camera);
 
     // The planar depth of the i-th pixel of the data window. An invalid value stays invalid (see sanitize.h).
     float planar(float value, std::size_t i) const;
@@ -20,7 +19,8 @@ public:
 private:
     const Windows &windows_;
     DepthMeaning meaning_;
-    double far_, focal_px_;
+    DepthRange range_;
+    double focal_px_;
     Imath::V2d principal_point_;
 };
 

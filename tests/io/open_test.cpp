@@ -7,6 +7,7 @@
 #include "support/ldi_samples.h"
 #include "support/scratch_folder.h"
 
+#include <ImfFloatAttribute.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -90,6 +91,52 @@ TEST_F(Opened, InverseDepth) {
     const DepthOptions inverse{.meaning = DepthMeaning::inverse, .channel = {}};
     EXPECT_EQ(depths_of_view(inverse), (std::vector<float>{2, inf, 0.25f}));
     EXPECT_EQ(depths_of_ldi(inverse), (std::vector<float>{2, inf, 0.25f}));
+}
+
+TEST_F(Opened, NegativeDepth) {
+    write({-2, -1e10f, -0.25f}, {1, 1, 1});
+    const DepthOptions negative{.meaning = DepthMeaning::negative};
+    EXPECT_EQ(depths_of_view(negative), (std::vector<float>{2, inf, 0.25f}));
+    EXPECT_EQ(depths_of_ldi(negative), (std::vector<float>{2, inf, 0.25f}));
+}
+
+TEST_F(Opened, NormalizedDepthNeedsBothPlanes) {
+    write({0, 0.5f, 1}, {1, 1, 1});
+    DepthOptions normalized{.meaning = DepthMeaning::normalized};
+    EXPECT_THROW(depths_of_view(normalized), UsageError);
+    normalized.near = 2;
+    EXPECT_THROW(depths_of_ldi(normalized), UsageError);
+    normalized.far = 1;
+    EXPECT_THROW(depths_of_ldi(normalized), UsageError); // nearer than near
+    normalized.far = 10;
+    EXPECT_EQ(depths_of_view(normalized), (std::vector<float>{2, 6, inf}));
+    EXPECT_EQ(depths_of_ldi(normalized), (std::vector<float>{2, 6, inf}));
+    normalized.far = double(inf);
+    EXPECT_EQ(depths_of_view(normalized), (std::vector<float>{2, 4, inf}));
+    EXPECT_THROW(depths_of_view({.near = 1.0}), UsageError); // it would have no effect
+}
+
+TEST_F(Opened, PlanesOfNormalizedDepthComeFromTheHeader) {
+    Image image(windows_of_size(2, 1), {{"R"}, {"Z", PixelType::float32}});
+    image.values = {1, 1, 0, 0.5f};
+    Imf::Header header;
+    header.insert("near", Imf::FloatAttribute(4));
+    header.insert("far", Imf::FloatAttribute(8));
+    write_flat_exr(path, image, header);
+    DepthOptions normalized{.meaning = DepthMeaning::normalized};
+    EXPECT_EQ(depths_of_view(normalized), (std::vector<float>{4, 6}));
+    normalized.far = 16; // the option comes first
+    EXPECT_EQ(depths_of_ldi(normalized), (std::vector<float>{4, 10}));
+}
+
+TEST_F(Opened, DepthsThatEndAtOneAreAWarning) {
+    const auto warnings = [&] { return open_ldi(path).warnings.size() + open_view(path).warnings.size(); };
+    write({0.2f, 0.5f, 1}, {1, 1, 1});
+    EXPECT_EQ(warnings(), 2u);
+    for (const std::vector<float> &depths : {std::vector<float>{0.2f, 0.5f, 0.9f}, {1, 1, 1}, {0.5f, 1, 2}}) {
+        write(depths, {1, 1, 1});
+        EXPECT_EQ(warnings(), 0u);
+    }
 }
 
 // F = 1 pixel, and the optical axis goes through the first of three pixels, a third of the width left of the middle.

@@ -84,5 +84,29 @@ TEST(Depth, SkyIsWhatRenderersWriteForIt) {
     EXPECT_FALSE(is_sky(DepthMeaning::inverse, -1, 1e10));
 }
 
+TEST(PlanarDepth, NegativeIsTheZOfACameraThatLooksAlongMinusZ) {
+    const Windows w = windows_of_size(200, 100);
+    EXPECT_EQ(planar_depth(DepthMeaning::negative, -7, 3, 4, w, focal_px), 7);
+    EXPECT_EQ(planar_depth(DepthMeaning::negative, -inf, 3, 4, w, focal_px), inf);
+    for (const double sky : {-1e10, -65504.0, -inf, 1e30}) EXPECT_TRUE(is_sky(DepthMeaning::negative, sky, 1e10)) << sky;
+    for (const double thing : {-1e9, -1.0, 0.0}) EXPECT_FALSE(is_sky(DepthMeaning::negative, thing, 1e10)) << thing;
+}
+
+TEST(NormalizedDepth, IsLinearBetweenThePlanes) {
+    const DepthRange range{2, 10};
+    EXPECT_EQ(normalized_depth(0, range), 2);
+    EXPECT_EQ(normalized_depth(0.25, range), 4);
+    EXPECT_EQ(normalized_depth(1, range), 10);
+    EXPECT_TRUE(is_sky(DepthMeaning::normalized, 1, range.far));
+    EXPECT_FALSE(is_sky(DepthMeaning::normalized, 0.999, range.far));
+}
+
+TEST(NormalizedDepth, WithoutAFarPlaneIsThatOfADepthBuffer) {
+    const DepthRange range{2, inf};
+    EXPECT_EQ(normalized_depth(0, range), 2);
+    EXPECT_EQ(normalized_depth(0.75, range), 8);
+    EXPECT_EQ(normalized_depth(1, range), inf);
+}
+
 } // namespace
 } // namespace sparselens

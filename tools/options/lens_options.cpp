@@ -44,14 +44,23 @@ void add_lens_options(CLI::App &app, LensValues &options) {
 void add_depth_options(CLI::App &app, DepthOptions &options) {
     const std::map<std::string, DepthMeaning> meanings{{"z", DepthMeaning::planar},
                                                        {"distance", DepthMeaning::distance},
-                                                       {"inverse", DepthMeaning::inverse}};
-    app.add_option("--depth", options.meaning,
-                   "What depth channels hold: planar z, the distance from the camera along the ray, or the "
-                   "inverse 1 / z (default: z)")
-        ->type_name("z|distance|inverse")
+                                                       {"inverse", DepthMeaning::inverse},
+                                                       {"negative", DepthMeaning::negative},
+                                                       {"normalized", DepthMeaning::normalized}};
+    app.add_option(
+           "--depth", options.meaning,
+           "What depth channels hold: z: planar; distance: from the camera along the ray; inverse: 1 / z; "
+           "negative: -z; normalized: 0 at --near to 1 at --far (default: z)")
+        ->type_name("z|distance|inverse|negative|normalized")
         ->transform(words(meanings))
         ->group("Lens");
-    app.add_option("--far", options.far, "Depths beyond this are sky (default: 1e10)")
+    app.add_option("--near", options.near,
+                   "With --depth normalized, the depth of 0 (default: the near attribute of the file)")
+        ->type_name("D")
+        ->check(number("a number above 0"))
+        ->group("Lens");
+    app.add_option("--far", options.far,
+                   "Depths beyond this are sky; with --depth normalized, the depth of 1 (default: 1e10)")
         ->type_name("D")
         ->check(number("a number above 0", {.infinity_allowed = true}))
         ->group("Lens");

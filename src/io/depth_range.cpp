@@ -1,0 +1,51 @@
+#include "io/depth_range.h"
+
+#include "base/error.h"
+#include "io/exr/header_values.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <initializer_list>
+
+namespace sparselens {
+
+namespace {
+
+std::optional<double> number_in(const Imf::Header &header, std::initializer_list<const char *> names) {
+    const std::vector<HeaderValue> values = header_values(header);
+    for (const char *name : names)
+        if (const HeaderValue *found = find_value(values, name); found && found->numbers.size() == 1)
+            return found->numbers[0];
+    return {};
+}
+
+} // namespace
+
+DepthRange depth_range(const DepthOptions &options, const Imf::Header &header) {
+    if (options.meaning != DepthMeaning::normalized) {
+        if (options.near) throw UsageError("--near works with --depth normalized only");
+        return {0, options.far.value_or(DepthRange().far)};
+    }
+    const auto near = options.near ? options.near : number_in(header, {"near", "nearClip", "clipNear"});
+    const auto far = options.far ? options.far : number_in(header, {"far", "farClip", "clipFar"});
+    if (!near || !far)
+        throw UsageError(fmt::format("--depth normalized: which depth is {} is unknown: give {}",
+                                     near ? "1" : (far ? "0" : "0 and which is 1"),
+                                     near ? "--far" : (far ? "--near" : "--near and --far")));
+    if (!(*near > 0 && *near < *far))
+        throw UsageError(fmt::format("--depth normalized: --near {:g} and --far {:g} are no range of depths "
+                                     "above 0",
+                                     *near, *far));
+    return {*near, *far};
+}
+
+std::optional<std::string> normalized_warning(const DepthOptions &options, std::span<const float> depths) {
+    if (options.meaning != DepthMeaning::planar || depths.empty()) return {};
+    const auto [least, most] = std::ranges::minmax(depths);
+    if (!(least >= 0 && least < 1 && most == 1)) return {};
+    return "its depths end at exactly 1, as normalised ones do: if they are, give --depth normalized with --near "
+           "and --far";
+}
+
+} // namespace sparselens

@@ -1,0 +1,24 @@
+// Which planes the depths of a file refer to: --near and --far, else what its header says.
+#pragma once
+
+#include "../view/depth.h"
+#include "open_options.h"
+
+#include <ImfHeader.h>
+
+#include <optional>
+#include <span>
+#include <string>
+
+namespace sparselens {
+
+// Only normalised depths need a near plane and take planes from the header (the attributes near and far, nearClip and
+// farClip, clipNear and clipFar). UsageError: one of them is unknown, the far one is not behind the near one, or a near
+// plane is given for depths that are not normalised.
+DepthRange depth_range(const DepthOptions &options, const Imf::Header &header);
+
+// A warning where depths that are read as they stand look like normalised ones: none is above 1, and the farthest are
+// exactly 1.
+std::optional<std::string> normalized_warning(const DepthOptions &options, std::span<const float> depths);
+
+} // namespace sparselens

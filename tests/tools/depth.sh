@@ -1,0 +1,43 @@
+#!/bin/bash
+# Depths as other programs write them: negative, and from 0 to 1 between two planes.
+. "$(dirname "$0")/check.sh"
+for tool in oiiotool idiff; do command -v $tool >/dev/null || skip "needs $tool (openimageio-tools)"; done
+lens=(--focal-length 50 --sensor-width 36 --lens-radius 0.4 --focus-distance 2)
+gather=$bin/dof-gather
+oiiotool --pattern checker:color1=0.1,0.5,0.2,1,2:color2=0.9,0.2,0.1,1,6:width=8 24x16 5 --chnames R,G,B,A,Z -d float -o plain.exr
+oiiotool plain.exr --mulc 1,1,1,1,-1 -o negative.exr
+oiiotool plain.exr --subc 0,0,0,0,1 --divc 1,1,1,1,8 -o normalized.exr # 0 at 1, 1 at 9
+near_far=(--depth normalized --near 1 --far 9)
+same_depth() { idiff -q -fail 1e-5 -warn 1e-5 expected.exr "$1" >idiff.txt || fail "$2 ($(cat idiff.txt))"; }
+exits 0 "$gather" plain.exr -o x.exr --lens-radius 0 --depth-out expected.exr
+exits 0 "$gather" negative.exr -o x.exr --lens-radius 0 --depth-out negative.z.exr --depth negative
+same_depth negative.z.exr "--depth negative"
+exits 0 "$gather" normalized.exr -o x.exr --lens-radius 0 --depth-out normalized.z.exr "${near_far[@]}"
+same_depth normalized.z.exr "--depth normalized"
+oiiotool normalized.exr --attrib near 1.0 --attrib far 9.0 -o header.exr
+exits 0 "$gather" header.exr -o x.exr --lens-radius 0 --depth-out header.z.exr --depth normalized
+same_depth header.z.exr "near and far of the header"
+
+# Every tool that reads depth has the near plane.
+differ() { if cmp -s "$1" "$2"; then fail "$3 changes nothing"; fi; }
+for near in 1 3; do
+    far=(--depth normalized --far 9)
+    exits 0 "$bin/ldi-plan" normalized.exr "${lens[@]}" "${far[@]}" --noise 0 -o near.$near.json --near $near
+    exits 0 "$bin/ldi-warp" normalized.exr "${lens[@]}" "${far[@]}" -o warped.$near.exr --near $near
+    exits 0 "$bin/ldi-cluster" normalized.exr "${lens[@]}" "${far[@]}" -o clustered.$near.exr --near $near
+    exits 0 "$bin/dof-compare" plain.exr negative.exr --json --regions normalized.exr "${lens[@]}" "${far[@]}" --near $near
+    mv stdout compared.$near.json
+done
+differ near.1.json near.3.json "ldi-plan --near"
+differ warped.1.exr warped.3.exr "ldi-warp --near"
+differ clustered.1.exr clustered.3.exr "ldi-cluster --near"
+differ compared.1.json compared.3.json "dof-compare --near"
+
+# What is missing or ignored is wrong usage; what is met without the option points to it.
+fails_saying 2 '--depth normalized: .* 0 and which is 1 is unknown: give --near and --far' "$gather" normalized.exr -o x.exr "${lens[@]}" --depth normalized
+fails_saying 2 '--depth normalized: .* is unknown: give --far' "$gather" normalized.exr -o x.exr "${lens[@]}" --depth normalized --near 1
+fails_saying 2 '--near works with --depth normalized only' "$gather" plain.exr -o x.exr "${lens[@]}" --near 1
+fails_saying 1 'negative.exr: depth -2 in pixel 0,0 .*--depth says what the channel holds \(negative' "$gather" negative.exr -o x.exr "${lens[@]}"
+oiiotool plain.exr --divc 1,1,1,1,6 --clamp:max=1,1,1,1,0.95 --subc 0,0,0,0,-0.05 -o clipped.exr
+exits 0 "$gather" clipped.exr -o x.exr "${lens[@]}"
+grep -q 'warning: clipped.exr: its depths end at exactly 1, .*--depth normalized with --near and --far' stderr || fail "no warning: $(cat stderr)"
