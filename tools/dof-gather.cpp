@@ -66,9 +66,9 @@ void run(const GatherCommand &options, const ToolContext &tool, LdiCache &cache)
         write_flat_exr(options.depth_output, crop(front_depth(ldi), frame.written), header,
                        options.compression);
     picture = in_type(std::move(picture), options.type);
-    warn_of_clamped(tool, options.output,
-                    write_picture(tool, options.colour, options.output, std::move(picture), header,
-                                  options.compression));
+    warn_of_clamped(
+        tool, options.output,
+        write_picture(tool, options.colour, options.output, std::move(picture), header, options.compression));
     write_stats(tool, gather_stats(cache, tiles));
 }
 

@@ -76,8 +76,7 @@ void run(const Options &options, const ToolContext &tool) {
                     : "by inverse depth alone, because the lens is unknown"));
     write_camera(in.header, in.camera);
     append_history(in.header, tool, options.history);
-    warn_of_clamped(tool, options.output,
-                    write_ldi(options.output, out.ldi, in.header, options.compression));
+    warn_of_clamped(tool, options.output, write_ldi(options.output, out.ldi, in.header, options.compression));
     write_stats(tool, cluster_stats(in, out));
 }
 

@@ -44,7 +44,8 @@ std::optional<std::string> normalized_warning(const DepthOptions &options, std::
     if (options.meaning != DepthMeaning::planar || depths.empty()) return {};
     const auto [least, most] = std::ranges::minmax(depths);
     if (!(least >= 0 && least < 1 && most == 1)) return {};
-    return "its depths end at exactly 1, as normalised ones do: if they are, give --depth normalized with --near "
+    return "its depths end at exactly 1, as normalised ones do: if they are, give --depth normalized with "
+           "--near "
            "and --far";
 }
 

@@ -10,7 +10,8 @@ bool is_sky(DepthMeaning meaning, double value, double far) {
     constexpr double largest_half = 65504;
     if (meaning == DepthMeaning::inverse) return value >= 0 && value <= 1 / far;
     if (meaning == DepthMeaning::normalized) return value >= 1;
-    const double depth = meaning == DepthMeaning::negative ? std::abs(value) : value; // the sky may be positive
+    const double depth =
+        meaning == DepthMeaning::negative ? std::abs(value) : value; // the sky may be positive
     return depth >= far || depth == largest_half;
 }
 

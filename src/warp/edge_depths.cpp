@@ -20,6 +20,7 @@ constexpr double sky = 1e10;              // what renderers write of it, which a
 constexpr double same_depth = 0.02;       // relative
 constexpr double worth_of_coverage = 0.1; // against a relative difference of colours
 constexpr double apart = 1.1;             // two surfaces: the ratio of their depths, at least
+constexpr double least_of_step = 0.6;     // of the difference twice as far out: a slope has 0.5 of it
 constexpr double clearly_mixed = 0.05;    // of either surface, at least, in a depth
 constexpr double same_share = 0.15;       // of a surface, in depth and in colour
 constexpr double largest_mix_residual =
@@ -55,8 +56,9 @@ double colour_difference(const Pixels &pixels, std::size_t a, std::size_t b) {
 
 // What the pixels around a partly covered one say of its depth.
 struct Surroundings {
-    float farthest = 0; // of those that cover more
-    float best = 0;     // the depth of that which explains it best; 0: there is none
+    float farthest = 0;   // of those that cover more
+    float best = 0;       // the depth of that which explains it best; 0: there is none
+    bool nothing = false; // whether one of them shows nothing
 };
 
 Surroundings look_around(const Pixels &pixels, int x, int y, int reach) {
@@ -68,6 +70,7 @@ Surroundings look_around(const Pixels &pixels, int x, int y, int reach) {
     for (int v = std::max(y - reach, 0); v <= std::min(y + reach, grid.height() - 1); ++v)
         for (int u = std::max(x - reach, 0); u <= std::min(x + reach, grid.width() - 1); ++u) {
             const std::size_t other = grid.index(u, v);
+            found.nothing = found.nothing || pixels.coverage(other) <= 0;
             if (other == own || !pixels.shows_surface(other)) continue;
             if (own_shows && !(pixels.coverage(other) > pixels.coverage(own))) continue;
             found.farthest = std::max(found.farthest, pixels.z[other]);
@@ -87,8 +90,9 @@ std::optional<float> depth_of_partly_covered(const Pixels &pixels, int x, int y)
         const Surroundings around = look_around(pixels, x, y, reach);
         if (around.best == 0) continue;
         const double of_zeros = double(pixels.coverage(own)) * double(around.best);
-        const bool wrong =
-            z > far_beyond * around.farthest || std::abs(double(z) - of_zeros) < same_depth * of_zeros;
+        const bool mixed_with_zeros =
+            around.nothing && std::abs(double(z) - of_zeros) < same_depth * of_zeros;
+        const bool wrong = z > far_beyond * around.farthest || mixed_with_zeros;
         if (!wrong || std::abs(z - around.best) < same_depth * around.best) return {};
         return around.best;
     }
@@ -102,6 +106,17 @@ struct Sides {
     double share;
 };
 
+// Whether the depth between the two sides, which differ by `width`, is a step and not part of a slope: twice as far out
+// they differ by hardly more. On a slope of one surface they differ by twice as much there.
+bool is_step(const Pixels &pixels, int x, int y, const Imath::V2i &step, double width) {
+    const Imath::V2i a = Imath::V2i(x, y) - step * 2, b = Imath::V2i(x, y) + step * 2;
+    if (!pixels.grid.contains(a.x, a.y) || !pixels.grid.contains(b.x, b.y)) return false;
+    const auto depth = [&](const Imath::V2i &at) {
+        return std::min(double(pixels.z[pixels.grid.index(at.x, at.y)]), sky);
+    };
+    return width > least_of_step * std::abs(depth(a) - depth(b));
+}
+
 std::optional<Sides> sides_of(const Pixels &pixels, int x, int y, const Imath::V2i &step) {
     const Grid &grid = pixels.grid;
     if (!grid.contains(x - step.x, y - step.y) || !grid.contains(x + step.x, y + step.y)) return {};
@@ -110,6 +125,7 @@ std::optional<Sides> sides_of(const Pixels &pixels, int x, int y, const Imath::V
     const double near = pixels.z[sides.near], far = std::min(double(pixels.z[sides.far]), sky);
     if (!(far > apart * near)) return {};
     if (pixels.coverage(sides.near) < 1 || pixels.coverage(sides.far) < 1) return {};
+    if (!is_step(pixels, x, y, step, far - near)) return {};
     sides.share = (far - double(pixels.z[grid.index(x, y)])) / (far - near);
     return sides;
 }

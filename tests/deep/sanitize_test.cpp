@@ -101,8 +101,9 @@ TEST(InvalidValues, MostDepthsBadIsAnotherConvention) {
                           [](int x, int) { return ViewPixel{.z = x < 2 ? -3.0f : 4.0f}; });
     view.name = "x.exr";
     const std::string what = what_of<Error>([&] { sanitize(view); });
-    EXPECT_EQ(what, "x.exr: depth -3 in pixel 0,0 is not a number above 0: --depth says what the channel holds "
-                    "(negative: the z of a camera that looks along -z), --depth-channel which channel is read");
+    EXPECT_EQ(what,
+              "x.exr: depth -3 in pixel 0,0 is not a number above 0: --depth says what the channel holds "
+              "(negative: the z of a camera that looks along -z), --depth-channel which channel is read");
 }
 
 TEST(InvalidValues, InDeepPicturesTheNeighbourNearestInDepthFills) {

@@ -7,12 +7,11 @@ gather=$bin/dof-gather
 oiiotool --pattern checker:color1=0.1,0.5,0.2,1,2:color2=0.9,0.2,0.1,1,6:width=8 24x16 5 --chnames R,G,B,A,Z -d float -o plain.exr
 oiiotool plain.exr --mulc 1,1,1,1,-1 -o negative.exr
 oiiotool plain.exr --subc 0,0,0,0,1 --divc 1,1,1,1,8 -o normalized.exr # 0 at 1, 1 at 9
-near_far=(--depth normalized --near 1 --far 9)
 same_depth() { idiff -q -fail 1e-5 -warn 1e-5 expected.exr "$1" >idiff.txt || fail "$2 ($(cat idiff.txt))"; }
 exits 0 "$gather" plain.exr -o x.exr --lens-radius 0 --depth-out expected.exr
 exits 0 "$gather" negative.exr -o x.exr --lens-radius 0 --depth-out negative.z.exr --depth negative
 same_depth negative.z.exr "--depth negative"
-exits 0 "$gather" normalized.exr -o x.exr --lens-radius 0 --depth-out normalized.z.exr "${near_far[@]}"
+exits 0 "$bin/dof-gather" normalized.exr -o x.exr --lens-radius 0 --depth-out normalized.z.exr --depth normalized --near 1 --far 9
 same_depth normalized.z.exr "--depth normalized"
 oiiotool normalized.exr --attrib near 1.0 --attrib far 9.0 -o header.exr
 exits 0 "$gather" header.exr -o x.exr --lens-radius 0 --depth-out header.z.exr --depth normalized

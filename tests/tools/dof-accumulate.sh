@@ -66,7 +66,7 @@ exits 0 "$accumulate" "${views[@]}" "${lens[@]}" --fstop 1 --scene-unit 0.1 -v -
 grep -q '5 views' stderr || fail "--scene-unit changes nothing: $(cat stderr)"
 exits 0 "$accumulate" "${views[@]}" --lens-radius 0 -o out.exr # needs nothing else
 holds out.exr 32 24 5
-fails_saying 1 'no view.*aperture' "$accumulate" --view 1,0 left.exr "${lens[@]}" --lens-radius 0.5 -o none.exr
+fails_saying 1 'all views lie outside the aperture' "$accumulate" --view 1,0 left.exr "${lens[@]}" --lens-radius 0.5 -o none.exr
 
 # Types, windows, ids, standard streams, threads.
 exits 0 "$accumulate" "${views[@]:0:9}" "${lens[@]}" -d float -o third.exr

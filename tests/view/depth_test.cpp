@@ -88,8 +88,10 @@ TEST(PlanarDepth, NegativeIsTheZOfACameraThatLooksAlongMinusZ) {
     const Windows w = windows_of_size(200, 100);
     EXPECT_EQ(planar_depth(DepthMeaning::negative, -7, 3, 4, w, focal_px), 7);
     EXPECT_EQ(planar_depth(DepthMeaning::negative, -inf, 3, 4, w, focal_px), inf);
-    for (const double sky : {-1e10, -65504.0, -inf, 1e30}) EXPECT_TRUE(is_sky(DepthMeaning::negative, sky, 1e10)) << sky;
-    for (const double thing : {-1e9, -1.0, 0.0}) EXPECT_FALSE(is_sky(DepthMeaning::negative, thing, 1e10)) << thing;
+    for (const double sky : {-1e10, -65504.0, -inf, 1e30})
+        EXPECT_TRUE(is_sky(DepthMeaning::negative, sky, 1e10)) << sky;
+    for (const double thing : {-1e9, -1.0, 0.0})
+        EXPECT_FALSE(is_sky(DepthMeaning::negative, thing, 1e10)) << thing;
 }
 
 TEST(NormalizedDepth, IsLinearBetweenThePlanes) {

@@ -83,9 +83,9 @@ void add_compression_option(CLI::App &app, AskedCompression &compression, bool d
     const auto read = [&compression, deep](const std::string &text) {
         const auto found = std::ranges::find(compressions(), text, &NamedCompression::name);
         if (found == compressions().end() || (deep && !found->deep))
-            throw CLI::ValidationError("--compression",
-                                       fmt::format("{} files have one of {}, not '{}'", deep ? "deep" : "flat",
-                                                   compression_names(deep, ", "), text));
+            throw CLI::ValidationError("--compression", fmt::format("{} files have one of {}, not '{}'",
+                                                                    deep ? "deep" : "flat",
+                                                                    compression_names(deep, ", "), text));
         compression = found->value;
     };
     app.add_option_function<std::string>(

@@ -164,7 +164,8 @@ LdiFile read_ldi(const std::string &path, const std::string &depth_channel, cons
         for (const int part : numbers) picture.add(part, one_beauty && part != numbers.front());
         Imf::Header header = header_of_view(file.header(numbers.front()), view);
         if (picture.is_merged()) header = without_attribute(header, "name"); // an object's
-        if (is_standard_stream(path)) header.compression() = Imf::ZIPS_COMPRESSION; // a pipe's says nothing of the picture
+        if (is_standard_stream(path))
+            header.compression() = Imf::ZIPS_COMPRESSION; // a pipe's says nothing of the picture
         Ldi ldi = picture.whole();
         std::vector<std::string> notes = picture.notes();
         if (const auto flat = std::size_t(file.parts()) - deep.size(); flat > 0)

@@ -115,7 +115,8 @@ PictureParts parts_of_picture(Imf::MultiPartInputFile &file, const std::string &
 Imf::Header header_of(const Imf::MultiPartInputFile &file, const PictureParts &picture,
                       const std::string &path) {
     Imf::Header header = header_of_view(file.header(picture.parts.front().part), picture.view);
-    if (is_standard_stream(path)) header.compression() = Imf::ZIP_COMPRESSION; // a pipe's says nothing of the picture
+    if (is_standard_stream(path))
+        header.compression() = Imf::ZIP_COMPRESSION; // a pipe's says nothing of the picture
     header.dataWindow() = picture.windows.data;
     return header;
 }

@@ -59,13 +59,13 @@ protected:
 };
 
 TEST_F(ExrWindows, AreUnited) {
-    write({{"rgba", {"R", "G", "B", "A"}, 1, 2, 0.5f}, {"depth", {"Z"}, 2, 3, 4}, {"N", {"N.x"}, 0, 0, 7}});
+    write({{"rgba", {"R", "G", "B", "A"}, 1, 2, 1}, {"depth", {"Z"}, 2, 3, 4}, {"N", {"N.x"}, 0, 0, 7}});
     const FlatFile file = read_flat_exr(path);
     EXPECT_EQ(file.image.windows.data, Imath::Box2i({0, 0}, {3, 0}));
     EXPECT_EQ(file.header.dataWindow(), file.image.windows.data);
     EXPECT_EQ(read_flat_header(path).dataWindow(), file.image.windows.data);
-    EXPECT_EQ(values(file.image, "R"), (std::vector<float>{0, 0.5f, 0.5f, 0}));
-    EXPECT_EQ(values(file.image, "A"), (std::vector<float>{0, 0.5f, 0.5f, 0}));
+    EXPECT_EQ(values(file.image, "R"), (std::vector<float>{0, 1, 1, 0}));
+    EXPECT_EQ(values(file.image, "A"), (std::vector<float>{0, 1, 1, 0}));
     EXPECT_EQ(values(file.image, "N.x"), (std::vector<float>{7, 0, 0, 0}));
     EXPECT_EQ(open_view(path).view.z, (std::vector<float>{inf, inf, 4, inf}));
     EXPECT_EQ(read_ldi(path).ldi.windows.data, file.image.windows.data);
