@@ -1,5 +1,6 @@
-// dof-compare: how far a picture is from its reference.
+// dof-compare: how far a picture is from its reference, and how steady a sequence is.
 #include "base/error.h"
+#include "harness/commands/frames.h"
 #include "harness/examples.h"
 #include "harness/tool.h"
 #include "io/exr/exr_flat.h"
@@ -8,12 +9,16 @@
 #include "measure/figures_text.h"
 #include "measure/image_error.h"
 #include "measure/regions.h"
+#include "measure/temporal_error.h"
+#include "measure/temporal_text.h"
 #include "options/lens_options.h"
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cstdio>
+#include <optional>
 #include <vector>
 
 namespace {
@@ -21,7 +26,7 @@ namespace {
 using namespace sparselens;
 
 struct Options {
-    std::string image, reference, regions;
+    std::string image, reference, regions, frames;
     bool json = false;
     LensValues lens;
     DepthOptions depth;
@@ -32,8 +37,8 @@ void add_options(CLI::App &app, Options &options) {
         ->required()
         ->type_name("");
     app.add_option("REF", options.reference,
-                   "Reference (EXR), over whose data window the pictures are compared")
-        ->required()
+                   "Reference (EXR), over whose data window the pictures are compared; with --frames it may "
+                   "be left out")
         ->type_name("");
     app.add_flag("--json", options.json, "Print JSON instead of a table");
     CLI::Option *regions =
@@ -42,6 +47,12 @@ void add_options(CLI::App &app, Options &options) {
                "Also compare by region: in focus, blurred, silhouettes, as this LDI tells (deep EXR, or flat "
                "with depth)")
             ->type_name("LDI");
+    app.add_option("--frames", options.frames,
+                   "Compare over time: how steady a sequence is (names hold #### or %04d), and its changes "
+                   "with those of "
+                   "REF, if that is given. RANGE is e.g. 1-16")
+        ->type_name("RANGE")
+        ->excludes(regions);
     add_lens_options(app, options.lens);
     add_depth_options(app, options.depth);
     for (CLI::Option *option : app.get_options())
@@ -49,22 +60,31 @@ void add_options(CLI::App &app, Options &options) {
             option->needs(regions); // they say how to read that file
     add_examples(app, {{"Compare a picture with its reference", "dof-compare picture.exr reference.exr"},
                        {"... also in focus, in the blur and at silhouettes, as JSON",
-                        "dof-compare picture.exr reference.exr --regions ldi.exr --json"}});
+                        "dof-compare picture.exr reference.exr --regions ldi.exr --json"},
+                       {"Find what sparkles in a pull of focus", "dof-compare pull.####.exr --frames 1-3"}});
 }
 
-void compare(const Options &options, const ToolContext &tool) {
+Image read_picture(const std::string &path, const Options &options, const ToolContext &tool) {
+    FlatFile file = read_flat_exr(path, options.depth.view);
+    say_reading(tool, path, file.notes, file.warnings);
+    return std::move(file.image);
+}
+
+void print(const std::string &text) {
+    if (std::fputs(text.c_str(), stdout) == EOF || std::fflush(stdout) != 0)
+        throw Error("standard output: cannot write");
+}
+
+void compare_pictures(const Options &options, const ToolContext &tool) {
+    if (options.reference.empty())
+        throw UsageError("REF is required: name the reference, or a sequence by --frames");
     const auto from_stdin = {options.image == "-", options.reference == "-", options.regions == "-"};
     if (std::ranges::count(from_stdin, true) > 1)
         throw UsageError("standard input (-) cannot be read twice: give one file by its name");
-    const auto read = [&](const std::string &path) {
-        FlatFile file = read_flat_exr(path, options.depth.view);
-        say_reading(tool, path, file.notes, file.warnings);
-        return std::move(file.image);
-    };
-    const Image reference_file = read(options.reference);
+    const Image reference_file = read_picture(options.reference, options, tool);
     const Windows &windows = reference_file.windows;
     const Image reference = rgba_over(reference_file, windows, options.reference);
-    const Image image = rgba_over(read(options.image), windows, options.image);
+    const Image image = rgba_over(read_picture(options.image, options, tool), windows, options.image);
 
     std::vector<std::uint8_t> bits;
     if (!options.regions.empty())
@@ -74,9 +94,31 @@ void compare(const Options &options, const ToolContext &tool) {
     std::vector<NamedFigures> regions;
     for (std::size_t r = 1; r < figures.size(); ++r) regions.push_back({region_names[r - 1], figures[r]});
     const auto as_text = options.json ? figures_as_json : figures_as_table;
-    const std::string text = as_text(figures.front(), regions);
-    if (std::fputs(text.c_str(), stdout) == EOF || std::fflush(stdout) != 0)
-        throw Error("standard output: cannot write");
+    print(as_text(figures.front(), regions));
+}
+
+void compare_sequences(const Options &options, const ToolContext &tool) {
+    std::vector<std::string> words{options.image};
+    if (!options.reference.empty()) words.push_back(options.reference);
+    words.insert(words.end(), {"--frames", options.frames});
+    const FrameCommands frames(words);
+    if (frames.size() < 3)
+        throw UsageError(fmt::format(
+            "--frames {}: three frames or more are needed to tell how steady they are", options.frames));
+    TemporalError error;
+    std::optional<Windows> windows; // those of the first frame
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        const std::vector<std::string> names = frames.words(i);
+        const auto read = [&](const std::string &path) {
+            const Image image = read_picture(path, options, tool);
+            if (!windows) windows = image.windows;
+            return rgba_over(image, *windows, path);
+        };
+        const auto reference =
+            options.reference.empty() ? std::nullopt : std::optional<Image>(read(names[1]));
+        error.add(read(names[0]), reference ? &*reference : nullptr);
+    }
+    print(options.json ? temporal_as_json(error.figures()) : temporal_as_table(error.figures()));
 }
 
 } // namespace
@@ -85,5 +127,7 @@ int main(int argc, char **argv) {
     CLI::App app("Prints how far a picture is from its reference", "dof-compare");
     Options options;
     add_options(app, options);
-    return run_tool(app, argc, argv, [&](const ToolContext &tool) { compare(options, tool); });
+    return run_tool(app, argc, argv, [&](const ToolContext &tool) {
+        options.frames.empty() ? compare_pictures(options, tool) : compare_sequences(options, tool);
+    });
 }

@@ -166,3 +166,18 @@ fails_saying 1 'onlyz.exr.*channel R' "$compare" onlyz.exr b.exr
 fails_saying 2 REF "$compare" a.exr
 fails_saying 2 'twice' "$compare" - -
 echo "dof-compare: fine"
+
+# --frames: how steady a sequence is. Of three pixels one stays, one changes evenly, one pops in the last frame.
+frame() { oiiotool --create 3x1 4 --chnames R,G,B,A --fill:color=0.5,0.5,0.5,1 1x1+0+0 --fill:color="$2,$2,$2,1" 1x1+1+0 \
+    --fill:color="$3,$3,$3,1" 1x1+2+0 -d float -o "$1"; }
+frame s.0001.exr 0.50 0.5
+frame s.0002.exr 0.51 0.5
+frame s.0003.exr 0.52 0.9
+exits 0 "$compare" 's.####.exr' --frames 1-3 --json
+grep -q '"above_0.05": 1' stdout || fail "--frames does not find the pixel that pops: $(cat stdout)"
+grep -q '"frames": 3' stdout || fail "--frames: $(cat stdout)"
+exits 0 "$compare" 's.####.exr' 's.####.exr' --frames 1-3
+grep -Eq '^psnr_change +inf' stdout || fail "--frames with a reference: $(cat stdout)"
+fails_saying 2 'three frames' "$compare" 's.####.exr' --frames 1-2
+fails_saying 1 's.0004.exr' "$compare" 's.####.exr' --frames 1-4
+fails_saying 2 regions "$compare" 's.####.exr' --frames 1-3 --regions ldi.exr

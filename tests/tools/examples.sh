@@ -13,6 +13,7 @@ ldi-warp center.exr view_*.exr -o ldi.exr
 cp ldi.exr front.exr
 cp ldi.exr back.exr
 dof-gather ldi.exr -o picture.exr
+dof-gather ldi.exr -o pull.####.exr --frames 1-3 --focus-distance 1:2.0,3:5.0
 rm -r traced
 
 # What takes long has a script of its own, which runs it smaller, or needs what is not here.

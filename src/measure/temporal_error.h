@@ -1,0 +1,59 @@
+// How steady a sequence of pictures is, and how well its changes follow those of a reference sequence.
+//
+// Let v(t) be a tone-mapped value (tone_map.h) of frame t. Motion that is smooth changes v evenly, and what pops or
+// sparkles does not, so steadiness is measured by second differences over time, |v(t - 1) - 2 v(t) + v(t + 1)|. Those of a
+// pixel are the largest over R, G, B and all frames. Changes are compared by first differences, v(t) - v(t - 1).
+#pragma once
+
+#include "../base/image.h"
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace sparselens {
+
+// Of a second difference. In one step of focus, what is above the first one is seen as a flicker, and above the second
+// as a sparkle.
+inline constexpr std::array temporal_thresholds{0.02, 0.05};
+
+struct Steadiness {
+    std::array<std::size_t, temporal_thresholds.size()> above{}; // pixels with larger second differences
+    double largest = 0;                                          // of all
+};
+
+struct TemporalFigures {
+    std::size_t frames = 0, pixels = 0;
+    std::size_t nonfinite =
+        0; // pixels that are infinite or NaN in any frame of either sequence, and left out
+    Steadiness image;
+    // With a reference: its own steadiness, and -10 log10 of the mean squared error of the change from frame to frame, dB;
+    // infinite where all changes are equal.
+    std::optional<Steadiness> reference;
+    std::optional<double> psnr_change;
+};
+
+// Takes one frame after another; keeps no more than the last two.
+class TemporalError {
+public:
+    // Frames are as rgba_over() returns them (image_error.h), and all have one data window. `reference`: that of the same
+    // frame, in all calls or in none.
+    void add(const Image &image, const Image *reference = nullptr);
+    TemporalFigures figures() const;
+
+private:
+    // A sequence: the last two frames, tone-mapped, and the largest second difference of each pixel so far.
+    struct Sequence {
+        std::vector<float> before, last;
+        std::vector<double> worst;
+        void add(std::vector<float> now, std::size_t frames);
+    };
+    std::size_t frames_ = 0;
+    std::vector<char> finite_; // [pixel]: in all frames so far; char, since rows are worked on at once
+    Sequence image_, reference_;
+    bool has_reference_ = false;
+    std::vector<double> change_; // [pixel]: sum of the squared errors of its changes
+};
+
+} // namespace sparselens

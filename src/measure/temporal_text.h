@@ -1,0 +1,16 @@
+// Temporal figures as text, like figures_text.h: JSON for scripts, a table for people.
+#pragma once
+
+#include "temporal_error.h"
+
+#include <string>
+
+namespace sparselens {
+
+// "frames", "pixels", "nonfinite", "above_0.02", "above_0.05", "largest"; with a reference, "reference": the last three of
+// it, and "psnr_change". Figures that are not finite are null.
+std::string temporal_as_json(const TemporalFigures &figures);
+
+std::string temporal_as_table(const TemporalFigures &figures);
+
+} // namespace sparselens
