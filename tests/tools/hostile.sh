@@ -62,7 +62,7 @@ hostile() {
 # makes in time; the selective one, which is slow where blur is large, makes the pixels of the file.
 every_tool() {
     local file=$1
-    hostile "$file" dof-gather "$file" "${lens[@]}"
+    hostile "$file" dof-gather "$file" "${lens[@]}" --quality draft
     hostile "$file" dof-gather "$file" "${lens[@]}" --method selective --overscan keep
     hostile "$file" ldi-cluster "$file" "${lens[@]}"
     hostile "$file" ldi-warp "$file" --view 0.05,0 "$file" "${lens[@]}"
