@@ -4,12 +4,12 @@
 #include "io/camera/camera_write.h"
 #include "io/exr/exr_deep.h"
 #include "loading/notices.h"
+#include "loading/pose_warnings.h"
 #include "loading/stage_stats.h"
 #include "loading/views.h"
 #include "options/colour_options.h"
 #include "options/warp_options.h"
 #include "view/view_mapping.h"
-#include "warp/pose_check.h"
 #include "warp/warp.h"
 
 #include <fmt/format.h>
@@ -21,19 +21,6 @@
 using namespace sparselens;
 
 namespace {
-
-// Warns of views whose stated position is wrong: they make an LDI with ghosts.
-void warn_of_wrong_pose(const ToolContext &tool, std::span<const View> views, double focal_px) {
-    const auto text = [](const Imath::V2d &p) {
-        return fmt::format("{:g},{:g}", p.x + 0.0, p.y + 0.0);
-    }; // no -0
-    for (const View &view : views.subspan(1))
-        if (const auto better = better_position(views[0], view, focal_px))
-            warn(tool,
-                 fmt::format(
-                     "{}: disagrees with the centre view at its stated position {}; it would agree at {}",
-                     view.name, text(view.position), text(*better)));
-}
 
 // Reports views whose framing differs from that of the centre view: a frustum that is misread makes ghosts, too.
 void say_framings(const ToolContext &tool, std::span<const View> views) {
@@ -77,7 +64,7 @@ void run(const WarpCommand &options, const ToolContext &tool) {
     append_history(in.header, tool, options.history);
     write_picture_window(in.header, in.views[0].image.windows.data);
     const Ldi ldi = warp(in.views, warp_by, *tool.progress);
-    warn_of_wrong_pose(tool, in.views, warp_by.focal_px);
+    warn_of_wrong_poses(tool, in.views, warp_by.focal_px, lens_radius_of(in.camera).value_or(0));
     tool.say(fmt::format("{} views, {} samples in {} pixels", in.views.size(), ldi.samples(),
                          ldi.windows.pixels()));
     warn_of_clamped(tool, options.output, write_ldi(options.output, ldi, in.header, options.compression));

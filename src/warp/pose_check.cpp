@@ -1,124 +1,140 @@
 #include "warp/pose_check.h"
 
-#include "lens/perceptive_depth.h"
-#include "view/view_mapping.h"
+#include "warp/pose_evidence.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
+#include <vector>
 
 namespace sparselens {
 
 namespace {
 
-constexpr double samples_a_side = 160; // of the view's pixels, enough to tell
-constexpr double same_depth = 1;       // pixels of parallax: either view's place is known to a pixel
-constexpr double clearly = 0.7;        // times the disagreement
-constexpr double at_least = 0.02;      // less: rounding, noise
+constexpr std::size_t enough = 200;  // pixels that tell
+constexpr double clearly = 0.7;      // times the contradiction
+constexpr double at_least = 0.01;    // less: rounding, noise
+constexpr double least_motion = 1;   // pixels between two positions: less is not seen
+constexpr double usual_motion = 16;  // of a view from the rim, pixels
+constexpr double fine_motion = 0.25; // pixels
+constexpr double one_side = 175;     // degrees within which all other views stand
+constexpr double equally_far = 1.2;  // ratio of distances
 
-// The colours that both views have: the index of each in either.
-std::vector<std::pair<std::size_t, std::size_t>> common_colours(const View &centre, const View &view) {
-    std::vector<std::pair<std::size_t, std::size_t>> common;
-    const auto of_centre = find_rgb(centre.image.channels), of_view = find_rgb(view.image.channels);
-    for (std::size_t k = 0; k < 3; ++k)
-        if (of_centre[k] != npos && of_view[k] != npos) common.emplace_back(of_centre[k], of_view[k]);
-    return common;
-}
-
-// A view, to be asked pixel by pixel.
-class Pixels {
+// The least contradicted of the positions tried so far. Where much less is seen, little can contradict.
+class Search {
 public:
-    explicit Pixels(const View &view) : view_(view), alpha_(find_channel(view.image.channels, "A")) {}
+    Search(const PoseEvidence &evidence, const Imath::V2d &stated)
+        : evidence_(evidence), stated_(evidence.at(stated)), best_(stated), least_(stated_.contradiction) {}
 
-    bool show_something(const Imath::V2i &p) const {
-        return depth(p) > 0 && (alpha_ == npos || view_.image.at(alpha_, p.x, p.y) > 0);
+    void attempt(const Imath::V2d &position) {
+        const PoseVerdict there = evidence_.at(position);
+        if (there.told < enough || 2 * there.told < stated_.told || there.contradiction >= least_) return;
+        least_ = there.contradiction;
+        best_ = position;
     }
-    double depth(const Imath::V2i &p) const { return view_.z[view_.image.windows.index(p.x, p.y)]; }
+
+    // Tries positions around the best one, closer and closer, along `axes`.
+    void refine(double step, std::span<const Imath::V2d> axes) {
+        while (step * evidence_.motion() > fine_motion) {
+            const Imath::V2d before = best_;
+            for (const Imath::V2d &axis : axes)
+                for (const double way : {step, -step}) attempt(before + axis * way);
+            if (best_ == before) step /= 2;
+        }
+    }
+
+    const Imath::V2d &best() const { return best_; }
+    bool can_tell() const { return stated_.told >= enough; }
+    bool is_clear() const {
+        return least_ < std::min(clearly * stated_.contradiction, stated_.contradiction - at_least);
+    }
 
 private:
-    const View &view_;
-    std::size_t alpha_;
+    const PoseEvidence &evidence_;
+    PoseVerdict stated_;
+    Imath::V2d best_;
+    double least_;
 };
 
-// visit(q, landed) for a grid of the view's pixels: where the centre view shows what they show.
-template <typename Visit>
-void for_each_sampled(const View &view, const ViewMapping &mapping, const Visit &visit) {
-    const Windows &w = view.image.windows;
-    const Pixels pixels(view);
-    const int step_x = int(std::ceil(w.width() / samples_a_side)),
-              step_y = int(std::ceil(w.height() / samples_a_side));
-    for (int y = w.data.min.y; y <= w.data.max.y; y += step_y)
-        for (int x = w.data.min.x; x <= w.data.max.x; x += step_x) {
-            const Imath::V2i q(x, y);
-            if (!pixels.show_something(q)) continue;
-            const Imath::V2d place = Imath::V2d(q) + Imath::V2d(0.5);
-            visit(q, mapping.at_infinity(place) + mapping.parallax(place) * (1 / pixels.depth(q)));
+void search_around_centre(double reach, Search &search) {
+    constexpr int directions = 16;
+    for (const double distance : {0.25 * reach, 0.5 * reach, reach})
+        for (int k = 0; k < directions; ++k) {
+            const double angle = 2 * std::numbers::pi * k / directions;
+            search.attempt(distance * Imath::V2d(std::cos(angle), std::sin(angle)));
         }
+    constexpr std::array axes{Imath::V2d(1, 0), Imath::V2d(0, 1)};
+    if (search.best() != Imath::V2d(0, 0)) search.refine(0.1 * reach, axes);
 }
 
-ViewMapping mapping_from(const View &centre, const View &view, const Imath::V2d &position, double focal_px) {
-    return {position, focal_px, view.image.windows, view.framing, centre.framing.principal_point};
-}
-
-double largest_parallax(const View &view, const ViewMapping &mapping) {
-    double largest = 0;
-    for_each_sampled(view, mapping, [&](const Imath::V2i &q, const Imath::V2d &landed) {
-        const Imath::V2d far = mapping.at_infinity(Imath::V2d(q) + Imath::V2d(0.5));
-        largest = std::max(largest, (landed - far).length());
-    });
-    return largest;
+// The stated position with a wrong sign or axis, or a wrong unit.
+void search_around(const Imath::V2d &at, Search &search) {
+    for (const Imath::V2d &other : {Imath::V2d(0, 0), -at, Imath::V2d(-at.x, at.y), Imath::V2d(at.x, -at.y),
+                                    Imath::V2d(at.y, at.x), Imath::V2d(-at.y, -at.x)})
+        search.attempt(other);
+    const Imath::V2d turned = search.best();
+    for (const double factor : {0.25, 0.4, 0.5, 0.63, 0.8, 1.25, 1.6, 2.0, 2.5, 4.0})
+        search.attempt(at * factor);
+    const std::array along{at.normalized()};
+    if (search.best() != turned) search.refine(0.1 * search.best().length(), along);
 }
 
 } // namespace
 
-double disagreement(const View &centre, const View &view, const Imath::V2d &position, double focal_px) {
-    const Imath::Box2i &inside = centre.image.windows.data;
-    const double scale = focal_px * view.position.length(); // of parallax, the same wherever the view is put
-    const Pixels in_centre(centre), in_view(view);
-    const auto colours = common_colours(centre, view);
-    const auto relative_difference = [&](const Imath::V2i &p, const Imath::V2i &q) {
-        double off = 0, light = 1e-6; // both dark: no difference
-        for (const auto &[c, v] : colours) {
-            const double a = centre.image.at(c, p.x, p.y), b = view.image.at(v, q.x, q.y);
-            off += std::abs(a - b);
-            light += std::abs(a) + std::abs(b);
-        }
-        return off / light;
-    };
-    double sum = 0;
-    std::size_t compared = 0;
-    const ViewMapping mapping = mapping_from(centre, view, position, focal_px);
-    for_each_sampled(view, mapping, [&](const Imath::V2i &q, const Imath::V2d &landed) {
-        if (!(landed.x >= inside.min.x && landed.x < inside.max.x + 1.0 && landed.y >= inside.min.y &&
-              landed.y < inside.max.y + 1.0))
-            return;
-        const Imath::V2i p(int(std::floor(landed.x)), int(std::floor(landed.y)));
-        const double in_front =
-            perceptive_depth(scale, in_view.depth(q)) - perceptive_depth(scale, in_centre.depth(p));
-        const bool nothing = !in_centre.show_something(p);
-        ++compared;
-        if (!nothing && in_front < -same_depth) return; // hidden from the centre, as it may be
-        sum += nothing || in_front > same_depth ? 1 : relative_difference(p, q);
-    });
-    return compared > 0 ? sum / double(compared) : 0;
+std::optional<Imath::V2d> better_position(const View &centre, const View &view, double focal_px,
+                                          double reach) {
+    const PoseEvidence evidence(centre, view, focal_px);
+    const double motion = evidence.motion(), stated = view.position.length();
+    if (evidence.size() < enough || !(motion > 0)) return {};
+    if (stated > 0 && stated * motion < least_motion) return {}; // it shows the same from there
+    Search search(evidence, view.position);
+    if (!search.can_tell()) return {};
+    if (stated > 0)
+        search_around(view.position, search);
+    else
+        search_around_centre(reach > 0 ? reach : usual_motion / motion, search);
+    const double moved = (search.best() - view.position).length() * motion;
+    if (!search.is_clear() || moved < least_motion) return {};
+    return search.best();
 }
 
-std::optional<Imath::V2d> better_position(const View &centre, const View &view, double focal_px) {
-    const Imath::V2d &at = view.position;
-    const bool elsewhere_shows = largest_parallax(view, mapping_from(centre, view, at, focal_px)) >= 1;
-    if (!elsewhere_shows) return {}; // wherever it stands within that, it shows the same
-    const std::array<Imath::V2d, 6> others{
-        {{-at.x, -at.y}, {-at.x, at.y}, {at.x, -at.y}, {at.y, at.x}, {-at.y, -at.x}, {0, 0}}};
-    const double stated = disagreement(centre, view, at, focal_px);
-    double least = std::min(clearly * stated, stated - at_least);
-    std::optional<Imath::V2d> better;
-    for (const Imath::V2d &other : others) {
-        const double there = disagreement(centre, view, other, focal_px);
-        if (there >= least) continue;
-        least = there;
-        better = other;
+std::optional<std::size_t> same_picture(std::span<const View> views, std::size_t i, double focal_px) {
+    const View &view = views[i];
+    for (std::size_t other = 0; other < i; ++other) {
+        if (views[other].z != view.z || views[other].image.values != view.image.values) continue;
+        const PoseEvidence evidence(views[other], view, focal_px);
+        const double moved = (view.position - views[other].position).length() * evidence.motion();
+        if (evidence.size() >= enough && moved >= least_motion) return other;
     }
-    return better;
+    return {};
+}
+
+bool first_is_at_the_edge(std::span<const View> views, double lens_radius) {
+    std::vector<double> directions, distances;
+    for (const View &view : views.subspan(1)) {
+        if (view.position == Imath::V2d(0, 0)) continue;
+        directions.push_back(std::atan2(view.position.y, view.position.x) * 180 / std::numbers::pi);
+        distances.push_back(view.position.length());
+    }
+    if (directions.size() < 2) return false;
+    std::ranges::sort(directions);
+    double widest_gap = directions.front() + 360 - directions.back();
+    for (std::size_t i = 1; i < directions.size(); ++i)
+        widest_gap = std::max(widest_gap, directions[i] - directions[i - 1]);
+    const auto [nearest, farthest] = std::ranges::minmax(distances);
+    const bool beyond_lens = lens_radius > 0 && farthest > equally_far * lens_radius;
+    return 360 - widest_gap < one_side && (farthest > equally_far * nearest || beyond_lens);
+}
+
+std::optional<std::size_t> view_in_the_middle(std::span<const View> views) {
+    Imath::V2d middle(0, 0);
+    for (const View &view : views) middle += view.position / double(views.size());
+    const auto off = [&](const View &view) { return (view.position - middle).length(); };
+    const auto nearest = std::ranges::min_element(views, {}, off);
+    const double farthest = off(*std::ranges::max_element(views, {}, off));
+    if (off(*nearest) > 0.25 * farthest) return {};
+    return std::size_t(nearest - views.begin());
 }
 
 } // namespace sparselens

@@ -1,24 +1,31 @@
-// Checks whether a rim view shows what the centre view shows, moved according to its position on the lens. A position
-// with a wrong sign or axis, or one that is entirely wrong, makes an LDI with ghosts, in which each single sample looks
-// valid.
-//
-// Where a pixel of the view lands in the centre view, it shows the same surface, hence the same colour, or a surface
-// that is hidden from the centre; never one in front of what the centre view shows.
+// Checks whether views stand where they are said to stand. A wrong position makes an LDI with ghosts, in which each
+// single sample looks valid. Only a clear finding over many pixels counts: pose_evidence.h says what they tell.
 #pragma once
 
 #include "../view/view.h"
 
+#include <cstddef>
 #include <optional>
+#include <span>
 
 namespace sparselens {
 
-// The share, [0, 1], of the pixels of the view that contradict the centre view if the view stands at `position`. A
-// pixel in front of the centre view counts as 1, one on the same surface as its relative difference of colour. 0 where
-// nothing can be compared. `focal_px` is the focal length in pixels.
-double disagreement(const View &centre, const View &view, const Imath::V2d &position, double focal_px);
+// A position at which the view agrees with the centre view clearly better than at its stated one: mirrored, with x and
+// y swapped, that of the centre, or nearer to or farther from the centre. For a view that is said to stand at the centre
+// it is any within about `reach`, the distance of the other views; 0: unknown. Empty where there is none, the normal
+// case, and where too few pixels tell. `focal_px` is the focal length in pixels.
+std::optional<Imath::V2d> better_position(const View &centre, const View &view, double focal_px,
+                                          double reach = 0);
 
-// A position at which the view agrees clearly better than at its stated one: mirrored, with x and y swapped, or that of
-// the centre. Empty where there is none, the normal case.
-std::optional<Imath::V2d> better_position(const View &centre, const View &view, double focal_px);
+// The first of the views before views[i] that is the same picture, though it is said to stand elsewhere, whence it would
+// show the scene otherwise.
+std::optional<std::size_t> same_picture(std::span<const View> views, std::size_t i, double focal_px);
+
+// Whether views[0], which has to be the centre, stands at the edge of the others: all of them are to one side of it, and
+// they are not equally far from it, or farther than `lens_radius` (0: unknown). Of a single other view nothing is said.
+bool first_is_at_the_edge(std::span<const View> views, double lens_radius);
+
+// The view in the middle of all; empty where no view stands there.
+std::optional<std::size_t> view_in_the_middle(std::span<const View> views);
 
 } // namespace sparselens

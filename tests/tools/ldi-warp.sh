@@ -171,9 +171,46 @@ survives_failure "$warp" $center --view 0.06,0 narrow.exr
 fails_saying 2 '--output' "$warp" $center
 fails_saying 2 'views|CENTER' "$warp" -o x.exr
 
-# A view moved the wrong way is said, and where it would agree.
-exits 0 "$bin/ldi-warp" views/center.exr --view -0.06,0 views/view_0.exr -o x.exr
-[ "$(wc -l <stderr)" -eq 1 ] || fail "not one line: $(cat stderr)"
-grep -Eq 'warning: views/view_0.exr: disagrees .* stated position -0.06,0; it would agree at 0.06,0$' stderr || fail "not said: $(cat stderr)"
-exits 0 "$bin/ldi-warp" views/center.exr "${rim[@]}" -o x.exr
-[ ! -s stderr ] || fail "views in their places are complained of: $(cat stderr)"
+# A view that stands elsewhere than it is said to is noticed, and where it would agree: the other way, nearer, farther,
+# at the centre, and not at the centre.
+said() { # PATTERN: in one line
+    [ "$(wc -l <stderr)" -eq 1 ] || fail "not one line: $(cat stderr)"
+    grep -Eq "$1" stderr || fail "not said: $1 ($(cat stderr))"
+}
+for wrong in -0.06,0 0.024,0 0.12,0 0,0; do
+    exits 0 "$warp" views/center.exr --view $wrong views/view_0.exr -o x.exr
+    said "warning: views/view_0.exr: disagrees .* stated position $wrong; it would agree at 0\.0(4[5-9]|[56]|7)[0-9]*,-?0(\.0[01]?[0-9]*)? \(--view .* views/view_0.exr\)\$"
+done
+"$bin/dof-trace" fence --size 96x54 --spp 4 --views 0 -o again
+exits 0 "$warp" views/center.exr --view 0.06,0 again/center.exr -o x.exr
+said 'warning: again/center.exr: disagrees .* stated position 0.06,0; it would agree at 0,0 '
+exits 0 "$warp" views/center.exr --view 0.06,0 views/center.exr -o x.exr
+said 'warning: views/center.exr: is the same picture as views/center.exr, though it is said to stand at 0.06,0 and that at 0,0; '
+exits 0 "$warp" views/center.exr "${rim[@]}" --view 0.04,0.04 views/view_0.exr -o x.exr
+said 'warning: views/view_0.exr: is the same picture as views/view_0.exr, though .* at 0.04,0.04 and that at 0.06,0; '
+
+# The first view is the centre.
+exits 0 "$warp" "${rim[@]}" -o x.exr
+said 'warning: views/view_0.exr: stands at the edge of the lens, with all other views to one side; give the view from the middle first$'
+exits 0 "$warp" "${rim[@]}" views/center.exr -o x.exr
+said 'warning: views/view_0.exr: stands at the edge .*; give the view from the middle first, views/center.exr$'
+
+# Views in their places are not complained of, in whichever scene, nor pixels that a plan leaves of them.
+silent() { [ ! -s stderr ] || fail "views in their places are complained of: $* ($(cat stderr))"; }
+exits 0 "$warp" views/center.exr "${rim[@]}" -o x.exr
+silent fence
+for scene in grass mist lamps mirror slant planes; do
+    "$bin/dof-trace" $scene --size 160x90 --spp 4 -o $scene
+    exits 0 "$warp" $scene/center.exr $scene/view_?.exr -o x.exr
+    silent $scene
+done
+for scene in fence grass mist mirror; do
+    "$bin/dof-trace" $scene --size 320x180 --spp 4 --views 0 -o planned_$scene
+    exits 0 "$bin/ldi-plan" planned_$scene/center.exr -o plan.json --margin 0
+    exits 0 "$bin/dof-trace" $scene --size 320x180 --spp 4 --plan plan.json -o planned_$scene
+    exits 0 "$warp" planned_$scene/center.exr planned_$scene/view_?.exr -o x.exr
+    silent "planned $scene"
+done
+oiiotool --pattern constant:color=0.5,0.5,0.5,1,4 96x54 5 --chnames R,G,B,A,Z -d float -o grey.exr
+exits 0 "$warp" grey.exr --view 0.06,0 grey.exr --view -0.06,0 grey.exr --focal-length 36 --sensor-width 36 -o x.exr
+silent "one colour at one depth"

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
+#include <vector>
 
 namespace sparselens {
 namespace {
@@ -51,6 +53,81 @@ TEST(PoseCheck, AWrongSignOrAxisIsFound) {
         ASSERT_TRUE(better) << wrong;
         EXPECT_EQ(*better, Imath::V2d(0.15, 0.05)) << wrong;
     }
+}
+
+TEST(PoseCheck, AWrongDistanceFromTheCentreIsFound) {
+    const View centre = card_before_wall({0, 0}), view = card_before_wall({0.15, 0.05});
+    for (const double factor : {0.25, 0.4, 0.5, 2.0, 2.5, 4.0}) {
+        const auto better =
+            better_position(centre, said_to_stand_at(view, Imath::V2d(0.15, 0.05) * factor), focal_px);
+        ASSERT_TRUE(better) << factor;
+        EXPECT_LT((*better - Imath::V2d(0.15, 0.05)).length(), 0.02) << factor; // a pixel of the card
+    }
+}
+
+TEST(PoseCheck, ARimViewAtTheCentreIsFoundAndTheReverse) {
+    const View centre = card_before_wall({0, 0});
+    for (const Imath::V2d &at : {Imath::V2d(0.15, 0.05), Imath::V2d(-0.02, 0.15), Imath::V2d(0, -0.1)})
+        for (const double reach : {0.0, 0.15, 0.3}) {
+            const View view = said_to_stand_at(card_before_wall(at), {0, 0});
+            const auto better = better_position(centre, view, focal_px, reach);
+            ASSERT_TRUE(better) << at << reach;
+            EXPECT_LT((*better - at).length(), 0.04) << at << reach; // two pixels
+        }
+    const auto better = better_position(centre, said_to_stand_at(centre, {0.1, 0}), focal_px);
+    ASSERT_TRUE(better);
+    EXPECT_EQ(*better, Imath::V2d(0, 0));
+    EXPECT_FALSE(better_position(centre, centre, focal_px, 0.1));
+}
+
+View grey() {
+    return make_view(windows_of_size(160, 120), {0, 0},
+                     [](int, int) { return ViewPixel{.z = 3, .r = 0.5f}; });
+}
+
+TEST(PoseCheck, WithoutTextureNothingIsSaid) {
+    EXPECT_FALSE(better_position(grey(), said_to_stand_at(grey(), {0.1, 0}), focal_px));
+    EXPECT_FALSE(better_position(grey(), grey(), focal_px, 0.1));
+    const std::vector<View> views{grey(), said_to_stand_at(grey(), {0.1, 0})};
+    EXPECT_FALSE(same_picture(views, 1, focal_px));
+}
+
+TEST(PoseCheck, TheSamePictureFromTwoPlacesIsFound) {
+    const View view = card_before_wall({0.1, 0});
+    std::vector<View> views{card_before_wall({0, 0}), view, card_before_wall({-0.1, 0}),
+                            said_to_stand_at(view, {0, 0.1})};
+    EXPECT_EQ(same_picture(views, 3, focal_px), std::optional<std::size_t>(1));
+    EXPECT_FALSE(same_picture(views, 1, focal_px));
+    EXPECT_FALSE(same_picture(views, 2, focal_px));
+    views[3].position = {0.1, 0.005}; // a twentieth of a pixel away at the wall, a quarter at the card
+    EXPECT_FALSE(same_picture(views, 3, focal_px));
+}
+
+// Views of which only the places count; the first of them is that of the first view.
+std::vector<View> standing_at(const std::vector<Imath::V2d> &places) {
+    std::vector<View> views;
+    for (const Imath::V2d &place : places) views.push_back(said_to_stand_at(View{}, place - places[0]));
+    return views;
+}
+
+TEST(PoseCheck, TheFirstHasToBeInTheMiddle) {
+    const double r = 0.06, d = r * std::sqrt(0.5), h = r * std::sqrt(0.75);
+    const std::vector<Imath::V2d> four{{r, 0}, {0, r}, {-r, 0}, {0, -r}},
+        three{{r, 0}, {-r / 2, h}, {-r / 2, -h}};
+    EXPECT_TRUE(first_is_at_the_edge(standing_at(four), 0));
+    EXPECT_TRUE(first_is_at_the_edge(standing_at(three), r));
+    EXPECT_TRUE(first_is_at_the_edge(standing_at({{r, 0}, {0, r}, {-r, 0}, {0, -r}, {0, 0}}), 0));
+    EXPECT_EQ(view_in_the_middle(standing_at({{r, 0}, {0, r}, {-r, 0}, {0, -r}, {0, 0}})),
+              std::optional<std::size_t>(4));
+    EXPECT_FALSE(view_in_the_middle(standing_at(four)));
+    for (const auto &places :
+         std::vector<std::vector<Imath::V2d>>{{{0, 0}},
+                                              {{0, 0}, {r, 0}},
+                                              {{0, 0}, {r, 0}, {0, r}, {-r, 0}, {0, -r}},
+                                              {{0, 0}, {r, 0}, {d, d}, {0, r}},  // one quarter of the rim
+                                              {{0, 0}, {r, 0}, {0, r}, {-r, 0}}, // one view is missing
+                                              {{0, 0}, {r, 0}, {r / 2, 0}, {-r, 0}}}) // along a line
+        EXPECT_FALSE(first_is_at_the_edge(standing_at(places), r));
 }
 
 // A planned view without margin: the little that lands on what the centre shows are mixed pixels of an edge, and

@@ -1,0 +1,120 @@
+#include "warp/pose_evidence.h"
+
+#include "view/view_mapping.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sparselens {
+
+namespace {
+
+constexpr double samples_a_side = 128; // of the view's pixels, enough to tell
+constexpr int beside = 2;              // pixels
+constexpr double contrast = 0.1;       // relative difference of colour
+constexpr double jump = 1.05;          // ratio of depths
+constexpr double same_depth = 1.04;    // ratio: what is nearer is in front
+
+bool holds(const Imath::Box2i &data, const Imath::V2d &p) {
+    return p.x >= data.min.x && p.x < data.max.x + 1.0 && p.y >= data.min.y && p.y < data.max.y + 1.0;
+}
+
+// [0, 1] of light that is not negative.
+double relative_difference(const std::array<double, 3> &a, const std::array<double, 3> &b) {
+    double off = 0, light = 1e-6; // both dark: no difference
+    for (std::size_t k = 0; k < a.size(); ++k) {
+        off += std::abs(a[k] - b[k]);
+        light += std::abs(a[k]) + std::abs(b[k]);
+    }
+    return off / light;
+}
+
+// Whether the pixel differs from one of those to the right and below.
+bool stands_out(const PosedPicture &picture, const Imath::V2i &p) {
+    for (const Imath::V2i &q : {p + Imath::V2i(beside, 0), p + Imath::V2i(0, beside)}) {
+        if (!picture.view.image.windows.data.intersects(q) || !picture.shows_something(q)) continue;
+        const double z = picture.depth(p), other = picture.depth(q);
+        if (z > jump * other || other > jump * z) return true;
+        if (relative_difference(picture.colour(p), picture.colour(q)) > contrast) return true;
+    }
+    return false;
+}
+
+} // namespace
+
+PosedPicture::PosedPicture(const View &picture)
+    : view(picture), alpha(find_channel(view.image.channels, "A")), rgb(find_rgb(view.image.channels)) {}
+
+bool PosedPicture::shows_something(const Imath::V2i &p) const {
+    return depth(p) > 0 && (alpha == npos || view.image.at(alpha, p.x, p.y) > 0);
+}
+
+std::array<double, 3> PosedPicture::colour(const Imath::V2i &p) const {
+    const auto value = [&](std::size_t k) {
+        return rgb[k] == npos ? 0 : double(view.image.at(rgb[k], p.x, p.y));
+    };
+    return {value(0), value(1), value(2)};
+}
+
+PoseEvidence::PoseEvidence(const View &centre, const View &view, double focal_px)
+    : centre_(centre), view_(view), focal_px_(focal_px) {
+    const Windows &w = view.image.windows;
+    const Imath::V2i step(int(std::ceil(w.width() / samples_a_side)),
+                          int(std::ceil(w.height() / samples_a_side)));
+    for (int y = w.data.min.y; y <= w.data.max.y; y += step.y)
+        for (int x = w.data.min.x; x <= w.data.max.x; x += step.x) {
+            const Imath::V2i p(x, y);
+            if (view_.shows_something(p) && stands_out(view_, p))
+                pixels_.push_back({Imath::V2d(p) + Imath::V2d(0.5), view_.depth(p), view_.colour(p)});
+        }
+}
+
+PoseVerdict PoseEvidence::at(const Imath::V2d &position) const {
+    const ViewMapping mapping(position, focal_px_, view_.view.image.windows, view_.view.framing,
+                              centre_.view.framing.principal_point);
+    double sum = 0;
+    PoseVerdict verdict;
+    for (const Pixel &pixel : pixels_) {
+        const Imath::V2d landed =
+            mapping.at_infinity(pixel.place) + mapping.parallax(pixel.place) * (1 / pixel.z);
+        if (!holds(centre_.view.image.windows.data, landed)) continue;
+        const auto off = contradiction(landed, pixel);
+        if (!off) continue;
+        sum += *off;
+        ++verdict.told;
+    }
+    if (verdict.told > 0) verdict.contradiction = sum / double(verdict.told);
+    return verdict;
+}
+
+// A place is known to a pixel: of the four pixels around it, any may show the same surface, or one that hides it.
+std::optional<double> PoseEvidence::contradiction(const Imath::V2d &landed, const Pixel &pixel) const {
+    std::array<double, 3> least{}, most{};
+    bool seen = false, hidden = false;
+    for (const double dx : {-0.5, 0.5})
+        for (const double dy : {-0.5, 0.5}) {
+            const Imath::V2i p(int(std::floor(landed.x + dx)), int(std::floor(landed.y + dy)));
+            if (!centre_.view.image.windows.data.intersects(p) || !centre_.shows_something(p)) continue;
+            const double z = centre_.depth(p);
+            hidden = hidden || pixel.z > same_depth * z;
+            if (pixel.z > same_depth * z || z > same_depth * pixel.z) continue;
+            const std::array<double, 3> there = centre_.colour(p);
+            for (std::size_t k = 0; k < there.size(); ++k) {
+                least[k] = seen ? std::min(least[k], there[k]) : there[k];
+                most[k] = seen ? std::max(most[k], there[k]) : there[k];
+            }
+            seen = true;
+        }
+    if (!seen) return hidden ? std::optional<double>() : 1;
+    std::array<double, 3> nearest{};
+    for (std::size_t k = 0; k < nearest.size(); ++k)
+        nearest[k] = std::clamp(pixel.colour[k], least[k], most[k]);
+    return relative_difference(nearest, pixel.colour);
+}
+
+double PoseEvidence::motion() const {
+    const auto nearest = std::ranges::min_element(pixels_, {}, &Pixel::z);
+    return nearest == pixels_.end() ? 0 : focal_px_ / nearest->z;
+}
+
+} // namespace sparselens

@@ -1,0 +1,63 @@
+// What the pixels of a view say of where it stood: where each of them lands in the centre view, it shows the same
+// surface, hence the same colour, or a surface that is hidden from the centre; never one in front of what the centre
+// view shows.
+#pragma once
+
+#include "view/view.h"
+
+#include <array>
+#include <optional>
+#include <vector>
+
+namespace sparselens {
+
+// A view with its channels found.
+struct PosedPicture {
+    explicit PosedPicture(const View &view);
+
+    bool shows_something(const Imath::V2i &p) const;
+    double depth(const Imath::V2i &p) const { return view.z[view.image.windows.index(p.x, p.y)]; }
+    // R, G and B; 0 where there is no such channel.
+    std::array<double, 3> colour(const Imath::V2i &p) const;
+
+    const View &view;
+    std::size_t alpha;
+    std::array<std::size_t, 3> rgb;
+};
+
+struct PoseVerdict {
+    double contradiction = 0; // [0, 1], the mean over the pixels that tell
+    std::size_t told = 0;     // how many there are: the centre view sees what they show
+};
+
+class PoseEvidence {
+public:
+    // Chooses some ten thousand pixels of the view at most: those whose colour or depth differs from that of pixels
+    // beside them, for a surface without texture looks the same from everywhere. Both views must outlive the evidence.
+    // `focal_px` is the focal length in pixels.
+    PoseEvidence(const View &centre, const View &view, double focal_px);
+
+    // What they say if the view stands at `position`. A pixel in front of what the centre view shows contradicts by 1,
+    // one on the same surface by the relative difference of its colour from those that this surface has around there.
+    PoseVerdict at(const Imath::V2d &position) const;
+
+    // How many pixels the nearest of them moves for each scene unit that the view is moved; 0 where there are none.
+    double motion() const;
+    std::size_t size() const { return pixels_.size(); }
+
+private:
+    struct Pixel {
+        Imath::V2d place; // of its middle
+        double z;
+        std::array<double, 3> colour;
+    };
+
+    // Of one that lands there; empty if it may be hidden from the centre.
+    std::optional<double> contradiction(const Imath::V2d &landed, const Pixel &pixel) const;
+
+    PosedPicture centre_, view_;
+    double focal_px_;
+    std::vector<Pixel> pixels_;
+};
+
+} // namespace sparselens
