@@ -116,6 +116,13 @@ TEST(EdgeDepths, DepthThatIsNotFilteredStays) {
     EXPECT_EQ(view.z, before);
 }
 
+TEST(EdgeDepths, ASteepSlopeStays) {
+    View view = make_view(windows_of_size(16, 12), {0, 0}, [](int x, int y) {
+        return ViewPixel{.z = 2 + float(y) / 6, .r = float(x + 8 * y), .g = 50.0f + float(4 * x - 4 * y)};
+    });
+    EXPECT_EQ(settle_edge_depths(view), 0u);
+}
+
 // Lamps over nothing, seen through a lens: discs (where the centre view shows their centres, and their radius, in
 // pixels) at a depth. Half of their edge pixels have the depth of the sky, as in Cycles with a transparent film.
 struct Lamp {
@@ -189,7 +196,7 @@ TEST(EdgeDepths, LampsOverNothingKeepTheirWidth) {
             const bool empty = right.at(3, x, y) == 0;
             EXPECT_LT(picture.at(3, x, y), empty ? 0.01f : 1.001f) << x << "," << y; // no halo
         }
-    EXPECT_LT(std::sqrt(squares / (96 * 96)), 0.012);
+    EXPECT_LT(std::sqrt(squares / (96 * 96)), 0.004); // 0.008 with the depths as they came
 }
 
 } // namespace
