@@ -50,6 +50,7 @@ void run(const GatherCommand &options, const ToolContext &tool, LdiCache &cache)
     say_camera(tool, options.input, in.camera);
     ThinLens lens = lens_for_ldi(in, options.focus_pixel, tool);
     const auto holdout = open_holdout(options.holdout, in.ldi.windows, options.windows.proxy, by);
+    say_border_reach(tool, options.input, in.ldi, lens);
     const GatherWindows frame = gather_windows(options.windows, in, lens);
     const Ldi &ldi = frame.changed ? *frame.changed : in.ldi;
     LensTiles tiles;

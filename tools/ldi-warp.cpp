@@ -67,6 +67,10 @@ void run(const WarpCommand &options, const ToolContext &tool) {
     warn_of_wrong_poses(tool, in.views, warp_by.focal_px, lens_radius_of(in.camera).value_or(0));
     tool.say(fmt::format("{} views, {} samples in {} pixels", in.views.size(), ldi.samples(),
                          ldi.windows.pixels()));
+    const auto &camera = in.camera;
+    if (camera.focus_distance && lens_radius_of(camera) &&
+        focal_length_px(camera, ldi.windows.display_width()))
+        say_border_reach(tool, options.output, ldi, resolve_lens(camera, ldi.windows));
     warn_of_clamped(tool, options.output, write_ldi(options.output, ldi, in.header, options.compression));
     write_stats(tool, warp_stats(in.views, ldi));
 }

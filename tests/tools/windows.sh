@@ -78,6 +78,22 @@ for method in selective scatter; do
     expect_window grown.exr dataWindow '(37 27) - (54 44)'
 done
 
+# How much overscan a picture needs is said with -v, and without it where the disc of a lamp is cut.
+oiiotool --pattern constant:color=0.5,0.5,0.5,1,20 40x20 5 --chnames R,G,B,A,Z -d float -o wall.exr
+wide=(--focal-length 50 --sensor-width 36 --lens-radius 0.5 --focus-distance 4) # CoC 5.6 px of 40
+exits 0 "$bin/dof-gather" wall.exr -o x.exr "${wide[@]}" -v
+grep -qx 'dof-gather: wall.exr: the blur reaches 6 pixels beyond the frame, and 0 were rendered there' stderr || fail "-v: $(cat stderr)"
+exits 0 "$bin/ldi-warp" wall.exr -o x.exr "${wide[@]}" -v
+grep -q 'the blur reaches 6 pixels beyond the frame' stderr || fail "ldi-warp -v: $(cat stderr)"
+exits 0 "$bin/dof-gather" wall.exr -o x.exr "${wide[@]}"
+[ ! -s stderr ] || fail "a plain wall is complained of: $(cat stderr)"
+oiiotool wall.exr --fill:color=90,90,90,1,20 1x1+0+7 -o lamp.exr
+for tool in dof-gather ldi-warp; do
+    exits 0 "$bin/$tool" lamp.exr -o x.exr "${wide[@]}"
+    grep -q 'warning: .* discs of lights outside the frame are missing' stderr || fail "$tool: no warning: $(cat stderr)"
+done
+rm x.exr
+
 # --holdout: what is behind it goes, at its edge from one pixel to the next; what is in front stays.
 oiiotool --pattern constant:color=0.5,0.5,0.5,1,20 40x20 5 --chnames R,G,B,A,Z -d float -o wall.exr
 oiiotool --pattern constant:color=1,0,0,1,3 20x20 5 --chnames R,G,B,A,Z --fullsize 40x20 -d float --deepen -o card.exr

@@ -1,6 +1,7 @@
 #include "loading/notices.h"
 
 #include "deep/channel_alpha.h"
+#include "dof/border_reach.h"
 #include "io/files/file_stream.h"
 
 #include <fmt/format.h>
@@ -17,6 +18,19 @@ void say_samples(const ToolContext &tool, const OpenedLdi &in) {
     say_reading(tool, in.name, in.notes, in.warnings);
     if (tool.verbose && by_coverage(in.ldi).size() > 1)
         tool.say(in.name + ": each colour has its own coverage (AR, AG, AB)");
+}
+
+void say_border_reach(const ToolContext &tool, const std::string &path, const Ldi &ldi,
+                      const ThinLens &lens) {
+    const BorderReach reach = border_reach(ldi, lens);
+    if (reach.needed == 0) return;
+    const std::string text =
+        fmt::format("{}: the blur reaches {} pixels beyond the frame, and {} were rendered there",
+                    display_name(path), reach.needed, reach.rendered);
+    if (reach.too_little() && reach.bright)
+        warn(tool, text + "; discs of lights outside the frame are missing, so render more overscan");
+    else
+        tool.say(text);
 }
 
 void say_camera(const ToolContext &tool, const std::string &path, const Camera &camera) {

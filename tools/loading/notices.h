@@ -15,6 +15,10 @@ void say_reading(const ToolContext &tool, const std::string &path, const std::ve
 // The same for an LDI; with --verbose also whether it has per-channel alpha.
 void say_samples(const ToolContext &tool, const OpenedLdi &in);
 
+// With --verbose: how much overscan the blur needs, and how much there is; a warning if there is too little, and light
+// stands at the border whose disc would be cut.
+void say_border_reach(const ToolContext &tool, const std::string &path, const Ldi &ldi, const ThinLens &lens);
+
 // With --verbose: what the file says about its camera, and which attribute says so.
 void say_camera(const ToolContext &tool, const std::string &path, const Camera &camera);
 

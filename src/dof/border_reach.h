@@ -1,0 +1,24 @@
+// How far beyond the frame the lens sees: what stands outside of the frame is blurred into it, but only if it was
+// rendered.
+//
+// What stands there is not known, so it is taken to be as deep as what the frame shows at its border.
+#pragma once
+
+#include "../deep/ldi.h"
+#include "../lens/thin_lens.h"
+
+namespace sparselens {
+
+struct BorderReach {
+    int needed = 0;      // pixels of overscan on each side: the largest CoC at the border, rounded up
+    int rendered = 0;    // pixels of overscan that the LDI has, on the side where it has the least
+    bool bright = false; // something at the border stands out so far that its disc would be seen
+    bool too_little() const { return rendered < needed; }
+};
+
+// Of the samples of at least half coverage in the outermost pixels of the display window; 0 if the data window does not
+// fill the display window, because then nothing was cut off. Light stands out if it is more than four times as bright
+// as 31 of 32 samples of the border.
+BorderReach border_reach(const Ldi &ldi, const ThinLens &lens);
+
+} // namespace sparselens

@@ -1,0 +1,47 @@
+// How much overscan a picture needs: closed forms of one plane.
+#include "dof/border_reach.h"
+#include "support/lens_ldi.h"
+
+#include <gtest/gtest.h>
+
+namespace sparselens {
+namespace {
+
+const ThinLens lens{.radius = 0.06, .focal_px = 640, .focus = 5};
+
+// A grey plane of CoC c, with a lamp in one pixel, over a display window of 40 x 30 with so many pixels of overscan.
+Ldi plane(double c, int overscan, const Imath::V2i &lamp = {20, 15}) {
+    Windows windows = windows_of_size(40, 30);
+    windows.data.min -= Imath::V2i(overscan);
+    windows.data.max += Imath::V2i(overscan);
+    return make_ldi(windows, rgba_channels(), [&](int x, int y) {
+        const float light = Imath::V2i(x, y) == lamp ? 50.0f : 0.5f;
+        return std::vector<Sample>{{depth_of(lens, c), {light, light, light, 1}}};
+    });
+}
+
+TEST(BorderReach, IsTheLargestBlurAtTheBorder) {
+    for (const double c : {-12.3, -0.2, 4.7}) {
+        const BorderReach reach = border_reach(plane(c, 0), lens);
+        EXPECT_EQ(reach.needed, int(std::ceil(std::abs(c)))) << c;
+        EXPECT_EQ(reach.rendered, 0);
+        EXPECT_TRUE(reach.too_little());
+    }
+    EXPECT_EQ(border_reach(plane(4.7, 5), lens).rendered, 5);
+    EXPECT_FALSE(border_reach(plane(4.7, 5), lens).too_little());
+}
+
+TEST(BorderReach, FindsLampsAtTheBorderThatAreDiscs) {
+    EXPECT_FALSE(border_reach(plane(4.7, 0), lens).bright);
+    EXPECT_TRUE(border_reach(plane(4.7, 0, {0, 7}), lens).bright);
+    EXPECT_FALSE(border_reach(plane(0.5, 0, {0, 7}), lens).bright);
+}
+
+TEST(BorderReach, OfAnElementThatDoesNotFillTheFrameIsNothing) {
+    Ldi element = plane(12, 0);
+    element.windows.display.max += Imath::V2i(10);
+    EXPECT_FALSE(border_reach(element, lens).too_little());
+}
+
+} // namespace
+} // namespace sparselens
