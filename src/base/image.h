@@ -5,6 +5,7 @@
 // values[(k * height + row) * width + column].
 #pragma once
 
+#include "channel_kind.h"
 #include "grid.h"
 
 #include <array>
@@ -23,6 +24,9 @@ enum class PixelType { half, float32, uint32 };
 struct Channel {
     std::string name; // the full EXR name with the layer: "R", "diffuse.R"
     PixelType type = PixelType::half;
+    ChannelKind kind = ChannelKind::light;
+    std::string matte = {}; // of what is in a Cryptomatte: its name,
+    int rank = 0;           // and which pair the channel belongs to
     bool operator==(const Channel &) const = default;
 };
 

@@ -1,10 +1,22 @@
 #include "deep/build.h"
 
+#include "base/matte.h"
 #include "base/parallel.h"
 
 #include <algorithm>
 
 namespace sparselens {
+
+namespace {
+// Of the last sample of `out`.
+void unite_mattes(Ldi &out, const Ldi &from, std::span<const Term> terms) {
+    const std::vector<Matte> mattes = find_mattes(from.channels);
+    MatteSum sum(mattes);
+    for (const Term &term : terms)
+        sum.add(term.coefficient, [&](std::size_t k) { return from.values[k][term.index]; });
+    sum.take([&](std::size_t k, float value) { out.values[k].back() = value; });
+}
+} // namespace
 
 MergedSample sample_at(const Ldi &ldi, std::uint64_t i) {
     const auto or_else = [i](const std::vector<float> &values, float absent) {
@@ -19,14 +31,17 @@ void append(Ldi &out, const Ldi &from, const MergedSample &sample) {
     if (!from.dx.empty()) out.dx.push_back(sample.dx);
     if (!from.dy.empty()) out.dy.push_back(sample.dy);
     if (!from.weight.empty()) out.weight.push_back(sample.weight);
+    const bool unchanged = sample.terms.size() == 1 && sample.terms[0].coefficient == 1;
+    bool mattes = false;
     for (std::size_t k = 0; k < from.values.size(); ++k) {
-        const bool copied = from.channels[k].type == PixelType::uint32 ||
-                            (sample.terms.size() == 1 && sample.terms[0].coefficient == 1);
+        const bool copied = holds_ids(from.channels[k]) || unchanged;
+        mattes = mattes || (is_in_matte(from.channels[k]) && !unchanged);
         double sum = 0; // many small coefficients: float would lose the small ones
         if (!copied)
             for (const Term &term : sample.terms) sum += term.coefficient * from.values[k][term.index];
         out.values[k].push_back(copied ? from.values[k][sample.terms[0].index] : float(sum));
     }
+    if (mattes) unite_mattes(out, from, sample.terms);
     ++out.begin.back();
 }
 

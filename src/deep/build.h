@@ -9,8 +9,8 @@
 
 namespace sparselens {
 
-// value = sum of coefficient * (value of sample `index`), in every channel including alpha. Ids come from the first
-// term.
+// value = sum of coefficient * (value of sample `index`), in every channel including alpha. Integer ids come from the first
+// term; the pairs of Cryptomattes are united by id, with such a sum of their coverage (base/matte.h).
 struct Term {
     std::uint64_t index;
     double coefficient;

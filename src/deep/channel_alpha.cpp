@@ -62,7 +62,7 @@ std::size_t coverage_of(std::span<const Channel> channels, std::size_t k) {
     const auto is_last = [&](const char *c) { return last == c; };
     std::size_t c = std::size_t(std::ranges::find_if(rgb_names, is_last) - rgb_names.begin());
     if (c == 3) c = std::size_t(std::ranges::find_if(coverages, is_last) - coverages.begin());
-    if (c == 3 || channels[k].type == PixelType::uint32) return alpha;
+    if (c == 3 || holds_ids(channels[k])) return alpha;
     const auto own = coverages_of_layer(channels, name.substr(0, end_of_layer));
     if (all_found(own)) return own[c];
     const auto of_picture = coverages_of_layer(channels, "");

@@ -1,5 +1,6 @@
 #include "deep/flatten.h"
 
+#include "base/matte.h"
 #include "base/parallel.h"
 #include "deep/build.h"
 #include "deep/channel_alpha.h"
@@ -21,20 +22,33 @@ void flatten_pixel(const Ldi &ldi, const std::vector<std::size_t> &coverage, std
     }
 }
 
+void flatten_mattes(const Ldi &ldi, MatteSum &sums, std::size_t pixel, Image &out) {
+    double transmittance = 1;
+    for (const std::uint64_t i : ldi.pixel(pixel)) {
+        if (!(transmittance > 0)) break;
+        sums.add(transmittance, [&](std::size_t k) { return ldi.values[k][i]; });
+        transmittance *= 1 - double(alpha_at(ldi, ldi.alpha(), i));
+    }
+    sums.take([&](std::size_t k, float value) { out.values[k * out.windows.pixels() + pixel] = value; });
+}
+
 } // namespace
 
 Image flatten(const Ldi &ldi) {
     Image out(ldi.windows, ldi.channels);
     const std::vector<std::size_t> coverage = coverage_by_channel(ldi);
+    const std::vector<Matte> mattes = find_mattes(ldi.channels);
     const Grid grid(ldi.windows.width(), ldi.windows.height());
     parallel_for(std::size_t(grid.height()), [&](std::size_t y) {
+        MatteSum sums(mattes);
         for (int x = 0; x < grid.width(); ++x) {
             const std::size_t pixel = grid.index(x, int(y));
             flatten_pixel(ldi, coverage, pixel, out);
             for (std::size_t k = 0; k < ldi.channels.size(); ++k)
-                if (ldi.channels[k].type == PixelType::uint32)
+                if (holds_ids(ldi.channels[k]))
                     out.values[k * out.windows.pixels() + pixel] =
                         ldi.pixel(pixel).empty() ? 0 : ldi.values[k][ldi.pixel(pixel).front()];
+            if (!mattes.empty()) flatten_mattes(ldi, sums, pixel, out);
         }
     });
     return out;

@@ -1,5 +1,6 @@
 #include "deep/holdout.h"
 
+#include "base/matte.h"
 #include "base/parallel.h"
 #include "deep/build.h"
 #include "deep/channel_alpha.h"
@@ -36,8 +37,10 @@ Image flatten_by_alpha(const Ldi &ldi, const Holdout &holdout) {
     Image out = flatten(ldi); // for the ids
     const Imath::Box2i &data = ldi.windows.data;
     const std::size_t alpha = ldi.alpha();
+    const std::vector<Matte> mattes = find_mattes(ldi.channels);
     parallel_for(std::size_t(ldi.windows.height()), [&](std::size_t row) {
         std::vector<double> sums(ldi.channels.size());
+        MatteSum matte_sums(mattes);
         const int y = data.min.y + int(row);
         for (int x = data.min.x; x <= data.max.x; ++x) {
             const std::size_t pixel = ldi.windows.index(x, y);
@@ -47,11 +50,14 @@ Image flatten_by_alpha(const Ldi &ldi, const Holdout &holdout) {
                 if (!(transmittance > 0)) break;
                 const double share = transmittance * holdout.passes(x, y, ldi.z[i]);
                 for (std::size_t k = 0; k < sums.size(); ++k) sums[k] += share * ldi.values[k][i];
+                matte_sums.add(share, [&](std::size_t k) { return ldi.values[k][i]; });
                 transmittance *= 1 - double(alpha_at(ldi, alpha, i));
             }
             for (std::size_t k = 0; k < sums.size(); ++k)
-                if (ldi.channels[k].type != PixelType::uint32)
+                if (!holds_ids(ldi.channels[k]))
                     out.values[k * out.windows.pixels() + pixel] = float(sums[k]);
+            matte_sums.take(
+                [&](std::size_t k, float value) { out.values[k * out.windows.pixels() + pixel] = value; });
         }
     });
     return out;

@@ -35,7 +35,7 @@ Source source_of(const Ldi &part, const std::vector<Channel> &all, std::size_t k
         const std::size_t found = find_channel(part.channels, name);
         return found == npos ? Source{nullptr, otherwise} : Source{&part.values[found], 0};
     };
-    const bool covers = all[k].type != PixelType::uint32 && coverage_of(all, k) == k;
+    const bool covers = !holds_ids(all[k]) && coverage_of(all, k) == k;
     const Source own = named(all[k].name, 0);
     return own.values || !covers ? own : named("A", 1);
 }

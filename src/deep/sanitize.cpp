@@ -54,14 +54,14 @@ public:
         if (!all_of(s_.z, is_depth)) repair_depths();
         hide_uncovered();
         for (std::size_t k = 0; k < s_.values.size(); ++k)
-            if (!covers(k) && s_.channels[k].type != PixelType::uint32 && !all_of(s_.values[k], is_light))
+            if (!covers(k) && !holds_ids(s_.channels[k]) && !all_of(s_.values[k], is_light))
                 repair_colours(k);
         return found_;
     }
 
 private:
     bool covers(std::size_t channel) const {
-        return s_.channels[channel].type != PixelType::uint32 && coverage_of(s_.channels, channel) == channel;
+        return !holds_ids(s_.channels[channel]) && coverage_of(s_.channels, channel) == channel;
     }
     float alpha(std::uint64_t i) const { return alpha_ == npos ? 1 : s_.values[alpha_][i]; }
 

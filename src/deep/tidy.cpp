@@ -25,7 +25,7 @@ struct Piece {
 bool visible(const Ldi &ldi, std::size_t alpha, std::uint64_t i) {
     if (alpha_at(ldi, alpha, i) != 0) return true;
     for (std::size_t k = 0; k < ldi.channels.size(); ++k)
-        if (ldi.channels[k].type != PixelType::uint32 && ldi.values[k][i] != 0) return true;
+        if (!holds_ids(ldi.channels[k]) && ldi.values[k][i] != 0) return true;
     return false;
 }
 

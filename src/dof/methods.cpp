@@ -1,9 +1,11 @@
 #include "dof/methods.h"
 
 #include "deep/channel_alpha.h"
+#include "dof/lens/lens_mattes.h"
 #include "dof/selective/scatter.h"
 #include "dof/selective/selective.h"
 
+#include <algorithm>
 #include <array>
 
 namespace sparselens {
@@ -28,8 +30,37 @@ Image by_scatter(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &windo
     return composited(ldi, [&](const Ldi &one) { return crop(scatter(one, lens, {}, progress), window); });
 }
 
-constexpr std::array methods{GatherMethod{"lens", by_lens}, GatherMethod{"selective", by_selective},
-                             GatherMethod{"scatter", by_scatter}};
+using Method = Image (*)(const Ldi &, const ThinLens &, const Imath::Box2i &, const GatherOptions &,
+                         Progress &);
+
+Ldi without_mattes(Ldi ldi) {
+    for (std::size_t k = ldi.channels.size(); k-- > 0;)
+        if (is_in_matte(ldi.channels[k])) {
+            ldi.channels.erase(ldi.channels.begin() + std::ptrdiff_t(k));
+            ldi.values.erase(ldi.values.begin() + std::ptrdiff_t(k));
+        }
+    return ldi;
+}
+
+// The light by `method`, the mattes by the lens gather, whatever the method: the others only blend.
+template <Method method>
+Image with_mattes(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window,
+                  const GatherOptions &options, Progress &progress) {
+    if (std::ranges::none_of(ldi.channels, is_in_matte)) return method(ldi, lens, window, options, progress);
+    const Image light = method(without_mattes(ldi), lens, window, options, progress);
+    const Image mattes = gather_mattes(ldi, lens, window, options.lens, progress);
+    Image all(light.windows, ldi.channels);
+    for (std::size_t k = 0; k < all.channels.size(); ++k) {
+        const Image &from = is_in_matte(all.channels[k]) ? mattes : light;
+        std::ranges::copy(from.plane(find_channel(from.channels, all.channels[k].name)),
+                          all.plane(k).begin());
+    }
+    return all;
+}
+
+constexpr std::array methods{GatherMethod{"lens", with_mattes<by_lens>},
+                             GatherMethod{"selective", with_mattes<by_selective>},
+                             GatherMethod{"scatter", with_mattes<by_scatter>}};
 
 } // namespace
 

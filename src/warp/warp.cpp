@@ -1,5 +1,6 @@
 #include "warp/warp.h"
 
+#include "base/matte.h"
 #include "base/parallel.h"
 #include "deep/build.h"
 #include "lens/perceptive_depth.h"
@@ -37,6 +38,7 @@ private:
     std::optional<ThinLens> focused_; // where the focus is known
     ReprojectedViews views_;
     Ldi layout_; // windows and channels of the result
+    std::vector<Matte> mattes_;
 };
 
 Warper::Warper(std::span<const View> views, const WarpOptions &options)
@@ -50,6 +52,7 @@ Warper::Warper(std::span<const View> views, const WarpOptions &options)
     layout_.windows = views[0].image.windows;
     layout_.channels = views[0].image.channels;
     layout_.values.resize(layout_.channels.size());
+    mattes_ = find_mattes(layout_.channels);
     if (averages()) grow_window();
 }
 
@@ -88,9 +91,13 @@ void Warper::emit_mean(std::span<const ViewSample> samples, Ldi &out) const {
     for (std::size_t k = 0; k < out.channels.size(); ++k) {
         double sum = 0;
         for (const ViewSample &s : samples) sum += s.weight * views_.value(s, k);
-        const bool id = out.channels[k].type == PixelType::uint32;
+        const bool id = holds_ids(out.channels[k]);
         out.values[k].push_back(id ? views_.value(samples[0], k) : float(coverage * (sum / total)));
     }
+    MatteSum pairs(mattes_);
+    for (const ViewSample &s : samples)
+        pairs.add(coverage * s.weight / total, [&](std::size_t k) { return views_.value(s, k); });
+    pairs.take([&](std::size_t k, float value) { out.values[k].back() = value; });
     ++out.begin.back();
 }
 

@@ -13,9 +13,10 @@ namespace sparselens {
 
 namespace {
 
-bool names(const std::string &item, const std::string &channel) {
-    if (item == "rgba") return channel == "R" || channel == "G" || channel == "B" || channel == "A";
-    return item == channel || channel.starts_with(item + ".");
+bool names(const std::string &item, const Channel &channel) {
+    const std::string &name = channel.name;
+    if (item == "rgba") return name == "R" || name == "G" || name == "B" || name == "A";
+    return item == name || name.starts_with(item + ".") || (is_in_matte(channel) && item == channel.matte);
 }
 
 std::vector<std::string> items_of(const std::string &list) {
@@ -36,7 +37,7 @@ std::vector<bool> chosen(const std::vector<Channel> &channels, const std::string
     for (const std::string &item : items_of(list)) {
         bool found = false;
         for (std::size_t k = 0; k < channels.size(); ++k)
-            if (names(item, channels[k].name)) found = result[k] = true;
+            if (names(item, channels[k])) found = result[k] = true;
         if (!found)
             throw UsageError(fmt::format("--channels: no channel or layer '{}'; the file has {}", item,
                                          fmt::join(names_of(channels), ", ")));
@@ -49,9 +50,13 @@ std::vector<bool> chosen(const std::vector<Channel> &channels, const std::string
 void keep_channels(Ldi &ldi, const std::string &list) {
     std::vector<bool> keep = chosen(ldi.channels, list);
     for (std::size_t k = 0; k < keep.size(); ++k)
-        if (names("rgba", ldi.channels[k].name)) keep[k] = true;
+        if (names("rgba", ldi.channels[k])) keep[k] = true;
     for (std::size_t k = 0; k < keep.size(); ++k)
         if (const std::size_t c = coverage_of(ldi.channels, k); keep[k] && c != npos) keep[c] = true;
+    for (std::size_t k = 0; k < keep.size(); ++k)
+        for (std::size_t other = 0; keep[k] && is_in_matte(ldi.channels[k]) && other < keep.size(); ++other)
+            if (is_in_matte(ldi.channels[other]) && ldi.channels[other].matte == ldi.channels[k].matte)
+                keep[other] = true; // pairs are ranked among all of a matte
     std::size_t kept = 0;
     for (std::size_t k = 0; k < keep.size(); ++k) {
         if (!keep[k]) continue;

@@ -97,7 +97,7 @@ void add_compression_option(CLI::App &app, AskedCompression &compression, bool d
 
 Image in_type(Image image, std::optional<PixelType> type) {
     for (Channel &channel : image.channels)
-        if (type && channel.type != PixelType::uint32) channel.type = *type;
+        if (type && !holds_ids(channel)) channel.type = *type;
     return image;
 }
 

@@ -102,6 +102,42 @@ void take_ids(const Image &view, std::size_t channel, const Windows &target, dou
                 ids[target.index(x, y)] = std::bit_cast<std::uint32_t>(view.at(channel, x, y));
 }
 
+// Adds the pairs of row y of the target, by the areas of the view's pixels that its pixels cover.
+void add_mattes(const Image &view, const AxisMove &across, const AxisMove &down, int y, Accumulation &to) {
+    const Imath::Box2i &from = view.windows.data;
+    for (const Matte &matte : find_mattes(view.channels)) {
+        const auto own = std::ranges::find(to.mattes, matte.name, &Accumulation::SummedMatte::name);
+        for (int x = across.begin; x < across.end && own != to.mattes.end(); ++x)
+            for (int corner = 0; corner < 4; ++corner) {
+                const int right = corner % 2, below = corner / 2;
+                const double area =
+                    double(right ? across.part : 1 - across.part) * double(below ? down.part : 1 - down.part);
+                const int u = std::clamp(x + across.whole + right, from.min.x, from.max.x),
+                          v = std::clamp(y + down.whole + below, from.min.y, from.max.y);
+                for (const Matte::Rank &rank : matte.ranks)
+                    own->pixels[to.windows.index(x, y)].add(view.at(rank.id, u, v),
+                                                            area * double(view.at(rank.coverage, u, v)));
+            }
+    }
+}
+
+void average_mattes(const Accumulation &accumulation, Image &image) {
+    const std::vector<Matte> mattes = find_mattes(image.channels);
+    for (std::size_t m = 0; m < mattes.size(); ++m)
+        parallel_ranges(image.windows.pixels(), 4096, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                IdCoverage sum = accumulation.mattes[m].pixels[i];
+                const auto pairs = sum.ranked();
+                for (std::size_t r = 0; r < mattes[m].ranks.size(); ++r) {
+                    const bool none = r >= pairs.size() || accumulation.covered[i] == 0;
+                    image.plane(mattes[m].ranks[r].id)[i] = none ? 0 : pairs[r].id;
+                    image.plane(mattes[m].ranks[r].coverage)[i] =
+                        none ? 0 : float(pairs[r].coverage / accumulation.covered[i]);
+                }
+            }
+        });
+}
+
 // Where the view has each of the channels.
 std::vector<std::size_t> channels_in(const Image &view, const std::vector<Channel> &channels,
                                      const std::string &file) {
@@ -120,10 +156,14 @@ std::vector<std::size_t> channels_in(const Image &view, const std::vector<Channe
 } // namespace
 
 Accumulation start_accumulation(const Windows &windows, const std::vector<Channel> &channels) {
-    Accumulation accumulation{windows, {}, {}, std::vector<std::uint32_t>(windows.pixels())};
+    Accumulation accumulation;
+    accumulation.windows = windows;
+    accumulation.covered.resize(windows.pixels());
     for (const Channel &channel : channels)
         if (!is_depth(channel.name)) accumulation.channels.push_back(channel);
     accumulation.sums.resize(accumulation.channels.size() * windows.pixels());
+    for (const Matte &matte : find_mattes(accumulation.channels))
+        accumulation.mattes.push_back({matte.name, std::vector<IdCoverage>(windows.pixels())});
     return accumulation;
 }
 
@@ -141,9 +181,11 @@ void accumulate(Accumulation &accumulation, const Image &view, const Imath::V2d 
     parallel_ranges(rows, rows_a_task, [&](std::size_t begin, std::size_t end) {
         const int top = down.begin + int(begin), bottom = down.begin + int(end);
         for (std::size_t k = 0; k < channels.size(); ++k)
-            if (accumulation.channels[k].type != PixelType::uint32)
+            if (!holds_ids(accumulation.channels[k]))
                 add_rows({view.plane(channels[k]).data(), from}, across, down, top, bottom, target,
                          accumulation.sums.data() + k * target.pixels());
+        for (int y = top; y < bottom && !accumulation.mattes.empty(); ++y)
+            add_mattes(view, across, down, y, accumulation);
         for (int y = top; y < bottom; ++y)
             for (int x = across.begin; x < across.end; ++x) ++accumulation.covered[target.index(x, y)];
     });
@@ -168,6 +210,7 @@ Image average(const Accumulation &accumulation) {
             }
         });
     }
+    average_mattes(accumulation, image);
     return image;
 }
 
@@ -195,7 +238,7 @@ std::size_t fill_nonfinite(Image &image, const std::vector<Channel> &channels) {
     std::vector<std::pair<std::size_t, float>> repairs; // made at the end, from the values as they came
     for (const Channel &channel : channels) {
         const std::size_t k = find_channel(image.channels, channel.name);
-        if (k == npos || channel.type == PixelType::uint32) continue;
+        if (k == npos || holds_ids(channel)) continue;
         const std::span<const float> plane = image.plane(k);
         for (std::size_t i = 0; i < plane.size(); ++i) {
             if (std::isfinite(plane[i])) continue;

@@ -20,6 +20,7 @@
 #pragma once
 
 #include "../../base/image.h"
+#include "../../base/matte.h"
 
 #include <Imath/ImathVec.h>
 
@@ -38,6 +39,12 @@ struct Accumulation {
     std::vector<double> sums;
     std::vector<std::uint32_t> covered; // the number of views that show each pixel
     std::size_t views = 0;
+    // Coverage by id of the Cryptomattes among the channels, by areas of pixels: a matte is never sharpened.
+    struct SummedMatte {
+        std::string name;
+        std::vector<IdCoverage> pixels;
+    };
+    std::vector<SummedMatte> mattes; // as find_mattes() finds them
 };
 
 // An empty sum. Depth channels (Z, depth.Z, *.Depth.Z and their ZBack) are left out of `channels`, because an average

@@ -33,7 +33,7 @@ SampleColours make_colours(const Ldi &ldi, const BlockedSamples &samples) {
     return colours;
 }
 
-// Channels that are light: all but coverage and ids; and those of them that say how bright a sample is.
+// Channels that are light, without coverage; and those of them that say how bright a sample is.
 struct LightChannels {
     std::vector<std::size_t> all, brightness;
 };
@@ -42,7 +42,7 @@ LightChannels light_channels(const Ldi &ldi) {
     LightChannels light;
     for (std::size_t k = 0; k < ldi.channels.size(); ++k) {
         const Channel &channel = ldi.channels[k];
-        if (channel.type == PixelType::uint32 || k == ldi.alpha()) continue;
+        if (!is_light(channel) || k == ldi.alpha()) continue;
         light.all.push_back(k);
         if (channel.name == "R" || channel.name == "G" || channel.name == "B") light.brightness.push_back(k);
     }
@@ -168,7 +168,7 @@ LensTiles tiles_of(const Windows &windows) {
 std::vector<std::size_t> averaged_channels(const Image &image) {
     std::vector<std::size_t> averaged;
     for (std::size_t k = 0; k < image.channels.size(); ++k)
-        if (image.channels[k].type != PixelType::uint32) averaged.push_back(k);
+        if (!holds_ids(image.channels[k])) averaged.push_back(k);
     return averaged;
 }
 

@@ -192,7 +192,7 @@ std::vector<ReferenceValue> gather(const Ldi &ldi, std::span<const Placed> sampl
     std::vector<ReferenceValue> values(channels.size());
     for (std::size_t k = 0; k < channels.size(); ++k) {
         const long double id = front_id(ldi, k, pixel);
-        values[k] = ldi.channels[k].type == PixelType::uint32
+        values[k] = holds_ids(ldi.channels[k])
                         ? ReferenceValue{id, id, id}
                         : normalised(channels[k], coverage, total, flattened(ldi, k, pixel));
         if (sure) values[k].least = values[k].most = values[k].value;

@@ -233,7 +233,7 @@ void sharpen_near_focus(const Ldi &ldi, const ThinLens &lens, const BlockedSampl
                 const auto terms = sharpener.terms(i, int(pixel - row * width), int(row));
                 if (terms[0].coefficient == 1) continue;
                 for (std::size_t k = 0; k < ldi.channels.size(); ++k) {
-                    if (k == alpha || ldi.channels[k].type == PixelType::uint32) continue;
+                    if (k == alpha || !is_light(ldi.channels[k])) continue;
                     double sum = 0;
                     for (const Term &term : terms)
                         sum += term.coefficient * double(ldi.values[k][term.index]);

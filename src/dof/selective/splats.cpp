@@ -8,7 +8,7 @@ SplatSource::SplatSource(const Ldi &ldi, const ThinLens &lens)
     : ldi_(ldi), grid_(ldi.windows.grid()), lens_(lens), alpha_(ldi.alpha()) {
     if (alpha() != npos) alphas_ = ldi.values[alpha()].data();
     for (std::size_t i = 0; i < ldi.channels.size(); ++i)
-        if (i != alpha() && ldi.channels[i].type != PixelType::uint32) colours_.push_back(i);
+        if (i != alpha() && !holds_ids(ldi.channels[i])) colours_.push_back(i);
 }
 
 Imath::V2d SplatSource::position(std::size_t pixel, std::size_t sample) const {
@@ -29,7 +29,7 @@ Splat SplatSource::background(std::size_t pixel, double passed) const {
 Image image_with_ids(const Ldi &ldi) {
     Image image(ldi.windows, ldi.channels);
     for (std::size_t channel = 0; channel < ldi.channels.size(); ++channel) {
-        if (ldi.channels[channel].type != PixelType::uint32) continue;
+        if (!holds_ids(ldi.channels[channel])) continue;
         const std::span<float> plane = image.plane(channel);
         for (std::size_t pixel = 0; pixel < plane.size(); ++pixel)
             if (!ldi.pixel(pixel).empty()) plane[pixel] = ldi.values[channel][ldi.pixel(pixel).front()];

@@ -210,8 +210,7 @@ void transform_colours(const ColourTransform &transform, std::span<const Channel
         const std::size_t g = find_channel(channels, layer + "G"), b = find_channel(channels, layer + "B");
         if (g == npos || b == npos) continue;
         const std::array all{r, g, b};
-        if (std::ranges::any_of(all, [&](std::size_t k) { return channels[k].type == PixelType::uint32; }))
-            continue;
+        if (std::ranges::any_of(all, [&](std::size_t k) { return !is_light(channels[k]); })) continue;
         transform.apply(planes[r], planes[g], planes[b], alpha == npos ? nullptr : planes[alpha].data());
     }
 }

@@ -15,16 +15,16 @@ namespace sparselens {
 namespace {
 
 constexpr std::array methods{
-    NamedCompression{"none", Imf::NO_COMPRESSION, true},
-    NamedCompression{"rle", Imf::RLE_COMPRESSION, true},
-    NamedCompression{"zips", Imf::ZIPS_COMPRESSION, true},
-    NamedCompression{"zip", Imf::ZIP_COMPRESSION, false},
-    NamedCompression{"piz", Imf::PIZ_COMPRESSION, false},
-    NamedCompression{"pxr24", Imf::PXR24_COMPRESSION, false},
-    NamedCompression{"b44", Imf::B44_COMPRESSION, false},
-    NamedCompression{"b44a", Imf::B44A_COMPRESSION, false},
-    NamedCompression{"dwaa", Imf::DWAA_COMPRESSION, false},
-    NamedCompression{"dwab", Imf::DWAB_COMPRESSION, false},
+    NamedCompression{"none", Imf::NO_COMPRESSION, true, true},
+    NamedCompression{"rle", Imf::RLE_COMPRESSION, true, true},
+    NamedCompression{"zips", Imf::ZIPS_COMPRESSION, true, true},
+    NamedCompression{"zip", Imf::ZIP_COMPRESSION, false, true},
+    NamedCompression{"piz", Imf::PIZ_COMPRESSION, false, true},
+    NamedCompression{"pxr24", Imf::PXR24_COMPRESSION, false, false},
+    NamedCompression{"b44", Imf::B44_COMPRESSION, false, true}, // lossy for halves only
+    NamedCompression{"b44a", Imf::B44A_COMPRESSION, false, true},
+    NamedCompression{"dwaa", Imf::DWAA_COMPRESSION, false, false},
+    NamedCompression{"dwab", Imf::DWAB_COMPRESSION, false, false},
 };
 
 const NamedCompression *method_of(Imf::Compression value) {
@@ -46,14 +46,23 @@ std::string compression_names(bool deep, const std::string &separator) {
 }
 
 Imf::Compression output_compression(bool deep, std::optional<Imf::Compression> asked, bool to_pipe,
-                                    const Imf::Header &metadata) {
+                                    const Imf::Header &metadata, std::span<const Channel> channels) {
     const auto allowed = [deep](const NamedCompression *method) { return method && (method->deep || !deep); };
     if (asked && !allowed(method_of(*asked)))
         throw UsageError("--compression: deep files may have " + compression_names(true, ", ") + " only");
+    const auto matte = std::ranges::find_if(channels, is_in_matte);
+    const auto keeps = [&](const NamedCompression *method) {
+        return method->exact || matte == channels.end();
+    };
+    if (asked && !keeps(method_of(*asked)))
+        throw UsageError(
+            fmt::format("--compression: {} would destroy the ids in channel {}; use none, rle, zips, zip, "
+                        "piz, b44 or b44a, or leave it out with --channels",
+                        method_of(*asked)->name, matte->name));
     if (asked) return *asked;
     if (to_pipe) return Imf::NO_COMPRESSION;
     const NamedCompression *own = method_of(metadata.compression());
-    if (is_deep(metadata) == deep && allowed(own)) return own->value;
+    if (is_deep(metadata) == deep && allowed(own) && keeps(own)) return own->value;
     return deep ? Imf::ZIPS_COMPRESSION : Imf::ZIP_COMPRESSION;
 }
 

@@ -1,6 +1,8 @@
 // How the pixels of an EXR file are compressed: the names of the methods, and which of them a file may have.
 #pragma once
 
+#include "../../base/image.h"
+
 #include <ImfCompression.h>
 #include <ImfHeader.h>
 
@@ -13,7 +15,8 @@ namespace sparselens {
 struct NamedCompression {
     const char *name; // as OpenEXR and OpenImageIO spell it
     Imf::Compression value;
-    bool deep; // deep files may have it (OpenEXR 3.1)
+    bool deep;  // deep files may have it (OpenEXR 3.1)
+    bool exact; // keeps all bits of 32-bit floats
 };
 
 std::span<const NamedCompression> compressions();
@@ -22,9 +25,10 @@ std::span<const NamedCompression> compressions();
 std::string compression_names(bool deep, const std::string &separator);
 
 // The compression of a new file: what is asked for, else none into a pipe, else that of `metadata` where it is the header
-// of a file of the same kind (flat or deep), else ZIP (flat) or ZIPS (deep). Throws UsageError where a deep file may not
-// have what is asked for.
+// of a file of the same kind (flat or deep), else ZIP (flat) or ZIPS (deep). The ids of a Cryptomatte need a method that is
+// exact; without one in `metadata`, they get ZIP. Throws UsageError where a file with these channels may not have what is
+// asked for.
 Imf::Compression output_compression(bool deep, std::optional<Imf::Compression> asked, bool to_pipe,
-                                    const Imf::Header &metadata);
+                                    const Imf::Header &metadata, std::span<const Channel> channels);
 
 } // namespace sparselens

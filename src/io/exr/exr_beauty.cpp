@@ -17,7 +17,7 @@ constexpr std::array names{"rgba", "rgb", "c", "ci", "beauty", "combined", "main
 
 bool has_light(const std::vector<Channel> &channels, const std::string &name) {
     const std::size_t k = find_channel(channels, name);
-    return k != npos && channels[k].type != PixelType::uint32;
+    return k != npos && !holds_ids(channels[k]);
 }
 
 bool has_plain_colour(const std::vector<Channel> &channels) {

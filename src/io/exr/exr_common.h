@@ -53,6 +53,8 @@ auto with_file_name(const std::string &path, const Work &work) {
         return work();
     } catch (const Error &) {
         throw;
+    } catch (const UsageError &) {
+        throw;
     } catch (const std::bad_alloc &) {
         throw;
     } catch (const std::exception &error) {

@@ -7,6 +7,7 @@
 #include "io/exr/exr_deep_part.h"
 #include "io/exr/exr_flat.h"
 #include "io/exr/exr_header_check.h"
+#include "io/exr/exr_mattes.h"
 #include "io/exr/exr_parts.h"
 #include "io/exr/header_edit.h"
 #include "io/files/memory_limit.h"
@@ -166,7 +167,9 @@ LdiFile read_ldi(const std::string &path, const std::string &depth_channel, cons
         if (picture.is_merged()) header = without_attribute(header, "name"); // an object's
         if (is_standard_stream(path))
             header.compression() = Imf::ZIPS_COMPRESSION; // a pipe's says nothing of the picture
+        header = with_mattes_of(file, header);
         Ldi ldi = picture.whole();
+        find_kinds_by(header, ldi.channels);
         std::vector<std::string> notes = picture.notes();
         if (const auto flat = std::size_t(file.parts()) - deep.size(); flat > 0)
             notes.push_back(fmt::format("{} flat parts are not used beside the deep ones", flat));

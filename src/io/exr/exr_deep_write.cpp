@@ -92,7 +92,7 @@ std::size_t write_ldi(const std::string &path, const Ldi &ldi, const Imf::Header
         header.setType(Imf::DEEPSCANLINE);
         Imf::addDeepImageState(header, state_of(ldi));
         OutputFile output(path);
-        header.compression() = output_compression(true, compression, output.to_pipe(), metadata);
+        header.compression() = output_compression(true, compression, output.to_pipe(), metadata, channels);
         std::size_t clamped = 0;
         {
             Imf::DeepScanLineOutputFile file(output.stream(), header);

@@ -4,6 +4,7 @@
 #include "io/exr/exr_beauty.h"
 #include "io/exr/exr_common.h"
 #include "io/exr/exr_header_check.h"
+#include "io/exr/exr_mattes.h"
 #include "io/exr/exr_parts.h"
 #include "io/files/memory_limit.h"
 
@@ -118,7 +119,7 @@ Imf::Header header_of(const Imf::MultiPartInputFile &file, const PictureParts &p
     if (is_standard_stream(path))
         header.compression() = Imf::ZIP_COMPRESSION; // a pipe's says nothing of the picture
     header.dataWindow() = picture.windows.data;
-    return header;
+    return with_mattes_of(file, header);
 }
 
 // Where the colours do not fill the window of the picture, and nothing says so: their coverage, 1 in their own window.
@@ -165,6 +166,7 @@ FlatFile read_flat_part(Imf::MultiPartInputFile &file, const std::string &path, 
     PictureParts picture = parts_of_picture(file, path, stereo_view);
     const Imf::Header header = header_of(file, picture, path);
     std::vector<Channel> channels = picture.channels();
+    find_kinds_by(header, channels);
     const MissingCoverage missing(file, picture);
     if (!missing.covered.isEmpty()) channels.push_back({"A"});
     check_memory(path, memory_of(header, channels.size()), size);
@@ -225,7 +227,8 @@ std::size_t write_flat_exr(const std::string &path, const Image &image, const Im
         }
         Imf::Header header = output_header(w, image.channels, metadata);
         OutputFile output(path);
-        header.compression() = output_compression(false, compression, output.to_pipe(), metadata);
+        header.compression() =
+            output_compression(false, compression, output.to_pipe(), metadata, image.channels);
         {
             Imf::OutputFile file(output.stream(), header);
             file.setFrameBuffer(pixels);

@@ -4,6 +4,7 @@
 #include "base/text.h"
 #include "io/exr/exr_beauty.h"
 #include "io/exr/exr_common.h"
+#include "io/exr/exr_mattes.h"
 #include "io/exr/header_edit.h"
 
 #include <ImfStandardAttributes.h>
@@ -117,6 +118,7 @@ std::vector<FileChannel> channels_of(const Imf::Header &header, const std::strin
         return p.channel.name == q.channel.name;
     };
     channels.erase(std::unique(channels.begin(), channels.end(), same_name), channels.end());
+    find_kinds_by(header, channels);
     colours_first(channels);
     return channels;
 }

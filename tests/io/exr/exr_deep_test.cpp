@@ -102,9 +102,9 @@ TEST_F(ExrDeep, WithoutOffsetsAndWeightsThereAreNone) {
 
 TEST_F(ExrDeep, ChannelsOfEveryTypeAreCarried) {
     Ldi ldi = ldi_of({{{.z = 2}, {.z = 3}}, {{.z = INFINITY}}});
-    ldi.channels.insert(
-        ldi.channels.end(),
-        {{"N.x", PixelType::float32}, {"crypto.id", PixelType::uint32}, {"light.R", PixelType::half}});
+    ldi.channels.insert(ldi.channels.end(), {{"N.x", PixelType::float32, ChannelKind::data},
+                                             {"crypto.id", PixelType::uint32},
+                                             {"light.R", PixelType::half}});
     ldi.values.insert(ldi.values.end(), 3, {1e3f, 0.1f, -3});
     for (const std::uint32_t id : {0xffffffffu, 0x7f800001u, 1u}) // the second is a signalling NaN
         ldi.values[5][id % 3] = std::bit_cast<float>(id);

@@ -39,9 +39,14 @@ Image one_pixel(PixelType type, float value) {
 }
 
 TEST_F(ExrFlat, WindowsChannelsAndValuesComeBack) {
-    Image image(
-        {Imath::Box2i({-10, -20}, {30, 40}), Imath::Box2i({-15, 3}, {2, 9}), 2},
-        {{"R"}, {"G"}, {"B"}, {"A"}, {"N.x", PixelType::float32}, {"diffuse.R"}, {"id", PixelType::uint32}});
+    Image image({Imath::Box2i({-10, -20}, {30, 40}), Imath::Box2i({-15, 3}, {2, 9}), 2},
+                {{"R"},
+                 {"G"},
+                 {"B"},
+                 {"A"},
+                 {"N.x", PixelType::float32, ChannelKind::data},
+                 {"diffuse.R"},
+                 {"id", PixelType::uint32}});
     for (std::size_t i = 0; i < image.values.size(); ++i) image.values[i] = float(i % 2048);
     const Image read = round_trip(image);
     EXPECT_EQ(read.windows, image.windows);
@@ -178,9 +183,9 @@ TEST_P(Compressions, AreReadScanlinesAndTilesHalvesFloatsAndIds) {
             file.writePixels(height);
         }
         const Image image = read_flat_exr(path).image;
-        ASSERT_EQ(image.channels,
-                  (std::vector<Channel>{
-                      {"R", PixelType::half}, {"Z", PixelType::float32}, {"id", PixelType::uint32}}));
+        ASSERT_EQ(image.channels, (std::vector<Channel>{{"R", PixelType::half},
+                                                        {"Z", PixelType::float32, ChannelKind::data},
+                                                        {"id", PixelType::uint32}}));
         for (std::size_t i = 0; i < pixels; ++i) {
             ASSERT_NEAR(image.plane(0)[i], float(halves[i]), GetParam().half_error) << tiled << " " << i;
             ASSERT_NEAR(image.plane(1)[i], floats[i], GetParam().float_error) << tiled << " " << i;

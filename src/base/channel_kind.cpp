@@ -1,0 +1,118 @@
+#include "base/channel_kind.h"
+
+#include "base/image.h"
+#include "base/text.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <optional>
+#include <string_view>
+
+namespace sparselens {
+
+namespace {
+
+struct LayerName {
+    std::string layer, last; // "ViewLayer.Normal" and "X"; no layer: ""
+};
+
+LayerName split(const std::string &name) {
+    const std::size_t dot = name.rfind('.');
+    if (dot == std::string::npos) return {"", name};
+    return {name.substr(0, dot), name.substr(dot + 1)};
+}
+
+std::string last_component(const std::string &layer) { return lower_case(split(layer).last); }
+
+bool has_x(std::span<const Channel> channels, const std::string &layer) {
+    return std::ranges::any_of(channels, [&](const Channel &c) {
+        const auto [own, last] = split(c.name);
+        return own == layer && lower_case(last) == "x";
+    });
+}
+
+bool is_data(const std::string &name, std::span<const Channel> channels) {
+    static constexpr std::array depths{"z", "zback"};
+    static constexpr std::array coordinates{"x", "u", "v", "w"};
+    static constexpr std::array layers{"n",
+                                       "ng",
+                                       "ns",
+                                       "normal",
+                                       "normals",
+                                       "p",
+                                       "pref",
+                                       "position",
+                                       "uv",
+                                       "uvs",
+                                       "st",
+                                       "motion",
+                                       "motionvec",
+                                       "vector",
+                                       "vectors",
+                                       "motionvector",
+                                       "motionvectors",
+                                       "motion vector",
+                                       "velocity",
+                                       "depth",
+                                       "zdepth",
+                                       "denoising normal",
+                                       "denoising depth",
+                                       "point",
+                                       "worldnormal",
+                                       "worldposition"};
+    const auto [layer, last] = split(name);
+    const std::string lower = lower_case(last);
+    if (is_among(depths, lower) || is_among(layers, last_component(layer.empty() ? last : layer)))
+        return true;
+    if (layer.empty()) return false;
+    return is_among(coordinates, lower) || (lower == "y" && has_x(channels, layer));
+}
+
+// The two numbers that a channel's name says of its place in a Cryptomatte: CryptoObject01.B is the id of rank 3.
+struct MattePlace {
+    std::string matte;
+    int rank;
+    ChannelKind kind;
+};
+
+std::optional<MattePlace> matte_place(const Channel &channel, std::span<const std::string> mattes) {
+    const auto [layer, last] = split(channel.name);
+    const auto is_digit = [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; };
+    if (channel.type != PixelType::float32 || layer.size() < 3 || last.empty()) return {};
+    if (!is_digit(layer.end()[-1]) || !is_digit(layer.end()[-2])) return {};
+    const std::string matte = layer.substr(0, layer.size() - 2);
+    const bool named = std::ranges::find(mattes, matte) != mattes.end();
+    if (!named && !last_component(matte).starts_with("crypto")) return {};
+    static constexpr std::array letters{"r", "g", "b", "a"};
+    static constexpr std::array words{"red", "green", "blue", "alpha"};
+    for (int c = 0; c < 4; ++c)
+        if (const std::string lower = lower_case(last);
+            lower == letters[std::size_t(c)] || lower == words[std::size_t(c)])
+            return MattePlace{matte, 2 * std::stoi(layer.substr(layer.size() - 2)) + c / 2,
+                              c % 2 == 0 ? ChannelKind::matte_id : ChannelKind::matte_coverage};
+    return {};
+}
+
+} // namespace
+
+bool holds_ids(const Channel &channel) { return channel.type == PixelType::uint32 || is_in_matte(channel); }
+
+bool is_in_matte(const Channel &channel) {
+    return channel.kind == ChannelKind::matte_id || channel.kind == ChannelKind::matte_coverage;
+}
+
+bool is_light(const Channel &channel) { return !holds_ids(channel) && channel.kind == ChannelKind::light; }
+
+void find_kinds(std::span<Channel> channels, std::span<const std::string> mattes) {
+    for (Channel &channel : channels) {
+        if (const auto place = matte_place(channel, mattes)) {
+            channel.kind = place->kind;
+            channel.matte = place->matte;
+            channel.rank = place->rank;
+        } else if (channel.kind == ChannelKind::light && is_data(channel.name, channels))
+            channel.kind = ChannelKind::data;
+    }
+}
+
+} // namespace sparselens

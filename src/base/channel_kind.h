@@ -1,0 +1,29 @@
+// What the values of a channel are, which decides what may be done with them. This is the one place that tells it.
+//
+//   light     colour and coverage: they are averaged; small bright ones are spread exactly, those near focus sharpened
+//   data      normals, positions, UV, motion, further depths: they are averaged, and that is all
+//   ids       integers, and the pairs of a Cryptomatte (matte.h): no calculation with them means anything
+//
+// A channel holds data if it is the X, Y, Z, U, V or W of a layer (Y beside X only: alone it is luminance), or Z or ZBack, or
+// if its layer has one of the names that renderers give to data (N, P, normal, position, uv, motion vector and the like).
+#pragma once
+
+#include <span>
+#include <string>
+
+namespace sparselens {
+
+struct Channel;
+
+// Integers are ids by their type, whatever their kind says.
+enum class ChannelKind { light, data, matte_id, matte_coverage };
+
+bool holds_ids(const Channel &channel);
+bool is_in_matte(const Channel &channel);
+bool is_light(const Channel &channel); // coverage too
+
+// Sets the kind of each channel. `mattes` are the names that the header gives to Cryptomattes; layers of 32-bit floats
+// whose names begin with "crypto" and end in two digits are ranks of one, too.
+void find_kinds(std::span<Channel> channels, std::span<const std::string> mattes = {});
+
+} // namespace sparselens

@@ -1,0 +1,78 @@
+// Cryptomatte: which objects a pixel or a sample shows, as pairs of an id and its coverage ("Cryptomatte specification",
+// J. Friedman, A. Jones, 2015). An id is the hash of a name, whose 32 bits stand in a float channel; R and G of the layer
+// NAME00 are the pair of rank 0, B and A that of rank 1, R and G of NAME01 that of rank 2, and so on, by descending
+// coverage. The attributes cryptomatte/... of the header say which NAMEs there are.
+//
+// Ids are only copied. The coverage of one id behaves as premultiplied colour does: where samples are averaged or
+// composited, the coverage of each id is, and the pairs are ranked anew.
+#pragma once
+
+#include "image.h"
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace sparselens {
+
+struct Matte {
+    struct Rank {
+        std::size_t id, coverage; // channels
+    };
+    std::string name;
+    std::vector<Rank> ranks; // by descending coverage; those that both channels are there for
+};
+
+// The mattes among the channels, by their kinds (channel_kind.h).
+std::vector<Matte> find_mattes(std::span<const Channel> channels);
+
+// Coverage by id.
+class IdCoverage {
+public:
+    struct Pair {
+        float id; // compared by its bits
+        double coverage;
+    };
+
+    void add(float id, double coverage);
+    std::span<const Pair> ranked(); // by descending coverage, without what covers nothing
+    void clear() { pairs_.clear(); }
+
+private:
+    std::vector<Pair> pairs_;
+};
+
+// A weighted sum of the pairs of samples.
+class MatteSum {
+public:
+    explicit MatteSum(std::span<const Matte> mattes) : mattes_(mattes), sums_(mattes.size()) {}
+
+    // `value(k)` is that of the sample in channel k.
+    template <typename Value>
+    void add(double factor, const Value &value) {
+        for (std::size_t m = 0; m < mattes_.size(); ++m)
+            for (const Matte::Rank &rank : mattes_[m].ranks)
+                sums_[m].add(value(rank.id), factor * double(value(rank.coverage)));
+    }
+
+    // write(k, value) for every channel of the mattes; what has no rank left is dropped. The sum is empty then.
+    template <typename Write>
+    void take(const Write &write) {
+        for (std::size_t m = 0; m < mattes_.size(); ++m) {
+            const std::span<const IdCoverage::Pair> pairs = sums_[m].ranked();
+            for (std::size_t r = 0; r < mattes_[m].ranks.size(); ++r) {
+                const IdCoverage::Pair pair = r < pairs.size() ? pairs[r] : IdCoverage::Pair{0, 0};
+                write(mattes_[m].ranks[r].id, pair.id);
+                write(mattes_[m].ranks[r].coverage, float(pair.coverage));
+            }
+            sums_[m].clear();
+        }
+    }
+
+private:
+    std::span<const Matte> mattes_;
+    std::vector<IdCoverage> sums_; // of each matte
+};
+
+} // namespace sparselens

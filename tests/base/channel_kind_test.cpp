@@ -1,0 +1,92 @@
+#include "base/image.h"
+#include "base/matte.h"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cstdint>
+
+namespace sparselens {
+namespace {
+
+std::vector<Channel> found(std::vector<Channel> channels, const std::vector<std::string> &mattes = {}) {
+    find_kinds(channels, mattes);
+    return channels;
+}
+
+ChannelKind kind_of(const std::string &name, PixelType type = PixelType::float32) {
+    return found({{name, type}})[0].kind;
+}
+
+TEST(ChannelKind, ColoursAreLight) {
+    for (const char *name :
+         {"R", "A", "AR", "Y", "diffuse.R", "ViewLayer.Combined.B", "CryptoObject.R", "mask.A"})
+        EXPECT_EQ(kind_of(name), ChannelKind::light) << name;
+}
+
+TEST(ChannelKind, PositionsNormalsAndMotionAreData) {
+    for (const char *name :
+         {"N.R", "N.X", "P.B", "ViewLayer.Normal.X", "uv.R", "UV.U", "motionvector.R", "velocity.R", "Z",
+          "other.Z", "ViewLayer.Vector.W", "depth.R", "ViewLayer.Denoising Normal.X"})
+        EXPECT_EQ(kind_of(name), ChannelKind::data) << name;
+    EXPECT_FALSE(is_light(found({{"N.R"}})[0]));
+    EXPECT_FALSE(holds_ids(found({{"N.R"}})[0]));
+}
+
+TEST(ChannelKind, IntegersAreIds) {
+    EXPECT_TRUE(holds_ids({"objectId", PixelType::uint32}));
+    EXPECT_FALSE(is_light({"objectId", PixelType::uint32}));
+    EXPECT_FALSE(is_in_matte({"objectId", PixelType::uint32}));
+}
+
+TEST(ChannelKind, RanksOfACryptomatteByNameOrByTheHeader) {
+    const auto channels =
+        found({{"CryptoObject01.B", PixelType::float32}, {"ViewLayer.CryptoAsset00.g", PixelType::float32}});
+    EXPECT_EQ(channels[0].kind, ChannelKind::matte_id);
+    EXPECT_EQ(channels[0].matte, "CryptoObject");
+    EXPECT_EQ(channels[0].rank, 3);
+    EXPECT_EQ(channels[1].kind, ChannelKind::matte_coverage);
+    EXPECT_EQ(channels[1].matte, "ViewLayer.CryptoAsset");
+    EXPECT_EQ(channels[1].rank, 0);
+    EXPECT_EQ(kind_of("objects00.R"), ChannelKind::light);
+    EXPECT_EQ(found({{"objects00.R", PixelType::float32}}, {"objects"})[0].kind, ChannelKind::matte_id);
+    EXPECT_EQ(kind_of("CryptoObject00.R", PixelType::half), ChannelKind::light); // no half holds a hash
+}
+
+TEST(Matte, IsFoundInAnyOrderOfItsChannels) {
+    const auto channels = found({{"CryptoObject00.A", PixelType::float32},
+                                 {"CryptoObject00.B", PixelType::float32},
+                                 {"R"},
+                                 {"CryptoObject00.G", PixelType::float32},
+                                 {"CryptoObject00.R", PixelType::float32},
+                                 {"CryptoObject01.R", PixelType::float32}}); // without its coverage
+    const std::vector<Matte> mattes = find_mattes(channels);
+    ASSERT_EQ(mattes.size(), 1u);
+    ASSERT_EQ(mattes[0].ranks.size(), 2u);
+    EXPECT_EQ(mattes[0].ranks[0].id, 4u);
+    EXPECT_EQ(mattes[0].ranks[0].coverage, 3u);
+    EXPECT_EQ(mattes[0].ranks[1].id, 1u);
+    EXPECT_EQ(mattes[0].ranks[1].coverage, 0u);
+}
+
+TEST(IdCoverage, AddsByBitsAndRanks) {
+    const float huge = std::bit_cast<float>(0x7f123456u), tiny = std::bit_cast<float>(3u), minus_zero = -0.0f;
+    IdCoverage sum;
+    sum.add(huge, 0.25);
+    sum.add(tiny, 0.5);
+    sum.add(huge, 0.5);
+    sum.add(minus_zero, 0.125); // another id than 0
+    sum.add(0.0f, 0.0625);
+    sum.add(2, 0.5);
+    sum.add(2, -0.5);
+    const auto pairs = sum.ranked();
+    ASSERT_EQ(pairs.size(), 4u);
+    EXPECT_EQ(std::bit_cast<std::uint32_t>(pairs[0].id), 0x7f123456u);
+    EXPECT_EQ(pairs[0].coverage, 0.75);
+    EXPECT_EQ(std::bit_cast<std::uint32_t>(pairs[1].id), 3u);
+    EXPECT_EQ(std::bit_cast<std::uint32_t>(pairs[2].id), 0x80000000u);
+    EXPECT_EQ(std::bit_cast<std::uint32_t>(pairs[3].id), 0u);
+}
+
+} // namespace
+} // namespace sparselens
