@@ -113,6 +113,23 @@ exits 0 "$gather" cluster.10-11#.exr -o out.1-2%02d.exr --depth-out z.1-2#.exr
 exits 0 "$bin/ldi-plan" %04d/center.%04d.exr -o plan.#.json --frames 10-11
 [ "$(count 'plan.001?.json')" -eq 2 ] || fail "plans of a sequence: $(ls)"
 
+# Every engine's spelling of a range, negative frames too, in --frames and in names.
+frames() { # "NUMBERS" COMMAND...: so many pictures, of those numbers
+    exits 0 "${@:2}"
+    [ "$(ls spelt)" = "$(printf '%s.exr\n' $1 | sort)" ] || fail "not $1: ${*:2} ($(ls spelt))"
+    rm -r spelt
+}
+still=("$bin/ldi-cluster" one.exr -o)
+frames '1 3 5' "${still[@]}" spelt/%d.exr --frames 1-5:2
+frames '1 3 5' "${still[@]}" spelt/%d.exr --frames 1-5x2
+frames '1 3 5 6 7' "${still[@]}" spelt/%d.exr --frames 1,3,5-7
+frames '1 2 4' "${still[@]}" spelt/%d.exr --frames '1 - 2, 4'
+frames '-1 0 1' "${still[@]}" spelt/%d.exr --frames -1-1
+frames '-3 -2' "${still[@]}" spelt/%d.exr --frames=-3--2
+frames '-001 0001' "${still[@]}" spelt/-1-1:2#.exr
+frames '1 3 6 7' "${still[@]}" spelt/1,3,6-7%d.exr
+frames '-5 -4' "${still[@]}" spelt/-5--4%d.exr
+
 # A frame that fails ends the work, or is left out; the exit code says so.
 fails_saying 1 '^dof-gather: frame 12: cluster.0012.exr: cannot open' "$gather" cluster.#.exr -o bad.#.exr --frames 10-13
 [ "$(count 'bad.*.exr')" -eq 2 ] || fail "it goes on after a frame that fails: $(ls bad.*)"
@@ -161,7 +178,19 @@ exits 0 "${pull[@]}"
 progress alf 'ALF_PROGRESS ([0-9]+)%' "${pull[@]}" -u
 export SPARSELENS_NO_HISTORY=1
 for percent in 25 50 75; do grep -qx $percent percents || fail "frames up to date do not count: $(cat percents)"; done
-progress openjd 'openjd_progress: ([0-9]+)' "$bin/ldi-warp" views/center.exr "${rim[@]}" -o x.exr
+exits 0 "${pull[@]}" --progress openjd
+grep -v '^openjd_status: ' stderr >percents
+if grep -Evq '^openjd_progress: [0-9]+$' percents; then fail "--progress openjd: $(cat stderr)"; fi
+[ "$(tail -1 percents)" = 'openjd_progress: 100' ] || fail "--progress openjd ends at $(tail -1 percents)"
+grep -qx 'openjd_status: dof-gather: frame 2 (2 of 4): gathering' stderr || fail "openjd_status: $(cat stderr)"
+[ "$(grep -c gathering stderr)" -eq 4 ] || fail "not one openjd_status a stage: $(cat stderr)"
+exits 0 "$bin/ldi-warp" views/center.exr "${rim[@]}" -o x.exr --progress openjd
+grep -qx 'openjd_status: ldi-warp: warping' stderr || fail "openjd_status without frames: $(cat stderr)"
+fails_saying 1 '^openjd_fail: dof-gather: no.exr: cannot open' "$gather" no.exr -o x.exr --progress=openjd
+fails_saying 1 '^dof-gather: no.exr: cannot open' "$gather" no.exr -o x.exr --progress alf
+fails_saying 1 '^openjd_fail: dof-gather: frame 3: no.0003.exr' "$gather" no.#.exr -o x.#.exr --frames 3 --progress openjd
+fails_saying 2 '^openjd_fail: dof-gather: .*no-such' "$gather" ldi.exr -o x.exr --no-such --progress openjd
+fails_saying 2 '^openjd_fail: dof-gather: --frames' "$gather" ldi.exr -o x.#.exr --frames abc --progress openjd
 progress alf 'ALF_PROGRESS ([0-9]+)%' "$bin/ldi-cluster" ldi.exr -o x.exr
 progress plain 'ldi-plan: ([0-9]+)%' "$bin/ldi-plan" views/center.exr -o x.json
 exits 0 "${pull[@]}"

@@ -22,8 +22,8 @@ namespace sparselens {
 
 namespace {
 
-int fail(const std::string &tool_name, const std::string &text, int code) {
-    fmt::print(stderr, "{}: {}\n", tool_name, one_line(text));
+int fail(const std::string &prefix, const std::string &text, int code) {
+    fmt::print(stderr, "{}{}\n", prefix, one_line(text));
     return code;
 }
 
@@ -74,13 +74,13 @@ void add_memory_option(CLI::App &app, ProcessOptions &options) {
 }
 
 std::optional<int> parse_words(CLI::App &app, const std::vector<std::string> &words,
-                               const std::string &where) {
+                               const std::string &prefix) {
     try {
         app.parse(std::vector<std::string>(words.rbegin(), words.rend())); // as CLI11 wants them
     } catch (const CLI::Success &answer) {                                 // --help, --version
         return app.exit(answer);
     } catch (const CLI::ParseError &error) {
-        return fail(app.get_name(), where + explanation(app, error) + " (see --help)", 2);
+        return fail(prefix, explanation(app, error) + " (see --help)", 2);
     }
     return {};
 }
@@ -105,16 +105,16 @@ Process::Process(const ProcessOptions &options, const ToolContext &tool) {
 
 Process::~Process() = default;
 
-int exit_code_of(const std::string &tool_name, const std::string &where, const std::function<void()> &work) {
+int exit_code_of(const std::string &prefix, const std::function<void()> &work) {
     try {
         work();
         return 0;
     } catch (const UsageError &error) {
-        return fail(tool_name, where + error.what(), 2);
+        return fail(prefix, error.what(), 2);
     } catch (const std::bad_alloc &) {
-        return fail(tool_name, where + "out of memory", 1);
+        return fail(prefix, "out of memory", 1);
     } catch (const std::exception &error) {
-        return fail(tool_name, where + error.what(), 1);
+        return fail(prefix, error.what(), 1);
     }
 }
 

@@ -21,9 +21,9 @@ void add_process_options(CLI::App &app, ProcessOptions &options);
 void add_memory_option(CLI::App &app, ProcessOptions &options); // --max-memory
 
 // Parses the words. Returns nothing where there is work to do, else the exit code, after answering --help and the like
-// or reporting a usage error. `where` names the frame in the message, or is empty.
+// or reporting a usage error. `prefix` begins the message: "dof-gather: ", "dof-gather: frame 12: ".
 std::optional<int> parse_words(CLI::App &app, const std::vector<std::string> &words,
-                               const std::string &where = "");
+                               const std::string &prefix);
 
 // Sets threads, memory limit and signal handlers for the lifetime of the object.
 class Process {
@@ -36,7 +36,7 @@ private:
     std::unique_ptr<ThreadLimit> threads_;
 };
 
-// Runs `work`, reports what it throws in one line and returns the exit code.
-int exit_code_of(const std::string &tool_name, const std::string &where, const std::function<void()> &work);
+// Runs `work`, reports what it throws in one line that begins with `prefix`, and returns the exit code.
+int exit_code_of(const std::string &prefix, const std::function<void()> &work);
 
 } // namespace sparselens

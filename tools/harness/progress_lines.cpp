@@ -17,18 +17,22 @@ Progress::Listener terminal_listener(const std::string &tool_name) {
     };
 }
 
-// The last percentage that was printed: threads may reach theirs out of order.
+// What was printed last: threads may reach their percentages out of order.
 struct Said {
     std::mutex guard;
     int percent = -1;
+    std::string stage;
 };
 
 Progress::Listener farm_listener(ProgressFormat format, const std::string &tool_name, FrameCount frames) {
     const int before = overall_percent(frames, 0);
     auto said = std::make_shared<Said>();
     said->percent = frames.done > 0 ? before : -1; // the frame before has printed it
-    return [=](const std::string &, int percent) {
+    return [=](const std::string &stage, int percent) {
         const std::lock_guard lock(said->guard);
+        if (format == ProgressFormat::openjd && stage != said->stage)
+            fmt::print(stderr, "{}\n", status_line(tool_name, frames, stage));
+        said->stage = stage;
         const int overall = overall_percent(frames, percent);
         if (overall <= said->percent) return;
         said->percent = overall;
@@ -50,6 +54,17 @@ std::string progress_line(ProgressFormat format, const std::string &tool_name, i
     case ProgressFormat::plain: break;
     }
     return fmt::format("{}: {}%", tool_name, percent);
+}
+
+std::string status_line(const std::string &tool_name, const FrameCount &frames, const std::string &stage) {
+    const std::string frame =
+        frames.number ? fmt::format("frame {} ({} of {}): ", *frames.number, frames.done + 1, frames.all)
+                      : "";
+    return fmt::format("openjd_status: {}: {}{}", tool_name, frame, stage);
+}
+
+std::string error_prefix(ProgressFormat format, const std::string &tool_name) {
+    return (format == ProgressFormat::openjd ? "openjd_fail: " : "") + tool_name + ": ";
 }
 
 std::unique_ptr<Progress> progress_of(ProgressFormat format, const std::string &tool_name,

@@ -27,11 +27,23 @@ struct FrameOptions {
     ProgressFormat progress = ProgressFormat::terminal;
 };
 
+const std::map<std::string, ProgressFormat> &progress_formats() {
+    static const std::map<std::string, ProgressFormat> formats{
+        {"plain", ProgressFormat::plain}, {"alf", ProgressFormat::alf}, {"openjd", ProgressFormat::openjd}};
+    return formats;
+}
+
+// What errors begin with. The words are not parsed yet: an error in them is for the farm, too.
+std::string prefix_of(const std::string &name, const std::vector<std::string> &words) {
+    const auto format = progress_formats().find(value_of("--progress", words));
+    return error_prefix(format == progress_formats().end() ? ProgressFormat::terminal : format->second, name);
+}
+
 void add_frame_options(CLI::App &app, FrameOptions &options) {
     app.add_option(
            "--frames", options.frames,
-           "Frames to process, e.g. 1-100x2; file names may hold #### or %04d, and values may be keyed, e.g. "
-           "1:5.0,24:2.0")
+           "Frames to process, e.g. 1-100x2 or 1,3,5-9; file names may hold #### or %04d, and values may be "
+           "keyed, e.g. 1:5.0,24:2.0")
         ->type_name("RANGE")
         ->group("Frames");
     app.add_flag("--skip-bad-frames", options.skip_bad_frames,
@@ -42,12 +54,11 @@ void add_frame_options(CLI::App &app, FrameOptions &options) {
         ->group("Frames");
     app.add_option("--stats", options.stats, "Append statistics as one line of JSON; - for stderr")
         ->type_name("FILE");
-    const std::map<std::string, ProgressFormat> formats{
-        {"plain", ProgressFormat::plain}, {"alf", ProgressFormat::alf}, {"openjd", ProgressFormat::openjd}};
     app.add_option("--progress", options.progress,
-                   "Print progress lines for a render farm on stderr (default: none)")
+                   "Print progress lines for a render farm on stderr; openjd: status and failures too "
+                   "(default: none)")
         ->type_name("plain|alf|openjd")
-        ->transform(words(formats))
+        ->transform(words(progress_formats()))
         ->group("Frames");
 }
 
@@ -102,20 +113,21 @@ void run_frame(const FrameCommand &command, ToolContext &tool, FrameCount count,
     tool.stats = command.frames.stats;
     if (!command.frames.update || !is_up_to_date(command.app, tool, warned)) command.job(tool);
     if (format == ProgressFormat::terminal) return;
-    tool.progress->start("frame", 1);
+    tool.progress->start("done", 1);
     tool.progress->advance();
 }
 
 // All frames of one command line.
 int run_words(const std::string &name, const std::string &description, const std::vector<std::string> &words,
               const Prepare &prepare) {
+    const std::string prefix = prefix_of(name, words);
     std::optional<FrameCommands> commands;
-    int code = exit_code_of(name, "", [&] { commands.emplace(words); });
+    int code = exit_code_of(prefix, [&] { commands.emplace(words); });
     if (code != 0) return code;
     const std::size_t count = commands->size();
     const auto parse = [&](std::size_t i, CommandPtr &command) {
         command = std::make_unique<FrameCommand>(name, description, prepare);
-        return parse_words(command->app, commands->words(i), frame_name(*commands, i));
+        return parse_words(command->app, commands->words(i), prefix + frame_name(*commands, i));
     };
     // Usage errors of any frame are reported before the first frame is worked on.
     CommandPtr first, command;
@@ -125,7 +137,7 @@ int run_words(const std::string &name, const std::string &description, const std
         if (const auto answered = parse(i, parsed)) return *answered;
         files.push_back(named_files(parsed->app));
     }
-    code = exit_code_of(name, "", [&] { refuse_overwriting(files); });
+    code = exit_code_of(prefix, [&] { refuse_overwriting(files); });
     if (code != 0) return code;
 
     ToolContext tool;
@@ -140,8 +152,8 @@ int run_words(const std::string &name, const std::string &description, const std
         parse(i, command);
         if (commands->is_range()) tool.frame = commands->number(i);
         tool.command_line = command_line(name, commands->words(i));
-        code = exit_code_of(name, frame_name(*commands, i), [&] {
-            run_frame(*command, tool, {i, count}, warned);
+        code = exit_code_of(prefix + frame_name(*commands, i), [&] {
+            run_frame(*command, tool, {i, count, tool.frame}, warned);
         });
         worst = std::max(worst, code);
         if (code > 1 || (code == 1 && !first->frames.skip_bad_frames)) break;
@@ -153,7 +165,7 @@ int run_words(const std::string &name, const std::string &description, const std
 std::vector<std::string> views_of_input(const std::string &name, const std::string &description,
                                         const std::vector<std::string> &words, const Prepare &prepare) {
     FrameCommand command(name, description, prepare);
-    parse_words(command.app, FrameCommands(words).words(0));
+    parse_words(command.app, FrameCommands(words).words(0), prefix_of(name, words));
     const std::vector<NamedFile> inputs = named_files(command.app).inputs;
     const auto input = std::ranges::find_if(
         inputs, [](const NamedFile &file) { return file.option == "IN" || file.option == "views"; });
@@ -171,7 +183,7 @@ int run_frames(const std::string &name, const std::string &description, int argc
     const std::vector<std::string> words(argv + 1, argv + argc);
     if (!asks_for_all_views(words)) return run_words(name, description, words, prepare);
     std::vector<std::vector<std::string>> commands;
-    int worst = exit_code_of(name, "", [&] {
+    int worst = exit_code_of(prefix_of(name, words), [&] {
         for (const std::string &view : views_of_input(name, description, words, prepare))
             commands.push_back(words_for_view(words, view));
     });

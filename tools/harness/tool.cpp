@@ -23,7 +23,8 @@ int run_tool(CLI::App &app, int argc, char **argv, const Job &job, Reads reads) 
     ProcessOptions options;
     add_process_options(app, options);
     if (reads == Reads::files) add_memory_option(app, options);
-    if (const auto code = parse_words(app, {argv + 1, argv + argc})) return *code;
+    const std::string prefix = error_prefix(ProgressFormat::terminal, app.get_name());
+    if (const auto code = parse_words(app, {argv + 1, argv + argc}, prefix)) return *code;
     ToolContext tool;
     tool.tool_name = app.get_name();
     tool.verbose = options.verbose;
@@ -32,7 +33,7 @@ int run_tool(CLI::App &app, int argc, char **argv, const Job &job, Reads reads) 
     tool.command_line = command_line(tool.tool_name, {argv + 1, argv + argc});
     const Process process(options, tool);
     tool.progress = progress_of(ProgressFormat::terminal, tool.tool_name, {});
-    return exit_code_of(tool.tool_name, "", [&] {
+    return exit_code_of(prefix, [&] {
         const NamedFiles files = named_files(app);
         refuse_overwriting({&files, 1});
         job(tool);

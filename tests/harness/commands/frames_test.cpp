@@ -27,6 +27,27 @@ TEST(FrameNumbers, AreThoseOfTheRange) {
         EXPECT_THROW(frame_numbers(wrong), UsageError) << wrong;
 }
 
+// Open Job Description: 1-20:2, and blanks; Slurm and OpenCue: the same; Nuke, Tractor, Deadline: 1-20x2.
+TEST(FrameNumbers, AreSpelledAsEveryEngineSpellsThem) {
+    const std::vector odd{1, 3, 5, 7};
+    for (const char *range : {"1-7:2", "1-7x2", "1-8:2", "1,3,5,7", "1-3:2,5-7:2", " 1 - 7:2 ", "1,3, 5,\t7"})
+        EXPECT_EQ(frame_numbers(range), odd) << range;
+    EXPECT_EQ(frame_numbers("1,3,5-9"), (std::vector{1, 3, 5, 6, 7, 8, 9}));
+    EXPECT_EQ(frame_numbers("5-1:-2"), (std::vector{5, 3, 1}));
+    for (const char *wrong : {"1-7:", "1-7::2", "1:7", "1 3", "1-7 2", "1-7:x", "- 5", "1-7 :2"})
+        EXPECT_THROW(frame_numbers(wrong), UsageError) << wrong;
+    EXPECT_THROW(frame_numbers("1-9999999:9"), UsageError);
+    EXPECT_EQ(frame_numbers("1-9999999:10").size(), 1'000'000u);
+}
+
+TEST(FrameNumbers, MayBeNegative) {
+    EXPECT_EQ(frame_numbers("-2-2"), (std::vector{-2, -1, 0, 1, 2}));
+    EXPECT_EQ(frame_numbers("-3--1"), (std::vector{-3, -2, -1}));
+    EXPECT_EQ(frame_numbers("1--1"), (std::vector{1, 0, -1}));
+    EXPECT_EQ(frame_numbers("-7"), (std::vector{-7}));
+    EXPECT_EQ(frame_numbers("-6--1:2,-1,4"), (std::vector{-6, -4, -2, -1, 4}));
+}
+
 TEST(FrameNumbers, AreAMillionAtMost) {
     EXPECT_EQ(frame_numbers("1-9999999x10").size(), 1'000'000u);
     for (const std::string wrong :
@@ -44,6 +65,10 @@ TEST(FileAt, PutsTheNumberInEveryPlace) {
     EXPECT_EQ(file_at("%03d/a_v02.%04d.exr", 12), "012/a_v02.0012.exr");
     EXPECT_EQ(file_at("a.1-9x2##.exr", 3), "a.03.exr");
     EXPECT_EQ(file_at("100%_%s%n.exr", 3), "100%_%s%n.exr");
+    EXPECT_EQ(file_at("a.####.exr", -5), "a.-005.exr"); // as printf has it
+    EXPECT_EQ(file_at("a.%d.exr", -5), "a.-5.exr");
+    EXPECT_EQ(file_at("1-9:2#/a.-5-5##.1,3,5-9%d.exr", 3), "0003/a.03.3.exr");
+    EXPECT_EQ(file_at("take2#.exr", 3), "take20003.exr");
 }
 
 // The value of a list of numbers at a frame.
@@ -153,6 +178,35 @@ TEST(FrameCommands, RangesOfTheirOwnGoTogether) {
     EXPECT_EQ(what_of<UsageError>(lengths), "out.1-4#.exr has 4 frames, not 3");
 }
 
+TEST(FrameCommands, RangesInNamesAreSpelledAsElsewhere) {
+    const auto names = [](const std::string &name) {
+        const FrameCommands commands({name});
+        std::string all;
+        for (std::size_t i = 0; i < commands.size(); ++i) all += (i > 0 ? " " : "") + commands.words(i)[0];
+        return all;
+    };
+    EXPECT_EQ(names("a.1-7:2%d"), "a.1 a.3 a.5 a.7");
+    EXPECT_EQ(names("a.1-7x3%d"), "a.1 a.4 a.7");
+    EXPECT_EQ(names("a.1,3,5-6%d"), "a.1 a.3 a.5 a.6");
+    EXPECT_EQ(names("a.-2--1%d"), "a.-2 a.-1");
+    EXPECT_EQ(names("-1-1#"), "-001 0000 0001");
+    EXPECT_EQ(names("shots/-1-1%d"), "shots/-1 shots/0 shots/1");
+    EXPECT_EQ(names("shot-1-3%d"), "shot-1 shot-2 shot-3"); // the first minus is part of the name
+    EXPECT_EQ(names("shot--1-0%d"), "shot--1 shot-0");
+}
+
+TEST(FrameCommands, NegativeNumbersAreFoundOnDisk) {
+    const ScratchFolder folder;
+    for (const char *name : {"in.-002.exr", "in.0001.exr", "in.-0001.exr"})
+        put_contents(folder.file(name), "x");
+    const FrameCommands commands({folder.file("in.####.exr"), "-o", "out.%d.exr"});
+    ASSERT_EQ(commands.size(), 2u); // -0001 is not how -1 is written in four digits
+    EXPECT_EQ(commands.words(0)[2], "out.-2.exr");
+    EXPECT_EQ(commands.words(1)[2], "out.1.exr");
+    EXPECT_EQ(FrameCommands({"--frames=-5--4", "-o", "#"}).words(0)[2], "-005");
+    EXPECT_EQ(FrameCommands({"--frames", "-5-5", "-o", "#"}).size(), 11u);
+}
+
 TEST(FrameCommands, WithoutNumbersTheFilesOnDiskGiveThem) {
     const ScratchFolder folder;
     for (const char *name : {"in.0002.exr", "in.0005.exr", "in.x.exr", "out.0001.exr"})
@@ -216,6 +270,11 @@ TEST(ProgressLines, AreTheFarms) {
     EXPECT_EQ(progress_line(ProgressFormat::plain, "tool", 7), "tool: 7%");
     EXPECT_EQ(progress_line(ProgressFormat::alf, "tool", 7), "ALF_PROGRESS 7%");
     EXPECT_EQ(progress_line(ProgressFormat::openjd, "tool", 100), "openjd_progress: 100");
+    EXPECT_EQ(status_line("tool", {}, "warping"), "openjd_status: tool: warping");
+    EXPECT_EQ(status_line("tool", {1, 24, 12}, "warping"),
+              "openjd_status: tool: frame 12 (2 of 24): warping");
+    EXPECT_EQ(error_prefix(ProgressFormat::openjd, "tool"), "openjd_fail: tool: ");
+    EXPECT_EQ(error_prefix(ProgressFormat::alf, "tool"), "tool: ");
 }
 
 TEST(ProgressLines, CountAllFrames) {

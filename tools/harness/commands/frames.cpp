@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cstdio>
 #include <cstdlib>
@@ -26,20 +27,42 @@ namespace {
 constexpr std::size_t most_frames = 1'000'000;
 constexpr std::size_t longest_name = 4096; // a path's; std::regex goes deeper with every character
 
-// A range of its own (1: "1-24x2"), then # or %04d (2, 3: the digits).
+// Where a number stands in a name: the characters from `begin` to `end`, which begin with a range or with none.
+struct Place {
+    std::size_t begin = 0, end = 0;
+    std::string range; // "1-24x2"
+    int width = 0;     // digits, with zeros before the number
+};
+
+// A range of its own (1: one part at least is more than a number), then # or %04d (2, 3: the digits).
 const std::regex &sequence_pattern() {
-    static const std::regex pattern(R"((\d{1,7}-\d{1,7}(?:[xy]\d{1,7})?)?(#+|%(0\d{1,2})?d))");
+    static const std::string number = R"(-?\d{1,7})", span = number + "-" + number + R"((?:[xy:]-?\d{1,7})?)",
+                             part = "(?:" + span + "|" + number + ")";
+    static const std::regex pattern("(" + span + "(?:," + part + ")*|" + number + "(?:," + part +
+                                    R"()+)?(#+|%(0\d{1,2})?d))");
     return pattern;
 }
 
-std::string digits(const std::smatch &place, int number) {
-    const std::string hashes = place[2];
+int width_of(const std::smatch &match) {
+    const std::string hashes = match[2];
+    if (hashes.front() == '#') return hashes.size() == 1 ? 4 : int(std::min<std::size_t>(hashes.size(), 32));
     int width = 0;
-    if (hashes.front() == '#')
-        width = hashes.size() == 1 ? 4 : int(std::min<std::size_t>(hashes.size(), 32));
-    else if (place[3].matched)
-        std::from_chars(&*place[3].first, &*place[3].first + place[3].length(), width);
-    return fmt::format("{:0{}}", number, width);
+    if (match[3].matched) std::from_chars(&*match[3].first, &*match[3].first + match[3].length(), width);
+    return width;
+}
+
+std::optional<Place> find_place(const std::string &name, std::size_t from = 0) {
+    std::smatch match;
+    if (!std::regex_search(name.begin() + std::ptrdiff_t(from), name.end(), match, sequence_pattern()))
+        return {};
+    const std::size_t begin = from + std::size_t(match.position());
+    Place place{begin, begin + std::size_t(match.length()), match[1], width_of(match)};
+    const bool joins = begin > 0 && std::isalnum(static_cast<unsigned char>(name[begin - 1]));
+    if (joins && place.range.starts_with('-')) { // no sign
+        ++place.begin;
+        place.range.erase(0, 1);
+    }
+    return place;
 }
 
 // The number between `before` and `after` in a file's name.
@@ -58,9 +81,9 @@ std::optional<int> number_in(std::string_view file, std::string_view before, std
 // name for a regular expression, which brackets in it are not, and some of which take forever.
 std::vector<int> numbers_on_disk(const std::string &name) {
     namespace fs = std::filesystem;
-    std::smatch place;
-    std::regex_search(name, place, sequence_pattern());
-    const std::string before = place.prefix(), after = place.suffix();
+    const auto place = find_place(name);
+    if (!place) return {};
+    const std::string before = name.substr(0, place->begin), after = name.substr(place->end);
     const std::size_t slash = before.rfind('/') + 1; // 0 where there is none
     const std::string folder = slash > 0 ? before.substr(0, slash) : ".", first = before.substr(slash),
                       last = after.substr(0, after.find('/'));
@@ -72,7 +95,12 @@ std::vector<int> numbers_on_disk(const std::string &name) {
     return {numbers.begin(), numbers.end()};
 }
 
-// What a command line gives an option, "" where it does not.
+// The options whose values may be keyed by frame, in a word or in a file (@keys.txt).
+constexpr std::array keyed_options{"--focus-distance", "--fstop",      "--lens-radius", "--focal-length",
+                                   "--sensor-width",   "--scene-unit", "--focus-pixel"};
+
+} // namespace
+
 std::string value_of(const std::string &option, const std::vector<std::string> &words) {
     std::string value;
     for (std::size_t i = 0; i < words.size() && words[i] != "--"; ++i) {
@@ -82,28 +110,26 @@ std::string value_of(const std::string &option, const std::vector<std::string> &
     return value;
 }
 
-// The options whose values may be keyed by frame, in a word or in a file (@keys.txt).
-constexpr std::array keyed_options{"--focus-distance", "--fstop",      "--lens-radius", "--focal-length",
-                                   "--sensor-width",   "--scene-unit", "--focus-pixel"};
-
-} // namespace
-
 std::vector<int> frame_numbers(const std::string &range) {
-    // first-last, then x and a step, or y and a step whose numbers are left out
-    static const std::regex part(R"((-?\d{1,7})(?:-(-?\d{1,7})(?:([xy])(-?\d{1,7}))?)?)");
+    // first-last, then x or : and a step, or y and a step whose numbers are left out
+    static const std::regex part(
+        R"([ \t]*(-?\d{1,7})(?:[ \t]*-[ \t]*(-?\d{1,7})(?:([xy:])(-?\d{1,7}))?)?[ \t]*)");
     const UsageError no_range(
-        fmt::format("--frames: invalid frame range '{}' (expected e.g. 1-100x2)", range));
+        fmt::format("--frames: invalid frame range '{}' (expected e.g. 1-100, 1-100x2 or 1,3,5-9)", range));
     if (range.size() > longest_name || range.empty()) throw no_range;
     std::vector<int> numbers, more;
     for (std::size_t from = 0, to = 0; to < range.size(); from = to + 1) {
         to = std::min(range.find(',', from), range.size());
-        const std::string text = range.substr(from, to - from);
+        std::string text = range.substr(from, to - from);
         std::smatch match;
         if (!std::regex_match(text, match, part)) throw no_range;
         const long first = std::stol(match[1]), last = match[2].matched ? std::stol(match[2]) : first,
-                   step = match[3] == "x" ? std::max(std::abs(std::stol(match[4])), 1L) : 1;
+                   step =
+                       match[3] == "x" || match[3] == ":" ? std::max(std::abs(std::stol(match[4])), 1L) : 1;
         if (numbers.size() + std::size_t(std::abs(last - first) / step) >= most_frames) // before making them
             throw UsageError(fmt::format("--frames: '{}' has more than a million frames", range));
+        std::erase_if(text, [](char c) { return c == ' ' || c == '\t'; });
+        std::ranges::replace(text, ':', 'x'); // as OpenImageIO knows it
         if (!OIIO::Filesystem::enumerate_sequence(text, more)) throw no_range;
         numbers.insert(numbers.end(), more.begin(), more.end());
     }
@@ -113,11 +139,10 @@ std::vector<int> frame_numbers(const std::string &range) {
 
 std::string file_at(const std::string &name, int number) {
     std::string result;
-    auto from = name.begin();
-    for (std::smatch place; std::regex_search(from, name.end(), place, sequence_pattern());
-         from = place[0].second)
-        result += place.prefix().str() + digits(place, number);
-    return result.append(from, name.end());
+    std::size_t from = 0;
+    for (auto place = find_place(name); place; from = place->end, place = find_place(name, from))
+        result += name.substr(from, place->begin - from) + fmt::format("{:0{}}", number, place->width);
+    return result + name.substr(from);
 }
 
 FrameCommands::Word FrameCommands::read_word(const std::string &text, const std::string &previous,
@@ -135,13 +160,13 @@ FrameCommands::Word FrameCommands::read_word(const std::string &text, const std:
         word.keys = read_keys(word.value.substr(1), kind);
     else if (option.starts_with('-'))
         word.keys = parse_keys(word.value, kind);
-    std::smatch place;
     std::error_code error;
     if (word.keys || word.value.size() > longest_name ||
         (names_are_names && std::filesystem::exists(word.value, error)))
         return word;
-    word.is_sequence = std::regex_search(word.value, place, sequence_pattern());
-    if (word.is_sequence && place[1].matched) word.own_numbers = frame_numbers(place[1]);
+    const auto place = find_place(word.value);
+    word.is_sequence = place.has_value();
+    if (place && !place->range.empty()) word.own_numbers = frame_numbers(place->range);
     return word;
 }
 

@@ -2,8 +2,9 @@
 //
 // A word that names a sequence of files stands for one file per frame: shot.####.exr, shot.%04d.exr, or with a range of
 // its own shot.1-24#.exr, so that sequences of different numbers can be combined. A single # stands for four digits (as
-// in oiiotool), several for as many digits (as in Nuke). A word of values keyed by frame (keys.h), 1:5.0,24:2.0, stands
-// for the value at the frame; @keys.txt after a lens option stands for the keys in that file.
+// in oiiotool), several for as many digits (as in Nuke); a minus counts as one of them, as for printf. A word of values
+// keyed by frame (keys.h), 1:5.0,24:2.0, stands for the value at the frame; @keys.txt after a lens option stands for the
+// keys in that file.
 #pragma once
 
 #include "harness/commands/keys.h"
@@ -14,11 +15,17 @@
 
 namespace sparselens {
 
-// The numbers of a range such as "1-100x2", "3,5-7" or "10-1", in that order (the sequence descriptions of
-// OpenImageIO). Throws UsageError where the range is invalid or has more than a million frames.
+// The numbers of a range such as "1-100x2", "1-100:2", "3,5-7", "10-1" or "-5--1", in that order: the sequence
+// descriptions of OpenImageIO, and the range expressions of Open Job Description. After x or : stands a step, after y a
+// step whose numbers are left out; blanks around numbers do not count. Throws UsageError where the range is invalid or
+// has more than a million frames.
 std::vector<int> frame_numbers(const std::string &range);
 
-// The name with every #, ##, ... and %04d replaced by the number.
+// What a command line gives an option, "" where it does not.
+std::string value_of(const std::string &option, const std::vector<std::string> &words);
+
+// The name with every #, ##, ... and %04d replaced by the number. A minus before a range in the name is a sign, unless
+// it follows a letter or a digit: shot-1-24#.exr counts from 1, shot.-1-24#.exr from -1.
 std::string file_at(const std::string &name, int number);
 
 // The frames that the words of a command line describe.
