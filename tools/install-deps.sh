@@ -12,7 +12,7 @@ build='g++ cmake ninja-build pkg-config libcli11-dev libembree-dev libfmt-dev li
 demo='fonts-dejavu-core openimageio-tools'
 lint='clang-14 clang-format-14 clang-tidy-14'
 report='chromium gnuplot-nox'
-test='fish gnuplot-nox libbenchmark-dev libgtest-dev openexr openimageio-tools time zsh'
+test='fish gnuplot-nox libbenchmark-dev libgtest-dev openexr openimageio-tools python3-jsonschema python3-yaml time zsh'
 
 fail() {
     echo "install-deps: $*" >&2

@@ -1,0 +1,48 @@
+# The templates of Open Job Description: what the specification allows, and, run as a session runs them, what the tools
+# make without them.
+. "$(dirname "$0")/../tools/check.sh"
+python3 -c 'import jsonschema, yaml' 2>/dev/null || skip "needs python3-jsonschema and python3-yaml"
+farm=$source_dir/tests/farm
+templates_tool() { python3 "$farm/openjd_template.py" "$@" >log 2>&1 || fail "$* ($(tail -3 log))"; }
+templates=("$source_dir"/share/openjd/*.yaml)
+[ "${#templates[@]}" -eq 2 ] || fail "not two templates: ${templates[*]}"
+
+templates_tool check "$farm/jobtemplate-2023-09.json" "${templates[@]}"
+templates_tool faults "$farm/jobtemplate-2023-09.json" "${templates[@]}"
+if command -v openjd >/dev/null; then # openjd-cli, the specification's own tool
+    for template in "${templates[@]}"; do openjd check "$template" --extensions TASK_CHUNKING || fail "openjd check $template"; done
+fi
+
+# Frames -1, 1, 2 and 3, of four views that are all the same.
+PATH=$bin:$PATH
+dof-trace fence --size 48x27 --views 2 --spp 1 -o still
+mkdir 'the views'
+for number in -001 0001 0002 0003; do
+    for file in center view_0 view_1; do cp still/$file.exr "the views/$file.$number.exr"; done
+done
+ldi-warp still/center.exr still/view_0.exr still/view_1.exr -o - | dof-gather - -o expected.exr --focus-distance 3 --fstop 1
+for template in "${templates[@]}"; do
+    rm -rf out session && mkdir session
+    templates_tool run "$template" session Views="$scratch/the views" Output="$scratch/out" Frames=-1,1-3 FramesPerTask=2 \
+        LensOptions='--focus-distance 3 --fstop 1'
+    [ "$(ls out | wc -l)" -eq 8 ] || fail "$template: not four LDIs and pictures: $(ls out)"
+    for number in -001 0001 0002 0003; do cmp out/picture.$number.exr expected.exr || fail "$template: frame $number"; done
+    [ "$(grep -c openjd_fail log)" -eq 0 ] || fail "$template: $(cat log)"
+    grep -q '^openjd_status: dof-gather: frame -1' log || fail "$template: no openjd_status ($(cat log))"
+    tasks=$(grep -cE '^(warp|gather) ' log)
+    case $template in
+    *chunks*) [ "$tasks" -eq 6 ] || fail "$template: $tasks tasks, not 2 of 3 chunks (-1, 1-2, 3)" ;;
+    *) [ "$tasks" -eq 8 ] || fail "$template: $tasks tasks, not 2 of 4 frames" ;;
+    esac
+done
+# A task that runs again makes what is missing and leaves the rest alone.
+rm out/picture.0002.exr
+before=$(ls -i out)
+templates_tool run "${templates[0]}" session Views="$scratch/the views" Output="$scratch/out" Frames=-1,1-3 \
+    LensOptions='--focus-distance 3 --fstop 1'
+[ "$(ls -i out | grep -vF 0002.exr)" = "$(grep -vF 0002.exr <<<"$before")" ] || fail "complete files were made again"
+cmp out/picture.0002.exr expected.exr || fail "the missing picture"
+if python3 "$farm/openjd_template.py" run "${templates[0]}" session Views="$scratch/no views" Output="$scratch/out" Frames=9 >log 2>&1; then
+    fail "a frame without views is no failure: $(cat log)"
+fi
+grep -q '^openjd_fail: ldi-warp: ' log || fail "no openjd_fail: $(cat log)"
