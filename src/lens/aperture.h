@@ -1,0 +1,66 @@
+// The aperture, prepared: the one description from which the lens points of the gather, the rays of the ray tracer and
+// the discs of small lamps come. Places on the lens are u, x right and y up, in units of the radius of the f-number.
+#pragma once
+
+#include "lens/aperture_shape.h"
+#include "lens/picture_table.h"
+
+#include <Imath/ImathVec.h>
+
+#include <array>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace sparselens {
+
+// A point of the lens. Light through it weighs rgb, times `behind` or `in_front` by where it comes from; the mean of
+// each over the lens is 1.
+struct LensPoint {
+    Imath::V2d u;
+    std::array<float, 3> rgb{1, 1, 1};
+    float behind = 1, in_front = 1;
+};
+
+class Aperture {
+public:
+    // Throws Error where no light passes a channel of the picture.
+    explicit Aperture(const ApertureShape &shape = {});
+
+    const ApertureShape &shape() const { return shape_; }
+    bool disc() const {
+        return !picture_ && shape_.spherical == 0 && round();
+    } // evenly bright, maybe squeezed
+    bool coloured() const { return picture_ && picture_->coloured(); }
+    bool two_sided() const { return shape_.spherical != 0; } // not the same behind focus and in front
+    Imath::V2d half_extent() const;                          // the largest |u.x| and |u.y|
+
+    // The lens point of a point of the unit square; equal areas there pass equal light (the mean of R, G and B, without
+    // the weights by side). x is the share within a radius, y the share of a turn; of a picture, rows and columns.
+    LensPoint at(const Imath::V2d &square) const;
+
+    // Before it is squeezed (ApertureShape), not of a picture: fine enough for discs of a CoC of so many pixels, so that
+    // the light in a pixel is off by less than 1e-3 of that of a pixel within.
+    std::span<const Imath::V2d> outline(double coc) const;
+
+    // Of a picture, for light from behind focus or in front; null for others.
+    const PictureTable *picture(bool behind) const;
+
+    // How much light that comes from behind or in front weighs at a radius, the mean over the lens being 1.
+    double weight(bool behind, double square_radius) const;
+
+private:
+    bool round() const { return shape_.blades == 0 || shape_.curvature == 1; }
+    double signed_weight(bool behind, double square_radius) const;
+    Imath::V2d place(const Imath::V2d &square) const;
+
+    ApertureShape shape_;
+    std::optional<PictureTable> picture_, behind_, in_front_;
+    static constexpr int levels = 9; // of outlines, each for four times the CoC of the one before
+    std::array<std::vector<Imath::V2d>, levels> outlines_;
+    std::vector<Imath::V2d> fan_;   // an outline, for points
+    std::vector<double> fan_areas_; // of its triangles with the middle, summed up, the last 1
+    double mean_behind_ = 1, mean_in_front_ = 1;
+};
+
+} // namespace sparselens

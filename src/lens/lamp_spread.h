@@ -1,0 +1,32 @@
+// The light of a small lamp out of focus: exactly how much of the aperture's picture, scaled by the CoC and mirrored in
+// front of focus, lies in each pixel. The whole of it sums to 1, of each colour.
+#pragma once
+
+#include "lens/aperture.h"
+
+#include <Imath/ImathBox.h>
+#include <Imath/ImathVec.h>
+
+#include <vector>
+
+namespace sparselens {
+
+struct Lamp {
+    Imath::V2d centre; // EXR pixel coordinates, y down
+    double coc = 0;    // signed, pixels, not 0
+    double pixel_aspect = 1;
+};
+
+// Weights of the pixels of a box that the light reaches.
+struct LampSpread {
+    Imath::Box2i box; // empty: none
+    bool coloured = false;
+    std::vector<double> weights; // [row][column]
+    std::vector<std::array<double, 3>>
+        colours; // the same of R, G and B, if coloured; then weights are their mean
+};
+
+// Within `box`, at most as large as it must be. The aperture is not a disc (lens/psf.h has those).
+LampSpread spread_lamp(const Aperture &aperture, const Lamp &lamp, const Imath::Box2i &box);
+
+} // namespace sparselens

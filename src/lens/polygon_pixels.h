@@ -1,0 +1,32 @@
+// Integrals over the part of a polygon that lies in each pixel, exact for polygons but for rounding.
+//
+// Each edge is cut at the edges of pixels. A piece adds to its own pixel what lies right of it, and to all pixels further
+// right the whole of them; sums along the rows then are the integrals (Green's theorem, as outline fonts are drawn).
+#pragma once
+
+#include <Imath/ImathBox.h>
+#include <Imath/ImathVec.h>
+
+#include <span>
+#include <vector>
+
+namespace sparselens {
+
+// What is integrated: constant + quadratic ((x - centre.x)^2 scale.x^2 + (y - centre.y)^2 scale.y^2).
+struct RadialDensity {
+    double constant = 1, quadratic = 0;
+    Imath::V2d centre{0, 0}, scale{1, 1};
+};
+
+// Sets values[row][column] of the pixels of a box (not empty; pixel x spans [x, x + 1]). The corners of the polygon run
+// in either direction around it.
+void integrate_over_pixels(std::span<const Imath::V2d> polygon, const RadialDensity &density,
+                           const Imath::Box2i &box, std::vector<double> &values);
+
+// Area of a polygon: positive if its corners run counter-clockwise with y up.
+double signed_area(std::span<const Imath::V2d> polygon);
+
+// Mean of x^2 + y^2 over a polygon whose area is not 0.
+double mean_square_radius(std::span<const Imath::V2d> polygon);
+
+} // namespace sparselens
