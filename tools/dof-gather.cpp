@@ -44,7 +44,8 @@ Image gathered(const GatherCommand &options, const Ldi &ldi, const ThinLens &len
     return gathered_sharp(options, ldi, lens, frame, sharp, tool, tiles);
 }
 
-void run(const GatherCommand &options, const ToolContext &tool, LdiCache &cache) {
+void run(const GatherCommand &given, const ToolContext &tool, LdiCache &cache) {
+    GatherCommand options = given;
     const OpenOptions by{options.lens, options.depth};
     OpenedLdi &in = cache.load(options.input, options.channels, by, options.colour, tool);
     say_camera(tool, options.input, in.camera);
@@ -53,6 +54,7 @@ void run(const GatherCommand &options, const ToolContext &tool, LdiCache &cache)
     say_border_reach(tool, options.input, in.ldi, lens);
     const GatherWindows frame = gather_windows(options.windows, in, lens);
     const Ldi &ldi = frame.changed ? *frame.changed : in.ldi;
+    options.gather.lens.looks = looks_for_ldi(in, read_looks(options.looks), options.method, tool);
     LensTiles tiles;
     Image picture;
     if (needs_gather(options.show))

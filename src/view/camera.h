@@ -2,6 +2,7 @@
 #pragma once
 
 #include "framing.h"
+#include "look_values.h"
 
 #include <Imath/ImathMatrix.h>
 #include <Imath/ImathVec.h>
@@ -21,6 +22,7 @@ struct Camera {
     std::optional<double> lens_radius;     // of the aperture, scene units, [0, inf): as a user gave it
     std::optional<double> focus_distance;  // scene units, (0, inf]
     std::optional<double> metres_per_unit; // (0, inf)
+    LookValues looks;                      // of them blades, their rotation and the squeeze
     // Width of the picture over the focal length, (0, inf). A field of view or a projection matrix gives it, also if
     // one of the two is unknown.
     std::optional<double> field;

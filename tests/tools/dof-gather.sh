@@ -64,6 +64,48 @@ for text in '--method magic' '--quality best' '--layers 0' '--layers x' '--lens-
     fails_saying 2 "[-][-]?${text#--}|${text%% *}" "$gather" ldi.exr -o x.exr $text
 done
 
+# Looks of the lens: each changes the picture, and wrong values are named.
+oiiotool --create 4x3 1 --fill:color=1 4x2 -o aperture.exr
+oiiotool --create 4x3 1 -o black.exr
+changes --blades 5
+exits 0 "$gather" ldi.exr -o blades.exr --blades 5
+changes_blades() {
+    exits 0 "$gather" ldi.exr -o changed.exr --blades 5 "$@"
+    differ changed.exr blades.exr "$*"
+}
+changes_blades --blade-curvature 0.5
+changes_blades --blade-rotation 20
+exits 0 "$gather" ldi.exr -o turned.exr --blades 5 --blade-rotation 72
+same_pixels turned.exr blades.exr "--blade-rotation by a whole blade"
+exits 0 "$gather" ldi.exr -o round.exr --blades 5 --blade-curvature 1
+same_pixels round.exr out.exr "--blade-curvature 1"
+changes --squeeze 2
+changes --spherical 0.5
+changes --aperture aperture.exr
+for text in '--blades 2' '--blades 4.5' '--blade-curvature 1.5' '--blade-rotation x' '--squeeze 0' '--squeeze inf' \
+    '--spherical 2' '--blades nan'; do
+    # shellcheck disable=SC2086
+    fails_saying 2 "${text%% *}" "$gather" ldi.exr -o x.exr $text
+done
+fails_saying 1 'black.exr.* black' "$gather" ldi.exr -o x.exr --aperture black.exr
+fails_saying 1 'none.exr' "$gather" ldi.exr -o x.exr --aperture none.exr
+fails_saying 2 '--aperture.*--blades|--blades.*--aperture' "$gather" ldi.exr -o x.exr --aperture aperture.exr --blades 5
+for method in selective scatter; do
+    fails_saying 2 '--squeeze: works with --method lens only' "$gather" ldi.exr -o x.exr --method $method --squeeze 2
+done
+
+# The blades, their rotation and the squeeze may stand in the header, as the script for Blender writes them.
+oiiotool ldi.exr --attrib:type=int aperture_blades 5 --attrib:type=float aperture_rotation 0.5 \
+    --attrib:type=float aperture_ratio 1.5 -o said.exr
+exits 0 "$gather" said.exr -o by-header.exr
+exits 0 "$gather" ldi.exr -o by-option.exr --blades 5 --blade-rotation 28.64788975654116 --squeeze 1.5
+same_pixels by-header.exr by-option.exr "aperture_blades, aperture_rotation, aperture_ratio"
+says by-option.exr '^aperture_blades .*: 5$'
+exits 0 "$gather" said.exr -o overruled.exr --blades 0 --squeeze 1
+same_pixels overruled.exr out.exr "options beat the header"
+exits 0 "$gather" said.exr -o selective.exr --method selective
+grep -q 'warning: the aperture is taken for round' stderr || fail "no warning: $(cat stderr)"
+
 # A wider lens than the views stood on is a warning, in one line.
 exits 0 "$gather" ldi.exr -o wide.exr --lens-radius 0.09
 grep -q '^dof-gather: warning: the aperture is larger' stderr && [ "$(wc -l <stderr)" -eq 1 ] || fail "no warning: $(cat stderr)"

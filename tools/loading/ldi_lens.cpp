@@ -37,4 +37,17 @@ ThinLens lens_for_ldi(OpenedLdi &in, const std::optional<Imath::V2i> &focus_pixe
     return lens;
 }
 
+LensLooks looks_for_ldi(OpenedLdi &in, const LookValues &given, const GatherMethod *method,
+                        const ToolContext &tool) {
+    const LookValues &said = in.camera.looks;
+    if (method != &gather_methods().front()) {
+        if (said.blades.value_or(0) != 0 || said.squeeze.value_or(1) != 1)
+            warn(tool,
+                 fmt::format("the aperture is taken for round, as --method {} knows no other", method->name));
+        return {};
+    }
+    in.camera.looks = look_values_over(given, said);
+    return looks_of(in.camera.looks);
+}
+
 } // namespace sparselens

@@ -20,6 +20,9 @@ constexpr OnlyWith method_options[] = {{"--quality", "--method", "lens"},
 // Throws where options contradict each other.
 void check(const CLI::App &parsed, const GatherCommand &options) {
     refuse_ignored(parsed, method_options, "--method", options.method->name);
+    const std::string look = first_look_option(parsed);
+    if (!look.empty() && options.method != &gather_methods().front())
+        throw CLI::ValidationError(look, "works with --method lens only");
     if (options.show == Show::tiles && options.method != &gather_methods().front())
         throw CLI::ValidationError("--show tiles", "works with --method lens only");
 }
@@ -72,6 +75,7 @@ void add_gather_options(CLI::App &app, GatherCommand &options) {
     add_compression_option(app, options.compression, false);
     add_show_option(app, options.show);
     add_lens_options(app, options.lens);
+    add_look_options(app, options.looks);
     add_depth_options(app, options.depth);
     add_input_colour_options(app, options.colour);
     add_output_colour_options(app, options.colour);

@@ -1,10 +1,13 @@
 #include "dof/lens/highlights.h"
 
 #include "base/parallel.h"
+#include "lens/lamp_spread.h"
 #include "lens/psf.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 namespace sparselens {
 
@@ -111,33 +114,87 @@ std::uint32_t NearestLensPoint::operator()(float x, float y) const {
     return table_[cell(y, scale_y_) * cells + cell(x, scale_x_)];
 }
 
-std::vector<HighlightPixel> highlight_pixels(const Highlights &highlights, const BlockedSamples &samples,
-                                             const NearestLensPoint &nearest, double pixel_aspect,
-                                             const Imath::V2i &origin, int size) {
+namespace {
+
+// A highlight at work in one tile.
+struct Spreading {
+    std::uint32_t highlight, sample;
+    Lamp lamp;
+    Imath::V2i origin;
+};
+
+class PixelList {
+public:
+    PixelList(const BlockedSamples &samples, const NearestLensPoint &nearest)
+        : samples_(samples), nearest_(nearest) {}
+
+    void add(const Spreading &from, int x, int y, ColourSet of, double weight) {
+        const std::uint32_t s = from.sample;
+        const float dx = float(x) + 0.5f - samples_.x[s], dy = float(y) + 0.5f - samples_.y[s];
+        pixels.push_back({nearest_(dx / samples_.coc[s], dy / samples_.coc[s]),
+                          std::uint8_t(x - from.origin.x), std::uint8_t(y - from.origin.y), of,
+                          from.highlight, float(weight)});
+    }
+
     std::vector<HighlightPixel> pixels;
-    std::vector<double> weights(std::size_t(size) + 1);
+
+private:
+    const BlockedSamples &samples_;
+    const NearestLensPoint &nearest_;
+};
+
+void add_disc(PixelList &list, const Spreading &from, const Aperture &aperture, int size) {
+    const double squeeze = aperture.shape().squeeze;
+    const Psf psf{from.lamp.centre, std::abs(from.lamp.coc) / squeeze, from.lamp.pixel_aspect * squeeze};
+    const PsfRows rows(psf, {from.origin, from.origin + Imath::V2i(size - 1)});
+    std::array<double, PsfRows::max_size + 1> weights;
+    for (int y = rows.begin_row(); y < rows.end_row(); ++y) {
+        const PsfRows::Span span = rows.row(y, weights.data());
+        for (int x = span.begin; x < span.end; ++x)
+            list.add(from, x, y, all_colours, weights[std::size_t(x - from.origin.x)]);
+    }
+}
+
+void add_shape(PixelList &list, const Spreading &from, const Aperture &aperture, int size) {
+    const LampSpread spread =
+        spread_lamp(aperture, from.lamp, {from.origin, from.origin + Imath::V2i(size - 1)});
+    std::size_t i = 0;
+    for (int y = spread.box.min.y; !spread.box.isEmpty() && y <= spread.box.max.y; ++y)
+        for (int x = spread.box.min.x; x <= spread.box.max.x; ++x, ++i) {
+            if (spread.weights[i] <= 0) continue;
+            if (!spread.coloured) {
+                list.add(from, x, y, all_colours, spread.weights[i]);
+                continue;
+            }
+            list.add(from, x, y, red, spread.colours[i][0]);
+            list.add(from, x, y, green, spread.colours[i][1]);
+            list.add(from, x, y, blue, spread.colours[i][2]);
+            list.add(from, x, y, ColourSet(coverage | data), spread.weights[i]);
+        }
+}
+
+} // namespace
+
+std::vector<HighlightPixel> highlight_pixels(const Highlights &highlights, const BlockedSamples &samples,
+                                             const NearestLensPoint &nearest, const Aperture &aperture,
+                                             double pixel_aspect, const Imath::V2i &origin, int size) {
+    PixelList list(samples, nearest);
+    const Imath::V2d extent = aperture.half_extent();
+    const double largest = std::max(extent.x, extent.y * pixel_aspect);
     for (std::uint32_t h = 0; h < highlights.sample.size(); ++h) {
         const std::uint32_t s = highlights.sample[h];
-        const double radius = std::abs(double(samples.coc[s])),
-                     reach = radius * std::max(1.0, pixel_aspect) + 1;
-        const Imath::V2d centre(double(samples.x[s]), double(samples.y[s]));
+        const Lamp lamp{{double(samples.x[s]), double(samples.y[s])}, double(samples.coc[s]), pixel_aspect};
+        const double reach = std::abs(lamp.coc) * largest + 1;
+        const Imath::V2d centre = lamp.centre;
         if (centre.x + reach < origin.x || centre.x - reach > origin.x + size ||
             centre.y + reach < origin.y || centre.y - reach > origin.y + size)
             continue;
-        const PsfRows rows({centre, radius, pixel_aspect}, {origin, origin + Imath::V2i(size - 1)});
-        for (int y = rows.begin_row(); y < rows.end_row(); ++y) {
-            const PsfRows::Span span = rows.row(y, weights.data());
-            for (int x = span.begin; x < span.end; ++x) {
-                const float dx = float(x) + 0.5f - samples.x[s], dy = float(y) + 0.5f - samples.y[s];
-                pixels.push_back({nearest(dx / samples.coc[s], dy / samples.coc[s]),
-                                  std::uint16_t(x - origin.x), std::uint16_t(y - origin.y), h,
-                                  float(weights[std::size_t(x - origin.x)])});
-            }
-        }
+        const Spreading from{h, s, lamp, origin};
+        aperture.disc() ? add_disc(list, from, aperture, size) : add_shape(list, from, aperture, size);
     }
-    std::stable_sort(pixels.begin(), pixels.end(),
+    std::stable_sort(list.pixels.begin(), list.pixels.end(),
                      [](const auto &a, const auto &b) { return a.lens < b.lens; });
-    return pixels;
+    return std::move(list.pixels);
 }
 
 } // namespace sparselens

@@ -9,6 +9,7 @@
 
 #include "dof/lens/sample_blocks.h"
 #include "dof/lens/sample_colours.h"
+#include "lens/aperture.h"
 #include "lens/lens_samples.h"
 
 #include <Imath/ImathVec.h>
@@ -33,7 +34,8 @@ Highlights take_highlights(const BlockedSamples &samples, std::span<const std::s
 // Light of a highlight in one pixel of a tile, if the lens point `lens` sees it there.
 struct HighlightPixel {
     std::uint32_t lens;
-    std::uint16_t x, y;
+    std::uint8_t x, y;
+    ColourSet of; // the channels whose light it is
     std::uint32_t highlight; // index into Highlights
     float weight;            // of the PSF in the pixel
 };
@@ -50,9 +52,9 @@ private:
     std::vector<std::uint32_t> table_;
 };
 
-// All pixels of the tile [origin, origin + size) that highlights reach, in the order of the lens points.
+// All pixels of the tile [origin, origin + size), of at most 256 pixels, that highlights reach, in the order of the lens points.
 std::vector<HighlightPixel> highlight_pixels(const Highlights &highlights, const BlockedSamples &samples,
-                                             const NearestLensPoint &nearest, double pixel_aspect,
-                                             const Imath::V2i &origin, int size);
+                                             const NearestLensPoint &nearest, const Aperture &aperture,
+                                             double pixel_aspect, const Imath::V2i &origin, int size);
 
 } // namespace sparselens

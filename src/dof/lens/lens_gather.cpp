@@ -22,9 +22,26 @@ namespace {
 
 constexpr float in_focus = 0.5f; // pixels: what has no larger CoC is as it was rendered
 
+// By the last part of the channel's name, so that layers have colours too.
+std::vector<ColourSet> colour_sets(const Ldi &ldi, std::size_t count) {
+    std::vector<ColourSet> sets(count, data);
+    for (std::size_t k = 0; k < ldi.channels.size(); ++k) {
+        const std::string &name = ldi.channels[k].name;
+        const std::string part = name.substr(name.rfind('.') + 1);
+        if (ldi.channels[k].type == PixelType::uint32) continue;
+        sets[k] = part == "R"   ? red
+                  : part == "G" ? green
+                  : part == "B" ? blue
+                  : part == "A" ? coverage
+                                : data;
+    }
+    return sets;
+}
+
 SampleColours make_colours(const Ldi &ldi, const BlockedSamples &samples) {
     const std::size_t channels = ldi.channels.size(), groups = (channels + 3) / 4, count = samples.count();
-    SampleColours colours{groups, count, std::vector<float>(groups * count * 4)};
+    SampleColours colours{groups, count, std::vector<float>(groups * count * 4),
+                          colour_sets(ldi, groups * 4)};
     parallel_ranges(count, 4096, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i)
             for (std::size_t k = 0; k < channels && samples.source[i] != BlockedSamples::background; ++k)
@@ -57,13 +74,13 @@ public:
         NearestLensPoint nearest;
     };
 
-    LensSets(const LensGatherOptions &options, double pixel_aspect)
-        : options_(options), pixel_aspect_(pixel_aspect) {}
+    LensSets(const LensGatherOptions &options, const Aperture &aperture, double pixel_aspect)
+        : options_(options), aperture_(aperture), pixel_aspect_(pixel_aspect) {}
 
     const Set &for_coc(float largest) {
         const std::size_t step = options_.lens_samples > 0 ? 0 : step_for(largest);
         std::call_once(made_[step], [&] {
-            auto points = disc_lens_samples(points_of(step), pixel_aspect_);
+            auto points = lens_samples(aperture_, points_of(step), pixel_aspect_);
             NearestLensPoint nearest(points);
             sets_[step] = std::make_unique<Set>(Set{std::move(points), std::move(nearest)});
         });
@@ -92,6 +109,7 @@ private:
     }
 
     LensGatherOptions options_;
+    const Aperture &aperture_;
     double pixel_aspect_;
     std::array<std::once_flag, largest_coc.size()> made_;
     std::array<std::unique_ptr<Set>, largest_coc.size()> sets_;
@@ -104,8 +122,9 @@ float largest_coc_of(const SampleBlock &block) {
 // Finds the blocks that can reach a tile.
 class BlockFinder {
 public:
-    BlockFinder(const BlockedSamples &samples, double pixel_aspect)
-        : samples_(samples), aspect_(float(std::max(1.0, pixel_aspect))),
+    BlockFinder(const BlockedSamples &samples, const Aperture &aperture, double pixel_aspect)
+        : samples_(samples),
+          extent_(float(std::max(aperture.half_extent().x, aperture.half_extent().y * pixel_aspect))),
           row_reach_(std::size_t(samples.rows), 0) {
         for (std::size_t b = 0; b < samples.blocks.size(); ++b) {
             float &reach = row_reach_[b / std::size_t(samples.columns)];
@@ -140,10 +159,10 @@ public:
 
 private:
     float reach_of(const SampleBlock &block) const {
-        return block.begin == block.end ? 0 : largest_coc_of(block) * aspect_;
+        return block.begin == block.end ? 0 : largest_coc_of(block) * extent_;
     }
     const BlockedSamples &samples_;
-    float aspect_;
+    float extent_; // of the aperture, for each pixel of CoC
     std::vector<float> row_reach_;
 };
 
@@ -178,8 +197,10 @@ Image lens_gather(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &wind
                   const LensGatherOptions &options, Progress &progress) {
     Image out = crop(options.holdout ? flatten_held_out(ldi, *options.holdout) : flatten(ldi), window);
     const BlockedSamples samples = make_blocks(ldi, lens, window);
-    const auto sharp = [](const SampleBlock &block) {
-        return block.begin == block.end || largest_coc_of(block) < in_focus;
+    const Aperture aperture(options.looks.aperture);
+    const float widest = float(std::max(aperture.half_extent().x, aperture.half_extent().y));
+    const auto sharp = [&](const SampleBlock &block) {
+        return block.begin == block.end || largest_coc_of(block) * widest < in_focus;
     };
     LensTiles chosen = tiles_of(out.windows);
     if (options.chosen) *options.chosen = chosen;
@@ -188,8 +209,8 @@ Image lens_gather(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &wind
     sharpen_near_focus(ldi, lens, samples, colours);
     const LightChannels light = light_channels(ldi);
     const Highlights highlights = take_highlights(samples, light.brightness, light.all, colours);
-    const BlockFinder finder(samples, lens.pixel_aspect);
-    LensSets sets(options, lens.pixel_aspect);
+    const BlockFinder finder(samples, aperture, lens.pixel_aspect);
+    LensSets sets(options, aperture, lens.pixel_aspect);
     const HeldOut held_out{options.holdout, perceptive_depth(lens, 1), ldi.windows.data.min};
     const Windows &windows = out.windows;
     const std::vector<std::size_t> gathered = averaged_channels(out);
@@ -204,15 +225,15 @@ Image lens_gather(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &wind
         if (options.region && !options.region->intersects(pixels)) return progress.advance();
         const Imath::V2i origin = corner + window.min - ldi.windows.data.min;
         std::vector<std::uint32_t> blocks;
-        const float largest = finder.find(origin, LensTile::size, blocks);
+        const float largest = finder.find(origin, LensTile::size, blocks) * widest;
         progress.advance();
         if (largest < in_focus) return; // the flattened LDI is there already
         const LensSets::Set &set = sets.for_coc(largest);
         chosen.lens_points[t] = int(set.points.size());
         LensTile &tile = tiles.local();
-        tile.gather(
-            origin, blocks, set.points,
-            highlight_pixels(highlights, samples, set.nearest, lens.pixel_aspect, origin, LensTile::size));
+        tile.gather(origin, blocks, set.points,
+                    highlight_pixels(highlights, samples, set.nearest, aperture, lens.pixel_aspect, origin,
+                                     LensTile::size));
         for_each_pixel(corner, windows, [&](int x, int y) {
             if (tile.dark(x, y)) return; // a few lens points may all miss: better sharp than black
             for (const std::size_t k : gathered)

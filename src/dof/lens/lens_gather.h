@@ -9,6 +9,7 @@
 #include "../../base/progress.h"
 #include "../../deep/holdout.h"
 #include "../../deep/ldi.h"
+#include "../../lens/lens_looks.h"
 #include "../../lens/thin_lens.h"
 #include "lens_tiles.h"
 
@@ -21,6 +22,7 @@ enum class Quality { draft, normal, final };
 struct LensGatherOptions {
     Quality quality = Quality::normal;
     int lens_samples = 0;        // points in every tile; 0: by the quality and what the tile needs
+    LensLooks looks = {};
     LensTiles *chosen = nullptr; // where given: is told what was chosen
     std::optional<Imath::Box2i> region = {}; // tiles beside it stay as they were rendered
     const Holdout *holdout = nullptr;        // holds the picture out

@@ -38,16 +38,18 @@ float LensTile::known_weight(int x, int y) const {
 }
 
 bool LensTile::dark(int x, int y) const {
-    if (known_weight(x, y) > 0) return false;
-    for (std::size_t k = 0; k < colours_.groups * 4; ++k)
-        if (value(x, y, k) != 0) return false;
+    if (!weighted_ && known_weight(x, y) > 0) return false;
+    for (std::size_t k = 0; k < colours_.groups * 4; ++k) {
+        const std::size_t at = (k / 4 * size * size + std::size_t(y * size + x)) * 4 + k % 4;
+        if ((weighted_ && known_of(at) > 0) || value(x, y, k) != 0) return false;
+    }
     return true;
 }
 
 float LensTile::value(int x, int y, std::size_t channel) const {
     const std::size_t pixel = std::size_t(y * size + x),
                       at = (channel / 4 * size * size + pixel) * 4 + channel % 4;
-    const float known = known_weight(x, y);
+    const float known = weighted_ ? known_of(at) : known_weight(x, y);
     return (known > 0 ? sums_[at] / known : 0) + spread_[at];
 }
 
@@ -61,12 +63,19 @@ void LensTile::gather(const Imath::V2i &origin, std::span<const std::uint32_t> b
     std::fill(spread_.begin(), spread_.end(), 0.0f);
     std::fill(unknown_.begin(), unknown_.end(), 0.0f);
     total_ = 0;
+    begin_weighted(lens);
     for (std::uint32_t k = 0; k < lens.size(); ++k) {
         total_ += lens[k].weight;
         see_opaque(lens[k]);
         see_partial(lens[k]);
-        add_opaque(lens[k].weight);
-        add_partial(lens[k].weight);
+        if (weighted_) {
+            weigh_channels(lens[k]);
+            add_opaque_weighted();
+            add_partial_weighted();
+        } else {
+            add_opaque(lens[k].weight);
+            add_partial(lens[k].weight);
+        }
         spread = add_highlights(spread, k);
         forget_partial();
     }
@@ -127,12 +136,15 @@ void LensTile::see_partial(const LensSample &lens) {
         float &transmittance = transmittance_[cell];
         if (transmittance == 1) covered_.push_back(std::uint32_t(cell));
         const float share = transmittance * passes(int(cell) % stride - 1, int(cell) / stride - 1, i);
+        const std::size_t first_group = in_front(i) ? colours_.groups : 0;
         for (std::size_t g = 0; g < colours_.groups; ++g) {
             const float *colour = &colours_.group(g)[std::size_t(i) * 4];
-            float *over = &over_[(g * stride * stride + cell) * 4];
+            float *over = &over_[((first_group + g) * stride * stride + cell) * 4];
             for (int k = 0; k < 4; ++k) over[k] += share * colour[k];
         }
-        transmittance = std::min(transmittance * (1 - samples_.alpha[i]), covered_at_all);
+        const float passed = std::min(transmittance * (1 - samples_.alpha[i]), covered_at_all);
+        if (in_front(i)) hidden_in_front_[cell] += transmittance - passed;
+        transmittance = passed;
         if (partial_.highlight[n]) continue;
         Veil &veil = veil_[cell];
         if (veil.transmittance == 1) veil.depth = samples_.depth[i];
@@ -185,7 +197,8 @@ void LensTile::forget_partial() {
     for (const std::uint32_t cell : covered_) {
         transmittance_[cell] = 1;
         veil_[cell] = {};
-        for (std::size_t g = 0; g < colours_.groups; ++g)
+        if (two_sided_) hidden_in_front_[cell] = 0;
+        for (std::size_t g = 0; g < over_.size() / (stride * stride * 4); ++g)
             std::fill_n(&over_[(g * stride * stride + cell) * 4], 4, 0.0f);
     }
     covered_.clear();
@@ -226,8 +239,9 @@ std::span<const HighlightPixel> LensTile::add_highlights(std::span<const Highlig
         const float weight = p.weight * (veiled ? veil.transmittance : 1) * passes(p.x, p.y, sample);
         for (std::size_t g = 0; g < colours_.groups; ++g)
             for (std::size_t k = 0; k < 4; ++k)
-                spread_[(g * size * size + pixel) * 4 + k] +=
-                    weight * highlights_.light.group(g)[std::size_t(p.highlight) * 4 + k];
+                if (p.of & colours_.sets[g * 4 + k])
+                    spread_[(g * size * size + pixel) * 4 + k] +=
+                        weight * highlights_.light.group(g)[std::size_t(p.highlight) * 4 + k];
     }
     return spread.subspan(done);
 }

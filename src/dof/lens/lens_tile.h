@@ -14,6 +14,7 @@
 
 #include <Imath/ImathBox.h>
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -54,6 +55,13 @@ private:
     void see_partial(const LensSample &lens);
     float passes(int x, int y, std::uint32_t sample) const; // of its light, the holdout
     bool hides(int x, int y, float depth) const;
+    // The same where lens points weigh differently for colours or sides of the focus (lens_tile_weights.cpp).
+    void begin_weighted(std::span<const LensSample> lens);
+    void weigh_channels(const LensSample &lens);
+    void add_opaque_weighted();
+    void add_partial_weighted();
+    float known_of(std::size_t at) const; // weight of what is known, an index of sums_
+    bool in_front(std::uint32_t sample) const { return two_sided_ && samples_.coc[sample] < 0; }
     void add_opaque(float weight);
     void add_partial(float weight);
     std::span<const HighlightPixel> add_highlights(std::span<const HighlightPixel> spread,
@@ -83,12 +91,17 @@ private:
     std::vector<std::uint64_t> front_;   // [cell]: key of the nearest opaque sample; 0: none
     std::vector<float> transmittance_;   // [cell]: of the partial samples in front
     std::vector<Veil> veil_;             // [cell]
-    std::vector<float> over_;            // [group][cell][4]: their colours
+    std::vector<float> over_;            // [side][group][cell][4]: their colours; all on side 0 unless two_sided_
+    std::vector<float> hidden_in_front_; // [cell]: what those in front of focus hide, if two_sided_
     std::vector<std::uint32_t> covered_; // cells that have any
     // Of all so far:
     std::vector<float> sums_;    // [group][pixel][4]
     std::vector<float> spread_;  // [group][pixel][4]: of the highlights
     std::vector<float> unknown_; // [pixel]: weight of the lens points that see nothing
+    // Of lens points that weigh differently:
+    bool weighted_ = false, two_sided_ = false;
+    std::vector<float> known_; // as sums_: weight of what is known, of each channel
+    std::array<std::vector<float>, 2> channel_weights_; // [side][channel] of the lens point; side 1 is in front
 };
 
 } // namespace sparselens

@@ -17,6 +17,7 @@ using Numbers = std::vector<double>;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 double number(const Numbers &v) { return v.empty() ? nan : v[0]; }
+double degrees_of(const Numbers &v) { return number(v) * 180 / std::numbers::pi; }
 double field_of_degrees(const Numbers &v) {
     const double angle = number(v);
     return angle > 0 && angle < 180 ? 2 * std::tan(angle * std::numbers::pi / 360) : nan;
@@ -46,6 +47,9 @@ constexpr std::array number_names{
     NumberName{"pinholeFocalLength", Quantity::focal_length, number},
     NumberName{"aperture", Quantity::fstop, number},
     NumberName{"focus", Quantity::focus_metres, number},
+    NumberName{"aperture_blades", Quantity::blades, number},
+    NumberName{"aperture_rotation", Quantity::blade_rotation, degrees_of},
+    NumberName{"aperture_ratio", Quantity::squeeze, number},
     NumberName{"screenWindowWidth", Quantity::field, screen_window},
     // V-Ray: film back and focal length in mm, the field of view (degrees) of the picture's width
     NumberName{"cameraFocalLength", Quantity::focal_length,
@@ -201,7 +205,7 @@ std::optional<Imath::V2d> by_screen_window(const Imf::Header &header) {
 // not what the options have since made of it.
 bool is_ours(const HeaderValue &value) {
     static constexpr std::array names{"pinholeFocalLength", "aperture", "focus", "worldToCamera",
-                                      "worldToNDC"};
+                                      "worldToNDC", "aperture_blades", "aperture_rotation", "aperture_ratio"};
     return value.name.starts_with("sparselens:") || std::ranges::find(names, value.name) != names.end();
 }
 

@@ -30,6 +30,9 @@ enum class Quantity {
     focus_metres, // distance
     focus_units,  // distance
     metres_per_unit,
+    blades,
+    blade_rotation, // degrees
+    squeeze,
 };
 
 // A number that a header has under a name of the table.

@@ -44,6 +44,7 @@ public:
             pick({Quantity::focus_units, Quantity::focus_metres}, "focus distance", "--focus-distance", true);
         read_placement();
         read_film();
+        read_aperture();
         return std::move(camera_);
     }
 
@@ -57,6 +58,7 @@ private:
     }
     void read_placement();
     void read_film();
+    void read_aperture();
     void read_projections();
     void read_principal_point();
 
@@ -108,6 +110,25 @@ void Reader::read_film() {
         camera_.field.reset();
     }
     complete_field(camera_);
+}
+
+// As the script for Blender writes it. Cycles takes one blade or two for none.
+void Reader::read_aperture() {
+    const auto pick_look = [&](Quantity quantity) -> std::optional<double> {
+        for (const NamedNumber &number : has_.numbers)
+            if (number.quantity == quantity && std::isfinite(number.value)) return number.value;
+        return {};
+    };
+    LookValues &looks = camera_.looks;
+    looks.blades = pick_look(Quantity::blades);
+    if (looks.blades && (*looks.blades < 3 || *looks.blades > 16)) looks.blades = 0;
+    looks.rotation = pick_look(Quantity::blade_rotation);
+    looks.squeeze = pick_look(Quantity::squeeze);
+    if (looks.squeeze && !(*looks.squeeze > 0)) looks.squeeze.reset();
+    if (looks.blades && *looks.blades > 0)
+        camera_.found.push_back(text_of(*looks.blades) + " blades (aperture_blades)");
+    if (looks.squeeze && *looks.squeeze != 1)
+        camera_.found.push_back("squeeze " + text_of(*looks.squeeze) + " (aperture_ratio)");
 }
 
 void Reader::read_placement() {

@@ -6,10 +6,12 @@
 #include <ImfBoxAttribute.h>
 #include <ImfDoubleAttribute.h>
 #include <ImfFloatAttribute.h>
+#include <ImfIntAttribute.h>
 #include <ImfMatrixAttribute.h>
 #include <ImfStringAttribute.h>
 
 #include <cstdio>
+#include <numbers>
 
 namespace sparselens {
 
@@ -45,6 +47,10 @@ void write_camera(Imf::Header &header, const Camera &camera) {
     put(metres_per_unit_name, camera.metres_per_unit, as_double);
     put("aperture", camera.fstop, as_float);
     put("focus", camera.focus_distance, [&](double units) { return as_float(units * metres_per_unit); });
+    put("aperture_blades", camera.looks.blades, [](double v) { return Imf::IntAttribute(int(v)); });
+    put("aperture_rotation", camera.looks.rotation,
+        [&](double degrees) { return as_float(degrees * std::numbers::pi / 180); });
+    put("aperture_ratio", camera.looks.squeeze, as_float);
     put("worldToCamera", camera.world_to_camera, as_matrix);
     put("worldToNDC", camera.world_to_ndc, as_matrix);
     if (!camera.lens_points.empty())

@@ -1,6 +1,7 @@
 #include "dof/lens/blocked_fixture.h"
 #include "dof/lens/highlights.h"
 #include "dof/lens/lens_gather.h"
+#include "lens/lamp_spread.h"
 #include "lens/psf.h"
 #include "support/lens_ldi.h"
 
@@ -15,7 +16,7 @@ namespace sparselens {
 namespace {
 
 const ThinLens wide{.radius = 1.2, .focal_px = 640, .focus = 5}; // CoC up to 153 px behind focus
-constexpr std::size_t red = 0, alpha = 3;
+constexpr std::size_t red_channel = 0, alpha = 3;
 
 struct Blocked : BlockedLdi {
     using BlockedLdi::BlockedLdi;
@@ -45,8 +46,8 @@ TEST(TakeHighlights, TakesTheLightThatStandsOutAndLeavesTheRest) {
         const std::uint32_t lamp = highlights.sample[0];
         EXPECT_EQ(blocked.samples.x[lamp], 11.5f);
         EXPECT_EQ(blocked.samples.y[lamp], 40.5f);
-        EXPECT_GE(blocked.colours.at(red, lamp), 0.5f);
-        EXPECT_LE(blocked.colours.at(red, lamp), 1);
+        EXPECT_GE(blocked.colours.at(red_channel, lamp), 0.5f);
+        EXPECT_LE(blocked.colours.at(red_channel, lamp), 1);
         for (std::size_t k = 0; k < 3; ++k)
             EXPECT_FLOAT_EQ(highlights.light.at(k, 0) + blocked.colours.at(k, lamp), before.at(k, lamp));
         EXPECT_EQ(highlights.light.at(alpha, 0), 0);
@@ -116,10 +117,11 @@ TEST(HighlightPixels, AreThePsfSeenThroughTheNearestLensPoints) {
                  {Imath::V2i(0, 0), Imath::V2i(48, 0), Imath::V2i(0, 48), Imath::V2i(48, 48)}) {
                 std::uint32_t last = 0;
                 for (const HighlightPixel &p :
-                     highlight_pixels(highlights, blocked.samples, nearest, aspect, origin, 48)) {
+                     highlight_pixels(highlights, blocked.samples, nearest, Aperture(), aspect, origin, 48)) {
                     EXPECT_GE(p.lens, last);
                     last = p.lens;
                     ASSERT_LT(std::max(p.x, p.y), 48);
+                    ASSERT_EQ(p.of, all_colours);
                     const std::uint32_t s = highlights.sample[p.highlight];
                     const int x = origin.x + p.x, y = origin.y + p.y;
                     const Imath::V2d centre(double(blocked.samples.x[s]), double(blocked.samples.y[s]));
@@ -136,12 +138,12 @@ TEST(HighlightPixels, AreThePsfSeenThroughTheNearestLensPoints) {
 
 // In the picture.
 
-Image gather(const Ldi &ldi, const ThinLens &lens) {
+Image gather(const Ldi &ldi, const ThinLens &lens, const LensLooks &looks = {}) {
     Progress silent;
-    return lens_gather(ldi, lens, ldi.windows.data, {}, silent);
+    return lens_gather(ldi, lens, ldi.windows.data, {.looks = looks}, silent);
 }
 
-struct Lamp {
+struct PixelLamp {
     Imath::V2i pixel;
     float dx = 0, dy = 0;
     double coc = 0;
@@ -149,7 +151,7 @@ struct Lamp {
 };
 
 // One lamp of radiance 1000 before nothing.
-Ldi lamp_alone(int size, const ThinLens &lens, const Lamp &lamp) {
+Ldi lamp_alone(int size, const ThinLens &lens, const PixelLamp &lamp) {
     Windows windows = windows_of_size(size, size);
     windows.pixel_aspect = float(lens.pixel_aspect);
     return make_ldi(windows, rgba_channels(), [&](int x, int y) {
@@ -167,13 +169,13 @@ TEST(LensGatherOfAPoint, KeepsItsEnergyPlaceAndShape) {
             ThinLens lens = wide;
             lens.pixel_aspect = aspect;
             const int size = 2 * int(std::abs(c) * aspect) + 12;
-            const Lamp lamp{{size / 2, size / 2 + 1}, 0.3f, -0.2f, c};
+            const PixelLamp lamp{{size / 2, size / 2 + 1}, 0.3f, -0.2f, c};
             const Image image = gather(lamp_alone(size, lens, lamp), lens);
             Imath::V2d centroid(0, 0);
             double sum = 0, worst = 0;
             for (int y = 0; y < size; ++y)
                 for (int x = 0; x < size; ++x) {
-                    const double v = double(image.at(red, x, y));
+                    const double v = double(image.at(red_channel, x, y));
                     sum += v;
                     centroid += v * Imath::V2d(x + 0.5, y + 0.5);
                     worst = std::max(
@@ -183,6 +185,51 @@ TEST(LensGatherOfAPoint, KeepsItsEnergyPlaceAndShape) {
             EXPECT_LT((centroid / sum - lamp.place()).length(), 0.01) << c;
             EXPECT_LT(worst, 1e-3 * 1000 / (3 * c * c * aspect)) << c;
         }
+}
+
+std::shared_ptr<const AperturePicture> coloured_halves() {
+    // The left half is red and the right half is green; blue passes everywhere.
+    return std::make_shared<AperturePicture>(AperturePicture{2, 1, {1, 0, 1, 0, 1, 1}});
+}
+
+TEST(LensGatherOfAPoint, IsThePictureOfTheAperture) {
+    for (const ApertureShape &shape :
+         {ApertureShape{.blades = 5, .rotation = 20}, ApertureShape{.blades = 3, .curvature = 0.5},
+          ApertureShape{.squeeze = 2}, ApertureShape{.squeeze = 0.5}, ApertureShape{.spherical = 0.9},
+          ApertureShape{.blades = 6, .spherical = -0.5}, ApertureShape{.picture = coloured_halves()}})
+        for (const double c : {9.3, -13.7}) {
+            const int size = 2 * int(std::abs(c) / std::min(1.0, shape.squeeze)) + 12;
+            const PixelLamp lamp{{size / 2, size / 2 + 1}, 0.3f, -0.2f, c};
+            const Image image = gather(lamp_alone(size, wide, lamp), wide, {.aperture = shape});
+            // A disc has no spread of its own: blades that are round, and weigh the same.
+            ApertureShape described = shape;
+            if (Aperture(shape).disc()) described.spherical = 1e-12;
+            const LampSpread spread =
+                spread_lamp(Aperture(described), {lamp.place(), c}, {{0, 0}, {size - 1, size - 1}});
+            double sum = 0, worst = 0;
+            std::size_t i = 0;
+            for (int y = spread.box.min.y; y <= spread.box.max.y; ++y)
+                for (int x = spread.box.min.x; x <= spread.box.max.x; ++x, ++i) {
+                    const double weight = spread.coloured ? spread.colours[i][0] : spread.weights[i];
+                    sum += double(image.at(red_channel, x, y));
+                    worst = std::max(worst, std::abs(double(image.at(red_channel, x, y)) - 1000 * weight));
+                }
+            EXPECT_NEAR(sum, 1000, 1) << c;
+            EXPECT_LT(worst, 1e-3 * 1000 / (c * c / shape.squeeze)) << c;
+        }
+}
+
+TEST(LensGatherOfAPoint, HasColouredHalvesMirroredInFrontOfFocus) {
+    for (const double c : {20.0, -20.0}) {
+        const PixelLamp lamp{{30, 30}, 0, 0, c};
+        const Image image =
+            gather(lamp_alone(60, wide, lamp), wide, {.aperture = {.picture = coloured_halves()}});
+        const int reddish = c > 0 ? 20 : 40, greenish = 60 - reddish;
+        EXPECT_GT(image.at(0, reddish, 30), 0.1f);
+        EXPECT_LT(image.at(1, reddish, 30), 1e-3f);
+        EXPECT_LT(image.at(0, greenish, 30), 1e-3f);
+        EXPECT_GT(image.at(1, greenish, 30), 0.1f);
+    }
 }
 
 // An edge through the lamp's place hides one half of its disc, the one that follows from x = p + c u.
@@ -197,7 +244,7 @@ TEST(LensGatherOfAPoint, IsHiddenWhereTheLensPointDoesNotSeeIt) {
         const double coc = half.coc, coc_before = half.coc_before;
         const bool left_shines = half.left_shines;
         const int size = 80;
-        const Lamp lamp{{39, 40}, 0.5f, 0, coc};
+        const PixelLamp lamp{{39, 40}, 0.5f, 0, coc};
         const Ldi ldi = make_ldi(windows_of_size(size, size), rgba_channels(), [&](int x, int y) {
             std::vector<Sample> samples;
             if (x >= 40) samples.push_back({depth_of(wide, coc_before), {0, 0, 0, 1}});
@@ -208,7 +255,7 @@ TEST(LensGatherOfAPoint, IsHiddenWhereTheLensPointDoesNotSeeIt) {
         const Image image = gather(ldi, wide);
         double left = 0, right = 0;
         for (int y = 0; y < size; ++y)
-            for (int x = 0; x < size; ++x) (x < 40 ? left : right) += double(image.at(red, x, y));
+            for (int x = 0; x < size; ++x) (x < 40 ? left : right) += double(image.at(red_channel, x, y));
         EXPECT_NEAR(left_shines ? left : right, 500, 30) << coc; // to within the lens points' distance
         EXPECT_LT(left_shines ? right : left, 30) << coc;
     }

@@ -26,6 +26,7 @@ Camera full_camera() {
     camera.metres_per_unit = 0.01;
     camera.world_to_camera = Imath::M44d(1, 0, 0, 0, 0, 0.5, 0.25, 0, 0, -0.25, 0.5, 0, 7, 8, 9, 1);
     camera.world_to_ndc = Imath::M44d(2, 0, 0, 0, 0, -3, 0, 0, 0.5, 0.5, 1, 1, 0, 0, -1, 0);
+    camera.looks = {.blades = 7, .rotation = 30, .squeeze = 1.5};
     camera.lens_points = {{0, 0}, {0.0625, -0.03125}, {-1e-9, 12345.5}};
     return camera;
 }
@@ -39,6 +40,9 @@ TEST(CameraMetadata, EverythingComesBack) {
     EXPECT_EQ(read.fstop, 2.75);
     EXPECT_NEAR(read.focus_distance.value(), 12.5, 1e-6);
     EXPECT_EQ(read.metres_per_unit, 0.01);
+    EXPECT_EQ(read.looks.blades, 7);
+    EXPECT_NEAR(read.looks.rotation.value(), 30, 1e-5);
+    EXPECT_EQ(read.looks.squeeze, 1.5);
     EXPECT_EQ(read.world_to_camera, full_camera().world_to_camera);
     EXPECT_EQ(read.world_to_ndc, full_camera().world_to_ndc);
     EXPECT_EQ(read.lens_points, full_camera().lens_points);

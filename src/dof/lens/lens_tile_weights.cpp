@@ -1,0 +1,84 @@
+// Lens points that weigh differently for R, G and B, or for what lies behind focus and in front: what is known is
+// summed up for each channel.
+#include "dof/lens/lens_tile.h"
+
+#include <algorithm>
+
+namespace sparselens {
+
+void LensTile::begin_weighted(std::span<const LensSample> lens) {
+    two_sided_ =
+        std::ranges::any_of(lens, [](const LensSample &p) { return p.behind != 1 || p.in_front != 1; });
+    weighted_ = two_sided_ || std::ranges::any_of(lens, [](const LensSample &p) {
+                    return p.rgb[0] != 1 || p.rgb[1] != 1 || p.rgb[2] != 1;
+                });
+    if (!weighted_) return;
+    known_.assign(sums_.size(), 0);
+    for (auto &weights : channel_weights_) weights.resize(colours_.groups * 4);
+    if (!two_sided_) return;
+    over_.resize(2 * colours_.groups * stride * stride * 4);
+    hidden_in_front_.resize(stride * stride);
+}
+
+float LensTile::known_of(std::size_t at) const { return known_[at] > 1e-6f * total_ ? known_[at] : 0; }
+
+// Data takes no part: what has no colour is the same for all light.
+void LensTile::weigh_channels(const LensSample &lens) {
+    for (std::size_t k = 0; k < colours_.groups * 4; ++k) {
+        const ColourSet set = colours_.sets[k];
+        const float colour = set == red     ? lens.rgb[0]
+                             : set == green ? lens.rgb[1]
+                             : set == blue  ? lens.rgb[2]
+                                            : 1;
+        channel_weights_[0][k] = lens.weight * colour * (set == data ? 1 : lens.behind);
+        channel_weights_[1][k] = lens.weight * colour * (set == data ? 1 : lens.in_front);
+    }
+}
+
+void LensTile::add_opaque_weighted() {
+    for (std::size_t g = 0; g < colours_.groups; ++g) {
+        const float *colours = colours_.group(g).data();
+        for (int y = 0; y < size; ++y) {
+            const std::uint64_t *front = &front_[std::size_t((y + 1) * stride + 1)];
+            const std::size_t row = (g * size * size + std::size_t(y * size)) * 4;
+            for (int x = 0; x < size; ++x) {
+                if (front[x] == 0) continue;
+                const std::uint32_t sample = std::uint32_t(front[x]);
+                const float *weights = &channel_weights_[in_front(sample)][g * 4];
+                const float *colour = colours + std::size_t(sample) * 4;
+                const float share = held_out_.by ? passes(x, y, sample) : 1;
+                for (std::size_t k = 0; k < 4; ++k) {
+                    const std::size_t at = row + std::size_t(x) * 4 + k;
+                    sums_[at] += share * weights[k] * colour[k];
+                    known_[at] += weights[k];
+                }
+            }
+        }
+    }
+}
+
+// Puts the partial samples in front of what add_opaque_weighted() added.
+void LensTile::add_partial_weighted() {
+    const std::size_t side_size = colours_.groups * stride * stride * 4;
+    for (const std::uint32_t cell : covered_) {
+        const int x = int(cell) % stride - 1, y = int(cell) / stride - 1;
+        if (x < 0 || y < 0 || x >= size || y >= size) continue;
+        const bool known = front_[cell] != 0;
+        const std::uint32_t opaque = std::uint32_t(front_[cell]);
+        const float hidden = 1 - transmittance_[cell],
+                    hidden_in_front = two_sided_ ? hidden_in_front_[cell] : 0;
+        const float taken = known ? hidden * passes(x, y, opaque) : 0;
+        for (std::size_t k = 0; k < colours_.groups * 4; ++k) {
+            const std::size_t at = (k / 4 * size * size + std::size_t(y * size + x)) * 4 + k % 4,
+                              over = (k / 4 * stride * stride + cell) * 4 + k % 4;
+            const float behind = channel_weights_[0][k], in_front_of = channel_weights_[1][k];
+            const float weight = known ? channel_weights_[in_front(opaque)][k] : 0;
+            sums_[at] += behind * over_[over] + (two_sided_ ? in_front_of * over_[side_size + over] : 0);
+            known_[at] +=
+                behind * (hidden - hidden_in_front) + in_front_of * hidden_in_front - weight * hidden;
+            if (known) sums_[at] -= weight * taken * colours_.group(k / 4)[std::size_t(opaque) * 4 + k % 4];
+        }
+    }
+}
+
+} // namespace sparselens
