@@ -1,7 +1,7 @@
 #include "lens/aperture.h"
 
 #include "lens/outline.h"
-#include "lens/polygon_pixels.h"
+#include "lens/polygons/polygon_pixels.h"
 
 #include <algorithm>
 #include <cmath>
@@ -101,7 +101,8 @@ LensPoint Aperture::at(const Imath::V2d &square) const {
     return point;
 }
 
-std::span<const Imath::V2d> Aperture::outline(double coc) const {
+std::vector<Imath::V2d> Aperture::outline(double coc) const {
+    if (disc()) return aperture_outline(shape_, outline_error / std::max(coc, first_level));
     std::size_t level = 0;
     for (double fine_to = first_level; fine_to < coc && level + 1 < levels; fine_to *= 4) ++level;
     return outlines_[level];

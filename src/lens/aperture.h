@@ -9,7 +9,6 @@
 
 #include <array>
 #include <optional>
-#include <span>
 #include <vector>
 
 namespace sparselens {
@@ -41,7 +40,7 @@ public:
 
     // Before it is squeezed (ApertureShape), not of a picture: fine enough for discs of a CoC of so many pixels, so that
     // the light in a pixel is off by less than 1e-3 of that of a pixel within.
-    std::span<const Imath::V2d> outline(double coc) const;
+    std::vector<Imath::V2d> outline(double coc) const;
 
     // Of a picture, for light from behind focus or in front; null for others.
     const PictureTable *picture(bool behind) const;

@@ -32,6 +32,8 @@ struct ApertureShape {
     double spherical =
         0; // [-1, 1]: weight 1 + spherical (2 r^2 - 1) behind focus, minus it in front; r before squeezing
     std::shared_ptr<const AperturePicture> picture = {}; // in place of the blades, if there is one
+
+    bool operator==(const ApertureShape &) const = default;
 };
 
 } // namespace sparselens

@@ -1,13 +1,17 @@
 #include "lens/lamp_spread.h"
 
-#include "lens/polygon_pixels.h"
+#include "lens/outline.h"
+#include "lens/polygons/polygon_pixels.h"
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace sparselens {
 
 namespace {
+
+using Points = std::vector<Imath::V2d>;
 
 // From places of ApertureShape to pixels: their scale, negative where an axis is mirrored.
 Imath::V2d scale_of(const Aperture &aperture, const Lamp &lamp) {
@@ -27,17 +31,45 @@ Imath::Box2i reached(const Aperture &aperture, const Lamp &lamp, const Imath::Bo
             {pixel(high.x, box.min.x, box.max.x), pixel(high.y, box.min.y, box.max.y)}};
 }
 
-void spread_outline(const Aperture &aperture, const Lamp &lamp, LampSpread &spread) {
+// What the cat-eye leaves of it is a circle too: the middle of the second circle moves in proportion to how far the light is
+// displaced. A place a on the lens passes if |scale a - centre| <= 1.
+struct Cut {
+    Imath::V2d scale, centre;
+};
+
+Cut cut_of(const CatEye &cat_eye, const Aperture &aperture, const Lamp &lamp) {
+    const double moved = cat_eye.shift_per_pixel() * lamp.coc;
+    const auto not_0 = [](double v) { return std::abs(v) < 1e-6 ? 1e-6 : v; };
+    return {{not_0(1 - moved / aperture.shape().squeeze), not_0(1 - moved)}, cat_eye.centre(lamp.centre)};
+}
+
+constexpr double cut_tolerance = 1e-3; // pixels, of arcs
+
+// The part of an outline that passes.
+Points cut_outline(Points outline, const Cut &cut, double coc) {
+    for (Imath::V2d &p : outline) p *= cut.scale;
+    if (cut.scale.x * cut.scale.y < 0) std::reverse(outline.begin(), outline.end());
+    Points left = within_unit_circle(outline, cut.centre, cut_tolerance / std::max(4.0, coc));
+    for (Imath::V2d &p : left) p /= cut.scale;
+    return left;
+}
+
+Points in_pixels(Points places, const Aperture &aperture, const Lamp &lamp) {
     const Imath::V2d scale = scale_of(aperture, lamp);
-    std::vector<Imath::V2d> polygon;
-    for (const Imath::V2d &a :
-         aperture.outline(std::abs(lamp.coc) * std::max(1.0, 1 / aperture.shape().squeeze)))
-        polygon.emplace_back(lamp.centre.x + scale.x * a.x, lamp.centre.y + scale.y * a.y);
-    const double area = std::abs(signed_area(polygon)), at_middle = aperture.weight(lamp.coc > 0, 0),
-                 at_rim = aperture.weight(lamp.coc > 0, 1);
+    for (Imath::V2d &p : places) p = lamp.centre + p * scale;
+    return places;
+}
+
+void spread_outline(const Aperture &aperture, const Lamp &lamp, const CatEye *cat_eye, LampSpread &spread) {
+    const Imath::V2d scale = scale_of(aperture, lamp);
+    const double widest = std::max(std::abs(scale.x), std::abs(scale.y));
+    Points outline = aperture.outline(widest);
+    const double area = std::abs(signed_area(outline) * scale.x * scale.y),
+                 at_middle = aperture.weight(lamp.coc > 0, 0), at_rim = aperture.weight(lamp.coc > 0, 1);
+    if (cat_eye) outline = cut_outline(std::move(outline), cut_of(*cat_eye, aperture, lamp), widest);
     const RadialDensity density{
         at_middle / area, (at_rim - at_middle) / area, lamp.centre, {1 / scale.x, 1 / scale.y}};
-    integrate_over_pixels(polygon, density, spread.box, spread.weights);
+    integrate_over_pixels(in_pixels(std::move(outline), aperture, lamp), density, spread.box, spread.weights);
 }
 
 void spread_picture(const Aperture &aperture, const PictureTable &picture, const Lamp &lamp,
@@ -48,23 +80,39 @@ void spread_picture(const Aperture &aperture, const PictureTable &picture, const
         for (int x = spread.box.min.x; x <= spread.box.max.x; ++x) {
             Imath::Box2d place;
             for (const int corner : {0, 1})
-                place.extendBy(Imath::V2d((x + corner - lamp.centre.x) / scale.x,
-                                          (y + corner - lamp.centre.y) / scale.y));
+                place.extendBy((Imath::V2d(x + corner, y + corner) - lamp.centre) / scale);
             const LightOfColours share = picture.share(place);
             spread.weights.push_back(share[3]);
             if (spread.coloured) spread.colours.push_back({share[0], share[1], share[2]});
         }
 }
 
+// A pixel of a picture keeps as much of its light as the circle covers of the pixel.
+void cut_picture(const Aperture &aperture, const Lamp &lamp, const CatEye &cat_eye, LampSpread &spread) {
+    const Cut cut = cut_of(cat_eye, aperture, lamp);
+    Points circle = aperture_outline({}, cut_tolerance / std::max(4.0, std::abs(lamp.coc)));
+    for (Imath::V2d &p : circle) p = (cut.centre + p) / cut.scale;
+    std::vector<double> kept;
+    integrate_over_pixels(in_pixels(std::move(circle), aperture, lamp), {}, spread.box, kept);
+    for (std::size_t i = 0; i < kept.size(); ++i) {
+        spread.weights[i] *= std::min(1.0, kept[i]);
+        if (spread.coloured)
+            for (double &weight : spread.colours[i]) weight *= std::min(1.0, kept[i]);
+    }
+}
+
 } // namespace
 
-LampSpread spread_lamp(const Aperture &aperture, const Lamp &lamp, const Imath::Box2i &box) {
+LampSpread spread_lamp(const Aperture &aperture, const Lamp &lamp, const Imath::Box2i &box,
+                       const CatEye *cat_eye) {
     LampSpread spread{reached(aperture, lamp, box), false, {}, {}};
     if (spread.box.isEmpty()) return spread;
-    if (const PictureTable *picture = aperture.picture(lamp.coc > 0))
+    if (const PictureTable *picture = aperture.picture(lamp.coc > 0)) {
         spread_picture(aperture, *picture, lamp, spread);
-    else
-        spread_outline(aperture, lamp, spread);
+        if (cat_eye) cut_picture(aperture, lamp, *cat_eye, spread);
+    } else {
+        spread_outline(aperture, lamp, cat_eye, spread);
+    }
     return spread;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "lens/aperture.h"
+#include "lens/cat_eye.h"
 
 #include <Imath/ImathBox.h>
 #include <Imath/ImathVec.h>
@@ -26,7 +27,9 @@ struct LampSpread {
         colours; // the same of R, G and B, if coloured; then weights are their mean
 };
 
-// Within `box`, at most as large as it must be. The aperture is not a disc (lens/psf.h has those).
-LampSpread spread_lamp(const Aperture &aperture, const Lamp &lamp, const Imath::Box2i &box);
+// Within `box`, at most as large as it must be. The aperture is not a disc (lens/psf.h has those), unless a cat-eye cuts
+// it; what that leaves sums to less than 1.
+LampSpread spread_lamp(const Aperture &aperture, const Lamp &lamp, const Imath::Box2i &box,
+                       const CatEye *cat_eye = nullptr);
 
 } // namespace sparselens

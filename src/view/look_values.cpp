@@ -11,6 +11,9 @@ bool is_blades(double v) { return v == 0 || (v >= 3 && v <= 16 && std::trunc(v) 
 bool is_share(double v) { return v >= 0 && v <= 1; }
 bool is_signed_share(double v) { return std::abs(v) <= 1; }
 bool is_angle(double v) { return std::abs(v) <= 1e6; }
+bool is_cat_eye(double v) { return v >= 0 && v <= 100; }
+bool is_chromatic(double v) { return std::abs(v) <= 5; }
+bool is_breathing(double v) { return v >= 0 && v <= 2; }
 bool is_positive(double v) { return v > 0 && std::isfinite(v); }
 
 constexpr std::array numbers{
@@ -31,30 +34,50 @@ constexpr std::array numbers{
         "Spherical aberration from -1 to 1: above 0, discs behind focus have bright rims and those in front "
         "bright cores (default: 0)",
         &LookValues::spherical, "a number from -1 to 1", is_signed_share},
+    LookNumber{"cat-eye", "A",
+               "Cat's eye: how many radii a second circle that cuts the aperture is displaced at the "
+               "picture's corner "
+               "(default: 0)",
+               &LookValues::cat_eye, "a number from 0 to 100", is_cat_eye},
+    LookNumber{"axial-chromatic", "MM",
+               "How far behind the sensor red comes to focus where green is sharp, from -5 to 5 mm; blue as "
+               "far before "
+               "it (default: 0)",
+               &LookValues::axial_chromatic, "a number from -5 to 5", is_chromatic},
+    LookNumber{
+        "field-curvature", "K",
+        "Bends the plane of focus, from -1 to 1: 1/d grows by K of itself towards the picture's corners "
+        "(default: 0)",
+        &LookValues::field_curvature, "a number from -1 to 1", is_signed_share},
+    LookNumber{
+        "breathing", "B",
+        "Magnification by focusing, from 0 to 2: 1 is that of a thin lens that moves as a whole (default: 0)",
+        &LookValues::breathing, "a number from 0 to 2", is_breathing},
 };
 
 } // namespace
 
 std::span<const LookNumber> look_numbers() { return numbers; }
 
+std::optional<ChromaticType> chromatic_type(std::string_view name) {
+    if (name == "red-blue") return ChromaticType::red_blue;
+    if (name == "blue-yellow") return ChromaticType::blue_yellow;
+    if (name == "green-magenta") return ChromaticType::green_magenta;
+    return {};
+}
+
+bool is_tilt(double degrees) { return std::abs(degrees) <= 89; }
+
 LookValues look_values_over(const LookValues &above, const LookValues &below) {
     LookValues both = above;
     for (const LookNumber &number : numbers)
         if (!(both.*number.value)) both.*number.value = below.*number.value;
     if (!both.picture && !above.blades) both.picture = below.picture;
+    if (above.picture && !above.blades) both.blades.reset();
+    if (!both.tilt_x) both.tilt_x = below.tilt_x, both.tilt_y = below.tilt_y;
+    if (!both.chromatic_type) both.chromatic_type = below.chromatic_type;
+    if (!both.cat_eye_darkening) both.cat_eye_darkening = below.cat_eye_darkening;
     return both;
-}
-
-LensLooks looks_of(const LookValues &values) {
-    LensLooks looks;
-    ApertureShape &shape = looks.aperture;
-    shape.blades = int(values.blades.value_or(0));
-    shape.curvature = values.curvature.value_or(shape.curvature);
-    shape.rotation = values.rotation.value_or(shape.rotation);
-    shape.squeeze = values.squeeze.value_or(shape.squeeze);
-    shape.spherical = values.spherical.value_or(shape.spherical);
-    shape.picture = values.picture;
-    return looks;
 }
 
 } // namespace sparselens

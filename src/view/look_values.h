@@ -1,17 +1,27 @@
 // What options, a lens file and a picture's header say of the looks of a lens, each by the same table of names and
-// ranges. What none of them says is as in LensLooks.
+// ranges. What none of them says is as in LensLooks, into which resolve_looks.h makes them.
 #pragma once
 
-#include "../lens/lens_looks.h"
+#include "../lens/aperture_shape.h"
 
 #include <memory>
 #include <optional>
 #include <span>
+#include <string_view>
 
 namespace sparselens {
 
+// Which colours come to focus elsewhere than green: red behind the sensor and blue before it; only blue, before it; red and
+// blue, behind it.
+enum class ChromaticType { red_blue, blue_yellow, green_magenta };
+
 struct LookValues {
     std::optional<double> blades = {}, curvature = {}, rotation = {}, squeeze = {}, spherical = {};
+    std::optional<double> cat_eye = {}, field_curvature = {}, breathing = {};
+    std::optional<double> tilt_x = {}, tilt_y = {}; // degrees
+    std::optional<double> axial_chromatic = {};     // mm behind the sensor
+    std::optional<ChromaticType> chromatic_type = {};
+    std::optional<bool> cat_eye_darkening = {};
     std::shared_ptr<const AperturePicture> picture = {};
 };
 
@@ -26,9 +36,12 @@ struct LookNumber {
 
 std::span<const LookNumber> look_numbers();
 
+// By its name: red-blue, blue-yellow or green-magenta. Empty if it is none.
+std::optional<ChromaticType> chromatic_type(std::string_view name);
+
+bool is_tilt(double degrees); // between -89 and 89
+
 // `above` where it says something, else `below`. Blades above a picture replace it, and the other way round.
 LookValues look_values_over(const LookValues &above, const LookValues &below);
-
-LensLooks looks_of(const LookValues &values);
 
 } // namespace sparselens

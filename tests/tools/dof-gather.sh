@@ -82,8 +82,42 @@ same_pixels round.exr out.exr "--blade-curvature 1"
 changes --squeeze 2
 changes --spherical 0.5
 changes --aperture aperture.exr
+changes --cat-eye 1
+changes --axial-chromatic 0.1
+changes --field-curvature 0.5
+changes --tilt 20,0
+changes --tilt 0,20
+changes --breathing 1
+exits 0 "$gather" ldi.exr -o eye.exr --cat-eye 1
+exits 0 "$gather" ldi.exr -o darkened.exr --cat-eye 1 --cat-eye-darkening
+differ eye.exr darkened.exr "--cat-eye-darkening"
+exits 0 "$gather" ldi.exr -o red-blue.exr --axial-chromatic 0.1 --axial-chromatic-type red-blue
+for type in blue-yellow green-magenta; do
+    exits 0 "$gather" ldi.exr -o $type.exr --axial-chromatic 0.1 --axial-chromatic-type $type
+    differ $type.exr red-blue.exr "--axial-chromatic-type $type"
+done
+
+# Looks under a name: by the f-number, beaten by options.
+echo '{"name": "Test lens", "blades": 5, "spherical": {"0.2": 0.5, "0.4": 0.1}, "aperture": "aperture.exr"}' >lens.json
+fails_saying 1 'none.json' "$gather" ldi.exr -o x.exr --lens none.json
+exits 0 "$gather" ldi.exr -o lens.exr --lens lens.json --squeeze 1
+says lens.exr '^lensModel .*"Test lens"'
+differ lens.exr out.exr "--lens"
+exits 0 "$gather" ldi.exr -o beaten.exr --lens lens.json --blades 0 --spherical 0
+same_pixels beaten.exr out.exr "options beat --lens"
+for lens in "$source_dir"/share/lenses/*.json; do exits 0 "$gather" ldi.exr -o shared.exr --lens "$lens"; done
+for text in '{"blades": 2}' '{"no-look": 1}' '[]' '{"tilt": 3}' '{"spherical": {"wide": 1}}' '{"cat-eye-darkening": 1}'; do
+    echo "$text" >bad.json
+    fails_saying 1 'bad.json' "$gather" ldi.exr -o x.exr --lens bad.json
+done
+
+# Looks may be keyed by frame.
+exits 0 "$gather" ldi.exr -o key.####.exr --frames 1,3 --tilt '1:0,0;5:40,0' --blades 5 --blade-rotation 1:0,3:20
+exits 0 "$gather" ldi.exr -o at-3.exr --tilt 20,0 --blades 5 --blade-rotation 20
+same key.0003.exr at-3.exr "keyed looks"
 for text in '--blades 2' '--blades 4.5' '--blade-curvature 1.5' '--blade-rotation x' '--squeeze 0' '--squeeze inf' \
-    '--spherical 2' '--blades nan'; do
+    '--spherical 2' '--blades nan' '--cat-eye -1' '--axial-chromatic 6' '--field-curvature 1.1' '--tilt 3' '--tilt 90,0' \
+    '--breathing -1' '--axial-chromatic-type pink'; do
     # shellcheck disable=SC2086
     fails_saying 2 "${text%% *}" "$gather" ldi.exr -o x.exr $text
 done

@@ -55,6 +55,27 @@ changes view_0.exr --fstop 1
 changes view_0.exr --lens-radius 0.03
 changes view_0.exr --scene-unit 0.5
 changes reference.exr --focus-distance 3
+# Looks of the lens are those of dof-gather; views from the whole lens show the shape of the aperture.
+oiiotool --create 4x3 1 --fill:color=1 4x2 -o aperture.exr
+echo '{"squeeze": 2}' >lens.json
+for look in '--blades 5' '--squeeze 2' '--spherical 0.5' '--aperture aperture.exr' '--cat-eye 1' '--axial-chromatic 0.1' \
+    '--field-curvature 0.5' '--tilt 20,0' '--breathing 1' '--lens lens.json'; do
+    # shellcheck disable=SC2086
+    changes reference.exr $look
+done
+exits 0 "$trace" fence -o eye "${small[@]}" --reference 3 --cat-eye 1
+exits 0 "$trace" fence -o dark "${small[@]}" --reference 3 --cat-eye 1 --cat-eye-darkening
+differ eye/reference.exr dark/reference.exr "--cat-eye-darkening"
+exits 0 "$trace" fence -o red "${small[@]}" --reference 3 --axial-chromatic 0.1
+exits 0 "$trace" fence -o blue "${small[@]}" --reference 3 --axial-chromatic 0.1 --axial-chromatic-type blue-yellow
+differ red/reference.exr blue/reference.exr "--axial-chromatic-type"
+exits 0 "$trace" fence -o blades "${small[@]}" --lens-views 2 --reference 3 --blades 5
+exits 0 "$trace" fence -o turned "${small[@]}" --reference 3 --blades 5 --blade-rotation 20
+exits 0 "$trace" fence -o bulging "${small[@]}" --reference 3 --blades 5 --blade-curvature 0.5
+differ blades/reference.exr turned/reference.exr "--blade-rotation"
+differ blades/reference.exr bulging/reference.exr "--blade-curvature"
+differ blades/lens_0001.exr fence/lens_0001.exr "--blades and --lens-views"
+fails_saying 2 '--lens-views' "$trace" fence -o x "${small[@]}" --lens-views 2 --spherical 1
 changes reference.exr --focus-distance inf
 changes deep_peel.exr --deep peel:2
 changes view_1.exr --views 4

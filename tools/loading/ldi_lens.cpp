@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "deep/front_depth.h"
 
+#include <ImfStringAttribute.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -37,8 +38,8 @@ ThinLens lens_for_ldi(OpenedLdi &in, const std::optional<Imath::V2i> &focus_pixe
     return lens;
 }
 
-LensLooks looks_for_ldi(OpenedLdi &in, const LookValues &given, const GatherMethod *method,
-                        const ToolContext &tool) {
+LensLooks looks_for_ldi(OpenedLdi &in, const LensFile &given, const ThinLens &lens, const Windows &windows,
+                        const GatherMethod *method, const ToolContext &tool) {
     const LookValues &said = in.camera.looks;
     if (method != &gather_methods().front()) {
         if (said.blades.value_or(0) != 0 || said.squeeze.value_or(1) != 1)
@@ -46,8 +47,9 @@ LensLooks looks_for_ldi(OpenedLdi &in, const LookValues &given, const GatherMeth
                  fmt::format("the aperture is taken for round, as --method {} knows no other", method->name));
         return {};
     }
-    in.camera.looks = look_values_over(given, said);
-    return looks_of(in.camera.looks);
+    in.camera.looks = look_values_over(given.values, said);
+    if (!given.name.empty()) in.header.insert("lensModel", Imf::StringAttribute(given.name));
+    return resolve_looks(in.camera.looks, in.camera, lens, windows);
 }
 
 } // namespace sparselens

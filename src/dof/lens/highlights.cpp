@@ -155,30 +155,64 @@ void add_disc(PixelList &list, const Spreading &from, const Aperture &aperture, 
     }
 }
 
-void add_shape(PixelList &list, const Spreading &from, const Aperture &aperture, int size) {
-    const LampSpread spread =
-        spread_lamp(aperture, from.lamp, {from.origin, from.origin + Imath::V2i(size - 1)});
+// What a cat-eye leaves at the pixels of a tile, computed when it is first asked for.
+class TileShares {
+public:
+    TileShares(const HighlightShape &shape, const Imath::Box2i &tile)
+        : shape_(shape), tile_(tile.min + shape.corner, tile.max + shape.corner),
+          width_(std::size_t(tile.max.x - tile.min.x) + 1) {}
+
+    double at(bool behind, int x, int y) { // pixels of the tile, from its corner
+        std::vector<double> &shares = shares_[behind];
+        if (shares.empty()) shares = shape_.cat_eye.shares(behind, tile_);
+        return shares[std::size_t(y) * width_ + std::size_t(x)];
+    }
+
+private:
+    const HighlightShape &shape_;
+    Imath::Box2i tile_;
+    std::size_t width_;
+    std::array<std::vector<double>, 2> shares_;
+};
+
+constexpr double least_share = 1e-4; // what a cat-eye leaves less of is dark
+
+void add_shape(PixelList &list, const Spreading &from, const HighlightShape &shape, TileShares &shares,
+               int size) {
+    const bool cut = shape.cat_eye.cuts();
+    const Imath::V2i corner = shape.corner + from.origin;
+    Lamp lamp = from.lamp;
+    lamp.centre += Imath::V2d(shape.corner);
+    const LampSpread spread = spread_lamp(shape.aperture, lamp, {corner, corner + Imath::V2i(size - 1)},
+                                          cut ? &shape.cat_eye : nullptr);
     std::size_t i = 0;
     for (int y = spread.box.min.y; !spread.box.isEmpty() && y <= spread.box.max.y; ++y)
         for (int x = spread.box.min.x; x <= spread.box.max.x; ++x, ++i) {
             if (spread.weights[i] <= 0) continue;
+            const double left =
+                cut && !shape.cat_eye.darkens() ? shares.at(lamp.coc > 0, x - corner.x, y - corner.y) : 1;
+            if (left < least_share) continue;
+            const int column = x - shape.corner.x, row = y - shape.corner.y;
             if (!spread.coloured) {
-                list.add(from, x, y, all_colours, spread.weights[i]);
+                list.add(from, column, row, all_colours, spread.weights[i] / left);
                 continue;
             }
-            list.add(from, x, y, red, spread.colours[i][0]);
-            list.add(from, x, y, green, spread.colours[i][1]);
-            list.add(from, x, y, blue, spread.colours[i][2]);
-            list.add(from, x, y, ColourSet(coverage | data), spread.weights[i]);
+            list.add(from, column, row, red, spread.colours[i][0] / left);
+            list.add(from, column, row, green, spread.colours[i][1] / left);
+            list.add(from, column, row, blue, spread.colours[i][2] / left);
+            list.add(from, column, row, ColourSet(coverage | data), spread.weights[i] / left);
         }
 }
 
 } // namespace
 
 std::vector<HighlightPixel> highlight_pixels(const Highlights &highlights, const BlockedSamples &samples,
-                                             const NearestLensPoint &nearest, const Aperture &aperture,
+                                             const NearestLensPoint &nearest, const HighlightShape &shape,
                                              double pixel_aspect, const Imath::V2i &origin, int size) {
     PixelList list(samples, nearest);
+    TileShares shares(shape, {origin, origin + Imath::V2i(size - 1)});
+    const Aperture &aperture = shape.aperture;
+    const bool disc = aperture.disc() && !shape.cat_eye.cuts();
     const Imath::V2d extent = aperture.half_extent();
     const double largest = std::max(extent.x, extent.y * pixel_aspect);
     for (std::uint32_t h = 0; h < highlights.sample.size(); ++h) {
@@ -190,7 +224,7 @@ std::vector<HighlightPixel> highlight_pixels(const Highlights &highlights, const
             centre.y + reach < origin.y || centre.y - reach > origin.y + size)
             continue;
         const Spreading from{h, s, lamp, origin};
-        aperture.disc() ? add_disc(list, from, aperture, size) : add_shape(list, from, aperture, size);
+        disc ? add_disc(list, from, aperture, size) : add_shape(list, from, shape, shares, size);
     }
     std::stable_sort(list.pixels.begin(), list.pixels.end(),
                      [](const auto &a, const auto &b) { return a.lens < b.lens; });

@@ -10,6 +10,7 @@
 #include "dof/lens/sample_blocks.h"
 #include "dof/lens/sample_colours.h"
 #include "lens/aperture.h"
+#include "lens/cat_eye.h"
 #include "lens/lens_samples.h"
 
 #include <Imath/ImathVec.h>
@@ -35,7 +36,7 @@ Highlights take_highlights(const BlockedSamples &samples, std::span<const std::s
 struct HighlightPixel {
     std::uint32_t lens;
     std::uint8_t x, y;
-    ColourSet of; // the channels whose light it is
+    ColourSet of;            // the channels whose light it is
     std::uint32_t highlight; // index into Highlights
     float weight;            // of the PSF in the pixel
 };
@@ -52,9 +53,16 @@ private:
     std::vector<std::uint32_t> table_;
 };
 
+// What shapes their light. `corner`: of the data window that samples are relative to, EXR coordinates.
+struct HighlightShape {
+    const Aperture &aperture;
+    const CatEye &cat_eye;
+    Imath::V2i corner{0, 0};
+};
+
 // All pixels of the tile [origin, origin + size), of at most 256 pixels, that highlights reach, in the order of the lens points.
 std::vector<HighlightPixel> highlight_pixels(const Highlights &highlights, const BlockedSamples &samples,
-                                             const NearestLensPoint &nearest, const Aperture &aperture,
+                                             const NearestLensPoint &nearest, const HighlightShape &shape,
                                              double pixel_aspect, const Imath::V2i &origin, int size);
 
 } // namespace sparselens

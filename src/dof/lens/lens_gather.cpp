@@ -2,6 +2,7 @@
 
 #include "base/parallel.h"
 #include "deep/flatten.h"
+#include "dof/lens/bend_samples.h"
 #include "dof/lens/highlights.h"
 #include "dof/lens/lens_tile.h"
 #include "dof/lens/sample_blocks.h"
@@ -128,25 +129,31 @@ public:
           row_reach_(std::size_t(samples.rows), 0) {
         for (std::size_t b = 0; b < samples.blocks.size(); ++b) {
             float &reach = row_reach_[b / std::size_t(samples.columns)];
-            reach = std::max(reach, reach_of(samples.blocks[b]));
+            const SampleBlock &block = samples.blocks[b];
+            const auto top = float(b / std::size_t(samples.columns) * BlockedSamples::size);
+            const float moved =
+                block.begin == block.end
+                    ? 0
+                    : std::max({0.0f, top - block.y_min, block.y_max - top - float(BlockedSamples::size)});
+            reach = std::max(reach, reach_of(block) + moved);
         }
     }
 
-    // Their largest CoC is returned.
-    float find(const Imath::V2i &origin, int size, std::vector<std::uint32_t> &found) const {
+    // `stretched`: by how much lens points are at most. Their largest CoC is returned.
+    float find(const Imath::V2i &origin, int size, float stretched, std::vector<std::uint32_t> &found) const {
         found.clear();
         float largest = 0;
         const auto left = float(origin.x), top = float(origin.y), right = left + float(size),
                    bottom = top + float(size);
         for (int row = 0; row < samples_.rows; ++row) {
-            const float reach = row_reach_[std::size_t(row)] + 1;
+            const float reach = row_reach_[std::size_t(row)] * stretched + 1;
             if (float((row + 1) * BlockedSamples::size) + reach < top ||
                 float(row * BlockedSamples::size) - reach > bottom)
                 continue;
             for (int column = 0; column < samples_.columns; ++column) {
                 const auto b = std::uint32_t(row * samples_.columns + column);
                 const SampleBlock &block = samples_.blocks[b];
-                const float r = reach_of(block) + 1;
+                const float r = reach_of(block) * stretched + 1;
                 if (block.begin == block.end || block.x_max + r < left || block.x_min - r > right ||
                     block.y_max + r < top || block.y_min - r > bottom)
                     continue;
@@ -156,6 +163,9 @@ public:
         }
         return largest;
     }
+
+public:
+    float extent() const { return extent_; }
 
 private:
     float reach_of(const SampleBlock &block) const {
@@ -191,20 +201,37 @@ std::vector<std::size_t> averaged_channels(const Image &image) {
     return averaged;
 }
 
-} // namespace
+// The lens points of a tile where the plane of focus is bent: by the field's change at the tile's middle.
+std::vector<LensSample> stretched(std::span<const LensSample> points, const Imath::V2d &coc_gradient) {
+    std::vector<LensSample> moved(points.begin(), points.end());
+    for (LensSample &p : moved) {
+        const auto factor = float(stretch(coc_gradient, {double(p.x), double(p.y)}));
+        p.x *= factor;
+        p.y *= factor;
+    }
+    return moved;
+}
 
-Image lens_gather(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window,
-                  const LensGatherOptions &options, Progress &progress) {
+// The picture with `coc` added to the CoC of all samples.
+Image gather_once(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window,
+                  const LensGatherOptions &options, double coc, Progress &progress) {
     Image out = crop(options.holdout ? flatten_held_out(ldi, *options.holdout) : flatten(ldi), window);
-    const BlockedSamples samples = make_blocks(ldi, lens, window);
-    const Aperture aperture(options.looks.aperture);
+    BlockedSamples samples = make_blocks(ldi, lens, window);
+    const LensLooks &looks = options.looks;
+    const Aperture aperture(looks.aperture);
+    const PictureFrame frame = picture_frame(ldi.windows, looks);
+    const FocusField field(looks, lens, frame);
+    const CatEye cat_eye(aperture, looks, frame);
+    const bool moved = looks.magnification != 1;
+    if (moved || coc != 0 || !field.flat())
+        bend_samples(samples, field, coc, frame, looks.magnification, ldi.windows.data.min);
     const float widest = float(std::max(aperture.half_extent().x, aperture.half_extent().y));
     const auto sharp = [&](const SampleBlock &block) {
         return block.begin == block.end || largest_coc_of(block) * widest < in_focus;
     };
     LensTiles chosen = tiles_of(out.windows);
     if (options.chosen) *options.chosen = chosen;
-    if (std::ranges::all_of(samples.blocks, sharp)) return out;
+    if (!moved && std::ranges::all_of(samples.blocks, sharp)) return out;
     SampleColours colours = make_colours(ldi, samples);
     sharpen_near_focus(ldi, lens, samples, colours);
     const LightChannels light = light_channels(ldi);
@@ -215,8 +242,9 @@ Image lens_gather(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &wind
     const Windows &windows = out.windows;
     const std::vector<std::size_t> gathered = averaged_channels(out);
     progress.start("gathering", chosen.lens_points.size());
-    tbb::enumerable_thread_specific<LensTile> tiles(
-        [&] { return LensTile(samples, colours, highlights, held_out); });
+    tbb::enumerable_thread_specific<LensTile> tiles([&] {
+        return LensTile(samples, colours, highlights, held_out, cat_eye.cuts() ? &cat_eye : nullptr);
+    });
     parallel_for(chosen.lens_points.size(), [&](std::size_t t) {
         const Imath::V2i corner =
             Imath::V2i(int(t) % chosen.columns, int(t) / chosen.columns) * LensTile::size;
@@ -225,14 +253,19 @@ Image lens_gather(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &wind
         if (options.region && !options.region->intersects(pixels)) return progress.advance();
         const Imath::V2i origin = corner + window.min - ldi.windows.data.min;
         std::vector<std::uint32_t> blocks;
-        const float largest = finder.find(origin, LensTile::size, blocks) * widest;
+        const Imath::V2d middle =
+            frame.magnified(Imath::V2d(first) + Imath::V2d(LensTile::size / 2), 1 / looks.magnification);
+        const Imath::V2d gradient = field.flat() ? Imath::V2d(0, 0) : field.coc_gradient(middle);
+        const float steepest = float(stretch(gradient, gradient.normalized() * double(finder.extent())));
+        const float largest = finder.find(origin, LensTile::size, steepest, blocks) * widest;
         progress.advance();
-        if (largest < in_focus) return; // the flattened LDI is there already
+        if (largest < in_focus && !moved) return; // the flattened LDI is there already
         const LensSets::Set &set = sets.for_coc(largest);
         chosen.lens_points[t] = int(set.points.size());
         LensTile &tile = tiles.local();
-        tile.gather(origin, blocks, set.points,
-                    highlight_pixels(highlights, samples, set.nearest, aperture, lens.pixel_aspect, origin,
+        tile.gather(origin, blocks, field.flat() ? set.points : stretched(set.points, gradient),
+                    highlight_pixels(highlights, samples, set.nearest,
+                                     {aperture, cat_eye, ldi.windows.data.min}, lens.pixel_aspect, origin,
                                      LensTile::size));
         for_each_pixel(corner, windows, [&](int x, int y) {
             if (tile.dark(x, y)) return; // a few lens points may all miss: better sharp than black
@@ -241,6 +274,23 @@ Image lens_gather(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &wind
         });
     });
     if (options.chosen) *options.chosen = std::move(chosen);
+    return out;
+}
+
+} // namespace
+
+Image lens_gather(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window,
+                  const LensGatherOptions &options, Progress &progress) {
+    Image out = gather_once(ldi, lens, window, options, 0, progress);
+    const std::vector<ColourSet> sets = colour_sets(ldi, ldi.channels.size());
+    const std::array<double, 3> &cocs = options.looks.chromatic_coc;
+    for (std::size_t colour = 0; colour < 3; ++colour) {
+        if (cocs[colour] == 0) continue;
+        const Image other = gather_once(ldi, lens, window, options, cocs[colour], progress);
+        for (std::size_t k = 0; k < sets.size(); ++k)
+            if (sets[k] == std::array{red, green, blue}[colour])
+                std::ranges::copy(other.plane(k), out.plane(k).begin());
+    }
     return out;
 }
 

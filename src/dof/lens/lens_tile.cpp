@@ -26,8 +26,8 @@ bool out_of_reach(const SampleBlock &b, const LensSample &lens, float x, float y
 } // namespace
 
 LensTile::LensTile(const BlockedSamples &samples, const SampleColours &colours, const Highlights &highlights,
-                   const HeldOut &held_out)
-    : samples_(samples), colours_(colours), highlights_(highlights), held_out_(held_out),
+                   const HeldOut &held_out, const CatEye *cat_eye)
+    : samples_(samples), colours_(colours), highlights_(highlights), held_out_(held_out), cat_eye_(cat_eye),
       front_(stride * stride), transmittance_(stride * stride, 1.0f), veil_(stride * stride),
       over_(colours.groups * stride * stride * 4), sums_(colours.groups * size * size * 4),
       spread_(sums_.size()), unknown_(size * size) {}
@@ -70,6 +70,7 @@ void LensTile::gather(const Imath::V2i &origin, std::span<const std::uint32_t> b
         see_partial(lens[k]);
         if (weighted_) {
             weigh_channels(lens[k]);
+            find_columns(lens[k]);
             add_opaque_weighted();
             add_partial_weighted();
         } else {

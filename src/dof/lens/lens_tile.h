@@ -10,6 +10,7 @@
 #include "dof/lens/highlights.h"
 #include "dof/lens/sample_blocks.h"
 #include "dof/lens/sample_colours.h"
+#include "lens/cat_eye.h"
 #include "lens/lens_samples.h"
 
 #include <Imath/ImathBox.h>
@@ -33,7 +34,7 @@ public:
     static constexpr int size = 64; // pixels wide and high: the buffers of a lens point stay in the cache
 
     LensTile(const BlockedSamples &samples, const SampleColours &colours, const Highlights &highlights,
-             const HeldOut &held_out = {});
+             const HeldOut &held_out = {}, const CatEye *cat_eye = nullptr);
 
     // Gathers the pixels [origin, origin + size), relative to the data window's corner like the samples, from
     // the blocks that can reach them. `spread`: highlight_pixels() of the tile.
@@ -58,7 +59,15 @@ private:
     // The same where lens points weigh differently for colours or sides of the focus (lens_tile_weights.cpp).
     void begin_weighted(std::span<const LensSample> lens);
     void weigh_channels(const LensSample &lens);
+    void find_columns(const LensSample &lens);
+    bool in_columns(int x, int y) const {
+        return x >= columns_[std::size_t(y)].begin && x < columns_[std::size_t(y)].end;
+    }
     void add_opaque_weighted();
+    // A cat-eye that darkens takes light from colours only.
+    bool is_darkened(std::size_t channel) const {
+        return (colours_.sets[channel] & (red | green | blue)) != 0;
+    }
     void add_partial_weighted();
     float known_of(std::size_t at) const; // weight of what is known, an index of sums_
     bool in_front(std::uint32_t sample) const { return two_sided_ && samples_.coc[sample] < 0; }
@@ -72,6 +81,7 @@ private:
     const SampleColours &colours_;
     const Highlights &highlights_;
     HeldOut held_out_;
+    const CatEye *cat_eye_;
     float origin_x_ = 0, origin_y_ = 0;
     float total_ = 0; // weight of the lens points
     std::vector<std::uint32_t> blocks_;
@@ -88,10 +98,10 @@ private:
         float transmittance = 1; // of all of those
     };
     // Of one lens point:
-    std::vector<std::uint64_t> front_;   // [cell]: key of the nearest opaque sample; 0: none
-    std::vector<float> transmittance_;   // [cell]: of the partial samples in front
-    std::vector<Veil> veil_;             // [cell]
-    std::vector<float> over_;            // [side][group][cell][4]: their colours; all on side 0 unless two_sided_
+    std::vector<std::uint64_t> front_; // [cell]: key of the nearest opaque sample; 0: none
+    std::vector<float> transmittance_; // [cell]: of the partial samples in front
+    std::vector<Veil> veil_;           // [cell]
+    std::vector<float> over_; // [side][group][cell][4]: their colours; all on side 0 unless two_sided_
     std::vector<float> hidden_in_front_; // [cell]: what those in front of focus hide, if two_sided_
     std::vector<std::uint32_t> covered_; // cells that have any
     // Of all so far:
@@ -101,7 +111,9 @@ private:
     // Of lens points that weigh differently:
     bool weighted_ = false, two_sided_ = false;
     std::vector<float> known_; // as sums_: weight of what is known, of each channel
-    std::array<std::vector<float>, 2> channel_weights_; // [side][channel] of the lens point; side 1 is in front
+    std::array<std::vector<float>, 2>
+        channel_weights_;                       // [side][channel] of the lens point; side 1 is in front
+    std::array<CatEye::Columns, size> columns_; // [row]: the pixels that see through the lens point
 };
 
 } // namespace sparselens

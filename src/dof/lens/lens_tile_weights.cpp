@@ -1,5 +1,5 @@
-// Lens points that weigh differently for R, G and B, or for what lies behind focus and in front: what is known is
-// summed up for each channel.
+// Lens points that weigh differently for R, G and B, for what lies behind focus and in front, or that not all pixels see
+// through: what is known is summed up for each channel.
 #include "dof/lens/lens_tile.h"
 
 #include <algorithm>
@@ -9,7 +9,7 @@ namespace sparselens {
 void LensTile::begin_weighted(std::span<const LensSample> lens) {
     two_sided_ =
         std::ranges::any_of(lens, [](const LensSample &p) { return p.behind != 1 || p.in_front != 1; });
-    weighted_ = two_sided_ || std::ranges::any_of(lens, [](const LensSample &p) {
+    weighted_ = cat_eye_ || two_sided_ || std::ranges::any_of(lens, [](const LensSample &p) {
                     return p.rgb[0] != 1 || p.rgb[1] != 1 || p.rgb[2] != 1;
                 });
     if (!weighted_) return;
@@ -35,21 +35,31 @@ void LensTile::weigh_channels(const LensSample &lens) {
     }
 }
 
+void LensTile::find_columns(const LensSample &lens) {
+    for (int y = 0; y < size; ++y)
+        columns_[std::size_t(y)] = cat_eye_ ? cat_eye_->columns(lens, held_out_.corner.x + int(origin_x_),
+                                                                size, held_out_.corner.y + int(origin_y_) + y)
+                                            : CatEye::Columns{0, size};
+}
+
 void LensTile::add_opaque_weighted() {
+    const bool darkens = cat_eye_ && cat_eye_->darkens();
     for (std::size_t g = 0; g < colours_.groups; ++g) {
         const float *colours = colours_.group(g).data();
         for (int y = 0; y < size; ++y) {
             const std::uint64_t *front = &front_[std::size_t((y + 1) * stride + 1)];
             const std::size_t row = (g * size * size + std::size_t(y * size)) * 4;
             for (int x = 0; x < size; ++x) {
-                if (front[x] == 0) continue;
+                const bool passes_through = in_columns(x, y);
+                if (front[x] == 0 || (!passes_through && !darkens)) continue;
                 const std::uint32_t sample = std::uint32_t(front[x]);
                 const float *weights = &channel_weights_[in_front(sample)][g * 4];
                 const float *colour = colours + std::size_t(sample) * 4;
                 const float share = held_out_.by ? passes(x, y, sample) : 1;
                 for (std::size_t k = 0; k < 4; ++k) {
                     const std::size_t at = row + std::size_t(x) * 4 + k;
-                    sums_[at] += share * weights[k] * colour[k];
+                    if (passes_through || !is_darkened(g * 4 + k))
+                        sums_[at] += share * weights[k] * colour[k];
                     known_[at] += weights[k];
                 }
             }
@@ -59,10 +69,13 @@ void LensTile::add_opaque_weighted() {
 
 // Puts the partial samples in front of what add_opaque_weighted() added.
 void LensTile::add_partial_weighted() {
+    const bool darkens = cat_eye_ && cat_eye_->darkens();
     const std::size_t side_size = colours_.groups * stride * stride * 4;
     for (const std::uint32_t cell : covered_) {
         const int x = int(cell) % stride - 1, y = int(cell) / stride - 1;
         if (x < 0 || y < 0 || x >= size || y >= size) continue;
+        const bool passes_through = in_columns(x, y);
+        if (!passes_through && !darkens) continue;
         const bool known = front_[cell] != 0;
         const std::uint32_t opaque = std::uint32_t(front_[cell]);
         const float hidden = 1 - transmittance_[cell],
@@ -73,9 +86,10 @@ void LensTile::add_partial_weighted() {
                               over = (k / 4 * stride * stride + cell) * 4 + k % 4;
             const float behind = channel_weights_[0][k], in_front_of = channel_weights_[1][k];
             const float weight = known ? channel_weights_[in_front(opaque)][k] : 0;
-            sums_[at] += behind * over_[over] + (two_sided_ ? in_front_of * over_[side_size + over] : 0);
             known_[at] +=
                 behind * (hidden - hidden_in_front) + in_front_of * hidden_in_front - weight * hidden;
+            if (!passes_through && is_darkened(k)) continue;
+            sums_[at] += behind * over_[over] + (two_sided_ ? in_front_of * over_[side_size + over] : 0);
             if (known) sums_[at] -= weight * taken * colours_.group(k / 4)[std::size_t(opaque) * 4 + k % 4];
         }
     }

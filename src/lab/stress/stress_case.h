@@ -32,6 +32,7 @@ std::span<const StressCase> depth_stress();
 std::span<const StressCase> blur_stress();
 std::span<const StressCase> light_stress();
 std::span<const StressCase> shape_stress();
+std::span<const StressCase> look_stress();
 std::span<const StressCase> view_stress();
 std::span<const StressCase> scale_stress();
 

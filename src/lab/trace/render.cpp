@@ -1,6 +1,7 @@
 #include "lab/trace/render.h"
 
 #include "base/parallel.h"
+#include "lab/trace/look_rays.h"
 #include "lab/trace/sampling.h"
 #include "lens/lens_points.h"
 
@@ -134,6 +135,7 @@ Image render_view(const Tracer &tracer, const RenderSettings &settings, const Im
 
 Image render_reference(const Tracer &tracer, const RenderSettings &settings, int samples,
                        Progress &progress) {
+    if (settings.looks != LensLooks()) return render_looks(tracer, settings, samples, progress);
     Image image(settings.windows, rgba_channels());
     const PixelSamples points(samples, false, seeded(settings, 0));
     const auto make = [&](const Run &run) {

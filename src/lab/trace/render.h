@@ -6,6 +6,7 @@
 #include "base/image.h"
 #include "base/progress.h"
 #include "lab/trace/shading.h"
+#include "lens/lens_looks.h"
 #include "lens/thin_lens.h"
 
 #include <cstdint>
@@ -18,6 +19,7 @@ struct RenderSettings {
     ThinLens lens; // its focal length is used even if its radius is 0
     Light light = Light::sun;
     std::uint32_t seed = 0; // [0, 64): pictures of different seeds share no noise
+    LensLooks looks = {};   // of the reference
     bool scattered = false; // views: no grids in the pixels, so that the average of many views is antialiased
 };
 
@@ -40,7 +42,7 @@ Image render_view(const Tracer &tracer, const RenderSettings &settings, const Im
                   std::uint32_t stream, Progress &progress, std::span<const std::uint8_t> asked = {});
 
 // Distributed ray tracing (R. Cook, T. Porter, L. Carpenter, 1984): `samples` rays per pixel, each from its own point
-// of the lens through its own point of the pixel. R G B A, with a box filter of one pixel.
+// of the lens through its own point of the pixel. R G B A, with a box filter of one pixel. Its looks are settings.looks.
 Image render_reference(const Tracer &tracer, const RenderSettings &settings, int samples, Progress &progress);
 
 } // namespace sparselens::lab

@@ -112,12 +112,14 @@ TEST(HighlightPixels, AreThePsfSeenThroughTheNearestLensPoints) {
             ASSERT_EQ(highlights.sample.size(), 2u);
             const auto points = disc_lens_samples(64, aspect);
             const NearestLensPoint nearest(points);
+            const Aperture aperture;
+            const CatEye no_cut(aperture, {}, {});
             double sums[2] = {};
             for (const Imath::V2i &origin :
                  {Imath::V2i(0, 0), Imath::V2i(48, 0), Imath::V2i(0, 48), Imath::V2i(48, 48)}) {
                 std::uint32_t last = 0;
-                for (const HighlightPixel &p :
-                     highlight_pixels(highlights, blocked.samples, nearest, Aperture(), aspect, origin, 48)) {
+                for (const HighlightPixel &p : highlight_pixels(highlights, blocked.samples, nearest,
+                                                                {aperture, no_cut}, aspect, origin, 48)) {
                     EXPECT_GE(p.lens, last);
                     last = p.lens;
                     ASSERT_LT(std::max(p.x, p.y), 48);

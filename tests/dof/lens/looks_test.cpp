@@ -1,11 +1,16 @@
 // Properties of the lens picture that hold for every look.
+#include "deep/flatten.h"
 #include "dof/lens/lens_gather.h"
+#include "lens/cat_eye.h"
+#include "lens/focus_field.h"
+#include "lens/psf.h"
 #include "support/lens_ldi.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
 #include <cmath>
+#include <numbers>
 
 namespace sparselens {
 namespace {
@@ -33,7 +38,14 @@ std::vector<LensLooks> all_looks() {
             {.aperture = {.spherical = 0.9}},
             {.aperture = {.blades = 7, .spherical = -0.9}},
             {.aperture = {.picture = picture()}},
-            {.aperture = {.squeeze = 1.5, .spherical = 0.5, .picture = picture()}}};
+            {.aperture = {.squeeze = 1.5, .spherical = 0.5, .picture = picture()}},
+            {.cat_eye = 1.2},
+            {.aperture = {.blades = 6, .squeeze = 1.3, .spherical = 0.5}, .cat_eye = 0.7},
+            {.aperture = {.picture = picture()}, .cat_eye = 0.8},
+            {.chromatic_coc = {-2, 0, 2}},
+            {.field_curvature = 0.3},
+            {.tilt = {0.5, -0.3}},
+            {.magnification = 1.03}};
 }
 
 TEST(LensLooks, ConstantStaysConstantAndOpaque) {
@@ -69,6 +81,123 @@ TEST(LensLooks, GiveTheSameBitsOnAnyNumberOfThreads) {
         const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
         EXPECT_EQ(gather(ldi, looks).values, many.values);
     }
+}
+
+// A plane that is tilted as the plane of focus is sharp everywhere; c = R F (1/d - 1/z).
+TEST(LensLooks, FocusOnAPlaneThatIsTiltedLikeTheirs) {
+    for (const LensLooks &looks : {LensLooks{.field_curvature = 0.4}, LensLooks{.tilt = {2, 1}}}) {
+        const Windows windows = windows_of_size(96, 64);
+        const FocusField field(looks, lens, picture_frame(windows, looks));
+        const Ldi ldi = make_ldi(windows, rgba_channels(), [&](int x, int y) {
+            const float v = (x / 3 + y / 3) % 2 ? 1.0f : 0.1f;
+            return std::vector<Sample>{{lens.focus / field.factor({x + 0.5, y + 0.5}), {v, v, v, 1}}};
+        });
+        EXPECT_LT(largest_difference(gather(ldi, looks), flatten(ldi)), 0.02);
+        EXPECT_GT(largest_difference(gather(ldi, {}), flatten(ldi)), 0.1);
+    }
+}
+
+// A lamp on a bent plane of focus has the disc that its place gives it.
+TEST(LensLooks, SpreadALampByTheFocusAtItsPlace) {
+    const LensLooks looks{.tilt = {3, 0}};
+    const Windows windows = windows_of_size(128, 64);
+    const FocusField field(looks, lens, picture_frame(windows, looks));
+    for (const int at : {24, 104}) {
+        const Ldi ldi = make_ldi(windows, rgba_channels(), [&](int x, int y) {
+            std::vector<Sample> samples;
+            if (x == at && y == 32) samples.push_back({depth_of(lens, 7), {1000, 1000, 1000, 1}});
+            return samples;
+        });
+        const double coc = 7 + field.coc_offset({at + 0.5, 32.5});
+        const Image image = gather(ldi, looks);
+        double reached = 0;
+        for (const float v : image.plane(0)) reached += v > 0.5f * float(1000 / (3.14159 * coc * coc));
+        EXPECT_NEAR(reached, std::numbers::pi * coc * coc, 0.05 * std::numbers::pi * coc * coc) << coc;
+    }
+}
+
+TEST(LensLooks, MagnifyAboutTheAxis) {
+    const Windows windows = windows_of_size(101, 61);
+    const Ldi ldi = make_ldi(windows, rgba_channels(), [&](int x, int y) {
+        const float v = x == 80 && y == 50 ? 1000.0f : 0.01f;
+        return std::vector<Sample>{{depth_of(lens, 4), {v, v, v, 1}}};
+    });
+    const Image image = gather(ldi, {.magnification = 1.2, .axis = {-10, 4}});
+    double sum = 0, x = 0, y = 0;
+    for (std::size_t i = 0; i < image.plane(0).size(); ++i) {
+        const double v = std::max(0.0, double(image.plane(0)[i]) - 0.011);
+        const Imath::V2i p = windows.pixel(i);
+        sum += v, x += v * (p.x + 0.5), y += v * (p.y + 0.5);
+    }
+    EXPECT_NEAR(x / sum, 40.5 + 1.2 * (80.5 - 40.5), 0.05);
+    EXPECT_NEAR(y / sum, 34.5 + 1.2 * (50.5 - 34.5), 0.05);
+    EXPECT_NEAR(sum, 1000, 5); // the lamp's light stays, its disc is wider
+}
+
+// One lamp's colours are discs of different CoC.
+TEST(LensLooks, FocusColoursAtDifferentDepths) {
+    const Windows windows = windows_of_size(64, 64);
+    const Ldi ldi = make_ldi(windows, rgba_channels(), [&](int x, int y) {
+        std::vector<Sample> samples;
+        if (x == 32 && y == 32) samples.push_back({depth_of(lens, 7), {1000, 1000, 1000, 1}});
+        return samples;
+    });
+    const Image image = gather(ldi, {.chromatic_coc = {-2, 0, 3}});
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double coc = std::array{5.0, 7.0, 10.0}[k];
+        for (int y = 0; y < 64; ++y)
+            for (int x = 0; x < 64; ++x)
+                ASSERT_NEAR(image.at(k, x, y), 1000 * psf_weight({{32.5, 32.5}, coc}, x, y), 0.05) << k;
+    }
+}
+
+// Of two circles of radius 1 and r whose middles are d apart.
+double common_area(double r, double d) {
+    const double x = (d * d + 1 - r * r) / (2 * d), y = std::sqrt(1 - x * x);
+    return std::acos(x) + r * r * std::acos((d - x) / r) - d * y;
+}
+
+// At the corner the second circle is displaced by the amount; on the axis the disc is whole.
+TEST(LensLooks, CutCatEyes) {
+    const Windows windows = windows_of_size(160, 120); // half a diagonal is 100 pixels
+    const auto lit = [&](const Imath::V2i &pixel, const LensLooks &looks, double &sum) {
+        const ThinLens wide{.radius = 1.2, .focal_px = 640, .focus = 5};
+        const Ldi ldi = make_ldi(windows, rgba_channels(), [&](int x, int y) {
+            std::vector<Sample> samples;
+            if (Imath::V2i(x, y) == pixel) samples.push_back({depth_of(wide, 12), {1000, 1000, 1000, 1}});
+            return samples;
+        });
+        const Image image = gather(ldi, looks, wide);
+        double area = 0;
+        sum = 0;
+        for (const float v : image.plane(0)) area += v > 1.1f, sum += double(v);
+        return area;
+    };
+    const double disc = std::numbers::pi * 144;
+    double sum = 0;
+    EXPECT_NEAR(lit({80, 60}, {.cat_eye = 1}, sum), disc, 0.05 * disc);
+    // 60 pixels from the axis the second circle is 0.6 away for the lamp's middle, and 12/100 more at the outer rim of its
+    // disc: |a - 0.6 - 0.12 a| <= 1 is a circle of radius 1 / 0.88 around 0.6 / 0.88.
+    const double left = common_area(1 / 0.88, 0.6 / 0.88);
+    EXPECT_NEAR(lit({140, 60}, {.cat_eye = 1}, sum), 144 * left, 0.05 * disc);
+    lit({140, 60}, {.cat_eye = 1, .cat_eye_darkening = true}, sum);
+    EXPECT_NEAR(sum, 1000 * left / std::numbers::pi, 10);
+}
+
+TEST(LensLooks, DarkenWhatACatEyeCuts) {
+    const Ldi ldi = make_ldi(windows_of_size(160, 120), rgba_channels(), [](int, int) {
+        return std::vector<Sample>{{depth_of(lens, 6), {0.5, 0.5, 0.5, 1}}};
+    });
+    const LensLooks looks{.cat_eye = 1, .cat_eye_darkening = true};
+    const Image image = gather(ldi, looks);
+    const Aperture aperture;
+    const CatEye cat_eye(aperture, looks, picture_frame(ldi.windows, looks));
+    for (const Imath::V2i &p :
+         {Imath::V2i(80, 60), Imath::V2i(120, 60), Imath::V2i(20, 20), Imath::V2i(150, 110)}) {
+        EXPECT_NEAR(image.at(0, p.x, p.y), 0.5 * cat_eye.share(true, {p.x + 0.5, p.y + 0.5}), 0.02) << p;
+        EXPECT_NEAR(image.at(3, p.x, p.y), 1, 1e-4);
+    }
+    EXPECT_LT(image.at(0, 150, 110), 0.3f);
 }
 
 // Data has no colour and no rim: it is gathered as through an even lens of one colour.

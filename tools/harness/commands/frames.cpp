@@ -96,8 +96,11 @@ std::vector<int> numbers_on_disk(const std::string &name) {
 }
 
 // The options whose values may be keyed by frame, in a word or in a file (@keys.txt).
-constexpr std::array keyed_options{"--focus-distance", "--fstop",      "--lens-radius", "--focal-length",
-                                   "--sensor-width",   "--scene-unit", "--focus-pixel"};
+constexpr std::array keyed_options{
+    "--focus-distance", "--fstop",       "--lens-radius", "--focal-length",    "--sensor-width",
+    "--scene-unit",     "--focus-pixel", "--blades",      "--blade-curvature", "--blade-rotation",
+    "--squeeze",        "--spherical",   "--cat-eye",     "--axial-chromatic", "--field-curvature",
+    "--tilt",           "--breathing"};
 
 } // namespace
 
@@ -154,7 +157,9 @@ FrameCommands::Word FrameCommands::read_word(const std::string &text, const std:
     word.before = text.substr(0, start);
     word.value = text.substr(start);
     word.is_output = is_output_word(option);
-    const KeyKind kind = option == "--focus-pixel" ? KeyKind::pixel : KeyKind::number;
+    const KeyKind kind = option == "--focus-pixel" ? KeyKind::pixel
+                         : option == "--tilt"      ? KeyKind::pair
+                                                   : KeyKind::number;
     word.keys_from_file = is_among(keyed_options, option) && word.value.starts_with('@');
     if (word.keys_from_file)
         word.keys = read_keys(word.value.substr(1), kind);

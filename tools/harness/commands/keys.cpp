@@ -28,11 +28,11 @@ std::optional<Number> whole_number(std::string_view text) {
 }
 
 std::optional<KeyValue> parse_value(std::string_view text, KeyKind kind) {
-    const std::size_t comma = kind == KeyKind::pixel ? text.find(',') : text.size();
+    const bool two = kind != KeyKind::number;
+    const std::size_t comma = two ? text.find(',') : text.size();
     if (comma == text.npos) return {};
     const auto x = whole_number<double>(text.substr(0, comma));
-    const auto y =
-        kind == KeyKind::pixel ? whole_number<double>(text.substr(comma + 1)) : std::optional<double>(0);
+    const auto y = two ? whole_number<double>(text.substr(comma + 1)) : std::optional<double>(0);
     if (!x || !y) return {};
     const auto is_whole = [](double v) { return std::isfinite(v) && std::trunc(v) == v; };
     if (kind == KeyKind::pixel && !(is_whole(*x) && is_whole(*y))) return {};
@@ -55,7 +55,7 @@ bool add_key(Keys &keys, std::string_view text) {
 
 // Adds the keys of a list; false where the text is not a list.
 bool add_keys(Keys &keys, std::string_view text) {
-    const char separator = keys.kind == KeyKind::pixel ? ';' : ',';
+    const char separator = keys.kind == KeyKind::number ? ',' : ';';
     for (std::size_t from = 0, to = 0; to < text.size(); from = to + 1) {
         to = std::min(text.find(separator, from), text.size());
         if (!add_key(keys, text.substr(from, to - from))) return false;
@@ -88,8 +88,8 @@ Keys read_keys(const std::string &path, KeyKind kind) {
         if (text.empty() || text.starts_with('#')) continue;
         if (!add_keys(keys, text))
             throw UsageError(fmt::format("{}: line {} is '{}', not {}", path, number, text,
-                                         kind == KeyKind::pixel ? "FRAME:X,Y (e.g. 1:320,180)"
-                                                                : "FRAME:VALUE (e.g. 1:5.0)"));
+                                         kind != KeyKind::number ? "FRAME:X,Y (e.g. 1:320,180)"
+                                                                 : "FRAME:VALUE (e.g. 1:5.0)"));
     }
     if (keys.by_frame.empty()) throw UsageError(path + ": holds no keys, such as 1:5.0");
     return keys;
@@ -98,7 +98,8 @@ Keys read_keys(const std::string &path, KeyKind kind) {
 std::string word_at_frame(const Keys &keys, int frame) {
     const auto word = [&](const KeyValue &value) {
         if (keys.kind == KeyKind::number) return fmt::to_string(value.x);
-        return fmt::format("{:.0f},{:.0f}", value.x, value.y);
+        return keys.kind == KeyKind::pixel ? fmt::format("{:.0f},{:.0f}", value.x, value.y)
+                                           : fmt::format("{},{}", value.x, value.y);
     };
     const auto after = keys.by_frame.lower_bound(frame);
     if (after == keys.by_frame.end()) return word(keys.by_frame.rbegin()->second);

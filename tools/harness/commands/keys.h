@@ -9,7 +9,7 @@
 
 namespace sparselens {
 
-enum class KeyKind { number, pixel }; // a pixel is X,Y in whole pixels
+enum class KeyKind { number, pixel, pair }; // a pixel is X,Y in whole pixels, a pair X,Y of any numbers
 
 // The value of each key: one number, or X and Y.
 struct KeyValue {

@@ -4,6 +4,7 @@
 #include "harness/examples.h"
 #include "harness/words.h"
 #include "lab/trace/scenes.h"
+#include "view/resolve_looks.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -139,6 +140,7 @@ void add_trace_options(CLI::App &app, TraceOptions &options) {
     add_picture_options(app, options);
     add_rendering_options(app, options);
     add_lens_options(app, options.lens);
+    add_look_options(app, options.looks);
     add_examples(app,
                  {{"Render the centre view and four from the rim of the lens", "dof-trace fence -o views"},
                   {"Render a reference of 256 rays per pixel, too, in a small picture",
@@ -155,6 +157,7 @@ RenderSettings render_settings(const TraceOptions &options, const Camera &camera
     settings.lens = resolve_lens(camera, settings.windows);
     settings.lens.focal_px = resolve_focal_px(camera, settings.windows); // a pinhole has them, too
     settings.lens.focus = *camera.focus_distance;
+    settings.looks = resolve_looks(read_looks(options.looks, camera.fstop).values, camera, settings.lens, settings.windows);
     return settings;
 }
 

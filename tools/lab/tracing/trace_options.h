@@ -5,6 +5,7 @@
 #include "harness/commands/cli.h"
 #include "lab/trace/render.h"
 #include "options/lens_options.h"
+#include "options/looks/look_options.h"
 
 #include <string>
 #include <vector>
@@ -30,6 +31,7 @@ struct TraceOptions {
     PixelType type = PixelType::half;
     std::vector<DeepRequest> deep;
     LensValues lens;
+    LookOptions looks;
 };
 
 // Reads "WIDTHxHEIGHT" into options.width and height; false where the text is not of that form.

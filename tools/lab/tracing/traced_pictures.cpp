@@ -3,7 +3,9 @@
 #include "base/error.h"
 #include "io/plan_file.h"
 #include "lab/trace/deep.h"
+#include "lens/aperture.h"
 #include "lens/lens_points.h"
+#include "lens/lens_samples.h"
 
 #include <fmt/format.h>
 
@@ -25,6 +27,21 @@ void add_views(const TraceJob &job, const RenderSettings &settings, fmt::format_
                const std::vector<Imath::V2d> &points, std::uint32_t stream) {
     for (std::size_t k = 0; k < points.size(); ++k)
         add_view(job, settings, fmt::format(format, k), points[k], stream + std::uint32_t(k));
+}
+
+// Views are averaged with equal weights: the looks of the aperture's shape show so, others do not.
+std::vector<Imath::V2d> lens_view_points(const LensLooks &looks, int n) {
+    const Aperture aperture(looks.aperture);
+    const LensLooks shape_alone{.aperture = looks.aperture, .axis = looks.axis};
+    if (n > 0 && (looks != shape_alone || aperture.two_sided() || aperture.coloured()))
+        throw UsageError("--lens-views shows blades, squeeze and grey pictures of the aperture only: leave "
+                         "out other looks");
+    std::vector<Imath::V2d> points = spiral_lens_points(n);
+    if (looks.aperture == ApertureShape() || n == 0) return points;
+    const std::vector<LensSample> samples = lens_samples(aperture, std::size_t(n), 1);
+    for (std::size_t k = 0; k < points.size(); ++k)
+        points[k] = Imath::V2d(double(samples[k].x), -double(samples[k].y));
+    return points;
 }
 
 } // namespace
@@ -57,7 +74,8 @@ std::vector<Imath::V2d> trace_rim(const TraceJob &job) {
 void trace_lens(const TraceJob &job) {
     RenderSettings to_average = job.settings;
     to_average.scattered = true;
-    add_views(job, to_average, "lens_{:04}.exr", spiral_lens_points(job.options.lens_views), of_lens);
+    add_views(job, to_average, "lens_{:04}.exr", lens_view_points(job.settings.looks, job.options.lens_views),
+              of_lens);
 }
 
 void trace_reference(const TraceJob &job) {

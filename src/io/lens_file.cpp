@@ -1,0 +1,111 @@
+#include "io/lens_file.h"
+
+#include "base/error.h"
+#include "io/aperture_file.h"
+#include "io/files/text_file.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <map>
+
+namespace sparselens {
+
+namespace {
+
+using Json = nlohmann::json;
+
+class Reader {
+public:
+    Reader(const std::string &path, std::optional<double> fstop) : path_(path), fstop_(fstop) {}
+
+    LensFile read() {
+        const Json json = Json::parse(read_text_file(path_), nullptr, false);
+        if (!json.is_object())
+            throw Error(path_ + ": not a JSON object: expected e.g. {\"name\": \"Petzval\", \"cat-eye\": 1}");
+        LensFile file;
+        for (const auto &[key, value] : json.items()) read_key(file, key, value);
+        return file;
+    }
+
+private:
+    [[noreturn]] void refuse(const std::string &key, const Json &value, const std::string &expected) const {
+        throw Error(fmt::format("{}: '{}' is {}, not {}", path_, key, value.dump(), expected));
+    }
+
+    void read_key(LensFile &file, const std::string &key, const Json &value) {
+        const auto number =
+            std::ranges::find_if(look_numbers(), [&](const LookNumber &n) { return key == n.name; });
+        if (number != look_numbers().end()) {
+            file.values.*(number->value) = number_at(key, value, number->range, number->valid);
+        } else if (key == "name") {
+            if (!value.is_string()) refuse(key, value, "a text");
+            file.name = value.get<std::string>();
+        } else if (key == "aperture") {
+            if (!value.is_string()) refuse(key, value, "the name of a file");
+            const std::filesystem::path folder = std::filesystem::path(path_).parent_path();
+            file.values.picture = read_aperture_picture((folder / value.get<std::string>()).string());
+        } else if (key == "cat-eye-darkening") {
+            if (!value.is_boolean()) refuse(key, value, "true or false");
+            file.values.cat_eye_darkening = value.get<bool>();
+        } else if (key == "axial-chromatic-type") {
+            file.values.chromatic_type =
+                value.is_string() ? chromatic_type(value.get<std::string>()) : std::nullopt;
+            if (!file.values.chromatic_type) refuse(key, value, "red-blue, blue-yellow or green-magenta");
+        } else if (key == "tilt") {
+            if (!value.is_array() || value.size() != 2) refuse(key, value, "[X, Y] in degrees");
+            file.values.tilt_x = number_at(key, value[0], "degrees", is_tilt);
+            file.values.tilt_y = number_at(key, value[1], "degrees", is_tilt);
+        } else {
+            throw Error(
+                fmt::format("{}: '{}' is no look of a lens: give options' names without dashes", path_, key));
+        }
+    }
+
+    double number_at(const std::string &key, const Json &value, const char *range,
+                     bool (*valid)(double)) const {
+        if (value.is_object()) return by_fstop(key, value, range, valid);
+        if (!value.is_number() || !valid(value.get<double>())) refuse(key, value, range);
+        return value.get<double>();
+    }
+
+    double by_fstop(const std::string &key, const Json &value, const char *range,
+                    bool (*valid)(double)) const {
+        std::map<double, double> by_stops; // log2 of the f-number
+        for (const auto &[text, v] : value.items()) {
+            double fstop = 0;
+            const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), fstop);
+            if (error != std::errc() || end != text.data() + text.size() || !(fstop > 0) ||
+                !std::isfinite(fstop))
+                refuse(key + "' for '" + text, v, "for an f-number, e.g. \"1.4\"");
+            by_stops[std::log2(fstop)] = number_at(key, v, range, valid);
+        }
+        if (by_stops.empty()) refuse(key, value, range);
+        if (!fstop_)
+            throw UsageError(
+                fmt::format("{}: '{}' depends on the f-number, which is unknown: give --fstop", path_, key));
+        const double at = std::log2(*fstop_);
+        const auto after = by_stops.lower_bound(at);
+        if (after == by_stops.end()) return by_stops.rbegin()->second;
+        if (after == by_stops.begin()) return after->second;
+        const auto before = std::prev(after);
+        const double mixed =
+            std::lerp(before->second, after->second, (at - before->first) / (after->first - before->first));
+        return valid(mixed) ? mixed : before->second; // between 0 and 6 blades there are none
+    }
+
+    const std::string &path_;
+    std::optional<double> fstop_;
+};
+
+} // namespace
+
+LensFile read_lens_file(const std::string &path, std::optional<double> fstop) {
+    return Reader(path, fstop).read();
+}
+
+} // namespace sparselens

@@ -1,0 +1,24 @@
+// A lens's looks under a name, from a JSON file: {"name": "Petzval", "cat-eye": 1, "spherical": {"1.4": 0.6, "4": 0}}.
+//
+// Keys are the names of the options without dashes; "tilt" is [X, Y], "cat-eye-darkening" true or false, and "aperture" is
+// a file beside this one. A number may depend on the f-number: between two of them it is linear in the number of stops,
+// beyond the first and the last it stays.
+#pragma once
+
+#include "../view/look_values.h"
+
+#include <optional>
+#include <string>
+
+namespace sparselens {
+
+struct LensFile {
+    std::string name; // of the lens; empty: none
+    LookValues values;
+};
+
+// Throws Error, naming the file and the key, where it cannot be read or understood, and UsageError where a value depends on
+// the f-number, which is unknown.
+LensFile read_lens_file(const std::string &path, std::optional<double> fstop);
+
+} // namespace sparselens

@@ -1,0 +1,49 @@
+// A plane of focus that is bent or tilted (LensLooks): how the CoC differs from that of the flat one, by place. It does not
+// depend on depth, for c = R F (1/d - 1/z).
+#pragma once
+
+#include "lens/lens_looks.h"
+#include "lens/picture_frame.h"
+#include "lens/thin_lens.h"
+
+#include <algorithm>
+
+namespace sparselens {
+
+class FocusField {
+public:
+    FocusField(const LensLooks &looks, const ThinLens &lens, const PictureFrame &frame)
+        : looks_(looks), frame_(frame), at_focus_(lens.radius * lens.focal_px / lens.focus),
+          focal_px_(lens.focal_px) {}
+
+    bool flat() const { return looks_.field_curvature == 0 && looks_.tilt == Imath::V2d(0, 0); }
+
+    // Of 1/d, at p: 1 on the axis.
+    double factor(const Imath::V2d &p) const {
+        const Imath::V2d q = frame_.from_axis(p), place = frame_.place(p);
+        return (1 + looks_.field_curvature * place.dot(place)) * (1 + looks_.tilt.dot(q) / focal_px_);
+    }
+
+    // What is added to the CoC of what the ray through the middle of the lens shows at p, pixels.
+    double coc_offset(const Imath::V2d &p) const { return at_focus_ * (factor(p) - 1); }
+
+    // Its change from pixel to pixel.
+    Imath::V2d coc_gradient(const Imath::V2d &p) const {
+        const Imath::V2d x(0.5, 0), y(0, 0.5);
+        return {coc_offset(p + x) - coc_offset(p - x), coc_offset(p + y) - coc_offset(p - y)};
+    }
+
+private:
+    LensLooks looks_;
+    PictureFrame frame_;
+    double at_focus_; // R F / d
+    double focal_px_;
+};
+
+// What is at p in the centre view and has the CoC c there is seen through a lens point, which displaces by u for each pixel
+// of CoC, at x = p + (c + gradient (x - p)) u = p + c stretch(u) u. Beyond 1/10 of a fold nothing is stretched further.
+inline double stretch(const Imath::V2d &coc_gradient, const Imath::V2d &u) {
+    return 1 / std::max(0.1, 1 - coc_gradient.dot(u));
+}
+
+} // namespace sparselens
