@@ -1,7 +1,7 @@
 // The fast lens gather held against the slow one.
 #pragma once
 
-#include "dof/lens/lens_gather_reference.h"
+#include "dof/reference/lens_gather_reference.h"
 
 #include <gtest/gtest.h>
 

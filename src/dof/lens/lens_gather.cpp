@@ -3,6 +3,7 @@
 #include "base/parallel.h"
 #include "deep/flatten.h"
 #include "dof/lens/bend_samples.h"
+#include "dof/lens/filler_samples.h"
 #include "dof/lens/highlights.h"
 #include "dof/lens/lens_tile.h"
 #include "dof/lens/sample_blocks.h"
@@ -139,12 +140,12 @@ public:
         }
     }
 
-    // `stretched`: by how much lens points are at most. Their largest CoC is returned.
+    // Or the pixels next to it. `stretched`: by how much lens points are at most. Their largest CoC is returned.
     float find(const Imath::V2i &origin, int size, float stretched, std::vector<std::uint32_t> &found) const {
         found.clear();
         float largest = 0;
-        const auto left = float(origin.x), top = float(origin.y), right = left + float(size),
-                   bottom = top + float(size);
+        const float left = float(origin.x - 1), top = float(origin.y - 1), right = float(origin.x + size + 1),
+                    bottom = float(origin.y + size + 1);
         for (int row = 0; row < samples_.rows; ++row) {
             const float reach = row_reach_[std::size_t(row)] * stretched + 1;
             if (float((row + 1) * BlockedSamples::size) + reach < top ||
@@ -223,8 +224,8 @@ Image gather_once(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &wind
     const FocusField field(looks, lens, frame);
     const CatEye cat_eye(aperture, looks, frame);
     const bool moved = looks.magnification != 1;
-    if (moved || coc != 0 || !field.flat())
-        bend_samples(samples, field, coc, frame, looks.magnification, ldi.windows.data.min);
+    const bool bent = moved || coc != 0 || !field.flat();
+    if (bent) bend_samples(samples, field, coc, frame, looks.magnification, ldi.windows.data.min);
     const float widest = float(std::max(aperture.half_extent().x, aperture.half_extent().y));
     const auto sharp = [&](const SampleBlock &block) {
         return block.begin == block.end || largest_coc_of(block) * widest < in_focus;
@@ -236,14 +237,17 @@ Image gather_once(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &wind
     sharpen_near_focus(ldi, lens, samples, colours);
     const LightChannels light = light_channels(ldi);
     const Highlights highlights = take_highlights(samples, light.brightness, light.all, colours);
-    const BlockFinder finder(samples, aperture, lens.pixel_aspect);
+    FillerSamples fillers = place_fillers(ldi, lens, find_fillers(ldi, lens, window), samples, colours);
+    if (bent) bend_samples(fillers.samples, field, coc, frame, looks.magnification, ldi.windows.data.min);
+    const BlockFinder finder(samples, aperture, lens.pixel_aspect),
+        filler_finder(fillers.samples, aperture, lens.pixel_aspect);
     LensSets sets(options, aperture, lens.pixel_aspect);
     const HeldOut held_out{options.holdout, perceptive_depth(lens, 1), ldi.windows.data.min};
     const Windows &windows = out.windows;
     const std::vector<std::size_t> gathered = averaged_channels(out);
     progress.start("gathering", chosen.lens_points.size());
     tbb::enumerable_thread_specific<LensTile> tiles([&] {
-        return LensTile(samples, colours, highlights, held_out, cat_eye.cuts() ? &cat_eye : nullptr);
+        return LensTile(samples, colours, fillers, highlights, held_out, cat_eye.cuts() ? &cat_eye : nullptr);
     });
     parallel_for(chosen.lens_points.size(), [&](std::size_t t) {
         const Imath::V2i corner =
@@ -252,15 +256,16 @@ Image gather_once(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &wind
         const Imath::Box2i pixels(first, first + Imath::V2i(LensTile::size - 1));
         if (options.region && !options.region->intersects(pixels)) return progress.advance();
         const Imath::V2i origin = corner + window.min - ldi.windows.data.min;
-        std::vector<std::uint32_t> blocks;
+        LensTile::Blocks blocks;
         const Imath::V2d middle =
             frame.magnified(Imath::V2d(first) + Imath::V2d(LensTile::size / 2), 1 / looks.magnification);
         const Imath::V2d gradient = field.flat() ? Imath::V2d(0, 0) : field.coc_gradient(middle);
         const float steepest = float(stretch(gradient, gradient.normalized() * double(finder.extent())));
-        const float largest = finder.find(origin, LensTile::size, steepest, blocks) * widest;
+        const float largest = finder.find(origin, LensTile::size, steepest, blocks.samples) * widest;
         progress.advance();
         if (largest < in_focus && !moved) return; // the flattened LDI is there already
         const LensSets::Set &set = sets.for_coc(largest);
+        filler_finder.find(origin, LensTile::size, steepest, blocks.fillers);
         chosen.lens_points[t] = int(set.points.size());
         LensTile &tile = tiles.local();
         tile.gather(origin, blocks, field.flat() ? set.points : stretched(set.points, gradient),

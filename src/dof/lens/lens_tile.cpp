@@ -10,25 +10,25 @@ namespace sparselens {
 
 namespace {
 
-constexpr float same_surface = 0.5f; // pixels of perceptive depth
-
 constexpr float covered_at_all = 1 - 0x1p-24f; // a sample without coverage may still give light
 
 using Colour4 = std::array<float, 4>;
 
-bool out_of_reach(const SampleBlock &b, const LensSample &lens, float x, float y, float size) {
+template <typename Cells>
+bool out_of_reach(const SampleBlock &b, const LensSample &lens, float x, float y, const Cells &cells) {
     const auto [x0, x1] = std::minmax({b.coc_min * lens.x, b.coc_max * lens.x});
     const auto [y0, y1] = std::minmax({b.coc_min * lens.y, b.coc_max * lens.y});
-    return b.x_max + x1 + 1 < x || b.x_min + x0 - 1 > x + size || b.y_max + y1 + 1 < y ||
-           b.y_min + y0 - 1 > y + size;
+    return b.x_max + x1 + 1 < x + float(cells.left) || b.x_min + x0 - 1 > x + float(cells.right) ||
+           b.y_max + y1 + 1 < y + float(cells.top) || b.y_min + y0 - 1 > y + float(cells.bottom);
 }
 
 } // namespace
 
-LensTile::LensTile(const BlockedSamples &samples, const SampleColours &colours, const Highlights &highlights,
-                   const HeldOut &held_out, const CatEye *cat_eye)
-    : samples_(samples), colours_(colours), highlights_(highlights), held_out_(held_out), cat_eye_(cat_eye),
-      front_(stride * stride), transmittance_(stride * stride, 1.0f), veil_(stride * stride),
+LensTile::LensTile(const BlockedSamples &samples, const SampleColours &colours, const FillerSamples &fillers,
+                   const Highlights &highlights, const HeldOut &held_out, const CatEye *cat_eye)
+    : samples_(samples), colours_(colours), fillers_(fillers), highlights_(highlights), held_out_(held_out),
+      cat_eye_(cat_eye), front_(stride * stride), filler_(stride * stride), empty_cells_(size * size),
+      transmittance_(stride * stride, 1.0f), veil_(stride * stride),
       over_(colours.groups * stride * stride * 4), sums_(colours.groups * size * size * 4),
       spread_(sums_.size()), unknown_(size * size) {}
 
@@ -53,11 +53,11 @@ float LensTile::value(int x, int y, std::size_t channel) const {
     return (known > 0 ? sums_[at] / known : 0) + spread_[at];
 }
 
-void LensTile::gather(const Imath::V2i &origin, std::span<const std::uint32_t> blocks,
-                      std::span<const LensSample> lens, std::span<const HighlightPixel> spread) {
+void LensTile::gather(const Imath::V2i &origin, const Blocks &blocks, std::span<const LensSample> lens,
+                      std::span<const HighlightPixel> spread) {
     origin_x_ = float(origin.x);
     origin_y_ = float(origin.y);
-    blocks_.assign(blocks.begin(), blocks.end());
+    blocks_ = &blocks;
     collect_partial();
     std::fill(sums_.begin(), sums_.end(), 0.0f);
     std::fill(spread_.begin(), spread_.end(), 0.0f);
@@ -66,7 +66,11 @@ void LensTile::gather(const Imath::V2i &origin, std::span<const std::uint32_t> b
     begin_weighted(lens);
     for (std::uint32_t k = 0; k < lens.size(); ++k) {
         total_ += lens[k].weight;
-        see_opaque(lens[k]);
+        see_opaque(lens[k], samples_, blocks.samples, everywhere, front_);
+        weighted_ ? list_empty() : add_opaque(lens[k].weight);
+        find_cracks();
+        see_fillers(lens[k]);
+        close_cracks();
         see_partial(lens[k]);
         if (weighted_) {
             weigh_channels(lens[k]);
@@ -74,9 +78,10 @@ void LensTile::gather(const Imath::V2i &origin, std::span<const std::uint32_t> b
             add_opaque_weighted();
             add_partial_weighted();
         } else {
-            add_opaque(lens[k].weight);
+            add_unseen(lens[k].weight);
             add_partial(lens[k].weight);
         }
+        open_cracks(); // hides() has a rule of its own
         spread = add_highlights(spread, k);
         forget_partial();
     }
@@ -85,7 +90,7 @@ void LensTile::gather(const Imath::V2i &origin, std::span<const std::uint32_t> b
 void LensTile::collect_partial() {
     auto &[sample, x, y, coc, cell, highlight] = partial_;
     sample.clear();
-    for (const std::uint32_t b : blocks_)
+    for (const std::uint32_t b : blocks_->samples)
         for (std::uint32_t i = samples_.blocks[b].opaque_end; i < samples_.blocks[b].end; ++i)
             sample.push_back(i);
     std::sort(sample.begin(), sample.end(), [&](std::uint32_t a, std::uint32_t b) {
@@ -104,29 +109,33 @@ void LensTile::collect_partial() {
     cell.resize(sample.size());
 }
 
-void LensTile::see_opaque(const LensSample &lens) {
-    std::fill(front_.begin(), front_.end(), 0);
-    const TileProjection projection(lens, origin_x_, origin_y_, stride);
+// The nearest opaque one in each of the cells.
+void LensTile::see_opaque(const LensSample &lens, const BlockedSamples &samples,
+                          std::span<const std::uint32_t> blocks, const Cells &seen,
+                          std::vector<std::uint64_t> &front) const {
+    std::fill(&front[cell_of(-border, seen.top)], &front[cell_of(-border, seen.bottom)], 0);
+    const float x = origin_x_ - (border - 1), y = origin_y_ - (border - 1);
+    const TileProjection projection(lens, x, y, stride);
     std::array<std::int32_t, 256> cells;
-    for (const std::uint32_t b : blocks_) {
-        const SampleBlock &block = samples_.blocks[b];
-        if (out_of_reach(block, lens, origin_x_, origin_y_, float(size))) continue;
+    for (const std::uint32_t b : blocks) {
+        const SampleBlock &block = samples.blocks[b];
+        if (out_of_reach(block, lens, origin_x_, origin_y_, seen)) continue;
         for (std::uint32_t begin = block.begin; begin < block.opaque_end;
              begin += std::uint32_t(cells.size())) {
             const std::uint32_t count = std::min(std::uint32_t(cells.size()), block.opaque_end - begin);
-            project_to_cells(projection, &samples_.x[begin], &samples_.y[begin], &samples_.coc[begin], count,
+            project_to_cells(projection, &samples.x[begin], &samples.y[begin], &samples.coc[begin], count,
                              cells.data());
-            const std::uint64_t *key = &samples_.key[begin];
+            const std::uint64_t *key = &samples.key[begin];
             for (std::uint32_t i = 0; i < count; ++i) {
-                std::uint64_t &front = front_[std::size_t(cells[i])];
-                front = std::max(front, key[i]);
+                std::uint64_t &cell = front[std::size_t(cells[i])];
+                cell = std::max(cell, key[i]);
             }
         }
     }
 }
 
 void LensTile::see_partial(const LensSample &lens) {
-    const TileProjection projection(lens, origin_x_, origin_y_, stride);
+    const TileProjection projection(lens, origin_x_ - (border - 1), origin_y_ - (border - 1), stride);
     const std::size_t count = partial_.sample.size();
     project_to_cells(projection, partial_.x.data(), partial_.y.data(), partial_.coc.data(),
                      std::uint32_t(count), partial_.cell.data());
@@ -136,7 +145,7 @@ void LensTile::see_partial(const LensSample &lens) {
         if (samples_.key[i] < front_[cell]) continue;
         float &transmittance = transmittance_[cell];
         if (transmittance == 1) covered_.push_back(std::uint32_t(cell));
-        const float share = transmittance * passes(int(cell) % stride - 1, int(cell) / stride - 1, i);
+        const float share = transmittance * passes(column_of(cell), row_of(cell), samples_.depth[i]);
         const std::size_t first_group = in_front(i) ? colours_.groups : 0;
         for (std::size_t g = 0; g < colours_.groups; ++g) {
             const float *colour = &colours_.group(g)[std::size_t(i) * 4];
@@ -153,41 +162,43 @@ void LensTile::see_partial(const LensSample &lens) {
     }
 }
 
-// Adds the picture that the lens point sees of the opaque samples.
+// Adds the picture that the lens point sees of the opaque samples, and lists the cells where it sees none.
 void LensTile::add_opaque(float weight) {
     const bool held_out = held_out_.by != nullptr;
+    std::size_t count = 0;
     for (std::size_t g = 0; g < colours_.groups; ++g) {
         const float *colours = colours_.group(g).data();
         for (int y = 0; y < size; ++y) {
-            const std::uint64_t *front = &front_[std::size_t((y + 1) * stride + 1)];
+            const std::uint64_t *front = &front_[cell_of(0, y)];
             float *sum = &sums_[(g * size * size + std::size_t(y * size)) * 4];
             for (int x = 0; x < size; ++x, sum += 4) {
                 if (front[x] == 0) {
-                    if (g == 0) unknown_[std::size_t(y * size + x)] += weight;
+                    if (g == 0) empty_cells_[count++] = std::uint32_t(cell_of(x, y));
                     continue;
                 }
                 Colour4 colour; // a copy: the compiler need not fear that sum overlaps it
                 std::copy_n(colours + std::size_t(std::uint32_t(front[x])) * 4, 4, colour.begin());
-                const float share = held_out ? weight * passes(x, y, std::uint32_t(front[x])) : weight;
+                const float share = held_out ? weight * opaque_passes(x, y) : weight;
                 for (std::size_t k = 0; k < 4; ++k) sum[k] += share * colour[k];
             }
         }
     }
+    empty_ = std::span(empty_cells_).first(count);
 }
 
-// Puts the partial samples in front of what add_opaque() added.
+// Puts the partial samples in front of what add_opaque() and add_unseen() added.
 void LensTile::add_partial(float weight) {
     for (const std::uint32_t cell : covered_) {
-        const int x = int(cell) % stride - 1, y = int(cell) / stride - 1;
+        const int x = column_of(cell), y = row_of(cell);
         if (x < 0 || y < 0 || x >= size || y >= size) continue;
         const std::size_t pixel = std::size_t(y * size + x);
-        const bool known = front_[cell] != 0;
+        const bool known = front_[cell] != 0 || filler_[cell] != 0;
         const float hidden = 1 - transmittance_[cell];
         if (!known) unknown_[pixel] -= weight * hidden;
-        const float taken = known ? hidden * passes(x, y, std::uint32_t(front_[cell])) : 0;
+        const float taken = known ? hidden * opaque_passes(x, y) : 0;
         for (std::size_t g = 0; g < colours_.groups; ++g) {
             const float *over = &over_[(g * stride * stride + cell) * 4];
-            const float *behind = &colours_.group(g)[std::size_t(std::uint32_t(front_[cell])) * 4];
+            const float *behind = opaque_colour(g, cell);
             float *sum = &sums_[(g * size * size + pixel) * 4];
             for (int k = 0; k < 4; ++k) sum[k] += weight * (over[k] - (known ? taken * behind[k] : 0));
         }
@@ -205,11 +216,11 @@ void LensTile::forget_partial() {
     covered_.clear();
 }
 
-float LensTile::passes(int x, int y, std::uint32_t sample) const {
+float LensTile::passes(int x, int y, float depth) const {
     const bool inside = x >= 0 && y >= 0 && x < size && y < size;
     if (!held_out_.by || !inside) return 1;
-    const double depth = double(samples_.depth[sample]);
-    const double z = depth > 0 ? held_out_.depth_at_1 / depth : std::numeric_limits<double>::infinity();
+    const double z =
+        depth > 0 ? held_out_.depth_at_1 / double(depth) : std::numeric_limits<double>::infinity();
     return float(held_out_.by->passes(held_out_.corner.x + int(origin_x_) + x,
                                       held_out_.corner.y + int(origin_y_) + y, z));
 }
@@ -217,11 +228,8 @@ float LensTile::passes(int x, int y, std::uint32_t sample) const {
 // Whether what lies at that depth is behind something in a cell, also where a surface is torn there: a crack one
 // cell wide in what is drawn as points must not let a lamp through.
 bool LensTile::hides(int x, int y, float depth) const {
-    const std::uint64_t limit = depth_key(depth + same_surface, 0xffffffffu);
-    const auto front = [&](int column, int row) { // the border holds what fell outside, wherever
-        const bool inside = column >= 0 && row >= 0 && column < size && row < size;
-        return inside && front_[std::size_t((row + 1) * stride + column + 1)] > limit;
-    };
+    const std::uint64_t limit = depth_key(depth + float(one_surface_px), 0xffffffffu);
+    const auto front = [&](int column, int row) { return front_[cell_of(column, row)] > limit; };
     return front(x, y) || (front(x - 1, y) && front(x + 1, y)) || (front(x, y - 1) && front(x, y + 1));
 }
 
@@ -231,13 +239,14 @@ std::span<const HighlightPixel> LensTile::add_highlights(std::span<const Highlig
     std::size_t done = 0;
     for (; done < spread.size() && spread[done].lens == lens; ++done) {
         const HighlightPixel &p = spread[done];
-        const std::size_t cell = std::size_t((p.y + 1) * stride + p.x + 1),
-                          pixel = std::size_t(p.y * size + p.x);
+        const std::size_t cell = cell_of(p.x, p.y), pixel = std::size_t(p.y * size + p.x);
         const std::uint32_t sample = highlights_.sample[p.highlight];
         if (hides(p.x, p.y, samples_.depth[sample])) continue;
         const Veil &veil = veil_[cell];
-        const bool veiled = veil.transmittance < 1 && veil.depth > samples_.depth[sample] + same_surface;
-        const float weight = p.weight * (veiled ? veil.transmittance : 1) * passes(p.x, p.y, sample);
+        const bool veiled =
+            veil.transmittance < 1 && veil.depth > samples_.depth[sample] + float(one_surface_px);
+        const float weight =
+            p.weight * (veiled ? veil.transmittance : 1) * passes(p.x, p.y, samples_.depth[sample]);
         for (std::size_t g = 0; g < colours_.groups; ++g)
             for (std::size_t k = 0; k < 4; ++k)
                 if (p.of & colours_.sets[g * 4 + k])

@@ -1,12 +1,13 @@
 // One tile of the lens picture: every lens point sees its own picture of the samples, each a square one pixel
 // wide and high, the nearest opaque one in front; the mean over the lens points is the tile.
 //
-// Samples of partial coverage are composited front to back over the opaque one behind them. A lens point that
-// meets nothing opaque sees what lies behind as unknown: only the light in front of it counts, and the weights
-// are renormalised. lens_gather_reference.h says the same slowly.
+// Samples of partial coverage are composited front to back over the opaque one behind them. What a lens point sees
+// that meets nothing opaque, and what of it is unknown, lens_gather_reference.h says, and does slowly. Where it is
+// unknown, only the light in front of it counts, and the weights are renormalised.
 #pragma once
 
 #include "deep/holdout.h"
+#include "dof/lens/filler_samples.h"
 #include "dof/lens/highlights.h"
 #include "dof/lens/sample_blocks.h"
 #include "dof/lens/sample_colours.h"
@@ -33,13 +34,18 @@ class LensTile {
 public:
     static constexpr int size = 64; // pixels wide and high: the buffers of a lens point stay in the cache
 
-    LensTile(const BlockedSamples &samples, const SampleColours &colours, const Highlights &highlights,
-             const HeldOut &held_out = {}, const CatEye *cat_eye = nullptr);
+    // What is gathered from: blocks of samples, and blocks of fillers.
+    struct Blocks {
+        std::vector<std::uint32_t> samples, fillers;
+    };
+
+    LensTile(const BlockedSamples &samples, const SampleColours &colours, const FillerSamples &fillers,
+             const Highlights &highlights, const HeldOut &held_out = {}, const CatEye *cat_eye = nullptr);
 
     // Gathers the pixels [origin, origin + size), relative to the data window's corner like the samples, from
-    // the blocks that can reach them. `spread`: highlight_pixels() of the tile.
-    void gather(const Imath::V2i &origin, std::span<const std::uint32_t> blocks,
-                std::span<const LensSample> lens, std::span<const HighlightPixel> spread);
+    // the blocks that can reach them or the pixels next to them. `spread`: highlight_pixels() of the tile.
+    void gather(const Imath::V2i &origin, const Blocks &blocks, std::span<const LensSample> lens,
+                std::span<const HighlightPixel> spread);
 
     // The mean over the known lens points at a pixel of the tile, and what highlights spread there. `dark`: no lens
     // point is known and no highlight reaches it.
@@ -47,15 +53,31 @@ public:
     float value(int x, int y, std::size_t channel) const;
 
 private:
-    // The buffers have a border of one cell that takes what falls outside.
-    static constexpr int stride = size + 2;
+    // The buffers have a border of one pixel, and one of cells that take what falls outside of that.
+    static constexpr int border = 2, stride = size + 2 * border;
+    static std::size_t cell_of(int x, int y) { return std::size_t((y + border) * stride + x + border); }
+    static int column_of(std::size_t cell) { return int(cell) % stride - border; }
+    static int row_of(std::size_t cell) { return int(cell) / stride - border; }
+    struct Cells { // by the pixels of the tile, right and bottom excluded
+        int left, top, right, bottom;
+    };
+    static constexpr Cells everywhere{1 - border, 1 - border, size + border - 1, size + border - 1};
 
     float known_weight(int x, int y) const; // of the lens points; 0: none
     void collect_partial();
-    void see_opaque(const LensSample &lens);
+    void see_opaque(const LensSample &lens, const BlockedSamples &samples,
+                    std::span<const std::uint32_t> blocks, const Cells &seen,
+                    std::vector<std::uint64_t> &front) const;
+    std::uint64_t torn_at(std::size_t cell) const;
+    void find_cracks();
+    void close_cracks();
+    void open_cracks();
+    void see_fillers(const LensSample &lens);
     void see_partial(const LensSample &lens);
-    float passes(int x, int y, std::uint32_t sample) const; // of its light, the holdout
+    float passes(int x, int y, float depth) const; // of light from there, the holdout
     bool hides(int x, int y, float depth) const;
+    const float *opaque_colour(std::size_t group, std::size_t cell) const;
+    float opaque_passes(int x, int y) const; // of the light of what is opaque there
     // The same where lens points weigh differently for colours or sides of the focus (lens_tile_weights.cpp).
     void begin_weighted(std::span<const LensSample> lens);
     void weigh_channels(const LensSample &lens);
@@ -63,15 +85,18 @@ private:
     bool in_columns(int x, int y) const {
         return x >= columns_[std::size_t(y)].begin && x < columns_[std::size_t(y)].end;
     }
-    void add_opaque_weighted();
     // A cat-eye that darkens takes light from colours only.
     bool is_darkened(std::size_t channel) const {
         return (colours_.sets[channel] & (red | green | blue)) != 0;
     }
-    void add_partial_weighted();
     float known_of(std::size_t at) const; // weight of what is known, an index of sums_
     bool in_front(std::uint32_t sample) const { return two_sided_ && samples_.coc[sample] < 0; }
+    bool opaque_in_front(std::size_t cell) const;
+    void list_empty();
+    void add_opaque_weighted();
+    void add_partial_weighted();
     void add_opaque(float weight);
+    void add_unseen(float weight);
     void add_partial(float weight);
     std::span<const HighlightPixel> add_highlights(std::span<const HighlightPixel> spread,
                                                    std::uint32_t lens);
@@ -79,12 +104,13 @@ private:
 
     const BlockedSamples &samples_;
     const SampleColours &colours_;
+    const FillerSamples &fillers_;
     const Highlights &highlights_;
     HeldOut held_out_;
     const CatEye *cat_eye_;
     float origin_x_ = 0, origin_y_ = 0;
     float total_ = 0; // weight of the lens points
-    std::vector<std::uint32_t> blocks_;
+    const Blocks *blocks_ = nullptr;
     // Samples of partial coverage, front to back.
     struct Partial {
         std::vector<std::uint32_t> sample;
@@ -98,7 +124,15 @@ private:
         float transmittance = 1; // of all of those
     };
     // Of one lens point:
-    std::vector<std::uint64_t> front_; // [cell]: key of the nearest opaque sample; 0: none
+    std::vector<std::uint64_t> front_;  // [cell]: key of the nearest opaque sample; 0: none
+    std::vector<std::uint64_t> filler_; // [cell]: of those in empty_: key of the filler that shows; 0: none
+    std::vector<std::uint32_t> empty_cells_;
+    std::span<const std::uint32_t> empty_; // cells of the tile's pixels without any
+    struct Crack {
+        std::uint32_t cell;
+        std::uint64_t key; // of the sample that shows through it
+    };
+    std::vector<Crack> cracks_;
     std::vector<float> transmittance_; // [cell]: of the partial samples in front
     std::vector<Veil> veil_;           // [cell]
     std::vector<float> over_; // [side][group][cell][4]: their colours; all on side 0 unless two_sided_

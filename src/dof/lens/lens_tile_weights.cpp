@@ -42,20 +42,35 @@ void LensTile::find_columns(const LensSample &lens) {
                                             : CatEye::Columns{0, size};
 }
 
+bool LensTile::opaque_in_front(std::size_t cell) const {
+    if (front_[cell] != 0) return in_front(std::uint32_t(front_[cell]));
+    return two_sided_ && filler_[cell] != 0 && fillers_.samples.coc[std::uint32_t(filler_[cell])] < 0;
+}
+
+// The cells where the lens point sees nothing opaque.
+void LensTile::list_empty() {
+    std::size_t count = 0;
+    for (int y = 0; y < size; ++y)
+        for (int x = 0; x < size; ++x)
+            if (const std::size_t cell = cell_of(x, y); front_[cell] == 0)
+                empty_cells_[count++] = std::uint32_t(cell);
+    empty_ = std::span(empty_cells_).first(count);
+}
+
+// What is seen through cracks, and fillers, among it.
 void LensTile::add_opaque_weighted() {
     const bool darkens = cat_eye_ && cat_eye_->darkens();
-    for (std::size_t g = 0; g < colours_.groups; ++g) {
-        const float *colours = colours_.group(g).data();
+    for (std::size_t g = 0; g < colours_.groups; ++g)
         for (int y = 0; y < size; ++y) {
-            const std::uint64_t *front = &front_[std::size_t((y + 1) * stride + 1)];
             const std::size_t row = (g * size * size + std::size_t(y * size)) * 4;
             for (int x = 0; x < size; ++x) {
+                const std::size_t cell = cell_of(x, y);
                 const bool passes_through = in_columns(x, y);
-                if (front[x] == 0 || (!passes_through && !darkens)) continue;
-                const std::uint32_t sample = std::uint32_t(front[x]);
-                const float *weights = &channel_weights_[in_front(sample)][g * 4];
-                const float *colour = colours + std::size_t(sample) * 4;
-                const float share = held_out_.by ? passes(x, y, sample) : 1;
+                if (!passes_through && !darkens) continue;
+                const float *colour = opaque_colour(g, cell);
+                if (!colour) continue;
+                const float *weights = &channel_weights_[opaque_in_front(cell)][g * 4];
+                const float share = held_out_.by ? opaque_passes(x, y) : 1;
                 for (std::size_t k = 0; k < 4; ++k) {
                     const std::size_t at = row + std::size_t(x) * 4 + k;
                     if (passes_through || !is_darkened(g * 4 + k))
@@ -64,7 +79,6 @@ void LensTile::add_opaque_weighted() {
                 }
             }
         }
-    }
 }
 
 // Puts the partial samples in front of what add_opaque_weighted() added.
@@ -72,25 +86,24 @@ void LensTile::add_partial_weighted() {
     const bool darkens = cat_eye_ && cat_eye_->darkens();
     const std::size_t side_size = colours_.groups * stride * stride * 4;
     for (const std::uint32_t cell : covered_) {
-        const int x = int(cell) % stride - 1, y = int(cell) / stride - 1;
+        const int x = column_of(cell), y = row_of(cell);
         if (x < 0 || y < 0 || x >= size || y >= size) continue;
         const bool passes_through = in_columns(x, y);
         if (!passes_through && !darkens) continue;
-        const bool known = front_[cell] != 0;
-        const std::uint32_t opaque = std::uint32_t(front_[cell]);
+        const bool known = opaque_colour(0, cell) != nullptr;
         const float hidden = 1 - transmittance_[cell],
                     hidden_in_front = two_sided_ ? hidden_in_front_[cell] : 0;
-        const float taken = known ? hidden * passes(x, y, opaque) : 0;
+        const float taken = known ? hidden * opaque_passes(x, y) : 0;
         for (std::size_t k = 0; k < colours_.groups * 4; ++k) {
             const std::size_t at = (k / 4 * size * size + std::size_t(y * size + x)) * 4 + k % 4,
                               over = (k / 4 * stride * stride + cell) * 4 + k % 4;
             const float behind = channel_weights_[0][k], in_front_of = channel_weights_[1][k];
-            const float weight = known ? channel_weights_[in_front(opaque)][k] : 0;
+            const float weight = known ? channel_weights_[opaque_in_front(cell)][k] : 0;
             known_[at] +=
                 behind * (hidden - hidden_in_front) + in_front_of * hidden_in_front - weight * hidden;
             if (!passes_through && is_darkened(k)) continue;
             sums_[at] += behind * over_[over] + (two_sided_ ? in_front_of * over_[side_size + over] : 0);
-            if (known) sums_[at] -= weight * taken * colours_.group(k / 4)[std::size_t(opaque) * 4 + k % 4];
+            if (known) sums_[at] -= weight * taken * opaque_colour(k / 4, cell)[k % 4];
         }
     }
 }

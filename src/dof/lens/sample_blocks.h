@@ -7,6 +7,7 @@
 
 #include <bit>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace sparselens {
@@ -41,10 +42,23 @@ inline std::uint64_t depth_key(float depth, std::uint32_t sample) {
     return (std::uint64_t(std::bit_cast<std::uint32_t>(depth) + 2) << 32) | sample;
 }
 // A background lies behind what the LDI has at infinity.
-inline std::uint64_t background_key(std::uint32_t sample) { return (std::uint64_t(1) << 32) | sample; }
+constexpr std::uint64_t background_key(std::uint32_t sample) { return (std::uint64_t(1) << 32) | sample; }
+
+// Half's last steps below 1 are rounding, not coverage; less than 1/2048 of a pixel left over is rounding too.
+inline bool is_opaque(float alpha) { return alpha >= 0.9995f; }
+inline bool lets_through(double transmittance) { return transmittance >= 1.0 / 2048; }
 
 // `known`: the window (EXR coordinates) in which an empty pixel is transparent to infinity; outside of it,
 // nothing is known. Throws Error where the LDI has more samples than 32 bits count.
 BlockedSamples make_blocks(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &known);
+
+struct PlacedSample {
+    float x, y, coc, depth, alpha;
+    std::uint32_t source;
+};
+
+// Of what `place(x, y, placed)` appends for the pixel in that column and row of a window of this size.
+using PlaceSamples = std::function<void(int x, int y, std::vector<PlacedSample> &placed)>;
+BlockedSamples make_blocks(const Windows &windows, const PlaceSamples &place);
 
 } // namespace sparselens

@@ -2,7 +2,7 @@
 
 #include "base/random.h"
 #include "dof/lens/lens_gather.h"
-#include "dof/lens/lens_gather_reference.h"
+#include "dof/reference/lens_gather_reference.h"
 #include "lens/lens_samples.h"
 
 #include <algorithm>

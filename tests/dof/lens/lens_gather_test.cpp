@@ -212,8 +212,8 @@ TEST(LensGather, BlursCoverageAtAnEdgeBeforeNothing) {
     for (const double c : {-6.0, -2.5}) {
         const Image image = gather(half_plane(far_focus, c, 0, 0), far_focus, 1024);
         for (int x = 16; x < 48; ++x) {
-            // Behind what covers a pixel nothing is known, not even that nothing is there.
-            const double share = x < 32 ? 1 : share_in_pixel(32 - (x + 0.5), std::abs(c));
+            // The nothing beside what covers a pixel goes on behind it.
+            const double share = share_in_pixel(32 - (x + 0.5), std::abs(c));
             ASSERT_NEAR(image.at(1, x, 20), share, 0.01) << x;
             ASSERT_NEAR(image.at(0, x, 20), 0.8 * share, 0.01) << x;
         }

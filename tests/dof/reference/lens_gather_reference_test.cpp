@@ -102,9 +102,9 @@ TEST(LensGatherReferenceItself, OneLensPointSeesThePinholePictureShifted) {
         return std::vector<Sample>{{depth_of(lens, x == 4 ? -3 : 2), {float(x)}}};
     });
     const ReferencePicture image = lens_gather_reference(ldi, lens, ldi.windows.data, std::span(&right, 1));
-    // Pixels of CoC 2 move two to the right, the one in front three to the left; where it was nothing is seen, and
-    // the pixel stays as it is.
-    const float expected[] = {0, 4, 0, 1, 2, 3, 6, 5, 6};
+    // Pixels of CoC 2 move two to the right, the one in front three to the left; behind it lies the mean of what is
+    // beside it. What comes in from beyond the picture is unknown: the pixel stays as it is.
+    const float expected[] = {0, 4, 0, 1, 2, 3, 4, 5, 6};
     for (int x = 0; x < 9; ++x) EXPECT_EQ(seen(image, 0, x), expected[x]) << x;
 }
 
@@ -126,26 +126,42 @@ TEST(LensGatherReferenceItself, WhatLiesBehindCoverageCountsByWhatIsLeft) {
 }
 
 TEST(LensGatherReferenceItself, UnknownIsLeftOut) {
-    const ThinLens lens{.radius = 0.06, .focal_px = 640, .focus = inf}; // CoC 0 at infinity
-    const double z = 0.06 * 640 / 2;                                    // CoC -2
-    // The middle of the lens sees what covers the pixel; the point to the left (thrice as likely) sees it moved
-    // away, and in its place what half-covers a pixel that the picture has not.
+    const ThinLens lens{.radius = 0.06, .focal_px = 640, .focus = 5};
+    // The middle of the lens sees what covers the pixel; the point to the left (thrice as likely) sees it moved away,
+    // and the glass in focus before it still in its place.
     const LensSample points[] = {{0, 0, 0, 0, 1}, {-1, 0, 0, 0, 3}};
-    Windows windows = windows_of_size(1, 1);
-    windows.data.min.x = -2;
-    const auto gather = [&](bool neighbour) {
-        const Ldi ldi = make_ldi(windows, {{"Y"}, {"A"}}, [&](int x, int) {
-            std::vector<Sample> samples;
-            if (x == -2 && neighbour) samples.push_back({z, {0.2f, 0.5f}});
-            if (x == 0) samples.push_back({z, {0.9f, 1}});
+    const auto gather = [&](bool glass) {
+        const Ldi ldi = make_ldi(windows_of_size(1, 1), {{"Y"}, {"A"}}, [&](int, int) {
+            std::vector<Sample> samples{{depth_of(lens, 2), {0.9f, 1}}};
+            if (glass) samples.insert(samples.begin(), {5, {0.2f, 0.5f}});
             return samples;
         });
-        return lens_gather_reference(ldi, lens, {{0, 0}, {0, 0}}, points);
+        return lens_gather_reference(ldi, lens, ldi.windows.data, points);
     };
     EXPECT_FLOAT_EQ(seen(gather(false), 0, 0), 0.9f);
     EXPECT_FLOAT_EQ(seen(gather(false), 1, 0), 1);
-    EXPECT_FLOAT_EQ(seen(gather(true), 0, 0), (0.9f + 3 * 0.2f) / (1 + 3 * 0.5f));
+    EXPECT_FLOAT_EQ(seen(gather(true), 0, 0), (0.2f + 0.5f * 0.9f + 3 * 0.2f) / (1 + 3 * 0.5f));
     EXPECT_FLOAT_EQ(seen(gather(true), 1, 0), 1);
+}
+
+// A plane whose neighbours part by less than half a pixel shows no crack, and a gap that the picture shows is none.
+TEST(LensGatherReferenceItself, CracksAreClosedAndGapsAreNot) {
+    const ThinLens lens{.radius = 0.06, .focal_px = 640, .focus = 5};
+    const LensSample right{1, 0, 0, 0, 1};
+    const auto gather = [&](const std::vector<double> &cocs) {
+        const Ldi ldi = make_ldi(windows_of_size(int(cocs.size()), 1), {{"Y"}}, [&](int x, int) {
+            return std::vector<Sample>{{depth_of(lens, cocs[std::size_t(x)]), {float(x)}}};
+        });
+        return lens_gather_reference(ldi, lens, ldi.windows.data, std::span(&right, 1));
+    };
+    // Pixels 1 and 2 part at pixel 2; what is seen there is the farther of them.
+    const ReferencePicture crack = gather({0.2, 0.4, 0.7, 0.8, 1.1});
+    EXPECT_EQ(seen(crack, 0, 1), 1);
+    EXPECT_EQ(seen(crack, 0, 2), 2);
+    EXPECT_EQ(seen(crack, 0, 3), 2);
+    // Through a gap one pixel wide, pixel 2, what lies behind it is not what is on either side of it: moved away, it
+    // leaves a filler that those hide, and the pixel stays as it is.
+    EXPECT_EQ(seen(gather({0, 0, 6, 0, 0}), 0, 2), 2);
 }
 
 } // namespace

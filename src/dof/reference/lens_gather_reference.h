@@ -1,13 +1,19 @@
 // The lens gather, slow and obvious: every lens point of every pixel tries every sample, in long double, from the
-// formulas of design.md section 1 and nothing else of this library's kernels. Tests the fast one.
+// formulas of design.md section 1 and, of this library's kernels, find_fillers() alone. Tests the fast one.
 //
 // A lens point looks through one point of the pixel. It sees the samples whose unit square, displaced by their
 // CoC, covers that point, front to back: coverage is taken for independent, and the first opaque one ends it.
 // Inside `window` a pixel that lets light through to infinity has an opaque, colourless, transparent background
-// there, and another one that moves with its last sample, behind everything. A lens point that meets nothing opaque
-// does not know what lies behind: it counts by what it does know, which is the coverage that it met. Coverage of
-// 0.9995 or more is full, and a pixel of which less than 1/2048 is left lets no light through: such differences are
-// what rounding to halves makes.
+// there, and another one that moves with its last sample, behind everything. Coverage of 0.9995 or more is full, and a
+// pixel of which less than 1/2048 is left lets no light through: such differences are what rounding to halves makes.
+//
+// A lens point that meets nothing opaque in a pixel looks at what it meets in the pixels beside it, to the left and to
+// the right, above and below:
+// - two samples on either side, less than 1.5 pixels apart in x and in y and one_surface_px in depth, are a surface
+//   torn by parallax: it sees the farther of them (of two such pairs, the farthest; where they are as far, the first);
+// - else it sees the nearest filler (fillers.h), unless what lies on either side is nearer than that by more than
+//   one_surface_px: a gap so narrow may as well be a crack;
+// - else it does not know what lies there: it counts by what it does know, which is the coverage that it met.
 #pragma once
 
 #include "base/image.h"

@@ -1,0 +1,162 @@
+#include "dof/lens/fillers.h"
+
+#include "base/parallel.h"
+#include "deep/build.h"
+#include "dof/lens/sample_blocks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <tuple>
+
+namespace sparselens {
+
+namespace {
+
+constexpr float half_covered = 0.5f;
+constexpr float unknown = -1; // depth of a ground
+
+// The last thing that a pixel holds.
+struct Ground {
+    float depth = unknown;                  // perceptive depth, pixels
+    float coc = 0;                          // pixels
+    std::uint32_t sample = Filler::nothing; // of the LDI
+};
+
+Ground ground_of(const Ldi &ldi, const ThinLens &lens, std::size_t pixel, bool known) {
+    const auto at_depth = [&](double z, std::uint32_t sample) {
+        return Ground{float(perceptive_depth(lens, z)), float(circle_of_confusion(lens, z)), sample};
+    };
+    const std::size_t alpha_channel = ldi.alpha();
+    double transmittance = 1;
+    std::uint32_t last = Filler::nothing;
+    for (const std::uint64_t i : ldi.pixel(pixel)) {
+        const float alpha = std::clamp(alpha_at(ldi, alpha_channel, i), 0.0f, 1.0f);
+        transmittance *= 1 - double(alpha);
+        if (alpha >= half_covered) last = std::uint32_t(i);
+    }
+    if (lets_through(transmittance))
+        return known ? at_depth(std::numeric_limits<double>::infinity(), Filler::nothing) : Ground{};
+    return last == Filler::nothing ? Ground{} : at_depth(double(ldi.z[last]), last);
+}
+
+std::vector<Ground> find_grounds(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &known) {
+    std::vector<Ground> grounds(ldi.windows.pixels());
+    parallel_ranges(grounds.size(), 4096, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t pixel = begin; pixel < end; ++pixel)
+            grounds[pixel] = ground_of(ldi, lens, pixel, known.intersects(ldi.windows.pixel(pixel)));
+    });
+    return grounds;
+}
+
+// Whether a ground goes on n pixels beyond its end, where there is another.
+bool goes_on(const Ground &ground, const Ground &other, int n) {
+    if (other.depth == unknown) return float(n - 1) < std::abs(ground.coc);
+    const float nearer = other.depth - ground.depth;
+    return nearer > float(one_surface_px) && float(n - 1) < std::numbers::sqrt2_v<float> * nearer;
+}
+
+// The pixels of a row or a column, from either end.
+struct Line {
+    std::ptrdiff_t first, step;
+    int length;
+    std::size_t pixel(int i) const { return std::size_t(first + i * step); }
+};
+
+constexpr std::size_t directions = 4; // in which grounds go on: right, left, down, up
+
+Line line_of(const Windows &windows, std::size_t direction, std::size_t number) {
+    const std::ptrdiff_t width = windows.width(), height = windows.height(), at = std::ptrdiff_t(number);
+    switch (direction) {
+    case 0: return {at * width, 1, int(width)};
+    case 1: return {(at + 1) * width - 1, -1, int(width)};
+    case 2: return {at, width, int(height)};
+    default: return {(height - 1) * width + at, -width, int(height)};
+    }
+}
+
+// How far each pixel is from the end of the ground that goes on there in each direction; 0: none does.
+using Distances = std::vector<std::array<std::uint16_t, directions>>;
+
+// Lets the grounds of a line go on towards its end, the last first, which are nearest to where they go on. One that
+// meets another that is as far goes on no longer: that other is nearer and goes on as far.
+void continue_grounds(std::span<const Ground> grounds, const Line &line, std::size_t direction,
+                      Distances &distances) {
+    for (int i = line.length - 2; i >= 0; --i) {
+        const Ground &ground = grounds[line.pixel(i)];
+        if (ground.depth == unknown) continue;
+        const int most = std::min(line.length - 1 - i, int(std::numeric_limits<std::uint16_t>::max()));
+        for (int n = 1; n <= most; ++n) {
+            const Ground &other = grounds[line.pixel(i + n)];
+            if (!goes_on(ground, other, n)) break;
+            std::uint16_t &distance = distances[line.pixel(i + n)][direction];
+            if (distance == 0)
+                distance = std::uint16_t(n);
+            else if (other.depth != unknown && grounds[line.pixel(i + n - distance)].depth <= ground.depth)
+                break;
+        }
+    }
+}
+
+Distances find_distances(std::span<const Ground> grounds, const Windows &windows) {
+    Distances distances(grounds.size());
+    for (std::size_t direction = 0; direction < directions; ++direction) {
+        const int lines = direction < 2 ? windows.height() : windows.width();
+        parallel_ranges(std::size_t(lines), 64, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t number = begin; number < end; ++number)
+                continue_grounds(grounds, line_of(windows, direction, number), direction, distances);
+        });
+    }
+    return distances;
+}
+
+// A side from which a ground goes on.
+struct Side {
+    Ground ground;
+    int distance;
+    auto order() const { return std::tuple(distance, ground.depth, ground.sample == Filler::nothing); }
+};
+
+Filler mean_of(const Ldi &ldi, std::size_t pixel, std::span<const Side> sides) {
+    const Side &nearest = *std::ranges::min_element(sides, {}, &Side::order);
+    const bool nothing = nearest.ground.sample == Filler::nothing;
+    Filler filler{std::uint32_t(pixel), std::numeric_limits<float>::infinity(), 0, {}};
+    if (!nothing) filler.z = ldi.z[nearest.ground.sample];
+    float sum = 0;
+    for (const auto &[ground, distance] : sides) {
+        if ((ground.sample == Filler::nothing) != nothing) continue;
+        if (std::abs(ground.depth - nearest.ground.depth) >= float(one_surface_px)) continue;
+        const float weight = 1 / float(distance);
+        const float coverage = nothing ? 1 : alpha_at(ldi, ldi.alpha(), ground.sample);
+        filler.part[filler.count++] = {ground.sample, weight / coverage};
+        sum += weight;
+    }
+    for (Filler::Part &part : filler.part) part.share /= sum;
+    return filler;
+}
+
+} // namespace
+
+std::vector<Filler> find_fillers(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &known) {
+    const std::vector<Ground> grounds = find_grounds(ldi, lens, known);
+    const Distances distances = find_distances(grounds, ldi.windows);
+    const std::size_t width = std::size_t(ldi.windows.width());
+    const std::array<std::size_t, directions> step{1, 0 - std::size_t{1}, width, 0 - width};
+    std::vector<std::vector<Filler>> rows(std::size_t(ldi.windows.height()));
+    parallel_for(rows.size(), [&](std::size_t row) {
+        for (std::size_t pixel = row * width; pixel < (row + 1) * width; ++pixel) {
+            std::array<Side, directions> sides;
+            std::size_t count = 0;
+            for (std::size_t k = 0; k < directions; ++k)
+                if (const int n = distances[pixel][k]; n > 0)
+                    sides[count++] = {grounds[pixel - std::size_t(n) * step[k]], n};
+            if (count > 0) rows[row].push_back(mean_of(ldi, pixel, std::span(sides).first(count)));
+        }
+    });
+    std::vector<Filler> fillers;
+    for (const std::vector<Filler> &row : rows) fillers.insert(fillers.end(), row.begin(), row.end());
+    return fillers;
+}
+
+} // namespace sparselens

@@ -1,0 +1,168 @@
+#include "dof/reference/lens_gather_reference.h"
+
+#include "base/parallel.h"
+#include "dof/reference/seen_slowly.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace sparselens {
+
+namespace {
+
+constexpr long double infinity = std::numeric_limits<long double>::infinity();
+
+// Of the weight of all lens points: what covers less is not seen at all.
+constexpr long double least_coverage = 1e-6L;
+
+// All of them over each other, of each light(m); at the least and at the most by leaving out what is not sure.
+template <typename Light>
+ReferenceValue composite(const std::vector<Met> &met, const Light &light) {
+    ReferenceValue sum;
+    for (std::size_t i = met.size(); i-- > 0;) {
+        const Met &m = met[i];
+        const long double own = light(m), behind = 1 - m.sample->alpha;
+        const ReferenceValue over{own + behind * sum.value, own + behind * sum.least,
+                                  own + behind * sum.most};
+        sum = {m.seen ? over.value : sum.value, m.sure ? over.least : std::min(over.least, sum.least),
+               m.sure ? over.most : std::max(over.most, sum.most)};
+    }
+    return sum;
+}
+
+template <typename Light>
+ReferenceValue composite(std::span<const Way> ways, const Light &light) {
+    ReferenceValue sum{0, infinity, -infinity};
+    for (const Way &way : ways) {
+        const ReferenceValue value = composite(way.met, light);
+        if (way.is) sum.value = value.value;
+        sum.least = std::min(sum.least, value.least);
+        sum.most = std::max(sum.most, value.most);
+    }
+    return sum;
+}
+
+void add(ReferenceValue &to, long double weight, const ReferenceValue &value) {
+    to.value += weight * value.value;
+    to.least += weight * value.least;
+    to.most += weight * value.most;
+}
+
+// What one pixel gathers of one channel.
+struct Gathered {
+    ReferenceValue light;
+    // Light per coverage of the samples met. The pixel's is a mean of theirs.
+    long double darkest = infinity, brightest = -infinity;
+};
+
+// Light by coverage; `flattened` where nothing is covered.
+ReferenceValue normalised(const Gathered &of, const ReferenceValue &coverage, long double total,
+                          long double flattened) {
+    const long double none = least_coverage * total;
+    const ReferenceValue &light = of.light;
+    ReferenceValue mean{coverage.value > none ? light.value / coverage.value : flattened, 0, 0};
+    if (coverage.most <= none) return {flattened, flattened, flattened};
+    const auto ratio = [&](long double value, long double by) { return by > none ? value / by : infinity; };
+    mean.least = light.least < 0 ? of.darkest : ratio(light.least, coverage.most);
+    mean.most = light.most < 0 ? of.brightest : ratio(light.most, coverage.least);
+    mean.least = std::min(std::max(mean.least, of.darkest), mean.value);
+    mean.most = std::max(std::min(mean.most, of.brightest), mean.value);
+    if (coverage.least > none) return mean;
+    return {mean.value, std::min(mean.least, flattened), std::max(mean.most, flattened)};
+}
+
+// The pixel seen without a lens.
+long double flattened(const Ldi &ldi, std::size_t channel, const Pixel &pixel) {
+    long double passed = 1, sum = 0;
+    for (const std::uint64_t i : ldi.pixel(ldi.windows.index(pixel.x, pixel.y))) {
+        const long double passes =
+            pixel.holdout ? (long double)pixel.holdout->passes(pixel.x, pixel.y, double(ldi.z[i])) : 1;
+        sum += passed * passes * (long double)ldi.values[channel][i];
+        passed *= 1 - alpha_of(ldi, i);
+    }
+    return sum;
+}
+
+long double front_id(const Ldi &ldi, std::size_t channel, const Pixel &pixel) {
+    const SampleRange samples = ldi.pixel(ldi.windows.index(pixel.x, pixel.y));
+    return samples.empty() ? 0 : (long double)ldi.values[channel][samples.front()];
+}
+
+long double light_of(const Ldi &ldi, std::size_t channel, const Met &met) {
+    if (met.sample->background) return 0;
+    const std::vector<float> &values = ldi.values[channel];
+    if (!met.sample->filler) return met.passes * (long double)values[met.sample->source];
+    long double sum = 0;
+    for (const Filler::Part &part : met.sample->filler->parts())
+        sum += (long double)part.share * (long double)values[part.sample];
+    return met.passes * sum;
+}
+
+// The channels of a pixel; `sure` is set to whether each lens point certainly sees what it sees.
+std::vector<ReferenceValue> gather(const Ldi &ldi, const Scene &scene, std::span<const LensSample> points,
+                                   const Pixel &pixel, char &sure) {
+    std::vector<Gathered> channels(ldi.channels.size());
+    ReferenceValue coverage;
+    long double total = 0;
+    sure = 1;
+    for (const LensSample &point : points) {
+        const std::vector<Way> ways = ways_to_see(scene, point, pixel);
+        for (const Way &way : ways)
+            if (ways.size() > 1 || !std::ranges::all_of(way.met, &Met::sure)) sure = 0;
+        total += (long double)point.weight;
+        add(coverage, point.weight, composite(ways, [](const Met &m) { return m.sample->alpha; }));
+        for (std::size_t k = 0; k < channels.size(); ++k) {
+            const auto light = [&](const Met &m) { return light_of(ldi, k, m); };
+            add(channels[k].light, point.weight, composite(ways, light));
+            for (const Way &way : ways)
+                for (const Met &m : way.met) {
+                    if (m.sample->alpha == 0 && light(m) == 0) continue;
+                    channels[k].darkest = std::min(channels[k].darkest, light(m) / m.sample->alpha);
+                    channels[k].brightest = std::max(channels[k].brightest, light(m) / m.sample->alpha);
+                }
+        }
+    }
+    std::vector<ReferenceValue> values(channels.size());
+    for (std::size_t k = 0; k < channels.size(); ++k) {
+        const long double id = front_id(ldi, k, pixel);
+        values[k] = holds_ids(ldi.channels[k])
+                        ? ReferenceValue{id, id, id}
+                        : normalised(channels[k], coverage, total, flattened(ldi, k, pixel));
+        if (sure) values[k].least = values[k].most = values[k].value;
+    }
+    return values;
+}
+
+} // namespace
+
+long double ReferenceValue::off(float other) const {
+    const long double outside = std::max({least - other, other - most, 0.0L});
+    return std::isfinite(other) ? outside : infinity;
+}
+
+double ReferencePicture::unsure_share() const {
+    return double(std::ranges::count(sure, false)) / double(sure.size());
+}
+
+ReferencePicture lens_gather_reference(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window,
+                                       std::span<const LensSample> points, const Holdout *holdout) {
+    const std::vector<Filler> fillers = find_fillers(ldi, lens, window);
+    const Scene scene = place_scene(ldi, lens, window, fillers);
+    ReferencePicture picture{ldi.windows, {}, {}};
+    picture.windows.data = window;
+    const std::size_t pixels = picture.windows.pixels(), channels = ldi.channels.size();
+    picture.values.resize(channels * pixels);
+    std::vector<char> sure(pixels); // of its own: bits of a vector<bool> cannot be written by two threads
+    parallel_for(pixels, [&](std::size_t i) {
+        const Imath::V2i at = picture.windows.pixel(i);
+        const Pixel pixel{at.x, at.y, (long double)std::max(ldi.windows.width(), ldi.windows.height()),
+                          holdout};
+        const auto values = gather(ldi, scene, points, pixel, sure[i]);
+        for (std::size_t k = 0; k < channels; ++k) picture.values[k * pixels + i] = values[k];
+    });
+    picture.sure.assign(sure.begin(), sure.end());
+    return picture;
+}
+
+} // namespace sparselens

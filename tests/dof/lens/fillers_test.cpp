@@ -1,0 +1,231 @@
+// What goes on behind what: by hand on a row of pixels, and against a slow restatement; and what the lens gather makes
+// of it, by closed forms.
+#include "dof/lens/fillers.h"
+#include "dof/lens/lens_gather.h"
+#include "lens/lens_points.h"
+#include "support/lens_ldi.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+
+namespace sparselens {
+namespace {
+
+constexpr double inf = std::numeric_limits<double>::infinity();
+const ThinLens lens{.radius = 0.06, .focal_px = 640, .focus = 5}; // CoC up to 7.7 px behind focus
+const std::vector<Channel> grey{{"Y"}}, grey_alpha{{"Y"}, {"A"}};
+
+// A row of one sample a pixel, at these CoCs; none where it is NAN. The value of a sample is its column.
+Ldi row_of(const std::vector<double> &cocs) {
+    return make_ldi(windows_of_size(int(cocs.size()), 1), grey, [&](int x, int) {
+        const double c = cocs[std::size_t(x)];
+        return std::isnan(c) ? std::vector<Sample>{} : std::vector<Sample>{{depth_of(lens, c), {float(x)}}};
+    });
+}
+
+// The value of the filler of each pixel; -1: there is none, -2: it is nothing.
+std::vector<float> filled(const Ldi &ldi, const Imath::Box2i &known) {
+    std::vector<float> values(ldi.windows.pixels(), -1);
+    for (const Filler &filler : find_fillers(ldi, lens, known)) {
+        float &value = values[filler.pixel] = filler.is_nothing() ? -2 : 0;
+        for (const Filler::Part &part : filler.parts())
+            if (!filler.is_nothing()) value += part.share * ldi.values[0][part.sample];
+    }
+    return values;
+}
+std::vector<float> filled(const Ldi &ldi) { return filled(ldi, ldi.windows.data); }
+
+TEST(Fillers, TheFartherSideGoesOnBehindTheNearerOne) {
+    // 2.5 pixels nearer: the lens sees three pixels past an edge, four along the row if it runs at 45 degrees.
+    EXPECT_EQ(filled(row_of({3, 3, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5})),
+              (std::vector<float>{-1, -1, 1, 1, 1, 1, -1, -1, -1}));
+    // Between two sides the nearer one, and the mean in the middle; weighed by how far they are.
+    const std::vector<float> between = filled(row_of({4, -4, -4, -4, 4}));
+    EXPECT_FLOAT_EQ(between[1], (0 * 1 + 4 / 3.0f) / (1 + 1 / 3.0f));
+    EXPECT_FLOAT_EQ(between[2], 2);
+    EXPECT_FLOAT_EQ(between[3], (0 / 3.0f + 4) / (1 + 1 / 3.0f));
+    // One surface does not go on behind itself, however steep.
+    EXPECT_EQ(filled(row_of({3, 2.6, 2.2, 1.8, 1.4, 1, 0.6})), std::vector<float>(7, -1));
+    // Of two that go on, the one whose edge is nearer.
+    EXPECT_EQ(filled(row_of({7, 7, 3, -3, -3})), (std::vector<float>{-1, -1, 1, 2, 2}));
+}
+
+TEST(Fillers, NothingGoesOnToo) {
+    EXPECT_EQ(filled(row_of({NAN, 3, 3, 3, NAN})), (std::vector<float>{-1, -2, -2, -2, -1}));
+}
+
+TEST(Fillers, WhereNothingIsKnownGroundsGoOnAsFarAsTheLensSees) {
+    const Ldi ldi = row_of({NAN, NAN, NAN, NAN, 1.4, 2.9, NAN, NAN, NAN, NAN, NAN});
+    EXPECT_EQ(filled(ldi, {{4, 0}, {5, 0}}), (std::vector<float>{-1, -1, 4, 4, 5, -1, 5, 5, 5, -1, -1}));
+}
+
+// A ground of coverage 0.8 goes on opaque; one of less than half does not.
+TEST(Fillers, GoOnOpaque) {
+    const auto picture = [](float behind) {
+        return make_ldi(windows_of_size(4, 1), grey_alpha, [behind](int x, int) {
+            std::vector<Sample> samples{{depth_of(lens, -4), {1, 1}}};
+            if (x == 0) samples.push_back({depth_of(lens, 4), {0.5f * behind, behind}});
+            return samples;
+        });
+    };
+    EXPECT_EQ(filled(picture(0.8f)), (std::vector<float>{-1, 0.5f, 0.5f, 0.5f}));
+    EXPECT_EQ(filled(picture(0.4f)), std::vector<float>(4, -1));
+}
+
+// Slowly: each pixel looks along its row and column for the nearest ground that goes on as far as to it.
+TEST(Fillers, AreWhatTheRuleSays) {
+    for (const bool opaque : {true, false}) {
+        const Ldi ldi = random_surfaces(windows_of_size(70, 50), lens, opaque, 12);
+        const Imath::Box2i known({5, 4}, {60, 45});
+        const auto ground = [&](int x, int y) { // perceptive depth, -1: unknown
+            double left = 1, depth = -1;
+            for (const std::uint64_t i : ldi.pixel(ldi.windows.index(x, y))) {
+                const double alpha = opaque ? 1 : double(ldi.values[ldi.alpha()][i]);
+                left *= 1 - alpha;
+                if (alpha >= 0.5) depth = perceptive_depth(lens, double(ldi.z[i]));
+            }
+            return left < 1.0 / 2048 ? depth : known.intersects(Imath::V2i(x, y)) ? 0 : -1;
+        };
+        const double focus = perceptive_depth(lens, lens.focus);
+        const auto goes_on = [&](double from, double to, int n) {
+            return to < 0 ? n - 1 < std::abs(from - focus)
+                          : to - from > std::max(0.5, (n - 1) / std::sqrt(2.0));
+        };
+        const auto distance = [&](int x, int y, int dx, int dy) { // 1000: none goes on
+            for (int n = 1; ldi.windows.grid().contains(x - n * dx, y - n * dy); ++n) {
+                const double from = ground(x - n * dx, y - n * dy);
+                bool on = from >= 0;
+                for (int m = 1; m <= n && on; ++m)
+                    on = goes_on(from, ground(x - (n - m) * dx, y - (n - m) * dy), m);
+                if (on) return n;
+            }
+            return 1000;
+        };
+        std::vector<double> expected(ldi.windows.pixels(), -1),
+            depths = expected; // of the ground that goes on
+        for (int y = 0; y < 50; ++y)
+            for (int x = 0; x < 70; ++x) {
+                int nearest = 1000;
+                for (const Imath::V2i &d : {Imath::V2i(1, 0), {-1, 0}, {0, 1}, {0, -1}}) {
+                    const int n = distance(x, y, d.x, d.y);
+                    if (n == 1000 || n > nearest) continue;
+                    const double depth = ground(x - n * d.x, y - n * d.y);
+                    double &e = expected[ldi.windows.index(x, y)];
+                    e = n < nearest ? depth : std::min(e, depth);
+                    nearest = n;
+                }
+            }
+        for (const Filler &filler : find_fillers(ldi, lens, known))
+            depths[filler.pixel] = perceptive_depth(lens, double(filler.z));
+        for (std::size_t i = 0; i < expected.size(); ++i) ASSERT_NEAR(depths[i], expected[i], 1e-5) << i;
+    }
+}
+
+using Inside = std::function<bool(double, double)>;
+
+// A shape of value 0.8 at CoC c before nothing, antialiased.
+Ldi shape_over_nothing(const Windows &windows, const ThinLens &by, const Inside &inside, double c) {
+    return make_ldi(windows, grey_alpha, [&](int x, int y) {
+        int covered = 0;
+        for (int i = 0; i < 256; ++i) covered += inside(x + (i % 16 + 0.5) / 16, y + (i / 16 + 0.5) / 16);
+        const float alpha = float(covered) / 256;
+        return covered == 0 ? std::vector<Sample>{}
+                            : std::vector<Sample>{{depth_of(by, c), {0.8f * alpha, alpha}}};
+    });
+}
+
+constexpr int side = 160 + 2 * 33; // no lens point looks past the border
+
+// The largest difference from the shape convolved with the disc of the lens, averaged over the pixel: along a row and
+// a column and the diagonal.
+double off_from_convolution(const Inside &inside, double c, const ThinLens &by) {
+    const Windows windows = windows_of_size(side, side);
+    Progress silent;
+    const Image image = lens_gather(shape_over_nothing(windows, by, inside, c), by, windows.data,
+                                    {.quality = Quality::final}, silent);
+    const auto points = spiral_lens_points(2000);
+    double worst = 0;
+    const auto compare = [&](int x, int y) {
+        double covered = 0;
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            const double u = (double(i % 16) + 0.5) / 16, v = (double(i / 16 % 16) + 0.5) / 16;
+            covered += inside(x + u - c * points[i].x, y + v + c * points[i].y);
+        }
+        covered /= double(points.size());
+        worst = std::max({worst, std::abs(double(image.at(1, x, y)) - covered),
+                          std::abs(double(image.at(0, x, y)) - 0.8 * covered)});
+    };
+    for (int x = 0; x < side; ++x)
+        compare(x, side / 2), compare(side / 2, x), compare(x, x), compare(x, side / 3);
+    return worst;
+}
+
+const ThinLens strong{.radius = 0.3, .focal_px = 640, .focus = 6}; // CoC up to 32 px behind focus
+
+TEST(Fillers, ShapesOverNothingAreConvolvedWithTheLens) {
+    constexpr double middle = side / 2;
+    const auto radius = [](double x, double y) { return std::hypot(x - middle, y - middle); };
+    const Inside disc = [&](double x, double y) { return radius(x, y) < 40; };
+    const Inside ring = [&](double x, double y) { return radius(x, y) < 45 && radius(x, y) > 25; };
+    const Inside square = [](double x, double y) {
+        return std::max(std::abs(x - middle - 0.3), std::abs(y - middle - 0.3)) < 32;
+    };
+    for (const double c : {-30.0, -6.9, -3.0, 3.0, 30.0})
+        EXPECT_LT(off_from_convolution(disc, c, strong), 0.02) << c;
+    for (const double c : {-14.0, 6.9}) {
+        EXPECT_LT(off_from_convolution(ring, c, strong), 0.02) << c;
+        EXPECT_LT(off_from_convolution(square, c, strong), 0.02) << c;
+    }
+}
+
+Image gather(const Ldi &ldi, const ThinLens &by = lens) {
+    Progress silent;
+    return lens_gather(ldi, by, ldi.windows.data, {.lens_samples = 256}, silent);
+}
+
+// A plane of 1 that comes nearer by 0.3 pixels of CoC a pixel, before a wall of 0 that goes on behind its edge: no
+// crack that parallax tears shows the wall.
+TEST(Fillers, ASlantedPlaneStaysClosed) {
+    const Ldi ldi = make_ldi(windows_of_size(100, 60), grey, [](int x, int) {
+        return std::vector<Sample>{x < 40 ? Sample{depth_of(lens, 6), {0}}
+                                          : Sample{depth_of(lens, 1 - 0.3 * (x - 40)), {1}}};
+    });
+    const Image image = gather(ldi);
+    for (int x = 40 + 8; x < 100; ++x) ASSERT_NEAR(image.at(0, x, 30), 1, 1e-5) << x;
+}
+
+// What lies beside a pillar goes on behind it; and not the lamps.
+TEST(Fillers, LampsDoNotGoOn) {
+    const auto picture = [](float lamp) {
+        return make_ldi(windows_of_size(120, 80), rgba_channels(), [lamp](int x, int y) {
+            const bool pillar = x >= 56 && x < 64, lit = x == 64 && y == 40;
+            const float v = lit ? lamp : pillar ? 0 : 0.1f;
+            return std::vector<Sample>{{depth_of(lens, pillar ? -6 : 6), {v, v, v, 1}}};
+        });
+    };
+    const auto light = [](const Image &image) {
+        double sum = 0;
+        for (const float v : image.plane(0)) sum += double(v);
+        return sum;
+    };
+    EXPECT_LT(light(gather(picture(100))) - light(gather(picture(0.1f))), 100 * 1.01);
+}
+
+// Beyond the picture nothing is made up: the border of a picture that goes on is the mean of what is known.
+TEST(Fillers, NothingIsInventedBeyondTheData) {
+    const Ldi ldi = make_ldi(windows_of_size(80, 40), grey, [](int x, int) {
+        return std::vector<Sample>{{depth_of(lens, 5), {x == 0 ? 100.0f : 1.0f}}};
+    });
+    const Image image = gather(ldi);
+    double sum = 0;
+    for (int x = 0; x < 12; ++x) sum += double(image.at(0, x, 20)) - 1;
+    EXPECT_LT(sum, 99); // a border that went on outwards would give some 200
+    EXPECT_TRUE(find_fillers(ldi, lens, ldi.windows.data).empty());
+}
+
+} // namespace
+} // namespace sparselens
