@@ -12,7 +12,6 @@ namespace sparselens {
 namespace {
 
 constexpr double largest_coc = 4;      // pixels: beyond, the blur of interpolation does not show
-constexpr double same_surface = 0.5;   // pixels of perceptive depth
 constexpr int noise_block = 32;        // pixels
 constexpr double noise_quantile = 0.3; // the calmer part of a block shows its noise, not its detail
 
@@ -101,10 +100,10 @@ private:
 // The sample of a pixel nearest to that depth: of a stack of mist and sheets not just any within reach.
 std::uint64_t Sharpener::surface_in(int x, int y, double depth) const {
     if (x < 0 || y < 0 || x >= ldi_.windows.width() || y >= ldi_.windows.height()) return none;
-    const std::size_t pixel = std::size_t(y) * std::size_t(ldi_.windows.width()) + std::size_t(x);
+    const Imath::V2i at = ldi_.windows.data.min + Imath::V2i(x, y);
     std::uint64_t found = none;
-    double least = same_surface;
-    for (std::uint64_t i = ldi_.begin[pixel]; i < ldi_.begin[pixel + 1]; ++i) {
+    double least = one_surface_px;
+    for (const std::uint64_t i : ldi_.pixel(ldi_.windows.index(at.x, at.y))) {
         const double distance = std::abs(perceptive_depth(lens_, double(ldi_.z[i])) - depth);
         if (distance >= least) continue;
         found = i;
@@ -146,9 +145,10 @@ void Sharpener::measure_noise() {
         for (int y = top; y < std::min(top + noise_block, height); ++y)
             for (int x = left; x < std::min(left + noise_block, width); ++x) {
                 const std::size_t pixel = std::size_t(y) * std::size_t(width) + std::size_t(x);
-                if (ldi_.begin[pixel] == ldi_.begin[pixel + 1]) continue;
-                const Neighbours n = neighbours(ldi_.begin[pixel], x, y);
-                if (n.horizontal && n.vertical) details.push_back(detail(ldi_.begin[pixel], n));
+                const SampleRange samples = ldi_.pixel(pixel);
+                if (samples.empty()) continue;
+                const Neighbours n = neighbours(samples.front(), x, y);
+                if (n.horizontal && n.vertical) details.push_back(detail(samples.front(), n));
             }
         if (details.empty()) return;
         const auto at = details.begin() + std::ptrdiff_t(double(details.size() - 1) * noise_quantile);
@@ -189,7 +189,7 @@ void Sharpener::weigh() {
     const std::size_t width = std::size_t(ldi_.windows.width());
     parallel_for(std::size_t(ldi_.windows.height()), [&](std::size_t row) {
         for (std::size_t pixel = row * width; pixel < (row + 1) * width; ++pixel)
-            for (std::uint64_t i = ldi_.begin[pixel]; i < ldi_.begin[pixel + 1]; ++i)
+            for (const std::uint64_t i : ldi_.pixel(pixel))
                 weights_[i] = weights(i, int(pixel - row * width), int(row));
     });
 }
@@ -229,7 +229,7 @@ void sharpen_near_focus(const Ldi &ldi, const ThinLens &lens, const BlockedSampl
     const std::size_t width = std::size_t(ldi.windows.width()), alpha = ldi.alpha();
     parallel_for(std::size_t(ldi.windows.height()), [&](std::size_t row) {
         for (std::size_t pixel = row * width; pixel < (row + 1) * width; ++pixel)
-            for (std::uint64_t i = ldi.begin[pixel]; i < ldi.begin[pixel + 1]; ++i) {
+            for (const std::uint64_t i : ldi.pixel(pixel)) {
                 const auto terms = sharpener.terms(i, int(pixel - row * width), int(row));
                 if (terms[0].coefficient == 1) continue;
                 for (std::size_t k = 0; k < ldi.channels.size(); ++k) {
