@@ -49,7 +49,8 @@ struct Scene {
     std::vector<Slab> slabs;
     bool mirrors = false;     // some material reflects, so every hit is checked
     bool translucent = false; // there are slabs, or coverage below 1: rays composite every hit
-    Imath::C3f sky{0, 0, 0};  // radiance of rays without a hit; alpha 1, z = inf
+    Imath::C3f sky{0, 0, 0};  // radiance of rays without a hit; z = inf
+    float sky_coverage = 1;   // their alpha: 1, or 0 where there is no sky
     Camera camera;            // the default lens: focal length, sensor width, f-number, focus, scene unit
 };
 

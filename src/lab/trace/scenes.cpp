@@ -124,6 +124,22 @@ Scene mirror() {
     return scene;
 }
 
+// Objects at five depths, some in front of others, and nothing behind them: what a compositor gets as an element.
+Scene element() {
+    Scene scene;
+    scene.sky_coverage = 0;
+    scene.camera = default_camera(0.06, 5);
+    scene.spheres = {{{0, -0.1, 5}, 0.7, dots},
+                     {{1.3, 0.1, 8}, 0.8, stripes},
+                     {{-1.1, -0.2, 3.4}, 0.5, stripes},
+                     {{-1.8, 0.6, 11}, 1.2, dots}};
+    for (int i = 0; i < 5; ++i) {
+        const double x = -0.5 + 0.25 * i, w = 0.03, z = 2.4;
+        scene.quads.push_back({{{{x, -0.4, z}, {x + w, -0.4, z}, {x + w, 0.4, z}, {x, 0.4, z}}}, dark});
+    }
+    return scene;
+}
+
 constexpr SceneEntry scenes[] = {
     {"fence", "spheres and small bright lamps behind a thin dark fence", fence},
     {"grass", "spheres among 200 thin slanted blades", grass},
@@ -132,6 +148,7 @@ constexpr SceneEntry scenes[] = {
     {"slant", "one plane at a grazing angle, through the plane of focus", slant},
     {"lamps", "tiny lamps of radiance 1000 far out of focus before a dark wall", lamps},
     {"mirror", "chrome balls and a mirror: surfaces whose colour depends on the direction", mirror},
+    {"element", "spheres and bars at five depths before nothing: alpha 0 beside them", element},
     {"mist", "sheets of partial coverage and overlapping volumes before a textured wall", mist},
 };
 

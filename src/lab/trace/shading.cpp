@@ -30,9 +30,10 @@ Imath::C4f lit(const Paint &paint, double irradiance) {
 
 void shade_by_sun(const Tracer &tracer, std::span<const Hit> hits, std::span<Imath::C4f> out) {
     const Imath::C3f &sky = tracer.scene().sky;
+    const float sky_coverage = tracer.scene().sky_coverage;
     for (std::size_t i = 0; i < hits.size(); ++i)
         out[i] = hits[i].sky()
-                     ? Imath::C4f(sky.x, sky.y, sky.z, 1)
+                     ? Imath::C4f(sky.x, sky.y, sky.z, sky_coverage)
                      : lit(tracer.material(hits[i])(hits[i].position), std::abs(hits[i].normal ^ to_sun));
 }
 
@@ -63,9 +64,9 @@ void shade_by_area(const Tracer &tracer, std::span<const Hit> hits, std::span<co
     std::array<std::size_t, run_size> owner;
     std::array<Paint, run_size> paints;
     std::size_t count = 0;
-    const Imath::C3f &sky = tracer.scene().sky;
+    const Paint sky{tracer.scene().sky, tracer.scene().sky_coverage, true};
     for (std::size_t i = 0; i < hits.size(); ++i) {
-        paints[i] = hits[i].sky() ? Paint{sky, 1, true} : tracer.material(hits[i])(hits[i].position);
+        paints[i] = hits[i].sky() ? sky : tracer.material(hits[i])(hits[i].position);
         out[i] = lit(paints[i], 0);
         if (paints[i].emits) continue;
         rays[count] = shadow_ray(hits[i], light_points[i]);
