@@ -54,8 +54,8 @@ void run(const GatherCommand &given, const ToolContext &tool, LdiCache &cache) {
     say_border_reach(tool, options.input, in.ldi, lens);
     const GatherWindows frame = gather_windows(options.windows, in, lens);
     const Ldi &ldi = frame.changed ? *frame.changed : in.ldi;
-    options.gather.lens.looks = looks_for_ldi(in, read_looks(options.looks, in.camera.fstop), lens, ldi.windows,
-                                              options.method, tool);
+    options.gather.lens.looks = looks_for_ldi(in, read_looks(options.looks, in.camera.fstop), lens,
+                                              ldi.windows, options.method, tool);
     LensTiles tiles;
     Image picture;
     if (needs_gather(options.show))

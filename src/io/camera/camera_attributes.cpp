@@ -204,8 +204,9 @@ std::optional<Imath::V2d> by_screen_window(const Imf::Header &header) {
 // The names that write_camera() uses. What else stands in such a file has come along from the centre view, and is
 // not what the options have since made of it.
 bool is_ours(const HeaderValue &value) {
-    static constexpr std::array names{"pinholeFocalLength", "aperture", "focus", "worldToCamera",
-                                      "worldToNDC", "aperture_blades", "aperture_rotation", "aperture_ratio"};
+    static constexpr std::array names{"pinholeFocalLength", "aperture",      "focus",
+                                      "worldToCamera",      "worldToNDC",    "aperture_blades",
+                                      "aperture_rotation",  "aperture_ratio"};
     return value.name.starts_with("sparselens:") || std::ranges::find(names, value.name) != names.end();
 }
 

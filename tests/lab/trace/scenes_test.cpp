@@ -17,7 +17,8 @@ TEST(Scenes, NamesAreUniqueAndLensesComplete) {
         EXPECT_TRUE(camera.focal_length_mm && camera.sensor_width_mm && camera.fstop && camera.focus_distance)
             << entry.name;
     }
-    EXPECT_EQ(names, (std::set<std::string>{"element", "fence", "grass", "lamps", "mirror", "mist", "planes", "slant"}));
+    EXPECT_EQ(names, (std::set<std::string>{"element", "fence", "grass", "lamps", "mirror", "mist", "planes",
+                                            "slant"}));
 }
 
 // Quads are planar, in order around, and convex: what the tracer takes for granted.

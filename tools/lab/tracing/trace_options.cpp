@@ -157,7 +157,8 @@ RenderSettings render_settings(const TraceOptions &options, const Camera &camera
     settings.lens = resolve_lens(camera, settings.windows);
     settings.lens.focal_px = resolve_focal_px(camera, settings.windows); // a pinhole has them, too
     settings.lens.focus = *camera.focus_distance;
-    settings.looks = resolve_looks(read_looks(options.looks, camera.fstop).values, camera, settings.lens, settings.windows);
+    settings.looks = resolve_looks(read_looks(options.looks, camera.fstop).values, camera, settings.lens,
+                                   settings.windows);
     return settings;
 }
 
