@@ -1,0 +1,63 @@
+#!/usr/bin/env python3
+"""Submits views to pictures to OpenCue: a layer of LDIs, and a layer of pictures that depends on it frame by frame.
+
+    submit.py --frames 1-24 --views /shots/010/views --output /shots/010/out -- --focus-distance 3
+
+The views are center.####.exr, view_0.####.exr, ...; what follows -- are options of dof-gather. Needs OpenCue's Python
+packages (pyoutline). A frame that runs again leaves complete files alone (-u). docs/farm.md says more.
+"""
+import argparse
+import pathlib
+import re
+import shlex
+import sys
+
+import outline
+import outline.cuerun
+from outline.modules.shell import Shell
+
+# Cuebot replaces these by the first and the last frame of what it starts.
+FRAMES = "--frames=#FRAME_START#-#FRAME_END#"
+
+
+def arguments(words):
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--frames", required=True, metavar="RANGE", help="frames, e.g. 1-24 or 1-24x2")
+    parser.add_argument("--views", required=True, type=pathlib.Path, metavar="DIR", help="folder of the views")
+    parser.add_argument("--output", required=True, type=pathlib.Path, metavar="DIR", help="folder of LDIs and pictures")
+    parser.add_argument("--chunk", type=int, default=1, metavar="N",
+                        help="frames that one process works on; more than 1 only for frames in a row (default: 1)")
+    parser.add_argument("gather_options", nargs="*", metavar="-- OPTIONS", help="options of dof-gather")
+    return parser.parse_args(words)
+
+
+def rim_views(folder):
+    """The sequences of the views from the rim of the lens, e.g. view_0.####.exr."""
+    names = {re.sub(r"\.-?\d+\.exr$", ".####.exr", path.name) for path in folder.glob("view_*.*.exr")}
+    if not names:
+        sys.exit(f"submit.py: {folder} holds no view_*.####.exr: render the views first")
+    return [str(folder / name) for name in sorted(names)]
+
+
+def commands(options):
+    """The words of both commands. Cuebot joins them by blanks for a shell."""
+    ldi, picture = str(options.output / "ldi.####.exr"), str(options.output / "picture.####.exr")
+    warp = ["ldi-warp", str(options.views / "center.####.exr"), *rim_views(options.views), "-o", ldi, FRAMES, "-u"]
+    gather = ["dof-gather", ldi, "-o", picture, FRAMES, "-u", *options.gather_options]
+    return [[shlex.quote(word) for word in words] for words in (warp, gather)]
+
+
+def main(words):
+    options = arguments(words)
+    warp_words, gather_words = commands(options)
+    job = outline.Outline("sparselens", frame_range=options.frames)
+    warp = Shell("warp", command=warp_words, range=options.frames, chunk=options.chunk, threadable=True)
+    gather = Shell("gather", command=gather_words, range=options.frames, chunk=options.chunk, threadable=True)
+    for layer in (warp, gather):
+        job.add_layer(layer)
+    gather.depend_on(warp)  # frame by frame
+    outline.cuerun.launch(job, use_pycuerun=False)
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])

@@ -1,0 +1,129 @@
+# The scripts of share/slurm on a real Slurm: munged, slurmctld and two slurmd on the loopback address, in the scratch
+# folder. 12 frames; a node is killed in the middle of a task; the pictures are those of the tools without Slurm.
+. "$(dirname "$0")/../tools/check.sh"
+PATH=$PATH:/usr/sbin:/sbin
+for program in munged slurmctld slurmd sbatch; do
+    command -v $program >/dev/null || skip "needs Slurm (slurmctld, slurmd, slurm-client, munge): no $program"
+done
+chmod 755 "$scratch" # munged wants its socket where all may go
+declare -A daemons   # by name: the process
+
+processes=           # of the task that was stopped
+
+stop_all() {
+    # shellcheck disable=SC2086
+    kill -KILL "${daemons[@]}" $processes 2>/dev/null || true
+    wait 2>/dev/null || true
+    rm -rf "$scratch"
+}
+trap stop_all EXIT
+
+# start NAME COMMAND...: in the background, its messages in NAME.log.
+start() {
+    "${@:2}" >"$1.log" 2>&1 </dev/null &
+    daemons[$1]=$!
+}
+# until SECONDS COMMAND...: the command succeeds in this time.
+until_true() {
+    local end=$((SECONDS + $1))
+    while ! "${@:2}" >/dev/null 2>&1; do
+        [ $SECONDS -lt $end ] || return 1
+        sleep 0.2
+    done
+}
+
+# --- Slurm ---
+user=$(id -un) port=$((20000 + $$ % 20000))
+mkdir state spool
+head -c 1024 /dev/urandom >key && chmod 600 key
+export SLURM_CONF=$scratch/slurm.conf
+cat >slurm.conf <<END
+ClusterName=test
+SlurmctldHost=localhost(127.0.0.1)
+SlurmctldPort=$port
+SlurmUser=$user
+SlurmdUser=$user
+AuthType=auth/munge
+AuthInfo=socket=$scratch/munge.socket,cred_expire=8
+CredType=cred/munge
+StateSaveLocation=$scratch/state
+SlurmdSpoolDir=$scratch/spool/%n
+SlurmctldPidFile=$scratch/slurmctld.pid
+SlurmdPidFile=$scratch/slurmd-%n.pid
+MpiDefault=none
+ProctrackType=proctrack/linuxproc
+TaskPlugin=task/none
+JobAcctGatherType=jobacct_gather/none
+SwitchType=switch/none
+SelectType=select/cons_tres
+SelectTypeParameters=CR_CPU
+SchedulerParameters=sched_interval=2,bf_interval=2,batch_sched_delay=1,sched_min_interval=100000
+SlurmdParameters=config_overrides
+SlurmdTimeout=5
+JobRequeue=1
+ReturnToService=2
+NodeName=n1 NodeHostname=localhost NodeAddr=127.0.0.1 Port=$((port + 1)) CPUs=2
+NodeName=n2 NodeHostname=localhost NodeAddr=127.0.0.1 Port=$((port + 2)) CPUs=2
+PartitionName=all Nodes=n1,n2 Default=YES State=UP
+END
+echo 'CgroupAutomount=no' >cgroup.conf
+start munged munged --foreground --force --key-file="$scratch/key" --socket="$scratch/munge.socket" --num-threads=2 \
+    --pid-file="$scratch/munged.pid" --log-file="$scratch/munged-log" --seed-file="$scratch/munged.seed"
+until_true 5 test -S munge.socket || skip "munged does not start: $(tail -1 munged.log)"
+start slurmctld slurmctld -D -c
+for node in n1 n2; do start $node slurmd -D -N $node; done
+idle() { [ "$(sinfo -h -N -o %T | sort -u)" = idle ]; }
+until_true 20 idle || skip "Slurm does not start: $(tail -2 slurmctld.log n1.log n2.log)"
+echo "Slurm runs after $SECONDS s"
+
+# --- 12 frames, and their pictures without Slurm ---
+lens=(--focus-distance 1:5,12:2.2)
+mkdir views
+for frame in {01..12}; do
+    "$bin/dof-trace" fence --size 48x27 --views 2 --spp 1 --seed "$((10#$frame))" -o still
+    for file in center view_0 view_1; do mv still/$file.exr views/$file.00$frame.exr; done
+done
+exits 0 "$bin/ldi-warp" views/center.####.exr views/view_0.####.exr views/view_1.####.exr -o expected/ldi.####.exr --frames 1-12
+exits 0 "$bin/dof-gather" expected/ldi.####.exr -o expected/picture.####.exr "${lens[@]}" --frames 1-12
+
+# The tools as the tasks find them. The first time, frame 5 stops in the middle of ldi-warp, and says where it is.
+mkdir path
+ln -s "$bin/dof-gather" path
+cat >path/ldi-warp <<END
+#!/bin/bash
+[[ \$SLURM_ARRAY_TASK_ID -ne 5 || -e $scratch/stopped ]] && exec "$bin/ldi-warp" "\$@"
+"$bin/ldi-warp" "\$@" &
+kill -STOP \$!
+echo "\$SLURMD_NODENAME \$PPID \$\$ \$!" >$scratch/stopping
+mv $scratch/stopping $scratch/stopped
+wait
+END
+chmod +x path/ldi-warp
+read -r warp gather <<<"$(PATH=$scratch/path:$PATH "$source_dir/share/slurm/submit.sh" 1-12 "$scratch/views" "$scratch/out" "${lens[@]}")"
+
+# --- The node of frame 5 dies, with all that runs on it ---
+until_true 30 test -e stopped || fail "frame 5 does not begin: $(squeue; cat out/*.log)"
+read -r node processes <stopped
+[ ! -e out/ldi.0005.exr ] || fail "frame 5 is there before it is made"
+# shellcheck disable=SC2086
+kill -KILL "${daemons[$node]}" $processes
+wait "${daemons[$node]}" 2>/dev/null || true
+unset "daemons[$node]"
+processes=
+echo "killed $node after $SECONDS s"
+down() { sinfo -h -n "$node" -o %T | grep -q '^down'; }
+until_true 40 down || fail "Slurm does not see that $node is gone: $(sinfo)"
+echo "Slurm knows after $SECONDS s"
+
+done_all() { [ -z "$(squeue -h)" ]; }
+until_true 60 done_all || fail "it does not end: $(squeue; tail -20 slurmctld.log)"
+echo "all is done after $SECONDS s"
+state() { scontrol show job "$1_$2" | grep -oE '(JobState|Restarts)=[A-Z0-9]+' | tr '\n' ' '; }
+[ "$(state "$warp" 5)" = "JobState=COMPLETED Restarts=1 " ] || fail "frame 5 was not started again: $(state "$warp" 5)"
+for frame in {1..12}; do
+    for job in "$warp" "$gather"; do
+        [[ "$(state "$job" "$frame")" == JobState=COMPLETED* ]] || fail "frame $frame of job $job: $(state "$job" "$frame")"
+    done
+done
+[ "$(cd out && ls -- *.exr)" = "$(cd expected && ls)" ] || fail "not the same files: $(ls -a out)"
+for file in expected/*; do cmp "$file" "out/${file##*/}" || fail "${file##*/} is another one"; done
