@@ -1,5 +1,6 @@
 // ldi-plan: plans which views from the rim of the lens, and which of their pixels, are worth rendering.
 #include "harness/tool.h"
+#include "io/cameras_file.h"
 #include "io/open_view.h"
 #include "io/plan_file.h"
 #include "loading/notices.h"
@@ -41,6 +42,9 @@ void run(const PlanCommand &options, const ToolContext &tool) {
     const ThinLens lens = centre.lens();
     const Plan plan = make_plan(centre.view, lens, options.plan, *tool.progress);
     write_plan(options.output, plan, {options.centre, windows, lens, options.plan.margin}, options.masks);
+    if (!options.cameras.empty())
+        write_cameras(options.cameras, cameras_of(plan, centre.camera, lens, windows.display_width()),
+                      {options.centre, lens, centre.camera.metres_per_unit});
     write_stats(tool, plan_stats(plan, options.plan.views, windows));
     summarise(plan, centre.view, options.output == "-" ? stderr : stdout);
 }

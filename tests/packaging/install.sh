@@ -16,6 +16,9 @@ for tool in "$bin"/ldi-* "$bin"/dof-*; do
 done
 
 [ -s "$prefix/share/sparselens/blender/sparselens_views.py" ] || fail "the Blender script is not installed"
+for script in slurm/submit.sh slurm/warp.sh slurm/gather.sh opencue/submit.py; do
+    [ -x "$prefix/share/sparselens/$script" ] || fail "$script is not installed, or is no executable"
+done
 
 mkdir -p consumer/headers
 (cd "$prefix/include/sparselens" && find . -name '*.h') | while read -r header; do

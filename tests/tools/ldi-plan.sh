@@ -40,6 +40,30 @@ fails_saying 1 'another size' "$bin/dof-trace" fence --size 80x45 --plan plan.js
 fails_saying 1 'view_0.exr: not a plan' "$bin/dof-trace" fence --plan planned/view_0.exr -o x
 fails_saying 1 'missing.json' "$bin/dof-trace" fence --plan missing.json -o x
 
+# --cameras: what dof-trace makes of the plan stands where the cameras say, in both kinds of file.
+exits 0 "$plan" full/center.exr -o cameras-plan.json --noise 0 --cameras cameras.json
+exits 0 "$plan" full/center.exr -o cameras-plan.json --noise 0 --cameras cameras.csv
+[ "$(json cameras.json '[c["name"] for c in p["cameras"]]')" = "$(json plan.json '["center"] + [v["name"] for v in p["views"]]')" ] ||
+    fail "not the plan's cameras: $(json cameras.json 'p["cameras"]')"
+[ "$(json cameras.json '[c["offset"] for c in p["cameras"]][1:]')" = "$(json plan.json '[v["position"] for v in p["views"]]')" ] || fail "offsets"
+python3 - <<'END' || fail "the cameras are not those of the views that were rendered"
+import csv, json, re, subprocess
+cameras = json.load(open("cameras.json"))
+rows = list(csv.DictReader(open("cameras.csv")))
+assert [float(row["offset_x"]) for row in rows] == [camera["offset"][0] for camera in cameras["cameras"]]
+assert cameras["screen_window"] == {"width": 1, "center": [0, 0]}  # 36 mm lens, 36 mm sensor
+for camera, row in zip(cameras["cameras"], rows):
+    matrix = [value for line in camera["world_to_camera"] for value in line]
+    assert [float(row[f"world_to_camera_{i // 4}{i % 4}"]) for i in range(16)] == matrix
+    file = "full/center.exr" if camera["name"] == "center" else f"planned/{camera['name']}.exr"
+    header = subprocess.run(["exrheader", file], capture_output=True, text=True, check=True).stdout
+    found = re.search(r"worldToCamera \(type m44f\):\s*\(([^)]*)\)", header)
+    written = [float(number) for number in re.findall(r"[-+.\de]+", found[1])]
+    assert all(abs(a - b) < 1e-5 for a, b in zip(written, matrix)), (file, written, matrix)
+END
+fails_saying 2 'must end in .json or .csv' "$plan" full/center.exr -o x.json --cameras cameras.txt
+fails_saying 2 'would be written 2 times' "$plan" full/center.exr -o x.#.json --frames 1-2 --cameras cameras.json
+
 # Every option has an effect.
 changes() { # OPTION...
     exits 0 "$plan" full/center.exr -o changed.json --noise 0 "$@"

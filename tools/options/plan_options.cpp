@@ -7,6 +7,20 @@
 
 namespace sparselens {
 
+namespace {
+
+CLI::Validator camera_file() {
+    return CLI::Validator(
+        [](std::string &name) {
+            return name.ends_with(".json") || name.ends_with(".csv")
+                       ? ""
+                       : "must end in .json or .csv, not '" + name + "'";
+        },
+        "");
+}
+
+} // namespace
+
 void add_plan_options(CLI::App &app, PlanCommand &options) {
     app.add_option("CENTER", options.centre, "Centre view, with colour and depth (EXR)")
         ->type_name("")
@@ -17,6 +31,10 @@ void add_plan_options(CLI::App &app, PlanCommand &options) {
     app.add_option("--masks", options.masks,
                    "Folder for one mask per view, whose A is 1 in the pixels to render")
         ->type_name("DIR");
+    app.add_option("--cameras", options.cameras,
+                   "File for the cameras of the views: offsets, matrices, screen window, for any renderer")
+        ->type_name("FILE.json|FILE.csv")
+        ->check(camera_file());
     app.add_option(
            "--views", options.plan.views,
            fmt::format("Largest number of views from the rim of the lens (default: {})", options.plan.views))
@@ -34,7 +52,9 @@ void add_plan_options(CLI::App &app, PlanCommand &options) {
     add_lens_options(app, options.lens);
     add_depth_options(app, options.depth);
     add_examples(app, {{"Plan at most four views, and write a mask for each",
-                        "ldi-plan center.exr -o plan.json --masks masks"}});
+                        "ldi-plan center.exr -o plan.json --masks masks"},
+                       {"Print where the cameras stand, for a spreadsheet or a script",
+                        "ldi-plan center.exr -o plan.json --cameras cameras.csv"}});
 }
 
 } // namespace sparselens

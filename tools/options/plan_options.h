@@ -10,7 +10,7 @@
 namespace sparselens {
 
 struct PlanCommand {
-    std::string centre, output, masks;
+    std::string centre, output, masks, cameras;
     LensValues lens;
     DepthOptions depth;
     PlanOptions plan;

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array output_options{"--output", "--depth-out"};
+constexpr std::array output_options{"--output", "--depth-out", "--cameras"};
 constexpr std::array input_options{"--view",    "--center", "--holdout", "--colorconfig",
                                    "--regions", "--plan",   "--lens",    "--aperture"};
 

@@ -10,7 +10,7 @@
 
 namespace sparselens {
 
-// Whether this word of a command line is an option whose value is an output: -o, --output, --depth-out.
+// Whether this word of a command line is an option whose value is an output: -o, --output, --depth-out, --cameras.
 bool is_output_word(std::string_view word);
 
 struct NamedFile {

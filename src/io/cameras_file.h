@@ -1,0 +1,31 @@
+// The cameras of a plan on disk, as JSON or, for a spreadsheet, as CSV.
+//
+//   {"version": 1, "center": FILE, "lens_radius": R, "focus_distance": D or null for infinity,
+//    "metres_per_unit": M or null, "screen_window": {"width": W, "center": [X, Y]},
+//    "horizontal_field_degrees": A,
+//    "cameras": [{"name": "view_0", "offset": [X, Y], "world_to_camera": [[4 numbers], ...] or null,
+//                 "camera_to_world": ... or null}, ...]}
+//
+// Offsets are in scene units, x right and y up. world_to_camera is for EXR headers: x right, y up, z forward.
+// camera_to_world places a camera that looks along -z. Matrices act on row vectors: the last row is the translation.
+// CSV has a line of names, then a line a camera; matrices are 16 columns, empty where they are unknown.
+#pragma once
+
+#include "plan/plan_cameras.h"
+
+#include <string>
+
+namespace sparselens {
+
+// What the file says beside the cameras: that of the centre view.
+struct CamerasSetting {
+    std::string centre;
+    ThinLens lens;
+    std::optional<double> metres_per_unit;
+};
+
+// CSV where the name ends in .csv, JSON where it ends in .json. Throws UsageError for another name, and Error, naming
+// the file, where it cannot be written.
+void write_cameras(const std::string &path, const PlannedCameras &cameras, const CamerasSetting &setting);
+
+} // namespace sparselens
