@@ -179,7 +179,8 @@ Sharpener::Weights Sharpener::weights(std::uint64_t i, int x, int y) const {
             if (to < 2 ? n.horizontal : n.vertical)
                 given += 0.5 * (w.along(to) + BlurTable::largest_weight) *
                          std::max(0.0, double(v[n.sample[to]]) - double(v[i]));
-        if (given * double(w.most) > double(v[i])) w.most = float(std::max(0.0, double(v[i])) / given);
+        if (given > 0 && given * double(w.most) > double(v[i]))
+            w.most = float(std::max(0.0, double(v[i])) / given);
     }
     return w;
 }

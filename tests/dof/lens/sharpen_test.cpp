@@ -110,6 +110,15 @@ TEST(Sharpen, NeverMakesLightNegative) {
     EXPECT_GT(change(ldi), 1);
 }
 
+// Denoisers leave negative colours. A sample that has nothing brighter beside it gives nothing away.
+TEST(Sharpen, KeepsNegativeColours) {
+    const Ldi ldi = plane(1, [](int, int) { return -1e-3; });
+    BlockedLdi blocked(ldi, lens);
+    sharpen_near_focus(ldi, lens, blocked.samples, blocked.colours);
+    for (std::size_t i = 0; i < blocked.colours.count; ++i)
+        ASSERT_NEAR(double(blocked.colours.at(0, i)), -1e-3, 1e-9) << i;
+}
+
 TEST(Sharpen, ChangesAllLayersByTheSameWeightsAndNeitherCoverageNorIds) {
     std::vector<Channel> channels = rgba_channels();
     channels.push_back({"copy.R"});
