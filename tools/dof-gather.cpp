@@ -6,7 +6,7 @@
 #include "harness/tool.h"
 #include "io/camera/camera_write.h"
 #include "io/exr/exr_flat.h"
-#include "loading/gather_windows.h"
+#include "io/gather_windows.h"
 #include "loading/holdout_file.h"
 #include "loading/ldi_lens.h"
 #include "loading/notices.h"

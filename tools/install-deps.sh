@@ -12,7 +12,8 @@ build='g++ cmake ninja-build pkg-config libcli11-dev libembree-dev libfmt-dev li
 demo='fonts-dejavu-core openimageio-tools'
 lint='clang-14 clang-format-14 clang-tidy-14'
 report='chromium gnuplot-nox'
-test='fish gnuplot-nox libbenchmark-dev libgtest-dev openexr openimageio-tools python3-jsonschema python3-yaml time zsh'
+test='fish gnuplot-nox libbenchmark-dev libgtest-dev mypy openexr openimageio-tools pybind11-dev python3-dev
+      python3-jsonschema python3-numpy python3-openimageio python3-pytest python3-yaml time zsh'
 
 fail() {
     echo "install-deps: $*" >&2

@@ -54,20 +54,12 @@ void add_options(CLI::App &app, Options &options) {
                         "ldi-cluster front.exr back.exr -o shot.exr --tolerance 0"}});
 }
 
-// R F, in pixels times scene units. The tolerance needs it; --layers alone does not, because inverse depths are
-// compared without a scale.
-std::optional<double> perceptive_scale(const Options &options, const OpenedLdi &in) {
-    const bool lens_known =
-        lens_radius_of(in.camera) && focal_length_px(in.camera, in.ldi.windows.display_width());
-    if (!lens_known && !options.tolerance && options.layers > 0) return {};
-    const double radius = resolve_radius(in.camera);
-    return radius > 0 ? radius * resolve_focal_px(in.camera, in.ldi.windows) : 0;
-}
-
 void run(const Options &options, const ToolContext &tool) {
     OpenedLdi in = open_merged(options.inputs, {options.lens, options.depth}, tool);
     ClusterOptions by{.layers = options.layers};
-    const auto scale = perceptive_scale(options, in);
+    // --layers alone does not need the lens: inverse depths are compared without a scale.
+    const auto scale =
+        perceptive_scale(in.camera, in.ldi.windows, options.tolerance.has_value() || options.layers == 0);
     if (scale) by.scale = *scale;
     if (scale) by.tolerance = options.tolerance.value_or(0.25);
     const Clustered out = cluster(in.ldi, by, *tool.progress);

@@ -14,7 +14,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstdio>
 #include <span>
 
@@ -36,19 +35,6 @@ void say_framings(const ToolContext &tool, std::span<const View> views) {
     }
 }
 
-// Perceptive depth refers to the lens radius if that is known, else to the distance of the outermost view.
-WarpOptions warp_options(const WarpCommand &options, const OpenedViews &in) {
-    WarpOptions warp{.merge = options.merge,
-                     .split_silhouettes = options.split_silhouettes,
-                     .test_photo_consistency = options.test_photo_consistency,
-                     .focus = in.camera.focus_distance};
-    if (in.views.size() == 1) return warp;
-    warp.focal_px = resolve_focal_px(in.camera, in.views[0].image.windows);
-    warp.radius = lens_radius_of(in.camera).value_or(0);
-    for (const View &view : in.views) warp.radius = std::max(warp.radius, view.position.length());
-    return warp;
-}
-
 void run(const WarpCommand &options, const ToolContext &tool) {
     OpenedViews in = open_views(options.views, {options.lens, options.depth});
     say_camera(tool, in.views[0].name, in.camera);
@@ -59,7 +45,10 @@ void run(const WarpCommand &options, const ToolContext &tool) {
     }
     const Imf::Header as_read = in.header;
     for (View &view : in.views) in.header = to_linear(tool, options.colour, view.name, as_read, view);
-    const WarpOptions warp_by = warp_options(options, in);
+    const WarpOptions warp_by = with_lens({.merge = options.merge,
+                                           .split_silhouettes = options.split_silhouettes,
+                                           .test_photo_consistency = options.test_photo_consistency},
+                                          in.camera, in.views);
     write_camera(in.header, in.camera);
     append_history(in.header, tool, options.history);
     write_picture_window(in.header, in.views[0].image.windows.data);

@@ -1,4 +1,4 @@
-#include "loading/gather_windows.h"
+#include "io/gather_windows.h"
 
 #include "base/error.h"
 #include "deep/pad.h"

@@ -1,12 +1,24 @@
 // The pixels that are gathered, and the LDI that they are gathered from.
 #pragma once
 
-#include "io/open_ldi.h"
-#include "options/window_options.h"
+#include "open_ldi.h"
 
 #include <optional>
 
 namespace sparselens {
+
+enum class OutputOverscan {
+    grow, // those of the file and those of the display window that the blur reaches; around the data window is nothing
+    keep, // those of the file
+    crop, // those of the file that lie in the display window
+};
+
+// Which pixels a picture is to have, and its size.
+struct WindowOptions {
+    OutputOverscan overscan = OutputOverscan::grow;
+    int proxy = 1;                           // this number of pixels, across and down, becomes one
+    std::optional<Imath::Box2i> region = {}; // in the full-size picture
+};
 
 // The pixels that are gathered, and those of them that are written.
 struct GatherWindows {

@@ -26,7 +26,10 @@ void make_planar(Ldi &ldi, DepthMeaning meaning, const DepthRange &range, const 
 } // namespace
 
 OpenedLdi open_ldi(const std::string &path, const OpenOptions &options) {
-    LdiFile file = read_ldi(path, options.depth.channel, options.depth.view);
+    return ready_ldi(read_ldi(path, options.depth.channel, options.depth.view), path, options);
+}
+
+OpenedLdi ready_ldi(LdiFile file, const std::string &path, const OpenOptions &options) {
     OpenedLdi opened{.name = display_name(path),
                      .ldi = std::move(file.ldi),
                      .header = std::move(file.header),

@@ -5,6 +5,7 @@
 #include "../deep/ldi.h"
 #include "../deep/sanitize.h"
 #include "../view/camera.h"
+#include "exr/exr_deep.h"
 #include "open_options.h"
 
 #include <ImfHeader.h>
@@ -33,5 +34,8 @@ struct OpenedLdi {
 // Error: the file cannot be read, or most of its depths are invalid (see sanitize()). UsageError: its depth is the
 // length of the ray, and the focal length is unknown.
 OpenedLdi open_ldi(const std::string &path, const OpenOptions &options = {});
+
+// The same for a deep picture that is in memory, or was read otherwise; `path` is for messages.
+OpenedLdi ready_ldi(LdiFile file, const std::string &path, const OpenOptions &options = {});
 
 } // namespace sparselens

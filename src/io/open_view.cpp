@@ -26,7 +26,11 @@ Camera with_frustum_of(const Camera &other, Camera camera) {
 } // namespace
 
 OpenedView open_view(const std::string &path, const OpenOptions &options, const Camera &otherwise) {
-    FlatFile file = read_flat_exr(path, options.depth.view);
+    return ready_view(read_flat_exr(path, options.depth.view), path, options, otherwise);
+}
+
+OpenedView ready_view(FlatFile file, const std::string &path, const OpenOptions &options,
+                      const Camera &otherwise) {
     OpenedView opened{{display_name(path), std::move(file.image), {}},
                       std::move(file.header),
                       {},

@@ -5,6 +5,7 @@
 #include "../deep/sanitize.h"
 #include "../view/camera.h"
 #include "../view/view.h"
+#include "exr/exr_flat.h"
 #include "open_options.h"
 
 #include <ImfHeader.h>
@@ -30,5 +31,9 @@ struct OpenedView {
 // Error: the file cannot be read, or most of its depths are invalid (see sanitize()). UsageError: its depth is the
 // length of the ray, and the focal length is unknown.
 OpenedView open_view(const std::string &path, const OpenOptions &options = {}, const Camera &otherwise = {});
+
+// The same for a picture that is in memory, or was read otherwise; `path` is for messages.
+OpenedView ready_view(FlatFile file, const std::string &path, const OpenOptions &options = {},
+                      const Camera &otherwise = {});
 
 } // namespace sparselens

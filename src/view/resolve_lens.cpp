@@ -92,6 +92,13 @@ double resolve_focal_px(const Camera &camera, const Windows &windows) {
     return *focal_px;
 }
 
+std::optional<double> perceptive_scale(const Camera &camera, const Windows &windows, bool required) {
+    const bool known = lens_radius_of(camera) && focal_length_px(camera, windows.display_width());
+    if (!known && !required) return {};
+    const double radius = resolve_radius(camera);
+    return radius > 0 ? radius * resolve_focal_px(camera, windows) : 0;
+}
+
 ThinLens resolve_lens(const Camera &camera, const Windows &windows) {
     const std::optional<double> radius = lens_radius_of(camera);
     if (radius == 0.0) return {.radius = 0, .pixel_aspect = windows.pixel_aspect};

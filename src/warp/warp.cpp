@@ -4,6 +4,7 @@
 #include "base/parallel.h"
 #include "deep/build.h"
 #include "lens/perceptive_depth.h"
+#include "view/resolve_lens.h"
 #include "warp/photo_consistency.h"
 #include "warp/visibility_vote.h"
 
@@ -152,6 +153,15 @@ Ldi Warper::run(Progress &progress) const {
 }
 
 } // namespace
+
+WarpOptions with_lens(WarpOptions options, const Camera &camera, std::span<const View> views) {
+    options.focus = camera.focus_distance;
+    if (views.size() == 1) return options;
+    options.focal_px = resolve_focal_px(camera, views[0].image.windows);
+    options.radius = lens_radius_of(camera).value_or(0);
+    for (const View &view : views) options.radius = std::max(options.radius, view.position.length());
+    return options;
+}
 
 Ldi warp(std::span<const View> views, const WarpOptions &options, Progress &progress) {
     return Warper(views, options).run(progress);

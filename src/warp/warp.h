@@ -7,6 +7,7 @@
 #include "../base/progress.h"
 #include "../deep/ldi.h"
 #include "../lens/thin_lens.h"
+#include "../view/camera.h"
 #include "../view/view.h"
 
 #include <optional>
@@ -32,6 +33,11 @@ struct WarpOptions {
     bool test_photo_consistency = true;
     std::optional<double> focus = {}; // of the lens, if known, scene units
 };
+
+// Takes the lens from the camera of the centre view, views[0]. Perceptive depth refers to the lens radius if that is
+// known, else to the distance of the outermost view. A single view needs no lens. Throws UsageError if the focal length
+// is unknown.
+WarpOptions with_lens(WarpOptions options, const Camera &camera, std::span<const View> views);
 
 // views[0] is the centre, whose windows and channels the LDI has. The result does not depend on the order of the
 // others. Channels of rim views are matched by name. Throws Error where display windows differ or a rim view lacks a

@@ -9,9 +9,7 @@
 
 namespace sparselens {
 
-// Opens the files, which are not empty, and merges their samples by depth (deep/merge.h). Header and camera are those of
-// the first file. Warns of invalid values. Throws Error, naming the file, if its display window or its focal length
-// differs from that of the first.
+// Opens the files, of which there is at least one, and merges them (merge_ldis). Warns of invalid values.
 OpenedLdi open_merged(const std::vector<std::string> &paths, const OpenOptions &options,
                       const ToolContext &tool);
 

@@ -1,0 +1,14 @@
+// Several deep pictures of one camera as one.
+#pragma once
+
+#include "open_ldi.h"
+
+#include <vector>
+
+namespace sparselens {
+
+// Merges the samples of the pictures, which are not empty, by depth (deep/merge.h). Name, header and camera are those of
+// the first. Throws Error, naming the file, if its display window or its focal length differs from that of the first.
+OpenedLdi merge_ldis(std::vector<OpenedLdi> parts);
+
+} // namespace sparselens

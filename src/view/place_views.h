@@ -1,0 +1,24 @@
+// Puts views where their cameras stood on the lens.
+#pragma once
+
+#include "lens_views.h"
+#include "view.h"
+
+#include <optional>
+#include <span>
+#include <string>
+
+namespace sparselens {
+
+struct StatedView {
+    std::string name;                        // for messages
+    Camera camera;                           // as its file says
+    std::optional<Imath::V2d> position = {}; // where the user says that it stands: scene units, x right, y up
+};
+
+// Sets position, framing and depth of views[1] and all after it, relative to views[0], which is the centre. The position
+// is the one stated, else that of worldToCamera (see position_on_lens, whose errors are thrown). `stated` says it of
+// each view, the centre among them. Returns the camera of the centre, with the lens points of all views.
+Camera place_views(std::span<View> views, std::span<const StatedView> stated);
+
+} // namespace sparselens
