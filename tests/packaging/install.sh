@@ -59,6 +59,17 @@ logged oiiotool --fail 0 --diff expected.exr focus-at-3.4.exr
 # OpenImageIO is loaded for the pictures that need it, from beside the tools, and for no others.
 logged "$prefix/bin/dof-gather" fence.ldi.exr -o shown.png
 logged oiiotool --info shown.png
+
+# The Python module gives the same from where it is installed, if it is built.
+module=$(find "$prefix" -name '_sparselens*.so')
+if grep -q '^SPARSELENS_PYTHON:BOOL=ON$' "$build/CMakeCache.txt"; then
+    [ -n "$module" ] || fail "the Python module is not installed"
+    python=$(sed -n 's/^_Python_EXECUTABLE:INTERNAL=//p' "$build/CMakeCache.txt")
+    echo 'import sparselens; sparselens.write("python.png", sparselens.gather(sparselens.open_ldi("fence.ldi.exr")))' >use.py
+    PYTHONPATH=$(dirname "$(dirname "$module")") logged "$python" use.py
+    cmp python.png shown.png || fail "the Python module writes another picture"
+    [ -s "$prefix/share/sparselens/python/pull_focus.py" ] || fail "the example in Python is not installed"
+fi
 rm "$(find "$prefix" -name sparselens-oiio.so)"
 logged "$prefix/bin/dof-gather" fence.ldi.exr --focus-distance 3.4 -o expected.exr
 fails_saying 1 'cannot load OpenImageIO' "$prefix/bin/dof-gather" fence.ldi.exr -o lost.png

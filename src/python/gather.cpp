@@ -1,0 +1,144 @@
+#include "python/gather.h"
+
+#include "base/error.h"
+#include "deep/flatten.h"
+#include "deep/front_depth.h"
+#include "deep/proxy.h"
+#include "dof/defocused_holdout.h"
+#include "dof/methods.h"
+#include "io/camera/camera_write.h"
+#include "io/gather_windows.h"
+#include "python/job.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace sparselens::python {
+
+namespace {
+
+// What the keywords ask for.
+struct Asked {
+    const GatherMethod *method = &gather_methods().front();
+    GatherOptions by;
+    WindowOptions windows;
+    std::optional<Imath::V2i> focus_pixel;
+    const OpenedLdi *holdout = nullptr; // kept alive by `keep_holdout`
+    py::object keep_holdout, progress;
+    bool holdout_defocused = false;
+    LensValues lens;
+};
+
+void set_method(Asked &asked, Keywords &keywords) {
+    const std::string name = keywords.text("method");
+    if (!name.empty()) {
+        const auto methods = gather_methods();
+        const auto found =
+            std::ranges::find_if(methods, [&](const GatherMethod &m) { return m.name == name; });
+        if (found == methods.end())
+            throw UsageError("method: must be one of lens, selective, scatter, not " + name);
+        asked.method = &*found;
+    }
+    const auto quality = keywords.word<Quality>(
+        "quality", {{"draft", Quality::draft}, {"normal", Quality::normal}, {"final", Quality::final}});
+    const auto points = keywords.whole("lens_samples", 0, 1 << 20),
+               layers = keywords.whole("layers", 1, 4096);
+    const bool lens = asked.method == &gather_methods().front();
+    const auto refuse = [](const char *keyword, const char *method) {
+        throw UsageError(fmt::format("{}: works with method='{}' only", keyword, method));
+    };
+    if (quality && !lens) refuse("quality", "lens");
+    if (points && !lens) refuse("lens_samples", "lens");
+    if (asked.holdout && !lens) refuse("holdout", "lens");
+    if (layers && asked.method->name != std::string("selective")) refuse("layers", "selective");
+    asked.by.lens.quality = quality.value_or(asked.by.lens.quality);
+    asked.by.lens.lens_samples = points.value_or(0);
+    asked.by.layers = layers.value_or(asked.by.layers);
+}
+
+Asked asked_by(const py::kwargs &given) {
+    Keywords keywords("gather", given);
+    Asked asked;
+    asked.keep_holdout = keywords.take("holdout");
+    if (!asked.keep_holdout.is_none())
+        asked.holdout = &argument<OpenedLdi>(asked.keep_holdout, "holdout", "an Ldi");
+    asked.holdout_defocused = keywords.flag("holdout_defocused");
+    if (asked.holdout_defocused && !asked.holdout) throw UsageError("holdout_defocused: needs a holdout");
+    set_method(asked, keywords);
+    const auto overscan = keywords.word<OutputOverscan>(
+        "overscan",
+        {{"grow", OutputOverscan::grow}, {"keep", OutputOverscan::keep}, {"crop", OutputOverscan::crop}});
+    asked.windows = {.overscan = overscan.value_or(OutputOverscan::grow),
+                     .proxy = keywords.whole("proxy", 1, 1024).value_or(1),
+                     .region = keywords.box("region")};
+    asked.focus_pixel = keywords.pixel("focus_pixel");
+    asked.lens = lens_values(keywords);
+    if (asked.focus_pixel && asked.lens.focus_distance)
+        throw UsageError("focus_pixel: is given with focus_distance; give one of the two");
+    asked.progress = keywords.take("progress");
+    keywords.done();
+    return asked;
+}
+
+Camera focused(Camera camera, const OpenedLdi &in, const std::optional<Imath::V2i> &pixel) {
+    if (!pixel) return camera;
+    const float z = front_depth(in.ldi, *pixel);
+    if (!(z > 0)) throw UsageError("focus_pixel: " + in.name + " has no sample there");
+    camera.focus_distance = double(z);
+    return camera;
+}
+
+void warn_of_wide_lens(const Camera &camera, const ThinLens &lens) {
+    double widest = 0;
+    for (const Imath::V2d &point : camera.lens_points) widest = std::max(widest, point.length());
+    if (widest > 0 && lens.radius > 1.001 * widest)
+        warn("the aperture is larger than the one the views were rendered for; what it sees beyond them is "
+             "unknown");
+}
+
+// The holdout at the size of the picture.
+std::optional<Ldi> holdout_of(const Asked &asked, const Ldi &ldi) {
+    if (!asked.holdout) return {};
+    const Ldi &holdout = asked.holdout->ldi;
+    if (holdout.windows.display != ldi.windows.display)
+        throw UsageError("holdout: its display window differs from that of the picture it holds out");
+    return asked.windows.proxy == 1 ? holdout : proxy(holdout, asked.windows.proxy);
+}
+
+Image gathered_sharp(const Asked &asked, const Ldi &ldi, const ThinLens &lens, const GatherWindows &frame,
+                     const std::optional<Holdout> &holdout, Progress &progress) {
+    if (lens.radius == 0)
+        return crop(holdout ? flatten_held_out(ldi, *holdout) : flatten(ldi), frame.written);
+    GatherOptions by = asked.by;
+    by.lens.region = frame.written;
+    by.lens.holdout = holdout ? &*holdout : nullptr;
+    return crop(asked.method->gather(ldi, lens, frame.gathered, by, progress), frame.written);
+}
+
+Image gathered(const Asked &asked, const OpenedLdi &in, ThinLens lens, Progress &progress) {
+    const auto holdout = holdout_of(asked, in.ldi);
+    const GatherWindows frame = gather_windows(asked.windows, in, lens);
+    const Ldi &ldi = frame.changed ? *frame.changed : in.ldi;
+    if (holdout && asked.holdout_defocused)
+        return without_holdout(gathered_sharp(asked, with_holdout(ldi, *holdout), lens, frame, {}, progress));
+    const auto sharp = holdout ? std::optional<Holdout>(*holdout) : std::nullopt;
+    return gathered_sharp(asked, ldi, lens, frame, sharp, progress);
+}
+
+} // namespace
+
+PictureObject gather(const py::object &ldi, const py::kwargs &given) {
+    const Asked asked = asked_by(given);
+    const OpenedLdi &in = argument<OpenedLdi>(ldi, "ldi", "an Ldi");
+    const Camera camera = focused(camera_with_options(asked.lens, in.camera), in, asked.focus_pixel);
+    const ThinLens lens = resolve_lens(camera, in.ldi.windows);
+    warn_of_wide_lens(camera, lens);
+    return job<PictureObject>(asked.progress, [&](Progress &said) {
+        PictureObject out{gathered(asked, in, lens, said), in.header};
+        write_camera(out.header, camera);
+        return out;
+    });
+}
+
+} // namespace sparselens::python

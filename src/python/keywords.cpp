@@ -1,0 +1,169 @@
+#include "python/keywords.h"
+
+#include "base/error.h"
+
+#include <fmt/format.h>
+#include <pybind11/stl.h>
+
+#include <cmath>
+#include <vector>
+
+namespace sparselens::python {
+
+namespace {
+
+std::string type_name(const py::handle &object) {
+    return py::str(py::type::handle_of(object).attr("__name__"));
+}
+
+} // namespace
+
+void wrong_type(const char *name, const char *wanted, const py::handle &found) {
+    throw py::type_error(fmt::format("{}: must be {}, not {}", name, wanted, type_name(found)));
+}
+
+namespace {
+// The numbers of a sequence of that length.
+template <typename Number>
+std::vector<Number> numbers(const py::object &object, const char *name, std::size_t count,
+                            const char *wanted) {
+    std::vector<Number> found;
+    try {
+        found = object.cast<std::vector<Number>>();
+    } catch (const py::cast_error &) {
+        wrong_type(name, wanted, object);
+    }
+    if (found.size() != count) Keywords::refuse(name, wanted, py::str(object));
+    return found;
+}
+
+bool is_bool(const py::handle &object) { return PyBool_Check(object.ptr()) != 0; }
+} // namespace
+
+Keywords::Keywords(const char *function, const py::kwargs &given) : function_(function) {
+    for (const auto &[name, value] : given) left_[name] = value;
+}
+
+py::object Keywords::take(const char *name) {
+    if (!left_.contains(name)) return py::none();
+    py::object value = left_[name];
+    PyDict_DelItemString(left_.ptr(), name);
+    return value;
+}
+
+bool Keywords::flag(const char *name) {
+    const py::object value = take(name);
+    if (value.is_none()) return false;
+    if (!is_bool(value)) wrong_type(name, "True or False", value);
+    return value.ptr() == Py_True;
+}
+
+std::optional<double> Keywords::number(const char *name, NumberRange range) {
+    const py::object object = take(name);
+    if (object.is_none()) return {};
+    if (is_bool(object)) wrong_type(name, "a number", object);
+    const double value = PyFloat_AsDouble(object.ptr());
+    if (PyErr_Occurred() != nullptr) {
+        PyErr_Clear();
+        wrong_type(name, "a number", object);
+    }
+    const bool in_range = value > 0 || (range.zero_allowed && value == 0);
+    if (in_range && (range.infinity_allowed || std::isfinite(value))) return value;
+    refuse(name,
+           std::string(range.zero_allowed ? "a number of at least 0" : "a number above 0") +
+               (range.infinity_allowed ? ", or inf" : ""),
+           fmt::format("{:g}", value));
+}
+
+std::optional<int> Keywords::whole(const char *name, int least, int most) {
+    const py::object object = take(name);
+    if (object.is_none()) return {};
+    if (is_bool(object) || PyIndex_Check(object.ptr()) == 0) wrong_type(name, "a whole number", object);
+    const Py_ssize_t value = PyNumber_AsSsize_t(object.ptr(), nullptr); // clipped where it is larger
+    if (value < least || value > most)
+        refuse(name, fmt::format("from {} to {}", least, most), py::str(object));
+    return int(value);
+}
+
+std::string Keywords::text(const char *name) {
+    const py::object object = take(name);
+    if (object.is_none()) return {};
+    if (PyUnicode_Check(object.ptr()) == 0) wrong_type(name, "a string", object);
+    return object.cast<std::string>();
+}
+
+std::string Keywords::path(const char *name) {
+    const py::object object = take(name);
+    return object.is_none() ? std::string() : path_of(object, name);
+}
+
+std::optional<Imath::V2d> Keywords::pair(const char *name) {
+    const py::object object = take(name);
+    if (object.is_none()) return {};
+    const auto v = numbers<double>(object, name, 2, "two numbers (x, y)");
+    if (!std::isfinite(v[0]) || !std::isfinite(v[1])) refuse(name, "two finite numbers", py::str(object));
+    return Imath::V2d(v[0], v[1]);
+}
+
+std::optional<Imath::V2i> Keywords::pixel(const char *name) {
+    const py::object object = take(name);
+    if (object.is_none()) return {};
+    const auto v = numbers<int>(object, name, 2, "two whole numbers (x, y)");
+    return Imath::V2i(v[0], v[1]);
+}
+
+std::optional<Imath::Box2i> Keywords::box(const char *name) {
+    const py::object object = take(name);
+    if (object.is_none()) return {};
+    const char *wanted = "left, top, right and bottom in whole pixels, the last ones included";
+    const auto v = numbers<int>(object, name, 4, wanted);
+    if (v[0] > v[2] || v[1] > v[3]) refuse(name, wanted, py::str(object));
+    return Imath::Box2i({v[0], v[1]}, {v[2], v[3]});
+}
+
+void Keywords::refuse(const char *name, const std::string &wanted, const std::string &found) {
+    throw UsageError(fmt::format("{}: must be {}, not {}", name, wanted, found));
+}
+
+void Keywords::done() const {
+    for (const auto &item : left_)
+        throw py::type_error(
+            fmt::format("{}() has no keyword argument '{}'", function_, std::string(py::str(item.first))));
+}
+
+LensValues lens_values(Keywords &keywords) {
+    LensValues lens{.focal_length_mm = keywords.number("focal_length"),
+                    .sensor_width_mm = keywords.number("sensor_width"),
+                    .fstop = keywords.number("fstop", {.infinity_allowed = true}),
+                    .lens_radius = keywords.number("lens_radius", {.zero_allowed = true}),
+                    .focus_distance = keywords.number("focus_distance", {.infinity_allowed = true}),
+                    .scene_unit = keywords.number("scene_unit")};
+    if (lens.fstop && lens.lens_radius)
+        throw UsageError("lens_radius: is given with fstop; give one of the two");
+    return lens;
+}
+
+DepthOptions depth_options(Keywords &keywords) {
+    const auto meaning = keywords.word<DepthMeaning>("depth", {{"z", DepthMeaning::planar},
+                                                               {"distance", DepthMeaning::distance},
+                                                               {"inverse", DepthMeaning::inverse},
+                                                               {"negative", DepthMeaning::negative},
+                                                               {"normalized", DepthMeaning::normalized}});
+    return {.meaning = meaning.value_or(DepthMeaning::planar),
+            .channel = keywords.text("depth_channel"),
+            .view = keywords.text("stereo_view"),
+            .near = keywords.number("near"),
+            .far = keywords.number("far", {.infinity_allowed = true})};
+}
+
+std::string path_of(const py::object &path, const char *name) {
+    PyObject *bytes = nullptr;
+    if (PyUnicode_FSConverter(path.ptr(), &bytes) == 0) {
+        PyErr_Clear();
+        wrong_type(name, "a file name (str or os.PathLike)", path);
+    }
+    const auto owned = py::reinterpret_steal<py::object>(bytes);
+    return PyBytes_AsString(bytes);
+}
+
+} // namespace sparselens::python

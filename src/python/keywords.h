@@ -1,0 +1,74 @@
+// The keyword arguments of a function, which are named as the tools' options, with _ for -.
+//
+// A keyword that is None is as one that is not given. Throws TypeError (a wrong type, an unknown keyword) or UsageError
+// (a wrong value), which name the keyword.
+#pragma once
+
+#include "io/open_options.h"
+
+#include <Imath/ImathBox.h>
+#include <pybind11/pybind11.h>
+
+#include <initializer_list>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace sparselens::python {
+
+namespace py = pybind11;
+
+struct NumberRange {
+    bool zero_allowed = false, infinity_allowed = false;
+};
+
+class Keywords {
+public:
+    Keywords(const char *function, const py::kwargs &given); // the function is for messages
+
+    py::object take(const char *name); // None where it is not given
+    bool flag(const char *name);       // False where it is not given
+    std::optional<double> number(const char *name, NumberRange range = {});
+    std::optional<int> whole(const char *name, int least, int most);
+    std::string text(const char *name); // empty where it is not given
+    std::string path(const char *name);
+    std::optional<Imath::V2d> pair(const char *name);  // two finite numbers
+    std::optional<Imath::V2i> pixel(const char *name); // two whole numbers
+    std::optional<Imath::Box2i> box(const char *name); // left, top, right, bottom; the last ones included
+
+    template <typename Value>
+    using Words = std::initializer_list<std::pair<const char *, Value>>;
+    // One of a few words.
+    template <typename Value>
+    std::optional<Value> word(const char *name, Words<Value> words) {
+        const std::string given = text(name);
+        if (given.empty()) return {};
+        std::string all;
+        for (const auto &[word, value] : words) {
+            if (given == word) return value;
+            all += (all.empty() ? "" : ", ") + std::string(word);
+        }
+        refuse(name, "one of " + all, given);
+    }
+
+    void done() const; // throws where a keyword is left that nobody took
+
+    [[noreturn]] static void refuse(const char *name, const std::string &wanted, const std::string &found);
+
+private:
+    std::string function_;
+    py::dict left_;
+};
+
+// focal_length, sensor_width, fstop, lens_radius, focus_distance, scene_unit.
+LensValues lens_values(Keywords &keywords);
+
+// depth, near, far, depth_channel, stereo_view.
+DepthOptions depth_options(Keywords &keywords);
+
+[[noreturn]] void wrong_type(const char *name, const char *wanted, const py::handle &found);
+
+// The file name in a str or os.PathLike.
+std::string path_of(const py::object &path, const char *name);
+
+} // namespace sparselens::python

@@ -1,0 +1,93 @@
+// The Python module sparselens, whose package (sparselens/__init__.py) imports what is here.
+#include "base/error.h"
+#include "io/files/memory_limit.h"
+#include "python/docs.h"
+#include "python/objects.h"
+
+#include <ImfThreading.h>
+#include <tbb/global_control.h>
+#include <tbb/info.h>
+
+#include <algorithm>
+#include <cctype>
+#include <memory>
+
+namespace sparselens::python {
+
+namespace {
+
+PyObject *error_type = nullptr, *usage_error_type = nullptr;
+
+// The library names the options of the tools: --lens-radius is lens_radius here, and --view is position.
+std::string in_python(const std::string &text) {
+    std::string result;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const bool begins =
+            text.compare(i, 2, "--") == 0 && (i == 0 || std::string(" (").find(text[i - 1]) < 2);
+        if (!begins || i + 2 >= text.size() || std::islower(static_cast<unsigned char>(text[i + 2])) == 0) {
+            result += text[i];
+            continue;
+        }
+        std::string option;
+        for (i += 2; i < text.size() && (text[i] == '-' || std::isalpha(static_cast<unsigned char>(text[i])));
+             ++i)
+            option += text[i] == '-' ? '_' : text[i];
+        result += option == "view" ? "position" : option;
+        --i;
+    }
+    return result;
+}
+
+void translate(std::exception_ptr thrown) {
+    try {
+        if (thrown) std::rethrow_exception(thrown);
+    } catch (const UsageError &error) {
+        PyErr_SetString(usage_error_type, in_python(error.what()).c_str());
+    } catch (const Error &error) {
+        PyErr_SetString(error_type, in_python(error.what()).c_str());
+    }
+}
+
+// An exception type that lives as long as the process.
+PyObject *exception_type(py::module_ &module, const char *name, PyObject *base, const char *text) {
+    PyObject *type =
+        PyErr_NewExceptionWithDoc((std::string("sparselens.") + name).c_str(), text, base, nullptr);
+    if (type == nullptr) throw py::error_already_set();
+    module.attr(name) = py::reinterpret_borrow<py::object>(type);
+    return type;
+}
+
+void set_limits(const py::kwargs &given) {
+    static std::unique_ptr<tbb::global_control> limit;
+    Keywords keywords("set_limits", given);
+    const auto threads = keywords.whole("threads", 0, 1 << 16);
+    const auto bytes = keywords.number("max_memory", {.zero_allowed = true, .infinity_allowed = true});
+    keywords.done();
+    if (threads) {
+        const int count = *threads > 0 ? *threads : tbb::info::default_concurrency();
+        limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
+                                                      std::size_t(count));
+        Imf::setGlobalThreadCount(count > 1 ? count : 0);
+    }
+    constexpr double most = 0x1p60;
+    if (bytes)
+        set_memory_limit(*bytes < 1 ? std::optional<std::uint64_t>() : std::uint64_t(std::min(*bytes, most)));
+}
+
+} // namespace
+
+} // namespace sparselens::python
+
+PYBIND11_MODULE(_sparselens, module) {
+    using namespace sparselens::python;
+    py::options options;
+    options.disable_function_signatures(); // the texts of docs.h begin with them, as Python writes them
+    module.doc() = doc::module;
+    module.attr("__version__") = SPARSELENS_VERSION;
+    error_type = exception_type(module, "Error", PyExc_RuntimeError, doc::error);
+    usage_error_type = exception_type(module, "UsageError", PyExc_ValueError, doc::usage_error);
+    py::register_exception_translator(&translate);
+    bind_objects(module);
+    bind_verbs(module);
+    module.def("set_limits", &set_limits, doc::set_limits);
+}

@@ -1,0 +1,58 @@
+// What the functions of the module take and give: the library's own structures, with what Python needs beside them.
+#pragma once
+
+#include "io/open_ldi.h"
+#include "io/open_view.h"
+#include "io/plan_file.h"
+#include "plan/plan.h"
+
+#include <pybind11/pybind11.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace sparselens::python {
+
+namespace py = pybind11;
+
+// Python calls these View, Ldi, Picture and Plan. Views and LDIs are never changed once they are made, so that work
+// without the interpreter's lock may read them.
+struct ViewObject {
+    OpenedView in;
+    std::optional<Imath::V2d> position = {}; // as the user states it, see StatedView
+};
+using LdiObject = OpenedLdi;
+struct PictureObject {
+    Image image;
+    Imf::Header header; // what is kept in a file that it is written to
+};
+struct PlanObject {
+    Plan plan;
+    PlanSetting setting;
+};
+struct PlannedViewObject {
+    PlannedView view;
+    ThinLens lens;
+};
+
+// The argument as one of these objects, or TypeError, which names the argument.
+template <typename Object>
+const Object &argument(const py::object &object, const char *name, const char *wanted);
+
+// Python warnings (UserWarning) of what was repaired in a file and what is hardly meant.
+void warn(const std::string &text);
+void warn_of(const std::string &name, const std::vector<std::string> &warnings, const InvalidValues &bad);
+
+void bind_objects(py::module_ &module);
+void bind_verbs(py::module_ &module);
+
+} // namespace sparselens::python
+
+#include "python/keywords.h"
+
+template <typename Object>
+const Object &sparselens::python::argument(const py::object &object, const char *name, const char *wanted) {
+    if (!py::isinstance<Object>(object)) wrong_type(name, wanted, object);
+    return object.cast<const Object &>();
+}

@@ -1,0 +1,241 @@
+#include "base/error.h"
+#include "deep/cluster.h"
+#include "deep/flatten.h"
+#include "io/camera/camera_read.h"
+#include "io/camera/camera_write.h"
+#include "io/merge_ldis.h"
+#include "measure/image_error.h"
+#include "measure/regions.h"
+#include "python/arrays.h"
+#include "python/docs.h"
+#include "python/gather.h"
+#include "python/job.h"
+#include "python/objects.h"
+#include "python/write.h"
+#include "view/place_views.h"
+#include "warp/warp.h"
+
+#include <pybind11/stl.h>
+
+namespace sparselens::python {
+
+namespace {
+
+constexpr const char *a_view = "a View", *an_ldi = "an Ldi";
+
+ViewObject open_view(const py::object &path, const py::kwargs &given) {
+    Keywords keywords("open_view", given);
+    const std::string name = path_of(path, "path");
+    const auto position = keywords.pair("position");
+    const py::object center = keywords.take("center");
+    const Camera otherwise =
+        center.is_none() ? Camera{} : argument<ViewObject>(center, "center", a_view).in.camera;
+    const OpenOptions options{lens_values(keywords), depth_options(keywords)};
+    keywords.done();
+    ViewObject view{
+        job<OpenedView>(py::none(), [&](Progress &) { return open_view(name, options, otherwise); }),
+        position};
+    warn_of(name, view.in.warnings, view.in.bad);
+    return view;
+}
+
+LdiObject open_ldi(const py::object &path, const py::kwargs &given) {
+    Keywords keywords("open_ldi", given);
+    const std::string name = path_of(path, "path");
+    const OpenOptions options{lens_values(keywords), depth_options(keywords)};
+    keywords.done();
+    auto ldi = job<OpenedLdi>(py::none(), [&](Progress &) { return open_ldi(name, options); });
+    warn_of(name, ldi.warnings, ldi.bad);
+    return ldi;
+}
+
+PictureObject open_picture(const py::object &path, const py::kwargs &given) {
+    Keywords keywords("open_picture", given);
+    const std::string name = path_of(path, "path"), view = keywords.text("stereo_view");
+    keywords.done();
+    auto file = job<FlatFile>(py::none(), [&](Progress &) { return read_flat_exr(name, view); });
+    warn_of(name, file.warnings, {});
+    return {std::move(file.image), std::move(file.header)};
+}
+
+// The objects of a sequence, or the one object.
+template <typename Object>
+std::vector<const Object *> several(const py::object &given, const char *name, const char *wanted) {
+    if (py::isinstance<Object>(given)) return {&given.cast<const Object &>()};
+    if (!py::isinstance<py::sequence>(given)) wrong_type(name, wanted, given);
+    std::vector<const Object *> found;
+    for (const py::handle &item : py::reinterpret_borrow<py::sequence>(given))
+        found.push_back(&argument<Object>(py::reinterpret_borrow<py::object>(item), name, wanted));
+    if (found.empty()) throw UsageError(std::string(name) + ": there is none");
+    return found;
+}
+
+WarpOptions warp_options(Keywords &keywords) {
+    const auto merge = keywords.word<Merge>("merge", {{"average", Merge::average}, {"keep", Merge::keep}});
+    const auto split = keywords.word<bool>("silhouettes", {{"split", true}, {"whole", false}});
+    const auto test = keywords.word<bool>("agreement", {{"test", true}, {"assume", false}});
+    return {.merge = merge.value_or(Merge::average),
+            .split_silhouettes = split.value_or(true),
+            .test_photo_consistency = test.value_or(true)};
+}
+
+LdiObject warp(const py::object &views, const py::kwargs &given) {
+    Keywords keywords("warp", given);
+    const auto from = several<ViewObject>(views, "views", "a sequence of View");
+    const WarpOptions options = warp_options(keywords);
+    const LensValues lens = lens_values(keywords);
+    const py::object progress = keywords.take("progress");
+    keywords.done();
+    return job<OpenedLdi>(progress, [&](Progress &said) {
+        std::vector<View> placed;
+        std::vector<StatedView> stated;
+        for (const ViewObject *view : from) {
+            placed.push_back(view->in.view);
+            stated.push_back(
+                {view->in.view.name, camera_with_options(lens, view->in.camera), view->position});
+        }
+        OpenedLdi out;
+        out.name = "warp";
+        out.header = from[0]->in.header;
+        out.camera = place_views(placed, stated);
+        write_camera(out.header, out.camera);
+        write_picture_window(out.header, placed[0].image.windows.data);
+        out.ldi = warp(placed, with_lens(options, out.camera, placed), said);
+        return out;
+    });
+}
+
+// The LDI without its samples.
+OpenedLdi described_as(const OpenedLdi &in) {
+    OpenedLdi out;
+    out.name = in.name;
+    out.header = in.header;
+    out.camera = in.camera;
+    return out;
+}
+
+ClusterOptions cluster_options(const Camera &camera, const Windows &windows, std::optional<double> tolerance,
+                               int layers) {
+    ClusterOptions options{.layers = layers};
+    const auto scale = perceptive_scale(camera, windows, tolerance.has_value() || layers == 0);
+    if (!scale) return options;
+    options.scale = *scale;
+    options.tolerance = tolerance.value_or(0.25);
+    return options;
+}
+
+LdiObject cluster(const py::object &ldi, const py::kwargs &given) {
+    Keywords keywords("cluster", given);
+    const auto from = several<LdiObject>(ldi, "ldi", "an Ldi, or a sequence of them");
+    const auto tolerance = keywords.number("tolerance", {.zero_allowed = true});
+    const int layers = keywords.whole("layers", 0, 1 << 20).value_or(0);
+    const LensValues lens = lens_values(keywords);
+    const py::object progress = keywords.take("progress");
+    keywords.done();
+    return job<OpenedLdi>(progress, [&](Progress &said) {
+        OpenedLdi merged; // of one LDI only what describes it: its samples are not copied
+        if (from.size() > 1) {
+            std::vector<OpenedLdi> parts;
+            for (const OpenedLdi *part : from) parts.push_back(*part);
+            merged = merge_ldis(std::move(parts));
+        } else {
+            merged = described_as(*from[0]);
+        }
+        const Ldi &in = from.size() > 1 ? merged.ldi : from[0]->ldi;
+        merged.camera = camera_with_options(lens, merged.camera);
+        merged.ldi = cluster(in, cluster_options(merged.camera, in.windows, tolerance, layers), said).ldi;
+        return merged;
+    });
+}
+
+PictureObject flatten(const py::object &ldi) {
+    const LdiObject &in = argument<LdiObject>(ldi, "ldi", an_ldi);
+    return job<PictureObject>(py::none(), [&](Progress &) {
+        PictureObject out{crop(flatten(in.ldi), read_picture_window(in.header)), in.header};
+        write_camera(out.header, in.camera);
+        return out;
+    });
+}
+
+PlanObject plan(const py::object &view, const py::kwargs &given) {
+    Keywords keywords("plan", given);
+    const OpenedView &centre = argument<ViewObject>(view, "view", a_view).in;
+    PlanOptions options;
+    options.views = keywords.whole("views", 0, 64).value_or(options.views);
+    options.margin = keywords.whole("margin", 0, 1024).value_or(options.margin);
+    options.noise = keywords.number("noise", {.zero_allowed = true});
+    const LensValues values = lens_values(keywords);
+    const py::object progress = keywords.take("progress");
+    keywords.done();
+    const Windows &windows = centre.view.image.windows;
+    const ThinLens lens = resolve_lens(camera_with_options(values, centre.camera), windows);
+    return job<PlanObject>(progress, [&](Progress &said) -> PlanObject {
+        return {make_plan(centre.view, lens, options, said),
+                {centre.view.name, windows, lens, options.margin}};
+    });
+}
+
+// A picture to compare: a Picture, a View or an array of [row][column][3 or 4].
+Image picture_of(const py::object &given, const char *name) {
+    if (py::isinstance<PictureObject>(given)) return given.cast<const PictureObject &>().image;
+    if (py::isinstance<ViewObject>(given)) return given.cast<const ViewObject &>().in.view.image;
+    if (py::isinstance<py::array>(given)) return image_from(given, name, Layout::hwc, {}, "Y");
+    wrong_type(name, "a Picture, a View or a numpy array", given);
+}
+
+py::dict dict_of(const ErrorFigures &figures) {
+    py::dict found;
+    for (const Figure &figure : figure_table) found[figure.name] = figures.*figure.value;
+    found["pixels"] = figures.pixels;
+    py::dict nonfinite;
+    nonfinite["image"] = figures.nonfinite_image;
+    nonfinite["reference"] = figures.nonfinite_reference;
+    found["nonfinite"] = nonfinite;
+    return found;
+}
+
+std::vector<std::uint8_t> bits_of(const OpenedLdi &in, const LensValues &values, const Windows &target) {
+    const Windows &w = in.ldi.windows;
+    if (w.display_width() != target.display_width() || w.display_height() != target.display_height())
+        throw UsageError("regions: its display window differs in size from that of the reference");
+    const ThinLens lens = resolve_lens(camera_with_options(values, in.camera), w);
+    const std::vector<float> c = front_circles_of_confusion(in.ldi, lens);
+    return bits_over(region_bits(c, w.width(), w.height(), lens.pixel_aspect), w, target);
+}
+
+py::dict compare(const py::object &image, const py::object &reference, const py::kwargs &given) {
+    Keywords keywords("compare", given);
+    const Image a = picture_of(image, "image"), b = picture_of(reference, "reference");
+    const py::object regions = keywords.take("regions");
+    const OpenedLdi *by = regions.is_none() ? nullptr : &argument<LdiObject>(regions, "regions", an_ldi);
+    const LensValues lens = lens_values(keywords);
+    keywords.done();
+    const auto figures = job<std::vector<ErrorFigures>>(py::none(), [&](Progress &) {
+        const auto bits = by ? bits_of(*by, lens, b.windows) : std::vector<std::uint8_t>();
+        return image_error(rgba_over(a, b.windows, "image"), rgba_over(b, b.windows, "reference"), bits,
+                           bits.empty() ? 0 : region_names.size());
+    });
+    py::dict found = dict_of(figures.front());
+    if (!by) return found;
+    py::dict each;
+    for (std::size_t r = 1; r < figures.size(); ++r) each[region_names[r - 1]] = dict_of(figures[r]);
+    found["regions"] = each;
+    return found;
+}
+
+} // namespace
+
+void bind_verbs(py::module_ &module) {
+    module.def("open_view", &open_view, py::arg("path"), doc::open_view)
+        .def("open_ldi", &open_ldi, py::arg("path"), doc::open_ldi)
+        .def("open_picture", &open_picture, py::arg("path"), doc::open_picture)
+        .def("warp", &warp, py::arg("views"), doc::warp)
+        .def("cluster", &cluster, py::arg("ldi"), doc::cluster)
+        .def("gather", &gather, py::arg("ldi"), doc::gather)
+        .def("flatten", &flatten, py::arg("ldi"), doc::flatten)
+        .def("plan", &plan, py::arg("view"), doc::plan)
+        .def("compare", &compare, py::arg("image"), py::arg("reference"), doc::compare)
+        .def("write", &write, py::arg("path"), py::arg("what"), doc::write);
+}
+
+} // namespace sparselens::python

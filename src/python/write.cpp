@@ -1,0 +1,110 @@
+#include "python/write.h"
+
+#include "base/error.h"
+#include "io/camera/camera_write.h"
+#include "io/display/colour.h"
+#include "io/display/shown_picture.h"
+#include "python/arrays.h"
+#include "python/job.h"
+
+#include <ImfStandardAttributes.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace sparselens::python {
+
+namespace {
+
+std::optional<Imf::Compression> compression_from(Keywords &keywords, bool deep) {
+    const std::string name = keywords.text("compression");
+    if (name.empty()) return {};
+    const auto found = std::ranges::find(compressions(), name, &NamedCompression::name);
+    if (found == compressions().end() || (deep && !found->deep))
+        throw UsageError(fmt::format("compression: {} files have one of {}, not {}", deep ? "deep" : "flat",
+                                     compression_names(deep, ", "), name));
+    return found->value;
+}
+
+// All channels in that type, but those of ids.
+void set_type(std::vector<Channel> &channels, std::optional<PixelType> type) {
+    for (Channel &channel : channels)
+        if (type && channel.type != PixelType::uint32) channel.type = *type;
+}
+
+// From the colours of the picture to those of a file for the screen.
+struct Display {
+    std::string config, display, view;
+
+    void show(Image &image, const Imf::Header &header) const {
+        const ColourConfig colours(config);
+        std::string from = colours.scene_linear();
+        if (Imf::hasChromaticities(header))
+            from = colours.linear_space(Imf::chromaticities(header)).value_or(from);
+        transform_colours(colours.to_display(display, view, from), image);
+    }
+};
+
+void warn_of_clamped(const std::string &path, std::size_t clamped) {
+    if (clamped > 0)
+        warn(fmt::format("{}: {} values beyond the range of half became the largest half, 65504", path,
+                         clamped));
+}
+
+void write_picture(const std::string &path, PictureObject picture, Keywords &keywords) {
+    const auto type =
+        keywords.word<PixelType>("type", {{"half", PixelType::half}, {"float", PixelType::float32}});
+    const auto compression = compression_from(keywords, false);
+    const Display display{keywords.path("colorconfig"), keywords.text("display"),
+                          keywords.text("view_transform")};
+    keywords.done();
+    const bool shown = is_shown_picture(path);
+    if (shown && (compression || type))
+        throw UsageError("compression: it and type apply to EXR, not to " + path);
+    if (!shown && !(display.display + display.view).empty())
+        throw UsageError("display: it and view_transform apply to PNG, JPEG and TIFF, not to " + path);
+    set_type(picture.image.channels, type);
+    std::size_t clamped = 0;
+    run_job(py::none(), [&](Progress &) {
+        if (!shown) {
+            clamped = write_flat_exr(path, picture.image, picture.header, compression);
+            return;
+        }
+        display.show(picture.image, picture.header);
+        write_shown_picture(path, picture.image);
+    });
+    warn_of_clamped(path, clamped);
+}
+
+void write_deep(const std::string &path, const LdiObject &in, Keywords &keywords) {
+    const auto compression = compression_from(keywords, true);
+    keywords.done();
+    Imf::Header header = in.header;
+    write_camera(header, in.camera);
+    const auto clamped = job<std::size_t>(
+        py::none(), [&](Progress &) { return write_ldi(path, in.ldi, header, compression); });
+    warn_of_clamped(path, clamped);
+}
+
+void write_plan_file(const std::string &path, const PlanObject &plan, Keywords &keywords) {
+    const std::string masks = keywords.path("masks");
+    keywords.done();
+    run_job(py::none(), [&](Progress &) { write_plan(path, plan.plan, plan.setting, masks); });
+}
+
+} // namespace
+
+void write(const py::object &path, const py::object &what, const py::kwargs &given) {
+    Keywords keywords("write", given);
+    const std::string name = path_of(path, "path");
+    if (py::isinstance<LdiObject>(what)) return write_deep(name, what.cast<const LdiObject &>(), keywords);
+    if (py::isinstance<PlanObject>(what))
+        return write_plan_file(name, what.cast<const PlanObject &>(), keywords);
+    if (py::isinstance<PictureObject>(what))
+        return write_picture(name, what.cast<const PictureObject &>(), keywords);
+    if (py::isinstance<py::array>(what))
+        return write_picture(name, {image_from(what, "what", Layout::hwc, {}, "Y"), {}}, keywords);
+    wrong_type("what", "an Ldi, a Picture, a Plan or a numpy array", what);
+}
+
+} // namespace sparselens::python

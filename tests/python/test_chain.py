@@ -1,0 +1,144 @@
+"""The chain on the scene fence: every function gives the bytes of its tool."""
+import json
+import math
+
+import numpy
+import pytest
+import sparselens
+
+
+def test_warp(views, warped, tmp_path):
+    sparselens.write(tmp_path / "warped.exr", sparselens.warp(views))
+    assert (tmp_path / "warped.exr").read_bytes() == warped.read_bytes()
+
+
+@pytest.mark.parametrize("keywords", [{"merge": "keep"}, {"silhouettes": "whole"}, {"agreement": "assume"}])
+def test_warp_keywords(views, names, warped, tool, tmp_path, keywords):
+    (name, value), = keywords.items()
+    tool("ldi-warp", *names, "--" + name, value, "-o", tmp_path / "tool.exr")
+    sparselens.write(tmp_path / "python.exr", sparselens.warp(views, **keywords))
+    assert (tmp_path / "python.exr").read_bytes() == (tmp_path / "tool.exr").read_bytes()
+    if name != "agreement":  # fence has no mirrors
+        assert (tmp_path / "tool.exr").read_bytes() != warped.read_bytes()
+
+
+def test_warp_is_what_is_written(views, warped):
+    ldi, read = sparselens.warp(views), sparselens.open_ldi(warped)
+    assert numpy.array_equal(ldi.begin, read.begin)
+    assert numpy.array_equal(ldi.z, read.z)  # float32 in the file; colours are half: 11 bits
+    assert numpy.allclose(ldi["R"], read["R"], rtol=2**-11, atol=2**-25)
+
+
+@pytest.mark.parametrize("keywords", [{}, {"tolerance": 2}, {"layers": 2}, {"lens_radius": 0.02}])
+def test_cluster(warped, tool, tmp_path, keywords):
+    options = [word for name, value in keywords.items() for word in ("--" + name.replace("_", "-"), value)]
+    tool("ldi-cluster", warped, *options, "-o", tmp_path / "tool.exr")
+    sparselens.write(tmp_path / "python.exr", sparselens.cluster(sparselens.open_ldi(warped), **keywords))
+    assert (tmp_path / "python.exr").read_bytes() == (tmp_path / "tool.exr").read_bytes()
+
+
+def test_cluster_merges(clustered, tool, tmp_path):
+    ldi = sparselens.open_ldi(clustered)
+    tool("ldi-cluster", clustered, clustered, "-o", tmp_path / "tool.exr")
+    sparselens.write(tmp_path / "python.exr", sparselens.cluster([ldi, ldi]))
+    assert (tmp_path / "python.exr").read_bytes() == (tmp_path / "tool.exr").read_bytes()
+
+
+GATHERS = [
+    {},
+    {"focus_distance": 2.2},
+    {"fstop": 1.4},
+    {"lens_radius": 0},
+    {"quality": "final"},
+    {"lens_samples": 7},
+    {"method": "selective", "layers": 2},
+    {"region": (10, 20, 49, 69)},
+    {"proxy": 2},
+    {"overscan": "keep"},
+    {"focus_pixel": (80, 45)},
+    {"focal_length": 80, "sensor_width": 30},
+]
+
+
+def options_of(keywords):
+    for name, value in keywords.items():
+        yield "--" + name.replace("_", "-")
+        yield ",".join(map(str, value)) if isinstance(value, tuple) else value
+
+
+@pytest.mark.parametrize("keywords", GATHERS, ids=str)
+def test_gather(clustered, tool, tmp_path, keywords):
+    tool("dof-gather", clustered, *options_of(keywords), "-o", tmp_path / "tool.exr")
+    sparselens.write(tmp_path / "python.exr", sparselens.gather(sparselens.open_ldi(clustered), **keywords))
+    assert (tmp_path / "python.exr").read_bytes() == (tmp_path / "tool.exr").read_bytes()
+
+
+@pytest.mark.parametrize("defocused", [False, True])
+def test_holdout(clustered, tool, tmp_path, defocused):
+    ldi = sparselens.open_ldi(clustered)
+    near = ldi.z < 3
+    begin = numpy.concatenate([[0], numpy.cumsum(near)])[ldi.begin.astype(numpy.int64)].astype(numpy.uint64)
+    channels = {name: ldi[name][near] for name in ldi.channels}
+    fence = sparselens.Ldi(begin, ldi.z[near], channels, size=(ldi.width, ldi.height),
+                           data_window=ldi.data_window, display_window=ldi.display_window)
+    sparselens.write(tmp_path / "fence.exr", fence)
+    more = ["--holdout-defocused"] if defocused else []
+    tool("dof-gather", clustered, "--holdout", tmp_path / "fence.exr", *more, "-o", tmp_path / "tool.exr")
+    picture = sparselens.gather(ldi, holdout=sparselens.open_ldi(tmp_path / "fence.exr"),
+                                holdout_defocused=defocused)
+    sparselens.write(tmp_path / "python.exr", picture)
+    assert (tmp_path / "python.exr").read_bytes() == (tmp_path / "tool.exr").read_bytes()
+
+
+def test_write_for_the_screen(clustered, tool, tmp_path):
+    tool("dof-gather", clustered, "-o", tmp_path / "tool.png")
+    sparselens.write(tmp_path / "python.png", sparselens.gather(sparselens.open_ldi(clustered)))
+    assert (tmp_path / "python.png").read_bytes() == (tmp_path / "tool.png").read_bytes()
+
+
+def test_write_type_and_compression(clustered, tool, tmp_path):
+    tool("dof-gather", clustered, "-d", "float", "--compression", "piz", "-o", tmp_path / "tool.exr")
+    picture = sparselens.gather(sparselens.open_ldi(clustered))
+    sparselens.write(tmp_path / "python.exr", picture, type="float", compression="piz")
+    assert (tmp_path / "python.exr").read_bytes() == (tmp_path / "tool.exr").read_bytes()
+
+
+def test_flatten(clustered):
+    ldi = sparselens.open_ldi(clustered)
+    pinhole = sparselens.gather(ldi, lens_radius=0)
+    assert numpy.array_equal(sparselens.flatten(ldi).planes, pinhole.planes)
+
+
+def test_plan(views, names, tool, tmp_path):
+    tool("ldi-plan", names[0], "--views", 3, "--margin", 1, "--masks", tmp_path / "tool", "-o", tmp_path / "tool.json")
+    plan = sparselens.plan(views[0], views=3, margin=1)
+    sparselens.write(tmp_path / "python.json", plan, masks=tmp_path / "python")
+    by_tool = json.loads((tmp_path / "tool.json").read_text())
+    by_python = json.loads((tmp_path / "python.json").read_text().replace("python/", "tool/"))
+    assert by_python == by_tool
+    for k, view in enumerate(plan.views):
+        mask = f"view_{k}.exr"
+        assert (tmp_path / "python" / mask).read_bytes() == (tmp_path / "tool" / mask).read_bytes()
+        assert view.mask.shape == (90, 160) and view.mask.dtype == bool
+        assert view.share == view.mask.mean() == by_tool["views"][k]["share"]
+        assert [list(box) for box in view.rectangles] == by_tool["views"][k]["rectangles"]
+        assert math.isclose(math.hypot(*view.lens_point), 1)
+
+
+def none_for_what_json_lacks(figures):
+    if isinstance(figures, dict):
+        return {name: none_for_what_json_lacks(value) for name, value in figures.items()}
+    return figures if math.isfinite(figures) else None
+
+
+def test_compare(views, names, clustered, tool, tmp_path):
+    tool("dof-gather", clustered, "-o", tmp_path / "picture.exr")
+    arguments = [tmp_path / "picture.exr", names[0], "--regions", clustered, "--focus-distance", 3, "--json"]
+    by_tool = json.loads(tool("dof-compare", *arguments))
+    picture = sparselens.open_picture(tmp_path / "picture.exr")
+    regions = sparselens.open_ldi(clustered)
+    figures = sparselens.compare(picture, views[0], regions=regions, focus_distance=3)
+    assert none_for_what_json_lacks(figures) == by_tool
+    pixels = numpy.ascontiguousarray(picture.pixels)
+    assert sparselens.compare(pixels, views[0])["psnr"] == by_tool["psnr"]
+    assert math.isinf(sparselens.compare(picture, picture)["psnr"])

@@ -1,0 +1,98 @@
+"""Long work: progress, interruption, the interpreter's lock."""
+import _thread
+import threading
+
+import pytest
+import sparselens
+
+
+def stages_of(call):
+    said = []
+    result = call(lambda stage, percent: said.append((stage, percent)))
+    return result, said
+
+
+@pytest.mark.parametrize("stage", ["warping", "clustering", "gathering", "planning"])
+def test_progress(views, clustered, stage):
+    ldi = sparselens.open_ldi(clustered)
+    call = {"warping": lambda p: sparselens.warp(views, progress=p),
+            "clustering": lambda p: sparselens.cluster(ldi, progress=p),
+            "gathering": lambda p: sparselens.gather(ldi, progress=p),
+            "planning": lambda p: sparselens.plan(views[0], progress=p)}[stage]
+    _, said = stages_of(call)
+    assert {name for name, _ in said} == {stage}
+    percents = [percent for _, percent in said]
+    assert percents == sorted(set(percents)) and percents[0] == 0 and percents[-1] == 100
+
+
+def test_progress_is_called_here(clustered):
+    here = threading.get_ident()
+    sparselens.gather(sparselens.open_ldi(clustered), progress=lambda *_: check(threading.get_ident() == here))
+
+
+def check(holds):
+    assert holds
+
+
+def test_exception_in_progress_ends_the_work(clustered):
+    said = []
+
+    def stop(stage, percent):
+        said.append(percent)
+        raise KeyError("enough")
+
+    with pytest.raises(KeyError, match="enough"):
+        sparselens.gather(sparselens.open_ldi(clustered), progress=stop)
+    assert said == [0]
+
+
+def test_interrupt_ends_the_work(views):
+    """Scattering so large a blur takes far longer than the interrupt."""
+    ldi, said = sparselens.warp(views), []
+    threading.Timer(0.1, _thread.interrupt_main).start()
+    with pytest.raises(KeyboardInterrupt):
+        sparselens.gather(ldi, method="scatter", lens_radius=2, focus_distance=1, progress=lambda _, p: said.append(p))
+    assert not said or said[-1] < 100
+    sparselens.gather(ldi)  # nothing is broken
+
+
+def test_others_run_meanwhile(clustered):
+    ldi, ticks, done = sparselens.open_ldi(clustered), [], threading.Event()
+
+    def tick():
+        while not done.wait(0.001):
+            ticks.append(1)
+
+    other = threading.Thread(target=tick)
+    other.start()
+    before = len(ticks)
+    sparselens.gather(ldi, lens_samples=512)  # without the lock released: no tick
+    after = len(ticks)
+    done.set()
+    other.join()
+    assert after > before
+
+
+def test_gathers_at_once(clustered):
+    """One LDI may be gathered by several threads."""
+    ldi = sparselens.open_ldi(clustered)
+    alone, found = sparselens.gather(ldi, focus_distance=2.5), []
+    threads = [threading.Thread(target=lambda: found.append(sparselens.gather(ldi, focus_distance=2.5)))
+               for _ in range(3)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert len(found) == 3 and all((picture.planes == alone.planes).all() for picture in found)
+
+
+def test_set_limits(clustered):
+    ldi = sparselens.open_ldi(clustered)
+    usual = sparselens.gather(ldi)
+    sparselens.set_limits(threads=1)
+    assert (sparselens.gather(ldi).planes == usual.planes).all()
+    sparselens.set_limits(threads=0, max_memory=1000)
+    with pytest.raises(sparselens.Error, match="max_memory"):
+        sparselens.open_ldi(clustered)
+    sparselens.set_limits(max_memory=0)
+    sparselens.open_ldi(clustered)

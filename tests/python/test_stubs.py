@@ -1,0 +1,71 @@
+"""The stubs and help(): complete, and true of the module."""
+import ast
+import inspect
+import pathlib
+import subprocess
+import sys
+
+import pytest
+import sparselens
+
+STUBS = pathlib.Path(sparselens.__file__).parent
+USE = '''
+import numpy
+import sparselens
+
+def focus(names: list[str], distance: float) -> numpy.typing.NDArray[numpy.float32]:
+    views = [sparselens.open_view(name, lens_radius=0.05) for name in names]
+    ldi = sparselens.cluster(sparselens.warp(views, merge="keep"), tolerance=0.5)
+    picture = sparselens.gather(ldi, focus_distance=distance, progress=lambda stage, percent: print(stage, percent))
+    figures = sparselens.compare(picture, views[0], regions=ldi)
+    print(figures["psnr"] + figures["regions"]["blurred"]["ssim"])
+    sparselens.write("picture.exr", picture, type="half")
+    return picture.pixels
+'''
+
+
+def mypy(*arguments):
+    pytest.importorskip("mypy")
+    return subprocess.run([sys.executable, "-m", *arguments], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                          text=True)
+
+
+def test_strict(tmp_path):
+    use = tmp_path / "use.py"
+    use.write_text(USE)
+    found = mypy("mypy", "--strict", f"--cache-dir={tmp_path}", STUBS / "__init__.pyi", use)
+    assert found.returncode == 0, found.stdout
+    use.write_text(USE.replace('"keep"', '"kept"').replace("lens_radius", "radius"))
+    found = mypy("mypy", "--strict", f"--cache-dir={tmp_path}", use)
+    assert found.stdout.count("error:") == 2, found.stdout
+
+
+def test_stubs_have_all():
+    text = (STUBS / "__init__.pyi").read_text()
+    for name in sparselens.__all__:
+        assert f"def {name}(" in text or f"class {name}(" in text or f"class {name}:" in text, name
+        for member in dir(getattr(sparselens, name)):
+            assert member.startswith("_") or member in dir(Exception) or f"def {member}(" in text, (name, member)
+
+
+def stub_of(name):
+    """The parameters of a function in the stubs."""
+    tree = ast.parse((STUBS / "__init__.pyi").read_text())
+    function, = (node for node in tree.body if isinstance(node, ast.FunctionDef) and node.name == name)
+    return [argument.arg for argument in function.args.args + function.args.kwonlyargs]
+
+
+@pytest.mark.parametrize("name", [n for n in sparselens.__all__ if inspect.isbuiltin(getattr(sparselens, n))])
+def test_help(name):
+    """help() begins with the signature, which is that of the stubs."""
+    function = getattr(sparselens, name)
+    named = list(inspect.signature(function).parameters)
+    assert named == stub_of(name)
+    assert len(function.__doc__) > 60
+
+
+def test_help_of_members():
+    for kind in (sparselens.View, sparselens.Ldi, sparselens.Picture, sparselens.Plan, sparselens.PlannedView, sparselens.Camera):
+        assert kind.__module__ == "sparselens" and kind.__doc__
+        for name, member in inspect.getmembers(kind):
+            assert name.startswith("_") or member.__doc__, (kind, name)
