@@ -27,18 +27,8 @@ void check(const CLI::App &parsed, const GatherCommand &options) {
         throw CLI::ValidationError("--show tiles", "works with --method lens only");
 }
 
-} // namespace
-
-void add_gather_options(CLI::App &app, GatherCommand &options) {
+void add_method_options(CLI::App &app, GatherCommand &options) {
     const char *lens_group = "Method lens";
-    app.add_option("IN", options.input, "LDI, any deep EXR or flat RGBA+Z; - for standard input")
-        ->type_name("")
-        ->required();
-    app.add_option("-o,--output", options.output,
-                   "Picture to write (EXR, PNG, JPEG or TIFF); - for standard output")
-        ->type_name("OUT.exr")
-        ->required();
-    add_method_option(app, options.method);
     const std::map<std::string, Quality> qualities{
         {"draft", Quality::draft}, {"normal", Quality::normal}, {"final", Quality::final}};
     app.add_option("--quality", options.gather.lens.quality, "Trade of error against time (default: normal)")
@@ -56,8 +46,6 @@ void add_gather_options(CLI::App &app, GatherCommand &options) {
         ->type_name("K")
         ->group("Method selective")
         ->check(CLI::Range(1, 4096));
-    add_pixel_option(app, "--focus-pixel", options.focus_pixel,
-                     "Focus on the front surface in this pixel, in EXR coordinates");
     app.add_option("--holdout", options.holdout,
                    "Deep EXR that hides what is behind it and is not shown itself; it stays sharp")
         ->type_name("DEEP.exr")
@@ -66,6 +54,35 @@ void add_gather_options(CLI::App &app, GatherCommand &options) {
                  "The holdout is part of the scene and out of focus like the rest, rather than sharp")
         ->group(lens_group)
         ->needs("--holdout");
+}
+
+void add_gather_examples(CLI::App &app) {
+    add_examples(
+        app,
+        {{"Make the picture through the lens that the file describes", "dof-gather ldi.exr -o picture.exr"},
+         {"Focus on what pixel 100,60 shows, stop down, and write a PNG",
+          "dof-gather ldi.exr -o picture.png --focus-pixel 100,60 --fstop 2"},
+         {"Pull the focus over 12 frames",
+          "dof-gather ldi.exr -o pull.####.exr --frames 1-12 --focus-distance 1:2.0,12:5.0"},
+         {"Defocus one flat render that does not describe its lens",
+          "dof-gather beauty.exr -o picture.exr --focal-length 35 --sensor-width 36 --fstop 0.5 "
+          "--focus-distance 5"}});
+}
+
+} // namespace
+
+void add_gather_options(CLI::App &app, GatherCommand &options) {
+    app.add_option("IN", options.input, "LDI, any deep EXR or flat RGBA+Z; - for standard input")
+        ->type_name("")
+        ->required();
+    app.add_option("-o,--output", options.output,
+                   "Picture to write (EXR, PNG, JPEG or TIFF); - for standard output")
+        ->type_name("OUT.exr")
+        ->required();
+    add_method_option(app, options.method);
+    add_method_options(app, options);
+    add_pixel_option(app, "--focus-pixel", options.focus_pixel,
+                     "Focus on the front surface in this pixel, in EXR coordinates");
     app.add_option("--depth-out", options.depth_output, "Also write the depth of the front samples (EXR)")
         ->type_name("FILE");
     app.add_option("--channels", options.channels,
@@ -82,16 +99,7 @@ void add_gather_options(CLI::App &app, GatherCommand &options) {
     add_window_options(app, options.windows);
     add_history_option(app, options.history);
     app.get_option("--focus-pixel")->excludes("--focus-distance");
-    add_examples(
-        app,
-        {{"Make the picture through the lens that the file describes", "dof-gather ldi.exr -o picture.exr"},
-         {"Focus on what pixel 100,60 shows, stop down, and write a PNG",
-          "dof-gather ldi.exr -o picture.png --focus-pixel 100,60 --fstop 2"},
-         {"Pull the focus over 12 frames",
-          "dof-gather ldi.exr -o pull.####.exr --frames 1-12 --focus-distance 1:2.0,12:5.0"},
-         {"Defocus one flat render that does not describe its lens",
-          "dof-gather beauty.exr -o picture.exr --focal-length 35 --sensor-width 36 --fstop 0.5 "
-          "--focus-distance 5"}});
+    add_gather_examples(app);
     app.final_callback([&app, &options] { check(app, options); });
 }
 

@@ -213,41 +213,64 @@ std::vector<LensSample> stretched(std::span<const LensSample> points, const Imat
     return moved;
 }
 
-// The picture with `coc` added to the CoC of all samples.
+// What the looks make of the lens, with `coc` added to the CoC of all samples.
+struct Optics {
+    const LensLooks &looks;
+    double coc;
+    Imath::V2i corner; // of the data window
+    Aperture aperture;
+    PictureFrame frame;
+    FocusField field;
+    CatEye cat_eye;
+
+    Optics(const Ldi &ldi, const ThinLens &lens, const LensLooks &looks_, double coc_)
+        : looks(looks_), coc(coc_), corner(ldi.windows.data.min), aperture(looks.aperture),
+          frame(picture_frame(ldi.windows, looks)), field(looks, lens, frame),
+          cat_eye(aperture, looks, frame) {}
+
+    bool moves() const { return looks.magnification != 1; }
+    float widest() const { return float(std::max(aperture.half_extent().x, aperture.half_extent().y)); }
+    void bend(BlockedSamples &samples) const {
+        if (moves() || coc != 0 || !field.flat())
+            bend_samples(samples, field, coc, frame, looks.magnification, corner);
+    }
+    // How CoC changes across the tile whose first pixel that is (EXR coordinates).
+    Imath::V2d coc_gradient(const Imath::V2i &first) const {
+        if (field.flat()) return {0, 0};
+        const Imath::V2d middle = Imath::V2d(first) + Imath::V2d(LensTile::size / 2);
+        return field.coc_gradient(frame.magnified(middle, 1 / looks.magnification));
+    }
+};
+
 Image gather_once(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window,
                   const LensGatherOptions &options, double coc, Progress &progress) {
     Image out = crop(options.holdout ? flatten_held_out(ldi, *options.holdout) : flatten(ldi), window);
     BlockedSamples samples = make_blocks(ldi, lens, window);
-    const LensLooks &looks = options.looks;
-    const Aperture aperture(looks.aperture);
-    const PictureFrame frame = picture_frame(ldi.windows, looks);
-    const FocusField field(looks, lens, frame);
-    const CatEye cat_eye(aperture, looks, frame);
-    const bool moved = looks.magnification != 1;
-    const bool bent = moved || coc != 0 || !field.flat();
-    if (bent) bend_samples(samples, field, coc, frame, looks.magnification, ldi.windows.data.min);
-    const float widest = float(std::max(aperture.half_extent().x, aperture.half_extent().y));
+    const Optics optics(ldi, lens, options.looks, coc);
+    optics.bend(samples);
+    const float widest = optics.widest();
     const auto sharp = [&](const SampleBlock &block) {
         return block.begin == block.end || largest_coc_of(block) * widest < in_focus;
     };
     LensTiles chosen = tiles_of(out.windows);
     if (options.chosen) *options.chosen = chosen;
-    if (!moved && std::ranges::all_of(samples.blocks, sharp)) return out;
+    if (!optics.moves() && std::ranges::all_of(samples.blocks, sharp)) return out;
     SampleColours colours = make_colours(ldi, samples);
     sharpen_near_focus(ldi, lens, samples, colours);
     const LightChannels light = light_channels(ldi);
     const Highlights highlights = take_highlights(samples, light.brightness, light.all, colours);
     FillerSamples fillers = place_fillers(ldi, lens, find_fillers(ldi, lens, window), samples, colours);
-    if (bent) bend_samples(fillers.samples, field, coc, frame, looks.magnification, ldi.windows.data.min);
-    const BlockFinder finder(samples, aperture, lens.pixel_aspect),
-        filler_finder(fillers.samples, aperture, lens.pixel_aspect);
-    LensSets sets(options, aperture, lens.pixel_aspect);
+    optics.bend(fillers.samples);
+    const BlockFinder finder(samples, optics.aperture, lens.pixel_aspect),
+        filler_finder(fillers.samples, optics.aperture, lens.pixel_aspect);
+    LensSets sets(options, optics.aperture, lens.pixel_aspect);
     const HeldOut held_out{options.holdout, perceptive_depth(lens, 1), ldi.windows.data.min};
     const Windows &windows = out.windows;
     const std::vector<std::size_t> gathered = averaged_channels(out);
     progress.start("gathering", chosen.lens_points.size());
     tbb::enumerable_thread_specific<LensTile> tiles([&] {
-        return LensTile(samples, colours, fillers, highlights, held_out, cat_eye.cuts() ? &cat_eye : nullptr);
+        return LensTile(samples, colours, fillers, highlights, held_out,
+                        optics.cat_eye.cuts() ? &optics.cat_eye : nullptr);
     });
     parallel_for(chosen.lens_points.size(), [&](std::size_t t) {
         const Imath::V2i corner =
@@ -257,21 +280,19 @@ Image gather_once(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &wind
         if (options.region && !options.region->intersects(pixels)) return progress.advance();
         const Imath::V2i origin = corner + window.min - ldi.windows.data.min;
         LensTile::Blocks blocks;
-        const Imath::V2d middle =
-            frame.magnified(Imath::V2d(first) + Imath::V2d(LensTile::size / 2), 1 / looks.magnification);
-        const Imath::V2d gradient = field.flat() ? Imath::V2d(0, 0) : field.coc_gradient(middle);
+        const Imath::V2d gradient = optics.coc_gradient(first);
         const float steepest = float(stretch(gradient, gradient.normalized() * double(finder.extent())));
         const float largest = finder.find(origin, LensTile::size, steepest, blocks.samples) * widest;
         progress.advance();
-        if (largest < in_focus && !moved) return; // the flattened LDI is there already
+        if (largest < in_focus && !optics.moves()) return; // the flattened LDI is there already
         const LensSets::Set &set = sets.for_coc(largest);
         filler_finder.find(origin, LensTile::size, steepest, blocks.fillers);
         chosen.lens_points[t] = int(set.points.size());
         LensTile &tile = tiles.local();
-        tile.gather(origin, blocks, field.flat() ? set.points : stretched(set.points, gradient),
+        tile.gather(origin, blocks, optics.field.flat() ? set.points : stretched(set.points, gradient),
                     highlight_pixels(highlights, samples, set.nearest,
-                                     {aperture, cat_eye, ldi.windows.data.min}, lens.pixel_aspect, origin,
-                                     LensTile::size));
+                                     {optics.aperture, optics.cat_eye, optics.corner}, lens.pixel_aspect,
+                                     origin, LensTile::size));
         for_each_pixel(corner, windows, [&](int x, int y) {
             if (tile.dark(x, y)) return; // a few lens points may all miss: better sharp than black
             for (const std::size_t k : gathered)
