@@ -38,7 +38,7 @@ done
 # Options are those of a tool, or of a program that the project's own scripts call.
 {
     for tool in "$bin"/ldi-* "$bin"/dof-*; do "$tool" --help; done
-    cat "$source_dir"/tools/*.sh "$source_dir"/tests/*.sh "$source_dir"/tests/*/*.sh "$source_dir"/share/blender/*.py "$source_dir"/tests/CMakeLists.txt
+    cat "$source_dir"/tools/*.sh "$source_dir"/tests/*.sh "$source_dir"/tests/*/*.sh "$source_dir"/share/*/*.{sh,py} "$source_dir"/tests/CMakeLists.txt
 } >options
 for document in "${documents[@]}"; do
     matches '(^|[ `(])--[a-z][a-z_-]+' "$source_dir/$document" | tr -d ' `(' | while read -r option; do
