@@ -44,6 +44,14 @@ Image gathered(const GatherCommand &options, const Ldi &ldi, const ThinLens &len
     return gathered_sharp(options, ldi, lens, frame, sharp, tool, tiles);
 }
 
+// A copy with brighter lights, if they are asked for: the LDI itself is kept for the next frame.
+Ldi raised_highlights(const HighlightGain &by, const Ldi &ldi) {
+    if (by.gain == 1) return {};
+    Ldi raised = ldi;
+    raise_highlights(raised, by);
+    return raised;
+}
+
 void run(const GatherCommand &given, const ToolContext &tool, LdiCache &cache) {
     GatherCommand options = given;
     const OpenOptions by{options.lens, options.depth};
@@ -53,7 +61,8 @@ void run(const GatherCommand &given, const ToolContext &tool, LdiCache &cache) {
     const auto holdout = open_holdout(options.holdout, in.ldi.windows, options.windows.proxy, by);
     say_border_reach(tool, options.input, in.ldi, lens);
     const GatherWindows frame = gather_windows(options.windows, in, lens);
-    const Ldi &ldi = frame.changed ? *frame.changed : in.ldi;
+    const Ldi raised = raised_highlights(options.highlights, frame.changed ? *frame.changed : in.ldi);
+    const Ldi &ldi = options.highlights.gain != 1 ? raised : frame.changed ? *frame.changed : in.ldi;
     options.gather.lens.looks = looks_for_ldi(in, read_looks(options.looks, in.camera.fstop), lens,
                                               ldi.windows, options.method, tool);
     LensTiles tiles;

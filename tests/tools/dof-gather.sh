@@ -331,3 +331,16 @@ fails_saying 1 'cut.exr' "$gather" cut.exr -o x.exr
 survives_failure "$gather" cut.exr
 fails_saying 2 '--output' "$gather" ldi.exr
 fails_saying 2 'IN' "$gather" -o x.exr
+
+# Highlights that grow: what is above the threshold, by the gain, from the threshold over the knee.
+oiiotool --pattern constant:color=0.5,0.5,0.5,1,5 32x16 5 --chnames R,G,B,A,Z --fill:color=4,4,4,1,5 8x8+4+4 -d float -o lights.exr
+level() { oiiotool "$1" --cut 1x1+7+7 --printstats | awk '/Stats Avg/ {print $3}'; }
+exits 0 "$gather" lights.exr -o grown.exr --lens-radius 0 --highlight-gain 3
+[ "$(level grown.exr)" = 12.000000 ] || fail "--highlight-gain: $(level grown.exr) is not 12"
+oiiotool grown.exr --cut 1x1+20+7 --printstats | grep -q 'Stats Avg: 0.500000' || fail "--highlight-gain changes what is not bright"
+exits 0 "$gather" lights.exr -o grown.exr --lens-radius 0 --highlight-gain 3 --highlight-threshold 5
+[ "$(level grown.exr)" = 4.000000 ] || fail "--highlight-threshold: $(level grown.exr) is not 4"
+exits 0 "$gather" lights.exr -o grown.exr --lens-radius 0 --highlight-gain 3 --highlight-threshold 3 --highlight-knee 2
+[ "$(level grown.exr)" = 8.000000 ] || fail "--highlight-knee: $(level grown.exr) is not 8"
+fails_saying 2 'highlight-gain' "$gather" lights.exr -o x.exr --lens-radius 0 --highlight-gain 0.5
+fails_saying 2 'highlight-gain' "$gather" lights.exr -o x.exr --lens-radius 0 --highlight-knee 2

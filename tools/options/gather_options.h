@@ -1,6 +1,7 @@
 // The command line of dof-gather.
 #pragma once
 
+#include "dof/highlight_gain.h"
 #include "dof/methods.h"
 #include "harness/commands/cli.h"
 #include "harness/history.h"
@@ -27,6 +28,7 @@ struct GatherCommand {
     const GatherMethod *method = &gather_methods().front();
     std::string input, output, depth_output, channels, holdout;
     bool holdout_defocused = false;
+    HighlightGain highlights;
     std::optional<Imath::V2i> focus_pixel;
     std::optional<PixelType> type; // -d
     AskedCompression compression;

@@ -1,0 +1,24 @@
+// Brighter lights: pictures whose sources are clipped give dull discs, so what is above a threshold grows before the gather.
+//
+// A sample of luminance Y (Rec. 709 weights, without coverage) grows by 1 + (gain - 1) s((Y - threshold) / knee), where
+// s(t) = t^2 (3 - 2 t) for t in [0, 1], 0 below and 1 above. Hue and coverage stay. The factor depends on the sample
+// alone and has no step, so nothing flickers in a sequence; light is added, not conserved.
+#pragma once
+
+#include "../deep/ldi.h"
+
+namespace sparselens {
+
+struct HighlightGain {
+    double gain = 1;      // [1, 1000]; 1 changes nothing
+    double threshold = 1; // scene-linear luminance where growth begins, >= 0
+    double knee = 1;      // luminance over which the gain sets in, > 0
+};
+
+// By how much a sample of that luminance grows, >= 1.
+double highlight_factor(const HighlightGain &by, double luminance);
+
+// Multiplies R, G and B. An LDI that lacks one of them stays as it is.
+void raise_highlights(Ldi &ldi, const HighlightGain &by);
+
+} // namespace sparselens
