@@ -1,5 +1,6 @@
 # Debian packages, made by `cpack -G DEB` in the build folder: sparselens (the tools), sparselens-lab (the tools of the
-# laboratory) and libsparselens-dev (the library, headers, CMake files). The package of the library is of a static one.
+# laboratory) and libsparselens-dev (the library, headers, CMake files). The package of the library is of a static one. The
+# Python module is not packaged.
 if(BUILD_SHARED_LIBS)
     return()
 endif()

@@ -9,7 +9,10 @@
 #include "io/camera/camera_write.h"
 #include "io/gather_windows.h"
 #include "python/job.h"
+#include "python/looks.h"
+#include "view/resolve_looks.h"
 
+#include <ImfStringAttribute.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -28,6 +31,7 @@ struct Asked {
     py::object keep_holdout, progress;
     bool holdout_defocused = false;
     LensValues lens;
+    AskedLooks looks;
 };
 
 void set_method(Asked &asked, Keywords &keywords) {
@@ -51,6 +55,7 @@ void set_method(Asked &asked, Keywords &keywords) {
     if (quality && !lens) refuse("quality", "lens");
     if (points && !lens) refuse("lens_samples", "lens");
     if (asked.holdout && !lens) refuse("holdout", "lens");
+    if (!asked.looks.first.empty() && !lens) refuse(asked.looks.first.c_str(), "lens");
     if (layers && asked.method->name != std::string("selective")) refuse("layers", "selective");
     asked.by.lens.quality = quality.value_or(asked.by.lens.quality);
     asked.by.lens.lens_samples = points.value_or(0);
@@ -65,6 +70,7 @@ Asked asked_by(const py::kwargs &given) {
         asked.holdout = &argument<OpenedLdi>(asked.keep_holdout, "holdout", "an Ldi");
     asked.holdout_defocused = keywords.flag("holdout_defocused");
     if (asked.holdout_defocused && !asked.holdout) throw UsageError("holdout_defocused: needs a holdout");
+    asked.looks = look_keywords(keywords);
     set_method(asked, keywords);
     const auto overscan = keywords.word<OutputOverscan>(
         "overscan",
@@ -106,24 +112,43 @@ std::optional<Ldi> holdout_of(const Asked &asked, const Ldi &ldi) {
     return asked.windows.proxy == 1 ? holdout : proxy(holdout, asked.windows.proxy);
 }
 
-Image gathered_sharp(const Asked &asked, const Ldi &ldi, const ThinLens &lens, const GatherWindows &frame,
-                     const std::optional<Holdout> &holdout, Progress &progress) {
+// The looks of the lens, which the camera and the header then say.
+LensLooks looks_of(const Asked &asked, Camera &camera, Imf::Header &header, const ThinLens &lens,
+                   const Windows &windows) {
+    if (asked.method != &gather_methods().front()) return {};
+    const LensFile given = read_looks(asked.looks, camera.fstop);
+    camera.looks = look_values_over(given.values, camera.looks);
+    if (!given.name.empty()) header.insert("lensModel", Imf::StringAttribute(given.name));
+    return resolve_looks(camera.looks, camera, lens, windows);
+}
+
+Image gathered_sharp(const Asked &asked, const GatherOptions &options, const Ldi &ldi, const ThinLens &lens,
+                     const GatherWindows &frame, const std::optional<Holdout> &holdout, Progress &progress) {
     if (lens.radius == 0)
         return crop(holdout ? flatten_held_out(ldi, *holdout) : flatten(ldi), frame.written);
-    GatherOptions by = asked.by;
+    GatherOptions by = options;
     by.lens.region = frame.written;
     by.lens.holdout = holdout ? &*holdout : nullptr;
     return crop(asked.method->gather(ldi, lens, frame.gathered, by, progress), frame.written);
 }
 
-Image gathered(const Asked &asked, const OpenedLdi &in, ThinLens lens, Progress &progress) {
+PictureObject gathered(const Asked &asked, const OpenedLdi &in, Camera camera, ThinLens lens,
+                       Progress &progress) {
+    PictureObject out{{}, in.header};
     const auto holdout = holdout_of(asked, in.ldi);
     const GatherWindows frame = gather_windows(asked.windows, in, lens);
     const Ldi &ldi = frame.changed ? *frame.changed : in.ldi;
-    if (holdout && asked.holdout_defocused)
-        return without_holdout(gathered_sharp(asked, with_holdout(ldi, *holdout), lens, frame, {}, progress));
-    const auto sharp = holdout ? std::optional<Holdout>(*holdout) : std::nullopt;
-    return gathered_sharp(asked, ldi, lens, frame, sharp, progress);
+    GatherOptions by = asked.by;
+    by.lens.looks = looks_of(asked, camera, out.header, lens, ldi.windows);
+    if (holdout && asked.holdout_defocused) {
+        out.image = without_holdout(
+            gathered_sharp(asked, by, with_holdout(ldi, *holdout), lens, frame, {}, progress));
+    } else {
+        const auto sharp = holdout ? std::optional<Holdout>(*holdout) : std::nullopt;
+        out.image = gathered_sharp(asked, by, ldi, lens, frame, sharp, progress);
+    }
+    write_camera(out.header, camera);
+    return out;
 }
 
 } // namespace
@@ -134,11 +159,8 @@ PictureObject gather(const py::object &ldi, const py::kwargs &given) {
     const Camera camera = focused(camera_with_options(asked.lens, in.camera), in, asked.focus_pixel);
     const ThinLens lens = resolve_lens(camera, in.ldi.windows);
     warn_of_wide_lens(camera, lens);
-    return job<PictureObject>(asked.progress, [&](Progress &said) {
-        PictureObject out{gathered(asked, in, lens, said), in.header};
-        write_camera(out.header, camera);
-        return out;
-    });
+    return job<PictureObject>(asked.progress,
+                              [&](Progress &said) { return gathered(asked, in, camera, lens, said); });
 }
 
 } // namespace sparselens::python

@@ -58,21 +58,24 @@ bool Keywords::flag(const char *name) {
     return value.ptr() == Py_True;
 }
 
-std::optional<double> Keywords::number(const char *name, NumberRange range) {
+std::optional<double> Keywords::any_number(const char *name) {
     const py::object object = take(name);
     if (object.is_none()) return {};
     if (is_bool(object)) wrong_type(name, "a number", object);
     const double value = PyFloat_AsDouble(object.ptr());
-    if (PyErr_Occurred() != nullptr) {
-        PyErr_Clear();
-        wrong_type(name, "a number", object);
-    }
-    const bool in_range = value > 0 || (range.zero_allowed && value == 0);
-    if (in_range && (range.infinity_allowed || std::isfinite(value))) return value;
+    if (PyErr_Occurred() == nullptr) return value;
+    PyErr_Clear();
+    wrong_type(name, "a number", object);
+}
+
+std::optional<double> Keywords::number(const char *name, NumberRange range) {
+    const auto value = any_number(name);
+    const bool in_range = !value || *value > 0 || (range.zero_allowed && *value == 0);
+    if (!value || (in_range && (range.infinity_allowed || std::isfinite(*value)))) return value;
     refuse(name,
            std::string(range.zero_allowed ? "a number of at least 0" : "a number above 0") +
                (range.infinity_allowed ? ", or inf" : ""),
-           fmt::format("{:g}", value));
+           fmt::format("{:g}", *value));
 }
 
 std::optional<int> Keywords::whole(const char *name, int least, int most) {

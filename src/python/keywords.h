@@ -29,6 +29,7 @@ public:
     py::object take(const char *name); // None where it is not given
     bool flag(const char *name);       // False where it is not given
     std::optional<double> number(const char *name, NumberRange range = {});
+    std::optional<double> any_number(const char *name);
     std::optional<int> whole(const char *name, int least, int most);
     std::string text(const char *name); // empty where it is not given
     std::string path(const char *name);

@@ -56,7 +56,11 @@ GATHERS = [
     {"proxy": 2},
     {"overscan": "keep"},
     {"focus_pixel": (80, 45)},
-    {"focal_length": 80, "sensor_width": 30},
+    {"focal_length": 30, "sensor_width": 30},
+    {"blades": 5, "blade_rotation": 10, "cat_eye": 0.5},
+    {"spherical": 0.5, "axial_chromatic": 0.2, "axial_chromatic_type": "blue-yellow"},
+    {"tilt": (10, 0), "field_curvature": 0.1, "breathing": 1},
+    {"squeeze": 2},
 ]
 
 

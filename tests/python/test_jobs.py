@@ -46,6 +46,7 @@ def test_exception_in_progress_ends_the_work(clustered):
     assert said == [0]
 
 
+@pytest.mark.filterwarnings("ignore:the aperture is larger")
 def test_interrupt_ends_the_work(views):
     """Scattering so large a blur takes far longer than the interrupt."""
     ldi, said = sparselens.warp(views), []
