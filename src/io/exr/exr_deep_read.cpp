@@ -135,10 +135,10 @@ private:
     bool beauty_in_layer_ = true;
 };
 
-LdiFile read_flat_as_ldi(const DeepSource &source, const std::string &depth_channel,
+LdiFile read_flat_as_ldi(const DeepSource &source, InputStream &stream, const std::string &depth_channel,
                          const std::string &stereo_view) {
     const std::string &path = source.path;
-    FlatFile flat = read_flat_part(source.file, path, source.size, stereo_view);
+    FlatFile flat = read_flat_part(source.file, path, stream, stereo_view);
     check_memory(path, 2 * memory_of(flat.header, flat.image.channels.size() + 1), source.size);
     const std::string depth = find_depth_channel(flat.image.channels, depth_channel, path);
     flat.notes.push_back("depth: " + depth);
@@ -155,7 +155,7 @@ LdiFile read_ldi(const std::string &path, const std::string &depth_channel, cons
         Imf::MultiPartInputFile file(*stream);
         const DeepSource source{file, path, stream->size()};
         const std::vector<int> deep = deep_parts(file);
-        if (deep.empty()) return read_flat_as_ldi(source, depth_channel, stereo_view);
+        if (deep.empty()) return read_flat_as_ldi(source, *stream, depth_channel, stereo_view);
         auto [view, numbers] = parts_of_view(file, deep, stereo_view, path);
         const auto beauty = [&](int part) { return is_beauty(file.header(part)); };
         const bool one_beauty = std::ranges::count_if(numbers, beauty) == 1;

@@ -6,6 +6,7 @@
 #include "io/exr/exr_header_check.h"
 #include "io/exr/exr_mattes.h"
 #include "io/exr/exr_parts.h"
+#include "io/exr/luminance/luminance_chroma.h"
 #include "io/files/memory_limit.h"
 
 #include <ImfFrameBuffer.h>
@@ -147,6 +148,10 @@ std::size_t read_channels(Imf::MultiPartInputFile &file, const PartChannels &par
     const Windows &w = image.windows;
     Imf::FrameBuffer pixels;
     for (const auto &[in_file, channel] : part.channels) {
+        if (in_file.empty()) { // see read_luminance_chroma()
+            ++k;
+            continue;
+        }
         const auto type = channel.type == PixelType::uint32 ? Imf::UINT : Imf::FLOAT;
         pixels.insert(in_file, Imf::Slice::Make(type, image.plane(k++).data(), w.data, sizeof(float),
                                                 sizeof(float) * std::size_t(w.width())));
@@ -159,9 +164,23 @@ std::size_t read_channels(Imf::MultiPartInputFile &file, const PartChannels &par
     return k;
 }
 
+// Throws Error where they are not in the first part, which alone OpenEXR makes colours of.
+bool colours_by_luminance(const Imf::MultiPartInputFile &file, const PictureParts &picture,
+                          const std::string &path) {
+    for (const PartChannels &part : picture.parts) {
+        if (!is_luminance_chroma(file.header(part.part))) continue;
+        if (part.part == 0) return true;
+        throw Error(
+            fmt::format("{}: part {} stores luminance and chroma, which is read in the first part only; "
+                        "convert it to R, G and B",
+                        display_name(path), part.part));
+    }
+    return false;
+}
+
 } // namespace
 
-FlatFile read_flat_part(Imf::MultiPartInputFile &file, const std::string &path, std::uint64_t size,
+FlatFile read_flat_part(Imf::MultiPartInputFile &file, const std::string &path, InputStream &stream,
                         const std::string &stereo_view) {
     PictureParts picture = parts_of_picture(file, path, stereo_view);
     const Imf::Header header = header_of(file, picture, path);
@@ -169,13 +188,15 @@ FlatFile read_flat_part(Imf::MultiPartInputFile &file, const std::string &path, 
     find_kinds_by(header, channels);
     const MissingCoverage missing(file, picture);
     if (!missing.covered.isEmpty()) channels.push_back({"A"});
-    check_memory(path, memory_of(header, channels.size()), size);
+    check_memory(path, memory_of(header, channels.size()), stream.size());
     Image image(picture.windows, channels);
     std::size_t k = 0;
     for (const PartChannels &part : picture.parts) k = read_channels(file, part, image, k);
+    if (colours_by_luminance(file, picture, path)) read_luminance_chroma(stream, image);
     if (!missing.covered.isEmpty()) missing.fill(image);
     add_mean_coverage(image);
-    return FlatFile{std::move(image), header, size, std::move(picture.notes), std::move(picture.warnings)};
+    return FlatFile{std::move(image), header, stream.size(), std::move(picture.notes),
+                    std::move(picture.warnings)};
 }
 
 FlatFile read_flat_exr(const std::string &path, const std::string &stereo_view) {
@@ -183,7 +204,7 @@ FlatFile read_flat_exr(const std::string &path, const std::string &stereo_view) 
         const auto stream = open_input(path);
         check_header(*stream, path);
         Imf::MultiPartInputFile file(*stream);
-        return read_flat_part(file, path, stream->size(), stereo_view);
+        return read_flat_part(file, path, *stream, stereo_view);
     });
 }
 

@@ -16,6 +16,8 @@
 
 namespace sparselens {
 
+class InputStream; // io/files/file_stream.h
+
 struct FlatFile {
     Image image;
     Imf::Header header;                  // that of the part with the beauty
@@ -33,8 +35,8 @@ struct FlatFile {
 FlatFile read_flat_exr(const std::string &path, const std::string &stereo_view = {});
 // The header of the part with the beauty, without reading pixels.
 Imf::Header read_flat_header(const std::string &path, const std::string &stereo_view = {});
-// `path` is for messages; `size` is that of the file, in bytes.
-FlatFile read_flat_part(Imf::MultiPartInputFile &file, const std::string &path, std::uint64_t size,
+// `path` is for messages; `stream` is what `file` reads.
+FlatFile read_flat_part(Imf::MultiPartInputFile &file, const std::string &path, InputStream &stream,
                         const std::string &stereo_view);
 
 // Takes the depth channel out of the picture (see read_ldi for how it is found) and drops the other channels with

@@ -6,6 +6,7 @@
 #include "io/exr/exr_common.h"
 #include "io/exr/exr_mattes.h"
 #include "io/exr/header_edit.h"
+#include "io/exr/luminance/luminance_chroma.h"
 
 #include <ImfStandardAttributes.h>
 #include <fmt/format.h>
@@ -94,7 +95,11 @@ std::vector<FileChannel> channels_of(const Imf::Header &header, const std::strin
     const auto views = several ? views_of(header) : std::vector<std::string>();
     std::vector<FileChannel> channels, shared;
     const Imf::ChannelList &list = header.channels();
+    const bool by_luminance = is_luminance_chroma(header);
+    if (by_luminance)
+        for (const char *colour : rgb_names) channels.push_back({"", {colour, PixelType::half}});
     for (auto it = list.begin(); it != list.end(); ++it) {
+        if (by_luminance && is_luminance_or_chroma(it.name())) continue;
         const NameInView name = split_name(it.name(), views);
         if (several && name.view != view && !name.view.empty()) continue;
         if (it.channel().xSampling != 1 || it.channel().ySampling != 1)
