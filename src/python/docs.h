@@ -208,7 +208,7 @@ Lens values replace those of the LDI:
 Raises UsageError where the lens is unknown, and Error where several LDIs are not of one camera.)";
 
 inline constexpr const char *gather =
-    R"(gather(ldi, *, method='lens', quality='normal', lens_samples=0, layers=8, focus_pixel=None, holdout=None, holdout_defocused=False, overscan='grow', proxy=1, region=None, blades=None, blade_curvature=None, blade_rotation=None, squeeze=None, spherical=None, cat_eye=None, axial_chromatic=None, field_curvature=None, breathing=None, cat_eye_darkening=False, axial_chromatic_type='red-blue', tilt=None, lens=None, aperture=None, progress=None, focal_length=None, sensor_width=None, fstop=None, lens_radius=None, focus_distance=None, scene_unit=None)
+    R"(gather(ldi, *, method='lens', quality='normal', lens_samples=0, layers=8, focus_pixel=None, holdout=None, holdout_defocused=False, overscan='grow', proxy=1, region=None, highlight_gain=1, highlight_threshold=1, highlight_knee=1, blades=None, blade_curvature=None, blade_rotation=None, squeeze=None, spherical=None, cat_eye=None, axial_chromatic=None, field_curvature=None, breathing=None, cat_eye_darkening=False, axial_chromatic_type='red-blue', tilt=None, lens=None, aperture=None, progress=None, focal_length=None, sensor_width=None, fstop=None, lens_radius=None, focus_distance=None, scene_unit=None)
 --
 
 Makes the picture that a lens takes of an LDI and returns a Picture, with all channels. As dof-gather.
@@ -220,6 +220,8 @@ focus_pixel: (x, y), focuses on the front surface in this pixel, instead of focu
 holdout: an Ldi that hides what is behind it and is not shown itself; it stays sharp unless holdout_defocused.
 overscan: "grow" the picture as far as the blur reaches, "keep" the pixels of the LDI, "crop" to the display window.
 proxy: makes a picture of 1 / proxy the size. region: (left, top, right, bottom), makes only these pixels.
+highlight_gain: makes lights above highlight_threshold (scene-linear luminance) up to so many times as bright, 1 to
+  1000, over a knee of highlight_knee.
 Looks of the lens, of the method lens: blades (a whole number), blade_curvature (0 to 1), blade_rotation (degrees),
   squeeze (above 0), spherical (-1 to 1), cat_eye (0 to 100, with cat_eye_darkening), axial_chromatic (mm, with
   axial_chromatic_type "red-blue", "blue-yellow" or "green-magenta"), field_curvature (-1 to 1), breathing (0 to 2),

@@ -5,6 +5,7 @@
 #include "deep/front_depth.h"
 #include "deep/proxy.h"
 #include "dof/defocused_holdout.h"
+#include "dof/highlight_gain.h"
 #include "dof/methods.h"
 #include "io/camera/camera_write.h"
 #include "io/gather_windows.h"
@@ -32,6 +33,7 @@ struct Asked {
     bool holdout_defocused = false;
     LensValues lens;
     AskedLooks looks;
+    HighlightGain highlights;
 };
 
 void set_method(Asked &asked, Keywords &keywords) {
@@ -62,6 +64,17 @@ void set_method(Asked &asked, Keywords &keywords) {
     asked.by.layers = layers.value_or(asked.by.layers);
 }
 
+HighlightGain highlight_gain(Keywords &keywords) {
+    const auto gain = keywords.any_number("highlight_gain");
+    const auto threshold = keywords.number("highlight_threshold", {.zero_allowed = true});
+    const auto knee = keywords.number("highlight_knee");
+    if (!gain && (threshold || knee))
+        throw UsageError("highlight_gain: is needed by highlight_threshold and highlight_knee");
+    if (gain && !(*gain >= 1 && *gain <= 1000))
+        Keywords::refuse("highlight_gain", "a number from 1 to 1000", fmt::format("{:g}", *gain));
+    return {gain.value_or(1), threshold.value_or(1), knee.value_or(1)};
+}
+
 Asked asked_by(const py::kwargs &given) {
     Keywords keywords("gather", given);
     Asked asked;
@@ -71,6 +84,7 @@ Asked asked_by(const py::kwargs &given) {
     asked.holdout_defocused = keywords.flag("holdout_defocused");
     if (asked.holdout_defocused && !asked.holdout) throw UsageError("holdout_defocused: needs a holdout");
     asked.looks = look_keywords(keywords);
+    asked.highlights = highlight_gain(keywords);
     set_method(asked, keywords);
     const auto overscan = keywords.word<OutputOverscan>(
         "overscan",
@@ -136,7 +150,11 @@ PictureObject gathered(const Asked &asked, const OpenedLdi &in, Camera camera, T
                        Progress &progress) {
     PictureObject out{{}, in.header};
     const auto holdout = holdout_of(asked, in.ldi);
-    const GatherWindows frame = gather_windows(asked.windows, in, lens);
+    GatherWindows frame = gather_windows(asked.windows, in, lens);
+    if (asked.highlights.gain != 1) {
+        if (!frame.changed) frame.changed = in.ldi;
+        raise_highlights(*frame.changed, asked.highlights);
+    }
     const Ldi &ldi = frame.changed ? *frame.changed : in.ldi;
     GatherOptions by = asked.by;
     by.lens.looks = looks_of(asked, camera, out.header, lens, ldi.windows);

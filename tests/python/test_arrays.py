@@ -154,6 +154,8 @@ WRONG = [
     (ValueError, "quality: works with method='lens'", lambda: sparselens.gather(two_pixels(), method="scatter", quality="final")),
     (ValueError, "blades: must be 0 or a whole number", lambda: sparselens.gather(two_pixels(), blades=2.5)),
     (ValueError, "blades: works with method='lens'", lambda: sparselens.gather(two_pixels(), method="scatter", blades=5)),
+    (ValueError, "highlight_gain: must be a number from 1", lambda: sparselens.gather(two_pixels(), highlight_gain=0.5)),
+    (ValueError, "highlight_gain: is needed", lambda: sparselens.gather(two_pixels(), highlight_knee=2)),
     (ValueError, "tilt: must be two numbers between", lambda: sparselens.gather(two_pixels(), tilt=(0, 90))),
     (ValueError, "lens_radius: .*fstop", lambda: sparselens.gather(two_pixels(), lens_radius=1, fstop=2)),
     (sparselens.UsageError, "give fstop or lens_radius", lambda: sparselens.gather(two_pixels())),

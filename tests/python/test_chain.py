@@ -61,6 +61,7 @@ GATHERS = [
     {"spherical": 0.5, "axial_chromatic": 0.2, "axial_chromatic_type": "blue-yellow"},
     {"tilt": (10, 0), "field_curvature": 0.1, "breathing": 1},
     {"squeeze": 2},
+    {"highlight_gain": 4, "highlight_threshold": 0.5, "highlight_knee": 2},
 ]
 
 
