@@ -156,7 +156,7 @@ std::size_t read_channels(Imf::MultiPartInputFile &file, const PartChannels &par
         pixels.insert(in_file, Imf::Slice::Make(type, image.plane(k++).data(), w.data, sizeof(float),
                                                 sizeof(float) * std::size_t(w.width())));
     }
-    if (part.channels.empty()) return k;
+    if (pixels.begin() == pixels.end()) return k;
     Imf::InputPart input(file, part.part);
     input.setFrameBuffer(pixels);
     const Imath::Box2i &own = file.header(part.part).dataWindow();
