@@ -12,7 +12,7 @@ agree() {
     awk -v a="$figure" -v b="$1" 'BEGIN { exit !(a == "inf" || a + 0 >= b) }' || fail "$scene: $4: $figure dB, less than $1"
 }
 
-for scene in element fence grass lamps mirror mist planes slant; do
+for scene in element fence grass lamps macro mirror mist planes slant; do
     size=256x144
     [ $scene != lamps ] || size=640x360 # its lamps lie on whole pixels there
     exits 0 "$bin/dof-trace" $scene --size $size --spp 4 -o $scene

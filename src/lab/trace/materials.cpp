@@ -79,4 +79,12 @@ Paint backdrop(const Imath::V3d &p) {
     return paint;
 }
 
+Paint skin(const Imath::V3d &p) {
+    const double freckle = std::sin(900 * p.x) * std::sin(900 * p.y) * std::sin(900 * p.z);
+    if (freckle > 0.25) return {{0.45f, 0.25f, 0.15f}};
+    return {{0.75f, float(0.5 + 0.1 * std::sin(200 * p.x + 150 * p.y)), 0.4f}};
+}
+
+Paint head_lamp(const Imath::V3d &) { return {{200, 180, 150}, 1, true}; }
+
 } // namespace sparselens::lab

@@ -32,4 +32,8 @@ Paint focus_sheet(const Imath::V3d &position);
 Paint far_sheet(const Imath::V3d &position);
 Paint backdrop(const Imath::V3d &position);
 
+// For the scene "macro": freckles some millimetres wide; radiance 200.
+Paint skin(const Imath::V3d &position);
+Paint head_lamp(const Imath::V3d &position);
+
 } // namespace sparselens::lab

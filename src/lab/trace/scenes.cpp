@@ -1,6 +1,7 @@
 #include "lab/trace/scenes.h"
 
 #include "base/error.h"
+#include "lab/trace/macro.h"
 #include "lab/trace/materials.h"
 #include "lab/trace/planes.h"
 #include "lens/f_number.h"
@@ -150,6 +151,7 @@ constexpr SceneEntry scenes[] = {
     {"mirror", "chrome balls and a mirror: surfaces whose colour depends on the direction", mirror},
     {"element", "spheres and bars at five depths before nothing: alpha 0 beside them", element},
     {"mist", "sheets of partial coverage and overlapping volumes before a textured wall", mist},
+    {"macro", "a head of steep relief, 85 mm and f/1 away, lamps of radiance 200 behind it", macro_scene},
 };
 
 } // namespace

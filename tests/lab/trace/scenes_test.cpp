@@ -17,8 +17,8 @@ TEST(Scenes, NamesAreUniqueAndLensesComplete) {
         EXPECT_TRUE(camera.focal_length_mm && camera.sensor_width_mm && camera.fstop && camera.focus_distance)
             << entry.name;
     }
-    EXPECT_EQ(names, (std::set<std::string>{"element", "fence", "grass", "lamps", "mirror", "mist", "planes",
-                                            "slant"}));
+    EXPECT_EQ(names, (std::set<std::string>{"element", "fence", "grass", "lamps", "macro", "mirror", "mist",
+                                            "planes", "slant"}));
 }
 
 // Quads are planar, in order around, and convex: what the tracer takes for granted.
@@ -82,6 +82,40 @@ TEST(Scenes, LampsLieOnWholePixels) {
         EXPECT_NEAR((c[2].y - c[0].y) * 640 / c[0].z, 2, 1e-9);
         EXPECT_TRUE(whole(c[0].x * 640 / c[0].z) && whole(c[0].y * 640 / c[0].z) && whole(rf / c[0].z)) << i;
     }
+}
+
+// From CoC -105 to 137 at the default size of 640 pixels; no lamp is hidden by the picture's border.
+TEST(Scenes, MacroIsNearAndItsLampsStandInThePicture) {
+    const Scene scene = build_scene("macro");
+    EXPECT_EQ(*scene.camera.fstop, 1);
+    const double rf = 0.0425 * 85 / 36 * 640, focus = *scene.camera.focus_distance;
+    double nearest = scene.quads[0].corners[0].z;
+    EXPECT_NEAR(rf / focus - rf / nearest, 136, 1);
+    std::size_t lamps = 0;
+    for (const Sphere &sphere : scene.spheres) {
+        nearest = std::min(nearest, sphere.centre.z - sphere.radius);
+        if (sphere.material != head_lamp) continue;
+        ++lamps;
+        EXPECT_LT(std::abs(sphere.centre.x / sphere.centre.z), 18.0 / 85);
+        EXPECT_LT(std::abs(sphere.centre.y / sphere.centre.z), 18.0 / 85 * 9 / 16);
+    }
+    EXPECT_EQ(lamps, 24u);
+    EXPECT_NEAR(rf / focus - rf / nearest, -105, 1);
+}
+
+// The middle of the lens sees all of the sides of the horns: towards their bases they grow faster than what it sees
+// gets smaller.
+TEST(Scenes, MacroHornsAreWiderAtTheBase) {
+    const Scene scene = build_scene("macro");
+    std::size_t steps = 0;
+    for (std::size_t i = 1; i < scene.spheres.size(); ++i) {
+        const Sphere &tip = scene.spheres[i - 1], &base = scene.spheres[i];
+        const auto ray = [](const Sphere &s) { return s.centre / s.centre.z; };
+        if ((ray(tip) - ray(base)).length() > 1e-12) continue;
+        ++steps;
+        EXPECT_GT(base.radius / base.centre.z, tip.radius / tip.centre.z);
+    }
+    EXPECT_EQ(steps, 9u * 60u);
 }
 
 } // namespace

@@ -1,0 +1,70 @@
+#include "lab/trace/macro.h"
+
+#include "lab/trace/materials.h"
+#include "lens/f_number.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace sparselens::lab {
+
+namespace {
+
+Camera macro_camera() {
+    Camera camera;
+    camera.focal_length_mm = 85;
+    camera.sensor_width_mm = 36;
+    camera.fstop = 1;
+    camera.focus_distance = 0.45;
+    camera.metres_per_unit = 1;
+    return camera;
+}
+
+// Bumps that stand out of the head, spread evenly over the half that faces the camera by the golden angle; up to a half
+// of each stands out.
+void add_bumps(Scene &scene, const Sphere &head, int count) {
+    const double golden = std::numbers::pi * (3 - std::sqrt(5.0));
+    for (int i = 0; i < count; ++i) {
+        const double across = std::sqrt((i + 0.5) / count), along = std::sqrt(1 - across * across);
+        const double angle = golden * i, radius = 0.006 + 0.006 * hash(i, 1, 5);
+        const Imath::V3d outwards(across * std::cos(angle), across * std::sin(angle), -along);
+        scene.spheres.push_back({head.centre + head.radius * outwards, radius, skin});
+    }
+}
+
+// A blunt cone between two spheres, whose axis points at the middle of the lens: its side is steep, and the middle of
+// the lens sees all of it if `base` is wider than the view from there of `tip`.
+void add_horn(Scene &scene, const Imath::V2d &slope, double tip_z, double tip, double base_z, double base) {
+    constexpr int count = 60;
+    for (int i = 0; i <= count; ++i) {
+        const double t = double(i) / count, z = tip_z + t * (base_z - tip_z);
+        scene.spheres.push_back({z * Imath::V3d(slope.x, slope.y, 1), tip + t * (base - tip), skin});
+    }
+}
+
+// Within the picture, seen from the middle of the lens.
+void add_lamps(Scene &scene, int count) {
+    for (int i = 0; i < count; ++i) {
+        const double z = 4 + 3 * hash(i, 3, 6);
+        const Imath::V3d ray(0.4 * (hash(i, 1, 6) - 0.5), 0.22 * (hash(i, 2, 6) - 0.5), 1);
+        scene.spheres.push_back({z * ray, 0.006, head_lamp});
+    }
+}
+
+} // namespace
+
+Scene macro_scene() {
+    Scene scene;
+    scene.camera = macro_camera();
+    const Sphere head{{0, 0, 0.4}, 0.065, skin};
+    scene.spheres = {head};
+    add_bumps(scene, head, 120);
+    add_horn(scene, {0, -0.02}, 0.272, 0.012, 0.335, 0.026); // the nose
+    for (const double x : {-0.11, -0.07, 0.07, 0.11})
+        for (const double y : {-0.05, 0.05}) add_horn(scene, {x, y + 0.1 * x}, 0.305, 0.007, 0.36, 0.0115);
+    add_lamps(scene, 24);
+    scene.quads.push_back({{{{-8, -6, 10}, {8, -6, 10}, {8, 6, 10}, {-8, 6, 10}}}, night});
+    return scene;
+}
+
+} // namespace sparselens::lab
