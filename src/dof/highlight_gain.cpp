@@ -1,15 +1,11 @@
 #include "dof/highlight_gain.h"
 
+#include "base/luminance.h"
 #include "base/parallel.h"
 
 #include <algorithm>
-#include <array>
 
 namespace sparselens {
-
-namespace {
-constexpr std::array luma_weights{0.2126, 0.7152, 0.0722};
-}
 
 double highlight_factor(const HighlightGain &by, double luminance) {
     const double t = std::clamp((luminance - by.threshold) / by.knee, 0.0, 1.0);

@@ -55,15 +55,21 @@ GatherWindows gather_windows(const WindowOptions &options, const OpenedLdi &in, 
     lens.focal_px /= options.proxy;
     GatherWindows frame{reduced(read_picture_window(in.header), options.proxy), {}, {}};
     if (options.proxy > 1) frame.changed = proxy(in.ldi, options.proxy);
-    const auto made = [&]() -> const Ldi & { return frame.changed ? *frame.changed : in.ldi; };
     if (options.overscan == OutputOverscan::grow)
-        if (auto padded = grown(in, made(), lens, frame.gathered)) frame.changed = std::move(padded);
+        if (auto padded = grown(in, frame.ldi(in), lens, frame.gathered)) frame.changed = std::move(padded);
     frame.written = frame.gathered;
     if (options.overscan == OutputOverscan::crop)
-        frame.written = common(frame.written, made().windows.display, "--overscan crop: the display window");
+        frame.written =
+            common(frame.written, frame.ldi(in).windows.display, "--overscan crop: the display window");
     if (options.region)
         frame.written = common(frame.written, reduced(*options.region, options.proxy), "--region");
     return frame;
+}
+
+void raise_highlights(GatherWindows &frame, const OpenedLdi &in, const HighlightGain &by) {
+    if (by.gain == 1) return;
+    if (!frame.changed) frame.changed = in.ldi;
+    raise_highlights(*frame.changed, by);
 }
 
 } // namespace sparselens

@@ -1,6 +1,7 @@
 // The pixels that are gathered, and the LDI that they are gathered from.
 #pragma once
 
+#include "../dof/highlight_gain.h"
 #include "open_ldi.h"
 
 #include <optional>
@@ -24,6 +25,8 @@ struct WindowOptions {
 struct GatherWindows {
     Imath::Box2i gathered, written;
     std::optional<Ldi> changed; // the LDI to gather; empty: the LDI as it was read
+
+    const Ldi &ldi(const OpenedLdi &in) const { return changed ? *changed : in.ldi; }
 };
 
 // Scales `lens` and a copy of the LDI down to the proxy, and pads the copy where the blur reaches beyond the picture
@@ -31,5 +34,8 @@ struct GatherWindows {
 // Throws UsageError where a region or a display window contains no pixel of the picture, and Error where the padded
 // picture needs more memory than the LDI justifies (memory_limit.h).
 GatherWindows gather_windows(const WindowOptions &options, const OpenedLdi &in, ThinLens &lens);
+
+// Brightens the highlights of the LDI to gather. `in` itself stays as it is.
+void raise_highlights(GatherWindows &frame, const OpenedLdi &in, const HighlightGain &by);
 
 } // namespace sparselens

@@ -1,6 +1,7 @@
 #include "measure/image_error.h"
 
 #include "base/error.h"
+#include "base/luminance.h"
 #include "base/parallel.h"
 #include "measure/ssim.h"
 #include "measure/tone_map.h"
@@ -17,7 +18,6 @@ namespace {
 
 constexpr std::size_t colours = 3, alpha = 3, rgba = 4;
 constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
-constexpr std::array<double, colours> luma_weights{0.2126, 0.7152, 0.0722};
 
 // What a row adds to the figures of a region. In double, rows summed in order: the same at any thread count.
 struct Sums {

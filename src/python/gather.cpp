@@ -1,19 +1,15 @@
 #include "python/gather.h"
 
 #include "base/error.h"
-#include "deep/flatten.h"
 #include "deep/front_depth.h"
 #include "deep/proxy.h"
-#include "dof/defocused_holdout.h"
-#include "dof/highlight_gain.h"
-#include "dof/methods.h"
+#include "dof/gather_picture.h"
 #include "io/camera/camera_write.h"
 #include "io/gather_windows.h"
+#include "io/picture_looks.h"
 #include "python/job.h"
 #include "python/looks.h"
-#include "view/resolve_looks.h"
 
-#include <ImfStringAttribute.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -24,17 +20,17 @@ namespace {
 
 // What the keywords ask for.
 struct Asked {
-    const GatherMethod *method = &gather_methods().front();
-    GatherOptions by;
+    PictureOptions picture; // without the holdout
     WindowOptions windows;
     std::optional<Imath::V2i> focus_pixel;
     const OpenedLdi *holdout = nullptr; // kept alive by `keep_holdout`
     py::object keep_holdout, progress;
-    bool holdout_defocused = false;
     LensValues lens;
     AskedLooks looks;
     HighlightGain highlights;
 };
+
+bool knows_looks(const Asked &asked) { return asked.picture.method == &gather_methods().front(); }
 
 void set_method(Asked &asked, Keywords &keywords) {
     const std::string name = keywords.text("method");
@@ -44,13 +40,13 @@ void set_method(Asked &asked, Keywords &keywords) {
             std::ranges::find_if(methods, [&](const GatherMethod &m) { return m.name == name; });
         if (found == methods.end())
             throw UsageError("method: must be one of lens, selective, scatter, not " + name);
-        asked.method = &*found;
+        asked.picture.method = &*found;
     }
     const auto quality = keywords.word<Quality>(
         "quality", {{"draft", Quality::draft}, {"normal", Quality::normal}, {"final", Quality::final}});
     const auto points = keywords.whole("lens_samples", 0, 1 << 20),
                layers = keywords.whole("layers", 1, 4096);
-    const bool lens = asked.method == &gather_methods().front();
+    const bool lens = knows_looks(asked);
     const auto refuse = [](const char *keyword, const char *method) {
         throw UsageError(fmt::format("{}: works with method='{}' only", keyword, method));
     };
@@ -58,10 +54,10 @@ void set_method(Asked &asked, Keywords &keywords) {
     if (points && !lens) refuse("lens_samples", "lens");
     if (asked.holdout && !lens) refuse("holdout", "lens");
     if (!asked.looks.first.empty() && !lens) refuse(asked.looks.first.c_str(), "lens");
-    if (layers && asked.method->name != std::string("selective")) refuse("layers", "selective");
-    asked.by.lens.quality = quality.value_or(asked.by.lens.quality);
-    asked.by.lens.lens_samples = points.value_or(0);
-    asked.by.layers = layers.value_or(asked.by.layers);
+    if (layers && asked.picture.method->name != std::string("selective")) refuse("layers", "selective");
+    asked.picture.gather.lens.quality = quality.value_or(asked.picture.gather.lens.quality);
+    asked.picture.gather.lens.lens_samples = points.value_or(0);
+    asked.picture.gather.layers = layers.value_or(asked.picture.gather.layers);
 }
 
 HighlightGain highlight_gain(Keywords &keywords) {
@@ -81,8 +77,9 @@ Asked asked_by(const py::kwargs &given) {
     asked.keep_holdout = keywords.take("holdout");
     if (!asked.keep_holdout.is_none())
         asked.holdout = &argument<OpenedLdi>(asked.keep_holdout, "holdout", "an Ldi");
-    asked.holdout_defocused = keywords.flag("holdout_defocused");
-    if (asked.holdout_defocused && !asked.holdout) throw UsageError("holdout_defocused: needs a holdout");
+    asked.picture.holdout_defocused = keywords.flag("holdout_defocused");
+    if (asked.picture.holdout_defocused && !asked.holdout)
+        throw UsageError("holdout_defocused: needs a holdout");
     asked.looks = look_keywords(keywords);
     asked.highlights = highlight_gain(keywords);
     set_method(asked, keywords);
@@ -109,14 +106,6 @@ Camera focused(Camera camera, const OpenedLdi &in, const std::optional<Imath::V2
     return camera;
 }
 
-void warn_of_wide_lens(const Camera &camera, const ThinLens &lens) {
-    double widest = 0;
-    for (const Imath::V2d &point : camera.lens_points) widest = std::max(widest, point.length());
-    if (widest > 0 && lens.radius > 1.001 * widest)
-        warn("the aperture is larger than the one the views were rendered for; what it sees beyond them is "
-             "unknown");
-}
-
 // The holdout at the size of the picture.
 std::optional<Ldi> holdout_of(const Asked &asked, const Ldi &ldi) {
     if (!asked.holdout) return {};
@@ -126,45 +115,19 @@ std::optional<Ldi> holdout_of(const Asked &asked, const Ldi &ldi) {
     return asked.windows.proxy == 1 ? holdout : proxy(holdout, asked.windows.proxy);
 }
 
-// The looks of the lens, which the camera and the header then say.
-LensLooks looks_of(const Asked &asked, Camera &camera, Imf::Header &header, const ThinLens &lens,
-                   const Windows &windows) {
-    if (asked.method != &gather_methods().front()) return {};
-    const LensFile given = read_looks(asked.looks, camera.fstop);
-    camera.looks = look_values_over(given.values, camera.looks);
-    if (!given.name.empty()) header.insert("lensModel", Imf::StringAttribute(given.name));
-    return resolve_looks(camera.looks, camera, lens, windows);
-}
-
-Image gathered_sharp(const Asked &asked, const GatherOptions &options, const Ldi &ldi, const ThinLens &lens,
-                     const GatherWindows &frame, const std::optional<Holdout> &holdout, Progress &progress) {
-    if (lens.radius == 0)
-        return crop(holdout ? flatten_held_out(ldi, *holdout) : flatten(ldi), frame.written);
-    GatherOptions by = options;
-    by.lens.region = frame.written;
-    by.lens.holdout = holdout ? &*holdout : nullptr;
-    return crop(asked.method->gather(ldi, lens, frame.gathered, by, progress), frame.written);
-}
-
 PictureObject gathered(const Asked &asked, const OpenedLdi &in, Camera camera, ThinLens lens,
                        Progress &progress) {
     PictureObject out{{}, in.header};
     const auto holdout = holdout_of(asked, in.ldi);
     GatherWindows frame = gather_windows(asked.windows, in, lens);
-    if (asked.highlights.gain != 1) {
-        if (!frame.changed) frame.changed = in.ldi;
-        raise_highlights(*frame.changed, asked.highlights);
-    }
-    const Ldi &ldi = frame.changed ? *frame.changed : in.ldi;
-    GatherOptions by = asked.by;
-    by.lens.looks = looks_of(asked, camera, out.header, lens, ldi.windows);
-    if (holdout && asked.holdout_defocused) {
-        out.image = without_holdout(
-            gathered_sharp(asked, by, with_holdout(ldi, *holdout), lens, frame, {}, progress));
-    } else {
-        const auto sharp = holdout ? std::optional<Holdout>(*holdout) : std::nullopt;
-        out.image = gathered_sharp(asked, by, ldi, lens, frame, sharp, progress);
-    }
+    raise_highlights(frame, in, asked.highlights);
+    const Ldi &ldi = frame.ldi(in);
+    PictureOptions options = asked.picture;
+    options.holdout = holdout ? &*holdout : nullptr;
+    if (knows_looks(asked))
+        options.gather.lens.looks =
+            picture_looks(read_looks(asked.looks, camera.fstop), camera, out.header, lens, ldi.windows);
+    out.image = gather_picture(ldi, lens, frame.gathered, frame.written, options, progress);
     write_camera(out.header, camera);
     return out;
 }
@@ -176,7 +139,10 @@ PictureObject gather(const py::object &ldi, const py::kwargs &given) {
     const OpenedLdi &in = argument<OpenedLdi>(ldi, "ldi", "an Ldi");
     const Camera camera = focused(camera_with_options(asked.lens, in.camera), in, asked.focus_pixel);
     const ThinLens lens = resolve_lens(camera, in.ldi.windows);
-    warn_of_wide_lens(camera, lens);
+    if (const auto warning = warning_of_wide_lens(camera, lens)) warn(*warning);
+    if (!knows_looks(asked))
+        if (const auto warning = warning_of_round_aperture(camera.looks, asked.picture.method->name))
+            warn(*warning);
     return job<PictureObject>(asked.progress,
                               [&](Progress &said) { return gathered(asked, in, camera, lens, said); });
 }

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "lens/f_number.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -112,6 +113,14 @@ ThinLens resolve_lens(const Camera &camera, const Windows &windows) {
             .focal_px = *focal_px,
             .focus = *camera.focus_distance,
             .pixel_aspect = windows.pixel_aspect};
+}
+
+std::optional<std::string> warning_of_wide_lens(const Camera &camera, const ThinLens &lens) {
+    double widest = 0;
+    for (const Imath::V2d &point : camera.lens_points) widest = std::max(widest, point.length());
+    if (widest == 0 || lens.radius <= 1.001 * widest) return {};
+    return "the aperture is larger than the one the views were rendered for; what it sees beyond them is "
+           "unknown";
 }
 
 } // namespace sparselens

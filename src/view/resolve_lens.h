@@ -7,6 +7,7 @@
 #include "camera.h"
 
 #include <optional>
+#include <string>
 
 namespace sparselens {
 
@@ -41,5 +42,9 @@ std::optional<double> perceptive_scale(const Camera &camera, const Windows &wind
 // The lens; throws UsageError, which names all missing values. A lens of radius 0 (or f-number inf) needs no other
 // value. `windows` gives the display width and the pixel aspect.
 ThinLens resolve_lens(const Camera &camera, const Windows &windows);
+
+// What to warn of where the lens sees past the views that its LDI was made of; empty if it does not, or if the camera does
+// not say where they stood.
+std::optional<std::string> warning_of_wide_lens(const Camera &camera, const ThinLens &lens);
 
 } // namespace sparselens

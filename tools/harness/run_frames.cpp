@@ -161,12 +161,9 @@ int run_words(const std::string &name, const std::string &description, const std
     return worst;
 }
 
-// The views that the first input of the first frame names.
-std::vector<std::string> views_of_input(const std::string &name, const std::string &description,
-                                        const std::vector<std::string> &words, const Prepare &prepare) {
-    FrameCommand command(name, description, prepare);
-    parse_words(command.app, FrameCommands(words).words(0), prefix_of(name, words));
-    const std::vector<NamedFile> inputs = named_files(command.app).inputs;
+// The views that the first input of the command names.
+std::vector<std::string> views_of_input(const CLI::App &parsed) {
+    const std::vector<NamedFile> inputs = named_files(parsed).inputs;
     const auto input = std::ranges::find_if(
         inputs, [](const NamedFile &file) { return file.option == "IN" || file.option == "views"; });
     if (input == inputs.end() || input->path == "-")
@@ -183,10 +180,16 @@ int run_frames(const std::string &name, const std::string &description, int argc
     const std::vector<std::string> words(argv + 1, argv + argc);
     if (!asks_for_all_views(words)) return run_words(name, description, words, prepare);
     std::vector<std::vector<std::string>> commands;
-    int worst = exit_code_of(prefix_of(name, words), [&] {
-        for (const std::string &view : views_of_input(name, description, words, prepare))
+    std::optional<int> answered; // by --help and the like, or by an error in the words
+    const std::string prefix = prefix_of(name, words);
+    int worst = exit_code_of(prefix, [&] {
+        FrameCommand first(name, description, prepare);
+        answered = parse_words(first.app, FrameCommands(words).words(0), prefix);
+        if (answered) return;
+        for (const std::string &view : views_of_input(first.app))
             commands.push_back(words_for_view(words, view));
     });
+    if (answered) return *answered;
     for (const auto &command : commands)
         worst = std::max(worst, run_words(name, description, command, prepare));
     return worst;

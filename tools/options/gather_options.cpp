@@ -19,11 +19,11 @@ constexpr OnlyWith method_options[] = {{"--quality", "--method", "lens"},
 
 // Throws where options contradict each other.
 void check(const CLI::App &parsed, const GatherCommand &options) {
-    refuse_ignored(parsed, method_options, "--method", options.method->name);
+    refuse_ignored(parsed, method_options, "--method", options.picture.method->name);
     const std::string look = first_look_option(parsed);
-    if (!look.empty() && options.method != &gather_methods().front())
+    if (!look.empty() && options.picture.method != &gather_methods().front())
         throw CLI::ValidationError(look, "works with --method lens only");
-    if (options.show == Show::tiles && options.method != &gather_methods().front())
+    if (options.show == Show::tiles && options.picture.method != &gather_methods().front())
         throw CLI::ValidationError("--show tiles", "works with --method lens only");
 }
 
@@ -31,18 +31,20 @@ void add_method_options(CLI::App &app, GatherCommand &options) {
     const char *lens_group = "Method lens";
     const std::map<std::string, Quality> qualities{
         {"draft", Quality::draft}, {"normal", Quality::normal}, {"final", Quality::final}};
-    app.add_option("--quality", options.gather.lens.quality, "Trade of error against time (default: normal)")
+    app.add_option("--quality", options.picture.gather.lens.quality,
+                   "Trade of error against time (default: normal)")
         ->type_name("draft|normal|final")
         ->group(lens_group)
         ->transform(words(qualities));
     app.add_option(
-           "--lens-samples", options.gather.lens.lens_samples,
+           "--lens-samples", options.picture.gather.lens.lens_samples,
            "Number of lens points in every tile; 0: as many as the quality and the picture need (default: 0)")
         ->type_name("N")
         ->group(lens_group)
         ->check(CLI::Range(0, 1 << 20));
-    app.add_option("--layers", options.gather.layers,
-                   fmt::format("Layers kept apart in each pixel (default: {})", options.gather.layers))
+    app.add_option(
+           "--layers", options.picture.gather.layers,
+           fmt::format("Layers kept apart in each pixel (default: {})", options.picture.gather.layers))
         ->type_name("K")
         ->group("Method selective")
         ->check(CLI::Range(1, 4096));
@@ -50,7 +52,7 @@ void add_method_options(CLI::App &app, GatherCommand &options) {
                    "Deep EXR that hides what is behind it and is not shown itself; it stays sharp")
         ->type_name("DEEP.exr")
         ->group(lens_group);
-    app.add_flag("--holdout-defocused", options.holdout_defocused,
+    app.add_flag("--holdout-defocused", options.picture.holdout_defocused,
                  "The holdout is part of the scene and out of focus like the rest, rather than sharp")
         ->group(lens_group)
         ->needs("--holdout");
@@ -97,7 +99,7 @@ void add_gather_options(CLI::App &app, GatherCommand &options) {
                    "Picture to write (EXR, PNG, JPEG or TIFF); - for standard output")
         ->type_name("OUT.exr")
         ->required();
-    add_method_option(app, options.method);
+    add_method_option(app, options.picture.method);
     add_method_options(app, options);
     add_pixel_option(app, "--focus-pixel", options.focus_pixel,
                      "Focus on the front surface in this pixel, in EXR coordinates");

@@ -1,8 +1,8 @@
 // The command line of dof-gather.
 #pragma once
 
+#include "dof/gather_picture.h"
 #include "dof/highlight_gain.h"
-#include "dof/methods.h"
 #include "harness/commands/cli.h"
 #include "harness/history.h"
 #include "options/colour_options.h"
@@ -24,10 +24,8 @@ struct GatherCommand {
     ColourOptions colour;
     WindowOptions windows;
     HistoryOptions history;
-    GatherOptions gather;
-    const GatherMethod *method = &gather_methods().front();
+    PictureOptions picture; // without the holdout, which is a file
     std::string input, output, depth_output, channels, holdout;
-    bool holdout_defocused = false;
     HighlightGain highlights;
     std::optional<Imath::V2i> focus_pixel;
     std::optional<PixelType> type; // -d

@@ -19,14 +19,6 @@ namespace sparselens {
 
 namespace {
 
-std::vector<std::string> all_views(const Imf::MultiPartInputFile &file, const std::vector<int> &numbers) {
-    std::vector<std::string> all;
-    for (const int part : numbers)
-        for (const std::string &view : views_of(file.header(part)))
-            if (!is_among(all, view)) all.push_back(view);
-    return all;
-}
-
 // A channel's name without the view in it, and that view, or "".
 struct NameInView {
     std::string plain, view;
@@ -66,6 +58,14 @@ std::vector<std::string> views_of(const Imf::Header &header) {
     if (Imf::hasMultiView(header) && !Imf::multiView(header).empty()) return Imf::multiView(header);
     if (header.hasView() && !header.view().empty()) return {header.view()};
     return {};
+}
+
+std::vector<std::string> all_views(const Imf::MultiPartInputFile &file, const std::vector<int> &numbers) {
+    std::vector<std::string> all;
+    for (const int part : numbers)
+        for (const std::string &view : views_of(file.header(part)))
+            if (!is_among(all, view)) all.push_back(view);
+    return all;
 }
 
 PartsOfView parts_of_view(const Imf::MultiPartInputFile &file, const std::vector<int> &numbers,

@@ -1,12 +1,13 @@
 #include "io/exr/stereo_views.h"
 
-#include "base/text.h"
 #include "io/exr/exr_common.h"
 #include "io/exr/exr_header_check.h"
 #include "io/exr/exr_parts.h"
 #include "io/files/file_stream.h"
 
 #include <ImfMultiPartInputFile.h>
+
+#include <numeric>
 
 namespace sparselens {
 
@@ -15,11 +16,9 @@ std::vector<std::string> stereo_views(const std::string &path) {
         const auto stream = open_input(path);
         check_header(*stream, path);
         const Imf::MultiPartInputFile file(*stream);
-        std::vector<std::string> views;
-        for (int part = 0; part < file.parts(); ++part)
-            for (const std::string &view : views_of(file.header(part)))
-                if (!is_among(views, view)) views.push_back(view);
-        return views;
+        std::vector<int> parts(std::size_t(file.parts()));
+        std::iota(parts.begin(), parts.end(), 0);
+        return all_views(file, parts);
     });
 }
 

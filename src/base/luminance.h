@@ -1,0 +1,11 @@
+// Luminance: what a light of some colour contributes to brightness, as a weighted sum of scene-linear R, G and B.
+#pragma once
+
+#include <array>
+
+namespace sparselens {
+
+// Of R, G and B, as in Rec. 709.
+inline constexpr std::array luma_weights{0.2126, 0.7152, 0.0722};
+
+} // namespace sparselens

@@ -1,0 +1,23 @@
+// The picture that a lens takes from an LDI, whatever the method, the lens and the holdout: what dof-gather and the Python
+// module do between the preparation of the LDI and the writing of the picture.
+#pragma once
+
+#include "methods.h"
+
+namespace sparselens {
+
+struct PictureOptions {
+    const GatherMethod *method = &gather_methods().front();
+    GatherOptions gather = {}; // its region and its holdout are set here
+    const Ldi *holdout =
+        nullptr; // tidy, of the same display window; what it hides is not shown, nor is it itself
+    bool holdout_defocused =
+        false; // it is out of focus as the scene is; else it stays sharp, which the method lens alone knows
+};
+
+// The pixels `gathered` as the method takes it, of which `written` (within it) are the result. A lens of radius 0 gives
+// the flattened LDI. The LDI is tidy.
+Image gather_picture(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &gathered,
+                     const Imath::Box2i &written, const PictureOptions &options, Progress &progress);
+
+} // namespace sparselens
