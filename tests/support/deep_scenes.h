@@ -1,0 +1,27 @@
+// Deep pictures as renderers write them for hair, smoke and leaves: many samples a pixel, most of them of partial
+// coverage. They measure the time and the memory that such files take. The same arguments give the same picture.
+#pragma once
+
+#include "deep/ldi.h"
+#include "view/camera.h"
+
+#include <span>
+
+namespace sparselens {
+
+// A scene by name, in channels R, G, B and A (half). CoC is that of deep_scene_camera().
+//
+// dense   20 points a pixel in five groups, CoC 0.25 to 4.2 pixels, the last opaque: the scene that DeepC
+//         (github.com/charlesangus/DeepC) measures its DeepCDefocus with
+// hair    60 points in a tenth of the pixels, in tufts of 32x64 pixels, CoC -3 to 1; a ground at CoC 6 behind it all
+// volume  100 volumes a pixel, end to end, CoC -4 to 6; transparent to infinity
+struct DeepScene {
+    const char *name;
+    Ldi (*make)(int width, int height);
+};
+std::span<const DeepScene> deep_scenes();
+
+// The camera of all of them: a lens of 50 mm before 36 mm, focused on 10, such that R F / focus is 20 pixels.
+Camera deep_scene_camera(int width);
+
+} // namespace sparselens
