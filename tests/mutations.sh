@@ -18,7 +18,8 @@ coc-cancels|src/lens/thin_lens.cpp|(rf \/ lens.focus) \* ((z - lens.focus) \/ z)
 coc-no-sky|src/lens/thin_lens.cpp|if (std::isinf(z)) return rf / lens.focus;|
 half-pixel-off|src/dof/lens/sample_blocks.cpp|float(x) + 0.5f + place.dx|float(x) + place.dx
 aspect-dropped|src/lens/lens_samples.cpp|-u.y \* pixel_aspect|-u.y * (pixel_aspect > 0 ? 1 : 2)
-alpha-dropped|src/dof/lens/lens_tile.cpp|(1 - samples_.alpha\[i\])|1.0f
+alpha-dropped|src/dof/lens/lens_tile_partial.cpp|1 - samples_.alpha\[i\]|1.0f
+layers-too-far|src/dof/merge_layers.cpp|<= tolerance_)) return false|<= 4 * tolerance_)) return false
 not-renormalised|src/dof/lens/lens_tile.cpp|sums_\[at\] / known|sums_[at] / total_
 weight-dropped|src/warp/warp.cpp|out.weight.push_back(float(count))|out.weight.push_back(1.0f)
 view-moved-wrong-way|src/view/view_mapping.cpp|V2d(focal_px \* position.x|V2d(-focal_px * position.x

@@ -19,6 +19,18 @@ using namespace sparselens;
 
 namespace {
 
+// The samples are used up where nothing else needs them.
+Image gathered(const GatherCommand &options, GatherWindows &frame, const ThinLens &lens, LdiCache &cache,
+               const ToolContext &tool) {
+    const auto of = [&](auto &&ldi) {
+        return gather_picture(std::forward<decltype(ldi)>(ldi), lens, frame.gathered, frame.written,
+                              options.picture, *tool.progress);
+    };
+    if (options.show != Show::picture) return of(frame.ldi(cache.last()));
+    if (frame.changed) return of(std::move(*frame.changed));
+    return tool.last_frame ? of(cache.take_ldi()) : of(cache.last().ldi);
+}
+
 void run(const GatherCommand &given, const ToolContext &tool, LdiCache &cache) {
     GatherCommand options = given;
     const OpenOptions by{options.lens, options.depth};
@@ -30,6 +42,8 @@ void run(const GatherCommand &given, const ToolContext &tool, LdiCache &cache) {
     GatherWindows frame = gather_windows(options.windows, in, lens);
     raise_highlights(frame, in, options.highlights);
     const Ldi &ldi = frame.ldi(in);
+    const std::size_t samples = in.ldi.samples();
+    const Image depth = options.depth_output.empty() ? Image() : crop(front_depth(ldi), frame.written);
     Imf::Header header = in.header;
     LensTiles tiles;
     options.picture.holdout = holdout ? &*holdout : nullptr;
@@ -39,21 +53,18 @@ void run(const GatherCommand &given, const ToolContext &tool, LdiCache &cache) {
                       options.picture.method, tool);
     Image picture;
     if (needs_gather(options.show))
-        picture = chosen_channels(
-            gather_picture(ldi, lens, frame.gathered, frame.written, options.picture, *tool.progress),
-            options.channels);
+        picture = chosen_channels(gathered(options, frame, lens, cache, tool), options.channels);
     if (options.show != Show::picture)
         picture = crop(shown(options.show, ldi, lens, frame.gathered, tiles), frame.written);
     write_camera(header, in.camera);
     append_history(header, tool, options.history);
     if (!options.depth_output.empty())
-        write_flat_exr(options.depth_output, crop(front_depth(ldi), frame.written), header,
-                       options.compression);
+        write_flat_exr(options.depth_output, depth, header, options.compression);
     picture = in_type(std::move(picture), options.type);
     warn_of_clamped(
         tool, options.output,
         write_picture(tool, options.colour, options.output, std::move(picture), header, options.compression));
-    write_stats(tool, gather_stats(cache, tiles));
+    write_stats(tool, gather_stats(cache, samples, tiles));
 }
 
 } // namespace

@@ -52,6 +52,10 @@ void append(Ldi &out, const Ldi &from, std::uint64_t index) {
     append(out, from, sample);
 }
 
+Ldi without_channels(const Ldi &ldi) {
+    return {ldi.windows, {}, ldi.begin, ldi.z, ldi.z_back, ldi.dx, ldi.dy, ldi.weight, {}};
+}
+
 Ldi empty_like(const Ldi &like) {
     Ldi ldi;
     ldi.windows = like.windows;

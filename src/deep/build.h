@@ -28,6 +28,9 @@ MergedSample sample_at(const Ldi &ldi, std::uint64_t index);
 void append(Ldi &out, const Ldi &from, const MergedSample &sample);
 void append(Ldi &out, const Ldi &from, std::uint64_t index); // an unchanged copy
 
+// The same samples without any channel.
+Ldi without_channels(const Ldi &ldi);
+
 // Channels, windows and the presence of z_back, dx, dy, weight as in `like`; no pixels yet.
 Ldi empty_like(const Ldi &like);
 

@@ -1,5 +1,6 @@
 #include "dof/defocused_holdout.h"
 
+#include "deep/build.h"
 #include "deep/channel_alpha.h"
 #include "deep/merge.h"
 #include "deep/tidy.h"
@@ -39,9 +40,7 @@ void add_channel(Ldi &ldi, const std::string &name, std::vector<float> values) {
 
 // The samples of the holdout with the coverage channels of the picture, each twice, and nothing else.
 Ldi coverage_alone(const Ldi &holdout, const std::vector<std::string> &names) {
-    Ldi result = holdout;
-    result.channels.clear();
-    result.values.clear();
+    Ldi result = without_channels(holdout);
     for (const std::string &name : names) {
         const std::size_t own = find_channel(holdout.channels, name);
         const std::size_t from = own == npos ? holdout.alpha() : own;

@@ -3,7 +3,34 @@
 #include "deep/flatten.h"
 #include "dof/defocused_holdout.h"
 
+#include <utility>
+
 namespace sparselens {
+
+namespace {
+
+bool merges_layers(const ThinLens &lens, const PictureOptions &options) {
+    return options.layer_tolerance > 0 && lens.radius > 0 && !options.holdout &&
+           options.method == &gather_methods().front();
+}
+
+template <typename Source> // Ldi or const Ldi &
+Ldi with_layers_merged(Source &&ldi, const ThinLens &lens, const PictureOptions &options) {
+    return merge_layers(std::forward<Source>(ldi), lens.radius * lens.focal_px, options.layer_tolerance);
+}
+
+// By layers as they are.
+Image gather_layers(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &gathered,
+                    const Imath::Box2i &written, const PictureOptions &options, Progress &progress) {
+    const auto sharp = options.holdout ? std::optional<Holdout>(*options.holdout) : std::nullopt;
+    if (lens.radius == 0) return crop(sharp ? flatten_held_out(ldi, *sharp) : flatten(ldi), written);
+    GatherOptions by = options.gather;
+    by.lens.region = written;
+    by.lens.holdout = sharp ? &*sharp : nullptr;
+    return crop(options.method->gather(ldi, lens, gathered, by, progress), written);
+}
+
+} // namespace
 
 Image gather_picture(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &gathered,
                      const Imath::Box2i &written, const PictureOptions &options, Progress &progress) {
@@ -13,12 +40,16 @@ Image gather_picture(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &g
         return without_holdout(
             gather_picture(with_holdout(ldi, *options.holdout), lens, gathered, written, without, progress));
     }
-    const auto sharp = options.holdout ? std::optional<Holdout>(*options.holdout) : std::nullopt;
-    if (lens.radius == 0) return crop(sharp ? flatten_held_out(ldi, *sharp) : flatten(ldi), written);
-    GatherOptions by = options.gather;
-    by.lens.region = written;
-    by.lens.holdout = sharp ? &*sharp : nullptr;
-    return crop(options.method->gather(ldi, lens, gathered, by, progress), written);
+    if (!merges_layers(lens, options)) return gather_layers(ldi, lens, gathered, written, options, progress);
+    return gather_layers(with_layers_merged(ldi, lens, options), lens, gathered, written, options, progress);
+}
+
+Image gather_picture(Ldi &&ldi, const ThinLens &lens, const Imath::Box2i &gathered,
+                     const Imath::Box2i &written, const PictureOptions &options, Progress &progress) {
+    if (!merges_layers(lens, options))
+        return gather_picture(std::as_const(ldi), lens, gathered, written, options, progress);
+    return gather_layers(with_layers_merged(std::move(ldi), lens, options), lens, gathered, written, options,
+                         progress);
 }
 
 } // namespace sparselens

@@ -2,6 +2,7 @@
 // module do between the preparation of the LDI and the writing of the picture.
 #pragma once
 
+#include "merge_layers.h"
 #include "methods.h"
 
 namespace sparselens {
@@ -13,11 +14,18 @@ struct PictureOptions {
         nullptr; // tidy, of the same display window; what it hides is not shown, nor is it itself
     bool holdout_defocused =
         false; // it is out of focus as the scene is; else it stays sharp, which the method lens alone knows
+    // For the method lens: layers closer than that are merged first (merge_layers.h), pixels of CoC; 0: none. Beside a
+    // sharp holdout none is, because it hides by depths that must not change.
+    double layer_tolerance = layer_tolerance_px;
 };
 
 // The pixels `gathered` as the method takes it, of which `written` (within it) are the result. A lens of radius 0 gives
 // the flattened LDI. The LDI is tidy.
 Image gather_picture(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &gathered,
+                     const Imath::Box2i &written, const PictureOptions &options, Progress &progress);
+
+// The same with less memory: the samples of `ldi` are used up.
+Image gather_picture(Ldi &&ldi, const ThinLens &lens, const Imath::Box2i &gathered,
                      const Imath::Box2i &written, const PictureOptions &options, Progress &progress);
 
 } // namespace sparselens

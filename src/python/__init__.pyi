@@ -270,6 +270,7 @@ def gather(
     method: Literal["lens", "selective", "scatter"] = "lens",
     quality: Optional[Literal["draft", "normal", "final"]] = "normal",
     lens_samples: Optional[int] = 0,
+    layer_tolerance: Optional[float] = 0.25,
     layers: Optional[int] = 8,
     focus_pixel: Optional[tuple[int, int]] = None,
     holdout: Optional[Ldi] = None,

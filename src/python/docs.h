@@ -208,13 +208,14 @@ Lens values replace those of the LDI:
 Raises UsageError where the lens is unknown, and Error where several LDIs are not of one camera.)";
 
 inline constexpr const char *gather =
-    R"(gather(ldi, *, method='lens', quality='normal', lens_samples=0, layers=8, focus_pixel=None, holdout=None, holdout_defocused=False, overscan='grow', proxy=1, region=None, highlight_gain=1, highlight_threshold=1, highlight_knee=1, blades=None, blade_curvature=None, blade_rotation=None, squeeze=None, spherical=None, cat_eye=None, axial_chromatic=None, field_curvature=None, breathing=None, cat_eye_darkening=False, axial_chromatic_type='red-blue', tilt=None, lens=None, aperture=None, progress=None, focal_length=None, sensor_width=None, fstop=None, lens_radius=None, focus_distance=None, scene_unit=None)
+    R"(gather(ldi, *, method='lens', quality='normal', lens_samples=0, layer_tolerance=0.25, layers=8, focus_pixel=None, holdout=None, holdout_defocused=False, overscan='grow', proxy=1, region=None, highlight_gain=1, highlight_threshold=1, highlight_knee=1, blades=None, blade_curvature=None, blade_rotation=None, squeeze=None, spherical=None, cat_eye=None, axial_chromatic=None, field_curvature=None, breathing=None, cat_eye_darkening=False, axial_chromatic_type='red-blue', tilt=None, lens=None, aperture=None, progress=None, focal_length=None, sensor_width=None, fstop=None, lens_radius=None, focus_distance=None, scene_unit=None)
 --
 
 Makes the picture that a lens takes of an LDI and returns a Picture, with all channels. As dof-gather.
 
 method: "lens", "selective" or "scatter".
 quality: "draft", "normal" or "final"; lens_samples: points of the lens in every tile, 0: as many as the quality needs.
+layer_tolerance: layers of a pixel whose circles of confusion differ by less are merged first, pixels; 0: none.
   Both belong to the method lens; layers, the layers kept apart in a pixel, belongs to selective.
 focus_pixel: (x, y), focuses on the front surface in this pixel, instead of focus_distance.
 holdout: an Ldi that hides what is behind it and is not shown itself; it stays sharp unless holdout_defocused.

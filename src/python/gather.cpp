@@ -52,6 +52,9 @@ void set_method(Asked &asked, Keywords &keywords) {
     };
     if (quality && !lens) refuse("quality", "lens");
     if (points && !lens) refuse("lens_samples", "lens");
+    const auto tolerance = keywords.number("layer_tolerance", {.zero_allowed = true});
+    if (tolerance && !lens) refuse("layer_tolerance", "lens");
+    asked.picture.layer_tolerance = tolerance.value_or(asked.picture.layer_tolerance);
     if (asked.holdout && !lens) refuse("holdout", "lens");
     if (!asked.looks.first.empty() && !lens) refuse(asked.looks.first.c_str(), "lens");
     if (layers && asked.picture.method->name != std::string("selective")) refuse("layers", "selective");

@@ -51,6 +51,7 @@ GATHERS = [
     {"lens_radius": 0},
     {"quality": "final"},
     {"lens_samples": 7},
+    {"layer_tolerance": 9},
     {"method": "selective", "layers": 2},
     {"region": (10, 20, 49, 69)},
     {"proxy": 2},

@@ -1,6 +1,7 @@
 #include "support/ldi_samples.h"
 
 #include "base/random.h"
+#include "deep/build.h"
 
 #include <algorithm>
 
@@ -72,10 +73,10 @@ Ldi ldi_of(const std::vector<TestPixel> &pixels) {
 
 TestPixel samples_of(const Ldi &ldi, std::size_t pixel) {
     TestPixel samples;
-    for (const std::uint64_t i : ldi.pixel(pixel))
-        samples.push_back({ldi.z[i], ldi.values[0][i], ldi.values[3][i],
-                           ldi.z_back.empty() ? ldi.z[i] : ldi.z_back[i], ldi.weight[i], ldi.dx[i],
-                           ldi.dy[i]});
+    for (const std::uint64_t i : ldi.pixel(pixel)) {
+        const MergedSample at = sample_at(ldi, i);
+        samples.push_back({at.z, ldi.values[0][i], ldi.values[3][i], at.z_back, at.weight, at.dx, at.dy});
+    }
     return samples;
 }
 

@@ -53,7 +53,8 @@ changes --focal-length 50
 changes --sensor-width 24
 changes --scene-unit 2
 changes --lens-samples 7
-exits 0 "$gather" ldi.exr -o lens.exr --method lens --quality normal --lens-samples 0
+changes --layer-tolerance 9
+exits 0 "$gather" ldi.exr -o lens.exr --method lens --quality normal --lens-samples 0 --layer-tolerance 0.25
 same lens.exr out.exr "the defaults"
 exits 0 "$gather" ldi.exr -o k4.exr --method selective
 exits 0 "$gather" ldi.exr -o k1.exr --method selective --layers 1
@@ -225,7 +226,7 @@ says half.exr '^ +R, 16-bit floating-point'
 same_pixels half.exr out.exr "-d half of float"
 
 # What the chosen method would ignore is refused.
-for text in '--quality final --method selective' '--lens-samples 9 --method scatter' '--holdout ldi.exr --method scatter'; do
+for text in '--quality final --method selective' '--layer-tolerance 1 --method selective' '--lens-samples 9 --method scatter' '--holdout ldi.exr --method scatter'; do
     # shellcheck disable=SC2086
     fails_saying 2 "^dof-gather: ${text%% *}: works with --method lens only" "$gather" ldi.exr -o y.exr $text
 done

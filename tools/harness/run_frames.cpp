@@ -151,6 +151,7 @@ int run_words(const std::string &name, const std::string &description, const std
     for (std::size_t i = 0; i < count; ++i) {
         parse(i, command);
         if (commands->is_range()) tool.frame = commands->number(i);
+        tool.last_frame = i + 1 == count;
         tool.command_line = command_line(name, commands->words(i));
         code = exit_code_of(prefix + frame_name(*commands, i), [&] {
             run_frame(*command, tool, {i, count, tool.frame}, warned);

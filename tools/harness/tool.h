@@ -19,6 +19,7 @@ struct ToolContext {
     std::unique_ptr<Progress> progress;      // never null
     std::string stats;                       // the file of write_stats(); empty: none
     std::optional<int> frame;                // the number of the frame in a range
+    bool last_frame = true;                  // what was read for it may be used up
     std::string command_line;                // see history.h
 
     // With --verbose, prints the line to stderr after the name of the tool.

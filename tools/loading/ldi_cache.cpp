@@ -25,8 +25,9 @@ OpenedLdi &LdiCache::load(const std::string &path, const std::string &channels, 
     const LensValues &lens = options.lens;
     const Key key(path, channels, depth.meaning, depth.channel, depth.near, depth.far, depth.view,
                   lens.focal_length_mm, lens.sensor_width_mm, colour.config, colour.input_space);
-    read_now_ = !last_ || key_ != key;
+    read_now_ = !last_ || taken_ || key_ != key;
     if (read_now_) {
+        taken_ = false;
         last_.reset(); // two at a time may be more than fits
         tool.say("reading " + path);
         OpenedLdi opened = open_ldi(path, options);

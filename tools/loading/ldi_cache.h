@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 namespace sparselens {
@@ -18,6 +19,12 @@ public:
     // then warns of invalid values. The camera always follows the options given. Earlier results become invalid.
     OpenedLdi &load(const std::string &path, const std::string &channels, const OpenOptions &options,
                     const ColourOptions &colour, const ToolContext &tool);
+
+    // The samples of the last load(), which are read anew the next time.
+    Ldi take_ldi() {
+        taken_ = true;
+        return std::move(last_->ldi);
+    }
 
     // The result of the last load(), whether it read the file, and which of its channels were left out.
     const OpenedLdi &last() const { return *last_; }
@@ -32,7 +39,7 @@ private:
 
     Key key_;
     std::optional<OpenedLdi> last_;
-    bool read_now_ = false;
+    bool read_now_ = false, taken_ = false;
     std::vector<std::string> channels_left_out_;
 };
 

@@ -47,7 +47,7 @@ Stats cluster_stats(const OpenedLdi &in, const Clustered &out) {
             {"largest_coc_change", out.largest_error}};
 }
 
-Stats gather_stats(const LdiCache &cache, const LensTiles &tiles) {
+Stats gather_stats(const LdiCache &cache, std::size_t samples, const LensTiles &tiles) {
     Stats points = Stats::object();
     std::size_t copied = 0;
     for (const auto &[number, count] : histogram(tiles)) {
@@ -58,7 +58,7 @@ Stats gather_stats(const LdiCache &cache, const LensTiles &tiles) {
     }
     return {{"input_read", cache.read_now()},
             {"samples_invisible", cache.last().invisible},
-            {"samples", cache.last().ldi.samples()},
+            {"samples", samples},
             {"channels_left_out", cache.channels_left_out()},
             {"tiles", tiles.lens_points.size()},
             {"tiles_copied", copied},

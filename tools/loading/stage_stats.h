@@ -15,6 +15,7 @@ namespace sparselens {
 Stats plan_stats(const Plan &plan, int views_allowed, const Windows &centre);
 Stats warp_stats(std::span<const View> views, const Ldi &ldi);
 Stats cluster_stats(const OpenedLdi &in, const Clustered &out);
-Stats gather_stats(const LdiCache &cache, const LensTiles &tiles); // no tiles: not gathered by tiles
+Stats gather_stats(const LdiCache &cache, std::size_t samples,
+                   const LensTiles &tiles); // no tiles: not gathered by tiles
 
 } // namespace sparselens

@@ -14,6 +14,7 @@ namespace {
 
 constexpr OnlyWith method_options[] = {{"--quality", "--method", "lens"},
                                        {"--lens-samples", "--method", "lens"},
+                                       {"--layer-tolerance", "--method", "lens"},
                                        {"--holdout", "--method", "lens"},
                                        {"--layers", "--method", "selective"}};
 
@@ -42,6 +43,14 @@ void add_method_options(CLI::App &app, GatherCommand &options) {
         ->type_name("N")
         ->group(lens_group)
         ->check(CLI::Range(0, 1 << 20));
+    app.add_option(
+           "--layer-tolerance", options.picture.layer_tolerance,
+           fmt::format("Merge layers of a pixel first whose circles of confusion differ by less, in pixels; "
+                       "0: none (default: {})",
+                       options.picture.layer_tolerance))
+        ->type_name("PX")
+        ->group(lens_group)
+        ->check(number("a number of at least 0", {.zero_allowed = true}));
     app.add_option(
            "--layers", options.picture.gather.layers,
            fmt::format("Layers kept apart in each pixel (default: {})", options.picture.gather.layers))

@@ -2,28 +2,7 @@
 
 #include "base/parallel.h"
 
-#include <algorithm>
-#include <limits>
-
 namespace sparselens {
-
-namespace {
-
-void bound(SampleBlock &block, const BlockedSamples &samples) {
-    constexpr float most = std::numeric_limits<float>::max();
-    block.x_min = block.y_min = block.coc_min = most;
-    block.x_max = block.y_max = block.coc_max = -most;
-    for (std::uint32_t i = block.begin; i < block.end; ++i) {
-        block.x_min = std::min(block.x_min, samples.x[i]);
-        block.x_max = std::max(block.x_max, samples.x[i]);
-        block.y_min = std::min(block.y_min, samples.y[i]);
-        block.y_max = std::max(block.y_max, samples.y[i]);
-        block.coc_min = std::min(block.coc_min, samples.coc[i]);
-        block.coc_max = std::max(block.coc_max, samples.coc[i]);
-    }
-}
-
-} // namespace
 
 void bend_samples(BlockedSamples &samples, const FocusField &field, double coc, const PictureFrame &frame,
                   double magnification, const Imath::V2i &corner) {

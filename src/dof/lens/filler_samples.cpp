@@ -26,16 +26,6 @@ std::vector<std::size_t> rows_of(std::span<const Filler> fillers, const Windows 
     return rows;
 }
 
-// Where the samples of the LDI are among those in blocks.
-std::vector<std::uint32_t> places_of(const Ldi &ldi, const BlockedSamples &samples) {
-    std::vector<std::uint32_t> places(ldi.samples());
-    parallel_ranges(samples.count(), 4096, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i)
-            if (samples.source[i] != BlockedSamples::background) places[samples.source[i]] = std::uint32_t(i);
-    });
-    return places;
-}
-
 } // namespace
 
 FillerSamples place_fillers(const Ldi &ldi, const ThinLens &lens, std::span<const Filler> fillers,
@@ -51,15 +41,16 @@ FillerSamples place_fillers(const Ldi &ldi, const ThinLens &lens, std::span<cons
             found.push_back(placed(lens, *f, x, y, std::uint32_t(&*f - fillers.data())));
     };
     FillerSamples result{make_blocks(ldi.windows, place), {}};
-    const std::vector<std::uint32_t> places = places_of(ldi, samples);
     const std::size_t count = result.samples.count();
     result.colours = {colours.groups, count, std::vector<float>(colours.groups * count * 4)};
     parallel_ranges(count, 4096, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             if (result.samples.source[i] == BlockedSamples::background) continue;
-            for (const Filler::Part &part : fillers[result.samples.source[i]].parts())
+            for (const Filler::Part &part : fillers[result.samples.source[i]].parts()) {
+                const std::uint32_t from = place_of(samples, ldi, part.sample);
                 for (std::size_t k = 0; k < ldi.channels.size(); ++k)
-                    result.colours.at(k, i) += part.share * colours.at(k, places[part.sample]);
+                    result.colours.at(k, i) += part.share * colours.at(k, from);
+            }
         }
     });
     return result;

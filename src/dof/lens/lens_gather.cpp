@@ -140,10 +140,12 @@ public:
         }
     }
 
-    // Or the pixels next to it. `stretched`: by how much lens points are at most. Their largest CoC is returned.
+    // Or the pixels next to it. `stretched`: by how much lens points are at most. Returns the largest CoC that shows: that
+    // of backgrounds does where something opaque hides them.
     float find(const Imath::V2i &origin, int size, float stretched, std::vector<std::uint32_t> &found) const {
         found.clear();
-        float largest = 0;
+        float largest = 0, largest_shown = 0;
+        bool shows_opaque = false;
         const float left = float(origin.x - 1), top = float(origin.y - 1), right = float(origin.x + size + 1),
                     bottom = float(origin.y + size + 1);
         for (int row = 0; row < samples_.rows; ++row) {
@@ -160,9 +162,11 @@ public:
                     continue;
                 found.push_back(b);
                 largest = std::max(largest, largest_coc_of(block));
+                largest_shown = std::max(largest_shown, block.coc_shown);
+                shows_opaque = shows_opaque || block.shows_opaque;
             }
         }
-        return largest;
+        return shows_opaque ? largest : largest_shown;
     }
 
 public:
@@ -288,8 +292,10 @@ Image gather_once(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &wind
         const LensSets::Set &set = sets.for_coc(largest);
         filler_finder.find(origin, LensTile::size, steepest, blocks.fillers);
         chosen.lens_points[t] = int(set.points.size());
+        std::vector<LensSample> bent;
+        if (!optics.field.flat()) bent = stretched(set.points, gradient);
         LensTile &tile = tiles.local();
-        tile.gather(origin, blocks, optics.field.flat() ? set.points : stretched(set.points, gradient),
+        tile.gather(origin, blocks, optics.field.flat() ? std::span<const LensSample>(set.points) : bent,
                     highlight_pixels(highlights, samples, set.nearest,
                                      {optics.aperture, optics.cat_eye, optics.corner}, lens.pixel_aspect,
                                      origin, LensTile::size));

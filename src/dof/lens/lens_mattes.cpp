@@ -2,6 +2,9 @@
 
 #include "base/matte.h"
 #include "base/parallel.h"
+#include "deep/build.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <bit>
@@ -37,14 +40,7 @@ std::vector<float> ids_of(const Ldi &ldi, const Matte &matte) {
 
 // The samples of the LDI with its coverage alone.
 Ldi bare(const Ldi &ldi) {
-    Ldi one;
-    one.windows = ldi.windows;
-    one.begin = ldi.begin;
-    one.z = ldi.z;
-    one.z_back = ldi.z_back;
-    one.dx = ldi.dx;
-    one.dy = ldi.dy;
-    one.weight = ldi.weight;
+    Ldi one = without_channels(ldi);
     if (ldi.alpha() == npos) return one;
     one.channels = {ldi.channels[ldi.alpha()]};
     one.values = {ldi.values[ldi.alpha()]};
@@ -69,7 +65,7 @@ void gather_ids(const Ldi &ldi, const Matte &matte, std::span<const float> ids, 
     Ldi one = bare(ldi);
     const std::size_t first = one.channels.size();
     for (std::size_t n = 0; n < ids.size(); ++n) {
-        one.channels.push_back({"id" + std::to_string(n), PixelType::float32, ChannelKind::data});
+        one.channels.push_back({fmt::format("id{}", n), PixelType::float32, ChannelKind::data});
         one.values.push_back(coverage_of_id(ldi, matte, ids[n]));
     }
     const Image picture = lens_gather(one, lens, window, options, progress);

@@ -10,8 +10,6 @@ namespace sparselens {
 
 namespace {
 
-constexpr float covered_at_all = 1 - 0x1p-24f; // a sample without coverage may still give light
-
 using Colour4 = std::array<float, 4>;
 
 template <typename Cells>
@@ -28,7 +26,7 @@ LensTile::LensTile(const BlockedSamples &samples, const SampleColours &colours, 
                    const Highlights &highlights, const HeldOut &held_out, const CatEye *cat_eye)
     : samples_(samples), colours_(colours), fillers_(fillers), highlights_(highlights), held_out_(held_out),
       cat_eye_(cat_eye), front_(stride * stride), filler_(stride * stride), empty_cells_(size * size),
-      transmittance_(stride * stride, 1.0f), veil_(stride * stride),
+      covered_cells_(stride * stride + 1), transmittance_(stride * stride, 1.0f), veil_(stride * stride),
       over_(colours.groups * stride * stride * 4), sums_(colours.groups * size * size * 4),
       spread_(sums_.size()), unknown_(size * size) {}
 
@@ -58,12 +56,13 @@ void LensTile::gather(const Imath::V2i &origin, const Blocks &blocks, std::span<
     origin_x_ = float(origin.x);
     origin_y_ = float(origin.y);
     blocks_ = &blocks;
-    collect_partial();
+    collect_partial(lens);
     std::fill(sums_.begin(), sums_.end(), 0.0f);
     std::fill(spread_.begin(), spread_.end(), 0.0f);
     std::fill(unknown_.begin(), unknown_.end(), 0.0f);
     total_ = 0;
     begin_weighted(lens);
+    has_veils_ = !spread.empty();
     for (std::uint32_t k = 0; k < lens.size(); ++k) {
         total_ += lens[k].weight;
         see_opaque(lens[k], samples_, blocks.samples, everywhere, front_);
@@ -85,28 +84,6 @@ void LensTile::gather(const Imath::V2i &origin, const Blocks &blocks, std::span<
         spread = add_highlights(spread, k);
         forget_partial();
     }
-}
-
-void LensTile::collect_partial() {
-    auto &[sample, x, y, coc, cell, highlight] = partial_;
-    sample.clear();
-    for (const std::uint32_t b : blocks_->samples)
-        for (std::uint32_t i = samples_.blocks[b].opaque_end; i < samples_.blocks[b].end; ++i)
-            sample.push_back(i);
-    std::sort(sample.begin(), sample.end(), [&](std::uint32_t a, std::uint32_t b) {
-        return samples_.depth[a] != samples_.depth[b] ? samples_.depth[a] > samples_.depth[b] : a < b;
-    });
-    x.clear();
-    y.clear();
-    coc.clear();
-    highlight.clear();
-    for (const std::uint32_t i : sample) {
-        x.push_back(samples_.x[i]);
-        y.push_back(samples_.y[i]);
-        coc.push_back(samples_.coc[i]);
-        highlight.push_back(std::ranges::binary_search(highlights_.sample, i));
-    }
-    cell.resize(sample.size());
 }
 
 // The nearest opaque one in each of the cells.
@@ -134,34 +111,6 @@ void LensTile::see_opaque(const LensSample &lens, const BlockedSamples &samples,
     }
 }
 
-void LensTile::see_partial(const LensSample &lens) {
-    const TileProjection projection(lens, origin_x_ - (border - 1), origin_y_ - (border - 1), stride);
-    const std::size_t count = partial_.sample.size();
-    project_to_cells(projection, partial_.x.data(), partial_.y.data(), partial_.coc.data(),
-                     std::uint32_t(count), partial_.cell.data());
-    for (std::size_t n = 0; n < count; ++n) {
-        const std::uint32_t i = partial_.sample[n];
-        const std::size_t cell = std::size_t(partial_.cell[n]);
-        if (samples_.key[i] < front_[cell]) continue;
-        float &transmittance = transmittance_[cell];
-        if (transmittance == 1) covered_.push_back(std::uint32_t(cell));
-        const float share = transmittance * passes(column_of(cell), row_of(cell), samples_.depth[i]);
-        const std::size_t first_group = in_front(i) ? colours_.groups : 0;
-        for (std::size_t g = 0; g < colours_.groups; ++g) {
-            const float *colour = &colours_.group(g)[std::size_t(i) * 4];
-            float *over = &over_[((first_group + g) * stride * stride + cell) * 4];
-            for (int k = 0; k < 4; ++k) over[k] += share * colour[k];
-        }
-        const float passed = std::min(transmittance * (1 - samples_.alpha[i]), covered_at_all);
-        if (in_front(i)) hidden_in_front_[cell] += transmittance - passed;
-        transmittance = passed;
-        if (partial_.highlight[n]) continue;
-        Veil &veil = veil_[cell];
-        if (veil.transmittance == 1) veil.depth = samples_.depth[i];
-        veil.transmittance = std::min(veil.transmittance * (1 - samples_.alpha[i]), covered_at_all);
-    }
-}
-
 // Adds the picture that the lens point sees of the opaque samples, and lists the cells where it sees none.
 void LensTile::add_opaque(float weight) {
     const bool held_out = held_out_.by != nullptr;
@@ -184,36 +133,6 @@ void LensTile::add_opaque(float weight) {
         }
     }
     empty_ = std::span(empty_cells_).first(count);
-}
-
-// Puts the partial samples in front of what add_opaque() and add_unseen() added.
-void LensTile::add_partial(float weight) {
-    for (const std::uint32_t cell : covered_) {
-        const int x = column_of(cell), y = row_of(cell);
-        if (x < 0 || y < 0 || x >= size || y >= size) continue;
-        const std::size_t pixel = std::size_t(y * size + x);
-        const bool known = front_[cell] != 0 || filler_[cell] != 0;
-        const float hidden = 1 - transmittance_[cell];
-        if (!known) unknown_[pixel] -= weight * hidden;
-        const float taken = known ? hidden * opaque_passes(x, y) : 0;
-        for (std::size_t g = 0; g < colours_.groups; ++g) {
-            const float *over = &over_[(g * stride * stride + cell) * 4];
-            const float *behind = opaque_colour(g, cell);
-            float *sum = &sums_[(g * size * size + pixel) * 4];
-            for (int k = 0; k < 4; ++k) sum[k] += weight * (over[k] - (known ? taken * behind[k] : 0));
-        }
-    }
-}
-
-void LensTile::forget_partial() {
-    for (const std::uint32_t cell : covered_) {
-        transmittance_[cell] = 1;
-        veil_[cell] = {};
-        if (two_sided_) hidden_in_front_[cell] = 0;
-        for (std::size_t g = 0; g < over_.size() / (stride * stride * 4); ++g)
-            std::fill_n(&over_[(g * stride * stride + cell) * 4], 4, 0.0f);
-    }
-    covered_.clear();
 }
 
 float LensTile::passes(int x, int y, float depth) const {

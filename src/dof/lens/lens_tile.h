@@ -64,7 +64,8 @@ private:
     static constexpr Cells everywhere{1 - border, 1 - border, size + border - 1, size + border - 1};
 
     float known_weight(int x, int y) const; // of the lens points; 0: none
-    void collect_partial();
+    void collect_partial(std::span<const LensSample> lens);
+    bool in_reach(std::uint32_t sample) const;
     void see_opaque(const LensSample &lens, const BlockedSamples &samples,
                     std::span<const std::uint32_t> blocks, const Cells &seen,
                     std::vector<std::uint64_t> &front) const;
@@ -74,6 +75,9 @@ private:
     void open_cracks();
     void see_fillers(const LensSample &lens);
     void see_partial(const LensSample &lens);
+    std::size_t see_partial_alone();
+    std::size_t see_partial_by_rules();
+    void add_veil(std::size_t cell, std::size_t n);
     float passes(int x, int y, float depth) const; // of light from there, the holdout
     bool hides(int x, int y, float depth) const;
     const float *opaque_colour(std::size_t group, std::size_t cell) const;
@@ -113,11 +117,16 @@ private:
     const Blocks *blocks_ = nullptr;
     // Samples of partial coverage, front to back.
     struct Partial {
+        std::vector<std::uint64_t> order; // to sort them by
         std::vector<std::uint32_t> sample;
-        std::vector<float> x, y, coc;        // of each, side by side
+        std::vector<float> x, y, coc, left; // of each, side by side; what it leaves of the light behind it
+        std::vector<std::uint64_t> key;
+        std::vector<float> colours;          // [group][of each][4]
         std::vector<std::int32_t> cell;      // where the lens point at hand sees it
         std::vector<std::uint8_t> highlight; // whether it is one
     } partial_;
+    bool has_veils_ = false;          // whether any highlight asks for them
+    float reach_x_ = 0, reach_y_ = 0; // of the lens points, for each pixel of CoC
     // What partial samples leave of the light of highlights behind them; among themselves these leave all.
     struct Veil {
         float depth = 0;         // of the nearest that is no highlight
@@ -128,6 +137,8 @@ private:
     std::vector<std::uint64_t> filler_; // [cell]: of those in empty_: key of the filler that shows; 0: none
     std::vector<std::uint32_t> empty_cells_;
     std::span<const std::uint32_t> empty_; // cells of the tile's pixels without any
+    std::vector<std::uint32_t> covered_cells_;
+    std::span<const std::uint32_t> covered_; // cells with partial samples
     struct Crack {
         std::uint32_t cell;
         std::uint64_t key; // of the sample that shows through it
@@ -137,7 +148,6 @@ private:
     std::vector<Veil> veil_;           // [cell]
     std::vector<float> over_; // [side][group][cell][4]: their colours; all on side 0 unless two_sided_
     std::vector<float> hidden_in_front_; // [cell]: what those in front of focus hide, if two_sided_
-    std::vector<std::uint32_t> covered_; // cells that have any
     // Of all so far:
     std::vector<float> sums_;    // [group][pixel][4]
     std::vector<float> spread_;  // [group][pixel][4]: of the highlights

@@ -13,6 +13,10 @@ struct LensTiles {
 };
 
 // How many tiles have so many lens points.
-std::map<int, int> histogram(const LensTiles &tiles);
+inline std::map<int, int> histogram(const LensTiles &tiles) {
+    std::map<int, int> result;
+    for (const int points : tiles.lens_points) ++result[points];
+    return result;
+}
 
 } // namespace sparselens

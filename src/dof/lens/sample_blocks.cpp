@@ -5,6 +5,7 @@
 #include "deep/build.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace sparselens {
@@ -58,21 +59,6 @@ std::vector<PlacedSample> block_samples(const Windows &windows, const PlaceSampl
     return found;
 }
 
-SampleBlock bounds_of(const std::vector<PlacedSample> &found) {
-    constexpr float most = std::numeric_limits<float>::max();
-    SampleBlock block{0, 0, std::uint32_t(found.size()), most, -most, most, -most, most, -most};
-    for (const PlacedSample &f : found) {
-        if (is_opaque(f.alpha)) ++block.opaque_end;
-        block.x_min = std::min(block.x_min, f.x);
-        block.x_max = std::max(block.x_max, f.x);
-        block.y_min = std::min(block.y_min, f.y);
-        block.y_max = std::max(block.y_max, f.y);
-        block.coc_min = std::min(block.coc_min, f.coc);
-        block.coc_max = std::max(block.coc_max, f.coc);
-    }
-    return block;
-}
-
 void resize(BlockedSamples &samples, std::size_t count) {
     for (auto *array : {&samples.x, &samples.y, &samples.coc, &samples.depth, &samples.alpha})
         array->resize(count);
@@ -94,34 +80,53 @@ void store(BlockedSamples &samples, std::size_t at, const PlacedSample &f) {
 
 } // namespace
 
+void bound(SampleBlock &block, const BlockedSamples &samples) {
+    constexpr float most = std::numeric_limits<float>::max();
+    block.x_min = block.y_min = block.coc_min = most;
+    block.x_max = block.y_max = block.coc_max = -most;
+    block.coc_shown = 0;
+    block.shows_opaque = false;
+    for (std::uint32_t i = block.begin; i < block.end; ++i) {
+        block.x_min = std::min(block.x_min, samples.x[i]);
+        block.x_max = std::max(block.x_max, samples.x[i]);
+        block.y_min = std::min(block.y_min, samples.y[i]);
+        block.y_max = std::max(block.y_max, samples.y[i]);
+        block.coc_min = std::min(block.coc_min, samples.coc[i]);
+        block.coc_max = std::max(block.coc_max, samples.coc[i]);
+        if (samples.source[i] == BlockedSamples::background) continue;
+        block.coc_shown = std::max(block.coc_shown, std::abs(samples.coc[i]));
+        block.shows_opaque = block.shows_opaque || i < block.opaque_end;
+    }
+}
+
 BlockedSamples make_blocks(const Windows &windows, const PlaceSamples &place) {
     BlockedSamples samples;
     constexpr int size = BlockedSamples::size;
     samples.columns = (windows.width() + size - 1) / size;
     samples.rows = (windows.height() + size - 1) / size;
-    const std::size_t columns = std::size_t(samples.columns);
-    samples.blocks.resize(columns * std::size_t(samples.rows));
-    std::vector<std::vector<PlacedSample>> found(
-        std::size_t(samples.rows)); // of a row of blocks, block after block
-    parallel_for(found.size(), [&](std::size_t row) {
-        for (std::size_t column = 0; column < columns; ++column) {
-            const std::vector<PlacedSample> block = block_samples(windows, place, int(column), int(row));
-            samples.blocks[row * columns + column] = bounds_of(block);
-            found[row].insert(found[row].end(), block.begin(), block.end());
-        }
+    samples.blocks.resize(std::size_t(samples.columns) * std::size_t(samples.rows));
+    const auto samples_of = [&](std::size_t b) {
+        return block_samples(windows, place, int(b) % samples.columns, int(b) / samples.columns);
+    };
+    // Twice, because a second copy of all samples would take more memory than there is for large pictures.
+    parallel_for(samples.blocks.size(), [&](std::size_t b) {
+        const std::vector<PlacedSample> found = samples_of(b);
+        const auto opaque = std::ranges::count_if(found, is_opaque, &PlacedSample::alpha);
+        samples.blocks[b].opaque_end = std::uint32_t(opaque);
+        samples.blocks[b].end = std::uint32_t(found.size());
     });
     std::uint32_t begin = 0;
     for (SampleBlock &block : samples.blocks) {
-        block.begin += begin;
+        block.begin = begin;
         block.opaque_end += begin;
         block.end += begin;
         begin = block.end;
     }
     resize(samples, begin);
-    parallel_for(found.size(), [&](std::size_t row) {
-        for (std::size_t i = 0; i < found[row].size(); ++i)
-            store(samples, samples.blocks[row * columns].begin + i, found[row][i]);
-        std::vector<PlacedSample>().swap(found[row]); // large pictures are short of memory
+    parallel_for(samples.blocks.size(), [&](std::size_t b) {
+        std::size_t at = samples.blocks[b].begin;
+        for (const PlacedSample &f : samples_of(b)) store(samples, at++, f);
+        bound(samples.blocks[b], samples);
     });
     return samples;
 }
@@ -132,6 +137,29 @@ BlockedSamples make_blocks(const Ldi &ldi, const ThinLens &lens, const Imath::Bo
     return make_blocks(ldi.windows, [&](int x, int y, std::vector<PlacedSample> &placed) {
         find_samples(ldi, lens, known, x, y, placed);
     });
+}
+
+SamplePlaces::SamplePlaces(const BlockedSamples &samples, const Ldi &ldi, int top, int bottom) {
+    const auto width = std::size_t(ldi.windows.width());
+    first_ = ldi.begin[std::size_t(top) * width];
+    places_.resize(ldi.begin[std::size_t(bottom) * width] - first_);
+    constexpr int size = BlockedSamples::size;
+    const int first_block = top / size * samples.columns, end = pieces_of(bottom, size) * samples.columns;
+    for (int b = first_block; b < end; ++b) {
+        const SampleBlock &block = samples.blocks[std::size_t(b)];
+        for (std::uint32_t i = block.begin; i < block.end; ++i)
+            if (samples.source[i] != BlockedSamples::background) places_[samples.source[i] - first_] = i;
+    }
+}
+
+std::uint32_t place_of(const BlockedSamples &samples, const Ldi &ldi, std::uint64_t sample) {
+    const auto pixel = std::ranges::upper_bound(ldi.begin, sample) - ldi.begin.begin() - 1;
+    const std::ptrdiff_t width = ldi.windows.width();
+    constexpr int size = BlockedSamples::size;
+    const std::ptrdiff_t b = pixel / width / size * samples.columns + pixel % width / size;
+    const SampleBlock &block = samples.blocks[std::size_t(b)];
+    const auto from = samples.source.begin();
+    return std::uint32_t(std::find(from + block.begin, from + block.end, std::uint32_t(sample)) - from);
 }
 
 } // namespace sparselens

@@ -16,6 +16,8 @@ struct SampleBlock {
     std::uint32_t begin, opaque_end, end; // opaque samples, then those of partial coverage
     float x_min, x_max, y_min, y_max;     // of the samples' centres, pixels
     float coc_min, coc_max;               // pixels, signed
+    float coc_shown;                      // the largest, without its sign, of what is no background
+    bool shows_opaque;                    // whether anything opaque is no background
 };
 
 struct BlockedSamples {
@@ -37,6 +39,9 @@ struct BlockedSamples {
     std::size_t count() const { return x.size(); }
 };
 
+// Sets the bounds of a block of `samples`, which has its samples already.
+void bound(SampleBlock &block, const BlockedSamples &samples);
+
 // Orders samples by depth (perceptive, at least 0), then by index; never 0. The index is its lower half.
 inline std::uint64_t depth_key(float depth, std::uint32_t sample) {
     return (std::uint64_t(std::bit_cast<std::uint32_t>(depth) + 2) << 32) | sample;
@@ -52,12 +57,26 @@ inline bool lets_through(double transmittance) { return transmittance >= 1.0 / 2
 // nothing is known. Throws Error where the LDI has more samples than 32 bits count.
 BlockedSamples make_blocks(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &known);
 
+// Where the samples of some rows of an LDI are in `samples`. The rows [top, bottom) are those of whole blocks.
+class SamplePlaces {
+public:
+    SamplePlaces(const BlockedSamples &samples, const Ldi &ldi, int top, int bottom);
+    std::uint32_t of(std::uint64_t sample) const { return places_[sample - first_]; }
+
+private:
+    std::uint64_t first_;
+    std::vector<std::uint32_t> places_;
+};
+
+// Where one sample of the LDI is.
+std::uint32_t place_of(const BlockedSamples &samples, const Ldi &ldi, std::uint64_t sample);
+
 struct PlacedSample {
     float x, y, coc, depth, alpha;
     std::uint32_t source;
 };
 
-// Of what `place(x, y, placed)` appends for the pixel in that column and row of a window of this size.
+// Of what `place(x, y, placed)` appends for the pixel in that column and row of a window of this size; it is asked twice.
 using PlaceSamples = std::function<void(int x, int y, std::vector<PlacedSample> &placed)>;
 BlockedSamples make_blocks(const Windows &windows, const PlaceSamples &place);
 

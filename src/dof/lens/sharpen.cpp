@@ -63,24 +63,31 @@ public:
     }
     bool usable() const { return std::find(rgb_.begin(), rgb_.end(), npos) == rgb_.end(); }
 
-    void measure_noise();
-    void weigh(); // after measure_noise()
-    // The change of sample i of pixel (x, y): its new value is the sum of the terms.
-    std::array<Term, 5> terms(std::uint64_t i, int x, int y) const;
-
-private:
     // By which a sample may exchange light with its neighbours.
     struct Weights { // float: there is one a sample
         float horizontal, vertical;
         float most; // share of all this that it may give away
         double along(std::size_t neighbour) const { return double(neighbour < 2 ? horizontal : vertical); }
     };
+    // The weights of the samples of some rows, and of the row on either side.
+    struct Band {
+        std::uint64_t first; // sample
+        std::vector<Weights> weights;
+        const Weights &of(std::uint64_t sample) const { return weights[sample - first]; }
+    };
+
+    void measure_noise();
+    Band weigh(int top, int bottom) const; // rows [top, bottom); after measure_noise()
+    // The change of sample i of pixel (x, y), in the rows of the band: its new value is the sum of the terms.
+    std::array<Term, 5> terms(const Band &band, std::uint64_t i, int x, int y) const;
+
+private:
     struct Neighbours {
         std::array<std::uint64_t, 4> sample; // left, right, up, down
         bool horizontal, vertical;           // both of the axis are there
     };
     Neighbours neighbours(std::uint64_t i, int x, int y) const;
-    std::uint64_t surface_in(int x, int y, double depth) const;
+    std::uint64_t surface_in(int x, int y, float z, double depth) const;
     Weights weights(std::uint64_t i, int x, int y) const;
     double detail(std::uint64_t i, const Neighbours &n) const;
     double second_difference(std::uint64_t i, std::uint64_t a, std::uint64_t b, std::size_t k) const {
@@ -92,18 +99,23 @@ private:
     const Ldi &ldi_;
     const ThinLens &lens_;
     std::array<std::size_t, 3> rgb_;
-    std::vector<Weights> weights_; // of each sample
-    std::vector<double> noise_;    // of each block, as detail() measures it
+    std::vector<double> noise_; // of each block, as detail() measures it
     BlurTable blur_;
 };
 
-// The sample of a pixel nearest to that depth: of a stack of mist and sheets not just any within reach.
-std::uint64_t Sharpener::surface_in(int x, int y, double depth) const {
+// The sample of a pixel nearest to that depth, planar and perceptive: of a stack of mist and sheets not just any within reach.
+std::uint64_t Sharpener::surface_in(int x, int y, float z, double depth) const {
     if (x < 0 || y < 0 || x >= ldi_.windows.width() || y >= ldi_.windows.height()) return none;
     const Imath::V2i at = ldi_.windows.data.min + Imath::V2i(x, y);
+    const SampleRange samples = ldi_.pixel(ldi_.windows.index(at.x, at.y));
+    const auto first = ldi_.z.begin() + std::ptrdiff_t(samples.from);
+    const auto behind =
+        samples.from +
+        std::uint64_t(std::lower_bound(first, first + std::ptrdiff_t(samples.size()), z) - first);
     std::uint64_t found = none;
     double least = one_surface_px;
-    for (const std::uint64_t i : ldi_.pixel(ldi_.windows.index(at.x, at.y))) {
+    for (std::uint64_t i = std::max(behind, samples.from + 1) - 1; i < std::min(behind + 1, samples.to);
+         ++i) {
         const double distance = std::abs(perceptive_depth(lens_, double(ldi_.z[i])) - depth);
         if (distance >= least) continue;
         found = i;
@@ -114,10 +126,8 @@ std::uint64_t Sharpener::surface_in(int x, int y, double depth) const {
 
 Sharpener::Neighbours Sharpener::neighbours(std::uint64_t i, int x, int y) const {
     const double depth = perceptive_depth(lens_, double(ldi_.z[i]));
-    Neighbours n{{surface_in(x - 1, y, depth), surface_in(x + 1, y, depth), surface_in(x, y - 1, depth),
-                  surface_in(x, y + 1, depth)},
-                 false,
-                 false};
+    const auto beside = [&](int dx, int dy) { return surface_in(x + dx, y + dy, ldi_.z[i], depth); };
+    Neighbours n{{beside(-1, 0), beside(1, 0), beside(0, -1), beside(0, 1)}, false, false};
     n.horizontal = n.sample[0] != none && n.sample[1] != none;
     n.vertical = n.sample[2] != none && n.sample[3] != none;
     return n;
@@ -185,27 +195,29 @@ Sharpener::Weights Sharpener::weights(std::uint64_t i, int x, int y) const {
     return w;
 }
 
-void Sharpener::weigh() {
-    weights_.resize(ldi_.samples());
+Sharpener::Band Sharpener::weigh(int top, int bottom) const {
     const std::size_t width = std::size_t(ldi_.windows.width());
-    parallel_for(std::size_t(ldi_.windows.height()), [&](std::size_t row) {
-        for (std::size_t pixel = row * width; pixel < (row + 1) * width; ++pixel)
-            for (const std::uint64_t i : ldi_.pixel(pixel))
-                weights_[i] = weights(i, int(pixel - row * width), int(row));
-    });
+    const int first = std::max(top - 1, 0), last = std::min(bottom + 1, ldi_.windows.height());
+    const auto begin_of = [&](int row) { return ldi_.begin[std::size_t(row) * width]; };
+    Band band{begin_of(first), std::vector<Weights>(begin_of(last) - begin_of(first))};
+    for (int y = first; y < last; ++y)
+        for (std::size_t x = 0; x < width; ++x)
+            for (const std::uint64_t i : ldi_.pixel(std::size_t(y) * width + x))
+                band.weights[i - band.first] = weights(i, int(x), y);
+    return band;
 }
 
-std::array<Term, 5> Sharpener::terms(std::uint64_t i, int x, int y) const {
+std::array<Term, 5> Sharpener::terms(const Band &band, std::uint64_t i, int x, int y) const {
     std::array<Term, 5> terms;
     terms.fill({i, 0});
     terms[0].coefficient = 1;
-    const Weights &own = weights_[i];
+    const Weights &own = band.of(i);
     if (own.most == 0) return terms;
     const Neighbours n = neighbours(i, x, y);
     for (std::size_t k = 0; k < 4; ++k) {
         if (!(k < 2 ? n.horizontal : n.vertical)) continue;
         // The same for both, so that no light is made or lost.
-        const Weights &other = weights_[n.sample[k]];
+        const Weights &other = band.of(n.sample[k]);
         const double shared = 0.5 * (own.along(k) + other.along(k)) * double(std::min(own.most, other.most));
         terms[0].coefficient += shared;
         terms[k + 1] = {n.sample[k], -shared};
@@ -220,27 +232,27 @@ void sharpen_near_focus(const Ldi &ldi, const ThinLens &lens, const BlockedSampl
     Sharpener sharpener(ldi, lens);
     if (!sharpener.usable()) return;
     sharpener.measure_noise();
-    sharpener.weigh();
-    std::vector<std::uint32_t> blocked(ldi.samples());
-    parallel_ranges(samples.count(), 4096, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t b = begin; b < end; ++b)
-            if (samples.source[b] != BlockedSamples::background)
-                blocked[samples.source[b]] = std::uint32_t(b);
-    });
-    const std::size_t width = std::size_t(ldi.windows.width()), alpha = ldi.alpha();
-    parallel_for(std::size_t(ldi.windows.height()), [&](std::size_t row) {
-        for (std::size_t pixel = row * width; pixel < (row + 1) * width; ++pixel)
-            for (const std::uint64_t i : ldi.pixel(pixel)) {
-                const auto terms = sharpener.terms(i, int(pixel - row * width), int(row));
-                if (terms[0].coefficient == 1) continue;
-                for (std::size_t k = 0; k < ldi.channels.size(); ++k) {
-                    if (k == alpha || !is_light(ldi.channels[k])) continue;
-                    double sum = 0;
-                    for (const Term &term : terms)
-                        sum += term.coefficient * double(ldi.values[k][term.index]);
-                    colours.at(k, blocked[i]) = float(sum);
-                }
+    constexpr int rows_at_once = 2 * BlockedSamples::size; // few, because weights take memory
+    const std::size_t alpha = ldi.alpha();
+    const int width = ldi.windows.width(), height = ldi.windows.height();
+    parallel_for(std::size_t(pieces_of(height, rows_at_once)), [&](std::size_t number) {
+        const int top = int(number) * rows_at_once, bottom = std::min(top + rows_at_once, height);
+        const Sharpener::Band band = sharpener.weigh(top, bottom);
+        const SamplePlaces places(samples, ldi, top, bottom);
+        const auto sharpen = [&](std::uint64_t i, int x, int y) {
+            const auto terms = sharpener.terms(band, i, x, y);
+            if (terms[0].coefficient == 1) return;
+            for (std::size_t k = 0; k < ldi.channels.size(); ++k) {
+                if (k == alpha || !is_light(ldi.channels[k])) continue;
+                double sum = 0;
+                for (const Term &term : terms) sum += term.coefficient * double(ldi.values[k][term.index]);
+                colours.at(k, places.of(i)) = float(sum);
             }
+        };
+        for (int y = top; y < bottom; ++y)
+            for (int x = 0; x < width; ++x)
+                for (const std::uint64_t i : ldi.pixel(std::size_t(y) * std::size_t(width) + std::size_t(x)))
+                    sharpen(i, x, y);
     });
 }
 

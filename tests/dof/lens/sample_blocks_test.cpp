@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <limits>
 #include <set>
+#include <utility>
 
 namespace sparselens {
 namespace {
@@ -37,6 +38,19 @@ TEST(SampleBlocks, HoldEverySampleOnceAtItsPlace) {
         EXPECT_EQ(samples.alpha[i], ldi.values[ldi.alpha()][s]);
     }
     EXPECT_EQ(seen.size(), ldi.samples());
+}
+
+TEST(SampleBlocks, TellWhereTheSamplesOfTheLdiAre) {
+    const Ldi ldi = random_surfaces(windows_of_size(45, 37), lens, false, 2);
+    const BlockedSamples samples = make_blocks(ldi, lens, ldi.windows.data);
+    for (const auto &[top, bottom] : {std::pair(0, 16), std::pair(16, 32), std::pair(32, 37)}) {
+        const SamplePlaces places(samples, ldi, top, bottom);
+        for (std::uint64_t i = ldi.begin[std::size_t(top) * 45]; i < ldi.begin[std::size_t(bottom) * 45];
+             ++i) {
+            EXPECT_EQ(samples.source[places.of(i)], i);
+            EXPECT_EQ(place_of(samples, ldi, i), places.of(i));
+        }
+    }
 }
 
 TEST(SampleBlocks, FollowEachOtherAndBoundWhatTheyHold) {

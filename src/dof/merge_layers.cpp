@@ -1,0 +1,205 @@
+#include "dof/merge_layers.h"
+
+#include "base/parallel.h"
+#include "deep/build.h"
+#include "deep/channel_alpha.h"
+#include "dof/lens/sample_blocks.h"
+#include "lens/perceptive_depth.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+namespace sparselens {
+
+namespace {
+
+constexpr std::size_t pixels_at_once = 4096;
+
+// The samples of a run, front to back, as their indices.
+struct Run {
+    std::uint64_t from, to;
+};
+
+// How many samples each run has, and where those of each pixel begin.
+struct Runs {
+    std::vector<std::uint64_t> begin; // pixels + 1 entries, the first 0
+    std::vector<std::uint32_t> length;
+};
+
+class RunFinder {
+public:
+    RunFinder(const Ldi &ldi, double scale, double tolerance)
+        : ldi_(ldi), alpha_(ldi.alpha()), scale_(float(scale)), tolerance_(float(tolerance)) {}
+
+    // The run that begins with sample `from`, of a pixel whose samples end at `end`.
+    std::uint64_t end_of(std::uint64_t from, std::uint64_t end) const {
+        std::uint64_t i = from;
+        while (!is_opaque(alpha_at(ldi_, alpha_, i)) && i + 1 < end && belongs(from, i + 1)) ++i;
+        return i + 1;
+    }
+
+private:
+    bool belongs(std::uint64_t first, std::uint64_t i) const {
+        if (!(scale_ / ldi_.z[first] - scale_ / ldi_.z[i] <= tolerance_)) return false;
+        const auto near = [&](const std::vector<float> &offset) {
+            return offset.empty() || std::abs(offset[i] - offset[first]) <= tolerance_;
+        };
+        return near(ldi_.dx) && near(ldi_.dy);
+    }
+    const Ldi &ldi_;
+    std::size_t alpha_;
+    float scale_, tolerance_;
+};
+
+// visit(pixel, run) for every run of some pixels.
+template <typename Visit>
+void for_each_run(const Ldi &ldi, const Runs &runs, std::size_t first, std::size_t last, const Visit &visit) {
+    for (std::size_t pixel = first; pixel < last; ++pixel) {
+        std::uint64_t from = ldi.begin[pixel];
+        for (std::uint64_t r = runs.begin[pixel]; r < runs.begin[pixel + 1]; ++r) {
+            visit(r, Run{from, from + runs.length[r]});
+            from += runs.length[r];
+        }
+    }
+}
+
+Runs find_runs(const Ldi &ldi, double scale, double tolerance) {
+    const RunFinder finder(ldi, scale, tolerance);
+    const std::size_t pixels = ldi.windows.pixels();
+    const auto for_lengths = [&](std::size_t pixel, const auto &visit) {
+        const SampleRange all = ldi.pixel(pixel);
+        for (std::uint64_t i = all.from; i < all.to;) {
+            const std::uint64_t end = finder.end_of(i, all.to);
+            visit(std::uint32_t(end - i));
+            i = end;
+        }
+    };
+    Runs runs{std::vector<std::uint64_t>(pixels + 1, 0), {}};
+    parallel_ranges(pixels, pixels_at_once, [&](std::size_t first, std::size_t last) {
+        for (std::size_t p = first; p < last; ++p)
+            for_lengths(p, [&](std::uint32_t) { ++runs.begin[p + 1]; });
+    });
+    for (std::size_t p = 0; p < pixels; ++p) runs.begin[p + 1] += runs.begin[p];
+    runs.length.resize(runs.begin.back());
+    parallel_ranges(pixels, pixels_at_once, [&](std::size_t first, std::size_t last) {
+        for (std::size_t p = first; p < last; ++p) {
+            std::uint64_t r = runs.begin[p];
+            for_lengths(p, [&](std::uint32_t length) { runs.length[r++] = length; });
+        }
+    });
+    return runs;
+}
+
+// One array of the result: of(run) for every run.
+template <typename Of>
+std::vector<float> for_runs(const Ldi &ldi, const Runs &runs, const Of &of) {
+    std::vector<float> values(runs.length.size());
+    parallel_ranges(ldi.windows.pixels(), pixels_at_once, [&](std::size_t first, std::size_t last) {
+        for_each_run(ldi, runs, first, last, [&](std::uint64_t r, const Run &run) { values[r] = of(run); });
+    });
+    return values;
+}
+
+class Merging {
+public:
+    Merging(const Ldi &ldi, const Runs &runs) : ldi_(ldi), runs_(runs), alpha_(ldi.alpha()) {}
+
+    std::vector<float> depths() const {
+        return for_runs(ldi_, runs_, [&](const Run &run) {
+            if (run.to - run.from == 1) return ldi_.z[run.from];
+            const double inverse = mean(run, [&](std::uint64_t i) { return 1 / double(ldi_.z[i]); });
+            return std::clamp(float(1 / inverse), ldi_.z[run.from], ldi_.z[run.to - 1]);
+        });
+    }
+    std::vector<float> offsets(const std::vector<float> &offset) const {
+        if (offset.empty()) return {};
+        return for_runs(ldi_, runs_, [&](const Run &run) {
+            return float(mean(run, [&](std::uint64_t i) { return double(offset[i]); }));
+        });
+    }
+    std::vector<float> composited_values(const std::vector<float> &values) const {
+        return for_runs(ldi_, runs_, [&](const Run &run) {
+            double sum = 0;
+            for_shares(run, [&](std::uint64_t i, double share) { sum += share * double(values[i]); });
+            return float(sum);
+        });
+    }
+    std::vector<float> first_values(const std::vector<float> &values) const {
+        return for_runs(ldi_, runs_, [&](const Run &run) { return values[run.from]; });
+    }
+
+private:
+    // visit(sample, share of it that those in front of it in the run let through).
+    template <typename Visit>
+    void for_shares(const Run &run, const Visit &visit) const {
+        double transmittance = 1;
+        for (std::uint64_t i = run.from; i < run.to; ++i) {
+            visit(i, transmittance);
+            transmittance *= 1 - double(alpha_at(ldi_, alpha_, i));
+        }
+    }
+    // By what each sample shows.
+    template <typename Of>
+    double mean(const Run &run, const Of &of) const {
+        double sum = 0, weight = 0;
+        for_shares(run, [&](std::uint64_t i, double share) {
+            const double shown = std::max(share * double(alpha_at(ldi_, alpha_, i)), 1e-12);
+            sum += shown * of(i);
+            weight += shown;
+        });
+        return sum / weight;
+    }
+    const Ldi &ldi_;
+    const Runs &runs_;
+    std::size_t alpha_;
+};
+
+bool can_be_merged(const Ldi &ldi) {
+    return ldi.alpha() != npos && std::ranges::none_of(ldi.channels, is_in_matte) &&
+           by_coverage(ldi).size() == 1;
+}
+
+// Frees an array of an LDI that is not needed again, and leaves one of an LDI that is.
+void used(std::vector<float> &values) { std::vector<float>().swap(values); }
+void used(const std::vector<float> &) {}
+
+template <typename Source> // Ldi or const Ldi
+Ldi merged(Source &ldi, double scale, double tolerance) {
+    Runs runs = find_runs(ldi, scale, tolerance);
+    const Merging merging(ldi, runs);
+    used(ldi.z_back);
+    used(ldi.weight);
+    Ldi out;
+    out.windows = ldi.windows;
+    out.channels = ldi.channels;
+    out.z = merging.depths();
+    used(ldi.z);
+    out.dx = merging.offsets(ldi.dx);
+    used(ldi.dx);
+    out.dy = merging.offsets(ldi.dy);
+    used(ldi.dy);
+    out.values.resize(ldi.channels.size());
+    const std::size_t alpha = ldi.alpha();
+    for (std::size_t k = 0; k < ldi.channels.size(); ++k) {
+        out.values[k] = holds_ids(ldi.channels[k]) ? merging.first_values(ldi.values[k])
+                                                   : merging.composited_values(ldi.values[k]);
+        if (k != alpha) used(ldi.values[k]);
+    }
+    used(ldi.values[alpha]);
+    out.begin = std::move(runs.begin);
+    return out;
+}
+
+} // namespace
+
+Ldi merge_layers(const Ldi &ldi, double scale, double tolerance) {
+    return can_be_merged(ldi) ? merged(ldi, scale, tolerance) : ldi;
+}
+
+Ldi merge_layers(Ldi &&ldi, double scale, double tolerance) {
+    return can_be_merged(ldi) ? merged(ldi, scale, tolerance) : std::move(ldi);
+}
+
+} // namespace sparselens

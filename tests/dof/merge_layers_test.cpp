@@ -1,0 +1,117 @@
+#include "deep/flatten.h"
+#include "deep/order.h"
+#include "deep/tidy.h"
+#include "dof/gather_picture.h"
+#include "dof/merge_layers.h"
+#include "measure/image_error.h"
+#include "support/deep_scenes.h"
+#include "support/ldi_samples.h"
+#include "support/lens_ldi.h"
+#include "view/resolve_lens.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <utility>
+
+namespace sparselens {
+namespace {
+
+// A point at this perceptive depth (for a scale of 1).
+TestSample at(double depth, float alpha, float colour = 0.25f) {
+    return {.z = float(1 / depth), .colour = colour, .alpha = alpha};
+}
+
+TestPixel merged(const TestPixel &pixel, double tolerance) {
+    return samples_of(merge_layers(ldi_of({pixel}), 1, tolerance), 0);
+}
+
+TEST(MergeLayers, TwoLayersAreOneByWhatTheyShow) {
+    const TestPixel two = merged({at(5, 0.5f, 0.25f), at(4.9, 0.5f, 0.5f)}, 0.25);
+    ASSERT_EQ(two.size(), 1u);
+    EXPECT_FLOAT_EQ(two[0].alpha, 0.75f);
+    EXPECT_FLOAT_EQ(two[0].colour, 0.25f + 0.5f * 0.5f);
+    EXPECT_NEAR(1 / double(two[0].z), (0.5 * 5 + 0.25 * 4.9) / 0.75, 1e-6);
+}
+
+TEST(MergeLayers, LayersFartherApartStay) {
+    EXPECT_EQ(merged({at(5, 0.5f), at(4.7, 0.5f)}, 0.25).size(), 2u);
+    // From the front, so that no run is longer than the tolerance.
+    EXPECT_EQ(merged({at(5, 0.1f), at(4.9, 0.1f), at(4.8, 0.1f), at(4.7, 0.1f), at(4.6, 0.1f)}, 0.25).size(),
+              2u);
+    EXPECT_EQ(merged({at(5, 0.5f), at(4.999, 0.5f)}, 0).size(), 2u);
+}
+
+TEST(MergeLayers, PositionsFartherApartStay) {
+    TestPixel pixel{at(5, 0.5f), at(4.95, 0.5f)};
+    pixel[0].dx = -0.2f;
+    pixel[1].dx = 0.2f;
+    EXPECT_EQ(merged(pixel, 0.25).size(), 2u);
+    const TestPixel one = merged(pixel, 0.5);
+    ASSERT_EQ(one.size(), 1u);
+    EXPECT_NEAR(double(one[0].dx), (-0.2 * 0.5 + 0.2 * 0.25) / 0.75, 1e-6);
+}
+
+TEST(MergeLayers, WhatLiesBehindAnOpaqueSampleStays) {
+    const TestPixel pixel = merged({at(5, 0.5f), at(4.95, 1), at(4.9, 0.5f), at(4.85, 1)}, 0.25);
+    ASSERT_EQ(pixel.size(), 2u);
+    EXPECT_FLOAT_EQ(pixel[0].alpha, 1);
+    EXPECT_FLOAT_EQ(pixel[1].alpha, 1);
+}
+
+TEST(MergeLayers, FlattenedPictureIsTheSameAndTheSamplesAreTidy) {
+    const Ldi ldi =
+        tidy(random_ldi({.seed = 7, .width = 40, .height = 30, .opaque_share = 0.2, .depths = 64}));
+    for (const double tolerance : {0.05, 0.5, 100.0}) {
+        const Ldi merged = merge_layers(ldi, 4, tolerance);
+        EXPECT_LT(merged.samples(), ldi.samples());
+        EXPECT_TRUE(order_of(merged).sorted && order_of(merged).apart);
+        EXPECT_LT(largest_difference(flatten(merged), flatten(ldi)), 1e-5);
+    }
+}
+
+TEST(MergeLayers, UsingUpTheSamplesGivesTheSame) {
+    Ldi ldi = tidy(random_ldi({.seed = 8, .width = 40, .height = 30, .depths = 64}));
+    const Ldi kept = merge_layers(ldi, 4, 0.5);
+    const Ldi used = merge_layers(std::move(ldi), 4, 0.5);
+    EXPECT_EQ(used.begin, kept.begin);
+    EXPECT_EQ(used.z, kept.z);
+    EXPECT_EQ(used.values, kept.values);
+}
+
+TEST(MergeLayers, CryptomattesAndPerChannelAlphaAreLeftAlone) {
+    Ldi ldi = ldi_of({{at(5, 0.5f), at(4.9, 0.5f)}});
+    ldi.channels.push_back({"AR"});
+    ldi.values.push_back({0.5f, 0.25f});
+    ldi.channels.push_back({"AG"});
+    ldi.values.push_back({0.5f, 0.5f});
+    ldi.channels.push_back({"AB"});
+    ldi.values.push_back({0.5f, 0.5f});
+    EXPECT_EQ(merge_layers(ldi, 1, 0.25).samples(), 2u);
+    Ldi matte = ldi_of({{at(5, 0.5f), at(4.9, 0.5f)}});
+    matte.channels[0].kind = ChannelKind::matte_id;
+    EXPECT_EQ(merge_layers(matte, 1, 0.25).samples(), 2u);
+}
+
+// The bound of docs/techniques.md, and what decides whether layers are merged at all.
+TEST(MergeLayers, DenseScenesLookTheSame) {
+    for (const DeepScene &scene : deep_scenes()) {
+        const Ldi ldi = tidy(scene.make(64, 48));
+        const ThinLens lens = resolve_lens(deep_scene_camera(64), ldi.windows);
+        Progress silent;
+        const auto picture = [&](double tolerance) {
+            PictureOptions options;
+            options.layer_tolerance = tolerance;
+            const Imath::Box2i &all = ldi.windows.data;
+            return gather_picture(ldi, lens, all, all, options, silent);
+        };
+        const Image whole = picture(0), merged = picture(layer_tolerance_px);
+        const double decibels = image_error(merged, whole)[0].psnr_tonemapped;
+        EXPECT_GT(decibels, 45) << scene.name;
+        EXPECT_TRUE(std::isfinite(decibels) || scene.name == std::string("hair")) << scene.name;
+    }
+}
+
+} // namespace
+} // namespace sparselens
