@@ -10,8 +10,8 @@ header() { grep -q -e "$2" <<<"$(exrheader "$1")" || fail "$1 has no '$2': $(exr
 
 # Every scene gives what was asked for, and nothing else.
 for scene in fence grass planes slant lamps mirror mist element macro; do
-    exits 0 "$trace" $scene -o "$scene" "${small[@]}" --lens-views 2 --reference 3 --deep peel:3 --deep strata:3
-    [ "$(ls -A "$scene" | tr '\n' ' ')" = "camera.json center.exr deep_peel.exr deep_strata.exr lens_0000.exr \
+    exits 0 "$trace" $scene -o "$scene" "${small[@]}" --lens-views 2 --reference 3 --deep peel:3 --deep strata:3 --deep visible
+    [ "$(ls -A "$scene" | tr '\n' ' ')" = "camera.json center.exr deep_peel.exr deep_strata.exr deep_visible.exr lens_0000.exr \
 lens_0001.exr reference.exr view_0.exr view_1.exr " ] || fail "$scene: $(ls -A "$scene")"
     [ ! -s stderr ] || fail "$scene talks on stderr: $(cat stderr)"
     header $scene/deep_peel.exr deepscanline
@@ -24,7 +24,7 @@ header fence/view_0.exr '^ *-0\.06 '
 header fence/view_1.exr '^ *0\.06 '
 for attribute in 'worldToNDC' 'aperture.*: 0.3' 'focus.*: 5' 'pinholeFocalLength.*: 36' 'sparselens:sensorWidth.*: 36' \
     'sparselens:metresPerUnit.*: 1'; do
-    for file in center view_0 lens_0000 reference deep_peel deep_strata; do header fence/$file.exr "$attribute"; done
+    for file in center view_0 lens_0000 reference deep_peel deep_strata deep_visible; do header fence/$file.exr "$attribute"; done
 done
 for key in '"width":48,' '"height":27,' '"focal_mm":36.0,' '"sensor_width_mm":36.0,' '"focus_distance":5.0,' \
     '"fstop":0.3,' '"lens_radius":0.06,' '"views":\[\[1.0,0.0\],\[-1.0,' '"view_spp":4,' '"ref_spp":3,' \
@@ -107,7 +107,7 @@ fails_saying 2 'SCENE' "$trace" -o out
 fails_saying 2 'meadow' "$trace" meadow -o out
 fails_saying 2 'output' "$trace" fence
 for wrong in '--spp 0' '--views -1' '--lens-views x' '--reference 0' '--size 48' '--size 0x4' '--size 48x27x2' \
-    '--size 65536x65536' '--overscan -1' '--seed 64' '--light moon' '-d double' '--deep peel' '--deep peel:0' '--deep skin:3' \
+    '--size 65536x65536' '--overscan -1' '--seed 64' '--light moon' '-d double' '--deep peel' '--deep visible:2' '--deep peel:0' '--deep skin:3' \
     '--fstop abc' '--fstop 0' '--lens-radius -1' '--focus-distance 0' '--focal-length inf' '--threads -1'; do
     fails_saying 2 '' "$trace" fence -o out $wrong
 done

@@ -102,6 +102,45 @@ void peel(const PixelRays &rays, std::size_t layers, bool volumes, Ldi &out) {
     }
 }
 
+// What the samples of a pixel see of a surface.
+struct Visible {
+    int primitive; // -1: the sky
+    Imath::V4d sum{0};
+    double z_sum = 0; // weighted by coverage
+    double z() const { return z_sum / sum[3]; }
+};
+
+void add_visible(const LayerBuffers &ray, std::vector<Visible> &found) {
+    double passes = 1;
+    for (std::size_t i = 0; i < ray.hits.size() && passes > 0; ++i) {
+        const Imath::V4d seen = passes * premultiplied(ray.colours[i]);
+        passes -= seen[3];
+        if (seen[3] <= 0) continue;
+        const int primitive = ray.hits[i].primitive;
+        auto surface = std::ranges::find(found, primitive, &Visible::primitive);
+        if (surface == found.end()) surface = found.insert(found.end(), Visible{primitive});
+        surface->sum += seen;
+        surface->z_sum += seen[3] * ray.hits[i].t;
+    }
+}
+
+void see(const PixelRays &rays, bool volumes, Ldi &out) {
+    LayerBuffers buffers;
+    std::vector<Visible> found;
+    for (std::size_t i = 0; i < rays.count(); ++i) {
+        rays.sample(i, buffers);
+        add_visible(buffers, found);
+    }
+    std::ranges::sort(found, {}, &Visible::z);
+    double left = double(rays.count()); // samples that what is nearer does not cover
+    for (const Visible &surface : found) {
+        const double coverage = std::min(1.0, surface.sum[3] / left);
+        append(out, volumes, surface.z(), surface.z(), coverage / surface.sum[3] * surface.sum);
+        left -= surface.sum[3];
+        if (left <= 0) break;
+    }
+}
+
 struct Stratum {
     Imath::V4d sum{0};
     double z = -1; // -1: nothing met yet
@@ -157,6 +196,13 @@ Ldi render_peeled(const Tracer &tracer, const RenderSettings &settings, int laye
     const bool volumes = !tracer.scene().slabs.empty();
     return build(tracer, settings, samples, stream, "peel", progress,
                  [&](const PixelRays &rays, Ldi &out) { peel(rays, std::size_t(layers), volumes, out); });
+}
+
+Ldi render_visible(const Tracer &tracer, const RenderSettings &settings, int samples, std::uint32_t stream,
+                   Progress &progress) {
+    const bool volumes = !tracer.scene().slabs.empty();
+    return build(tracer, settings, samples, stream, "visible", progress,
+                 [&](const PixelRays &rays, Ldi &out) { see(rays, volumes, out); });
 }
 
 Ldi render_strata(const Tracer &tracer, const RenderSettings &settings, int strata, int samples,

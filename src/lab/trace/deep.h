@@ -14,6 +14,13 @@ namespace sparselens::lab {
 Ldi render_peeled(const Tracer &tracer, const RenderSettings &settings, int layers, int samples,
                   std::uint32_t stream, Progress &progress);
 
+// What the samples of each pixel see, as renderers write deep files: one sample for each surface that is visible in the
+// pixel, at its mean depth, with the mean of its colours. What is hidden is not there. Coverages are those with which the
+// surfaces, composited in the order of their depths, give the shares of the pixel that they take: flattened, this is the
+// centre view.
+Ldi render_visible(const Tracer &tracer, const RenderSettings &settings, int samples, std::uint32_t stream,
+                   Progress &progress);
+
 // The scene, cut by planes into `strata` depth intervals that are equal in perceptive depth from the nearest visible
 // surface to infinity (the first one begins at the camera). Each is rendered as if the others did not exist, with a box
 // filter and one depth per sample, at the pixel centre where the stratum has one. A surface that another surface of its

@@ -122,6 +122,34 @@ TEST(RenderStrata, OneStratumIsTheCentreView) {
     for (std::size_t i = 0; i < ldi.samples(); ++i) EXPECT_EQ(ldi.z[i], view.plane(4)[i]);
 }
 
+// What is hidden is not there; where the sheet ends inside a pixel, both surfaces are.
+TEST(RenderVisible, IsWhatTheSamplesSee) {
+    const RenderSettings settings = settings_of_size(9, 3);
+    Scene scene = sheet_and_wall();
+    const Ldi ldi = render_visible(Tracer(scene), settings, 16, 1, silent);
+    EXPECT_EQ(depths(ldi, 0), (std::vector<float>{4, 8})); // not the sky behind the wall
+    EXPECT_EQ(depths(ldi, 4), (std::vector<float>{4, 8}));
+    EXPECT_EQ(depths(ldi, 8), (std::vector<float>{8}));
+    EXPECT_FLOAT_EQ(ldi.values[3][ldi.pixel(0).from], 0.5f);
+    EXPECT_FLOAT_EQ(ldi.values[3][ldi.pixel(4).from], 0.25f);
+    EXPECT_FLOAT_EQ(ldi.values[0][ldi.pixel(4).from], 0.25f);
+    scene.quads[1].material = blue_light; // opaque: the wall behind it is hidden
+    EXPECT_EQ(depths(render_visible(Tracer(scene), settings, 16, 1, silent), 0), (std::vector<float>{4}));
+}
+
+// Surfaces that cross in a pixel, the sky between thin bars, partial coverage: flattened, all is as the view has it.
+TEST(RenderVisible, FlattenedIsTheCentreView) {
+    const RenderSettings settings = settings_of_size(64, 36);
+    for (const char *scene : {"fence", "grass", "mist", "element"}) {
+        const Tracer tracer(build_scene(scene));
+        const Image view = render_view(tracer, settings, {0, 0}, 16, 1, silent);
+        const Image flat = flatten(tidy(render_visible(tracer, settings, 16, 1, silent)));
+        for (std::size_t channel = 0; channel < 4; ++channel)
+            for (std::size_t i = 0; i < settings.windows.pixels(); ++i)
+                ASSERT_NEAR(flat.plane(channel)[i], view.plane(channel)[i], 2e-4) << scene << ' ' << i;
+    }
+}
+
 // Slabs are samples of their whole extent: alpha 1 - exp(-optical depth), overlapping, after the surfaces.
 TEST(RenderDeep, SlabsAreVolumeSamples) {
     Scene scene = sheet_and_wall();

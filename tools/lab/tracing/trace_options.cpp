@@ -26,13 +26,17 @@ bool read_count(std::string_view text, int limit, int &value) {
 }
 
 bool read_deep(const std::string &text, TraceOptions &options) {
+    if (text == "visible") {
+        options.deep.push_back({DeepKind::visible, 0});
+        return true;
+    }
     const std::size_t colon = text.find(':');
     const std::string kind = text.substr(0, colon);
     int layers = 0;
     if (colon == std::string::npos || !read_count(std::string_view(text).substr(colon + 1), 1024, layers))
         return false;
     if (kind != "peel" && kind != "strata") return false;
-    options.deep.push_back({kind == "peel", layers});
+    options.deep.push_back({kind == "peel" ? DeepKind::peel : DeepKind::strata, layers});
     return true;
 }
 
@@ -115,12 +119,12 @@ void add_rendering_options(CLI::App &app, TraceOptions &options) {
                for (const std::string &text : texts)
                    if (!read_deep(text, options))
                        throw CLI::ValidationError(
-                           "--deep", fmt::format("must be peel:K or strata:K (e.g. peel:3), not '{}'", text));
+                           "--deep",
+                           fmt::format("must be visible, peel:K or strata:K (e.g. peel:3), not '{}'", text));
            },
-           "Also render a deep picture from the lens centre. peel: the K nearest surfaces; strata: the scene "
-           "cut into "
-           "K depth intervals")
-        ->type_name("peel:K|strata:K")
+           "Also render a deep picture from the lens centre. visible: what the samples of each pixel see, as "
+           "renderers write it; peel: the K nearest surfaces; strata: the scene cut into K depth intervals")
+        ->type_name("visible|peel:K|strata:K")
         ->allow_extra_args(false);
     app.add_option("-d,--type", options.type, "Type of the colour channels (default: half)")
         ->type_name("half|float")

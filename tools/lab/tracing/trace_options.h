@@ -12,9 +12,11 @@
 
 namespace sparselens::lab {
 
+enum class DeepKind { visible, peel, strata };
+
 struct DeepRequest {
-    bool peel; // else strata
-    int layers;
+    DeepKind kind;
+    int layers; // of peel and strata
 };
 
 struct TraceOptions {

@@ -86,11 +86,23 @@ void trace_reference(const TraceJob &job) {
 }
 
 void trace_deep(const TraceJob &job) {
-    for (const DeepRequest &deep : job.options.deep)
-        job.outputs.add_deep(deep.peel ? "deep_peel.exr" : "deep_strata.exr", [&] {
-            const auto render = deep.peel ? render_peeled : render_strata;
-            return render(job.tracer, job.settings, deep.layers, job.options.samples, of_deep, job.progress);
-        });
+    const int samples = job.options.samples;
+    for (const auto &[kind, layers] : job.options.deep) switch (kind) {
+        case DeepKind::visible:
+            job.outputs.add_deep("deep_visible.exr", [&] {
+                return render_visible(job.tracer, job.settings, samples, of_deep, job.progress);
+            });
+            break;
+        case DeepKind::peel:
+            job.outputs.add_deep("deep_peel.exr", [&, layers = layers] {
+                return render_peeled(job.tracer, job.settings, layers, samples, of_deep, job.progress);
+            });
+            break;
+        case DeepKind::strata:
+            job.outputs.add_deep("deep_strata.exr", [&, layers = layers] {
+                return render_strata(job.tracer, job.settings, layers, samples, of_deep, job.progress);
+            });
+        }
 }
 
 } // namespace sparselens::lab
