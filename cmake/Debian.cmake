@@ -1,6 +1,6 @@
 # Debian packages, made by `cpack -G DEB` in the build folder: sparselens (the tools), sparselens-lab (the tools of the
-# laboratory) and libsparselens-dev (the library, headers, CMake files). The package of the library is of a static one. The
-# Python module is not packaged.
+# laboratory), libsparselens-dev (the library, headers, CMake files) and python3-sparselens (the Python module, where it is
+# built). The package of the library is of a static one.
 if(BUILD_SHARED_LIBS)
     return()
 endif()
@@ -41,5 +41,17 @@ if(SPARSELENS_LAB)
     set(CPACK_DEBIAN_LAB_PACKAGE_DEPENDS sparselens)
     set(CPACK_COMPONENT_LAB_DESCRIPTION "The laboratory: test scenes and their ray tracer, the report of error against
 run time, and extreme cases.")
+endif()
+if(SPARSELENS_PYTHON)
+    list(APPEND CPACK_COMPONENTS_ALL python)
+    set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-sparselens)
+    set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+    set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+    # The module is of one minor version of Python. The package sparselens has the module for PNG, JPEG and TIFF.
+    math(EXPR next_python "${Python_VERSION_MINOR} + 1")
+    set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
+        "python3 (>= 3.${Python_VERSION_MINOR}), python3 (<< 3.${next_python}), python3-numpy, sparselens")
+    set(CPACK_COMPONENT_PYTHON_DESCRIPTION "The Python module of sparselens: numpy arrays of views in, layered depth
+images and pictures with depth of field out.")
 endif()
 include(CPack)

@@ -3,6 +3,7 @@
 set(package_tools ${CPACK_DEBIAN_TOOLS_PACKAGE_NAME})
 set(package_dev ${CPACK_DEBIAN_DEV_PACKAGE_NAME})
 set(package_lab ${CPACK_DEBIAN_LAB_PACKAGE_NAME})
+set(package_python ${CPACK_DEBIAN_PYTHON_PACKAGE_NAME})
 
 function(run)
     execute_process(COMMAND ${ARGN} COMMAND_ERROR_IS_FATAL ANY)
@@ -11,6 +12,14 @@ endfunction()
 foreach(component IN LISTS CPACK_COMPONENTS_ALL)
     set(root ${CPACK_TEMPORARY_DIRECTORY}/${component}/usr)
     set(doc ${root}/share/doc/${package_${component}})
+    if(component STREQUAL python) # Debian's Python looks there; the build asked for the prefix's own folder
+        file(GLOB modules ${root}/lib/python3.*/dist-packages/sparselens ${root}/local/lib/python3.*/dist-packages/sparselens)
+        file(MAKE_DIRECTORY ${root}/lib/python3/dist-packages)
+        file(RENAME ${modules} ${root}/lib/python3/dist-packages/sparselens)
+        file(REMOVE_RECURSE ${root}/local)
+        file(GLOB versions ${root}/lib/python3.*)
+        file(REMOVE_RECURSE ${versions})
+    endif()
     file(MAKE_DIRECTORY ${doc})
     file(WRITE ${doc}/copyright
 "Format: https://www.debian.org/doc/packaging-manuals/copyright-format/1.0/

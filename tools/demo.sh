@@ -95,6 +95,29 @@ piped() {
         "$bin/dof-gather" - --method "${methods[0]}" -o "$out/piped.exr"
 }
 
+# The picture by the Python module of the build: says what is missing where it cannot run.
+in_python() {
+    local folder python
+    folder=$(dirname "$bin")
+    python=$(sed -n 's/^_Python_EXECUTABLE:INTERNAL=//p' "$folder/CMakeCache.txt" 2>/dev/null || true)
+    if [ ! -d "$folder/python/sparselens" ]; then
+        note='left out: the module was not built (packages pybind11-dev, python3-dev)'
+    elif ! "${python:=python3}" -c 'import numpy' 2>/dev/null; then
+        note="left out: $python lacks numpy (package python3-numpy)"
+    else
+        timed env PYTHONPATH="$folder/python" "$python" -c '
+import sys
+import sparselens
+sparselens.write(sys.argv[2], sparselens.gather(sparselens.open_ldi(sys.argv[1])))' "$out/ldi.exr" "$out/python.exr"
+        note=''
+        same_picture "$out/python.exr" 'Python gives'
+    fi
+}
+
+same_picture() {
+    oiiotool --fail 0 --diff "$1" "$result" >/dev/null || { echo "demo: $2 another picture than the tools"; exit 1; }
+}
+
 [ -n "$bin" ] || { build >&2; bin=$here/build/bin; }
 [ -x "$bin/dof-trace" ] || { echo "demo: needs dof-trace, so configure with -DSPARSELENS_LAB=ON (package libembree-dev)" >&2; exit 1; }
 exec </dev/null 3>&1 1>&2 # a tool that says something says it to stderr; 3 is for the table
@@ -121,8 +144,11 @@ for method in "${methods[@]}"; do
     compared "  the same, of the centre view alone" "$seconds" "$out/center-$method.exr"
 done
 timed piped
-oiiotool --fail 0 --diff "$out/piped.exr" "$result" >/dev/null || { echo 'demo: pipes give another picture than files'; exit 1; }
+same_picture "$out/piped.exr" 'pipes give'
 row 'warp | cluster | gather, as one pipe' "$seconds"
+seconds=''
+in_python
+row 'import sparselens, gather in Python' "$seconds" '' '' "$note"
 row "${reference_row[@]}"
 
 for picture in "$center" "$reference" "${methods[@]/#/$out/}"; do to_png "${picture%.exr}"; done

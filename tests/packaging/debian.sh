@@ -11,7 +11,9 @@ logged() { "$@" >log 2>&1 || fail "$* ($(tail -20 log))"; }
 
 logged cpack --config "$build/CPackConfig.cmake" -G DEB -B "$scratch/packages"
 packages=(packages/*.deb)
-for name in sparselens sparselens-lab libsparselens-dev; do
+names=(sparselens sparselens-lab libsparselens-dev)
+if grep -q '^SPARSELENS_PYTHON:BOOL=ON$' "$build/CMakeCache.txt"; then names+=(python3-sparselens); fi
+for name in "${names[@]}"; do
     ls packages/${name}_[0-9]*.deb >/dev/null || fail "no package $name: ${packages[*]}"
 done
 if command -v lintian >/dev/null; then
@@ -24,9 +26,9 @@ fi
 # dpkg checks the dependencies, against the host's list of packages.
 root=$scratch/root
 mkdir -p "$root"/var/lib/dpkg/{info,updates,triggers}
-awk 'BEGIN { RS = ""; ORS = "\n\n" } !/^Package: (lib)?sparselens/' /var/lib/dpkg/status >"$root/var/lib/dpkg/status"
+awk 'BEGIN { RS = ""; ORS = "\n\n" } !/^Package: (lib|python3-)?sparselens/' /var/lib/dpkg/status >"$root/var/lib/dpkg/status"
 logged fakeroot dpkg --root="$root" --force-not-root --force-script-chrootless --force-unsafe-io --log="$scratch/dpkg.log" -i "${packages[@]}"
-for package in sparselens sparselens-lab libsparselens-dev; do
+for package in "${names[@]}"; do
     dpkg-query --admindir="$root/var/lib/dpkg" -W -f='${db:Status-Abbrev}' $package | grep -q '^ii' || fail "$package is not installed"
 done
 for tool in "$bin"/ldi-* "$bin"/dof-*; do
@@ -63,6 +65,22 @@ exits 0 "$bin/dof-gather" ldi.exr -o picture.exr
 cmp picture.exr "$root/work/picture.exr" || fail "the installed tools make another picture"
 exits 0 env -i "$root/usr/bin/dof-gather" ldi.exr -o picture.png # by the module in /usr/lib/sparselens, with the host's libraries
 [ -s picture.png ] || fail "no PNG"
+
+# The Python module, from the folder in which Debian's Python looks.
+if [[ " ${names[*]} " == *' python3-sparselens '* ]]; then
+    python=$(sed -n 's/^_Python_EXECUTABLE:INTERNAL=//p' "$build/CMakeCache.txt")
+    module=$root/usr/lib/python3/dist-packages
+    [ -s "$module/sparselens/__init__.pyi" ] || fail "the module lies elsewhere: $(cd "$root" && find . -name '_sparselens*')"
+    cat >use.py <<END
+import sparselens
+assert sparselens.__file__.startswith("$module"), sparselens.__file__
+sparselens.write("python.exr", sparselens.gather(sparselens.open_ldi("ldi.exr")))
+sparselens.write("python.png", sparselens.gather(sparselens.open_ldi("ldi.exr")))
+END
+    PYTHONPATH=$module PYTHONDONTWRITEBYTECODE=1 logged "$python" use.py
+    cmp picture.exr python.exr || fail "the installed module makes another picture"
+    cmp picture.png python.png || fail "the installed module writes another PNG"
+fi
 
 # A program with the library from the root.
 mkdir consumer

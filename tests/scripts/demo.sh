@@ -10,6 +10,7 @@ demo
 [ "$(reused)" -eq 0 ] || fail "the first run claims an earlier one: $(cat stdout)"
 [ ! -s stderr ] || fail "talks on stderr: $(cat stderr)"
 grep -Eq '^ldi-warp +[0-9]+\.[0-9]+$' stdout || fail "no time of ldi-warp: $(cat stdout)"
+grep -Eq '^import sparselens.* ([0-9]+\.[0-9]+|left out: .*)$' stdout || fail "no line of Python: $(cat stdout)"
 decibels() { sed -nE "s/^ *$1.* ([0-9]+\.[0-9]+) +[01]\.[0-9]{4}\$/\1/p" stdout; }
 before=$(decibels 'the centre view as it is') after=$(decibels 'dof-gather --method lens')
 [ -n "$before" ] && [ -n "$after" ] || fail "no error figures: $(cat stdout)"
