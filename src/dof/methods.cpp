@@ -1,7 +1,7 @@
 #include "dof/methods.h"
 
 #include "deep/channel_alpha.h"
-#include "dof/lens/lens_mattes.h"
+#include "dof/lens_mattes.h"
 #include "dof/selective/scatter.h"
 #include "dof/selective/selective.h"
 

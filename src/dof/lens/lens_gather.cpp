@@ -4,6 +4,7 @@
 #include "deep/flatten.h"
 #include "dof/lens/bend_samples.h"
 #include "dof/lens/filler_samples.h"
+#include "dof/lens/highlight_tile.h"
 #include "dof/lens/highlights.h"
 #include "dof/lens/lens_tile.h"
 #include "dof/lens/sample_blocks.h"
@@ -15,7 +16,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <memory>
 #include <mutex>
 
 namespace sparselens {
@@ -71,22 +71,14 @@ LightChannels light_channels(const Ldi &ldi) {
 // The sets of lens points that tiles choose from, each made when it is first asked for.
 class LensSets {
 public:
-    struct Set {
-        std::vector<LensSample> points;
-        NearestLensPoint nearest;
-    };
-
     LensSets(const LensGatherOptions &options, const Aperture &aperture, double pixel_aspect)
         : options_(options), aperture_(aperture), pixel_aspect_(pixel_aspect) {}
 
-    const Set &for_coc(float largest) {
+    const std::vector<LensSample> &for_coc(float largest) {
         const std::size_t step = options_.lens_samples > 0 ? 0 : step_for(largest);
-        std::call_once(made_[step], [&] {
-            auto points = lens_samples(aperture_, points_of(step), pixel_aspect_);
-            NearestLensPoint nearest(points);
-            sets_[step] = std::make_unique<Set>(Set{std::move(points), std::move(nearest)});
-        });
-        return *sets_[step];
+        std::call_once(made_[step],
+                       [&] { sets_[step] = lens_samples(aperture_, points_of(step), pixel_aspect_); });
+        return sets_[step];
     }
 
 private:
@@ -114,7 +106,7 @@ private:
     const Aperture &aperture_;
     double pixel_aspect_;
     std::array<std::once_flag, largest_coc.size()> made_;
-    std::array<std::unique_ptr<Set>, largest_coc.size()> sets_;
+    std::array<std::vector<LensSample>, largest_coc.size()> sets_;
 };
 
 float largest_coc_of(const SampleBlock &block) {
@@ -273,8 +265,13 @@ Image gather_once(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &wind
     const std::vector<std::size_t> gathered = averaged_channels(out);
     progress.start("gathering", chosen.lens_points.size());
     tbb::enumerable_thread_specific<LensTile> tiles([&] {
-        return LensTile(samples, colours, fillers, highlights, held_out,
+        return LensTile(samples, colours, fillers, held_out,
                         optics.cat_eye.cuts() ? &optics.cat_eye : nullptr);
+    });
+    const BlockFootprints footprints(ldi, samples);
+    tbb::enumerable_thread_specific<HighlightTile> highlight_tiles([&] {
+        return HighlightTile(highlights, samples, footprints, colours.sets,
+                             {optics.aperture, optics.cat_eye, lens.pixel_aspect}, held_out);
     });
     parallel_for(chosen.lens_points.size(), [&](std::size_t t) {
         const Imath::V2i corner =
@@ -289,20 +286,21 @@ Image gather_once(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &wind
         const float largest = finder.find(origin, LensTile::size, steepest, blocks.samples) * widest;
         progress.advance();
         if (largest < in_focus && !optics.moves()) return; // the flattened LDI is there already
-        const LensSets::Set &set = sets.for_coc(largest);
+        const std::vector<LensSample> &points = sets.for_coc(largest);
         filler_finder.find(origin, LensTile::size, steepest, blocks.fillers);
-        chosen.lens_points[t] = int(set.points.size());
+        chosen.lens_points[t] = int(points.size());
         std::vector<LensSample> bent;
-        if (!optics.field.flat()) bent = stretched(set.points, gradient);
+        if (!optics.field.flat()) bent = stretched(points, gradient);
         LensTile &tile = tiles.local();
-        tile.gather(origin, blocks, optics.field.flat() ? std::span<const LensSample>(set.points) : bent,
-                    highlight_pixels(highlights, samples, set.nearest,
-                                     {optics.aperture, optics.cat_eye, optics.corner}, lens.pixel_aspect,
-                                     origin, LensTile::size));
+        tile.gather(origin, blocks, optics.field.flat() ? points : bent);
+        HighlightTile &lamps = highlight_tiles.local();
+        lamps.spread(origin, blocks.samples);
         for_each_pixel(corner, windows, [&](int x, int y) {
-            if (tile.dark(x, y)) return; // a few lens points may all miss: better sharp than black
+            // A few lens points may all miss: better sharp than black.
+            if (!tile.known(x, y) && lamps.dark(x, y)) return;
             for (const std::size_t k : gathered)
-                out.at(k, window.min.x + corner.x + x, window.min.y + corner.y + y) = tile.value(x, y, k);
+                out.at(k, window.min.x + corner.x + x, window.min.y + corner.y + y) =
+                    tile.value(x, y, k) + lamps.value(x, y, k);
         });
     });
     if (options.chosen) *options.chosen = std::move(chosen);

@@ -8,7 +8,6 @@
 
 #include "deep/holdout.h"
 #include "dof/lens/filler_samples.h"
-#include "dof/lens/highlights.h"
 #include "dof/lens/sample_blocks.h"
 #include "dof/lens/sample_colours.h"
 #include "lens/cat_eye.h"
@@ -28,6 +27,9 @@ struct HeldOut {
     const Holdout *by = nullptr;
     double depth_at_1 = 1;   // perceptive depth at z = 1
     Imath::V2i corner{0, 0}; // of the data window that the samples are relative to, EXR coordinates
+
+    // The share of light from that perceptive depth that passes at a pixel, relative to `corner`; `by` is given.
+    float passes(const Imath::V2i &pixel, float depth) const;
 };
 
 class LensTile {
@@ -40,16 +42,14 @@ public:
     };
 
     LensTile(const BlockedSamples &samples, const SampleColours &colours, const FillerSamples &fillers,
-             const Highlights &highlights, const HeldOut &held_out = {}, const CatEye *cat_eye = nullptr);
+             const HeldOut &held_out = {}, const CatEye *cat_eye = nullptr);
 
     // Gathers the pixels [origin, origin + size), relative to the data window's corner like the samples, from
-    // the blocks that can reach them or the pixels next to them. `spread`: highlight_pixels() of the tile.
-    void gather(const Imath::V2i &origin, const Blocks &blocks, std::span<const LensSample> lens,
-                std::span<const HighlightPixel> spread);
+    // the blocks that can reach them or the pixels next to them.
+    void gather(const Imath::V2i &origin, const Blocks &blocks, std::span<const LensSample> lens);
 
-    // The mean over the known lens points at a pixel of the tile, and what highlights spread there. `dark`: no lens
-    // point is known and no highlight reaches it.
-    bool dark(int x, int y) const;
+    // The mean over the known lens points at a pixel of the tile. `known`: one is.
+    bool known(int x, int y) const;
     float value(int x, int y, std::size_t channel) const;
 
 private:
@@ -72,12 +72,10 @@ private:
     std::uint64_t torn_at(std::size_t cell) const;
     void find_cracks();
     void close_cracks();
-    void open_cracks();
     void see_fillers(const LensSample &lens);
     void see_partial(const LensSample &lens);
     std::size_t see_partial_alone();
     std::size_t see_partial_by_rules();
-    void add_veil(std::size_t cell, std::size_t n);
     float passes(int x, int y, float depth) const; // of light from there, the holdout
     bool hides(int x, int y, float depth) const;
     const float *opaque_colour(std::size_t group, std::size_t cell) const;
@@ -102,14 +100,11 @@ private:
     void add_opaque(float weight);
     void add_unseen(float weight);
     void add_partial(float weight);
-    std::span<const HighlightPixel> add_highlights(std::span<const HighlightPixel> spread,
-                                                   std::uint32_t lens);
     void forget_partial();
 
     const BlockedSamples &samples_;
     const SampleColours &colours_;
     const FillerSamples &fillers_;
-    const Highlights &highlights_;
     HeldOut held_out_;
     const CatEye *cat_eye_;
     float origin_x_ = 0, origin_y_ = 0;
@@ -121,17 +116,10 @@ private:
         std::vector<std::uint32_t> sample;
         std::vector<float> x, y, coc, left; // of each, side by side; what it leaves of the light behind it
         std::vector<std::uint64_t> key;
-        std::vector<float> colours;          // [group][of each][4]
-        std::vector<std::int32_t> cell;      // where the lens point at hand sees it
-        std::vector<std::uint8_t> highlight; // whether it is one
+        std::vector<float> colours;     // [group][of each][4]
+        std::vector<std::int32_t> cell; // where the lens point at hand sees it
     } partial_;
-    bool has_veils_ = false;          // whether any highlight asks for them
     float reach_x_ = 0, reach_y_ = 0; // of the lens points, for each pixel of CoC
-    // What partial samples leave of the light of highlights behind them; among themselves these leave all.
-    struct Veil {
-        float depth = 0;         // of the nearest that is no highlight
-        float transmittance = 1; // of all of those
-    };
     // Of one lens point:
     std::vector<std::uint64_t> front_;  // [cell]: key of the nearest opaque sample; 0: none
     std::vector<std::uint64_t> filler_; // [cell]: of those in empty_: key of the filler that shows; 0: none
@@ -145,12 +133,10 @@ private:
     };
     std::vector<Crack> cracks_;
     std::vector<float> transmittance_; // [cell]: of the partial samples in front
-    std::vector<Veil> veil_;           // [cell]
     std::vector<float> over_; // [side][group][cell][4]: their colours; all on side 0 unless two_sided_
     std::vector<float> hidden_in_front_; // [cell]: what those in front of focus hide, if two_sided_
     // Of all so far:
     std::vector<float> sums_;    // [group][pixel][4]
-    std::vector<float> spread_;  // [group][pixel][4]: of the highlights
     std::vector<float> unknown_; // [pixel]: weight of the lens points that see nothing
     // Of lens points that weigh differently:
     bool weighted_ = false, two_sided_ = false;

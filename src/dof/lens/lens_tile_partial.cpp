@@ -35,7 +35,7 @@ void LensTile::collect_partial(std::span<const LensSample> lens) {
         reach_x_ = std::max(reach_x_, std::abs(p.x));
         reach_y_ = std::max(reach_y_, std::abs(p.y));
     }
-    auto &[order, sample, x, y, coc, left, key, colours, cell, highlight] = partial_;
+    auto &[order, sample, x, y, coc, left, key, colours, cell] = partial_;
     order.clear();
     for (const std::uint32_t b : blocks_->samples)
         for (std::uint32_t i = samples_.blocks[b].opaque_end; i < samples_.blocks[b].end; ++i)
@@ -46,7 +46,6 @@ void LensTile::collect_partial(std::span<const LensSample> lens) {
     sample.resize(count);
     key.resize(count);
     cell.resize(count);
-    highlight.resize(count);
     colours.resize(colours_.groups * count * 4);
     for (std::size_t n = 0; n < count; ++n) {
         const auto i = std::uint32_t(order[n]);
@@ -56,7 +55,6 @@ void LensTile::collect_partial(std::span<const LensSample> lens) {
         coc[n] = samples_.coc[i];
         left[n] = 1 - samples_.alpha[i];
         key[n] = samples_.key[i];
-        highlight[n] = std::ranges::binary_search(highlights_.sample, i);
         for (std::size_t g = 0; g < colours_.groups; ++g)
             std::copy_n(&colours_.group(g)[std::size_t(i) * 4], 4, &colours[(g * count + n) * 4]);
     }
@@ -66,7 +64,7 @@ void LensTile::see_partial(const LensSample &lens) {
     const TileProjection projection(lens, origin_x_ - (border - 1), origin_y_ - (border - 1), stride);
     project_to_cells(projection, partial_.x.data(), partial_.y.data(), partial_.coc.data(),
                      std::uint32_t(partial_.sample.size()), partial_.cell.data());
-    const bool alone = !held_out_.by && !two_sided_ && !has_veils_ && colours_.groups == 1;
+    const bool alone = !held_out_.by && !two_sided_ && colours_.groups == 1;
     covered_ = std::span(covered_cells_).first(alone ? see_partial_alone() : see_partial_by_rules());
 }
 
@@ -112,15 +110,8 @@ std::size_t LensTile::see_partial_by_rules() {
         const float passed = std::min(transmittance * partial_.left[n], covered_at_all);
         if (in_front(i)) hidden_in_front_[cell] += transmittance - passed;
         transmittance_[cell] = passed;
-        if (has_veils_ && !partial_.highlight[n]) add_veil(cell, n);
     }
     return covered;
-}
-
-void LensTile::add_veil(std::size_t cell, std::size_t n) {
-    Veil &veil = veil_[cell];
-    if (veil.transmittance == 1) veil.depth = samples_.depth[partial_.sample[n]];
-    veil.transmittance = std::min(veil.transmittance * partial_.left[n], covered_at_all);
 }
 
 // Puts the partial samples in front of what add_opaque() and add_unseen() added.
@@ -146,7 +137,6 @@ void LensTile::add_partial(float weight) {
 void LensTile::forget_partial() {
     for (const std::uint32_t cell : covered_) {
         transmittance_[cell] = 1;
-        if (has_veils_) veil_[cell] = {};
         if (two_sided_) hidden_in_front_[cell] = 0;
         for (std::size_t g = 0; g < over_.size() / (stride * stride * 4); ++g)
             std::fill_n(&over_[(g * stride * stride + cell) * 4], 4, 0.0f);

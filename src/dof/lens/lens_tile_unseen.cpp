@@ -42,10 +42,6 @@ void LensTile::close_cracks() {
     for (const Crack &crack : cracks_) front_[crack.cell] = crack.key;
 }
 
-void LensTile::open_cracks() {
-    for (const Crack &crack : cracks_) front_[crack.cell] = 0;
-}
-
 // The fillers of empty cells, and of them those that show.
 void LensTile::see_fillers(const LensSample &lens) {
     if (empty_.empty()) return;

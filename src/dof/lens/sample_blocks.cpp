@@ -84,7 +84,7 @@ void bound(SampleBlock &block, const BlockedSamples &samples) {
     constexpr float most = std::numeric_limits<float>::max();
     block.x_min = block.y_min = block.coc_min = most;
     block.x_max = block.y_max = block.coc_max = -most;
-    block.coc_shown = 0;
+    block.coc_shown = block.depth_max = 0;
     block.shows_opaque = false;
     for (std::uint32_t i = block.begin; i < block.end; ++i) {
         block.x_min = std::min(block.x_min, samples.x[i]);
@@ -93,6 +93,7 @@ void bound(SampleBlock &block, const BlockedSamples &samples) {
         block.y_max = std::max(block.y_max, samples.y[i]);
         block.coc_min = std::min(block.coc_min, samples.coc[i]);
         block.coc_max = std::max(block.coc_max, samples.coc[i]);
+        block.depth_max = std::max(block.depth_max, samples.depth[i]);
         if (samples.source[i] == BlockedSamples::background) continue;
         block.coc_shown = std::max(block.coc_shown, std::abs(samples.coc[i]));
         block.shows_opaque = block.shows_opaque || i < block.opaque_end;

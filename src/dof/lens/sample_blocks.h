@@ -18,6 +18,7 @@ struct SampleBlock {
     float coc_min, coc_max;               // pixels, signed
     float coc_shown;                      // the largest, without its sign, of what is no background
     bool shows_opaque;                    // whether anything opaque is no background
+    float depth_max;                      // perceptive, pixels: of the nearest sample
 };
 
 struct BlockedSamples {

@@ -1,4 +1,4 @@
-#include "dof/lens/lens_mattes.h"
+#include "dof/lens_mattes.h"
 
 #include "base/matte.h"
 #include "base/parallel.h"

@@ -1,0 +1,114 @@
+#include "dof/footprints/footprint.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace sparselens {
+
+namespace {
+
+constexpr float torn = 1; // pixels of perceptive depth: surfaces that are farther apart are two
+constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+
+// Where the samples of a box of pixels are.
+class Neighbourhood {
+public:
+    Neighbourhood(const Ldi &ldi, const SamplesInPicture &samples, const Imath::Box2i &box,
+                  std::span<const SampleRun> runs)
+        : ldi_(ldi), samples_(samples), box_(box) {
+        for (int y = box.min.y; y <= box.max.y; ++y) {
+            const std::uint64_t first = ldi.begin[pixel(box.min.x, y)];
+            rows_.push_back(
+                {first, std::vector<std::uint32_t>(ldi.begin[pixel(box.max.x, y) + 1] - first, none)});
+        }
+        for (const SampleRun &run : runs)
+            for (std::uint32_t i = run.begin; i < run.end; ++i) put(i);
+    }
+
+    // Of sample i of a pixel in row y.
+    std::uint32_t place(int y, std::uint64_t i) const {
+        const Row &row = rows_[std::size_t(y - box_.min.y)];
+        return row.place[i - row.first];
+    }
+
+    // The sample in a pixel that is one surface with another, by their places.
+    std::uint32_t neighbour(int x, int y, std::uint32_t of) const {
+        if (!box_.intersects(Imath::V2i(x, y))) return none;
+        std::uint32_t found = none;
+        float least = torn;
+        for (std::uint64_t i = ldi_.begin[pixel(x, y)]; i < ldi_.begin[pixel(x, y) + 1]; ++i) {
+            const std::uint32_t n = place(y, i);
+            const float apart = std::abs(samples_.depth[n] - samples_.depth[of]);
+            if (apart >= least) continue;
+            found = n;
+            least = apart;
+        }
+        return found;
+    }
+
+private:
+    struct Row { // of pixels; their samples follow each other in the LDI
+        std::uint64_t first;
+        std::vector<std::uint32_t> place;
+    };
+    std::size_t pixel(int x, int y) const {
+        return std::size_t(y) * std::size_t(ldi_.windows.width()) + std::size_t(x);
+    }
+    void put(std::uint32_t i) {
+        const std::uint32_t source = samples_.source[i];
+        for (Row &row : rows_)
+            if (source >= row.first && source - row.first < row.place.size())
+                row.place[source - row.first] = i;
+    }
+
+    const Ldi &ldi_;
+    const SamplesInPicture &samples_;
+    Imath::Box2i box_;
+    std::vector<Row> rows_;
+};
+
+Footprint unit_square(const SamplesInPicture &samples, std::uint32_t at) {
+    const float x = samples.x[at], y = samples.y[at], c = samples.coc[at];
+    return {{x - 0.5f, x + 0.5f, y - 0.5f, y + 0.5f}, {c, c, c, c}};
+}
+
+Footprint footprint(const SamplesInPicture &samples, const Neighbourhood &near, int x, int y,
+                    std::uint32_t own) {
+    Footprint f = unit_square(samples, own);
+    const std::array<Imath::V2i, 4> beside{{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
+    for (std::size_t k = 0; k < 4; ++k) {
+        const std::uint32_t n = near.neighbour(x + beside[k].x, y + beside[k].y, own);
+        if (n == none) continue;
+        const std::span<const float> place = k < 2 ? samples.x : samples.y;
+        f.place[k] = (place[own] + place[n]) / 2;
+        f.coc[k] = (samples.coc[own] + samples.coc[n]) / 2;
+    }
+    return f;
+}
+
+} // namespace
+
+std::vector<Footprint> footprints_of(const Ldi &ldi, const SamplesInPicture &samples,
+                                     const Imath::Box2i &pixels, const SampleRun &run,
+                                     std::span<const SampleRun> around) {
+    const Imath::Box2i all({0, 0}, {ldi.windows.width() - 1, ldi.windows.height() - 1});
+    const Imath::V2i least = pixels.min - Imath::V2i(1), most = pixels.max + Imath::V2i(1);
+    const Neighbourhood near(ldi, samples,
+                             {{std::max(least.x, all.min.x), std::max(least.y, all.min.y)},
+                              {std::min(most.x, all.max.x), std::min(most.y, all.max.y)}},
+                             around);
+    std::vector<Footprint> footprints;
+    for (std::uint32_t i = run.begin; i < run.end; ++i) footprints.push_back(unit_square(samples, i));
+    for (int y = pixels.min.y; y <= std::min(pixels.max.y, all.max.y); ++y)
+        for (int x = pixels.min.x; x <= std::min(pixels.max.x, all.max.x); ++x) {
+            const Imath::V2i at = ldi.windows.data.min + Imath::V2i(x, y);
+            for (const std::uint64_t i : ldi.pixel(ldi.windows.index(at.x, at.y))) {
+                const std::uint32_t own = near.place(y, i);
+                footprints[own - run.begin] = footprint(samples, near, x, y, own);
+            }
+        }
+    return footprints;
+}
+
+} // namespace sparselens

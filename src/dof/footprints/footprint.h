@@ -1,0 +1,43 @@
+// What a sample covers in the picture that a lens point sees: a unit square, or up to where a neighbour of the same surface
+// begins, so that samples that lie between pixels or move apart leave no cracks between them.
+//
+// Two samples of pixels beside each other, the nearest in depth to each other, are one surface if their perceptive depths
+// differ by less than a pixel: then they move apart by less than a pixel too. They share an edge, which lies in the middle
+// between them and moves with the mean of their CoCs.
+#pragma once
+
+#include "deep/ldi.h"
+
+#include <Imath/ImathBox.h>
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace sparselens {
+
+// The edges on the left, on the right, above and below.
+struct Footprint {
+    std::array<float, 4> place; // pixels, of x or of y, as the samples count them
+    std::array<float, 4> coc;   // by which each is displaced
+};
+
+// Samples of an LDI where a lens sees them: of each its centre, its CoC and its perceptive depth, pixels, and which of the LDI
+// it is; others than the LDI's are beyond its number of samples.
+struct SamplesInPicture {
+    std::span<const float> x, y, coc, depth;
+    std::span<const std::uint32_t> source;
+};
+
+struct SampleRun {
+    std::uint32_t begin, end;
+};
+
+// The footprints of the samples of `run`, which are all those of some pixels: columns and rows of the data window. `around`:
+// where the samples of these pixels and of those beside them are.
+std::vector<Footprint> footprints_of(const Ldi &ldi, const SamplesInPicture &samples,
+                                     const Imath::Box2i &pixels, const SampleRun &run,
+                                     std::span<const SampleRun> around);
+
+} // namespace sparselens

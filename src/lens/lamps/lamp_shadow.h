@@ -1,0 +1,49 @@
+// What of a small lamp's disc is hidden by what stands before the lamp.
+//
+// A lamp at x, of CoC c, lights the place q of the picture through lens point u = (q - x) / c. Through that lens point, a
+// thing at x', of CoC c', is seen at x' + c' u. So it hides the lamp at q if that is where q lies, and its shadow in the disc
+// is the thing itself, magnified m = c / (c - c') times about the lamp: q = x + m (x' - x). Both axes have the same m,
+// whatever the pixel aspect. Places are EXR pixel coordinates, y down.
+#pragma once
+
+#include <Imath/ImathBox.h>
+#include <Imath/ImathVec.h>
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace sparselens {
+
+// c and c' in pixels, signed and different.
+template <typename Number>
+Number shadow_magnification(Number lamp_coc, Number coc) {
+    return lamp_coc / (lamp_coc - coc);
+}
+
+// Which share of each pixel of a box is in shadow, by 64 points in each pixel: no two of them share a row or a column, so
+// that an edge that crosses a pixel along an axis hides one after the other.
+class LampShadow {
+public:
+    // Nothing is hidden yet. The box is relative to where places are counted from.
+    void begin(const Imath::Box2i &box);
+
+    // The shadow of what covers a rectangle and hides a share `alpha` of light, (0, 1].
+    void hide(const Imath::Box2f &rectangle, float alpha, std::uint32_t thing);
+
+    // The share of a pixel of the box that is not hidden.
+    float lit(int x, int y) const { return lit_points(at(x, y)) * veil_[at(x, y)]; }
+
+private:
+    std::size_t at(int x, int y) const {
+        return std::size_t(y - box_.min.y) * width_ + std::size_t(x - box_.min.x);
+    }
+    float lit_points(std::size_t pixel) const;
+
+    Imath::Box2i box_;
+    std::size_t width_ = 0;
+    std::vector<std::uint64_t> hidden_; // [pixel]: a bit for each point
+    std::vector<float> veil_;           // [pixel]: what thin things let through
+};
+
+} // namespace sparselens

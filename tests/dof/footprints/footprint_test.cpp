@@ -1,0 +1,58 @@
+#include "dof/footprints/footprint.h"
+#include "dof/lens/blocked_fixture.h"
+#include "support/lens_ldi.h"
+
+#include <gtest/gtest.h>
+
+#include <span>
+#include <vector>
+
+namespace sparselens {
+namespace {
+
+const ThinLens lens{.radius = 1.2, .focal_px = 640, .focus = 5};
+constexpr int size = 12;
+
+// A slope, its samples anywhere in their pixels, and from column 6 on another surface far behind it.
+Ldi slope() {
+    return make_ldi(windows_of_size(size, size), rgba_channels(), [&](int x, int y) {
+        const double coc = x < 6 ? -20 + 0.6 * x : 30;
+        return std::vector<Sample>{{depth_of(lens, coc),
+                                    {1, 1, 1, 1},
+                                    float(random_unit(x, y, 1) - 0.5),
+                                    float(random_unit(x, y, 2) - 0.5)}};
+    });
+}
+
+TEST(Footprint, SharesItsEdgesWithItsSurfaceAndEndsWhereThatEnds) {
+    const Ldi ldi = slope();
+    const BlockedSamples blocked = BlockedLdi(ldi, lens).samples;
+    const std::uint32_t count = std::uint32_t(blocked.count());
+    const SampleRun all{0, count};
+    const std::vector<Footprint> footprints =
+        footprints_of(ldi, {blocked.x, blocked.y, blocked.coc, blocked.depth, blocked.source},
+                      {{0, 0}, {size - 1, size - 1}}, all, std::span(&all, 1));
+    std::vector<std::uint32_t> places(count);
+    for (std::uint32_t i = 0; i < count; ++i) places[blocked.source[i]] = i;
+    const auto at = [&](int x, int y) { return footprints[places[std::size_t(y * size + x)]]; };
+    for (int y = 0; y < size; ++y)
+        for (int x = 0; x < size; ++x) {
+            const Footprint f = at(x, y);
+            const std::uint32_t own = places[std::size_t(y * size + x)];
+            if (x + 1 < size && x != 5) {
+                EXPECT_EQ(f.place[1], at(x + 1, y).place[0]);
+                EXPECT_EQ(f.coc[1], at(x + 1, y).coc[0]);
+            } else {
+                EXPECT_EQ(f.place[1], blocked.x[own] + 0.5f);
+                EXPECT_EQ(f.coc[1], blocked.coc[own]);
+            }
+            if (y + 1 < size) {
+                EXPECT_EQ(f.place[3], at(x, y + 1).place[2]);
+                EXPECT_EQ(f.coc[3], at(x, y + 1).coc[2]);
+            }
+            EXPECT_TRUE(x != 6 || f.place[0] == blocked.x[own] - 0.5f);
+        }
+}
+
+} // namespace
+} // namespace sparselens

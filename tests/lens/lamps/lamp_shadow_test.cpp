@@ -1,0 +1,100 @@
+#include "lens/lamps/lamp_shadow.h"
+#include "support/ldi_samples.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace sparselens {
+namespace {
+
+const Imath::Box2i box({3, -2}, {14, 9});
+
+double overlap(float low, float high, int pixel) {
+    return std::max(0.0, std::min(double(high), pixel + 1.0) - std::max(double(low), double(pixel)));
+}
+
+Imath::Box2f random_rectangle(int seed) {
+    const auto random = [&](int k, float span) { return span * float(random_unit(seed, k, 3)); };
+    const Imath::V2f corner(random(0, 14) + 1, random(1, 14) - 4);
+    return {corner, corner + Imath::V2f(random(2, 3), random(3, 3))};
+}
+
+TEST(LampShadow, HidesTheAreaOfARectangle) {
+    for (int seed = 0; seed < 200; ++seed) {
+        LampShadow shadow;
+        shadow.begin(box);
+        const Imath::Box2f r = random_rectangle(seed);
+        shadow.hide(r, 1, 0);
+        for (int y = box.min.y; y <= box.max.y; ++y)
+            for (int x = box.min.x; x <= box.max.x; ++x) {
+                const double hidden = overlap(r.min.x, r.max.x, x) * overlap(r.min.y, r.max.y, y);
+                ASSERT_NEAR(double(shadow.lit(x, y)), 1 - hidden, 0.06) << x << " " << y;
+            }
+    }
+}
+
+// What moves along an axis hides one point after the other.
+TEST(LampShadow, ChangesByOnePointAtATime) {
+    for (const bool across : {true, false}) {
+        float last = 1;
+        for (int step = 0; step <= 256; ++step) {
+            const float edge = float(step) / 256;
+            LampShadow shadow;
+            shadow.begin(box);
+            shadow.hide(
+                across ? Imath::Box2f({0, -9}, {5 + edge, 19}) : Imath::Box2f({0, -9}, {19, 2 + edge}), 1, 0);
+            const float lit = shadow.lit(5, 2);
+            ASSERT_NEAR(lit, 1 - edge, 1.0f / 64);
+            ASSERT_LE(last - lit, 1.0f / 64 + 1e-6f);
+            last = lit;
+        }
+        EXPECT_EQ(last, 0);
+    }
+}
+
+TEST(LampShadow, JoinsNeighboursWithoutACrackAndCountsNothingTwice) {
+    LampShadow shadow;
+    shadow.begin(box);
+    for (int k = 0; k < 40; ++k) {
+        const float from = 4 + 0.17f * float(k);
+        shadow.hide({{from, 1.3f}, {from + 0.17f, 4.6f}}, 1, std::uint32_t(k));
+        shadow.hide({{from, 1.3f}, {from + 0.17f, 4.6f}}, 1, std::uint32_t(k));
+    }
+    for (int x = 5; x < 10; ++x) {
+        EXPECT_EQ(shadow.lit(x, 2), 0);
+        EXPECT_NEAR(shadow.lit(x, 1), 0.3f, 0.02f);
+    }
+}
+
+TEST(LampShadow, LetsThroughWhatIsNotCovered) {
+    for (const float alpha : {0.03f, 0.1f, 0.4f, 0.75f, 0.96f}) {
+        double mean = 0, behind_another = 0;
+        for (std::uint32_t thing = 0; thing < 64; ++thing) {
+            LampShadow shadow;
+            shadow.begin(box);
+            shadow.hide({{0, -9}, {20, 20}}, alpha, thing);
+            EXPECT_NEAR(shadow.lit(6, 6), 1 - alpha, 1.0f / 128 + 1e-5f) << thing;
+            mean += double(shadow.lit(6, 6)) / 64;
+            shadow.hide({{0, -9}, {20, 20}}, alpha, thing * 31 + 7);
+            behind_another += double(shadow.lit(6, 6)) / 64;
+        }
+        EXPECT_NEAR(mean, 1 - double(alpha), 1.0 / 128 + 1e-5);
+        EXPECT_NEAR(behind_another, std::pow(1 - double(alpha), 2), 0.03) << alpha;
+    }
+}
+
+// Against the definition, point by point: the lamp at q is hidden through u = (q - x) / c if x' + c' u covers q.
+TEST(ShadowMagnification, IsWhatSimilarTrianglesSay) {
+    for (const double lamp_coc : {12.0, -9.0})
+        for (const double coc : {-14.0, 0.0, 3.0}) {
+            const double lamp = 5.3, thing = 8.1, m = shadow_magnification(lamp_coc, coc);
+            const double q = lamp + m * (thing - lamp), u = (q - lamp) / lamp_coc;
+            EXPECT_NEAR(thing + coc * u, q, 1e-12);
+        }
+}
+
+} // namespace
+} // namespace sparselens
