@@ -8,7 +8,7 @@
 #include "loading/ldi_lens.h"
 #include "loading/notices.h"
 #include "loading/stage_stats.h"
-#include "options/channels.h"
+#include "io/channels.h"
 #include "options/colour_options.h"
 #include "options/gather_options.h"
 #include "options/picture_options.h"

@@ -1,4 +1,4 @@
-#include "options/channels.h"
+#include "io/channels.h"
 
 #include "base/error.h"
 #include "deep/channel_alpha.h"

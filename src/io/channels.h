@@ -1,4 +1,4 @@
-// The option --channels: which channels a tool carries.
+// The option --channels: which channels are carried.
 #pragma once
 
 #include "deep/ldi.h"
@@ -7,9 +7,8 @@
 
 namespace sparselens {
 
-// `list` holds comma-separated channel names ("R"), layers ("diffuse" for all diffuse.*) Cryptomattes
-// ("CryptoObject") or "rgba"; if it is empty, all
-// channels are kept. Keeps these channels, R, G, B, A and the coverage of any of them, because coverage and brightness
+// `list` holds comma-separated channel names ("R"), layers ("diffuse" for all diffuse.*), Cryptomattes
+// ("CryptoObject") or "rgba"; if it is empty, all channels are kept. Keeps these channels, R, G, B, A and the coverage of any of them, because coverage and brightness
 // decide how all channels are gathered. Throws UsageError for a name that the file does not have.
 void keep_channels(Ldi &ldi, const std::string &list);
 

@@ -2,7 +2,7 @@
 
 #include "io/camera/camera_read.h"
 #include "loading/notices.h"
-#include "options/channels.h"
+#include "io/channels.h"
 
 namespace sparselens {
 
