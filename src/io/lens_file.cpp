@@ -53,9 +53,11 @@ private:
             if (!value.is_boolean()) refuse(key, value, "true or false");
             file.values.cat_eye_darkening = value.get<bool>();
         } else if (key == "axial-chromatic-type") {
-            file.values.chromatic_type =
-                value.is_string() ? chromatic_type(value.get<std::string>()) : std::nullopt;
-            if (!file.values.chromatic_type) refuse(key, value, "red-blue, blue-yellow or green-magenta");
+            const auto types = chromatic_types();
+            const auto type =
+                std::ranges::find_if(types, [&](const auto &t) { return value == Json(t.first); });
+            if (type == types.end()) refuse(key, value, "red-blue, blue-yellow or green-magenta");
+            file.values.chromatic_type = type->second;
         } else if (key == "tilt") {
             if (!value.is_array() || value.size() != 2) refuse(key, value, "[X, Y] in degrees");
             file.values.tilt_x = number_at(key, value[0], "degrees", is_tilt);
@@ -106,6 +108,15 @@ private:
 
 LensFile read_lens_file(const std::string &path, std::optional<double> fstop) {
     return Reader(path, fstop).read();
+}
+
+LensFile read_looks(const GivenLooks &given, std::optional<double> fstop) {
+    LensFile lens;
+    if (!given.lens_file.empty()) lens = read_lens_file(given.lens_file, fstop);
+    LookValues values = given.values;
+    if (!given.aperture_file.empty()) values.picture = read_aperture_picture(given.aperture_file);
+    lens.values = look_values_over(values, lens.values);
+    return lens;
 }
 
 } // namespace sparselens

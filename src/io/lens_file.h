@@ -21,4 +21,15 @@ struct LensFile {
 // the f-number, which is unknown.
 LensFile read_lens_file(const std::string &path, std::optional<double> fstop);
 
+// What a user says of the looks: values, and files that hold more.
+struct GivenLooks {
+    LookValues values;
+    std::string lens_file;     // what it says counts where `values` say nothing; empty: none
+    std::string aperture_file; // the picture of the aperture; empty: none
+};
+
+// Reads the files, and puts `values` and the picture over what the lens file says, whose name is kept. Throws as
+// read_lens_file() and read_aperture_picture().
+LensFile read_looks(const GivenLooks &given, std::optional<double> fstop);
+
 } // namespace sparselens

@@ -129,7 +129,7 @@ PictureObject gathered(const Asked &asked, const OpenedLdi &in, Camera camera, T
     options.holdout = holdout ? &*holdout : nullptr;
     if (knows_looks(asked))
         options.gather.lens.looks =
-            picture_looks(read_looks(asked.looks, camera.fstop), camera, out.header, lens, ldi.windows);
+            picture_looks(read_looks(asked.looks.given, camera.fstop), camera, out.header, lens, ldi.windows);
     out.image = gather_picture(ldi, lens, frame.gathered, frame.written, options, progress);
     write_camera(out.header, camera);
     return out;

@@ -11,6 +11,7 @@
 
 #include <initializer_list>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -37,11 +38,13 @@ public:
     std::optional<Imath::V2i> pixel(const char *name); // two whole numbers
     std::optional<Imath::Box2i> box(const char *name); // left, top, right, bottom; the last ones included
 
-    template <typename Value>
-    using Words = std::initializer_list<std::pair<const char *, Value>>;
     // One of a few words.
     template <typename Value>
-    std::optional<Value> word(const char *name, Words<Value> words) {
+    std::optional<Value> word(const char *name, std::initializer_list<std::pair<const char *, Value>> words) {
+        return word(name, std::span<const std::pair<const char *, Value>>(words));
+    }
+    template <typename Value>
+    std::optional<Value> word(const char *name, std::span<const std::pair<const char *, Value>> words) {
         const std::string given = text(name);
         if (given.empty()) return {};
         std::string all;

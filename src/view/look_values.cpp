@@ -55,16 +55,16 @@ constexpr std::array numbers{
         &LookValues::breathing, "a number from 0 to 2", is_breathing},
 };
 
+constexpr std::array<std::pair<const char *, ChromaticType>, 3> chromatics{
+    {{"red-blue", ChromaticType::red_blue},
+     {"blue-yellow", ChromaticType::blue_yellow},
+     {"green-magenta", ChromaticType::green_magenta}}};
+
 } // namespace
 
 std::span<const LookNumber> look_numbers() { return numbers; }
 
-std::optional<ChromaticType> chromatic_type(std::string_view name) {
-    if (name == "red-blue") return ChromaticType::red_blue;
-    if (name == "blue-yellow") return ChromaticType::blue_yellow;
-    if (name == "green-magenta") return ChromaticType::green_magenta;
-    return {};
-}
+std::span<const std::pair<const char *, ChromaticType>> chromatic_types() { return chromatics; }
 
 bool is_tilt(double degrees) { return std::abs(degrees) <= 89; }
 

@@ -7,7 +7,7 @@
 #include <memory>
 #include <optional>
 #include <span>
-#include <string_view>
+#include <utility>
 
 namespace sparselens {
 
@@ -36,8 +36,8 @@ struct LookNumber {
 
 std::span<const LookNumber> look_numbers();
 
-// By its name: red-blue, blue-yellow or green-magenta. Empty if it is none.
-std::optional<ChromaticType> chromatic_type(std::string_view name);
+// By their names.
+std::span<const std::pair<const char *, ChromaticType>> chromatic_types();
 
 bool is_tilt(double degrees); // between -89 and 89
 

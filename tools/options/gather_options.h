@@ -19,7 +19,7 @@ namespace sparselens {
 
 struct GatherCommand {
     LensValues lens;
-    LookOptions looks;
+    GivenLooks looks;
     DepthOptions depth;
     ColourOptions colour;
     WindowOptions windows;

@@ -33,7 +33,7 @@ struct TraceOptions {
     PixelType type = PixelType::half;
     std::vector<DeepRequest> deep;
     LensValues lens;
-    LookOptions looks;
+    GivenLooks looks;
 };
 
 // Reads "WIDTHxHEIGHT" into options.width and height; false where the text is not of that form.
