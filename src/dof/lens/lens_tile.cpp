@@ -60,16 +60,17 @@ void LensTile::gather(const Imath::V2i &origin, const Blocks &blocks, std::span<
     begin_weighted(lens);
     for (const LensSample &point : lens) {
         total_ += point.weight;
+        if (weighted_) find_columns(point);
+        if (seen_by_none()) continue;
         see_opaque(point, samples_, blocks.samples, everywhere, front_);
-        weighted_ ? list_empty() : add_opaque(point.weight);
+        if (weighted_) weigh_channels(point);
+        weighted_ ? add_opaque_weighted() : add_opaque(point.weight);
         find_cracks();
         see_fillers(point);
         close_cracks();
         see_partial(point);
         if (weighted_) {
-            weigh_channels(point);
-            find_columns(point);
-            add_opaque_weighted();
+            add_unseen_weighted();
             add_partial_weighted();
         } else {
             add_unseen(point.weight);

@@ -84,6 +84,7 @@ private:
     void begin_weighted(std::span<const LensSample> lens);
     void weigh_channels(const LensSample &lens);
     void find_columns(const LensSample &lens);
+    bool seen_by_none() const; // of the tile's pixels, past the cat-eye
     bool in_columns(int x, int y) const {
         return x >= columns_[std::size_t(y)].begin && x < columns_[std::size_t(y)].end;
     }
@@ -94,9 +95,12 @@ private:
     float known_of(std::size_t at) const; // weight of what is known, an index of sums_
     bool in_front(std::uint32_t sample) const { return two_sided_ && samples_.coc[sample] < 0; }
     bool opaque_in_front(std::size_t cell) const;
-    void list_empty();
+    using Weights = std::array<std::vector<float>, 2>; // [side][channel]; side 1 is in front
     void add_opaque_weighted();
+    void add_row_weighted(int y, CatEye::Columns columns, const Weights &lit, std::size_t &empty);
+    void add_unseen_weighted();
     void add_partial_weighted();
+    void add_partial_weighted(int x, int y, std::size_t group);
     void add_opaque(float weight);
     void add_unseen(float weight);
     void add_partial(float weight);
@@ -140,9 +144,9 @@ private:
     std::vector<float> unknown_; // [pixel]: weight of the lens points that see nothing
     // Of lens points that weigh differently:
     bool weighted_ = false, two_sided_ = false;
-    std::vector<float> known_; // as sums_: weight of what is known, of each channel
-    std::array<std::vector<float>, 2>
-        channel_weights_;                       // [side][channel] of the lens point; side 1 is in front
+    std::vector<float> known_;                  // as sums_: weight of what is known, of each channel
+    Weights channel_weights_,                   // of the lens point
+        dark_weights_;                          // the same where the cat-eye cuts it off: R, G and B are dark
     std::array<CatEye::Columns, size> columns_; // [row]: the pixels that see through the lens point
 };
 

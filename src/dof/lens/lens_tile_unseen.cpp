@@ -11,8 +11,6 @@ namespace {
 
 constexpr float side_by_side = 1.5f; // pixels: samples that are no farther apart have none between them
 
-constexpr std::uint64_t nearest_background = background_key(0xffffffffu);
-
 } // namespace
 
 // The sample that shows through a crack at an empty cell, as a key; 0: there is no crack.

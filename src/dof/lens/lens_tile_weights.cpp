@@ -6,6 +6,18 @@
 
 namespace sparselens {
 
+namespace {
+
+using Four = std::array<float, 4>;
+
+Four four(const float *values) {
+    Four copy;
+    std::copy_n(values, 4, copy.begin());
+    return copy;
+}
+
+} // namespace
+
 void LensTile::begin_weighted(std::span<const LensSample> lens) {
     two_sided_ =
         std::ranges::any_of(lens, [](const LensSample &p) { return p.behind != 1 || p.in_front != 1; });
@@ -14,7 +26,8 @@ void LensTile::begin_weighted(std::span<const LensSample> lens) {
                 });
     if (!weighted_) return;
     known_.assign(sums_.size(), 0);
-    for (auto &weights : channel_weights_) weights.resize(colours_.groups * 4);
+    for (auto *of : {&channel_weights_, &dark_weights_})
+        for (auto &weights : *of) weights.resize(colours_.groups * 4);
     if (!two_sided_) return;
     over_.resize(2 * colours_.groups * stride * stride * 4);
     hidden_in_front_.resize(stride * stride);
@@ -32,6 +45,8 @@ void LensTile::weigh_channels(const LensSample &lens) {
                                             : 1;
         channel_weights_[0][k] = lens.weight * colour * (set == data ? 1 : lens.behind);
         channel_weights_[1][k] = lens.weight * colour * (set == data ? 1 : lens.in_front);
+        for (const std::size_t side : {0u, 1u})
+            dark_weights_[side][k] = is_darkened(k) ? 0 : channel_weights_[side][k];
     }
 }
 
@@ -42,70 +57,111 @@ void LensTile::find_columns(const LensSample &lens) {
                                             : CatEye::Columns{0, size};
 }
 
+bool LensTile::seen_by_none() const {
+    return cat_eye_ && !cat_eye_->darkens() &&
+           std::ranges::all_of(columns_, [](const CatEye::Columns &c) { return c.begin >= c.end; });
+}
+
+// Backgrounds lie behind, wherever they are seen.
 bool LensTile::opaque_in_front(std::size_t cell) const {
-    if (front_[cell] != 0) return in_front(std::uint32_t(front_[cell]));
-    return two_sided_ && filler_[cell] != 0 && fillers_.samples.coc[std::uint32_t(filler_[cell])] < 0;
+    if (!two_sided_) return false;
+    const std::uint64_t key = front_[cell];
+    if (key != 0) return key > nearest_background && in_front(std::uint32_t(key));
+    return filler_[cell] != 0 && fillers_.samples.coc[std::uint32_t(filler_[cell])] < 0;
 }
 
-// The cells where the lens point sees nothing opaque.
-void LensTile::list_empty() {
-    std::size_t count = 0;
-    for (int y = 0; y < size; ++y)
-        for (int x = 0; x < size; ++x)
-            if (const std::size_t cell = cell_of(x, y); front_[cell] == 0)
-                empty_cells_[count++] = std::uint32_t(cell);
-    empty_ = std::span(empty_cells_).first(count);
-}
-
-// What is seen through cracks, and fillers, among it.
+// Adds what the lens point sees of the opaque samples, and lists the cells where it sees none.
 void LensTile::add_opaque_weighted() {
     const bool darkens = cat_eye_ && cat_eye_->darkens();
-    for (std::size_t g = 0; g < colours_.groups; ++g)
-        for (int y = 0; y < size; ++y) {
-            const std::size_t row = (g * size * size + std::size_t(y * size)) * 4;
-            for (int x = 0; x < size; ++x) {
-                const std::size_t cell = cell_of(x, y);
-                const bool passes_through = in_columns(x, y);
-                if (!passes_through && !darkens) continue;
-                const float *colour = opaque_colour(g, cell);
-                if (!colour) continue;
-                const float *weights = &channel_weights_[opaque_in_front(cell)][g * 4];
-                const float share = held_out_.by ? opaque_passes(x, y) : 1;
-                for (std::size_t k = 0; k < 4; ++k) {
-                    const std::size_t at = row + std::size_t(x) * 4 + k;
-                    if (passes_through || !is_darkened(g * 4 + k))
-                        sums_[at] += share * weights[k] * colour[k];
-                    known_[at] += weights[k];
-                }
-            }
-        }
+    std::size_t empty = 0;
+    for (int y = 0; y < size; ++y) {
+        const CatEye::Columns seen = columns_[std::size_t(y)];
+        add_row_weighted(y, seen, channel_weights_, empty);
+        if (!darkens) continue;
+        add_row_weighted(y, {0, seen.begin}, dark_weights_, empty);
+        add_row_weighted(y, {std::max(seen.begin, seen.end), size}, dark_weights_, empty);
+    }
+    empty_ = std::span(empty_cells_).first(empty);
 }
 
-// Puts the partial samples in front of what add_opaque_weighted() added.
+// Copies of four values: the compiler need not fear that sums overlap them.
+void LensTile::add_row_weighted(int y, CatEye::Columns columns, const Weights &lit, std::size_t &empty) {
+    const bool held_out = held_out_.by != nullptr, two_sided = two_sided_;
+    const std::uint64_t *front = &front_[cell_of(0, y)];
+    const float *coc = samples_.coc.data();
+    for (std::size_t g = 0; g < colours_.groups; ++g) {
+        const float *colours = colours_.group(g).data();
+        const std::array weights{four(&channel_weights_[0][g * 4]), four(&channel_weights_[1][g * 4])},
+            lights{four(&lit[0][g * 4]), four(&lit[1][g * 4])};
+        const std::size_t row = (g * size * size + std::size_t(y * size)) * 4;
+        float *sums = &sums_[row], *knowns = &known_[row];
+        for (int x = columns.begin; x < columns.end; ++x) {
+            if (front[x] == 0) {
+                if (g == 0) empty_cells_[empty++] = std::uint32_t(cell_of(x, y));
+                continue;
+            }
+            const std::uint32_t i = std::uint32_t(front[x]);
+            const bool side = two_sided && front[x] > nearest_background && coc[i] < 0;
+            const float share = held_out ? opaque_passes(x, y) : 1;
+            const Four colour = four(colours + std::size_t(i) * 4), light = lights[side],
+                       weight = weights[side];
+            Four sum = four(sums + x * 4), known = four(knowns + x * 4);
+            for (std::size_t k = 0; k < 4; ++k) sum[k] += share * light[k] * colour[k];
+            for (std::size_t k = 0; k < 4; ++k) known[k] += weight[k];
+            std::ranges::copy(sum, sums + x * 4);
+            std::ranges::copy(known, knowns + x * 4);
+        }
+    }
+}
+
+// Adds what it sees of the empty cells: through cracks, and of fillers.
+void LensTile::add_unseen_weighted() {
+    for (const std::uint32_t cell : empty_) {
+        const int x = column_of(cell), y = row_of(cell);
+        const Weights &lit = in_columns(x, y) ? channel_weights_ : dark_weights_;
+        const bool side = opaque_in_front(cell);
+        for (std::size_t g = 0; g < colours_.groups; ++g) {
+            const float *colour = opaque_colour(g, cell);
+            if (!colour) continue;
+            const std::size_t at = (g * size * size + std::size_t(y * size + x)) * 4;
+            for (std::size_t k = 0; k < 4; ++k) {
+                sums_[at + k] += opaque_passes(x, y) * lit[side][g * 4 + k] * colour[k];
+                known_[at + k] += channel_weights_[side][g * 4 + k];
+            }
+        }
+    }
+}
+
+// Puts the partial samples in front of what add_opaque_weighted() and add_unseen_weighted() added.
 void LensTile::add_partial_weighted() {
     const bool darkens = cat_eye_ && cat_eye_->darkens();
-    const std::size_t side_size = colours_.groups * stride * stride * 4;
     for (const std::uint32_t cell : covered_) {
         const int x = column_of(cell), y = row_of(cell);
         if (x < 0 || y < 0 || x >= size || y >= size) continue;
-        const bool passes_through = in_columns(x, y);
-        if (!passes_through && !darkens) continue;
-        const bool known = opaque_colour(0, cell) != nullptr;
-        const float hidden = 1 - transmittance_[cell],
-                    hidden_in_front = two_sided_ ? hidden_in_front_[cell] : 0;
-        const float taken = known ? hidden * opaque_passes(x, y) : 0;
-        for (std::size_t k = 0; k < colours_.groups * 4; ++k) {
-            const std::size_t at = (k / 4 * size * size + std::size_t(y * size + x)) * 4 + k % 4,
-                              over = (k / 4 * stride * stride + cell) * 4 + k % 4;
-            const float behind = channel_weights_[0][k], in_front_of = channel_weights_[1][k];
-            const float weight = known ? channel_weights_[opaque_in_front(cell)][k] : 0;
-            known_[at] +=
-                behind * (hidden - hidden_in_front) + in_front_of * hidden_in_front - weight * hidden;
-            if (!passes_through && is_darkened(k)) continue;
-            sums_[at] += behind * over_[over] + (two_sided_ ? in_front_of * over_[side_size + over] : 0);
-            if (known) sums_[at] -= weight * taken * opaque_colour(k / 4, cell)[k % 4];
-        }
+        if (!darkens && !in_columns(x, y)) continue;
+        for (std::size_t g = 0; g < colours_.groups; ++g) add_partial_weighted(x, y, g);
     }
+}
+
+void LensTile::add_partial_weighted(int x, int y, std::size_t group) {
+    const std::size_t cell = cell_of(x, y), at = (group * size * size + std::size_t(y * size + x)) * 4,
+                      over = (group * stride * stride + cell) * 4;
+    const auto weights = [&](const auto &of, bool in_front) { return four(&of[in_front][group * 4]); };
+    const auto &lit = in_columns(x, y) ? channel_weights_ : dark_weights_;
+    float *sum = &sums_[at], *known = &known_[at];
+    const auto add = [&](bool in_front, float covered, const Four &colour) {
+        const Four weight = weights(channel_weights_, in_front), light = weights(lit, in_front);
+        for (std::size_t k = 0; k < 4; ++k) sum[k] += light[k] * colour[k];
+        for (std::size_t k = 0; k < 4; ++k) known[k] += weight[k] * covered;
+    };
+    const float hidden = 1 - transmittance_[cell], in_front = two_sided_ ? hidden_in_front_[cell] : 0;
+    add(false, hidden - in_front, four(&over_[over]));
+    if (two_sided_) add(true, in_front, four(&over_[over + colours_.groups * stride * stride * 4]));
+    const float *behind = opaque_colour(group, cell);
+    if (!behind) return;
+    Four taken = four(behind);
+    for (float &v : taken) v *= -hidden * opaque_passes(x, y);
+    add(opaque_in_front(cell), -hidden, taken);
 }
 
 } // namespace sparselens

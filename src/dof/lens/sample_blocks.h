@@ -49,6 +49,7 @@ inline std::uint64_t depth_key(float depth, std::uint32_t sample) {
 }
 // A background lies behind what the LDI has at infinity.
 constexpr std::uint64_t background_key(std::uint32_t sample) { return (std::uint64_t(1) << 32) | sample; }
+constexpr std::uint64_t nearest_background = background_key(0xffffffffu);
 
 // Half's last steps below 1 are rounding, not coverage; less than 1/2048 of a pixel left over is rounding too.
 inline bool is_opaque(float alpha) { return alpha >= 0.9995f; }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 
 namespace sparselens {
 
@@ -31,6 +32,25 @@ ReferenceValue composite(const std::vector<Met> &met, const Light &light) {
     return sum;
 }
 
+// What weighs a channel's light.
+enum class Kind { red, green, blue, coverage, data };
+
+Kind kind_of(const Channel &channel) {
+    const std::string part = channel.name.substr(channel.name.rfind('.') + 1);
+    if (channel.type == PixelType::uint32) return Kind::data;
+    if (part == "A") return Kind::coverage;
+    return part == "R" ? Kind::red : part == "G" ? Kind::green : part == "B" ? Kind::blue : Kind::data;
+}
+
+bool is_colour(Kind kind) { return kind == Kind::red || kind == Kind::green || kind == Kind::blue; }
+
+long double weight_of(const LensSample &point, Kind kind, const Met &met) {
+    const long double weight = is_colour(kind) ? (long double)point.rgb[std::size_t(kind)] : 1;
+    if (kind == Kind::data) return weight;
+    const bool in_front = met.sample->coc < 0 && !met.sample->background;
+    return weight * (long double)(in_front ? point.in_front : point.behind);
+}
+
 template <typename Light>
 ReferenceValue composite(std::span<const Way> ways, const Light &light) {
     ReferenceValue sum{0, infinity, -infinity};
@@ -49,16 +69,27 @@ void add(ReferenceValue &to, long double weight, const ReferenceValue &value) {
     to.most += weight * value.most;
 }
 
+struct SlowLens {
+    std::span<const LensSample> points;
+    const CatEye *cat_eye; // null: none
+    double pixel_aspect;
+
+    bool passes(const LensSample &point, const Pixel &pixel) const {
+        const Imath::V2d u(double(point.x), -double(point.y) / pixel_aspect);
+        return !cat_eye || cat_eye->passes(u, {pixel.x + 0.5, pixel.y + 0.5});
+    }
+};
+
 // What one pixel gathers of one channel.
 struct Gathered {
-    ReferenceValue light;
+    ReferenceValue light, coverage;
     // Light per coverage of the samples met. The pixel's is a mean of theirs.
     long double darkest = infinity, brightest = -infinity;
 };
 
 // Light by coverage; `flattened` where nothing is covered.
-ReferenceValue normalised(const Gathered &of, const ReferenceValue &coverage, long double total,
-                          long double flattened) {
+ReferenceValue normalised(const Gathered &of, long double total, long double flattened) {
+    const ReferenceValue &coverage = of.coverage;
     const long double none = least_coverage * total;
     const ReferenceValue &light = of.light;
     ReferenceValue mean{coverage.value > none ? light.value / coverage.value : flattened, 0, 0};
@@ -99,36 +130,44 @@ long double light_of(const Ldi &ldi, std::size_t channel, const Met &met) {
     return met.passes * sum;
 }
 
+// Adds what a lens point sees by these ways; `dark`: but for the light.
+void add_seen(Gathered &to, const Ldi &ldi, std::size_t channel, const LensSample &point,
+              std::span<const Way> ways, bool dark) {
+    const Kind kind = kind_of(ldi.channels[channel]);
+    const auto weight = [&](const Met &m) { return weight_of(point, kind, m); };
+    const auto light = [&](const Met &m) { return dark ? 0 : light_of(ldi, channel, m); };
+    add(to.coverage, point.weight,
+        composite(ways, [&](const Met &m) { return weight(m) * m.sample->alpha; }));
+    add(to.light, point.weight, composite(ways, [&](const Met &m) { return weight(m) * light(m); }));
+    for (const Way &way : ways)
+        for (const Met &m : way.met) {
+            if (m.sample->alpha == 0 && light(m) == 0) continue;
+            to.darkest = std::min(to.darkest, light(m) / m.sample->alpha);
+            to.brightest = std::max(to.brightest, light(m) / m.sample->alpha);
+        }
+}
+
 // The channels of a pixel; `sure` is set to whether each lens point certainly sees what it sees.
-std::vector<ReferenceValue> gather(const Ldi &ldi, const Scene &scene, std::span<const LensSample> points,
+std::vector<ReferenceValue> gather(const Ldi &ldi, const Scene &scene, const SlowLens &lens,
                                    const Pixel &pixel, char &sure) {
     std::vector<Gathered> channels(ldi.channels.size());
-    ReferenceValue coverage;
     long double total = 0;
     sure = 1;
-    for (const LensSample &point : points) {
+    for (const LensSample &point : lens.points) {
+        total += (long double)point.weight;
+        const bool passes = lens.passes(point, pixel);
+        if (!passes && !lens.cat_eye->darkens()) continue;
         const std::vector<Way> ways = ways_to_see(scene, point, pixel);
         for (const Way &way : ways)
             if (ways.size() > 1 || !std::ranges::all_of(way.met, &Met::sure)) sure = 0;
-        total += (long double)point.weight;
-        add(coverage, point.weight, composite(ways, [](const Met &m) { return m.sample->alpha; }));
-        for (std::size_t k = 0; k < channels.size(); ++k) {
-            const auto light = [&](const Met &m) { return light_of(ldi, k, m); };
-            add(channels[k].light, point.weight, composite(ways, light));
-            for (const Way &way : ways)
-                for (const Met &m : way.met) {
-                    if (m.sample->alpha == 0 && light(m) == 0) continue;
-                    channels[k].darkest = std::min(channels[k].darkest, light(m) / m.sample->alpha);
-                    channels[k].brightest = std::max(channels[k].brightest, light(m) / m.sample->alpha);
-                }
-        }
+        for (std::size_t k = 0; k < channels.size(); ++k)
+            add_seen(channels[k], ldi, k, point, ways, !passes && is_colour(kind_of(ldi.channels[k])));
     }
     std::vector<ReferenceValue> values(channels.size());
     for (std::size_t k = 0; k < channels.size(); ++k) {
         const long double id = front_id(ldi, k, pixel);
-        values[k] = holds_ids(ldi.channels[k])
-                        ? ReferenceValue{id, id, id}
-                        : normalised(channels[k], coverage, total, flattened(ldi, k, pixel));
+        values[k] = holds_ids(ldi.channels[k]) ? ReferenceValue{id, id, id}
+                                               : normalised(channels[k], total, flattened(ldi, k, pixel));
         if (sure) values[k].least = values[k].most = values[k].value;
     }
     return values;
@@ -146,7 +185,9 @@ double ReferencePicture::unsure_share() const {
 }
 
 ReferencePicture lens_gather_reference(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window,
-                                       std::span<const LensSample> points, const Holdout *holdout) {
+                                       std::span<const LensSample> points, const Holdout *holdout,
+                                       const CatEye *cat_eye) {
+    const SlowLens by{points, cat_eye, lens.pixel_aspect};
     const std::vector<Filler> fillers = find_fillers(ldi, lens, window);
     const Scene scene = place_scene(ldi, lens, window, fillers);
     ReferencePicture picture{ldi.windows, {}, {}};
@@ -158,7 +199,7 @@ ReferencePicture lens_gather_reference(const Ldi &ldi, const ThinLens &lens, con
         const Imath::V2i at = picture.windows.pixel(i);
         const Pixel pixel{at.x, at.y, (long double)std::max(ldi.windows.width(), ldi.windows.height()),
                           holdout};
-        const auto values = gather(ldi, scene, points, pixel, sure[i]);
+        const auto values = gather(ldi, scene, by, pixel, sure[i]);
         for (std::size_t k = 0; k < channels; ++k) picture.values[k * pixels + i] = values[k];
     });
     picture.sure.assign(sure.begin(), sure.end());

@@ -14,11 +14,16 @@
 // - else it sees the nearest filler (fillers.h), unless what lies on either side is nearer than that by more than
 //   one_surface_px: a gap so narrow may as well be a crack;
 // - else it does not know what lies there: it counts by what it does know, which is the coverage that it met.
+//
+// What it meets, light and coverage, counts by the weight that the lens point has for the channel (R, G and B, by the last
+// part of the name) and, but for data, for what lies behind focus or in front; backgrounds lie behind. Past a cat-eye a pixel sees by the lens
+// points that it lets through alone; where the cat-eye darkens, by all, whose R, G and B are black if it does not.
 #pragma once
 
 #include "base/image.h"
 #include "deep/holdout.h"
 #include "deep/ldi.h"
+#include "lens/cat_eye.h"
 #include "lens/lens_samples.h"
 #include "lens/thin_lens.h"
 
@@ -50,6 +55,7 @@ struct ReferencePicture {
 // As lens_gather, with these lens points everywhere, without highlights and sharpening. Ids are the
 // front samples'. The flattened LDI where no lens point sees anything.
 ReferencePicture lens_gather_reference(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window,
-                                       std::span<const LensSample> points, const Holdout *holdout = nullptr);
+                                       std::span<const LensSample> points, const Holdout *holdout = nullptr,
+                                       const CatEye *cat_eye = nullptr);
 
 } // namespace sparselens

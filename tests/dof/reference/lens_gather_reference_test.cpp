@@ -22,7 +22,13 @@ struct Case {
     int lens_samples = 16;
     bool colour = false; // channels R, G, B: nothing stands out, and nothing is near focus
     double glowing = 0;  // share of samples that give light and cover nothing
+    LensLooks looks = {};
 };
+
+// Weights that differ for R, G and B.
+std::shared_ptr<const AperturePicture> tinted() {
+    return std::make_shared<AperturePicture>(AperturePicture{2, 2, {1, 2, 3, 3, 1, 1, 0.5f, 1, 2, 1, 1, 1}});
+}
 
 void PrintTo(const Case &c, std::ostream *out) { *out << c.name; }
 
@@ -37,6 +43,8 @@ Ldi random_layers(const Case &c, const ThinLens &lens) {
     Windows windows{c.window, c.data, float(c.aspect)};
     std::vector<Channel> channels{{"Y"}, {"A"}, {"extra.Y", PixelType::float32}};
     if (c.colour) channels = rgba_channels();
+    if (c.looks != LensLooks())
+        channels = {{"R"}, {"A"}, {"extra.B"}, {"data"}}; // without G nothing is sharpened
     return make_ldi(windows, channels, [&](int x, int y) {
         std::vector<Sample> samples;
         const int count = int((c.most_samples + 1) * random_unit(x, y, 1));
@@ -67,9 +75,21 @@ TEST_P(LensGatherReference, IsTheLensGather) {
     const ThinLens lens = lens_of(c);
     const Ldi ldi = random_layers(c, lens);
     Progress silent;
-    const Image image = lens_gather(ldi, lens, c.window, {.lens_samples = c.lens_samples}, silent);
-    const auto points = disc_lens_samples(std::size_t(c.lens_samples), c.aspect);
-    expect_within(image, lens_gather_reference(ldi, lens, c.window, points));
+    const LensGatherOptions options{.lens_samples = c.lens_samples, .looks = c.looks};
+    const Image image = lens_gather(ldi, lens, c.window, options, silent);
+    const Aperture aperture(c.looks.aperture);
+    const CatEye cat_eye(aperture, c.looks, picture_frame(ldi.windows, c.looks));
+    const auto points = lens_samples(aperture, std::size_t(c.lens_samples), c.aspect);
+    expect_within(image, lens_gather_reference(ldi, lens, c.window, points, nullptr,
+                                               cat_eye.cuts() ? &cat_eye : nullptr));
+}
+
+const Imath::Box2i look_window({0, 0}, {69, 29});
+
+Case looks(const char *name, const LensLooks &of) {
+    Case c{name, look_window, look_window, 1, 0.4};
+    c.looks = of;
+    return c;
 }
 
 constexpr auto box = [](int x0, int y0, int x1, int y1) { return Imath::Box2i({x0, y0}, {x1, y1}); };
@@ -85,6 +105,13 @@ const Case cases[] = {
     {"OneLensPoint", box(0, 0, 70, 30), box(0, 0, 70, 30), 1, 0.5, 3, 0, 1},
     {"Glowing", box(0, 0, 20, 70), box(0, 0, 20, 70), 1, 0.3, 4, 0, 16, false, 0.5},
     {"ManyLensPoints", box(0, 0, 20, 20), box(0, 0, 20, 20), 1, 0.5, 3, 0, 200},
+    looks("Blades", {.aperture = {.blades = 5, .rotation = 10, .squeeze = 1.5}}),
+    looks("Rings", {.aperture = {.spherical = 0.8}}),
+    looks("RingedBlades", {.aperture = {.blades = 3, .spherical = -1}}),
+    looks("ColouredAperture", {.aperture = {.picture = tinted()}}),
+    looks("CatEye", {.cat_eye = 1}),
+    looks("CatEyeOfBlades", {.aperture = {.blades = 6, .squeeze = 2, .spherical = 0.5}, .cat_eye = 0.7}),
+    looks("DarkeningCatEye", {.cat_eye = 1.2, .cat_eye_darkening = true}),
 };
 
 INSTANTIATE_TEST_SUITE_P(Random, LensGatherReference, testing::ValuesIn(cases),
