@@ -23,7 +23,8 @@ Ldi with_layers_merged(Source &&ldi, const ThinLens &lens, const PictureOptions 
 Image gather_layers(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &gathered,
                     const Imath::Box2i &written, const PictureOptions &options, Progress &progress) {
     const auto sharp = options.holdout ? std::optional<Holdout>(*options.holdout) : std::nullopt;
-    if (lens.radius == 0) return crop(sharp ? flatten_held_out(ldi, *sharp) : flatten(ldi), written);
+    if (lens.radius == 0 && options.gather.lens.looks.magnification == 1)
+        return crop(sharp ? flatten_held_out(ldi, *sharp) : flatten(ldi), written);
     GatherOptions by = options.gather;
     by.lens.region = written;
     by.lens.holdout = sharp ? &*sharp : nullptr;

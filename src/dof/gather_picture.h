@@ -20,7 +20,7 @@ struct PictureOptions {
 };
 
 // The pixels `gathered` as the method takes it, of which `written` (within it) are the result. A lens of radius 0 gives
-// the flattened LDI. The LDI is tidy.
+// the flattened LDI, unless its looks magnify the picture. The LDI is tidy.
 Image gather_picture(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &gathered,
                      const Imath::Box2i &written, const PictureOptions &options, Progress &progress);
 

@@ -22,7 +22,8 @@ namespace sparselens {
 
 namespace {
 
-constexpr float in_focus = 0.5f; // pixels: what has no larger CoC is as it was rendered
+constexpr float in_focus = 0.5f;   // pixels: what has no larger CoC is as it was rendered
+constexpr double sharp_coc = 1e-3; // pixels: of infinity, seen by a lens of radius 0
 
 // By the last part of the channel's name, so that layers have colours too.
 std::vector<ColourSet> colour_sets(const Ldi &ldi, std::size_t count) {
@@ -74,11 +75,14 @@ public:
     LensSets(const LensGatherOptions &options, const Aperture &aperture, double pixel_aspect)
         : options_(options), aperture_(aperture), pixel_aspect_(pixel_aspect) {}
 
-    const std::vector<LensSample> &for_coc(float largest) {
-        const std::size_t step = options_.lens_samples > 0 ? 0 : step_for(largest);
-        std::call_once(made_[step],
-                       [&] { sets_[step] = lens_samples(aperture_, points_of(step), pixel_aspect_); });
-        return sets_[step];
+    // `doubled` up to two times.
+    const std::vector<LensSample> &for_coc(float largest, std::size_t doubled) {
+        if (options_.lens_samples > 0) largest = 0, doubled = 0;
+        const std::size_t step = step_for(largest), set = doubled * steps + step;
+        std::call_once(made_[set], [&] {
+            sets_[set] = lens_samples(aperture_, points_of(step) << doubled, pixel_aspect_);
+        });
+        return sets_[set];
     }
 
 private:
@@ -105,8 +109,9 @@ private:
     LensGatherOptions options_;
     const Aperture &aperture_;
     double pixel_aspect_;
-    std::array<std::once_flag, largest_coc.size()> made_;
-    std::array<std::vector<LensSample>, largest_coc.size()> sets_;
+    static constexpr std::size_t steps = largest_coc.size();
+    std::array<std::once_flag, 3 * steps> made_;
+    std::array<std::vector<LensSample>, 3 * steps> sets_;
 };
 
 float largest_coc_of(const SampleBlock &block) {
@@ -224,6 +229,12 @@ struct Optics {
           frame(picture_frame(ldi.windows, looks)), field(looks, lens, frame),
           cat_eye(aperture, looks, frame) {}
 
+    // How many times the lens points of a tile are doubled: so many that pixels see as many past a cat-eye as of a whole lens.
+    std::size_t doubled(const Imath::V2i &first) const {
+        if (!cat_eye.cuts() || cat_eye.darkens()) return 0;
+        const double left = cat_eye.share(true, Imath::V2d(first) + Imath::V2d(LensTile::size / 2));
+        return left <= 0.25 ? 2 : left <= 0.5 ? 1 : 0;
+    }
     bool moves() const { return looks.magnification != 1; }
     float widest() const { return float(std::max(aperture.half_extent().x, aperture.half_extent().y)); }
     void bend(BlockedSamples &samples) const {
@@ -252,7 +263,8 @@ Image gather_once(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &wind
     if (options.chosen) *options.chosen = chosen;
     if (!optics.moves() && std::ranges::all_of(samples.blocks, sharp)) return out;
     SampleColours colours = make_colours(ldi, samples);
-    sharpen_near_focus(ldi, lens, samples, colours);
+    const SharpenLooks looks{optics.aperture, optics.field, optics.frame, coc, options.looks.magnification};
+    sharpen_near_focus(ldi, lens, samples, colours, &looks);
     const LightChannels light = light_channels(ldi);
     const Highlights highlights = take_highlights(samples, light.brightness, light.all, colours);
     FillerSamples fillers = place_fillers(ldi, lens, find_fillers(ldi, lens, window), samples, colours);
@@ -286,7 +298,7 @@ Image gather_once(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &wind
         const float largest = finder.find(origin, LensTile::size, steepest, blocks.samples) * widest;
         progress.advance();
         if (largest < in_focus && !optics.moves()) return; // the flattened LDI is there already
-        const std::vector<LensSample> &points = sets.for_coc(largest);
+        const std::vector<LensSample> &points = sets.for_coc(largest, optics.doubled(first));
         filler_finder.find(origin, LensTile::size, steepest, blocks.fillers);
         chosen.lens_points[t] = int(points.size());
         std::vector<LensSample> bent;
@@ -309,8 +321,11 @@ Image gather_once(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &wind
 
 } // namespace
 
-Image lens_gather(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window,
+Image lens_gather(const Ldi &ldi, const ThinLens &given, const Imath::Box2i &window,
                   const LensGatherOptions &options, Progress &progress) {
+    ThinLens lens = given;
+    // Only breathing shows then, which asks for a finite focus distance: all is sharp, and still ordered by depth.
+    if (lens.radius == 0) lens.radius = sharp_coc * lens.focus / lens.focal_px;
     Image out = gather_once(ldi, lens, window, options, 0, progress);
     const std::vector<ColourSet> sets = colour_sets(ldi, ldi.channels.size());
     const std::array<double, 3> &cocs = options.looks.chromatic_coc;

@@ -30,7 +30,7 @@ struct LensGatherOptions {
 
 // Pixels `window` (EXR coordinates, within the LDI's data window), channels of the LDI. In `window` an empty
 // pixel is transparent to infinity; outside of it, nothing is known. Ids are the front samples'. The LDI is tidy,
-// the lens radius above 0.
+// the lens radius above 0, or 0 where the looks magnify.
 Image lens_gather(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window,
                   const LensGatherOptions &options, Progress &progress);
 

@@ -15,13 +15,43 @@ constexpr double largest_coc = 4;      // pixels: beyond, the blur of interpolat
 constexpr int noise_block = 32;        // pixels
 constexpr double noise_quantile = 0.3; // the calmer part of a block shows its noise, not its detail
 
+// How much light passes the lens in columns, side by side from -1 to 1; in rows, along the other axis.
+using LensColumns = std::array<double, 64>;
+
+double middle_of_column(std::size_t i) { return (double(i) + 0.5) * 2 / std::tuple_size<LensColumns>() - 1; }
+
+// Over the disc, a column at x has a height of sqrt(1 - x^2).
+LensColumns disc_columns() {
+    LensColumns columns;
+    for (std::size_t i = 0; i < columns.size(); ++i)
+        columns[i] = std::sqrt(1 - middle_of_column(i) * middle_of_column(i));
+    return columns;
+}
+
+// Before it is squeezed. The same from either side, as tables do not tell apart to which side a sample lies off the grid.
+LensColumns columns_of(const Aperture &aperture, bool behind, bool vertical) {
+    constexpr int n = 128;
+    LensColumns columns{};
+    for (int i = 0; i < n; ++i)
+        for (int j = 0; j < n; ++j) {
+            const LensPoint point = aperture.at(Imath::V2d(i + 0.5, j + 0.5) / n);
+            const double x = vertical ? point.u.y : point.u.x * aperture.shape().squeeze;
+            const double column = (x + 1) / 2 * double(columns.size());
+            const auto at = std::size_t(std::clamp(column, 0.0, double(columns.size() - 1)));
+            const double weight = double(behind ? point.behind : point.in_front);
+            columns[at] += weight;
+            columns[columns.size() - 1 - at] += weight;
+        }
+    return columns;
+}
+
 // Mean of f (1 - f) over the lens, f the fraction off the grid along one axis, by CoC and by own offset.
 class BlurTable {
 public:
-    BlurTable() {
+    explicit BlurTable(const LensColumns &columns) {
         for (int c = 0; c < cocs; ++c)
             for (int o = 0; o < offsets; ++o)
-                table_[std::size_t(c * offsets + o)] = mean(coc_at(c), offset_at(o));
+                table_[std::size_t(c * offsets + o)] = mean(columns, coc_at(c), offset_at(o));
     }
     static constexpr double largest_weight = 0.125; // f (1 - f) is at most 1/4
     // Half of the mean, which is the weight of the second difference; fades out towards the largest CoC.
@@ -37,27 +67,49 @@ public:
     }
 
 private:
-    static constexpr int cocs = 128, offsets = 16, steps = 64;
+    static constexpr int cocs = 128, offsets = 16;
     static double coc_at(int c) { return c * largest_coc / (cocs - 1); }
     static double offset_at(int o) { return o * 0.5 / (offsets - 1); }
     double entry(int c, int o) const { return table_[std::size_t(c * offsets + o)]; }
-    // Over the disc, a column at x has a height of sqrt(1 - x^2).
-    static double mean(double coc, double offset) {
+    static double mean(const LensColumns &columns, double coc, double offset) {
         double sum = 0, area = 0;
-        for (int i = 0; i < steps; ++i) {
-            const double x = (i + 0.5) * 2 / steps - 1, height = std::sqrt(1 - x * x);
-            const double place = offset + coc * x, f = place - std::floor(place);
-            sum += height * f * (1 - f);
-            area += height;
+        for (std::size_t i = 0; i < columns.size(); ++i) {
+            const double place = offset + coc * middle_of_column(i), f = place - std::floor(place);
+            sum += columns[i] * f * (1 - f);
+            area += columns[i];
         }
         return sum / area;
     }
     std::array<double, std::size_t(cocs) * offsets> table_{};
 };
 
+// The tables of a lens.
+class LensBlur {
+public:
+    explicit LensBlur(const Aperture *aperture) : squeeze_(aperture ? aperture->shape().squeeze : 1) {
+        if (!aperture || aperture->disc()) {
+            tables_.emplace_back(disc_columns());
+            return;
+        }
+        for (const bool behind : {false, true})
+            for (const bool vertical : {false, true})
+                tables_.emplace_back(columns_of(*aperture, behind, vertical));
+    }
+    double horizontal(double coc, double offset) const { return of(coc, 0).weight(coc / squeeze_, offset); }
+    double vertical(double coc, double offset) const { return of(coc, 1).weight(coc, offset); }
+
+private:
+    const BlurTable &of(double coc, std::size_t axis) const {
+        return tables_.size() == 1 ? tables_[0] : tables_[(coc > 0 ? 2 : 0) + axis];
+    }
+    double squeeze_;
+    std::vector<BlurTable> tables_; // one for all; or in front along x, along y, behind along x, along y
+};
+
 class Sharpener {
 public:
-    Sharpener(const Ldi &ldi, const ThinLens &lens) : ldi_(ldi), lens_(lens), rgb_() {
+    Sharpener(const Ldi &ldi, const ThinLens &lens, const SharpenLooks *looks)
+        : ldi_(ldi), lens_(lens), looks_(looks), rgb_(), blur_(looks ? &looks->aperture : nullptr) {
         for (std::size_t k = 0; k < 3; ++k)
             rgb_[k] = find_channel(ldi.channels, std::array{"R", "G", "B"}[k]);
     }
@@ -86,6 +138,11 @@ private:
         std::array<std::uint64_t, 4> sample; // left, right, up, down
         bool horizontal, vertical;           // both of the axis are there
     };
+    struct Seen { // through the middle of the lens
+        double coc;
+        Imath::V2d offset; // off the grid, pixels
+    };
+    Seen seen(const MergedSample &place, int x, int y) const;
     Neighbours neighbours(std::uint64_t i, int x, int y) const;
     std::uint64_t surface_in(int x, int y, float z, double depth) const;
     Weights weights(std::uint64_t i, int x, int y) const;
@@ -98,9 +155,10 @@ private:
     static constexpr std::uint64_t none = ~std::uint64_t(0);
     const Ldi &ldi_;
     const ThinLens &lens_;
+    const SharpenLooks *looks_;
     std::array<std::size_t, 3> rgb_;
     std::vector<double> noise_; // of each block, as detail() measures it
-    BlurTable blur_;
+    LensBlur blur_;
 };
 
 // The sample of a pixel nearest to that depth, planar and perceptive: of a stack of mist and sheets not just any within reach.
@@ -167,11 +225,21 @@ void Sharpener::measure_noise() {
     });
 }
 
-Sharpener::Weights Sharpener::weights(std::uint64_t i, int x, int y) const {
-    const MergedSample place = sample_at(ldi_, i);
+Sharpener::Seen Sharpener::seen(const MergedSample &place, int x, int y) const {
+    const Imath::V2d offset(double(place.dx), double(place.dy));
     const double coc = circle_of_confusion(lens_, double(place.z));
-    Weights w{float(blur_.weight(coc, double(place.dx))),
-              float(blur_.weight(coc * lens_.pixel_aspect, double(place.dy))), 1};
+    if (!looks_) return {coc, offset};
+    const Imath::V2d p = Imath::V2d(ldi_.windows.data.min + Imath::V2i(x, y)) + Imath::V2d(0.5) + offset;
+    const double bent = looks_->magnification * (coc + looks_->coc + looks_->field.coc_offset(p));
+    if (looks_->magnification == 1) return {bent, offset};
+    const Imath::V2d at = looks_->frame.magnified(p, looks_->magnification);
+    return {bent, {at.x - std::floor(at.x) - 0.5, at.y - std::floor(at.y) - 0.5}};
+}
+
+Sharpener::Weights Sharpener::weights(std::uint64_t i, int x, int y) const {
+    const Seen at = seen(sample_at(ldi_, i), x, y);
+    Weights w{float(blur_.horizontal(at.coc, at.offset.x)),
+              float(blur_.vertical(at.coc * lens_.pixel_aspect, at.offset.y)), 1};
     if (w.horizontal == 0 && w.vertical == 0) return {0, 0, 0};
     const Neighbours n = neighbours(i, x, y);
     if (!n.horizontal) w.horizontal = 0;
@@ -228,8 +296,8 @@ std::array<Term, 5> Sharpener::terms(const Band &band, std::uint64_t i, int x, i
 } // namespace
 
 void sharpen_near_focus(const Ldi &ldi, const ThinLens &lens, const BlockedSamples &samples,
-                        SampleColours &colours) {
-    Sharpener sharpener(ldi, lens);
+                        SampleColours &colours, const SharpenLooks *looks) {
+    Sharpener sharpener(ldi, lens, looks);
     if (!sharpener.usable()) return;
     sharpener.measure_noise();
     constexpr int rows_at_once = 2 * BlockedSamples::size; // few, because weights take memory

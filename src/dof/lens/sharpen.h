@@ -10,14 +10,25 @@
 #include "deep/ldi.h"
 #include "dof/lens/sample_blocks.h"
 #include "dof/lens/sample_colours.h"
+#include "lens/aperture.h"
+#include "lens/focus_field.h"
 #include "lens/thin_lens.h"
 
 namespace sparselens {
 
+// The lens's looks as far as they matter here: the shape of the aperture, how the CoC of a sample differs from that of a
+// flat plane of focus (`coc` pixels and what the field says), and where the magnified picture shows it.
+struct SharpenLooks {
+    const Aperture &aperture;
+    const FocusField &field;
+    const PictureFrame &frame;
+    double coc = 0, magnification = 1;
+};
+
 // Every channel of a sample is changed by the same weights (so that layers still add up to the beauty), chosen
 // such that R, G and B do not become negative; what a sample gains its neighbours lose, so that light is kept.
-// `colours` holds the colours of `samples` (sample_colours.h).
+// `colours` holds the colours of `samples` (sample_colours.h). What a cat-eye cuts is taken for open.
 void sharpen_near_focus(const Ldi &ldi, const ThinLens &lens, const BlockedSamples &samples,
-                        SampleColours &colours);
+                        SampleColours &colours, const SharpenLooks *looks = nullptr);
 
 } // namespace sparselens

@@ -49,14 +49,15 @@ std::vector<LensLooks> all_looks() {
 }
 
 TEST(LensLooks, ConstantStaysConstantAndOpaque) {
-    // Planes of one colour: behind focus, in front, and strips of one before the other, half of them half covered.
+    // Planes of one colour: behind focus, in front, and strips of one before the other, half of them half covered. What
+    // differs in coverage is so far out of focus that nothing is sharpened.
     const std::array<float, 4> colour{0.4f, 0.7f, 0.2f, 1};
     const auto strips = [&](int x, int y) {
         std::vector<Sample> samples{{depth_of(lens, 6), {0.4f, 0.7f, 0.2f, 1}}};
         const float cover = y < 24 ? 1.0f : 0.5f;
         if (x / 6 % 2 == 0)
             samples.insert(samples.begin(),
-                           {depth_of(lens, -5), {0.4f * cover, 0.7f * cover, 0.2f * cover, cover}});
+                           {depth_of(lens, -12), {0.4f * cover, 0.7f * cover, 0.2f * cover, cover}});
         return samples;
     };
     const Ldi ldi = make_ldi(windows_of_size(48, 48), rgba_channels(), strips);
@@ -157,6 +158,21 @@ double common_area(double r, double d) {
     return std::acos(x) + r * r * std::acos((d - x) / r) - d * y;
 }
 
+// The light of a lamp `away` half diagonals from the axis whose CoC is `coc` half diagonals, for a cat-eye of 1: what each
+// pixel sees counts by what is left of the lens there.
+double light_past_cat_eye(double away, double coc) {
+    constexpr int n = 400;
+    double light = 0;
+    for (int i = 0; i < n; ++i)
+        for (int j = 0; j < n; ++j) {
+            const Imath::V2d u((i + 0.5) * 2 / n - 1, (j + 0.5) * 2 / n - 1),
+                at = Imath::V2d(away, 0) + coc * u;
+            if (u.length() > 1 || (u - at).length() > 1) continue;
+            light += 4.0 / (n * n) / common_area(1, at.length());
+        }
+    return light;
+}
+
 // At the corner the second circle is displaced by the amount; on the axis the disc is whole.
 TEST(LensLooks, CutCatEyes) {
     const Windows windows = windows_of_size(160, 120); // half a diagonal is 100 pixels
@@ -180,6 +196,7 @@ TEST(LensLooks, CutCatEyes) {
     // disc: |a - 0.6 - 0.12 a| <= 1 is a circle of radius 1 / 0.88 around 0.6 / 0.88.
     const double left = common_area(1 / 0.88, 0.6 / 0.88);
     EXPECT_NEAR(lit({140, 60}, {.cat_eye = 1}, sum), 144 * left, 0.05 * disc);
+    EXPECT_NEAR(sum, 1000 * light_past_cat_eye(0.6, 0.12), 10);
     lit({140, 60}, {.cat_eye = 1, .cat_eye_darkening = true}, sum);
     EXPECT_NEAR(sum, 1000 * left / std::numbers::pi, 10);
 }
