@@ -40,7 +40,8 @@ void run(const GatherCommand &given, const ToolContext &tool, LdiCache &cache) {
     const auto holdout = open_holdout(options.holdout, in.ldi.windows, options.windows.proxy, by);
     say_border_reach(tool, options.input, in.ldi, lens);
     GatherWindows frame = gather_windows(options.windows, in, lens);
-    raise_highlights(frame, in, options.highlights);
+    const LensFile looks = read_looks(options.looks, in.camera.fstop);
+    raise_highlights(frame, in, highlight_gain(looks.values));
     const Ldi &ldi = frame.ldi(in);
     const std::size_t samples = in.ldi.samples();
     const Image depth = options.depth_output.empty() ? Image() : crop(front_depth(ldi), frame.written);
@@ -49,8 +50,7 @@ void run(const GatherCommand &given, const ToolContext &tool, LdiCache &cache) {
     options.picture.holdout = holdout ? &*holdout : nullptr;
     options.picture.gather.lens.chosen = &tiles;
     options.picture.gather.lens.looks =
-        looks_for_ldi(read_looks(options.looks, in.camera.fstop), in.camera, header, lens, ldi.windows,
-                      options.picture.method, tool);
+        looks_for_ldi(looks, in.camera, header, lens, ldi.windows, options.picture.method, tool);
     Image picture;
     if (needs_gather(options.show))
         picture = chosen_channels(gathered(options, frame, lens, cache, tool), options.channels);

@@ -7,9 +7,21 @@
 
 namespace sparselens {
 
+HighlightGain highlight_gain(const LookValues &values) {
+    const HighlightGain none;
+    return {values.highlight_gain.value_or(none.gain), values.highlight_threshold.value_or(none.threshold),
+            values.highlight_knee.value_or(none.knee)};
+}
+
 double highlight_factor(const HighlightGain &by, double luminance) {
     const double t = std::clamp((luminance - by.threshold) / by.knee, 0.0, 1.0);
     return 1 + (by.gain - 1) * t * t * (3 - 2 * t);
+}
+
+double highlight_factor(const HighlightGain &by, const std::array<double, 3> &rgb, double coverage) {
+    double luminance = 0;
+    for (std::size_t c = 0; c < 3; ++c) luminance += luma_weights[c] * rgb[c];
+    return highlight_factor(by, coverage > 0 ? luminance / coverage : luminance);
 }
 
 void raise_highlights(Ldi &ldi, const HighlightGain &by) {
@@ -19,10 +31,10 @@ void raise_highlights(Ldi &ldi, const HighlightGain &by) {
     parallel_ranges(ldi.samples(), 4096, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const double coverage = alpha == npos ? 1 : double(ldi.values[alpha][i]);
-            double luminance = 0;
-            for (std::size_t c = 0; c < 3; ++c) luminance += luma_weights[c] * double(ldi.values[rgb[c]][i]);
-            // Light without coverage, as of a glow, is taken as it is.
-            const double factor = highlight_factor(by, coverage > 0 ? luminance / coverage : luminance);
+            const double factor = highlight_factor(
+                by,
+                {double(ldi.values[rgb[0]][i]), double(ldi.values[rgb[1]][i]), double(ldi.values[rgb[2]][i])},
+                coverage);
             for (const std::size_t k : rgb) ldi.values[k][i] = float(double(ldi.values[k][i]) * factor);
         }
     });

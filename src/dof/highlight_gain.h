@@ -6,6 +6,9 @@
 #pragma once
 
 #include "../deep/ldi.h"
+#include "../view/look_values.h"
+
+#include <array>
 
 namespace sparselens {
 
@@ -15,8 +18,14 @@ struct HighlightGain {
     double knee = 1;      // luminance over which the gain sets in, > 0
 };
 
+// As the values say.
+HighlightGain highlight_gain(const LookValues &values);
+
 // By how much a sample of that luminance grows, >= 1.
 double highlight_factor(const HighlightGain &by, double luminance);
+
+// The same of R, G and B that have this coverage; light without any, as of a glow, is taken as it is.
+double highlight_factor(const HighlightGain &by, const std::array<double, 3> &rgb, double coverage);
 
 // Multiplies R, G and B. An LDI that lacks one of them stays as it is.
 void raise_highlights(Ldi &ldi, const HighlightGain &by);

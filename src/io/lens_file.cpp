@@ -37,10 +37,15 @@ private:
         throw Error(fmt::format("{}: '{}' is {}, not {}", path_, key, value.dump(), expected));
     }
 
+    static const LookNumber *number_called(const std::string &key) {
+        for (const auto table : {look_numbers(), highlight_numbers()})
+            for (const LookNumber &number : table)
+                if (key == number.name) return &number;
+        return nullptr;
+    }
+
     void read_key(LensFile &file, const std::string &key, const Json &value) {
-        const auto number =
-            std::ranges::find_if(look_numbers(), [&](const LookNumber &n) { return key == n.name; });
-        if (number != look_numbers().end()) {
+        if (const LookNumber *number = number_called(key)) {
             file.values.*(number->value) = number_at(key, value, number->range, number->valid);
         } else if (key == "name") {
             if (!value.is_string()) refuse(key, value, "a text");

@@ -27,7 +27,6 @@ struct Asked {
     py::object keep_holdout, progress;
     LensValues lens;
     AskedLooks looks;
-    HighlightGain highlights;
 };
 
 bool knows_looks(const Asked &asked) { return asked.picture.method == &gather_methods().front(); }
@@ -63,7 +62,7 @@ void set_method(Asked &asked, Keywords &keywords) {
     asked.picture.gather.layers = layers.value_or(asked.picture.gather.layers);
 }
 
-HighlightGain highlight_gain(Keywords &keywords) {
+void take_highlights(Keywords &keywords, LookValues &values) {
     const auto gain = keywords.any_number("highlight_gain");
     const auto threshold = keywords.number("highlight_threshold", {.zero_allowed = true});
     const auto knee = keywords.number("highlight_knee");
@@ -71,7 +70,9 @@ HighlightGain highlight_gain(Keywords &keywords) {
         throw UsageError("highlight_gain: is needed by highlight_threshold and highlight_knee");
     if (gain && !(*gain >= 1 && *gain <= 1000))
         Keywords::refuse("highlight_gain", "a number from 1 to 1000", fmt::format("{:g}", *gain));
-    return {gain.value_or(1), threshold.value_or(1), knee.value_or(1)};
+    values.highlight_gain = gain;
+    values.highlight_threshold = threshold;
+    values.highlight_knee = knee;
 }
 
 Asked asked_by(const py::kwargs &given) {
@@ -84,7 +85,7 @@ Asked asked_by(const py::kwargs &given) {
     if (asked.picture.holdout_defocused && !asked.holdout)
         throw UsageError("holdout_defocused: needs a holdout");
     asked.looks = look_keywords(keywords);
-    asked.highlights = highlight_gain(keywords);
+    take_highlights(keywords, asked.looks.given.values);
     set_method(asked, keywords);
     const auto overscan = keywords.word<OutputOverscan>(
         "overscan",
@@ -123,13 +124,13 @@ PictureObject gathered(const Asked &asked, const OpenedLdi &in, Camera camera, T
     PictureObject out{{}, in.header};
     const auto holdout = holdout_of(asked, in.ldi);
     GatherWindows frame = gather_windows(asked.windows, in, lens);
-    raise_highlights(frame, in, asked.highlights);
+    const LensFile looks = read_looks(asked.looks.given, camera.fstop);
+    raise_highlights(frame, in, highlight_gain(looks.values));
     const Ldi &ldi = frame.ldi(in);
     PictureOptions options = asked.picture;
     options.holdout = holdout ? &*holdout : nullptr;
     if (knows_looks(asked))
-        options.gather.lens.looks =
-            picture_looks(read_looks(asked.looks.given, camera.fstop), camera, out.header, lens, ldi.windows);
+        options.gather.lens.looks = picture_looks(looks, camera, out.header, lens, ldi.windows);
     out.image = gather_picture(ldi, lens, frame.gathered, frame.written, options, progress);
     write_camera(out.header, camera);
     return out;

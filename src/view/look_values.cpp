@@ -14,6 +14,8 @@ bool is_angle(double v) { return std::abs(v) <= 1e6; }
 bool is_cat_eye(double v) { return v >= 0 && v <= 100; }
 bool is_chromatic(double v) { return std::abs(v) <= 5; }
 bool is_breathing(double v) { return v >= 0 && v <= 2; }
+bool is_gain(double v) { return v >= 1 && v <= 1000; }
+bool is_luminance(double v) { return v >= 0 && std::isfinite(v); }
 bool is_positive(double v) { return v > 0 && std::isfinite(v); }
 
 constexpr std::array numbers{
@@ -55,6 +57,17 @@ constexpr std::array numbers{
         &LookValues::breathing, "a number from 0 to 2", is_breathing},
 };
 
+constexpr std::array highlights{
+    LookNumber{"highlight-gain", "G",
+               "Make lights above the threshold up to G times as bright before the lens sees them, 1 to 1000 "
+               "(default: 1)",
+               &LookValues::highlight_gain, "a number from 1 to 1000", is_gain},
+    LookNumber{"highlight-threshold", "Y", "Scene-linear luminance above which lights grow (default: 1)",
+               &LookValues::highlight_threshold, "a number of at least 0", is_luminance},
+    LookNumber{"highlight-knee", "Y", "Luminance over which the gain sets in softly (default: 1)",
+               &LookValues::highlight_knee, "a number above 0", is_positive},
+};
+
 constexpr std::array<std::pair<const char *, ChromaticType>, 3> chromatics{
     {{"red-blue", ChromaticType::red_blue},
      {"blue-yellow", ChromaticType::blue_yellow},
@@ -63,6 +76,7 @@ constexpr std::array<std::pair<const char *, ChromaticType>, 3> chromatics{
 } // namespace
 
 std::span<const LookNumber> look_numbers() { return numbers; }
+std::span<const LookNumber> highlight_numbers() { return highlights; }
 
 std::span<const std::pair<const char *, ChromaticType>> chromatic_types() { return chromatics; }
 
@@ -70,8 +84,9 @@ bool is_tilt(double degrees) { return std::abs(degrees) <= 89; }
 
 LookValues look_values_over(const LookValues &above, const LookValues &below) {
     LookValues both = above;
-    for (const LookNumber &number : numbers)
-        if (!(both.*number.value)) both.*number.value = below.*number.value;
+    for (const auto table : {look_numbers(), highlight_numbers()})
+        for (const LookNumber &number : table)
+            if (!(both.*number.value)) both.*number.value = below.*number.value;
     if (!both.picture && !above.blades) both.picture = below.picture;
     if (above.picture && !above.blades) both.blades.reset();
     if (!both.tilt_x) both.tilt_x = below.tilt_x, both.tilt_y = below.tilt_y;

@@ -22,6 +22,8 @@ struct LookValues {
     std::optional<double> axial_chromatic = {};     // mm behind the sensor
     std::optional<ChromaticType> chromatic_type = {};
     std::optional<bool> cat_eye_darkening = {};
+    std::optional<double> highlight_gain = {}, highlight_threshold = {},
+                          highlight_knee = {}; // dof/highlight_gain.h
     std::shared_ptr<const AperturePicture> picture = {};
 };
 
@@ -34,7 +36,8 @@ struct LookNumber {
     bool (*valid)(double);
 };
 
-std::span<const LookNumber> look_numbers();
+std::span<const LookNumber> look_numbers();      // what the lens does
+std::span<const LookNumber> highlight_numbers(); // what makes lights brighter before it, whichever lens it is
 
 // By their names.
 std::span<const std::pair<const char *, ChromaticType>> chromatic_types();

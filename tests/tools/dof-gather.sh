@@ -89,6 +89,9 @@ changes --field-curvature 0.5
 changes --tilt 20,0
 changes --tilt 0,20
 changes --breathing 1
+exits 0 "$gather" ldi.exr -o pinhole.exr --lens-radius 0
+exits 0 "$gather" ldi.exr -o breathing.exr --lens-radius 0 --breathing 1
+differ pinhole.exr breathing.exr "--breathing without an aperture"
 exits 0 "$gather" ldi.exr -o eye.exr --cat-eye 1
 exits 0 "$gather" ldi.exr -o darkened.exr --cat-eye 1 --cat-eye-darkening
 differ eye.exr darkened.exr "--cat-eye-darkening"
@@ -126,7 +129,10 @@ fails_saying 1 'black.exr.* black' "$gather" ldi.exr -o x.exr --aperture black.e
 fails_saying 1 'none.exr' "$gather" ldi.exr -o x.exr --aperture none.exr
 fails_saying 2 '--aperture.*--blades|--blades.*--aperture' "$gather" ldi.exr -o x.exr --aperture aperture.exr --blades 5
 for method in selective scatter; do
-    fails_saying 2 '--squeeze: works with --method lens only' "$gather" ldi.exr -o x.exr --method $method --squeeze 2
+    for look in '--squeeze 2' '--cat-eye 1' '--tilt 3,0' '--aperture aperture.exr' '--lens lens.json'; do
+        # shellcheck disable=SC2086
+        fails_saying 2 "${look%% *}: works with --method lens only" "$gather" ldi.exr -o x.exr --method $method $look
+    done
 done
 
 # The blades, their rotation and the squeeze may stand in the header, as the script for Blender writes them.
@@ -343,5 +349,10 @@ exits 0 "$gather" lights.exr -o grown.exr --lens-radius 0 --highlight-gain 3 --h
 [ "$(level grown.exr)" = 4.000000 ] || fail "--highlight-threshold: $(level grown.exr) is not 4"
 exits 0 "$gather" lights.exr -o grown.exr --lens-radius 0 --highlight-gain 3 --highlight-threshold 3 --highlight-knee 2
 [ "$(level grown.exr)" = 8.000000 ] || fail "--highlight-knee: $(level grown.exr) is not 8"
+echo '{"highlight-gain": 3, "highlight-threshold": 3, "highlight-knee": 2}' >bright.json
+exits 0 "$gather" lights.exr -o grown.exr --lens-radius 0 --lens bright.json
+[ "$(level grown.exr)" = 8.000000 ] || fail "highlight-gain in a lens file: $(level grown.exr) is not 8"
 fails_saying 2 'highlight-gain' "$gather" lights.exr -o x.exr --lens-radius 0 --highlight-gain 0.5
+fails_saying 2 'highlight-threshold' "$gather" lights.exr -o x.exr --lens-radius 0 --highlight-gain 2 --highlight-threshold -1
+fails_saying 2 'highlight-knee' "$gather" lights.exr -o x.exr --lens-radius 0 --highlight-gain 2 --highlight-knee 0
 fails_saying 2 'highlight-gain' "$gather" lights.exr -o x.exr --lens-radius 0 --highlight-knee 2

@@ -75,6 +75,14 @@ exits 0 "$trace" fence -o bulging "${small[@]}" --reference 3 --blades 5 --blade
 differ blades/reference.exr turned/reference.exr "--blade-rotation"
 differ blades/reference.exr bulging/reference.exr "--blade-curvature"
 differ blades/lens_0001.exr fence/lens_0001.exr "--blades and --lens-views"
+exits 0 "$trace" fence -o bright "${small[@]}" --reference 3 --highlight-gain 3 --highlight-threshold 0.2 --highlight-knee 0.2
+exits 0 "$trace" fence -o plain "${small[@]}" --reference 3
+differ plain/reference.exr bright/reference.exr "--highlight-gain"
+same plain/view_1.exr bright/view_1.exr "views with --highlight-gain"
+exits 0 "$trace" fence -o less "${small[@]}" --reference 3 --highlight-gain 3 --highlight-threshold 0.4 --highlight-knee 0.2
+exits 0 "$trace" fence -o softer "${small[@]}" --reference 3 --highlight-gain 3 --highlight-threshold 0.2 --highlight-knee 0.6
+differ less/reference.exr bright/reference.exr "--highlight-threshold"
+differ softer/reference.exr bright/reference.exr "--highlight-knee"
 fails_saying 2 '--lens-views' "$trace" fence -o x "${small[@]}" --lens-views 2 --spherical 1
 changes reference.exr --focus-distance inf
 changes deep_peel.exr --deep peel:2

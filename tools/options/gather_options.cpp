@@ -67,24 +67,6 @@ void add_method_options(CLI::App &app, GatherCommand &options) {
         ->needs("--holdout");
 }
 
-void add_highlight_options(CLI::App &app, HighlightGain &by) {
-    const auto add = [&](const char *name, double &value, const char *unit, const char *help) {
-        return app.add_option(name, value, help)->type_name(unit)->group("Highlights");
-    };
-    CLI::Option *gain =
-        add("--highlight-gain", by.gain, "G",
-            "Make lights above the threshold up to G times as bright before the gather, 1 to 1000 "
-            "(default: 1)");
-    gain->check(CLI::Range(1.0, 1000.0));
-    add("--highlight-threshold", by.threshold, "Y",
-        "Scene-linear luminance above which lights grow (default: 1)")
-        ->check(number("a number of at least 0", {.zero_allowed = true}))
-        ->needs(gain);
-    add("--highlight-knee", by.knee, "Y", "Luminance over which the gain sets in softly (default: 1)")
-        ->check(number("a number above 0"))
-        ->needs(gain);
-}
-
 void add_gather_examples(CLI::App &app) {
     add_examples(
         app,
@@ -122,7 +104,7 @@ void add_gather_options(CLI::App &app, GatherCommand &options) {
     add_show_option(app, options.show);
     add_lens_options(app, options.lens);
     add_look_options(app, options.looks);
-    add_highlight_options(app, options.highlights);
+    add_highlight_options(app, options.looks);
     add_depth_options(app, options.depth);
     add_input_colour_options(app, options.colour);
     add_output_colour_options(app, options.colour);

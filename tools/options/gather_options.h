@@ -2,7 +2,6 @@
 #pragma once
 
 #include "dof/gather_picture.h"
-#include "dof/highlight_gain.h"
 #include "harness/commands/cli.h"
 #include "harness/history.h"
 #include "options/colour_options.h"
@@ -26,7 +25,6 @@ struct GatherCommand {
     HistoryOptions history;
     PictureOptions picture; // without the holdout, which is a file
     std::string input, output, depth_output, channels, holdout;
-    HighlightGain highlights;
     std::optional<Imath::V2i> focus_pixel;
     std::optional<PixelType> type; // -d
     AskedCompression compression;

@@ -79,6 +79,11 @@ private:
         }
         trace_radiance(tracer_, settings_.light, std::span(batch.rays).first(n),
                        std::span(batch.on_light).first(n), std::span(batch.radiance).first(n));
+        for (Imath::C4f &c : std::span(batch.radiance).first(n)) {
+            const std::array<double, 3> rgb{double(c.r), double(c.g), double(c.b)};
+            const auto factor = float(highlight_factor(settings_.highlights, rgb, double(c.a)));
+            c.r *= factor, c.g *= factor, c.b *= factor;
+        }
         if (settings_.looks.aperture.spherical == 0) return;
         for (std::size_t i = 0; i < n; ++i) batch.depth[i] = visible_depth(tracer_, batch.rays[i]);
     }

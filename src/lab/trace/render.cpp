@@ -135,7 +135,8 @@ Image render_view(const Tracer &tracer, const RenderSettings &settings, const Im
 
 Image render_reference(const Tracer &tracer, const RenderSettings &settings, int samples,
                        Progress &progress) {
-    if (settings.looks != LensLooks()) return render_looks(tracer, settings, samples, progress);
+    if (settings.looks != LensLooks() || settings.highlights.gain != 1)
+        return render_looks(tracer, settings, samples, progress);
     Image image(settings.windows, rgba_channels());
     const PixelSamples points(samples, false, seeded(settings, 0));
     const auto make = [&](const Run &run) {

@@ -5,6 +5,7 @@
 
 #include "base/image.h"
 #include "base/progress.h"
+#include "dof/highlight_gain.h"
 #include "lab/trace/shading.h"
 #include "lens/lens_looks.h"
 #include "lens/thin_lens.h"
@@ -18,8 +19,9 @@ struct RenderSettings {
     Windows windows;
     ThinLens lens; // its focal length is used even if its radius is 0
     Light light = Light::sun;
-    std::uint32_t seed = 0; // [0, 64): pictures of different seeds share no noise
-    LensLooks looks = {};   // of the reference
+    std::uint32_t seed = 0;        // [0, 64): pictures of different seeds share no noise
+    LensLooks looks = {};          // of the reference
+    HighlightGain highlights = {}; // of the light that its rays bring
     bool scattered = false; // views: no grids in the pixels, so that the average of many views is antialiased
 };
 

@@ -145,6 +145,7 @@ void add_trace_options(CLI::App &app, TraceOptions &options) {
     add_rendering_options(app, options);
     add_lens_options(app, options.lens);
     add_look_options(app, options.looks);
+    add_highlight_options(app, options.looks);
     add_examples(app,
                  {{"Render the centre view and four from the rim of the lens", "dof-trace fence -o views"},
                   {"Render a reference of 256 rays per pixel, too, in a small picture",
@@ -161,8 +162,9 @@ RenderSettings render_settings(const TraceOptions &options, const Camera &camera
     settings.lens = resolve_lens(camera, settings.windows);
     settings.lens.focal_px = resolve_focal_px(camera, settings.windows); // a pinhole has them, too
     settings.lens.focus = *camera.focus_distance;
-    settings.looks = resolve_looks(read_looks(options.looks, camera.fstop).values, camera, settings.lens,
-                                   settings.windows);
+    const LookValues looks = read_looks(options.looks, camera.fstop).values;
+    settings.looks = resolve_looks(looks, camera, settings.lens, settings.windows);
+    settings.highlights = highlight_gain(looks);
     return settings;
 }
 

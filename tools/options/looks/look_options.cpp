@@ -24,6 +24,12 @@ CLI::Validator look_validator(const LookNumber &number) {
     return CLI::Validator(check, "");
 }
 
+CLI::Option *add_number(CLI::App &app, const LookNumber &number, GivenLooks &given) {
+    return app.add_option(fmt::format("--{}", number.name), given.values.*number.value, number.help)
+        ->type_name(number.unit)
+        ->check(look_validator(number));
+}
+
 std::optional<Imath::V2d> parse_degrees(const std::string &text) {
     const std::size_t comma = text.find(',');
     Imath::V2d pair(0, 0);
@@ -41,11 +47,7 @@ void add_look_options(CLI::App &app, GivenLooks &given) {
                    "Looks of a lens by name (JSON, see share/lenses); options beat them")
         ->type_name("FILE")
         ->group(group);
-    for (const LookNumber &number : look_numbers())
-        app.add_option(fmt::format("--{}", number.name), given.values.*number.value, number.help)
-            ->type_name(number.unit)
-            ->group(group)
-            ->check(look_validator(number));
+    for (const LookNumber &number : look_numbers()) add_number(app, number, given)->group(group);
     app.add_flag_callback(
            "--cat-eye-darkening", [&given] { given.values.cat_eye_darkening = true; },
            "Let the light be lost that the cat's eye cuts off, rather than count what is left as the whole")
@@ -80,6 +82,17 @@ void add_look_options(CLI::App &app, GivenLooks &given) {
         ->excludes("--blades")
         ->excludes("--blade-curvature")
         ->excludes("--blade-rotation");
+}
+
+void add_highlight_options(CLI::App &app, GivenLooks &given) {
+    CLI::Option *gain = nullptr;
+    for (const LookNumber &number : highlight_numbers()) {
+        CLI::Option *option = add_number(app, number, given)->group("Highlights");
+        if (gain)
+            option->needs(gain);
+        else
+            gain = option;
+    }
 }
 
 std::string first_look_option(const CLI::App &parsed) {

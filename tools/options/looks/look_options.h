@@ -11,7 +11,10 @@ namespace sparselens {
 // `given` must stay where it is until the command line is parsed.
 void add_look_options(CLI::App &app, GivenLooks &given);
 
-// The name of the first look option that was given; empty if none was.
+// --highlight-gain and what goes with it.
+void add_highlight_options(CLI::App &app, GivenLooks &given);
+
+// The name of the first look option that was given, but for those of highlights; empty if none was.
 std::string first_look_option(const CLI::App &parsed);
 
 } // namespace sparselens
