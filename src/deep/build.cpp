@@ -4,6 +4,7 @@
 #include "base/parallel.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace sparselens {
 
@@ -77,6 +78,98 @@ Ldi build_by_pixels(const Ldi &like, const std::function<void(std::size_t, Ldi &
         }
     });
     return concatenate(like, rows);
+}
+
+namespace {
+
+// What a row of pixels becomes: samples of those that change alone.
+struct ChangedRow {
+    Ldi samples;
+    std::vector<bool> changes; // [pixel]
+};
+
+ChangedRow changed_row(const Ldi &ldi, std::size_t first, std::size_t width,
+                       const std::function<bool(std::size_t)> &changes,
+                       const std::function<void(std::size_t, Ldi &)> &fill) {
+    ChangedRow row{empty_like(ldi), std::vector<bool>(width)};
+    row.samples.begin.assign(1, 0);
+    for (std::size_t x = 0; x < width; ++x) {
+        row.samples.begin.push_back(row.samples.begin.back());
+        row.changes[x] = changes(first + x);
+        if (row.changes[x]) fill(first + x, row.samples);
+    }
+    return row;
+}
+
+// Samples that go to another place, from a row or, where it is null, from the LDI itself.
+struct Move {
+    const Ldi *from_row;
+    std::uint64_t from, count, to;
+};
+
+// Of a row that begins at pixel `first`; sets where its pixels begin.
+void list_moves(const Ldi &ldi, const ChangedRow &row, std::size_t first, std::vector<std::uint64_t> &begin,
+                std::vector<Move> &moves) {
+    for (std::size_t x = 0; x < row.changes.size(); ++x) {
+        const Ldi *source = row.changes[x] ? &row.samples : nullptr;
+        const SampleRange samples = source ? source->pixel(x) : ldi.pixel(first + x);
+        const std::uint64_t to = begin[first + x];
+        begin[first + x + 1] = to + samples.size();
+        Move *last = moves.empty() ? nullptr : &moves.back();
+        if (last && last->from_row == source && last->from + last->count == samples.from)
+            last->count += samples.size();
+        else
+            moves.push_back({source, samples.from, samples.size(), to});
+    }
+}
+
+constexpr std::size_t arrays_beside_values = 5;
+
+template <typename Source> // Ldi or const Ldi
+auto &array_of(Source &ldi, std::size_t k) {
+    switch (k) {
+    case 0: return ldi.z;
+    case 1: return ldi.z_back;
+    case 2: return ldi.dx;
+    case 3: return ldi.dy;
+    case 4: return ldi.weight;
+    default: return ldi.values[k - arrays_beside_values];
+    }
+}
+
+void make_moves(std::vector<float> &array, std::size_t k, const std::vector<Move> &moves) {
+    for (const Move &move : moves) {
+        const std::vector<float> &source = move.from_row ? array_of(*move.from_row, k) : array;
+        if (!move.from_row && move.from == move.to) continue;
+        const auto from = source.begin() + std::ptrdiff_t(move.from);
+        std::copy(from, from + std::ptrdiff_t(move.count), array.begin() + std::ptrdiff_t(move.to));
+    }
+}
+
+} // namespace
+
+void rebuild_pixels(Ldi &ldi, const std::function<bool(std::size_t)> &changes,
+                    const std::function<void(std::size_t, Ldi &)> &fill) {
+    constexpr std::size_t rows_at_once = 64;
+    const Grid grid(ldi.windows.width(), ldi.windows.height());
+    const auto width = std::size_t(grid.width()), height = std::size_t(grid.height());
+    std::vector<std::uint64_t> begin(ldi.begin.size(), 0);
+    const std::size_t arrays = arrays_beside_values + ldi.values.size();
+    for (std::size_t top = 0; top < height; top += rows_at_once) {
+        std::vector<ChangedRow> rows(std::min(rows_at_once, height - top));
+        parallel_for(rows.size(), [&](std::size_t r) {
+            rows[r] = changed_row(ldi, (top + r) * width, width, changes, fill);
+        });
+        std::vector<Move> moves;
+        for (std::size_t r = 0; r < rows.size(); ++r)
+            list_moves(ldi, rows[r], (top + r) * width, begin, moves);
+        parallel_for(arrays, [&](std::size_t k) {
+            if (!array_of(ldi, k).empty()) make_moves(array_of(ldi, k), k, moves);
+        });
+    }
+    for (std::size_t k = 0; k < arrays; ++k)
+        if (!array_of(ldi, k).empty()) array_of(ldi, k).resize(begin.back());
+    ldi.begin = std::move(begin);
 }
 
 Ldi concatenate(const Ldi &like, std::span<const Ldi> pieces) {

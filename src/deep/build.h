@@ -37,6 +37,11 @@ Ldi empty_like(const Ldi &like);
 // `fill(pixel, out)` appends the samples of each pixel to `out`; rows run in parallel, each to its own piece.
 Ldi build_by_pixels(const Ldi &like, const std::function<void(std::size_t pixel, Ldi &out)> &fill);
 
+// The same in place, of which the memory is that of a few rows: for the pixels that `changes(pixel)` says `fill` gives the
+// samples, never more than the pixel has; the others keep theirs. Both see the LDI's samples of that pixel as they were.
+void rebuild_pixels(Ldi &ldi, const std::function<bool(std::size_t pixel)> &changes,
+                    const std::function<void(std::size_t pixel, Ldi &out)> &fill);
+
 // Joins pieces that follow each other in pixel order, each with a `begin` that starts at 0.
 Ldi concatenate(const Ldi &like, std::span<const Ldi> pieces);
 

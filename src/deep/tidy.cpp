@@ -142,17 +142,34 @@ Ldi tidied(const Ldi &ldi, std::size_t alpha) {
     });
 }
 
+// Whether the tidy samples of a pixel are more than those it has, because its volumes overlap.
+bool grows(const Ldi &ldi, std::size_t alpha, std::size_t pixel) {
+    return !ldi.z_back.empty() && !is_tidy(ldi, alpha, pixel) &&
+           sorted_pieces(ldi, alpha, pixel).size() > ldi.pixel(pixel).size();
+}
+
+// Whether is(pixel) for some pixel.
+template <typename Is>
+bool any_pixel(const Ldi &ldi, const Is &is) {
+    std::atomic<bool> any = false;
+    parallel_ranges(ldi.windows.pixels(), 4096, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t pixel = begin; pixel < end && !any; ++pixel)
+            if (is(pixel)) any = true;
+    });
+    return any;
+}
+
 } // namespace
 
 Ldi tidy(Ldi ldi) {
     const std::size_t alpha = ldi.alpha();
-    std::atomic<bool> all_tidy = true;
-    parallel_ranges(ldi.windows.pixels(), 4096, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t pixel = begin; pixel < end && all_tidy; ++pixel)
-            if (!is_tidy(ldi, alpha, pixel)) all_tidy = false;
-    });
-    if (all_tidy) return ldi;
-    return with_each_coverage(ldi, [&](std::size_t coverage) { return tidied(ldi, coverage); });
+    const auto untidy = [&](std::size_t pixel) { return !is_tidy(ldi, alpha, pixel); };
+    if (!any_pixel(ldi, untidy)) return ldi;
+    if (by_coverage(ldi).size() > 1 ||
+        any_pixel(ldi, [&](std::size_t pixel) { return grows(ldi, alpha, pixel); }))
+        return with_each_coverage(ldi, [&](std::size_t coverage) { return tidied(ldi, coverage); });
+    rebuild_pixels(ldi, untidy, [&](std::size_t pixel, Ldi &out) { tidy_pixel(ldi, alpha, pixel, out); });
+    return ldi;
 }
 
 } // namespace sparselens

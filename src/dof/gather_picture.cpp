@@ -14,12 +14,7 @@ bool merges_layers(const ThinLens &lens, const PictureOptions &options) {
            options.method == &gather_methods().front();
 }
 
-template <typename Source> // Ldi or const Ldi &
-Ldi with_layers_merged(Source &&ldi, const ThinLens &lens, const PictureOptions &options) {
-    return merge_layers(std::forward<Source>(ldi), lens.radius * lens.focal_px, options.layer_tolerance);
-}
-
-// By layers as they are.
+// What is merged here is what could not be merged before.
 Image gather_layers(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &gathered,
                     const Imath::Box2i &written, const PictureOptions &options, Progress &progress) {
     const auto sharp = options.holdout ? std::optional<Holdout>(*options.holdout) : std::nullopt;
@@ -28,7 +23,15 @@ Image gather_layers(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &ga
     GatherOptions by = options.gather;
     by.lens.region = written;
     by.lens.holdout = sharp ? &*sharp : nullptr;
+    by.layer_tolerance = merges_layers(lens, options) ? options.layer_tolerance : 0;
     return crop(options.method->gather(ldi, lens, gathered, by, progress), written);
+}
+
+// Once is enough: merged twice, layers would change by more than the tolerance.
+Image gather_merged(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &gathered,
+                    const Imath::Box2i &written, PictureOptions options, Progress &progress) {
+    options.layer_tolerance = 0;
+    return gather_layers(ldi, lens, gathered, written, options, progress);
 }
 
 } // namespace
@@ -41,16 +44,19 @@ Image gather_picture(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &g
         return without_holdout(
             gather_picture(with_holdout(ldi, *options.holdout), lens, gathered, written, without, progress));
     }
-    if (!merges_layers(lens, options)) return gather_layers(ldi, lens, gathered, written, options, progress);
-    return gather_layers(with_layers_merged(ldi, lens, options), lens, gathered, written, options, progress);
+    if (!merges_layers(lens, options) || !can_merge_layers(ldi))
+        return gather_layers(ldi, lens, gathered, written, options, progress);
+    return gather_merged(merge_layers(ldi, lens.radius * lens.focal_px, options.layer_tolerance), lens,
+                         gathered, written, options, progress);
 }
 
 Image gather_picture(Ldi &&ldi, const ThinLens &lens, const Imath::Box2i &gathered,
                      const Imath::Box2i &written, const PictureOptions &options, Progress &progress) {
-    if (!merges_layers(lens, options))
+    if (!merges_layers(lens, options) || !can_merge_layers(ldi))
         return gather_picture(std::as_const(ldi), lens, gathered, written, options, progress);
-    return gather_layers(with_layers_merged(std::move(ldi), lens, options), lens, gathered, written, options,
-                         progress);
+    const double scale = lens.radius * lens.focal_px;
+    return gather_merged(merge_layers(std::move(ldi), scale, options.layer_tolerance), lens, gathered,
+                         written, options, progress);
 }
 
 } // namespace sparselens

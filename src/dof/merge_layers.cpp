@@ -156,11 +156,6 @@ private:
     std::size_t alpha_;
 };
 
-bool can_be_merged(const Ldi &ldi) {
-    return ldi.alpha() != npos && std::ranges::none_of(ldi.channels, is_in_matte) &&
-           by_coverage(ldi).size() == 1;
-}
-
 // Frees an array of an LDI that is not needed again, and leaves one of an LDI that is.
 void used(std::vector<float> &values) { std::vector<float>().swap(values); }
 void used(const std::vector<float> &) {}
@@ -194,12 +189,17 @@ Ldi merged(Source &ldi, double scale, double tolerance) {
 
 } // namespace
 
+bool can_merge_layers(const Ldi &ldi) {
+    return ldi.alpha() != npos && std::ranges::none_of(ldi.channels, is_in_matte) &&
+           by_coverage(ldi).size() == 1;
+}
+
 Ldi merge_layers(const Ldi &ldi, double scale, double tolerance) {
-    return can_be_merged(ldi) ? merged(ldi, scale, tolerance) : ldi;
+    return can_merge_layers(ldi) ? merged(ldi, scale, tolerance) : ldi;
 }
 
 Ldi merge_layers(Ldi &&ldi, double scale, double tolerance) {
-    return can_be_merged(ldi) ? merged(ldi, scale, tolerance) : std::move(ldi);
+    return can_merge_layers(ldi) ? merged(ldi, scale, tolerance) : std::move(ldi);
 }
 
 } // namespace sparselens

@@ -13,9 +13,12 @@ namespace sparselens {
 
 inline constexpr double layer_tolerance_px = 0.25;
 
+// Whether the samples can be merged as they are: not those of Cryptomattes, which know few ids a sample, nor those whose
+// coverage differs by channel. The light of one coverage alone can be.
+bool can_merge_layers(const Ldi &ldi);
+
 // `scale` is R F, pixels times scene units. The result has no extents and no weights, of which the lens gather knows
-// nothing. Ids are the front samples'. An LDI with Cryptomattes or with per-channel alpha is returned as it is.
-// The LDI is tidy.
+// nothing. Ids are the front samples'. An LDI that cannot be merged is returned as it is. The LDI is tidy.
 Ldi merge_layers(const Ldi &ldi, double scale, double tolerance);
 
 // The same with less memory: the samples of `ldi` are freed as those of the result are made.

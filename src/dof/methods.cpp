@@ -2,6 +2,7 @@
 
 #include "deep/channel_alpha.h"
 #include "dof/lens_mattes.h"
+#include "dof/merge_layers.h"
 #include "dof/selective/scatter.h"
 #include "dof/selective/selective.h"
 
@@ -14,8 +15,12 @@ namespace {
 
 Image by_lens(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window, const GatherOptions &options,
               Progress &progress) {
-    return composited(ldi,
-                      [&](const Ldi &one) { return lens_gather(one, lens, window, options.lens, progress); });
+    const double tolerance = options.layer_tolerance;
+    return composited(ldi, [&](const Ldi &one) {
+        if (tolerance == 0) return lens_gather(one, lens, window, options.lens, progress);
+        return lens_gather(merge_layers(one, lens.radius * lens.focal_px, tolerance), lens, window,
+                           options.lens, progress);
+    });
 }
 
 Image by_selective(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window,

@@ -13,8 +13,9 @@ namespace sparselens {
 
 // The options of all methods; each uses its own.
 struct GatherOptions {
-    int layers = 8;         // selective: the largest number of layers kept apart in a pixel
-    LensGatherOptions lens; // lens: quality, lens points
+    int layers = 8;             // selective: the largest number of layers kept apart in a pixel
+    LensGatherOptions lens;     // lens: quality, lens points
+    double layer_tolerance = 0; // lens: layers of the light that are merged (merge_layers.h), pixels; 0: none
 };
 
 struct GatherMethod {

@@ -210,5 +210,22 @@ TEST(Tidy, WithoutAlphaEverythingIsOpaque) {
     EXPECT_EQ(neat.values[0], (std::vector<float>{3, 0}));
 }
 
+TEST(Tidy, APixelBecomesTheSameWhateverTheOthersHold) {
+    // Higher than the rows that are worked on at once; most pixels have samples of equal depth, some have none.
+    const Ldi ldi = random_ldi({.seed = 3, .width = 9, .height = 150, .shuffled = true, .depths = 8});
+    const Ldi whole = tidy(ldi);
+    EXPECT_LT(whole.samples(), ldi.samples());
+    for (std::size_t p = 0; p < ldi.windows.pixels(); ++p) {
+        const TestPixel alone = samples_of(tidy(ldi_of({samples_of(ldi, p)})), 0),
+                        among = samples_of(whole, p);
+        ASSERT_EQ(among.size(), alone.size()) << p;
+        for (std::size_t i = 0; i < alone.size(); ++i) {
+            EXPECT_EQ(among[i].z, alone[i].z);
+            EXPECT_NEAR(double(among[i].alpha), double(alone[i].alpha), 1e-6);
+            EXPECT_EQ(among[i].weight, alone[i].weight);
+        }
+    }
+}
+
 } // namespace
 } // namespace sparselens

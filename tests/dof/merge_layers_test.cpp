@@ -11,6 +11,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -92,6 +93,48 @@ TEST(MergeLayers, CryptomattesAndPerChannelAlphaAreLeftAlone) {
     Ldi matte = ldi_of({{at(5, 0.5f), at(4.9, 0.5f)}});
     matte.channels[0].kind = ChannelKind::matte_id;
     EXPECT_EQ(merge_layers(matte, 1, 0.25).samples(), 2u);
+}
+
+// A picture of an LDI through a lens of R F 20, its layers merged by the tolerance.
+Image through_a_lens(const Ldi &ldi, double tolerance) {
+    const ThinLens lens{.radius = 0.02, .focal_px = 1000, .focus = 5};
+    const Imath::Box2i &all = ldi.windows.data;
+    PictureOptions options;
+    options.layer_tolerance = tolerance;
+    Progress silent;
+    return gather_picture(ldi, lens, all, all, options, silent);
+}
+
+TEST(MergeLayers, LightBesideCryptomattesIsMergedAndTheMattesAreNot) {
+    Ldi ldi = tidy(random_ldi({.seed = 9, .width = 40, .height = 30, .depths = 64}));
+    const std::size_t first = ldi.channels.size();
+    for (const char *name : {"crypto00.R", "crypto00.G"}) ldi.channels.push_back({name, PixelType::float32});
+    find_kinds(ldi.channels);
+    ASSERT_TRUE(is_in_matte(ldi.channels[first]));
+    std::vector<float> ids(ldi.samples());
+    for (std::size_t i = 0; i < ids.size(); ++i) ids[i] = float(1 + i % 3);
+    ldi.values.push_back(ids);
+    ldi.values.push_back(ldi.values[ldi.alpha()]);
+    const Image whole = through_a_lens(ldi, 0), merged = through_a_lens(ldi, 2);
+    const auto equal = [&](std::size_t k) { return std::ranges::equal(whole.plane(k), merged.plane(k)); };
+    EXPECT_TRUE(equal(first) && equal(first + 1));
+    EXPECT_FALSE(equal(0));
+}
+
+TEST(MergeLayers, LightOfEachCoverageIsMergedAsIfItWereAlone) {
+    Ldi ldi = tidy(random_ldi({.seed = 10, .width = 40, .height = 30, .depths = 64}));
+    Ldi blue = ldi;
+    for (const char *name : {"AR", "AG", "AB"}) {
+        ldi.channels.push_back({name});
+        ldi.values.push_back(ldi.values[ldi.alpha()]);
+    }
+    for (float &a : ldi.values.back()) a *= 0.5f;
+    blue.values[blue.alpha()] = ldi.values.back();
+    EXPECT_FALSE(can_merge_layers(ldi));
+    const Image merged = through_a_lens(ldi, 2), of_blue = through_a_lens(blue, 2);
+    const std::size_t b = find_channel(ldi.channels, "B");
+    EXPECT_TRUE(std::ranges::equal(merged.plane(b), of_blue.plane(b)));
+    EXPECT_FALSE(std::ranges::equal(merged.plane(b), through_a_lens(ldi, 0).plane(b)));
 }
 
 // The bound of docs/techniques.md, and what decides whether layers are merged at all.
