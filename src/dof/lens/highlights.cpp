@@ -32,6 +32,17 @@ std::vector<std::uint32_t> samples_around(const BlockedSamples &samples, int col
     return found;
 }
 
+// What all but the brightest stay below: a share of the pixels of a neighbourhood, and at most a third of its samples where
+// few of its pixels have any.
+float brightness_around(std::vector<float> levels) {
+    if (levels.empty()) return 0;
+    constexpr std::size_t side = std::size_t(neighbourhood) * BlockedSamples::size;
+    const std::size_t few = std::min(std::max(levels.size(), side * side) / brightest, levels.size() / 3);
+    const auto limit = levels.end() - 1 - std::ptrdiff_t(few);
+    std::nth_element(levels.begin(), limit, levels.end());
+    return *limit;
+}
+
 struct Found {
     std::uint32_t sample;
     float share; // of its light that is spread, (0, 1]
@@ -43,11 +54,7 @@ std::vector<Found> find_highlights(const BlockedSamples &samples, std::span<cons
     std::vector<float> levels;
     for (const std::uint32_t i : around) levels.push_back(brightness_of(colours, channels, i));
     std::vector<Found> found;
-    if (levels.empty()) return found;
-    const auto limit = levels.begin() + std::ptrdiff_t(levels.size() - 1 - levels.size() / brightest);
-    std::vector<float> sorted(levels);
-    std::nth_element(sorted.begin(), sorted.begin() + (limit - levels.begin()), sorted.end());
-    const float level = sorted[std::size_t(limit - levels.begin())];
+    const float level = brightness_around(levels);
     for (std::size_t i = 0; i < around.size(); ++i)
         if (levels[i] > stands_out * level && std::abs(samples.coc[around[i]]) >= smallest_coc)
             found.push_back({around[i], 1 - level / levels[i]});
