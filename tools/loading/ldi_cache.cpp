@@ -1,8 +1,8 @@
 #include "loading/ldi_cache.h"
 
 #include "io/camera/camera_read.h"
-#include "loading/notices.h"
 #include "io/channels.h"
+#include "loading/notices.h"
 
 namespace sparselens {
 
