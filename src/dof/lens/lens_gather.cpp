@@ -165,8 +165,6 @@ public:
         }
         return shows_opaque ? largest : largest_shown;
     }
-
-public:
     float extent() const { return extent_; }
 
 private:
@@ -269,6 +267,9 @@ Image gather_once(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &wind
     const Highlights highlights = take_highlights(samples, light.brightness, light.all, colours);
     FillerSamples fillers = place_fillers(ldi, lens, find_fillers(ldi, lens, window), samples, colours);
     optics.bend(fillers.samples);
+    const PlacedFacets facets =
+        place_facets(find_facets(ldi, lens, double(widest)), ldi.samples(),
+                     {samples.x, samples.y, samples.coc, samples.key, samples.source});
     const BlockFinder finder(samples, optics.aperture, lens.pixel_aspect),
         filler_finder(fillers.samples, optics.aperture, lens.pixel_aspect);
     LensSets sets(options, optics.aperture, lens.pixel_aspect);
@@ -277,7 +278,7 @@ Image gather_once(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &wind
     const std::vector<std::size_t> gathered = averaged_channels(out);
     progress.start("gathering", chosen.lens_points.size());
     tbb::enumerable_thread_specific<LensTile> tiles([&] {
-        return LensTile(samples, colours, fillers, held_out,
+        return LensTile(samples, colours, facets, fillers, held_out,
                         optics.cat_eye.cuts() ? &optics.cat_eye : nullptr);
     });
     const BlockFootprints footprints(ldi, samples);
@@ -300,6 +301,7 @@ Image gather_once(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &wind
         if (largest < in_focus && !optics.moves()) return; // the flattened LDI is there already
         const std::vector<LensSample> &points = sets.for_coc(largest, optics.doubled(first));
         filler_finder.find(origin, LensTile::size, steepest, blocks.fillers);
+        find_blocks(facets, origin, LensTile::size, steepest * finder.extent(), blocks.facets);
         chosen.lens_points[t] = int(points.size());
         std::vector<LensSample> bent;
         if (!optics.field.flat()) bent = stretched(points, gradient);

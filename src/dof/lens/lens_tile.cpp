@@ -22,10 +22,10 @@ bool out_of_reach(const SampleBlock &b, const LensSample &lens, float x, float y
 
 } // namespace
 
-LensTile::LensTile(const BlockedSamples &samples, const SampleColours &colours, const FillerSamples &fillers,
-                   const HeldOut &held_out, const CatEye *cat_eye)
-    : samples_(samples), colours_(colours), fillers_(fillers), held_out_(held_out), cat_eye_(cat_eye),
-      front_(stride * stride), filler_(stride * stride), empty_cells_(size * size),
+LensTile::LensTile(const BlockedSamples &samples, const SampleColours &colours, const PlacedFacets &facets,
+                   const FillerSamples &fillers, const HeldOut &held_out, const CatEye *cat_eye)
+    : samples_(samples), colours_(colours), facets_(facets), fillers_(fillers), held_out_(held_out),
+      cat_eye_(cat_eye), front_(stride * stride), filler_(stride * stride), empty_cells_(size * size),
       covered_cells_(stride * stride + 1), transmittance_(stride * stride, 1.0f),
       over_(colours.groups * stride * stride * 4), sums_(colours.groups * size * size * 4),
       unknown_(size * size) {}
@@ -63,6 +63,7 @@ void LensTile::gather(const Imath::V2i &origin, const Blocks &blocks, std::span<
         if (weighted_) find_columns(point);
         if (seen_by_none()) continue;
         see_opaque(point, samples_, blocks.samples, everywhere, front_);
+        see_facets(point);
         if (weighted_) weigh_channels(point);
         weighted_ ? add_opaque_weighted() : add_opaque(point.weight);
         find_cracks();
@@ -103,6 +104,12 @@ void LensTile::see_opaque(const LensSample &lens, const BlockedSamples &samples,
             }
         }
     }
+}
+
+// What lies between the samples of steep surfaces.
+void LensTile::see_facets(const LensSample &lens) {
+    const FacetGrid grid{origin_x_ - (border - 1), origin_y_ - (border - 1), stride};
+    draw_facets(facets_, blocks_->facets, lens, grid, front_);
 }
 
 // Adds the picture that the lens point sees of the opaque samples, and lists the cells where it sees none.

@@ -7,6 +7,7 @@
 #pragma once
 
 #include "deep/holdout.h"
+#include "dof/facets/placed_facets.h"
 #include "dof/lens/filler_samples.h"
 #include "dof/lens/sample_blocks.h"
 #include "dof/lens/sample_colours.h"
@@ -36,13 +37,13 @@ class LensTile {
 public:
     static constexpr int size = 64; // pixels wide and high: the buffers of a lens point stay in the cache
 
-    // What is gathered from: blocks of samples, and blocks of fillers.
+    // What is gathered from: blocks of samples, of facets between them, and of fillers.
     struct Blocks {
-        std::vector<std::uint32_t> samples, fillers;
+        std::vector<std::uint32_t> samples, facets, fillers;
     };
 
-    LensTile(const BlockedSamples &samples, const SampleColours &colours, const FillerSamples &fillers,
-             const HeldOut &held_out = {}, const CatEye *cat_eye = nullptr);
+    LensTile(const BlockedSamples &samples, const SampleColours &colours, const PlacedFacets &facets,
+             const FillerSamples &fillers, const HeldOut &held_out = {}, const CatEye *cat_eye = nullptr);
 
     // Gathers the pixels [origin, origin + size), relative to the data window's corner like the samples, from
     // the blocks that can reach them or the pixels next to them.
@@ -69,6 +70,7 @@ private:
     void see_opaque(const LensSample &lens, const BlockedSamples &samples,
                     std::span<const std::uint32_t> blocks, const Cells &seen,
                     std::vector<std::uint64_t> &front) const;
+    void see_facets(const LensSample &lens);
     std::uint64_t torn_at(std::size_t cell) const;
     void find_cracks();
     void close_cracks();
@@ -108,6 +110,7 @@ private:
 
     const BlockedSamples &samples_;
     const SampleColours &colours_;
+    const PlacedFacets &facets_;
     const FillerSamples &fillers_;
     HeldOut held_out_;
     const CatEye *cat_eye_;

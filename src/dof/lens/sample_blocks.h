@@ -3,6 +3,7 @@
 #pragma once
 
 #include "deep/ldi.h"
+#include "dof/facets/opaque.h"
 #include "lens/thin_lens.h"
 
 #include <bit>
@@ -50,10 +51,6 @@ inline std::uint64_t depth_key(float depth, std::uint32_t sample) {
 // A background lies behind what the LDI has at infinity.
 constexpr std::uint64_t background_key(std::uint32_t sample) { return (std::uint64_t(1) << 32) | sample; }
 constexpr std::uint64_t nearest_background = background_key(0xffffffffu);
-
-// Half's last steps below 1 are rounding, not coverage; less than 1/2048 of a pixel left over is rounding too.
-inline bool is_opaque(float alpha) { return alpha >= 0.9995f; }
-inline bool lets_through(double transmittance) { return transmittance >= 1.0 / 2048; }
 
 // `known`: the window (EXR coordinates) in which an empty pixel is transparent to infinity; outside of it,
 // nothing is known. Throws Error where the LDI has more samples than 32 bits count.

@@ -1,8 +1,11 @@
 // The lens gather, slow and obvious: every lens point of every pixel tries every sample, in long double, from the
-// formulas of design.md section 1 and, of this library's kernels, find_fillers() alone. Tests the fast one.
+// formulas of design.md section 1 and, of this library's kernels, find_facets() and find_fillers() alone. Tests the
+// fast one.
 //
 // A lens point looks through one point of the pixel. It sees the samples whose unit square, displaced by their
-// CoC, covers that point, front to back: coverage is taken for independent, and the first opaque one ends it.
+// CoC, covers that point, and those at the corner that weighs most there (barycentric coordinates) of a facet
+// (facets.h) whose corners, displaced, lie around that point and are more than parted_px apart in x or in y. It
+// sees them front to back: coverage is taken for independent, and the first opaque one ends it.
 // Inside `window` a pixel that lets light through to infinity has an opaque, colourless, transparent background
 // there, and another one that moves with its last sample, behind everything. Coverage of 0.9995 or more is full, and a
 // pixel of which less than 1/2048 is left lets no light through: such differences are what rounding to halves makes.

@@ -1,5 +1,7 @@
 #include "dof/reference/seen_slowly.h"
 
+#include "dof/reference/facets_slowly.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -58,12 +60,7 @@ std::vector<Placed> place_fillers(const Ldi &ldi, const ThinLens &lens, std::spa
     return placed;
 }
 
-// How far one coordinate of a sample is from the edge of its square, inside; and how far rounding may move it.
-struct Margin {
-    long double inside, unclear;
-    bool outside() const { return inside < -unclear; }
-};
-
+// Of one coordinate of a sample's square.
 Margin margin(long double sample, long double displaced, long double looked_at, long double extent) {
     return {0.5L - std::abs(sample + displaced - looked_at), 5e-7L * extent + 1e-6L * std::abs(displaced)};
 }
@@ -73,20 +70,30 @@ long double passes(const Placed &s, const Pixel &pixel) {
     return held_out ? (long double)pixel.holdout->passes(pixel.x, pixel.y, double(s.z)) : 1;
 }
 
+// Whether the lens point sees the sample in its unit square, and whether rounding does not matter.
+Cover covers(const Placed &s, const LensSample &point, const Imath::Vec2<long double> &at,
+             long double extent) {
+    const Margin across = margin(s.x, s.coc * (long double)point.x, at.x, extent);
+    const Margin down = margin(s.y, s.coc * (long double)point.y, at.y, extent);
+    if (across.outside() || down.outside()) return {};
+    return {true, across.inside > 0 && down.inside > 0, across.sure() && down.sure()};
+}
+
 // What the lens point meets in the pixel, front to back, up to the first that certainly hides all else.
-void meet(std::span<const Placed> samples, const LensSample &point, const Pixel &pixel,
-          std::vector<Met> &met) {
+void meet(std::span<const Placed> samples, std::span<const std::array<std::size_t, 3>> facets,
+          const LensSample &point, const Pixel &pixel, std::vector<Met> &met) {
     met.clear();
-    const long double x = pixel.x + 0.5L - (long double)point.pixel_x,
-                      y = pixel.y + 0.5L - (long double)point.pixel_y;
-    for (const Placed &s : samples) {
-        const Margin across = margin(s.x, s.coc * (long double)point.x, x, pixel.extent);
-        if (across.outside()) continue;
-        const Margin down = margin(s.y, s.coc * (long double)point.y, y, pixel.extent);
-        if (down.outside()) continue;
-        const bool sure = across.inside > across.unclear && down.inside > down.unclear;
-        met.push_back({&s, across.inside > 0 && down.inside > 0, sure, passes(s, pixel)});
-        if (sure && s.alpha == 1) return;
+    const Imath::Vec2<long double> at(pixel.x + 0.5L - (long double)point.pixel_x,
+                                      pixel.y + 0.5L - (long double)point.pixel_y);
+    std::vector<Cover> by_facets;
+    cover_by_facets(samples, facets, point, at, pixel.extent, by_facets);
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        const Placed &s = samples[i];
+        Cover cover = covers(s, point, at, pixel.extent);
+        if (!by_facets.empty()) cover.add(by_facets[i]);
+        if (!cover.possible) continue;
+        met.push_back({&s, cover.seen, cover.sure, passes(s, pixel)});
+        if (cover.sure && s.alpha == 1) return;
     }
 }
 
@@ -122,10 +129,10 @@ Choice combined(const Choice &a, const Choice &b, const Combine &combine) {
 // What a lens point meets first in the pixels around one: left, right, above, below.
 using Around = std::array<Choice, 4>;
 
-Around fronts_around(std::span<const Placed> samples, const LensSample &point, const Pixel &pixel) {
+Around fronts_around(const Scene &scene, const LensSample &point, const Pixel &pixel) {
     const auto front_beside = [&](int dx, int dy) {
         std::vector<Met> met;
-        meet(samples, point, {pixel.x + dx, pixel.y + dy, pixel.extent, nullptr}, met);
+        meet(scene.samples, scene.facets, point, {pixel.x + dx, pixel.y + dy, pixel.extent, nullptr}, met);
         return front_of(met);
     };
     return {front_beside(-1, 0), front_beside(1, 0), front_beside(0, -1), front_beside(0, 1)};
@@ -160,10 +167,10 @@ Choice screen_between(const Around &around) {
 // A lens point that meets partial samples alone sees them before what it sees through a crack, or before a filler.
 void add_ways_through(std::vector<Way> &ways, const std::vector<Met> &partial, bool is, const Scene &scene,
                       const LensSample &point, const Pixel &pixel) {
-    const Around around = fronts_around(scene.samples, point, pixel);
+    const Around around = fronts_around(scene, point, pixel);
     const Choice torn = torn_between(scene.lens, around), screen = screen_between(around);
     std::vector<Met> met;
-    meet(scene.fillers, point, pixel, met);
+    meet(scene.fillers, {}, point, pixel, met);
     const Choice filler = front_of(met);
     const auto add_filler = [&](const Placed *f, const Placed *before) {
         const bool hidden =
@@ -192,12 +199,14 @@ long double alpha_of(const Ldi &ldi, std::uint64_t sample) {
 
 Scene place_scene(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window,
                   std::span<const Filler> fillers) {
-    return {lens, place_samples(ldi, lens, window), place_fillers(ldi, lens, fillers)};
+    Scene scene{lens, place_samples(ldi, lens, window), place_fillers(ldi, lens, fillers), {}};
+    scene.facets = place_facets_slowly(ldi, lens, scene.samples);
+    return scene;
 }
 
 std::vector<Way> ways_to_see(const Scene &scene, const LensSample &point, const Pixel &pixel) {
     std::vector<Met> met, partial;
-    meet(scene.samples, point, pixel, met);
+    meet(scene.samples, scene.facets, point, pixel, met);
     const Choice front = front_of(met);
     if (front.can_be.back()) return {{met, true}};
     std::vector<Way> ways;

@@ -8,6 +8,7 @@
 #include "lens/lens_samples.h"
 #include "lens/thin_lens.h"
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -24,11 +25,19 @@ struct Placed {
 struct Scene {
     const ThinLens &lens;
     std::vector<Placed> samples, fillers;
+    std::vector<std::array<std::size_t, 3>> facets; // between samples
 };
 
-// All samples, and inside the window the backgrounds behind what is not opaque; and the fillers.
+// All samples, and inside the window the backgrounds behind what is not opaque; the facets between them; and the fillers.
 Scene place_scene(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window,
                   std::span<const Filler> fillers);
+
+// How far a place is from the edge of what is looked at, inside; and how far rounding may move it.
+struct Margin {
+    long double inside, unclear;
+    bool outside() const { return inside < -unclear; }
+    bool sure() const { return inside > unclear; }
+};
 
 // A sample that a lens point sees, or sees by one way of rounding.
 struct Met {

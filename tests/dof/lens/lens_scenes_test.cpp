@@ -10,7 +10,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 namespace sparselens {
@@ -121,6 +123,45 @@ TEST(LensScenes, MistIsItsReference) {
     const Ldi ldi = tidy(render_peeled(scene.tracer, scene.settings, 4, 16, 1, silent));
     std::printf("mist: %.2f dB\n", decibels(gather(ldi, scene), reference));
     EXPECT_GT(decibels(gather(ldi, scene), reference), 45);
+}
+
+// The part of the scene "macro" that its near relief fills.
+Image relief(const Image &image) {
+    const Imath::V2i size = image.windows.data.size() + Imath::V2i(1);
+    return crop(image, {{size.x * 3 / 16, size.y / 5}, {size.x * 13 / 16, size.y * 4 / 5}});
+}
+
+double toned(const Image &image, int x, int y) {
+    const double green = double(image.at(1, x, y));
+    return std::pow(green / (1 + green), 1 / 2.2);
+}
+
+// How far columns are from the mean of those beside them, on average.
+std::map<int, double> roughness_of_columns(const Image &image) {
+    const Imath::Box2i &box = image.windows.data;
+    std::map<int, double> rough;
+    for (int x = box.min.x + 1; x < box.max.x; ++x)
+        for (int y = box.min.y; y <= box.max.y; ++y)
+            rough[x] += std::abs(toned(image, x, y) - (toned(image, x - 1, y) + toned(image, x + 1, y)) / 2) /
+                        double(box.max.y - box.min.y + 1);
+    return rough;
+}
+
+// Lamps behind a steep relief do not shine through it, nor where tiles meet.
+TEST(LensScenes, MacroReliefIsItsReference) {
+    const SceneCamera scene("macro", 256, 144);
+    const Image image = relief(gather(warped(scene, scene.five_views(9)), scene, Quality::final));
+    const Image reference = relief(scene.reference(400));
+    std::printf("macro, relief: %.2f dB\n", decibels(image, reference));
+    EXPECT_GT(decibels(image, reference), 40);
+    const std::map<int, double> rough = roughness_of_columns(image);
+    double at_borders = 0, elsewhere = 0;
+    for (const auto &[x, value] : rough) {
+        double &largest = x % 64 == 0 || x % 64 == 63 ? at_borders : elsewhere;
+        largest = std::max(largest, value);
+    }
+    EXPECT_GT(at_borders, 0);
+    EXPECT_LE(at_borders, elsewhere);
 }
 
 } // namespace

@@ -1,0 +1,50 @@
+// Which opaque samples of pixels side by side lie on one surface: facets.h says when they are linked.
+#pragma once
+
+#include "deep/build.h"
+#include "deep/ldi.h"
+#include "dof/facets/opaque.h"
+#include "lens/thin_lens.h"
+
+#include <array>
+#include <cstdint>
+
+namespace sparselens {
+
+struct LinkedSample {
+    static constexpr std::uint32_t none = ~0u;
+    std::uint32_t sample = none; // of the LDI
+    float depth = 0;             // perceptive depth, pixels
+    bool found() const { return sample != none; }
+};
+
+class Links {
+public:
+    Links(const Ldi &ldi, const ThinLens &lens)
+        : ldi_(ldi), alpha_(ldi.alpha()), depth_at_1_(float(perceptive_depth(lens, 1))) {}
+
+    // visit(sample) for the opaque ones of a pixel, counted from the data window's corner; none outside of it.
+    template <typename Visit>
+    void for_each_opaque(const Imath::V2i &pixel, const Visit &visit) const {
+        const Imath::V2i at = pixel + ldi_.windows.data.min;
+        if (!ldi_.windows.data.intersects(at)) return;
+        for (const std::uint64_t i : ldi_.pixel(ldi_.windows.index(at.x, at.y)))
+            if (is_opaque(alpha_at(ldi_, alpha_, i)))
+                visit(LinkedSample{std::uint32_t(i), depth_at_1_ / ldi_.z[i]});
+    }
+
+    // What a sample of that pixel is linked to in the pixel one step on; none if it is none.
+    LinkedSample linked(const LinkedSample &a, const Imath::V2i &pixel, const Imath::V2i &step) const;
+
+private:
+    LinkedSample nearest(const Imath::V2i &pixel, float depth) const;
+    using Steps = std::array<float, 2>;
+    Steps steps_beyond(const LinkedSample &from, const Imath::V2i &pixel, const Imath::V2i &step,
+                       float expected) const;
+
+    const Ldi &ldi_;
+    std::size_t alpha_;
+    float depth_at_1_;
+};
+
+} // namespace sparselens

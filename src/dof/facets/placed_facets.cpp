@@ -1,0 +1,189 @@
+#include "dof/facets/placed_facets.h"
+
+#include "base/parallel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace sparselens {
+
+namespace {
+
+constexpr std::uint32_t nowhere = ~0u;
+
+// Where the samples of the LDI are among the corners.
+std::vector<std::uint32_t> places_of(std::size_t ldi_samples, std::span<const std::uint32_t> source) {
+    std::vector<std::uint32_t> places(ldi_samples, nowhere);
+    parallel_ranges(source.size(), 4096, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+            if (source[i] < ldi_samples) places[source[i]] = std::uint32_t(i);
+    });
+    return places;
+}
+
+void widen(FacetBlock &block, const PlacedFacets &facets, std::size_t i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+        block.x_min = std::min(block.x_min, facets.x[k][i]);
+        block.x_max = std::max(block.x_max, facets.x[k][i]);
+        block.y_min = std::min(block.y_min, facets.y[k][i]);
+        block.y_max = std::max(block.y_max, facets.y[k][i]);
+        block.coc_min = std::min(block.coc_min, facets.coc[k][i]);
+        block.coc_max = std::max(block.coc_max, facets.coc[k][i]);
+    }
+}
+
+bool out_of_reach(const FacetBlock &b, const LensSample &lens, const FacetGrid &grid) {
+    const auto [x0, x1] = std::minmax({b.coc_min * lens.x, b.coc_max * lens.x});
+    const auto [y0, y1] = std::minmax({b.coc_min * lens.y, b.coc_max * lens.y});
+    const float size = float(grid.stride - 2);
+    return b.x_max + x1 + 1 < grid.corner_x || b.x_min + x0 - 1 > grid.corner_x + size ||
+           b.y_max + y1 + 1 < grid.corner_y || b.y_min + y0 - 1 > grid.corner_y + size;
+}
+
+constexpr std::size_t at_once = 64;
+
+// Of some facets, along one axis: where a lens point sees their corners, in cells, 0 in the middle of the first; how wide
+// they are; and the cells, 1 to `last`, whose middle lies between the corners.
+struct Extents {
+    std::array<std::array<float, at_once>, 3> at;
+    std::array<float, at_once> least, most;
+    std::array<std::int32_t, at_once> first, last;
+};
+
+struct Seen {
+    Extents x, y;
+    std::array<std::int32_t, at_once> drawn;
+    std::array<std::uint32_t, at_once> list; // of those that are
+};
+
+// Loops so plain that the compiler computes several facets at once.
+[[gnu::always_inline]] inline void measure(Extents &e, std::size_t count, float last) {
+    for (std::size_t i = 0; i < count; ++i) e.least[i] = e.at[0][i] < e.at[1][i] ? e.at[0][i] : e.at[1][i];
+    for (std::size_t i = 0; i < count; ++i) e.least[i] = e.least[i] < e.at[2][i] ? e.least[i] : e.at[2][i];
+    for (std::size_t i = 0; i < count; ++i) e.most[i] = e.at[0][i] > e.at[1][i] ? e.at[0][i] : e.at[1][i];
+    for (std::size_t i = 0; i < count; ++i) e.most[i] = e.most[i] > e.at[2][i] ? e.most[i] : e.at[2][i];
+    for (std::size_t i = 0; i < count; ++i) {
+        const float left = last - e.least[i];
+        e.first[i] = std::int32_t(last) - std::int32_t(left > -1 ? (left < last - 1 ? left : last - 1) : -1);
+    }
+    for (std::size_t i = 0; i < count; ++i)
+        e.last[i] = std::int32_t(e.most[i] > 0 ? (e.most[i] < last ? e.most[i] : last) : 0);
+}
+
+// The corners of facets one after the other.
+struct Corners {
+    std::array<const float *, 3> x, y, coc;
+};
+
+// Not drawn is what lies in no cell, and what its samples cover.
+#ifndef __SANITIZE_THREAD__
+[[gnu::target_clones("default,avx2")]]
+#endif
+void project(const Corners &corners, const LensSample &lens, const FacetGrid &grid, std::size_t count, Seen &seen) {
+    const float lens_x = lens.x, lens_y = lens.y, corner_x = grid.corner_x, corner_y = grid.corner_y;
+    const float shift_x = lens.pixel_x + 0.5f, shift_y = lens.pixel_y + 0.5f;
+    for (std::size_t k = 0; k < 3; ++k)
+        for (std::size_t i = 0; i < count; ++i) {
+            seen.x.at[k][i] = (corners.x[k][i] - corner_x) + (corners.coc[k][i] * lens_x + shift_x);
+            seen.y.at[k][i] = (corners.y[k][i] - corner_y) + (corners.coc[k][i] * lens_y + shift_y);
+        }
+    measure(seen.x, count, float(grid.stride - 2));
+    measure(seen.y, count, float(grid.stride - 2));
+    for (std::size_t i = 0; i < count; ++i) {
+        const int parted = int(seen.x.most[i] - seen.x.least[i] > parted_px) |
+                           int(seen.y.most[i] - seen.y.least[i] > parted_px);
+        seen.drawn[i] =
+            parted & int(seen.x.first[i] <= seen.x.last[i]) & int(seen.y.first[i] <= seen.y.last[i]);
+    }
+}
+
+void draw_triangle(const Seen &seen, std::size_t i, const std::array<std::uint64_t, 3> &key, int stride,
+                   std::span<std::uint64_t> cells) {
+    const float x0 = seen.x.at[0][i], x1 = seen.x.at[1][i], x2 = seen.x.at[2][i];
+    const float y0 = seen.y.at[0][i], y1 = seen.y.at[1][i], y2 = seen.y.at[2][i];
+    const float side =
+        (x1 - x0) * (y2 - y0) - (x2 - x0) * (y1 - y0) < 0 ? -1.0f : 1.0f; // seen from behind: -1
+    for (int row = seen.y.first[i]; row <= seen.y.last[i]; ++row)
+        for (int column = seen.x.first[i]; column <= seen.x.last[i]; ++column) {
+            const float x = float(column), y = float(row);
+            // Twice the areas over against the corners.
+            const float a = side * ((x2 - x1) * (y - y1) - (y2 - y1) * (x - x1));
+            const float b = side * ((x0 - x2) * (y - y2) - (y0 - y2) * (x - x2));
+            const float c = side * ((x1 - x0) * (y - y0) - (y1 - y0) * (x - x0));
+            const std::uint64_t nearest = std::max(a, b) >= c ? (a >= b ? key[0] : key[1]) : key[2];
+            const bool inside =
+                int(a >= 0) & int(b >= 0) & int(c >= 0); // no jumps, which nobody could foretell
+            std::uint64_t &cell = cells[std::size_t(row * stride + column)];
+            cell = std::max(cell, nearest * inside);
+        }
+}
+
+} // namespace
+
+PlacedFacets place_facets(const FacetBlocks &found, std::size_t ldi_samples, const FacetCorners &corners) {
+    PlacedFacets placed;
+    if (found.blocks.empty()) return placed;
+    const std::vector<std::uint32_t> places = places_of(ldi_samples, corners.source);
+    constexpr float most = std::numeric_limits<float>::max();
+    for (const std::vector<Facet> &block : found.blocks) {
+        const auto begin = std::uint32_t(placed.key[0].size());
+        placed.blocks.push_back(
+            {begin, begin + std::uint32_t(block.size()), most, -most, most, -most, most, -most});
+        for (const Facet &facet : block) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                const std::uint32_t i = places[facet.sample[k]];
+                placed.x[k].push_back(corners.x[i]);
+                placed.y[k].push_back(corners.y[i]);
+                placed.coc[k].push_back(corners.coc[i]);
+                placed.key[k].push_back(corners.key[i]);
+            }
+            widen(placed.blocks.back(), placed, placed.key[0].size() - 1);
+        }
+    }
+    return placed;
+}
+
+void find_blocks(const PlacedFacets &facets, const Imath::V2i &origin, int size, float widest,
+                 std::vector<std::uint32_t> &found) {
+    const Imath::V2f first(Imath::V2f(origin) - Imath::V2f(1)),
+        last(Imath::V2f(origin) + Imath::V2f(float(size + 1)));
+    found.clear();
+    for (std::uint32_t b = 0; b < facets.blocks.size(); ++b) {
+        const FacetBlock &block = facets.blocks[b];
+        const float reach = std::max(std::abs(block.coc_min), std::abs(block.coc_max)) * widest + 1;
+        if (block.x_max + reach >= first.x && block.x_min - reach <= last.x &&
+            block.y_max + reach >= first.y && block.y_min - reach <= last.y)
+            found.push_back(b);
+    }
+}
+
+void draw_facets(const PlacedFacets &facets, std::span<const std::uint32_t> blocks, const LensSample &lens,
+                 const FacetGrid &grid, std::span<std::uint64_t> cells) {
+    Seen seen;
+    for (const std::uint32_t b : blocks) {
+        const FacetBlock &block = facets.blocks[b];
+        if (out_of_reach(block, lens, grid)) continue;
+        for (std::size_t begin = block.begin; begin < block.end; begin += at_once) {
+            const std::size_t count = std::min(at_once, block.end - begin);
+            Corners corners;
+            for (std::size_t k = 0; k < 3; ++k) {
+                corners.x[k] = &facets.x[k][begin];
+                corners.y[k] = &facets.y[k][begin];
+                corners.coc[k] = &facets.coc[k][begin];
+            }
+            project(corners, lens, grid, count, seen);
+            std::size_t drawn = 0;
+            for (std::size_t i = 0; i < count; ++i) {
+                seen.list[drawn] = std::uint32_t(i);
+                drawn += std::size_t(seen.drawn[i]);
+            }
+            for (const std::uint32_t i : std::span(seen.list).first(drawn))
+                draw_triangle(seen, i,
+                              {facets.key[0][begin + i], facets.key[1][begin + i], facets.key[2][begin + i]},
+                              grid.stride, cells);
+        }
+    }
+}
+
+} // namespace sparselens
