@@ -267,6 +267,7 @@ def cluster(
 def gather(
     ldi: Ldi,
     *,
+    channels: Optional[Union[str, Sequence[str]]] = None,
     method: Literal["lens", "selective", "scatter"] = "lens",
     quality: Optional[Literal["draft", "normal", "final"]] = "normal",
     lens_samples: Optional[int] = 0,
@@ -304,6 +305,18 @@ def gather(
     scene_unit: Optional[float] = None,
 ) -> Picture: ...
 def flatten(ldi: Ldi) -> Picture: ...
+def front_depth(ldi: Ldi) -> Picture: ...
+def show(
+    ldi: Ldi,
+    what: Literal["coc", "focus", "layers"],
+    *,
+    focal_length: Optional[float] = None,
+    sensor_width: Optional[float] = None,
+    fstop: Optional[float] = None,
+    lens_radius: Optional[float] = None,
+    focus_distance: Optional[float] = None,
+    scene_unit: Optional[float] = None,
+) -> Picture: ...
 def plan(
     view: View,
     *,

@@ -208,11 +208,12 @@ Lens values replace those of the LDI:
 Raises UsageError where the lens is unknown, and Error where several LDIs are not of one camera.)";
 
 inline constexpr const char *gather =
-    R"(gather(ldi, *, method='lens', quality='normal', lens_samples=0, layer_tolerance=0.25, layers=8, focus_pixel=None, holdout=None, holdout_defocused=False, overscan='grow', proxy=1, region=None, highlight_gain=1, highlight_threshold=1, highlight_knee=1, blades=None, blade_curvature=None, blade_rotation=None, squeeze=None, spherical=None, cat_eye=None, axial_chromatic=None, field_curvature=None, breathing=None, cat_eye_darkening=False, axial_chromatic_type='red-blue', tilt=None, lens=None, aperture=None, progress=None, focal_length=None, sensor_width=None, fstop=None, lens_radius=None, focus_distance=None, scene_unit=None)
+    R"(gather(ldi, *, channels=None, method='lens', quality='normal', lens_samples=0, layer_tolerance=0.25, layers=8, focus_pixel=None, holdout=None, holdout_defocused=False, overscan='grow', proxy=1, region=None, highlight_gain=1, highlight_threshold=1, highlight_knee=1, blades=None, blade_curvature=None, blade_rotation=None, squeeze=None, spherical=None, cat_eye=None, axial_chromatic=None, field_curvature=None, breathing=None, cat_eye_darkening=False, axial_chromatic_type='red-blue', tilt=None, lens=None, aperture=None, progress=None, focal_length=None, sensor_width=None, fstop=None, lens_radius=None, focus_distance=None, scene_unit=None)
 --
 
-Makes the picture that a lens takes of an LDI and returns a Picture, with all channels. As dof-gather.
+Makes the picture that a lens takes of an LDI and returns a Picture. As dof-gather.
 
+channels: names of channels, layers or Cryptomattes, or "rgba", as a sequence or separated by commas; default: all.
 method: "lens", "selective" or "scatter".
 quality: "draft", "normal" or "final"; lens_samples: points of the lens in every tile, 0: as many as the quality needs.
 layer_tolerance: layers of a pixel whose circles of confusion differ by less are merged first, pixels; 0: none.
@@ -238,6 +239,26 @@ inline constexpr const char *flatten = R"(flatten(ldi)
 --
 
 Composites the samples of an Ldi front to back and returns the Picture seen without a lens.)";
+
+inline constexpr const char *front_depth = R"(front_depth(ldi)
+--
+
+The planar depth of the front sample of each pixel of an Ldi, inf where there is none: a Picture of the channel Z.
+As dof-gather's depth output.)";
+
+inline constexpr const char *show =
+    R"(show(ldi, what, *, focal_length=None, sensor_width=None, fstop=None, lens_radius=None, focus_distance=None, scene_unit=None)
+--
+
+False colours of what an Ldi and a lens are, as a Picture of display values. As dof-gather shows them.
+
+what: "coc", the circle of confusion of the front sample: white in focus, blue in front, red behind;
+  "focus", green where that sample is in focus; "layers", the number of samples per pixel.
+Lens values replace those of the LDI:
+  focal_length (mm), sensor_width (mm, spans the display window), fstop (a number, or inf),
+  lens_radius (scene units, instead of fstop), focus_distance (scene units, or inf), scene_unit (metres)
+
+Raises UsageError where the lens is unknown; layers needs none.)";
 
 inline constexpr const char *plan =
     R"(plan(view, *, views=4, margin=2, noise=None, progress=None, focal_length=None, sensor_width=None, fstop=None, lens_radius=None, focus_distance=None, scene_unit=None)

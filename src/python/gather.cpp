@@ -5,6 +5,7 @@
 #include "deep/proxy.h"
 #include "dof/gather_picture.h"
 #include "io/camera/camera_write.h"
+#include "io/channels.h"
 #include "io/gather_windows.h"
 #include "io/picture_looks.h"
 #include "python/job.h"
@@ -22,6 +23,7 @@ namespace {
 struct Asked {
     PictureOptions picture; // without the holdout
     WindowOptions windows;
+    std::string channels; // comma-separated; empty: all
     std::optional<Imath::V2i> focus_pixel;
     const OpenedLdi *holdout = nullptr; // kept alive by `keep_holdout`
     py::object keep_holdout, progress;
@@ -93,6 +95,7 @@ Asked asked_by(const py::kwargs &given) {
     asked.windows = {.overscan = overscan.value_or(OutputOverscan::grow),
                      .proxy = keywords.whole("proxy", 1, 1024).value_or(1),
                      .region = keywords.box("region")};
+    asked.channels = keywords.list("channels");
     asked.focus_pixel = keywords.pixel("focus_pixel");
     asked.lens = lens_values(keywords);
     if (asked.focus_pixel && asked.lens.focus_distance)
@@ -119,8 +122,8 @@ std::optional<Ldi> holdout_of(const Asked &asked, const Ldi &ldi) {
     return asked.windows.proxy == 1 ? holdout : proxy(holdout, asked.windows.proxy);
 }
 
-PictureObject gathered(const Asked &asked, const OpenedLdi &in, Camera camera, ThinLens lens,
-                       Progress &progress) {
+PictureObject gathered_all(const Asked &asked, const OpenedLdi &in, Camera camera, ThinLens lens,
+                           Progress &progress) {
     PictureObject out{{}, in.header};
     const auto holdout = holdout_of(asked, in.ldi);
     GatherWindows frame = gather_windows(asked.windows, in, lens);
@@ -133,6 +136,17 @@ PictureObject gathered(const Asked &asked, const OpenedLdi &in, Camera camera, T
         options.gather.lens.looks = picture_looks(looks, camera, out.header, lens, ldi.windows);
     out.image = gather_picture(ldi, lens, frame.gathered, frame.written, options, progress);
     write_camera(out.header, camera);
+    return out;
+}
+
+// The same of the channels that are asked for, of a copy of the LDI.
+PictureObject gathered(const Asked &asked, const OpenedLdi &in, const Camera &camera, const ThinLens &lens,
+                       Progress &progress) {
+    if (asked.channels.empty()) return gathered_all(asked, in, camera, lens, progress);
+    OpenedLdi fewer = in;
+    keep_channels(fewer.ldi, asked.channels);
+    PictureObject out = gathered_all(asked, fewer, camera, lens, progress);
+    out.image = chosen_channels(std::move(out.image), asked.channels);
     return out;
 }
 

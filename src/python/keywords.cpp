@@ -100,6 +100,19 @@ std::string Keywords::path(const char *name) {
     return object.is_none() ? std::string() : path_of(object, name);
 }
 
+std::string Keywords::list(const char *name) {
+    const py::object object = take(name);
+    if (object.is_none()) return {};
+    if (py::isinstance<py::str>(object)) return object.cast<std::string>();
+    if (!py::isinstance<py::sequence>(object)) wrong_type(name, "a str, or a sequence of str", object);
+    std::string all;
+    for (const py::handle &item : py::reinterpret_borrow<py::sequence>(object)) {
+        if (!py::isinstance<py::str>(item)) wrong_type(name, "a str, or a sequence of str", item);
+        all += (all.empty() ? "" : ",") + item.cast<std::string>();
+    }
+    return all;
+}
+
 std::optional<Imath::V2d> Keywords::pair(const char *name) {
     const py::object object = take(name);
     if (object.is_none()) return {};

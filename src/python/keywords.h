@@ -34,6 +34,8 @@ public:
     std::optional<int> whole(const char *name, int least, int most);
     std::string text(const char *name); // empty where it is not given
     std::string path(const char *name);
+    std::string
+    list(const char *name); // of a str or a sequence of them: comma-separated; empty where it is not given
     std::optional<Imath::V2d> pair(const char *name);  // two finite numbers
     std::optional<Imath::V2i> pixel(const char *name); // two whole numbers
     std::optional<Imath::Box2i> box(const char *name); // left, top, right, bottom; the last ones included

@@ -1,6 +1,8 @@
 #include "base/error.h"
 #include "deep/cluster.h"
 #include "deep/flatten.h"
+#include "deep/front_depth.h"
+#include "dof/false_colour.h"
 #include "io/camera/camera_read.h"
 #include "io/camera/camera_write.h"
 #include "io/merge_ldis.h"
@@ -157,6 +159,34 @@ PictureObject flatten(const py::object &ldi) {
     });
 }
 
+// A picture of the pixels that the LDI is to give.
+PictureObject picture_of_ldi(const OpenedLdi &in, const Image &image) {
+    return {crop(image, read_picture_window(in.header)), in.header};
+}
+
+PictureObject front_depth(const py::object &ldi) {
+    const LdiObject &in = argument<LdiObject>(ldi, "ldi", an_ldi);
+    return job<PictureObject>(py::none(),
+                              [&](Progress &) { return picture_of_ldi(in, front_depth(in.ldi)); });
+}
+
+PictureObject show(const py::object &ldi, const py::object &what, const py::kwargs &given) {
+    Keywords keywords("show", given);
+    const LdiObject &in = argument<LdiObject>(ldi, "ldi", an_ldi);
+    const LensValues values = lens_values(keywords);
+    keywords.done();
+    if (!py::isinstance<py::str>(what)) wrong_type("what", "a str", what);
+    const auto name = what.cast<std::string>();
+    if (name == "layers")
+        return job<PictureObject>(py::none(),
+                                  [&](Progress &) { return picture_of_ldi(in, layer_colours(in.ldi)); });
+    if (name != "coc" && name != "focus") Keywords::refuse("what", "one of coc, focus, layers", name);
+    const ThinLens lens = resolve_lens(camera_with_options(values, in.camera), in.ldi.windows);
+    const auto colours = name == "coc" ? coc_colours : focus_colours;
+    return job<PictureObject>(py::none(),
+                              [&](Progress &) { return picture_of_ldi(in, colours(in.ldi, lens)); });
+}
+
 PlanObject plan(const py::object &view, const py::kwargs &given) {
     Keywords keywords("plan", given);
     const OpenedView &centre = argument<ViewObject>(view, "view", a_view).in;
@@ -233,6 +263,9 @@ void bind_verbs(py::module_ &module) {
         .def("cluster", &cluster, py::arg("ldi"), doc::cluster)
         .def("gather", &gather, py::arg("ldi"), doc::gather)
         .def("flatten", &flatten, py::arg("ldi"), doc::flatten)
+        .def("front_depth", py::overload_cast<const py::object &>(&front_depth), py::arg("ldi"),
+             doc::front_depth)
+        .def("show", &show, py::arg("ldi"), py::arg("what"), doc::show)
         .def("plan", &plan, py::arg("view"), doc::plan)
         .def("compare", &compare, py::arg("image"), py::arg("reference"), doc::compare)
         .def("write", &write, py::arg("path"), py::arg("what"), doc::write);

@@ -115,6 +115,31 @@ def test_flatten(clustered):
     assert numpy.array_equal(sparselens.flatten(ldi).planes, pinhole.planes)
 
 
+@pytest.mark.parametrize("what", ["coc", "focus", "layers"])
+def test_show(clustered, tool, tmp_path, what):
+    ldi = sparselens.open_ldi(clustered)
+    tool("dof-gather", clustered, "--show", what, "--focus-distance", 3, "--overscan", "keep", "-o", tmp_path / "tool.exr")
+    shown = sparselens.show(ldi, what, focus_distance=3)
+    by_tool = sparselens.open_picture(tmp_path / "tool.exr")
+    assert shown.channels == by_tool.channels and shown.data_window == by_tool.data_window
+    assert numpy.array_equal(shown.planes.astype(numpy.float16), by_tool.planes.astype(numpy.float16))
+
+
+def test_front_depth(clustered, tool, tmp_path):
+    tool("dof-gather", clustered, "--depth-out", tmp_path / "z.exr", "--overscan", "keep", "-o", tmp_path / "tool.exr")
+    depth = sparselens.front_depth(sparselens.open_ldi(clustered))
+    assert depth.channels == ("Z",) and depth.planes.dtype == numpy.float32
+    assert numpy.array_equal(depth["Z"], sparselens.open_picture(tmp_path / "z.exr")["Z"])
+
+
+@pytest.mark.parametrize("channels", ["R", ["R", "G"], ("rgba",)], ids=str)
+def test_channels(clustered, tool, tmp_path, channels):
+    given = channels if isinstance(channels, str) else ",".join(channels)
+    tool("dof-gather", clustered, "--channels", given, "-o", tmp_path / "tool.exr")
+    sparselens.write(tmp_path / "python.exr", sparselens.gather(sparselens.open_ldi(clustered), channels=channels))
+    assert (tmp_path / "python.exr").read_bytes() == (tmp_path / "tool.exr").read_bytes()
+
+
 def test_plan(views, names, tool, tmp_path):
     tool("ldi-plan", names[0], "--views", 3, "--margin", 1, "--masks", tmp_path / "tool", "-o", tmp_path / "tool.json")
     plan = sparselens.plan(views[0], views=3, margin=1)
