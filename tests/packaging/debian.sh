@@ -9,7 +9,7 @@ done
 [ -f "$build/CPackConfig.cmake" ] || skip "there are packages of the static library only"
 logged() { "$@" >log 2>&1 || fail "$* ($(tail -20 log))"; }
 
-logged cpack --config "$build/CPackConfig.cmake" -G DEB -B "$scratch/packages"
+logged cpack --config "$build/CPackConfig.cmake" -G DEB -B "$scratch/packages" -D CPACK_DEBIAN_COMPRESSION_TYPE=gzip # the fastest
 packages=(packages/*.deb)
 names=(sparselens sparselens-lab libsparselens-dev)
 if grep -q '^SPARSELENS_PYTHON:BOOL=ON$' "$build/CMakeCache.txt"; then names+=(python3-sparselens); fi

@@ -16,6 +16,7 @@ for tool in "$bin"/ldi-* "$bin"/dof-*; do
 done
 
 [ -s "$prefix/share/sparselens/blender/sparselens_views.py" ] || fail "the Blender script is not installed"
+[ -s "$prefix/share/sparselens/lenses/petzval.json" ] || fail "the lenses of docs/looks.md are not installed"
 for script in slurm/submit.sh slurm/warp.sh slurm/gather.sh opencue/submit.py; do
     [ -x "$prefix/share/sparselens/$script" ] || fail "$script is not installed, or is no executable"
 done

@@ -2,19 +2,30 @@
 # Without Embree the project configures, the laboratory is off, the library builds, and no command that builds or links
 # the rest names Embree, the laboratory or a header of either. If the laboratory is asked for, the error says what to do.
 #
-#   tests/scripts/no-lab.sh [all]     all: builds the tools and the tests too, and runs the unit tests
+#   tests/scripts/no-lab.sh [BUILD_DIR]   what BUILD_DIR has compiled by the very same commands is not compiled again
+#   tests/scripts/no-lab.sh all           builds the tools and the tests too, and runs the unit tests
 #
-# Everything is built without optimisation. The library takes about a minute of one core, all of it several.
+# Without BUILD_DIR everything is built without optimisation: the library in about a minute of one core, all in several.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 exec </dev/null
 
 build=$(mktemp -d)
 trap 'rm -rf "$build"' EXIT
+built='' same=(-DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O0)
+if [ "${1:-all}" != all ] && [ -e "$1/build.ninja" ]; then
+    built=$(cd "$1" && pwd)
+    # What decides the commands of the library.
+    values='CMAKE_(BUILD_TYPE|INSTALL_PREFIX|CXX_(COMPILER|COMPILER_LAUNCHER|FLAGS(_[A-Z]+)?))'
+    values+='|SPARSELENS_(WERROR|SANITIZE|PYTHON)|BUILD_SHARED_LIBS'
+    mapfile -t same < <(sed -nE "s/^(($values):[^=]*=.*)\$/-D\1/p" "$built/CMakeCache.txt")
+fi
 configure() {
-    cmake -S . -B "$build" -G Ninja -DCMAKE_DISABLE_FIND_PACKAGE_embree=ON -DCMAKE_BUILD_TYPE=Debug \
-        -DCMAKE_CXX_FLAGS_DEBUG=-O0 -DSPARSELENS_BENCHMARKS=OFF "$@" >"$build/said" 2>&1
+    cmake -S . -B "$build" -G Ninja -DCMAKE_DISABLE_FIND_PACKAGE_embree=ON -DSPARSELENS_BENCHMARKS=OFF \
+        "${same[@]}" "$@" >"$build/said" 2>&1
 }
+# The commands that make the library, whatever the folder.
+library_commands() { ninja -C "$1" -t commands sparselens | sed "s#$1#BUILD#g" | sort; }
 
 if configure -DSPARSELENS_LAB=ON; then
     echo "the laboratory is configured without Embree"
@@ -36,6 +47,11 @@ if grep -rnE '#include [<"](embree|lab/)' src tools --include='*.h' --include='*
     exit 1
 fi
 
+if [ -n "$built" ] && diff <(library_commands "$built") <(library_commands "$build") >"$build/differing"; then
+    ninja -C "$built" sparselens >"$build/said" || { cat "$build/said"; exit 1; } # nothing to do, if all is built
+    echo "the library is built by the same commands as in $built"
+    exit 0
+fi
 ninja -C "$build" sparselens >"$build/said" || { cat "$build/said"; exit 1; }
 if [ "${1:-}" = all ]; then
     ninja -C "$build"
