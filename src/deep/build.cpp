@@ -23,7 +23,13 @@ MergedSample sample_at(const Ldi &ldi, std::uint64_t i) {
     const auto or_else = [i](const std::vector<float> &values, float absent) {
         return values.empty() ? absent : values[i];
     };
-    return {ldi.z[i], back_at(ldi, i), or_else(ldi.dx, 0), or_else(ldi.dy, 0), or_else(ldi.weight, 1), {}};
+    return {ldi.z[i],
+            back_at(ldi, i),
+            or_else(ldi.dx, 0),
+            or_else(ldi.dy, 0),
+            or_else(ldi.weight, 1),
+            float(ldi.optical_z(i)),
+            {}};
 }
 
 void append(Ldi &out, const Ldi &from, const MergedSample &sample) {
@@ -32,6 +38,7 @@ void append(Ldi &out, const Ldi &from, const MergedSample &sample) {
     if (!from.dx.empty()) out.dx.push_back(sample.dx);
     if (!from.dy.empty()) out.dy.push_back(sample.dy);
     if (!from.weight.empty()) out.weight.push_back(sample.weight);
+    if (!from.optical.empty()) out.optical.push_back(sample.optical);
     const bool unchanged = sample.terms.size() == 1 && sample.terms[0].coefficient == 1;
     bool mattes = false;
     for (std::size_t k = 0; k < from.values.size(); ++k) {
@@ -54,7 +61,7 @@ void append(Ldi &out, const Ldi &from, std::uint64_t index) {
 }
 
 Ldi without_channels(const Ldi &ldi) {
-    return {ldi.windows, {}, ldi.begin, ldi.z, ldi.z_back, ldi.dx, ldi.dy, ldi.weight, {}};
+    return {ldi.windows, {}, ldi.begin, ldi.z, ldi.z_back, ldi.dx, ldi.dy, ldi.weight, ldi.optical, {}};
 }
 
 Ldi empty_like(const Ldi &like) {
@@ -123,7 +130,7 @@ void list_moves(const Ldi &ldi, const ChangedRow &row, std::size_t first, std::v
     }
 }
 
-constexpr std::size_t arrays_beside_values = 5;
+constexpr std::size_t arrays_beside_values = 6;
 
 template <typename Source> // Ldi or const Ldi
 auto &array_of(Source &ldi, std::size_t k) {
@@ -133,6 +140,7 @@ auto &array_of(Source &ldi, std::size_t k) {
     case 2: return ldi.dx;
     case 3: return ldi.dy;
     case 4: return ldi.weight;
+    case 5: return ldi.optical;
     default: return ldi.values[k - arrays_beside_values];
     }
 }
@@ -198,6 +206,8 @@ Ldi concatenate(const Ldi &like, std::span<const Ldi> pieces) {
         whole.dy, [](const Ldi &p) -> const auto & { return p.dy; });
     gather(
         whole.weight, [](const Ldi &p) -> const auto & { return p.weight; });
+    gather(
+        whole.optical, [](const Ldi &p) -> const auto & { return p.optical; });
     for (std::size_t k = 0; k < whole.values.size(); ++k)
         gather(
             whole.values[k], [k](const Ldi &p) -> const auto & { return p.values[k]; });

@@ -17,7 +17,7 @@ struct Term {
 };
 
 struct MergedSample {
-    float z, z_back, dx, dy, weight;
+    float z, z_back, dx, dy, weight, optical;
     std::span<const Term> terms; // never empty
 };
 
@@ -31,7 +31,7 @@ void append(Ldi &out, const Ldi &from, std::uint64_t index); // an unchanged cop
 // The same samples without any channel.
 Ldi without_channels(const Ldi &ldi);
 
-// Channels, windows and the presence of z_back, dx, dy, weight as in `like`; no pixels yet.
+// Channels, windows and the presence of z_back, dx, dy, weight, optical as in `like`; no pixels yet.
 Ldi empty_like(const Ldi &like);
 
 // `fill(pixel, out)` appends the samples of each pixel to `out`; rows run in parallel, each to its own piece.

@@ -23,15 +23,51 @@ struct Pixel {
     double scale;
     double front(std::uint64_t i) const { return perceptive_depth(scale, ldi.z[i]); }
     double back(std::uint64_t i) const { return perceptive_depth(scale, back_at(ldi, i)); }
+    double image(std::uint64_t i) const { return perceptive_depth(scale, ldi.optical_z(i)); }
 };
+
+// A run of samples of a pixel that grows at its back.
+class Run {
+public:
+    Run(const Pixel &pixel, std::uint64_t first)
+        : pixel_(pixel), front_(pixel.front(first)), extent_(front_ - pixel.back(first)),
+          images_(!pixel.ldi.optical.empty()) {
+        if (images_) least_ = most_ = pixel.image(first);
+    }
+    void add(std::uint64_t i) {
+        extent_ = front_ - pixel_.back(i);
+        if (!images_) return;
+        least_ = std::min(least_, pixel_.image(i));
+        most_ = std::max(most_, pixel_.image(i));
+    }
+    double extent() const { return images_ ? std::max(extent_, most_ - least_) : extent_; }
+
+private:
+    const Pixel &pixel_;
+    double front_, extent_, least_ = 0, most_ = 0;
+    bool images_;
+};
+
+// The end of the longest run from `first` on of at most `extent`; at least one sample.
+std::uint64_t end_of_run(const Pixel &p, std::uint64_t first, double extent) {
+    Run run(p, first);
+    for (std::uint64_t i = first + 1; i < p.end; ++i) {
+        run.add(i);
+        if (!(run.extent() <= extent)) return i;
+    }
+    return p.end;
+}
+
+double extent_of(const Pixel &p, std::uint64_t first, std::uint64_t end) {
+    Run run(p, first);
+    for (std::uint64_t i = first + 1; i < end; ++i) run.add(i);
+    return run.extent();
+}
 
 // How many runs of at most `extent` cover the samples, taken greedily from the front: the fewest there are.
 std::size_t count_clusters(const Pixel &p, double extent) {
     std::size_t count = 0;
-    for (std::uint64_t i = p.begin; i < p.end; ++count) {
-        const double first = p.front(i);
-        for (++i; i < p.end && first - p.back(i) <= extent;) ++i;
-    }
+    for (std::uint64_t i = p.begin; i < p.end; ++count) i = end_of_run(p, i, extent);
     return count;
 }
 
@@ -39,7 +75,7 @@ std::size_t count_clusters(const Pixel &p, double extent) {
 // count falls as the extent grows.
 double extent_for(const Pixel &p, double tolerance, std::size_t layers) {
     if (layers == 0 || count_clusters(p, tolerance) <= layers) return tolerance;
-    double too_small = tolerance, enough = p.front(p.begin) - p.back(p.end - 1);
+    double too_small = tolerance, enough = extent_of(p, p.begin, p.end);
     while (enough - too_small > 1e-6 * enough) {
         const double middle = 0.5 * (too_small + enough);
         (count_clusters(p, middle) <= layers ? enough : too_small) = middle;
@@ -84,12 +120,13 @@ MergedSample merged_placement(const Pixel &p, std::span<const Term> terms) {
     MergedSample merged = sample_at(p.ldi, first);
     merged.terms = terms;
     if (terms.size() == 1) return merged;
-    double shown = 0, inverse_z = 0, dx = 0, dy = 0, weight = 0;
+    double shown = 0, inverse_z = 0, inverse_optical = 0, dx = 0, dy = 0, weight = 0;
     for (const Term &term : terms) {
         const MergedSample s = sample_at(p.ldi, term.index);
         const double share = std::max(term.coefficient * alpha_at(p.ldi, p.alpha, term.index), 1e-12);
         shown += share;
         inverse_z += share / s.z;
+        inverse_optical += share / s.optical;
         dx += share * s.dx;
         dy += share * s.dy;
         weight += s.weight;
@@ -101,6 +138,7 @@ MergedSample merged_placement(const Pixel &p, std::span<const Term> terms) {
     merged.dx = float(dx / shown);
     merged.dy = float(dy / shown);
     merged.weight = float(weight);
+    merged.optical = float(shown / inverse_optical);
     return merged;
 }
 
@@ -110,10 +148,10 @@ double cluster_pixel(const Pixel &p, const ClusterOptions &options, Ldi &out) {
     std::vector<Term> terms;
     double largest = 0;
     for (std::uint64_t first = p.begin, last = p.begin; first < p.end; first = last) {
-        while (last < p.end && (last == first || p.front(first) - p.back(last) <= extent)) ++last;
+        last = end_of_run(p, first, extent);
         set_shares(p, first, last, options.tolerance, terms);
         append(out, p.ldi, merged_placement(p, terms));
-        if (last - first > 1) largest = std::max(largest, p.front(first) - p.back(last - 1));
+        if (last - first > 1) largest = std::max(largest, extent_of(p, first, last));
     }
     return largest;
 }

@@ -1,10 +1,11 @@
-// Fewer samples per pixel, by perceptive depth R F / z, so that the LDI can still be refocused.
+// Fewer samples per pixel, by perceptive depth R F / z, so that the LDI can still be refocused; that of images (Ldi::optical)
+// has to agree too.
 //
 // The samples of a cluster become one sample. Opaque samples within the tolerance are averaged by weight (they are one
 // surface, seen by several views); other samples are composited, so that the flattened picture does not change; samples
-// behind an opaque one are dropped. Depth (as 1 / z) and position become means, weighted by what each sample shows; a
+// behind an opaque one are dropped. Depths (as 1 / z) and position become means, weighted by what each sample shows; a
 // cluster with a volume becomes a volume. The CoC of no sample changes by more than the extent of its cluster, which is
-// R F / z of its front minus that of its back.
+// R F / z of its front minus that of its back, or the range of R F / optical if that is larger.
 #pragma once
 
 #include "../base/progress.h"

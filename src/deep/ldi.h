@@ -46,6 +46,9 @@ struct Ldi {
     std::vector<float> z_back; // >= z; empty where no sample has an extent (points)
     std::vector<float> dx, dy; // offset from the pixel centre, [-1/2, 1/2], y down; empty means 0
     std::vector<float> weight; // view samples merged into this one, > 0; empty means 1
+    // Planar depth of the image that a mirror or glass shows there, as z: it gives the CoC, while z goes on saying what
+    // hides what. Below 0 if rays would meet behind the camera, never 0. Empty: as z.
+    std::vector<float> optical;
     std::vector<std::vector<float>> values; // [channel][sample]
 
     std::size_t samples() const { return z.size(); }
@@ -54,6 +57,7 @@ struct Ldi {
         return {begin[i], begin[i + 1]};
     }
     std::size_t alpha() const { return find_channel(channels, "A"); } // npos: all samples opaque
+    double optical_z(std::uint64_t i) const { return double(optical.empty() ? z[i] : optical[i]); }
 };
 
 } // namespace sparselens

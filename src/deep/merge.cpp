@@ -85,7 +85,7 @@ std::vector<std::uint64_t> begin_of(const std::vector<Ldi> &parts, const Windows
 
 bool same_samples(const Ldi &a, const Ldi &b) {
     return a.windows == b.windows && a.begin == b.begin && a.z == b.z && a.z_back == b.z_back &&
-           a.dx == b.dx && a.dy == b.dy;
+           a.dx == b.dx && a.dy == b.dy && a.optical == b.optical;
 }
 
 void add_layer(Ldi &ldi, Ldi layer, const std::string &name) {
@@ -121,6 +121,9 @@ Ldi deep_merge(const std::vector<Ldi> &parts) {
     if (some_have(&Ldi::dx)) fill(out.dx, [](const Ldi &part) { return array_of(part.dx, 0); });
     if (some_have(&Ldi::dy)) fill(out.dy, [](const Ldi &part) { return array_of(part.dy, 0); });
     if (some_have(&Ldi::weight)) fill(out.weight, [](const Ldi &part) { return array_of(part.weight, 1); });
+    if (some_have(&Ldi::optical))
+        fill(out.optical,
+             [](const Ldi &part) { return Source{part.optical.empty() ? &part.z : &part.optical}; });
     out.values.resize(out.channels.size());
     for (std::size_t k = 0; k < out.channels.size(); ++k)
         fill(out.values[k], [&](const Ldi &part) { return source_of(part, out.channels, k); });

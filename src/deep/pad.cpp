@@ -31,7 +31,7 @@ Imath::Box2i reached_display(const Ldi &ldi, const ThinLens &lens) {
     for (std::size_t pixel = 0; pixel < ldi.windows.pixels(); ++pixel) {
         double largest = 0; // of the CoCs in this pixel
         for (const std::uint64_t i : ldi.pixel(pixel))
-            largest = std::max(largest, std::abs(circle_of_confusion(lens, ldi.z[i])));
+            largest = std::max(largest, std::abs(circle_of_confusion(lens, ldi.optical_z(i))));
         if (largest < sharp) continue;
         const Imath::V2d at(ldi.windows.pixel(pixel)),
             reach(std::ceil(largest) + 1, std::ceil(largest * lens.pixel_aspect) + 1);

@@ -25,7 +25,7 @@ Ldi with_coverage(Ldi ldi) {
 // A sample of a large pixel, and what of it the flattened picture shows.
 struct Seen {
     std::uint64_t index;
-    double z;
+    double z, optical;
     double shown; // the transmittance in front of it
     double x, y;  // place, in small pixels from the middle of the small one
 };
@@ -39,7 +39,7 @@ std::vector<Seen> samples_in(const Ldi &ldi, std::size_t alpha, const Imath::V2i
             double shown = 1;
             for (const std::uint64_t i : ldi.pixel(pixel)) {
                 const MergedSample s = sample_at(ldi, i);
-                seen.push_back({i, s.z, shown, (x + 0.5 + s.dx) / factor - (small.x + 0.5),
+                seen.push_back({i, s.z, s.optical, shown, (x + 0.5 + s.dx) / factor - (small.x + 0.5),
                                 (y + 0.5 + s.dy) / factor - (small.y + 0.5)});
                 shown *= 1 - double(alpha_at(ldi, alpha, i));
             }
@@ -48,13 +48,20 @@ std::vector<Seen> samples_in(const Ldi &ldi, std::size_t alpha, const Imath::V2i
     return seen;
 }
 
+// Whether both belong to one surface and show images of about one depth. The limits are ratios, not pixels, as the lens is
+// not known here.
+bool alike(const Seen &first, const Seen &s) {
+    constexpr double surface_depth_ratio = 1.01, largest_image_difference = 0.05;
+    const bool one_image =
+        s.optical == first.optical || std::abs(first.optical / s.optical - 1) <= largest_image_difference;
+    return s.z <= surface_depth_ratio * first.z && one_image;
+}
+
 float offset(double sum, std::size_t count) { return float(std::clamp(sum / double(count), -0.5, 0.5)); }
 
 // Appends the surfaces of one small pixel.
 void append_surfaces(const Ldi &ldi, std::size_t alpha, const std::vector<Seen> &seen, double pixels,
                      Ldi &out) {
-    // The depths of one surface differ by no more than this ratio. It is not in pixels, as the lens is not known here.
-    constexpr double surface_depth_ratio = 1.01;
     // Of the light; less is what rounding leaves behind surfaces that hide everything.
     constexpr double nothing_left = 1e-4;
     double left = 1; // of the light, behind the surfaces so far
@@ -63,7 +70,7 @@ void append_surfaces(const Ldi &ldi, std::size_t alpha, const std::vector<Seen> 
         MergedSample surface = sample_at(ldi, seen[begin].index);
         double x = 0, y = 0, shown = 0;
         terms.clear();
-        for (; end < seen.size() && seen[end].z <= surface_depth_ratio * seen[begin].z; ++end) {
+        for (; end < seen.size() && alike(seen[begin], seen[end]); ++end) {
             const Seen &s = seen[end];
             x += s.x, y += s.y;
             shown += s.shown * alpha_at(ldi, alpha, s.index) / pixels;

@@ -198,6 +198,8 @@ std::size_t repair_places(Ldi &ldi) {
     const auto is_weight = [](float w) { return w > 0 && std::isfinite(w); };
     std::size_t bad = replace(ldi.dx, inside, clamped) + replace(ldi.dy, inside, clamped) +
                       replace(ldi.weight, is_weight, [](float) { return 1.0f; });
+    for (std::size_t i = 0; i < ldi.optical.size(); ++i)
+        if (!(std::abs(ldi.optical[i]) >= smallest_depth)) ldi.optical[i] = ldi.z[i], ++bad;
     for (std::size_t i = 0; i < ldi.z_back.size(); ++i) {
         if (std::isnan(ldi.z_back[i])) ++bad;
         if (!(ldi.z_back[i] >= ldi.z[i])) ldi.z_back[i] = ldi.z[i];

@@ -51,7 +51,7 @@ BorderReach border_reach(const Ldi &ldi, const ThinLens &lens) {
     for_each_border_pixel(ldi.windows.display, [&](int x, int y) {
         for (const std::uint64_t i : ldi.pixel(ldi.windows.index(x, y))) {
             if (alpha != npos && ldi.values[alpha][i] < counts) continue;
-            const double coc = std::abs(circle_of_confusion(lens, double(ldi.z[i])));
+            const double coc = std::abs(circle_of_confusion(lens, ldi.optical_z(i)));
             largest = std::max(largest, coc);
             float light = 0;
             for (const std::size_t k : rgb)

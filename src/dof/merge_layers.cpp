@@ -46,7 +46,11 @@ private:
         const auto near = [&](const std::vector<float> &offset) {
             return offset.empty() || std::abs(offset[i] - offset[first]) <= tolerance_;
         };
-        return near(ldi_.dx) && near(ldi_.dy);
+        return near(ldi_.dx) && near(ldi_.dy) && one_image(first, i);
+    }
+    bool one_image(std::uint64_t first, std::uint64_t i) const {
+        return ldi_.optical.empty() ||
+               std::abs(scale_ / ldi_.optical[first] - scale_ / ldi_.optical[i]) <= tolerance_;
     }
     const Ldi &ldi_;
     std::size_t alpha_;
@@ -113,6 +117,13 @@ public:
             return std::clamp(float(1 / inverse), ldi_.z[run.from], ldi_.z[run.to - 1]);
         });
     }
+    std::vector<float> depths_of_images() const {
+        if (ldi_.optical.empty()) return {};
+        return for_runs(ldi_, runs_, [&](const Run &run) {
+            if (run.to - run.from == 1) return ldi_.optical[run.from];
+            return float(1 / mean(run, [&](std::uint64_t i) { return 1 / double(ldi_.optical[i]); }));
+        });
+    }
     std::vector<float> offsets(const std::vector<float> &offset) const {
         if (offset.empty()) return {};
         return for_runs(ldi_, runs_, [&](const Run &run) {
@@ -171,6 +182,8 @@ Ldi merged(Source &ldi, double scale, double tolerance) {
     out.channels = ldi.channels;
     out.z = merging.depths();
     used(ldi.z);
+    out.optical = merging.depths_of_images();
+    used(ldi.optical);
     out.dx = merging.offsets(ldi.dx);
     used(ldi.dx);
     out.dy = merging.offsets(ldi.dy);

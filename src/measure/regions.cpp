@@ -96,7 +96,7 @@ std::vector<float> front_circles_of_confusion(const Ldi &ldi, const ThinLens &le
     std::vector<float> c(ldi.windows.pixels());
     for (std::size_t i = 0; i < c.size(); ++i) {
         const SampleRange samples = ldi.pixel(i);
-        c[i] = float(circle_of_confusion(lens, samples.empty() ? infinity : ldi.z[samples.front()]));
+        c[i] = float(circle_of_confusion(lens, samples.empty() ? infinity : ldi.optical_z(samples.front())));
     }
     return c;
 }

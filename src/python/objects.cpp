@@ -174,6 +174,7 @@ void bind_ldi(py::module_ &module) {
     samples("dx", &Ldi::dx, doc::dx);
     samples("dy", &Ldi::dy, doc::dy);
     samples("weight", &Ldi::weight, doc::weight);
+    samples("optical", &Ldi::optical, doc::optical);
     type.def_property_readonly(
             "channels", [](const LdiObject &in) { return py::tuple(py::cast(names_of(in.ldi.channels))); },
             doc::channels)

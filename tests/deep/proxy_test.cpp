@@ -98,5 +98,19 @@ TEST(ReachedDisplay, IsWhatEachSampleIsSpreadOver) {
     EXPECT_TRUE(reached_display(sharp, lens).isEmpty());
 }
 
+TEST(Proxy, UnlikeImagesStayApart) {
+    const auto samples = [](double optical) {
+        const Ldi ldi = make_ldi(windows_of_size(2, 2), {{"R"}, {"A"}}, [&](int x, int) {
+            Sample s{x == 0 ? 2 : 2.001, {1, 1}};
+            s.optical = x == 0 ? 9 : optical;
+            return std::vector<Sample>{s};
+        });
+        return proxy(ldi, 2).samples();
+    };
+    EXPECT_EQ(samples(9.1), 1u);
+    EXPECT_GT(samples(20), 1u);
+    EXPECT_GT(samples(-9), 1u);
+}
+
 } // namespace
 } // namespace sparselens

@@ -130,5 +130,12 @@ TEST(InvalidValues, AreSaidInOneLine) {
               "neighbouring pixels, alpha clamped");
 }
 
+TEST(InvalidValues, ImagesNeedADepthOnEitherSideOfTheCamera) {
+    Ldi ldi = ldi_of({{{.z = 1}, {.z = 2}, {.z = 3}, {.z = 4}}});
+    ldi.optical = {-3, 0, nan, inf};
+    EXPECT_EQ(sanitize(ldi, "ldi").places, 2u);
+    EXPECT_EQ(ldi.optical, (std::vector<float>{-3, 2, 3, inf}));
+}
+
 } // namespace
 } // namespace sparselens

@@ -44,6 +44,15 @@ TEST(MergeLayers, LayersFartherApartStay) {
     EXPECT_EQ(merged({at(5, 0.5f), at(4.999, 0.5f)}, 0).size(), 2u);
 }
 
+TEST(MergeLayers, ImagesFartherApartStay) {
+    Ldi ldi = ldi_of({{at(5, 0.5f), at(4.95, 0.5f)}});
+    ldi.optical = {1 / 2.0f, 1 / 2.5f};
+    EXPECT_EQ(merge_layers(ldi, 1, 0.25).optical, ldi.optical);
+    const Ldi one = merge_layers(ldi, 1, 0.6);
+    ASSERT_EQ(one.samples(), 1u);
+    EXPECT_NEAR(1 / one.optical_z(0), (0.5 * 2 + 0.25 * 2.5) / 0.75, 1e-6);
+}
+
 TEST(MergeLayers, PositionsFartherApartStay) {
     TestPixel pixel{at(5, 0.5f), at(4.95, 0.5f)};
     pixel[0].dx = -0.2f;

@@ -48,11 +48,13 @@ Ldi make_ldi(const Windows &windows, const std::vector<Channel> &channels,
     ldi.channels = channels;
     ldi.values.resize(channels.size());
     ldi.begin.push_back(0);
-    bool volumes = false;
+    bool volumes = false, images = false;
     for (int y = windows.data.min.y; y <= windows.data.max.y; ++y)
         for (int x = windows.data.min.x; x <= windows.data.max.x; ++x) {
             for (const Sample &s : samples_at(x, y)) {
                 volumes |= s.z_back != 0;
+                images |= s.optical != 0;
+                ldi.optical.push_back(float(s.optical == 0 ? s.z : s.optical));
                 ldi.z.push_back(float(s.z));
                 ldi.z_back.push_back(s.z_back == 0 ? float(s.z) : s.z_back);
                 ldi.dx.push_back(s.dx);
@@ -63,6 +65,7 @@ Ldi make_ldi(const Windows &windows, const std::vector<Channel> &channels,
             ldi.begin.push_back(ldi.z.size());
         }
     if (!volumes) ldi.z_back.clear();
+    if (!images) ldi.optical.clear();
     return ldi;
 }
 

@@ -14,11 +14,10 @@ namespace {
 
 PlacedSample sample_at(const Ldi &ldi, const ThinLens &lens, int x, int y, float alpha, std::uint64_t i) {
     const MergedSample place = sample_at(ldi, i);
-    const double z = double(place.z);
     return {float(x) + 0.5f + place.dx,
             float(y) + 0.5f + place.dy,
-            float(circle_of_confusion(lens, z)),
-            float(perceptive_depth(lens, z)),
+            float(circle_of_confusion(lens, ldi.optical_z(i))),
+            float(perceptive_depth(lens, double(place.z))),
             alpha,
             std::uint32_t(i)};
 }

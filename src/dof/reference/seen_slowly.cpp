@@ -33,7 +33,8 @@ std::vector<Placed> place_samples(const Ldi &ldi, const ThinLens &lens, const Im
             for (const std::uint64_t i : ldi.pixel(pixel)) {
                 const long double dx = ldi.dx.empty() ? 0 : ldi.dx[i], dy = ldi.dy.empty() ? 0 : ldi.dy[i];
                 const long double z = ldi.z[i], alpha = alpha_of(ldi, i);
-                placed.push_back({x + dx, y + dy, coc_at(lens, z), z, alpha < opaque ? alpha : 1, i, false});
+                const long double coc = coc_at(lens, ldi.optical_z(i));
+                placed.push_back({x + dx, y + dy, coc, z, alpha < opaque ? alpha : 1, i, false});
                 passed *= 1 - alpha;
             }
             if (passed < clear || !window.intersects(Imath::V2i(column, row))) continue;

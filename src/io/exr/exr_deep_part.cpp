@@ -33,6 +33,7 @@ std::vector<float> *placement_array(Ldi &ldi, const std::string &name, const std
     if (name == depth + "Back") return &ldi.z_back; // ZBack, depth.ZBack
     if (name == "ldi.dx") return &ldi.dx;
     if (name == "ldi.dy") return &ldi.dy;
+    if (name == "ldi.optical") return &ldi.optical;
     return name == "ldi.weight" ? &ldi.weight : nullptr;
 }
 

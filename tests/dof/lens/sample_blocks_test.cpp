@@ -21,7 +21,9 @@ bool is_background(const BlockedSamples &samples, std::size_t i) {
 TEST(SampleBlocks, HoldEverySampleOnceAtItsPlace) {
     Windows windows = windows_of_size(45, 21);
     windows.data = {{-13, 4}, {31, 24}};
-    const Ldi ldi = random_surfaces(windows, lens, false, 1);
+    Ldi ldi = random_surfaces(windows, lens, false, 1);
+    ldi.optical = ldi.z;
+    for (std::size_t i = 0; i < ldi.samples(); i += 3) ldi.optical[i] = 1 / (0.3f - 0.1f * float(i % 5));
     const BlockedSamples samples = make_blocks(ldi, lens, ldi.windows.data);
     std::vector<int> pixel_of(ldi.samples());
     for (std::size_t p = 0; p < windows.pixels(); ++p)
@@ -33,7 +35,7 @@ TEST(SampleBlocks, HoldEverySampleOnceAtItsPlace) {
         EXPECT_TRUE(seen.insert(s).second);
         EXPECT_FLOAT_EQ(samples.x[i], float(pixel_of[s] % 45) + 0.5f + ldi.dx[s]);
         EXPECT_FLOAT_EQ(samples.y[i], float(pixel_of[s] / 45) + 0.5f + ldi.dy[s]);
-        EXPECT_FLOAT_EQ(samples.coc[i], float(circle_of_confusion(lens, double(ldi.z[s]))));
+        EXPECT_FLOAT_EQ(samples.coc[i], float(circle_of_confusion(lens, ldi.optical_z(s))));
         EXPECT_FLOAT_EQ(samples.depth[i], float(perceptive_depth(lens, double(ldi.z[s]))));
         EXPECT_EQ(samples.alpha[i], ldi.values[ldi.alpha()][s]);
     }

@@ -23,6 +23,7 @@ struct Case {
     bool colour = false; // channels R, G, B: nothing stands out, and nothing is near focus
     double glowing = 0;  // share of samples that give light and cover nothing
     LensLooks looks = {};
+    double images = 0;   // share of samples that show an image which lies at another depth
 };
 
 // Weights that differ for R, G and B.
@@ -62,6 +63,7 @@ Ldi random_layers(const Case &c, const ThinLens &lens) {
                                      : (glows ? 0.2f : alpha) * float(0.5 + 0.5 * random(4 + k)));
             samples.push_back({depth_of(lens, random(8) < 0.5 ? size : -size), values, float(random(9) - 0.5),
                                float(random(10) - 0.5)});
+            if (random(12) < c.images) samples.back().optical = depth_of(lens, 14 * random(13) - 7);
         }
         std::sort(samples.begin(), samples.end(), [](const auto &a, const auto &b) { return a.z < b.z; });
         return samples;
@@ -104,6 +106,7 @@ const Case cases[] = {
     {"FarFromFocus", box(0, 0, 40, 40), box(0, 0, 40, 40), 1, 0.3, 3, 4.5, 32, true},
     {"OneLensPoint", box(0, 0, 70, 30), box(0, 0, 70, 30), 1, 0.5, 3, 0, 1},
     {"Glowing", box(0, 0, 20, 70), box(0, 0, 20, 70), 1, 0.3, 4, 0, 16, false, 0.5},
+    {"Images", box(0, 0, 40, 40), box(0, 0, 40, 40), 1, 0.3, 3, 0, 16, false, 0, {}, 0.4},
     {"ManyLensPoints", box(0, 0, 20, 20), box(0, 0, 20, 20), 1, 0.5, 3, 0, 200},
     looks("Blades", {.aperture = {.blades = 5, .rotation = 10, .squeeze = 1.5}}),
     looks("Rings", {.aperture = {.spherical = 0.8}}),
@@ -133,6 +136,25 @@ TEST(LensGatherReferenceItself, OneLensPointSeesThePinholePictureShifted) {
     // beside it. What comes in from beyond the picture is unknown: the pixel stays as it is.
     const float expected[] = {0, 4, 0, 1, 2, 3, 4, 5, 6};
     for (int x = 0; x < 9; ++x) EXPECT_EQ(seen(image, 0, x), expected[x]) << x;
+}
+
+// A mirror of CoC 1 whose image has CoC 3, and a bar of CoC 0 before it, seen through the right rim of the lens.
+TEST(LensGatherReferenceItself, ImagesMoveByTheirDepthAndHideByTheMirrors) {
+    const ThinLens lens{.radius = 0.06, .focal_px = 640, .focus = 5};
+    const LensSample right{1, 0, 0, 0, 1};
+    const auto gather = [&](double bar_coc) {
+        const Ldi ldi = make_ldi(windows_of_size(12, 1), {{"Y"}}, [&](int x, int) {
+            if (x == 5) return std::vector<Sample>{{depth_of(lens, bar_coc), {100}}};
+            Sample mirror{depth_of(lens, 1), {float(x)}};
+            mirror.optical = depth_of(lens, 3);
+            return std::vector<Sample>{mirror};
+        });
+        return lens_gather_reference(ldi, lens, ldi.windows.data, std::span(&right, 1));
+    };
+    const ReferencePicture image = gather(0);
+    for (const int x : {4, 5, 6, 7, 9, 10, 11})
+        EXPECT_EQ(seen(image, 0, x), x == 5 ? 100 : float(x - 3)) << x;
+    EXPECT_EQ(seen(gather(2), 0, 7), 4); // nearer than its image, but behind the mirror
 }
 
 TEST(LensGatherReferenceItself, WhatLiesBehindCoverageCountsByWhatIsLeft) {

@@ -58,6 +58,20 @@ TEST(Selective, PlanesAreConvolvedWithTheirDiscs) {
         }
 }
 
+TEST(Selective, ImagesAreBlurredByTheirOwnDepth) {
+    const auto picture = [](double z, double optical) {
+        return gather(make_ldi(windows_of_size(60, 40), grey,
+                               [&](int x, int y) {
+                                   Sample s{depth_of(lens, z), {float(random_unit(x, y, 1))}};
+                                   s.optical = optical == 0 ? 0 : depth_of(lens, optical);
+                                   return std::vector<Sample>{s};
+                               }),
+                      lens);
+    };
+    EXPECT_EQ(picture(-4, 3).values, picture(3, 0).values);
+    EXPECT_NE(picture(-4, 3).values, picture(-4, 0).values);
+}
+
 TEST(Selective, ConstantStaysConstantAndOpaque) {
     const Ldi ldi = make_ldi(windows_of_size(70, 50), grey_alpha, [](int x, int y) {
         const double c = -14 + 20 * random_unit(x / 9, y / 7, 1);

@@ -57,6 +57,7 @@ void expect_equal(const Ldi &a, const Ldi &b) {
     EXPECT_EQ(a.dx, b.dx);
     EXPECT_EQ(a.dy, b.dy);
     EXPECT_EQ(a.weight, b.weight);
+    EXPECT_EQ(a.optical, b.optical);
     EXPECT_EQ(a.values, b.values);
 }
 
@@ -98,6 +99,16 @@ TEST_F(ExrDeep, WithoutOffsetsAndWeightsThereAreNone) {
     const LdiFile read = round_trip(ldi);
     expect_equal(read.ldi, ldi);
     EXPECT_EQ(read.header.channels().findChannel("ldi.dx"), nullptr);
+    EXPECT_EQ(read.header.channels().findChannel("ldi.optical"), nullptr);
+}
+
+TEST_F(ExrDeep, DepthsOfImagesAreFloats) {
+    Ldi ldi = ldi_of({{{.z = 2}}, {{.z = 2}, {.z = 3}}});
+    ldi.optical = {1234.567f, -8.001f, INFINITY};
+    const LdiFile read = round_trip(ldi);
+    expect_equal(read.ldi, ldi);
+    ASSERT_NE(read.header.channels().findChannel("ldi.optical"), nullptr);
+    EXPECT_EQ(read.header.channels().findChannel("ldi.optical")->type, Imf::FLOAT);
 }
 
 TEST_F(ExrDeep, ChannelsOfEveryTypeAreCarried) {
