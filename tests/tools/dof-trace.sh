@@ -9,7 +9,8 @@ same() { cmp -s "$1" "$2" || fail "$1 and $2 differ: $3"; }
 header() { grep -q -e "$2" <<<"$(exrheader "$1")" || fail "$1 has no '$2': $(exrheader "$1")"; }
 
 # Every scene gives what was asked for, and nothing else.
-for scene in fence grass planes slant lamps mirror mist element macro; do
+for scene in fence grass planes slant lamps mirror mist element macro \
+    plane-mirror brushed-mirror glass-slab curved-mirrors glossy-floor; do
     exits 0 "$trace" $scene -o "$scene" "${small[@]}" --lens-views 2 --reference 3 --deep peel:3 --deep strata:3 --deep visible
     [ "$(ls -A "$scene" | tr '\n' ' ')" = "camera.json center.exr deep_peel.exr deep_strata.exr deep_visible.exr lens_0000.exr \
 lens_0001.exr reference.exr view_0.exr view_1.exr " ] || fail "$scene: $(ls -A "$scene")"

@@ -60,6 +60,26 @@ Paint night(const Imath::V3d &) { return {{0.02f, 0.02f, 0.025f}, 1, true}; }
 
 Paint chrome(const Imath::V3d &) { return {{0.05f, 0.05f, 0.05f}, 1, false, 0.9f}; }
 
+Paint silver(const Imath::V3d &) { return {{0, 0, 0}, 1, true, 1}; }
+
+Paint brushed(const Imath::V3d &) { return {{0, 0, 0}, 1, true, 1, 0.03f}; }
+
+Paint clear_glass(const Imath::V3d &) { return {{0, 0, 0}, 1, true, 1, 0, float(glass_thickness)}; }
+
+Paint glossy_tiles(const Imath::V3d &p) {
+    Paint paint = floor_tiles(p);
+    paint.mirror = 0.4f;
+    return paint;
+}
+
+Paint mosaic(const Imath::V3d &p) {
+    const double u = p.x + 0.3 * p.z, v = p.y + 0.2 * p.z;
+    const auto tone = [&](double scale, int k) { return hash(cell(scale, u), cell(scale, v), k); };
+    return {{float(0.1 + 0.4 * tone(1.3, 1) + 0.4 * tone(4, 2)),
+             float(0.1 + 0.4 * tone(1.7, 3) + 0.4 * tone(4, 4)),
+             float(0.1 + 0.4 * tone(2.3, 5) + 0.4 * tone(4, 6))}};
+}
+
 Paint near_sheet(const Imath::V3d &p) {
     return {{0.9f, 0.5f, 0.3f}, float(0.4 + 0.3 * std::sin(9 * p.x + 4 * p.y)), true};
 }

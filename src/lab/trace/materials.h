@@ -26,6 +26,14 @@ Paint night(const Imath::V3d &position);
 // For the scene "mirror": the colour depends on the direction of view.
 Paint chrome(const Imath::V3d &position);
 
+// For the scenes of mirrors and glass. Glass is `glass_thickness` thick and refracts by `refractive_index`.
+inline constexpr double glass_thickness = 3, refractive_index = 1.5;
+Paint silver(const Imath::V3d &position);       // a perfect mirror
+Paint brushed(const Imath::V3d &position);      // a rough one
+Paint clear_glass(const Imath::V3d &position);  // lets all light through
+Paint glossy_tiles(const Imath::V3d &position); // floor_tiles under a varnish
+Paint mosaic(const Imath::V3d &position);       // tiles of many sizes and colours, none like the next
+
 // For the scene "mist": all materials emit; the sheets have partial coverage.
 Paint near_sheet(const Imath::V3d &position);
 Paint focus_sheet(const Imath::V3d &position);

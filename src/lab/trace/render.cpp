@@ -112,12 +112,13 @@ Image render_view(const Tracer &tracer, const RenderSettings &settings, const Im
     channels.push_back({"Z", PixelType::float32});
     Image image(settings.windows, channels);
     const PixelSamples points(samples, !settings.scattered, seeded(settings, stream));
+    const bool scatters = settings.light == Light::area || tracer.scene().mirrors;
     const auto make = [&](const Run &run) {
         std::array<Imath::V2d, batch_size> p;
         points.in_pixel(run.x, run.y, run.first, std::span(p).first(run.rays.size()));
         for (std::size_t i = 0; i < run.rays.size(); ++i)
             run.rays[i] = view_ray(settings, u, p[i] + Imath::V2d(run.x, run.y));
-        if (settings.light == Light::area) points.on_light(run.x, run.y, run.first, run.light_points);
+        if (scatters) points.on_light(run.x, run.y, run.first, run.light_points);
     };
     const std::size_t width = std::size_t(settings.windows.width());
     std::ranges::fill(image.plane(4), std::numeric_limits<float>::infinity());
@@ -139,13 +140,14 @@ Image render_reference(const Tracer &tracer, const RenderSettings &settings, int
         return render_looks(tracer, settings, samples, progress);
     Image image(settings.windows, rgba_channels());
     const PixelSamples points(samples, false, seeded(settings, 0));
+    const bool scatters = settings.light == Light::area || tracer.scene().mirrors;
     const auto make = [&](const Run &run) {
         std::array<Imath::V2d, batch_size> p, on_lens;
         points.in_pixel(run.x, run.y, run.first, std::span(p).first(run.rays.size()));
         points.on_lens(run.x, run.y, run.first, std::span(on_lens).first(run.rays.size()));
         for (std::size_t i = 0; i < run.rays.size(); ++i)
             run.rays[i] = lens_ray(settings, disc_point(on_lens[i]), p[i] + Imath::V2d(run.x, run.y));
-        if (settings.light == Light::area) points.on_light(run.x, run.y, run.first, run.light_points);
+        if (scatters) points.on_light(run.x, run.y, run.first, run.light_points);
     };
     progress.start("reference", std::size_t(settings.windows.height()));
     parallel_for(std::size_t(settings.windows.height()), [&](std::size_t row) {

@@ -17,7 +17,11 @@ struct Paint {
     Imath::C3f colour;  // albedo, [0, 1], or radiance if it emits; not premultiplied
     float coverage = 1; // the share of the background that it hides, [0, 1]
     bool emits = false; // independent of the sun and the light
-    float mirror = 0;   // share of a perfect mirror in place of the colour, [0, 1]
+    float mirror = 0;   // share of a mirror, or of glass, in place of the colour, [0, 1]
+    float rough =
+        0; // how far the mirror scatters: the tangent of the largest angle to the perfect reflection
+    float glass =
+        0; // above 0: not a mirror but a plane-parallel slab of glass, so many units thick, behind the surface
 };
 
 using Material = Paint (*)(const Imath::V3d &position);
@@ -27,7 +31,7 @@ struct Quad {
     Material material;
 };
 
-// Visible from outside only.
+// Visible from wherever a ray starts: from outside the nearer side, from inside the farther one.
 struct Sphere {
     Imath::V3d centre;
     double radius;

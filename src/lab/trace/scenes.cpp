@@ -125,6 +125,59 @@ Scene mirror() {
     return scene;
 }
 
+// A room for mirrors and glass: walls and a floor behind the camera too, and a lens wide enough that what they show moves
+// by several pixels.
+Scene room() {
+    Scene scene;
+    scene.mirrors = true;
+    scene.sky = {0.3f, 0.4f, 0.6f};
+    scene.camera = default_camera(0.12, 8);
+    scene.quads = {{{{{-9, -1, -7}, {9, -1, -7}, {9, -1, 16}, {-9, -1, 16}}}, mosaic},
+                   {{{{-12, -1, 16}, {12, -1, 16}, {12, 9, 16}, {-12, 9, 16}}}, mosaic},
+                   {{{{-12, -1, -6}, {12, -1, -6}, {12, 9, -6}, {-12, 9, -6}}}, mosaic}};
+    return scene;
+}
+
+// The image of a point lies at its mirror image: planar depth 8 - z.
+Scene plane_mirror_of(Material material) {
+    Scene scene = room();
+    scene.quads.push_back(facing(4, -0.4, -0.2, 0.35, 0.22, material));
+    scene.spheres = {{{1.9, -0.5, 4.5}, 0.5, dots}};
+    return scene;
+}
+Scene plane_mirror() { return plane_mirror_of(silver); }
+Scene brushed_mirror() { return plane_mirror_of(brushed); }
+
+// The image of what lies behind it is nearer than that by glass_thickness (1 - 1 / refractive_index), where rays are
+// upright on the glass.
+Scene glass_slab() {
+    Scene scene = room();
+    scene.quads.push_back(facing(3, -0.35, -0.14, 0.3, 0.2, clear_glass));
+    scene.quads.push_back(facing(9, -0.7, -0.11, 0.7, 0.6, mosaic));
+    scene.spheres = {{{0.7, -0.5, 7}, 0.5, dots}};
+    return scene;
+}
+
+// A convex ball before a concave wall: a sphere around the scene and the camera, in which what is nearer than half its
+// radius has its image behind the wall, and what is farther has it behind the camera.
+Scene curved_mirrors() {
+    Scene scene = room();
+    scene.quads.resize(1);
+    scene.spheres = {{{0, 0, -4}, 16, silver},
+                     {{-0.8, 0, 4.5}, 0.9, silver},
+                     {{1.2, -0.4, 4}, 0.6, dots},
+                     {{2.6, -0.1, 9}, 0.9, dots},
+                     {{-3, -0.2, 7}, 0.8, stripes}};
+    return scene;
+}
+
+Scene glossy_floor() {
+    Scene scene = room();
+    scene.quads[0].material = glossy_tiles;
+    scene.spheres = {{{-1, -0.2, 5}, 0.8, dots}, {{1.2, -0.4, 4}, 0.6, stripes}, {{2, 0, 9}, 1, mosaic}};
+    return scene;
+}
+
 // Objects at five depths, some in front of others, and nothing behind them: what a compositor gets as an element.
 Scene element() {
     Scene scene;
@@ -149,6 +202,12 @@ constexpr SceneEntry scenes[] = {
     {"slant", "one plane at a grazing angle, through the plane of focus", slant},
     {"lamps", "tiny lamps of radiance 1000 far out of focus before a dark wall", lamps},
     {"mirror", "chrome balls and a mirror: surfaces whose colour depends on the direction", mirror},
+    {"plane-mirror", "a plane mirror that faces the camera and a room behind it; depths in closed form",
+     plane_mirror},
+    {"brushed-mirror", "the same mirror, rough", brushed_mirror},
+    {"glass-slab", "a room through thick glass; depths in closed form", glass_slab},
+    {"curved-mirrors", "a convex ball before a concave wall", curved_mirrors},
+    {"glossy-floor", "balls on a varnished floor: what it reflects lies over what it is", glossy_floor},
     {"element", "spheres and bars at five depths before nothing: alpha 0 beside them", element},
     {"mist", "sheets of partial coverage and overlapping volumes before a textured wall", mist},
     {"macro", "a head of steep relief, 85 mm and f/1 away, lamps of radiance 200 behind it", macro_scene},

@@ -1,11 +1,13 @@
 #include "lab/trace/shading.h"
 
 #include "lab/trace/composite.h"
+#include "lab/trace/materials.h"
 
 #include <algorithm>
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <numbers>
 
 namespace sparselens::lab {
 
@@ -88,18 +90,46 @@ void shade_surfaces(const Tracer &tracer, Light light, std::span<const Hit> hits
     }
 }
 
+// Scattered evenly, by the point of the unit square, over a disc around the direction.
+Imath::V3d scattered(const Imath::V3d &direction, double rough, const Imath::V2d &point) {
+    if (rough <= 0) return direction;
+    const Imath::V3d axis = direction.normalized();
+    const Imath::V3d aside = std::abs(axis.y) < 0.9 ? Imath::V3d(0, 1, 0) : Imath::V3d(1, 0, 0);
+    const Imath::V3d x = (axis % aside).normalized(), y = axis % x;
+    const double radius = rough * std::sqrt(point.x), angle = 2 * std::numbers::pi * point.y;
+    return axis + radius * (std::cos(angle) * x + std::sin(angle) * y);
+}
+
+// What leaves a slab of glass is parallel to what came in (Snell's law, twice).
+Ray through_glass(const Hit &hit, const Imath::V3d &in, double thickness) {
+    const Imath::V3d axis = in.normalized();
+    const Imath::V3d inward = ((axis ^ hit.normal) < 0 ? -1.0 : 1.0) * hit.normal;
+    const Imath::V3d along =
+        (axis - (axis ^ inward) * inward) / refractive_index; // of the surface, sine of the angle
+    const double cosine = std::sqrt(1 - along.length2());
+    const Imath::V3d leaves = hit.position + thickness * (inward + along / cosine);
+    return {leaves + 1e-5 * (1 + leaves.length()) * in, in};
+}
+
+Ray reflected(const Hit &hit, const Imath::V3d &in, double rough, const Imath::V2d &point) {
+    const Imath::V3d direction = scattered(in - 2 * (in ^ hit.normal) * hit.normal, rough, point);
+    return {hit.position + 1e-5 * (1 + hit.position.length()) * direction, direction};
+}
+
 // One bounce: a mirror seen in a mirror shows its own colour.
-void add_reflections(const Tracer &tracer, Light light, std::span<const Ray> rays, std::span<const Hit> hits,
-                     std::span<const Imath::V2d> light_points, std::span<Imath::C4f> out) {
+void add_bounces(const Tracer &tracer, Light light, std::span<const Ray> rays, std::span<const Hit> hits,
+                 std::span<const Imath::V2d> light_points, std::span<Imath::C4f> out) {
     for (std::size_t i = 0; i < hits.size(); ++i) {
-        const float share = hits[i].sky() ? 0 : tracer.material(hits[i])(hits[i].position).mirror;
+        if (hits[i].sky()) continue;
+        const Paint paint = tracer.material(hits[i])(hits[i].position);
+        const float share = paint.mirror;
         if (share <= 0) continue;
-        const Imath::V3d &in = rays[i].direction, &normal = hits[i].normal;
-        const Imath::V3d direction = in - 2 * (in ^ normal) * normal;
-        const Ray reflected{hits[i].position + 1e-5 * (1 + hits[i].position.length()) * direction, direction};
+        const Ray goes_on = paint.glass > 0
+                                ? through_glass(hits[i], rays[i].direction, double(paint.glass))
+                                : reflected(hits[i], rays[i].direction, double(paint.rough), light_points[i]);
         Hit seen;
         Imath::C4f colour;
-        tracer.nearest({&reflected, 1}, {&seen, 1});
+        tracer.nearest({&goes_on, 1}, {&seen, 1});
         shade_surfaces(tracer, light, {&seen, 1}, {&light_points[i], 1}, {&colour, 1});
         out[i].r += share * (colour.r - out[i].r);
         out[i].g += share * (colour.g - out[i].g);
@@ -122,7 +152,7 @@ void trace_through(const Tracer &tracer, Light light, std::span<const Ray> rays,
 void shade(const Tracer &tracer, Light light, std::span<const Ray> rays, std::span<const Hit> hits,
            std::span<const Imath::V2d> light_points, std::span<Imath::C4f> out) {
     shade_surfaces(tracer, light, hits, light_points, out);
-    if (tracer.scene().mirrors) add_reflections(tracer, light, rays, hits, light_points, out);
+    if (tracer.scene().mirrors) add_bounces(tracer, light, rays, hits, light_points, out);
 }
 
 void trace_layers(const Tracer &tracer, Light light, const Ray &ray, const Imath::V2d &light_point,

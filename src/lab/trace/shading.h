@@ -10,8 +10,9 @@ namespace sparselens::lab {
 // one random point of the light and a shadow ray to it, which gives soft shadows and the noise of a path tracer.
 enum class Light { sun, area };
 
-// The colour (not premultiplied) and coverage of what each ray hits; mirrors show one bounce. `light_points` are one
-// per hit, spread evenly over the unit square; the sun does not use them.
+// The colour (not premultiplied) and coverage of what each ray hits; mirrors and glass show what one bounce meets, or the
+// ray that leaves the glass. `light_points` are one per hit, spread evenly over the unit square: of the light, and of
+// where rough mirrors reflect to.
 void shade(const Tracer &tracer, Light light, std::span<const Ray> rays, std::span<const Hit> hits,
            std::span<const Imath::V2d> light_points, std::span<Imath::C4f> out);
 

@@ -51,9 +51,11 @@ Hit solve(const Shape &shape, int primitive, const Ray &ray) {
     const double t_middle = (to_shape ^ ray.direction) * inverse_length2;
     const double distance2 = (to_shape - t_middle * ray.direction).length2();
     const double half_chord2 = std::max(0.0, shape.radius * shape.radius - distance2);
-    hit.t = t_middle - std::sqrt(half_chord2 * inverse_length2);
+    const double side =
+        to_shape.length2() < shape.radius * shape.radius ? -1 : 1; // of the start: inside, outside
+    hit.t = t_middle - side * std::sqrt(half_chord2 * inverse_length2);
     hit.position = ray.origin + hit.t * ray.direction;
-    hit.normal = (hit.position - shape.point) * (1 / shape.radius);
+    hit.normal = (hit.position - shape.point) * (side / shape.radius);
     return hit;
 }
 

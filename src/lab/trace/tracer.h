@@ -20,7 +20,7 @@ struct Hit {
     double t = std::numeric_limits<double>::infinity();
     int primitive = -1; // quads first, then spheres, in the order of the scene; -1: the sky
     Imath::V3d position;
-    Imath::V3d normal; // of unit length; outward from a sphere, on either side of a quad
+    Imath::V3d normal; // of unit length; from a sphere towards where the ray starts, on either side of a quad
 
     bool sky() const { return primitive < 0; }
 };

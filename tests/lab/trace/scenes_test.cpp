@@ -17,8 +17,9 @@ TEST(Scenes, NamesAreUniqueAndLensesComplete) {
         EXPECT_TRUE(camera.focal_length_mm && camera.sensor_width_mm && camera.fstop && camera.focus_distance)
             << entry.name;
     }
-    EXPECT_EQ(names, (std::set<std::string>{"element", "fence", "grass", "lamps", "macro", "mirror", "mist",
-                                            "planes", "slant"}));
+    EXPECT_EQ(names, (std::set<std::string>{"brushed-mirror", "curved-mirrors", "element", "fence",
+                                            "glass-slab", "glossy-floor", "grass", "lamps", "macro", "mirror",
+                                            "mist", "plane-mirror", "planes", "slant"}));
 }
 
 // Quads are planar, in order around, and convex: what the tracer takes for granted.

@@ -65,6 +65,52 @@ TEST(Shading, MirrorsShowOneBounce) {
     EXPECT_LT(seen(scene, Light::sun).b, 0.1);
 }
 
+Paint thin_glass(const Imath::V3d &) { return {{0, 0, 0}, 1, true, 1, 0, 0.5f}; }
+Paint bands(const Imath::V3d &p) { return {{float(p.x), float(p.y), float(p.z)}, 1, true}; }
+Paint rough_silver(const Imath::V3d &) { return {{0, 0, 0}, 1, true, 1, 0.1f}; }
+
+// Snell: sin a = 1.5 sin b at both faces; behind the glass the ray goes on in its old direction.
+TEST(Shading, GlassDisplacesRays) {
+    Scene scene;
+    scene.mirrors = true;
+    scene.quads = {facing_wall(2, thin_glass), facing_wall(6, bands)};
+    const Tracer tracer(scene);
+    const double slope = 0.75, within = 0.6 / 1.5 / std::sqrt(1 - 0.16); // sine 0.6 outside, 0.4 in the glass
+    const Ray ray{{0, 0, 0}, {slope, 0, 1}};
+    const Imath::V2d light_point(0.5, 0.5);
+    Imath::C4f out;
+    trace_radiance(tracer, Light::sun, {&ray, 1}, {&light_point, 1}, {&out, 1});
+    EXPECT_NEAR(out.r, slope * 5.5 + within * 0.5, 1e-4);
+    EXPECT_NEAR(out.b, 6, 1e-4);
+}
+
+TEST(Shading, RoughMirrorsScatterEvenlyOverADisc) {
+    Scene scene;
+    scene.mirrors = true;
+    scene.quads = {facing_wall(4, rough_silver), facing_wall(-6, bands)};
+    const Imath::C4f middle = seen(scene, Light::sun, {0, 0.3});
+    EXPECT_NEAR(middle.r, 0, 1e-5);
+    EXPECT_NEAR(middle.g, 0, 1e-5);
+    for (const double turn : {0.0, 0.2, 0.7}) {
+        const Imath::C4f half = seen(scene, Light::sun, {0.25, turn}),
+                         rim = seen(scene, Light::sun, {1, turn});
+        EXPECT_NEAR(std::hypot(half.r, half.g), 0.5, 1e-4); // 10 * 0.1 * sqrt(0.25)
+        EXPECT_NEAR(std::hypot(rim.r, rim.g), 1, 1e-4);
+    }
+}
+
+// From inside, the farther side is seen, and its normal points inwards.
+TEST(Shading, SpheresAroundTheCameraAreSeenFromInside) {
+    Scene scene;
+    scene.spheres = {{{0, 0, 1}, 5, bands}};
+    EXPECT_NEAR(seen(scene, Light::sun).b, 6, 1e-5);
+    const Tracer tracer(scene);
+    const Ray ray{{0, 0, 0}, {0, 0, 1}};
+    Hit hit;
+    tracer.nearest({&ray, 1}, {&hit, 1});
+    EXPECT_NEAR(hit.normal.z, -1, 1e-9);
+}
+
 // What stands in the light's way leaves the constant term alone; a small screen takes away some of the light.
 TEST(Shading, AreaLightCastsSoftShadows) {
     const PixelSamples samples(256, false, 0);

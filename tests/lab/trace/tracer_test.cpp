@@ -83,7 +83,7 @@ TEST(Tracer, FarSmallSpheresAreRound) {
     }
 }
 
-TEST(Tracer, SpheresShowTheirOutsideOnly) {
+TEST(Tracer, SpheresShowTheSideThatARayMeetsFirst) {
     Scene scene;
     scene.spheres = {{{0, 0, 5}, 1, grey}};
     const Tracer tracer(scene);
@@ -93,7 +93,9 @@ TEST(Tracer, SpheresShowTheirOutsideOnly) {
     EXPECT_DOUBLE_EQ(hits[0].t, 4);
     EXPECT_EQ(hits[0].normal, Imath::V3d(0, 0, -1));
     tracer.all({{0, 0, 5}, {0, 0, 1}}, hits);
-    EXPECT_TRUE(hits.empty());
+    ASSERT_EQ(hits.size(), 1u);
+    EXPECT_DOUBLE_EQ(hits[0].t, 1);
+    EXPECT_EQ(hits[0].normal, Imath::V3d(0, 0, -1));
 }
 
 TEST(Tracer, BlockedOnlyBeforeTheLight) {
