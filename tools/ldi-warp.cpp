@@ -47,7 +47,8 @@ void run(const WarpCommand &options, const ToolContext &tool) {
     for (View &view : in.views) in.header = to_linear(tool, options.colour, view.name, as_read, view);
     const WarpOptions warp_by = with_lens({.merge = options.merge,
                                            .split_silhouettes = options.split_silhouettes,
-                                           .test_photo_consistency = options.test_photo_consistency},
+                                           .test_photo_consistency = options.test_photo_consistency,
+                                           .find_images = options.find_images},
                                           in.camera, in.views);
     write_camera(in.header, in.camera);
     append_history(in.header, tool, options.history);

@@ -107,6 +107,7 @@ class Ldi(_Windows):
         dx: Optional[_Floats] = None,
         dy: Optional[_Floats] = None,
         weight: Optional[_Floats] = None,
+        optical: Optional[_Floats] = None,
         name: Optional[str] = None,
         data_window: Optional[_Box] = None,
         display_window: Optional[_Box] = None,
@@ -134,6 +135,8 @@ class Ldi(_Windows):
     def dy(self) -> Optional[_Floats]: ...
     @property
     def weight(self) -> Optional[_Floats]: ...
+    @property
+    def optical(self) -> Optional[_Floats]: ...
     @property
     def samples(self) -> int: ...
     @property
@@ -243,6 +246,7 @@ def warp(
     merge: Literal["average", "keep"] = "average",
     silhouettes: Literal["split", "whole"] = "split",
     agreement: Literal["test", "assume"] = "test",
+    optical: Literal["on", "off"] = "on",
     progress: Optional[_Progress] = None,
     focal_length: Optional[float] = None,
     sensor_width: Optional[float] = None,

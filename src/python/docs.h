@@ -90,7 +90,7 @@ channels: a dict of names and arrays, float32 (samples), or uint32 for ids. With
 
 Keywords:
   size: (width, height)
-  z_back, dx, dy, weight: float32 (samples), see the properties; dx and dy come together
+  z_back, dx, dy, weight, optical: float32 (samples), see the properties; dx and dy come together
   name: for messages (default: "ldi")
   data_window, display_window, pixel_aspect, world_to_camera: as in View
   depth, near, far: what z is, as in open_view
@@ -112,6 +112,8 @@ inline constexpr const char *dy =
     R"(float32 (samples): offset from the pixel centre, -1/2 to 1/2, y down; None where all are 0. No copy.)";
 inline constexpr const char *weight =
     R"(float32 (samples): the number of view samples merged into each; None where all are 1. No copy.)";
+inline constexpr const char *optical =
+    R"(float32 (samples): depth of the image that a mirror or glass shows there; None where all are as z. No copy.)";
 inline constexpr const char *samples_of =
     R"(The channel of that name: float32 (samples), or uint32 for ids. No copy. Raises KeyError.)";
 inline constexpr const char *samples = "The number of samples.";
@@ -175,7 +177,7 @@ inline constexpr const char *open_picture = R"(open_picture(path, *, stereo_view
 Opens a flat EXR and returns a Picture of all its channels. Raises Error where the file cannot be read.)";
 
 inline constexpr const char *warp =
-    R"(warp(views, *, merge='average', silhouettes='split', agreement='test', progress=None, focal_length=None, sensor_width=None, fstop=None, lens_radius=None, focus_distance=None, scene_unit=None)
+    R"(warp(views, *, merge='average', silhouettes='split', agreement='test', optical='on', progress=None, focal_length=None, sensor_width=None, fstop=None, lens_radius=None, focus_distance=None, scene_unit=None)
 --
 
 Warps views into one layered depth image and returns an Ldi. As ldi-warp.
@@ -184,6 +186,7 @@ views: a sequence of View, the centre view first. Each stands where its position
 merge: "average" the views of a surface, or "keep" one sample per surface and the centre view unchanged.
 silhouettes: "split" pixels that mix two surfaces into two samples, or leave them "whole".
 agreement: "test" whether views agree out of focus before they are averaged, or "assume" it.
+optical: "on" finds the depth of what mirrors and glass show, which then is blurred and averaged by it, or "off".
 progress: called with the name of the stage and a whole percentage.
 Lens values replace those of the centre view:
   focal_length (mm), sensor_width (mm, spans the display window), fstop (a number, or inf),

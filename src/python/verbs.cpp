@@ -76,9 +76,11 @@ WarpOptions warp_options(Keywords &keywords) {
     const auto merge = keywords.word<Merge>("merge", {{"average", Merge::average}, {"keep", Merge::keep}});
     const auto split = keywords.word<bool>("silhouettes", {{"split", true}, {"whole", false}});
     const auto test = keywords.word<bool>("agreement", {{"test", true}, {"assume", false}});
+    const auto images = keywords.word<bool>("optical", {{"on", true}, {"off", false}});
     return {.merge = merge.value_or(Merge::average),
             .split_silhouettes = split.value_or(true),
-            .test_photo_consistency = test.value_or(true)};
+            .test_photo_consistency = test.value_or(true),
+            .find_images = images.value_or(true)};
 }
 
 LdiObject warp(const py::object &views, const py::kwargs &given) {

@@ -11,6 +11,9 @@ namespace {
 constexpr int block_size = 8;             // pixels
 constexpr double least_ratio = 3;         // noise alone gives up to 1.6, edges of texture up to 2
 constexpr double least_difference = 1e-5; // mean square, tone-mapped: less is not seen
+constexpr double least_motion = 0.3;      // pixels of perceptive depth
+constexpr double least_explained = 0.5;   // share of the squared differences; noise alone gives a hundredth
+constexpr double least_change = 1e-5;     // mean square for each pixel of depth: nothing else tells
 constexpr double focus_px = 2;            // CoC up to which a surface counts as in focus
 
 // What a block of pixels has shown so far.
@@ -18,10 +21,24 @@ struct Block {
     double difference = 0, variation = 0; // sums of squares over channels
     double coc = 0;                       // sum of |CoC|
     double pixels = 0;
+    // Of each sample of a rim view and channel: the difference, and how it changes with the depth of the picture, which is
+    // the gradient along the way that the picture moves.
+    double change2 = 0, change_difference = 0, difference2 = 0, values = 0;
 
-    bool agrees() const {
-        return difference <= least_ratio * variation + least_difference * pixels || coc <= focus_px * pixels;
+    void add_motion(double moved_difference, double change) {
+        change2 += change * change;
+        change_difference += change * moved_difference;
+        difference2 += moved_difference * moved_difference;
+        values += 1;
     }
+    bool differs() const { return difference > least_ratio * variation + least_difference * pixels; }
+    // Whether a depth that is not that of the surface explains much of the difference, by linear regression.
+    bool moves() const {
+        if (!(change2 > least_change * values)) return false;
+        const double moved = change_difference / change2, explained = moved * change_difference;
+        return std::abs(moved) >= least_motion && explained >= least_explained * difference2;
+    }
+    bool in_focus() const { return coc <= focus_px * pixels; }
 };
 
 // Bounded, so that one bright pixel does not decide for its block.
@@ -42,11 +59,18 @@ public:
         return single(grid_.index(x, y)) &&
                std::ranges::all_of(around(x, y), [&](std::size_t i) { return single(i); });
     }
-    double value(int x, int y, std::size_t channel) const { return value_at(grid_.index(x, y), channel); }
-    double mean_around(int x, int y, std::size_t channel) const {
-        double sum = 0;
-        for (const std::size_t i : around(x, y)) sum += value_at(i, channel);
-        return sum / 4;
+    // A value, the mean of the four around it, and the gradient.
+    struct Detail {
+        double value, mean_around;
+        Imath::V2d gradient;
+    };
+    Detail detail(int x, int y, std::size_t channel) const {
+        std::array<double, 4> beside;
+        std::ranges::transform(around(x, y), beside.begin(),
+                               [&](std::size_t i) { return value_at(i, channel); });
+        const auto [left, right, above, below] = beside;
+        return {value_at(grid_.index(x, y), channel), (left + right + above + below) / 4,
+                Imath::V2d(right - left, below - above) / 2};
     }
 
 private:
@@ -63,23 +87,29 @@ private:
     std::vector<std::size_t> channels_;
 };
 
-double rim_mean(const ReprojectedViews &views, const Surface &surface, std::size_t channel) {
-    double sum = 0, total = 0;
-    for (const ViewSample &s : surface.samples) {
-        if (s.view == 0) continue;
-        sum += s.weight * tone_mapped(views.value(s, channel));
-        total += s.weight;
-    }
-    return sum / total;
-}
-
 void compare(const ReprojectedViews &views, const CentreColours &centre,
              const PhotoConsistencyOptions &options, const Surface &surface, Block &block) {
     const int x = surface.samples[0].x, y = surface.samples[0].y;
-    for (const std::size_t channel : centre.channels()) {
-        const double own = centre.value(x, y, channel);
-        const double difference = rim_mean(views, surface, channel) - own;
-        const double variation = centre.mean_around(x, y, channel) - own;
+    const Imath::V2d place(x + 0.5, y + 0.5);
+    const std::size_t channels = centre.channels().size();
+    std::array<CentreColours::Detail, 3> own;
+    std::array<double, 3> sum{};
+    for (std::size_t k = 0; k < channels; ++k) own[k] = centre.detail(x, y, centre.channels()[k]);
+    double total = 0;
+    for (const ViewSample &s : surface.samples) {
+        if (s.view == 0) continue;
+        total += s.weight;
+        const Imath::V2d off(double(s.dx), double(s.dy)),
+            motion = views.reprojection(s.view).mapping().parallax(place) * (1 / options.scale);
+        for (std::size_t k = 0; k < channels; ++k) {
+            const double value = tone_mapped(views.value(s, centre.channels()[k]));
+            sum[k] += s.weight * value;
+            block.add_motion(value - own[k].value - (own[k].gradient ^ off), own[k].gradient ^ motion);
+        }
+    }
+    for (std::size_t k = 0; k < channels; ++k) {
+        const double difference = sum[k] / total - own[k].value,
+                     variation = own[k].mean_around - own[k].value;
         block.difference += difference * difference;
         block.variation += variation * variation;
     }
@@ -91,9 +121,8 @@ void compare(const ReprojectedViews &views, const CentreColours &centre,
 
 } // namespace
 
-std::vector<bool> find_photo_consistency(const ReprojectedViews &views,
-                                         const PhotoConsistencyOptions &options, const Imath::Box2i &data,
-                                         const Surfaces &surfaces) {
+PhotoConsistency find_photo_consistency(const ReprojectedViews &views, const PhotoConsistencyOptions &options,
+                                        const Imath::Box2i &data, const Surfaces &surfaces) {
     const int width = Grid(data).width();
     const Grid grid(width, int(surfaces.pixels() / std::size_t(width)));
     const Tiles tiles(grid.box(), block_size);
@@ -105,10 +134,13 @@ std::vector<bool> find_photo_consistency(const ReprojectedViews &views,
             if (surface.seen_by_centre() && surface.samples.back().view != 0 &&
                 centre.plain(surface.samples[0].x, surface.samples[0].y))
                 compare(views, centre, options, surface, blocks[block_of(pixel)]);
-    std::vector<bool> agree(surfaces.pixels());
-    for (std::size_t pixel = 0; pixel < surfaces.pixels(); ++pixel)
-        agree[pixel] = blocks[block_of(pixel)].agrees();
-    return agree;
+    PhotoConsistency found{std::vector<bool>(surfaces.pixels()), std::vector<bool>(surfaces.pixels())};
+    for (std::size_t pixel = 0; pixel < surfaces.pixels(); ++pixel) {
+        const Block &block = blocks[block_of(pixel)];
+        found.differ[pixel] = block.differs() || block.moves();
+        found.averages[pixel] = !block.differs() || block.in_focus();
+    }
+    return found;
 }
 
 } // namespace sparselens

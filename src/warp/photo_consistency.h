@@ -17,11 +17,19 @@ struct PhotoConsistencyOptions {
     // On a surface in focus all directions are averaged, as the lens does. Empty: the focus is unknown, and no surface
     // counts as in focus.
     std::optional<ThinLens> lens = {};
+    double scale = 1; // R F, pixels times scene units
 };
 
-// For each pixel of some rows of `data`, whose surfaces are given, whether the views may be averaged.
-std::vector<bool> find_photo_consistency(const ReprojectedViews &views,
-                                         const PhotoConsistencyOptions &options, const Imath::Box2i &data,
-                                         const Surfaces &surfaces);
+// By pixel of some rows.
+struct PhotoConsistency {
+    std::vector<bool> averages; // the views may be averaged
+    // In focus or not: they differ beyond noise, or as if the picture did not lie on the surface: moved by that much more
+    // or less, one explains the other.
+    std::vector<bool> differ;
+};
+
+// Of some rows of `data`, whose surfaces are given.
+PhotoConsistency find_photo_consistency(const ReprojectedViews &views, const PhotoConsistencyOptions &options,
+                                        const Imath::Box2i &data, const Surfaces &surfaces);
 
 } // namespace sparselens

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "warp/deepen.h"
+#include "warp/images/nearness.h"
 #include "warp/silhouettes.h"
 
 #include <fmt/format.h>
@@ -10,7 +11,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cmath>
 #include <compare>
 #include <numeric>
 
@@ -40,12 +40,6 @@ bool canonically_before(const View *a, const View *b) {
     };
     const auto by_depth = by_bits(a->z, b->z);
     return by_depth != 0 ? by_depth < 0 : by_bits(a->image.values, b->image.values) < 0;
-}
-
-double nearness(const ReprojectedSample &s) {
-    constexpr double spread = 0.3; // pixels; less is sharper, more averages more noise away
-    const double distance2 = double(s.dx) * double(s.dx) + double(s.dy) * double(s.dy);
-    return std::exp(-0.5 * distance2 / (spread * spread));
 }
 
 } // namespace
@@ -83,7 +77,8 @@ ReprojectedRows ReprojectedViews::place(const Imath::Box2i &data, int first_row,
     std::vector<std::size_t> next(rows.begin.begin(), rows.begin.end() - 1);
     for (std::uint32_t v = 0; v < size(); ++v)
         for (const ReprojectedSample &s : landed[v])
-            rows.samples[next[pixel_of(s)]++] = {s, v, 0, samples(v).weight[s.source] * nearness(s)};
+            rows.samples[next[pixel_of(s)]++] = {
+                s, v, 0, samples(v).weight[s.source] * nearness(double(s.dx), double(s.dy))};
     return rows;
 }
 

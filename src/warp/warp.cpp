@@ -5,6 +5,8 @@
 #include "deep/build.h"
 #include "lens/perceptive_depth.h"
 #include "view/resolve_lens.h"
+#include "warp/images/image_depths.h"
+#include "warp/images/show_images.h"
 #include "warp/photo_consistency.h"
 #include "warp/visibility_vote.h"
 
@@ -26,7 +28,9 @@ public:
 
 private:
     void grow_window();
-    Ldi warp_band(int first_row, int last_row) const;
+    using Marks = std::vector<std::uint8_t>; // one a block of image_depths.h
+    Ldi warp_band(int first_row, int last_row, Marks &differ) const;
+    void find_images(const Marks &differ, Ldi &ldi) const;
     void emit(const Surface &surface, bool agree, Ldi &out) const;
     void emit_nearest(std::span<const ViewSample> samples, Ldi &out) const;
     void emit_mean(std::span<const ViewSample> samples, Ldi &out) const;
@@ -125,12 +129,20 @@ void Warper::emit(const Surface &surface, bool agree, Ldi &out) const {
         emit_mean(surface.samples, out);
 }
 
-Ldi Warper::warp_band(int first_row, int last_row) const {
+Ldi Warper::warp_band(int first_row, int last_row, Marks &differ) const {
     ReprojectedRows rows = views_.place(layout_.windows.data, first_row, last_row);
     const Surfaces surfaces = find_surfaces(views_, tolerance_, rows);
     std::vector<bool> agree(rows.pixels(), true);
-    if (averages() && options_.test_photo_consistency)
-        agree = find_photo_consistency(views_, {focused_}, layout_.windows.data, surfaces);
+    if (averages() && options_.test_photo_consistency) {
+        PhotoConsistency found =
+            find_photo_consistency(views_, {focused_, scale_}, layout_.windows.data, surfaces);
+        agree = std::move(found.averages);
+        const Tiles blocks(layout_.windows.data, image_block);
+        const Grid pixels(
+            Imath::Box2i({layout_.windows.data.min.x, first_row}, {layout_.windows.data.max.x, last_row}));
+        for (std::size_t pixel = 0; pixel < rows.pixels(); ++pixel)
+            if (found.differ[pixel]) differ[blocks.tile_of(pixels.pixel(pixel))] = 1;
+    }
     Ldi out = empty_like(layout_);
     out.begin.push_back(0);
     for (std::size_t pixel = 0; pixel < rows.pixels(); ++pixel) {
@@ -140,16 +152,28 @@ Ldi Warper::warp_band(int first_row, int last_row) const {
     return out;
 }
 
+// Needs two views, and the distance between them.
+void Warper::find_images(const Marks &differ, Ldi &ldi) const {
+    if (views_.size() < 2 || !(scale_ > 0)) return;
+    std::vector<PlacedView> placed;
+    for (std::size_t v = 0; v < views_.size(); ++v)
+        placed.push_back({&views_.samples(v), &views_.reprojection(v).mapping()});
+    show_images(placed, scale_, differ, ldi);
+}
+
 Ldi Warper::run(Progress &progress) const {
     const Tiles bands(layout_.windows.data, layout_.windows.width(), band_rows);
     std::vector<Ldi> pieces(bands.count());
+    Marks differ(Tiles(layout_.windows.data, image_block).count());
     progress.start("warping", bands.count());
     parallel_for(bands.count(), [&](std::size_t band) {
         const Imath::Box2i rows = bands.box(band);
-        pieces[band] = warp_band(rows.min.y, rows.max.y);
+        pieces[band] = warp_band(rows.min.y, rows.max.y, differ);
         progress.advance();
     });
-    return concatenate(layout_, pieces);
+    Ldi ldi = concatenate(layout_, pieces);
+    if (options_.find_images) find_images(differ, ldi);
+    return ldi;
 }
 
 } // namespace

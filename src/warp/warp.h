@@ -31,6 +31,8 @@ struct WarpOptions {
     bool split_silhouettes = true;
     // With Merge::average: views that disagree out of focus are not averaged (photo_consistency.h).
     bool test_photo_consistency = true;
+    // With the test of photo-consistency: what mirrors and glass show gets a depth of its own (images/show_images.h).
+    bool find_images = true;
     std::optional<double> focus = {}; // of the lens, if known, scene units
 };
 

@@ -36,8 +36,15 @@ exits 0 "$bin/dof-trace" mirror -o mirror --size 160x90 --views 2 --spp 4 --focu
 exits 0 "$warp" mirror/center.exr mirror/view_*.exr -o tested.exr
 exits 0 "$warp" mirror/center.exr mirror/view_*.exr -o assumed.exr --agreement assume
 differ_samples tested.exr assumed.exr "--agreement"
+exits 0 "$warp" mirror/center.exr mirror/view_*.exr -o surfaces.exr --optical off
+differ_samples tested.exr surfaces.exr "--optical"
+says tested.exr '^ +ldi.optical, 32-bit floating-point'
+for plain in surfaces.exr assumed.exr average.exr; do
+    ! exrheader "$plain" | grep -q ldi.optical || fail "$plain has depths of images"
+done
 for value in both 1 ''; do
     fails_saying 2 '--agreement.*test|assume' "$warp" $center -o x.exr --agreement "$value"
+    fails_saying 2 '--optical.*on|off' "$warp" $center -o x.exr --optical "$value"
     fails_saying 2 '--merge.*average|keep' "$warp" $center -o x.exr --merge "$value"
     fails_saying 2 '--silhouettes.*split|whole' "$warp" $center -o x.exr --silhouettes "$value"
 done

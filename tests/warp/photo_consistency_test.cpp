@@ -34,11 +34,11 @@ std::vector<View> wall(const std::function<Colour(const Imath::V2d &camera)> &co
 double agreement(const std::vector<View> &views, std::optional<double> focus = {}) {
     const ReprojectedViews placed(views, focal_px, scale, 0);
     ReprojectedRows rows = placed.place(window.data, 0, 15);
-    PhotoConsistencyOptions options;
+    PhotoConsistencyOptions options{.scale = scale};
     if (focus) options.lens = ThinLens{.radius = radius, .focal_px = focal_px, .focus = *focus};
-    const auto agree =
+    const PhotoConsistency found =
         find_photo_consistency(placed, options, window.data, find_surfaces(placed, 0.5 / scale, rows));
-    return double(std::ranges::count(agree, true)) / double(agree.size());
+    return double(std::ranges::count(found.averages, true)) / double(found.averages.size());
 }
 
 float stripes(double x) { return float(0.5 + 0.4 * std::sin(0.5 * x)); }

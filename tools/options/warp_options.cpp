@@ -36,6 +36,14 @@ void add_warp_options(CLI::App &app, WarpCommand &options) {
                    "averaged; assume: all are averaged (default: test)")
         ->type_name("test|assume")
         ->transform(words(agreement));
+    const std::map<std::string, bool> optical{{"on", true}, {"off", false}};
+    app.add_option(
+           "--optical", options.find_images,
+           "With --agreement test, on: where views disagree, the depth is sought at which what a mirror or "
+           "glass shows lies, and that is blurred and averaged by its own depth; off: by that of the surface "
+           "(default: on)")
+        ->type_name("on|off")
+        ->transform(words(optical));
     add_compression_option(app, options.compression, true);
     add_lens_options(app, options.lens);
     add_depth_options(app, options.depth);

@@ -20,7 +20,7 @@ struct WarpCommand {
     HistoryOptions history;
     ViewList views;
     Merge merge = Merge::average;
-    bool split_silhouettes = true, test_photo_consistency = true;
+    bool split_silhouettes = true, test_photo_consistency = true, find_images = true;
     std::string output;
     AskedCompression compression;
 };

@@ -1,0 +1,237 @@
+#include "warp/images/image_depths.h"
+
+#include "base/grid.h"
+#include "base/parallel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace sparselens {
+
+namespace {
+
+constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
+constexpr double enough_found = 0.25; // of the pixels of a block, to search those beside it
+constexpr int near_by = 6;            // pixels, for the plane
+constexpr double agreement =
+    0.4; // of the pixels around that found a depth are as near to it as the next says
+constexpr float one_image = 0.8f; // pixels of perceptive depth
+constexpr int farther = 8;        // pixels from which a depth may be continued
+constexpr std::size_t least_sources = 8;
+constexpr int continuations = 2;
+constexpr float no_worse = 1.25f; // than at the surface may the views agree at a continued depth
+constexpr float least_difference = 1e-5f;
+
+// visit(column, row) for the tiles around one.
+template <typename Visit>
+void for_each_beside(const Tiles &tiles, std::size_t tile, const Visit &visit) {
+    const int column = int(tile) % tiles.columns(), row = int(tile) / tiles.columns();
+    for (int r = std::max(row - 1, 0); r <= std::min(row + 1, tiles.rows() - 1); ++r)
+        for (int c = std::max(column - 1, 0); c <= std::min(column + 1, tiles.columns() - 1); ++c)
+            if (c != column || r != row) visit(std::size_t(r * tiles.columns() + c));
+}
+
+// The value at the origin of the plane that fits values at places best; their mean where they lie on a line.
+class LinearFit {
+public:
+    void add(const Imath::V2d &p, double value) {
+        n_ += 1, x_ += p.x, y_ += p.y, xx_ += p.x * p.x, xy_ += p.x * p.y, yy_ += p.y * p.y;
+        v_ += value, vx_ += value * p.x, vy_ += value * p.y;
+    }
+    double count() const { return n_; }
+    double at_origin() const {
+        const double xx = xx_ - x_ * x_ / n_, xy = xy_ - x_ * y_ / n_, yy = yy_ - y_ * y_ / n_;
+        const double vx = vx_ - v_ * x_ / n_, vy = vy_ - v_ * y_ / n_, det = xx * yy - xy * xy;
+        if (!(det > 1e-6 * xx * yy)) return v_ / n_;
+        return (v_ - x_ * (vx * yy - vy * xy) / det - y_ * (vy * xx - vx * xy) / det) / n_;
+    }
+
+private:
+    double n_ = 0, x_ = 0, y_ = 0, xx_ = 0, xy_ = 0, yy_ = 0, v_ = 0, vx_ = 0, vy_ = 0;
+};
+
+class ImageDepths {
+public:
+    ImageDepths(const ImageSweep &sweep, const Imath::Box2i &data)
+        : sweep_(sweep), grid_(data), tiles_(data, image_block), searched_(tiles_.count()),
+          matches_(grid_.size()), depths_(grid_.size(), unknown) {}
+
+    void search(std::vector<std::size_t> next);
+    void agree_with_neighbours();
+    void refine();
+    void go_on();
+    std::vector<float> take() { return std::move(depths_); }
+
+private:
+    bool search_tile(std::size_t tile);
+    bool one_surface_with(const ImageMatch &a, const ImageMatch &b) const {
+        return a.surface && b.surface && std::abs(a.own_depth - b.own_depth) <= one_mirror_px;
+    }
+    // visit(index) for the pixels of the same surface around one, itself among them.
+    template <typename Visit>
+    void for_each_around(std::size_t i, int distance, const Visit &visit) const;
+    float depth_by_neighbours(std::size_t i, std::vector<float> &around) const;
+    float continued(std::size_t i, std::vector<float> &around) const;
+
+    const ImageSweep &sweep_;
+    Grid grid_;
+    Tiles tiles_;
+    std::vector<std::uint8_t> searched_; // by tile
+    std::vector<ImageMatch> matches_;    // by pixel
+    std::vector<float> depths_;
+};
+
+template <typename Visit>
+void ImageDepths::for_each_around(std::size_t i, int distance, const Visit &visit) const {
+    const Imath::V2i p = grid_.pixel(i);
+    const Imath::Box2i box = grid_.box();
+    for (int y = std::max(p.y - distance, box.min.y); y <= std::min(p.y + distance, box.max.y); ++y)
+        for (int x = std::max(p.x - distance, box.min.x); x <= std::min(p.x + distance, box.max.x); ++x) {
+            const std::size_t other = grid_.index(x, y);
+            if (one_surface_with(matches_[i], matches_[other])) visit(other);
+        }
+}
+
+// Whether much was found.
+bool ImageDepths::search_tile(std::size_t tile) {
+    const Imath::Box2i block = tiles_.box(tile);
+    const std::vector<ImageMatch> found = sweep_.search(block);
+    const Grid pixels(block);
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        const Imath::V2i p = pixels.pixel(i);
+        matches_[grid_.index(p.x, p.y)] = found[i];
+        count += found[i].found;
+    }
+    return double(count) >= enough_found * double(found.size());
+}
+
+void ImageDepths::search(std::vector<std::size_t> next) {
+    for (const std::size_t tile : next) searched_[tile] = true;
+    while (!next.empty()) {
+        std::vector<std::uint8_t> much(next.size());
+        parallel_for(next.size(), [&](std::size_t n) { much[n] = search_tile(next[n]); });
+        std::vector<std::size_t> beside;
+        for (std::size_t n = 0; n < next.size(); ++n)
+            if (much[n])
+                for_each_beside(tiles_, next[n], [&](std::size_t other) {
+                    if (!searched_[other]) beside.push_back(other), searched_[other] = true;
+                });
+        next = std::move(beside);
+    }
+}
+
+// On the plane that fits the depths around as near to the pixel's own, else to their median, as those of one image are;
+// unknown if those are too few.
+float ImageDepths::depth_by_neighbours(std::size_t i, std::vector<float> &around) const {
+    around.clear();
+    std::size_t pixels = 0;
+    for_each_around(i, near_by, [&](std::size_t other) {
+        ++pixels;
+        if (matches_[other].found) around.push_back(matches_[other].depth);
+    });
+    if (double(around.size()) < agreement * double(pixels)) return unknown;
+    const auto middle = around.begin() + std::ptrdiff_t(around.size() / 2);
+    std::nth_element(around.begin(), middle, around.end());
+    for (const float depth : {matches_[i].depth, *middle}) {
+        LinearFit fit;
+        for_each_around(i, near_by, [&](std::size_t other) {
+            const ImageMatch &match = matches_[other];
+            if (match.found && std::abs(match.depth - depth) <= one_image)
+                fit.add(Imath::V2d(grid_.pixel(other) - grid_.pixel(i)), double(match.depth));
+        });
+        if (fit.count() >= agreement * double(around.size())) return float(fit.at_origin());
+    }
+    return unknown;
+}
+
+void ImageDepths::agree_with_neighbours() {
+    parallel_for(tiles_.count(), [&](std::size_t tile) {
+        if (!searched_[tile]) return;
+        std::vector<float> around;
+        const Grid pixels(tiles_.box(tile));
+        for (std::size_t n = 0; n < pixels.size(); ++n) {
+            const Imath::V2i p = pixels.pixel(n);
+            const std::size_t i = grid_.index(p.x, p.y);
+            if (matches_[i].found) depths_[i] = depth_by_neighbours(i, around);
+        }
+    });
+}
+
+// A patch need not lie at one depth.
+void ImageDepths::refine() {
+    const auto depth_at = [&](const Imath::V2i &p) {
+        return grid_.contains(p.x, p.y) ? depths_[grid_.index(p.x, p.y)] : unknown;
+    };
+    std::vector<float> next(depths_.size(), unknown);
+    parallel_for(tiles_.count(), [&](std::size_t tile) {
+        if (!searched_[tile]) return;
+        const Imath::Box2i block = tiles_.box(tile);
+        const std::vector<float> refined = sweep_.refined(block, depth_at);
+        const Grid pixels(block);
+        for (std::size_t n = 0; n < pixels.size(); ++n) {
+            const Imath::V2i p = pixels.pixel(n);
+            next[grid_.index(p.x, p.y)] = refined[n];
+        }
+    });
+    for (std::size_t i = 0; i < matches_.size(); ++i) {
+        matches_[i].found = !std::isnan(next[i]);
+        if (matches_[i].found) matches_[i].depth = next[i];
+    }
+}
+
+// The median of the depths around, if the views agree about as well there as on the surface.
+float ImageDepths::continued(std::size_t i, std::vector<float> &around) const {
+    around.clear();
+    for_each_around(i, farther, [&](std::size_t other) {
+        if (!std::isnan(depths_[other])) around.push_back(depths_[other]);
+    });
+    if (around.size() < least_sources) return unknown;
+    const auto middle = around.begin() + std::ptrdiff_t(around.size() / 2);
+    std::nth_element(around.begin(), middle, around.end());
+    std::vector<float> differences = sweep_.differences(grid_.pixel(i), double(*middle));
+    const float there = robust_mean(differences);
+    return there <= no_worse * matches_[i].at_surface + least_difference ? *middle : unknown;
+}
+
+void ImageDepths::go_on() {
+    std::vector<float> next = depths_;
+    parallel_for(tiles_.count(), [&](std::size_t tile) {
+        if (!searched_[tile]) return;
+        std::vector<float> around;
+        const Grid pixels(tiles_.box(tile));
+        for (std::size_t n = 0; n < pixels.size(); ++n) {
+            const Imath::V2i p = pixels.pixel(n);
+            const std::size_t i = grid_.index(p.x, p.y);
+            if (matches_[i].surface && std::isnan(depths_[i])) next[i] = continued(i, around);
+        }
+    });
+    depths_ = std::move(next);
+}
+
+} // namespace
+
+std::vector<std::size_t> blocks_to_search(const Imath::Box2i &data, std::span<const std::uint8_t> differ) {
+    const Tiles tiles(data, image_block);
+    std::vector<std::size_t> blocks;
+    for (std::size_t tile = 0; tile < tiles.count(); ++tile) {
+        bool alone = true;
+        for_each_beside(tiles, tile, [&](std::size_t other) { alone = alone && !differ[other]; });
+        if (differ[tile] && !alone) blocks.push_back(tile);
+    }
+    return blocks;
+}
+
+std::vector<float> find_image_depths(const ImageSweep &sweep, const Imath::Box2i &data,
+                                     const std::vector<std::size_t> &blocks) {
+    ImageDepths depths(sweep, data);
+    depths.search(blocks);
+    depths.agree_with_neighbours();
+    depths.refine();
+    depths.agree_with_neighbours();
+    for (int n = 0; n < continuations; ++n) depths.go_on();
+    return depths.take();
+}
+
+} // namespace sparselens

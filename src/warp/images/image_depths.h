@@ -1,0 +1,23 @@
+// At which depth the images lie that mirrors and glass show, for each pixel of the centre view: found where patches tell,
+// made sure of by their neighbours, and continued to pixels of the same surface that do not tell.
+#pragma once
+
+#include "warp/images/image_sweep.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace sparselens {
+
+inline constexpr int image_block = 8; // pixels wide and high
+
+// The blocks of `data` that are worth a search because they differ: not those that stand alone, as noise chooses such ones.
+std::vector<std::size_t> blocks_to_search(const Imath::Box2i &data, std::span<const std::uint8_t> differ);
+
+// Searches those blocks, and others where it has found something beside them. The result is perceptive depth by pixel of
+// `data`, row by row; NaN: the pixel shows its surface, or nothing is known.
+std::vector<float> find_image_depths(const ImageSweep &sweep, const Imath::Box2i &data,
+                                     const std::vector<std::size_t> &blocks);
+
+} // namespace sparselens

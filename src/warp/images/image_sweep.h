@@ -1,0 +1,50 @@
+// At which depth does what a surface shows lie? A reflection moves between views as what it shows would, at the depth of
+// its image, not as the mirror does. Within a block of pixels that show one surface, the views are compared at depths in
+// front of and behind it, patch by patch, as in stereo matching by a plane sweep (R. Collins, "A space-sweep approach to
+// true multi-image matching", 1996).
+#pragma once
+
+#include "warp/images/matched_view.h"
+
+#include <functional>
+#include <span>
+#include <vector>
+
+namespace sparselens {
+
+// What the patch around a pixel says. Differences are mean squares over the patch, of R, G and B together, and over the
+// three best of four views: one view may see something else there.
+struct ImageMatch {
+    bool surface = false; // it shows the surface of its block, and the views can be compared
+    bool found = false; // one depth explains the views, and better by a clear margin than that of the surface
+    float depth = 0;    // perceptive, pixels; below 0: rays meet behind the camera
+    float own_depth = 0;  // of the surface
+    float at_surface = 0; // the difference if the picture lay on the surface
+};
+
+class ImageSweep {
+public:
+    // The first view is the centre.
+    ImageSweep(std::span<const MatchedView> views, double scale) : views_(views), scale_(scale) {}
+
+    // Of the pixels of a block of the centre view, at most 8 x 8, row by row.
+    std::vector<ImageMatch> search(const Imath::Box2i &block) const;
+
+    // By the pixels of a block, depths near those that depth_at(pixel) says for it and those around, which need not be the
+    // same all over a patch; NaN where that is NaN.
+    std::vector<float> refined(const Imath::Box2i &block,
+                               const std::function<float(const Imath::V2i &)> &depth_at) const;
+
+    // The difference of the patch around a pixel from each rim view if it lay at that perceptive depth; NaN where too
+    // little of the view can be compared.
+    std::vector<float> differences(const Imath::V2i &pixel, double depth) const;
+
+private:
+    std::span<const MatchedView> views_;
+    double scale_;
+};
+
+// The mean of the best three quarters of those that are not NaN; NaN if fewer than half are numbers. Reorders them.
+float robust_mean(std::span<float> differences);
+
+} // namespace sparselens

@@ -1,0 +1,119 @@
+#include "warp/images/show_images.h"
+
+#include "base/channel_kind.h"
+#include "base/parallel.h"
+#include "lens/perceptive_depth.h"
+#include "warp/images/image_depths.h"
+#include "warp/images/nearness.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sparselens {
+
+namespace {
+
+constexpr float no_worse =
+    4; // times the mean of the best views: a view that differs more sees something else
+constexpr float least_difference = 2e-4f; // which is not seen
+
+// What a view shows of an image, at its place in the pixel of the centre view.
+struct ImageSample {
+    const Ldi *view;
+    std::uint64_t index;
+    double dx, dy, weight;
+};
+
+class Shower {
+public:
+    Shower(std::span<const MatchedView> views, const ImageSweep &sweep, double scale, Ldi &ldi)
+        : views_(views), sweep_(sweep), scale_(scale), ldi_(ldi), alpha_(ldi.alpha()) {}
+
+    // Gives the pixel's front sample its image at that perceptive depth.
+    void show(const Imath::V2i &pixel, double depth) const {
+        std::vector<ImageSample> seen{centre(pixel)};
+        const std::vector<float> differences = sweep_.differences(pixel, depth);
+        std::vector<float> sorted = differences;
+        const float usual = robust_mean(sorted);
+        for (std::size_t v = 1; v < views_.size(); ++v)
+            if (differences[v - 1] <= no_worse * usual + least_difference) add(views_[v], pixel, depth, seen);
+        store(ldi_.pixel(ldi_.windows.index(pixel.x, pixel.y)).front(), depth, seen);
+    }
+
+private:
+    ImageSample centre(const Imath::V2i &pixel) const {
+        const Ldi &ldi = views_[0].samples();
+        const std::uint64_t i = ldi.pixel(ldi.windows.index(pixel.x, pixel.y)).front();
+        return {&ldi, i, 0, 0, double(ldi.weight[i])};
+    }
+
+    // The view's pixel that is nearest to where it shows the image, if it shows the same surface.
+    void add(const MatchedView &view, const Imath::V2i &pixel, double depth,
+             std::vector<ImageSample> &seen) const {
+        const double inverse_z = depth / scale_;
+        const Imath::V2d middle(pixel.x + 0.5, pixel.y + 0.5),
+            place = view.mapping().in_view(middle, inverse_z);
+        const Imath::V2i q(int(std::floor(place.x)), int(std::floor(place.y)));
+        if (!view.contains(q.x, q.y)) return;
+        const float own = views_[0].depth(pixel.x, pixel.y);
+        if (!(std::abs(view.depth(q.x, q.y) - own) <= one_mirror_px)) return;
+        const Imath::V2d from(q.x + 0.5, q.y + 0.5);
+        const Imath::V2d off =
+            view.mapping().at_infinity(from) + view.mapping().parallax(from) * inverse_z - middle;
+        if (!(std::abs(off.x) <= 0.5 && std::abs(off.y) <= 0.5)) return;
+        const Ldi &ldi = view.samples();
+        const std::uint64_t i = ldi.pixel(ldi.windows.index(q.x, q.y)).front();
+        seen.push_back({&ldi, i, off.x, off.y, double(ldi.weight[i]) * nearness(off.x, off.y)});
+    }
+
+    void store(std::uint64_t i, double depth, const std::vector<ImageSample> &seen) const {
+        double total = 0, dx = 0, dy = 0, count = 0;
+        for (const ImageSample &s : seen) {
+            total += s.weight;
+            dx += s.weight * s.dx;
+            dy += s.weight * s.dy;
+            count += double(s.view->weight[s.index]);
+        }
+        ldi_.dx[i] = float(dx / total);
+        ldi_.dy[i] = float(dy / total);
+        ldi_.weight[i] = float(count);
+        ldi_.z[i] = seen[0].view->z[seen[0].index];
+        ldi_.optical[i] = float(depth_of_perceptive(scale_, depth));
+        for (std::size_t k = 0; k < ldi_.channels.size(); ++k) {
+            double sum = 0;
+            const bool light = is_light(ldi_.channels[k]) && k != alpha_;
+            for (const ImageSample &s : seen) sum += s.weight * double(s.view->values[k][s.index]);
+            ldi_.values[k][i] = light ? float(sum / total) : seen[0].view->values[k][seen[0].index];
+        }
+    }
+
+    std::span<const MatchedView> views_;
+    const ImageSweep &sweep_;
+    double scale_;
+    Ldi &ldi_;
+    std::size_t alpha_;
+};
+
+} // namespace
+
+void show_images(std::span<const PlacedView> views, double scale, std::span<const std::uint8_t> differ,
+                 Ldi &ldi) {
+    const std::vector<std::size_t> blocks = blocks_to_search(ldi.windows.data, differ);
+    if (blocks.empty()) return;
+    std::vector<MatchedView> matched;
+    matched.reserve(views.size());
+    for (const PlacedView &view : views) matched.emplace_back(view, scale);
+    const ImageSweep sweep(matched, scale);
+    const std::vector<float> depths = find_image_depths(sweep, ldi.windows.data, blocks);
+    const auto known = [](float depth) { return !std::isnan(depth); };
+    if (std::ranges::none_of(depths, known)) return;
+    ldi.optical = ldi.z;
+    const Shower shower(matched, sweep, scale, ldi);
+    const std::size_t width = std::size_t(ldi.windows.width());
+    parallel_for(depths.size() / width, [&](std::size_t row) {
+        for (std::size_t i = row * width; i < (row + 1) * width; ++i)
+            if (known(depths[i])) shower.show(ldi.windows.pixel(i), double(depths[i]));
+    });
+}
+
+} // namespace sparselens

@@ -1,0 +1,125 @@
+// Walls that are mirrors: what they show lies at another depth than they do, which the views tell.
+#include "support/views.h"
+#include "warp/images/show_images.h"
+#include "warp/warp.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace sparselens {
+namespace {
+
+constexpr double focal_px = 200, radius = 0.12, scale = focal_px * radius;
+constexpr double wall_z = 3;
+const Windows window = windows_of_size(96, 72);
+
+using Texture = float (*)(double x, double y);
+
+float waves(double x, double y) {
+    return float(0.5 + 0.2 * std::sin(0.55 * x + 0.1 * y) + 0.2 * std::sin(0.13 * x - 0.6 * y + 1));
+}
+float grey(double, double) { return 0.5f; }
+
+// A wall on which each camera sees a texture that lies at depth `image_z`.
+std::vector<View> mirror(double image_z, const Texture &texture = waves, float noise = 0) {
+    std::vector<View> views;
+    for (const Imath::V2d &u :
+         {Imath::V2d(0, 0), Imath::V2d(1, 0), Imath::V2d(0, 1), Imath::V2d(-1, 0), Imath::V2d(0, -1)}) {
+        const Imath::V2d camera = radius * u;
+        // On the wall the image moves by what its depth gives less than the wall's.
+        const double moves = focal_px * (1 / wall_z - 1 / image_z);
+        TwoPlanes scene{.focal_px = focal_px};
+        scene.front_z = wall_z;
+        scene.front_covers = [](double, double) { return true; };
+        scene.front_red = [=](double x, double y) {
+            return texture(x - moves * camera.x, y + moves * camera.y);
+        };
+        scene.noise = noise;
+        views.push_back(scene.view(window, camera));
+    }
+    return views;
+}
+
+Ldi warped(const std::vector<View> &views, bool find_images = true) {
+    Progress silent;
+    return warp(views, {.focal_px = focal_px, .radius = radius, .find_images = find_images}, silent);
+}
+
+// Of the centre view's pixels but for the outermost, the shares whose front sample has an image, and one that lies within
+// a hundredth of a pixel of perceptive depth of where it should.
+struct Shares {
+    double found = 0, right = 0;
+};
+
+Shares shares(const Ldi &ldi, double image_z) {
+    constexpr int border = 12;
+    Shares shares;
+    int pixels = 0;
+    for (int y = border; y < window.height() - border; ++y)
+        for (int x = border; x < window.width() - border; ++x, ++pixels) {
+            const std::uint64_t i = ldi.pixel(ldi.windows.index(x, y)).front();
+            if (ldi.optical.empty() || ldi.optical[i] == ldi.z[i]) continue;
+            shares.found += 1;
+            shares.right += std::abs(scale / ldi.optical_z(i) - scale / image_z) < 0.05;
+        }
+    return {shares.found / pixels, shares.right / pixels};
+}
+
+TEST(Images, DepthsBehindTheMirrorBeforeItAndBehindTheCamera) {
+    for (const double image_z : {6.0, 20.0, 2.2, -30.0}) {
+        const Shares found = shares(warped(mirror(image_z)), image_z);
+        EXPECT_GT(found.found, 0.95) << image_z;
+        EXPECT_GT(found.right, 0.95) << image_z;
+    }
+}
+
+TEST(Images, SurfacesHaveNone) {
+    EXPECT_TRUE(warped(mirror(wall_z)).optical.empty());
+    EXPECT_TRUE(warped(mirror(wall_z, waves, 0.2f)).optical.empty());
+    EXPECT_TRUE(warped(mirror(wall_z, grey, 0.3f)).optical.empty());
+    EXPECT_TRUE(warped(mirror(6), false).optical.empty());
+}
+
+TEST(Images, NoiseMakesDepthsCoarserNotFalse) {
+    const Ldi ldi = warped(mirror(6, waves, 0.1f));
+    const Shares found = shares(ldi, 6);
+    EXPECT_GT(found.found, 0.9);
+    EXPECT_GT(found.right, 0.8);
+}
+
+// Averaging at the depth of the image takes away noise and keeps the texture.
+TEST(Images, ViewsAreAveragedWhereTheyAgree) {
+    constexpr float noise = 0.1f;
+    const auto error = [&](const Ldi &ldi) {
+        double sum = 0;
+        for (int y = 16; y < 56; ++y)
+            for (int x = 16; x < 80; ++x) {
+                const std::uint64_t i = ldi.pixel(ldi.windows.index(x, y)).front();
+                const double seen = double(ldi.values[0][i]);
+                sum += std::pow(
+                    seen - double(waves(x + 0.5 + double(ldi.dx[i]), y + 0.5 + double(ldi.dy[i]))), 2);
+            }
+        return std::sqrt(sum / (40 * 64));
+    };
+    const double alone = error(warped(mirror(6, waves, noise), false)),
+                 together = error(warped(mirror(6, waves, noise)));
+    EXPECT_NEAR(alone, double(noise) / std::sqrt(3), 0.01);
+    EXPECT_LT(together, 0.65 * alone);
+    EXPECT_LT(error(warped(mirror(6))), 0.005);
+}
+
+TEST(Images, TwoViewsAreEnoughAndTheirOrderDoesNotMatter) {
+    std::vector<View> views = mirror(6);
+    const Ldi ldi = warped(views);
+    std::swap(views[1], views[4]);
+    std::swap(views[2], views[3]);
+    const Ldi other = warped(views);
+    EXPECT_EQ(ldi.optical, other.optical);
+    EXPECT_EQ(ldi.values, other.values);
+    EXPECT_GT(shares(warped({mirror(6)[0], mirror(6)[1]}), 6).right, 0.9);
+}
+
+} // namespace
+} // namespace sparselens
