@@ -11,8 +11,8 @@ namespace sparselens {
 
 // A scene by name, in channels R, G, B and A (half). CoC is that of deep_scene_camera().
 //
-// dense   20 points a pixel in five groups, CoC 0.25 to 4.2 pixels, the last opaque: the scene that DeepC
-//         (github.com/charlesangus/DeepC) measures its DeepCDefocus with
+// dense   20 points a pixel in five groups, CoC 0.25 to 4.2 pixels, the last opaque: the profile scene that DeepC
+//         publishes for its DeepCDefocus
 // hair    60 points in a tenth of the pixels, in tufts of 32x64 pixels, CoC -3 to 1; a ground at CoC 6 behind it all
 // volume  100 volumes a pixel, end to end, CoC -4 to 6; transparent to infinity
 struct DeepScene {
