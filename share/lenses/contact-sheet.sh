@@ -1,37 +1,46 @@
 #!/bin/bash
-# contact-sheet.sh BIN_DIR OUT.png [SCENE [SIZE [RAYS]]]: each look of the lens on a test scene, gathered from five views
-# (left) beside its truth by ray tracing (right). Needs dof-trace and oiiotool.
+# contact-sheet.sh BIN_DIR OUT [SCENE [SIZE [RAYS [FOLDER]]]]: looks of the lens on a test scene, each gathered from five
+# views (left) beside its truth by ray tracing (right); on stdout, how far the one is from the other. A FOLDER keeps what
+# was traced, and what lies there is not traced again. Needs oiiotool.
 set -euo pipefail
-bin=$(cd "${1:?usage: contact-sheet.sh BIN_DIR OUT.png [SCENE [SIZE [RAYS]]]}" && pwd)
-out=$(realpath "${2:?usage: contact-sheet.sh BIN_DIR OUT.png}")
-scene=${3:-fence} size=${4:-320x180} rays=${5:-256}
+usage="usage: contact-sheet.sh BIN_DIR OUT [SCENE [SIZE [RAYS [FOLDER]]]]"
+bin=$(cd "${1:?$usage}" && pwd)
+out=$(realpath "${2:?$usage}")
+scene=${3:-lamps} size=${4:-640x360} rays=${5:-4096}
 lenses=$(cd "$(dirname "$0")" && pwd)
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
-cd "$folder"
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+traced=$(realpath "${6:-$scratch}")
+mkdir -p "$traced"
+cd "$scratch"
 
-"$bin/dof-trace" "$scene" --size "$size" -o views
-"$bin/ldi-warp" views/center.exr views/view_*.exr -o ldi.exr
-shown() { oiiotool "$1" --ch R,G,B --clamp:min=0:max=1 --powc 0.4545 -d uint8 -o "$2"; }
-tiles=() rows=0
-look() {
-    "$bin/dof-gather" ldi.exr --quality final "$@" -o gathered.exr
-    "$bin/dof-trace" "$scene" --size "$size" --views 1 --spp 1 --reference "$rays" "$@" -o traced
-    "$bin/dof-compare" gathered.exr traced/reference.exr | sed -n "s/psnr_tonemapped */$*: /p"
-    rows=$((rows + 1))
-    shown gathered.exr $rows.a.png
-    shown traced/reference.exr $rows.b.png
-    tiles+=($rows.a.png $rows.b.png)
+# Half as large, and lamps of a thousand times the white of the wall beside it: a power shows both.
+shown() {
+    oiiotool "$1" --ch R,G,B --resize:filter=box 320x0 --clamp:min=0 --powc 0.3 --mulc 0.4 --clamp:max=1 -d uint8 -o "$2"
 }
-look --blades 0
-look --blades 6 --blade-rotation 15
-look --squeeze 2
-look --lens "$lenses/mirror.json"
-look --spherical 0.9
-look --spherical -0.9
-look --cat-eye 1
-look --axial-chromatic 0.1
-look --field-curvature 0.5
-look --tilt 20,0
-look --breathing 1
-oiiotool "${tiles[@]}" --mosaic:pad=2 2x$rows -o "$out"
+tiles=()
+look() {
+    local name=$1 truth=$traced/$scene.$1
+    shift
+    [ -f "$truth/reference.exr" ] || "$bin/dof-trace" "$scene" --size "$size" --views 1 --spp 1 --reference "$rays" "$@" -o "$truth"
+    "$bin/dof-gather" ldi.exr --quality final "$@" -o "$name.exr"
+    "$bin/dof-compare" "$name.exr" "$truth/reference.exr" >figures
+    awk -v look="${*:-no look}" '$1 == "psnr_tonemapped" { printf "%s: %.1f dB\n", look, $2 }' figures
+    shown "$name.exr" "$name.gathered.png"
+    shown "$truth/reference.exr" "$name.traced.png"
+    tiles+=("$name.gathered.png" "$name.traced.png")
+}
+
+[ -f "$traced/$scene/center.exr" ] || "$bin/dof-trace" "$scene" --size "$size" -o "$traced/$scene"
+"$bin/ldi-warp" "$traced/$scene"/center.exr "$traced/$scene"/view_*.exr -o ldi.exr
+look round
+look blades6 --blades 6 --blade-rotation 15
+look squeeze2 --squeeze 2
+look mirror --aperture "$lenses/mirror.exr"
+look spherical --spherical 0.7
+look cateye --cat-eye 1
+look chroma --axial-chromatic 0.1
+look curve --field-curvature 0.3
+look tilt --tilt 10,5
+look breath --breathing 1
+oiiotool "${tiles[@]}" --mosaic:pad=2 "4x$((${#tiles[@]} / 4))" -o "$out"
