@@ -23,7 +23,7 @@ struct Case {
     bool colour = false; // channels R, G, B: nothing stands out, and nothing is near focus
     double glowing = 0;  // share of samples that give light and cover nothing
     LensLooks looks = {};
-    double images = 0;   // share of samples that show an image which lies at another depth
+    double images = 0; // share of samples that show an image which lies at another depth
 };
 
 // Weights that differ for R, G and B.
