@@ -269,7 +269,7 @@ Image gather_once(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &wind
     optics.bend(fillers.samples);
     const PlacedFacets facets =
         place_facets(find_facets(ldi, lens, double(widest)), ldi.samples(),
-                     {samples.x, samples.y, samples.coc, samples.key, samples.source});
+                     {samples.x, samples.y, samples.hiding_coc(), samples.key, samples.source});
     const BlockFinder finder(samples, optics.aperture, lens.pixel_aspect),
         filler_finder(fillers.samples, optics.aperture, lens.pixel_aspect);
     LensSets sets(options, optics.aperture, lens.pixel_aspect);

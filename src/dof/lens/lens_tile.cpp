@@ -64,6 +64,7 @@ void LensTile::gather(const Imath::V2i &origin, const Blocks &blocks, std::span<
         if (seen_by_none()) continue;
         see_opaque(point, samples_, blocks.samples, everywhere, front_);
         see_facets(point);
+        see_images(point);
         if (weighted_) weigh_channels(point);
         weighted_ ? add_opaque_weighted() : add_opaque(point.weight);
         find_cracks();
@@ -89,13 +90,14 @@ void LensTile::see_opaque(const LensSample &lens, const BlockedSamples &samples,
     const float x = origin_x_ - (border - 1), y = origin_y_ - (border - 1);
     const TileProjection projection(lens, x, y, stride);
     std::array<std::int32_t, 256> cells;
+    const std::vector<float> &coc = samples.hiding_coc();
     for (const std::uint32_t b : blocks) {
         const SampleBlock &block = samples.blocks[b];
         if (out_of_reach(block, lens, origin_x_, origin_y_, seen)) continue;
         for (std::uint32_t begin = block.begin; begin < block.opaque_end;
              begin += std::uint32_t(cells.size())) {
             const std::uint32_t count = std::min(std::uint32_t(cells.size()), block.opaque_end - begin);
-            project_to_cells(projection, &samples.x[begin], &samples.y[begin], &samples.coc[begin], count,
+            project_to_cells(projection, &samples.x[begin], &samples.y[begin], &coc[begin], count,
                              cells.data());
             const std::uint64_t *key = &samples.key[begin];
             for (std::uint32_t i = 0; i < count; ++i) {
@@ -119,7 +121,7 @@ void LensTile::add_opaque(float weight) {
     for (std::size_t g = 0; g < colours_.groups; ++g) {
         const float *colours = colours_.group(g).data();
         for (int y = 0; y < size; ++y) {
-            const std::uint64_t *front = &front_[cell_of(0, y)];
+            const std::uint64_t *front = &shown()[cell_of(0, y)];
             float *sum = &sums_[(g * size * size + std::size_t(y * size)) * 4];
             for (int x = 0; x < size; ++x, sum += 4) {
                 if (front[x] == 0) {

@@ -55,6 +55,7 @@ public:
 
 private:
     // The buffers have a border of one pixel, and one of cells that take what falls outside of that.
+    static constexpr float one_mirror_px = 1; // samples that differ by less in depth belong to one mirror
     static constexpr int border = 2, stride = size + 2 * border;
     static std::size_t cell_of(int x, int y) { return std::size_t((y + border) * stride + x + border); }
     static int column_of(std::size_t cell) { return int(cell) % stride - border; }
@@ -71,6 +72,10 @@ private:
                     std::span<const std::uint32_t> blocks, const Cells &seen,
                     std::vector<std::uint64_t> &front) const;
     void see_facets(const LensSample &lens);
+    // Of images (lens_tile_unseen.cpp).
+    void see_images(const LensSample &lens);
+    std::uint64_t image_at(std::size_t cell) const;
+    const std::vector<std::uint64_t> &shown() const { return sees_images_ ? shown_ : front_; }
     std::uint64_t torn_at(std::size_t cell) const;
     void find_cracks();
     void close_cracks();
@@ -128,7 +133,11 @@ private:
     } partial_;
     float reach_x_ = 0, reach_y_ = 0; // of the lens points, for each pixel of CoC
     // Of one lens point:
-    std::vector<std::uint64_t> front_;  // [cell]: key of the nearest opaque sample; 0: none
+    std::vector<std::uint64_t> front_; // [cell]: key of the nearest opaque sample; 0: none
+    bool sees_images_ = false;
+    std::vector<std::uint64_t> shown_; // [cell], if sees_images_: key of the sample whose colour front_ shows
+    std::vector<std::uint32_t>
+        image_; // [cell]: the nearest image that lies there, as its sample's index plus one
     std::vector<std::uint64_t> filler_; // [cell]: of those in empty_: key of the filler that shows; 0: none
     std::vector<std::uint32_t> empty_cells_;
     std::span<const std::uint32_t> empty_; // cells of the tile's pixels without any

@@ -1,8 +1,11 @@
-// What a lens point sees where it meets nothing opaque: through cracks between the samples of one surface, that surface;
-// elsewhere, fillers.
+// What a lens point sees that is not the nearest sample: of mirrors and glass, the image, in the window that their surface is;
+// where it meets nothing opaque, a surface through the cracks between its samples; elsewhere, fillers. The rules:
+// lens_gather_reference.h.
 #include "dof/lens/lens_tile.h"
+#include "dof/lens/tile_projection.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace sparselens {
@@ -12,6 +15,48 @@ namespace {
 constexpr float side_by_side = 1.5f; // pixels: samples that are no farther apart have none between them
 
 } // namespace
+
+void LensTile::see_images(const LensSample &lens) {
+    sees_images_ = false;
+    if (samples_.surface_coc.empty()) return;
+    image_.assign(stride * stride, 0);
+    const TileProjection projection(lens, origin_x_ - (border - 1), origin_y_ - (border - 1), stride);
+    std::array<std::int32_t, 256> cells;
+    for (const std::uint32_t b : blocks_->samples) {
+        const SampleBlock &block = samples_.blocks[b];
+        if (!block.shows_images) continue;
+        sees_images_ = true;
+        for (std::uint32_t begin = block.begin; begin < block.opaque_end;
+             begin += std::uint32_t(cells.size())) {
+            const std::uint32_t count = std::min(std::uint32_t(cells.size()), block.opaque_end - begin);
+            project_to_cells(projection, &samples_.x[begin], &samples_.y[begin], &samples_.coc[begin], count,
+                             cells.data());
+            for (std::uint32_t i = 0; i < count; ++i) {
+                if (!samples_.is_image(begin + i)) continue;
+                std::uint32_t &nearest = image_[std::size_t(cells[i])];
+                if (nearest == 0 || samples_.coc[begin + i] < samples_.coc[nearest - 1])
+                    nearest = begin + i + 1;
+            }
+        }
+    }
+    if (!sees_images_) return;
+    shown_ = front_;
+    for (int y = 0; y < size; ++y)
+        for (int x = 0; x < size; ++x) shown_[cell_of(x, y)] = image_at(cell_of(x, y));
+}
+
+// The key of the sample that shows what is seen of the front one in a cell.
+std::uint64_t LensTile::image_at(std::size_t cell) const {
+    const std::uint64_t front = front_[cell];
+    if (front == 0 || !samples_.is_image(std::uint32_t(front))) return front;
+    const float depth = samples_.depth[std::uint32_t(front)];
+    for (const std::size_t at : {cell, cell - 1, cell + 1, cell - stride, cell + stride}) {
+        const std::uint32_t image = image_[at];
+        if (image != 0 && std::abs(samples_.depth[image - 1] - depth) < one_mirror_px)
+            return samples_.key[image - 1];
+    }
+    return front;
+}
 
 // The sample that shows through a crack at an empty cell, as a key; 0: there is no crack.
 std::uint64_t LensTile::torn_at(std::size_t cell) const {
@@ -37,7 +82,10 @@ void LensTile::find_cracks() {
 }
 
 void LensTile::close_cracks() {
-    for (const Crack &crack : cracks_) front_[crack.cell] = crack.key;
+    for (const Crack &crack : cracks_) {
+        front_[crack.cell] = crack.key;
+        if (sees_images_) shown_[crack.cell] = crack.key;
+    }
 }
 
 // The fillers of empty cells, and of them those that show.
@@ -60,7 +108,7 @@ void LensTile::see_fillers(const LensSample &lens) {
 
 // The colour that the lens point sees of what is opaque in a cell, a filler included; null where that is unknown.
 const float *LensTile::opaque_colour(std::size_t group, std::size_t cell) const {
-    if (front_[cell] != 0) return &colours_.group(group)[std::size_t(std::uint32_t(front_[cell])) * 4];
+    if (front_[cell] != 0) return &colours_.group(group)[std::size_t(std::uint32_t(shown()[cell])) * 4];
     if (filler_[cell] == 0) return nullptr;
     return &fillers_.colours.group(group)[std::size_t(std::uint32_t(filler_[cell])) * 4];
 }

@@ -65,7 +65,7 @@ bool LensTile::seen_by_none() const {
 // Backgrounds lie behind, wherever they are seen.
 bool LensTile::opaque_in_front(std::size_t cell) const {
     if (!two_sided_) return false;
-    const std::uint64_t key = front_[cell];
+    const std::uint64_t key = shown()[cell];
     if (key != 0) return key > nearest_background && in_front(std::uint32_t(key));
     return filler_[cell] != 0 && fillers_.samples.coc[std::uint32_t(filler_[cell])] < 0;
 }
@@ -87,7 +87,7 @@ void LensTile::add_opaque_weighted() {
 // Copies of four values: the compiler need not fear that sums overlap them.
 void LensTile::add_row_weighted(int y, CatEye::Columns columns, const Weights &lit, std::size_t &empty) {
     const bool held_out = held_out_.by != nullptr, two_sided = two_sided_;
-    const std::uint64_t *front = &front_[cell_of(0, y)];
+    const std::uint64_t *front = &shown()[cell_of(0, y)];
     const float *coc = samples_.coc.data();
     for (std::size_t g = 0; g < colours_.groups; ++g) {
         const float *colours = colours_.group(g).data();

@@ -14,12 +14,16 @@ namespace {
 
 PlacedSample sample_at(const Ldi &ldi, const ThinLens &lens, int x, int y, float alpha, std::uint64_t i) {
     const MergedSample place = sample_at(ldi, i);
+    std::optional<float> surface_coc;
+    if (is_opaque(alpha) && !ldi.optical.empty())
+        surface_coc = float(circle_of_confusion(lens, double(place.z)));
     return {float(x) + 0.5f + place.dx,
             float(y) + 0.5f + place.dy,
             float(circle_of_confusion(lens, ldi.optical_z(i))),
             float(perceptive_depth(lens, double(place.z))),
             alpha,
-            std::uint32_t(i)};
+            std::uint32_t(i),
+            surface_coc};
 }
 
 // The samples of one pixel, its background included.
@@ -58,7 +62,8 @@ std::vector<PlacedSample> block_samples(const Windows &windows, const PlaceSampl
     return found;
 }
 
-void resize(BlockedSamples &samples, std::size_t count) {
+void resize(BlockedSamples &samples, std::size_t count, bool images) {
+    if (images) samples.surface_coc.resize(count);
     for (auto *array : {&samples.x, &samples.y, &samples.coc, &samples.depth, &samples.alpha})
         array->resize(count);
     samples.source.resize(count);
@@ -69,6 +74,7 @@ void store(BlockedSamples &samples, std::size_t at, const PlacedSample &f) {
     samples.x[at] = f.x;
     samples.y[at] = f.y;
     samples.coc[at] = f.coc;
+    if (!samples.surface_coc.empty()) samples.surface_coc[at] = f.surface_coc.value_or(f.coc);
     samples.depth[at] = f.depth;
     samples.alpha[at] = f.alpha;
     samples.source[at] = f.source;
@@ -84,7 +90,7 @@ void bound(SampleBlock &block, const BlockedSamples &samples) {
     block.x_min = block.y_min = block.coc_min = most;
     block.x_max = block.y_max = block.coc_max = -most;
     block.coc_shown = block.depth_max = 0;
-    block.shows_opaque = false;
+    block.shows_opaque = block.shows_images = false;
     for (std::uint32_t i = block.begin; i < block.end; ++i) {
         block.x_min = std::min(block.x_min, samples.x[i]);
         block.x_max = std::max(block.x_max, samples.x[i]);
@@ -95,11 +101,18 @@ void bound(SampleBlock &block, const BlockedSamples &samples) {
         block.depth_max = std::max(block.depth_max, samples.depth[i]);
         if (samples.source[i] == BlockedSamples::background) continue;
         block.coc_shown = std::max(block.coc_shown, std::abs(samples.coc[i]));
+        if (samples.is_image(i)) {
+            const float surface = samples.surface_coc[i];
+            block.shows_images = true;
+            block.coc_min = std::min(block.coc_min, surface);
+            block.coc_max = std::max(block.coc_max, surface);
+            block.coc_shown = std::max(block.coc_shown, std::abs(surface));
+        }
         block.shows_opaque = block.shows_opaque || i < block.opaque_end;
     }
 }
 
-BlockedSamples make_blocks(const Windows &windows, const PlaceSamples &place) {
+BlockedSamples make_blocks(const Windows &windows, const PlaceSamples &place, bool images) {
     BlockedSamples samples;
     constexpr int size = BlockedSamples::size;
     samples.columns = (windows.width() + size - 1) / size;
@@ -122,7 +135,7 @@ BlockedSamples make_blocks(const Windows &windows, const PlaceSamples &place) {
         block.end += begin;
         begin = block.end;
     }
-    resize(samples, begin);
+    resize(samples, begin, images);
     parallel_for(samples.blocks.size(), [&](std::size_t b) {
         std::size_t at = samples.blocks[b].begin;
         for (const PlacedSample &f : samples_of(b)) store(samples, at++, f);
@@ -134,9 +147,10 @@ BlockedSamples make_blocks(const Windows &windows, const PlaceSamples &place) {
 BlockedSamples make_blocks(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &known) {
     if (ldi.samples() + ldi.windows.pixels() >= BlockedSamples::background)
         throw Error("the LDI has more samples than can be gathered at once (2^32)");
-    return make_blocks(ldi.windows, [&](int x, int y, std::vector<PlacedSample> &placed) {
+    const auto place = [&](int x, int y, std::vector<PlacedSample> &placed) {
         find_samples(ldi, lens, known, x, y, placed);
-    });
+    };
+    return make_blocks(ldi.windows, place, !ldi.optical.empty());
 }
 
 SamplePlaces::SamplePlaces(const BlockedSamples &samples, const Ldi &ldi, int top, int bottom) {

@@ -9,6 +9,7 @@
 #include <bit>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 namespace sparselens {
@@ -19,6 +20,7 @@ struct SampleBlock {
     float coc_min, coc_max;               // pixels, signed
     float coc_shown;                      // the largest, without its sign, of what is no background
     bool shows_opaque;                    // whether anything opaque is no background
+    bool shows_images;                    // whether any sample is_image()
     float depth_max;                      // perceptive, pixels: of the nearest sample
 };
 
@@ -26,8 +28,11 @@ struct BlockedSamples {
     // One entry a sample, and the backgrounds, opaque, with no colour and no alpha. A pixel that lets light through
     // to infinity has one there; and if it has samples, one at its last sample's place (though behind all else):
     // whoever sees that sample sees through it, also where what lies at infinity behind it is not known.
-    std::vector<float> x, y;           // centre, pixels, relative to the data window's corner, y down
-    std::vector<float> coc;            // signed radius, pixels
+    std::vector<float> x, y; // centre, pixels, relative to the data window's corner, y down
+    std::vector<float> coc;  // signed radius, pixels
+    // Where an opaque sample shows an image (Ldi::optical), coc is that of the image, by which its colour moves. This is the
+    // one of the surface, by which it is decided where the mirror is seen at all. Empty where there are no images.
+    std::vector<float> surface_coc;
     std::vector<float> depth;          // perceptive depth, pixels: larger is nearer
     std::vector<float> alpha;          // coverage, (0, 1]
     std::vector<std::uint64_t> key;    // nearer is greater, no two are equal
@@ -39,6 +44,9 @@ struct BlockedSamples {
     static constexpr int size = 8;   // pixels a block is wide and high
 
     std::size_t count() const { return x.size(); }
+    bool is_image(std::size_t i) const { return !surface_coc.empty() && surface_coc[i] != coc[i]; }
+    // By which what hides moves.
+    const std::vector<float> &hiding_coc() const { return surface_coc.empty() ? coc : surface_coc; }
 };
 
 // Sets the bounds of a block of `samples`, which has its samples already.
@@ -73,10 +81,11 @@ std::uint32_t place_of(const BlockedSamples &samples, const Ldi &ldi, std::uint6
 struct PlacedSample {
     float x, y, coc, depth, alpha;
     std::uint32_t source;
+    std::optional<float> surface_coc = {}; // else coc
 };
 
 // Of what `place(x, y, placed)` appends for the pixel in that column and row of a window of this size; it is asked twice.
 using PlaceSamples = std::function<void(int x, int y, std::vector<PlacedSample> &placed)>;
-BlockedSamples make_blocks(const Windows &windows, const PlaceSamples &place);
+BlockedSamples make_blocks(const Windows &windows, const PlaceSamples &place, bool images = false);
 
 } // namespace sparselens

@@ -10,6 +10,11 @@
 // there, and another one that moves with its last sample, behind everything. Coverage of 0.9995 or more is full, and a
 // pixel of which less than 1/2048 is left lets no light through: such differences are what rounding to halves makes.
 //
+// An opaque sample of a mirror or of glass (Ldi::optical) is met where its surface is. What it shows there is the colour of
+// such samples displaced by the CoC of their images: of those that cover the place, the one with the nearest image, if its
+// surface lies within one pixel of perceptive depth; else the same in the pixel to the left, to the right, above or below; else
+// its own. Partial ones are displaced by the CoC of their images altogether.
+//
 // A lens point that meets nothing opaque in a pixel looks at what it meets in the pixels beside it, to the left and to
 // the right, above and below:
 // - two samples on either side, less than 1.5 pixels apart in x and in y and one_surface_px in depth, are a surface

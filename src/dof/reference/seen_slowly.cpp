@@ -33,14 +33,16 @@ std::vector<Placed> place_samples(const Ldi &ldi, const ThinLens &lens, const Im
             for (const std::uint64_t i : ldi.pixel(pixel)) {
                 const long double dx = ldi.dx.empty() ? 0 : ldi.dx[i], dy = ldi.dy.empty() ? 0 : ldi.dy[i];
                 const long double z = ldi.z[i], alpha = alpha_of(ldi, i);
-                const long double coc = coc_at(lens, ldi.optical_z(i));
-                placed.push_back({x + dx, y + dy, coc, z, alpha < opaque ? alpha : 1, i, false});
+                const long double image_coc = coc_at(lens, ldi.optical_z(i));
+                const long double coc = alpha < opaque ? image_coc : coc_at(lens, z);
+                placed.push_back(
+                    {x + dx, y + dy, coc, z, alpha < opaque ? alpha : 1, i, false, nullptr, image_coc});
                 passed *= 1 - alpha;
             }
             if (passed < clear || !window.intersects(Imath::V2i(column, row))) continue;
             if (!ldi.pixel(pixel).empty()) {
                 const Placed last = placed.back();
-                placed.push_back({last.x, last.y, last.coc, infinity, 1, 0, true});
+                placed.push_back({last.x, last.y, last.image_coc, infinity, 1, 0, true});
             }
             placed.push_back({x, y, coc_at(lens, infinity), infinity, 1, 0, true});
         }
@@ -165,6 +167,69 @@ Choice screen_between(const Around &around) {
     return combined(combined(around[0], around[1], both), combined(around[2], around[3], both), nearer);
 }
 
+// The nearest image that lies in a pixel.
+Choice image_in(const Scene &scene, const LensSample &point, const Pixel &pixel, int dx, int dy) {
+    const long double x = pixel.x + dx + 0.5L - (long double)point.pixel_x,
+                      y = pixel.y + dy + 0.5L - (long double)point.pixel_y;
+    Choice nearest;
+    std::vector<const Placed *> sure;
+    for (const Placed &s : scene.samples) {
+        if (!s.is_image()) continue;
+        const Margin across = margin(s.x, s.image_coc * (long double)point.x, x, pixel.extent),
+                     down = margin(s.y, s.image_coc * (long double)point.y, y, pixel.extent);
+        if (across.outside() || down.outside()) continue;
+        nearest.can_be.push_back(&s);
+        if (across.inside > across.unclear && down.inside > down.unclear) sure.push_back(&s);
+        if (across.inside > 0 && down.inside > 0 && (!nearest.is || s.image_coc < nearest.is->image_coc))
+            nearest.is = &s;
+    }
+    const auto first = std::ranges::min_element(sure, {}, &Placed::image_coc);
+    if (first == sure.end())
+        nearest.can_be.push_back(nullptr);
+    else
+        std::erase_if(nearest.can_be, [&](const Placed *s) { return s->image_coc > (*first)->image_coc; });
+    return nearest;
+}
+
+// What is seen of a mirror: the nearest image in the pixel, else in one beside it, else what its surface shows.
+Choice image_of(const Placed &mirror, const Scene &scene, const LensSample &point, const Pixel &pixel) {
+    const auto of_mirror = [&](const Placed *s) {
+        return s && std::abs(depth_of(scene.lens, s) - depth_of(scene.lens, &mirror)) < 1 ? s : nullptr;
+    };
+    Choice seen;
+    constexpr std::array<std::array<int, 2>, 5> places{{{0, 0}, {-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
+    for (const auto &[dx, dy] : places) {
+        const Choice here = image_in(scene, point, pixel, dx, dy);
+        if (!seen.is) seen.is = of_mirror(here.is);
+        bool may_be_none = false;
+        for (const Placed *s : here.can_be)
+            of_mirror(s) ? seen.can_be.push_back(s) : void(may_be_none = true);
+        if (!may_be_none) return seen;
+    }
+    if (!seen.is) seen.is = &mirror;
+    seen.can_be.push_back(&mirror);
+    return seen;
+}
+
+// The ways to see what the mirrors that a way meets show.
+std::vector<Way> with_images(const Way &way, const Scene &scene, const LensSample &point,
+                             const Pixel &pixel) {
+    std::vector<Way> ways{way};
+    for (std::size_t m = 0; m < way.met.size(); ++m) {
+        if (!way.met[m].sample->is_image()) continue;
+        const Choice image = image_of(*way.met[m].sample, scene, point, pixel);
+        const std::vector<Way> before = std::move(ways);
+        ways.clear();
+        for (const Way &one : before)
+            for (const Placed *s : image.can_be) {
+                ways.push_back(one);
+                ways.back().met[m].sample = s;
+                ways.back().is = one.is && s == image.is;
+            }
+    }
+    return ways;
+}
+
 // A lens point that meets partial samples alone sees them before what it sees through a crack, or before a filler.
 void add_ways_through(std::vector<Way> &ways, const std::vector<Met> &partial, bool is, const Scene &scene,
                       const LensSample &point, const Pixel &pixel) {
@@ -209,9 +274,9 @@ std::vector<Way> ways_to_see(const Scene &scene, const LensSample &point, const 
     std::vector<Met> met, partial;
     meet(scene.samples, scene.facets, point, pixel, met);
     const Choice front = front_of(met);
-    if (front.can_be.back()) return {{met, true}};
+    if (front.can_be.back()) return with_images({met, true}, scene, point, pixel);
     std::vector<Way> ways;
-    if (front.can_be.size() > 1) ways.push_back({met, front.is != nullptr});
+    if (front.can_be.size() > 1) ways = with_images({met, front.is != nullptr}, scene, point, pixel);
     std::ranges::copy_if(met, std::back_inserter(partial), [](const Met &m) { return m.sample->alpha < 1; });
     add_ways_through(ways, partial, !front.is, scene, point, pixel);
     return ways;

@@ -19,6 +19,8 @@ struct Placed {
     std::uint64_t source;
     bool background;
     const Filler *filler = nullptr; // where it is one
+    long double image_coc = coc;    // of the image that an opaque sample shows, where it is one of a mirror
+    bool is_image() const { return image_coc != coc; }
 };
 
 // Everything there is to be seen, front to back.
