@@ -50,7 +50,8 @@ std::vector<Footprint> BlockFootprints::compute(std::uint32_t block) const {
         }
     const SampleBlock &own = samples_.blocks[block];
     const Imath::V2i first = Imath::V2i(column, row) * size;
-    return footprints_of(ldi_, {samples_.x, samples_.y, samples_.hiding_coc(), samples_.depth, samples_.source},
+    return footprints_of(ldi_,
+                         {samples_.x, samples_.y, samples_.hiding_coc(), samples_.depth, samples_.source},
                          {first, first + Imath::V2i(size - 1)}, {own.begin, own.end}, around);
 }
 

@@ -153,7 +153,8 @@ TEST(LensGatherReferenceItself, ImagesMoveByTheirDepthAndHideByTheMirrors) {
     };
     const ReferencePicture image = gather(0);
     for (const int x : {4, 5, 7, 9, 10, 11}) EXPECT_EQ(seen(image, 0, x), x == 5 ? 100 : float(x - 3)) << x;
-    EXPECT_EQ(seen(image, 0, 6), 5); // the mirror behind the bar, which no view saw: the mean of what is beside it
+    EXPECT_EQ(seen(image, 0, 6),
+              5); // the mirror behind the bar, which no view saw: the mean of what is beside it
     EXPECT_EQ(seen(gather(2), 0, 7), 4); // nearer than its image, but behind the mirror
 }
 
