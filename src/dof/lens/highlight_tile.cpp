@@ -75,14 +75,19 @@ void HighlightTile::spread(const Imath::V2i &origin, std::span<const std::uint32
     std::ranges::fill(light_, 0.0f);
     for (auto &left : left_by_cat_eye_) left.clear();
     const bool disc = shape_.aperture.disc() && !shape_.cat_eye.cuts();
-    for (std::uint32_t h = 0; h < highlights_.sample.size(); ++h) {
-        const std::uint32_t s = highlights_.sample[h];
-        const Lamp lamp{Imath::V2d(double(samples_.x[s]), double(samples_.y[s])) - Imath::V2d(origin),
-                        double(samples_.coc[s]), shape_.pixel_aspect};
-        reached_ = pixels_around(lamp.centre, std::abs(lamp.coc) * half_extent_);
-        if (reached_.isEmpty()) continue;
-        const Spreading from{h, s, lamp, cast_shadows(s, lamp, blocks)};
-        disc ? spread_disc(from) : spread_shape(from);
+    const std::vector<std::uint32_t> &all = highlights_.sample;
+    for (const std::uint32_t b : blocks) {
+        const SampleBlock &block = samples_.blocks[b];
+        auto h = std::uint32_t(std::ranges::lower_bound(all, block.begin) - all.begin());
+        for (; h < all.size() && all[h] < block.end; ++h) {
+            const std::uint32_t s = all[h];
+            const Lamp lamp{Imath::V2d(double(samples_.x[s]), double(samples_.y[s])) - Imath::V2d(origin),
+                            double(samples_.coc[s]), shape_.pixel_aspect};
+            reached_ = pixels_around(lamp.centre, std::abs(lamp.coc) * half_extent_);
+            if (reached_.isEmpty()) continue;
+            const Spreading from{h, s, lamp, cast_shadows(s, lamp, blocks)};
+            disc ? spread_disc(from) : spread_shape(from);
+        }
     }
 }
 
