@@ -68,6 +68,9 @@ private:
     bool one_surface_with(const ImageMatch &a, const ImageMatch &b) const {
         return a.surface && b.surface && std::abs(a.own_depth - b.own_depth) <= one_mirror_px;
     }
+    // visit(index, scratch) for the pixels of the tiles that were searched.
+    template <typename Visit>
+    void for_each_searched(const Visit &visit) const;
     // visit(index) for the pixels of the same surface around one, itself among them.
     template <typename Visit>
     void for_each_around(std::size_t i, int distance, const Visit &visit) const;
@@ -81,6 +84,19 @@ private:
     std::vector<ImageMatch> matches_;    // by pixel
     std::vector<float> depths_;
 };
+
+template <typename Visit>
+void ImageDepths::for_each_searched(const Visit &visit) const {
+    parallel_for(tiles_.count(), [&](std::size_t tile) {
+        if (!searched_[tile]) return;
+        std::vector<float> scratch;
+        const Grid pixels(tiles_.box(tile));
+        for (std::size_t n = 0; n < pixels.size(); ++n) {
+            const Imath::V2i p = pixels.pixel(n);
+            visit(grid_.index(p.x, p.y), scratch);
+        }
+    });
+}
 
 template <typename Visit>
 void ImageDepths::for_each_around(std::size_t i, int distance, const Visit &visit) const {
@@ -132,9 +148,7 @@ float ImageDepths::depth_by_neighbours(std::size_t i, std::vector<float> &around
         if (matches_[other].found) around.push_back(matches_[other].depth);
     });
     if (double(around.size()) < agreement * double(pixels)) return unknown;
-    const auto middle = around.begin() + std::ptrdiff_t(around.size() / 2);
-    std::nth_element(around.begin(), middle, around.end());
-    for (const float depth : {matches_[i].depth, *middle}) {
+    for (const float depth : {matches_[i].depth, median(around)}) {
         LinearFit fit;
         for_each_around(i, near_by, [&](std::size_t other) {
             const ImageMatch &match = matches_[other];
@@ -147,15 +161,8 @@ float ImageDepths::depth_by_neighbours(std::size_t i, std::vector<float> &around
 }
 
 void ImageDepths::agree_with_neighbours() {
-    parallel_for(tiles_.count(), [&](std::size_t tile) {
-        if (!searched_[tile]) return;
-        std::vector<float> around;
-        const Grid pixels(tiles_.box(tile));
-        for (std::size_t n = 0; n < pixels.size(); ++n) {
-            const Imath::V2i p = pixels.pixel(n);
-            const std::size_t i = grid_.index(p.x, p.y);
-            if (matches_[i].found) depths_[i] = depth_by_neighbours(i, around);
-        }
+    for_each_searched([&](std::size_t i, std::vector<float> &around) {
+        if (matches_[i].found) depths_[i] = depth_by_neighbours(i, around);
     });
 }
 
@@ -188,24 +195,16 @@ float ImageDepths::continued(std::size_t i, std::vector<float> &around) const {
         if (!std::isnan(depths_[other])) around.push_back(depths_[other]);
     });
     if (around.size() < least_sources) return unknown;
-    const auto middle = around.begin() + std::ptrdiff_t(around.size() / 2);
-    std::nth_element(around.begin(), middle, around.end());
-    std::vector<float> differences = sweep_.differences(grid_.pixel(i), double(*middle));
+    const float depth = median(around);
+    std::vector<float> differences = sweep_.differences(grid_.pixel(i), double(depth));
     const float there = robust_mean(differences);
-    return there <= no_worse * matches_[i].at_surface + least_difference ? *middle : unknown;
+    return there <= no_worse * matches_[i].at_surface + least_difference ? depth : unknown;
 }
 
 void ImageDepths::go_on() {
     std::vector<float> next = depths_;
-    parallel_for(tiles_.count(), [&](std::size_t tile) {
-        if (!searched_[tile]) return;
-        std::vector<float> around;
-        const Grid pixels(tiles_.box(tile));
-        for (std::size_t n = 0; n < pixels.size(); ++n) {
-            const Imath::V2i p = pixels.pixel(n);
-            const std::size_t i = grid_.index(p.x, p.y);
-            if (matches_[i].surface && std::isnan(depths_[i])) next[i] = continued(i, around);
-        }
+    for_each_searched([&](std::size_t i, std::vector<float> &around) {
+        if (matches_[i].surface && std::isnan(depths_[i])) next[i] = continued(i, around);
     });
     depths_ = std::move(next);
 }

@@ -30,9 +30,7 @@ float surface_of(const MatchedView &centre, const Imath::Box2i &block) {
         for (int x = block.min.x; x <= block.max.x; ++x)
             if (const float depth = centre.depth(x, y); !std::isnan(depth)) depths.push_back(depth);
     if (depths.empty()) return unknown;
-    const auto middle = depths.begin() + std::ptrdiff_t(depths.size() / 2);
-    std::nth_element(depths.begin(), middle, depths.end());
-    return *middle;
+    return median(depths);
 }
 
 // By step and pixel of a block.
@@ -87,6 +85,12 @@ std::optional<double> valley_of(const Curves &curve, std::size_t count, std::siz
 }
 
 } // namespace
+
+float median(std::span<float> values) {
+    const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
 
 float robust_mean(std::span<float> differences) {
     const auto unknowns = std::ranges::partition(differences, [](float d) { return !std::isnan(d); });
