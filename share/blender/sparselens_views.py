@@ -126,6 +126,27 @@ def with_attributes(data, attributes):
     return bytes(result)
 
 
+def depth_rows(data):
+    """The rows of channel Z of an EXR without compression, from the top."""
+    header, end = read_header(data)
+    left, top, right, bottom = struct.unpack("<4i", header["dataWindow"][1])
+    channels, at, before = header["channels"][1], 0, 0
+    while channels[at] != 0:
+        name_end = channels.index(b"\0", at)
+        if channels[at:name_end] == b"Z":
+            break
+        half = struct.unpack_from("<i", channels, name_end + 1)[0] == 1
+        before += 2 if half else 4
+        at = name_end + 17
+    else:
+        raise ValueError("an EXR without depth")
+    width = right - left + 1
+    offsets = struct.unpack_from("<%dQ" % (bottom - top + 1), data, end)
+    return [struct.unpack_from("<%df" % width, data,
+                               offset + 8 + before * width)
+            for offset in offsets]
+
+
 # --- The camera at a frame ---------------------------------------------------
 
 
@@ -151,6 +172,12 @@ class Shot:
     @property
     def lens_radius(self):
         return self.focal_length / 1000 / (2 * self.fstop)
+
+    def blur_radius(self, depth):
+        """Of a point's circle of confusion, in pixels across."""
+        focal_length = self.focal_length * self.size[0] / self.sensor_width
+        return (self.lens_radius * focal_length / self.focus_distance
+                * abs(depth - self.focus_distance) / depth)
 
 
 @dataclass
@@ -337,23 +364,22 @@ def still_camera(scene):
 
 
 @contextmanager
-def render_settings(scene, shot, overscan, multilayer):
-    """EXR with depth, of the picture grown by `overscan` pixels on each side,
-    and of nothing else than the views; afterwards all is as it was."""
+def render_settings(scene, size, multilayer=False, codec="ZIP"):
+    """EXR with depth, of a picture of that size, and of nothing else than the
+    views; afterwards all is as it was."""
     render = scene.render
     with ExitStack() as stack:
         stack.enter_context(changed(
             render.image_settings,
             file_format="OPEN_EXR_MULTILAYER" if multilayer else "OPEN_EXR",
-            color_mode="RGBA", color_depth="16", exr_codec="ZIP",
+            color_mode="RGBA", color_depth="16", exr_codec=codec,
             use_zbuffer=True, color_management="FOLLOW_SCENE"))
         stack.enter_context(changed(
             render, filepath="", use_multiview=False, use_compositing=False,
             use_sequencer=False, use_stamp=False, use_border=False,
             use_crop_to_border=False, border_min_x=0, border_max_x=1,
             border_min_y=0, border_max_y=1, resolution_percentage=100,
-            resolution_x=shot.size[0] + 2 * overscan,
-            resolution_y=shot.size[1] + 2 * overscan))
+            resolution_x=size[0], resolution_y=size[1]))
         for layer in scene.view_layers:
             stack.enter_context(changed(layer, use_pass_z=True))
         yield
@@ -412,6 +438,42 @@ def render_view(scene, path, shot, u, overscan, box=None):
             os.remove(partial)
 
 
+AUTO = "auto"  # overscan: as much as the blur needs
+LARGEST_PROBE = 512  # pixels
+LARGEST_OVERSCAN = 1024  # pixels; as far as ldi-warp looks
+
+
+def overscan_of(scene, folder, shot):
+    """The pixels of overscan that the blur of a frame needs: its largest
+    circle of confusion at the border. Read from the depth of a small picture
+    of one sample a pixel."""
+    shrink = min(1, LARGEST_PROBE / max(shot.size))
+    size = [max(1, round(side * shrink)) for side in shot.size]
+    path = os.path.join(folder, ".overscan.partial.exr")
+    with ExitStack() as stack:
+        stack.enter_context(render_settings(scene, size, codec="NONE"))
+        stack.enter_context(changed(scene.cycles, samples=1))
+        stack.enter_context(changed(scene.eevee, taa_render_samples=1))
+        camera = stack.enter_context(still_camera(scene))
+        stack.enter_context(changed(scene.render, filepath=path))
+        aim(camera, shot, shot.placement, 0)
+        try:
+            bpy.ops.render.render(write_still=True, scene=scene.name)
+            with open(path, "rb") as file:
+                rows = depth_rows(file.read())
+        finally:
+            if os.path.exists(path):
+                os.remove(path)
+
+    def largest(depths, stretch, most):
+        radius = max(shot.blur_radius(depth) for depth in depths if depth > 0)
+        return min(math.ceil(radius * stretch), most, LARGEST_OVERSCAN)
+
+    columns = [row[0] for row in rows] + [row[-1] for row in rows]
+    return max(largest(columns, 1, shot.size[0]),
+               largest(rows[0] + rows[-1], shot.pixel_aspect, shot.size[1]))
+
+
 def rim_points(count):
     angles = [2 * math.pi * k / count for k in range(count)]
     return [(math.cos(angle), math.sin(angle)) for angle in angles]
@@ -454,17 +516,23 @@ def warn(text):
 
 def render_frame(scene, folder, ending, views, eyes, overscan=0,
                  multilayer=False):
-    """Renders the views of the current frame into the folder."""
+    """Renders the views of the current frame into the folder. `overscan` is
+    in pixels, or AUTO."""
     shots = [(eye, shot_of(scene, eye)) for eye in eyes]
     if scene.render.use_motion_blur:
         warn("motion blur is on: objects blur, but the camera stands still "
              "in each view")
     for eye, shot in shots:
-        with render_settings(scene, shot, overscan, multilayer), \
-                still_camera(scene):
+        beyond = overscan
+        if overscan == AUTO:
+            beyond = overscan_of(scene, folder, shot)
+            print("sparselens_views.py: frame %d%s: overscan of %d pixels" % (
+                scene.frame_current, eye.name and ", " + eye.name, beyond))
+        size = [side + 2 * beyond for side in shot.size]
+        with render_settings(scene, size, multilayer), still_camera(scene):
             for name, u, box in views:
                 path = os.path.join(folder, name + eye.file_suffix + ending)
-                render_view(scene, path, shot, u, overscan, box)
+                render_view(scene, path, shot, u, beyond, box)
 
 
 def render_frames(scene, frames, folder, views_at, eyes, several=False,
@@ -496,6 +564,10 @@ class SPARSELENS_Settings(bpy.types.PropertyGroup):
     overscan: bpy.props.IntProperty(
         name="Overscan", description="Pixels rendered beyond each side",
         default=0, min=0, max=4096, subtype="PIXEL")
+    overscan_auto: bpy.props.BoolProperty(
+        name="Automatic Overscan",
+        description="As many pixels beyond each side as the blur at the "
+                    "border needs, at each frame, instead of Overscan")
     multilayer: bpy.props.BoolProperty(
         name="All Passes",
         description="Multilayer EXR with all passes of the view layers")
@@ -521,7 +593,8 @@ class SPARSELENS_OT_render_views(bpy.types.Operator):
             render_frames(scene, frames, bpy.path.abspath(settings.folder),
                           lambda frame: views, eyes_of(scene),
                           several=settings.animation,
-                          overscan=settings.overscan,
+                          overscan=(AUTO if settings.overscan_auto
+                                    else settings.overscan),
                           multilayer=settings.multilayer)
         except (ValueError, OSError, RuntimeError) as error:
             self.report({"ERROR"}, str(error))
@@ -588,6 +661,10 @@ def natural_number(text):
     return int(text)
 
 
+def overscan_option(text):
+    return AUTO if text == AUTO else natural_number(text)
+
+
 def read_options(arguments):
     parser = argparse.ArgumentParser(
         prog="sparselens_views.py",
@@ -610,8 +687,9 @@ def read_options(arguments):
              "view_0.####.exr, ...")
     add("--samples", type=natural_number, metavar="N",
         help="samples a pixel (default: the scene's)")
-    add("--overscan", type=natural_number, default=0, metavar="PX",
-        help="pixels to render beyond each side of the picture (default: 0)")
+    add("--overscan", type=overscan_option, default=0, metavar="PX",
+        help="pixels to render beyond each side of the picture (default: 0); "
+             "auto: as many as the blur at the border of each frame needs")
     add("--multilayer", action="store_true",
         help="multilayer EXR with all passes of the view layers, AOVs and "
              "Cryptomatte too (default: colour and depth)")

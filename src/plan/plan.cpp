@@ -141,19 +141,20 @@ Choice choose(std::span<const Candidate> candidates, std::size_t count, std::siz
 
 OverscanNeed overscan_of(const View &centre, const ThinLens &lens) {
     const Windows &w = centre.image.windows;
-    const auto largest_coc = [&](Imath::V2i at, const Imath::V2i &step, int count, int most) {
+    const auto largest_coc = [&](Imath::V2i at, const Imath::V2i &step, int count, int most,
+                                 double stretch = 1) {
         double largest = 0;
         for (int i = 0; i < count; ++i, at += step) {
             const std::size_t pixel = std::size_t(at.y) * std::size_t(w.width()) + std::size_t(at.x);
             largest = std::max(largest, std::abs(circle_of_confusion(lens, centre.z[pixel])));
         }
-        return int(std::min(std::ceil(largest), double(most)));
+        return int(std::min(std::ceil(largest * stretch), double(most)));
     };
     const int right = w.width() - 1, bottom = w.height() - 1;
     return {largest_coc({0, 0}, {0, 1}, w.height(), w.width()),
-            largest_coc({0, 0}, {1, 0}, w.width(), w.height()),
+            largest_coc({0, 0}, {1, 0}, w.width(), w.height(), lens.pixel_aspect),
             largest_coc({right, 0}, {0, 1}, w.height(), w.width()),
-            largest_coc({0, bottom}, {1, 0}, w.width(), w.height())};
+            largest_coc({0, bottom}, {1, 0}, w.width(), w.height(), lens.pixel_aspect)};
 }
 
 PixelMask everything(const Imath::Box2i &window) {

@@ -1,6 +1,7 @@
 """Runs the add-on on a scene full of settings of its own, and fails where one of them is changed afterwards.
 
-    blender -b SCENE.blend -P addon.py -- sparselens_views.py DIR
+    blender -b SCENE.blend -P addon.py -- sparselens_views.py DIR [auto]
+        auto: with automatic overscan
 """
 
 import importlib.util
@@ -31,7 +32,7 @@ def state(scene):
     return found
 
 
-def main(path, folder):
+def main(path, folder, overscan=""):
     spec = importlib.util.spec_from_file_location("sparselens_views", path)
     addon = importlib.util.module_from_spec(spec)
     sys.modules[spec.name] = addon
@@ -48,6 +49,7 @@ def main(path, folder):
     render.filepath, render.resolution_x, render.resolution_percentage = "//mine", 48, 200
     render.resolution_y = 27
     scene.sparselens.folder, scene.sparselens.overscan = folder, 3
+    scene.sparselens.overscan_auto = overscan == "auto"
 
     before = state(scene)
     if bpy.ops.sparselens.render_views() != {"FINISHED"}:

@@ -54,6 +54,25 @@ oiiotool over/center.exr --crop 76x43+0+0 -o inside.exr
 alike inside.exr framing/center.exr 36
 echo "framing and overscan: as Blender's own picture"
 
+# --overscan auto: as many pixels as ldi-plan asks for, at each frame, in the camera's own shape of pixels.
+asked() { sed -n '/"overscan"/,/}/s/.*": \([0-9]*\),*$/\1/p' "$1" | sort -n | tail -n 1; }
+in_blender lens.blend -P "$views" -- -o far --frames 1,4 --samples 4 --views 0
+in_blender lens.blend -P "$views" -- -o auto --frames 1,4 --samples 4 --views 1 --overscan auto
+for frame in 0001 0004; do
+    "$bin/ldi-plan" far/center.$frame.exr -o plan.json >/dev/null
+    wanted=$(asked plan.json)
+    [ "$wanted" -gt 0 ] || fail "ldi-plan asks for no overscan"
+    for view in center view_0; do
+        exrheader auto/$view.$frame.exr >header
+        grep -Fq "dataWindow (type box2i): (-$wanted -$wanted)" header || fail "--overscan auto, not $wanted: $(grep dataWindow header)"
+    done
+done
+in_blender pinhole,framing.blend -P "$views" -- -o over --samples 4 --views 0 --overscan auto
+"$bin/ldi-plan" framing/center.exr -o plan.json >/dev/null
+exrheader over/center.exr >header
+grep -Fq "dataWindow (type box2i): (-$(asked plan.json) -" header || fail "not $(asked plan.json): $(grep dataWindow header)"
+echo "--overscan auto: what the plan asks for"
+
 # Eyes of a stereo scene, by Blender's own stereo render. The right eye has a seed of its own there: 36 dB; a wrong
 # convergence is at 31 dB and less.
 for kind in offaxis offaxis_left parallel toe toe_left cameras; do
@@ -117,6 +136,9 @@ in_blender marker.blend -P "$source_dir/tests/blender/addon.py" -- "$views" "$PW
 in_blender marker.blend -P "$views" -- -o marker --frame 3 --samples 2 --overscan 3
 alike addon/center.exr marker/center.exr 90
 alike addon/view_3.exr marker/view_3.exr 90
+in_blender marker.blend -P "$source_dir/tests/blender/addon.py" -- "$views" "$PWD/addon_auto" auto
+in_blender marker.blend -P "$views" -- -o marker --frame 3 --samples 2 --overscan auto
+alike addon_auto/center.exr marker/center.exr 90
 echo "add-on: the same views, the scene unchanged"
 if cmake --install "$bin/.." --prefix "$PWD/installed" >said 2>&1; then
     in_blender small.blend -P installed/share/sparselens/blender/sparselens_views.py -- -o installed/views --samples 1 --views 0

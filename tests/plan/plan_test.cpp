@@ -79,6 +79,18 @@ TEST(Plan, OverscanIsTheLargestCocAlongTheEdge) {
     EXPECT_EQ(overscan.bottom, 1);
 }
 
+// A pixel twice as wide as high: the same disc is twice as many pixels high.
+TEST(Plan, OverscanAboveAndBelowCountsThePixelsAspect) {
+    ThinLens stretched = lens;
+    stretched.pixel_aspect = 2;
+    View view = plane(10);
+    view.z[10] = 2;
+    const OverscanNeed overscan = plan_of(view, {}, stretched).overscan;
+    EXPECT_EQ(overscan.top, 6);
+    EXPECT_EQ(overscan.bottom, 2);
+    EXPECT_EQ(overscan.left, 1);
+}
+
 TEST(PlanFile, MasksAndRectanglesComeBack) {
     const ScratchFolder folder;
     const View centre = card_before_wall();
