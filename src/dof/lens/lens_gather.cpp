@@ -2,11 +2,11 @@
 
 #include "base/parallel.h"
 #include "deep/flatten.h"
-#include "dof/lens/bend_samples.h"
 #include "dof/lens/filler_samples.h"
 #include "dof/lens/highlight_tile.h"
 #include "dof/lens/highlights.h"
 #include "dof/lens/lens_tile.h"
+#include "dof/lens/optics.h"
 #include "dof/lens/sample_blocks.h"
 #include "dof/lens/sharpen.h"
 #include "lens/lens_samples.h"
@@ -24,50 +24,6 @@ namespace {
 
 constexpr float in_focus = 0.5f;   // pixels: what has no larger CoC is as it was rendered
 constexpr double sharp_coc = 1e-3; // pixels: of infinity, seen by a lens of radius 0
-
-// By the last part of the channel's name, so that layers have colours too.
-std::vector<ColourSet> colour_sets(const Ldi &ldi, std::size_t count) {
-    std::vector<ColourSet> sets(count, data);
-    for (std::size_t k = 0; k < ldi.channels.size(); ++k) {
-        const std::string &name = ldi.channels[k].name;
-        const std::string part = name.substr(name.rfind('.') + 1);
-        if (ldi.channels[k].type == PixelType::uint32) continue;
-        sets[k] = part == "R"   ? red
-                  : part == "G" ? green
-                  : part == "B" ? blue
-                  : part == "A" ? coverage
-                                : data;
-    }
-    return sets;
-}
-
-SampleColours make_colours(const Ldi &ldi, const BlockedSamples &samples) {
-    const std::size_t channels = ldi.channels.size(), groups = (channels + 3) / 4, count = samples.count();
-    SampleColours colours{groups, count, std::vector<float>(groups * count * 4),
-                          colour_sets(ldi, groups * 4)};
-    parallel_ranges(count, 4096, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i)
-            for (std::size_t k = 0; k < channels && samples.source[i] != BlockedSamples::background; ++k)
-                colours.at(k, i) = ldi.values[k][samples.source[i]];
-    });
-    return colours;
-}
-
-// Channels that are light, without coverage; and those of them that say how bright a sample is.
-struct LightChannels {
-    std::vector<std::size_t> all, brightness;
-};
-
-LightChannels light_channels(const Ldi &ldi) {
-    LightChannels light;
-    for (std::size_t k = 0; k < ldi.channels.size(); ++k) {
-        const Channel &channel = ldi.channels[k];
-        if (!is_light(channel) || k == ldi.alpha()) continue;
-        light.all.push_back(k);
-        if (channel.name == "R" || channel.name == "G" || channel.name == "B") light.brightness.push_back(k);
-    }
-    return light;
-}
 
 // The sets of lens points that tiles choose from, each made when it is first asked for.
 class LensSets {
@@ -201,49 +157,66 @@ std::vector<std::size_t> averaged_channels(const Image &image) {
     return averaged;
 }
 
-// The lens points of a tile where the plane of focus is bent: by the field's change at the tile's middle.
-std::vector<LensSample> stretched(std::span<const LensSample> points, const Imath::V2d &coc_gradient) {
-    std::vector<LensSample> moved(points.begin(), points.end());
-    for (LensSample &p : moved) {
-        const auto factor = float(stretch(coc_gradient, {double(p.x), double(p.y)}));
-        p.x *= factor;
-        p.y *= factor;
-    }
-    return moved;
-}
+// A tile that is out of focus, and what it is gathered from.
+struct PreparedTile {
+    std::size_t number;
+    Imath::V2i first;  // pixel, EXR coordinates
+    Imath::V2i origin; // the same, relative to the data window's corner
+    LensTile::Blocks blocks = {};
+    std::span<const LensSample> lens = {};
+    std::vector<LensSample> stretched = {};
+};
 
-// What the looks make of the lens, with `coc` added to the CoC of all samples.
-struct Optics {
-    const LensLooks &looks;
-    double coc;
-    Imath::V2i corner; // of the data window
-    Aperture aperture;
-    PictureFrame frame;
-    FocusField field;
-    CatEye cat_eye;
+// All that tiles are gathered from, and the picture that they make.
+struct Gathering {
+    const ThinLens &lens;
+    const LensGatherOptions &options;
+    const Optics &optics;
+    const BlockedSamples &samples;
+    const FillerSamples &fillers;
+    const PlacedFacets &facets;
+    tbb::enumerable_thread_specific<HighlightTile> &lamps;
+    Image &out;
+    LensTiles &chosen;
+    BlockFinder finder{samples, optics.aperture, lens.pixel_aspect},
+        filler_finder{fillers.samples, optics.aperture, lens.pixel_aspect};
+    LensSets sets{options, optics.aperture, lens.pixel_aspect};
+    std::vector<std::size_t> gathered = averaged_channels(out);
 
-    Optics(const Ldi &ldi, const ThinLens &lens, const LensLooks &looks_, double coc_)
-        : looks(looks_), coc(coc_), corner(ldi.windows.data.min), aperture(looks.aperture),
-          frame(picture_frame(ldi.windows, looks)), field(looks, lens, frame),
-          cat_eye(aperture, looks, frame) {}
+    std::size_t tiles() const { return chosen.lens_points.size(); }
 
-    // How many times the lens points of a tile are doubled: so many that pixels see as many past a cat-eye as of a whole lens.
-    std::size_t doubled(const Imath::V2i &first) const {
-        if (!cat_eye.cuts() || cat_eye.darkens()) return 0;
-        const double left = cat_eye.share(true, Imath::V2d(first) + Imath::V2d(LensTile::size / 2));
-        return left <= 0.25 ? 2 : left <= 0.5 ? 1 : 0;
+    // None where nothing is out of focus: the flattened LDI is there already.
+    std::optional<PreparedTile> prepare(std::size_t t) {
+        const Imath::V2i corner(int(t) % chosen.columns, int(t) / chosen.columns);
+        const Imath::V2i first = out.windows.data.min + corner * LensTile::size;
+        const Imath::Box2i pixels(first, first + Imath::V2i(LensTile::size - 1));
+        if (options.region && !options.region->intersects(pixels)) return {};
+        PreparedTile tile{t, first, first - optics.corner};
+        const Imath::V2d gradient = optics.coc_gradient(first, LensTile::size);
+        const float steepest = float(stretch(gradient, gradient.normalized() * double(finder.extent())));
+        const float largest =
+            finder.find(tile.origin, LensTile::size, steepest, tile.blocks.samples) * optics.widest();
+        if (largest < in_focus && !optics.moves()) return {};
+        const std::vector<LensSample> &points = sets.for_coc(largest, optics.doubled(first, LensTile::size));
+        filler_finder.find(tile.origin, LensTile::size, steepest, tile.blocks.fillers);
+        find_blocks(facets, tile.origin, LensTile::size, steepest * finder.extent(), tile.blocks.facets);
+        tile.lens = points;
+        if (!optics.field.flat()) tile.lens = tile.stretched = stretched(points, gradient);
+        return tile;
     }
-    bool moves() const { return looks.magnification != 1; }
-    float widest() const { return float(std::max(aperture.half_extent().x, aperture.half_extent().y)); }
-    void bend(BlockedSamples &samples) const {
-        if (moves() || coc != 0 || !field.flat())
-            bend_samples(samples, field, coc, frame, looks.magnification, corner);
-    }
-    // How CoC changes across the tile whose first pixel that is (EXR coordinates).
-    Imath::V2d coc_gradient(const Imath::V2i &first) const {
-        if (field.flat()) return {0, 0};
-        const Imath::V2d middle = Imath::V2d(first) + Imath::V2d(LensTile::size / 2);
-        return field.coc_gradient(frame.magnified(middle, 1 / looks.magnification));
+
+    // Sets its pixels to value(x, y, channel), where that is known(x, y), and what highlights spread there.
+    template <typename Known, typename Value>
+    void finish(const PreparedTile &tile, const Known &known, const Value &value) const {
+        chosen.lens_points[tile.number] = int(tile.lens.size());
+        HighlightTile &lit = lamps.local();
+        lit.spread(tile.origin, tile.blocks.samples);
+        for_each_pixel(tile.first - out.windows.data.min, out.windows, [&](int x, int y) {
+            // A few lens points may all miss: better sharp than black.
+            if (!known(x, y) && lit.dark(x, y)) return;
+            for (const std::size_t k : gathered)
+                out.at(k, tile.first.x + x, tile.first.y + y) = value(x, y, k) + lit.value(x, y, k);
+        });
     }
 };
 
@@ -253,9 +226,8 @@ Image gather_once(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &wind
     BlockedSamples samples = make_blocks(ldi, lens, window);
     const Optics optics(ldi, lens, options.looks, coc);
     optics.bend(samples);
-    const float widest = optics.widest();
     const auto sharp = [&](const SampleBlock &block) {
-        return block.begin == block.end || largest_coc_of(block) * widest < in_focus;
+        return block.begin == block.end || largest_coc_of(block) * optics.widest() < in_focus;
     };
     LensTiles chosen = tiles_of(out.windows);
     if (options.chosen) *options.chosen = chosen;
@@ -268,54 +240,28 @@ Image gather_once(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &wind
     FillerSamples fillers = place_fillers(ldi, lens, find_fillers(ldi, lens, window), samples, colours);
     optics.bend(fillers.samples);
     const PlacedFacets facets =
-        place_facets(find_facets(ldi, lens, double(widest)), ldi.samples(),
+        place_facets(find_facets(ldi, lens, double(optics.widest())), ldi.samples(),
                      {samples.x, samples.y, samples.hiding_coc(), samples.key, samples.source});
-    const BlockFinder finder(samples, optics.aperture, lens.pixel_aspect),
-        filler_finder(fillers.samples, optics.aperture, lens.pixel_aspect);
-    LensSets sets(options, optics.aperture, lens.pixel_aspect);
     const HeldOut held_out{options.holdout, perceptive_depth(lens, 1), ldi.windows.data.min};
-    const Windows &windows = out.windows;
-    const std::vector<std::size_t> gathered = averaged_channels(out);
-    progress.start("gathering", chosen.lens_points.size());
-    tbb::enumerable_thread_specific<LensTile> tiles([&] {
-        return LensTile(samples, colours, facets, fillers, held_out,
-                        optics.cat_eye.cuts() ? &optics.cat_eye : nullptr);
-    });
+    const CatEye *cat_eye = optics.cat_eye.cuts() ? &optics.cat_eye : nullptr;
     const BlockFootprints footprints(ldi, samples);
-    tbb::enumerable_thread_specific<HighlightTile> highlight_tiles([&] {
+    tbb::enumerable_thread_specific<HighlightTile> lamps([&] {
         return HighlightTile(highlights, samples, footprints, colours.sets,
                              {optics.aperture, optics.cat_eye, lens.pixel_aspect}, held_out);
     });
-    parallel_for(chosen.lens_points.size(), [&](std::size_t t) {
-        const Imath::V2i corner =
-            Imath::V2i(int(t) % chosen.columns, int(t) / chosen.columns) * LensTile::size;
-        const Imath::V2i first = corner + window.min;
-        const Imath::Box2i pixels(first, first + Imath::V2i(LensTile::size - 1));
-        if (options.region && !options.region->intersects(pixels)) return progress.advance();
-        const Imath::V2i origin = corner + window.min - ldi.windows.data.min;
-        LensTile::Blocks blocks;
-        const Imath::V2d gradient = optics.coc_gradient(first);
-        const float steepest = float(stretch(gradient, gradient.normalized() * double(finder.extent())));
-        const float largest = finder.find(origin, LensTile::size, steepest, blocks.samples) * widest;
+    Gathering from{lens, options, optics, samples, fillers, facets, lamps, out, chosen};
+    progress.start("gathering", from.tiles());
+    tbb::enumerable_thread_specific<LensTile> tiles(
+        [&] { return LensTile(samples, colours, facets, fillers, held_out, cat_eye); });
+    parallel_for(from.tiles(), [&](std::size_t t) {
         progress.advance();
-        if (largest < in_focus && !optics.moves()) return; // the flattened LDI is there already
-        const std::vector<LensSample> &points = sets.for_coc(largest, optics.doubled(first));
-        filler_finder.find(origin, LensTile::size, steepest, blocks.fillers);
-        find_blocks(facets, origin, LensTile::size, steepest * finder.extent(), blocks.facets);
-        chosen.lens_points[t] = int(points.size());
-        std::vector<LensSample> bent;
-        if (!optics.field.flat()) bent = stretched(points, gradient);
+        const std::optional<PreparedTile> prepared = from.prepare(t);
+        if (!prepared) return;
         LensTile &tile = tiles.local();
-        tile.gather(origin, blocks, optics.field.flat() ? points : bent);
-        HighlightTile &lamps = highlight_tiles.local();
-        lamps.spread(origin, blocks.samples);
-        for_each_pixel(corner, windows, [&](int x, int y) {
-            // A few lens points may all miss: better sharp than black.
-            if (!tile.known(x, y) && lamps.dark(x, y)) return;
-            for (const std::size_t k : gathered)
-                out.at(k, window.min.x + corner.x + x, window.min.y + corner.y + y) =
-                    tile.value(x, y, k) + lamps.value(x, y, k);
-        });
+        tile.gather(prepared->origin, prepared->blocks, prepared->lens);
+        from.finish(
+            *prepared, [&](int x, int y) { return tile.known(x, y); },
+            [&](int x, int y, std::size_t k) { return tile.value(x, y, k); });
     });
     if (options.chosen) *options.chosen = std::move(chosen);
     return out;

@@ -2,6 +2,10 @@
 // [group][sample][4], premultiplied; channel k of the LDI is entry k % 4 of group k / 4.
 #pragma once
 
+#include "base/parallel.h"
+#include "deep/ldi.h"
+#include "dof/lens/sample_blocks.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -27,5 +31,49 @@ struct SampleColours {
         return values[(channel / 4 * count + sample) * 4 + channel % 4];
     }
 };
+
+// By the last part of the channel's name, so that layers have colours too. `count` >= the number of channels.
+inline std::vector<ColourSet> colour_sets(const Ldi &ldi, std::size_t count) {
+    std::vector<ColourSet> sets(count, data);
+    for (std::size_t k = 0; k < ldi.channels.size(); ++k) {
+        const std::string &name = ldi.channels[k].name;
+        const std::string part = name.substr(name.rfind('.') + 1);
+        if (ldi.channels[k].type == PixelType::uint32) continue;
+        sets[k] = part == "R"   ? red
+                  : part == "G" ? green
+                  : part == "B" ? blue
+                  : part == "A" ? coverage
+                                : data;
+    }
+    return sets;
+}
+
+inline SampleColours make_colours(const Ldi &ldi, const BlockedSamples &samples) {
+    const std::size_t channels = ldi.channels.size(), groups = (channels + 3) / 4, count = samples.count();
+    SampleColours colours{groups, count, std::vector<float>(groups * count * 4),
+                          colour_sets(ldi, groups * 4)};
+    parallel_ranges(count, 4096, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+            for (std::size_t k = 0; k < channels && samples.source[i] != BlockedSamples::background; ++k)
+                colours.at(k, i) = ldi.values[k][samples.source[i]];
+    });
+    return colours;
+}
+
+// Channels that are light, without coverage; and those of them that say how bright a sample is.
+struct LightChannels {
+    std::vector<std::size_t> all, brightness;
+};
+
+inline LightChannels light_channels(const Ldi &ldi) {
+    LightChannels light;
+    for (std::size_t k = 0; k < ldi.channels.size(); ++k) {
+        const Channel &channel = ldi.channels[k];
+        if (!is_light(channel) || k == ldi.alpha()) continue;
+        light.all.push_back(k);
+        if (channel.name == "R" || channel.name == "G" || channel.name == "B") light.brightness.push_back(k);
+    }
+    return light;
+}
 
 } // namespace sparselens

@@ -1,0 +1,55 @@
+#include "dof/lens/optics.h"
+
+#include "base/parallel.h"
+
+namespace sparselens {
+
+Optics::Optics(const Ldi &ldi, const ThinLens &lens, const LensLooks &looks_, double coc_)
+    : looks(looks_), coc(coc_), corner(ldi.windows.data.min), aperture(looks.aperture),
+      frame(picture_frame(ldi.windows, looks)), field(looks, lens, frame), cat_eye(aperture, looks, frame) {}
+
+std::size_t Optics::doubled(const Imath::V2i &first, int size) const {
+    if (!cat_eye.cuts() || cat_eye.darkens()) return 0;
+    const double left = cat_eye.share(true, Imath::V2d(first) + Imath::V2d(size / 2));
+    return left <= 0.25 ? 2 : left <= 0.5 ? 1 : 0;
+}
+
+float Optics::widest() const { return float(std::max(aperture.half_extent().x, aperture.half_extent().y)); }
+
+void Optics::bend(BlockedSamples &samples) const {
+    if (!moves() && coc == 0 && field.flat()) return;
+    const double magnification = looks.magnification;
+    parallel_for(samples.blocks.size(), [&](std::size_t b) {
+        SampleBlock &block = samples.blocks[b];
+        for (std::uint32_t i = block.begin; i < block.end; ++i) {
+            const Imath::V2d p = Imath::V2d(double(samples.x[i]), double(samples.y[i])) + Imath::V2d(corner);
+            const Imath::V2d at = frame.magnified(p, magnification) - Imath::V2d(corner);
+            const auto bent = [&](float of) {
+                return float(magnification * (double(of) + coc + field.coc_offset(p)));
+            };
+            samples.coc[i] = bent(samples.coc[i]);
+            if (!samples.surface_coc.empty()) samples.surface_coc[i] = bent(samples.surface_coc[i]);
+            samples.x[i] = float(at.x);
+            samples.y[i] = float(at.y);
+        }
+        bound(block, samples);
+    });
+}
+
+Imath::V2d Optics::coc_gradient(const Imath::V2i &first, int size) const {
+    if (field.flat()) return {0, 0};
+    const Imath::V2d middle = Imath::V2d(first) + Imath::V2d(size / 2);
+    return field.coc_gradient(frame.magnified(middle, 1 / looks.magnification));
+}
+
+std::vector<LensSample> stretched(std::span<const LensSample> points, const Imath::V2d &coc_gradient) {
+    std::vector<LensSample> moved(points.begin(), points.end());
+    for (LensSample &p : moved) {
+        const auto factor = float(stretch(coc_gradient, {double(p.x), double(p.y)}));
+        p.x *= factor;
+        p.y *= factor;
+    }
+    return moved;
+}
+
+} // namespace sparselens

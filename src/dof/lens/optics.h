@@ -1,0 +1,42 @@
+// What the looks make of the lens: an aperture, a plane of focus that may be bent, a picture that may be magnified.
+#pragma once
+
+#include "dof/lens/sample_blocks.h"
+#include "lens/cat_eye.h"
+#include "lens/focus_field.h"
+#include "lens/lens_looks.h"
+#include "lens/lens_samples.h"
+
+#include <span>
+#include <vector>
+
+namespace sparselens {
+
+struct Optics {
+    const LensLooks &looks;
+    double coc;        // is added to that of all samples
+    Imath::V2i corner; // of the data window
+    Aperture aperture;
+    PictureFrame frame;
+    FocusField field;
+    CatEye cat_eye;
+
+    Optics(const Ldi &ldi, const ThinLens &lens, const LensLooks &looks, double coc);
+
+    // How many times the lens points of a tile are doubled: so many that pixels see as many past a cat-eye as of a whole
+    // lens. `first`, `size`: as of coc_gradient().
+    std::size_t doubled(const Imath::V2i &first, int size) const;
+    bool moves() const { return looks.magnification != 1; }
+    float widest() const; // of the aperture, for each pixel of CoC
+
+    // Adds to the CoC of samples, whose places are relative to the corner, and moves them to where the magnified picture
+    // shows them.
+    void bend(BlockedSamples &samples) const;
+    // How CoC changes across the tile of that size whose first pixel that is (EXR coordinates).
+    Imath::V2d coc_gradient(const Imath::V2i &first, int size) const;
+};
+
+// The lens points of a tile where the plane of focus is bent: by the field's change at the tile's middle.
+std::vector<LensSample> stretched(std::span<const LensSample> points, const Imath::V2d &coc_gradient);
+
+} // namespace sparselens
