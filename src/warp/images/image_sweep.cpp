@@ -65,6 +65,27 @@ double least_of_parabola(double before, double middle, double after) {
     return bend > 0 ? std::clamp(0.5 * (before - after) / bend, -0.5, 0.5) : 0;
 }
 
+// The difference of each pixel of a block at steps of depth, the robust mean over the rim views.
+// compare(comparison, k, out) compares the block with one view at step k.
+template <class Compare>
+Curves mean_curves(std::span<const MatchedView> views, double scale, const Imath::Box2i &block, float surface,
+                   std::size_t steps, const Compare &compare) {
+    const std::size_t pixels = Grid(block).size(), rims = views.size() - 1;
+    std::vector<Curves> by_view(rims, Curves(steps, pixels));
+    for (std::size_t v = 0; v < rims; ++v) {
+        PatchComparison comparison(views[0], views[v + 1], scale, block, surface);
+        for (std::size_t k = 0; k < steps; ++k) compare(comparison, k, by_view[v].step_of(k));
+    }
+    Curves mean(steps, pixels);
+    std::vector<float> of_views(rims);
+    for (std::size_t k = 0; k < steps; ++k)
+        for (std::size_t i = 0; i < pixels; ++i) {
+            for (std::size_t v = 0; v < rims; ++v) of_views[v] = by_view[v].at(k, i);
+            mean.at(k, i) = robust_mean(of_views);
+        }
+    return mean;
+}
+
 // Whether the curve has one clear valley; then its step.
 std::optional<double> valley_of(const Curves &curve, std::size_t count, std::size_t pixel, float at_surface) {
     const auto value = [&](std::size_t k) { return curve.at(k, pixel); };
@@ -108,25 +129,16 @@ std::vector<ImageMatch> ImageSweep::search(const Imath::Box2i &block) const {
     const float surface = surface_of(centre, block);
     if (std::isnan(surface)) return matches;
     const Depths depths(surface);
-    const std::size_t rims = views_.size() - 1;
-    std::vector<Curves> by_view(rims, Curves(depths.count + 1, grid.size())); // the last: at the surface
-    for (std::size_t v = 0; v < rims; ++v) {
-        PatchComparison comparison(centre, views_[v + 1], scale_, block, surface);
-        for (std::size_t k = 0; k < depths.count; ++k)
-            comparison.at_depth(depths.at(double(k)), by_view[v].step_of(k));
-        comparison.at_depths([&](const Imath::V2i &p) { return double(centre.depth(p.x, p.y)); },
-                             by_view[v].step_of(depths.count));
-    }
-    Curves curve(depths.count + 1, grid.size());
-    std::vector<float> of_views(rims);
+    const Curves curve = mean_curves( // the last step: at the surface
+        views_, scale_, block, surface, depths.count + 1,
+        [&](PatchComparison &comparison, std::size_t k, std::span<float> out) {
+            if (k < depths.count) return comparison.at_depth(depths.at(double(k)), out);
+            comparison.at_depths([&](const Imath::V2i &p) { return double(centre.depth(p.x, p.y)); }, out);
+        });
     for (std::size_t i = 0; i < grid.size(); ++i) {
         const Imath::V2i p = grid.pixel(i);
         const float own = centre.depth(p.x, p.y);
         if (!(std::abs(own - surface) <= one_mirror_px)) continue;
-        for (std::size_t k = 0; k <= depths.count; ++k) {
-            for (std::size_t v = 0; v < rims; ++v) of_views[v] = by_view[v].at(k, i);
-            curve.at(k, i) = robust_mean(of_views);
-        }
         ImageMatch &match = matches[i];
         match.own_depth = own;
         match.at_surface = curve.at(depths.count, i);
@@ -150,22 +162,15 @@ std::vector<float> ImageSweep::refined(const Imath::Box2i &block,
     const float surface = surface_of(centre, block);
     if (std::isnan(surface)) return refined;
     constexpr std::size_t steps = 2 * side + 1;
-    const std::size_t rims = views_.size() - 1;
-    std::vector<Curves> by_view(rims, Curves(steps, grid.size()));
-    for (std::size_t v = 0; v < rims; ++v) {
-        PatchComparison comparison(centre, views_[v + 1], scale_, block, surface);
-        for (std::size_t k = 0; k < steps; ++k)
+    const Curves curves = mean_curves(
+        views_, scale_, block, surface, steps,
+        [&](PatchComparison &comparison, std::size_t k, std::span<float> out) {
             comparison.at_depths(
-                [&](const Imath::V2i &p) { return double(depth_at(p)) + by * (double(k) - side); },
-                by_view[v].step_of(k));
-    }
-    std::vector<float> of_views(rims);
+                [&](const Imath::V2i &p) { return double(depth_at(p)) + by * (double(k) - side); }, out);
+        });
     std::array<float, steps> curve;
     for (std::size_t i = 0; i < grid.size(); ++i) {
-        for (std::size_t k = 0; k < steps; ++k) {
-            for (std::size_t v = 0; v < rims; ++v) of_views[v] = by_view[v].at(k, i);
-            curve[k] = robust_mean(of_views);
-        }
+        for (std::size_t k = 0; k < steps; ++k) curve[k] = curves.at(k, i);
         const std::size_t best = std::size_t(std::ranges::min_element(curve) - curve.begin());
         const bool inside = best > 0 && best + 1 < steps &&
                             std::ranges::none_of(curve, [](float c) { return std::isnan(c); });
