@@ -28,7 +28,10 @@ std::vector<int> flat_parts(const Imf::MultiPartInputFile &file, const std::stri
     std::vector<int> numbers;
     for (int part = 0; part < file.parts(); ++part)
         if (is_flat(file.header(part))) numbers.push_back(part);
-    if (numbers.empty()) throw Error(display_name(path) + ": contains no flat image");
+    if (numbers.empty())
+        throw Error(
+            display_name(path) +
+            ": contains deep samples but no flat picture; flatten it first (dof-gather --lens-radius 0)");
     return numbers;
 }
 

@@ -261,7 +261,9 @@ TEST_F(ExrDeep, TheDeepPartIsTheOneThatIsRead) {
 
 TEST_F(ExrDeep, ADeepFileIsNoFlatPicture) {
     write_ldi(path, ldi_of({{{.z = 1}}}), Imf::Header());
-    EXPECT_EQ(what_of<Error>([&] { read_flat_exr(path); }), path + ": contains no flat image");
+    EXPECT_EQ(
+        what_of<Error>([&] { read_flat_exr(path); }),
+        path + ": contains deep samples but no flat picture; flatten it first (dof-gather --lens-radius 0)");
 }
 
 TEST_F(ExrDeep, AFlatPictureIsReadAsOneSampleAPixel) {
