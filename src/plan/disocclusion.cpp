@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 namespace sparselens {
 
@@ -57,13 +58,22 @@ private:
     double depth(int column, int row) const { return depth_[grid_.index(column, row)]; }
     bool in_frame(int column, int row) const { return grid_.contains(column, row); }
 
+    // How much deeper the neighbour (dx, dy) is, if both are one surface.
+    std::optional<double> step(int column, int row, int dx, int dy) const {
+        if (!in_frame(column + dx, row + dy)) return {};
+        const double difference = depth(column + dx, row + dy) - depth(column, row);
+        return std::abs(difference) <= unbroken ? std::optional(difference) : std::nullopt;
+    }
+
     // How far the pixel reaches towards its neighbour (dx, dy), along that axis, from its own moved centre: halfway to
-    // the neighbour's if they are one surface; without end over the frame's edge.
+    // the neighbour's if they are one surface, and as much farther as a surface that slants across moves its neighbours
+    // there; without end over the frame's edge.
     double reach(int column, int row, int dx, int dy) const {
         if (!in_frame(column + dx, row + dy)) return grid_.width() + grid_.height();
-        const double step = depth(column + dx, row + dy) - depth(column, row);
-        if (!(std::abs(step) <= unbroken)) return 0.5;
-        return 0.5 * (1 + step * (dx != 0 ? dx * shift_.x : dy * shift_.y));
+        const double shift = dx != 0 ? dx * shift_.x : dy * shift_.y;
+        const double across = std::max({0.0, step(column, row, dy, dx).value_or(0) * shift,
+                                        step(column, row, -dy, -dx).value_or(0) * shift});
+        return 0.5 * (1 + step(column, row, dx, dy).value_or(0) * shift + across);
     }
 
     void move(int column, int row, MovedDepth &moved) const {
@@ -90,23 +100,6 @@ private:
     std::vector<double> depth_; // perceptive
 };
 
-// A pixel that is set alone between two that are not, along either axis, is a crack, or so narrow an opening that
-// the margins around it would cost more than it brings: on "grass" half as much again, for 0.5 dB.
-void close_cracks(PixelMask &mask) {
-    const PixelMask before = mask;
-    const Grid grid(mask.width(), mask.height());
-    const auto crack = [&](std::size_t i, std::size_t step) {
-        return !before.set[i - step] && !before.set[i + step];
-    };
-    for (int y = 0; y < grid.height(); ++y)
-        for (int x = 0; x < grid.width(); ++x) {
-            const std::size_t i = grid.index(x, y);
-            const bool across = x > 0 && x < grid.width() - 1 && crack(i, 1);
-            const bool down = y > 0 && y < grid.height() - 1 && crack(i, std::size_t(grid.width()));
-            if (across || down) mask.set[i] = 0;
-        }
-}
-
 // Sets what lies within `margin` of a set value in a line of `count` values `stride` apart.
 void grow_line(const std::uint8_t *from, std::uint8_t *to, int count, std::size_t stride, int margin) {
     const auto grow = [&](int i, int &last) { // last: the set value met before
@@ -131,15 +124,29 @@ MovedDepth move_depth(const Windows &windows, std::span<const float> z, const Th
 PixelMask disoccluded(const MovedDepth &moved) {
     PixelMask mask(moved.inside.data);
     std::ranges::transform(moved.depth, mask.set.begin(), [](float d) { return d == MovedDepth::nothing; });
-    close_cracks(mask);
     return mask;
 }
 
 PixelMask unseen_by_centre(const MovedDepth &moved) {
     PixelMask mask(moved.inside.data);
     std::ranges::transform(moved.inside.set, mask.set.begin(), [](std::uint8_t seen) { return !seen; });
-    close_cracks(mask);
     return mask;
+}
+
+PixelMask without_slits(const PixelMask &mask) {
+    PixelMask wide = mask;
+    const Grid grid(mask.width(), mask.height());
+    const auto slit = [&](std::size_t i, std::size_t step) {
+        return !mask.set[i - step] && !mask.set[i + step];
+    };
+    for (int y = 0; y < grid.height(); ++y)
+        for (int x = 0; x < grid.width(); ++x) {
+            const std::size_t i = grid.index(x, y);
+            const bool across = x > 0 && x < grid.width() - 1 && slit(i, 1);
+            const bool down = y > 0 && y < grid.height() - 1 && slit(i, std::size_t(grid.width()));
+            if (across || down) wide.set[i] = 0;
+        }
+    return wide;
 }
 
 PixelMask grown(const PixelMask &mask, int margin) {

@@ -43,11 +43,15 @@ struct MovedDepth {
 MovedDepth move_depth(const Windows &windows, std::span<const float> z, const ThinLens &lens,
                       const Imath::V2d &u);
 
-// The pixels of the rim view in which nothing lands, without cracks of one pixel.
+// The pixels of the rim view in which nothing lands.
 PixelMask disoccluded(const MovedDepth &moved);
 
 // The same, and the pixels that show what lies beyond the border of the centre view.
 PixelMask unseen_by_centre(const MovedDepth &moved);
+
+// The mask without what is one pixel wide, along either axis: what thin things, as wires and blades of grass, hide from
+// the centre view, and where a steep surface opens.
+PixelMask without_slits(const PixelMask &mask);
 
 // All pixels within `margin` pixels, along each axis, of those that are set.
 PixelMask grown(const PixelMask &mask, int margin);

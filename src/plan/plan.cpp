@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 
 namespace sparselens {
@@ -17,6 +18,10 @@ namespace {
 constexpr double noise_that_pays = 6.3e-5;
 
 constexpr int least_candidates = 8;
+
+// Pixels around an opening of one pixel: more around so many of them costs more than it brings (grass: 1.43 instead
+// of about one view, for 0.02 dB).
+constexpr int slit_margin = 1;
 
 // Pixels: less is rounding of where surfaces land.
 constexpr std::size_t least_gain = 8;
@@ -59,10 +64,20 @@ std::vector<std::uint32_t> uncovered_places(const MovedDepth &moved, const Pixel
     return places;
 }
 
+void unite(PixelMask &mask, const PixelMask &other) {
+    std::ranges::transform(mask.set, other.set, mask.set.begin(), std::bit_or<>());
+}
+
+PixelMask with_margins(const PixelMask &openings, int margin) {
+    PixelMask wanted = grown(without_slits(openings), margin);
+    unite(wanted, grown(openings, std::min(margin, slit_margin)));
+    return wanted;
+}
+
 Candidate look_from(const View &centre, const ThinLens &lens, const Imath::V2d &u, int margin) {
     const MovedDepth moved = move_depth(centre.image.windows, centre.z, lens, u);
-    Candidate candidate{u, disoccluded(moved), grown(unseen_by_centre(moved), margin), {}};
-    for (std::size_t i = 0; i < moved.edge.set.size(); ++i) candidate.wanted.set[i] |= moved.edge.set[i];
+    Candidate candidate{u, disoccluded(moved), with_margins(unseen_by_centre(moved), margin), {}};
+    unite(candidate.wanted, moved.edge);
     candidate.cost = double(candidate.wanted.count());
     candidate.uncovers = uncovered_places(moved, candidate.hidden, u, lens.pixel_aspect);
     return candidate;

@@ -41,6 +41,15 @@ TEST(Disocclusion, WhatOpensBesideACard) {
     for (int y = 0; y < 20; ++y) EXPECT_EQ(disoccluded(from_above).at(30, y), y >= 9 && y < 13) << y;
 }
 
+// A wire in column 30 moves away by 5 px and the wall by 1: it hid one column, which is a slit.
+TEST(Disocclusion, WhatAWireHides) {
+    const PixelMask hidden = disoccluded(moved([](int x, int) { return x == 30 ? 2.0f : 10.0f; }));
+    for (int y = 0; y < 20; ++y) EXPECT_EQ(row(hidden, y), std::string(29, '.') + "#" + std::string(30, '.'));
+    EXPECT_EQ(without_slits(hidden).count(), 0u);
+    const PixelMask wider = disoccluded(moved([](int x, int) { return x == 30 || x == 31 ? 2.0f : 10.0f; }));
+    EXPECT_EQ(without_slits(wider).set, wider.set);
+}
+
 // One surface has no cracks, however it slants or bends, and at any depth.
 TEST(Disocclusion, OneSurfaceHidesNothing) {
     const std::vector<std::function<float(int, int)>> surfaces{

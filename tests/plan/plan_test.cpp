@@ -54,6 +54,17 @@ TEST(Plan, ACardAsksForStripsAroundIt) {
     EXPECT_GT(plan.share(), 4 * 8 * 24 / 4800.0);
 }
 
+// Three columns: that which the wire hid, and one on either side. Seen from the left, it is the same column.
+TEST(Plan, AWireAsksForTheColumnItHides) {
+    const View wire = make_view(windows_of_size(80, 60), {0, 0}, [](int x, int) {
+        return ViewPixel{.z = x == 40 ? 2.0f : 10.0f, .r = x == 40 ? 1.0f : 0.2f};
+    });
+    const Plan plan = plan_of(wire, {.views = 2});
+    ASSERT_EQ(plan.views.size(), 1u);
+    EXPECT_EQ(plan.views[0].uncovered, 60u);
+    for (int x = 10; x < 70; ++x) EXPECT_EQ(plan.views[0].mask.at(x, 30), std::abs(x - 39) <= 1) << x;
+}
+
 TEST(Plan, NoiseAsksForWholeViews) {
     const Plan clean = plan_of(card_before_wall(), {.noise = 1e-4}),
                noisy = plan_of(card_before_wall(), {.noise = 0.2});
