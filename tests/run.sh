@@ -5,7 +5,7 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 exec </dev/null
 
-tools/install-deps.sh build demo test
+tools/install-deps.sh build demo gpu test
 cmake --preset release --log-level=WARNING -DSPARSELENS_TESTS=ON -DSPARSELENS_BENCHMARKS=ON
 cmake --build build -j "$(nproc)"
 ctest --test-dir build --output-on-failure --timeout 300 -j 2

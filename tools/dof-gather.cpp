@@ -5,6 +5,7 @@
 #include "io/channels.h"
 #include "io/exr/exr_flat.h"
 #include "io/gather_windows.h"
+#include "loading/gather_device.h"
 #include "loading/holdout_file.h"
 #include "loading/ldi_lens.h"
 #include "loading/notices.h"
@@ -31,7 +32,7 @@ Image gathered(const GatherCommand &options, GatherWindows &frame, const ThinLen
     return tool.last_frame ? of(cache.take_ldi()) : of(cache.last().ldi);
 }
 
-void run(const GatherCommand &given, const ToolContext &tool, LdiCache &cache) {
+void run(const GatherCommand &given, const ToolContext &tool, LdiCache &cache, GatherDevice &device) {
     GatherCommand options = given;
     const OpenOptions by{options.lens, options.depth};
     OpenedLdi &in = cache.load(options.input, options.channels, by, options.colour, tool);
@@ -49,11 +50,13 @@ void run(const GatherCommand &given, const ToolContext &tool, LdiCache &cache) {
     LensTiles tiles;
     options.picture.holdout = holdout ? &*holdout : nullptr;
     options.picture.gather.lens.chosen = &tiles;
+    options.picture.gather.lens.device = device.open(options.device, tool);
     options.picture.gather.lens.looks =
         looks_for_ldi(looks, in.camera, header, lens, ldi.windows, options.picture.method, tool);
     Image picture;
     if (needs_gather(options.show))
         picture = chosen_channels(gathered(options, frame, lens, cache, tool), options.channels);
+    device.report(tool);
     if (options.show != Show::picture)
         picture = crop(shown(options.show, ldi, lens, frame.gathered, tiles), frame.written);
     write_camera(header, in.camera);
@@ -71,10 +74,13 @@ void run(const GatherCommand &given, const ToolContext &tool, LdiCache &cache) {
 
 int main(int argc, char **argv) {
     LdiCache cache; // for a focus pull over one file, which is read once
+    GatherDevice device;
     return run_frames("dof-gather", "Gathers the picture that a lens takes from a layered depth image (LDI)",
                       argc, argv, [&](CLI::App &app) {
                           const auto options = std::make_shared<GatherCommand>();
                           add_gather_options(app, *options);
-                          return [&cache, options](const ToolContext &tool) { run(*options, tool, cache); };
+                          return [&cache, &device, options](const ToolContext &tool) {
+                              run(*options, tool, cache, device);
+                          };
                       });
 }

@@ -1,7 +1,7 @@
 #!/bin/sh
 # Installs the Debian packages that a job here needs and this machine lacks.
 #
-#   tools/install-deps.sh SET...      sets: build, demo, lint, report, test
+#   tools/install-deps.sh SET...      sets: build, demo, gpu, lint, report, test
 #
 # Needs nothing but a Debian base system, and root or sudo if something is missing. Prints one line when all is
 # there; exit 1, with one line saying why, when it is not and cannot be had.
@@ -10,6 +10,7 @@ set -eu
 build='g++ cmake ninja-build pkg-config libcli11-dev libembree-dev libfmt-dev libimath-dev libopencolorio-dev
        libopenexr-dev libopenimageio-dev libtbb-dev nlohmann-json3-dev'
 demo='fonts-dejavu-core openimageio-tools'
+gpu='glslc libvulkan-dev mesa-vulkan-drivers spirv-tools vulkan-validationlayers'
 lint='clang-14 clang-format-14 clang-tidy-14'
 report='chromium gnuplot-nox'
 test='fish gnuplot-nox libbenchmark-dev libgtest-dev mypy openexr openimageio-tools pybind11-dev python3-dev
@@ -25,10 +26,11 @@ packages_of() {
         case $set_name in
         build) echo $build ;;
         demo) echo $demo ;;
+        gpu) echo $gpu ;;
         lint) echo $lint ;;
         report) echo $report ;;
         test) echo $test ;;
-        *) fail "unknown set '$set_name' (build, demo, lint, report, test)" ;;
+        *) fail "unknown set '$set_name' (build, demo, gpu, lint, report, test)" ;;
         esac
     done
 }
@@ -51,7 +53,7 @@ apt_get() {
         >>"$log" 2>&1 </dev/null
 }
 
-[ $# -gt 0 ] || fail "name at least one set: build, demo, lint, report, test"
+[ $# -gt 0 ] || fail "name at least one set: build, demo, gpu, lint, report, test"
 wanted=$(packages_of "$@")
 if ! command -v dpkg-query >/dev/null; then
     echo "install-deps: not a Debian system, so nothing was checked; needed are: $(echo $wanted)"

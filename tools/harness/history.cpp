@@ -20,8 +20,8 @@ namespace sparselens {
 namespace {
 
 // Options without influence on the picture; those with a value take the next word.
-constexpr std::array silent_options{"-o",           "--output", "--depth-out", "--threads",
-                                    "--max-memory", "--stats",  "--frames",    "--progress"};
+constexpr std::array silent_options{"-o",      "--output", "--depth-out", "--threads", "--max-memory",
+                                    "--stats", "--frames", "--progress",  "--device"};
 constexpr std::array silent_flags{"-v", "--verbose", "-u", "--update", "--skip-bad-frames"};
 
 // "--threads=4", "-oOUT.exr": option and value in one word.

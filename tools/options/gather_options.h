@@ -23,7 +23,8 @@ struct GatherCommand {
     ColourOptions colour;
     WindowOptions windows;
     HistoryOptions history;
-    PictureOptions picture; // without the holdout, which is a file
+    PictureOptions picture;     // without the holdout, which is a file
+    std::string device = "cpu"; // as choose_device() has it
     std::string input, output, depth_output, channels, holdout;
     std::optional<Imath::V2i> focus_pixel;
     std::optional<PixelType> type; // -d

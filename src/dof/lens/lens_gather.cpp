@@ -2,6 +2,7 @@
 
 #include "base/parallel.h"
 #include "deep/flatten.h"
+#include "dof/device/tile_device.h"
 #include "dof/lens/filler_samples.h"
 #include "dof/lens/highlight_tile.h"
 #include "dof/lens/highlights.h"
@@ -220,6 +221,24 @@ struct Gathering {
     }
 };
 
+// The numbers of the tiles that the device gathered are marked in `done`.
+void gather_on(TileDevice &device, Gathering &from, const TileScene &scene, std::vector<char> &done) {
+    std::vector<std::optional<PreparedTile>> tiles(from.tiles());
+    parallel_for(tiles.size(), [&](std::size_t t) { tiles[t] = from.prepare(t); });
+    std::erase(tiles, std::nullopt);
+    std::vector<TileTask> tasks;
+    for (const auto &tile : tiles)
+        tasks.push_back(
+            {tile->origin, tile->blocks.samples, tile->blocks.facets, tile->blocks.fillers, tile->lens});
+    device.gather(scene, tasks, [&](std::size_t n, const TileSums &sums) {
+        const auto pixel = [](int x, int y) { return std::size_t(y * LensTile::size + x); };
+        from.finish(
+            *tiles[n], [&](int x, int y) { return sums.known[pixel(x, y)] > 0; },
+            [&](int x, int y, std::size_t k) { return sums.value(pixel(x, y), k); });
+        done[tiles[n]->number] = true;
+    });
+}
+
 Image gather_once(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window,
                   const LensGatherOptions &options, double coc, Progress &progress) {
     Image out = crop(options.holdout ? flatten_held_out(ldi, *options.holdout) : flatten(ldi), window);
@@ -251,11 +270,15 @@ Image gather_once(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &wind
     });
     Gathering from{lens, options, optics, samples, fillers, facets, lamps, out, chosen};
     progress.start("gathering", from.tiles());
+    std::vector<char> done(from.tiles(), false);
+    if (options.device)
+        gather_on(*options.device, from,
+                  {samples, colours, fillers, facets, options.holdout != nullptr, cat_eye != nullptr}, done);
     tbb::enumerable_thread_specific<LensTile> tiles(
         [&] { return LensTile(samples, colours, facets, fillers, held_out, cat_eye); });
     parallel_for(from.tiles(), [&](std::size_t t) {
         progress.advance();
-        const std::optional<PreparedTile> prepared = from.prepare(t);
+        const std::optional<PreparedTile> prepared = done[t] ? std::nullopt : from.prepare(t);
         if (!prepared) return;
         LensTile &tile = tiles.local();
         tile.gather(prepared->origin, prepared->blocks, prepared->lens);

@@ -17,6 +17,8 @@
 
 namespace sparselens {
 
+class TileDevice; // dof/device/tile_device.h
+
 enum class Quality { draft, normal, final };
 
 struct LensGatherOptions {
@@ -26,6 +28,7 @@ struct LensGatherOptions {
     LensTiles *chosen = nullptr;             // where given: is told what was chosen
     std::optional<Imath::Box2i> region = {}; // tiles beside it stay as they were rendered
     const Holdout *holdout = nullptr;        // holds the picture out
+    TileDevice *device = nullptr;            // where given: gathers the tiles that it can
 };
 
 // Pixels `window` (EXR coordinates, within the LDI's data window), channels of the LDI. In `window` an empty

@@ -1,0 +1,91 @@
+// A device that computes: buffers in its memory, programs, and runs of them. Calls return when the device is done.
+//
+// What goes wrong on a device mid-way is a DeviceFailed; whoever catches it can do the same work on the CPU.
+#pragma once
+
+#include "base/error.h"
+#include "gpu/device_list.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+
+namespace sparselens::gpu {
+
+// The device was lost, or has no memory left, or its driver failed. The message names the device.
+struct DeviceFailed : Error {
+    using Error::Error;
+};
+
+// For tests.
+struct Watch {
+    // Asked before memory is allocated and before work is submitted; what is not 0 is taken for the result of the call
+    // (VkResult).
+    std::function<int()> fails = {};
+    std::function<void(const std::string &)> validation = {}; // if set, the validation layer speaks here
+    std::size_t largest_buffer = ~std::size_t{0};             // bytes, if the device allows as many
+};
+
+// Whether the validation layer is installed.
+bool has_validation();
+
+class Buffer { // storage that programs read and write
+public:
+    Buffer(Buffer &&) noexcept;
+    Buffer &operator=(Buffer &&) noexcept;
+    ~Buffer();
+    std::size_t bytes() const { return bytes_; }
+
+private:
+    friend class Device;
+    struct Memory;
+    Buffer(std::unique_ptr<Memory> memory, std::size_t bytes);
+    std::unique_ptr<Memory> memory_;
+    std::size_t bytes_;
+};
+
+class Program {
+public:
+    Program(Program &&) noexcept;
+    ~Program();
+
+private:
+    friend class Device;
+    struct Pipeline;
+    explicit Program(std::unique_ptr<Pipeline> pipeline);
+    std::unique_ptr<Pipeline> pipeline_;
+};
+
+class Device {
+public:
+    // Throws DeviceFailed.
+    explicit Device(const DeviceInfo &info, const Watch &watch = {});
+    Device(const Device &) = delete;
+    Device &operator=(const Device &) = delete;
+    ~Device(); // after its buffers and programs
+
+    const DeviceInfo &info() const { return info_; }
+    std::size_t largest_buffer() const; // bytes that a program can reach
+
+    // Bytes in the device's memory, at least one, uninitialised.
+    Buffer buffer(std::size_t bytes);
+    void upload(Buffer &to, std::span<const std::byte> from);
+    void download(std::span<std::byte> to, const Buffer &from);
+
+    // A compute shader "main" whose storage buffers are bindings 0 to buffers - 1 of set 0.
+    Program program(std::span<const std::uint32_t> spirv, std::uint32_t buffers, std::uint32_t push_bytes);
+    void run(const Program &program, std::span<const Buffer *const> buffers, std::span<const std::byte> push,
+             const std::array<std::uint32_t, 3> &groups);
+
+private:
+    struct Vulkan; // device_vulkan.h
+    DeviceInfo info_;
+    Watch watch_;
+    std::unique_ptr<Vulkan> vulkan_;
+};
+
+} // namespace sparselens::gpu

@@ -1,0 +1,151 @@
+#include "gpu/lens/lens_device.h"
+
+#include "base/parallel.h"
+#include "gpu/lens/stripe.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+#include <vector>
+
+namespace sparselens::gpu {
+
+namespace {
+
+constexpr std::uint32_t code[] = {
+#include <lens_tile.comp.inc>
+};
+
+constexpr std::size_t stripe_bytes = std::size_t{512} << 20; // of a buffer, also where a device allows more
+constexpr std::uint32_t quarters = 4;                        // work groups a tile
+// Tests of a sample by a lens point that are submitted at once: what takes seconds, operating systems end.
+constexpr double work_at_once = 2e9;
+
+struct Push {
+    std::uint32_t first_tile, tile_count, sample_count;
+};
+
+template <typename Values>
+Buffer uploaded(Device &device, const Values &values) {
+    const auto bytes = std::as_bytes(std::span(values));
+    Buffer buffer = device.buffer(bytes.size());
+    device.upload(buffer, bytes);
+    return buffer;
+}
+
+bool equal_weights(std::span<const LensSample> lens) {
+    return std::ranges::all_of(lens, [](const LensSample &p) {
+        return p.rgb == std::array<float, 3>{1, 1, 1} && p.behind == 1 && p.in_front == 1;
+    });
+}
+
+// Why the kernel cannot gather a tile; empty: it can.
+std::string reason_for_cpu(const TileScene &scene, const TileTask &task) {
+    if (scene.held_out) return "a holdout that stays sharp";
+    if (scene.cat_eye) return "a cat-eye";
+    const auto shows_images = [&](std::uint32_t block) { return scene.samples.blocks[block].shows_images; };
+    if (std::ranges::any_of(task.samples, shows_images)) return "mirrors and glass";
+    if (!equal_weights(task.lens)) return "lens points that weigh colours or sides of the focus differently";
+    return {};
+}
+
+constexpr const char *failed = "the device failed";
+
+class LensDevice : public TileDevice {
+public:
+    LensDevice(const DeviceInfo &info, const Watch &watch)
+        : device_(info, watch), program_(device_.program(code, 11, sizeof(Push))) {}
+
+    void gather(const TileScene &scene, std::span<const TileTask> tasks,
+                const std::function<void(std::size_t, const TileSums &)> &done) override {
+        std::vector<TileTask> taken;
+        std::vector<std::size_t> numbers;
+        for (std::size_t t = 0; t < tasks.size(); ++t) {
+            const std::string reason = lost_ ? failed : reason_for_cpu(scene, tasks[t]);
+            if (!reason.empty()) ++report_.on_cpu[reason];
+            if (!reason.empty()) continue;
+            taken.push_back(tasks[t]);
+            numbers.push_back(t);
+        }
+        const std::size_t before = report_.on_device;
+        try {
+            gather_taken(scene, taken, [&](std::size_t t, const TileSums &sums) { done(numbers[t], sums); });
+        } catch (const DeviceFailed &failure) {
+            lost_ = true;
+            report_.failure = failure.what();
+            report_.on_cpu[failed] += taken.size() - (report_.on_device - before);
+        }
+    }
+
+    TileReport take_report() override { return std::exchange(report_, {}); }
+
+private:
+    void gather_taken(const TileScene &scene, std::span<const TileTask> taken,
+                      const std::function<void(std::size_t, const TileSums &)> &done) {
+        const std::size_t bytes = std::min(stripe_bytes, device_.largest_buffer());
+        for (std::size_t begin = 0, count = 0; begin < taken.size();
+             begin += std::max(count, std::size_t{1})) {
+            count = tasks_that_fit(scene, taken.subspan(begin), bytes);
+            if (count == 0) ++report_.on_cpu["more samples than its buffers hold"];
+            if (count == 0) continue;
+            gather_stripe(make_stripe(scene, taken.subspan(begin, count)), scene.colours.groups,
+                          [&](std::size_t t, const TileSums &sums) { done(begin + t, sums); });
+        }
+    }
+
+    void gather_stripe(const Stripe &stripe, std::size_t groups,
+                       const std::function<void(std::size_t, const TileSums &)> &done) {
+        const std::size_t tiles = stripe.tiles.size(), group_step = tiles * tile_pixels * 4;
+        const Buffer in[] = {uploaded(device_, stripe.samples),     uploaded(device_, stripe.alphas),
+                             uploaded(device_, stripe.colours),     uploaded(device_, stripe.blocks),
+                             uploaded(device_, stripe.block_lists), uploaded(device_, stripe.partial_lists),
+                             uploaded(device_, stripe.lens),        uploaded(device_, stripe.tiles)};
+        const Buffer facets = uploaded(device_, stripe.facets);
+        const Buffer light = device_.buffer(groups * group_step * sizeof(float)),
+                     known = device_.buffer(tiles * tile_pixels * sizeof(float));
+        std::vector<const Buffer *> all;
+        for (const Buffer &buffer : in) all.push_back(&buffer);
+        all.insert(all.end(), {&light, &known, &facets});
+        run(stripe, groups, all);
+        std::vector<float> lights(groups * group_step), knowns(tiles * tile_pixels);
+        device_.download(std::as_writable_bytes(std::span(lights)), light);
+        device_.download(std::as_writable_bytes(std::span(knowns)), known);
+        parallel_for(tiles, [&](std::size_t t) {
+            done(t, {&lights[t * tile_pixels * 4], group_step, &knowns[t * tile_pixels]});
+        });
+        report_.on_device += tiles;
+    }
+
+    void run(const Stripe &stripe, std::size_t groups, std::span<const Buffer *const> buffers) {
+        const auto tiles = std::uint32_t(stripe.tiles.size());
+        for (std::uint32_t first = 0, end = 0; first < tiles; first = end) {
+            for (double work = 0; end < tiles && (end == first || work < work_at_once); ++end)
+                work += work_of(stripe, stripe.tiles[end]);
+            const Push push{first, tiles, std::uint32_t(stripe.samples.size())};
+            device_.run(program_, buffers, std::as_bytes(std::span(&push, 1)),
+                        {quarters * (end - first), std::uint32_t(groups), 1});
+        }
+    }
+
+    static double work_of(const Stripe &stripe, const StripeTile &tile) {
+        double samples = quarters * double(tile.partial_count);
+        for (std::uint32_t n = 0; n < tile.block_count; ++n) {
+            const StripeBlock &block = stripe.blocks[stripe.block_lists[tile.blocks + n]];
+            samples += block.opaque_end - block.begin;
+        }
+        return samples * tile.lens_count;
+    }
+
+    Device device_;
+    Program program_;
+    TileReport report_;
+    bool lost_ = false;
+};
+
+} // namespace
+
+std::unique_ptr<TileDevice> open_lens_device(const DeviceInfo &info, const Watch &watch) {
+    return std::make_unique<LensDevice>(info, watch);
+}
+
+} // namespace sparselens::gpu

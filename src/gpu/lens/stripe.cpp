@@ -1,0 +1,215 @@
+#include "gpu/lens/stripe.h"
+
+#include "base/parallel.h"
+#include "dof/facets/placed_facets.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace sparselens::gpu {
+
+namespace {
+
+// A range of blocks, and what lies in them side by side: samples or facets.
+struct Range {
+    std::uint32_t first_block = ~0u, end_block = 0;
+
+    void add(std::uint32_t first, std::uint32_t last) {
+        first_block = std::min(first_block, first);
+        end_block = std::max(end_block, last + 1);
+    }
+    void add(std::span<const std::uint32_t> blocks) { // in ascending order
+        if (!blocks.empty()) add(blocks.front(), blocks.back());
+    }
+    std::size_t blocks() const { return first_block < end_block ? end_block - first_block : 0; }
+    std::uint32_t first(const auto &of) const { return blocks() > 0 ? of.blocks[first_block].begin : 0; }
+    std::size_t count(const auto &of) const {
+        return blocks() > 0 ? of.blocks[end_block - 1].end - first(of) : 0;
+    }
+};
+
+// What tiles are gathered from, in the scene.
+struct Ranges {
+    Range samples, fillers, facets;
+
+    void add(const TileScene &scene, const TileTask &task) {
+        samples.add(task.samples);
+        fillers.add(task.fillers);
+        facets.add(task.facets);
+        for (const std::uint32_t b : task.facets) add_corners(scene, scene.facets.blocks[b]);
+    }
+    std::size_t sample_count(const TileScene &scene) const {
+        return samples.count(scene.samples) + fillers.count(scene.fillers.samples);
+    }
+
+private:
+    // A facet can reach a tile that some of its corners do not.
+    void add_corners(const TileScene &scene, const FacetBlock &block) {
+        std::uint32_t least = ~0u, most = 0;
+        for (const std::vector<std::uint64_t> &keys : scene.facets.key)
+            for (std::uint32_t i = block.begin; i < block.end; ++i) {
+                least = std::min(least, std::uint32_t(keys[i]));
+                most = std::max(most, std::uint32_t(keys[i]));
+            }
+        if (least <= most) samples.add(block_of(scene.samples, least), block_of(scene.samples, most));
+    }
+    static std::uint32_t block_of(const BlockedSamples &samples, std::uint32_t sample) {
+        const auto after = std::ranges::upper_bound(samples.blocks, sample, {}, &SampleBlock::begin);
+        return std::uint32_t(after - samples.blocks.begin() - 1);
+    }
+};
+
+std::size_t partial_count(const BlockedSamples &samples, const TileTask &task) {
+    std::size_t count = 0;
+    for (const std::uint32_t b : task.samples) count += samples.blocks[b].end - samples.blocks[b].opaque_end;
+    return count;
+}
+
+// Where a range's samples and blocks are among those of the stripe.
+struct Placed {
+    const BlockedSamples &from;
+    const SampleColours &colours;
+    Range range;
+    std::size_t sample = 0, block = 0;
+};
+
+void place_samples(Stripe &stripe, std::size_t groups, const Placed &what) {
+    const std::size_t first = what.range.first(what.from);
+    parallel_ranges(what.range.count(what.from), 16384, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t n = begin; n < end; ++n) {
+            const std::size_t i = first + n, to = what.sample + n;
+            const auto bits = [](float value) { return std::bit_cast<std::uint32_t>(value); };
+            stripe.samples[to] = {bits(what.from.x[i]), bits(what.from.y[i]), bits(what.from.coc[i]),
+                                  std::uint32_t(what.from.key[i] >> 32)};
+            stripe.alphas[to] = what.from.alpha[i];
+            for (std::size_t g = 0; g < groups; ++g)
+                std::copy_n(&what.colours.group(g)[i * 4], 4,
+                            &stripe.colours[(g * stripe.samples.size() + to) * 4]);
+        }
+    });
+}
+
+void place_blocks(Stripe &stripe, const Placed &what) {
+    const auto moved = [&](std::uint32_t sample) {
+        return std::uint32_t(sample - what.range.first(what.from) + what.sample);
+    };
+    for (std::size_t b = 0; b < what.range.blocks(); ++b) {
+        const SampleBlock &from = what.from.blocks[what.range.first_block + b];
+        stripe.blocks.push_back({moved(from.begin), moved(from.opaque_end), from.x_min, from.x_max,
+                                 from.y_min, from.y_max, from.coc_min, from.coc_max});
+    }
+}
+
+// Those blocks of a range whose first block is number `first` of the stripe.
+std::uint32_t list_blocks(Stripe &stripe, const Range &range, std::size_t first,
+                          std::span<const std::uint32_t> blocks) {
+    const auto at = std::uint32_t(stripe.block_lists.size());
+    for (const std::uint32_t b : blocks)
+        stripe.block_lists.push_back(std::uint32_t(b - range.first_block + first));
+    return at;
+}
+
+void place_facets(Stripe &stripe, const PlacedFacets &from, const Range &range, std::uint32_t first_sample) {
+    const std::uint32_t first = range.first(from);
+    stripe.facets.resize(3 * range.count(from));
+    for (std::size_t i = 0; i < range.count(from); ++i)
+        for (std::size_t k = 0; k < 3; ++k)
+            stripe.facets[3 * i + k] = std::uint32_t(from.key[k][first + i]) - first_sample;
+    for (std::size_t b = 0; b < range.blocks(); ++b) {
+        const FacetBlock &block = from.blocks[range.first_block + b];
+        stripe.blocks.push_back({block.begin - first, block.end - first, block.x_min, block.x_max,
+                                 block.y_min, block.y_max, block.coc_min, block.coc_max});
+    }
+}
+
+// The lens points, which tiles share.
+std::uint32_t place_lens(Stripe &stripe, std::span<const LensSample> lens) {
+    const auto at = std::uint32_t(stripe.lens.size());
+    for (const LensSample &p : lens) stripe.lens.push_back({p.x, p.y, p.pixel_x, p.pixel_y, p.weight});
+    return at;
+}
+
+// The tile's partial samples, front to back.
+void sort_partial(std::span<std::uint32_t> list, const Placed &what, const TileTask &task) {
+    const BlockedSamples &samples = what.from;
+    std::size_t n = 0;
+    for (const std::uint32_t b : task.samples)
+        for (std::uint32_t i = samples.blocks[b].opaque_end; i < samples.blocks[b].end; ++i) list[n++] = i;
+    std::ranges::sort(list, [&](std::uint32_t a, std::uint32_t b) {
+        return samples.depth[a] != samples.depth[b] ? samples.depth[a] > samples.depth[b] : a < b;
+    });
+    for (std::uint32_t &i : list) i -= what.range.first(samples); // these come first in a stripe
+}
+
+// The tiles, and the lists of what reaches each; those of partial samples are not filled yet.
+void list_tiles(Stripe &stripe, const TileScene &scene, std::span<const TileTask> tasks,
+                const Ranges &ranges) {
+    const std::size_t fillers = ranges.samples.blocks(), facets = fillers + ranges.fillers.blocks();
+    const auto count = [](std::span<const std::uint32_t> list) { return std::uint32_t(list.size()); };
+    std::uint32_t lens = 0, partial = 0;
+    for (const TileTask &task : tasks) {
+        const bool another = &task == tasks.data() || task.lens.data() != (&task - 1)->lens.data();
+        if (another) lens = place_lens(stripe, task.lens);
+        const auto partials = std::uint32_t(partial_count(scene.samples, task));
+        stripe.tiles.push_back({.x = float(task.origin.x),
+                                .y = float(task.origin.y),
+                                .blocks = list_blocks(stripe, ranges.samples, 0, task.samples),
+                                .block_count = count(task.samples),
+                                .fillers = list_blocks(stripe, ranges.fillers, fillers, task.fillers),
+                                .filler_count = count(task.fillers),
+                                .partial = partial,
+                                .partial_count = partials,
+                                .lens = lens,
+                                .lens_count = std::uint32_t(task.lens.size()),
+                                .facets = list_blocks(stripe, ranges.facets, facets, task.facets),
+                                .facet_count = count(task.facets)});
+        partial += partials;
+    }
+    stripe.partial_lists.resize(partial);
+}
+
+} // namespace
+
+std::size_t tasks_that_fit(const TileScene &scene, std::span<const TileTask> tasks, std::size_t bytes) {
+    const std::size_t groups = scene.colours.groups;
+    Ranges ranges;
+    std::size_t listed = 0, partial = 0, lens = 0;
+    for (std::size_t t = 0; t < tasks.size(); ++t) {
+        ranges.add(scene, tasks[t]);
+        listed += tasks[t].samples.size() + tasks[t].fillers.size() + tasks[t].facets.size();
+        partial += partial_count(scene.samples, tasks[t]);
+        if (t == 0 || tasks[t].lens.data() != tasks[t - 1].lens.data()) lens += tasks[t].lens.size();
+        const std::size_t most = std::max({ranges.sample_count(scene) * groups * 16,
+                                           ranges.facets.count(scene.facets) * 12, listed * 4, partial * 4,
+                                           lens * sizeof(StripeLens), (t + 1) * tile_pixels * groups * 16});
+        if (most > bytes) return t;
+    }
+    return tasks.size();
+}
+
+Stripe make_stripe(const TileScene &scene, std::span<const TileTask> tasks) {
+    Stripe stripe;
+    Ranges ranges;
+    for (const TileTask &task : tasks) ranges.add(scene, task);
+    const std::size_t groups = scene.colours.groups, count = ranges.sample_count(scene);
+    const Placed samples{scene.samples, scene.colours, ranges.samples},
+        fillers{scene.fillers.samples, scene.fillers.colours, ranges.fillers,
+                ranges.samples.count(scene.samples), ranges.samples.blocks()};
+    stripe.samples.resize(count);
+    stripe.alphas.resize(count);
+    stripe.colours.resize(groups * count * 4);
+    for (const Placed &what : {samples, fillers}) {
+        place_samples(stripe, groups, what);
+        place_blocks(stripe, what);
+    }
+    place_facets(stripe, scene.facets, ranges.facets, ranges.samples.first(scene.samples));
+    list_tiles(stripe, scene, tasks, ranges);
+    parallel_for(tasks.size(), [&](std::size_t t) {
+        const StripeTile &tile = stripe.tiles[t];
+        sort_partial(std::span(stripe.partial_lists).subspan(tile.partial, tile.partial_count), samples,
+                     tasks[t]);
+    });
+    return stripe;
+}
+
+} // namespace sparselens::gpu

@@ -1,0 +1,50 @@
+// Tiles that are gathered at once, with what they need laid out as lens_tile.comp reads it. A picture whose samples fit into
+// no buffer of the device goes stripe by stripe: tasks come row by row, and so do samples, so that a stripe needs a range of
+// them.
+#pragma once
+
+#include "dof/device/tile_device.h"
+#include "dof/lens/filler_samples.h"
+#include "dof/lens/sample_blocks.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace sparselens::gpu {
+
+// As in the shader.
+struct StripeBlock {
+    std::uint32_t begin, opaque_end;
+    float x_min, x_max, y_min, y_max, coc_min, coc_max;
+};
+struct StripeLens {
+    float x, y, pixel_x, pixel_y, weight;
+};
+struct StripeTile {
+    float x, y;
+    std::uint32_t blocks, block_count, fillers, filler_count, partial, partial_count, lens, lens_count;
+    std::uint32_t facets, facet_count;
+};
+
+struct Stripe {
+    std::vector<std::array<std::uint32_t, 4>> samples; // those of the LDI, then fillers
+    std::vector<float> alphas;
+    std::vector<float> colours;        // [group][sample][4]
+    std::vector<StripeBlock> blocks;   // of samples, of fillers and of facets
+    std::vector<std::uint32_t> facets; // three samples each
+    std::vector<std::uint32_t> block_lists, partial_lists;
+    std::vector<StripeLens> lens;
+    std::vector<StripeTile> tiles; // one a task
+};
+
+inline constexpr std::size_t tile_pixels = 64 * 64; // LensTile::size squared
+
+// How many of the tasks, from the first, fit into buffers of that many bytes.
+std::size_t tasks_that_fit(const TileScene &scene, std::span<const TileTask> tasks, std::size_t bytes);
+
+Stripe make_stripe(const TileScene &scene, std::span<const TileTask> tasks);
+
+} // namespace sparselens::gpu

@@ -1,0 +1,115 @@
+// What a lens point sees of the opaque samples, and of facets between them (dof/facets): the nearest key in each cell.
+
+const float parted_px = 1 + 1.0 / 16;
+
+// The pixel of the quarter, or next to it, that the lens point sees a sample in; outside: x < -1.
+ivec2 seen_at(uvec4 s) {
+    const float limit = tile_stride - 1;
+    precise float cx = (uintBitsToFloat(s.x) - (first.x - 1)) + (uintBitsToFloat(s.z) * lens.x + (lens.pixel_x + 1));
+    precise float cy = (uintBitsToFloat(s.y) - (first.y - 1)) + (uintBitsToFloat(s.z) * lens.y + (lens.pixel_y + 1));
+    const float column = cx > 0 ? (cx < limit ? cx : limit) : 0, row = cy > 0 ? (cy < limit ? cy : limit) : 0;
+    const ivec2 at = ivec2(int(column), int(row)) - tile_border - corner;
+    const bool inside = all(greaterThanEqual(at, ivec2(-1))) && all(lessThanEqual(at, ivec2(size)));
+    return inside ? at : ivec2(-2);
+}
+
+bool out_of_reach(Block b) {
+    const vec2 a = b.coc_min * vec2(lens.x, lens.y), c = b.coc_max * vec2(lens.x, lens.y);
+    const vec2 least = min(a, c), most = max(a, c), begin = first + vec2(corner) - 1, end = begin + side;
+    return b.x_max + most.x + 1 < begin.x || b.x_min + least.x - 1 > end.x || b.y_max + most.y + 1 < begin.y ||
+           b.y_min + least.y - 1 > end.y;
+}
+
+// Lists those of up to `threads` blocks that reach the quarter. Begins and ends with a barrier.
+void find_near(uint list, uint count) {
+    barrier();
+    if (thread() == 0) near_count = 0;
+    barrier();
+    if (thread() < count) {
+        const uint b = block_lists[list + thread()];
+        if (!out_of_reach(blocks[b])) near_blocks[atomicAdd(near_count, 1)] = b;
+    }
+    barrier();
+}
+
+// The nearest opaque samples of listed blocks, into front[offset + cell]. Ends with a barrier.
+void see_opaque(uint list, uint count, uint offset) {
+    for (uint c = thread(); c < cells; c += threads) front[offset + c] = 0UL;
+    for (uint begin = 0; begin < count; begin += threads) {
+        find_near(list + begin, count - begin);
+        for (uint n = thread() / 32; n < near_count; n += threads / 32) {
+            const Block b = blocks[near_blocks[n]];
+            for (uint i = b.begin + thread() % 32; i < b.opaque_end; i += 32) {
+                const uvec4 s = samples[i];
+                const ivec2 at = seen_at(s);
+                if (at.x >= -1) atomicMax(front[offset + cell_of(at)], key_of(s.w, i));
+            }
+        }
+    }
+    barrier();
+}
+
+// A facet's corners as the lens point sees them, in cells of the tile.
+struct Triangle {
+    precise vec3 x, y;
+    uint corner[3]; // samples
+};
+
+Triangle triangle_of(uint facet) {
+    Triangle t;
+    for (uint k = 0; k < 3; ++k) {
+        t.corner[k] = facets[3 * facet + k];
+        const uvec4 s = samples[t.corner[k]];
+        precise float x = (uintBitsToFloat(s.x) - (first.x - 1)) + (uintBitsToFloat(s.z) * lens.x + (lens.pixel_x + 0.5));
+        precise float y = (uintBitsToFloat(s.y) - (first.y - 1)) + (uintBitsToFloat(s.z) * lens.y + (lens.pixel_y + 0.5));
+        t.x[k] = x;
+        t.y[k] = y;
+    }
+    return t;
+}
+
+// The cells of the quarter whose middle lies between the corners, along one axis.
+ivec2 extent_of(vec3 at, int corner_) {
+    const float last = tile_stride - 2, least = min(min(at[0], at[1]), at[2]), most = max(max(at[0], at[1]), at[2]);
+    const int from = int(last) - int(clamp(last - least, -1, last - 1)), to = int(clamp(most, 0, last));
+    return ivec2(max(from, corner_ + 1), min(to, corner_ + side));
+}
+
+bool parted(vec3 at) {
+    precise const float apart = max(max(at[0], at[1]), at[2]) - min(min(at[0], at[1]), at[2]);
+    return apart > parted_px;
+}
+
+// Twice the area of the triangle between two corners and a point, seen from one side.
+float area(Triangle t, uint from, uint to, vec2 at) {
+    precise const float doubled = (t.x[to] - t.x[from]) * (at.y - t.y[from]) - (t.y[to] - t.y[from]) * (at.x - t.x[from]);
+    return doubled;
+}
+
+void draw(Triangle t) {
+    const ivec2 columns = extent_of(t.x, corner.x), rows = extent_of(t.y, corner.y);
+    const float turned = area(t, 0, 1, vec2(t.x[2], t.y[2])) < 0 ? -1 : 1;
+    for (int row = rows[0]; row <= rows[1]; ++row)
+        for (int column = columns[0]; column <= columns[1]; ++column) {
+            const float a = turned * area(t, 1, 2, vec2(column, row)), b = turned * area(t, 2, 0, vec2(column, row)),
+                        c = turned * area(t, 0, 1, vec2(column, row));
+            if (a < 0 || b < 0 || c < 0) continue;
+            const uint nearest = t.corner[max(a, b) >= c ? (a >= b ? 0 : 1) : 2];
+            atomicMax(front[cell_of(ivec2(column, row) - tile_border - corner)], key_of(samples[nearest].w, nearest));
+        }
+}
+
+// What lies between the samples of steep surfaces, into front[]. Ends with a barrier.
+void see_facets(uint list, uint count) {
+    for (uint begin = 0; begin < count; begin += threads) {
+        find_near(list + begin, count - begin);
+        for (uint n = thread() / 32; n < near_count; n += threads / 32) {
+            const Block b = blocks[near_blocks[n]];
+            for (uint i = b.begin + thread() % 32; i < b.opaque_end; i += 32) {
+                const Triangle t = triangle_of(i);
+                if (parted(t.x) || parted(t.y)) draw(t);
+            }
+        }
+    }
+    barrier();
+}

@@ -1,0 +1,81 @@
+// What partial samples put in front of the pixels, in the order of their depth.
+
+// What partial samples put in front of a pixel.
+struct Over {
+    vec4 colour;
+    float transmittance;
+};
+
+void add_over(inout Over over, uint sample_, uint group) {
+    precise vec4 colour = over.colour + over.transmittance * colours[group * sample_count + sample_];
+    precise float passed = over.transmittance * (1 - alphas[sample_]);
+    over = Over(colour, min(passed, covered_at_all));
+}
+
+// The counts of a chunk by pixel, and the pixels of the two samples of it that are the thread's; -1: hidden or outside.
+int[2] count_chunk(Tile tile, uint begin) {
+    int at[2];
+    for (uint h = 0; h < 2; ++h) {
+        at[h] = -1;
+        const uint n = begin + thread() + threads * h;
+        if (n >= tile.partial_count) continue;
+        const uint i = partial_lists[tile.partial + n];
+        const uvec4 s = samples[i];
+        const ivec2 pixel = seen_at(s);
+        if (pixel.x < 0 || pixel.y < 0 || pixel.x >= size || pixel.y >= size) continue;
+        if (key_of(s.w, i) < front[cell_of(pixel)]) continue;
+        at[h] = pixel.y * size + pixel.x;
+        atomicAdd(counts[at[h]], 1);
+        listed_count = 1; // by all the same
+    }
+    return at;
+}
+
+void sort_list(uint begin, uint end) {
+    for (uint i = begin + 1; i < end; ++i) {
+        const uint moved = listed[i];
+        uint to = i;
+        for (; to > begin && listed[to - 1] > moved; --to) listed[to] = listed[to - 1];
+        listed[to] = moved;
+    }
+}
+
+// Lists the samples of a chunk by pixel, each pixel's front to back; false: there is none. Those of the thread's pixel j are
+// [start[j], counts[its pixel]) of listed[]. Ends with a barrier.
+bool list_chunk(Tile tile, uint begin, out uint start[own]) {
+    for (uint j = 0; j < own; ++j) counts[thread() + threads * j] = 0;
+    if (thread() == 0) listed_count = 0;
+    barrier();
+    const int at[2] = count_chunk(tile, begin);
+    barrier();
+    const bool any = listed_count != 0;
+    barrier();
+    if (!any) return false;
+    if (thread() == 0) listed_count = 0;
+    barrier();
+    for (uint j = 0; j < own; ++j) {
+        const uint pixel = thread() + threads * j, count = counts[pixel];
+        start[j] = count > 0 ? atomicAdd(listed_count, count) : 0;
+        counts[pixel] = start[j];
+    }
+    barrier();
+    for (uint h = 0; h < 2; ++h)
+        if (at[h] >= 0) listed[atomicAdd(counts[at[h]], 1)] = thread() + threads * h;
+    barrier();
+    for (uint j = 0; j < own; ++j) sort_list(start[j], counts[thread() + threads * j]);
+    return true;
+}
+
+Over[own] see_partial(Tile tile, uint group) {
+    Over over[own];
+    for (uint j = 0; j < own; ++j) over[j] = Over(vec4(0), 1);
+    for (uint begin = 0; begin < tile.partial_count; begin += chunk) {
+        uint start[own];
+        if (!list_chunk(tile, begin, start)) continue;
+        for (uint j = 0; j < own; ++j)
+            for (uint n = start[j]; n < counts[thread() + threads * j]; ++n)
+                add_over(over[j], partial_lists[tile.partial + begin + listed[n]], group);
+        barrier();
+    }
+    return over;
+}

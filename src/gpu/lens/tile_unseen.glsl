@@ -1,0 +1,61 @@
+// What a lens point sees where it meets no opaque sample: a surface through the cracks between its samples; elsewhere,
+// fillers.
+
+// The sample that shows through a crack at an empty cell, as a key; 0: there is no crack.
+uint64_t torn_at(uint cell) {
+    uint64_t farthest = 0UL;
+    for (uint step = 1; step <= side; step += side - 1) {
+        const uint64_t one = front[cell - step], other = front[cell + step];
+        if (upper_of(one) < 2 || upper_of(other) < 2) continue;
+        const uvec4 a = samples[sample_of(one)], b = samples[sample_of(other)];
+        if (abs(uintBitsToFloat(a.x) - uintBitsToFloat(b.x)) >= side_by_side) continue;
+        if (abs(uintBitsToFloat(a.y) - uintBitsToFloat(b.y)) >= side_by_side) continue;
+        const float depth_a = depth_of(a.w), depth_b = depth_of(b.w);
+        if (abs(depth_a - depth_b) >= one_surface_px) continue;
+        const uint64_t farther = depth_a <= depth_b ? one : other;
+        if (farthest == 0UL || depth_of(upper_of(farther)) < depth_of(upper_of(farthest))) farthest = farther;
+    }
+    return farthest;
+}
+
+// Whether what lies at that depth is behind something in a cell, also where a surface is torn there.
+bool hides(uint cell, float depth) {
+    const uint limit = floatBitsToUint(depth + one_surface_px) + 2;
+    return upper_of(front[cell]) > limit ||
+           (upper_of(front[cell - 1]) > limit && upper_of(front[cell + 1]) > limit) ||
+           (upper_of(front[cell - side]) > limit && upper_of(front[cell + side]) > limit);
+}
+
+// What lies behind the partial samples in the thread's pixels: a sample, `none` where that is unknown. Ends with a
+// barrier; cracks are closed in front[].
+uint[own] see_behind(Tile tile) {
+    if (thread() == 0) empty_count = 0;
+    see_opaque(tile.blocks, tile.block_count, 0);
+    see_facets(tile.facets, tile.facet_count);
+    uint seen[own];
+    uint64_t torn[own];
+    bool any_empty = false;
+    for (uint j = 0; j < own; ++j) {
+        const uint cell = cell_of(pixel_of(j));
+        const uint64_t key = front[cell];
+        seen[j] = key != 0UL ? sample_of(key) : none;
+        torn[j] = key != 0UL ? 0UL : torn_at(cell);
+        any_empty = any_empty || key == 0UL;
+    }
+    if (any_empty) atomicAdd(empty_count, 1);
+    barrier();
+    if (empty_count == 0) return seen;
+    see_opaque(tile.fillers, tile.filler_count, cells);
+    for (uint j = 0; j < own; ++j) {
+        if (seen[j] != none) continue;
+        const uint cell = cell_of(pixel_of(j));
+        const uint64_t filler = front[cells + cell];
+        if (torn[j] != 0UL) seen[j] = sample_of(torn[j]);
+        else if (filler != 0UL && !hides(cell, depth_of(upper_of(filler)))) seen[j] = sample_of(filler);
+    }
+    barrier();
+    for (uint j = 0; j < own; ++j)
+        if (torn[j] != 0UL) front[cell_of(pixel_of(j))] = torn[j];
+    barrier();
+    return seen;
+}

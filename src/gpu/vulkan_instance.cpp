@@ -1,0 +1,94 @@
+#include "gpu/vulkan_instance.h"
+
+#include "gpu/device.h"
+
+#include <array>
+#include <exception>
+#include <string_view>
+
+namespace sparselens::gpu {
+
+namespace {
+
+constexpr const char *validation_layer = "VK_LAYER_KHRONOS_validation";
+
+VKAPI_ATTR VkBool32 VKAPI_CALL heard(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
+                                     const VkDebugUtilsMessengerCallbackDataEXT *data, void *listener) {
+    (*static_cast<const std::function<void(const std::string &)> *>(listener))(data->pMessage);
+    return VK_FALSE;
+}
+
+vk::raii::Instance make_instance(const vk::raii::Context &loader, bool validate) {
+    const vk::ApplicationInfo application("sparselens", 0, nullptr, 0, vulkan_version);
+    vk::InstanceCreateInfo create({}, &application);
+    const std::array<const char *, 1> extensions{VK_EXT_DEBUG_UTILS_EXTENSION_NAME};
+    if (validate) create.setPEnabledLayerNames(validation_layer).setPEnabledExtensionNames(extensions);
+    return {loader, create};
+}
+
+Kind kind_of(vk::PhysicalDeviceType type) {
+    switch (type) {
+    case vk::PhysicalDeviceType::eDiscreteGpu: return Kind::discrete;
+    case vk::PhysicalDeviceType::eIntegratedGpu: return Kind::integrated;
+    case vk::PhysicalDeviceType::eVirtualGpu: return Kind::shared;
+    case vk::PhysicalDeviceType::eCpu: return Kind::software;
+    default: return Kind::other;
+    }
+}
+
+bool computes(const vk::raii::PhysicalDevice &device) {
+    for (const vk::QueueFamilyProperties &family : device.getQueueFamilyProperties())
+        if (family.queueFlags & vk::QueueFlagBits::eCompute) return true;
+    return false;
+}
+
+std::string lacks(const vk::raii::PhysicalDevice &device, std::uint32_t version) {
+    if (version < vulkan_version) return "Vulkan 1.2";
+    const auto features =
+        device.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceShaderAtomicInt64Features>();
+    if (!features.get<vk::PhysicalDeviceFeatures2>().features.shaderInt64) return "64-bit integers";
+    if (!features.get<vk::PhysicalDeviceShaderAtomicInt64Features>().shaderSharedInt64Atomics)
+        return "64-bit atomics in shared memory";
+    if (!computes(device)) return "a queue that computes";
+    return {};
+}
+
+} // namespace
+
+VulkanInstance::VulkanInstance(const std::function<void(const std::string &)> *message)
+    : instance(make_instance(loader, message != nullptr)) {
+    if (!message) return;
+    using Severity = vk::DebugUtilsMessageSeverityFlagBitsEXT;
+    using Type = vk::DebugUtilsMessageTypeFlagBitsEXT;
+    const vk::DebugUtilsMessengerCreateInfoEXT create(
+        {}, Severity::eWarning | Severity::eError, Type::eValidation | Type::ePerformance, heard,
+        const_cast<std::function<void(const std::string &)> *>(message));
+    messenger.emplace(instance, create);
+}
+
+DeviceInfo info_of(const vk::raii::PhysicalDevice &device, std::size_t index) {
+    const vk::PhysicalDeviceProperties properties = device.getProperties();
+    return {properties.deviceName.data(), kind_of(properties.deviceType),
+            lacks(device, properties.apiVersion), index};
+}
+
+bool has_validation() try {
+    const vk::raii::Context loader;
+    for (const vk::LayerProperties &layer : loader.enumerateInstanceLayerProperties())
+        if (std::string_view(layer.layerName) == validation_layer) return true;
+    return false;
+} catch (const std::exception &) {
+    return false; // no loader
+}
+
+std::vector<DeviceInfo> list_devices() try {
+    const VulkanInstance vulkan;
+    std::vector<DeviceInfo> devices;
+    for (const vk::raii::PhysicalDevice &device : vk::raii::PhysicalDevices(vulkan.instance))
+        devices.push_back(info_of(device, devices.size()));
+    return devices;
+} catch (const std::exception &) {
+    return {}; // no loader, or no driver that works
+}
+
+} // namespace sparselens::gpu

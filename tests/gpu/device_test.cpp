@@ -1,0 +1,48 @@
+#include "gpu/gpu_fixture.h"
+
+#include <cstring>
+#include <numeric>
+
+namespace sparselens::gpu {
+namespace {
+
+using DeviceTest = GpuTest;
+
+TEST_F(DeviceTest, WhatIsUploadedIsDownloaded) {
+    Device device(*info, watch());
+    std::vector<std::uint32_t> numbers(5'000'000); // more than is copied at once
+    std::iota(numbers.begin(), numbers.end(), 1u);
+    Buffer buffer = device.buffer(numbers.size() * 4);
+    device.upload(buffer, std::as_bytes(std::span(numbers)));
+    std::vector<std::uint32_t> back(numbers.size());
+    device.download(std::as_writable_bytes(std::span(back)), buffer);
+    EXPECT_EQ(back, numbers);
+    EXPECT_GE(device.largest_buffer(), std::size_t{1} << 27); // what Vulkan asks of all
+}
+
+TEST_F(DeviceTest, AFailureNamesTheDevice) {
+    int result = 0;
+    Watch failing = watch();
+    failing.fails = [&] { return result; };
+    Device device(*info, failing);
+    result = -4; // VK_ERROR_DEVICE_LOST
+    try {
+        device.buffer(100);
+        FAIL();
+    } catch (const DeviceFailed &failure) {
+        EXPECT_EQ(failure.what(), info->name + " was lost");
+    }
+    result = -2; // VK_ERROR_OUT_OF_DEVICE_MEMORY
+    try {
+        device.buffer(100);
+        FAIL();
+    } catch (const DeviceFailed &failure) {
+        EXPECT_EQ(failure.what(), info->name + " has not enough memory");
+    }
+    DeviceInfo none = *info;
+    none.index = 1000;
+    EXPECT_THROW(Device{none}, DeviceFailed);
+}
+
+} // namespace
+} // namespace sparselens::gpu

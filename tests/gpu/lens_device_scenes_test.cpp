@@ -1,0 +1,49 @@
+// All test scenes, warped and gathered by the device and by the CPU.
+#include "deep/cluster.h"
+#include "dof/device/tile_device.h"
+#include "dof/lens/lens_gather.h"
+#include "gpu/gpu_fixture.h"
+#include "gpu/lens/lens_device.h"
+#include "lab/trace/scenes.h"
+#include "support/lens_ldi.h"
+#include "support/traced.h"
+#include "warp/warp.h"
+
+#include <algorithm>
+
+namespace sparselens::gpu {
+namespace {
+
+using LensDeviceScenes = GpuTest;
+
+Ldi warped(const lab::SceneCamera &scene) {
+    Progress silent;
+    const ThinLens &lens = scene.settings.lens;
+    const Ldi ldi = warp(scene.five_views(1), {.focal_px = lens.focal_px, .radius = lens.radius}, silent);
+    return cluster(ldi, {.scale = lens.radius * lens.focal_px, .tolerance = 0.25}, silent).ldi;
+}
+
+TEST_F(LensDeviceScenes, AreTheCpus) {
+    const auto device = open_lens_device(*info, watch());
+    std::size_t on_device = 0;
+    for (const lab::SceneEntry &entry : lab::scene_table()) {
+        const std::string name = entry.name;
+        const lab::SceneCamera scene(name, 96, 54);
+        const Ldi ldi = warped(scene);
+        const auto gather = [&](TileDevice *by) {
+            Progress silent;
+            return lens_gather(ldi, scene.settings.lens, ldi.windows.data, {.lens_samples = 16, .device = by},
+                               silent);
+        };
+        const Image expected = gather(nullptr), image = gather(device.get());
+        const float largest = *std::ranges::max_element(expected.values);
+        EXPECT_LE(largest_difference(image, expected), 1e-4 * double(largest)) << name;
+        const TileReport did = device->take_report();
+        EXPECT_EQ(did.failure, "") << name;
+        on_device += did.on_device;
+    }
+    EXPECT_GT(on_device, 0u);
+}
+
+} // namespace
+} // namespace sparselens::gpu

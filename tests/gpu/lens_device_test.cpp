@@ -1,0 +1,156 @@
+// The kernel of the lens gather against the CPU's and against the slow reference.
+#include "dof/device/tile_device.h"
+#include "dof/lens/lens_gather.h"
+#include "gpu/gpu_fixture.h"
+#include "gpu/lens/lens_device.h"
+#include "lens/lens_samples.h"
+#include "support/lens_ldi.h"
+#include "support/reference_picture.h"
+
+#include <algorithm>
+
+namespace sparselens::gpu {
+namespace {
+
+const ThinLens lens{.radius = 0.06, .focal_px = 640, .focus = 5};
+
+using Tiles = std::map<std::string, std::size_t>;
+
+// Random surfaces without highlights.
+Ldi surfaces(int width, int height, bool opaque, std::uint32_t stream) {
+    Ldi ldi = random_surfaces(windows_of_size(width, height), lens, opaque, stream);
+    for (std::vector<float> &values : ldi.values)
+        for (float &value : values) value = std::min(value, 1.0f);
+    return ldi;
+}
+
+Image gather(const Ldi &ldi, const LensGatherOptions &options) {
+    Progress silent;
+    return lens_gather(ldi, lens, ldi.windows.data, options, silent);
+}
+
+class LensDeviceTest : public GpuTest {
+protected:
+    // Both pictures; all tiles are the device's.
+    void expect_same(const Ldi &ldi, LensGatherOptions options) {
+        const Image expected = gather(ldi, options);
+        const auto device = open_lens_device(*info, watch());
+        options.device = device.get();
+        const Image image = gather(ldi, options);
+        const TileReport did = device->take_report();
+        EXPECT_GT(did.on_device, 0u);
+        EXPECT_EQ(did.on_cpu, Tiles());
+        EXPECT_EQ(did.failure, "");
+        EXPECT_LE(largest_difference(image, expected), 1e-6); // sums in the same order: rounding at most
+        EXPECT_EQ(gather(ldi, options).values, image.values);
+    }
+};
+
+TEST_F(LensDeviceTest, OpaqueSamplesAreTheCpus) {
+    expect_same(surfaces(150, 90, true, 1), {.lens_samples = 24});
+}
+
+TEST_F(LensDeviceTest, PartialSamplesAreTheCpus) {
+    expect_same(surfaces(150, 90, false, 2), {.lens_samples = 24});
+}
+
+TEST_F(LensDeviceTest, HighlightsAreAddedToIt) {
+    expect_same(random_surfaces(windows_of_size(90, 70), lens, false, 6), {.lens_samples = 12});
+}
+
+TEST_F(LensDeviceTest, ManyPartialSamplesOfAPixelAreTheCpus) {
+    const Ldi ldi = make_ldi(windows_of_size(70, 40), {{"Y"}, {"A"}}, [](int x, int y) {
+        std::vector<Sample> samples;
+        for (int i = 0; i < 24; ++i) {
+            const float a = float(0.2 * random_unit(x, y, std::uint32_t(i)));
+            samples.push_back({depth_of(lens, -6 + 0.4 * i + 0.1 * random_unit(x, y, std::uint32_t(100 + i))),
+                               {a * float(random_unit(x, y, std::uint32_t(200 + i))), a}});
+        }
+        return samples;
+    });
+    expect_same(ldi, {.lens_samples = 12});
+}
+
+TEST_F(LensDeviceTest, ShapesOfTheLensAreTheCpus) {
+    LensLooks looks;
+    looks.aperture.blades = 6;
+    looks.magnification = 1.1;
+    expect_same(surfaces(80, 70, false, 3), {.lens_samples = 24, .looks = looks});
+}
+
+TEST_F(LensDeviceTest, StripesMakeTheSamePicture) {
+    const Ldi ldi = surfaces(150, 200, false, 4);
+    Watch small = watch();
+    small.largest_buffer = 1 << 21;
+    const auto device = open_lens_device(*info, small);
+    const LensGatherOptions options{.lens_samples = 8, .device = device.get()};
+    EXPECT_EQ(gather(ldi, options).values, gather(ldi, {.lens_samples = 8}).values);
+    EXPECT_EQ(device->take_report().on_cpu, Tiles());
+    small.largest_buffer = 1 << 12;
+    const auto tiny = open_lens_device(*info, small);
+    EXPECT_EQ(gather(ldi, {.lens_samples = 8, .device = tiny.get()}).values,
+              gather(ldi, {.lens_samples = 8}).values);
+    const TileReport did = tiny->take_report();
+    EXPECT_EQ(did.on_device, 0u);
+    EXPECT_GT(did.on_cpu.at("more samples than its buffers hold"), 0u);
+}
+
+TEST_F(LensDeviceTest, IsItsReference) {
+    Ldi ldi = surfaces(40, 30, false, 5);
+    for (Channel &channel : ldi.channels) // no colours: the reference does not sharpen
+        if (channel.name != "A") channel.name += "0";
+    const auto device = open_lens_device(*info, watch());
+    const Image image = gather(ldi, {.lens_samples = 16, .device = device.get()});
+    expect_within(image, lens_gather_reference(ldi, lens, ldi.windows.data, disc_lens_samples(16, 1)));
+}
+
+TEST_F(LensDeviceTest, LeavesToTheCpuWhatItCannotDo) {
+    const Ldi plain = surfaces(90, 70, false, 6);
+    const auto device = open_lens_device(*info, watch());
+    const auto expect_cpu = [&](const Ldi &ldi, LensGatherOptions options, const std::string &reason) {
+        const Image expected = gather(ldi, options);
+        options.device = device.get();
+        EXPECT_EQ(gather(ldi, options).values, expected.values) << reason;
+        const TileReport did = device->take_report();
+        EXPECT_GT(did.on_cpu.at(reason), 0u);
+    };
+    LensLooks spherical;
+    spherical.aperture.spherical = 0.5;
+    expect_cpu(plain, {.lens_samples = 8, .looks = spherical},
+               "lens points that weigh colours or sides of the focus differently");
+    const Holdout holdout(surfaces(90, 70, true, 7));
+    expect_cpu(plain, {.lens_samples = 8, .holdout = &holdout}, "a holdout that stays sharp");
+}
+
+// At each of its steps: memory, copies, the run.
+TEST_F(LensDeviceTest, AFailureLosesNothing) {
+    const Ldi ldi = surfaces(90, 70, false, 8);
+    const Image expected = gather(ldi, {.lens_samples = 8});
+    int steps = 0, fail_at = 0, result = 0;
+    Watch failing = watch();
+    failing.fails = [&] { return ++steps == fail_at ? result : 0; };
+    const auto gathered = [&](int at, int with) {
+        steps = 0;
+        fail_at = at;
+        result = with;
+        const auto device = open_lens_device(*info, failing);
+        const Image image = gather(ldi, {.lens_samples = 8, .device = device.get()});
+        EXPECT_EQ(image.values, expected.values) << at;
+        const TileReport did = device->take_report();
+        EXPECT_EQ(did.failure.empty(), at == 0);
+        EXPECT_EQ(did.on_device == 0, at != 0);
+        if (at == 0) return;
+        EXPECT_GT(did.on_cpu.at("the device failed"), 0u);
+        gather(ldi, {.lens_samples = 8, .device = device.get()});
+        EXPECT_EQ(device->take_report().on_device, 0u); // it is left alone
+    };
+    gathered(0, 0);
+    const int all = steps;
+    EXPECT_GT(all, 20);
+    for (int at = 1; at <= all; at += 5) gathered(at, -4); // VK_ERROR_DEVICE_LOST
+    gathered(3, -2);                                       // VK_ERROR_OUT_OF_DEVICE_MEMORY
+    gathered(all, -1);                                     // VK_ERROR_OUT_OF_HOST_MEMORY
+}
+
+} // namespace
+} // namespace sparselens::gpu

@@ -1,0 +1,47 @@
+#!/bin/bash
+# dof-gather --device: the words, the machines without a GPU or without Vulkan, and the picture of a device in software.
+. "$(dirname "$0")/check.sh"
+command -v oiiotool >/dev/null || skip "needs oiiotool (openimageio-tools)"
+gather=$bin/dof-gather
+unset SPARSELENS_DEVICE
+
+oiiotool --pattern noise:type=uniform:min=0.2:max=0.8:seed=1 160x90 3 --chnames R,G,B \
+    --pattern constant:color=1,8 160x90 2 --chnames A,Z --fill:color=1,3 60x50+40+20 --chappend -d float -o input.exr
+lens=(--focal-length 50 --sensor-width 36 --focus-distance 5 --lens-radius 0.25 -d float)
+exits 0 "$gather" input.exr "${lens[@]}" -o expected.exr
+
+# A loader that cannot be loaded is none.
+mkdir broken
+for name in libvulkan.so libvulkan.so.1; do echo none >broken/$name; done
+without_loader() { LD_LIBRARY_PATH=$PWD/broken exits "$@"; }
+without_loader 0 "$bin/dof-gather" --device list
+[ "$(cat stdout)" = "Vulkan gives access to no device here" ] || fail "--device list: $(cat stdout)"
+for word in cpu auto; do
+    without_loader 0 "$gather" input.exr "${lens[@]}" -o out.exr --device $word -v
+    grep -qx 'dof-gather: device: the CPU' stderr || fail "--device $word: $(cat stderr)"
+    cmp -s out.exr expected.exr || fail "--device $word without a loader gives another picture"
+done
+LD_LIBRARY_PATH=$PWD/broken fails_saying 1 'device gpu: no GPU can be used; Vulkan gives access to no device here' \
+    "$gather" input.exr "${lens[@]}" -o x.exr --device gpu
+SPARSELENS_DEVICE=gpu LD_LIBRARY_PATH=$PWD/broken fails_saying 1 'device gpu: no GPU can be used' "$gather" input.exr "${lens[@]}" -o x.exr
+# Nor is a driver that is not there a device.
+VK_DRIVER_FILES=none.json VK_ICD_FILENAMES=none.json exits 0 "$gather" --device list
+[ "$(cat stdout)" = "Vulkan gives access to no device here" ] || fail "--device list without a driver: $(cat stdout)"
+fails_saying 2 '--device no-such.* works with --method lens only' "$gather" input.exr "${lens[@]}" -o x.exr --method selective --device no-such
+
+exits 0 "$gather" --device list
+name=$(head -n 1 stdout)
+[ "$name" != "Vulkan gives access to no device here" ] || skip "the kernels were not run: $name"
+fails_saying 1 "device no-such: no device has that name; there is " "$gather" input.exr "${lens[@]}" -o x.exr --device no-such
+name=${name%% (*}
+exits 0 "$bin/dof-gather" input.exr "${lens[@]}" -o out.exr --device "$name" -v
+grep -q "^dof-gather: device: $name" stderr || fail "--device $name: $(cat stderr)"
+grep -qx 'dof-gather: tiles gathered by the device: 6 of 6' stderr || fail "--device $name: $(cat stderr)"
+oiiotool --fail 1e-4 --diff out.exr expected.exr >differ || fail "the device's picture: $(cat differ)"
+SPARSELENS_DEVICE=$name exits 0 "$gather" input.exr "${lens[@]}" -o again.exr -v
+grep -q "^dof-gather: device: $name" stderr || fail "\$SPARSELENS_DEVICE: $(cat stderr)"
+cmp -s again.exr out.exr || fail "the device's picture is another one every time"
+
+# Two frames over one file, of which the CPU does what the device cannot do.
+exits 0 "$gather" input.exr "${lens[@]}" -o frame.#.exr --frames 1-2 --device "$name" --spherical 0.5 -v
+[ "$(grep -c 'lens points that weigh colours' stderr)" -eq 2 ] || fail "tiles left to the CPU: $(cat stderr)"
