@@ -27,8 +27,10 @@ void summarise(const Plan &plan, const View &centre, std::FILE *out) {
         fmt::print(out, "in total {:.2f} of a full view\n", plan.share());
     if (plan.noise > 0)
         fmt::print(
-            out, "noise left in the lens picture of this view: {:.1f} dB; {}\n", -10 * std::log10(plan.noise),
-            plan.full_views ? "full views are worth it, as further samples" : "full views are not worth it");
+            out, "noise left in the lens picture of this view: {:.1f} dB; further samples are worth it {}\n",
+            -10 * std::log10(plan.noise),
+            plan.full_views ? "everywhere: full views"
+                            : fmt::format("in {:.1f} % of it", 100 * double(plan.noisy) / pixels));
     const OverscanNeed &o = plan.overscan;
     fmt::print(out, "overscan that the lens needs, in pixels: left {}, top {}, right {}, bottom {}\n", o.left,
                o.top, o.right, o.bottom);

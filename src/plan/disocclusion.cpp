@@ -133,6 +133,21 @@ PixelMask unseen_by_centre(const MovedDepth &moved) {
     return mask;
 }
 
+PixelMask pixels_that_show(const MovedDepth &moved, const PixelMask &of_centre, const ThinLens &lens,
+                           const Imath::V2d &u) {
+    PixelMask mask(of_centre.data);
+    const Grid grid(mask.width(), mask.height());
+    for (std::size_t i = 0; i < mask.set.size(); ++i) {
+        const double depth = moved.depth[i];
+        if (depth == MovedDepth::nothing) continue;
+        const Imath::V2i at = grid.pixel(i);
+        const int x = int(std::lround(at.x + depth * u.x)),
+                  y = int(std::lround(at.y - depth * u.y * lens.pixel_aspect));
+        mask.set[i] = grid.contains(x, y) && of_centre.set[grid.index(x, y)];
+    }
+    return mask;
+}
+
 PixelMask without_slits(const PixelMask &mask) {
     PixelMask wide = mask;
     const Grid grid(mask.width(), mask.height());

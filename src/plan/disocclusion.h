@@ -49,6 +49,10 @@ PixelMask disoccluded(const MovedDepth &moved);
 // The same, and the pixels that show what lies beyond the border of the centre view.
 PixelMask unseen_by_centre(const MovedDepth &moved);
 
+// The pixels of the rim view that show those of the centre view.
+PixelMask pixels_that_show(const MovedDepth &moved, const PixelMask &of_centre, const ThinLens &lens,
+                           const Imath::V2d &u);
+
 // The mask without what is one pixel wide, along either axis: what thin things, as wires and blades of grass, hide from
 // the centre view, and where a steep surface opens.
 PixelMask without_slits(const PixelMask &mask);

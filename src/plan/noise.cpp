@@ -1,10 +1,12 @@
 #include "plan/noise.h"
 
+#include "base/parallel.h"
 #include "measure/tone_map.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace sparselens {
@@ -27,18 +29,19 @@ std::vector<double> brightness(const Image &image) {
     return mean;
 }
 
-// Variance of the noise in the block at (x, y), which lies inside the picture's border; 0 where it is not noise that
-// shows.
-double block_variance(const std::vector<double> &picture, const Grid &grid, int x, int y) {
+// Variance of the noise in the block at (x, y), which lies inside the picture's border, told by second differences in
+// steps of so many pixels; 0 where they are not Gaussian.
+double variance_along(const std::vector<double> &picture, const Grid &grid, int x, int y,
+                      std::ptrdiff_t step) {
     const Grid block(block_size, block_size);
     std::array<double, block_size * block_size> residual;
     for (std::size_t i = 0; i < residual.size(); ++i) {
         const Imath::V2i at = block.pixel(i) + Imath::V2i(x, y);
         const double *p = &picture[grid.index(at.x, at.y)];
-        residual[i] = std::abs(*p - (p[-1] + p[1] + p[-grid.width()] + p[grid.width()]) / 4);
+        residual[i] = std::abs(*p - (p[-step] + p[step]) / 2);
     }
     std::ranges::sort(residual);
-    constexpr double spread = 1.25;                  // variance of a value less the mean of four others
+    constexpr double spread = 1.5;                   // variance of a value less the mean of two others
     const auto quantile = [&](std::size_t quarter) { // between two values
         const std::size_t i = quarter * residual.size() / 4;
         return (residual[i - 1] + residual[i]) / 2;
@@ -47,23 +50,72 @@ double block_variance(const std::vector<double> &picture, const Grid &grid, int 
     return by_quartile > 0.75 * by_median ? by_median * by_median / spread : 0;
 }
 
+// The same of the direction along which the block is smoothest.
+double block_variance(const std::vector<double> &picture, const Grid &grid, int x, int y) {
+    constexpr double least_of_four =
+        0.63; // the least of four measurements of Gaussian noise, of its variance
+    const std::ptrdiff_t row = grid.width();
+    double least = std::numeric_limits<double>::infinity();
+    for (const std::ptrdiff_t step : {std::ptrdiff_t{1}, row, row + 1, row - 1})
+        least = std::min(least, variance_along(picture, grid, x, y, step));
+    return least / least_of_four;
+}
+
+// The variances of the blocks that lie inside the picture's border, each the mean of itself and of those around it.
+class BlockVariances {
+public:
+    BlockVariances(const Image &image, const Grid &grid)
+        : blocks_(std::max((grid.width() - 2) / block_size, 0),
+                  std::max((grid.height() - 2) / block_size, 0)),
+          variance_(blocks_.size()) {
+        const std::vector<double> picture = brightness(image);
+        std::vector<double> own(blocks_.size());
+        parallel_for(own.size(), [&](std::size_t i) {
+            const Imath::V2i at = blocks_.pixel(i) * block_size + Imath::V2i(1);
+            own[i] = block_variance(picture, grid, at.x, at.y);
+        });
+        for (std::size_t i = 0; i < own.size(); ++i) variance_[i] = mean_around(own, blocks_.pixel(i));
+    }
+
+    // Of the block that the pixel lies in, or next to.
+    double at(int x, int y) const {
+        if (variance_.empty()) return 0;
+        return variance_[blocks_.index(std::clamp((x - 1) / block_size, 0, blocks_.width() - 1),
+                                       std::clamp((y - 1) / block_size, 0, blocks_.height() - 1))];
+    }
+
+private:
+    double mean_around(const std::vector<double> &own, const Imath::V2i &block) const {
+        double sum = 0;
+        int count = 0;
+        for (int y = block.y - 1; y <= block.y + 1; ++y)
+            for (int x = block.x - 1; x <= block.x + 1; ++x)
+                if (blocks_.contains(x, y)) {
+                    sum += own[blocks_.index(x, y)];
+                    ++count;
+                }
+        return sum / count;
+    }
+
+    Grid blocks_;
+    std::vector<double> variance_;
+};
+
 } // namespace
 
-double noise_in_lens_picture(const Image &image, std::span<const float> z, const ThinLens &lens,
-                             std::optional<double> deviation) {
+std::vector<double> noise_in_lens_picture(const Image &image, std::span<const float> z, const ThinLens &lens,
+                                          std::optional<double> deviation) {
     const Grid grid(image.windows.width(), image.windows.height());
-    const std::vector<double> picture = deviation ? std::vector<double>{} : brightness(image);
-    double sum = 0;
-    int blocks = 0;
-    for (int y = 1; y + block_size < grid.height(); y += block_size)
-        for (int x = 1; x + block_size < grid.width(); x += block_size) {
-            const double depth = z[grid.index(x + block_size / 2, y + block_size / 2)];
-            const double coc = circle_of_confusion(lens, depth);
-            const double variance = deviation ? *deviation * *deviation : block_variance(picture, grid, x, y);
-            sum += variance / std::max(1.0, std::numbers::pi * coc * coc);
-            ++blocks;
-        }
-    return blocks > 0 ? sum / blocks : 0;
+    const auto measured =
+        deviation ? std::nullopt : std::optional<BlockVariances>(std::in_place, image, grid);
+    std::vector<double> noise(grid.size());
+    for (std::size_t i = 0; i < noise.size(); ++i) {
+        const Imath::V2i at = grid.pixel(i);
+        const double coc = circle_of_confusion(lens, z[i]);
+        const double variance = measured ? measured->at(at.x, at.y) : *deviation * *deviation;
+        noise[i] = variance / std::max(1.0, std::numbers::pi * coc * coc);
+    }
+    return noise;
 }
 
 } // namespace sparselens

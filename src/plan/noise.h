@@ -1,8 +1,9 @@
 // The noise of a rendered picture, and how much of it a lens leaves.
 //
-// Noise is distinguished from texture by its distribution: in a block of pixels, the differences from the mean of the
-// four neighbours are Gaussian for noise (the quartile and the median of their magnitudes are in the ratio 0.3186 to
-// 0.6745), but sparse for edges. Blocks that are not Gaussian count as free of noise.
+// Noise is distinguished from texture by two things. Its second differences are as large along every direction, but
+// those of texture are small along its edges. And they are Gaussian (the quartile and the median of their magnitudes are
+// in the ratio 0.3186 to 0.6745), but those of edges are sparse. Blocks of pixels that are not Gaussian count as free of
+// noise.
 #pragma once
 
 #include "base/image.h"
@@ -10,13 +11,15 @@
 
 #include <optional>
 #include <span>
+#include <vector>
 
 namespace sparselens {
 
-// Mean square, tone-mapped (measure/tone_map.h), of the noise that is left in the lens picture of a view: where the
-// CoC has radius c > 1 it is averaged over its disc of pi c^2 pixels. R, G, B of the image; z: planar depth a pixel.
-// `deviation`: of the noise, tone-mapped, where it is known instead of measured.
-double noise_in_lens_picture(const Image &image, std::span<const float> z, const ThinLens &lens,
-                             std::optional<double> deviation = {});
+// Mean square, tone-mapped (measure/tone_map.h), of the noise that is left of each pixel in the lens picture of a view:
+// where the CoC has radius c > 1 it is averaged over its disc of pi c^2 pixels. Measured by blocks of 8 x 8 pixels and
+// those around them. R, G, B of the image; z: planar depth a pixel. `deviation`: of the noise, tone-mapped, where it is
+// known instead of measured.
+std::vector<double> noise_in_lens_picture(const Image &image, std::span<const float> z, const ThinLens &lens,
+                                          std::optional<double> deviation = {});
 
 } // namespace sparselens

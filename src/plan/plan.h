@@ -30,7 +30,8 @@ struct OverscanNeed {
 struct Plan {
     std::vector<PlannedView> views; // empty: the centre view is enough
     OverscanNeed overscan;
-    double noise = 0; // mean square, tone-mapped, in the lens picture of the centre view alone (noise.h)
+    double noise = 0;      // mean square, tone-mapped, in the lens picture of the centre view alone (noise.h)
+    std::size_t noisy = 0; // pixels of the centre view that are asked for again, as further samples
     bool full_views = false; // noise is the larger error: whole views pay as further samples
 
     double share() const; // of one full view, all views together

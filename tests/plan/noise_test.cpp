@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <functional>
+#include <numeric>
 #include <random>
 
 namespace sparselens {
@@ -27,7 +28,8 @@ double noise_of(const std::function<double(int x, int y)> &tone_mapped_value, fl
             for (std::size_t k = 0; k < 3; ++k) image.at(k, x, y) = value;
         }
     const std::vector<float> depth(windows.pixels(), z);
-    return noise_in_lens_picture(image, depth, lens);
+    const std::vector<double> noise = noise_in_lens_picture(image, depth, lens);
+    return std::accumulate(noise.begin(), noise.end(), 0.0) / double(noise.size());
 }
 
 TEST(Noise, CleanPicturesHaveNone) {
@@ -45,6 +47,40 @@ TEST(Noise, GaussianNoiseIsMeasured) {
 }
 
 // c = R F / d (z - d) / z: 2 px at z = inf, which averages over 4 pi pixels.
+// Random blades, upright or at 45 degrees, differ from pixel to pixel across, but not along.
+TEST(Noise, BladesAreNone) {
+    for (const int slant : {0, 1}) {
+        std::mt19937 random(3);
+        std::uniform_real_distribution<double> value(0.2, 0.8);
+        std::vector<double> across(600);
+        for (double &v : across) v = value(random);
+        EXPECT_LT(noise_of([&](int x, int y) { return across[std::size_t(x + slant * y)]; }), 1e-5)
+            << slant;
+    }
+}
+
+// Of the left half only: it is found where it is, but for the blocks beside the border.
+TEST(Noise, IsFoundWhereItIs) {
+    std::mt19937 random(5);
+    std::normal_distribution<double> noise(0.5, 0.02);
+    Image image(windows_of_size(130, 98), rgba_channels());
+    for (int y = 0; y < 98; ++y)
+        for (int x = 0; x < 130; ++x) {
+            const float value = untoned(x < 65 ? noise(random) : 0.5);
+            for (std::size_t k = 0; k < 3; ++k) image.at(k, x, y) = value;
+        }
+    const auto found = noise_in_lens_picture(image, std::vector<float>(130 * 98, 5.0f), lens);
+    double sum = 0;
+    for (int y = 0; y < 98; ++y)
+        for (int x = 0; x < 130; ++x) {
+            if (x < 48) sum += found[std::size_t(y * 130 + x)];
+            if (x >= 81) {
+                EXPECT_EQ(found[std::size_t(y * 130 + x)], 0);
+            }
+        }
+    EXPECT_NEAR(sum / (48 * 98) / (0.02 * 0.02), 1, 0.2);
+}
+
 TEST(Noise, BlurAveragesIt) {
     const auto noise_at = [](float z) {
         std::mt19937 random(5);
@@ -57,8 +93,11 @@ TEST(Noise, BlurAveragesIt) {
 TEST(Noise, IsTakenAsGiven) {
     const Image image(windows_of_size(40, 40), rgba_channels());
     const std::vector<float> z(1600, 5.0f);
-    EXPECT_DOUBLE_EQ(noise_in_lens_picture(image, z, lens, 0.1), 0.1 * 0.1);
-    EXPECT_EQ(noise_in_lens_picture(image, z, lens), 0);
+    for (const double noise : noise_in_lens_picture(image, z, lens, 0.1)) EXPECT_DOUBLE_EQ(noise, 0.1 * 0.1);
+    for (const double noise : noise_in_lens_picture(image, z, lens)) EXPECT_EQ(noise, 0);
+    EXPECT_EQ(noise_in_lens_picture(Image(windows_of_size(3, 2), rgba_channels()),
+                                    std::vector<float>(6, 5.0f), lens),
+              std::vector<double>(6, 0.0));
 }
 
 } // namespace

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <random>
 
 namespace sparselens {
 namespace {
@@ -71,6 +72,26 @@ TEST(Plan, NoiseAsksForWholeViews) {
     EXPECT_FALSE(clean.full_views);
     EXPECT_TRUE(noisy.full_views);
     EXPECT_EQ(noisy.share(), 4);
+}
+
+// Noise where the picture is in focus, none where it is blurred: what is noisy is asked for, where each view shows it.
+TEST(Plan, NoiseIsAskedForWhereItIs) {
+    const ThinLens wide{
+        .radius = 0.4, .focal_px = 100, .focus = 5}; // CoC -4 px at z = 3.33, perceptive depth 12
+    std::mt19937 random(5);
+    std::normal_distribution<double> noise(0.5, 0.02);
+    const View view = make_view(windows_of_size(160, 60), {0, 0}, [&](int x, int) {
+        const float value = float(noise(random));
+        return ViewPixel{.z = x < 80 ? 5.0f : 10 / 3.0f, .r = value, .g = value, .b = value};
+    });
+    const Plan plan = plan_of(view, {.views = 2}, wide);
+    EXPECT_FALSE(plan.full_views);
+    ASSERT_EQ(plan.views.size(), 2u);
+    for (const PlannedView &planned : plan.views) // perceptive depth 8 there
+        for (int x = 12; x < 60; ++x) EXPECT_TRUE(planned.mask.at(x, 30)) << x;
+    EXPECT_NEAR(double(plan.noisy), 80 * 60, 8 * 60);
+    EXPECT_FALSE(plan.views[0].mask.at(120, 30));
+    EXPECT_EQ(plan_of(view, {.views = 2, .noise = 0}, wide).noisy, 0u);
 }
 
 TEST(Plan, MarginsGrowAndViewsAreCounted) {
