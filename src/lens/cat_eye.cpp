@@ -5,20 +5,27 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace sparselens {
 
 namespace {
 
-constexpr double tolerance = 1e-4; // of outlines, radii
-constexpr int step = 8;            // pixels between places where the share is computed
+constexpr double tolerance = 1e-4;      // of outlines, radii
+constexpr int angles = 128, radii = 96; // of tables
 constexpr int points_a_side = 64;
 
 } // namespace
 
 CatEye::CatEye(const Aperture &aperture, const LensLooks &looks, const PictureFrame &frame)
     : aperture_(aperture), amount_(looks.cat_eye), darkens_(looks.cat_eye_darkening), frame_(frame) {
-    if (!cuts() || !aperture.shape().picture) return;
+    if (!cuts()) return;
+    if (!aperture.shape().picture) {
+        outline_ = aperture_outline(aperture.shape(), tolerance);
+        reach_ = 2;
+        return;
+    }
+    reach_ = 1 + std::sqrt(2.0);
     for (int i = 0; i < points_a_side; ++i)
         for (int j = 0; j < points_a_side; ++j)
             points_.push_back(aperture.at(Imath::V2d(i + 0.5, j + 0.5) / points_a_side));
@@ -37,41 +44,54 @@ CatEye::Columns CatEye::columns(const LensSample &point, int first, int count, i
     return {bound(std::ceil(left)), bound(std::floor(right) + 1)};
 }
 
-double CatEye::share(bool behind, const Imath::V2d &p) const {
-    const Imath::V2d middle = centre(p);
-    const auto side = [&](const LensPoint &point) { return double(behind ? point.behind : point.in_front); };
+double CatEye::share(Light light, const Imath::V2d &p) const { return share_of(light, centre(p)); }
+
+double CatEye::share_of(Light light, const Imath::V2d &middle) const {
     if (!points_.empty()) {
         double all = 0, left = 0;
         for (const LensPoint &point : points_) {
-            all += side(point);
-            left += passes(point.u, p) ? side(point) : 0;
+            const double weight =
+                light == Light::evenly ? 1 : double(light == Light::behind ? point.behind : point.in_front);
+            all += weight;
+            left += within(point.u, middle) ? weight : 0;
         }
         return left / all;
     }
-    const std::vector<Imath::V2d> whole = aperture_outline(aperture_.shape(), tolerance);
-    const std::vector<Imath::V2d> left = within_unit_circle(whole, middle, tolerance);
+    const std::vector<Imath::V2d> left = within_unit_circle(outline_, middle, tolerance);
     const double area = left.empty() ? 0 : signed_area(left);
     if (area <= 0) return 0;
     // The weight is linear in r^2.
-    return std::min(1.0, area / signed_area(whole) * aperture_.weight(behind, mean_square_radius(left)));
+    const double weight =
+        light == Light::evenly ? 1 : aperture_.weight(light == Light::behind, mean_square_radius(left));
+    return std::min(1.0, area / signed_area(outline_) * weight);
 }
 
-std::vector<double> CatEye::shares(bool behind, const Imath::Box2i &box) const {
-    const int width = box.max.x - box.min.x + 1, height = box.max.y - box.min.y + 1;
-    const int columns = (width + step - 1) / step + 1, rows = (height + step - 1) / step + 1;
-    std::vector<double> nodes;
-    for (int row = 0; row < rows; ++row)
-        for (int column = 0; column < columns; ++column)
-            nodes.push_back(
-                share(behind, Imath::V2d(box.min + Imath::V2i(column, row) * step) + Imath::V2d(0.5)));
+// Linear in radius and in angle: a cat-eye has a kink on the axis.
+double CatEye::share_from(const std::vector<double> &table, const Imath::V2d &middle) const {
+    const double r = middle.length() / reach_ * (radii - 1);
+    if (!(r < radii - 1)) return 0;
+    const double turn = std::atan2(middle.y, middle.x) / (2 * std::numbers::pi),
+                 angle = (turn < 0 ? turn + 1 : turn) * angles;
+    const auto row = [&](int a) {
+        const double *of = &table[std::size_t(a % angles * radii) + std::size_t(r)];
+        return std::lerp(of[0], of[1], r - std::floor(r));
+    };
+    return std::lerp(row(int(angle)), row(int(angle) + 1), angle - std::floor(angle));
+}
+
+std::vector<double> CatEye::shares(Light light, const Imath::Box2i &box) const {
+    std::vector<double> &table = tables_[std::size_t(light)];
+    std::call_once(made_[std::size_t(light)], [&] {
+        for (int a = 0; a < angles; ++a)
+            for (int r = 0; r < radii; ++r) {
+                const double angle = 2 * std::numbers::pi * a / angles, radius = reach_ * r / (radii - 1);
+                table.push_back(share_of(light, radius * Imath::V2d(std::cos(angle), std::sin(angle))));
+            }
+    });
     std::vector<double> all;
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x) {
-            const double *node = &nodes[std::size_t(y / step * columns + x / step)];
-            const double fx = double(x % step) / step, fy = double(y % step) / step;
-            all.push_back(std::lerp(std::lerp(node[0], node[1], fx),
-                                    std::lerp(node[columns], node[columns + 1], fx), fy));
-        }
+    for (int y = box.min.y; y <= box.max.y; ++y)
+        for (int x = box.min.x; x <= box.max.x; ++x)
+            all.push_back(share_from(table, centre({x + 0.5, y + 0.5})));
     return all;
 }
 

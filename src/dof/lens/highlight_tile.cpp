@@ -187,7 +187,9 @@ void HighlightTile::spread_shape(const Spreading &from) {
 double HighlightTile::left_by_cat_eye(bool behind, int x, int y) {
     std::vector<double> &shares = left_by_cat_eye_[behind];
     const Imath::V2i corner = held_out_.corner + origin_;
-    if (shares.empty()) shares = shape_.cat_eye.shares(behind, {corner, corner + tile.max});
+    if (shares.empty())
+        shares = shape_.cat_eye.shares(behind ? CatEye::Light::behind : CatEye::Light::in_front,
+                                       {corner, corner + tile.max});
     return shares[std::size_t(y) * size + std::size_t(x)];
 }
 

@@ -176,6 +176,7 @@ struct Gathering {
     const BlockedSamples &samples;
     const FillerSamples &fillers;
     const PlacedFacets &facets;
+    const Darkening &darkening;
     tbb::enumerable_thread_specific<HighlightTile> &lamps;
     Image &out;
     LensTiles &chosen;
@@ -215,8 +216,9 @@ struct Gathering {
         for_each_pixel(tile.first - out.windows.data.min, out.windows, [&](int x, int y) {
             // A few lens points may all miss: better sharp than black.
             if (!known(x, y) && lit.dark(x, y)) return;
+            const Imath::V2i at = tile.first + Imath::V2i(x, y);
             for (const std::size_t k : gathered)
-                out.at(k, tile.first.x + x, tile.first.y + y) = value(x, y, k) + lit.value(x, y, k);
+                out.at(k, at.x, at.y) = darkening.left(k, at.x, at.y) * value(x, y, k) + lit.value(x, y, k);
         });
     }
 };
@@ -244,6 +246,8 @@ Image gather_once(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &wind
     Image out = crop(options.holdout ? flatten_held_out(ldi, *options.holdout) : flatten(ldi), window);
     BlockedSamples samples = make_blocks(ldi, lens, window);
     const Optics optics(ldi, lens, options.looks, coc);
+    const Darkening darkening(optics.cat_eye, ldi, out.windows);
+    darkening.darken(out);
     optics.bend(samples);
     const auto sharp = [&](const SampleBlock &block) {
         return block.begin == block.end || largest_coc_of(block) * optics.widest() < in_focus;
@@ -268,7 +272,7 @@ Image gather_once(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &wind
         return HighlightTile(highlights, samples, footprints, colours.sets,
                              {optics.aperture, optics.cat_eye, lens.pixel_aspect}, held_out);
     });
-    Gathering from{lens, options, optics, samples, fillers, facets, lamps, out, chosen};
+    Gathering from{lens, options, optics, samples, fillers, facets, darkening, lamps, out, chosen};
     progress.start("gathering", from.tiles());
     std::vector<char> done(from.tiles(), false);
     if (options.device)

@@ -65,7 +65,10 @@ void LensTile::gather(const Imath::V2i &origin, const Blocks &blocks, std::span<
         see_opaque(point, samples_, blocks.samples, everywhere, front_);
         see_facets(point);
         see_images(point);
-        if (weighted_) weigh_channels(point);
+        if (weighted_) {
+            weigh_channels(point);
+            count_columns();
+        }
         weighted_ ? add_opaque_weighted() : add_opaque(point.weight);
         find_cracks();
         see_fillers(point);
@@ -80,6 +83,7 @@ void LensTile::gather(const Imath::V2i &origin, const Blocks &blocks, std::span<
         }
         forget_partial();
     }
+    if (weighted_) sum_up_known();
 }
 
 // The nearest opaque one in each of the cells.

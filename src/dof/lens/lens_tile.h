@@ -6,6 +6,7 @@
 // unknown, only the light in front of it counts, and the weights are renormalised.
 #pragma once
 
+#include "base/float4.h"
 #include "deep/holdout.h"
 #include "dof/facets/placed_facets.h"
 #include "dof/lens/filler_samples.h"
@@ -49,7 +50,8 @@ public:
     // the blocks that can reach them or the pixels next to them.
     void gather(const Imath::V2i &origin, const Blocks &blocks, std::span<const LensSample> lens);
 
-    // The mean over the known lens points at a pixel of the tile. `known`: one is.
+    // The mean over the known lens points at a pixel of the tile; past a cat-eye, over those that it lets through, also
+    // where it darkens. `known`: one is.
     bool known(int x, int y) const;
     float value(int x, int y, std::size_t channel) const;
 
@@ -89,22 +91,27 @@ private:
     float opaque_passes(int x, int y) const; // of the light of what is opaque there
     // The same where lens points weigh differently for colours or sides of the focus (lens_tile_weights.cpp).
     void begin_weighted(std::span<const LensSample> lens);
-    void weigh_channels(const LensSample &lens);
     void find_columns(const LensSample &lens);
+    void weigh_channels(const LensSample &lens);
+    void count_columns();
+    void sum_up_known();
     bool seen_by_none() const; // of the tile's pixels, past the cat-eye
     bool in_columns(int x, int y) const {
         return x >= columns_[std::size_t(y)].begin && x < columns_[std::size_t(y)].end;
     }
-    // A cat-eye that darkens takes light from colours only.
+    // A cat-eye that darkens takes light from colours only: their mean is that over lens points, not over weights.
     bool is_darkened(std::size_t channel) const {
-        return (colours_.sets[channel] & (red | green | blue)) != 0;
+        return cat_eye_ && cat_eye_->darkens() && is_colour(colours_.sets[channel]);
     }
-    float known_of(std::size_t at) const; // weight of what is known, an index of sums_
+    Float4 known_in_front(std::size_t group) const;
+    void count_in_front(std::size_t at, float share); // an index of sums_
+    float known_of(std::size_t at) const;             // weight of what is known, an index of sums_
     bool in_front(std::uint32_t sample) const { return two_sided_ && samples_.coc[sample] < 0; }
     bool opaque_in_front(std::size_t cell) const;
     using Weights = std::array<std::vector<float>, 2>; // [side][channel]; side 1 is in front
     void add_opaque_weighted();
-    void add_row_weighted(int y, CatEye::Columns columns, const Weights &lit, std::size_t &empty);
+    template <bool two_sided>
+    void add_row_weighted(int y, std::size_t &empty);
     void add_unseen_weighted();
     void add_partial_weighted();
     void add_partial_weighted(int x, int y, std::size_t group);
@@ -156,9 +163,11 @@ private:
     std::vector<float> unknown_; // [pixel]: weight of the lens points that see nothing
     // Of lens points that weigh differently:
     bool weighted_ = false, two_sided_ = false;
-    std::vector<float> known_;                  // as sums_: weight of what is known, of each channel
-    Weights channel_weights_,                   // of the lens point
-        dark_weights_;                          // the same where the cat-eye cuts it off: R, G and B are dark
+    Weights light_weights_,     // of the lens point: by what light is multiplied,
+        known_weights_;         // and how it counts in what the sum is divided by
+    std::vector<double> steps_; // [group][row][column][4]: how much more the pixels from that column on see
+    std::vector<double> known_; // as sums_: how much of it is known, as if all of it were behind focus
+    std::vector<float> known_in_front_; // as sums_, if two_sided_: how much more as part of it is in front
     std::array<CatEye::Columns, size> columns_; // [row]: the pixels that see through the lens point
 };
 

@@ -1,5 +1,6 @@
 // Lens points that weigh differently for R, G and B, for what lies behind focus and in front, or that not all pixels see
 // through: what is known is summed up for each channel.
+#include "base/float4.h"
 #include "dof/lens/lens_tile.h"
 
 #include <algorithm>
@@ -8,12 +9,8 @@ namespace sparselens {
 
 namespace {
 
-using Four = std::array<float, 4>;
-
-Four four(const float *values) {
-    Four copy;
-    std::copy_n(values, 4, copy.begin());
-    return copy;
+void add(double *to, Float4 values) {
+    for (std::size_t k = 0; k < 4; ++k) to[k] += double(values[k]);
 }
 
 } // namespace
@@ -26,28 +23,18 @@ void LensTile::begin_weighted(std::span<const LensSample> lens) {
                 });
     if (!weighted_) return;
     known_.assign(sums_.size(), 0);
-    for (auto *of : {&channel_weights_, &dark_weights_})
+    steps_.assign(colours_.groups * size * (size + 1) * 4, 0);
+    for (auto *of : {&light_weights_, &known_weights_})
         for (auto &weights : *of) weights.resize(colours_.groups * 4);
     if (!two_sided_) return;
     over_.resize(2 * colours_.groups * stride * stride * 4);
     hidden_in_front_.resize(stride * stride);
+    known_in_front_.assign(sums_.size(), 0);
 }
 
-float LensTile::known_of(std::size_t at) const { return known_[at] > 1e-6f * total_ ? known_[at] : 0; }
-
-// Data takes no part: what has no colour is the same for all light.
-void LensTile::weigh_channels(const LensSample &lens) {
-    for (std::size_t k = 0; k < colours_.groups * 4; ++k) {
-        const ColourSet set = colours_.sets[k];
-        const float colour = set == red     ? lens.rgb[0]
-                             : set == green ? lens.rgb[1]
-                             : set == blue  ? lens.rgb[2]
-                                            : 1;
-        channel_weights_[0][k] = lens.weight * colour * (set == data ? 1 : lens.behind);
-        channel_weights_[1][k] = lens.weight * colour * (set == data ? 1 : lens.in_front);
-        for (const std::size_t side : {0u, 1u})
-            dark_weights_[side][k] = is_darkened(k) ? 0 : channel_weights_[side][k];
-    }
+float LensTile::known_of(std::size_t at) const {
+    const float known = float(known_[at] + (two_sided_ ? double(known_in_front_[at]) : 0));
+    return known > 1e-6f * total_ ? known : 0;
 }
 
 void LensTile::find_columns(const LensSample &lens) {
@@ -58,8 +45,48 @@ void LensTile::find_columns(const LensSample &lens) {
 }
 
 bool LensTile::seen_by_none() const {
-    return cat_eye_ && !cat_eye_->darkens() &&
+    return cat_eye_ &&
            std::ranges::all_of(columns_, [](const CatEye::Columns &c) { return c.begin >= c.end; });
+}
+
+// Data takes no part: what has no colour is the same for all light.
+void LensTile::weigh_channels(const LensSample &lens) {
+    for (std::size_t k = 0; k < colours_.groups * 4; ++k) {
+        const ColourSet set = colours_.sets[k];
+        const float colour = set == red     ? lens.rgb[0]
+                             : set == green ? lens.rgb[1]
+                             : set == blue  ? lens.rgb[2]
+                                            : 1;
+        light_weights_[0][k] = lens.weight * colour * (set == data ? 1 : lens.behind);
+        light_weights_[1][k] = lens.weight * colour * (set == data ? 1 : lens.in_front);
+        for (const std::size_t side : {0u, 1u})
+            known_weights_[side][k] = is_darkened(k) ? lens.weight : light_weights_[side][k];
+    }
+}
+
+// Counts the lens point as known, and behind focus, in all pixels that see through it.
+void LensTile::count_columns() {
+    for (std::size_t g = 0; g < colours_.groups; ++g) {
+        const Float4 weight = load4(&known_weights_[0][g * 4]);
+        double *row = &steps_[g * size * (size + 1) * 4];
+        for (const CatEye::Columns &seen : columns_) {
+            if (seen.begin < seen.end) {
+                add(row + seen.begin * 4, weight);
+                add(row + seen.end * 4, -weight);
+            }
+            row += (size + 1) * 4;
+        }
+    }
+}
+
+void LensTile::sum_up_known() {
+    const double *step = steps_.data();
+    double *known = known_.data();
+    for (std::size_t row = 0; row < colours_.groups * size; ++row, step += 4) { // past the end of the row
+        std::array<double, 4> sum{};
+        for (int x = 0; x < size; ++x)
+            for (std::size_t k = 0; k < 4; ++k) *known++ += sum[k] += *step++;
+    }
 }
 
 // Backgrounds lie behind, wherever they are seen.
@@ -72,61 +99,67 @@ bool LensTile::opaque_in_front(std::size_t cell) const {
 
 // Adds what the lens point sees of the opaque samples, and lists the cells where it sees none.
 void LensTile::add_opaque_weighted() {
-    const bool darkens = cat_eye_ && cat_eye_->darkens();
     std::size_t empty = 0;
-    for (int y = 0; y < size; ++y) {
-        const CatEye::Columns seen = columns_[std::size_t(y)];
-        add_row_weighted(y, seen, channel_weights_, empty);
-        if (!darkens) continue;
-        add_row_weighted(y, {0, seen.begin}, dark_weights_, empty);
-        add_row_weighted(y, {std::max(seen.begin, seen.end), size}, dark_weights_, empty);
-    }
+    for (int y = 0; y < size; ++y)
+        two_sided_ ? add_row_weighted<true>(y, empty) : add_row_weighted<false>(y, empty);
     empty_ = std::span(empty_cells_).first(empty);
 }
 
-// Copies of four values: the compiler need not fear that sums overlap them.
-void LensTile::add_row_weighted(int y, CatEye::Columns columns, const Weights &lit, std::size_t &empty) {
-    const bool held_out = held_out_.by != nullptr, two_sided = two_sided_;
+template <bool two_sided>
+void LensTile::add_row_weighted(int y, std::size_t &empty) {
+    const CatEye::Columns seen = columns_[std::size_t(y)];
+    const bool held_out = held_out_.by != nullptr;
     const std::uint64_t *front = &shown()[cell_of(0, y)];
     const float *coc = samples_.coc.data();
     for (std::size_t g = 0; g < colours_.groups; ++g) {
         const float *colours = colours_.group(g).data();
-        const std::array weights{four(&channel_weights_[0][g * 4]), four(&channel_weights_[1][g * 4])},
-            lights{four(&lit[0][g * 4]), four(&lit[1][g * 4])};
+        const Float4 behind = load4(&light_weights_[0][g * 4]), in_front = load4(&light_weights_[1][g * 4]),
+                     more = known_in_front(g);
         const std::size_t row = (g * size * size + std::size_t(y * size)) * 4;
-        float *sums = &sums_[row], *knowns = &known_[row];
-        for (int x = columns.begin; x < columns.end; ++x) {
-            if (front[x] == 0) {
+        float *sum = &sums_[row] + seen.begin * 4,
+              *known = two_sided ? &known_in_front_[row] + seen.begin * 4 : nullptr;
+        for (int x = seen.begin; x < seen.end; ++x, sum += 4, known += two_sided ? 4 : 0) {
+            const std::uint64_t key = front[x];
+            if (key == 0) {
                 if (g == 0) empty_cells_[empty++] = std::uint32_t(cell_of(x, y));
                 continue;
             }
-            const std::uint32_t i = std::uint32_t(front[x]);
-            const bool side = two_sided && front[x] > nearest_background && coc[i] < 0;
-            const float share = held_out ? opaque_passes(x, y) : 1;
-            const Four colour = four(colours + std::size_t(i) * 4), light = lights[side],
-                       weight = weights[side];
-            Four sum = four(sums + x * 4), known = four(knowns + x * 4);
-            for (std::size_t k = 0; k < 4; ++k) sum[k] += share * light[k] * colour[k];
-            for (std::size_t k = 0; k < 4; ++k) known[k] += weight[k];
-            std::ranges::copy(sum, sums + x * 4);
-            std::ranges::copy(known, knowns + x * 4);
+            const std::size_t i = std::uint32_t(key);
+            Float4 light = behind;
+            if (two_sided && coc[i] < 0 && key > nearest_background) {
+                light = in_front;
+                store4(known, load4(known) + more);
+            }
+            if (held_out) light *= opaque_passes(x, y);
+            store4(sum, load4(sum) + light * load4(colours + i * 4));
         }
     }
 }
 
-// Adds what it sees of the empty cells: through cracks, and of fillers.
+// How much more the lens point counts where it sees what lies in front of focus.
+Float4 LensTile::known_in_front(std::size_t group) const {
+    return load4(&known_weights_[1][group * 4]) - load4(&known_weights_[0][group * 4]);
+}
+
+void LensTile::count_in_front(std::size_t at, float share) {
+    float *known = &known_in_front_[at];
+    store4(known, load4(known) + share * known_in_front(at / (size * size * 4)));
+}
+
+// Adds what it sees of the empty cells: through cracks, and of fillers. What is behind the others is not known.
 void LensTile::add_unseen_weighted() {
     for (const std::uint32_t cell : empty_) {
         const int x = column_of(cell), y = row_of(cell);
-        const Weights &lit = in_columns(x, y) ? channel_weights_ : dark_weights_;
         const bool side = opaque_in_front(cell);
         for (std::size_t g = 0; g < colours_.groups; ++g) {
-            const float *colour = opaque_colour(g, cell);
-            if (!colour) continue;
             const std::size_t at = (g * size * size + std::size_t(y * size + x)) * 4;
-            for (std::size_t k = 0; k < 4; ++k) {
-                sums_[at + k] += opaque_passes(x, y) * lit[side][g * 4 + k] * colour[k];
-                known_[at + k] += channel_weights_[side][g * 4 + k];
+            const float *colour = opaque_colour(g, cell);
+            if (colour) {
+                const Float4 light = opaque_passes(x, y) * load4(&light_weights_[side][g * 4]);
+                store4(&sums_[at], load4(&sums_[at]) + light * load4(colour));
+                if (side) count_in_front(at, 1);
+            } else {
+                add(&known_[at], -load4(&known_weights_[0][g * 4]));
             }
         }
     }
@@ -134,11 +167,9 @@ void LensTile::add_unseen_weighted() {
 
 // Puts the partial samples in front of what add_opaque_weighted() and add_unseen_weighted() added.
 void LensTile::add_partial_weighted() {
-    const bool darkens = cat_eye_ && cat_eye_->darkens();
     for (const std::uint32_t cell : covered_) {
         const int x = column_of(cell), y = row_of(cell);
-        if (x < 0 || y < 0 || x >= size || y >= size) continue;
-        if (!darkens && !in_columns(x, y)) continue;
+        if (x < 0 || y < 0 || x >= size || y >= size || !in_columns(x, y)) continue;
         for (std::size_t g = 0; g < colours_.groups; ++g) add_partial_weighted(x, y, g);
     }
 }
@@ -146,22 +177,20 @@ void LensTile::add_partial_weighted() {
 void LensTile::add_partial_weighted(int x, int y, std::size_t group) {
     const std::size_t cell = cell_of(x, y), at = (group * size * size + std::size_t(y * size + x)) * 4,
                       over = (group * stride * stride + cell) * 4;
-    const auto weights = [&](const auto &of, bool in_front) { return four(&of[in_front][group * 4]); };
-    const auto &lit = in_columns(x, y) ? channel_weights_ : dark_weights_;
-    float *sum = &sums_[at], *known = &known_[at];
-    const auto add = [&](bool in_front, float covered, const Four &colour) {
-        const Four weight = weights(channel_weights_, in_front), light = weights(lit, in_front);
-        for (std::size_t k = 0; k < 4; ++k) sum[k] += light[k] * colour[k];
-        for (std::size_t k = 0; k < 4; ++k) known[k] += weight[k] * covered;
-    };
+    const auto light = [&](bool in_front) { return load4(&light_weights_[in_front][group * 4]); };
     const float hidden = 1 - transmittance_[cell], in_front = two_sided_ ? hidden_in_front_[cell] : 0;
-    add(false, hidden - in_front, four(&over_[over]));
-    if (two_sided_) add(true, in_front, four(&over_[over + colours_.groups * stride * stride * 4]));
-    const float *behind = opaque_colour(group, cell);
-    if (!behind) return;
-    Four taken = four(behind);
-    for (float &v : taken) v *= -hidden * opaque_passes(x, y);
-    add(opaque_in_front(cell), -hidden, taken);
+    Float4 sum = load4(&sums_[at]) + light(false) * load4(&over_[over]);
+    if (two_sided_) sum += light(true) * load4(&over_[over + colours_.groups * stride * stride * 4]);
+    float share_in_front = in_front;
+    if (const float *behind = opaque_colour(group, cell)) {
+        const bool side = opaque_in_front(cell);
+        sum -= hidden * opaque_passes(x, y) * light(side) * load4(behind);
+        if (side) share_in_front -= hidden;
+    } else {
+        add(&known_[at], hidden * load4(&known_weights_[0][group * 4]));
+    }
+    store4(&sums_[at], sum);
+    if (share_in_front != 0) count_in_front(at, share_in_front);
 }
 
 } // namespace sparselens

@@ -2,6 +2,9 @@
 
 #include "base/parallel.h"
 
+#include <algorithm>
+#include <functional>
+
 namespace sparselens {
 
 Optics::Optics(const Ldi &ldi, const ThinLens &lens, const LensLooks &looks_, double coc_)
@@ -9,8 +12,8 @@ Optics::Optics(const Ldi &ldi, const ThinLens &lens, const LensLooks &looks_, do
       frame(picture_frame(ldi.windows, looks)), field(looks, lens, frame), cat_eye(aperture, looks, frame) {}
 
 std::size_t Optics::doubled(const Imath::V2i &first, int size) const {
-    if (!cat_eye.cuts() || cat_eye.darkens()) return 0;
-    const double left = cat_eye.share(true, Imath::V2d(first) + Imath::V2d(size / 2));
+    if (!cat_eye.cuts()) return 0;
+    const double left = cat_eye.share(CatEye::Light::evenly, Imath::V2d(first) + Imath::V2d(size / 2));
     return left <= 0.25 ? 2 : left <= 0.5 ? 1 : 0;
 }
 
@@ -40,6 +43,25 @@ Imath::V2d Optics::coc_gradient(const Imath::V2i &first, int size) const {
     if (field.flat()) return {0, 0};
     const Imath::V2d middle = Imath::V2d(first) + Imath::V2d(size / 2);
     return field.coc_gradient(frame.magnified(middle, 1 / looks.magnification));
+}
+
+Darkening::Darkening(const CatEye &cat_eye, const Ldi &ldi, const Windows &windows)
+    : windows_(windows), sets_(colour_sets(ldi, ldi.channels.size())) {
+    if (!cat_eye.darkens()) return;
+    left_.resize(windows.pixels());
+    const Imath::Box2i &window = windows.data;
+    parallel_for(std::size_t(windows.height()), [&](std::size_t row) {
+        const int y = window.min.y + int(row);
+        std::ranges::copy(cat_eye.shares(CatEye::Light::evenly, {{window.min.x, y}, {window.max.x, y}}),
+                          &left_[row * std::size_t(windows.width())]);
+    });
+}
+
+void Darkening::darken(Image &image) const {
+    if (left_.empty()) return;
+    for (std::size_t k = 0; k < sets_.size(); ++k)
+        if (is_colour(sets_[k]))
+            std::ranges::transform(image.plane(k), left_, image.plane(k).begin(), std::multiplies());
 }
 
 std::vector<LensSample> stretched(std::span<const LensSample> points, const Imath::V2d &coc_gradient) {

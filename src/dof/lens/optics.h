@@ -1,7 +1,10 @@
-// What the looks make of the lens: an aperture, a plane of focus that may be bent, a picture that may be magnified.
+// What the looks make of the lens: an aperture, a plane of focus that may be bent, a picture that may be magnified or
+// darkened.
 #pragma once
 
+#include "base/image.h"
 #include "dof/lens/sample_blocks.h"
+#include "dof/lens/sample_colours.h"
 #include "lens/cat_eye.h"
 #include "lens/focus_field.h"
 #include "lens/lens_looks.h"
@@ -34,6 +37,22 @@ struct Optics {
     void bend(BlockedSamples &samples) const;
     // How CoC changes across the tile of that size whose first pixel that is (EXR coordinates).
     Imath::V2d coc_gradient(const Imath::V2i &first, int size) const;
+};
+
+// How much of its colours a pixel keeps where a cat-eye darkens.
+class Darkening {
+public:
+    Darkening(const CatEye &cat_eye, const Ldi &ldi, const Windows &windows);
+
+    float left(std::size_t channel, int x, int y) const { // EXR coordinates
+        return left_.empty() || !is_colour(sets_[channel]) ? 1 : left_[windows_.index(x, y)];
+    }
+    void darken(Image &image) const; // of these windows
+
+private:
+    Windows windows_;
+    std::vector<ColourSet> sets_;
+    std::vector<float> left_; // [pixel]; empty: all
 };
 
 // The lens points of a tile where the plane of focus is bent: by the field's change at the tile's middle.

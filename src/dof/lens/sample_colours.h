@@ -15,6 +15,7 @@ namespace sparselens {
 
 // What a channel is to a lens that treats colours differently; one bit each, so that they make sets.
 enum ColourSet : std::uint8_t { red = 1, green = 2, blue = 4, coverage = 8, data = 16, all_colours = 31 };
+inline bool is_colour(ColourSet set) { return (set & (red | green | blue)) != 0; }
 
 struct SampleColours {
     std::size_t groups = 0, count = 0; // of channels / 4, of samples

@@ -78,6 +78,14 @@ struct SlowLens {
         const Imath::V2d u(double(point.x), -double(point.y) / pixel_aspect);
         return !cat_eye || cat_eye->passes(u, {pixel.x + 0.5, pixel.y + 0.5});
     }
+    bool darkens(const Channel &channel) const {
+        return cat_eye && cat_eye->darkens() && is_colour(kind_of(channel));
+    }
+    ReferenceValue darkened(const ReferenceValue &value, const Pixel &pixel) const {
+        const Imath::V2i at(pixel.x, pixel.y);
+        const long double left = cat_eye->shares(CatEye::Light::evenly, {at, at})[0];
+        return {left * value.value, left * value.least, left * value.most};
+    }
 };
 
 // What one pixel gathers of one channel.
@@ -130,20 +138,22 @@ long double light_of(const Ldi &ldi, std::size_t channel, const Met &met) {
     return met.passes * sum;
 }
 
-// Adds what a lens point sees by these ways; `dark`: but for the light.
+// Adds what a lens point sees by these ways. `darkened`: for the mean over lens points, not over their weights.
 void add_seen(Gathered &to, const Ldi &ldi, std::size_t channel, const LensSample &point,
-              std::span<const Way> ways, bool dark) {
+              std::span<const Way> ways, bool darkened) {
     const Kind kind = kind_of(ldi.channels[channel]);
     const auto weight = [&](const Met &m) { return weight_of(point, kind, m); };
-    const auto light = [&](const Met &m) { return dark ? 0 : light_of(ldi, channel, m); };
+    const auto counted = [&](const Met &m) { return darkened ? 1 : weight(m); };
+    const auto light = [&](const Met &m) { return weight(m) * light_of(ldi, channel, m); };
     add(to.coverage, point.weight,
-        composite(ways, [&](const Met &m) { return weight(m) * m.sample->alpha; }));
-    add(to.light, point.weight, composite(ways, [&](const Met &m) { return weight(m) * light(m); }));
+        composite(ways, [&](const Met &m) { return counted(m) * m.sample->alpha; }));
+    add(to.light, point.weight, composite(ways, light));
     for (const Way &way : ways)
         for (const Met &m : way.met) {
             if (m.sample->alpha == 0 && light(m) == 0) continue;
-            to.darkest = std::min(to.darkest, light(m) / m.sample->alpha);
-            to.brightest = std::max(to.brightest, light(m) / m.sample->alpha);
+            const long double seen = light(m) / (counted(m) * m.sample->alpha);
+            to.darkest = std::min(to.darkest, seen);
+            to.brightest = std::max(to.brightest, seen);
         }
 }
 
@@ -155,13 +165,12 @@ std::vector<ReferenceValue> gather(const Ldi &ldi, const Scene &scene, const Slo
     sure = 1;
     for (const LensSample &point : lens.points) {
         total += (long double)point.weight;
-        const bool passes = lens.passes(point, pixel);
-        if (!passes && !lens.cat_eye->darkens()) continue;
+        if (!lens.passes(point, pixel)) continue;
         const std::vector<Way> ways = ways_to_see(scene, point, pixel);
         for (const Way &way : ways)
             if (ways.size() > 1 || !std::ranges::all_of(way.met, &Met::sure)) sure = 0;
         for (std::size_t k = 0; k < channels.size(); ++k)
-            add_seen(channels[k], ldi, k, point, ways, !passes && is_colour(kind_of(ldi.channels[k])));
+            add_seen(channels[k], ldi, k, point, ways, lens.darkens(ldi.channels[k]));
     }
     std::vector<ReferenceValue> values(channels.size());
     for (std::size_t k = 0; k < channels.size(); ++k) {
@@ -169,6 +178,7 @@ std::vector<ReferenceValue> gather(const Ldi &ldi, const Scene &scene, const Slo
         values[k] = holds_ids(ldi.channels[k]) ? ReferenceValue{id, id, id}
                                                : normalised(channels[k], total, flattened(ldi, k, pixel));
         if (sure) values[k].least = values[k].most = values[k].value;
+        if (lens.darkens(ldi.channels[k])) values[k] = lens.darkened(values[k], pixel);
     }
     return values;
 }

@@ -25,7 +25,8 @@
 //
 // What it meets, light and coverage, counts by the weight that the lens point has for the channel (R, G and B, by the last
 // part of the name) and, but for data, for what lies behind focus or in front; backgrounds lie behind. Past a cat-eye a pixel sees by the lens
-// points that it lets through alone; where the cat-eye darkens, by all, whose R, G and B are black if it does not.
+// points that it lets through alone. Where that darkens, R, G and B are the mean over lens points, not over their weights,
+// times the share of the lens that it leaves (CatEye::share, evenly).
 #pragma once
 
 #include "base/image.h"

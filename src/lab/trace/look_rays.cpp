@@ -95,9 +95,11 @@ private:
             double weight = channel < 3 ? double(point.rgb[channel]) : 1;
             if (settings_.looks.aperture.spherical != 0)
                 weight *= double(1 / batch.depth[i] < batch.inverse_focus[i] ? point.behind : point.in_front);
-            const bool lost = !batch.passes[i] && (channel < 3 || !darkens);
-            if (!lost) sums.light[channel] += weight * of(batch.radiance[i], channel);
-            if (!lost || darkens) sums.weight[channel] += weight;
+            if (batch.passes[i]) sums.light[channel] += weight * of(batch.radiance[i], channel);
+            if (channel < 3 && darkens)
+                sums.weight[channel] += 1; // of the mean over the whole lens, dark where it is cut off
+            else if (batch.passes[i])
+                sums.weight[channel] += weight;
         }
     }
 

@@ -1,0 +1,64 @@
+// What a second circle leaves of the aperture.
+#include "base/image.h"
+#include "lens/cat_eye.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace sparselens {
+namespace {
+
+using Light = CatEye::Light;
+
+Windows window(int width, int height) {
+    Windows windows;
+    windows.display = windows.data = {{0, 0}, {width - 1, height - 1}};
+    return windows;
+}
+
+// Of a circle of radius 1, by another one whose middle is d away.
+double lens_of_two_circles(double d) {
+    return d >= 2 ? 0 : (2 * std::acos(d / 2) - d / 2 * std::sqrt(4 - d * d)) / std::numbers::pi;
+}
+
+TEST(CatEye, LeavesTheLensOfTwoCircles) {
+    const Windows windows = window(80, 60); // half a diagonal is 50 pixels
+    for (const double amount : {0.3, 1.0, 4.0}) {
+        const LensLooks looks{.aperture = {.squeeze = 2}, .cat_eye = amount};
+        const Aperture aperture(looks.aperture);
+        const CatEye cat_eye(aperture, looks, picture_frame(windows, looks));
+        const std::vector<double> shares = cat_eye.shares(Light::evenly, windows.data);
+        for (std::size_t i = 0; i < shares.size(); ++i) {
+            const Imath::V2d p = Imath::V2d(windows.pixel(i)) + Imath::V2d(0.5);
+            const double expected = lens_of_two_circles(amount * (p - Imath::V2d(40, 30)).length() / 50);
+            ASSERT_NEAR(cat_eye.share(Light::evenly, p), expected, 2e-4) << p;
+            ASSERT_NEAR(shares[i], expected, 1e-3) << p;
+        }
+    }
+}
+
+TEST(CatEye, LeavesTheSameOfABoxAsOfItsPixels) {
+    const Windows windows = window(64, 48);
+    const auto grey =
+        std::make_shared<AperturePicture>(AperturePicture{2, 2, {1, 1, 1, 3, 3, 3, 1, 1, 1, 1, 1, 1}});
+    for (const ApertureShape &shape : {ApertureShape{.blades = 6, .rotation = 10}, ApertureShape{.blades = 3},
+                                       ApertureShape{.blades = 5, .curvature = 0.5, .spherical = -0.8},
+                                       ApertureShape{.spherical = 1}, ApertureShape{.picture = grey}}) {
+        const LensLooks looks{.aperture = shape, .cat_eye = 1.3};
+        const Aperture aperture(shape);
+        const CatEye cat_eye(aperture, looks, picture_frame(windows, looks));
+        for (const Light light : {Light::evenly, Light::behind, Light::in_front}) {
+            const std::vector<double> shares = cat_eye.shares(light, windows.data);
+            const double counted = shape.picture ? 5e-3 : 2e-3; // of pictures, points are counted
+            for (std::size_t i = 0; i < shares.size(); ++i) {
+                const Imath::V2d p = Imath::V2d(windows.pixel(i)) + Imath::V2d(0.5);
+                ASSERT_NEAR(shares[i], cat_eye.share(light, p), counted) << p << shape.blades;
+            }
+        }
+    }
+}
+
+} // namespace
+} // namespace sparselens
