@@ -8,6 +8,7 @@
 #include "support/reference_picture.h"
 
 #include <algorithm>
+#include <memory>
 
 namespace sparselens::gpu {
 namespace {
@@ -34,7 +35,7 @@ protected:
     // Both pictures; all tiles are the device's.
     void expect_same(const Ldi &ldi, LensGatherOptions options) {
         const Image expected = gather(ldi, options);
-        const auto device = open_lens_device(*info, watch());
+        if (!device) device = open_lens_device(*info, watch());
         options.device = device.get();
         const Image image = gather(ldi, options);
         const TileReport did = device->take_report();
@@ -43,15 +44,18 @@ protected:
         EXPECT_EQ(did.failure, "");
         EXPECT_LE(largest_difference(image, expected), 1e-6); // sums in the same order: rounding at most
         EXPECT_EQ(gather(ldi, options).values, image.values);
+        device->take_report();
     }
+
+    std::unique_ptr<TileDevice> device;
 };
 
 TEST_F(LensDeviceTest, OpaqueSamplesAreTheCpus) {
-    expect_same(surfaces(150, 90, true, 1), {.lens_samples = 24});
+    expect_same(surfaces(150, 90, true, 1), {.lens_samples = 8});
 }
 
 TEST_F(LensDeviceTest, PartialSamplesAreTheCpus) {
-    expect_same(surfaces(150, 90, false, 2), {.lens_samples = 24});
+    expect_same(surfaces(150, 90, false, 2), {.lens_samples = 8});
 }
 
 TEST_F(LensDeviceTest, HighlightsAreAddedToIt) {
@@ -75,14 +79,50 @@ TEST_F(LensDeviceTest, ShapesOfTheLensAreTheCpus) {
     LensLooks looks;
     looks.aperture.blades = 6;
     looks.magnification = 1.1;
-    expect_same(surfaces(80, 70, false, 3), {.lens_samples = 24, .looks = looks});
+    looks.field_curvature = 0.3;
+    expect_same(surfaces(80, 70, false, 3), {.lens_samples = 12, .looks = looks});
+}
+
+TEST_F(LensDeviceTest, LensPointsThatWeighDifferentlyAreTheCpus) {
+    LensLooks sides, colours;
+    sides.aperture.spherical = 0.5;
+    colours.aperture.picture =
+        std::make_shared<AperturePicture>(AperturePicture{2, 1, {1, 0.2f, 0, 0.3f, 1, 1}});
+    for (const LensLooks &looks : {sides, colours})
+        for (const bool opaque : {true, false})
+            expect_same(surfaces(80, 70, opaque, 9), {.lens_samples = 8, .looks = looks});
+}
+
+TEST_F(LensDeviceTest, PixelsThatSeeThroughSomeLensPointsAreTheCpus) {
+    LensLooks looks;
+    looks.cat_eye = 0.9;
+    const Ldi ldi = surfaces(90, 70, false, 10);
+    for (const bool darkening : {false, true}) {
+        looks.cat_eye_darkening = darkening;
+        expect_same(ldi, {.lens_samples = 12, .looks = looks});
+    }
+    looks.aperture.spherical = -0.5;
+    expect_same(ldi, {.lens_samples = 8, .looks = looks});
+}
+
+// Half of the surfaces show what lies elsewhere.
+TEST_F(LensDeviceTest, MirrorsAndGlassAreTheCpus) {
+    for (const bool opaque : {true, false}) {
+        Ldi ldi = surfaces(90, 70, opaque, 11);
+        for (std::size_t i = 0; i < ldi.z.size(); ++i)
+            ldi.optical.push_back(ldi.z[i] * (random_unit(int(i), 0, 12) < 0.5 ? 1 : 1.7f));
+        expect_same(ldi, {.lens_samples = 8});
+        LensLooks looks;
+        looks.aperture.spherical = 0.5;
+        expect_same(ldi, {.lens_samples = 8, .looks = looks});
+    }
 }
 
 TEST_F(LensDeviceTest, StripesMakeTheSamePicture) {
     const Ldi ldi = surfaces(150, 200, false, 4);
     Watch small = watch();
     small.largest_buffer = 1 << 21;
-    const auto device = open_lens_device(*info, small);
+    device = open_lens_device(*info, small);
     const LensGatherOptions options{.lens_samples = 8, .device = device.get()};
     EXPECT_EQ(gather(ldi, options).values, gather(ldi, {.lens_samples = 8}).values);
     EXPECT_EQ(device->take_report().on_cpu, Tiles());
@@ -99,27 +139,22 @@ TEST_F(LensDeviceTest, IsItsReference) {
     Ldi ldi = surfaces(40, 30, false, 5);
     for (Channel &channel : ldi.channels) // no colours: the reference does not sharpen
         if (channel.name != "A") channel.name += "0";
-    const auto device = open_lens_device(*info, watch());
+    device = open_lens_device(*info, watch());
     const Image image = gather(ldi, {.lens_samples = 16, .device = device.get()});
     expect_within(image, lens_gather_reference(ldi, lens, ldi.windows.data, disc_lens_samples(16, 1)));
 }
 
 TEST_F(LensDeviceTest, LeavesToTheCpuWhatItCannotDo) {
     const Ldi plain = surfaces(90, 70, false, 6);
-    const auto device = open_lens_device(*info, watch());
-    const auto expect_cpu = [&](const Ldi &ldi, LensGatherOptions options, const std::string &reason) {
-        const Image expected = gather(ldi, options);
-        options.device = device.get();
-        EXPECT_EQ(gather(ldi, options).values, expected.values) << reason;
-        const TileReport did = device->take_report();
-        EXPECT_GT(did.on_cpu.at(reason), 0u);
-    };
-    LensLooks spherical;
-    spherical.aperture.spherical = 0.5;
-    expect_cpu(plain, {.lens_samples = 8, .looks = spherical},
-               "lens points that weigh colours or sides of the focus differently");
+    device = open_lens_device(*info, watch());
     const Holdout holdout(surfaces(90, 70, true, 7));
-    expect_cpu(plain, {.lens_samples = 8, .holdout = &holdout}, "a holdout that stays sharp");
+    LensGatherOptions options{.lens_samples = 8, .holdout = &holdout};
+    const Image expected = gather(plain, options);
+    options.device = device.get();
+    EXPECT_EQ(gather(plain, options).values, expected.values);
+    const TileReport did = device->take_report();
+    EXPECT_GT(did.on_cpu.at("a holdout that stays sharp"), 0u);
+    EXPECT_EQ(did.on_device, 0u);
 }
 
 // At each of its steps: memory, copies, the run.
@@ -133,7 +168,7 @@ TEST_F(LensDeviceTest, AFailureLosesNothing) {
         steps = 0;
         fail_at = at;
         result = with;
-        const auto device = open_lens_device(*info, failing);
+        device = open_lens_device(*info, failing);
         const Image image = gather(ldi, {.lens_samples = 8, .device = device.get()});
         EXPECT_EQ(image.values, expected.values) << at;
         const TileReport did = device->take_report();

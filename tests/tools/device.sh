@@ -43,5 +43,6 @@ grep -q "^dof-gather: device: $name" stderr || fail "\$SPARSELENS_DEVICE: $(cat 
 cmp -s again.exr out.exr || fail "the device's picture is another one every time"
 
 # Two frames over one file, of which the CPU does what the device cannot do.
-exits 0 "$gather" input.exr "${lens[@]}" -o frame.#.exr --frames 1-2 --device "$name" --spherical 0.5 -v
-[ "$(grep -c 'lens points that weigh colours' stderr)" -eq 2 ] || fail "tiles left to the CPU: $(cat stderr)"
+exits 0 "$gather" input.exr "${lens[@]}" -o frame.#.exr --frames 1-2 --device "$name" --holdout input.exr -v
+[ "$(grep -c 'gathered by the device: 0 of 6; by the CPU: 6 (a holdout that stays sharp)' stderr)" -eq 2 ] ||
+    fail "tiles left to the CPU: $(cat stderr)"

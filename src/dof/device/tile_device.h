@@ -20,6 +20,7 @@ struct BlockedSamples;
 struct SampleColours;
 struct FillerSamples;
 struct PlacedFacets;
+class CatEye;
 
 // One tile of LensTile::size pixels, and what LensTile::gather() is given for it.
 struct TileTask {
@@ -33,19 +34,26 @@ struct TileScene {
     const SampleColours &colours;
     const FillerSamples &fillers;
     const PlacedFacets &facets;
+    const CatEye *cat_eye; // if pixels see through some lens points alone, else null
+    Imath::V2i corner;     // of the data window, EXR coordinates
     bool held_out = false; // by a holdout that stays sharp
-    bool cat_eye = false;  // whether pixels see through some lens points alone
 };
 
-// What a tile has gathered: of each pixel, row by row, sums over the lens points, and the weight of what is known of it.
-struct TileSums {
-    const float *light; // four channels of each pixel, those of the next group `group_step` later
-    std::size_t group_step;
-    const float *known; // 0: nothing is
+// What a tile has gathered: the mean over the lens points of each pixel, row by row.
+struct TilePicture {
+    const float
+        *values; // four channels of each pixel, those of the next group `group_step` values later; 0: unknown
+    const float *
+        known; // of each pixel, those of the next group a quarter of that later; 0: nothing is known of the group
+    std::size_t groups, group_step;
 
-    float value(std::size_t pixel, std::size_t channel) const { // 0 where nothing is known
-        const float sum = light[channel / 4 * group_step + pixel * 4 + channel % 4];
-        return known[pixel] > 0 ? sum / known[pixel] : 0;
+    float value(std::size_t pixel, std::size_t channel) const {
+        return values[channel / 4 * group_step + pixel * 4 + channel % 4];
+    }
+    bool is_known(std::size_t pixel) const {
+        for (std::size_t g = 0; g < groups; ++g)
+            if (known[g * group_step / 4 + pixel] > 0) return true;
+        return false;
     }
 };
 
@@ -63,9 +71,9 @@ public:
     TileDevice &operator=(const TileDevice &) = delete;
     virtual ~TileDevice() = default;
 
-    // Gathers those of the tasks that it can: calls done(task, sums) for each of them, by any thread, once.
+    // Gathers those of the tasks that it can: calls done(task, picture) for each of them, by any thread, once.
     virtual void gather(const TileScene &scene, std::span<const TileTask> tasks,
-                        const std::function<void(std::size_t task, const TileSums &)> &done) = 0;
+                        const std::function<void(std::size_t task, const TilePicture &)> &done) = 0;
     virtual TileReport take_report() = 0;
 };
 

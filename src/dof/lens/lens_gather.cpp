@@ -232,11 +232,11 @@ void gather_on(TileDevice &device, Gathering &from, const TileScene &scene, std:
     for (const auto &tile : tiles)
         tasks.push_back(
             {tile->origin, tile->blocks.samples, tile->blocks.facets, tile->blocks.fillers, tile->lens});
-    device.gather(scene, tasks, [&](std::size_t n, const TileSums &sums) {
+    device.gather(scene, tasks, [&](std::size_t n, const TilePicture &picture) {
         const auto pixel = [](int x, int y) { return std::size_t(y * LensTile::size + x); };
         from.finish(
-            *tiles[n], [&](int x, int y) { return sums.known[pixel(x, y)] > 0; },
-            [&](int x, int y, std::size_t k) { return sums.value(pixel(x, y), k); });
+            *tiles[n], [&](int x, int y) { return picture.is_known(pixel(x, y)); },
+            [&](int x, int y, std::size_t k) { return picture.value(pixel(x, y), k); });
         done[tiles[n]->number] = true;
     });
 }
@@ -277,7 +277,8 @@ Image gather_once(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &wind
     std::vector<char> done(from.tiles(), false);
     if (options.device)
         gather_on(*options.device, from,
-                  {samples, colours, fillers, facets, options.holdout != nullptr, cat_eye != nullptr}, done);
+                  {samples, colours, fillers, facets, cat_eye, optics.corner, options.holdout != nullptr},
+                  done);
     tbb::enumerable_thread_specific<LensTile> tiles(
         [&] { return LensTile(samples, colours, facets, fillers, held_out, cat_eye); });
     parallel_for(from.tiles(), [&](std::size_t t) {

@@ -22,7 +22,7 @@ constexpr std::uint32_t quarters = 4;                        // work groups a ti
 constexpr double work_at_once = 2e9;
 
 struct Push {
-    std::uint32_t first_tile, tile_count, sample_count;
+    std::uint32_t first_tile, tile_count, sample_count, first_filler;
 };
 
 template <typename Values>
@@ -33,19 +33,9 @@ Buffer uploaded(Device &device, const Values &values) {
     return buffer;
 }
 
-bool equal_weights(std::span<const LensSample> lens) {
-    return std::ranges::all_of(lens, [](const LensSample &p) {
-        return p.rgb == std::array<float, 3>{1, 1, 1} && p.behind == 1 && p.in_front == 1;
-    });
-}
-
 // Why the kernel cannot gather a tile; empty: it can.
-std::string reason_for_cpu(const TileScene &scene, const TileTask &task) {
+std::string reason_for_cpu(const TileScene &scene) {
     if (scene.held_out) return "a holdout that stays sharp";
-    if (scene.cat_eye) return "a cat-eye";
-    const auto shows_images = [&](std::uint32_t block) { return scene.samples.blocks[block].shows_images; };
-    if (std::ranges::any_of(task.samples, shows_images)) return "mirrors and glass";
-    if (!equal_weights(task.lens)) return "lens points that weigh colours or sides of the focus differently";
     return {};
 }
 
@@ -54,14 +44,14 @@ constexpr const char *failed = "the device failed";
 class LensDevice : public TileDevice {
 public:
     LensDevice(const DeviceInfo &info, const Watch &watch)
-        : device_(info, watch), program_(device_.program(code, 11, sizeof(Push))) {}
+        : device_(info, watch), program_(device_.program(code, 13, sizeof(Push))) {}
 
     void gather(const TileScene &scene, std::span<const TileTask> tasks,
-                const std::function<void(std::size_t, const TileSums &)> &done) override {
+                const std::function<void(std::size_t, const TilePicture &)> &done) override {
         std::vector<TileTask> taken;
         std::vector<std::size_t> numbers;
         for (std::size_t t = 0; t < tasks.size(); ++t) {
-            const std::string reason = lost_ ? failed : reason_for_cpu(scene, tasks[t]);
+            const std::string reason = lost_ ? failed : reason_for_cpu(scene);
             if (!reason.empty()) ++report_.on_cpu[reason];
             if (!reason.empty()) continue;
             taken.push_back(tasks[t]);
@@ -69,7 +59,8 @@ public:
         }
         const std::size_t before = report_.on_device;
         try {
-            gather_taken(scene, taken, [&](std::size_t t, const TileSums &sums) { done(numbers[t], sums); });
+            gather_taken(scene, taken,
+                         [&](std::size_t t, const TilePicture &picture) { done(numbers[t], picture); });
         } catch (const DeviceFailed &failure) {
             lost_ = true;
             report_.failure = failure.what();
@@ -81,37 +72,39 @@ public:
 
 private:
     void gather_taken(const TileScene &scene, std::span<const TileTask> taken,
-                      const std::function<void(std::size_t, const TileSums &)> &done) {
+                      const std::function<void(std::size_t, const TilePicture &)> &done) {
         const std::size_t bytes = std::min(stripe_bytes, device_.largest_buffer());
         for (std::size_t begin = 0, count = 0; begin < taken.size();
              begin += std::max(count, std::size_t{1})) {
             count = tasks_that_fit(scene, taken.subspan(begin), bytes);
             if (count == 0) ++report_.on_cpu["more samples than its buffers hold"];
             if (count == 0) continue;
-            gather_stripe(make_stripe(scene, taken.subspan(begin, count)), scene.colours.groups,
-                          [&](std::size_t t, const TileSums &sums) { done(begin + t, sums); });
+            gather_stripe(make_stripe(scene, taken.subspan(begin, count)), scene.colours,
+                          [&](std::size_t t, const TilePicture &picture) { done(begin + t, picture); });
         }
     }
 
-    void gather_stripe(const Stripe &stripe, std::size_t groups,
-                       const std::function<void(std::size_t, const TileSums &)> &done) {
-        const std::size_t tiles = stripe.tiles.size(), group_step = tiles * tile_pixels * 4;
-        const Buffer in[] = {uploaded(device_, stripe.samples),     uploaded(device_, stripe.alphas),
+    void gather_stripe(const Stripe &stripe, const SampleColours &colours,
+                       const std::function<void(std::size_t, const TilePicture &)> &done) {
+        const std::size_t tiles = stripe.tiles.size(), groups = colours.groups,
+                          all = tiles * tile_pixels * groups;
+        const std::vector<std::uint32_t> sets(colours.sets.begin(), colours.sets.end());
+        const Buffer values = device_.buffer(all * 4 * sizeof(float)),
+                     known = device_.buffer(all * sizeof(float));
+        const Buffer in[] = {uploaded(device_, stripe.samples),     uploaded(device_, stripe.extras),
                              uploaded(device_, stripe.colours),     uploaded(device_, stripe.blocks),
                              uploaded(device_, stripe.block_lists), uploaded(device_, stripe.partial_lists),
-                             uploaded(device_, stripe.lens),        uploaded(device_, stripe.tiles)};
-        const Buffer facets = uploaded(device_, stripe.facets);
-        const Buffer light = device_.buffer(groups * group_step * sizeof(float)),
-                     known = device_.buffer(tiles * tile_pixels * sizeof(float));
-        std::vector<const Buffer *> all;
-        for (const Buffer &buffer : in) all.push_back(&buffer);
-        all.insert(all.end(), {&light, &known, &facets});
-        run(stripe, groups, all);
-        std::vector<float> lights(groups * group_step), knowns(tiles * tile_pixels);
-        device_.download(std::as_writable_bytes(std::span(lights)), light);
+                             uploaded(device_, stripe.lens),        uploaded(device_, stripe.tiles),
+                             uploaded(device_, stripe.facets),      uploaded(device_, sets),
+                             uploaded(device_, stripe.columns)};
+        run(stripe, groups,
+            std::array{&in[0], &in[1], &in[2], &in[3], &in[4], &in[5], &in[6], &in[7], &values, &known,
+                       &in[8], &in[9], &in[10]});
+        std::vector<float> value(all * 4), knowns(all);
+        device_.download(std::as_writable_bytes(std::span(value)), values);
         device_.download(std::as_writable_bytes(std::span(knowns)), known);
         parallel_for(tiles, [&](std::size_t t) {
-            done(t, {&lights[t * tile_pixels * 4], group_step, &knowns[t * tile_pixels]});
+            done(t, {&value[t * tile_pixels * 4], &knowns[t * tile_pixels], groups, tiles * tile_pixels * 4});
         });
         report_.on_device += tiles;
     }
@@ -121,7 +114,8 @@ private:
         for (std::uint32_t first = 0, end = 0; first < tiles; first = end) {
             for (double work = 0; end < tiles && (end == first || work < work_at_once); ++end)
                 work += work_of(stripe, stripe.tiles[end]);
-            const Push push{first, tiles, std::uint32_t(stripe.samples.size())};
+            const Push push{first, tiles, std::uint32_t(stripe.samples.size()),
+                            std::uint32_t(stripe.first_filler)};
             device_.run(program_, buffers, std::as_bytes(std::span(&push, 1)),
                         {quarters * (end - first), std::uint32_t(groups), 1});
         }

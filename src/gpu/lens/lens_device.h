@@ -1,6 +1,5 @@
-// A GPU that gathers tiles of the lens picture (lens_tile.comp): opaque samples and samples of partial coverage, facets,
-// cracks and fillers, any lens points of one weight for all colours. It leaves to the CPU mirrors and glass, lens points that
-// weigh colours or sides of the focus differently, cat-eyes and holdouts that stay sharp.
+// A GPU that gathers tiles of the lens picture (lens_tile.comp): all but those under a holdout that stays sharp, and what
+// fits into no buffer, which it leaves to the CPU.
 #pragma once
 
 #include "dof/device/tile_device.h"

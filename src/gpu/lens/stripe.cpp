@@ -2,6 +2,7 @@
 
 #include "base/parallel.h"
 #include "dof/facets/placed_facets.h"
+#include "lens/cat_eye.h"
 
 #include <algorithm>
 #include <bit>
@@ -74,16 +75,17 @@ struct Placed {
 };
 
 void place_samples(Stripe &stripe, std::size_t groups, const Placed &what) {
-    const std::size_t first = what.range.first(what.from);
-    parallel_ranges(what.range.count(what.from), 16384, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t n = begin; n < end; ++n) {
-            const std::size_t i = first + n, to = what.sample + n;
-            const auto bits = [](float value) { return std::bit_cast<std::uint32_t>(value); };
-            stripe.samples[to] = {bits(what.from.x[i]), bits(what.from.y[i]), bits(what.from.coc[i]),
-                                  std::uint32_t(what.from.key[i] >> 32)};
-            stripe.alphas[to] = what.from.alpha[i];
+    const auto bits = [](float value) { return std::bit_cast<std::uint32_t>(value); };
+    const BlockedSamples &from = what.from;
+    parallel_for(what.range.blocks(), [&](std::size_t b) {
+        const SampleBlock &block = from.blocks[what.range.first_block + b];
+        for (std::uint32_t i = block.begin; i < block.end; ++i) {
+            const std::size_t to = i - what.range.first(from) + what.sample;
+            stripe.samples[to] = {bits(from.x[i]), bits(from.y[i]), bits(from.hiding_coc()[i]),
+                                  std::uint32_t(from.key[i] >> 32)};
+            stripe.extras[to] = i < block.opaque_end ? from.coc[i] : from.alpha[i];
             for (std::size_t g = 0; g < groups; ++g)
-                std::copy_n(&what.colours.group(g)[i * 4], 4,
+                std::copy_n(&what.colours.group(g)[i * std::size_t{4}], 4,
                             &stripe.colours[(g * stripe.samples.size() + to) * 4]);
         }
     });
@@ -125,8 +127,38 @@ void place_facets(Stripe &stripe, const PlacedFacets &from, const Range &range, 
 // The lens points, which tiles share.
 std::uint32_t place_lens(Stripe &stripe, std::span<const LensSample> lens) {
     const auto at = std::uint32_t(stripe.lens.size());
-    for (const LensSample &p : lens) stripe.lens.push_back({p.x, p.y, p.pixel_x, p.pixel_y, p.weight});
+    for (const LensSample &p : lens)
+        stripe.lens.push_back(
+            {p.x, p.y, p.pixel_x, p.pixel_y, p.weight, p.rgb[0], p.rgb[1], p.rgb[2], p.behind, p.in_front});
     return at;
+}
+
+std::uint32_t rules_of(const TileScene &scene, std::span<const LensSample> lens) {
+    const auto any = [&](const auto &is) { return std::ranges::any_of(lens, is); };
+    std::uint32_t rules = 0;
+    if (any([](const LensSample &p) { return p.rgb != std::array<float, 3>{1, 1, 1}; })) rules |= weighted;
+    if (any([](const LensSample &p) { return p.behind != 1 || p.in_front != 1; }))
+        rules |= weighted | two_sided;
+    if (scene.cat_eye) rules |= weighted | cat_eye;
+    if (scene.cat_eye && scene.cat_eye->darkens()) rules |= darkens;
+    return rules;
+}
+
+constexpr int rows_a_word = 2;
+constexpr std::size_t words_a_lens_point = tile_size / rows_a_word;
+
+// Which pixels of a tile see through its lens points.
+void place_columns(std::span<std::uint32_t> to, const TileScene &scene, const TileTask &task) {
+    const Imath::V2i first = scene.corner + task.origin;
+    for (std::size_t word = 0; word < to.size(); ++word) {
+        const LensSample &point = task.lens[word / words_a_lens_point];
+        to[word] = 0;
+        for (int row = 0; row < rows_a_word; ++row) {
+            const int y = int(word % words_a_lens_point) * rows_a_word + row;
+            const auto [begin, end] = scene.cat_eye->columns(point, first.x, tile_size, first.y + y);
+            to[word] |= std::uint32_t(begin | end << 8) << 16 * row;
+        }
+    }
 }
 
 // The tile's partial samples, front to back.
@@ -141,15 +173,18 @@ void sort_partial(std::span<std::uint32_t> list, const Placed &what, const TileT
     for (std::uint32_t &i : list) i -= what.range.first(samples); // these come first in a stripe
 }
 
-// The tiles, and the lists of what reaches each; those of partial samples are not filled yet.
+// The tiles, and the lists of what reaches each; those of partial samples, and the columns, are not filled yet.
 void list_tiles(Stripe &stripe, const TileScene &scene, std::span<const TileTask> tasks,
                 const Ranges &ranges) {
     const std::size_t fillers = ranges.samples.blocks(), facets = fillers + ranges.fillers.blocks();
     const auto count = [](std::span<const std::uint32_t> list) { return std::uint32_t(list.size()); };
-    std::uint32_t lens = 0, partial = 0;
+    std::uint32_t lens = 0, partial = 0, columns = 0, rules = 0;
+    const auto shows_images = [&](std::uint32_t block) { return scene.samples.blocks[block].shows_images; };
     for (const TileTask &task : tasks) {
         const bool another = &task == tasks.data() || task.lens.data() != (&task - 1)->lens.data();
         if (another) lens = place_lens(stripe, task.lens);
+        if (another) rules = rules_of(scene, task.lens);
+        const bool mirrors = std::ranges::any_of(task.samples, shows_images);
         const auto partials = std::uint32_t(partial_count(scene.samples, task));
         stripe.tiles.push_back({.x = float(task.origin.x),
                                 .y = float(task.origin.y),
@@ -162,10 +197,14 @@ void list_tiles(Stripe &stripe, const TileScene &scene, std::span<const TileTask
                                 .lens = lens,
                                 .lens_count = std::uint32_t(task.lens.size()),
                                 .facets = list_blocks(stripe, ranges.facets, facets, task.facets),
-                                .facet_count = count(task.facets)});
+                                .facet_count = count(task.facets),
+                                .rules = rules | (mirrors ? std::uint32_t{images} : 0),
+                                .columns = columns});
         partial += partials;
+        if (scene.cat_eye) columns += std::uint32_t(task.lens.size() * words_a_lens_point);
     }
     stripe.partial_lists.resize(partial);
+    stripe.columns.resize(columns);
 }
 
 } // namespace
@@ -173,15 +212,16 @@ void list_tiles(Stripe &stripe, const TileScene &scene, std::span<const TileTask
 std::size_t tasks_that_fit(const TileScene &scene, std::span<const TileTask> tasks, std::size_t bytes) {
     const std::size_t groups = scene.colours.groups;
     Ranges ranges;
-    std::size_t listed = 0, partial = 0, lens = 0;
+    std::size_t listed = 0, partial = 0, lens = 0, columns = 0;
     for (std::size_t t = 0; t < tasks.size(); ++t) {
         ranges.add(scene, tasks[t]);
         listed += tasks[t].samples.size() + tasks[t].fillers.size() + tasks[t].facets.size();
         partial += partial_count(scene.samples, tasks[t]);
         if (t == 0 || tasks[t].lens.data() != tasks[t - 1].lens.data()) lens += tasks[t].lens.size();
-        const std::size_t most = std::max({ranges.sample_count(scene) * groups * 16,
-                                           ranges.facets.count(scene.facets) * 12, listed * 4, partial * 4,
-                                           lens * sizeof(StripeLens), (t + 1) * tile_pixels * groups * 16});
+        if (scene.cat_eye) columns += tasks[t].lens.size() * words_a_lens_point;
+        const std::size_t most = std::max(
+            {ranges.sample_count(scene) * groups * 16, ranges.facets.count(scene.facets) * 12, listed * 4,
+             partial * 4, columns * 4, lens * sizeof(StripeLens), (t + 1) * tile_pixels * groups * 16});
         if (most > bytes) return t;
     }
     return tasks.size();
@@ -196,7 +236,8 @@ Stripe make_stripe(const TileScene &scene, std::span<const TileTask> tasks) {
         fillers{scene.fillers.samples, scene.fillers.colours, ranges.fillers,
                 ranges.samples.count(scene.samples), ranges.samples.blocks()};
     stripe.samples.resize(count);
-    stripe.alphas.resize(count);
+    stripe.extras.resize(count);
+    stripe.first_filler = fillers.sample;
     stripe.colours.resize(groups * count * 4);
     for (const Placed &what : {samples, fillers}) {
         place_samples(stripe, groups, what);
@@ -208,6 +249,10 @@ Stripe make_stripe(const TileScene &scene, std::span<const TileTask> tasks) {
         const StripeTile &tile = stripe.tiles[t];
         sort_partial(std::span(stripe.partial_lists).subspan(tile.partial, tile.partial_count), samples,
                      tasks[t]);
+        if (scene.cat_eye)
+            place_columns(
+                std::span(stripe.columns).subspan(tile.columns, tasks[t].lens.size() * words_a_lens_point),
+                scene, tasks[t]);
     });
     return stripe;
 }

@@ -21,26 +21,33 @@ struct StripeBlock {
     float x_min, x_max, y_min, y_max, coc_min, coc_max;
 };
 struct StripeLens {
-    float x, y, pixel_x, pixel_y, weight;
+    float x, y, pixel_x, pixel_y, weight, red, green, blue, behind, in_front;
 };
 struct StripeTile {
     float x, y;
     std::uint32_t blocks, block_count, fillers, filler_count, partial, partial_count, lens, lens_count;
-    std::uint32_t facets, facet_count;
+    std::uint32_t facets, facet_count, rules, columns;
 };
+
+// By which a tile is gathered; one bit each.
+enum Rules : std::uint32_t { weighted = 1, two_sided = 2, images = 4, cat_eye = 8, darkens = 16 };
 
 struct Stripe {
     std::vector<std::array<std::uint32_t, 4>> samples; // those of the LDI, then fillers
-    std::vector<float> alphas;
-    std::vector<float> colours;        // [group][sample][4]
-    std::vector<StripeBlock> blocks;   // of samples, of fillers and of facets
+    std::size_t first_filler;
+    std::vector<float> extras;       // of partial samples the alpha, of opaque ones the CoC of what they show
+    std::vector<float> colours;      // [group][sample][4]
+    std::vector<StripeBlock> blocks; // of samples, of fillers and of facets
     std::vector<std::uint32_t> facets; // three samples each
     std::vector<std::uint32_t> block_lists, partial_lists;
     std::vector<StripeLens> lens;
+    std::vector<std::uint32_t>
+        columns; // [tile][lens point][two rows]: begin and end of the pixels that see through it
     std::vector<StripeTile> tiles; // one a task
 };
 
-inline constexpr std::size_t tile_pixels = 64 * 64; // LensTile::size squared
+inline constexpr int tile_size = 64; // LensTile::size
+inline constexpr std::size_t tile_pixels = tile_size * tile_size;
 
 // How many of the tasks, from the first, fit into buffers of that many bytes.
 std::size_t tasks_that_fit(const TileScene &scene, std::span<const TileTask> tasks, std::size_t bytes);

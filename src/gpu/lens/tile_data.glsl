@@ -21,6 +21,7 @@ struct Block {
 };
 struct Lens {
     float x, y, pixel_x, pixel_y, weight;
+    float red, green, blue, behind, in_front; // by what the weight is multiplied
 };
 struct Tile {
     float x, y;                  // of its first pixel
@@ -29,25 +30,37 @@ struct Tile {
     uint partial, partial_count; // among partial_lists
     uint lens, lens_count;
     uint facets, facet_count;    // blocks of them, among block_lists
+    uint rules;                  // a set of the following
+    uint columns;                // see seen_through(), among columns[]
 };
+const uint weighted = 1;  // lens points weigh differently for colours or sides of the focus, or not all pixels see through
+const uint two_sided = 2; // they do for sides of the focus
+const uint images = 4;    // mirrors or glass reach the tile
+const uint cat_eye = 8;   // not all pixels see through a lens point
+const uint darkens = 16;  // those that do not are dark there
+
 
 // x, y and CoC, and the upper half of the key: 1 for a background, else the bits of the perceptive depth, plus 2.
 layout(binding = 0) readonly buffer Samples { uvec4 samples[]; };
-layout(binding = 1) readonly buffer Alphas { float alphas[]; };
+// Of a sample of partial coverage, its alpha; of an opaque one, the CoC of what it shows, be it an image in a mirror.
+layout(binding = 1) readonly buffer Extras { float extras[]; };
 layout(binding = 2) readonly buffer Colours { vec4 colours[]; }; // [group][sample]
 layout(binding = 3) readonly buffer Blocks { Block blocks[]; };
 layout(binding = 4) readonly buffer BlockLists { uint block_lists[]; };
 layout(binding = 5) readonly buffer PartialLists { uint partial_lists[]; }; // front to back
 layout(binding = 6) readonly buffer LensPoints { Lens lens_points[]; };
 layout(binding = 7) readonly buffer Tiles { Tile tiles[]; };
-layout(binding = 8) writeonly buffer Sums { vec4 sums[]; };    // [group][tile][pixel of the tile]
-layout(binding = 9) writeonly buffer Knowns { float knowns[]; }; // [tile][pixel]: weight of what is known
-layout(binding = 10) readonly buffer Facets { uint facets[]; }; // three samples each
+layout(binding = 8) writeonly buffer Values { vec4 values[]; }; // [group][tile][pixel of the tile]
+layout(binding = 9) writeonly buffer Knowns { float knowns[]; }; // [group][tile][pixel]: 1 where anything is known, else 0
+layout(binding = 10) readonly buffer Facets { uint facets[]; };  // three samples each
+layout(binding = 11) readonly buffer Sets { uint sets[]; };      // [channel]: its ColourSet
+layout(binding = 12) readonly buffer Columns { uint columns[]; };
 layout(push_constant) uniform Push {
-    uint first_tile, tile_count, sample_count;
+    uint first_tile, tile_count, sample_count, first_filler;
 };
+const uint red = 1, green = 2, blue = 4, data = 16; // ColourSet
 
-shared uint64_t front[2 * cells]; // keys of the nearest samples, then of the nearest fillers; 0: none
+shared uint64_t front[2 * cells]; // keys of the nearest samples, then of the nearest images or fillers; 0: none
 shared uint near_blocks[threads]; // those that reach the quarter
 shared uint near_count;
 shared uint empty_count;
@@ -58,12 +71,12 @@ shared uint listed_count;
 // Of the quarter and the lens point at hand.
 ivec2 corner; // in the tile
 vec2 first;   // pixel
+uint rules;   // of the tile
 Lens lens;
 
 uint thread() { return gl_LocalInvocationIndex; }
 
 float depth_of(uint upper) { return upper < 2 ? 0 : uintBitsToFloat(upper - 2); }
-float depth_of_sample(uint sample_) { return depth_of(samples[sample_].w); }
 uint64_t key_of(uint upper, uint sample_) { return (uint64_t(upper) << 32) | uint64_t(sample_); }
 uint upper_of(uint64_t key) { return uint(key >> 32); }
 uint sample_of(uint64_t key) { return uint(key & 0xffffffffUL); }

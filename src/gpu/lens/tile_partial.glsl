@@ -2,14 +2,20 @@
 
 // What partial samples put in front of a pixel.
 struct Over {
-    vec4 colour;
+    vec4 colour, colour_in_front; // of those behind focus and in front, where that makes a difference; else all are behind
     float transmittance;
+    float hidden_in_front; // what those in front of focus hide
 };
 
 void add_over(inout Over over, uint sample_, uint group) {
-    precise vec4 colour = over.colour + over.transmittance * colours[group * sample_count + sample_];
-    precise float passed = over.transmittance * (1 - alphas[sample_]);
-    over = Over(colour, min(passed, covered_at_all));
+    const bool in_front = (rules & two_sided) != 0 && uintBitsToFloat(samples[sample_].z) < 0;
+    precise vec4 colour = in_front ? over.colour_in_front : over.colour;
+    colour = colour + over.transmittance * colours[group * sample_count + sample_];
+    precise float passed = over.transmittance * (1 - extras[sample_]);
+    passed = min(passed, covered_at_all);
+    precise float hidden = over.hidden_in_front;
+    if (in_front) hidden = hidden + (over.transmittance - passed);
+    over = Over(in_front ? over.colour : colour, in_front ? colour : over.colour_in_front, passed, hidden);
 }
 
 // The counts of a chunk by pixel, and the pixels of the two samples of it that are the thread's; -1: hidden or outside.
@@ -68,7 +74,7 @@ bool list_chunk(Tile tile, uint begin, out uint start[own]) {
 
 Over[own] see_partial(Tile tile, uint group) {
     Over over[own];
-    for (uint j = 0; j < own; ++j) over[j] = Over(vec4(0), 1);
+    for (uint j = 0; j < own; ++j) over[j] = Over(vec4(0), vec4(0), 1, 0);
     for (uint begin = 0; begin < tile.partial_count; begin += chunk) {
         uint start[own];
         if (!list_chunk(tile, begin, start)) continue;

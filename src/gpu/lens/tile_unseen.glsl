@@ -32,13 +32,14 @@ uint[own] see_behind(Tile tile) {
     if (thread() == 0) empty_count = 0;
     see_opaque(tile.blocks, tile.block_count, 0);
     see_facets(tile.facets, tile.facet_count);
+    if ((rules & images) != 0) see_images(tile.blocks, tile.block_count);
     uint seen[own];
     uint64_t torn[own];
     bool any_empty = false;
     for (uint j = 0; j < own; ++j) {
         const uint cell = cell_of(pixel_of(j));
         const uint64_t key = front[cell];
-        seen[j] = key != 0UL ? sample_of(key) : none;
+        seen[j] = key == 0UL ? none : (rules & images) != 0 ? image_at(cell) : sample_of(key);
         torn[j] = key != 0UL ? 0UL : torn_at(cell);
         any_empty = any_empty || key == 0UL;
     }

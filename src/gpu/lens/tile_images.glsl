@@ -1,0 +1,45 @@
+// What a lens point sees in mirrors and glass: the image, in the window that their surface is. After see_opaque() and
+// see_facets().
+
+const float one_mirror_px = 1;
+
+bool is_image(uint sample_) { return extras[sample_] != uintBitsToFloat(samples[sample_].z); }
+
+// Greater for a smaller CoC, then for a smaller index.
+uint64_t image_key(uint sample_) {
+    const float coc = extras[sample_];
+    const uint bits = floatBitsToUint(coc == 0 ? 0 : coc);
+    return ~key_of((bits >> 31) != 0 ? ~bits : bits | 0x80000000u, sample_);
+}
+
+// The nearest image in each cell, into front[cells + cell]. Ends with a barrier.
+void see_images(uint list, uint count) {
+    for (uint c = thread(); c < cells; c += threads) front[cells + c] = 0UL;
+    for (uint begin = 0; begin < count; begin += threads) {
+        find_near(list + begin, count - begin);
+        for (uint n = thread() / 32; n < near_count; n += threads / 32) {
+            const Block b = blocks[near_blocks[n]];
+            for (uint i = b.begin + thread() % 32; i < b.opaque_end; i += 32) {
+                if (!is_image(i)) continue;
+                uvec4 s = samples[i];
+                s.z = floatBitsToUint(extras[i]);
+                const ivec2 at = seen_at(s);
+                if (at.x >= -1) atomicMax(front[cells + cell_of(at)], image_key(i));
+            }
+        }
+    }
+    barrier();
+}
+
+// The sample that shows what is seen of the front one in a cell.
+uint image_at(uint cell) {
+    const uint sample_ = sample_of(front[cell]);
+    if (!is_image(sample_)) return sample_;
+    const uint around[5] = {cell, cell - 1, cell + 1, cell - side, cell + side};
+    for (uint n = 0; n < 5; ++n) {
+        const uint64_t key = front[cells + around[n]];
+        const uint image = sample_of(~key);
+        if (key != 0UL && abs(depth_of(samples[image].w) - depth_of(samples[sample_].w)) < one_mirror_px) return image;
+    }
+    return sample_;
+}

@@ -1,0 +1,89 @@
+// What the pixels have seen so far. Where lens points weigh differently for colours or for what lies behind focus and in
+// front, or not all pixels see through, what is known is summed up for each channel.
+
+struct Sum {
+    vec4 light;
+    vec4 weight; // of what is known, of each channel; without the rule `weighted`, x: of what is unknown
+};
+
+// Adds what the lens point sees: a sample, or what is unknown (`none`), behind partial ones.
+void add_seen(inout Sum sum, uint seen, Over over, uint group) {
+    const vec4 behind = seen != none ? colours[group * sample_count + seen] : vec4(0);
+    precise vec4 light = sum.light;
+    precise float unknown = sum.weight.x;
+    if (seen != none) light = light + lens.weight * behind;
+    else unknown = unknown + lens.weight;
+    if (over.transmittance < 1) {
+        precise const float hidden = 1 - over.transmittance;
+        precise vec4 in_front = over.colour;
+        if (seen != none) in_front = in_front - hidden * behind;
+        else unknown = unknown - lens.weight * hidden;
+        light = light + lens.weight * in_front;
+    }
+    sum = Sum(light, vec4(unknown));
+}
+
+// By what the lens point weighs each channel, for what lies in front of focus or behind. Data takes no part: what has no
+// colour is the same for all light.
+vec4 channel_weights(uint group, bool in_front) {
+    precise vec4 weights;
+    for (uint k = 0; k < 4; ++k) {
+        const uint set = sets[group * 4 + k];
+        const float colour = set == red ? lens.red : set == green ? lens.green : set == blue ? lens.blue : 1;
+        weights[k] = lens.weight * colour * (set == data ? 1 : in_front ? lens.in_front : lens.behind);
+    }
+    return weights;
+}
+
+// What is left of these where the pixel does not see through the lens point.
+vec4 darkened(uint group, vec4 weights) {
+    for (uint k = 0; k < 4; ++k)
+        if ((sets[group * 4 + k] & (red | green | blue)) != 0) weights[k] = 0;
+    return weights;
+}
+
+// Whether a pixel of the tile sees through the tile's lens point number `k`: of each row, columns[] has where those
+// begin that do, and where they end, 8 bits each.
+bool seen_through(Tile tile, uint k, ivec2 at) {
+    if ((rules & cat_eye) == 0) return true;
+    const uint row = columns[tile.columns + (k * 2 * size + at.y) / 2] >> 16 * (at.y % 2);
+    return at.x >= int(row & 255) && at.x < int(row >> 8 & 255);
+}
+
+// Backgrounds lie behind, wherever they are seen.
+bool in_front_of_focus(uint sample_) {
+    if ((rules & two_sided) == 0 || sample_ == none) return false;
+    return (sample_ >= first_filler || samples[sample_].w >= 2) && extras[sample_] < 0;
+}
+
+void add_weighted(inout Sum sum, vec4 weight, vec4 light, float covered, vec4 colour) {
+    precise vec4 lights = sum.light + light * colour;
+    precise vec4 known = sum.weight + weight * covered;
+    sum = Sum(lights, known);
+}
+
+// The same as add_seen() by other rules. `through`: whether the pixel sees through the lens point.
+void add_seen_weighted(inout Sum sum, uint seen, Over over, uint group, bool through) {
+    if (!through && (rules & darkens) == 0) return;
+    const vec4 weights[2] = {channel_weights(group, false), channel_weights(group, true)};
+    const vec4 lights[2] = {through ? weights[0] : darkened(group, weights[0]),
+                            through ? weights[1] : darkened(group, weights[1])};
+    const uint side_ = in_front_of_focus(seen) ? 1 : 0;
+    const vec4 behind = seen != none ? colours[group * sample_count + seen] : vec4(0);
+    if (seen != none) add_weighted(sum, weights[side_], lights[side_], 1, behind);
+    if (over.transmittance >= 1) return;
+    precise const float hidden = 1 - over.transmittance;
+    precise const float hidden_behind = hidden - over.hidden_in_front;
+    add_weighted(sum, weights[0], lights[0], hidden_behind, over.colour);
+    if ((rules & two_sided) != 0) add_weighted(sum, weights[1], lights[1], over.hidden_in_front, over.colour_in_front);
+    precise const vec4 taken = behind * -hidden;
+    if (seen != none) add_weighted(sum, weights[side_], lights[side_], -hidden, taken);
+}
+
+// The weight of what is known; what rounding leaves of a weight is no knowledge.
+vec4 known_of(Sum sum, float total) {
+    precise vec4 known = (rules & weighted) != 0 ? sum.weight : vec4(total - sum.weight.x);
+    for (uint k = 0; k < 4; ++k)
+        if (!(known[k] > 1e-6 * total)) known[k] = 0;
+    return known;
+}
