@@ -48,7 +48,7 @@ void main() {
         const Over over[own] = see_partial(tile, group);
         for (uint j = 0; j < own; ++j)
             if ((rules & weighted) == 0) add_seen(sum[j], seen[j], over[j], group);
-            else add_seen_weighted(sum[j], seen[j], over[j], group, seen_through(tile, k, pixel_of(j) + corner));
+            else if (seen_through(tile, k, pixel_of(j) + corner)) add_seen_weighted(sum[j], seen[j], over[j], group);
         barrier();
     }
     for (uint j = 0; j < own; ++j) write_pixel(t, group, pixel_of(j) + corner, sum[j], total);

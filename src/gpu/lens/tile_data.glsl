@@ -37,7 +37,7 @@ const uint weighted = 1;  // lens points weigh differently for colours or sides 
 const uint two_sided = 2; // they do for sides of the focus
 const uint images = 4;    // mirrors or glass reach the tile
 const uint cat_eye = 8;   // not all pixels see through a lens point
-const uint darkens = 16;  // those that do not are dark there
+const uint darkens = 16;  // and that takes light from the pixels
 
 
 // x, y and CoC, and the upper half of the key: 1 for a background, else the bits of the perceptive depth, plus 2.

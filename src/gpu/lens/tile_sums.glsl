@@ -35,10 +35,11 @@ vec4 channel_weights(uint group, bool in_front) {
     return weights;
 }
 
-// What is left of these where the pixel does not see through the lens point.
-vec4 darkened(uint group, vec4 weights) {
+// How these count in what the sum is divided by. Past a cat-eye that darkens, the mean of colours is that over lens points.
+vec4 known_weights(uint group, vec4 weights) {
+    if ((rules & darkens) == 0) return weights;
     for (uint k = 0; k < 4; ++k)
-        if ((sets[group * 4 + k] & (red | green | blue)) != 0) weights[k] = 0;
+        if ((sets[group * 4 + k] & (red | green | blue)) != 0) weights[k] = lens.weight;
     return weights;
 }
 
@@ -62,12 +63,10 @@ void add_weighted(inout Sum sum, vec4 weight, vec4 light, float covered, vec4 co
     sum = Sum(lights, known);
 }
 
-// The same as add_seen() by other rules. `through`: whether the pixel sees through the lens point.
-void add_seen_weighted(inout Sum sum, uint seen, Over over, uint group, bool through) {
-    if (!through && (rules & darkens) == 0) return;
-    const vec4 weights[2] = {channel_weights(group, false), channel_weights(group, true)};
-    const vec4 lights[2] = {through ? weights[0] : darkened(group, weights[0]),
-                            through ? weights[1] : darkened(group, weights[1])};
+// The same as add_seen() by other rules.
+void add_seen_weighted(inout Sum sum, uint seen, Over over, uint group) {
+    const vec4 lights[2] = {channel_weights(group, false), channel_weights(group, true)};
+    const vec4 weights[2] = {known_weights(group, lights[0]), known_weights(group, lights[1])};
     const uint side_ = in_front_of_focus(seen) ? 1 : 0;
     const vec4 behind = seen != none ? colours[group * sample_count + seen] : vec4(0);
     if (seen != none) add_weighted(sum, weights[side_], lights[side_], 1, behind);
