@@ -69,31 +69,37 @@ void for_each_run(const Ldi &ldi, const Runs &runs, std::size_t first, std::size
     }
 }
 
-Runs find_runs(const Ldi &ldi, double scale, double tolerance) {
-    const RunFinder finder(ldi, scale, tolerance);
+// visit(length) for the runs of some pixels, in their order.
+template <typename Visit>
+void for_each_length(const Ldi &ldi, const RunFinder &finder, std::size_t pixel, const Visit &visit) {
+    const SampleRange all = ldi.pixel(pixel);
+    for (std::uint64_t i = all.from; i < all.to;) {
+        const std::uint64_t end = finder.end_of(i, all.to);
+        visit(std::uint32_t(end - i));
+        i = end;
+    }
+}
+
+// Without their lengths.
+Runs count_runs(const Ldi &ldi, const RunFinder &finder) {
     const std::size_t pixels = ldi.windows.pixels();
-    const auto for_lengths = [&](std::size_t pixel, const auto &visit) {
-        const SampleRange all = ldi.pixel(pixel);
-        for (std::uint64_t i = all.from; i < all.to;) {
-            const std::uint64_t end = finder.end_of(i, all.to);
-            visit(std::uint32_t(end - i));
-            i = end;
-        }
-    };
     Runs runs{std::vector<std::uint64_t>(pixels + 1, 0), {}};
     parallel_ranges(pixels, pixels_at_once, [&](std::size_t first, std::size_t last) {
         for (std::size_t p = first; p < last; ++p)
-            for_lengths(p, [&](std::uint32_t) { ++runs.begin[p + 1]; });
+            for_each_length(ldi, finder, p, [&](std::uint32_t) { ++runs.begin[p + 1]; });
     });
     for (std::size_t p = 0; p < pixels; ++p) runs.begin[p + 1] += runs.begin[p];
+    return runs;
+}
+
+void measure(Runs &runs, const Ldi &ldi, const RunFinder &finder) {
     runs.length.resize(runs.begin.back());
-    parallel_ranges(pixels, pixels_at_once, [&](std::size_t first, std::size_t last) {
+    parallel_ranges(ldi.windows.pixels(), pixels_at_once, [&](std::size_t first, std::size_t last) {
         for (std::size_t p = first; p < last; ++p) {
             std::uint64_t r = runs.begin[p];
-            for_lengths(p, [&](std::uint32_t length) { runs.length[r++] = length; });
+            for_each_length(ldi, finder, p, [&](std::uint32_t length) { runs.length[r++] = length; });
         }
     });
-    return runs;
 }
 
 // One array of the result: of(run) for every run.
@@ -171,9 +177,18 @@ private:
 void used(std::vector<float> &values) { std::vector<float>().swap(values); }
 void used(const std::vector<float> &) {}
 
+Ldi without_extents(Ldi ldi) {
+    used(ldi.z_back);
+    used(ldi.weight);
+    return ldi;
+}
+
 template <typename Source> // Ldi or const Ldi
 Ldi merged(Source &ldi, double scale, double tolerance) {
-    Runs runs = find_runs(ldi, scale, tolerance);
+    const RunFinder finder(ldi, scale, tolerance);
+    Runs runs = count_runs(ldi, finder);
+    if (runs.begin.back() == ldi.samples()) return without_extents(std::move(ldi));
+    measure(runs, ldi, finder);
     const Merging merging(ldi, runs);
     used(ldi.z_back);
     used(ldi.weight);

@@ -2,9 +2,9 @@
 //
 // Samples that follow each other in a pixel become one sample where their perceptive depths R F / z (pixels, which differ
 // as their CoCs do) and their positions all lie within a tolerance. The last of them may be opaque, the others are
-// of partial coverage. Inside, they are composited by `over`, so that the flattened picture does not change; depth (as
-// 1 / z) and position become means, weighted by what each sample shows. No CoC and no coordinate changes by more than
-// the tolerance, and by half of it where the samples are even.
+// of partial coverage. They are composited by `over`, so that the flattened picture does not change; depth (as 1 / z) and
+// position become means, weighted by what each sample shows. No CoC and no coordinate changes by more than the tolerance,
+// and by half of it where the samples are even.
 #pragma once
 
 #include "../deep/ldi.h"

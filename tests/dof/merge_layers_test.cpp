@@ -81,6 +81,15 @@ TEST(MergeLayers, FlattenedPictureIsTheSameAndTheSamplesAreTidy) {
     }
 }
 
+TEST(MergeLayers, WhereThereIsNothingToMergeAllButExtentsAndWeightsStays) {
+    Ldi ldi = ldi_of({{at(5, 0.5f), at(1, 1)}, {at(3, 1)}});
+    ldi.weight = {1, 2, 3};
+    const Ldi out = merge_layers(ldi, 1, 0.25);
+    EXPECT_EQ(out.z, ldi.z);
+    EXPECT_EQ(out.values, ldi.values);
+    EXPECT_TRUE(out.z_back.empty() && out.weight.empty());
+}
+
 TEST(MergeLayers, UsingUpTheSamplesGivesTheSame) {
     Ldi ldi = tidy(random_ldi({.seed = 8, .width = 40, .height = 30, .depths = 64}));
     const Ldi kept = merge_layers(ldi, 4, 0.5);

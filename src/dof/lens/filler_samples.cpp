@@ -32,15 +32,19 @@ FillerSamples place_fillers(const Ldi &ldi, const ThinLens &lens, std::span<cons
                             const BlockedSamples &samples, const SampleColours &colours) {
     if (fillers.empty()) return {};
     const std::vector<std::size_t> rows = rows_of(fillers, ldi.windows);
-    const auto place = [&](int x, int y, std::vector<PlacedSample> &found) {
+    const auto filler_of = [&](int x, int y) -> const Filler * {
         const auto row =
             fillers.subspan(rows[std::size_t(y)], rows[std::size_t(y) + 1] - rows[std::size_t(y)]);
         const auto pixel = std::uint32_t(y * ldi.windows.width() + x);
         const auto f = std::ranges::lower_bound(row, pixel, {}, &Filler::pixel);
-        if (f != row.end() && f->pixel == pixel)
-            found.push_back(placed(lens, *f, x, y, std::uint32_t(&*f - fillers.data())));
+        return f != row.end() && f->pixel == pixel ? &*f : nullptr;
     };
-    FillerSamples result{make_blocks(ldi.windows, place), {}};
+    const auto is_there = [&](int x, int y) { return filler_of(x, y) ? SampleCounts{1, 1} : SampleCounts{}; };
+    const auto place = [&](int x, int y, std::vector<PlacedSample> &found) {
+        if (const Filler *f = filler_of(x, y))
+            found.push_back(placed(lens, *f, x, y, std::uint32_t(f - fillers.data())));
+    };
+    FillerSamples result{make_blocks(ldi.windows, is_there, place), {}};
     const std::size_t count = result.samples.count();
     result.colours = {colours.groups, count, std::vector<float>(colours.groups * count * 4)};
     parallel_ranges(count, 4096, [&](std::size_t begin, std::size_t end) {

@@ -79,23 +79,21 @@ Line line_of(const Windows &windows, std::size_t direction, std::size_t number) 
 // How far each pixel is from the end of the ground that goes on there in each direction; 0: none does.
 using Distances = std::vector<std::array<std::uint16_t, directions>>;
 
-// Lets the grounds of a line go on towards its end, the last first, which are nearest to where they go on. One that
-// meets another that is as far goes on no longer: that other is nearer and goes on as far.
-void continue_grounds(std::span<const Ground> grounds, const Line &line, std::size_t direction,
-                      Distances &distances) {
-    for (int i = line.length - 2; i >= 0; --i) {
-        const Ground &ground = grounds[line.pixel(i)];
-        if (ground.depth == unknown) continue;
-        const int most = std::min(line.length - 1 - i, int(std::numeric_limits<std::uint16_t>::max()));
-        for (int n = 1; n <= most; ++n) {
-            const Ground &other = grounds[line.pixel(i + n)];
-            if (!goes_on(ground, other, n)) break;
-            std::uint16_t &distance = distances[line.pixel(i + n)][direction];
-            if (distance == 0)
-                distance = std::uint16_t(n);
-            else if (other.depth != unknown && grounds[line.pixel(i + n - distance)].depth <= ground.depth)
-                break;
-        }
+// Lets a ground of a line go on towards its end. One that meets another that is as far goes on no longer: that other is
+// nearer and goes on as far.
+void continue_ground(std::span<const Ground> grounds, const Line &line, int i, std::size_t direction,
+                     Distances &distances) {
+    const Ground &ground = grounds[line.pixel(i)];
+    if (ground.depth == unknown) return;
+    const int most = std::min(line.length - 1 - i, int(std::numeric_limits<std::uint16_t>::max()));
+    for (int n = 1; n <= most; ++n) {
+        const Ground &other = grounds[line.pixel(i + n)];
+        if (!goes_on(ground, other, n)) break;
+        std::uint16_t &distance = distances[line.pixel(i + n)][direction];
+        if (distance == 0)
+            distance = std::uint16_t(n);
+        else if (other.depth != unknown && grounds[line.pixel(i + n - distance)].depth <= ground.depth)
+            break;
     }
 }
 
@@ -103,9 +101,11 @@ Distances find_distances(std::span<const Ground> grounds, const Windows &windows
     Distances distances(grounds.size());
     for (std::size_t direction = 0; direction < directions; ++direction) {
         const int lines = direction < 2 ? windows.height() : windows.width();
-        parallel_ranges(std::size_t(lines), 64, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t number = begin; number < end; ++number)
-                continue_grounds(grounds, line_of(windows, direction, number), direction, distances);
+        // The last grounds first, which are nearest to where they go on; those of lines side by side lie together in memory.
+        parallel_ranges(std::size_t(lines), 16, [&](std::size_t begin, std::size_t end) {
+            for (int i = line_of(windows, direction, begin).length - 2; i >= 0; --i)
+                for (std::size_t number = begin; number < end; ++number)
+                    continue_ground(grounds, line_of(windows, direction, number), i, direction, distances);
         });
     }
     return distances;

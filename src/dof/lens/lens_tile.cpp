@@ -1,5 +1,6 @@
 #include "dof/lens/lens_tile.h"
 
+#include "base/float4.h"
 #include "dof/lens/tile_projection.h"
 
 #include <algorithm>
@@ -7,20 +8,6 @@
 #include <limits>
 
 namespace sparselens {
-
-namespace {
-
-using Colour4 = std::array<float, 4>;
-
-template <typename Cells>
-bool out_of_reach(const SampleBlock &b, const LensSample &lens, float x, float y, const Cells &cells) {
-    const auto [x0, x1] = std::minmax({b.coc_min * lens.x, b.coc_max * lens.x});
-    const auto [y0, y1] = std::minmax({b.coc_min * lens.y, b.coc_max * lens.y});
-    return b.x_max + x1 + 1 < x + float(cells.left) || b.x_min + x0 - 1 > x + float(cells.right) ||
-           b.y_max + y1 + 1 < y + float(cells.top) || b.y_min + y0 - 1 > y + float(cells.bottom);
-}
-
-} // namespace
 
 LensTile::LensTile(const BlockedSamples &samples, const SampleColours &colours, const PlacedFacets &facets,
                    const FillerSamples &fillers, const HeldOut &held_out, const CatEye *cat_eye)
@@ -53,6 +40,8 @@ void LensTile::gather(const Imath::V2i &origin, const Blocks &blocks, std::span<
     origin_x_ = float(origin.x);
     origin_y_ = float(origin.y);
     blocks_ = &blocks;
+    bounds_.set(blocks.samples, samples_);
+    filler_bounds_.set(blocks.fillers, fillers_.samples);
     collect_partial(lens);
     std::fill(sums_.begin(), sums_.end(), 0.0f);
     std::fill(unknown_.begin(), unknown_.end(), 0.0f);
@@ -62,7 +51,7 @@ void LensTile::gather(const Imath::V2i &origin, const Blocks &blocks, std::span<
         total_ += point.weight;
         if (weighted_) find_columns(point);
         if (seen_by_none()) continue;
-        see_opaque(point, samples_, blocks.samples, everywhere, front_);
+        see_opaque(point, samples_, bounds_, everywhere, front_);
         see_facets(point);
         see_images(point);
         if (weighted_) {
@@ -87,17 +76,17 @@ void LensTile::gather(const Imath::V2i &origin, const Blocks &blocks, std::span<
 }
 
 // The nearest opaque one in each of the cells.
-void LensTile::see_opaque(const LensSample &lens, const BlockedSamples &samples,
-                          std::span<const std::uint32_t> blocks, const Cells &seen,
-                          std::vector<std::uint64_t> &front) const {
+void LensTile::see_opaque(const LensSample &lens, const BlockedSamples &samples, BlockBounds &bounds,
+                          const Cells &seen, std::vector<std::uint64_t> &front) const {
     std::fill(&front[cell_of(-border, seen.top)], &front[cell_of(-border, seen.bottom)], 0);
     const float x = origin_x_ - (border - 1), y = origin_y_ - (border - 1);
     const TileProjection projection(lens, x, y, stride);
     std::array<std::int32_t, 256> cells;
     const std::vector<float> &coc = samples.hiding_coc();
-    for (const std::uint32_t b : blocks) {
+    const BlockBounds::Box box{origin_x_ + float(seen.left), origin_x_ + float(seen.right),
+                               origin_y_ + float(seen.top), origin_y_ + float(seen.bottom)};
+    for (const std::uint32_t b : bounds.reached(lens, box)) {
         const SampleBlock &block = samples.blocks[b];
-        if (out_of_reach(block, lens, origin_x_, origin_y_, seen)) continue;
         for (std::uint32_t begin = block.begin; begin < block.opaque_end;
              begin += std::uint32_t(cells.size())) {
             const std::uint32_t count = std::min(std::uint32_t(cells.size()), block.opaque_end - begin);
@@ -132,10 +121,8 @@ void LensTile::add_opaque(float weight) {
                     if (g == 0) empty_cells_[count++] = std::uint32_t(cell_of(x, y));
                     continue;
                 }
-                Colour4 colour; // a copy: the compiler need not fear that sum overlaps it
-                std::copy_n(colours + std::size_t(std::uint32_t(front[x])) * 4, 4, colour.begin());
                 const float share = held_out ? weight * opaque_passes(x, y) : weight;
-                for (std::size_t k = 0; k < 4; ++k) sum[k] += share * colour[k];
+                store4(sum, load4(sum) + share * load4(colours + std::size_t(std::uint32_t(front[x])) * 4));
             }
         }
     }

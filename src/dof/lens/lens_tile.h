@@ -12,6 +12,7 @@
 #include "dof/lens/filler_samples.h"
 #include "dof/lens/sample_blocks.h"
 #include "dof/lens/sample_colours.h"
+#include "dof/lens/tile_projection.h"
 #include "lens/cat_eye.h"
 #include "lens/lens_samples.h"
 
@@ -70,9 +71,8 @@ private:
     float known_weight(int x, int y) const; // of the lens points; 0: none
     void collect_partial(std::span<const LensSample> lens);
     bool in_reach(std::uint32_t sample) const;
-    void see_opaque(const LensSample &lens, const BlockedSamples &samples,
-                    std::span<const std::uint32_t> blocks, const Cells &seen,
-                    std::vector<std::uint64_t> &front) const;
+    void see_opaque(const LensSample &lens, const BlockedSamples &samples, BlockBounds &bounds,
+                    const Cells &seen, std::vector<std::uint64_t> &front) const;
     void see_facets(const LensSample &lens);
     // Of images (lens_tile_unseen.cpp).
     void see_images(const LensSample &lens);
@@ -129,6 +129,7 @@ private:
     float origin_x_ = 0, origin_y_ = 0;
     float total_ = 0; // weight of the lens points
     const Blocks *blocks_ = nullptr;
+    BlockBounds bounds_, filler_bounds_; // of its blocks of samples, of fillers
     // Samples of partial coverage, front to back.
     struct Partial {
         std::vector<std::uint64_t> order; // to sort them by

@@ -97,7 +97,7 @@ void LensTile::see_fillers(const LensSample &lens) {
         cells = {std::min(cells.left, x), std::min(cells.top, y), std::max(cells.right, x + 1),
                  std::max(cells.bottom, y + 1)};
     }
-    see_opaque(lens, fillers_.samples, blocks_->fillers, cells, filler_);
+    see_opaque(lens, fillers_.samples, filler_bounds_, cells, filler_);
     for (const std::uint32_t cell : empty_) {
         std::uint64_t &filler = filler_[cell];
         if (filler != 0 &&

@@ -26,6 +26,10 @@ PlacedSample sample_at(const Ldi &ldi, const ThinLens &lens, int x, int y, float
             surface_coc};
 }
 
+float alpha_of(const Ldi &ldi, std::size_t alpha_channel, std::uint64_t i) {
+    return std::clamp(alpha_at(ldi, alpha_channel, i), 0.0f, 1.0f);
+}
+
 // The samples of one pixel, its background included.
 void find_samples(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &known, int x, int y,
                   std::vector<PlacedSample> &found) {
@@ -34,7 +38,7 @@ void find_samples(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &know
     const std::size_t alpha_channel = ldi.alpha();
     double transmittance = 1;
     for (const std::uint64_t i : samples) {
-        const float alpha = std::clamp(alpha_at(ldi, alpha_channel, i), 0.0f, 1.0f);
+        const float alpha = alpha_of(ldi, alpha_channel, i);
         transmittance *= 1 - double(alpha);
         found.push_back(sample_at(ldi, lens, x, y, alpha, i));
     }
@@ -49,17 +53,31 @@ void find_samples(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &know
     add_background(last.x, last.y, last.coc);
 }
 
-std::vector<PlacedSample> block_samples(const Windows &windows, const PlaceSamples &place, int column,
-                                        int row) {
-    std::vector<PlacedSample> found;
+// How many those are.
+SampleCounts count_samples(const Ldi &ldi, const Imath::Box2i &known, int x, int y) {
+    const Imath::V2i at = ldi.windows.data.min + Imath::V2i(x, y);
+    const SampleRange samples = ldi.pixel(ldi.windows.index(at.x, at.y));
+    const std::size_t alpha_channel = ldi.alpha();
+    SampleCounts counts{0, std::uint32_t(samples.size())};
+    double transmittance = 1;
+    for (const std::uint64_t i : samples) {
+        const float alpha = alpha_of(ldi, alpha_channel, i);
+        transmittance *= 1 - double(alpha);
+        counts.opaque += is_opaque(alpha);
+    }
+    const std::uint32_t backgrounds =
+        lets_through(transmittance) && known.intersects(at) ? (samples.empty() ? 1 : 2) : 0;
+    return {counts.opaque + backgrounds, counts.all + backgrounds};
+}
+
+// visit(x, y) for the pixels of a block.
+template <typename Visit>
+void for_each_pixel(const BlockedSamples &samples, const Windows &windows, std::size_t block,
+                    const Visit &visit) {
     constexpr int size = BlockedSamples::size;
-    const int x_end = std::min((column + 1) * size, windows.width());
-    const int y_end = std::min((row + 1) * size, windows.height());
-    for (int y = row * size; y < y_end; ++y)
-        for (int x = column * size; x < x_end; ++x) place(x, y, found);
-    std::stable_partition(found.begin(), found.end(),
-                          [](const PlacedSample &f) { return is_opaque(f.alpha); });
-    return found;
+    const int left = int(block) % samples.columns * size, top = int(block) / samples.columns * size;
+    for (int y = top; y < std::min(top + size, windows.height()); ++y)
+        for (int x = left; x < std::min(left + size, windows.width()); ++x) visit(x, y);
 }
 
 void resize(BlockedSamples &samples, std::size_t count, bool images) {
@@ -112,21 +130,20 @@ void bound(SampleBlock &block, const BlockedSamples &samples) {
     }
 }
 
-BlockedSamples make_blocks(const Windows &windows, const PlaceSamples &place, bool images) {
+BlockedSamples make_blocks(const Windows &windows, const CountSamples &count, const PlaceSamples &place,
+                           bool images) {
     BlockedSamples samples;
     constexpr int size = BlockedSamples::size;
     samples.columns = (windows.width() + size - 1) / size;
     samples.rows = (windows.height() + size - 1) / size;
     samples.blocks.resize(std::size_t(samples.columns) * std::size_t(samples.rows));
-    const auto samples_of = [&](std::size_t b) {
-        return block_samples(windows, place, int(b) % samples.columns, int(b) / samples.columns);
-    };
-    // Twice, because a second copy of all samples would take more memory than there is for large pictures.
     parallel_for(samples.blocks.size(), [&](std::size_t b) {
-        const std::vector<PlacedSample> found = samples_of(b);
-        const auto opaque = std::ranges::count_if(found, is_opaque, &PlacedSample::alpha);
-        samples.blocks[b].opaque_end = std::uint32_t(opaque);
-        samples.blocks[b].end = std::uint32_t(found.size());
+        SampleBlock &block = samples.blocks[b];
+        for_each_pixel(samples, windows, b, [&](int x, int y) {
+            const SampleCounts counts = count(x, y);
+            block.opaque_end += counts.opaque;
+            block.end += counts.all;
+        });
     });
     std::uint32_t begin = 0;
     for (SampleBlock &block : samples.blocks) {
@@ -137,9 +154,15 @@ BlockedSamples make_blocks(const Windows &windows, const PlaceSamples &place, bo
     }
     resize(samples, begin, images);
     parallel_for(samples.blocks.size(), [&](std::size_t b) {
-        std::size_t at = samples.blocks[b].begin;
-        for (const PlacedSample &f : samples_of(b)) store(samples, at++, f);
-        bound(samples.blocks[b], samples);
+        SampleBlock &block = samples.blocks[b];
+        std::size_t opaque = block.begin, partial = block.opaque_end;
+        std::vector<PlacedSample> placed;
+        for_each_pixel(samples, windows, b, [&](int x, int y) {
+            placed.clear();
+            place(x, y, placed);
+            for (const PlacedSample &f : placed) store(samples, is_opaque(f.alpha) ? opaque++ : partial++, f);
+        });
+        bound(block, samples);
     });
     return samples;
 }
@@ -147,10 +170,11 @@ BlockedSamples make_blocks(const Windows &windows, const PlaceSamples &place, bo
 BlockedSamples make_blocks(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &known) {
     if (ldi.samples() + ldi.windows.pixels() >= BlockedSamples::background)
         throw Error("the LDI has more samples than can be gathered at once (2^32)");
+    const auto count = [&](int x, int y) { return count_samples(ldi, known, x, y); };
     const auto place = [&](int x, int y, std::vector<PlacedSample> &placed) {
         find_samples(ldi, lens, known, x, y, placed);
     };
-    return make_blocks(ldi.windows, place, !ldi.optical.empty());
+    return make_blocks(ldi.windows, count, place, !ldi.optical.empty());
 }
 
 SamplePlaces::SamplePlaces(const BlockedSamples &samples, const Ldi &ldi, int top, int bottom) {

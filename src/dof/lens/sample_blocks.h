@@ -84,8 +84,15 @@ struct PlacedSample {
     std::optional<float> surface_coc = {}; // else coc
 };
 
-// Of what `place(x, y, placed)` appends for the pixel in that column and row of a window of this size; it is asked twice.
+struct SampleCounts {
+    std::uint32_t opaque = 0, all = 0;
+};
+
+// Of what `place(x, y, placed)` appends for the pixel in that column and row of a window of this size; `count` says how many
+// that will be, so that they need not be kept twice.
+using CountSamples = std::function<SampleCounts(int x, int y)>;
 using PlaceSamples = std::function<void(int x, int y, std::vector<PlacedSample> &placed)>;
-BlockedSamples make_blocks(const Windows &windows, const PlaceSamples &place, bool images = false);
+BlockedSamples make_blocks(const Windows &windows, const CountSamples &count, const PlaceSamples &place,
+                           bool images = false);
 
 } // namespace sparselens

@@ -2,6 +2,7 @@
 
 #include "base/parallel.h"
 #include "deep/build.h"
+#include "dof/footprints/interpolation_blur.h"
 
 #include <algorithm>
 #include <array>
@@ -11,105 +12,14 @@ namespace sparselens {
 
 namespace {
 
-constexpr double largest_coc = 4;      // pixels: beyond, the blur of interpolation does not show
 constexpr int noise_block = 32;        // pixels
 constexpr double noise_quantile = 0.3; // the calmer part of a block shows its noise, not its detail
 
-// How much light passes the lens in columns, side by side from -1 to 1; in rows, along the other axis.
-using LensColumns = std::array<double, 64>;
-
-double middle_of_column(std::size_t i) { return (double(i) + 0.5) * 2 / std::tuple_size<LensColumns>() - 1; }
-
-// Over the disc, a column at x has a height of sqrt(1 - x^2).
-LensColumns disc_columns() {
-    LensColumns columns;
-    for (std::size_t i = 0; i < columns.size(); ++i)
-        columns[i] = std::sqrt(1 - middle_of_column(i) * middle_of_column(i));
-    return columns;
-}
-
-// Before it is squeezed. The same from either side, as tables do not tell apart to which side a sample lies off the grid.
-LensColumns columns_of(const Aperture &aperture, bool behind, bool vertical) {
-    constexpr int n = 128;
-    LensColumns columns{};
-    for (int i = 0; i < n; ++i)
-        for (int j = 0; j < n; ++j) {
-            const LensPoint point = aperture.at(Imath::V2d(i + 0.5, j + 0.5) / n);
-            const double x = vertical ? point.u.y : point.u.x * aperture.shape().squeeze;
-            const double column = (x + 1) / 2 * double(columns.size());
-            const auto at = std::size_t(std::clamp(column, 0.0, double(columns.size() - 1)));
-            const double weight = double(behind ? point.behind : point.in_front);
-            columns[at] += weight;
-            columns[columns.size() - 1 - at] += weight;
-        }
-    return columns;
-}
-
-// Mean of f (1 - f) over the lens, f the fraction off the grid along one axis, by CoC and by own offset.
-class BlurTable {
-public:
-    explicit BlurTable(const LensColumns &columns) {
-        for (int c = 0; c < cocs; ++c)
-            for (int o = 0; o < offsets; ++o)
-                table_[std::size_t(c * offsets + o)] = mean(columns, coc_at(c), offset_at(o));
-    }
-    static constexpr double largest_weight = 0.125; // f (1 - f) is at most 1/4
-    // Half of the mean, which is the weight of the second difference; fades out towards the largest CoC.
-    double weight(double coc, double offset) const {
-        coc = std::abs(coc);
-        if (!(coc < largest_coc)) return 0;
-        // Between entries: what lies in focus on the grid has to come out as exactly 0.
-        const double u = coc / largest_coc * (cocs - 1),
-                     v = std::min(std::abs(offset) * 2, 1.0) * (offsets - 1);
-        const int c = std::min(int(u), cocs - 2), o = std::min(int(v), offsets - 2);
-        const auto along = [&](int row) { return std::lerp(entry(row, o), entry(row, o + 1), v - o); };
-        return 0.5 * std::lerp(along(c), along(c + 1), u - c) * std::min(1.0, 2 * (1 - coc / largest_coc));
-    }
-
-private:
-    static constexpr int cocs = 128, offsets = 16;
-    static double coc_at(int c) { return c * largest_coc / (cocs - 1); }
-    static double offset_at(int o) { return o * 0.5 / (offsets - 1); }
-    double entry(int c, int o) const { return table_[std::size_t(c * offsets + o)]; }
-    static double mean(const LensColumns &columns, double coc, double offset) {
-        double sum = 0, area = 0;
-        for (std::size_t i = 0; i < columns.size(); ++i) {
-            const double place = offset + coc * middle_of_column(i), f = place - std::floor(place);
-            sum += columns[i] * f * (1 - f);
-            area += columns[i];
-        }
-        return sum / area;
-    }
-    std::array<double, std::size_t(cocs) * offsets> table_{};
-};
-
-// The tables of a lens.
-class LensBlur {
-public:
-    explicit LensBlur(const Aperture *aperture) : squeeze_(aperture ? aperture->shape().squeeze : 1) {
-        if (!aperture || aperture->disc()) {
-            tables_.emplace_back(disc_columns());
-            return;
-        }
-        for (const bool behind : {false, true})
-            for (const bool vertical : {false, true})
-                tables_.emplace_back(columns_of(*aperture, behind, vertical));
-    }
-    double horizontal(double coc, double offset) const { return of(coc, 0).weight(coc / squeeze_, offset); }
-    double vertical(double coc, double offset) const { return of(coc, 1).weight(coc, offset); }
-
-private:
-    const BlurTable &of(double coc, std::size_t axis) const {
-        return tables_.size() == 1 ? tables_[0] : tables_[(coc > 0 ? 2 : 0) + axis];
-    }
-    double squeeze_;
-    std::vector<BlurTable> tables_; // one for all; or in front along x, along y, behind along x, along y
-};
-
 class Sharpener {
 public:
-    Sharpener(const Ldi &ldi, const ThinLens &lens, const SharpenLooks *looks)
-        : ldi_(ldi), lens_(lens), looks_(looks), rgb_(), blur_(looks ? &looks->aperture : nullptr) {
+    Sharpener(const Ldi &ldi, const ThinLens &lens, const BlockedSamples &samples, const SharpenLooks *looks)
+        : ldi_(ldi), lens_(lens), samples_(samples), looks_(looks), rgb_(),
+          blur_(looks ? &looks->aperture : nullptr) {
         for (std::size_t k = 0; k < 3; ++k)
             rgb_[k] = find_channel(ldi.channels, std::array{"R", "G", "B"}[k]);
     }
@@ -128,8 +38,13 @@ public:
         const Weights &of(std::uint64_t sample) const { return weights[sample - first]; }
     };
 
+    // Whether samples of some pixels may have weights: those in columns [x, x + 1) to [last_x, last_x + 1), and rows alike.
+    bool near_focus(int x, int y, int last_x, int last_y) const;
     void measure_noise();
     Band weigh(int top, int bottom) const; // rows [top, bottom); after measure_noise()
+    // visit(sample, x, y) for the samples of rows [top, bottom) that may have weights, and perhaps for others.
+    template <typename Visit>
+    void for_each_near_focus(int top, int bottom, const Visit &visit) const;
     // The change of sample i of pixel (x, y), in the rows of the band: its new value is the sum of the terms.
     std::array<Term, 5> terms(const Band &band, std::uint64_t i, int x, int y) const;
 
@@ -155,10 +70,11 @@ private:
     static constexpr std::uint64_t none = ~std::uint64_t(0);
     const Ldi &ldi_;
     const ThinLens &lens_;
+    const BlockedSamples &samples_;
     const SharpenLooks *looks_;
     std::array<std::size_t, 3> rgb_;
     std::vector<double> noise_; // of each block, as detail() measures it
-    LensBlur blur_;
+    InterpolationBlur blur_;
 };
 
 // The sample of a pixel nearest to that depth, planar and perceptive: of a stack of mist and sheets not just any within reach.
@@ -202,6 +118,17 @@ double Sharpener::detail(std::uint64_t i, const Neighbours &n) const {
     return std::sqrt(sum);
 }
 
+bool Sharpener::near_focus(int x, int y, int last_x, int last_y) const {
+    constexpr int size = BlockedSamples::size;
+    for (int row = y / size; row <= last_y / size; ++row)
+        for (int column = x / size; column <= last_x / size; ++column) {
+            const SampleBlock &block = samples_.blocks[std::size_t(row * samples_.columns + column)];
+            if (block.begin < block.end && blur_.any(block.coc_min, block.coc_max, lens_.pixel_aspect))
+                return true;
+        }
+    return false;
+}
+
 void Sharpener::measure_noise() {
     const int width = ldi_.windows.width(), height = ldi_.windows.height();
     const int columns = (width + noise_block - 1) / noise_block,
@@ -209,9 +136,11 @@ void Sharpener::measure_noise() {
     noise_.assign(std::size_t(columns * rows), 0);
     parallel_for(noise_.size(), [&](std::size_t block) {
         const int left = int(block) % columns * noise_block, top = int(block) / columns * noise_block;
+        const int right = std::min(left + noise_block, width), bottom = std::min(top + noise_block, height);
+        if (!near_focus(left, top, right - 1, bottom - 1)) return;
         std::vector<double> details;
-        for (int y = top; y < std::min(top + noise_block, height); ++y)
-            for (int x = left; x < std::min(left + noise_block, width); ++x) {
+        for (int y = top; y < bottom; ++y)
+            for (int x = left; x < right; ++x) {
                 const std::size_t pixel = std::size_t(y) * std::size_t(width) + std::size_t(x);
                 const SampleRange samples = ldi_.pixel(pixel);
                 if (samples.empty()) continue;
@@ -255,7 +184,7 @@ Sharpener::Weights Sharpener::weights(std::uint64_t i, int x, int y) const {
         double given = 0; // at most, to brighter neighbours: no more than there is
         for (std::size_t to = 0; to < 4; ++to)
             if (to < 2 ? n.horizontal : n.vertical)
-                given += 0.5 * (w.along(to) + BlurTable::largest_weight) *
+                given += 0.5 * (w.along(to) + InterpolationBlur::largest_weight) *
                          std::max(0.0, double(v[n.sample[to]]) - double(v[i]));
         if (given > 0 && given * double(w.most) > double(v[i]))
             w.most = float(std::max(0.0, double(v[i])) / given);
@@ -263,15 +192,26 @@ Sharpener::Weights Sharpener::weights(std::uint64_t i, int x, int y) const {
     return w;
 }
 
+template <typename Visit>
+void Sharpener::for_each_near_focus(int top, int bottom, const Visit &visit) const {
+    const int width = ldi_.windows.width();
+    constexpr int size = BlockedSamples::size;
+    for (int y = top; y < bottom; ++y)
+        for (int left = 0; left < width; left += size) {
+            if (!near_focus(left, y, left, y)) continue;
+            for (int x = left; x < std::min(left + size, width); ++x)
+                for (const std::uint64_t i : ldi_.pixel(std::size_t(y) * std::size_t(width) + std::size_t(x)))
+                    visit(i, x, y);
+        }
+}
+
 Sharpener::Band Sharpener::weigh(int top, int bottom) const {
     const std::size_t width = std::size_t(ldi_.windows.width());
     const int first = std::max(top - 1, 0), last = std::min(bottom + 1, ldi_.windows.height());
     const auto begin_of = [&](int row) { return ldi_.begin[std::size_t(row) * width]; };
     Band band{begin_of(first), std::vector<Weights>(begin_of(last) - begin_of(first))};
-    for (int y = first; y < last; ++y)
-        for (std::size_t x = 0; x < width; ++x)
-            for (const std::uint64_t i : ldi_.pixel(std::size_t(y) * width + x))
-                band.weights[i - band.first] = weights(i, int(x), y);
+    for_each_near_focus(
+        first, last, [&](std::uint64_t i, int x, int y) { band.weights[i - band.first] = weights(i, x, y); });
     return band;
 }
 
@@ -297,7 +237,7 @@ std::array<Term, 5> Sharpener::terms(const Band &band, std::uint64_t i, int x, i
 
 void sharpen_near_focus(const Ldi &ldi, const ThinLens &lens, const BlockedSamples &samples,
                         SampleColours &colours, const SharpenLooks *looks) {
-    Sharpener sharpener(ldi, lens, looks);
+    Sharpener sharpener(ldi, lens, samples, looks);
     if (!sharpener.usable()) return;
     sharpener.measure_noise();
     constexpr int rows_at_once = 2 * BlockedSamples::size; // few, because weights take memory
@@ -305,6 +245,7 @@ void sharpen_near_focus(const Ldi &ldi, const ThinLens &lens, const BlockedSampl
     const int width = ldi.windows.width(), height = ldi.windows.height();
     parallel_for(std::size_t(pieces_of(height, rows_at_once)), [&](std::size_t number) {
         const int top = int(number) * rows_at_once, bottom = std::min(top + rows_at_once, height);
+        if (!sharpener.near_focus(0, top, width - 1, bottom - 1)) return;
         const Sharpener::Band band = sharpener.weigh(top, bottom);
         const SamplePlaces places(samples, ldi, top, bottom);
         const auto sharpen = [&](std::uint64_t i, int x, int y) {
@@ -317,10 +258,7 @@ void sharpen_near_focus(const Ldi &ldi, const ThinLens &lens, const BlockedSampl
                 colours.at(k, places.of(i)) = float(sum);
             }
         };
-        for (int y = top; y < bottom; ++y)
-            for (int x = 0; x < width; ++x)
-                for (const std::uint64_t i : ldi.pixel(std::size_t(y) * std::size_t(width) + std::size_t(x)))
-                    sharpen(i, x, y);
+        sharpener.for_each_near_focus(top, bottom, sharpen);
     });
 }
 

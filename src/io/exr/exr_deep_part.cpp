@@ -1,6 +1,7 @@
 #include "io/exr/exr_deep_part.h"
 
 #include "base/error.h"
+#include "base/parallel.h"
 #include "io/exr/exr_common.h"
 #include "io/files/memory_limit.h"
 
@@ -98,7 +99,8 @@ void make_room(const Ldi &ldi, const Planes &planes, const DeepSource &source) {
     const double counts = double(ldi.begin.size()) * sizeof(ldi.begin[0]);
     const double bytes = double(ldi.begin.back()) * double(planes.named.size() * sizeof(float));
     check_memory(source.path, source.held + counts + bytes, source.size);
-    for (const auto &[name, values] : planes.named) values->resize(ldi.begin.back());
+    parallel_for(planes.named.size(),
+                 [&](std::size_t k) { planes.named[k].second->resize(ldi.begin.back()); });
 }
 
 // OpenEXR allocates what a chunk claims before it finds that the file is not that long. Asked for the raw bytes of a

@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <numeric>
 #include <random>
+#include <span>
 #include <vector>
 
 namespace sparselens {
@@ -46,6 +49,57 @@ TEST(TileProjection, WhatIsFarAwayOrNotANumberFallsInTheBorder) {
     project_to_cells(TileProjection({0, 0, 0, 0, 1}, 0, 0, stride), x.data(), y.data(), coc.data(), 4,
                      cells.data());
     EXPECT_EQ(cells, (std::vector<std::int32_t>{5 * stride + stride - 1, 5 * stride, 5, 5 * stride}));
+}
+
+// Blocks of two samples each, drawn from around a tile.
+BlockedSamples random_blocks(std::uint32_t count) {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<float> place(-60, 124), nearby(-8, 8), coc(-30, 30);
+    BlockedSamples samples;
+    for (std::uint32_t b = 0; b < count; ++b) {
+        SampleBlock block{};
+        block.begin = 2 * b;
+        block.opaque_end = block.end = 2 * b + 2;
+        const float x = place(random), y = place(random), c = coc(random);
+        for (int i = 0; i < 2; ++i) {
+            samples.x.push_back(x + nearby(random));
+            samples.y.push_back(y + nearby(random));
+            samples.coc.push_back(c + nearby(random) / 8);
+            samples.depth.push_back(1);
+            samples.source.push_back(0);
+        }
+        bound(block, samples);
+        samples.blocks.push_back(block);
+    }
+    return samples;
+}
+
+TEST(BlockBounds, NoBlockIsMissedThatALensPointBringsInAndFewOthersAreFound) {
+    const BlockedSamples samples = random_blocks(500);
+    std::vector<std::uint32_t> all(samples.blocks.size());
+    std::iota(all.begin(), all.end(), 0u);
+    BlockBounds bounds;
+    bounds.set(all, samples);
+    std::size_t found = 0, needed = 0;
+    for (const LensSample &lens : {LensSample{0.7f, -0.6f, 0.4f, -0.4f, 1},
+                                   LensSample{-0.9f, 0.1f, -0.5f, 0.3f, 1}, LensSample{0, 0, 0, 0, 1}}) {
+        const std::span<const std::uint32_t> reached = bounds.reached(lens, {-1, 65, -1, 65});
+        EXPECT_TRUE(std::ranges::is_sorted(reached));
+        for (const std::uint32_t b : all) {
+            const auto inside = [&](std::uint32_t i) {
+                const float x = samples.x[i] + samples.coc[i] * lens.x + lens.pixel_x,
+                            y = samples.y[i] + samples.coc[i] * lens.y + lens.pixel_y;
+                return x >= -1 && x < 65 && y >= -1 && y < 65;
+            };
+            const bool is_found = std::ranges::binary_search(reached, b);
+            const bool is_needed = inside(2 * b) || inside(2 * b + 1);
+            EXPECT_TRUE(is_found || !is_needed) << b;
+            found += is_found;
+            needed += is_needed;
+        }
+    }
+    EXPECT_GT(needed, 100u);
+    EXPECT_LT(found, needed + needed / 4);
 }
 
 } // namespace

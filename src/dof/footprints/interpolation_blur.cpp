@@ -1,0 +1,110 @@
+#include "dof/footprints/interpolation_blur.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace sparselens {
+
+namespace {
+
+constexpr double largest_coc = 4; // pixels: beyond, the blur of interpolation does not show
+
+// How much light passes the lens in columns, side by side from -1 to 1; in rows, along the other axis.
+using LensColumns = std::array<double, 64>;
+
+double middle_of_column(std::size_t i) { return (double(i) + 0.5) * 2 / std::tuple_size<LensColumns>() - 1; }
+
+// Over the disc, a column at x has a height of sqrt(1 - x^2).
+LensColumns disc_columns() {
+    LensColumns columns;
+    for (std::size_t i = 0; i < columns.size(); ++i)
+        columns[i] = std::sqrt(1 - middle_of_column(i) * middle_of_column(i));
+    return columns;
+}
+
+// Before it is squeezed. The same from either side, as tables do not tell apart to which side a sample lies off the grid.
+LensColumns columns_of(const Aperture &aperture, bool behind, bool vertical) {
+    constexpr int n = 128;
+    LensColumns columns{};
+    for (int i = 0; i < n; ++i)
+        for (int j = 0; j < n; ++j) {
+            const LensPoint point = aperture.at(Imath::V2d(i + 0.5, j + 0.5) / n);
+            const double x = vertical ? point.u.y : point.u.x * aperture.shape().squeeze;
+            const double column = (x + 1) / 2 * double(columns.size());
+            const auto at = std::size_t(std::clamp(column, 0.0, double(columns.size() - 1)));
+            const double weight = double(behind ? point.behind : point.in_front);
+            columns[at] += weight;
+            columns[columns.size() - 1 - at] += weight;
+        }
+    return columns;
+}
+
+} // namespace
+
+// For one axis, by CoC and by own offset.
+class InterpolationBlur::Table {
+public:
+    explicit Table(const LensColumns &columns) {
+        for (int c = 0; c < cocs; ++c)
+            for (int o = 0; o < offsets; ++o)
+                table_[std::size_t(c * offsets + o)] = mean(columns, coc_at(c), offset_at(o));
+    }
+    // Half of the mean, which is the weight of the second difference; fades out towards the largest CoC.
+    double weight(double coc, double offset) const {
+        coc = std::abs(coc);
+        if (!(coc < largest_coc)) return 0;
+        // Between entries: what lies in focus on the grid has to come out as exactly 0.
+        const double u = coc / largest_coc * (cocs - 1),
+                     v = std::min(std::abs(offset) * 2, 1.0) * (offsets - 1);
+        const int c = std::min(int(u), cocs - 2), o = std::min(int(v), offsets - 2);
+        const auto along = [&](int row) { return std::lerp(entry(row, o), entry(row, o + 1), v - o); };
+        return 0.5 * std::lerp(along(c), along(c + 1), u - c) * std::min(1.0, 2 * (1 - coc / largest_coc));
+    }
+
+private:
+    static constexpr int cocs = 128, offsets = 16;
+    static double coc_at(int c) { return c * largest_coc / (cocs - 1); }
+    static double offset_at(int o) { return o * 0.5 / (offsets - 1); }
+    double entry(int c, int o) const { return table_[std::size_t(c * offsets + o)]; }
+    static double mean(const LensColumns &columns, double coc, double offset) {
+        double sum = 0, area = 0;
+        for (std::size_t i = 0; i < columns.size(); ++i) {
+            const double place = offset + coc * middle_of_column(i), f = place - std::floor(place);
+            sum += columns[i] * f * (1 - f);
+            area += columns[i];
+        }
+        return sum / area;
+    }
+    std::array<double, std::size_t(cocs) * offsets> table_{};
+};
+
+InterpolationBlur::InterpolationBlur(const Aperture *aperture)
+    : squeeze_(aperture ? aperture->shape().squeeze : 1) {
+    if (!aperture || aperture->disc()) {
+        tables_.emplace_back(disc_columns());
+        return;
+    }
+    for (const bool behind : {false, true})
+        for (const bool vertical : {false, true})
+            tables_.emplace_back(columns_of(*aperture, behind, vertical));
+}
+
+InterpolationBlur::~InterpolationBlur() = default;
+
+bool InterpolationBlur::any(double least, double most, double pixel_aspect) const {
+    const double smallest = least <= 0 && most >= 0 ? 0 : std::min(std::abs(least), std::abs(most));
+    return smallest * std::min(1 / squeeze_, pixel_aspect) < largest_coc + 1e-3; // CoCs are rounded
+}
+
+double InterpolationBlur::horizontal(double coc, double offset) const {
+    return of(coc, 0).weight(coc / squeeze_, offset);
+}
+
+double InterpolationBlur::vertical(double coc, double offset) const { return of(coc, 1).weight(coc, offset); }
+
+const InterpolationBlur::Table &InterpolationBlur::of(double coc, std::size_t axis) const {
+    return tables_.size() == 1 ? tables_[0] : tables_[(coc > 0 ? 2 : 0) + axis];
+}
+
+} // namespace sparselens
