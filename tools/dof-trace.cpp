@@ -17,7 +17,7 @@ void trace(const TraceOptions &options, const ToolContext &tool) {
     const Scene scene = build_scene(options.scene);
     const Camera camera = camera_with_options(options.lens, scene.camera);
     const RenderSettings settings = render_settings(options, camera);
-    const Tracer tracer(scene);
+    const Tracer tracer(seen_after(scene, options.dolly));
     TraceOutputs outputs(options.folder, camera, settings, options.type, tool);
     const TraceJob job{options, tracer, settings, outputs, *tool.progress};
     if (!options.plan.empty()) return outputs.write_summary(trace_plan(job), options.samples, 0);

@@ -49,6 +49,9 @@ changes center.exr --size 40x27
 changes center.exr --overscan 3
 changes center.exr --light area
 changes reference.exr --seed 1
+changes center.exr --dolly 0.1
+changes reference.exr --dolly 0.1
+changes deep_peel.exr --dolly 0.1
 changes center.exr -d float
 changes center.exr --focal-length 50
 changes center.exr --sensor-width 24

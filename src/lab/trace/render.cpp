@@ -97,13 +97,13 @@ std::vector<int> columns_asked(std::span<const std::uint8_t> asked_row, int widt
 
 Ray view_ray(const RenderSettings &settings, const Imath::V2d &u, const Imath::V2d &p) {
     const Imath::V2d d = direction_through(settings, p), o = settings.lens.radius * u;
-    return {{o.x, o.y, 0}, {d.x, d.y, 1}};
+    return {{o.x, o.y, settings.dolly}, {d.x, d.y, 1}};
 }
 
 Ray lens_ray(const RenderSettings &settings, const Imath::V2d &u, const Imath::V2d &p) {
     const Imath::V2d o = settings.lens.radius * u;
     const Imath::V2d d = direction_through(settings, p) - o / settings.lens.focus;
-    return {{o.x, o.y, 0}, {d.x, d.y, 1}};
+    return {{o.x, o.y, settings.dolly}, {d.x, d.y, 1}};
 }
 
 Image render_view(const Tracer &tracer, const RenderSettings &settings, const Imath::V2d &u, int samples,

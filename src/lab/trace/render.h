@@ -19,6 +19,7 @@ struct RenderSettings {
     Windows windows;
     ThinLens lens; // its focal length is used even if its radius is 0
     Light light = Light::sun;
+    double dolly = 0;              // how far the camera has moved along z, scene units
     std::uint32_t seed = 0;        // [0, 64): pictures of different seeds share no noise
     LensLooks looks = {};          // of the reference
     HighlightGain highlights = {}; // of the light that its rays bring

@@ -223,4 +223,12 @@ Scene build_scene(std::string_view name) {
     throw Error(fmt::format("no scene is called '{}'", name));
 }
 
+Scene seen_after(Scene scene, double dolly) {
+    for (Slab &slab : scene.slabs) {
+        slab.z_front -= dolly;
+        slab.z_back -= dolly;
+    }
+    return scene;
+}
+
 } // namespace sparselens::lab

@@ -17,6 +17,7 @@ namespace sparselens::lab {
 namespace {
 
 constexpr int largest_side = 65536, largest_count = 1 << 20, largest_seed = 63;
+constexpr double largest_dolly = 1e6;
 constexpr std::size_t largest_picture = std::size_t(1) << 28; // pixels
 
 // The whole text as a number in [1, limit].
@@ -104,6 +105,11 @@ void add_rendering_options(CLI::App &app, TraceOptions &options) {
                                options.overscan))
         ->type_name("PX")
         ->check(CLI::Range(0, largest_side));
+    app.add_option("--dolly", options.dolly,
+                   "How far the camera has moved into the scene, in scene units; the focus distance moves with "
+                   "it (default: 0)")
+        ->type_name("D")
+        ->check(CLI::Range(-largest_dolly, largest_dolly));
     app.add_option("--seed", options.seed,
                    fmt::format("Seed of the random numbers; different seeds share no noise (default: {})",
                                options.seed))
@@ -158,6 +164,7 @@ RenderSettings render_settings(const TraceOptions &options, const Camera &camera
     settings.windows.data.max += Imath::V2i(options.overscan);
     if (settings.windows.pixels() > largest_picture)
         throw UsageError(fmt::format("--size and --overscan ask for more than {} pixels", largest_picture));
+    settings.dolly = options.dolly;
     settings.seed = std::uint32_t(options.seed);
     settings.lens = resolve_lens(camera, settings.windows);
     settings.lens.focal_px = resolve_focal_px(camera, settings.windows); // a pinhole has them, too

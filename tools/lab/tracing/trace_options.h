@@ -28,6 +28,7 @@ struct TraceOptions {
     int reference = 0; // rays per pixel; 0: no reference
     int width = 640, height = 360;
     int overscan = 0; // pixels
+    double dolly = 0; // scene units
     int seed = 0;     // of the random numbers: pictures of different seeds share no noise
     Light light = Light::sun;
     PixelType type = PixelType::half;
