@@ -105,9 +105,10 @@ void add_rendering_options(CLI::App &app, TraceOptions &options) {
                                options.overscan))
         ->type_name("PX")
         ->check(CLI::Range(0, largest_side));
-    app.add_option("--dolly", options.dolly,
-                   "How far the camera has moved into the scene, in scene units; the focus distance moves with "
-                   "it (default: 0)")
+    app.add_option(
+           "--dolly", options.dolly,
+           "How far the camera has moved into the scene, in scene units; the focus distance moves with "
+           "it (default: 0)")
         ->type_name("D")
         ->check(CLI::Range(-largest_dolly, largest_dolly));
     app.add_option("--seed", options.seed,
