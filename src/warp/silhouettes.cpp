@@ -15,10 +15,10 @@ namespace sparselens {
 
 namespace {
 
-constexpr int radius = 2;          // pixels around that tell what a surface shows
-constexpr double edge_share = 0.1; // how much a pixel that may be mixed itself tells of the nearer surface
-constexpr double least_support = 0.01;          // below this nothing is known of a surface
-constexpr double largest_residual = 0.2;        // distance of c from the line, as a share of the contrast
+constexpr int radius = 2;                // pixels around that tell what a surface shows
+constexpr double edge_share = 0.1;       // how much a pixel that may be mixed itself tells of its surface
+constexpr double least_support = 0.01;   // below this nothing is known of a surface
+constexpr double largest_residual = 0.2; // distance of c from the line, as a share of the contrast
 constexpr double largest_residual_of_one = 0.1; // where B is one pixel, not a mean
 constexpr double least_share_of_one = 0.1;      // and less of either may as well be texture
 
@@ -45,7 +45,7 @@ private:
 
     unsigned char side_of(int x, int y) const;
     std::optional<Mixture> mixture_of(int x, int y) const;
-    std::optional<Estimate> estimate(int x, int y, double depth, double edge) const;
+    std::optional<Estimate> estimate(int x, int y, double depth) const;
     Imath::V3d purest(int x, int y, double depth, const Imath::V3d &front, const Imath::V3d &behind) const;
     std::optional<Mixture> with_one_pixel(int x, int y, double near_depth, const Imath::V3d &front) const;
     void emit_mixture(std::uint64_t i, const Mixture &mixture, Ldi &out) const;
@@ -118,14 +118,15 @@ const auto nearness = [] {
 }();
 
 // The mean of the surface at that depth over the pixels around that nothing nearer may be mixed into; those that
-// something farther may be mixed into count by `edge`.
-std::optional<Estimate> Separation::estimate(int x, int y, double depth, double edge) const {
+// something farther may be mixed into count less: a lamp behind it would shine at its depth.
+std::optional<Estimate> Separation::estimate(int x, int y, double depth) const {
     Estimate result;
     result.terms.reserve((2 * radius + 1) * (2 * radius + 1));
     double sum = 0;
     around(x, y, radius, [&](std::uint64_t i, int dx, int dy) {
         if (!tells_of(depth, i)) return;
-        const double weight = nearness[std::size_t(dx * dx + dy * dy)] * (sides_[i] & has_farther ? edge : 1);
+        const double weight =
+            nearness[std::size_t(dx * dx + dy * dy)] * (sides_[i] & has_farther ? edge_share : 1);
         result.terms.push_back({i, weight});
         result.pure = result.pure || !(sides_[i] & has_farther);
         sum += weight;
@@ -152,8 +153,7 @@ std::optional<Mixture> Separation::mixture_of(int x, int y) const {
             mixture.far_depth = depth;
         nearest = std::min(nearest, double(distance));
     });
-    const auto front = estimate(x, y, mixture.near_depth, edge_share),
-               behind = estimate(x, y, mixture.far_depth, 1);
+    const auto front = estimate(x, y, mixture.near_depth), behind = estimate(x, y, mixture.far_depth);
     if (!front) return {};
     if (!behind) return with_one_pixel(x, y, mixture.near_depth, front->colour);
     const Imath::V3d f =

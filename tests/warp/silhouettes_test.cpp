@@ -119,6 +119,27 @@ TEST(Silhouettes, ALampHalfBehindAPostShinesAtItsOwnDepth) {
 }
 
 // A lamp of three by three pixels shows one that is all its own: what its edges show is not what it is.
+// Left a post, right a board with a lamp behind its lower edge, whose last row is half lamp: what the board shows behind the
+// post's edge is the board, not the lamp at the board's depth.
+TEST(Silhouettes, WhatIsMixedItselfTellsLittleOfWhatLiesBehind) {
+    const View view = make_view(windows_of_size(16, 9), {0, 0}, [](int x, int y) {
+        if (x < 7) return ViewPixel{.z = 2, .r = 0.1f, .g = 0.1f};
+        if (x == 7) return ViewPixel{.z = 2, .r = 0.2f, .g = 0.2f};
+        if (y > 4) return ViewPixel{.z = 10, .r = 40, .g = 40};
+        const float v = y == 4 ? 20 : 0.3f;
+        return ViewPixel{.z = 4, .r = v, .g = v};
+    });
+    const Ldi ldi = separated(view);
+    expect_flattens_to(view, ldi);
+    for (int y = 0; y < 4; ++y) {
+        const SampleRange pixel = ldi.pixel(std::size_t(y * 16 + 7));
+        ASSERT_EQ(pixel.size(), 2u) << y;
+        const std::uint64_t board = pixel.front() + 1;
+        EXPECT_FLOAT_EQ(ldi.z[board], 4) << y;
+        EXPECT_LT(ldi.values[0][board], 1.0f) << y; // 5 where all pixels tell the same
+    }
+}
+
 TEST(Silhouettes, TheEdgesOfASmallLampArePartsOfIt) {
     const auto share = [](int x, int y) {
         const float across = x == 4 ? 1 : x == 3 ? 0.6f : x == 5 ? 0.4f : 0;
