@@ -1,5 +1,6 @@
 #include "dof/lens/highlights.h"
 
+#include "base/grid.h"
 #include "base/parallel.h"
 
 #include <algorithm>
@@ -9,72 +10,99 @@ namespace sparselens {
 
 namespace {
 
-constexpr int neighbourhood = 4;     // blocks wide and high
-constexpr std::size_t brightest = 5; // one sample in so many may be a highlight
+constexpr int cell = 4;              // blocks wide and high
+constexpr std::size_t brightest = 5; // one sample of a window in so many may be a highlight
 constexpr float stands_out = 4;      // times what is around
 constexpr float smallest_coc = 2;    // pixels
-
-float brightness_of(const SampleColours &colours, std::span<const std::size_t> channels,
-                    std::uint32_t sample) {
-    float most = 0;
-    for (const std::size_t k : channels) most = std::max(most, colours.at(k, sample));
-    return most;
-}
-
-// The samples of a neighbourhood of blocks.
-std::vector<std::uint32_t> samples_around(const BlockedSamples &samples, int column, int row) {
-    std::vector<std::uint32_t> found;
-    for (int r = row; r < std::min(row + neighbourhood, samples.rows); ++r)
-        for (int c = column; c < std::min(column + neighbourhood, samples.columns); ++c) {
-            const SampleBlock &block = samples.blocks[std::size_t(r * samples.columns + c)];
-            for (std::uint32_t i = block.begin; i < block.end; ++i) found.push_back(i);
-        }
-    return found;
-}
-
-// What all but the brightest stay below: a share of the pixels of a neighbourhood, and at most a third of its samples where
-// few of its pixels have any.
-float brightness_around(std::vector<float> levels) {
-    if (levels.empty()) return 0;
-    constexpr std::size_t side = std::size_t(neighbourhood) * BlockedSamples::size;
-    const std::size_t few = std::min(std::max(levels.size(), side * side) / brightest, levels.size() / 3);
-    const auto limit = levels.end() - 1 - std::ptrdiff_t(few);
-    std::nth_element(levels.begin(), limit, levels.end());
-    return *limit;
-}
 
 struct Found {
     std::uint32_t sample;
     float share; // of its light that is spread, (0, 1]
 };
 
-std::vector<Found> find_highlights(const BlockedSamples &samples, std::span<const std::size_t> channels,
-                                   const SampleColours &colours, int column, int row) {
-    const std::vector<std::uint32_t> around = samples_around(samples, column, row);
+// Looks at cells, and at windows of two by two cells: each cell lies in four, so that no lamp is missed where windows part.
+class HighlightFinder {
+public:
+    HighlightFinder(const BlockedSamples &samples, std::span<const std::size_t> channels,
+                    const SampleColours &colours);
+    std::vector<Found> find() const;
+
+private:
+    float brightness_of(std::uint32_t sample) const {
+        float most = 0;
+        for (const std::size_t k : channels_) most = std::max(most, colours_.at(k, sample));
+        return most;
+    }
+    // visit(sample) for the samples of the cells in a box.
+    template <typename Visit>
+    void for_each_sample(const Imath::Box2i &cells, const Visit &visit) const;
+    float level_of(const Imath::Box2i &cells) const;
+    std::vector<Found> find_in(const Imath::V2i &at) const;
+
+    const BlockedSamples &samples_;
+    std::span<const std::size_t> channels_;
+    const SampleColours &colours_;
+    Grid cells_, windows_; // a window's lower right cell is the one of its own column and row
+    std::vector<float> levels_;
+};
+
+HighlightFinder::HighlightFinder(const BlockedSamples &samples, std::span<const std::size_t> channels,
+                                 const SampleColours &colours)
+    : samples_(samples), channels_(channels), colours_(colours),
+      cells_(pieces_of(samples.columns, cell), pieces_of(samples.rows, cell)),
+      windows_(cells_.width() + 1, cells_.height() + 1), levels_(windows_.size()) {
+    parallel_for(windows_.size(), [&](std::size_t i) {
+        const Imath::V2i last = windows_.pixel(i);
+        levels_[i] = level_of({last - Imath::V2i(1), last});
+    });
+}
+
+template <typename Visit>
+void HighlightFinder::for_each_sample(const Imath::Box2i &cells, const Visit &visit) const {
+    const Imath::V2i first = cells.min * cell, end = (cells.max + Imath::V2i(1)) * cell;
+    for (int row = std::max(first.y, 0); row < std::min(end.y, samples_.rows); ++row)
+        for (int column = std::max(first.x, 0); column < std::min(end.x, samples_.columns); ++column) {
+            const SampleBlock &block = samples_.blocks[std::size_t(row * samples_.columns + column)];
+            for (std::uint32_t i = block.begin; i < block.end; ++i) visit(i);
+        }
+}
+
+// What all but the brightest samples of a window stay below.
+float HighlightFinder::level_of(const Imath::Box2i &cells) const {
     std::vector<float> levels;
-    for (const std::uint32_t i : around) levels.push_back(brightness_of(colours, channels, i));
+    for_each_sample(cells, [&](std::uint32_t i) { levels.push_back(brightness_of(i)); });
+    if (levels.empty()) return 0;
+    const auto limit = levels.end() - 1 - std::ptrdiff_t(levels.size() / brightest);
+    std::nth_element(levels.begin(), limit, levels.end());
+    return *limit;
+}
+
+std::vector<Found> HighlightFinder::find_in(const Imath::V2i &at) const {
+    const auto level_at = [&](int x, int y) { return levels_[windows_.index(at.x + x, at.y + y)]; };
+    const float level = std::min({level_at(0, 0), level_at(1, 0), level_at(0, 1), level_at(1, 1)});
     std::vector<Found> found;
-    const float level = brightness_around(levels);
-    for (std::size_t i = 0; i < around.size(); ++i)
-        if (levels[i] > stands_out * level && std::abs(samples.coc[around[i]]) >= smallest_coc)
-            found.push_back({around[i], 1 - level / levels[i]});
+    for_each_sample({at, at}, [&](std::uint32_t i) {
+        const float brightness = brightness_of(i);
+        if (brightness > stands_out * level && std::abs(samples_.coc[i]) >= smallest_coc)
+            found.push_back({i, 1 - level / brightness});
+    });
     return found;
+}
+
+std::vector<Found> HighlightFinder::find() const {
+    std::vector<std::vector<Found>> found(cells_.size());
+    parallel_for(found.size(), [&](std::size_t i) { found[i] = find_in(cells_.pixel(i)); });
+    std::vector<Found> all;
+    for (const auto &some : found) all.insert(all.end(), some.begin(), some.end());
+    std::ranges::sort(all, {}, &Found::sample);
+    return all;
 }
 
 } // namespace
 
 Highlights take_highlights(const BlockedSamples &samples, std::span<const std::size_t> brightness,
                            std::span<const std::size_t> colour_channels, SampleColours &colours) {
-    const int columns = (samples.columns + neighbourhood - 1) / neighbourhood;
-    const int rows = (samples.rows + neighbourhood - 1) / neighbourhood;
-    std::vector<std::vector<Found>> found(std::size_t(columns) * std::size_t(rows));
-    parallel_for(found.size(), [&](std::size_t i) {
-        const int column = int(i) % columns * neighbourhood, row = int(i) / columns * neighbourhood;
-        found[i] = find_highlights(samples, brightness, colours, column, row);
-    });
-    std::vector<Found> all;
-    for (const auto &some : found) all.insert(all.end(), some.begin(), some.end());
-    std::sort(all.begin(), all.end(), [](const Found &a, const Found &b) { return a.sample < b.sample; });
+    const std::vector<Found> all = HighlightFinder(samples, brightness, colours).find();
     Highlights highlights{{},
                           {colours.groups, all.size(), std::vector<float>(colours.groups * all.size() * 4)}};
     for (const Found &f : all) {

@@ -68,6 +68,11 @@ TEST(TakeHighlights, TakesNothingNearFocusNorWhatIsNoBrighterThanOther) {
     EXPECT_TRUE(Blocked(shining_plane(48, wide, 9, nothing), wide).take().sample.empty());
 }
 
+TEST(TakeHighlights, TakesAWholeLampOfSixteenPixels) {
+    const auto shine = [](int x, int y) { return x >= 60 && x < 76 && y >= 8 && y < 24 ? 60.0f : 0.0f; };
+    EXPECT_EQ(Blocked(shining_plane(96, wide, 9, shine), wide).take().sample.size(), 256u);
+}
+
 // Their number is bounded however the light is spread: each costs the area of its disc.
 TEST(TakeHighlights, AreFew) {
     const auto sparks = [](int x, int y) {
