@@ -45,7 +45,7 @@ void run(const GatherCommand &given, const ToolContext &tool, LdiCache &cache, G
     raise_highlights(frame, in, highlight_gain(looks.values));
     const Ldi &ldi = frame.ldi(in);
     const std::size_t samples = in.ldi.samples();
-    const Image depth = options.depth_output.empty() ? Image() : crop(front_depth(ldi), frame.written);
+    Image depth = options.depth_output.empty() ? Image() : crop(front_depth(ldi), frame.written);
     Imf::Header header = in.header;
     LensTiles tiles;
     options.picture.holdout = holdout ? &*holdout : nullptr;
@@ -61,13 +61,16 @@ void run(const GatherCommand &given, const ToolContext &tool, LdiCache &cache, G
         picture = crop(shown(options.show, ldi, lens, frame.gathered, tiles), frame.written);
     write_camera(header, in.camera);
     append_history(header, tool, options.history);
-    if (!options.depth_output.empty())
-        write_flat_exr(options.depth_output, depth, header, options.compression);
-    picture = in_type(std::move(picture), options.type);
-    warn_of_clamped(
-        tool, options.output,
-        write_picture(tool, options.colour, options.output, std::move(picture), header, options.compression));
-    write_stats(tool, gather_stats(cache, samples, tiles));
+    *tool.last_step = [&tool, header, depth = std::move(depth), picture = std::move(picture),
+                       output = options.output, depth_output = options.depth_output, type = options.type,
+                       colour = options.colour, compression = options.compression,
+                       stats = gather_stats(cache, samples, tiles)]() mutable {
+        if (!depth_output.empty()) write_flat_exr(depth_output, depth, header, compression);
+        warn_of_clamped(
+            tool, output,
+            write_picture(tool, colour, output, in_type(std::move(picture), type), header, compression));
+        write_stats(tool, stats);
+    };
 }
 
 } // namespace

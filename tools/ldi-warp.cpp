@@ -53,7 +53,7 @@ void run(const WarpCommand &options, const ToolContext &tool) {
     write_camera(in.header, in.camera);
     append_history(in.header, tool, options.history);
     write_picture_window(in.header, in.views[0].image.windows.data);
-    const Ldi ldi = warp(in.views, warp_by, *tool.progress);
+    Ldi ldi = warp(in.views, warp_by, *tool.progress);
     warn_of_wrong_poses(tool, in.views, warp_by.focal_px, lens_radius_of(in.camera).value_or(0));
     tool.say(fmt::format("{} views, {} samples in {} pixels", in.views.size(), ldi.samples(),
                          ldi.windows.pixels()));
@@ -61,8 +61,11 @@ void run(const WarpCommand &options, const ToolContext &tool) {
     if (camera.focus_distance && lens_radius_of(camera) &&
         focal_length_px(camera, ldi.windows.display_width()))
         say_border_reach(tool, options.output, ldi, resolve_lens(camera, ldi.windows));
-    warn_of_clamped(tool, options.output, write_ldi(options.output, ldi, in.header, options.compression));
-    write_stats(tool, warp_stats(in.views, ldi));
+    *tool.last_step = [&tool, stats = warp_stats(in.views, ldi), ldi = std::move(ldi), header = in.header,
+                       output = options.output, compression = options.compression] {
+        warn_of_clamped(tool, output, write_ldi(output, ldi, header, compression));
+        write_stats(tool, stats);
+    };
 }
 
 } // namespace

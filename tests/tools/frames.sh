@@ -24,6 +24,30 @@ exits 0 "$gather" ldi.exr -o radius.%d.exr --frames 1,3 --lens-radius 1:0.06,3:0
 exits 0 "$gather" ldi.exr -o one.exr --lens-radius 0
 same radius.3.exr one.exr "--lens-radius by frame"
 
+# A frame is written while the next one is at work: who reads the first waits until the second is gathered.
+if [ "$(nproc)" -gt 1 ]; then
+    mkfifo aside.0001.exr
+    "$gather" ldi.exr -o aside.####.exr --frames 1-3 --focus-distance 1:5,3:2 -v 2>aside.err &
+    process=$!
+    until [ "$(grep -c 'device: ' aside.err)" -ge 2 ]; do kill -0 $process && sleep 0.02; done
+    cat aside.0001.exr >first.exr
+    wait $process || fail "written aside: $(cat aside.err)"
+    exits 0 "$gather" ldi.exr -o one.exr --focus-distance 5
+    same_pixels first.exr one.exr "a frame written aside"
+    exits 0 "$gather" ldi.exr -o one.exr --focus-distance 2
+    same aside.0003.exr one.exr "the last frame after one written aside"
+fi
+# A frame that cannot be written ends the range before anything of the next is written; --skip-bad-frames goes on.
+mkdir unwritten.0002.exr
+for threads in 0 1; do
+    fails_saying 1 'frame 2: .*unwritten.0002.exr' "$gather" ldi.exr -o unwritten.####.exr --frames 1-4 --threads $threads
+    [ "$(find . -name 'unwritten.????.exr' -type f -printf '%f ')" = 'unwritten.0001.exr ' ] || fail "frames after one that was not written: $(ls)"
+    fails_saying 1 'frame 2: .*unwritten.0002.exr' "$gather" ldi.exr -o unwritten.####.exr --frames 1-4 --skip-bad-frames --threads $threads
+    [ "$(count 'unwritten.????.exr')" -eq 4 ] && [ -f unwritten.0004.exr ] || fail "--skip-bad-frames: $(ls)"
+    rm unwritten.000[134].exr
+done
+rm -r unwritten.*.exr
+
 # -u leaves alone what is up to date: what was killed in the middle is finished, nothing else is touched.
 rm pull.*.exr
 "${pull[@]}" --lens-samples 4096 2>/dev/null &

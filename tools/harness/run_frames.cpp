@@ -2,6 +2,7 @@
 #include "harness/commands/frames.h"
 #include "harness/commands/named_files.h"
 #include "harness/commands/stereo_commands.h"
+#include "harness/frame_run.h"
 #include "harness/history.h"
 #include "harness/process.h"
 #include "harness/progress_lines.h"
@@ -12,9 +13,12 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <tbb/global_control.h>
 
 #include <algorithm>
 #include <map>
+#include <memory>
+#include <utility>
 
 namespace sparselens {
 
@@ -107,14 +111,27 @@ bool is_up_to_date(const CLI::App &parsed, const ToolContext &tool, bool &warned
     return true;
 }
 
-void run_frame(const FrameCommand &command, ToolContext &tool, FrameCount count, bool &warned) {
-    const ProgressFormat format = command.frames.progress;
-    tool.progress = progress_of(format, tool.tool_name, count);
-    tool.stats = command.frames.stats;
-    if (!command.frames.update || !is_up_to_date(command.app, tool, warned)) command.job(tool);
+using Tool = std::shared_ptr<ToolContext>;
+
+// For a farm. What a frame prints comes before what the next one prints, so that the percentages grow.
+void say_stage(ProgressFormat format, const ToolContext &tool, const char *stage) {
     if (format == ProgressFormat::terminal) return;
-    tool.progress->start("done", 1);
+    tool.progress->start(stage, 1);
     tool.progress->advance();
+}
+
+bool has_threads() {
+    return tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism) > 1;
+}
+
+Tool context_of(const std::string &name, const FrameCommand &command) {
+    const auto tool = std::make_shared<ToolContext>();
+    tool->tool_name = name;
+    tool->threads = command.process.threads;
+    tool->verbose = command.process.verbose;
+    tool->max_memory = command.process.max_memory;
+    tool->stats = command.frames.stats;
+    return tool;
 }
 
 // All frames of one command line.
@@ -140,26 +157,31 @@ int run_words(const std::string &name, const std::string &description, const std
     code = exit_code_of(prefix, [&] { refuse_overwriting(files); });
     if (code != 0) return code;
 
-    ToolContext tool;
-    tool.tool_name = name;
-    tool.threads = first->process.threads;
-    tool.verbose = first->process.verbose;
-    tool.max_memory = first->process.max_memory;
-    const Process process(first->process, tool);
-    int worst = 0;
-    bool warned = false;
-    for (std::size_t i = 0; i < count; ++i) {
+    const ProgressFormat format = first->frames.progress;
+    const Process process(first->process, *context_of(name, *first));
+    FrameRun run(first->frames.skip_bad_frames);
+    bool warned = false, go_on = true;
+    for (std::size_t i = 0; i < count && go_on; ++i) {
         parse(i, command);
-        if (commands->is_range()) tool.frame = commands->number(i);
-        tool.last_frame = i + 1 == count;
-        tool.command_line = command_line(name, commands->words(i));
-        code = exit_code_of(prefix + frame_name(*commands, i), [&] {
-            run_frame(*command, tool, {i, count, tool.frame}, warned);
-        });
-        worst = std::max(worst, code);
-        if (code > 1 || (code == 1 && !first->frames.skip_bad_frames)) break;
+        const Tool tool = context_of(name, *command);
+        if (commands->is_range()) tool->frame = commands->number(i);
+        tool->last_frame = i + 1 == count;
+        tool->command_line = command_line(name, commands->words(i));
+        tool->progress = progress_of(format, name, {i, count, tool->frame});
+        const std::string frame_prefix = prefix + frame_name(*commands, i);
+        const bool aside = !tool->last_frame && has_threads();
+        const auto job = [&] {
+            if (!command->frames.update || !is_up_to_date(command->app, *tool, warned)) command->job(*tool);
+            if (aside) say_stage(format, *tool, *tool->last_step ? "writing" : "done");
+        };
+        const auto finish = [=] {
+            if (const auto last_step = std::exchange(*tool->last_step, {})) last_step();
+            if (!aside) say_stage(format, *tool, "done");
+        };
+        go_on = run.go_on([&] { return exit_code_of(frame_prefix, job); },
+                          [=] { return exit_code_of(frame_prefix, finish); }, aside);
     }
-    return worst;
+    return run.worst();
 }
 
 // The views that the first input of the command names.

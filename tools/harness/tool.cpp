@@ -37,6 +37,7 @@ int run_tool(CLI::App &app, int argc, char **argv, const Job &job, Reads reads) 
         const NamedFiles files = named_files(app);
         refuse_overwriting({&files, 1});
         job(tool);
+        if (*tool.last_step) (*tool.last_step)();
     });
 }
 

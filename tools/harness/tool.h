@@ -22,6 +22,10 @@ struct ToolContext {
     bool last_frame = true;                  // what was read for it may be used up
     std::string command_line;                // see history.h
 
+    // Never null. A job may leave its last step here, which writes what it made and holds all that it needs: of a range of
+    // frames, it runs while the next frame is at work, and no more than one at a time. It counts as part of the job.
+    std::unique_ptr<std::function<void()>> last_step = std::make_unique<std::function<void()>>();
+
     // With --verbose, prints the line to stderr after the name of the tool.
     void say(const std::string &line) const;
     std::string tool_name;
