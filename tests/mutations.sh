@@ -30,6 +30,7 @@ unsorted|src/deep/tidy.cpp|return a.z != b.z ? a.z < b.z : a.z_back < b.z_back;|
 float-accumulator|src/deep/flatten.cpp|sum += transmittance \* ldi.values\[k\]\[i\];|sum = double(float(sum + transmittance * ldi.values[k][i]));
 half-hidden-lamp|src/warp/silhouettes.cpp|if (!mix) return with_one_pixel(x, y, mixture.near_depth, f);|if (!mix) return {};
 small-lamp-impure|src/warp/silhouettes.cpp|if (const Imath::V3d c = colour_of(i); (c - result).dot(contrast) > 0) result = c;|(void)contrast;
+strands-not-seen|src/warp/mixed/wisps.cpp|return std::min(along, down) >= many_jumps;|return std::min(along, down) > 4 * many_jumps;
 mixed-left-whole|src/warp/warp.cpp|options.split_silhouettes ? options.surface_px : 0|options.split_silhouettes ? 2 * options.surface_px : 0
 cluster-weights|src/deep/cluster.cpp|terms\[t\].coefficient /= weights|(void)weights
 lamps-opaque-alone|src/dof/lens/highlights.cpp|i < block.end; ++i) found|i < block.opaque_end; ++i) found

@@ -3,6 +3,7 @@
 #include "base/parallel.h"
 #include "deep/build.h"
 #include "lens/perceptive_depth.h"
+#include "warp/mixed/wisps.h"
 #include "warp/unmixing.h"
 
 #include <algorithm>
@@ -29,12 +30,6 @@ struct Estimate {
     bool pure = false; // some of them are pixels that nothing else is mixed into
 };
 
-struct Mixture {
-    double near_depth, far_depth; // perceptive
-    double share;                 // of the nearer surface
-    Estimate behind;
-};
-
 class Separation {
 public:
     Separation(const Ldi &view, double scale, double jump);
@@ -44,50 +39,40 @@ private:
     enum Side : unsigned char { inside = 0, has_nearer = 1, has_farther = 2 };
 
     unsigned char side_of(int x, int y) const;
+    std::optional<Mixture> find(int x, int y) const;
     std::optional<Mixture> mixture_of(int x, int y) const;
     std::optional<Estimate> estimate(int x, int y, double depth) const;
     Imath::V3d purest(int x, int y, double depth, const Imath::V3d &front, const Imath::V3d &behind) const;
     std::optional<Mixture> with_one_pixel(int x, int y, double near_depth, const Imath::V3d &front) const;
     void emit_mixture(std::uint64_t i, const Mixture &mixture, Ldi &out) const;
 
-    // visit(sample, dx, dy) for the samples of the pixels within `reach` of (x, y).
     template <typename Visit>
-    void around(int x, int y, int reach, const Visit &visit) const;
-
-    std::uint64_t own_sample(int x, int y) const { return view_.pixel(grid_.index(x, y)).front(); }
-    bool is_empty(std::size_t pixel) const { return view_.pixel(pixel).empty(); }
-    double depth_of(std::uint64_t i) const { return depths_[i]; }
-    bool is_opaque(std::uint64_t i) const { return alpha_at(view_, alpha_, i) >= 1; }
+    void around(int x, int y, int reach, const Visit &visit) const {
+        samples_.around(x, y, reach, visit);
+    }
+    std::uint64_t own_sample(int x, int y) const { return samples_.own_sample(x, y); }
+    double depth_of(std::uint64_t i) const { return samples_.depth_of(i); }
+    bool is_opaque(std::uint64_t i) const { return samples_.is_opaque(i); }
+    Imath::V3d colour_of(std::uint64_t i) const { return samples_.colour_of(i); }
     // Whether it is of the surface at that depth, and nothing nearer may be mixed into it.
     bool tells_of(double depth, std::uint64_t i) const {
         return !(std::abs(depth_of(i) - depth) >= jump_ || (sides_[i] & has_nearer)) && is_opaque(i);
     }
-    Imath::V3d colour_of(std::uint64_t i) const {
-        const auto value = [&](std::size_t k) { return double(view_.values[rgb_[k]][i]); };
-        return {value(0), value(1), value(2)};
-    }
 
     const Ldi &view_;
-    Grid grid_; // of its window, from its corner
+    SamplesAround samples_;
     double scale_, jump_;
-    std::size_t alpha_;
-    std::array<std::size_t, 3> rgb_;
-    std::vector<double> depths_;       // of each sample, perceptive
     std::vector<unsigned char> sides_; // of the first sample of each pixel
 };
 
 Separation::Separation(const Ldi &view, double scale, double jump)
-    : view_(view), grid_(view.windows.width(), view.windows.height()), scale_(scale), jump_(jump),
-      alpha_(view.alpha()), rgb_(find_rgb(view.channels)) {
-    depths_.resize(view.samples());
-    std::ranges::transform(view.z, depths_.begin(),
-                           [scale](float z) { return perceptive_depth(scale, double(z)); });
+    : view_(view), samples_(view, scale), scale_(scale), jump_(jump) {
     sides_.assign(view.samples(), inside);
-    if (alpha_ == npos || !all_found(rgb_)) return;
-    parallel_for(std::size_t(grid_.height()), [&](std::size_t y) {
-        for (int x = 0; x < grid_.width(); ++x)
-            if (const std::size_t pixel = grid_.index(x, int(y)); !is_empty(pixel))
-                sides_[view_.pixel(pixel).front()] = side_of(x, int(y));
+    if (!samples_.have_colours()) return;
+    const Grid &grid = samples_.grid();
+    parallel_for(std::size_t(grid.height()), [&](std::size_t y) {
+        for (int x = 0; x < grid.width(); ++x)
+            if (!samples_.is_empty(grid.index(x, int(y)))) sides_[own_sample(x, int(y))] = side_of(x, int(y));
     });
 }
 
@@ -99,15 +84,6 @@ unsigned char Separation::side_of(int x, int y) const {
         if (depth_of(i) < own - jump_) side |= has_farther;
     });
     return side;
-}
-
-template <typename Visit>
-void Separation::around(int x, int y, int reach, const Visit &visit) const {
-    for (int v = std::max(y - reach, 0); v <= std::min(y + reach, grid_.height() - 1); ++v)
-        for (int u = std::max(x - reach, 0); u <= std::min(x + reach, grid_.width() - 1); ++u) {
-            const std::size_t pixel = grid_.index(u, v);
-            if (!is_empty(pixel)) visit(view_.pixel(pixel).front(), u - x, v - y);
-        }
 }
 
 // By the square of the distance in pixels.
@@ -161,7 +137,7 @@ std::optional<Mixture> Separation::mixture_of(int x, int y) const {
     const auto mix = unmix(colour_of(own), f, behind->colour, own_is_far, largest_residual);
     if (!mix) return with_one_pixel(x, y, mixture.near_depth, f);
     mixture.share = mix->share;
-    mixture.behind = *behind;
+    mixture.behind = behind->terms;
     return mixture;
 }
 
@@ -193,31 +169,47 @@ std::optional<Mixture> Separation::with_one_pixel(int x, int y, double near_dept
         if (!mix || mix->residual >= least) return;
         if (std::min(mix->share, 1 - mix->share) < least_share_of_one) return;
         least = mix->residual;
-        best = {near_depth, depth_of(i), mix->share, {{{i, 1}}, b}};
+        best = {near_depth, depth_of(i), mix->share, {{i, 1}}};
     });
     return best;
 }
 
 void Separation::emit_mixture(std::uint64_t i, const Mixture &mixture, Ldi &out) const {
-    std::vector<Term> front{{i, 1}};
-    for (const Term &term : mixture.behind.terms)
-        front.push_back({term.index, -(1 - mixture.share) * term.coefficient});
     MergedSample sample = sample_at(view_, i);
-    sample.z = sample.z_back = float(depth_of_perceptive(scale_, mixture.near_depth));
-    sample.terms = front;
-    append(out, view_, sample);
-    sample.z = sample.z_back = float(depth_of_perceptive(scale_, mixture.far_depth));
-    sample.weight = estimate_weight;
-    sample.terms = mixture.behind.terms;
-    append(out, view_, sample);
+    const auto emit = [&](double depth, std::span<const Term> terms) {
+        sample.z = sample.z_back = float(depth_of_perceptive(scale_, depth));
+        sample.terms = terms;
+        append(out, view_, sample);
+        sample.weight = estimate_weight; // of what follows, behind
+    };
+    const double share = mixture.share;
+    const std::vector<Term> whole{{i, 1}};
+    if (share == 0) return emit(mixture.far_depth, whole);
+    std::vector<Term> front = whole, behind = mixture.behind;
+    if (mixture.front) {
+        front = {{*mixture.front, share}};
+        behind = {{i, 1 / (1 - share)}, {*mixture.front, -share / (1 - share)}};
+    } else {
+        for (const Term &term : behind) front.push_back({term.index, -(1 - share) * term.coefficient});
+    }
+    emit(mixture.near_depth, front);
+    emit(mixture.far_depth, behind);
+}
+
+std::optional<Mixture> Separation::find(int x, int y) const {
+    const bool strands = among_strands(samples_, x, y);
+    if (strands)
+        if (const auto light = light_between_strands(samples_, x, y)) return light;
+    if (const auto mixture = mixture_of(x, y)) return mixture;
+    return strands ? strands_before(samples_, x, y) : std::nullopt;
 }
 
 void Separation::emit_pixel(std::size_t pixel, Ldi &out) const {
-    if (is_empty(pixel)) return;
+    if (samples_.is_empty(pixel)) return;
     const std::uint64_t own = view_.pixel(pixel).front();
     if (sides_[own] != inside && is_opaque(own)) {
-        const Imath::V2i at = grid_.pixel(pixel);
-        if (const auto mixture = mixture_of(at.x, at.y)) return emit_mixture(own, *mixture, out);
+        const Imath::V2i at = samples_.grid().pixel(pixel);
+        if (const auto mixture = find(at.x, at.y)) return emit_mixture(own, *mixture, out);
     }
     append(out, view_, own);
 }

@@ -1,0 +1,53 @@
+// The samples of a view that has at most one a pixel, and what lies around them. Depths are perceptive, R F / z: pixels,
+// larger is nearer.
+#pragma once
+
+#include "base/grid.h"
+#include "deep/ldi.h"
+#include "lens/perceptive_depth.h"
+
+#include <algorithm>
+#include <array>
+
+namespace sparselens {
+
+class SamplesAround {
+public:
+    // Refers to the view; scale is R F, pixels times scene units.
+    SamplesAround(const Ldi &view, double scale)
+        : view_(view), grid_(view.windows.width(), view.windows.height()), alpha_(view.alpha()),
+          rgb_(find_rgb(view.channels)), depths_(view.samples()) {
+        std::ranges::transform(view.z, depths_.begin(),
+                               [scale](float z) { return perceptive_depth(scale, double(z)); });
+    }
+
+    bool have_colours() const { return alpha_ != npos && all_found(rgb_); }
+    const Grid &grid() const { return grid_; } // of the window, from its corner
+    bool is_empty(std::size_t pixel) const { return view_.pixel(pixel).empty(); }
+    std::uint64_t own_sample(int x, int y) const { return view_.pixel(grid_.index(x, y)).front(); }
+
+    double depth_of(std::uint64_t i) const { return depths_[i]; }
+    bool is_opaque(std::uint64_t i) const { return alpha_at(view_, alpha_, i) >= 1; }
+    Imath::V3d colour_of(std::uint64_t i) const {
+        const auto value = [&](std::size_t k) { return double(view_.values[rgb_[k]][i]); };
+        return {value(0), value(1), value(2)};
+    }
+
+    // visit(sample, dx, dy) for the samples of the pixels within `reach` of (x, y).
+    template <typename Visit>
+    void around(int x, int y, int reach, const Visit &visit) const {
+        for (int v = std::max(y - reach, 0); v <= std::min(y + reach, grid_.height() - 1); ++v)
+            for (int u = std::max(x - reach, 0); u <= std::min(x + reach, grid_.width() - 1); ++u)
+                if (const std::size_t pixel = grid_.index(u, v); !is_empty(pixel))
+                    visit(view_.pixel(pixel).front(), u - x, v - y);
+    }
+
+private:
+    const Ldi &view_;
+    Grid grid_;
+    std::size_t alpha_;
+    std::array<std::size_t, 3> rgb_;
+    std::vector<double> depths_; // of each sample
+};
+
+} // namespace sparselens

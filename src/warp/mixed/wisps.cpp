@@ -1,0 +1,134 @@
+#include "warp/mixed/wisps.h"
+
+#include <cmath>
+#include <utility>
+
+namespace sparselens {
+
+namespace {
+
+constexpr int reach = 2;          // pixels around
+constexpr int many_jumps = 5;     // of 20 pairs: half of them are expected among strands that cover half
+constexpr double apart = 2;       // pixels of perceptive depth between strands and what is behind them
+constexpr double far_away = 0.1;  // nearer than this is no sky, which has no lamps
+constexpr int reach_of_light = 4; // pixels: a lamp of a few pixels, all of them behind strands
+constexpr double bright = 4;      // times as bright as the strands
+constexpr double dim_strand =
+    0.3; // so many of the strands around are dimmer than what they are taken to show
+constexpr double least_share = 0.02;     // less than this of a pixel is not worth a sample
+constexpr double largest_residual = 0.1; // of a colour that is explained, as a share of it
+constexpr double least_contrast = 0.1;   // between F and B, as a share of their size
+
+double brightness(const SamplesAround &samples, std::uint64_t i) { return samples.colour_of(i).length(); }
+
+double nearest_beside(const SamplesAround &samples, int x, int y) {
+    double nearest = 0;
+    samples.around(x, y, 1,
+                   [&](std::uint64_t i, int, int) { nearest = std::max(nearest, samples.depth_of(i)); });
+    return nearest;
+}
+
+// What strands at that depth show where no light comes from between them: that of a rather dim one.
+std::optional<std::uint64_t> dim_one(const SamplesAround &samples, int x, int y, double depth) {
+    std::vector<std::pair<double, std::uint64_t>> strands;
+    samples.around(x, y, reach_of_light, [&](std::uint64_t i, int, int) {
+        if (std::abs(samples.depth_of(i) - depth) <= apart && samples.is_opaque(i))
+            strands.push_back({brightness(samples, i), i});
+    });
+    if (strands.size() < 3) return {};
+    const auto middle = strands.begin() + std::ptrdiff_t(dim_strand * double(strands.size()));
+    std::nth_element(strands.begin(), middle, strands.end());
+    return middle->second;
+}
+
+// The brightest pixel behind strands of that depth, if it is brighter than `least`.
+std::optional<std::uint64_t> lamp_behind(const SamplesAround &samples, int x, int y, double depth,
+                                         double least) {
+    std::optional<std::uint64_t> lamp;
+    samples.around(x, y, reach_of_light, [&](std::uint64_t i, int dx, int dy) {
+        const double own = samples.depth_of(i);
+        if ((dx == 0 && dy == 0) || own > depth - apart || own < far_away) return;
+        if (const double value = brightness(samples, i); value > least) {
+            least = value;
+            lamp = i;
+        }
+    });
+    return lamp;
+}
+
+// The one of the strands at that depth that differs most from a colour.
+Imath::V3d most_different(const SamplesAround &samples, int x, int y, double depth, const Imath::V3d &from) {
+    Imath::V3d result = from;
+    samples.around(x, y, reach, [&](std::uint64_t i, int, int) {
+        if (std::abs(samples.depth_of(i) - depth) > apart || !samples.is_opaque(i)) return;
+        if (const Imath::V3d c = samples.colour_of(i); (c - from).length2() > (result - from).length2())
+            result = c;
+    });
+    return result;
+}
+
+// The share of F in c = a F + (1 - a) B, if that explains c.
+std::optional<double> share_of(const Imath::V3d &c, const Imath::V3d &f, const Imath::V3d &b) {
+    const Imath::V3d contrast = f - b;
+    const double size = 0.5 * (f.length2() + b.length2()), distance = contrast.length2();
+    if (!(distance > least_contrast * least_contrast * size)) return {};
+    double share = std::clamp((c - b).dot(contrast) / distance, 0.0, 1.0);
+    if ((c - share * f - (1 - share) * b).length() > largest_residual * c.length()) return {};
+    for (int k = 0; k < 3; ++k) // what is left in front is light
+        if ((1 - share) * b[k] > c[k]) share = 1 - std::max(c[k], 0.0) / b[k];
+    if (!(share >= least_share && share <= 1 - least_share)) return {};
+    return share;
+}
+
+} // namespace
+
+bool among_strands(const SamplesAround &samples, int x, int y) {
+    const Grid &grid = samples.grid();
+    const auto jumps = [&](std::uint64_t i, int dx, int dy) {
+        if (dx > reach || dy > reach || !grid.contains(x + dx, y + dy)) return false;
+        if (samples.is_empty(grid.index(x + dx, y + dy))) return false;
+        return std::abs(samples.depth_of(samples.own_sample(x + dx, y + dy)) - samples.depth_of(i)) > apart;
+    };
+    int along = 0, down = 0;
+    samples.around(x, y, reach, [&](std::uint64_t i, int dx, int dy) {
+        along += jumps(i, dx + 1, dy);
+        down += jumps(i, dx, dy + 1);
+    });
+    return std::min(along, down) >= many_jumps;
+}
+
+std::optional<Mixture> light_between_strands(const SamplesAround &samples, int x, int y) {
+    const std::uint64_t own = samples.own_sample(x, y);
+    const double own_depth = samples.depth_of(own), nearest = nearest_beside(samples, x, y);
+    const bool is_strand = own_depth > nearest - apart;
+    const double near_depth = is_strand ? own_depth : nearest;
+    const auto strand = dim_one(samples, x, y, near_depth);
+    if (!strand) return {};
+    const double c = brightness(samples, own), f = brightness(samples, *strand);
+    if (!(c > bright * f)) return {};
+    const auto lamp = lamp_behind(samples, x, y, near_depth, c / bright);
+    if (!lamp) return {};
+    const double b = brightness(samples, *lamp), lamp_depth = samples.depth_of(*lamp);
+    // A lamp's own pixel stays at its depth, and one of what is beside the lamp takes it.
+    if (!is_strand)
+        return Mixture{near_depth, std::abs(own_depth - lamp_depth) < apart ? own_depth : lamp_depth, 0, {}};
+    const double share = b > c ? (b - c) / (b - f) : 0;
+    return Mixture{near_depth, lamp_depth, share < least_share ? 0 : share, {}, strand};
+}
+
+std::optional<Mixture> strands_before(const SamplesAround &samples, int x, int y) {
+    const std::uint64_t own = samples.own_sample(x, y);
+    const double own_depth = samples.depth_of(own), nearest = nearest_beside(samples, x, y);
+    const double near_depth = own_depth > nearest - apart ? own_depth : nearest;
+    std::optional<Mixture> best;
+    samples.around(x, y, reach, [&](std::uint64_t i, int, int) {
+        if (samples.depth_of(i) > near_depth - apart || !samples.is_opaque(i)) return;
+        const Imath::V3d b = samples.colour_of(i);
+        const auto share = share_of(samples.colour_of(own), most_different(samples, x, y, near_depth, b), b);
+        if (share && (!best || *share > best->share))
+            best = {near_depth, samples.depth_of(i), *share, {{i, 1}}};
+    });
+    return best;
+}
+
+} // namespace sparselens

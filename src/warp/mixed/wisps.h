@@ -1,0 +1,31 @@
+// Strands thinner than a pixel: hair, fur, grass far away.
+//
+// No pixel among them shows one surface, and the depth that a renderer gives it is that of one of its samples, so that
+// it is chance whether a pixel is said to be hair or what is behind. Such places are known by depths that jump often
+// between neighbours, along rows and along columns, where edges and bars mostly do along one of them. There the depth of a
+// pixel does not say what it shows more of, and what the surfaces show is told by single pixels around:
+//
+//   - A pixel that is four times as bright as the strands are holds light from between them. It belongs to the brightest
+//     pixel behind, a lamp: a = (b - c) / (b - f) of brightnesses.
+//   - Else B is the one of the farther pixels that leaves most of the pixel to the strands and still explains its colour, and F
+//     the one of the strands that differs most from B.
+#pragma once
+
+#include "warp/mixed/mixture.h"
+#include "warp/mixed/samples_around.h"
+
+#include <optional>
+
+namespace sparselens {
+
+// Whether the pixel stands among strands: of the 20 pairs of neighbours within two pixels, five or more jump by more than
+// two pixels of perceptive depth, along rows and along columns.
+bool among_strands(const SamplesAround &samples, int x, int y);
+
+// Of a pixel among strands: what its light from between them is, if it has any.
+std::optional<Mixture> light_between_strands(const SamplesAround &samples, int x, int y);
+
+// Of a pixel among strands: its share of them, if the pixels around explain its colour.
+std::optional<Mixture> strands_before(const SamplesAround &samples, int x, int y);
+
+} // namespace sparselens

@@ -1,0 +1,111 @@
+#include "deep/flatten.h"
+#include "support/views.h"
+#include "warp/deepen.h"
+#include "warp/mixed/wisps.h"
+#include "warp/silhouettes.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <random>
+#include <vector>
+
+namespace sparselens {
+namespace {
+
+constexpr double scale = 20; // of depths 2 and 10: 8 pixels of CoC apart
+constexpr int size = 40;
+
+// Strands at depth 2 that cover a random share of each pixel, before a wall at depth 10 and a lamp of 4 by 4 pixels on
+// it. The depth of a pixel is that of the strands by chance, as often as they cover it.
+struct Strands {
+    float lamp = 0.8f, wall = 0.8f, strand = 0.1f;
+    std::vector<float> share;
+    View view;
+
+    explicit Strands(float lamp_radiance, std::uint32_t seed = 1) : lamp(lamp_radiance) {
+        std::mt19937 random(seed);
+        std::uniform_real_distribution<float> unit(0, 1);
+        for (int i = 0; i < size * size; ++i) share.push_back(unit(random));
+        view = make_view(windows_of_size(size, size), {0, 0}, [&](int x, int y) {
+            const float a = share[std::size_t(y * size + x)], v = a * strand + (1 - a) * behind(x, y);
+            return ViewPixel{.z = unit(random) < a ? 2.0f : 10.0f, .r = v, .g = v, .b = v};
+        });
+    }
+    float behind(int x, int y) const { return x >= 18 && x < 22 && y >= 18 && y < 22 ? lamp : wall; }
+    Ldi separated() const { return separate_silhouettes(deepen(view, view.image.channels), scale, 0.5); }
+};
+
+bool among(const View &view, int x, int y) {
+    const Ldi ldi = deepen(view, view.image.channels);
+    return among_strands(SamplesAround(ldi, scale), x, y);
+}
+
+TEST(Wisps, StrandsAreKnownByDepthsThatJump) {
+    const Strands hair(0.8f);
+    int found = 0;
+    for (int y = 4; y < size - 4; ++y)
+        for (int x = 4; x < size - 4; ++x) found += among(hair.view, x, y);
+    EXPECT_GT(found, 0.95 * (size - 8) * (size - 8));
+    const std::vector<std::function<bool(int x, int y)>> solids{
+        [](int x, int) { return x < 10; },             // an edge
+        [](int x, int y) { return x < 10 && y < 10; }, // a corner
+        [](int x, int y) { return 3 * x + y < 40; },   // a slanted edge
+        [](int x, int) { return x == 10; },            // a wire
+        [](int x, int) { return x % 2 == 0; },         // bars
+    };
+    for (std::size_t k = 0; k < solids.size(); ++k) {
+        const View view = make_view(windows_of_size(20, 20), {0, 0}, [&](int x, int y) {
+            return ViewPixel{.z = solids[k](x, y) ? 2.0f : 10.0f};
+        });
+        for (int y = 0; y < 20; ++y)
+            for (int x = 0; x < 20; ++x) EXPECT_FALSE(among(view, x, y)) << k << ' ' << x << ' ' << y;
+    }
+}
+
+// Whatever depth chance gave a pixel, the strands cover their share of it; without that, one of the two depths has all.
+TEST(Wisps, StrandsCoverTheirShare) {
+    const Strands hair(0.8f);
+    const Ldi ldi = hair.separated();
+    double error = 0, whole_error = 0;
+    int count = 0;
+    for (int y = 4; y < size - 4; ++y)
+        for (int x = 4; x < size - 4; ++x) {
+            const std::size_t pixel = std::size_t(y * size + x);
+            double covered = 0;
+            for (const std::uint64_t i : ldi.pixel(pixel))
+                if (ldi.z[i] < 5) covered += double(ldi.values[3][i]);
+            const double share = double(hair.share[pixel]), whole = hair.view.z[pixel] < 5 ? 1 : 0;
+            error += std::abs(covered - share);
+            whole_error += std::abs(whole - share);
+            ++count;
+        }
+    EXPECT_GT(whole_error / count, 0.3); // a third is expected
+    EXPECT_LT(error, 0.4 * whole_error); // the purest pixels around are not quite pure
+    const Image flat = flatten(ldi);
+    for (std::size_t i = 0; i < flat.values.size(); ++i)
+        EXPECT_NEAR(flat.values[i], hair.view.image.values[i], 1e-5);
+}
+
+// A lamp 400 times as bright as the strands shines at its own depth, and none of its light is lost.
+TEST(Wisps, LightBetweenStrandsIsTheLamps) {
+    for (const std::uint32_t seed : {1u, 2u, 3u}) {
+        const Strands hair(40, seed);
+        const Ldi ldi = hair.separated();
+        double all = 0, of_strands = 0, before = 0;
+        const Image flat = flatten(ldi);
+        for (int y = 18; y < 22; ++y)
+            for (int x = 18; x < 22; ++x) {
+                const std::size_t pixel = std::size_t(y * size + x);
+                all += double(flat.values[pixel]);
+                before += double(hair.view.image.values[pixel]);
+                for (const std::uint64_t i : ldi.pixel(pixel))
+                    if (ldi.z[i] < 5) of_strands += double(ldi.values[0][i]);
+            }
+        EXPECT_NEAR(all, before, 1e-4 * before) << seed;
+        EXPECT_LT(of_strands, 0.01 * before) << seed; // they have half of it where the depths of pixels count
+    }
+}
+
+} // namespace
+} // namespace sparselens
