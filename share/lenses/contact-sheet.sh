@@ -1,7 +1,7 @@
 #!/bin/bash
 # contact-sheet.sh BIN_DIR OUT [SCENE [SIZE [RAYS [FOLDER]]]]: looks of the lens on a test scene, each gathered from five
 # views (left) beside its truth by ray tracing (right); on stdout, how far the one is from the other. A FOLDER keeps what
-# was traced, and what lies there is not traced again. Needs oiiotool.
+# was traced, and what lies there is not traced again. Needs oiiotool, and the font DejaVu Sans ($FONT names another).
 set -euo pipefail
 usage="usage: contact-sheet.sh BIN_DIR OUT [SCENE [SIZE [RAYS [FOLDER]]]]"
 bin=$(cd "${1:?$usage}" && pwd)
@@ -14,33 +14,34 @@ traced=$(realpath "${6:-$scratch}")
 mkdir -p "$traced"
 cd "$scratch"
 
-# Half as large, and lamps of a thousand times the white of the wall beside it: a power shows both.
+# Half as large under its name, and lamps of a thousand times the white of the wall beside it: a power shows both.
 shown() {
-    oiiotool "$1" --ch R,G,B --resize:filter=box 320x0 --clamp:min=0 --powc 0.3 --mulc 0.4 --clamp:max=1 -d uint8 -o "$2"
+    oiiotool "$1" --ch R,G,B --resize:filter=box 320x0 --clamp:min=0 --powc 0.3 --mulc 0.4 --clamp:max=1 \
+        --text:x=5:y=13:size=12:color=0.8,0.8,0.8:font="${FONT:-DejaVuSans}" "$3" -d uint8 -o "$2"
 }
 tiles=()
 look() {
-    local name=$1 truth=$traced/$scene.$1
-    shift
+    local name=$1 truth=$traced/$scene.$1 label=$2
+    shift 2
     [ -f "$truth/reference.exr" ] || "$bin/dof-trace" "$scene" --size "$size" --views 1 --spp 1 --reference "$rays" "$@" -o "$truth"
     "$bin/dof-gather" ldi.exr --quality final "$@" -o "$name.exr"
     "$bin/dof-compare" "$name.exr" "$truth/reference.exr" >figures
     awk -v look="${*:-no look}" '$1 == "psnr_tonemapped" { printf "%s: %.1f dB\n", look, $2 }' figures
-    shown "$name.exr" "$name.gathered.png"
-    shown "$truth/reference.exr" "$name.traced.png"
+    shown "$name.exr" "$name.gathered.png" "$label"
+    shown "$truth/reference.exr" "$name.traced.png" traced
     tiles+=("$name.gathered.png" "$name.traced.png")
 }
 
 [ -f "$traced/$scene/center.exr" ] || "$bin/dof-trace" "$scene" --size "$size" -o "$traced/$scene"
 "$bin/ldi-warp" "$traced/$scene"/center.exr "$traced/$scene"/view_*.exr -o ldi.exr
-look round
-look blades6 --blades 6 --blade-rotation 15
-look squeeze2 --squeeze 2
-look mirror --aperture "$lenses/mirror.exr"
-look spherical --spherical 0.7
-look cateye --cat-eye 1
-look chroma --axial-chromatic 0.1
-look curve --field-curvature 0.3
-look tilt --tilt 10,5
-look breath --breathing 1
+look round round
+look blades6 '6 blades' --blades 6 --blade-rotation 15
+look squeeze2 'squeeze 2' --squeeze 2
+look mirror 'picture of a mirror lens' --aperture "$lenses/mirror.exr"
+look spherical 'spherical 0.7' --spherical 0.7
+look cateye "cat's eye 1" --cat-eye 1
+look chroma 'axial chromatic 0.1' --axial-chromatic 0.1
+look curve 'field curvature 0.3' --field-curvature 0.3
+look tilt 'tilt 10,5' --tilt 10,5
+look breath 'breathing 1' --breathing 1
 oiiotool "${tiles[@]}" --mosaic:pad=2 "4x$((${#tiles[@]} / 4))" -o "$out"

@@ -183,6 +183,31 @@ TEST(LampSpread, OfAPictureIsItsLightInEachPixel) {
         EXPECT_NEAR(sum(picture_of({.squeeze = 1.7, .picture = cross}, moved)), 1, 1e-9);
 }
 
+TEST(LampSpread, OfAPictureIsTheAreaOfItsSquaresInEachPixelWhereverItLies) {
+    const auto grey = [](int x, int y) { return float(1 + 3 * x + (y == 1 ? 4 : 0)); };
+    const auto squares = picture(3, 3, grey);
+    const double all = 3 * (1 + 4 + 7) + 3 * 4;
+    for (const Lamp &lamp : lamps)
+        for (const double squeeze : {1.0, 2.0, 0.7}) {
+            const auto weights = picture_of({.squeeze = squeeze, .picture = squares}, lamp);
+            const Imath::V2d side(2.0 / 3 * lamp.coc / squeeze, 2.0 / 3 * lamp.coc * lamp.pixel_aspect);
+            for (int y = 0; y < size; ++y)
+                for (int x = 0; x < size; ++x) {
+                    const Imath::Box2d pixel(Imath::V2d(x, y), Imath::V2d(x + 1, y + 1));
+                    double light = 0;
+                    for (int i = 0; i < 9; ++i) {
+                        const Imath::V2d a = lamp.centre + side * Imath::V2d(i % 3 - 1.5, i / 3 - 1.5),
+                                         b = a + side;
+                        light += double(grey(i % 3, i / 3)) * area_in({a, {b.x, a.y}, b, {a.x, b.y}}, pixel);
+                    }
+                    const double square = std::abs(side.x * side.y);
+                    ASSERT_NEAR(weights[std::size_t(y * size + x)] * all * square, light, 1e-3)
+                        << x << "," << y;
+                }
+            EXPECT_NEAR(sum(weights), 1, 1e-4);
+        }
+}
+
 TEST(LampSpread, OfAPictureIsUprightBehindFocus) {
     const auto half = picture(2, 2, [](int x, int y) { return x == 0 && y == 0 ? 3.0f : 1.0f; });
     const auto behind = picture_of({.picture = half}, {{32, 32}, 10}),

@@ -129,7 +129,8 @@ fails_saying 1 'black.exr.* black' "$gather" ldi.exr -o x.exr --aperture black.e
 fails_saying 1 'none.exr' "$gather" ldi.exr -o x.exr --aperture none.exr
 fails_saying 2 '--aperture.*--blades|--blades.*--aperture' "$gather" ldi.exr -o x.exr --aperture aperture.exr --blades 5
 for method in selective scatter; do
-    for look in '--squeeze 2' '--cat-eye 1' '--tilt 3,0' '--aperture aperture.exr' '--lens lens.json'; do
+    for look in '--blades 5' '--squeeze 2' '--spherical 0.5' '--cat-eye 1' '--axial-chromatic 0.1' '--field-curvature 0.5' \
+        '--tilt 3,0' '--breathing 1' '--aperture aperture.exr' '--lens lens.json'; do
         # shellcheck disable=SC2086
         fails_saying 2 "${look%% *}: works with --method lens only" "$gather" ldi.exr -o x.exr --method $method $look
     done

@@ -67,6 +67,12 @@ for look in '--blades 5' '--squeeze 2' '--spherical 0.5' '--aperture aperture.ex
     # shellcheck disable=SC2086
     changes reference.exr $look
 done
+for text in '--blades 2' '--blade-curvature 1.5' '--blade-rotation x' '--squeeze 0' '--spherical 2' '--cat-eye -1' \
+    '--axial-chromatic 6' '--axial-chromatic-type pink' '--field-curvature 1.1' '--tilt 3' '--breathing -1' \
+    '--highlight-gain 0.5'; do
+    # shellcheck disable=SC2086
+    fails_saying 2 "${text%% *}" "$trace" fence -o x "${small[@]}" --reference 3 $text
+done
 exits 0 "$trace" fence -o eye "${small[@]}" --reference 3 --cat-eye 1
 exits 0 "$trace" fence -o dark "${small[@]}" --reference 3 --cat-eye 1 --cat-eye-darkening
 differ eye/reference.exr dark/reference.exr "--cat-eye-darkening"

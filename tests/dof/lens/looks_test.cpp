@@ -135,15 +135,44 @@ TEST(LensLooks, MagnifyAboutTheAxis) {
     EXPECT_NEAR(sum, 1000, 5); // the lamp's light stays, its disc is wider
 }
 
-// One lamp's colours are discs of different CoC.
-TEST(LensLooks, FocusColoursAtDifferentDepths) {
-    const Windows windows = windows_of_size(64, 64);
-    const Ldi ldi = make_ldi(windows, rgba_channels(), [&](int x, int y) {
+// One lamp in an empty picture of 64 x 64 pixels.
+Image gather_lamp(double coc, const LensLooks &looks) {
+    const Ldi ldi = make_ldi(windows_of_size(64, 64), rgba_channels(), [&](int x, int y) {
         std::vector<Sample> samples;
-        if (x == 32 && y == 32) samples.push_back({depth_of(lens, 7), {1000, 1000, 1000, 1}});
+        if (x == 32 && y == 32) samples.push_back({depth_of(lens, coc), {1000, 1000, 1000, 1}});
         return samples;
     });
-    const Image image = gather(ldi, {.chromatic_coc = {-2, 0, 3}});
+    return gather(ldi, looks);
+}
+
+TEST(LensLooks, SqueezeADiscToTheAreaOfTheEllipseInEachPixel) {
+    const Image image = gather_lamp(7, {.aperture = {.squeeze = 1.6}});
+    const double a = 7 / 1.6, b = 7, area = std::numbers::pi * a * b;
+    constexpr int n = 200; // points a side of a pixel
+    for (int y = 20; y < 45; ++y)
+        for (int x = 20; x < 45; ++x) {
+            int inside = 0;
+            for (int i = 0; i < n * n; ++i) {
+                const double u = (x - 32.5 + (i % n + 0.5) / n) / a, v = (y - 32.5 + (i / n + 0.5) / n) / b;
+                inside += u * u + v * v <= 1;
+            }
+            ASSERT_NEAR(image.at(0, x, y) / 1000 * area, inside / double(n * n), 1e-3) << x << "," << y;
+        }
+}
+
+TEST(LensLooks, MirrorATriangleInFrontOfFocus) {
+    const LensLooks looks{.aperture = {.blades = 3, .rotation = 90}};
+    const Image behind = gather_lamp(7, looks), in_front = gather_lamp(-7, looks);
+    for (int y = 1; y < 64; ++y)
+        for (int x = 1; x < 64; ++x)
+            ASSERT_NEAR(behind.at(0, x, y), in_front.at(0, 64 - x, 64 - y), 1e-3) << x << "," << y; // of 1000
+    EXPECT_GT(behind.at(0, 28, 30), 1.0f); // a side is on top behind focus, a corner in front
+    EXPECT_EQ(in_front.at(0, 28, 30), 0.0f);
+}
+
+// One lamp's colours are discs of different CoC.
+TEST(LensLooks, FocusColoursAtDifferentDepths) {
+    const Image image = gather_lamp(7, {.chromatic_coc = {-2, 0, 3}});
     for (std::size_t k = 0; k < 3; ++k) {
         const double coc = std::array{5.0, 7.0, 10.0}[k];
         for (int y = 0; y < 64; ++y)
