@@ -1,7 +1,8 @@
 #!/bin/bash
 # contact-sheet.sh BIN_DIR OUT [SCENE [SIZE [RAYS [FOLDER]]]]: looks of the lens on a test scene, each gathered from five
-# views (left) beside its truth by ray tracing (right); on stdout, how far the one is from the other. A FOLDER keeps what
-# was traced, and what lies there is not traced again. Needs oiiotool, and the font DejaVu Sans ($FONT names another).
+# views (left) beside its truth by ray tracing (right), and a row of four of them beside it (OUT-row.png); on stdout, how
+# far the one is from the other. A FOLDER keeps what was traced, and what lies there is not traced again. Needs oiiotool,
+# and the font DejaVu Sans ($FONT names another one).
 set -euo pipefail
 usage="usage: contact-sheet.sh BIN_DIR OUT [SCENE [SIZE [RAYS [FOLDER]]]]"
 bin=$(cd "${1:?$usage}" && pwd)
@@ -40,8 +41,11 @@ look squeeze2 'squeeze 2' --squeeze 2
 look mirror 'picture of a mirror lens' --aperture "$lenses/mirror.exr"
 look spherical 'spherical 0.7' --spherical 0.7
 look cateye "cat's eye 1" --cat-eye 1
+look catdark "cat's eye 1, darkening" --cat-eye 1 --cat-eye-darkening
+look petzval 'petzval.json' --lens "$lenses/petzval.json"
 look chroma 'axial chromatic 0.1' --axial-chromatic 0.1
 look curve 'field curvature 0.3' --field-curvature 0.3
 look tilt 'tilt 10,5' --tilt 10,5
 look breath 'breathing 1' --breathing 1
 oiiotool "${tiles[@]}" --mosaic:pad=2 "4x$((${#tiles[@]} / 4))" -o "$out"
+oiiotool {blades6,mirror,cateye,chroma}.gathered.png --mosaic:pad=2 4x1 -o "${out%.png}-row.png"
