@@ -94,6 +94,7 @@ private:
     void find_columns(const LensSample &lens);
     void weigh_channels(const LensSample &lens);
     void count_columns();
+    std::size_t counted_rows() const { return cat_eye_ ? size : 1; } // without a cat-eye, all are alike
     void sum_up_known();
     bool seen_by_none() const; // of the tile's pixels, past the cat-eye
     bool in_columns(int x, int y) const {
@@ -164,9 +165,10 @@ private:
     std::vector<float> unknown_; // [pixel]: weight of the lens points that see nothing
     // Of lens points that weigh differently:
     bool weighted_ = false, two_sided_ = false;
-    Weights light_weights_,     // of the lens point: by what light is multiplied,
-        known_weights_;         // and how it counts in what the sum is divided by
-    std::vector<double> steps_; // [group][row][column][4]: how much more the pixels from that column on see
+    Weights light_weights_, // of the lens point: by what light is multiplied,
+        known_weights_;     // and how it counts in what the sum is divided by
+    std::vector<double>
+        steps_; // [group][counted row][column][4]: how much more the pixels from that column on see
     std::vector<double> known_; // as sums_: how much of it is known, as if all of it were behind focus
     std::vector<float> known_in_front_; // as sums_, if two_sided_: how much more as part of it is in front
     std::array<CatEye::Columns, size> columns_; // [row]: the pixels that see through the lens point

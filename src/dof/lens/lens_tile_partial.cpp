@@ -138,7 +138,7 @@ void LensTile::forget_partial() {
     for (const std::uint32_t cell : covered_) {
         transmittance_[cell] = 1;
         if (two_sided_) hidden_in_front_[cell] = 0;
-        for (std::size_t g = 0; g < over_.size() / (stride * stride * 4); ++g)
+        for (std::size_t g = 0; g < (two_sided_ ? 2 : 1) * colours_.groups; ++g)
             std::fill_n(&over_[(g * stride * stride + cell) * 4], 4, 0.0f);
     }
     covered_ = {};

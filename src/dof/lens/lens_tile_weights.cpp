@@ -13,17 +13,26 @@ void add(double *to, Float4 values) {
     for (std::size_t k = 0; k < 4; ++k) to[k] += double(values[k]);
 }
 
+// Whether any sample of some blocks may lie in front of focus.
+bool reaches_in_front(const BlockedSamples &samples, std::span<const std::uint32_t> blocks) {
+    return std::ranges::any_of(blocks, [&](std::uint32_t b) {
+        return samples.blocks[b].begin != samples.blocks[b].end && samples.blocks[b].coc_min < 0;
+    });
+}
+
 } // namespace
 
 void LensTile::begin_weighted(std::span<const LensSample> lens) {
-    two_sided_ =
+    const bool rims =
         std::ranges::any_of(lens, [](const LensSample &p) { return p.behind != 1 || p.in_front != 1; });
-    weighted_ = cat_eye_ || two_sided_ || std::ranges::any_of(lens, [](const LensSample &p) {
+    two_sided_ = rims && (reaches_in_front(samples_, blocks_->samples) ||
+                          reaches_in_front(fillers_.samples, blocks_->fillers));
+    weighted_ = cat_eye_ || rims || std::ranges::any_of(lens, [](const LensSample &p) {
                     return p.rgb[0] != 1 || p.rgb[1] != 1 || p.rgb[2] != 1;
                 });
     if (!weighted_) return;
     known_.assign(sums_.size(), 0);
-    steps_.assign(colours_.groups * size * (size + 1) * 4, 0);
+    steps_.assign(colours_.groups * counted_rows() * (size + 1) * 4, 0);
     for (auto *of : {&light_weights_, &known_weights_})
         for (auto &weights : *of) weights.resize(colours_.groups * 4);
     if (!two_sided_) return;
@@ -68,8 +77,8 @@ void LensTile::weigh_channels(const LensSample &lens) {
 void LensTile::count_columns() {
     for (std::size_t g = 0; g < colours_.groups; ++g) {
         const Float4 weight = load4(&known_weights_[0][g * 4]);
-        double *row = &steps_[g * size * (size + 1) * 4];
-        for (const CatEye::Columns &seen : columns_) {
+        double *row = &steps_[g * counted_rows() * (size + 1) * 4];
+        for (const CatEye::Columns &seen : std::span(columns_).first(counted_rows())) {
             if (seen.begin < seen.end) {
                 add(row + seen.begin * 4, weight);
                 add(row + seen.end * 4, -weight);
@@ -80,9 +89,10 @@ void LensTile::count_columns() {
 }
 
 void LensTile::sum_up_known() {
-    const double *step = steps_.data();
     double *known = known_.data();
-    for (std::size_t row = 0; row < colours_.groups * size; ++row, step += 4) { // past the end of the row
+    for (std::size_t row = 0; row < colours_.groups * size; ++row) {
+        const std::size_t counted = row / size * counted_rows() + row % size % counted_rows();
+        const double *step = &steps_[counted * (size + 1) * 4];
         std::array<double, 4> sum{};
         for (int x = 0; x < size; ++x)
             for (std::size_t k = 0; k < 4; ++k) *known++ += sum[k] += *step++;
