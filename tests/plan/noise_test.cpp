@@ -54,8 +54,7 @@ TEST(Noise, BladesAreNone) {
         std::uniform_real_distribution<double> value(0.2, 0.8);
         std::vector<double> across(600);
         for (double &v : across) v = value(random);
-        EXPECT_LT(noise_of([&](int x, int y) { return across[std::size_t(x + slant * y)]; }), 1e-5)
-            << slant;
+        EXPECT_LT(noise_of([&](int x, int y) { return across[std::size_t(x + slant * y)]; }), 1e-5) << slant;
     }
 }
 
