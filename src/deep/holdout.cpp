@@ -31,6 +31,23 @@ double Holdout::passes(int x, int y, double z) const {
     return passed;
 }
 
+void Holdout::append_parts(int x, int y, std::vector<Part> &parts) const {
+    if (!ldi_.windows.data.intersects(Imath::V2i(x, y))) return;
+    for (const std::uint64_t i : ldi_.pixel(ldi_.windows.index(x, y)))
+        parts.push_back(
+            {ldi_.z[i], float(back_at(ldi_, i)), std::max(0.0f, 1 - float(alpha_at(ldi_, alpha_, i)))});
+}
+
+std::size_t Holdout::parts_in(const Imath::Box2i &pixels) const {
+    const Imath::Box2i &data = ldi_.windows.data;
+    const int left = std::max(pixels.min.x, data.min.x), right = std::min(pixels.max.x, data.max.x);
+    std::size_t count = 0;
+    for (int y = std::max(pixels.min.y, data.min.y); left <= right && y <= std::min(pixels.max.y, data.max.y);
+         ++y)
+        count += ldi_.begin[ldi_.windows.index(right, y) + 1] - ldi_.begin[ldi_.windows.index(left, y)];
+    return count;
+}
+
 namespace {
 
 Image flatten_by_alpha(const Ldi &ldi, const Holdout &holdout) {

@@ -16,6 +16,14 @@ public:
     // hide each other. Outside the data window all light passes.
     double passes(int x, int y, double z) const;
 
+    // What passes() is computed from: of each sample of a pixel, front to back, its extent, and the share of the light that it
+    // lets through. Appended to `parts`; how many those of the pixels of a box are.
+    struct Part {
+        float front, back, clear;
+    };
+    void append_parts(int x, int y, std::vector<Part> &parts) const;
+    std::size_t parts_in(const Imath::Box2i &pixels) const;
+
 private:
     Ldi ldi_;
     std::size_t alpha_;

@@ -21,6 +21,7 @@ struct SampleColours;
 struct FillerSamples;
 struct PlacedFacets;
 class CatEye;
+class Holdout;
 
 // One tile of LensTile::size pixels, and what LensTile::gather() is given for it.
 struct TileTask {
@@ -34,9 +35,10 @@ struct TileScene {
     const SampleColours &colours;
     const FillerSamples &fillers;
     const PlacedFacets &facets;
-    const CatEye *cat_eye; // if pixels see through some lens points alone, else null
-    Imath::V2i corner;     // of the data window, EXR coordinates
-    bool held_out = false; // by a holdout that stays sharp
+    const CatEye *cat_eye;  // if pixels see through some lens points alone, else null
+    Imath::V2i corner;      // of the data window, EXR coordinates
+    const Holdout *holdout; // that stays sharp, else null
+    double depth_at_1;      // perceptive depth at z = 1, by which it is looked up
 };
 
 // What a tile has gathered: the mean over the lens points of each pixel, row by row.

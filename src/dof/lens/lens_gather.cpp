@@ -276,9 +276,10 @@ Image gather_once(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &wind
     progress.start("gathering", from.tiles());
     std::vector<char> done(from.tiles(), false);
     if (options.device)
-        gather_on(*options.device, from,
-                  {samples, colours, fillers, facets, cat_eye, optics.corner, options.holdout != nullptr},
-                  done);
+        gather_on(
+            *options.device, from,
+            {samples, colours, fillers, facets, cat_eye, optics.corner, held_out.by, held_out.depth_at_1},
+            done);
     tbb::enumerable_thread_specific<LensTile> tiles(
         [&] { return LensTile(samples, colours, facets, fillers, held_out, cat_eye); });
     parallel_for(from.tiles(), [&](std::size_t t) {

@@ -23,6 +23,7 @@ constexpr double work_at_once = 2e9;
 
 struct Push {
     std::uint32_t first_tile, tile_count, sample_count, first_filler;
+    float depth_at_1;
 };
 
 template <typename Values>
@@ -33,62 +34,50 @@ Buffer uploaded(Device &device, const Values &values) {
     return buffer;
 }
 
-// Why the kernel cannot gather a tile; empty: it can.
-std::string reason_for_cpu(const TileScene &scene) {
-    if (scene.held_out) return "a holdout that stays sharp";
-    return {};
-}
-
 constexpr const char *failed = "the device failed";
 
 class LensDevice : public TileDevice {
 public:
     LensDevice(const DeviceInfo &info, const Watch &watch)
-        : device_(info, watch), program_(device_.program(code, 13, sizeof(Push))) {}
+        : device_(info, watch), program_(device_.program(code, 14, sizeof(Push))) {}
 
     void gather(const TileScene &scene, std::span<const TileTask> tasks,
                 const std::function<void(std::size_t, const TilePicture &)> &done) override {
-        std::vector<TileTask> taken;
-        std::vector<std::size_t> numbers;
-        for (std::size_t t = 0; t < tasks.size(); ++t) {
-            const std::string reason = lost_ ? failed : reason_for_cpu(scene);
-            if (!reason.empty()) ++report_.on_cpu[reason];
-            if (!reason.empty()) continue;
-            taken.push_back(tasks[t]);
-            numbers.push_back(t);
+        if (lost_) {
+            report_.on_cpu[failed] += tasks.size();
+            return;
         }
         const std::size_t before = report_.on_device;
         try {
-            gather_taken(scene, taken,
-                         [&](std::size_t t, const TilePicture &picture) { done(numbers[t], picture); });
+            gather_by_stripes(scene, tasks, done);
         } catch (const DeviceFailed &failure) {
             lost_ = true;
             report_.failure = failure.what();
-            report_.on_cpu[failed] += taken.size() - (report_.on_device - before);
+            report_.on_cpu[failed] += tasks.size() - (report_.on_device - before);
         }
     }
 
     TileReport take_report() override { return std::exchange(report_, {}); }
 
 private:
-    void gather_taken(const TileScene &scene, std::span<const TileTask> taken,
-                      const std::function<void(std::size_t, const TilePicture &)> &done) {
+    void gather_by_stripes(const TileScene &scene, std::span<const TileTask> tasks,
+                           const std::function<void(std::size_t, const TilePicture &)> &done) {
         const std::size_t bytes = std::min(stripe_bytes, device_.largest_buffer());
-        for (std::size_t begin = 0, count = 0; begin < taken.size();
+        for (std::size_t begin = 0, count = 0; begin < tasks.size();
              begin += std::max(count, std::size_t{1})) {
-            count = tasks_that_fit(scene, taken.subspan(begin), bytes);
+            count = tasks_that_fit(scene, tasks.subspan(begin), bytes);
             if (count == 0) ++report_.on_cpu["more samples than its buffers hold"];
             if (count == 0) continue;
-            gather_stripe(make_stripe(scene, taken.subspan(begin, count)), scene.colours,
+            gather_stripe(make_stripe(scene, tasks.subspan(begin, count)), scene,
                           [&](std::size_t t, const TilePicture &picture) { done(begin + t, picture); });
         }
     }
 
-    void gather_stripe(const Stripe &stripe, const SampleColours &colours,
+    void gather_stripe(const Stripe &stripe, const TileScene &scene,
                        const std::function<void(std::size_t, const TilePicture &)> &done) {
-        const std::size_t tiles = stripe.tiles.size(), groups = colours.groups,
+        const std::size_t tiles = stripe.tiles.size(), groups = scene.colours.groups,
                           all = tiles * tile_pixels * groups;
-        const std::vector<std::uint32_t> sets(colours.sets.begin(), colours.sets.end());
+        const std::vector<std::uint32_t> sets(scene.colours.sets.begin(), scene.colours.sets.end());
         const Buffer values = device_.buffer(all * 4 * sizeof(float)),
                      known = device_.buffer(all * sizeof(float));
         const Buffer in[] = {uploaded(device_, stripe.samples),     uploaded(device_, stripe.extras),
@@ -96,10 +85,10 @@ private:
                              uploaded(device_, stripe.block_lists), uploaded(device_, stripe.partial_lists),
                              uploaded(device_, stripe.lens),        uploaded(device_, stripe.tiles),
                              uploaded(device_, stripe.facets),      uploaded(device_, sets),
-                             uploaded(device_, stripe.columns)};
-        run(stripe, groups,
+                             uploaded(device_, stripe.columns),     uploaded(device_, stripe.holdout)};
+        run(stripe, groups, float(scene.depth_at_1),
             std::array{&in[0], &in[1], &in[2], &in[3], &in[4], &in[5], &in[6], &in[7], &values, &known,
-                       &in[8], &in[9], &in[10]});
+                       &in[8], &in[9], &in[10], &in[11]});
         std::vector<float> value(all * 4), knowns(all);
         device_.download(std::as_writable_bytes(std::span(value)), values);
         device_.download(std::as_writable_bytes(std::span(knowns)), known);
@@ -109,13 +98,14 @@ private:
         report_.on_device += tiles;
     }
 
-    void run(const Stripe &stripe, std::size_t groups, std::span<const Buffer *const> buffers) {
+    void run(const Stripe &stripe, std::size_t groups, float depth_at_1,
+             std::span<const Buffer *const> buffers) {
         const auto tiles = std::uint32_t(stripe.tiles.size());
         for (std::uint32_t first = 0, end = 0; first < tiles; first = end) {
             for (double work = 0; end < tiles && (end == first || work < work_at_once); ++end)
                 work += work_of(stripe, stripe.tiles[end]);
             const Push push{first, tiles, std::uint32_t(stripe.samples.size()),
-                            std::uint32_t(stripe.first_filler)};
+                            std::uint32_t(stripe.first_filler), depth_at_1};
             device_.run(program_, buffers, std::as_bytes(std::span(&push, 1)),
                         {quarters * (end - first), std::uint32_t(groups), 1});
         }

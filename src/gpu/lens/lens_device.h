@@ -1,5 +1,4 @@
-// A GPU that gathers tiles of the lens picture (lens_tile.comp): all but those under a holdout that stays sharp, and what
-// fits into no buffer, which it leaves to the CPU.
+// A GPU that gathers tiles of the lens picture (lens_tile.comp). It leaves to the CPU what fits into no buffer.
 #pragma once
 
 #include "dof/device/tile_device.h"

@@ -19,6 +19,7 @@ layout(local_size_x = threads) in;
 #include "tile_opaque.glsl"
 #include "tile_images.glsl"
 #include "tile_unseen.glsl"
+#include "tile_holdout.glsl"
 #include "tile_partial.glsl"
 #include "tile_sums.glsl"
 
@@ -38,6 +39,7 @@ void main() {
     corner = ivec2(quarter % 2, quarter / 2) * size;
     first = vec2(tile.x, tile.y);
     rules = tile.rules;
+    held_out = tile.holdout;
     Sum sum[own];
     for (uint j = 0; j < own; ++j) sum[j] = Sum(vec4(0), vec4(0));
     precise float total = 0;
@@ -46,9 +48,11 @@ void main() {
         total = total + lens.weight;
         const uint seen[own] = see_behind(tile);
         const Over over[own] = see_partial(tile, group);
-        for (uint j = 0; j < own; ++j)
-            if ((rules & weighted) == 0) add_seen(sum[j], seen[j], over[j], group);
-            else if (seen_through(tile, k, pixel_of(j) + corner)) add_seen_weighted(sum[j], seen[j], over[j], group);
+        for (uint j = 0; j < own; ++j) {
+            const float passed = opaque_passes(j, seen[j]);
+            if ((rules & weighted) == 0) add_seen(sum[j], seen[j], passed, over[j], group);
+            else if (seen_through(tile, k, pixel_of(j) + corner)) add_seen_weighted(sum[j], seen[j], passed, over[j], group);
+        }
         barrier();
     }
     for (uint j = 0; j < own; ++j) write_pixel(t, group, pixel_of(j) + corner, sum[j], total);

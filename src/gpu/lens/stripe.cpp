@@ -2,7 +2,7 @@
 
 #include "base/parallel.h"
 #include "dof/facets/placed_facets.h"
-#include "lens/cat_eye.h"
+#include "gpu/lens/tile_rules.h"
 
 #include <algorithm>
 #include <bit>
@@ -133,34 +133,6 @@ std::uint32_t place_lens(Stripe &stripe, std::span<const LensSample> lens) {
     return at;
 }
 
-std::uint32_t rules_of(const TileScene &scene, std::span<const LensSample> lens) {
-    const auto any = [&](const auto &is) { return std::ranges::any_of(lens, is); };
-    std::uint32_t rules = 0;
-    if (any([](const LensSample &p) { return p.rgb != std::array<float, 3>{1, 1, 1}; })) rules |= weighted;
-    if (any([](const LensSample &p) { return p.behind != 1 || p.in_front != 1; }))
-        rules |= weighted | two_sided;
-    if (scene.cat_eye) rules |= weighted | cat_eye;
-    if (scene.cat_eye && scene.cat_eye->darkens()) rules |= darkens;
-    return rules;
-}
-
-constexpr int rows_a_word = 2;
-constexpr std::size_t words_a_lens_point = tile_size / rows_a_word;
-
-// Which pixels of a tile see through its lens points.
-void place_columns(std::span<std::uint32_t> to, const TileScene &scene, const TileTask &task) {
-    const Imath::V2i first = scene.corner + task.origin;
-    for (std::size_t word = 0; word < to.size(); ++word) {
-        const LensSample &point = task.lens[word / words_a_lens_point];
-        to[word] = 0;
-        for (int row = 0; row < rows_a_word; ++row) {
-            const int y = int(word % words_a_lens_point) * rows_a_word + row;
-            const auto [begin, end] = scene.cat_eye->columns(point, first.x, tile_size, first.y + y);
-            to[word] |= std::uint32_t(begin | end << 8) << 16 * row;
-        }
-    }
-}
-
 // The tile's partial samples, front to back.
 void sort_partial(std::span<std::uint32_t> list, const Placed &what, const TileTask &task) {
     const BlockedSamples &samples = what.from;
@@ -173,12 +145,12 @@ void sort_partial(std::span<std::uint32_t> list, const Placed &what, const TileT
     for (std::uint32_t &i : list) i -= what.range.first(samples); // these come first in a stripe
 }
 
-// The tiles, and the lists of what reaches each; those of partial samples, and the columns, are not filled yet.
+// The tiles, and the lists of what reaches each; the partial samples, the columns and the holdout are not filled in yet.
 void list_tiles(Stripe &stripe, const TileScene &scene, std::span<const TileTask> tasks,
                 const Ranges &ranges) {
     const std::size_t fillers = ranges.samples.blocks(), facets = fillers + ranges.fillers.blocks();
     const auto count = [](std::span<const std::uint32_t> list) { return std::uint32_t(list.size()); };
-    std::uint32_t lens = 0, partial = 0, columns = 0, rules = 0;
+    std::uint32_t lens = 0, partial = 0, columns = 0, holdout = 0, rules = 0;
     const auto shows_images = [&](std::uint32_t block) { return scene.samples.blocks[block].shows_images; };
     for (const TileTask &task : tasks) {
         const bool another = &task == tasks.data() || task.lens.data() != (&task - 1)->lens.data();
@@ -199,12 +171,15 @@ void list_tiles(Stripe &stripe, const TileScene &scene, std::span<const TileTask
                                 .facets = list_blocks(stripe, ranges.facets, facets, task.facets),
                                 .facet_count = count(task.facets),
                                 .rules = rules | (mirrors ? std::uint32_t{images} : 0),
-                                .columns = columns});
+                                .columns = columns,
+                                .holdout = holdout});
         partial += partials;
-        if (scene.cat_eye) columns += std::uint32_t(task.lens.size() * words_a_lens_point);
+        columns += std::uint32_t(column_words(scene, task));
+        holdout += std::uint32_t(holdout_words(scene, task));
     }
     stripe.partial_lists.resize(partial);
     stripe.columns.resize(columns);
+    stripe.holdout.resize(holdout);
 }
 
 } // namespace
@@ -212,16 +187,18 @@ void list_tiles(Stripe &stripe, const TileScene &scene, std::span<const TileTask
 std::size_t tasks_that_fit(const TileScene &scene, std::span<const TileTask> tasks, std::size_t bytes) {
     const std::size_t groups = scene.colours.groups;
     Ranges ranges;
-    std::size_t listed = 0, partial = 0, lens = 0, columns = 0;
+    std::size_t listed = 0, partial = 0, lens = 0, columns = 0, holdout = 0;
     for (std::size_t t = 0; t < tasks.size(); ++t) {
         ranges.add(scene, tasks[t]);
         listed += tasks[t].samples.size() + tasks[t].fillers.size() + tasks[t].facets.size();
         partial += partial_count(scene.samples, tasks[t]);
         if (t == 0 || tasks[t].lens.data() != tasks[t - 1].lens.data()) lens += tasks[t].lens.size();
-        if (scene.cat_eye) columns += tasks[t].lens.size() * words_a_lens_point;
-        const std::size_t most = std::max(
-            {ranges.sample_count(scene) * groups * 16, ranges.facets.count(scene.facets) * 12, listed * 4,
-             partial * 4, columns * 4, lens * sizeof(StripeLens), (t + 1) * tile_pixels * groups * 16});
+        columns += column_words(scene, tasks[t]);
+        holdout += holdout_words(scene, tasks[t]);
+        const std::size_t most =
+            std::max({ranges.sample_count(scene) * groups * 16, ranges.facets.count(scene.facets) * 12,
+                      listed * 4, partial * 4, columns * 4, holdout * 4, lens * sizeof(StripeLens),
+                      (t + 1) * tile_pixels * groups * 16});
         if (most > bytes) return t;
     }
     return tasks.size();
@@ -249,10 +226,10 @@ Stripe make_stripe(const TileScene &scene, std::span<const TileTask> tasks) {
         const StripeTile &tile = stripe.tiles[t];
         sort_partial(std::span(stripe.partial_lists).subspan(tile.partial, tile.partial_count), samples,
                      tasks[t]);
-        if (scene.cat_eye)
-            place_columns(
-                std::span(stripe.columns).subspan(tile.columns, tasks[t].lens.size() * words_a_lens_point),
-                scene, tasks[t]);
+        place_columns(std::span(stripe.columns).subspan(tile.columns, column_words(scene, tasks[t])), scene,
+                      tasks[t]);
+        place_holdout(std::span(stripe.holdout).subspan(tile.holdout, holdout_words(scene, tasks[t])), scene,
+                      tasks[t]);
     });
     return stripe;
 }

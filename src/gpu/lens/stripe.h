@@ -6,6 +6,7 @@
 #include "dof/device/tile_device.h"
 #include "dof/lens/filler_samples.h"
 #include "dof/lens/sample_blocks.h"
+#include "gpu/lens/tile_rules.h"
 
 #include <array>
 #include <cstddef>
@@ -26,11 +27,8 @@ struct StripeLens {
 struct StripeTile {
     float x, y;
     std::uint32_t blocks, block_count, fillers, filler_count, partial, partial_count, lens, lens_count;
-    std::uint32_t facets, facet_count, rules, columns;
+    std::uint32_t facets, facet_count, rules, columns, holdout;
 };
-
-// By which a tile is gathered; one bit each.
-enum Rules : std::uint32_t { weighted = 1, two_sided = 2, images = 4, cat_eye = 8, darkens = 16 };
 
 struct Stripe {
     std::vector<std::array<std::uint32_t, 4>> samples; // those of the LDI, then fillers
@@ -43,11 +41,9 @@ struct Stripe {
     std::vector<StripeLens> lens;
     std::vector<std::uint32_t>
         columns; // [tile][lens point][two rows]: begin and end of the pixels that see through it
-    std::vector<StripeTile> tiles; // one a task
+    std::vector<std::uint32_t> holdout; // of each tile, see place_holdout()
+    std::vector<StripeTile> tiles;      // one a task
 };
-
-inline constexpr int tile_size = 64; // LensTile::size
-inline constexpr std::size_t tile_pixels = tile_size * tile_size;
 
 // How many of the tasks, from the first, fit into buffers of that many bytes.
 std::size_t tasks_that_fit(const TileScene &scene, std::span<const TileTask> tasks, std::size_t bytes);

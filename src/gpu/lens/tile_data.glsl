@@ -32,12 +32,14 @@ struct Tile {
     uint facets, facet_count;    // blocks of them, among block_lists
     uint rules;                  // a set of the following
     uint columns;                // see seen_through(), among columns[]
+    uint holdout;                // see passes(), among holdouts[]
 };
 const uint weighted = 1;  // lens points weigh differently for colours or sides of the focus, or not all pixels see through
 const uint two_sided = 2; // they do for sides of the focus
 const uint images = 4;    // mirrors or glass reach the tile
 const uint cat_eye = 8;   // not all pixels see through a lens point
 const uint darkens = 16;  // and that takes light from the pixels
+const uint holdout = 32;  // a holdout stays sharp
 
 
 // x, y and CoC, and the upper half of the key: 1 for a background, else the bits of the perceptive depth, plus 2.
@@ -55,8 +57,10 @@ layout(binding = 9) writeonly buffer Knowns { float knowns[]; }; // [group][tile
 layout(binding = 10) readonly buffer Facets { uint facets[]; };  // three samples each
 layout(binding = 11) readonly buffer Sets { uint sets[]; };      // [channel]: its ColourSet
 layout(binding = 12) readonly buffer Columns { uint columns[]; };
+layout(binding = 13) readonly buffer Holdouts { uint holdouts[]; };
 layout(push_constant) uniform Push {
     uint first_tile, tile_count, sample_count, first_filler;
+    float depth_at_1; // perceptive depth at z = 1
 };
 const uint red = 1, green = 2, blue = 4, data = 16; // ColourSet
 
@@ -72,6 +76,7 @@ shared uint listed_count;
 ivec2 corner; // in the tile
 vec2 first;   // pixel
 uint rules;   // of the tile
+uint held_out; // where holdouts[] has the tile's
 Lens lens;
 
 uint thread() { return gl_LocalInvocationIndex; }

@@ -7,10 +7,12 @@ struct Over {
     float hidden_in_front; // what those in front of focus hide
 };
 
-void add_over(inout Over over, uint sample_, uint group) {
+// `j`: the thread's pixel.
+void add_over(inout Over over, uint j, uint sample_, uint group) {
     const bool in_front = (rules & two_sided) != 0 && uintBitsToFloat(samples[sample_].z) < 0;
     precise vec4 colour = in_front ? over.colour_in_front : over.colour;
-    colour = colour + over.transmittance * colours[group * sample_count + sample_];
+    precise const float share = over.transmittance * passes(j, depth_of(samples[sample_].w));
+    colour = colour + share * colours[group * sample_count + sample_];
     precise float passed = over.transmittance * (1 - extras[sample_]);
     passed = min(passed, covered_at_all);
     precise float hidden = over.hidden_in_front;
@@ -80,7 +82,7 @@ Over[own] see_partial(Tile tile, uint group) {
         if (!list_chunk(tile, begin, start)) continue;
         for (uint j = 0; j < own; ++j)
             for (uint n = start[j]; n < counts[thread() + threads * j]; ++n)
-                add_over(over[j], partial_lists[tile.partial + begin + listed[n]], group);
+                add_over(over[j], j, partial_lists[tile.partial + begin + listed[n]], group);
         barrier();
     }
     return over;

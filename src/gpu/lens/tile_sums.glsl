@@ -6,17 +6,18 @@ struct Sum {
     vec4 weight; // of what is known, of each channel; without the rule `weighted`, x: of what is unknown
 };
 
-// Adds what the lens point sees: a sample, or what is unknown (`none`), behind partial ones.
-void add_seen(inout Sum sum, uint seen, Over over, uint group) {
+// Adds what the lens point sees: a sample, or what is unknown (`none`), behind partial ones; `passes`: the share of the sample's
+// light that a holdout lets through.
+void add_seen(inout Sum sum, uint seen, float passes, Over over, uint group) {
     const vec4 behind = seen != none ? colours[group * sample_count + seen] : vec4(0);
     precise vec4 light = sum.light;
     precise float unknown = sum.weight.x;
-    if (seen != none) light = light + lens.weight * behind;
+    if (seen != none) light = light + lens.weight * passes * behind;
     else unknown = unknown + lens.weight;
     if (over.transmittance < 1) {
         precise const float hidden = 1 - over.transmittance;
         precise vec4 in_front = over.colour;
-        if (seen != none) in_front = in_front - hidden * behind;
+        if (seen != none) in_front = in_front - hidden * passes * behind;
         else unknown = unknown - lens.weight * hidden;
         light = light + lens.weight * in_front;
     }
@@ -64,11 +65,11 @@ void add_weighted(inout Sum sum, vec4 weight, vec4 light, float covered, vec4 co
 }
 
 // The same as add_seen() by other rules.
-void add_seen_weighted(inout Sum sum, uint seen, Over over, uint group) {
+void add_seen_weighted(inout Sum sum, uint seen, float passes, Over over, uint group) {
     const vec4 lights[2] = {channel_weights(group, false), channel_weights(group, true)};
     const vec4 weights[2] = {known_weights(group, lights[0]), known_weights(group, lights[1])};
     const uint side_ = in_front_of_focus(seen) ? 1 : 0;
-    const vec4 behind = seen != none ? colours[group * sample_count + seen] : vec4(0);
+    precise const vec4 behind = seen != none ? passes * colours[group * sample_count + seen] : vec4(0);
     if (seen != none) add_weighted(sum, weights[side_], lights[side_], 1, behind);
     if (over.transmittance >= 1) return;
     precise const float hidden = 1 - over.transmittance;
