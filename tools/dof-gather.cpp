@@ -16,6 +16,10 @@
 #include "options/show.h"
 #include "options/window_options.h"
 
+#include <algorithm>
+#include <memory>
+#include <optional>
+
 using namespace sparselens;
 
 namespace {
@@ -32,10 +36,34 @@ Image gathered(const GatherCommand &options, GatherWindows &frame, const ThinLen
     return tool.last_frame ? of(cache.take_ldi()) : of(cache.last().ldi);
 }
 
+// Empty if the picture needs all samples: only as many are kept as it does, while the file is read.
+ReduceSamples reduce_samples(const GatherCommand &options, const ToolContext &tool) {
+    const bool all = !tool.last_frame || options.show != Show::picture || !options.holdout.empty() ||
+                     !options.depth_output.empty() || options.focus_pixel || options.windows.proxy > 1 ||
+                     options.picture.method != &gather_methods().front();
+    if (all) return {};
+    const auto linear = std::make_shared<std::optional<bool>>(); // of the file, which is asked once
+    return [&options, &tool, linear](const Imf::Header &header, const Camera &camera, Ldi rows) {
+        if (!*linear) *linear = is_linear(tool, options.colour, options.input, header);
+        const LookValues looks = read_looks(options.looks, camera.fstop).values;
+        const bool grows = options.windows.overscan == OutputOverscan::grow &&
+                           !(header.dataWindow().intersects(header.displayWindow().min) &&
+                             header.dataWindow().intersects(header.displayWindow().max));
+        if (!**linear || grows || highlight_gain(looks).gain != 1 || looks.breathing ||
+            camera.looks.breathing || std::ranges::any_of(rows.channels, is_in_matte))
+            throw NeedsAllSamples();
+        const ThinLens lens = resolve_lens(camera, rows.windows);
+        return reduced_first(std::move(rows), lens, options.picture);
+    };
+}
+
 void run(const GatherCommand &given, const ToolContext &tool, LdiCache &cache, GatherDevice &device) {
     GatherCommand options = given;
     const OpenOptions by{options.lens, options.depth};
-    OpenedLdi &in = cache.load(options.input, options.channels, by, options.colour, tool);
+    OpenedLdi &in =
+        cache.load(options.input, options.channels, by, options.colour, tool, reduce_samples(options, tool));
+    if (in.reduced)
+        options.picture.layer_tolerance = can_merge_layers(in.ldi) ? 0 : options.picture.layer_tolerance;
     say_camera(tool, options.input, in.camera);
     ThinLens lens = lens_for_ldi(in, options.focus_pixel, tool);
     const auto holdout = open_holdout(options.holdout, in.ldi.windows, options.windows.proxy, by);
@@ -44,7 +72,7 @@ void run(const GatherCommand &given, const ToolContext &tool, LdiCache &cache, G
     const LensFile looks = read_looks(options.looks, in.camera.fstop);
     raise_highlights(frame, in, highlight_gain(looks.values));
     const Ldi &ldi = frame.ldi(in);
-    const std::size_t samples = in.ldi.samples();
+    const std::size_t samples = in.samples_read;
     Image depth = options.depth_output.empty() ? Image() : crop(front_depth(ldi), frame.written);
     Imf::Header header = in.header;
     LensTiles tiles;

@@ -34,7 +34,31 @@ Image gather_merged(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &ga
     return gather_layers(ldi, lens, gathered, written, options, progress);
 }
 
+// A sample in each pixel that has any.
+Ldi flattened(const Ldi &ldi) {
+    const Image flat = flatten(ldi);
+    Ldi out;
+    out.windows = ldi.windows;
+    out.channels = ldi.channels;
+    out.begin = {0};
+    out.values.resize(ldi.channels.size());
+    for (std::size_t pixel = 0; pixel < ldi.windows.pixels(); ++pixel) {
+        if (const SampleRange samples = ldi.pixel(pixel); !samples.empty()) {
+            out.z.push_back(ldi.z[samples.front()]);
+            for (std::size_t k = 0; k < out.values.size(); ++k) out.values[k].push_back(flat.plane(k)[pixel]);
+        }
+        out.begin.push_back(out.z.size());
+    }
+    return out;
+}
+
 } // namespace
+
+Ldi reduced_first(Ldi rows, const ThinLens &lens, const PictureOptions &options) {
+    if (lens.radius == 0) return flattened(rows);
+    if (!merges_layers(lens, options)) return rows;
+    return merge_layers(std::move(rows), lens.radius * lens.focal_px, options.layer_tolerance);
+}
 
 Image gather_picture(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &gathered,
                      const Imath::Box2i &written, const PictureOptions &options, Progress &progress) {

@@ -1,5 +1,7 @@
 #include "io/open_ldi.h"
 
+#include "base/error.h"
+#include "base/text.h"
 #include "deep/tidy.h"
 #include "io/camera/camera_read.h"
 #include "io/depth_range.h"
@@ -9,6 +11,9 @@
 #include "warp/edge_depths.h"
 
 #include <algorithm>
+#include <array>
+#include <functional>
+#include <limits>
 
 namespace sparselens {
 
@@ -29,6 +34,68 @@ OpenedLdi open_ldi(const std::string &path, const OpenOptions &options) {
     return ready_ldi(read_ldi(path, options.depth.channel, options.depth.view), path, options);
 }
 
+namespace {
+
+// What is read of a picture a few rows at a time.
+class RowsReader {
+public:
+    RowsReader(const std::string &path, const OpenOptions &options, const ReduceSamples &reduce)
+        : name_(display_name(path)), options_(options), reduce_(reduce) {}
+
+    Ldi operator()(const Imf::Header &header, Ldi rows) {
+        if (const auto [least, most] = std::ranges::minmax_element(rows.z); least != rows.z.end())
+            depths_ = {std::min(depths_[0], *least), std::max(depths_[1], *most)};
+        const Camera camera = camera_with_options(options_.lens, read_camera(header));
+        make_planar(rows, options_.depth.meaning, depth_range(options_.depth, header), camera);
+        if (!all_valid(rows)) throw NeedsAllSamples();
+        in_file_ += rows.samples();
+        rows = tidy(std::move(rows));
+        read_ += rows.samples();
+        return reduce_(header, camera, std::move(rows));
+    }
+
+    // Says of the picture what its samples would have said.
+    void tell(OpenedLdi &opened) const {
+        if (in_file_ == 0) return;
+        opened.reduced = true;
+        opened.samples_read = read_;
+        opened.invisible = in_file_ - std::min(in_file_, read_);
+        if (const auto warning = normalized_warning(options_.depth, depths_))
+            if (!is_among(opened.warnings, *warning)) opened.warnings.push_back(*warning);
+    }
+
+private:
+    bool all_valid(Ldi &rows) const {
+        try {
+            return !sanitize(rows, name_).any();
+        } catch (const Error &) {
+            return false;
+        }
+    }
+
+    std::string name_;
+    const OpenOptions &options_;
+    const ReduceSamples &reduce_;
+    std::size_t in_file_ = 0, read_ = 0;
+    std::array<float, 2> depths_{std::numeric_limits<float>::infinity(), 0}; // the least and the most
+};
+
+} // namespace
+
+OpenedLdi open_ldi(const std::string &path, const OpenOptions &options, const ReduceSamples &reduce) {
+    if (!reduce || options.depth.meaning != DepthMeaning::planar || is_standard_stream(path))
+        return open_ldi(path, options);
+    RowsReader reader(path, options, reduce);
+    try {
+        OpenedLdi opened = ready_ldi(
+            read_ldi(path, options.depth.channel, options.depth.view, std::ref(reader)), path, options);
+        reader.tell(opened);
+        return opened;
+    } catch (const NeedsAllSamples &) {
+        return open_ldi(path, options);
+    }
+}
+
 OpenedLdi ready_ldi(LdiFile file, const std::string &path, const OpenOptions &options) {
     OpenedLdi opened{.name = display_name(path),
                      .ldi = std::move(file.ldi),
@@ -46,7 +113,8 @@ OpenedLdi ready_ldi(LdiFile file, const std::string &path, const OpenOptions &op
         opened.notes.push_back(edge_note(settled));
     const std::size_t in_file = opened.ldi.samples();
     opened.ldi = tidy(std::move(opened.ldi));
-    opened.invisible = in_file - std::min(in_file, opened.ldi.samples());
+    opened.samples_read = opened.ldi.samples();
+    opened.invisible = in_file - std::min(in_file, opened.samples_read);
     return opened;
 }
 

@@ -11,6 +11,7 @@
 #include <ImfHeader.h>
 
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,8 @@ struct OpenedLdi {
     InvalidValues bad; // what was repaired
     std::size_t invisible =
         0; // samples of the file that tidy() left out: they show nothing, or are one with another
+    std::size_t samples_read = 0;             // tidy ones; more than `ldi` has where they were reduced
+    bool reduced = false;                     // by a ReduceSamples
     std::vector<std::string> notes, warnings; // see LdiFile
 
     // UsageError: a value of the lens is unknown (see resolve_lens.h).
@@ -34,6 +37,16 @@ struct OpenedLdi {
 // Error: the file cannot be read, or most of its depths are invalid (see sanitize()). UsageError: its depth is the
 // length of the ray, and the focal length is unknown.
 OpenedLdi open_ldi(const std::string &path, const OpenOptions &options = {});
+
+// Fewer samples instead of those of some rows, which are tidy; windows and channels stay. Throws NeedsAllSamples where there
+// may not be fewer.
+using ReduceSamples = std::function<Ldi(const Imf::Header &header, const Camera &camera, Ldi rows)>;
+struct NeedsAllSamples {};
+
+// The same with less memory, for those who need fewer samples. The picture is read with all of them where `reduce` needs
+// them, where it cannot be read a few rows at a time (see read_ldi()), and where values are invalid, as the pixels around
+// repair them.
+OpenedLdi open_ldi(const std::string &path, const OpenOptions &options, const ReduceSamples &reduce);
 
 // The same for a deep picture that is in memory, or was read otherwise; `path` is for messages.
 OpenedLdi ready_ldi(LdiFile file, const std::string &path, const OpenOptions &options = {});

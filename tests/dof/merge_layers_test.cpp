@@ -155,6 +155,22 @@ TEST(MergeLayers, LightOfEachCoverageIsMergedAsIfItWereAlone) {
     EXPECT_FALSE(std::ranges::equal(merged.plane(b), through_a_lens(ldi, 0).plane(b)));
 }
 
+TEST(MergeLayers, SamplesThatAreReducedFirstMakeTheSamePicture) {
+    const Ldi ldi =
+        tidy(random_ldi({.seed = 11, .width = 40, .height = 30, .opaque_share = 0.2, .depths = 64}));
+    for (const double radius : {0.0, 0.5}) {
+        const ThinLens lens{radius, 40, 3};
+        Progress silent;
+        PictureOptions options;
+        const Imath::Box2i &all = ldi.windows.data;
+        const Image picture = gather_picture(ldi, lens, all, all, options, silent);
+        const Ldi fewer = reduced_first(ldi, lens, options);
+        EXPECT_LT(fewer.samples(), ldi.samples());
+        options.layer_tolerance = 0;
+        EXPECT_EQ(gather_picture(fewer, lens, all, all, options, silent).values, picture.values);
+    }
+}
+
 // The bound of docs/techniques.md, and what decides whether layers are merged at all.
 TEST(MergeLayers, DenseScenesLookTheSame) {
     for (const DeepScene &scene : deep_scenes()) {

@@ -1,4 +1,5 @@
 #include "base/error.h"
+#include "deep/build.h"
 #include "io/camera/camera_write.h"
 #include "io/exr/exr_deep.h"
 #include "io/exr/exr_flat.h"
@@ -12,6 +13,8 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
+#include <vector>
 
 namespace sparselens {
 namespace {
@@ -247,6 +250,64 @@ TEST_F(Opened, RepairsAreCounted) {
     const OpenedLdi sound = open_ldi(path);
     EXPECT_FALSE(sound.bad.any());
     EXPECT_EQ(sound.invisible, 1u); // without coverage
+}
+
+class OpenedByRows : public Opened {
+protected:
+    Ldi ldi = random_ldi({.seed = 4, .width = 20, .height = 150, .opaque_share = 0.2, .depths = 64});
+    std::vector<int> heights; // of the rows that were reduced
+
+    OpenedLdi open(const ReduceSamples &reduce) {
+        write_ldi(path, ldi, {});
+        return open_ldi(path, {}, [&](const Imf::Header &header, const Camera &camera, Ldi rows) {
+            heights.push_back(rows.windows.height());
+            return reduce(header, camera, std::move(rows));
+        });
+    }
+    OpenedLdi open_unchanged() {
+        return open([](const Imf::Header &, const Camera &, Ldi rows) { return rows; });
+    }
+    void expect_whole(const OpenedLdi &opened) const {
+        const OpenedLdi whole = open_ldi(path);
+        EXPECT_EQ(opened.ldi.begin, whole.ldi.begin);
+        EXPECT_EQ(opened.ldi.z, whole.ldi.z);
+        EXPECT_EQ(opened.ldi.values, whole.ldi.values);
+        EXPECT_EQ(opened.samples_read, whole.ldi.samples());
+        EXPECT_EQ(opened.invisible, whole.invisible);
+        EXPECT_EQ(opened.warnings, whole.warnings);
+    }
+};
+
+TEST_F(OpenedByRows, RowsThatStayMakeTheWholePicture) {
+    const OpenedLdi opened = open_unchanged();
+    EXPECT_TRUE(opened.reduced);
+    EXPECT_EQ(heights, (std::vector<int>{64, 64, 22}));
+    expect_whole(opened);
+}
+
+TEST_F(OpenedByRows, FewerSamplesAreKeptAndThoseReadAreCounted) {
+    const OpenedLdi opened = open([](const Imf::Header &, const Camera &, Ldi rows) {
+        Ldi none = empty_like(rows);
+        none.begin.assign(rows.begin.size(), 0);
+        return none;
+    });
+    EXPECT_EQ(opened.ldi.samples(), 0u);
+    EXPECT_EQ(opened.samples_read, open_ldi(path).ldi.samples());
+}
+
+TEST_F(OpenedByRows, WhereAllSamplesAreNeededAllAreRead) {
+    const OpenedLdi opened =
+        open([](const Imf::Header &, const Camera &, Ldi) -> Ldi { throw NeedsAllSamples(); });
+    EXPECT_FALSE(opened.reduced);
+    expect_whole(opened);
+}
+
+TEST_F(OpenedByRows, InvalidValuesAreRepairedFromAllRows) {
+    ldi.values[0][ldi.begin[20 * 64]] = inf; // the first sample of row 64
+    const OpenedLdi opened = open_unchanged();
+    EXPECT_FALSE(opened.reduced);
+    EXPECT_EQ(opened.bad.colours, 1u);
+    expect_whole(opened);
 }
 
 TEST_F(Opened, WhatIsNotThereIsAnErrorThatNamesIt) {

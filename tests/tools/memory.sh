@@ -1,6 +1,7 @@
 #!/bin/bash
-# How much memory dof-gather takes of deep files of many samples: at most 24 bytes a sample and 100 bytes a pixel, by the
-# growth between two sizes, so that what a process takes anyway does not count. bash memory.sh BIN_DIR
+# How much memory dof-gather takes of deep files of many samples, by the growth between two sizes, so that what a process takes
+# anyway does not count: at most 24 bytes a sample and 100 bytes a pixel, and without a lens half as much a sample, because
+# samples are flattened as they are read. bash memory.sh BIN_DIR
 . "$(dirname "$0")/check.sh"
 command -v python3 >/dev/null || skip "needs python3"
 [ -x "$bin/sparselens-deep-scene" ] || skip "needs the benchmarks (SPARSELENS_BENCHMARKS)"
@@ -12,20 +13,27 @@ subprocess.run(sys.argv[1:], check=True)
 print(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss * 1024)
 END
 
-# measure SCENE WIDTH HEIGHT: sets `peak`, of dof-gather at draft quality, and `samples`. The CoCs are the same at all sizes.
+# measure SCENE WIDTH HEIGHT CoC: sets `peak`, of dof-gather at draft quality, and `samples`. The CoCs are CoC times those of the
+# scene at all sizes.
 measure() {
     exits 0 "$bin/sparselens-deep-scene" "$1" "$2" "$3" in.exr
     rm -f stats.json
-    peak=$(python3 peak.py "$bin/dof-gather" in.exr -o out.exr --lens-radius "$(awk "BEGIN { print 144 / $2 }")" \
+    peak=$(python3 peak.py "$bin/dof-gather" in.exr -o out.exr --lens-radius "$(awk "BEGIN { print 144 / $2 * $4 }")" \
         --quality draft --threads 2 --stats stats.json)
     samples=$(sed -E 's/.*"samples":([0-9]+).*/\1/' stats.json)
 }
 
-for scene in dense hair; do
-    measure $scene 384 216
-    small=$peak fewer=$samples
-    measure $scene 768 432
-    grown=$((peak - small)) allowed=$((24 * (samples - fewer) + 100 * (768 * 432 - 384 * 216)))
-    printf '%-8s %9d bytes more (at most %d)\n' $scene $grown $allowed
-    [ $grown -le $allowed ] || fail "$scene: $small bytes at 384x216, $peak at 768x432"
-done
+# check SCENE WIDTH HEIGHT CoC BYTES: two times as wide and high takes at most so many bytes a sample more.
+check() {
+    measure $1 $2 $3 $4
+    local small=$peak fewer=$samples
+    measure $1 $((2 * $2)) $((2 * $3)) $4
+    local grown=$((peak - small)) allowed=$(($5 * (samples - fewer) + 100 * 3 * $2 * $3))
+    printf '%-8s CoC %s %10d bytes more (at most %d)\n' $1 $4 $grown $allowed
+    [ $grown -le $allowed ] || fail "$1: $small bytes at $2x$3, $peak at $((2 * $2))x$((2 * $3))"
+}
+
+check dense 384 216 1 24
+check hair 384 216 1 24
+check dense 384 216 0 12
+check volume 192 108 0 12

@@ -20,17 +20,17 @@ std::vector<std::string> keep_and_tell(Ldi &ldi, const std::string &channels) {
 } // namespace
 
 OpenedLdi &LdiCache::load(const std::string &path, const std::string &channels, const OpenOptions &options,
-                          const ColourOptions &colour, const ToolContext &tool) {
+                          const ColourOptions &colour, const ToolContext &tool, const ReduceSamples &reduce) {
     const DepthOptions &depth = options.depth;
     const LensValues &lens = options.lens;
     const Key key(path, channels, depth.meaning, depth.channel, depth.near, depth.far, depth.view,
                   lens.focal_length_mm, lens.sensor_width_mm, colour.config, colour.input_space);
     read_now_ = !last_ || taken_ || key_ != key;
     if (read_now_) {
-        taken_ = false;
         last_.reset(); // two at a time may be more than fits
         tool.say("reading " + path);
-        OpenedLdi opened = open_ldi(path, options);
+        OpenedLdi opened = open_ldi(path, options, reduce);
+        taken_ = opened.reduced;
         say_samples(tool, opened);
         warn_of_invalid_values(tool, path, opened.bad);
         opened.header = to_linear(tool, colour, path, opened.header, opened.ldi);

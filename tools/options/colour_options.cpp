@@ -121,6 +121,11 @@ Imf::Header to_linear(const ToolContext &tool, const ColourOptions &options, con
     return std::move(to.header);
 }
 
+bool is_linear(const ToolContext &tool, const ColourOptions &options, const std::string &path,
+               const Imf::Header &header) {
+    return !linear_colours(tool, options, path, header).transform;
+}
+
 Imf::Header to_linear(const ToolContext &tool, const ColourOptions &options, const std::string &path,
                       const Imf::Header &header, View &view) {
     LinearColours to = linear_colours(tool, options, path, header);

@@ -8,6 +8,7 @@
 
 #include <ImfHeader.h>
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -34,6 +35,13 @@ struct LdiFile {
 // file (see tidy); a flat picture has one per pixel.
 LdiFile read_ldi(const std::string &path, const std::string &depth_channel = {},
                  const std::string &stereo_view = {});
+
+// The same with less memory, for a picture of which fewer samples are needed: `reduce` is given a few rows of it at a time,
+// top down, and what it makes of them is kept; it may not change the windows. It is not asked where the picture has
+// several parts, tiles, or is flat: then all samples are there.
+using ReduceFileRows = std::function<Ldi(const Imf::Header &header, Ldi rows)>;
+LdiFile read_ldi(const std::string &path, const std::string &depth_channel, const std::string &stereo_view,
+                 const ReduceFileRows &reduce);
 
 // Writes a scanline deep EXR file, compressed as compression.h says; deepImageState describes the samples. Keeps all of
 // `metadata` that does not describe its own pixels. Returns the number of values that became the largest half, as

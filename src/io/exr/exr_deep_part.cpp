@@ -95,10 +95,14 @@ private:
     Imf::DeepFrameBuffer buffer_;
 };
 
-void make_room(const Ldi &ldi, const Planes &planes, const DeepSource &source) {
+void check_room(const Ldi &ldi, std::size_t planes, const DeepSource &source) {
     const double counts = double(ldi.begin.size()) * sizeof(ldi.begin[0]);
-    const double bytes = double(ldi.begin.back()) * double(planes.named.size() * sizeof(float));
+    const double bytes = double(ldi.begin.back()) * double(planes * sizeof(float));
     check_memory(source.path, source.held + counts + bytes, source.size);
+}
+
+void make_room(const Ldi &ldi, const Planes &planes, const DeepSource &source) {
+    check_room(ldi, planes.named.size(), source);
     parallel_for(planes.named.size(),
                  [&](std::size_t k) { planes.named[k].second->resize(ldi.begin.back()); });
 }
@@ -114,35 +118,95 @@ void check_chunk(const DeepSource &source, const RawSize &raw_size) {
                                 display_name(source.path), bytes));
 }
 
-// Has the part read its counts of samples, and makes room for them all.
+// Has the part read its counts of samples.
 template <typename Part, typename Read>
-std::vector<unsigned> read_counts(Part &part, const DeepSource &source, Ldi &ldi, const Planes &planes,
-                                  const Read &read) {
+std::vector<unsigned> read_counts(Part &part, Ldi &ldi, const Read &read) {
     std::vector<unsigned> counts(ldi.windows.pixels());
     Imf::DeepFrameBuffer only_counts;
     only_counts.insertSampleCountSlice(counts_slice(counts, ldi.windows));
     part.setFrameBuffer(only_counts);
     read();
     set_counts(ldi, counts);
-    make_room(ldi, planes, source);
     return counts;
+}
+
+std::vector<unsigned> read_counts(Imf::DeepScanLineInputPart &part, const DeepSource &source, Ldi &ldi) {
+    const Imath::Box2i &data = ldi.windows.data;
+    std::vector<unsigned> counts =
+        read_counts(part, ldi, [&] { part.readPixelSampleCounts(data.min.y, data.max.y); });
+    for (int y = data.min.y; y <= data.max.y; ++y)
+        check_chunk(source, [&](std::uint64_t &bytes) { part.rawPixelData(y, nullptr, bytes); });
+    return counts;
+}
+
+// visit(first row, last row), top down; so many rows bound the pointer table and keep all threads busy.
+template <typename Visit>
+void for_some_rows(const Imath::Box2i &data, int rows_at_once, const Visit &visit) {
+    for (int y = data.min.y; y <= data.max.y; y += rows_at_once)
+        visit(y, std::min(y + rows_at_once - 1, data.max.y));
+}
+
+// `counts`: of the data window of `ldi`.
+void read_rows(Imf::DeepScanLineInputPart &part, const Ldi &ldi, const Planes &planes, int first, int last,
+               std::vector<unsigned> &counts) {
+    const PointerTable table(ldi, planes, first, last, counts);
+    part.setFrameBuffer(table.frame_buffer());
+    part.readPixelSampleCounts(first, last); // a new frame buffer forgets the counts
+    part.readPixels(first, last);
 }
 
 void read_scanlines(const DeepSource &source, int number, Ldi &ldi, const Planes &planes) {
     Imf::DeepScanLineInputPart part(source.file, number);
-    const Windows &w = ldi.windows;
-    std::vector<unsigned> counts = read_counts(
-        part, source, ldi, planes, [&] { part.readPixelSampleCounts(w.data.min.y, w.data.max.y); });
-    for (int y = w.data.min.y; y <= w.data.max.y; ++y)
-        check_chunk(source, [&](std::uint64_t &bytes) { part.rawPixelData(y, nullptr, bytes); });
-    constexpr int rows_at_once = 128; // bounds the pointer table, keeps all threads busy
-    for (int y = w.data.min.y; y <= w.data.max.y; y += rows_at_once) {
-        const int last = std::min(y + rows_at_once - 1, w.data.max.y);
-        const PointerTable table(ldi, planes, y, last, counts);
-        part.setFrameBuffer(table.frame_buffer());
-        part.readPixelSampleCounts(y, last); // a new frame buffer forgets the counts
-        part.readPixels(y, last);
-    }
+    std::vector<unsigned> counts = read_counts(part, source, ldi);
+    make_room(ldi, planes, source);
+    for_some_rows(ldi.windows.data, 128,
+                  [&](int first, int last) { read_rows(part, ldi, planes, first, last, counts); });
+}
+
+// All arrays of an LDI that have one entry a sample.
+std::vector<std::vector<float> *> arrays_of(Ldi &ldi) {
+    std::vector<std::vector<float> *> arrays{&ldi.z,  &ldi.z_back, &ldi.dx,
+                                             &ldi.dy, &ldi.weight, &ldi.optical};
+    for (std::vector<float> &values : ldi.values) arrays.push_back(&values);
+    return arrays;
+}
+
+// Room for as many samples as the file has takes no memory before it is used.
+void append_rows(Ldi &ldi, Ldi rows, std::uint64_t most) {
+    ldi.channels = rows.channels;
+    ldi.values.resize(rows.values.size());
+    const std::uint64_t before = ldi.begin.back();
+    for (std::size_t pixel = 0; pixel + 1 < rows.begin.size(); ++pixel)
+        ldi.begin.push_back(before + rows.begin[pixel + 1]);
+    const std::vector<std::vector<float> *> to = arrays_of(ldi), from = arrays_of(rows);
+    parallel_for(to.size(), [&](std::size_t k) {
+        if (!from[k]->empty()) to[k]->reserve(most);
+        to[k]->insert(to[k]->end(), from[k]->begin(), from[k]->end());
+    });
+}
+
+// `ldi` has its windows, and gets the rest.
+void read_reduced(const DeepSource &source, int number, Ldi &ldi, const std::vector<FileChannel> &channels,
+                  const std::string &depth, const ReduceRows &reduce) {
+    Imf::DeepScanLineInputPart part(source.file, number);
+    const std::vector<unsigned> counts = read_counts(part, source, ldi);
+    const std::uint64_t most = ldi.begin.back();
+    check_room(ldi, channels.size(), source);
+    ldi.begin.assign(1, 0);
+    ldi.begin.reserve(counts.size() + 1);
+    for_some_rows(ldi.windows.data, 64, [&](int first, int last) {
+        Ldi rows;
+        rows.windows = ldi.windows;
+        rows.windows.data.min.y = first;
+        rows.windows.data.max.y = last;
+        const Planes planes = plan_planes(rows, channels, depth);
+        const auto begin = counts.begin() + std::ptrdiff_t(ldi.windows.index(ldi.windows.data.min.x, first));
+        std::vector<unsigned> here(begin, begin + std::ptrdiff_t(rows.windows.pixels()));
+        set_counts(rows, here);
+        make_room(rows, planes, source);
+        read_rows(part, rows, planes, first, last, here);
+        append_rows(ldi, reduce(std::move(rows)), most);
+    });
 }
 
 void read_tiles(const DeepSource &source, int number, Ldi &ldi, const Planes &planes) {
@@ -150,7 +214,8 @@ void read_tiles(const DeepSource &source, int number, Ldi &ldi, const Planes &pl
     const Windows &w = ldi.windows;
     const int right = part.numXTiles(0) - 1, bottom = part.numYTiles(0) - 1;
     std::vector<unsigned> counts =
-        read_counts(part, source, ldi, planes, [&] { part.readPixelSampleCounts(0, right, 0, bottom); });
+        read_counts(part, ldi, [&] { part.readPixelSampleCounts(0, right, 0, bottom); });
+    make_room(ldi, planes, source);
     for (int ty = 0; ty <= bottom; ++ty)
         for (int tx = 0; tx <= right; ++tx)
             check_chunk(source, [&](std::uint64_t &bytes) {
@@ -166,7 +231,7 @@ void read_tiles(const DeepSource &source, int number, Ldi &ldi, const Planes &pl
 } // namespace
 
 Ldi read_deep_part(const DeepSource &source, int number, const std::vector<FileChannel> &channels,
-                   const std::string &depth) {
+                   const std::string &depth, const ReduceRows &reduce) {
     const Imf::Header &header = source.file.header(number);
     Ldi ldi;
     ldi.windows = windows_of(header);
@@ -175,7 +240,9 @@ Ldi read_deep_part(const DeepSource &source, int number, const std::vector<FileC
     constexpr std::size_t counts = 3; // floats' worth: a count and where its samples begin
     const std::size_t pointers = tiled ? 2 * planes.named.size() : 0; // of scanlines a few rows at a time
     check_memory(source.path, source.held + memory_of(header, counts + pointers), source.size);
-    if (tiled)
+    if (reduce)
+        read_reduced(source, number, ldi, channels, depth, reduce);
+    else if (tiled)
         read_tiles(source, number, ldi, planes);
     else
         read_scanlines(source, number, ldi, planes);

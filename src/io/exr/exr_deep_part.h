@@ -7,6 +7,7 @@
 #include <ImfMultiPartInputFile.h>
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -20,11 +21,15 @@ struct DeepSource {
     double held = 0; // bytes of memory that the parts read so far take
 };
 
+// Makes an LDI of the same windows of that of some rows: of fewer samples.
+using ReduceRows = std::function<Ldi(Ldi rows)>;
+
 // Reads `channels` of the part: `depth` and depthBack, those that position samples, and the others as values. If
 // `depth` is empty there is no depth, and z stays empty. Samples are returned as they stand in the file. Throws Error,
-// naming the file, where it is damaged or asks for more memory than it may.
+// naming the file, where it is damaged or asks for more memory than it may. With `reduce`, which needs a part of scanlines, a
+// few rows are read at a time, and what it makes of them is kept.
 Ldi read_deep_part(const DeepSource &source, int number, const std::vector<FileChannel> &channels,
-                   const std::string &depth);
+                   const std::string &depth, const ReduceRows &reduce = {});
 
 // A flat picture as an LDI of one sample per pixel.
 Ldi ldi_of_flat(const Image &image, const std::string &depth);

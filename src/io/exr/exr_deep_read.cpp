@@ -46,11 +46,13 @@ public:
                 if (is_among(rgb_names, found.channel.name)) beauty_in_layer_ = false;
     }
 
-    void add(int number, bool only_as_layer) {
+    // `reduce`: of the only part.
+    void add(int number, bool only_as_layer, const ReduceRows &reduce = {}) {
         const Imf::Header &header = source_.file.header(number);
         const std::vector<FileChannel> channels = named_channels(header);
         const std::string depth = depth_of(channels);
-        Ldi part = read_deep_part(source_, number, channels, depth);
+        const bool by_rows = reduce && !depth.empty() && header.type() == Imf::DEEPSCANLINE;
+        Ldi part = read_deep_part(source_, number, channels, depth, by_rows ? reduce : ReduceRows());
         const auto whose = std::ranges::find_if(parts_, [&](const Ldi &other) {
             return depth.empty() ? part.windows == other.windows && part.begin == other.begin
                                  : same_samples(part, other);
@@ -149,6 +151,11 @@ LdiFile read_flat_as_ldi(const DeepSource &source, InputStream &stream, const st
 } // namespace
 
 LdiFile read_ldi(const std::string &path, const std::string &depth_channel, const std::string &stereo_view) {
+    return read_ldi(path, depth_channel, stereo_view, {});
+}
+
+LdiFile read_ldi(const std::string &path, const std::string &depth_channel, const std::string &stereo_view,
+                 const ReduceFileRows &reduce) {
     return with_file_name(path, [&] {
         const auto stream = open_input(path);
         check_header(*stream, path);
@@ -162,12 +169,18 @@ LdiFile read_ldi(const std::string &path, const std::string &depth_channel, cons
         if (one_beauty) std::stable_partition(numbers.begin(), numbers.end(), beauty);
         DeepPicture picture(source, view, depth_channel);
         picture.find_beauty(numbers);
-        for (const int part : numbers) picture.add(part, one_beauty && part != numbers.front());
-        Imf::Header header = header_of_view(file.header(numbers.front()), view);
+        Imf::Header header = with_mattes_of(file, header_of_view(file.header(numbers.front()), view));
+        const auto by_rows = [&](Ldi rows) {
+            add_mean_coverage(rows);
+            find_kinds_by(header, rows.channels);
+            return reduce(header, std::move(rows));
+        };
+        for (const int part : numbers)
+            picture.add(part, one_beauty && part != numbers.front(),
+                        reduce && numbers.size() == 1 ? ReduceRows(by_rows) : ReduceRows());
         if (picture.is_merged()) header = without_attribute(header, "name"); // an object's
         if (is_standard_stream(path))
             header.compression() = Imf::ZIPS_COMPRESSION; // a pipe's says nothing of the picture
-        header = with_mattes_of(file, header);
         Ldi ldi = picture.whole();
         find_kinds_by(header, ldi.channels);
         std::vector<std::string> notes = picture.notes();
