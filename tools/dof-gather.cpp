@@ -16,7 +16,6 @@
 #include "options/show.h"
 #include "options/window_options.h"
 
-#include <algorithm>
 #include <memory>
 #include <optional>
 
@@ -50,7 +49,7 @@ ReduceSamples reduce_samples(const GatherCommand &options, const ToolContext &to
                            !(header.dataWindow().intersects(header.displayWindow().min) &&
                              header.dataWindow().intersects(header.displayWindow().max));
         if (!**linear || grows || highlight_gain(looks).gain != 1 || looks.breathing ||
-            camera.looks.breathing || std::ranges::any_of(rows.channels, is_in_matte))
+            camera.looks.breathing || !can_merge_layers(rows))
             throw NeedsAllSamples();
         const ThinLens lens = resolve_lens(camera, rows.windows);
         return reduced_first(std::move(rows), lens, options.picture);
@@ -62,8 +61,7 @@ void run(const GatherCommand &given, const ToolContext &tool, LdiCache &cache, G
     const OpenOptions by{options.lens, options.depth};
     OpenedLdi &in =
         cache.load(options.input, options.channels, by, options.colour, tool, reduce_samples(options, tool));
-    if (in.reduced)
-        options.picture.layer_tolerance = can_merge_layers(in.ldi) ? 0 : options.picture.layer_tolerance;
+    if (in.reduced) options.picture.layer_tolerance = 0; // they are merged
     say_camera(tool, options.input, in.camera);
     ThinLens lens = lens_for_ldi(in, options.focus_pixel, tool);
     const auto holdout = open_holdout(options.holdout, in.ldi.windows, options.windows.proxy, by);
