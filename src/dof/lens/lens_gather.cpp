@@ -299,10 +299,14 @@ Image gather_once(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &wind
 } // namespace
 
 Image lens_gather(const Ldi &ldi, const ThinLens &given, const Imath::Box2i &window,
-                  const LensGatherOptions &options, Progress &progress) {
+                  const LensGatherOptions &asked, Progress &progress) {
     ThinLens lens = given;
+    LensGatherOptions options = asked;
     // Only breathing shows then, which asks for a finite focus distance: all is sharp, and still ordered by depth.
-    if (lens.radius == 0) lens.radius = sharp_coc * lens.focus / lens.focal_px;
+    if (lens.radius == 0) {
+        lens.radius = sharp_coc * lens.focus / lens.focal_px;
+        options.looks.cat_eye = 0; // there is nothing to cut
+    }
     Image out = gather_once(ldi, lens, window, options, 0, progress);
     const std::vector<ColourSet> sets = colour_sets(ldi, ldi.channels.size());
     const std::array<double, 3> &cocs = options.looks.chromatic_coc;

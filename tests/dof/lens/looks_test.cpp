@@ -250,6 +250,13 @@ TEST(LensLooks, DarkenWhatACatEyeCuts) {
     }
 }
 
+TEST(LensLooks, LeaveAPinholeItsLight) {
+    const Ldi ldi = random_surfaces(windows_of_size(96, 64), lens, false, 1);
+    const ThinLens pinhole{.radius = 0, .focal_px = 640, .focus = 5};
+    const Image dark = gather(ldi, {.cat_eye = 1, .cat_eye_darkening = true, .magnification = 1.1}, pinhole);
+    EXPECT_EQ(dark.values, gather(ldi, {.magnification = 1.1}, pinhole).values);
+}
+
 // Data has no colour and no rim: it is gathered as through an even lens of one colour.
 TEST(LensLooks, LeaveDataAlone) {
     std::vector<Channel> channels = rgba_channels();
