@@ -56,6 +56,10 @@ for scene in fence grass lamps; do
     done
     positive "$(value $scene 'centre + 4, lens normal' '4 samples' seconds_warp)" "time to warp"
     positive "$(value $scene 'centre + 4, selective K=8' '4 samples' seconds_cluster)" "time to cluster"
+    for column in pull_flickering_pixels pull_sparkling_pixels pull_largest; do
+        [ -n "$(value $scene 'centre + 4, lens normal' '16 samples' $column)" ] || fail "no $column of $scene"
+    done
+    positive "$(value $scene 'centre + 4, lens normal' '16 samples' pull_largest)" "the largest second difference of $scene"
     positive "$(value $scene 'accumulated lens views, ' '64 views' seconds_process)" "time to accumulate"
     positive "$(value $scene 'distributed ray tracing, ' '64 rays' psnr_tonemapped)" "quality of ray tracing"
 done

@@ -56,6 +56,9 @@ Fields fields_of(const ReportRow &row, const RayTracingCurves &ray_tracing) {
         add_errors(region_names[r] + std::string("_"), row.errors[r + 1], fields);
     fields.emplace_back("psnr_sampling", row.causes ? shortest(row.causes->sampling) : "");
     fields.emplace_back("psnr_layers", row.causes ? shortest(row.causes->layers) : "");
+    fields.emplace_back("pull_flickering_pixels", row.pull ? fmt::to_string(row.pull->above[0]) : "");
+    fields.emplace_back("pull_sparkling_pixels", row.pull ? fmt::to_string(row.pull->above[1]) : "");
+    fields.emplace_back("pull_largest", row.pull ? shortest(row.pull->largest) : "");
     const RowVerdict verdict = row_verdict(row, ray_tracing);
     fields.emplace_back("equal_error_seconds", exact(verdict.seconds));
     fields.emplace_back("equal_error_rays", exact(verdict.rays));

@@ -73,6 +73,9 @@ std::string cells(const ReportRow &row, const RayTracingCurves &ray_tracing) {
     number(fixed(row.errors.front().ssim, 4));
     number(row.causes ? fixed(row.causes->sampling, 2) : "");
     number(row.causes ? fixed(row.causes->layers, 2) : "");
+    number(row.pull ? fmt::to_string(row.pull->above[0]) : "");
+    number(row.pull ? fmt::to_string(row.pull->above[1]) : "");
+    number(row.pull ? fixed(row.pull->largest, 2) : "");
     const bool compared = row.role != Role::ray_tracing && total_seconds(row) > 0;
     number(compared ? reached_text(verdict.seconds, total_seconds(row)) : "");
     number(compared ? reached_text(verdict.rays) : "");
@@ -88,8 +91,9 @@ std::string table(std::span<const ReportRow> rows) {
     for (const char *stage : stage_names) html += element("th", stage);
     html += element("th", "peak MB") + element("th", "dB");
     for (const char *region : region_names) html += element("th", region + std::string(" dB"));
-    for (const char *title : {"SSIM", "sampling dB", "layers dB", "equal error: times longer",
-                              "equal error: rays", "equal time: dB better", "not finite"})
+    for (const char *title :
+         {"SSIM", "sampling dB", "layers dB", "pull: flicker", "pull: sparkle", "pull: largest",
+          "equal error: times longer", "equal error: rays", "equal time: dB better", "not finite"})
         html += element("th", title);
     html += "</tr></thead>\n<tbody>\n";
     const RayTracingCurves ray_tracing = ray_tracing_curves(rows);
@@ -131,7 +135,10 @@ std::string page_as_html(const Page &page) {
         "distributed ray tracing takes for a row's error, as a multiple of the row's time and in rays; "
         "&lt; and &gt; are bounds where its measured budgets end. <i>Equal time</i> is how much better the "
         "row is "
-        "than ray tracing of the same time; nothing where none so short or so long was measured.</p>\n";
+        "than ray tracing of the same time; nothing where none so short or so long was measured. <i>Pull</i> "
+        "is a pull of focus to 1.1 times its "
+        "distance in 16 frames: the pixels whose second difference over time exceeds 0.02 (flicker) and 0.05 "
+        "(sparkle), and the largest.</p>\n";
     for (const PageScene &scene : page.scenes) html += section(scene);
     return html + "<script>\n" + page_script + "</script>\n</body>\n</html>\n";
 }

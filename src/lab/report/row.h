@@ -4,6 +4,7 @@
 
 #include "measure/image_error.h"
 #include "measure/regions.h"
+#include "measure/temporal_error.h"
 
 #include <array>
 #include <cstddef>
@@ -41,6 +42,7 @@ struct ReportRow {
     double peak_mb = 0;              // memory of the largest process, MiB
     std::array<ErrorFigures, 1 + region_names.size()> errors{}; // the whole picture, then each region
     std::optional<ErrorCauses> causes;
+    std::optional<Steadiness> pull;  // of a pull of focus to 1.1 times its distance, in 16 frames
     std::string picture, difference; // PNG files, relative to the folder of the report
 };
 

@@ -4,13 +4,16 @@
 #include "lab/report/verdict.h"
 #include "measure/text_table.h"
 
+#include <fmt/format.h>
+
 namespace sparselens::lab {
 
 namespace {
 
 TextRow titles() {
-    return {"method",      "budget", "rays",     "seconds", "MB",     "dB",          "focus",    "blurred",
-            "silhouettes", "SSIM",   "sampling", "layers",  "x time", "rays needed", "dB gained"};
+    return {"method",  "budget",  "rays",        "seconds", "MB",          "dB",
+            "focus",   "blurred", "silhouettes", "SSIM",    "sampling",    "layers",
+            "flicker", "sparkle", "largest",     "x time",  "rays needed", "dB gained"};
 }
 
 TextRow cells(const ReportRow &row, const RayTracingCurves &ray_tracing) {
@@ -20,6 +23,9 @@ TextRow cells(const ReportRow &row, const RayTracingCurves &ray_tracing) {
     text.push_back(fixed(row.errors.front().ssim, 4));
     text.push_back(row.causes ? fixed(row.causes->sampling, 2) : "");
     text.push_back(row.causes ? fixed(row.causes->layers, 2) : "");
+    text.push_back(row.pull ? fmt::to_string(row.pull->above[0]) : "");
+    text.push_back(row.pull ? fmt::to_string(row.pull->above[1]) : "");
+    text.push_back(row.pull ? fixed(row.pull->largest, 2) : "");
     const RowVerdict verdict = row_verdict(row, ray_tracing);
     const bool compared = row.role != Role::ray_tracing && total_seconds(row) > 0;
     text.push_back(compared ? reached_text(verdict.seconds, total_seconds(row)) : "");

@@ -48,6 +48,7 @@ TEST(Csv, GivesEveryFigureOfEveryRegion) {
     ReportRow row = report_row(Role::other, "a \"renderer\", quoted", 2, 5, 37.25);
     row.causes = {45.5, 38.125};
     row.peak_mb = 12.5;
+    row.pull = Steadiness{.above = {120, 7}, .largest = 0.25};
     row.errors[0].psnr = std::numeric_limits<double>::infinity();
     row.errors[0].nonfinite_image = 7;
     row.errors[2].ssim = 0.1; // blurred
@@ -67,6 +68,9 @@ TEST(Csv, GivesEveryFigureOfEveryRegion) {
     EXPECT_EQ(first.at("psnr_sampling"), "45.5");
     EXPECT_EQ(first.at("psnr_layers"), "38.125");
     EXPECT_EQ(first.at("peak_mb"), "12.5");
+    EXPECT_EQ(first.at("pull_flickering_pixels"), "120");
+    EXPECT_EQ(first.at("pull_sparkling_pixels"), "7");
+    EXPECT_EQ(first.at("pull_largest"), "0.25");
     EXPECT_EQ(first.at("equal_error_seconds"), ""); // no ray tracing to compare with
     for (const Figure &figure : figure_table)
         for (const std::string region : {"", "in_focus_", "blurred_", "silhouettes_"})
@@ -97,6 +101,7 @@ TEST(Csv, TimesGivenWithThePicturesHaveNoPeak) {
     ReportRow row = report_row(Role::other, "ready", 2, 5, 37);
     row.runs = 0;
     EXPECT_EQ(read(report_as_csv(std::vector{row}))[0].at("peak_mb"), "");
+    EXPECT_EQ(read(report_as_csv(std::vector{row}))[0].at("pull_largest"), "");
     EXPECT_EQ(read(report_as_csv({})).size(), 0u);
 }
 

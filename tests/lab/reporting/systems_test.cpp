@@ -115,6 +115,23 @@ TEST(Systems, ARowTakesTheTimeOfItsWholeChain) {
         for (const std::size_t step : row.steps) EXPECT_TRUE(all.steps[step].timed);
 }
 
+// Of the lens gather over centre and 4 with most samples alone: it takes as long as 16 pictures.
+TEST(Systems, PullsOfFocusShowHowSteadyTheLensIs) {
+    const Planned all = planned("fence");
+    const PlannedRow &row = all.row("centre + 4, lens final", "64 samples");
+    ASSERT_EQ(row.pull.size(), 16u);
+    EXPECT_EQ(row.pull.back(), "fence/views-5x64/pull-final.0016.exr");
+    const auto step = std::ranges::find_if(
+        all.steps, [&](const Step &s) { return s.name == "fence/views-5x64/pull-final"; });
+    ASSERT_NE(step, all.steps.end());
+    EXPECT_EQ(
+        command_line(step->commands[0].words),
+        "dof-gather fence/views-5x64/warped.exr --quality final -o fence/views-5x64/pull-final.####.exr "
+        "--focus-distance 1:5,16:5.5 --frames 1-16");
+    EXPECT_FALSE(step->timed);
+    EXPECT_EQ(std::ranges::count_if(all.plan.rows, [](const PlannedRow &r) { return !r.pull.empty(); }), 3);
+}
+
 TEST(Systems, RaysAreCameraSamplesOfAllViews) {
     const Planned all = planned("fence");
     EXPECT_EQ(all.row("one view, gather", "16 samples").row.rays, 16);

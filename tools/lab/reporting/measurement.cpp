@@ -69,6 +69,7 @@ public:
             row.causes = {image_error(picture, many).front().psnr_tonemapped,
                           image_error(many, reference_).front().psnr_tonemapped};
         }
+        if (!planned.pull.empty()) row.pull = steadiness(planned.pull);
         const Image mapped = tone_mapped_picture(picture);
         row.picture = pictures_of(planned) + ".png";
         row.difference = pictures_of(planned) + "-difference.png";
@@ -86,6 +87,12 @@ private:
     Image read(const std::string &file) const { return read_flat_exr(path(file)).image; }
     Image over_reference(const std::string &file) const {
         return rgba_over(read(file), windows_, path(file));
+    }
+
+    Steadiness steadiness(const std::vector<std::string> &frames) const {
+        TemporalError error;
+        for (const std::string &frame : frames) error.add(over_reference(frame));
+        return error.figures().image;
     }
 
     // Apart from the EXR files, which may be ready-made and lie elsewhere.

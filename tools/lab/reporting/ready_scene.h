@@ -15,6 +15,7 @@ public:
 
     std::string name() const override { return name_; }
     LensValues lens() const override;
+    double focus_distance() const override { return camera_.focus_distance; }
     std::vector<int> samples() const override;
     std::vector<int> rays() const override;
     std::vector<int> lens_views() const override { return {}; }

@@ -44,6 +44,7 @@ public:
 
     virtual std::string name() const = 0;         // the name of the scene, usable as a file name
     virtual LensValues lens() const = 0;          // what the metadata of the pictures lacks
+    virtual double focus_distance() const = 0;    // scene units
     virtual std::vector<int> samples() const = 0; // budgets of views
     virtual std::vector<int> rays() const = 0;    // budgets of ray tracing over the lens
     virtual std::vector<int> lens_views() const = 0;

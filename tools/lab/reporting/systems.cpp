@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace sparselens::lab {
 
 namespace {
@@ -14,6 +16,9 @@ Words operator+(Words a, const Words &b) {
     a.insert(a.end(), b.begin(), b.end());
     return a;
 }
+
+constexpr int pull_frames = 16;
+constexpr double pull_to = 1.1; // times the focus distance
 
 // The options as they are given to a tool.
 Words words_of(const LensValues &lens) {
@@ -72,6 +77,29 @@ public:
         return made.file;
     }
 
+    // A pull of focus from `focus` on. Not part of anybody's time either.
+    std::vector<std::string> pull(const std::string &quality, double focus) {
+        const Layers from = warp();
+        const std::string name = rendered_.folder + "/pull-" + quality;
+        const std::string keys = fmt::format("1:{},{}:{}", focus, pull_frames, pull_to * focus);
+        Words words{"dof-gather", from.file, "--quality", quality, "-o", name + ".####.exr"};
+        words = std::move(words) + lens_;
+        if (const auto own = std::ranges::find(words, "--focus-distance"); own != words.end())
+            own[1] = keys;
+        else
+            words = std::move(words) + Words{"--focus-distance", keys};
+        words = std::move(words) + Words{"--frames", fmt::format("1-{}", pull_frames)};
+        Step step{.name = name,
+                  .commands = {{Stage::process, words}},
+                  .inputs = from.steps,
+                  .timed = false,
+                  .weight = 0.5 * pull_frames};
+        for (int k = 1; k <= pull_frames; ++k) step.outputs.push_back(fmt::format("{}.{:04}.exr", name, k));
+        const std::vector<std::string> frames = step.outputs;
+        steps_.add(std::move(step));
+        return frames;
+    }
+
 private:
     Layers then(const Layers &from, Stage stage, const std::string &name, const Words &program_and_inputs,
                 const Words &options, double weight = 1.2, bool timed = true) {
@@ -102,6 +130,7 @@ struct Processor {
     bool quick; // measured in a quick report too
     bool lens;  // sees the layers through each point of the lens
     Layers (*process)(Chain &);
+    const char *quality = ""; // of the lens gather
 };
 
 template <int K>
@@ -124,9 +153,9 @@ const Processor scattered{"scatter", true, false, scatter}, gathered{"gather", t
     selective_2{"selective K=2", false, false, selective<2>},
     selective_4{"selective K=4", false, false, selective<4>},
     selective_8{"selective K=8", true, false, selective<8>},
-    lens_draft{"lens draft", false, true, [](Chain &c) { return lens(c, "draft"); }},
-    lens_normal{"lens normal", true, true, [](Chain &c) { return lens(c, "normal"); }},
-    lens_final{"lens final", false, true, [](Chain &c) { return lens(c, "final"); }};
+    lens_draft{"lens draft", false, true, [](Chain &c) { return lens(c, "draft"); }, "draft"},
+    lens_normal{"lens normal", true, true, [](Chain &c) { return lens(c, "normal"); }, "normal"},
+    lens_final{"lens final", false, true, [](Chain &c) { return lens(c, "final"); }, "final"};
 
 struct System {
     const char *renderer;
@@ -134,7 +163,8 @@ struct System {
     std::vector<int> (SceneSource::*budgets)() const;
     std::optional<Rendered> (*render)(const SceneSource &, int budget, StepList &);
     std::vector<const Processor *> processors; // none: it renders depth of field itself
-    Role role_of_lens; // of the rows whose processor is the lens gather, or of all without one
+    Role role_of_lens;  // of the rows whose processor is the lens gather, or of all without one
+    bool pulls = false; // with the largest budget, the steadiness of the lens gather is measured too
 };
 
 template <int Rim>
@@ -173,7 +203,7 @@ const std::vector<System> &system_table() {
         {"4 peeled layers", "sample", &S::samples, peeled, {&blended, &lens_normal}, Role::other},
         {"accumulated lens views", "view", &S::lens_views, accumulated, {}, Role::other},
         {"distributed ray tracing", "ray", &S::rays, distributed, {}, Role::ray_tracing},
-        {"centre + 4", "sample", &S::samples, sparse<4>, every, Role::sparse_lens},
+        {"centre + 4", "sample", &S::samples, sparse<4>, every, Role::sparse_lens, true},
         {"centre + 8", "sample", &S::samples, sparse<8>, every, Role::sparse_lens},
         {"centre + 4 planned",
          "sample",
@@ -219,6 +249,8 @@ void add_rows(const SceneSource &scene, const System &system, int budget, const 
         planned_row.picture = result.file;
         planned_row.steps = result.steps;
         planned_row.many_points = chain.many_points();
+        if (system.pulls && processor->lens && budget == (scene.*system.budgets)().back())
+            planned_row.pull = chain.pull(processor->quality, scene.focus_distance());
         rows.push_back(std::move(planned_row));
     }
 }

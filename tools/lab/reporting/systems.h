@@ -17,6 +17,7 @@ struct PlannedRow {
     std::string partial_views{}; // a pattern of views whose rays are known only after rendering; else empty
     int partial_samples = 0;     // per pixel of these
     std::string many_points{};   // the same layers seen through many lens points; empty without layers
+    std::vector<std::string> pull{}; // frames of a pull of focus over the same layers; empty: none is made
 };
 
 struct ScenePlan {

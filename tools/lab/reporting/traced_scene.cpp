@@ -1,5 +1,7 @@
 #include "lab/reporting/traced_scene.h"
 
+#include "lab/trace/scenes.h"
+
 #include <fmt/format.h>
 
 #include <charconv>
@@ -34,6 +36,8 @@ double pixels_of(const std::string &size) {
 }
 
 } // namespace
+
+double TracedScene::focus_distance() const { return build_scene(name_).camera.focus_distance.value(); }
 
 double TracedScene::weight(double rays) const { return 0.1 + rays * pixels_of(budgets_.size) / 1.5e7; }
 

@@ -12,6 +12,7 @@ public:
 
     std::string name() const override { return name_; }
     LensValues lens() const override { return {}; }
+    double focus_distance() const override;
     std::vector<int> samples() const override { return budgets_.samples; }
     std::vector<int> rays() const override { return budgets_.rays; }
     std::vector<int> lens_views() const override { return budgets_.lens_views; }
