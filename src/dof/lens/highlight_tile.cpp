@@ -32,11 +32,43 @@ std::uint32_t name_of(std::uint32_t block, int columns) {
 } // namespace
 
 BlockFootprints::BlockFootprints(const Ldi &ldi, const BlockedSamples &samples)
-    : ldi_(ldi), samples_(samples), made_(samples.blocks.size()), footprints_(samples.blocks.size()) {}
+    : ldi_(ldi), samples_(samples), made_(samples.blocks.size()), computed_(samples.blocks.size()) {}
 
-std::span<const Footprint> BlockFootprints::of(std::uint32_t block) const {
-    std::call_once(made_[block], [&] { footprints_[block] = compute(block); });
-    return footprints_[block];
+const BlockFootprints::Block &BlockFootprints::of(std::uint32_t block) const {
+    std::call_once(made_[block], [&] {
+        Block &made = computed_[block];
+        made.footprints = compute(block);
+        made.near = bounds_of(samples_.blocks[block], made.footprints);
+    });
+    return computed_[block];
+}
+
+const NearBounds *BlockFootprints::Block::nearer_than(float depth) const {
+    const auto end = std::ranges::partition_point(near, [&](const NearBounds &n) { return n.depth > depth; });
+    return end == near.begin() ? nullptr : &end[-1];
+}
+
+std::vector<NearBounds> BlockFootprints::bounds_of(const SampleBlock &block,
+                                                   std::span<const Footprint> footprints) const {
+    std::vector<NearBounds> near;
+    for (std::size_t i = 0; i < footprints.size(); ++i) {
+        const auto &[place, coc] = footprints[i];
+        const auto [least, most] = std::ranges::minmax(coc);
+        near.push_back(
+            {samples_.depth[block.begin + i], place[0], place[1], place[2], place[3], least, most});
+    }
+    std::ranges::sort(near, std::ranges::greater(), &NearBounds::depth);
+    for (std::size_t i = 1; i < near.size(); ++i) {
+        const NearBounds &last = near[i - 1];
+        NearBounds &n = near[i];
+        n.x_min = std::min(n.x_min, last.x_min);
+        n.x_max = std::max(n.x_max, last.x_max);
+        n.y_min = std::min(n.y_min, last.y_min);
+        n.y_max = std::max(n.y_max, last.y_max);
+        n.coc_min = std::min(n.coc_min, last.coc_min);
+        n.coc_max = std::max(n.coc_max, last.coc_max);
+    }
+    return near;
 }
 
 std::vector<Footprint> BlockFootprints::compute(std::uint32_t block) const {
@@ -99,19 +131,23 @@ bool HighlightTile::cast_shadows(std::uint32_t lamp_sample, const Lamp &lamp,
     for (const std::uint32_t b : blocks) {
         const SampleBlock &block = samples_.blocks[b];
         if (block.depth_max <= nearer_than || !can_shadow(block, lamp)) continue;
+        const BlockFootprints::Block &casting = footprints_.of(b);
+        const NearBounds *near = casting.nearer_than(nearer_than);
+        if (!near || !can_shadow(*near, lamp)) continue;
         if (!any) shadow_.begin(reached_);
         any = true;
-        const std::span<const Footprint> footprints = footprints_.of(b);
         const std::uint32_t first = name_of(b, samples_.columns);
         for (std::uint32_t i = block.begin; i < block.end; ++i)
             if (samples_.depth[i] > nearer_than)
-                cast_shadow(i, footprints[i - block.begin], first + i - block.begin, lamp);
+                cast_shadow(i, casting.footprints[i - block.begin], first + i - block.begin, lamp);
+        if (shadow_.dark()) return true; // no other shadow changes that
     }
     return any;
 }
 
 // Whether a shadow of one of its samples may reach the pixels that the lamp does.
-bool HighlightTile::can_shadow(const SampleBlock &block, const Lamp &lamp) const {
+template <typename Bounds>
+bool HighlightTile::can_shadow(const Bounds &block, const Lamp &lamp) const {
     if (double(block.coc_min) <= lamp.coc && double(block.coc_max) >= lamp.coc) return true;
     const double a = shadow_magnification(lamp.coc, double(block.coc_min)),
                  b = shadow_magnification(lamp.coc, double(block.coc_max));

@@ -33,21 +33,34 @@ struct HighlightShape {
     double pixel_aspect = 1;
 };
 
+// The footprints of a sample and of all nearer ones of its block lie within these.
+struct NearBounds {
+    float depth; // perceptive, pixels: of the sample
+    float x_min, x_max, y_min, y_max, coc_min, coc_max;
+};
+
 // The footprints of the samples of a picture, by blocks.
 class BlockFootprints {
 public:
     BlockFootprints(const Ldi &ldi, const BlockedSamples &samples);
 
-    // Of the samples of a block, computed when first asked for, by any thread.
-    std::span<const Footprint> of(std::uint32_t block) const;
+    struct Block {
+        std::vector<Footprint> footprints; // of its samples
+        std::vector<NearBounds> near;      // the nearest first
+        // Of the samples that are nearer than a perceptive depth; null: there are none.
+        const NearBounds *nearer_than(float depth) const;
+    };
+    // Computed when first asked for, by any thread.
+    const Block &of(std::uint32_t block) const;
 
 private:
     std::vector<Footprint> compute(std::uint32_t block) const;
+    std::vector<NearBounds> bounds_of(const SampleBlock &block, std::span<const Footprint> footprints) const;
 
     const Ldi &ldi_;
     const BlockedSamples &samples_;
     mutable std::vector<std::once_flag> made_;
-    mutable std::vector<std::vector<Footprint>> footprints_;
+    mutable std::vector<Block> computed_;
 };
 
 class HighlightTile {
@@ -81,7 +94,8 @@ private:
     void spread_shape(const Spreading &from);
     void add(const Spreading &from, int x, int y, unsigned of, double weight);
     bool cast_shadows(std::uint32_t lamp_sample, const Lamp &lamp, std::span<const std::uint32_t> blocks);
-    bool can_shadow(const SampleBlock &block, const Lamp &lamp) const;
+    template <typename Bounds>
+    bool can_shadow(const Bounds &bounds, const Lamp &lamp) const;
     void cast_shadow(std::uint32_t sample, const Footprint &footprint, std::uint32_t name, const Lamp &lamp);
     double left_by_cat_eye(bool behind, int x, int y);
 

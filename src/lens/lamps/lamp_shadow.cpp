@@ -84,6 +84,7 @@ void LampShadow::begin(const Imath::Box2i &box) {
     width_ = std::size_t(box.max.x - box.min.x) + 1;
     const std::size_t pixels = width_ * (std::size_t(box.max.y - box.min.y) + 1);
     hidden_.assign(pixels, 0);
+    lit_pixels_ = pixels;
     veil_.assign(pixels, 1);
 }
 
@@ -105,7 +106,10 @@ void LampShadow::hide(const Imath::Box2f &rectangle, float alpha, std::uint32_t 
         const std::size_t row = std::size_t(y) * width_;
         for (int x = first; x <= last; ++x) {
             const std::uint64_t hit = rows & across.within(x, of_columns);
-            hidden_[row + std::size_t(x)] |= hit & hides;
+            std::uint64_t &hidden = hidden_[row + std::size_t(x)];
+            const std::uint64_t before = hidden;
+            hidden |= hit & hides;
+            lit_pixels_ -= std::size_t(~hidden == 0 && ~before != 0);
             if (veil)
                 veil_[row + std::size_t(x)] *=
                     std::pow(1 - alpha, float(std::popcount(hit)) * (1.0f / points));

@@ -31,6 +31,9 @@ public:
     // The shadow of what covers a rectangle and hides a share `alpha` of light, (0, 1].
     void hide(const Imath::Box2f &rectangle, float alpha, std::uint32_t thing);
 
+    // Whether all of the box is hidden.
+    bool dark() const { return lit_pixels_ == 0; }
+
     // The share of a pixel of the box that is not hidden.
     float lit(int x, int y) const { return lit_points(at(x, y)) * veil_[at(x, y)]; }
 
@@ -43,6 +46,7 @@ private:
     Imath::Box2i box_;
     std::size_t width_ = 0;
     std::vector<std::uint64_t> hidden_; // [pixel]: a bit for each point
+    std::size_t lit_pixels_ = 0;        // those of which some point is not hidden
     std::vector<float> veil_;           // [pixel]: what thin things let through
 };
 
