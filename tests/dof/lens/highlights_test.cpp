@@ -250,24 +250,28 @@ TEST(LensGatherOfAPoint, StaysSteadyInAPullOfFocus) {
     EXPECT_LT(worst, brightness / 8); // yes or no would make it `brightness`
 }
 
-// A round lamp of some pixels' diameter before a dim wall; nothing hides it, so its disc is even but for the rim.
+// A round lamp of some pixels' diameter before a dim wall; nothing hides it, so its disc is even but for the rim, and all its
+// light is in it.
 TEST(LensGatherOfALamp, IsAnEvenDisc) {
     for (const double diameter : {1.0, 3.0, 10.0})
         for (const double c : {30.0, 60.0, 140.0}) {
             const int size = 2 * int(c + diameter) + 8;
             const double middle = size / 2;
+            double emitted = 0;
             const Ldi ldi = make_ldi(windows_of_size(size, size), rgba_channels(), [&](int x, int y) {
                 const bool lamp =
                     std::hypot(x + 0.5 - middle, y + 0.5 - middle) <= std::max(diameter / 2, 0.8);
                 const float light = lamp ? 200.0f : 0.001f;
+                if (lamp) emitted += double(light);
                 return std::vector<Sample>{{depth_of(wide, c), {light, light, light, 1}}};
             });
             const Image image = gather(ldi, wide);
-            double sum = 0, squares = 0, count = 0;
+            double sum = 0, squares = 0, count = 0, all = 0;
             for (int y = 0; y < size; ++y)
                 for (int x = 0; x < size; ++x) {
-                    if (std::hypot(x + 0.5 - middle, y + 0.5 - middle) > c - diameter / 2 - 2) continue;
                     const double v = double(image.at(red_channel, x, y));
+                    all += v;
+                    if (std::hypot(x + 0.5 - middle, y + 0.5 - middle) > c - diameter / 2 - 2) continue;
                     sum += v;
                     squares += v * v;
                     ++count;
@@ -275,6 +279,8 @@ TEST(LensGatherOfALamp, IsAnEvenDisc) {
             const double mean = sum / count,
                          deviation = std::sqrt(std::max(0.0, squares / count - mean * mean));
             EXPECT_LT(deviation, 0.02 * mean) << "diameter " << diameter << ", CoC " << c;
+            const double wall = 0.001 * size * size;
+            EXPECT_NEAR(all, emitted + wall, 0.01 * emitted) << "diameter " << diameter << ", CoC " << c;
         }
 }
 
