@@ -160,6 +160,15 @@ TEST_F(LensDeviceTest, HoldoutsAreTheCpus) {
     }
 }
 
+TEST_F(LensDeviceTest, InSoftwareLongFramesAreTheCpus) {
+    if (info->kind != Kind::software) GTEST_SKIP() << "a device in software is needed";
+    const Ldi ldi = surfaces(90, 70, true, 14);
+    const Image expected = gather(ldi, {.lens_samples = 4096});
+    device = open_lens_device(*info, watch());
+    EXPECT_EQ(gather(ldi, {.lens_samples = 4096, .device = device.get()}).values, expected.values);
+    EXPECT_EQ(device->take_report().on_device, 0u);
+}
+
 // At each of its steps: memory, copies, the run.
 TEST_F(LensDeviceTest, AFailureLosesNothing) {
     const Ldi ldi = surfaces(90, 70, false, 8);

@@ -36,6 +36,16 @@ Buffer uploaded(Device &device, const Values &values) {
 
 constexpr const char *failed = "the device failed";
 
+// Mesa's device in software ends a program after 65535 turns of its loops, and what it has not written is garbage. About so
+// many turns a tile takes; more than it may, rather than less.
+bool takes_long_in_software(const TileScene &scene, const TileTask &task) {
+    std::size_t partial = 0;
+    for (const std::uint32_t b : task.samples)
+        partial += scene.samples.blocks[b].end - scene.samples.blocks[b].opaque_end;
+    const std::size_t blocks = task.samples.size() + task.fillers.size() + 4 * task.facets.size();
+    return task.lens.size() * (40 + blocks / 2 + partial / 64) > 60'000;
+}
+
 class LensDevice : public TileDevice {
 public:
     LensDevice(const DeviceInfo &info, const Watch &watch)
@@ -45,6 +55,11 @@ public:
                 const std::function<void(std::size_t, const TilePicture &)> &done) override {
         if (lost_) {
             report_.on_cpu[failed] += tasks.size();
+            return;
+        }
+        const auto lasts = [&](const TileTask &task) { return takes_long_in_software(scene, task); };
+        if (device_.info().kind == Kind::software && std::ranges::any_of(tasks, lasts)) {
+            report_.on_cpu["more steps than a device in software takes"] += tasks.size();
             return;
         }
         const std::size_t before = report_.on_device;
