@@ -43,7 +43,7 @@ bool takes_long_in_software(const TileScene &scene, const TileTask &task) {
     for (const std::uint32_t b : task.samples)
         partial += scene.samples.blocks[b].end - scene.samples.blocks[b].opaque_end;
     const std::size_t blocks = task.samples.size() + task.fillers.size() + 4 * task.facets.size();
-    return task.lens.size() * (40 + blocks / 2 + partial / 64) > 60'000;
+    return task.lens.size() * (100 + blocks + partial / 4) > 60'000;
 }
 
 class LensDevice : public TileDevice {
