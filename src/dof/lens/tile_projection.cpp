@@ -9,14 +9,15 @@ namespace {
 
 constexpr float rounding = 1.0f / 64; // pixels: more than any position is off
 
-// Along one axis: 1 where what lies between `least` and `most` (and CoCs between those) is moved into [from, to).
+// Along one axis: 1 where what lies between `least` and `most` (and CoCs between those) may be moved into [from, to); also
+// where an infinite CoC times 0 says nothing.
 #ifndef __SANITIZE_THREAD__
 [[gnu::target_clones("default,avx2")]]
 #endif
 void find_reached(const float *least, const float *most, const float *coc_of_least, const float *coc_of_most, std::size_t count,
                   float lens, float from, float to, std::int32_t *in_reach) {
     for (std::size_t i = 0; i < count; ++i)
-        in_reach[i] &= (most[i] + coc_of_most[i] * lens >= from) & (least[i] + coc_of_least[i] * lens < to);
+        in_reach[i] &= !(most[i] + coc_of_most[i] * lens < from) & !(least[i] + coc_of_least[i] * lens >= to);
 }
 
 } // namespace

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <numeric>
 #include <random>
 #include <span>
@@ -100,6 +101,18 @@ TEST(BlockBounds, NoBlockIsMissedThatALensPointBringsInAndFewOthersAreFound) {
     }
     EXPECT_GT(needed, 100u);
     EXPECT_LT(found, needed + needed / 4);
+}
+
+TEST(BlockBounds, ASampleOutOfAllReachHidesNoneOfItsBlock) {
+    BlockedSamples samples = random_blocks(1);
+    samples.x = samples.y = {30, 31};
+    samples.coc = {-std::numeric_limits<float>::infinity(), 0};
+    bound(samples.blocks[0], samples);
+    BlockBounds bounds;
+    const std::vector<std::uint32_t> all = {0};
+    bounds.set(all, samples);
+    for (const float x : {-0.5f, 0.0f, 0.5f})
+        EXPECT_EQ(bounds.reached({x, 0, 0, 0, 1}, {0, 64, 0, 64}).size(), 1u) << x;
 }
 
 } // namespace
