@@ -59,14 +59,14 @@ std::vector<NearBounds> BlockFootprints::bounds_of(const SampleBlock &block,
     }
     std::ranges::sort(near, std::ranges::greater(), &NearBounds::depth);
     for (std::size_t i = 1; i < near.size(); ++i) {
-        const NearBounds &last = near[i - 1];
+        const NearBounds &nearer = near[i - 1];
         NearBounds &n = near[i];
-        n.x_min = std::min(n.x_min, last.x_min);
-        n.x_max = std::max(n.x_max, last.x_max);
-        n.y_min = std::min(n.y_min, last.y_min);
-        n.y_max = std::max(n.y_max, last.y_max);
-        n.coc_min = std::min(n.coc_min, last.coc_min);
-        n.coc_max = std::max(n.coc_max, last.coc_max);
+        n.x_min = std::min(n.x_min, nearer.x_min);
+        n.x_max = std::max(n.x_max, nearer.x_max);
+        n.y_min = std::min(n.y_min, nearer.y_min);
+        n.y_max = std::max(n.y_max, nearer.y_max);
+        n.coc_min = std::min(n.coc_min, nearer.coc_min);
+        n.coc_max = std::max(n.coc_max, nearer.coc_max);
     }
     return near;
 }
