@@ -125,7 +125,7 @@ Choice combined(const Choice &a, const Choice &b, const Combine &combine) {
     for (const Placed *one : a.can_be)
         for (const Placed *other : b.can_be) both.can_be.push_back(combine(one, other));
     std::ranges::sort(both.can_be);
-    both.can_be.erase(std::ranges::unique(both.can_be).begin(), both.can_be.end());
+    both.can_be.erase(std::unique(both.can_be.begin(), both.can_be.end()), both.can_be.end());
     return both;
 }
 

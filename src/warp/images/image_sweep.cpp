@@ -114,8 +114,9 @@ float median(std::span<float> values) {
 }
 
 float robust_mean(std::span<float> differences) {
-    const auto unknowns = std::ranges::partition(differences, [](float d) { return !std::isnan(d); });
-    const std::size_t known = differences.size() - unknowns.size();
+    const auto unknowns = // ranges::partition() returns what clang 14 cannot compile
+        std::partition(differences.begin(), differences.end(), [](float d) { return !std::isnan(d); });
+    const auto known = std::size_t(unknowns - differences.begin());
     if (known == 0 || 2 * known < differences.size()) return unknown;
     const auto best = differences.first(known).first((3 * known + 3) / 4);
     std::ranges::sort(differences.first(known));

@@ -10,12 +10,10 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 
 namespace sparselens {
 namespace {
 
-constexpr double inf = std::numeric_limits<double>::infinity();
 const ThinLens lens{.radius = 0.06, .focal_px = 640, .focus = 5}; // CoC up to 7.7 px behind focus
 const std::vector<Channel> grey{{"Y"}}, grey_alpha{{"Y"}, {"A"}};
 

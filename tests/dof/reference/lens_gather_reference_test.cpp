@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <limits>
 
 namespace sparselens {
 namespace {
@@ -32,8 +31,6 @@ std::shared_ptr<const AperturePicture> tinted() {
 }
 
 void PrintTo(const Case &c, std::ostream *out) { *out << c.name; }
-
-constexpr double inf = std::numeric_limits<double>::infinity();
 
 ThinLens lens_of(const Case &c) {
     return {.radius = 0.06, .focal_px = 640, .focus = 5, .pixel_aspect = c.aspect};
