@@ -87,7 +87,8 @@ TEST(ResolveLooks, NamesWhatIsMissing) {
     Camera unknown;
     for (const auto &[values, option] : {std::pair(LookValues{.breathing = 1}, "--breathing"),
                                          std::pair(LookValues{.axial_chromatic = 1}, "--axial")}) {
-        const auto message = what_of<UsageError>([&] { resolve_looks(values, unknown, lens, windows); });
+        const auto message =
+            what_of<UsageError>([&, &values = values] { resolve_looks(values, unknown, lens, windows); });
         EXPECT_NE(message.find(option), std::string::npos) << message;
         EXPECT_NE(message.find("--focal-length"), std::string::npos) << message;
     }
