@@ -3,7 +3,7 @@
 #include "dof/device/tile_device.h"
 #include "dof/lens/lens_gather.h"
 #include "gpu/gpu_fixture.h"
-#include "gpu/lens/lens_device.h"
+#include "gpu/gather/gather_device.h"
 #include "lab/trace/scenes.h"
 #include "support/lens_ldi.h"
 #include "support/traced.h"
@@ -24,7 +24,7 @@ Ldi warped(const lab::SceneCamera &scene) {
 }
 
 TEST_F(LensDeviceScenes, AreTheCpus) {
-    const auto device = open_lens_device(*info, watch());
+    const auto device = open_gather_device(*info, watch());
     for (const lab::SceneEntry &entry : lab::scene_table()) {
         const std::string name = entry.name;
         const lab::SceneCamera scene(name, 96, 54);

@@ -2,8 +2,8 @@
 #include "deep/tidy.h"
 #include "dof/device/tile_device.h"
 #include "dof/lens/lens_gather.h"
+#include "gpu/gather/gather_device.h"
 #include "gpu/gpu_fixture.h"
-#include "gpu/lens/lens_device.h"
 #include "lens/lens_samples.h"
 #include "support/lens_ldi.h"
 #include "support/reference_picture.h"
@@ -36,7 +36,7 @@ protected:
     // Both pictures; all tiles are the device's.
     void expect_same(const Ldi &ldi, LensGatherOptions options, double tolerance = 1e-6) {
         const Image expected = gather(ldi, options);
-        if (!device) device = open_lens_device(*info, watch());
+        if (!device) device = open_gather_device(*info, watch());
         options.device = device.get();
         const Image image = gather(ldi, options);
         const TileReport did = device->take_report();
@@ -123,12 +123,12 @@ TEST_F(LensDeviceTest, StripesMakeTheSamePicture) {
     const Ldi ldi = surfaces(150, 200, false, 4);
     Watch small = watch();
     small.largest_buffer = 1 << 21;
-    device = open_lens_device(*info, small);
+    device = open_gather_device(*info, small);
     const LensGatherOptions options{.lens_samples = 8, .device = device.get()};
     EXPECT_EQ(gather(ldi, options).values, gather(ldi, {.lens_samples = 8}).values);
     EXPECT_EQ(device->take_report().on_cpu, Tiles());
     small.largest_buffer = 1 << 12;
-    const auto tiny = open_lens_device(*info, small);
+    const auto tiny = open_gather_device(*info, small);
     EXPECT_EQ(gather(ldi, {.lens_samples = 8, .device = tiny.get()}).values,
               gather(ldi, {.lens_samples = 8}).values);
     const TileReport did = tiny->take_report();
@@ -140,7 +140,7 @@ TEST_F(LensDeviceTest, IsItsReference) {
     Ldi ldi = surfaces(40, 30, false, 5);
     for (Channel &channel : ldi.channels) // no colours: the reference does not sharpen
         if (channel.name != "A") channel.name += "0";
-    device = open_lens_device(*info, watch());
+    device = open_gather_device(*info, watch());
     const Image image = gather(ldi, {.lens_samples = 16, .device = device.get()});
     expect_within(image, lens_gather_reference(ldi, lens, ldi.windows.data, disc_lens_samples(16, 1)));
 }
@@ -164,7 +164,7 @@ TEST_F(LensDeviceTest, InSoftwareLongFramesAreTheCpus) {
     if (info->kind != Kind::software) GTEST_SKIP() << "a device in software is needed";
     const Ldi ldi = surfaces(90, 70, true, 14);
     const Image expected = gather(ldi, {.lens_samples = 4096});
-    device = open_lens_device(*info, watch());
+    device = open_gather_device(*info, watch());
     EXPECT_EQ(gather(ldi, {.lens_samples = 4096, .device = device.get()}).values, expected.values);
     EXPECT_EQ(device->take_report().on_device, 0u);
 }
@@ -180,7 +180,7 @@ TEST_F(LensDeviceTest, AFailureLosesNothing) {
         steps = 0;
         fail_at = at;
         result = with;
-        device = open_lens_device(*info, failing);
+        device = open_gather_device(*info, failing);
         const Image image = gather(ldi, {.lens_samples = 8, .device = device.get()});
         EXPECT_EQ(image.values, expected.values) << at;
         const TileReport did = device->take_report();

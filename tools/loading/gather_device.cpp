@@ -1,6 +1,6 @@
 #include "loading/gather_device.h"
 
-#include "gpu/lens/lens_device.h"
+#include "gpu/gather/gather_device.h"
 
 #include <fmt/format.h>
 
@@ -15,7 +15,7 @@ void GatherDevice::look_for(const std::string &word, const ToolContext &tool) {
     const auto chosen = gpu::choose_device(word, gpu::list_devices());
     if (!chosen) return;
     try {
-        device_ = gpu::open_lens_device(*chosen);
+        device_ = gpu::open_gather_device(*chosen);
         name_ = gpu::description(*chosen);
     } catch (const gpu::DeviceFailed &failure) {
         warn(tool, std::string(failure.what()) + "; the CPU gathers");

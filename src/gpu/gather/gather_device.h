@@ -1,4 +1,4 @@
-// A GPU that gathers tiles of the lens picture (lens_tile.comp). It leaves to the CPU what fits into no buffer.
+// A GPU that gathers tiles of pictures: by the lens gather (gpu/lens).
 #pragma once
 
 #include "dof/device/tile_device.h"
@@ -9,6 +9,6 @@
 namespace sparselens::gpu {
 
 // Throws DeviceFailed. A device that fails later is left alone from then on: the CPU does what it has not done.
-std::unique_ptr<TileDevice> open_lens_device(const DeviceInfo &info, const Watch &watch = {});
+std::unique_ptr<TileDevice> open_gather_device(const DeviceInfo &info, const Watch &watch = {});
 
 } // namespace sparselens::gpu

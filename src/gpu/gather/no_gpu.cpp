@@ -1,11 +1,11 @@
 // In a build without the kernels for GPUs (SPARSELENS_GPU) there are no devices.
-#include "gpu/lens/lens_device.h"
+#include "gpu/gather/gather_device.h"
 
 namespace sparselens::gpu {
 
 std::vector<DeviceInfo> list_devices() { return {}; }
 
-std::unique_ptr<TileDevice> open_lens_device(const DeviceInfo &info, const Watch &) {
+std::unique_ptr<TileDevice> open_gather_device(const DeviceInfo &info, const Watch &) {
     throw DeviceFailed(info.name + " cannot be used: this build has no kernels for GPUs");
 }
 

@@ -1,0 +1,32 @@
+// Tiles of the lens gather on a device (lens_tile.comp). It leaves to the CPU what fits into no buffer.
+#pragma once
+
+#include "dof/device/tile_device.h"
+#include "gpu/device.h"
+
+#include <optional>
+
+namespace sparselens::gpu {
+
+struct Stripe;
+struct StripeTile;
+
+class LensTilesOnDevice {
+public:
+    explicit LensTilesOnDevice(Device &device) : device_(device) {}
+
+    // As TileDevice's. Throws DeviceFailed; what was done before stays done.
+    void gather(const TileScene &scene, std::span<const TileTask> tasks,
+                const std::function<void(std::size_t, const TilePicture &)> &done, TileReport &report);
+
+private:
+    void gather_stripe(const Stripe &stripe, const TileScene &scene,
+                       const std::function<void(std::size_t, const TilePicture &)> &done);
+    void run(const Stripe &stripe, std::size_t groups, float depth_at_1,
+             std::span<const Buffer *const> buffers);
+
+    Device &device_;
+    std::optional<Program> program_; // made when it is first needed
+};
+
+} // namespace sparselens::gpu
