@@ -26,7 +26,7 @@ Image by_lens(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window, 
 Image by_selective(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window,
                    const GatherOptions &options, Progress &progress) {
     return composited(ldi, [&](const Ldi &one) {
-        return crop(selective_gather(one, lens, {.layers = options.layers}, progress), window);
+        return crop(selective_gather(one, lens, {options.layers, options.lens.device}, progress), window);
     });
 }
 

@@ -22,6 +22,7 @@ vk::raii::Device make_device(const vk::raii::PhysicalDevice &physical, std::uint
     atomics.shaderSharedInt64Atomics = true;
     vk::PhysicalDeviceFeatures2 features;
     features.features.shaderInt64 = true;
+    features.features.shaderFloat64 = physical.getFeatures().shaderFloat64;
     features.pNext = &atomics;
     vk::DeviceCreateInfo create({}, queue);
     create.pNext = &features;

@@ -26,6 +26,7 @@ struct DeviceInfo {
     Kind kind = Kind::other;
     std::string lacks = {}; // what the kernels need and it has not; empty: it can be used
     std::size_t index = 0;  // as Vulkan counts them
+    bool float64 = false;   // computes with numbers of 64 bits, which the selective gather needs
 };
 
 // Of this machine; empty where there is no loader or no driver. Never throws for want of either.

@@ -69,7 +69,7 @@ VulkanInstance::VulkanInstance(const std::function<void(const std::string &)> *m
 DeviceInfo info_of(const vk::raii::PhysicalDevice &device, std::size_t index) {
     const vk::PhysicalDeviceProperties properties = device.getProperties();
     return {properties.deviceName.data(), kind_of(properties.deviceType),
-            lacks(device, properties.apiVersion), index};
+            lacks(device, properties.apiVersion), index, bool(device.getFeatures().shaderFloat64)};
 }
 
 bool has_validation() try {

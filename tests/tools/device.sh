@@ -27,7 +27,7 @@ SPARSELENS_DEVICE=gpu LD_LIBRARY_PATH=$PWD/broken fails_saying 1 'device gpu: no
 # Nor is a driver that is not there a device.
 VK_DRIVER_FILES=none.json VK_ICD_FILENAMES=none.json exits 0 "$gather" --device list
 [ "$(cat stdout)" = "Vulkan gives access to no device here" ] || fail "--device list without a driver: $(cat stdout)"
-fails_saying 2 '--device no-such.* works with --method lens only' "$gather" input.exr "${lens[@]}" -o x.exr --method selective --device no-such
+fails_saying 2 '--device no-such.* works with --method lens and --method selective only' "$gather" input.exr "${lens[@]}" -o x.exr --method scatter --device no-such
 
 exits 0 "$gather" --device list
 name=$(head -n 1 stdout)
@@ -47,3 +47,9 @@ exits 0 "$gather" input.exr "${lens[@]}" -o frame.#.exr --frames 1-2 --device "$
 [ "$(grep -c 'gathered by the device: 6 of 6' stderr)" -eq 2 ] || fail "tiles of two frames: $(cat stderr)"
 exits 0 "$gather" input.exr "${lens[@]}" -o expected.exr --holdout input.exr --spherical 0.5
 oiiotool --fail 1e-4 --diff frame.0002.exr expected.exr >differ || fail "a second frame: $(cat differ)"
+
+# The selective gather.
+exits 0 "$gather" input.exr "${lens[@]}" -o expected.exr --method selective --layers 3
+exits 0 "$gather" input.exr "${lens[@]}" -o out.exr --method selective --layers 3 --device "$name" -v
+grep -qx 'dof-gather: tiles gathered by the device: 15 of 15' stderr || fail "--method selective: $(cat stderr)"
+oiiotool --fail 1e-4 --diff out.exr expected.exr >differ || fail "the device's selective picture: $(cat differ)"

@@ -26,8 +26,9 @@ void check(const CLI::App &parsed, const GatherCommand &options) {
     if (!look.empty() && options.picture.method != &gather_methods().front())
         throw CLI::ValidationError(look, "works with --method lens only");
     if (options.device != "cpu" && options.device != "auto" &&
-        options.picture.method != &gather_methods().front())
-        throw CLI::ValidationError("--device " + options.device, "works with --method lens only");
+        options.picture.method->name == std::string("scatter"))
+        throw CLI::ValidationError("--device " + options.device,
+                                   "works with --method lens and --method selective only");
     if (options.show == Show::tiles && options.picture.method != &gather_methods().front())
         throw CLI::ValidationError("--show tiles", "works with --method lens only");
 }
@@ -81,10 +82,10 @@ void add_device_option(CLI::App &app, std::string &device) {
     };
     app.add_option("--device", device,
                    "What gathers: the CPU, a GPU if there is one, a GPU, or the device whose name has that "
-                   "in it, also one in "
-                   "software. list prints those that there are (default: cpu)")
+                   "in it, also one in software; for the methods lens and selective. list prints those that "
+                   "there are (default: cpu)")
         ->type_name("cpu|auto|gpu|list")
-        ->group("Method lens")
+        ->group("Device")
         ->envname("SPARSELENS_DEVICE")
         ->each(list);
 }

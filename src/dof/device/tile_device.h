@@ -1,7 +1,9 @@
-// Who gathers tiles of the lens picture in place of the CPU: a GPU (gpu/lens/lens_device.h). The lens gather prepares samples,
-// fillers and lens points for both alike, and gathers itself what the device leaves.
+// Who gathers tiles of a picture in place of the CPU: a GPU (gpu/gather/gather_device.h). The lens gather prepares samples,
+// fillers and lens points for both alike, the selective gather its splats (splat_tiles.h); each gathers itself what the
+// device leaves.
 #pragma once
 
+#include "dof/device/splat_tiles.h"
 #include "lens/lens_samples.h"
 
 #include <Imath/ImathVec.h>
@@ -76,6 +78,9 @@ public:
     // Gathers those of the tasks that it can: calls done(task, picture) for each of them, by any thread, once.
     virtual void gather(const TileScene &scene, std::span<const TileTask> tasks,
                         const std::function<void(std::size_t task, const TilePicture &)> &done) = 0;
+    // The same for tiles of the selective gather.
+    virtual void gather(const SplatScene &scene, std::span<const SplatTask> tasks,
+                        const std::function<void(std::size_t task, const SplatPicture &)> &done) = 0;
     virtual TileReport take_report() = 0;
 };
 

@@ -1,6 +1,7 @@
 #include "gpu/gather/gather_device.h"
 
 #include "gpu/lens/lens_tiles.h"
+#include "gpu/selective/selective_tiles.h"
 
 #include <utility>
 
@@ -11,11 +12,15 @@ namespace {
 class GatherDevice : public TileDevice {
 public:
     GatherDevice(const DeviceInfo &info, const Watch &watch)
-        : device_(info, watch), lens_(device_) {}
+        : device_(info, watch), lens_(device_), selective_(device_) {}
 
     void gather(const TileScene &scene, std::span<const TileTask> tasks,
                 const std::function<void(std::size_t, const TilePicture &)> &done) override {
         unless_lost(tasks.size(), [&] { lens_.gather(scene, tasks, done, report_); });
+    }
+    void gather(const SplatScene &scene, std::span<const SplatTask> tasks,
+                const std::function<void(std::size_t, const SplatPicture &)> &done) override {
+        unless_lost(tasks.size(), [&] { selective_.gather(scene, tasks, done, report_); });
     }
     TileReport take_report() override { return std::exchange(report_, {}); }
 
@@ -40,6 +45,7 @@ private:
 
     Device device_;
     LensTilesOnDevice lens_;
+    SelectiveTilesOnDevice selective_;
     TileReport report_;
     bool lost_ = false;
 };

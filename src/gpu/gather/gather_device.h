@@ -1,4 +1,4 @@
-// A GPU that gathers tiles of pictures: by the lens gather (gpu/lens).
+// A GPU that gathers tiles of pictures: by the lens gather (gpu/lens) and by the selective gather (gpu/selective).
 #pragma once
 
 #include "dof/device/tile_device.h"

@@ -1,0 +1,105 @@
+#version 460
+// The selective gather of a tile: what src/dof/selective/selective.cpp says, with the same sums in the same order.
+//
+// A work group takes what its tile visits (splat_stripe.h), front to back. Where the discs of a block cover the tile, their
+// sums are all that it needs. Of other blocks, it brings a chunk of splats into shared memory, with the chords of each disc
+// along the edges of the tile's columns and rows; then each thread adds to its pixels what the discs bring there, splat
+// after splat. Where a bin ends, its sums become a layer of each pixel, or a part of one. Every sum belongs to one thread.
+//
+// What takes long is cut into passes: all that a thread knows goes to buffers at the end of one, and comes back at the
+// beginning of the next. The last one blends.
+//
+// gl_WorkGroupID.x: the tile. gl_WorkGroupID.y: the group of four colours.
+#extension GL_GOOGLE_include_directive : require
+
+#include "splat_data.glsl"
+
+layout(local_size_x = threads) in;
+
+#include "splat_psf.glsl"
+#include "splat_layers.glsl"
+
+uint running_at(uint sum) { return place * (bin_sums * pixels + bin_sums) + sum * pixels; }
+
+Bin bin_from(uint at, uint step_) {
+    return Bin(running[at], running[at + step_], running[at + 2 * step_],
+               dvec4(running[at + 3 * step_], running[at + 4 * step_], running[at + 5 * step_], running[at + 6 * step_]));
+}
+
+void keep_bin(uint at, uint step_, Bin bin) {
+    running[at] = bin.coverage;
+    running[at + step_] = bin.known;
+    running[at + 2 * step_] = bin.radius;
+    for (int k = 0; k < 4; ++k) running[at + (3 + k) * step_] = bin.light[k];
+}
+
+void begin_pass() {
+    uniform_ = pass == 0 ? no_sums() : bin_from(running_at(bin_sums), 1);
+    for (uint j = 0; j < own; ++j) {
+        const uint state = place * 2 * pixels + pixel_of(j);
+        bins[j] = pass == 0 ? no_sums() : bin_from(running_at(0) + pixel_of(j), pixels);
+        layer_count[j] = pass == 0 ? 0 : states[state];
+        last_bin[j] = pass == 0 ? 0 : states[state + pixels];
+    }
+}
+
+void end_pass() {
+    barrier(); // all have read what they began with
+    if (thread() == 0) keep_bin(running_at(bin_sums), 1, uniform_);
+    for (uint j = 0; j < own; ++j) {
+        const uint state = place * 2 * pixels + pixel_of(j);
+        keep_bin(running_at(0) + pixel_of(j), pixels, bins[j]);
+        states[state] = layer_count[j];
+        states[state + pixels] = last_bin[j];
+    }
+}
+
+void add_uniform(uint block) {
+    const uint at = (block * gl_NumWorkGroups.y + group) * bin_sums;
+    precise const double coverage = uniform_.coverage + sums[at], known = uniform_.known + sums[at + 1],
+                         radius = uniform_.radius + sums[at + 6];
+    precise const dvec4 light = uniform_.light + dvec4(sums[at + 2], sums[at + 3], sums[at + 4], sums[at + 5]);
+    uniform_ = Bin(coverage, known, radius, light);
+}
+
+// Those of the chunk that touch the strip of pixel j, a bit for each.
+uint touching_pixel(uint j) {
+    const uint strip = pixel_of(j) / strip_size;
+    return touching[2 * strip] | touching[2 * strip + 1];
+}
+
+void add_splat(uint s, uint j) {
+    const ivec2 at = position_of(j) + ivec2(tile.x_min, tile.y_min);
+    if (at.x < touched[s].z || at.x >= touched[s].w) return;
+    const double weight = weight_of(s, at.x, at.y);
+    precise const double coverage = bins[j].coverage + weight * share[s].x, known = bins[j].known + weight * share[s].y,
+                         radius = bins[j].radius + weight * share[s].z;
+    precise const dvec4 light = bins[j].light + weight * dvec4(colour[s]);
+    bins[j] = Bin(coverage, known, radius, light);
+}
+
+void main() {
+    const uint t = first_tile + gl_WorkGroupID.x;
+    group = gl_WorkGroupID.y;
+    place = t * gl_NumWorkGroups.y + group;
+    tile = tiles[t];
+    begin_pass();
+    const uint end = cuts[t * (passes + 1) + pass + 1];
+    for (uint n = cuts[t * (passes + 1) + pass]; n < end; ++n) {
+        const uint visit = lists[n];
+        const Piece piece = pieces[visit >> 2];
+        if ((visit & covers) != 0) add_uniform(piece.block);
+        for (uint begin = piece.begin; (visit & covers) == 0 && begin < piece.end; begin += chunk) {
+            const uint count = min(chunk, piece.end - begin);
+            load_chunk(begin, count);
+            for (uint j = 0; j < own; ++j)
+                for (uint left = touching_pixel(j); left != 0; left &= left - 1) add_splat(uint(findLSB(left)), j);
+        }
+        if ((visit & ends_bin) != 0) finish_bin(piece.bin);
+    }
+    if (pass + 1 < passes) {
+        end_pass();
+        return;
+    }
+    for (uint j = 0; j < own; ++j) blend(j, t);
+}

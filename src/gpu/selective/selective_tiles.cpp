@@ -1,0 +1,113 @@
+#include "gpu/selective/selective_tiles.h"
+
+#include "base/parallel.h"
+#include "gpu/selective/splat_stripe.h"
+#include "gpu/uploaded.h"
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+namespace sparselens::gpu {
+
+namespace {
+
+constexpr std::uint32_t code[] = {
+#include <selective_tile.comp.inc>
+};
+
+constexpr std::uint32_t buffers = 14;
+constexpr std::size_t stripe_bytes = std::size_t{512} << 20; // of a buffer, also where a device allows more
+// Turns of its loops that a work group takes in a pass, and all that are submitted at once: what takes seconds, operating
+// systems end. Mesa's device in software ends a program after 65535.
+constexpr double steps_in_pass = 2e5, steps_in_software = 4e4, most_in_software = 6e4, steps_at_once = 2e6;
+
+struct Push {
+    double pixel_aspect;
+    std::array<std::int32_t, 4> data;
+    std::uint32_t first_tile, tile_count, pass, passes, splat_count, limit;
+};
+
+// A stripe on the device.
+struct Placed {
+    std::array<Buffer, 8> in;
+    Buffer layers, gaps, states, running, values, alphas;
+
+    Placed(Device &device, const SplatScene &scene, const SplatStripe &stripe)
+        : Placed(device, stripe, state_of(scene, stripe.tiles.size())) {}
+
+private:
+    Placed(Device &device, const SplatStripe &stripe, const SplatState &state)
+        : in{uploaded(device, stripe.discs),   uploaded(device, stripe.shares),
+             uploaded(device, stripe.colours), uploaded(device, stripe.pieces),
+             uploaded(device, stripe.sums),    uploaded(device, stripe.lists),
+             uploaded(device, stripe.cuts),    uploaded(device, stripe.tiles)},
+          layers(device.buffer(state.layers * sizeof(double))),
+          gaps(device.buffer(state.gaps * sizeof(std::int32_t))),
+          states(device.buffer(state.states * sizeof(std::int32_t))),
+          running(device.buffer(stripe.passes > 1 ? state.running * sizeof(double) : 0)),
+          values(device.buffer(stripe.groups * stripe.tiles.size() * splat_tile_pixels * 4 * sizeof(float))),
+          alphas(device.buffer(stripe.tiles.size() * splat_tile_pixels * sizeof(float))) {}
+};
+
+void run(Device &device, const Program &program, const SplatScene &scene, const SplatStripe &stripe,
+         const Placed &placed) {
+    std::vector<const Buffer *> all;
+    for (const Buffer &in : placed.in) all.push_back(&in);
+    all.insert(all.end(), {&placed.layers, &placed.gaps, &placed.states, &placed.running, &placed.values,
+                           &placed.alphas});
+    const auto tiles = std::uint32_t(stripe.tiles.size());
+    for (std::uint32_t pass = 0; pass < stripe.passes; ++pass)
+        for (std::uint32_t first = 0, end = 0; first < tiles; first = end) {
+            for (double steps = 0; end < tiles && (end == first || steps < steps_at_once); ++end)
+                steps += stripe.steps[end];
+            const Push push{scene.pixel_aspect,
+                            {scene.data.min.x, scene.data.min.y, scene.data.max.x, scene.data.max.y},
+                            first,
+                            tiles,
+                            pass,
+                            std::uint32_t(stripe.passes),
+                            std::uint32_t(stripe.splats),
+                            std::uint32_t(scene.layers)};
+            device.run(program, all, std::as_bytes(std::span(&push, 1)),
+                       {end - first, std::uint32_t(stripe.groups), 1});
+        }
+}
+
+} // namespace
+
+void SelectiveTilesOnDevice::gather(const SplatScene &scene, std::span<const SplatTask> tasks,
+                                    const std::function<void(std::size_t, const SplatPicture &)> &done,
+                                    TileReport &report) {
+    if (!device_.info().float64) {
+        report.on_cpu["the device has no numbers of 64 bits"] += tasks.size();
+        return;
+    }
+    if (!program_) program_.emplace(device_.program(code, buffers, sizeof(Push)));
+    const bool software = device_.info().kind == Kind::software;
+    const std::size_t bytes = std::min(stripe_bytes, device_.largest_buffer());
+    for (std::size_t begin = 0, count = 0; begin < tasks.size(); begin += std::max(count, std::size_t{1})) {
+        count = tasks_that_fit(scene, tasks.subspan(begin), bytes);
+        if (count == 0) ++report.on_cpu["more samples than its buffers hold"];
+        if (count == 0) continue;
+        const SplatStripe stripe =
+            make_stripe(scene, tasks.subspan(begin, count), software ? steps_in_software : steps_in_pass);
+        if (software && *std::ranges::max_element(stripe.steps) > most_in_software) {
+            report.on_cpu["more steps than a device in software takes"] += count;
+            continue;
+        }
+        const Placed placed(device_, scene, stripe);
+        run(device_, *program_, scene, stripe, placed);
+        std::vector<float> values(stripe.groups * count * splat_tile_pixels * 4),
+            alphas(count * splat_tile_pixels);
+        device_.download(std::as_writable_bytes(std::span(values)), placed.values);
+        device_.download(std::as_writable_bytes(std::span(alphas)), placed.alphas);
+        parallel_for(count, [&](std::size_t t) {
+            done(begin + t, {&values[t * splat_tile_pixels * 4], &alphas[t * splat_tile_pixels],
+                             count * splat_tile_pixels * 4});
+        });
+        report.on_device += count;
+    }
+}
+
+} // namespace sparselens::gpu

@@ -1,0 +1,25 @@
+// Tiles of the selective gather on a device (selective_tile.comp). It leaves to the CPU what fits into no buffer, and all of a
+// device that has no numbers of 64 bits.
+#pragma once
+
+#include "dof/device/tile_device.h"
+#include "gpu/device.h"
+
+#include <optional>
+
+namespace sparselens::gpu {
+
+class SelectiveTilesOnDevice {
+public:
+    explicit SelectiveTilesOnDevice(Device &device) : device_(device) {}
+
+    // As TileDevice's. Throws DeviceFailed; what was done before stays done.
+    void gather(const SplatScene &scene, std::span<const SplatTask> tasks,
+                const std::function<void(std::size_t, const SplatPicture &)> &done, TileReport &report);
+
+private:
+    Device &device_;
+    std::optional<Program> program_; // made when it is first needed
+};
+
+} // namespace sparselens::gpu

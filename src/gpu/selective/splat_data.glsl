@@ -1,0 +1,75 @@
+// What the kernel of the selective gather works on: bindings, and what a work group shares. All of a stripe
+// (splat_stripe.h).
+
+const uint threads = 256;
+const int size = 32;           // pixels a tile is wide and high, at most
+const uint pixels = size * size;
+const uint own = 4;            // pixels of a thread
+const uint chunk = 32;         // splats at once, as many as a number has bits
+const int strip_size = 8;      // pixels of a row of the tile
+const uint strips = 4;         // a row
+const uint edges = size + 1;   // of columns, or of rows
+const uint bin_sums = 7;       // coverage, known, four colours, known times radius
+const uint layer_sums = 6;     // without the last
+const double pi = 3.141592653589793lf;
+
+struct Tile {
+    int x_min, y_min, x_max, y_max; // its pixels, the last ones included
+};
+// Up to 1024 splats of a block, which lie in one bin.
+struct Piece {
+    uint begin, end; // splats
+    int bin;
+    uint block;
+};
+const uint covers = 2, ends_bin = 1; // of an entry of lists[]; what remains is 4 times the piece
+
+layout(binding = 0) readonly buffer Discs { double discs[]; };   // [splat]: x, y, radius
+layout(binding = 1) readonly buffer Shares { float shares[]; };  // [splat]: coverage, known, known times radius
+layout(binding = 2) readonly buffer Colours { vec4 colours[]; }; // [group][splat]
+layout(binding = 3) readonly buffer Pieces { Piece pieces[]; };
+layout(binding = 4) readonly buffer Sums { double sums[]; };     // [block][group][bin_sums], divided by the discs' areas
+layout(binding = 5) readonly buffer Lists { uint lists[]; };     // what a tile visits, front to back
+layout(binding = 6) readonly buffer Cuts { uint cuts[]; };       // [tile][pass]: where the pass begins in lists[]
+layout(binding = 7) readonly buffer Tiles { Tile tiles[]; };
+// From one pass to the next; [tile][group], then [layer][sum][pixel], [layer][pixel], [count, last bin][pixel] and
+// [sum][pixel] followed by what all pixels of the tile get alike.
+layout(binding = 8) buffer Layers { double layers[]; };
+layout(binding = 9) buffer Gaps { int gaps[]; };
+layout(binding = 10) buffer States { int states[]; };
+layout(binding = 11) buffer Running { double running[]; };
+layout(binding = 12) writeonly buffer Values { vec4 values[]; }; // [group][tile][pixel]
+layout(binding = 13) writeonly buffer Alphas { float alphas[]; }; // [tile][pixel]
+layout(push_constant) uniform Push {
+    double pixel_aspect;
+    ivec2 data_min, data_max; // window: the first pixel and the last
+    uint first_tile, tile_count, pass, passes, splat_count, limit;
+};
+
+// The splats of a chunk.
+shared dvec4 disc[chunk];              // x, y, radius, 1 / area
+shared ivec4 touched[chunk];           // rows, then columns of the tile: the first, and the one after the last
+shared double column_chord[chunk * edges]; // half the chord along each edge between columns,
+shared double row_chord[chunk * edges];    // and between rows
+shared uint touching[threads];             // [strip][half of the chunk]: a bit for each splat
+shared vec3 share[chunk];
+shared vec4 colour[chunk];
+
+struct Bin {
+    double coverage, known, radius;
+    dvec4 light;
+};
+
+// Of the work group, and of the thread.
+Tile tile;
+uint place;     // (tile, group)
+uint group;
+Bin bins[own];  // of the bin at work
+Bin uniform_;   // what all pixels get alike
+int layer_count[own], last_bin[own];
+
+uint thread() { return gl_LocalInvocationIndex; }
+uint pixel_of(uint j) { return thread() + threads * j; }
+ivec2 position_of(uint j) { return ivec2(pixel_of(j) % size, pixel_of(j) / size); } // in the tile
+bool is_inside(ivec2 at) { return at.x <= tile.x_max - tile.x_min && at.y <= tile.y_max - tile.y_min; }
+Bin no_sums() { return Bin(0, 0, 0, dvec4(0)); }

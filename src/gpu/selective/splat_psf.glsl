@@ -1,0 +1,143 @@
+// The weight of a pixel in the disc of a splat: what PsfRows of src/lens/psf.cpp says of rows, said of one pixel, with the
+// same sums in the same order.
+
+const double smallest_radius = 1e-9lf;
+
+int floor_within(double x, int low, int high) { return low + int(clamp(x - low, 0.0lf, double(high - low))); }
+
+double half_chord(double radius, double d) {
+    precise const double squared = (radius - d) * (radius + d);
+    return sqrt(max(0.0lf, squared));
+}
+
+ivec2 columns_within(double centre, double distance_) {
+    precise const double least = centre - distance_, most = centre + distance_ + 1;
+    return ivec2(floor_within(least, tile.x_min, tile.x_max + 1), floor_within(most, tile.x_min, tile.x_max + 1));
+}
+
+// The rows and columns of the tile that the disc touches.
+ivec4 touched_by(dvec3 d) {
+    const bool point = d.z < smallest_radius;
+    const double radius = point ? 0 : d.z;
+    precise const double high = radius * pixel_aspect, top = d.y - high, bottom = d.y + high + 1;
+    const ivec2 columns = columns_within(d.x, radius);
+    ivec2 rows = ivec2(floor_within(top, tile.y_min, tile.y_max + 1), floor_within(bottom, tile.y_min, tile.y_max + 1));
+    if (columns.x >= columns.y || d.x + d.z < tile.x_min || d.x - d.z > tile.x_max + 1) rows.y = rows.x;
+    return ivec4(rows, columns);
+}
+
+// The two series are one here, with zeros for what the shorter one has not: zeros do not change its sum.
+double segment_area(double radius, double chord_squared) {
+    const bool longer = radius < 2.5lf;
+    precise const double t = chord_squared / (4 * radius * radius);
+    precise double sum = longer ? 0.265231504305lf : 0;
+    sum = sum * t + (longer ? -0.36436085167lf : 0);
+    sum = sum * t + (longer ? 0.297929303522lf : 0);
+    sum = sum * t + (longer ? -0.0786869562199lf : 0);
+    sum = sum * t + (longer ? 0.0636289091899lf : 0);
+    sum = sum * t + (longer ? 0.0460867824798lf : 0);
+    sum = sum * t + (longer ? 0.0697332580261lf : 5.0lf / 72);
+    sum = sum * t + (longer ? 0.107131328214lf : 3.0lf / 28);
+    sum = sum * t + (longer ? 0.200000176699lf : 1.0lf / 5);
+    sum = sum * t + (longer ? 0.666666666224lf : 2.0lf / 3);
+    precise const double area = radius * radius * t * sqrt(t) * sum;
+    return area;
+}
+
+// The part of a row on one side of the centre's row, as in src/lens/psf.cpp.
+struct Band {
+    double low, high, outer, inner;
+};
+
+double chord_at(uint s, int edge, Band band) {
+    return clamp(column_chord[s * edges + uint(edge - tile.x_min)], band.low, band.high);
+}
+
+// Adds what the arc cuts off column x, where that lies outwards of `first`. direction 1: to the right.
+void add_arc(inout double weight, uint s, Band band, int x, int first, int direction) {
+    const dvec4 d = disc[s];
+    const int before = direction > 0 ? x : x + 1, after = before + direction;
+    precise const double begins = direction * (before - d.x), ends = direction * (after - d.x);
+    const bool at_edge = x != first || begins > band.inner;
+    const double from_x = at_edge ? begins : band.inner, from_y = at_edge ? chord_at(s, before, band) : band.high;
+    if (from_x >= band.outer) return;
+    const double to_x = min(ends, band.outer), to_y = chord_at(s, after, band);
+    precise const double run = max(0.0lf, to_x - from_x), fall = from_y - to_y;
+    precise const double area = run * ((from_y + to_y) / 2 - band.low) + segment_area(d.z, run * run + fall * fall);
+    precise const double sum = weight + d.w * area;
+    weight = sum;
+}
+
+void add_band(inout double weight, uint s, Band band, int x) {
+    const dvec4 d = disc[s];
+    const ivec2 all = touched[s].zw, columns = columns_within(d.x, band.inner);
+    precise const double height = d.w * (band.high - band.low), left = d.x - band.inner, right = d.x + band.inner;
+    if (x >= columns.x && x < columns.y) {
+        precise const double part = min(x + 1.0lf, right) - max(double(x), left);
+        precise const double sum = weight + height * (x == columns.x || x == columns.y - 1 ? part : 1.0lf);
+        weight = sum;
+    }
+    const int to_right = max(columns.y - 1, all.x), to_left = min(columns.x, all.y - 1);
+    // Of the arcs to the right and to the left, in this order, most pixels meet one.
+    const bool met_right = right < all.y && x >= to_right, met_left = left > all.x && x <= to_left;
+    for (int side = met_right ? 0 : 1; side < (met_left ? 2 : 1); ++side)
+        add_arc(weight, s, band, x, side == 0 ? to_right : to_left, side == 0 ? 1 : -1);
+}
+
+// Of splat s of the chunk in the pixel at (x, y), which it touches.
+double weight_of(uint s, int x, int y) {
+    const dvec4 d = disc[s];
+    precise const double top = (y - d.y) / pixel_aspect, bottom = (y + 1 - d.y) / pixel_aspect;
+    const uint row = s * edges + uint(y - tile.y_min);
+    const double at_top = row_chord[row], at_bottom = row_chord[row + 1];
+    const bool point = d.z < smallest_radius, above = top < 0, below = bottom > 0;
+    double weight = point ? 1 : 0;
+    // The row that holds the centre is two bands: above the centre, and below.
+    for (int side = above ? 0 : 1; side < (point ? 0 : below ? 2 : 1); ++side) {
+        const double near = side == 0 ? -bottom : top, far = side == 0 ? -top : bottom;
+        Band band;
+        band.low = above && below ? 0 : min(near, d.z);
+        band.high = min(far, d.z);
+        band.outer = above && below ? d.z : side == 0 ? at_bottom : at_top;
+        band.inner = side == 0 ? at_top : at_bottom;
+        add_band(weight, s, band, x);
+    }
+    return weight;
+}
+
+// Which splats of the chunk touch each strip of a row. A thread looks at half of the chunk for one of them.
+void find_touching(uint count) {
+    const uint strip = thread() / 2, first = thread() % 2 * (chunk / 2);
+    const ivec2 at = ivec2(strip % strips * strip_size + tile.x_min, strip / strips + tile.y_min);
+    uint found = 0;
+    for (uint s = first; s < min(count, first + chunk / 2); ++s) {
+        const ivec4 t = touched[s];
+        if (at.y >= t.x && at.y < t.y && at.x + strip_size > t.z && at.x < t.w) found |= 1u << s;
+    }
+    touching[thread()] = found;
+}
+
+// Brings `count` splats into shared memory. Begins and ends with a barrier.
+void load_chunk(uint begin, uint count) {
+    barrier();
+    if (thread() < count) {
+        const uint i = begin + thread();
+        const dvec3 d = dvec3(discs[3 * i], discs[3 * i + 1], discs[3 * i + 2]);
+        precise const double area_to_weight = 1 / (pi * d.z * d.z);
+        disc[thread()] = dvec4(d, area_to_weight);
+        touched[thread()] = touched_by(d);
+        share[thread()] = vec3(shares[3 * i], shares[3 * i + 1], shares[3 * i + 2]);
+        colour[thread()] = colours[group * splat_count + i];
+    }
+    barrier();
+    for (uint e = thread(); e < 2 * count * edges; e += threads) {
+        const uint n = e / 2, s = n / edges;
+        const int edge = int(n % edges);
+        const dvec4 d = disc[s];
+        precise const double across = abs(edge + tile.x_min - d.x), down = abs(edge + tile.y_min - d.y) / pixel_aspect;
+        if (e % 2 == 0) column_chord[n] = half_chord(d.z, across);
+        else row_chord[n] = half_chord(d.z, down);
+    }
+    find_touching(count);
+    barrier();
+}

@@ -1,0 +1,52 @@
+// Tiles of the selective gather that a device takes at once, with what they need laid out as selective_tile.comp reads it.
+//
+// Splats come square by square, so a stripe of tiles needs a range of them. What a tile visits is cut into passes of at most
+// so many steps, because devices end what takes long; a tile that is done sooner has empty passes at the end.
+#pragma once
+
+#include "dof/device/splat_tiles.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace sparselens::gpu {
+
+inline constexpr std::size_t splat_tile_pixels = std::size_t{splat_tile_size} * splat_tile_size;
+inline constexpr std::size_t splat_bin_sums = 7, splat_layer_sums = 6; // of a group of four colours
+
+// As in the shader.
+struct SplatPiece {
+    std::uint32_t begin, end;
+    std::int32_t bin;
+    std::uint32_t block;
+};
+
+struct SplatStripe {
+    std::size_t groups = 0, splats = 0, passes = 0;
+    std::vector<double> discs;  // [splat]: x, y, radius
+    std::vector<float> shares;  // [splat]: coverage, known, known times radius
+    std::vector<float> colours; // [group][splat][4]
+    std::vector<SplatPiece> pieces;
+    std::vector<double> sums;         // [block][group][splat_bin_sums]
+    std::vector<std::uint32_t> lists; // pieces times 4, with the bits of the shader
+    std::vector<std::uint32_t> cuts;  // [tile][pass]: where it begins in the lists; one more is the end
+    std::vector<std::array<std::int32_t, 4>> tiles; // the first pixel and the last
+    std::vector<double> steps;                      // of a tile in a pass, at most
+};
+
+// What of a stripe stays on the device from one pass to the next, in numbers.
+struct SplatState {
+    std::size_t layers, gaps, states, running;
+};
+SplatState state_of(const SplatScene &scene, std::size_t tiles);
+
+// How many of the tasks, from the first, fit into buffers of that many bytes.
+std::size_t tasks_that_fit(const SplatScene &scene, std::span<const SplatTask> tasks, std::size_t bytes);
+
+// `steps`: the turns of the program's loops that a pass may take.
+SplatStripe make_stripe(const SplatScene &scene, std::span<const SplatTask> tasks, double steps);
+
+} // namespace sparselens::gpu

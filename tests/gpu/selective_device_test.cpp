@@ -1,0 +1,168 @@
+// The kernel of the selective gather against the CPU's and against the scatter, its slow reference.
+#include "dof/device/tile_device.h"
+#include "dof/selective/scatter.h"
+#include "dof/selective/selective.h"
+#include "gpu/gather/gather_device.h"
+#include "gpu/gpu_fixture.h"
+#include "support/lens_ldi.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+namespace sparselens::gpu {
+namespace {
+
+const ThinLens lens{.radius = 0.06, .focal_px = 640, .focus = 5};
+
+using Tiles = std::map<std::string, std::size_t>;
+
+Image gather(const Ldi &ldi, const ThinLens &by, const SelectiveOptions &options) {
+    Progress silent;
+    return selective_gather(ldi, by, options, silent);
+}
+
+double largest_of(const Image &image) {
+    double largest = 0;
+    for (const float value : image.values) largest = std::max(largest, std::abs(double(value)));
+    return largest;
+}
+
+class SelectiveDeviceTest : public GpuTest {
+protected:
+    // Both pictures; all tiles are the device's.
+    void expect_same(const Ldi &ldi, const ThinLens &by = lens, int layers = 8) {
+        const Image expected = gather(ldi, by, {.layers = layers});
+        if (!device) device = open_gather_device(*info, watch());
+        const Image image = gather(ldi, by, {layers, device.get()});
+        const TileReport did = device->take_report();
+        EXPECT_GT(did.on_device, 0u);
+        EXPECT_EQ(did.on_cpu, Tiles());
+        EXPECT_EQ(did.failure, "");
+        // Sums of 64 bits in the same order: rounding at most.
+        EXPECT_LE(largest_difference(image, expected), 1e-6 * largest_of(expected));
+        EXPECT_EQ(gather(ldi, by, {layers, device.get()}).values, image.values);
+        device->take_report();
+    }
+
+    std::unique_ptr<TileDevice> device;
+};
+
+TEST_F(SelectiveDeviceTest, SurfacesAreTheCpusWithAnyNumberOfLayers) {
+    for (const bool opaque : {true, false})
+        for (const int layers : {1, 3, 100})
+            expect_same(random_surfaces(windows_of_size(45, 40), lens, opaque, 1), lens, layers);
+}
+
+TEST_F(SelectiveDeviceTest, WindowsAndPixelsOfAnyShapeAreTheCpus) {
+    Windows windows = windows_of_size(40, 45);
+    windows.data = {{-5, 3}, {41, 42}};
+    windows.pixel_aspect = 1.5f;
+    ThinLens by = lens;
+    by.pixel_aspect = 1.5;
+    expect_same(random_surfaces(windows, lens, false, 2), by);
+    by.focus = 1e9;
+    expect_same(random_surfaces(windows, lens, true, 3), by);
+}
+
+TEST_F(SelectiveDeviceTest, DiscsOfAnySizeAreTheCpus) {
+    const ThinLens wide{.radius = 6, .focal_px = 640, .focus = 5};
+    for (const double c : {-1e-3, -0.4, -2.6, -60.0, -1000.0, -9000.0}) {
+        const Ldi ldi = make_ldi(windows_of_size(60, 40), rgba_channels(), [&](int x, int y) {
+            std::vector<Sample> samples{
+                {5 + 0.01 * random_unit(x, y, 1), {float(random_unit(x, y, 2)), 0.5f, 0.2f, 1}}};
+            if (x % 20 == 11 && y > 7)
+                samples.insert(samples.begin(), Sample{depth_of(wide, c), {1000, 10, 1, 0.7f}});
+            return samples;
+        });
+        expect_same(ldi, wide);
+    }
+}
+
+// More channels than a group holds, and so many samples that a tile takes several passes.
+TEST_F(SelectiveDeviceTest, ManyPartialSamplesOfAPixelAreTheCpus) {
+    const Ldi ldi =
+        make_ldi(windows_of_size(34, 12), {{"R"}, {"G"}, {"B"}, {"A"}, {"u"}, {"v"}}, [](int x, int y) {
+            std::vector<Sample> samples;
+            for (int i = 0; i < 24; ++i) {
+                const float a = float(0.2 * random_unit(x, y, std::uint32_t(i)));
+                const float b = a * float(random_unit(x, y, std::uint32_t(200 + i)));
+                samples.push_back(
+                    {depth_of(lens, -6 + 0.4 * i + 0.1 * random_unit(x, y, std::uint32_t(100 + i))),
+                     {b, b / 2, a - b, a, b / 3, b * b}});
+            }
+            return samples;
+        });
+    expect_same(ldi, lens, 2);
+}
+
+TEST_F(SelectiveDeviceTest, IsItsReference) {
+    device = open_gather_device(*info, watch());
+    for (const bool opaque : {true, false}) {
+        const Ldi ldi = random_surfaces(windows_of_size(60, 40), lens, opaque, 4);
+        const Image image = gather(ldi, lens, {32, device.get()});
+        Progress silent;
+        EXPECT_LE(largest_difference(image, scatter(ldi, lens, {}, silent)), 1e-4 * largest_of(image));
+    }
+    EXPECT_GT(device->take_report().on_device, 0u);
+}
+
+TEST_F(SelectiveDeviceTest, StripesMakeTheSamePicture) {
+    const Ldi ldi = random_surfaces(windows_of_size(50, 100), lens, false, 5);
+    const Image expected = gather(ldi, lens, {});
+    Watch small = watch();
+    small.largest_buffer = 10 << 20;
+    device = open_gather_device(*info, small);
+    EXPECT_LE(largest_difference(gather(ldi, lens, {.device = device.get()}), expected),
+              1e-6 * largest_of(expected));
+    EXPECT_EQ(device->take_report().on_cpu, Tiles());
+    small.largest_buffer = 1 << 12;
+    const auto tiny = open_gather_device(*info, small);
+    EXPECT_EQ(gather(ldi, lens, {.device = tiny.get()}).values, expected.values);
+    const TileReport did = tiny->take_report();
+    EXPECT_EQ(did.on_device, 0u);
+    EXPECT_EQ(did.on_cpu.at("more samples than its buffers hold"), 8u);
+}
+
+TEST_F(SelectiveDeviceTest, WithoutNumbersOf64BitsAllIsTheCpus) {
+    const Ldi ldi = random_surfaces(windows_of_size(40, 30), lens, false, 6);
+    DeviceInfo without = *info;
+    without.float64 = false;
+    device = open_gather_device(without, watch());
+    EXPECT_EQ(gather(ldi, lens, {.device = device.get()}).values, gather(ldi, lens, {}).values);
+    const TileReport did = device->take_report();
+    EXPECT_EQ(did.on_device, 0u);
+    EXPECT_EQ(did.on_cpu, (Tiles{{"the device has no numbers of 64 bits", 2}}));
+}
+
+// At each of its steps: memory, copies, the program, its runs.
+TEST_F(SelectiveDeviceTest, AFailureLosesNothing) {
+    const Ldi ldi = random_surfaces(windows_of_size(50, 40), lens, false, 7);
+    const Image expected = gather(ldi, lens, {});
+    int steps = 0, fail_at = 0, result = 0;
+    Watch failing = watch();
+    failing.fails = [&] { return ++steps == fail_at ? result : 0; };
+    const auto gathered = [&](int at, int with) {
+        steps = 0;
+        fail_at = at;
+        result = with;
+        device = open_gather_device(*info, failing);
+        const Image image = gather(ldi, lens, {.device = device.get()});
+        EXPECT_LE(largest_difference(image, expected), 1e-6 * largest_of(expected)) << at;
+        const TileReport did = device->take_report();
+        EXPECT_EQ(did.failure.empty(), at == 0);
+        EXPECT_EQ(did.on_device == 0, at != 0);
+        if (at == 0) return;
+        EXPECT_EQ(did.on_cpu.at("the device failed"), 4u);
+        EXPECT_EQ(gather(ldi, lens, {.device = device.get()}).values, expected.values);
+        EXPECT_EQ(device->take_report().on_device, 0u); // it is left alone
+    };
+    gathered(0, 0);
+    const int all = steps;
+    EXPECT_GT(all, 20);
+    for (int at = 1; at <= all; at += 7) gathered(at, -4); // VK_ERROR_DEVICE_LOST
+    gathered(3, -2);                                       // VK_ERROR_OUT_OF_DEVICE_MEMORY
+}
+
+} // namespace
+} // namespace sparselens::gpu
