@@ -17,7 +17,7 @@
 #include "options/window_options.h"
 
 #include <memory>
-#include <optional>
+#include <mutex>
 
 using namespace sparselens;
 
@@ -35,20 +35,27 @@ Image gathered(const GatherCommand &options, GatherWindows &frame, const ThinLen
     return tool.last_frame ? of(cache.take_ldi()) : of(cache.last().ldi);
 }
 
+// Whether the colours of the file are linear: asked once, by the first of several threads.
+struct LinearAnswer {
+    std::once_flag asked;
+    bool found = false;
+};
+
 // Empty if the picture needs all samples: only as many are kept as it does, while the file is read.
 ReduceSamples reduce_samples(const GatherCommand &options, const ToolContext &tool) {
     const bool all = !tool.last_frame || options.show != Show::picture || !options.holdout.empty() ||
                      !options.depth_output.empty() || options.focus_pixel || options.windows.proxy > 1 ||
                      options.picture.method != &gather_methods().front();
     if (all) return {};
-    const auto linear = std::make_shared<std::optional<bool>>(); // of the file, which is asked once
+    const auto linear = std::make_shared<LinearAnswer>();
     return [&options, &tool, linear](const Imf::Header &header, const Camera &camera, Ldi rows) {
-        if (!*linear) *linear = is_linear(tool, options.colour, options.input, header);
+        std::call_once(linear->asked,
+                       [&] { linear->found = is_linear(tool, options.colour, options.input, header); });
         const LookValues looks = read_looks(options.looks, camera.fstop).values;
         const bool grows = options.windows.overscan == OutputOverscan::grow &&
                            !(header.dataWindow().intersects(header.displayWindow().min) &&
                              header.dataWindow().intersects(header.displayWindow().max));
-        if (!**linear || grows || highlight_gain(looks).gain != 1 || looks.breathing ||
+        if (!linear->found || grows || highlight_gain(looks).gain != 1 || looks.breathing ||
             camera.looks.breathing || !can_merge_layers(rows))
             throw NeedsAllSamples();
         const ThinLens lens = resolve_lens(camera, rows.windows);

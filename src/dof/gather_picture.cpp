@@ -14,17 +14,23 @@ bool merges_layers(const ThinLens &lens, const PictureOptions &options) {
            options.method == &gather_methods().front();
 }
 
+// Moved where nothing is cut off.
+Image cropped(Image picture, const Imath::Box2i &window) {
+    if (picture.windows.data == window) return picture;
+    return crop(picture, window);
+}
+
 // What is merged here is what could not be merged before.
 Image gather_layers(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &gathered,
                     const Imath::Box2i &written, const PictureOptions &options, Progress &progress) {
     const auto sharp = options.holdout ? std::optional<Holdout>(*options.holdout) : std::nullopt;
     if (lens.radius == 0 && options.gather.lens.looks.magnification == 1)
-        return crop(sharp ? flatten_held_out(ldi, *sharp) : flatten(ldi), written);
+        return cropped(sharp ? flatten_held_out(ldi, *sharp) : flatten(ldi), written);
     GatherOptions by = options.gather;
     by.lens.region = written;
     by.lens.holdout = sharp ? &*sharp : nullptr;
     by.layer_tolerance = merges_layers(lens, options) ? options.layer_tolerance : 0;
-    return crop(options.method->gather(ldi, lens, gathered, by, progress), written);
+    return cropped(options.method->gather(ldi, lens, gathered, by, progress), written);
 }
 
 // Once is enough: merged twice, layers would change by more than the tolerance.
@@ -41,7 +47,10 @@ Ldi flattened(const Ldi &ldi) {
     out.windows = ldi.windows;
     out.channels = ldi.channels;
     out.begin = {0};
+    out.begin.reserve(ldi.begin.size());
+    out.z.reserve(ldi.windows.pixels());
     out.values.resize(ldi.channels.size());
+    for (std::vector<float> &values : out.values) values.reserve(ldi.windows.pixels());
     for (std::size_t pixel = 0; pixel < ldi.windows.pixels(); ++pixel) {
         if (const SampleRange samples = ldi.pixel(pixel); !samples.empty()) {
             out.z.push_back(ldi.z[samples.front()]);

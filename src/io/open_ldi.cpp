@@ -1,7 +1,6 @@
 #include "io/open_ldi.h"
 
 #include "base/error.h"
-#include "base/text.h"
 #include "deep/tidy.h"
 #include "io/camera/camera_read.h"
 #include "io/depth_range.h"
@@ -14,6 +13,8 @@
 #include <array>
 #include <functional>
 #include <limits>
+#include <mutex>
+#include <optional>
 
 namespace sparselens {
 
@@ -28,6 +29,18 @@ void make_planar(Ldi &ldi, DepthMeaning meaning, const DepthRange &range, const 
         }
 }
 
+OpenedLdi with_camera(LdiFile file, const std::string &path, const OpenOptions &options) {
+    OpenedLdi opened{.name = display_name(path),
+                     .ldi = std::move(file.ldi),
+                     .header = std::move(file.header),
+                     .camera = {},
+                     .bad = {},
+                     .notes = std::move(file.notes),
+                     .warnings = std::move(file.warnings)};
+    opened.camera = camera_with_options(options.lens, read_camera(opened.header));
+    return opened;
+}
+
 } // namespace
 
 OpenedLdi open_ldi(const std::string &path, const OpenOptions &options) {
@@ -36,35 +49,48 @@ OpenedLdi open_ldi(const std::string &path, const OpenOptions &options) {
 
 namespace {
 
-// What is read of a picture a few rows at a time.
+// What is read of a picture a few rows at a time, by several threads.
 class RowsReader {
 public:
     RowsReader(const std::string &path, const OpenOptions &options, const ReduceSamples &reduce)
         : name_(display_name(path)), options_(options), reduce_(reduce) {}
 
     Ldi operator()(const Imf::Header &header, Ldi rows) {
-        if (const auto [least, most] = std::ranges::minmax_element(rows.z); least != rows.z.end())
-            depths_ = {std::min(depths_[0], *least), std::max(depths_[1], *most)};
+        const std::array<float, 2> depths = depths_of(rows);
         const Camera camera = camera_with_options(options_.lens, read_camera(header));
         make_planar(rows, options_.depth.meaning, depth_range(options_.depth, header), camera);
         if (!all_valid(rows)) throw NeedsAllSamples();
-        in_file_ += rows.samples();
+        const std::size_t in_file = rows.samples();
         rows = tidy(std::move(rows));
-        read_ += rows.samples();
+        count(in_file, rows.samples(), depths);
         return reduce_(header, camera, std::move(rows));
     }
 
-    // Says of the picture what its samples would have said.
-    void tell(OpenedLdi &opened) const {
-        if (in_file_ == 0) return;
+    // The picture of the rows, which are ready, and what its samples would have said of it. None if no row was read.
+    std::optional<OpenedLdi> opened(LdiFile &file, const std::string &path) const {
+        if (in_file_ == 0) return {};
+        OpenedLdi opened = with_camera(std::move(file), path, options_);
         opened.reduced = true;
         opened.samples_read = read_;
         opened.invisible = in_file_ - std::min(in_file_, read_);
         if (const auto warning = normalized_warning(options_.depth, depths_))
-            if (!is_among(opened.warnings, *warning)) opened.warnings.push_back(*warning);
+            opened.warnings.push_back(*warning);
+        return opened;
     }
 
 private:
+    // The least and the most.
+    static std::array<float, 2> depths_of(const Ldi &rows) {
+        const auto [least, most] = std::ranges::minmax_element(rows.z);
+        if (least == rows.z.end()) return {std::numeric_limits<float>::infinity(), 0};
+        return {*least, *most};
+    }
+    void count(std::size_t in_file, std::size_t read, const std::array<float, 2> &depths) {
+        const std::lock_guard lock(counting_);
+        in_file_ += in_file;
+        read_ += read;
+        depths_ = {std::min(depths_[0], depths[0]), std::max(depths_[1], depths[1])};
+    }
     bool all_valid(Ldi &rows) const {
         try {
             return !sanitize(rows, name_).any();
@@ -76,6 +102,7 @@ private:
     std::string name_;
     const OpenOptions &options_;
     const ReduceSamples &reduce_;
+    std::mutex counting_; // of what follows
     std::size_t in_file_ = 0, read_ = 0;
     std::array<float, 2> depths_{std::numeric_limits<float>::infinity(), 0}; // the least and the most
 };
@@ -87,29 +114,22 @@ OpenedLdi open_ldi(const std::string &path, const OpenOptions &options, const Re
         return open_ldi(path, options);
     RowsReader reader(path, options, reduce);
     try {
-        OpenedLdi opened = ready_ldi(
-            read_ldi(path, options.depth.channel, options.depth.view, std::ref(reader)), path, options);
-        reader.tell(opened);
-        return opened;
+        LdiFile file = read_ldi(path, options.depth.channel, options.depth.view, std::ref(reader));
+        if (std::optional<OpenedLdi> opened = reader.opened(file, path)) return std::move(*opened);
+        return ready_ldi(std::move(file), path, options);
     } catch (const NeedsAllSamples &) {
         return open_ldi(path, options);
     }
 }
 
 OpenedLdi ready_ldi(LdiFile file, const std::string &path, const OpenOptions &options) {
-    OpenedLdi opened{.name = display_name(path),
-                     .ldi = std::move(file.ldi),
-                     .header = std::move(file.header),
-                     .camera = {},
-                     .bad = {},
-                     .notes = std::move(file.notes),
-                     .warnings = std::move(file.warnings)};
-    opened.camera = camera_with_options(options.lens, read_camera(opened.header));
+    const bool deep = file.deep;
+    OpenedLdi opened = with_camera(std::move(file), path, options);
     if (const auto warning = normalized_warning(options.depth, opened.ldi.z))
         opened.warnings.push_back(*warning);
     make_planar(opened.ldi, options.depth.meaning, depth_range(options.depth, opened.header), opened.camera);
     opened.bad = sanitize(opened.ldi, opened.name);
-    if (const std::size_t settled = file.deep ? 0 : settle_edge_depths(opened.ldi))
+    if (const std::size_t settled = deep ? 0 : settle_edge_depths(opened.ldi))
         opened.notes.push_back(edge_note(settled));
     const std::size_t in_file = opened.ldi.samples();
     opened.ldi = tidy(std::move(opened.ldi));

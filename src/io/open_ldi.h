@@ -38,8 +38,8 @@ struct OpenedLdi {
 // length of the ray, and the focal length is unknown.
 OpenedLdi open_ldi(const std::string &path, const OpenOptions &options = {});
 
-// Fewer samples instead of those of some rows, which are tidy; windows and channels stay. Throws NeedsAllSamples where there
-// may not be fewer.
+// Fewer samples instead of those of some rows, which are tidy; windows and channels stay. Several threads call it at once. Throws
+// NeedsAllSamples where there may not be fewer.
 using ReduceSamples = std::function<Ldi(const Imf::Header &header, const Camera &camera, Ldi rows)>;
 struct NeedsAllSamples {};
 

@@ -10,6 +10,7 @@
 #include <ImfThreading.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <malloc.h>
 #include <tbb/global_control.h>
 #include <tbb/info.h>
 
@@ -85,6 +86,19 @@ std::optional<int> parse_words(CLI::App &app, const std::vector<std::string> &wo
     return {};
 }
 
+namespace {
+
+// Rows that are read and dropped again would else go back to the system each time, which clears their pages anew.
+void keep_freed_memory() {
+#ifdef __GLIBC__
+    constexpr int own_pages_from = 4 << 20, kept = 64 << 20; // bytes
+    mallopt(M_MMAP_THRESHOLD, own_pages_from);
+    mallopt(M_TRIM_THRESHOLD, kept);
+#endif
+}
+
+} // namespace
+
 class Process::ThreadLimit {
 public:
     explicit ThreadLimit(int threads)
@@ -95,6 +109,7 @@ private:
 };
 
 Process::Process(const ProcessOptions &options, const ToolContext &tool) {
+    keep_freed_memory();
     const int threads = options.threads > 0 ? options.threads : tbb::info::default_concurrency();
     threads_ = std::make_unique<ThreadLimit>(threads);
     Imf::setGlobalThreadCount(threads > 1 ? threads : 0);

@@ -1,5 +1,6 @@
 #include "io/exr/exr_common.h"
 
+#include "base/parallel.h"
 #include "base/text.h"
 
 #include <ImfTileDescription.h>
@@ -9,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <cstring>
 
@@ -113,12 +115,9 @@ Imf::PixelType imf_type(PixelType type) {
 
 std::size_t bytes_of(PixelType type) { return type == PixelType::half ? 2 : 4; }
 
-std::size_t store(PixelType type, const float *from, std::size_t count, char *to) {
-    if (count == 0) return 0; // there may be no pointers then
-    if (type != PixelType::half) {
-        std::memcpy(to, from, count * sizeof(float)); // ids keep their bits, see PixelType
-        return 0;
-    }
+namespace {
+
+std::size_t store_halves(const float *from, std::size_t count, char *to) {
     constexpr float largest = 65504, rounded_up = 65520; // from here on a half would be infinite
     std::size_t clamped = 0;
     for (std::size_t i = 0; i < count; ++i) {
@@ -127,6 +126,22 @@ std::size_t store(PixelType type, const float *from, std::size_t count, char *to
         const Imath::half rounded(value);
         std::memcpy(to + 2 * i, &rounded, 2);
     }
+    return clamped;
+}
+
+} // namespace
+
+std::size_t store(PixelType type, const float *from, std::size_t count, char *to) {
+    if (count == 0) return 0; // there may be no pointers then
+    const std::size_t size = bytes_of(type);
+    std::atomic<std::size_t> clamped = 0;
+    parallel_ranges(count, 65536, [&](std::size_t begin, std::size_t end) {
+        if (type == PixelType::half)
+            clamped += store_halves(from + begin, end - begin, to + begin * size);
+        else
+            std::memcpy(to + begin * size, from + begin,
+                        (end - begin) * size); // ids keep their bits, see PixelType
+    });
     return clamped;
 }
 

@@ -44,7 +44,7 @@ Imf::PixelType imf_type(PixelType type);
 std::size_t bytes_of(PixelType type);
 
 // Stores `count` floats of `from` in the type of the channel to `to`. Finite values beyond the range of half become the
-// largest half, never infinity. Returns the number of such values.
+// largest half, never infinity. Returns the number of such values. On all threads.
 std::size_t store(PixelType type, const float *from, std::size_t count, char *to);
 
 // Calls work() and turns what OpenEXR throws into an Error that names the file.

@@ -37,7 +37,7 @@ LdiFile read_ldi(const std::string &path, const std::string &depth_channel = {},
                  const std::string &stereo_view = {});
 
 // The same with less memory, for a picture of which fewer samples are needed: `reduce` is given a few rows of it at a time,
-// top down, and what it makes of them is kept; it may not change the windows. It is not asked where the picture has
+// by several threads at once, and what it makes of them is kept; it may not change the windows. It is not asked where the picture has
 // several parts, tiles, or is flat: then all samples are there.
 using ReduceFileRows = std::function<Ldi(const Imf::Header &header, Ldi rows)>;
 LdiFile read_ldi(const std::string &path, const std::string &depth_channel, const std::string &stereo_view,

@@ -3,10 +3,10 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "io/exr/exr_common.h"
+#include "io/exr/rows/part_readers.h"
 #include "io/files/memory_limit.h"
 
 #include <ImfDeepFrameBuffer.h>
-#include <ImfDeepScanLineInputPart.h>
 #include <ImfDeepTiledInputPart.h>
 #include <ImfPartType.h>
 #include <fmt/format.h>
@@ -118,32 +118,28 @@ void check_chunk(const DeepSource &source, const RawSize &raw_size) {
                                 display_name(source.path), bytes));
 }
 
-// Has the part read its counts of samples.
-template <typename Part, typename Read>
-std::vector<unsigned> read_counts(Part &part, Ldi &ldi, const Read &read) {
+// visit(part, first row, last row) for all rows, on all threads.
+template <typename Visit>
+void for_some_rows(const Ldi &ldi, PartReaders &readers, const Visit &visit) {
+    const auto make = [&](Imf::DeepScanLineInputPart &part, int first, int last) {
+        visit(part, first, last);
+        return true;
+    };
+    for_some_rows(ldi.windows.data, readers, make, [](bool) {});
+}
+
+std::vector<unsigned> read_counts(PartReaders &readers, const DeepSource &source, Ldi &ldi) {
     std::vector<unsigned> counts(ldi.windows.pixels());
     Imf::DeepFrameBuffer only_counts;
     only_counts.insertSampleCountSlice(counts_slice(counts, ldi.windows));
-    part.setFrameBuffer(only_counts);
-    read();
+    for_some_rows(ldi, readers, [&](Imf::DeepScanLineInputPart &part, int first, int last) {
+        part.setFrameBuffer(only_counts);
+        part.readPixelSampleCounts(first, last);
+        for (int y = first; y <= last; ++y)
+            check_chunk(source, [&](std::uint64_t &bytes) { part.rawPixelData(y, nullptr, bytes); });
+    });
     set_counts(ldi, counts);
     return counts;
-}
-
-std::vector<unsigned> read_counts(Imf::DeepScanLineInputPart &part, const DeepSource &source, Ldi &ldi) {
-    const Imath::Box2i &data = ldi.windows.data;
-    std::vector<unsigned> counts =
-        read_counts(part, ldi, [&] { part.readPixelSampleCounts(data.min.y, data.max.y); });
-    for (int y = data.min.y; y <= data.max.y; ++y)
-        check_chunk(source, [&](std::uint64_t &bytes) { part.rawPixelData(y, nullptr, bytes); });
-    return counts;
-}
-
-// visit(first row, last row), top down; so many rows bound the pointer table and keep all threads busy.
-template <typename Visit>
-void for_some_rows(const Imath::Box2i &data, int rows_at_once, const Visit &visit) {
-    for (int y = data.min.y; y <= data.max.y; y += rows_at_once)
-        visit(y, std::min(y + rows_at_once - 1, data.max.y));
 }
 
 // `counts`: of the data window of `ldi`.
@@ -156,11 +152,12 @@ void read_rows(Imf::DeepScanLineInputPart &part, const Ldi &ldi, const Planes &p
 }
 
 void read_scanlines(const DeepSource &source, int number, Ldi &ldi, const Planes &planes) {
-    Imf::DeepScanLineInputPart part(source.file, number);
-    std::vector<unsigned> counts = read_counts(part, source, ldi);
+    PartReaders readers(source.stream, number);
+    std::vector<unsigned> counts = read_counts(readers, source, ldi);
     make_room(ldi, planes, source);
-    for_some_rows(ldi.windows.data, 128,
-                  [&](int first, int last) { read_rows(part, ldi, planes, first, last, counts); });
+    for_some_rows(ldi, readers, [&](Imf::DeepScanLineInputPart &part, int first, int last) {
+        read_rows(part, ldi, planes, first, last, counts);
+    });
 }
 
 // All arrays of an LDI that have one entry a sample.
@@ -185,36 +182,50 @@ void append_rows(Ldi &ldi, Ldi rows, std::uint64_t most) {
     });
 }
 
+// Rows [first, last] of the picture that `ldi` is to become; `counts`: of all of it.
+Ldi some_rows(Imf::DeepScanLineInputPart &part, const DeepSource &source, const Ldi &ldi,
+              const std::vector<unsigned> &counts, const std::vector<FileChannel> &channels,
+              const std::string &depth, int first, int last) {
+    Ldi rows;
+    rows.windows = ldi.windows;
+    rows.windows.data.min.y = first;
+    rows.windows.data.max.y = last;
+    const Planes planes = plan_planes(rows, channels, depth);
+    const auto begin = counts.begin() + std::ptrdiff_t(ldi.windows.index(ldi.windows.data.min.x, first));
+    std::vector<unsigned> here(begin, begin + std::ptrdiff_t(rows.windows.pixels()));
+    set_counts(rows, here);
+    make_room(rows, planes, source);
+    read_rows(part, rows, planes, first, last, here);
+    return rows;
+}
+
 // `ldi` has its windows, and gets the rest.
 void read_reduced(const DeepSource &source, int number, Ldi &ldi, const std::vector<FileChannel> &channels,
                   const std::string &depth, const ReduceRows &reduce) {
-    Imf::DeepScanLineInputPart part(source.file, number);
-    const std::vector<unsigned> counts = read_counts(part, source, ldi);
+    PartReaders readers(source.stream, number);
+    const std::vector<unsigned> counts = read_counts(readers, source, ldi);
     const std::uint64_t most = ldi.begin.back();
     check_room(ldi, channels.size(), source);
     ldi.begin.assign(1, 0);
     ldi.begin.reserve(counts.size() + 1);
-    for_some_rows(ldi.windows.data, 64, [&](int first, int last) {
-        Ldi rows;
-        rows.windows = ldi.windows;
-        rows.windows.data.min.y = first;
-        rows.windows.data.max.y = last;
-        const Planes planes = plan_planes(rows, channels, depth);
-        const auto begin = counts.begin() + std::ptrdiff_t(ldi.windows.index(ldi.windows.data.min.x, first));
-        std::vector<unsigned> here(begin, begin + std::ptrdiff_t(rows.windows.pixels()));
-        set_counts(rows, here);
-        make_room(rows, planes, source);
-        read_rows(part, rows, planes, first, last, here);
-        append_rows(ldi, reduce(std::move(rows)), most);
-    });
+    for_some_rows(
+        ldi.windows.data, readers,
+        [&](Imf::DeepScanLineInputPart &part, int first, int last) {
+            return reduce(some_rows(part, source, ldi, counts, channels, depth, first, last));
+        },
+        [&](Ldi rows) { append_rows(ldi, std::move(rows), most); });
 }
 
 void read_tiles(const DeepSource &source, int number, Ldi &ldi, const Planes &planes) {
     Imf::DeepTiledInputPart part(source.file, number);
     const Windows &w = ldi.windows;
     const int right = part.numXTiles(0) - 1, bottom = part.numYTiles(0) - 1;
-    std::vector<unsigned> counts =
-        read_counts(part, ldi, [&] { part.readPixelSampleCounts(0, right, 0, bottom); });
+    std::vector<unsigned> counts(w.pixels());
+    Imf::DeepFrameBuffer only_counts;
+    only_counts.insertSampleCountSlice(counts_slice(counts, w));
+    part.setFrameBuffer(only_counts);
+    part.readPixelSampleCounts(0, right, 0, bottom);
+    set_counts(ldi, counts);
     make_room(ldi, planes, source);
     for (int ty = 0; ty <= bottom; ++ty)
         for (int tx = 0; tx <= right; ++tx)

@@ -3,6 +3,7 @@
 
 #include "deep/ldi.h"
 #include "io/exr/exr_parts.h"
+#include "io/files/file_stream.h"
 
 #include <ImfMultiPartInputFile.h>
 
@@ -16,12 +17,13 @@ namespace sparselens {
 // The file that is read; its size limits the memory that it may ask for.
 struct DeepSource {
     Imf::MultiPartInputFile &file;
+    const InputStream &stream; // of the file
     const std::string &path;
     std::uint64_t size;
     double held = 0; // bytes of memory that the parts read so far take
 };
 
-// Makes an LDI of the same windows of that of some rows: of fewer samples.
+// Makes an LDI of the same windows of that of some rows: of fewer samples. Called by several threads at once.
 using ReduceRows = std::function<Ldi(Ldi rows)>;
 
 // Reads `channels` of the part: `depth` and depthBack, those that position samples, and the others as values. If

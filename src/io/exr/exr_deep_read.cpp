@@ -160,7 +160,7 @@ LdiFile read_ldi(const std::string &path, const std::string &depth_channel, cons
         const auto stream = open_input(path);
         check_header(*stream, path);
         Imf::MultiPartInputFile file(*stream);
-        const DeepSource source{file, path, stream->size()};
+        const DeepSource source{file, *stream, path, stream->size()};
         const std::vector<int> deep = deep_parts(file);
         if (deep.empty()) return read_flat_as_ldi(source, *stream, depth_channel, stereo_view);
         auto [view, numbers] = parts_of_view(file, deep, stereo_view, path);

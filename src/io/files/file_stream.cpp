@@ -1,7 +1,7 @@
 #include "io/files/file_stream.h"
 
-#include "base/error.h"
 #include "io/files/folder.h"
+#include "io/files/system_error.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -17,84 +17,11 @@ namespace sparselens {
 
 namespace {
 
-[[noreturn]] void fail(const std::string &path, const std::string &what) {
-    throw Error(display_name(path) + ": " + what + ": " + std::strerror(errno));
-}
-
-class MemoryInput : public InputStream {
-public:
-    MemoryInput(const std::string &name, std::vector<char> bytes)
-        : InputStream(name.c_str()), bytes_(std::move(bytes)) {}
-
-    bool read(char c[], int n) override {
-        if (n < 0 || std::uint64_t(n) > bytes_.size() - position_)
-            throw Error(std::string(fileName()) + ": the file is truncated");
-        std::memcpy(c, bytes_.data() + position_, std::size_t(n));
-        position_ += std::uint64_t(n);
-        return position_ < bytes_.size();
-    }
-    std::uint64_t tellg() override { return position_; }
-    void seekg(std::uint64_t position) override {
-        if (position > bytes_.size()) throw Error(std::string(fileName()) + ": the file is truncated");
-        position_ = position;
-    }
-    std::uint64_t size() const override { return bytes_.size(); }
-
-private:
-    std::vector<char> bytes_;
-    std::uint64_t position_ = 0;
-};
-
-class FileInput : public InputStream {
-public:
-    FileInput(const std::string &name, int descriptor, std::uint64_t size)
-        : InputStream(name.c_str()), file_(fdopen(descriptor, "rb")), size_(size) {}
-    ~FileInput() override { std::fclose(file_); }
-
-    bool read(char c[], int n) override {
-        if (n < 0 || std::fread(c, 1, std::size_t(n), file_) != std::size_t(n))
-            throw Error(std::string(fileName()) + ": the file is truncated");
-        return true;
-    }
-    std::uint64_t tellg() override { return std::uint64_t(ftello(file_)); }
-    void seekg(std::uint64_t position) override { fseeko(file_, off_t(position), SEEK_SET); }
-    std::uint64_t size() const override { return size_; }
-
-private:
-    std::FILE *file_;
-    std::uint64_t size_;
-};
-
-struct Closing {
-    int descriptor;
-    ~Closing() { ::close(descriptor); }
-};
-
-constexpr char exr_magic[] = {0x76, 0x2f, 0x31, 0x01};
-
-std::vector<char> read_whole(const std::string &path, int descriptor) {
-    std::vector<char> bytes;
-    std::size_t used = 0;
-    for (;;) {
-        if (used == bytes.size()) bytes.resize(std::max<std::size_t>(1 << 20, 2 * used));
-        const ssize_t got = ::read(descriptor, bytes.data() + used, bytes.size() - used);
-        if (got < 0 && errno == EINTR) continue;
-        if (got < 0) fail(path, "cannot read");
-        if (got == 0) break;
-        used += std::size_t(got);
-        // A stream of anything else may never end.
-        if (used >= sizeof exr_magic && std::memcmp(bytes.data(), exr_magic, sizeof exr_magic) != 0)
-            throw Error(display_name(path) + ": not an EXR file");
-    }
-    bytes.resize(used);
-    return bytes;
-}
-
 void write_all(const std::string &path, int descriptor, const char *data, std::size_t size) {
     while (size > 0) {
         const ssize_t put = ::write(descriptor, data, size);
         if (put < 0 && errno == EINTR) continue;
-        if (put < 0) fail(path, "cannot write");
+        if (put < 0) fail_of_system(path, "cannot write");
         data += put;
         size -= std::size_t(put);
     }
@@ -111,7 +38,7 @@ std::filesystem::path follow_links(const std::string &path) {
     for (int depth = 0; std::filesystem::is_symlink(target); ++depth) {
         if (depth == 40) { // as many as the kernel follows
             errno = ELOOP;
-            fail(path, "cannot write");
+            fail_of_system(path, "cannot write");
         }
         const std::filesystem::path next = std::filesystem::read_symlink(target);
         target = next.is_absolute() ? next : target.parent_path() / next;
@@ -124,21 +51,6 @@ std::filesystem::path follow_links(const std::string &path) {
 bool is_standard_stream(const std::string &path) { return path == "-"; }
 
 std::string display_name(const std::string &path) { return path == "-" ? "standard stream" : path; }
-
-std::unique_ptr<InputStream> open_input(const std::string &path) {
-    if (path == "-") return std::make_unique<MemoryInput>(display_name(path), read_whole(path, STDIN_FILENO));
-    const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-    if (descriptor < 0) fail(path, "cannot open");
-    struct stat info {};
-    if (::fstat(descriptor, &info) == 0 && S_ISDIR(info.st_mode)) {
-        ::close(descriptor);
-        throw Error(path + ": is a folder, not a file");
-    }
-    if (S_ISREG(info.st_mode))
-        return std::make_unique<FileInput>(path, descriptor, std::uint64_t(info.st_size));
-    const Closing closing{descriptor};
-    return std::make_unique<MemoryInput>(path, read_whole(path, descriptor));
-}
 
 // Collects bytes; with a temporary file behind it, it hands them on in large pieces.
 class OutputFile::Buffer : public Imf::OStream {
@@ -157,7 +69,8 @@ public:
     void seekp(std::uint64_t position) override {
         if (to_file_) {
             flush();
-            if (::lseek(descriptor_, off_t(position), SEEK_SET) < 0) fail(fileName(), "cannot seek");
+            if (::lseek(descriptor_, off_t(position), SEEK_SET) < 0)
+                fail_of_system(fileName(), "cannot seek");
             start_ = position;
         } else {
             position_ = std::size_t(position);
@@ -199,7 +112,7 @@ OutputFile::OutputFile(const std::string &path) : path_(path) {
     }
     if (descriptor_ < 0) {
         temporary_.reset();
-        fail(path, "cannot write");
+        fail_of_system(path, "cannot write");
     }
     buffer_ = std::make_unique<Buffer>(display_name(path), descriptor_, !target_.empty());
 }
@@ -220,10 +133,10 @@ void OutputFile::commit() {
     buffer_->flush();
     const int descriptor = descriptor_;
     descriptor_ = -1;
-    if (::close(descriptor) != 0) fail(path_, "cannot write");
+    if (::close(descriptor) != 0) fail_of_system(path_, "cannot write");
     if (target_.empty()) return;
     if (::rename(temporary_->path().c_str(), target_.c_str()) != 0)
-        fail(path_, "cannot rename the finished file");
+        fail_of_system(path_, "cannot rename the finished file");
     temporary_.reset();
 }
 

@@ -21,6 +21,8 @@ class InputStream : public Imf::IStream {
 public:
     using Imf::IStream::IStream;
     virtual std::uint64_t size() const = 0; // bytes
+    // The same bytes for another thread, from their beginning.
+    virtual std::unique_ptr<InputStream> another() const = 0;
 };
 
 // A seekable stream; `-` and files that cannot seek are read into memory as a whole.

@@ -149,6 +149,30 @@ TEST_F(FileStream, ReadsAndSeeksInFiles) {
     EXPECT_EQ(what_of<Error>([&] { in->read(text.data(), 3); }), path + ": the file is truncated");
 }
 
+TEST_F(FileStream, AnotherStreamHasAPlaceOfItsOwn) {
+    std::string all;
+    for (int i = 0; i < 5000; ++i) all += std::to_string(i) + ",";
+    put_contents(path, all);
+    const auto in = open_input(path);
+    in->seekg(20'000);
+    const auto another = in->another();
+    EXPECT_EQ(another->tellg(), 0u);
+    EXPECT_EQ(another->size(), all.size());
+    EXPECT_EQ(std::string(another->fileName()), path);
+    const auto read = [](InputStream &from, std::size_t bytes) {
+        std::string text(bytes, ' ');
+        from.read(text.data(), int(bytes));
+        return text;
+    };
+    EXPECT_EQ(read(*another, 3), all.substr(0, 3));
+    EXPECT_EQ(read(*in, 5), all.substr(20'000, 5));
+    EXPECT_EQ(read(*another, 9000), all.substr(3, 9000)); // more than is buffered
+    EXPECT_EQ(read(*another, 4000), all.substr(9003, 4000));
+    another->seekg(12'000);
+    EXPECT_EQ(read(*another, 10), all.substr(12'000, 10));
+    EXPECT_EQ(read(*in, 4), all.substr(20'005, 4));
+}
+
 TEST_F(FileStream, ErrorsNameTheFileAndTheReason) {
     const std::string nowhere = folder.file("missing/out.exr");
     EXPECT_EQ(what_of<Error>([&] { open_input(nowhere); }),
