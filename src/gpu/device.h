@@ -33,6 +33,10 @@ struct Watch {
 // Whether the validation layer is installed.
 bool has_validation();
 
+struct ByteRange {
+    std::size_t begin, end;
+};
+
 class Buffer { // storage that programs read and write
 public:
     Buffer(Buffer &&) noexcept;
@@ -74,6 +78,8 @@ public:
     // Bytes in the device's memory, at least one, uninitialised.
     Buffer buffer(std::size_t bytes);
     void upload(Buffer &to, std::span<const std::byte> from);
+    void upload(Buffer &to, std::span<const std::byte> from,
+                std::span<const ByteRange> ranges); // to the same places
     void download(std::span<std::byte> to, const Buffer &from);
 
     // A compute shader "main" whose storage buffers are bindings 0 to buffers - 1 of set 0.

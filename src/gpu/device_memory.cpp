@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <vector>
 
 namespace sparselens::gpu {
 
@@ -101,16 +102,35 @@ Buffer Device::buffer(std::size_t bytes) {
 }
 
 void Device::upload(Buffer &to, std::span<const std::byte> from) {
+    const ByteRange all{0, from.size()};
+    upload(to, from, {&all, 1});
+}
+
+void Device::upload(Buffer &to, std::span<const std::byte> from, std::span<const ByteRange> ranges) {
+    if (ranges.empty()) return;
     guarded(info_, [&] {
-        const Buffer::Memory &staged = vulkan_->staged();
-        for (std::size_t done = 0; done < from.size(); done += staging_bytes) {
-            const std::size_t piece = std::min(staging_bytes, from.size() - done);
-            std::memcpy(Mapped(staged.memory).at(), from.data() + done, piece);
+        const Mapped staging(vulkan_->staged().memory);
+        std::vector<vk::BufferCopy> copies;
+        std::size_t filled = 0;
+        const auto submit = [&] {
+            if (copies.empty()) return;
             vulkan_->submit([&](const vk::raii::CommandBuffer &command) {
-                command.copyBuffer(*staged.buffer, *to.memory_->buffer, vk::BufferCopy(0, done, piece));
+                command.copyBuffer(*vulkan_->staged().buffer, *to.memory_->buffer, copies);
                 finish_copy(command);
             });
-        }
+            copies.clear();
+            filled = 0;
+        };
+        for (auto [begin, end] : ranges)
+            while (begin < end) {
+                const std::size_t piece = std::min(staging_bytes - filled, end - begin);
+                std::memcpy(staging.at() + filled, from.data() + begin, piece);
+                copies.emplace_back(filled, begin, piece);
+                begin += piece;
+                filled += piece;
+                if (filled == staging_bytes) submit();
+            }
+        submit();
     });
 }
 

@@ -169,6 +169,42 @@ TEST_F(LensDeviceTest, InSoftwareLongFramesAreTheCpus) {
     EXPECT_EQ(device->take_report().on_device, 0u);
 }
 
+// What does not change stays on the device: of these frames the positions, depths, coverages and most colours.
+TEST_F(LensDeviceTest, APullOfFocusUploadsSamplesOnce) {
+    // A third of it is nearly in focus, where each frame sharpens other colours.
+    Ldi ldi = make_ldi(windows_of_size(150, 90), {{"Y"}, {"A"}}, [](int x, int y) {
+        const auto y_of = [&](std::uint32_t stream) { return float(random_unit(x, y, stream)); };
+        const Sample wall{x < 100 ? 9.0f : 5.0f, {y_of(1), 1}}, veil{3, {y_of(2) / 3, 0.4f}};
+        return y < 45 ? std::vector<Sample>{veil, wall} : std::vector<Sample>{wall};
+    });
+    device = open_gather_device(*info, watch());
+    std::vector<std::size_t> uploaded;
+    const auto frame = [&](double focus, const Ldi &of) {
+        ThinLens by = lens;
+        by.focus = focus;
+        Progress silent;
+        const auto gathered = [&](TileDevice *on) {
+            return lens_gather(of, by, of.windows.data, {.lens_samples = 4, .device = on}, silent);
+        };
+        const auto fresh = open_gather_device(*info, watch());
+        const Image image = gathered(device.get());
+        EXPECT_EQ(image.values, gathered(fresh.get()).values) << focus;
+        EXPECT_LE(largest_difference(image, gathered(nullptr)), 1e-6) << focus;
+        const TileReport did = device->take_report();
+        EXPECT_EQ(did.on_cpu, Tiles());
+        uploaded.push_back(did.uploaded);
+    };
+    for (const double focus : {5.0, 4.8, 4.6, 4.6}) frame(focus, ldi);
+    for (std::vector<float> &values : ldi.values)
+        std::ranges::reverse(values); // another one of the same size
+    frame(4.6, ldi);
+    frame(4.6, surfaces(90, 150, true, 16));
+    EXPECT_LT(2 * uploaded[1], uploaded[0]);
+    EXPECT_LT(2 * uploaded[2], uploaded[0]);
+    EXPECT_EQ(uploaded[3], 0u); // nothing has changed
+    EXPECT_GT(uploaded[4], uploaded[0] / 3);
+}
+
 // At each of its steps: memory, copies, the run.
 TEST_F(LensDeviceTest, AFailureLosesNothing) {
     const Ldi ldi = surfaces(90, 70, false, 8);

@@ -45,6 +45,8 @@ cmp -s again.exr out.exr || fail "the device's picture is another one every time
 # Two frames over one file, held out.
 exits 0 "$gather" input.exr "${lens[@]}" -o frame.#.exr --frames 1-2 --device "$name" --holdout input.exr --spherical 0.5 -v
 [ "$(grep -c 'gathered by the device: 6 of 6' stderr)" -eq 2 ] || fail "tiles of two frames: $(cat stderr)"
+[ "$(grep -o 'uploaded to the device: .* MB' stderr | tail -n 1)" = 'uploaded to the device: 0.0 MB' ] ||
+    fail "what does not change is uploaded again: $(cat stderr)"
 exits 0 "$gather" input.exr "${lens[@]}" -o expected.exr --holdout input.exr --spherical 0.5
 oiiotool --fail 1e-4 --diff frame.0002.exr expected.exr >differ || fail "a second frame: $(cat differ)"
 

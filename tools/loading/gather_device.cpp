@@ -40,6 +40,8 @@ void GatherDevice::report(const ToolContext &tool) {
     for (const auto &[reason, tiles] : did.on_cpu)
         line += fmt::format("{}{} ({})", std::exchange(before, ", "), tiles, reason);
     tool.say(line);
+    if (did.on_device > 0)
+        tool.say(fmt::format("uploaded to the device: {:.1f} MB", double(did.uploaded) * 1e-6));
 }
 
 } // namespace sparselens

@@ -64,6 +64,7 @@ struct TilePicture {
 // What a device did since the report was last taken.
 struct TileReport {
     std::size_t on_device = 0;                      // tiles
+    std::size_t uploaded = 0;                       // bytes of samples and lists
     std::map<std::string, std::size_t> on_cpu = {}; // tiles left to the CPU, by why, in a few words
     std::string failure = {}; // if not empty: it failed, and this says how; the CPU did the rest
 };

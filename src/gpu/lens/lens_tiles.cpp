@@ -1,8 +1,6 @@
 #include "gpu/lens/lens_tiles.h"
 
 #include "base/parallel.h"
-#include "gpu/lens/stripe.h"
-#include "gpu/uploaded.h"
 
 #include <algorithm>
 #include <array>
@@ -56,34 +54,28 @@ void LensTilesOnDevice::gather(const TileScene &scene, std::span<const TileTask>
         report.on_cpu["more steps than a device in software takes"] += tasks.size();
         return;
     }
-    if (!program_) program_.emplace(device_.program(code, 14, sizeof(Push)));
+    if (!program_) program_.emplace(device_.program(code, 17, sizeof(Push)));
     const std::size_t bytes = std::min(stripe_bytes, device_.largest_buffer());
     for (std::size_t begin = 0, count = 0; begin < tasks.size(); begin += std::max(count, std::size_t{1})) {
         count = tasks_that_fit(scene, tasks.subspan(begin), bytes);
         if (count == 0) ++report.on_cpu["more samples than its buffers hold"];
         if (count == 0) continue;
-        gather_stripe(make_stripe(scene, tasks.subspan(begin, count)), scene,
-                      [&](std::size_t t, const TilePicture &picture) { done(begin + t, picture); });
+        const bool whole = count == tasks.size() && fits_whole(scene, tasks, bytes);
+        if (!whole) buffers_ = {};
+        report.uploaded += buffers_.bring(device_, make_stripe(scene, tasks.subspan(begin, count), whole));
+        gather_stripe(scene, [&](std::size_t t, const TilePicture &picture) { done(begin + t, picture); });
+        if (!whole) buffers_ = {};
         report.on_device += count;
     }
 }
 
-void LensTilesOnDevice::gather_stripe(const Stripe &stripe, const TileScene &scene,
+void LensTilesOnDevice::gather_stripe(const TileScene &scene,
                                       const std::function<void(std::size_t, const TilePicture &)> &done) {
-    const std::size_t tiles = stripe.tiles.size(), groups = scene.colours.groups,
+    const std::size_t tiles = buffers_.stripe().tiles.size(), groups = scene.colours.groups,
                       all = tiles * tile_pixels * groups;
-    const std::vector<std::uint32_t> sets(scene.colours.sets.begin(), scene.colours.sets.end());
     const Buffer values = device_.buffer(all * 4 * sizeof(float)),
                  known = device_.buffer(all * sizeof(float));
-    const Buffer in[] = {uploaded(device_, stripe.samples),     uploaded(device_, stripe.extras),
-                         uploaded(device_, stripe.colours),     uploaded(device_, stripe.blocks),
-                         uploaded(device_, stripe.block_lists), uploaded(device_, stripe.partial_lists),
-                         uploaded(device_, stripe.lens),        uploaded(device_, stripe.tiles),
-                         uploaded(device_, stripe.facets),      uploaded(device_, sets),
-                         uploaded(device_, stripe.columns),     uploaded(device_, stripe.holdout)};
-    run(stripe, groups, float(scene.depth_at_1),
-        std::array{&in[0], &in[1], &in[2], &in[3], &in[4], &in[5], &in[6], &in[7], &values, &known, &in[8],
-                   &in[9], &in[10], &in[11]});
+    run(buffers_.stripe(), groups, float(scene.depth_at_1), buffers_.bindings(values, known));
     std::vector<float> value(all * 4), knowns(all);
     device_.download(std::as_writable_bytes(std::span(value)), values);
     device_.download(std::as_writable_bytes(std::span(knowns)), known);
@@ -98,8 +90,8 @@ void LensTilesOnDevice::run(const Stripe &stripe, std::size_t groups, float dept
     for (std::uint32_t first = 0, end = 0; first < tiles; first = end) {
         for (double work = 0; end < tiles && (end == first || work < work_at_once); ++end)
             work += work_of(stripe, stripe.tiles[end]);
-        const Push push{first, tiles, std::uint32_t(stripe.samples.size()),
-                        std::uint32_t(stripe.first_filler), depth_at_1};
+        const Push push{first, tiles, std::uint32_t(stripe.places.size()), std::uint32_t(stripe.first_filler),
+                        depth_at_1};
         device_.run(*program_, buffers, std::as_bytes(std::span(&push, 1)),
                     {quarters * (end - first), std::uint32_t(groups), 1});
     }

@@ -3,13 +3,11 @@
 
 #include "dof/device/tile_device.h"
 #include "gpu/device.h"
+#include "gpu/lens/stripe_buffers.h"
 
 #include <optional>
 
 namespace sparselens::gpu {
-
-struct Stripe;
-struct StripeTile;
 
 class LensTilesOnDevice {
 public:
@@ -20,13 +18,14 @@ public:
                 const std::function<void(std::size_t, const TilePicture &)> &done, TileReport &report);
 
 private:
-    void gather_stripe(const Stripe &stripe, const TileScene &scene,
+    void gather_stripe(const TileScene &scene,
                        const std::function<void(std::size_t, const TilePicture &)> &done);
     void run(const Stripe &stripe, std::size_t groups, float depth_at_1,
              std::span<const Buffer *const> buffers);
 
     Device &device_;
     std::optional<Program> program_; // made when it is first needed
+    StripeBuffers buffers_;          // kept for the next frame where one stripe is all
 };
 
 } // namespace sparselens::gpu

@@ -22,6 +22,9 @@ struct Range {
     void add(std::span<const std::uint32_t> blocks) { // in ascending order
         if (!blocks.empty()) add(blocks.front(), blocks.back());
     }
+    void add_all(const auto &of) {
+        if (!of.blocks.empty()) add(0, std::uint32_t(of.blocks.size() - 1));
+    }
     std::size_t blocks() const { return first_block < end_block ? end_block - first_block : 0; }
     std::uint32_t first(const auto &of) const { return blocks() > 0 ? of.blocks[first_block].begin : 0; }
     std::size_t count(const auto &of) const {
@@ -38,6 +41,11 @@ struct Ranges {
         fillers.add(task.fillers);
         facets.add(task.facets);
         for (const std::uint32_t b : task.facets) add_corners(scene, scene.facets.blocks[b]);
+    }
+    void add_all(const TileScene &scene) {
+        samples.add_all(scene.samples);
+        fillers.add_all(scene.fillers.samples);
+        facets.add_all(scene.facets);
     }
     std::size_t sample_count(const TileScene &scene) const {
         return samples.count(scene.samples) + fillers.count(scene.fillers.samples);
@@ -75,18 +83,19 @@ struct Placed {
 };
 
 void place_samples(Stripe &stripe, std::size_t groups, const Placed &what) {
-    const auto bits = [](float value) { return std::bit_cast<std::uint32_t>(value); };
     const BlockedSamples &from = what.from;
     parallel_for(what.range.blocks(), [&](std::size_t b) {
         const SampleBlock &block = from.blocks[what.range.first_block + b];
         for (std::uint32_t i = block.begin; i < block.end; ++i) {
             const std::size_t to = i - what.range.first(from) + what.sample;
-            stripe.samples[to] = {bits(from.x[i]), bits(from.y[i]), bits(from.hiding_coc()[i]),
-                                  std::uint32_t(from.key[i] >> 32)};
-            stripe.extras[to] = i < block.opaque_end ? from.coc[i] : from.alpha[i];
+            stripe.places[to] = {from.x[i], from.y[i]};
+            stripe.uppers[to] = std::uint32_t(from.key[i] >> 32);
+            stripe.cocs[to] = from.hiding_coc()[i];
+            stripe.alphas[to] = from.alpha[i];
+            if (!stripe.shown.empty()) stripe.shown[to] = from.coc[i];
             for (std::size_t g = 0; g < groups; ++g)
                 std::copy_n(&what.colours.group(g)[i * std::size_t{4}], 4,
-                            &stripe.colours[(g * stripe.samples.size() + to) * 4]);
+                            &stripe.colours[(g * stripe.places.size() + to) * 4]);
         }
     });
 }
@@ -204,16 +213,32 @@ std::size_t tasks_that_fit(const TileScene &scene, std::span<const TileTask> tas
     return tasks.size();
 }
 
-Stripe make_stripe(const TileScene &scene, std::span<const TileTask> tasks) {
+bool fits_whole(const TileScene &scene, std::span<const TileTask> tasks, std::size_t bytes) {
+    Ranges all, needed;
+    all.add_all(scene);
+    for (const TileTask &task : tasks) needed.add(scene, task);
+    const std::size_t count = all.sample_count(scene);
+    return count * scene.colours.groups * 16 <= bytes && all.facets.count(scene.facets) * 12 <= bytes &&
+           2 * needed.sample_count(scene) >= count;
+}
+
+Stripe make_stripe(const TileScene &scene, std::span<const TileTask> tasks, bool whole) {
     Stripe stripe;
     Ranges ranges;
-    for (const TileTask &task : tasks) ranges.add(scene, task);
+    if (whole)
+        ranges.add_all(scene);
+    else
+        for (const TileTask &task : tasks) ranges.add(scene, task);
     const std::size_t groups = scene.colours.groups, count = ranges.sample_count(scene);
     const Placed samples{scene.samples, scene.colours, ranges.samples},
         fillers{scene.fillers.samples, scene.fillers.colours, ranges.fillers,
                 ranges.samples.count(scene.samples), ranges.samples.blocks()};
-    stripe.samples.resize(count);
-    stripe.extras.resize(count);
+    stripe.sets.assign(scene.colours.sets.begin(), scene.colours.sets.end());
+    stripe.places.resize(count);
+    stripe.uppers.resize(count);
+    for (std::vector<float> *of : {&stripe.cocs, &stripe.alphas}) of->resize(count);
+    if (!scene.samples.surface_coc.empty() || !scene.fillers.samples.surface_coc.empty())
+        stripe.shown.resize(count);
     stripe.first_filler = fillers.sample;
     stripe.colours.resize(groups * count * 4);
     for (const Placed &what : {samples, fillers}) {

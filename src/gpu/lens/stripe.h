@@ -31,11 +31,14 @@ struct StripeTile {
 };
 
 struct Stripe {
-    std::vector<std::array<std::uint32_t, 4>> samples; // those of the LDI, then fillers
-    std::size_t first_filler;
-    std::vector<float> extras;       // of partial samples the alpha, of opaque ones the CoC of what they show
-    std::vector<float> colours;      // [group][sample][4]
-    std::vector<StripeBlock> blocks; // of samples, of fillers and of facets
+    // Of samples: those of the LDI, then fillers.
+    std::vector<std::array<float, 2>> places;
+    std::vector<std::uint32_t> uppers; // halves of keys
+    std::vector<float> cocs, alphas;
+    std::vector<float> shown;   // CoCs of what they show; empty without mirrors and glass: `cocs`
+    std::vector<float> colours; // [group][sample][4]
+    std::size_t first_filler = 0;
+    std::vector<StripeBlock> blocks;   // of samples, of fillers and of facets
     std::vector<std::uint32_t> facets; // three samples each
     std::vector<std::uint32_t> block_lists, partial_lists;
     std::vector<StripeLens> lens;
@@ -43,11 +46,17 @@ struct Stripe {
         columns; // [tile][lens point][two rows]: begin and end of the pixels that see through it
     std::vector<std::uint32_t> holdout; // of each tile, see place_holdout()
     std::vector<StripeTile> tiles;      // one a task
+    std::vector<std::uint32_t> sets;    // [channel]: its ColourSet
 };
 
 // How many of the tasks, from the first, fit into buffers of that many bytes.
 std::size_t tasks_that_fit(const TileScene &scene, std::span<const TileTask> tasks, std::size_t bytes);
 
-Stripe make_stripe(const TileScene &scene, std::span<const TileTask> tasks);
+// Whether all samples of the scene fit, and the tasks need half of them or more. Where they lie does not depend on the tasks
+// then, so that the next frame of a pull of focus finds them where they were.
+bool fits_whole(const TileScene &scene, std::span<const TileTask> tasks, std::size_t bytes);
+
+// `whole`: of all samples of the scene; else of those that the tasks need.
+Stripe make_stripe(const TileScene &scene, std::span<const TileTask> tasks, bool whole);
 
 } // namespace sparselens::gpu

@@ -42,10 +42,10 @@ const uint darkens = 16;  // and that takes light from the pixels
 const uint holdout = 32;  // a holdout stays sharp
 
 
-// x, y and CoC, and the upper half of the key: 1 for a background, else the bits of the perceptive depth, plus 2.
-layout(binding = 0) readonly buffer Samples { uvec4 samples[]; };
-// Of a sample of partial coverage, its alpha; of an opaque one, the CoC of what it shows, be it an image in a mirror.
-layout(binding = 1) readonly buffer Extras { float extras[]; };
+// Of samples, apart from each other what changes in a pull of focus and what does not.
+layout(binding = 0) readonly buffer Places { vec2 places[]; };
+// The upper half of the key: 1 for a background, else the bits of the perceptive depth, plus 2.
+layout(binding = 1) readonly buffer Uppers { uint uppers[]; };
 layout(binding = 2) readonly buffer Colours { vec4 colours[]; }; // [group][sample]
 layout(binding = 3) readonly buffer Blocks { Block blocks[]; };
 layout(binding = 4) readonly buffer BlockLists { uint block_lists[]; };
@@ -58,6 +58,9 @@ layout(binding = 10) readonly buffer Facets { uint facets[]; };  // three sample
 layout(binding = 11) readonly buffer Sets { uint sets[]; };      // [channel]: its ColourSet
 layout(binding = 12) readonly buffer Columns { uint columns[]; };
 layout(binding = 13) readonly buffer Holdouts { uint holdouts[]; };
+layout(binding = 14) readonly buffer Cocs { float cocs[]; };   // by which they are seen and hide
+layout(binding = 15) readonly buffer Alphas { float alphas[]; };
+layout(binding = 16) readonly buffer Shown { float shown[]; }; // CoCs of what opaque ones show, be it an image in a mirror
 layout(push_constant) uniform Push {
     uint first_tile, tile_count, sample_count, first_filler;
     float depth_at_1; // perceptive depth at z = 1

@@ -24,5 +24,5 @@ float passes(uint j, float depth) {
 float opaque_passes(uint j, uint seen) {
     if ((rules & holdout) == 0 || seen == none) return 1;
     const uint64_t key = front[cell_of(pixel_of(j))];
-    return passes(j, depth_of(key != 0UL ? upper_of(key) : samples[seen].w));
+    return passes(j, depth_of(key != 0UL ? upper_of(key) : uppers[seen]));
 }

@@ -3,11 +3,11 @@
 
 const float one_mirror_px = 1;
 
-bool is_image(uint sample_) { return extras[sample_] != uintBitsToFloat(samples[sample_].z); }
+bool is_image(uint sample_) { return shown[sample_] != cocs[sample_]; }
 
 // Greater for a smaller CoC, then for a smaller index.
 uint64_t image_key(uint sample_) {
-    const float coc = extras[sample_];
+    const float coc = shown[sample_];
     const uint bits = floatBitsToUint(coc == 0 ? 0 : coc);
     return ~key_of((bits >> 31) != 0 ? ~bits : bits | 0x80000000u, sample_);
 }
@@ -21,9 +21,7 @@ void see_images(uint list, uint count) {
             const Block b = blocks[near_blocks[n]];
             for (uint i = b.begin + thread() % 32; i < b.opaque_end; i += 32) {
                 if (!is_image(i)) continue;
-                uvec4 s = samples[i];
-                s.z = floatBitsToUint(extras[i]);
-                const ivec2 at = seen_at(s);
+                const ivec2 at = seen_at(i, shown[i]);
                 if (at.x >= -1) atomicMax(front[cells + cell_of(at)], image_key(i));
             }
         }
@@ -39,7 +37,7 @@ uint image_at(uint cell) {
     for (uint n = 0; n < 5; ++n) {
         const uint64_t key = front[cells + around[n]];
         const uint image = sample_of(~key);
-        if (key != 0UL && abs(depth_of(samples[image].w) - depth_of(samples[sample_].w)) < one_mirror_px) return image;
+        if (key != 0UL && abs(depth_of(uppers[image]) - depth_of(uppers[sample_])) < one_mirror_px) return image;
     }
     return sample_;
 }

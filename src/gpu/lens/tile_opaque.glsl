@@ -3,10 +3,11 @@
 const float parted_px = 1 + 1.0 / 16;
 
 // The pixel of the quarter, or next to it, that the lens point sees a sample in; outside: x < -1.
-ivec2 seen_at(uvec4 s) {
+ivec2 seen_at(uint sample_, float coc) {
+    const vec2 place = places[sample_];
     const float limit = tile_stride - 1;
-    precise float cx = (uintBitsToFloat(s.x) - (first.x - 1)) + (uintBitsToFloat(s.z) * lens.x + (lens.pixel_x + 1));
-    precise float cy = (uintBitsToFloat(s.y) - (first.y - 1)) + (uintBitsToFloat(s.z) * lens.y + (lens.pixel_y + 1));
+    precise float cx = (place.x - (first.x - 1)) + (coc * lens.x + (lens.pixel_x + 1));
+    precise float cy = (place.y - (first.y - 1)) + (coc * lens.y + (lens.pixel_y + 1));
     const float column = cx > 0 ? (cx < limit ? cx : limit) : 0, row = cy > 0 ? (cy < limit ? cy : limit) : 0;
     const ivec2 at = ivec2(int(column), int(row)) - tile_border - corner;
     const bool inside = all(greaterThanEqual(at, ivec2(-1))) && all(lessThanEqual(at, ivec2(size)));
@@ -40,9 +41,8 @@ void see_opaque(uint list, uint count, uint offset) {
         for (uint n = thread() / 32; n < near_count; n += threads / 32) {
             const Block b = blocks[near_blocks[n]];
             for (uint i = b.begin + thread() % 32; i < b.opaque_end; i += 32) {
-                const uvec4 s = samples[i];
-                const ivec2 at = seen_at(s);
-                if (at.x >= -1) atomicMax(front[offset + cell_of(at)], key_of(s.w, i));
+                const ivec2 at = seen_at(i, cocs[i]);
+                if (at.x >= -1) atomicMax(front[offset + cell_of(at)], key_of(uppers[i], i));
             }
         }
     }
@@ -59,9 +59,10 @@ Triangle triangle_of(uint facet) {
     Triangle t;
     for (uint k = 0; k < 3; ++k) {
         t.corner[k] = facets[3 * facet + k];
-        const uvec4 s = samples[t.corner[k]];
-        precise float x = (uintBitsToFloat(s.x) - (first.x - 1)) + (uintBitsToFloat(s.z) * lens.x + (lens.pixel_x + 0.5));
-        precise float y = (uintBitsToFloat(s.y) - (first.y - 1)) + (uintBitsToFloat(s.z) * lens.y + (lens.pixel_y + 0.5));
+        const vec2 place = places[t.corner[k]];
+        const float coc = cocs[t.corner[k]];
+        precise float x = (place.x - (first.x - 1)) + (coc * lens.x + (lens.pixel_x + 0.5));
+        precise float y = (place.y - (first.y - 1)) + (coc * lens.y + (lens.pixel_y + 0.5));
         t.x[k] = x;
         t.y[k] = y;
     }
@@ -95,7 +96,7 @@ void draw(Triangle t) {
                         c = turned * area(t, 0, 1, vec2(column, row));
             if (a < 0 || b < 0 || c < 0) continue;
             const uint nearest = t.corner[max(a, b) >= c ? (a >= b ? 0 : 1) : 2];
-            atomicMax(front[cell_of(ivec2(column, row) - tile_border - corner)], key_of(samples[nearest].w, nearest));
+            atomicMax(front[cell_of(ivec2(column, row) - tile_border - corner)], key_of(uppers[nearest], nearest));
         }
 }
 

@@ -9,11 +9,11 @@ struct Over {
 
 // `j`: the thread's pixel.
 void add_over(inout Over over, uint j, uint sample_, uint group) {
-    const bool in_front = (rules & two_sided) != 0 && uintBitsToFloat(samples[sample_].z) < 0;
+    const bool in_front = (rules & two_sided) != 0 && cocs[sample_] < 0;
     precise vec4 colour = in_front ? over.colour_in_front : over.colour;
-    precise const float share = over.transmittance * passes(j, depth_of(samples[sample_].w));
+    precise const float share = over.transmittance * passes(j, depth_of(uppers[sample_]));
     colour = colour + share * colours[group * sample_count + sample_];
-    precise float passed = over.transmittance * (1 - extras[sample_]);
+    precise float passed = over.transmittance * (1 - alphas[sample_]);
     passed = min(passed, covered_at_all);
     precise float hidden = over.hidden_in_front;
     if (in_front) hidden = hidden + (over.transmittance - passed);
@@ -28,10 +28,9 @@ int[2] count_chunk(Tile tile, uint begin) {
         const uint n = begin + thread() + threads * h;
         if (n >= tile.partial_count) continue;
         const uint i = partial_lists[tile.partial + n];
-        const uvec4 s = samples[i];
-        const ivec2 pixel = seen_at(s);
+        const ivec2 pixel = seen_at(i, cocs[i]);
         if (pixel.x < 0 || pixel.y < 0 || pixel.x >= size || pixel.y >= size) continue;
-        if (key_of(s.w, i) < front[cell_of(pixel)]) continue;
+        if (key_of(uppers[i], i) < front[cell_of(pixel)]) continue;
         at[h] = pixel.y * size + pixel.x;
         atomicAdd(counts[at[h]], 1);
         listed_count = 1; // by all the same

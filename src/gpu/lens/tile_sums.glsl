@@ -55,7 +55,7 @@ bool seen_through(Tile tile, uint k, ivec2 at) {
 // Backgrounds lie behind, wherever they are seen.
 bool in_front_of_focus(uint sample_) {
     if ((rules & two_sided) == 0 || sample_ == none) return false;
-    return (sample_ >= first_filler || samples[sample_].w >= 2) && extras[sample_] < 0;
+    return (sample_ >= first_filler || uppers[sample_] >= 2) && shown[sample_] < 0;
 }
 
 void add_weighted(inout Sum sum, vec4 weight, vec4 light, float covered, vec4 colour) {

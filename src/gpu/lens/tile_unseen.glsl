@@ -7,10 +7,9 @@ uint64_t torn_at(uint cell) {
     for (uint step = 1; step <= side; step += side - 1) {
         const uint64_t one = front[cell - step], other = front[cell + step];
         if (upper_of(one) < 2 || upper_of(other) < 2) continue;
-        const uvec4 a = samples[sample_of(one)], b = samples[sample_of(other)];
-        if (abs(uintBitsToFloat(a.x) - uintBitsToFloat(b.x)) >= side_by_side) continue;
-        if (abs(uintBitsToFloat(a.y) - uintBitsToFloat(b.y)) >= side_by_side) continue;
-        const float depth_a = depth_of(a.w), depth_b = depth_of(b.w);
+        const vec2 apart = abs(places[sample_of(one)] - places[sample_of(other)]);
+        if (any(greaterThanEqual(apart, vec2(side_by_side)))) continue;
+        const float depth_a = depth_of(upper_of(one)), depth_b = depth_of(upper_of(other));
         if (abs(depth_a - depth_b) >= one_surface_px) continue;
         const uint64_t farther = depth_a <= depth_b ? one : other;
         if (farthest == 0UL || depth_of(upper_of(farther)) < depth_of(upper_of(farthest))) farthest = farther;

@@ -97,6 +97,7 @@ void SelectiveTilesOnDevice::gather(const SplatScene &scene, std::span<const Spl
             continue;
         }
         const Placed placed(device_, scene, stripe);
+        for (const Buffer &in : placed.in) report.uploaded += in.bytes();
         run(device_, *program_, scene, stripe, placed);
         std::vector<float> values(stripe.groups * count * splat_tile_pixels * 4),
             alphas(count * splat_tile_pixels);
