@@ -2,8 +2,10 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "lens/perceptive_depth.h"
 #include "warp/deepen.h"
 #include "warp/images/nearness.h"
+#include "warp/lamps/lamp_depths.h"
 #include "warp/silhouettes.h"
 
 #include <fmt/format.h>
@@ -51,13 +53,20 @@ ReprojectedViews::ReprojectedViews(std::span<const View> views, double focal_px,
         ordered.push_back(&view);
     }
     std::sort(ordered.begin() + 1, ordered.end(), canonically_before);
+    std::vector<ViewMapping> mappings;
+    for (const View *view : ordered)
+        mappings.emplace_back(view->position, focal_px, views[0].image.windows, view->framing,
+                              views[0].framing.principal_point);
+    std::vector<Ldi> samples(ordered.size());
+    parallel_for(ordered.size(),
+                 [&](std::size_t v) { samples[v] = deepen(*ordered[v], views[0].image.channels); });
+    const bool separate = jump > 0 && scale > 0;
+    if (separate && samples.size() > 1)
+        settle_lamp_depths(samples, mappings, inverse_depth_step(scale, jump));
     sources_.resize(ordered.size());
     parallel_for(ordered.size(), [&](std::size_t v) {
-        Ldi samples = deepen(*ordered[v], views[0].image.channels);
-        if (jump > 0 && scale > 0) samples = separate_silhouettes(samples, scale, jump);
-        const ViewMapping mapping(ordered[v]->position, focal_px, views[0].image.windows, ordered[v]->framing,
-                                  views[0].framing.principal_point);
-        sources_[v] = std::make_unique<Source>(std::move(samples), mapping);
+        if (separate) samples[v] = separate_silhouettes(samples[v], scale, jump);
+        sources_[v] = std::make_unique<Source>(std::move(samples[v]), mappings[v]);
     });
 }
 

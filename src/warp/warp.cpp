@@ -7,6 +7,7 @@
 #include "view/resolve_lens.h"
 #include "warp/images/image_depths.h"
 #include "warp/images/show_images.h"
+#include "warp/lamps/lamp_light.h"
 #include "warp/photo_consistency.h"
 #include "warp/visibility_vote.h"
 
@@ -30,7 +31,7 @@ private:
     void grow_window();
     using Marks = std::vector<std::uint8_t>; // one a block of image_depths.h
     Ldi warp_band(int first_row, int last_row, Marks &differ) const;
-    void find_images(const Marks &differ, Ldi &ldi) const;
+    std::vector<PlacedView> placed() const;
     void emit(const Surface &surface, bool agree, Ldi &out) const;
     void emit_nearest(std::span<const ViewSample> samples, Ldi &out) const;
     void emit_mean(std::span<const ViewSample> samples, Ldi &out) const;
@@ -152,13 +153,11 @@ Ldi Warper::warp_band(int first_row, int last_row, Marks &differ) const {
     return out;
 }
 
-// Needs two views, and the distance between them.
-void Warper::find_images(const Marks &differ, Ldi &ldi) const {
-    if (views_.size() < 2 || !(scale_ > 0)) return;
-    std::vector<PlacedView> placed;
+std::vector<PlacedView> Warper::placed() const {
+    std::vector<PlacedView> views;
     for (std::size_t v = 0; v < views_.size(); ++v)
-        placed.push_back({&views_.samples(v), &views_.reprojection(v).mapping()});
-    show_images(placed, scale_, differ, ldi);
+        views.push_back({&views_.samples(v), &views_.reprojection(v).mapping()});
+    return views;
 }
 
 Ldi Warper::run(Progress &progress) const {
@@ -172,7 +171,9 @@ Ldi Warper::run(Progress &progress) const {
         progress.advance();
     });
     Ldi ldi = concatenate(layout_, pieces);
-    if (options_.find_images) find_images(differ, ldi);
+    if (views_.size() < 2 || !(scale_ > 0)) return ldi;
+    if (options_.find_images) show_images(placed(), scale_, differ, ldi);
+    if (averages()) keep_light_of_lamps(placed(), scale_, options_.surface_px, ldi);
     return ldi;
 }
 

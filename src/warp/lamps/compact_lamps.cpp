@@ -1,0 +1,108 @@
+#include "warp/lamps/compact_lamps.h"
+
+#include "base/parallel.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+
+namespace sparselens {
+
+namespace {
+
+constexpr int block = 16;                     // pixels, wide and high, that tell what surrounds a lamp
+constexpr float stands_out = 8;               // times the surroundings: the brightest pixel of a lamp
+constexpr float belongs = 4;                  // times the surroundings: all its pixels,
+constexpr float belongs_to_brightest = 0.02f; // and at least this part of the brightest
+constexpr int largest = 12;                   // pixels, wide and high
+
+struct Seed {
+    std::size_t pixel;
+    float brightness, surroundings;
+};
+
+// Most blocks are told to have none without a median.
+std::vector<Seed> seeds_of(const Grid &grid, std::span<const float> brightness, const Imath::Box2i &box) {
+    std::vector<float> values;
+    values.reserve(std::size_t(block * block));
+    for (int y = box.min.y; y <= box.max.y; ++y) {
+        const auto row = brightness.subspan(grid.index(box.min.x, y), std::size_t(box.size().x) + 1);
+        values.insert(values.end(), row.begin(), row.end());
+    }
+    const auto [least, most] = std::ranges::minmax(values);
+    if (!(most > stands_out * least)) return {};
+    const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    std::vector<Seed> seeds;
+    for (int y = box.min.y; y <= box.max.y; ++y)
+        for (int x = box.min.x; x <= box.max.x; ++x) {
+            const std::size_t i = grid.index(x, y);
+            if (brightness[i] > stands_out * *middle) seeds.push_back({i, brightness[i], *middle});
+        }
+    return seeds;
+}
+
+class Grower {
+public:
+    Grower(const Grid &grid, std::span<const float> brightness)
+        : grid_(grid), brightness_(brightness), group_(grid.size()) {}
+
+    // The lamp around a seed; nothing if the seed is in a group already, or if its group is large or beside another one.
+    std::optional<CompactLamp> grow(const Seed &seed) {
+        if (group_[seed.pixel] != 0) return {};
+        CompactLamp lamp{{},
+                         std::max(belongs * seed.surroundings, belongs_to_brightest * seed.brightness),
+                         seed.surroundings};
+        ++number_;
+        box_ = {};
+        take(seed.pixel, lamp);
+        for (std::size_t next = 0; next < lamp.pixels.size(); ++next)
+            if (!take_around(lamp.pixels[next], lamp)) return {};
+        return lamp;
+    }
+
+private:
+    void take(std::size_t pixel, CompactLamp &lamp) {
+        group_[pixel] = number_;
+        lamp.pixels.push_back(grid_.pixel(pixel));
+        box_.extendBy(lamp.pixels.back());
+    }
+
+    bool take_around(Imath::V2i at, CompactLamp &lamp) {
+        for (int y = at.y - lamp_gap; y <= at.y + lamp_gap; ++y)
+            for (int x = at.x - lamp_gap; x <= at.x + lamp_gap; ++x) {
+                if (!grid_.contains(x, y)) continue;
+                const std::size_t i = grid_.index(x, y);
+                if (!(brightness_[i] > lamp.limit) || group_[i] == number_) continue;
+                if (group_[i] != 0) return false;
+                take(i, lamp);
+            }
+        return box_.size().x < largest && box_.size().y < largest;
+    }
+
+    const Grid &grid_;
+    std::span<const float> brightness_;
+    std::vector<std::uint32_t> group_; // of each pixel, from 1; 0: none
+    std::uint32_t number_ = 0;
+    Imath::Box2i box_;
+};
+
+} // namespace
+
+std::vector<CompactLamp> find_compact_lamps(const Grid &grid, std::span<const float> brightness) {
+    const Tiles blocks(grid.box(), block);
+    std::vector<std::vector<Seed>> found(blocks.count());
+    parallel_for(blocks.count(),
+                 [&](std::size_t i) { found[i] = seeds_of(grid, brightness, blocks.box(i)); });
+    std::vector<Seed> seeds;
+    for (const auto &some : found) seeds.insert(seeds.end(), some.begin(), some.end());
+    if (seeds.empty()) return {};
+    std::ranges::stable_sort(seeds, std::ranges::greater(), &Seed::brightness);
+    Grower grower(grid, brightness);
+    std::vector<CompactLamp> lamps;
+    for (const Seed &seed : seeds)
+        if (auto lamp = grower.grow(seed)) lamps.push_back(std::move(*lamp));
+    return lamps;
+}
+
+} // namespace sparselens

@@ -1,0 +1,167 @@
+#include "warp/lamps/lamp_depths.h"
+
+#include "base/parallel.h"
+#include "warp/lamps/compact_lamps.h"
+#include "warp/lamps/pixel_light.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+namespace sparselens {
+
+namespace {
+
+constexpr int small = 3; // pixels, wide and high: no pixel need show the lamp alone
+constexpr double most_of_edge =
+    0.3; // of the brightest pixel's light: with less, a pixel of a larger lamp is an edge
+constexpr double same_place = 0.75; // pixels between where two views show one lamp
+constexpr double same_light = 0.33; // relative, of one lamp in two views
+
+// A lamp that stands before all that is around it.
+struct KnownLamp {
+    Imath::V2d place{0, 0}; // its middle
+    double light = 0;
+    double inverse_z = 0;
+};
+
+// A lamp of a view.
+struct SeenLamp {
+    KnownLamp lamp;                 // inverse_z is 0 if no pixel stands before what is around
+    double around = 0;              // 1 / z of the nearest that is around
+    std::vector<Imath::V2i> pixels; // whose light is to be at the lamp's depth
+    std::vector<Imath::V2i> at_its_depth;
+};
+
+bool is_small(std::span<const Imath::V2i> pixels) {
+    Imath::Box2i box;
+    for (const Imath::V2i &p : pixels) box.extendBy(p);
+    return box.size().x < small && box.size().y < small;
+}
+
+double inverse_z_at(const Ldi &view, const Imath::V2i &p) {
+    const SampleRange shown = view.pixel(view.windows.index(p.x, p.y));
+    return shown.empty() ? 0 : 1 / double(view.z[shown.front()]);
+}
+
+// 1 / z of the nearest two or three pixels from a lamp; nothing at the border of the view.
+std::optional<double> nearest_around(const Ldi &view, std::span<const Imath::V2i> pixels) {
+    const std::vector<Imath::V2i> edge = grown(pixels, 1);
+    double nearest = 0;
+    for (const Imath::V2i &p : grown(pixels, lamp_gap)) {
+        if (!view.windows.data.intersects(p)) return {};
+        if (!is_among(edge, p)) nearest = std::max(nearest, inverse_z_at(view, p));
+    }
+    return nearest;
+}
+
+class LampsOfView {
+public:
+    LampsOfView(Ldi &view, double tolerance);
+    std::span<const SeenLamp> lamps() const { return lamps_; }
+    void settle_by_neighbours();
+    // By lamps whose places are in the centre view.
+    void settle_by_others(const ViewMapping &mapping, std::span<const KnownLamp> others);
+
+private:
+    SeenLamp look_at(const CompactLamp &found, double around) const;
+    double light_at(const Imath::V2i &p) const { return light_.at(view_.windows.index(p.x, p.y)); }
+    void move(const Imath::V2i &pixel, double inverse_z);
+
+    Ldi &view_;
+    PixelLight light_;
+    double tolerance_;
+    std::vector<SeenLamp> lamps_;
+};
+
+LampsOfView::LampsOfView(Ldi &view, double tolerance) : view_(view), light_(view), tolerance_(tolerance) {
+    if (!light_.is_known()) return;
+    for (const CompactLamp &found : find_compact_lamps(view.windows.grid(), light_.picture()))
+        if (const auto around = nearest_around(view, found.pixels)) lamps_.push_back(look_at(found, *around));
+}
+
+SeenLamp LampsOfView::look_at(const CompactLamp &found, double around) const {
+    SeenLamp seen{{}, around, {}, {}};
+    KnownLamp &lamp = seen.lamp;
+    const double enough = is_small(found.pixels) ? 0 : most_of_edge * light_at(found.pixels[0]);
+    double nearest = 0;
+    for (const Imath::V2i &p : found.pixels) {
+        const double light = light_at(p);
+        if (light >= enough) seen.pixels.push_back(p);
+        lamp.light += light;
+        lamp.place += light * (Imath::V2d(p) + Imath::V2d(0.5));
+        nearest = std::max(nearest, inverse_z_at(view_, p));
+    }
+    lamp.place /= lamp.light;
+    if (!(nearest > around + tolerance_)) return seen;
+    double sum = 0, total = 0;
+    for (const Imath::V2i &p : found.pixels) {
+        const double inverse_z = inverse_z_at(view_, p), light = light_at(p);
+        if (inverse_z < nearest - tolerance_) continue;
+        seen.at_its_depth.push_back(p);
+        sum += light * inverse_z;
+        total += light;
+    }
+    lamp.inverse_z = sum / total;
+    return seen;
+}
+
+void LampsOfView::move(const Imath::V2i &pixel, double inverse_z) {
+    const SampleRange shown = view_.pixel(view_.windows.index(pixel.x, pixel.y));
+    if (!shown.empty()) view_.z[shown.front()] = float(1 / inverse_z);
+}
+
+void LampsOfView::settle_by_neighbours() {
+    for (const SeenLamp &seen : lamps_) {
+        if (seen.lamp.inverse_z == 0) continue;
+        const std::vector<Imath::V2i> beside = grown(seen.at_its_depth, 1);
+        for (const Imath::V2i &p : seen.pixels) {
+            const bool of_what_is_around = inverse_z_at(view_, p) < seen.around + tolerance_;
+            if (of_what_is_around && is_among(beside, p)) move(p, seen.lamp.inverse_z);
+        }
+    }
+}
+
+void LampsOfView::settle_by_others(const ViewMapping &mapping, std::span<const KnownLamp> others) {
+    std::vector<KnownLamp> expected(others.begin(), others.end());
+    for (KnownLamp &lamp : expected) lamp.place = mapping.in_view(lamp.place, lamp.inverse_z);
+    std::erase_if(expected, [](const KnownLamp &lamp) { return !std::isfinite(lamp.place.y); });
+    const auto row = [](const KnownLamp &lamp) { return lamp.place.y; };
+    std::ranges::stable_sort(expected, {}, row);
+    for (const SeenLamp &seen : lamps_) {
+        const KnownLamp &own = seen.lamp;
+        if (own.inverse_z != 0 || !is_small(seen.pixels)) continue;
+        double nearest = same_place, inverse_z = 0;
+        auto other = std::ranges::lower_bound(expected, own.place.y - same_place, {}, row);
+        for (; other != expected.end() && other->place.y <= own.place.y + same_place; ++other) {
+            const double off = (other->place - own.place).length();
+            if (!(off < nearest) || std::abs(other->light - own.light) > same_light * own.light) continue;
+            nearest = off;
+            inverse_z = other->inverse_z;
+        }
+        if (!(inverse_z > seen.around + tolerance_)) continue;
+        for (const Imath::V2i &p : seen.pixels) move(p, inverse_z);
+    }
+}
+
+} // namespace
+
+void settle_lamp_depths(std::span<Ldi> views, std::span<const ViewMapping> mappings, double tolerance) {
+    std::vector<std::optional<LampsOfView>> found(views.size());
+    parallel_for(views.size(), [&](std::size_t v) { found[v].emplace(views[v], tolerance); });
+    std::vector<KnownLamp> known; // in the centre view
+    for (std::size_t v = 0; v < views.size(); ++v)
+        for (const auto &[lamp, around, pixels, at_its_depth] : found[v]->lamps()) {
+            if (lamp.inverse_z == 0) continue;
+            known.push_back(lamp);
+            known.back().place =
+                mappings[v].at_infinity(lamp.place) + mappings[v].parallax(lamp.place) * lamp.inverse_z;
+        }
+    parallel_for(views.size(), [&](std::size_t v) {
+        found[v]->settle_by_neighbours();
+        found[v]->settle_by_others(mappings[v], known);
+    });
+}
+
+} // namespace sparselens

@@ -1,0 +1,21 @@
+// The depth of small lamps' pixels, where the renderer wrote that of what is behind them.
+//
+// A renderer takes the depth of a pixel on a lamp's edge from one of its samples, which may be of the lamp or of the wall
+// behind. Either way most of its light is the lamp's, and would be seen at the depth of the wall. So pixels of a small lamp
+// that stands before all that is around it take the depth of those beside them that have the lamp's. Where a view has none
+// of these, other views tell, which show as much light at that place. Pixels that show little of a lamp stay as they are, if a
+// pixel beside them shows nothing else than the lamp: silhouettes.h can take those apart.
+#pragma once
+
+#include "deep/ldi.h"
+#include "view/view_mapping.h"
+
+#include <span>
+
+namespace sparselens {
+
+// Views have at most one sample a pixel; mappings[v] tells where the centre view shows what views[v] shows. Depths whose
+// inverses differ by less than `tolerance`, > 0, are one surface. The result does not depend on the order of the views.
+void settle_lamp_depths(std::span<Ldi> views, std::span<const ViewMapping> mappings, double tolerance);
+
+} // namespace sparselens

@@ -1,0 +1,174 @@
+#include "warp/lamps/lamp_light.h"
+
+#include "base/parallel.h"
+#include "deep/channel_alpha.h"
+#include "lens/perceptive_depth.h"
+#include "warp/lamps/compact_lamps.h"
+#include "warp/lamps/pixel_light.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+
+namespace sparselens {
+
+namespace {
+
+constexpr int margin = 2; // pixels around a lamp that may hold a part of its light
+constexpr double most_of_surroundings =
+    0.25;                             // of the light of the lamp and its margin: what is not the lamp's
+constexpr double most_noise = 0.33;   // of the lamp's light: views that differ by more show different things,
+constexpr double noise_of_pixels = 1; // and so do those that differ by more than this divided by its pixels
+constexpr double largest_change = 0.5;    // of the lamp's light
+constexpr double farthest_move = 1 << 20; // pixels, between two views
+
+// The samples of a lamp, and what their light is to be multiplied by.
+struct Change {
+    std::vector<std::uint64_t> samples;
+    double factor = 1;
+};
+
+// Of an even number, the upper one of the two in the middle.
+double median(std::vector<double> values) {
+    const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+class Calibration {
+public:
+    Calibration(std::span<const PlacedView> views, double tolerance, const Ldi &ldi)
+        : views_(views), tolerance_(tolerance), ldi_(ldi), light_(ldi) {
+        for (const PlacedView &view : views) lights_.emplace_back(*view.samples);
+    }
+    std::optional<Change> change_of(const CompactLamp &lamp) const;
+
+private:
+    using Pixels = std::vector<Imath::V2i>;
+
+    double inverse_depth(const CompactLamp &lamp) const;
+    bool has_empty(const Pixels &pixels) const;
+    std::optional<Pixels> moved(std::size_t view, const Pixels &pixels, const Imath::V2i &lamp,
+                                double inverse_z) const;
+    std::optional<double> light_in(std::size_t view, const Pixels &pixels, double inverse_z,
+                                   bool may_be_empty) const;
+    std::optional<double> light_of_views(const CompactLamp &lamp, const Pixels &pixels) const;
+
+    std::span<const PlacedView> views_;
+    double tolerance_; // of 1 / z, within one surface
+    const Ldi &ldi_;
+    PixelLight light_;               // of the LDI
+    std::vector<PixelLight> lights_; // of the views
+};
+
+// Of the brightest sample of its brightest pixel.
+double Calibration::inverse_depth(const CompactLamp &lamp) const {
+    const Ldi &centre = *views_[0].samples;
+    double most = -1, inverse_z = 0;
+    const auto look = [&](std::uint64_t i, double light) {
+        if (light <= most) return;
+        most = light;
+        inverse_z = 1 / double(centre.z[i]);
+    };
+    lights_[0].visit(centre.windows.index(lamp.pixels[0].x, lamp.pixels[0].y), look);
+    return inverse_z;
+}
+
+bool Calibration::has_empty(const Pixels &pixels) const {
+    const Ldi &centre = *views_[0].samples;
+    return std::ranges::any_of(pixels, [&](const Imath::V2i &p) {
+        return centre.windows.data.intersects(p) && centre.pixel(centre.windows.index(p.x, p.y)).empty();
+    });
+}
+
+// Where the view shows what the centre view shows in these pixels around a lamp, to the nearest pixel.
+std::optional<Calibration::Pixels> Calibration::moved(std::size_t view, const Pixels &pixels,
+                                                      const Imath::V2i &lamp, double inverse_z) const {
+    if (view == 0) return pixels;
+    const Imath::V2d from = Imath::V2d(lamp) + Imath::V2d(0.5);
+    const Imath::V2d by = views_[view].mapping->in_view(from, inverse_z) - from;
+    if (!(by.length() < farthest_move)) return {};
+    Pixels result = pixels;
+    for (Imath::V2i &p : result) p += Imath::V2i(int(std::lround(by.x)), int(std::lround(by.y)));
+    return result;
+}
+
+// What a view shows in these pixels, if nothing nearer lies there. A pixel that shows nothing may just not have been
+// rendered.
+std::optional<double> Calibration::light_in(std::size_t view, const Pixels &pixels, double inverse_z,
+                                            bool may_be_empty) const {
+    const Ldi &samples = *views_[view].samples;
+    double sum = 0;
+    for (const Imath::V2i &p : pixels) {
+        if (!samples.windows.data.intersects(p)) return {};
+        const std::size_t pixel = samples.windows.index(p.x, p.y);
+        const SampleRange shown = samples.pixel(pixel);
+        if (shown.empty() && !may_be_empty) return {};
+        if (!shown.empty() && 1 / double(samples.z[shown.front()]) > inverse_z + tolerance_) return {};
+        sum += lights_[view].at(pixel);
+    }
+    return sum;
+}
+
+// The mean over the views that see all of it and agree with their median; the centre view and most views have to.
+std::optional<double> Calibration::light_of_views(const CompactLamp &lamp, const Pixels &pixels) const {
+    const double inverse_z = inverse_depth(lamp);
+    const bool may_be_empty = has_empty(pixels);
+    std::vector<double> lights;
+    for (std::size_t v = 0; v < views_.size(); ++v) {
+        const auto there = moved(v, pixels, lamp.pixels[0], inverse_z);
+        const auto light = there ? light_in(v, *there, inverse_z, may_be_empty) : std::nullopt;
+        if (light) lights.push_back(*light);
+        if (v == 0 && !light) return {};
+    }
+    const double middle = median(lights);
+    const double tolerance = middle * std::min(most_noise, noise_of_pixels / double(lamp.pixels.size()));
+    const auto differs = [&](double light) { return std::abs(light - middle) > tolerance; };
+    if (differs(lights[0])) return {};
+    std::erase_if(lights, differs);
+    if (2 * lights.size() <= views_.size()) return {};
+    return std::accumulate(lights.begin(), lights.end(), 0.0) / double(lights.size());
+}
+
+std::optional<Change> Calibration::change_of(const CompactLamp &lamp) const {
+    const Pixels pixels = grown(lamp.pixels, margin), own = grown(lamp.pixels, 1);
+    const auto wanted = light_of_views(lamp, pixels);
+    if (!wanted) return {};
+    if (double(lamp.surroundings) * double(pixels.size()) > most_of_surroundings * *wanted) return {};
+    double all = 0, of_lamp = 0;
+    Change change;
+    for (const Imath::V2i &p : pixels)
+        light_.visit(ldi_.windows.index(p.x, p.y), [&](std::uint64_t i, double light) {
+            all += light;
+            if (!(light > double(lamp.limit)) || !is_among(own, p)) return;
+            of_lamp += light;
+            change.samples.push_back(i);
+        });
+    if (!(std::abs(*wanted - all) <= largest_change * of_lamp)) return {};
+    if (of_lamp > 0) change.factor = 1 + (*wanted - all) / of_lamp;
+    return change;
+}
+
+} // namespace
+
+void keep_light_of_lamps(std::span<const PlacedView> views, double scale, double surface_px, Ldi &ldi) {
+    if (views.size() < 2 || !(scale > 0)) return;
+    const Ldi &centre = *views[0].samples;
+    const PixelLight light(centre);
+    if (!light.is_known()) return;
+    const std::vector<CompactLamp> lamps = find_compact_lamps(centre.windows.grid(), light.picture());
+    const Calibration calibration(views, inverse_depth_step(scale, surface_px), ldi);
+    std::vector<std::optional<Change>> changes(lamps.size());
+    parallel_for(lamps.size(), [&](std::size_t i) { changes[i] = calibration.change_of(lamps[i]); });
+    for (std::size_t k = 0; k < ldi.channels.size(); ++k) {
+        if (!is_light(ldi.channels[k]) || coverage_of(ldi.channels, k) == k) continue;
+        for (const auto &change : changes) {
+            if (!change) continue;
+            for (const std::uint64_t i : change->samples)
+                ldi.values[k][i] = float(double(ldi.values[k][i]) * change->factor);
+        }
+    }
+}
+
+} // namespace sparselens

@@ -1,0 +1,94 @@
+#include "support/views.h"
+#include "warp/deepen.h"
+#include "warp/lamps/lamp_depths.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <vector>
+
+namespace sparselens {
+namespace {
+
+constexpr float wall = 10, lamp = 2, post = 1.5f; // depths
+constexpr double tolerance = 0.05;                // of 1 / z
+constexpr double focal_px = 20;
+
+// A wall of brightness 1; `pixel` says what stands before it, at z 0 nothing.
+Ldi picture(const std::function<ViewPixel(int x, int y)> &pixel) {
+    const View view = make_view(windows_of_size(32, 32), {0, 0}, [&](int x, int y) {
+        const ViewPixel p = pixel(x, y);
+        return p.z > 0 ? p : ViewPixel{.z = wall, .r = 1, .g = 1, .b = 1};
+    });
+    return deepen(view, view.image.channels);
+}
+
+ViewPixel shining(float z, float light) { return {.z = z, .r = light, .g = light, .b = light}; }
+constexpr ViewPixel none{.z = 0};
+
+// The pixels that have another depth then.
+using Moved = std::vector<std::pair<Imath::V2i, float>>;
+Moved settled(std::vector<Ldi> views, const std::vector<Imath::V2d> &positions = {{0, 0}}) {
+    std::vector<ViewMapping> mappings;
+    for (const Imath::V2d &position : positions) mappings.emplace_back(position, focal_px, views[0].windows);
+    const std::vector<Ldi> before = views;
+    settle_lamp_depths(views, mappings, tolerance);
+    Moved moved;
+    for (std::size_t v = 0; v < views.size(); ++v)
+        for (std::size_t i = 0; i < views[v].samples(); ++i)
+            if (views[v].z[i] != before[v].z[i]) moved.emplace_back(views[v].windows.pixel(i), views[v].z[i]);
+    return moved;
+}
+
+bool in_square(int x, int y) { return (x == 10 || x == 11) && (y == 10 || y == 11); }
+
+TEST(LampDepths, PixelsOfASmallLampTakeTheDepthOfThoseBeside) {
+    const auto between = [](int x, int y) {
+        return in_square(x, y) ? shining(x == 11 && y == 11 ? lamp : wall, 500) : none;
+    };
+    EXPECT_EQ(settled({picture(between)}), (Moved{{{10, 10}, lamp}, {{11, 10}, lamp}, {{10, 11}, lamp}}));
+}
+
+// A lamp of five pixels; its corners show a tenth of it and 0.4 of it.
+TEST(LampDepths, EdgesOfLargerLampsStay) {
+    const auto larger = [](int x, int y) {
+        if (x < 10 || x > 14 || y < 10 || y > 14) return none;
+        if (x == 10 && y == 10) return shining(wall, 50);
+        return x == 14 && y == 14 ? shining(wall, 200) : shining(lamp, 500);
+    };
+    EXPECT_EQ(settled({picture(larger)}), (Moved{{{14, 14}, lamp}}));
+}
+
+TEST(LampDepths, StayWhereSomethingElseMayBeSeen) {
+    const auto on_the_wall = [](int x, int y) { return in_square(x, y) ? shining(wall, 500) : none; };
+    const auto beside_a_post = [](int x, int y) {
+        if (in_square(x, y)) return shining(x == 11 ? post : wall, 500);
+        return x == 12 ? shining(post, 1) : none;
+    };
+    const auto on_a_wire = [](int x, int y) {
+        if (in_square(x, y)) return shining(x == 11 ? lamp : wall, 500);
+        return y == 10 ? shining(lamp, 1) : none;
+    };
+    const auto lamps_in_line = [](int x, int y) {
+        return in_square(x, y) ? shining(x == 11 ? lamp : 5, 500) : none; // both before the wall
+    };
+    for (const auto &scene : std::vector<std::function<ViewPixel(int, int)>>{on_the_wall, beside_a_post,
+                                                                             on_a_wire, lamps_in_line})
+        EXPECT_EQ(settled({picture(scene)}), Moved{});
+}
+
+// The second view stands to the left: what lies at `lamp` is one pixel farther right there.
+TEST(LampDepths, OtherViewsTell) {
+    const auto before = [](int x, int y) { return in_square(x, y) ? shining(lamp, 500) : none; };
+    const auto flat = [](double light) {
+        return [light](int x, int y) { return in_square(x - 1, y) ? shining(wall, float(light)) : none; };
+    };
+    const std::vector<Imath::V2d> stand{{0, 0}, {-double(lamp) / focal_px, 0}};
+    EXPECT_EQ(settled({picture(before), picture(flat(450))}, stand),
+              (Moved{{{11, 10}, lamp}, {{12, 10}, lamp}, {{11, 11}, lamp}, {{12, 11}, lamp}}));
+    EXPECT_EQ(settled({picture(before), picture(flat(200))}, stand), Moved{});            // another light
+    EXPECT_EQ(settled({picture(before), picture(flat(450))}, {{0, 0}, {0, 0}}), Moved{}); // another place
+}
+
+} // namespace
+} // namespace sparselens
