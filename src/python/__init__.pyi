@@ -280,6 +280,7 @@ def gather(
     focus_pixel: Optional[tuple[int, int]] = None,
     holdout: Optional[Ldi] = None,
     holdout_defocused: bool = False,
+    device: Optional[str] = "cpu",
     overscan: Literal["grow", "keep", "crop"] = "grow",
     proxy: int = 1,
     region: Optional[_Box] = None,

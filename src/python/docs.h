@@ -211,7 +211,7 @@ Lens values replace those of the LDI:
 Raises UsageError where the lens is unknown, and Error where several LDIs are not of one camera.)";
 
 inline constexpr const char *gather =
-    R"(gather(ldi, *, channels=None, method='lens', quality='normal', lens_samples=0, layer_tolerance=0.25, layers=8, focus_pixel=None, holdout=None, holdout_defocused=False, overscan='grow', proxy=1, region=None, highlight_gain=1, highlight_threshold=1, highlight_knee=1, blades=None, blade_curvature=None, blade_rotation=None, squeeze=None, spherical=None, cat_eye=None, axial_chromatic=None, field_curvature=None, breathing=None, cat_eye_darkening=False, axial_chromatic_type='red-blue', tilt=None, lens=None, aperture=None, progress=None, focal_length=None, sensor_width=None, fstop=None, lens_radius=None, focus_distance=None, scene_unit=None)
+    R"(gather(ldi, *, channels=None, method='lens', quality='normal', lens_samples=0, layer_tolerance=0.25, layers=8, focus_pixel=None, holdout=None, holdout_defocused=False, device='cpu', overscan='grow', proxy=1, region=None, highlight_gain=1, highlight_threshold=1, highlight_knee=1, blades=None, blade_curvature=None, blade_rotation=None, squeeze=None, spherical=None, cat_eye=None, axial_chromatic=None, field_curvature=None, breathing=None, cat_eye_darkening=False, axial_chromatic_type='red-blue', tilt=None, lens=None, aperture=None, progress=None, focal_length=None, sensor_width=None, fstop=None, lens_radius=None, focus_distance=None, scene_unit=None)
 --
 
 Makes the picture that a lens takes of an LDI and returns a Picture. As dof-gather.
@@ -223,6 +223,8 @@ layer_tolerance: layers of a pixel whose circles of confusion differ by less are
   Both belong to the method lens; layers, the layers kept apart in a pixel, belongs to selective.
 focus_pixel: (x, y), focuses on the front surface in this pixel, instead of focus_distance.
 holdout: an Ldi that hides what is behind it and is not shown itself; it stays sharp unless holdout_defocused.
+device: what gathers, by the methods lens and selective: "cpu", "auto" (a GPU if there is one), "gpu" (a GPU, or Error),
+  or a part of a device's name, also of one in software.
 overscan: "grow" the picture as far as the blur reaches, "keep" the pixels of the LDI, "crop" to the display window.
 proxy: makes a picture of 1 / proxy the size. region: (left, top, right, bottom), makes only these pixels.
 highlight_gain: makes lights above highlight_threshold (scene-linear luminance) up to so many times as bright, 1 to

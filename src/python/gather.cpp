@@ -8,6 +8,7 @@
 #include "io/channels.h"
 #include "io/gather_windows.h"
 #include "io/picture_looks.h"
+#include "python/device.h"
 #include "python/job.h"
 #include "python/looks.h"
 
@@ -24,6 +25,7 @@ struct Asked {
     PictureOptions picture; // without the holdout
     WindowOptions windows;
     std::string channels; // comma-separated; empty: all
+    std::string device;   // as with_device() has it
     std::optional<Imath::V2i> focus_pixel;
     const OpenedLdi *holdout = nullptr; // kept alive by `keep_holdout`
     py::object keep_holdout, progress;
@@ -59,6 +61,11 @@ void set_method(Asked &asked, Keywords &keywords) {
     if (asked.holdout && !lens) refuse("holdout", "lens");
     if (!asked.looks.first.empty() && !lens) refuse(asked.looks.first.c_str(), "lens");
     if (layers && asked.picture.method->name != std::string("selective")) refuse("layers", "selective");
+    asked.device = keywords.text("device");
+    if (asked.device.empty()) asked.device = "cpu";
+    if (asked.device != "cpu" && asked.device != "auto" &&
+        asked.picture.method->name == std::string("scatter"))
+        throw UsageError("device: works with method='lens' and method='selective' only");
     asked.picture.gather.lens.quality = quality.value_or(asked.picture.gather.lens.quality);
     asked.picture.gather.lens.lens_samples = points.value_or(0);
     asked.picture.gather.layers = layers.value_or(asked.picture.gather.layers);
@@ -123,7 +130,7 @@ std::optional<Ldi> holdout_of(const Asked &asked, const Ldi &ldi) {
 }
 
 PictureObject gathered_all(const Asked &asked, const OpenedLdi &in, Camera camera, ThinLens lens,
-                           Progress &progress) {
+                           TileDevice *device, Progress &progress) {
     PictureObject out{{}, in.header};
     const auto holdout = holdout_of(asked, in.ldi);
     GatherWindows frame = gather_windows(asked.windows, in, lens);
@@ -132,6 +139,7 @@ PictureObject gathered_all(const Asked &asked, const OpenedLdi &in, Camera camer
     const Ldi &ldi = frame.ldi(in);
     PictureOptions options = asked.picture;
     options.holdout = holdout ? &*holdout : nullptr;
+    options.gather.lens.device = device;
     if (knows_looks(asked))
         options.gather.lens.looks = picture_looks(looks, camera, out.header, lens, ldi.windows);
     out.image = gather_picture(ldi, lens, frame.gathered, frame.written, options, progress);
@@ -141,11 +149,11 @@ PictureObject gathered_all(const Asked &asked, const OpenedLdi &in, Camera camer
 
 // The same of the channels that are asked for, of a copy of the LDI.
 PictureObject gathered(const Asked &asked, const OpenedLdi &in, const Camera &camera, const ThinLens &lens,
-                       Progress &progress) {
-    if (asked.channels.empty()) return gathered_all(asked, in, camera, lens, progress);
+                       TileDevice *device, Progress &progress) {
+    if (asked.channels.empty()) return gathered_all(asked, in, camera, lens, device, progress);
     OpenedLdi fewer = in;
     keep_channels(fewer.ldi, asked.channels);
-    PictureObject out = gathered_all(asked, fewer, camera, lens, progress);
+    PictureObject out = gathered_all(asked, fewer, camera, lens, device, progress);
     out.image = chosen_channels(std::move(out.image), asked.channels);
     return out;
 }
@@ -161,8 +169,15 @@ PictureObject gather(const py::object &ldi, const py::kwargs &given) {
     if (!knows_looks(asked))
         if (const auto warning = warning_of_round_aperture(camera.looks, asked.picture.method->name))
             warn(*warning);
-    return job<PictureObject>(asked.progress,
-                              [&](Progress &said) { return gathered(asked, in, camera, lens, said); });
+    std::vector<std::string> warnings;
+    auto picture = job<PictureObject>(asked.progress, [&](Progress &said) {
+        PictureObject made;
+        with_device(asked.device, warnings,
+                    [&](TileDevice *device) { made = gathered(asked, in, camera, lens, device, said); });
+        return made;
+    });
+    for (const std::string &warning : warnings) warn(warning);
+    return picture;
 }
 
 } // namespace sparselens::python

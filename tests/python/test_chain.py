@@ -80,6 +80,18 @@ def test_gather(clustered, tool, tmp_path, keywords):
     assert (tmp_path / "python.exr").read_bytes() == (tmp_path / "tool.exr").read_bytes()
 
 
+@pytest.mark.parametrize("method", ["lens", "selective"])
+def test_device(clustered, method):
+    ldi = sparselens.open_ldi(clustered)
+    for distance in (2.5, 3):
+        try:
+            picture = sparselens.gather(ldi, method=method, focus_distance=distance, device="llvmpipe")
+        except sparselens.Error as error:
+            pytest.skip(str(error))
+        by_cpu = sparselens.gather(ldi, method=method, focus_distance=distance)
+        assert numpy.abs(picture.planes - by_cpu.planes).max() <= 1e-4 * by_cpu.planes.max()
+
+
 @pytest.mark.parametrize("defocused", [False, True])
 def test_holdout(clustered, tool, tmp_path, defocused):
     ldi = sparselens.open_ldi(clustered)
