@@ -5,6 +5,7 @@
 #include "deep/build.h"
 #include "lens/perceptive_depth.h"
 #include "view/resolve_lens.h"
+#include "warp/balance.h"
 #include "warp/images/image_depths.h"
 #include "warp/images/show_images.h"
 #include "warp/lamps/lamp_light.h"
@@ -126,6 +127,9 @@ void Warper::emit(const Surface &surface, bool agree, Ldi &out) const {
     const bool centre_alone = !averages() || (!agree && surface.seen_by_centre());
     if (centre_alone)
         emit_nearest(surface.samples, out);
+    else if (surface.seen_by_centre() && surface.samples.size() > 1 &&
+             some_view_is_missing(views_, surface.samples))
+        emit_mean(balanced(surface.samples), out);
     else
         emit_mean(surface.samples, out);
 }
