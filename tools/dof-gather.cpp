@@ -1,11 +1,12 @@
 // dof-gather: makes the picture that a lens takes from a layered depth image.
 #include "deep/front_depth.h"
+#include "gpu/gather/gather_device.h"
 #include "harness/tool.h"
 #include "io/camera/camera_write.h"
 #include "io/channels.h"
 #include "io/exr/exr_flat.h"
 #include "io/gather_windows.h"
-#include "loading/gather_device.h"
+#include "loading/chosen_device.h"
 #include "loading/holdout_file.h"
 #include "loading/ldi_lens.h"
 #include "loading/notices.h"
@@ -22,6 +23,8 @@
 using namespace sparselens;
 
 namespace {
+
+using GatherDevice = ChosenDevice<TileDevice>;
 
 // The samples are used up where nothing else needs them.
 Image gathered(const GatherCommand &options, GatherWindows &frame, const ThinLens &lens, LdiCache &cache,
@@ -110,7 +113,8 @@ void run(const GatherCommand &given, const ToolContext &tool, LdiCache &cache, G
 
 int main(int argc, char **argv) {
     LdiCache cache; // for a focus pull over one file, which is read once
-    GatherDevice device;
+    GatherDevice device([](const gpu::DeviceInfo &info) { return gpu::open_gather_device(info); },
+                        {"gathers", "tiles gathered"});
     return run_frames("dof-gather", "Gathers the picture that a lens takes from a layered depth image (LDI)",
                       argc, argv, [&](CLI::App &app) {
                           const auto options = std::make_shared<GatherCommand>();

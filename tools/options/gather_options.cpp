@@ -1,8 +1,8 @@
 #include "options/gather_options.h"
 
-#include "gpu/device_list.h"
 #include "harness/examples.h"
 #include "harness/words.h"
+#include "options/device_option.h"
 #include "options/only_with.h"
 #include "options/picture_options.h"
 
@@ -72,24 +72,6 @@ void add_method_options(CLI::App &app, GatherCommand &options) {
         ->needs("--holdout");
 }
 
-// Where GPUs may be asked for; `list` is answered as --help is.
-void add_device_option(CLI::App &app, std::string &device) {
-    const auto list = [](const std::string &word) {
-        if (word != "list") return;
-        std::string lines;
-        for (const gpu::DeviceInfo &there : gpu::list_devices()) lines += "\n" + gpu::description(there);
-        throw CLI::CallForVersion(lines.empty() ? gpu::no_devices : lines.substr(1), 0);
-    };
-    app.add_option("--device", device,
-                   "What gathers: the CPU, a GPU if there is one, a GPU, or the device whose name has that "
-                   "in it, also one in software; for the methods lens and selective. list prints those that "
-                   "there are (default: cpu)")
-        ->type_name("cpu|auto|gpu|list")
-        ->group("Device")
-        ->envname("SPARSELENS_DEVICE")
-        ->each(list);
-}
-
 void add_gather_examples(CLI::App &app) {
     add_examples(
         app,
@@ -115,7 +97,7 @@ void add_gather_options(CLI::App &app, GatherCommand &options) {
         ->required();
     add_method_option(app, options.picture.method);
     add_method_options(app, options);
-    add_device_option(app, options.device);
+    add_device_option(app, options.device, "What gathers by the methods lens and selective");
     add_pixel_option(app, "--focus-pixel", options.focus_pixel,
                      "Focus on the front surface in this pixel, in EXR coordinates");
     app.add_option("--depth-out", options.depth_output, "Also write the depth of the front samples (EXR)")

@@ -3,6 +3,7 @@
 // device leaves.
 #pragma once
 
+#include "base/device_report.h"
 #include "dof/device/splat_tiles.h"
 #include "lens/lens_samples.h"
 
@@ -11,9 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <map>
 #include <span>
-#include <string>
 #include <vector>
 
 namespace sparselens {
@@ -61,13 +60,7 @@ struct TilePicture {
     }
 };
 
-// What a device did since the report was last taken.
-struct TileReport {
-    std::size_t on_device = 0;                      // tiles
-    std::size_t uploaded = 0;                       // bytes of samples and lists
-    std::map<std::string, std::size_t> on_cpu = {}; // tiles left to the CPU, by why, in a few words
-    std::string failure = {}; // if not empty: it failed, and this says how; the CPU did the rest
-};
+using TileReport = DeviceReport; // of tiles
 
 class TileDevice {
 public:

@@ -1,0 +1,64 @@
+// The device that --device means: looked for when it is first needed, and kept for all frames.
+#pragma once
+
+#include "base/device_report.h"
+#include "gpu/device.h"
+#include "harness/tool.h"
+
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace sparselens {
+
+// In messages: "the CPU gathers", "tiles gathered by the device".
+struct DeviceWork {
+    const char *verb, *units_done;
+};
+
+// None: the CPU. Throws Error where the word means a device that is not there.
+std::optional<gpu::DeviceInfo> find_device(const std::string &word);
+// With --verbose: what the device did, and what it left to the CPU, and why. A warning if it failed.
+void say_report(const ToolContext &tool, const DeviceReport &did, const DeviceWork &work);
+
+template <typename Device>
+class ChosenDevice {
+public:
+    using Open = std::unique_ptr<Device> (*)(const gpu::DeviceInfo &);
+    ChosenDevice(Open opener, const DeviceWork &work) : open_(opener), work_(work) {}
+
+    // Null: the CPU. Throws Error where the word means a device that is not there. One that cannot be used is warned of,
+    // and the CPU takes its place. With --verbose, says which it is.
+    Device *open(const std::string &word, const ToolContext &tool) {
+        if (looked_for_ != word) look_for(word, tool);
+        looked_for_ = word;
+        tool.say("device: " + name_);
+        return device_.get();
+    }
+    // Of what it did since the last report.
+    void report(const ToolContext &tool) {
+        if (device_) say_report(tool, device_->take_report(), work_);
+    }
+
+private:
+    void look_for(const std::string &word, const ToolContext &tool) {
+        device_.reset();
+        name_ = "the CPU";
+        const auto chosen = find_device(word);
+        if (!chosen) return;
+        try {
+            device_ = open_(*chosen);
+            name_ = gpu::description(*chosen);
+        } catch (const gpu::DeviceFailed &failure) {
+            warn(tool, std::string(failure.what()) + "; the CPU " + work_.verb);
+        }
+    }
+
+    Open open_;
+    DeviceWork work_;
+    std::optional<std::string> looked_for_; // the word
+    std::string name_ = {};
+    std::unique_ptr<Device> device_;
+};
+
+} // namespace sparselens
