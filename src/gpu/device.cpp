@@ -101,6 +101,10 @@ void Device::run(const Program &program, std::span<const Buffer *const> buffers,
                     *what.layout, vk::ShaderStageFlagBits::eCompute, 0,
                     vk::ArrayProxy<const std::byte>(std::uint32_t(push.size()), push.data()));
             command.dispatch(groups[0], groups[1], groups[2]);
+            using Access = vk::AccessFlagBits;
+            using Stage = vk::PipelineStageFlagBits;
+            const vk::MemoryBarrier written(Access::eShaderWrite, Access::eShaderRead | Access::eShaderWrite);
+            command.pipelineBarrier(Stage::eComputeShader, Stage::eComputeShader, {}, written, {}, {});
         });
     });
 }

@@ -77,10 +77,12 @@ public:
 
     // Bytes in the device's memory, at least one, uninitialised.
     Buffer buffer(std::size_t bytes);
-    void upload(Buffer &to, std::span<const std::byte> from);
-    void upload(Buffer &to, std::span<const std::byte> from,
-                std::span<const ByteRange> ranges); // to the same places
-    void download(std::span<std::byte> to, const Buffer &from);
+    // `at`: where in the buffer, bytes.
+    void upload(Buffer &to, std::span<const std::byte> from, std::size_t at = 0);
+    void upload(Buffer &to, std::span<const std::byte> from, std::span<const ByteRange> ranges,
+                std::size_t at = 0); // to the same places from `at` on
+    void download(std::span<std::byte> to, const Buffer &from, std::size_t at = 0);
+    void fill(Buffer &buffer, std::uint32_t word); // all of it
 
     // A compute shader "main" whose storage buffers are bindings 0 to buffers - 1 of set 0.
     Program program(std::span<const std::uint32_t> spirv, std::uint32_t buffers, std::uint32_t push_bytes);

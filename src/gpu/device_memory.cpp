@@ -30,18 +30,18 @@ private:
     std::byte *at_;
 };
 
-// The device's own writes are seen by its later reads, and by the host.
-void finish_copy(const vk::raii::CommandBuffer &command) {
+// What it wrote is seen by the device's later reads, and by the host.
+void finish_transfer(const vk::raii::CommandBuffer &command) {
     using Stage = vk::PipelineStageFlagBits;
     using Access = vk::AccessFlagBits;
-    command.pipelineBarrier(Stage::eTransfer, Stage::eHost | Stage::eComputeShader | Stage::eTransfer, {},
-                            vk::MemoryBarrier(Access::eTransferWrite, Access::eHostRead |
-                                                                          Access::eShaderRead |
-                                                                          Access::eTransferRead),
-                            {}, {});
+    command.pipelineBarrier(
+        Stage::eTransfer, Stage::eHost | Stage::eComputeShader | Stage::eTransfer, {},
+        vk::MemoryBarrier(Access::eTransferWrite, Access::eHostRead | Access::eShaderRead |
+                                                      Access::eShaderWrite | Access::eTransferRead),
+        {}, {});
 }
 
-void begin_download(const vk::raii::CommandBuffer &command) {
+void begin_transfer(const vk::raii::CommandBuffer &command) {
     using Stage = vk::PipelineStageFlagBits;
     using Access = vk::AccessFlagBits;
     command.pipelineBarrier(Stage::eComputeShader | Stage::eTransfer, Stage::eTransfer, {},
@@ -101,12 +101,23 @@ Buffer Device::buffer(std::size_t bytes) {
     });
 }
 
-void Device::upload(Buffer &to, std::span<const std::byte> from) {
-    const ByteRange all{0, from.size()};
-    upload(to, from, {&all, 1});
+void Device::fill(Buffer &buffer, std::uint32_t word) {
+    guarded(info_, [&] {
+        vulkan_->submit([&](const vk::raii::CommandBuffer &command) {
+            begin_transfer(command);
+            command.fillBuffer(*buffer.memory_->buffer, 0, VK_WHOLE_SIZE, word);
+            finish_transfer(command);
+        });
+    });
 }
 
-void Device::upload(Buffer &to, std::span<const std::byte> from, std::span<const ByteRange> ranges) {
+void Device::upload(Buffer &to, std::span<const std::byte> from, std::size_t at) {
+    const ByteRange all{0, from.size()};
+    upload(to, from, {&all, 1}, at);
+}
+
+void Device::upload(Buffer &to, std::span<const std::byte> from, std::span<const ByteRange> ranges,
+                    std::size_t at) {
     if (ranges.empty()) return;
     guarded(info_, [&] {
         const Mapped staging(vulkan_->staged().memory);
@@ -116,7 +127,7 @@ void Device::upload(Buffer &to, std::span<const std::byte> from, std::span<const
             if (copies.empty()) return;
             vulkan_->submit([&](const vk::raii::CommandBuffer &command) {
                 command.copyBuffer(*vulkan_->staged().buffer, *to.memory_->buffer, copies);
-                finish_copy(command);
+                finish_transfer(command);
             });
             copies.clear();
             filled = 0;
@@ -125,7 +136,7 @@ void Device::upload(Buffer &to, std::span<const std::byte> from, std::span<const
             while (begin < end) {
                 const std::size_t piece = std::min(staging_bytes - filled, end - begin);
                 std::memcpy(staging.at() + filled, from.data() + begin, piece);
-                copies.emplace_back(filled, begin, piece);
+                copies.emplace_back(filled, at + begin, piece);
                 begin += piece;
                 filled += piece;
                 if (filled == staging_bytes) submit();
@@ -134,15 +145,16 @@ void Device::upload(Buffer &to, std::span<const std::byte> from, std::span<const
     });
 }
 
-void Device::download(std::span<std::byte> to, const Buffer &from) {
+void Device::download(std::span<std::byte> to, const Buffer &from, std::size_t at) {
     guarded(info_, [&] {
         const Buffer::Memory &staged = vulkan_->staged();
         for (std::size_t done = 0; done < to.size(); done += staging_bytes) {
             const std::size_t piece = std::min(staging_bytes, to.size() - done);
             vulkan_->submit([&](const vk::raii::CommandBuffer &command) {
-                begin_download(command);
-                command.copyBuffer(*from.memory_->buffer, *staged.buffer, vk::BufferCopy(done, 0, piece));
-                finish_copy(command);
+                begin_transfer(command);
+                command.copyBuffer(*from.memory_->buffer, *staged.buffer,
+                                   vk::BufferCopy(at + done, 0, piece));
+                finish_transfer(command);
             });
             std::memcpy(to.data() + done, Mapped(staged.memory).at(), piece);
         }
