@@ -1,8 +1,10 @@
 // ldi-warp: warps a centre view and views from the rim of the lens into one layered depth image.
 #include "base/error.h"
+#include "gpu/warp/warp_device.h"
 #include "harness/tool.h"
 #include "io/camera/camera_write.h"
 #include "io/exr/exr_deep.h"
+#include "loading/chosen_device.h"
 #include "loading/notices.h"
 #include "loading/pose_warnings.h"
 #include "loading/stage_stats.h"
@@ -21,6 +23,8 @@ using namespace sparselens;
 
 namespace {
 
+using ChosenWarpDevice = ChosenDevice<WarpDevice>;
+
 // Reports views whose framing differs from that of the centre view: a frustum that is misread makes ghosts, too.
 void say_framings(const ToolContext &tool, std::span<const View> views) {
     for (const View &view : views.subspan(1)) {
@@ -35,7 +39,7 @@ void say_framings(const ToolContext &tool, std::span<const View> views) {
     }
 }
 
-void run(const WarpCommand &options, const ToolContext &tool) {
+void run(const WarpCommand &options, const ToolContext &tool, ChosenWarpDevice &device) {
     OpenedViews in = open_views(options.views, {options.lens, options.depth});
     say_camera(tool, in.views[0].name, in.camera);
     say_framings(tool, in.views);
@@ -48,12 +52,14 @@ void run(const WarpCommand &options, const ToolContext &tool) {
     const WarpOptions warp_by = with_lens({.merge = options.merge,
                                            .split_silhouettes = options.split_silhouettes,
                                            .test_photo_consistency = options.test_photo_consistency,
-                                           .find_images = options.find_images},
+                                           .find_images = options.find_images,
+                                           .device = device.open(options.device, tool)},
                                           in.camera, in.views);
     write_camera(in.header, in.camera);
     append_history(in.header, tool, options.history);
     write_picture_window(in.header, in.views[0].image.windows.data);
     Ldi ldi = warp(in.views, warp_by, *tool.progress);
+    device.report(tool);
     warn_of_wrong_poses(tool, in.views, warp_by.focal_px, lens_radius_of(in.camera).value_or(0));
     tool.say(fmt::format("{} views, {} samples in {} pixels", in.views.size(), ldi.samples(),
                          ldi.windows.pixels()));
@@ -71,12 +77,14 @@ void run(const WarpCommand &options, const ToolContext &tool) {
 } // namespace
 
 int main(int argc, char **argv) {
+    ChosenWarpDevice device([](const gpu::DeviceInfo &info) { return gpu::open_warp_device(info); },
+                            {"warps", "rows warped"});
     return run_frames(
         "ldi-warp",
         "Warps a centre view and views from the rim of the lens into one layered depth image (LDI)", argc,
         argv, [&](CLI::App &app) {
             const auto options = std::make_shared<WarpCommand>();
             add_warp_options(app, *options);
-            return [options](const ToolContext &tool) { run(*options, tool); };
+            return [options, &device](const ToolContext &tool) { run(*options, tool, device); };
         });
 }

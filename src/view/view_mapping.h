@@ -32,6 +32,9 @@ public:
     // Where the view shows what the centre view shows at p; NaN where that lies behind the camera of the view.
     Imath::V2d in_view(const Imath::V2d &p, double inverse_z) const;
 
+    double unzoom() const { return unzoom_; }
+    double approach() const { return approach_; }
+
 private:
     double unzoom_;     // 1 / s
     double approach_;   // Z / s

@@ -8,7 +8,6 @@ namespace sparselens {
 
 namespace {
 
-constexpr int block_size = 8;             // pixels
 constexpr double least_ratio = 3;         // noise alone gives up to 1.6, edges of texture up to 2
 constexpr double least_difference = 1e-5; // mean square, tone-mapped: less is not seen
 constexpr double least_motion = 0.3;      // pixels of perceptive depth
@@ -125,7 +124,7 @@ PhotoConsistency find_photo_consistency(const ReprojectedViews &views, const Pho
                                         const Imath::Box2i &data, const Surfaces &surfaces) {
     const int width = Grid(data).width();
     const Grid grid(width, int(surfaces.pixels() / std::size_t(width)));
-    const Tiles tiles(grid.box(), block_size);
+    const Tiles tiles(grid.box(), photo_block);
     const auto block_of = [&](std::size_t pixel) { return tiles.tile_of(grid.pixel(pixel)); };
     const CentreColours centre(views.samples(0));
     std::vector<Block> blocks(tiles.count());

@@ -13,6 +13,8 @@
 
 namespace sparselens {
 
+inline constexpr int photo_block = 8; // pixels wide and high
+
 struct PhotoConsistencyOptions {
     // On a surface in focus all directions are averaged, as the lens does. Empty: the focus is unknown, and no surface
     // counts as in focus.

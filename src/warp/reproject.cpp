@@ -37,7 +37,7 @@ void Reprojection::append_rows(int first_row, int last_row, std::vector<Reprojec
     const Imath::Box2i &data = view_.windows.data;
     const Grid grid = view_.windows.grid();
     for (std::size_t row = 0; row < reach_.size(); ++row) {
-        if (reach_[row].max.y < first_row || reach_[row].min.y >= last_row + 1) continue;
+        if (!may_reach(row, first_row, last_row)) continue;
         const int from_y = data.min.y + int(row);
         for (int from_x = data.min.x; from_x <= data.max.x; ++from_x) {
             const std::size_t pixel = grid.index(from_x, from_y);

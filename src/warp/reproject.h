@@ -26,6 +26,11 @@ public:
     // A box that contains all pixels into which samples fall.
     Imath::Box2i reach() const;
 
+    // Whether samples of a source row, counted from the top, may fall into those rows.
+    bool may_reach(std::size_t row, int first_row, int last_row) const {
+        return !(reach_[row].max.y < first_row || reach_[row].min.y >= last_row + 1);
+    }
+
     // Appends every sample that falls into the rows [first_row, last_row], in source order.
     void append_rows(int first_row, int last_row, std::vector<ReprojectedSample> &out) const;
 

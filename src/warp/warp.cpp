@@ -6,6 +6,7 @@
 #include "lens/perceptive_depth.h"
 #include "view/resolve_lens.h"
 #include "warp/balance.h"
+#include "warp/device/warp_device.h"
 #include "warp/images/image_depths.h"
 #include "warp/images/show_images.h"
 #include "warp/lamps/lamp_light.h"
@@ -20,7 +21,6 @@ namespace sparselens {
 
 namespace {
 
-constexpr int band_rows = 16;
 constexpr int most_overscan = 1024; // pixels an LDI grows beyond the centre view on a side
 
 class Warper {
@@ -32,6 +32,7 @@ private:
     void grow_window();
     using Marks = std::vector<std::uint8_t>; // one a block of image_depths.h
     Ldi warp_band(int first_row, int last_row, Marks &differ) const;
+    void warp_on_device(std::span<Ldi> pieces, Marks &differ) const;
     std::vector<PlacedView> placed() const;
     void emit(const Surface &surface, bool agree, Ldi &out) const;
     void emit_nearest(std::span<const ViewSample> samples, Ldi &out) const;
@@ -157,6 +158,28 @@ Ldi Warper::warp_band(int first_row, int last_row, Marks &differ) const {
     return out;
 }
 
+// Bands that the device is done with have a piece; the first of several that come together has them all.
+void Warper::warp_on_device(std::span<Ldi> pieces, Marks &differ) const {
+    static_assert(photo_block == image_block && warp_band_rows % image_block == 0);
+    const WarpScene scene{.views = views_,
+                          .layout = layout_,
+                          .averages = averages(),
+                          .tests_photo_consistency = averages() && options_.test_photo_consistency,
+                          .tolerance = tolerance_,
+                          .scale = scale_,
+                          .focus = focused_};
+    const std::size_t columns = std::size_t(Tiles(layout_.windows.data, image_block).columns());
+    options_.device->warp(scene, [&](WarpedBands bands) {
+        for (std::size_t b = bands.first; b < bands.first + bands.count; ++b) {
+            pieces[b] = empty_like(layout_);
+            pieces[b].begin.assign(1, 0);
+        }
+        pieces[bands.first] = std::move(bands.ldi);
+        const std::size_t first_block = bands.first * (warp_band_rows / image_block) * columns;
+        std::ranges::copy(bands.differ, differ.begin() + std::ptrdiff_t(first_block));
+    });
+}
+
 std::vector<PlacedView> Warper::placed() const {
     std::vector<PlacedView> views;
     for (std::size_t v = 0; v < views_.size(); ++v)
@@ -165,13 +188,14 @@ std::vector<PlacedView> Warper::placed() const {
 }
 
 Ldi Warper::run(Progress &progress) const {
-    const Tiles bands(layout_.windows.data, layout_.windows.width(), band_rows);
+    const Tiles bands(layout_.windows.data, layout_.windows.width(), warp_band_rows);
     std::vector<Ldi> pieces(bands.count());
     Marks differ(Tiles(layout_.windows.data, image_block).count());
     progress.start("warping", bands.count());
+    if (options_.device) warp_on_device(pieces, differ);
     parallel_for(bands.count(), [&](std::size_t band) {
         const Imath::Box2i rows = bands.box(band);
-        pieces[band] = warp_band(rows.min.y, rows.max.y, differ);
+        if (pieces[band].begin.empty()) pieces[band] = warp_band(rows.min.y, rows.max.y, differ);
         progress.advance();
     });
     Ldi ldi = concatenate(layout_, pieces);

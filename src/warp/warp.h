@@ -15,6 +15,8 @@
 
 namespace sparselens {
 
+class WarpDevice; // device/warp_device.h
+
 enum class Merge {
     // Rim samples are averaged, by weight, with the centre sample of the same surface; the others are averaged with
     // each other, with the coverage that the vote of the views gives them (visibility_vote.h).
@@ -34,6 +36,7 @@ struct WarpOptions {
     // With the test of photo-consistency: what mirrors and glass show gets a depth of its own (images/show_images.h).
     bool find_images = true;
     std::optional<double> focus = {}; // of the lens, if known, scene units
+    WarpDevice *device = nullptr;     // where given: works on the rows that it can
 };
 
 // Takes the lens from the camera of the centre view, views[0]. Perceptive depth refers to the lens radius if that is

@@ -1,5 +1,6 @@
 #!/bin/bash
-# dof-gather --device: the words, the machines without a GPU or without Vulkan, and the picture of a device in software.
+# dof-gather --device and ldi-warp --device: the words, the machines without a GPU or without Vulkan, and what a device in
+# software makes.
 . "$(dirname "$0")/check.sh"
 command -v oiiotool >/dev/null || skip "needs oiiotool (openimageio-tools)"
 gather=$bin/dof-gather
@@ -9,6 +10,10 @@ oiiotool --pattern noise:type=uniform:min=0.2:max=0.8:seed=1 160x90 3 --chnames 
     --pattern constant:color=1,8 160x90 2 --chnames A,Z --fill:color=1,3 60x50+40+20 --chappend -d float -o input.exr
 lens=(--focal-length 50 --sensor-width 36 --focus-distance 5 --lens-radius 0.25 -d float)
 exits 0 "$gather" input.exr "${lens[@]}" -o expected.exr
+oiiotool --pattern noise:type=uniform:min=0.2:max=0.8:seed=2 160x90 3 --chnames R,G,B \
+    --pattern constant:color=1,8 160x90 2 --chnames A,Z --fill:color=1,3 60x50+42+20 --chappend -d float -o rim.exr
+warp=("$bin/ldi-warp" input.exr --view 0.02,0 rim.exr --focal-length 50 --sensor-width 36 --focus-distance 5)
+exits 0 "${warp[@]}" -o expected-ldi.exr
 
 # A loader that cannot be loaded is none.
 mkdir broken
@@ -20,9 +25,16 @@ for word in cpu auto; do
     without_loader 0 "$gather" input.exr "${lens[@]}" -o out.exr --device $word -v
     grep -qx 'dof-gather: device: the CPU' stderr || fail "--device $word: $(cat stderr)"
     cmp -s out.exr expected.exr || fail "--device $word without a loader gives another picture"
+    without_loader 0 "${warp[@]}" -o out.exr --device $word -v
+    grep -qx 'ldi-warp: device: the CPU' stderr || fail "ldi-warp --device $word: $(cat stderr)"
+    cmp -s out.exr expected-ldi.exr || fail "ldi-warp --device $word without a loader gives other samples"
 done
 LD_LIBRARY_PATH=$PWD/broken fails_saying 1 'device gpu: no GPU can be used; Vulkan gives access to no device here' \
     "$gather" input.exr "${lens[@]}" -o x.exr --device gpu
+LD_LIBRARY_PATH=$PWD/broken fails_saying 1 'device gpu: no GPU can be used; Vulkan gives access to no device here' \
+    "${warp[@]}" -o x.exr --device gpu
+without_loader 0 "$bin/ldi-warp" --device list
+[ "$(cat stdout)" = "Vulkan gives access to no device here" ] || fail "ldi-warp --device list: $(cat stdout)"
 SPARSELENS_DEVICE=gpu LD_LIBRARY_PATH=$PWD/broken fails_saying 1 'device gpu: no GPU can be used' "$gather" input.exr "${lens[@]}" -o x.exr
 # Nor is a driver that is not there a device.
 VK_DRIVER_FILES=none.json VK_ICD_FILENAMES=none.json exits 0 "$gather" --device list
@@ -55,3 +67,13 @@ exits 0 "$gather" input.exr "${lens[@]}" -o expected.exr --method selective --la
 exits 0 "$gather" input.exr "${lens[@]}" -o out.exr --method selective --layers 3 --device "$name" -v
 grep -qx 'dof-gather: tiles gathered by the device: 15 of 15' stderr || fail "--method selective: $(cat stderr)"
 oiiotool --fail 1e-4 --diff out.exr expected.exr >differ || fail "the device's selective picture: $(cat differ)"
+
+# The device's samples are those of the CPU, of each frame of a range.
+fails_saying 1 "device no-such: no device has that name; there is " "${warp[@]}" -o x.exr --device no-such
+exits 0 "${warp[@]}" -o out.exr --device "$name" -v
+grep -q "^ldi-warp: device: $name" stderr || fail "ldi-warp --device $name: $(cat stderr)"
+grep -qx 'ldi-warp: rows warped by the device: 90 of 90' stderr || fail "ldi-warp --device $name: $(cat stderr)"
+cmp -s out.exr expected-ldi.exr || fail "ldi-warp: the device's samples are others"
+SPARSELENS_DEVICE=$name exits 0 "${warp[@]}" -o ldi.#.exr --frames 1-2 -v
+[ "$(grep -c 'warped by the device: 90 of 90' stderr)" -eq 2 ] || fail "rows of two frames: $(cat stderr)"
+cmp -s ldi.0002.exr expected-ldi.exr || fail "the samples of a second frame are others"

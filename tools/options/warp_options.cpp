@@ -2,6 +2,7 @@
 
 #include "harness/examples.h"
 #include "harness/words.h"
+#include "options/device_option.h"
 #include "options/picture_options.h"
 
 #include <CLI/CLI.hpp>
@@ -44,6 +45,7 @@ void add_warp_options(CLI::App &app, WarpCommand &options) {
            "(default: on)")
         ->type_name("on|off")
         ->transform(words(optical));
+    add_device_option(app, options.device, "What warps");
     add_compression_option(app, options.compression, true);
     add_lens_options(app, options.lens);
     add_depth_options(app, options.depth);

@@ -22,6 +22,7 @@ struct WarpCommand {
     Merge merge = Merge::average;
     bool split_silhouettes = true, test_photo_consistency = true, find_images = true;
     std::string output;
+    std::string device = "cpu"; // as choose_device() has it
     AskedCompression compression;
 };
 

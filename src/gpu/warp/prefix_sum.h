@@ -1,0 +1,27 @@
+// The prefix sum of numbers in a buffer of a device: each becomes the sum of those before it.
+#pragma once
+
+#include "gpu/device.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace sparselens::gpu {
+
+// Work groups for so many items; more than one row where they are many.
+std::array<std::uint32_t, 3> groups_for(std::size_t items, std::size_t per_group);
+
+class PrefixSum {
+public:
+    explicit PrefixSum(Device &device);
+
+    // The numbers are 32 bits each, and so is their sum.
+    void run(Buffer &numbers, std::size_t count);
+
+private:
+    Device &device_;
+    Program within_, add_; // blocks; to each the sum of those before
+};
+
+} // namespace sparselens::gpu

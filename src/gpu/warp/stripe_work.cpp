@@ -1,0 +1,186 @@
+#include "gpu/warp/stripe_work.h"
+
+#include "deep/build.h"
+#include "warp/photo_consistency.h"
+#include "warp/reprojected_views.h"
+
+#include <algorithm>
+#include <initializer_list>
+
+namespace sparselens::gpu {
+
+namespace {
+
+constexpr std::uint32_t land_code[] = {
+#include <warp_land.comp.inc>
+};
+constexpr std::uint32_t surfaces_code[] = {
+#include <warp_surfaces.comp.inc>
+};
+constexpr std::uint32_t differences_code[] = {
+#include <warp_differences.comp.inc>
+};
+constexpr std::uint32_t vote_code[] = {
+#include <warp_vote.comp.inc>
+};
+constexpr std::uint32_t emit_code[] = {
+#include <warp_emit.comp.inc>
+};
+
+constexpr std::uint32_t bindings = 15, threads = 256;
+constexpr std::uint32_t may_average = 1, differs = 2; // of a verdict
+
+} // namespace
+
+enum StripeWork::Binding : std::size_t {
+    frame,
+    views,
+    begins,
+    depths,
+    weights,
+    values,
+    ids,
+    ends,
+    landed,
+    marks,
+    means,
+    verdicts,
+    emitted,
+    results,
+    state
+};
+
+WarpKernels::WarpKernels(Device &device)
+    : land(device.program(land_code, bindings, 4)), surfaces(device.program(surfaces_code, bindings, 0)),
+      differences(device.program(differences_code, bindings, 0)),
+      vote(device.program(vote_code, bindings, 0)), emit(device.program(emit_code, bindings, 0)),
+      sum(device) {}
+
+StripeWork::StripeWork(Device &device, WarpKernels &kernels, const WarpScene &scene, const WarpStripe &stripe,
+                       std::uint32_t most_in_pixel)
+    : device_(device), kernels_(kernels), scene_(scene), stripe_(stripe), pixels_(Grid(stripe.box).size()),
+      blocks_(Tiles(stripe.box, photo_block).count()) {
+    const StripeFrame constants = frame_of(scene, stripe, most_in_pixel);
+    upload(frame, std::as_bytes(std::span(&constants, 1)));
+    upload(views, std::as_bytes(std::span(stripe.views)));
+    const std::vector<std::uint32_t> first_samples = begins_of(scene, stripe);
+    upload(begins, std::as_bytes(std::span(first_samples)));
+    upload_views();
+    std::vector<std::uint32_t> copied;
+    for (const Channel &channel : scene.layout.channels) copied.push_back(holds_ids(channel) ? 1 : 0);
+    upload(ids, std::as_bytes(std::span(copied)));
+    for (const std::size_t binding : {landed, marks, means, verdicts, emitted, results}) make(binding, 4);
+    make(ends, (pixels_ + 1) * 4);
+    device_.fill(*buffers_[ends], 0);
+    make(state, 4);
+    device_.fill(*buffers_[state], 0);
+}
+
+void StripeWork::upload(std::size_t binding, std::span<const std::byte> bytes) {
+    make(binding, bytes.size());
+    device_.upload(*buffers_[binding], bytes);
+    uploaded_ += bytes.size();
+}
+
+void StripeWork::make(std::size_t binding, std::size_t bytes) {
+    buffers_[binding].reset();
+    buffers_[binding] = device_.buffer(bytes);
+}
+
+// The arrays of all views, one behind the other.
+void StripeWork::upload_views() {
+    const std::size_t channels = scene_.layout.channels.size();
+    make(depths, stripe_.samples * sizeof(float));
+    make(weights, stripe_.samples * sizeof(float));
+    make(values, channels * stripe_.samples * sizeof(float));
+    std::size_t at = 0;
+    for (std::size_t v = 0; v < stripe_.slices.size(); ++v) {
+        const WarpStripe::Slice &slice = stripe_.slices[v];
+        const Ldi &view = scene_.views.samples(v);
+        const auto place = [&](std::size_t binding, const std::vector<float> &array, std::size_t to) {
+            const auto part = std::as_bytes(std::span(array).subspan(slice.from, slice.to - slice.from));
+            device_.upload(*buffers_[binding], part, to * sizeof(float));
+            uploaded_ += part.size();
+        };
+        place(depths, view.z, at);
+        place(weights, view.weight, at);
+        for (std::size_t k = 0; k < channels; ++k) place(values, view.values[k], k * stripe_.samples + at);
+        at += slice.to - slice.from;
+    }
+}
+
+std::uint32_t StripeWork::word(std::size_t binding, std::size_t index) {
+    std::uint32_t value = 0;
+    device_.download(std::as_writable_bytes(std::span(&value, 1)), *buffers_[binding], index * 4);
+    return value;
+}
+
+void StripeWork::run(const Program &program, std::span<const std::byte> push,
+                     const std::array<std::uint32_t, 3> &groups) {
+    std::array<const Buffer *, bindings> all;
+    std::ranges::transform(buffers_, all.begin(), [](const auto &buffer) { return &*buffer; });
+    device_.run(program, all, push, groups);
+}
+
+bool StripeWork::land() {
+    std::size_t most_pixels = 1;
+    for (const WarpStripe::Slice &slice : stripe_.slices) most_pixels = std::max(most_pixels, slice.pixels);
+    std::array<std::uint32_t, 3> groups = groups_for(most_pixels, threads);
+    groups[2] = std::uint32_t(stripe_.slices.size());
+    const auto pass = [&](std::uint32_t list) {
+        run(kernels_.land, std::as_bytes(std::span(&list, 1)), groups);
+    };
+    pass(0);
+    if (word(state, 0) != 0) return false;
+    kernels_.sum.run(*buffers_[ends], pixels_ + 1);
+    const std::size_t count = word(ends, pixels_);
+    make(landed, count * 16);
+    make(marks, count * 8);
+    make(means, count * 8);
+    pass(1);
+    return true;
+}
+
+Ldi StripeWork::merge() {
+    const auto groups = groups_for(pixels_, threads);
+    run(kernels_.surfaces, {}, groups);
+    make(verdicts, blocks_ * 4);
+    if (scene_.tests_photo_consistency)
+        run(kernels_.differences, {}, groups_for(blocks_, threads));
+    else
+        device_.fill(*buffers_[verdicts], may_average);
+    make(emitted, (pixels_ + 1) * 4);
+    run(kernels_.vote, {}, groups);
+    kernels_.sum.run(*buffers_[emitted], pixels_ + 1);
+    const std::size_t samples = word(emitted, pixels_);
+    make(results, (4 + scene_.layout.channels.size()) * samples * 4);
+    run(kernels_.emit, {}, groups);
+    return download(samples);
+}
+
+Ldi StripeWork::download(std::size_t samples) {
+    Ldi ldi = empty_like(scene_.layout);
+    std::vector<std::uint32_t> begin(pixels_ + 1);
+    device_.download(std::as_writable_bytes(std::span(begin)), *buffers_[emitted]);
+    ldi.begin.assign(begin.begin(), begin.end());
+    std::size_t at = 0;
+    const auto take = [&](std::vector<float> &array) {
+        array.resize(samples);
+        device_.download(std::as_writable_bytes(std::span(array)), *buffers_[results], at);
+        at += samples * sizeof(float);
+    };
+    for (std::vector<float> *array : {&ldi.z, &ldi.dx, &ldi.dy, &ldi.weight}) take(*array);
+    for (std::vector<float> &array : ldi.values) take(array);
+    return ldi;
+}
+
+std::vector<std::uint8_t> StripeWork::differing_blocks() {
+    std::vector<std::uint32_t> words(blocks_);
+    device_.download(std::as_writable_bytes(std::span(words)), *buffers_[verdicts]);
+    std::vector<std::uint8_t> differ(blocks_);
+    std::ranges::transform(words, differ.begin(),
+                           [](std::uint32_t word) { return std::uint8_t((word & differs) != 0); });
+    return differ;
+}
+
+} // namespace sparselens::gpu

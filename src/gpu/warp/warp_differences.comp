@@ -1,0 +1,118 @@
+#version 460
+// Where the colours of rim views differ from that of the centre view by more than noise, as find_photo_consistency() of
+// src/warp/photo_consistency.cpp has it: one thread a block of pixels, which adds in the order of the CPU.
+#extension GL_GOOGLE_include_directive : require
+#include "warp_data.glsl"
+
+const double least_ratio = 3, least_difference = 1e-5lf, least_motion = 0.3lf, least_explained = 0.5lf,
+             least_change = 1e-5lf, focus_px = 2;
+
+double difference = 0, variation = 0, coc = 0, pixels = 0;
+double change2 = 0, change_difference = 0, difference2 = 0, values_seen = 0;
+
+double tone_mapped(float v) {
+    precise const double mapped = double(v) / (1.0lf + abs(double(v)));
+    return mapped;
+}
+
+// Of the centre view, which holds the rows around.
+uint begin_at(int x, int y) {
+    return views[0].begins + uint((y - views[0].first_row) * (views[0].max_x - views[0].min_x + 1) + x - views[0].min_x);
+}
+bool single(int x, int y) { return begins[begin_at(x, y) + 1] - begins[begin_at(x, y)] == 1; }
+double centre_value(int x, int y, uint channel) { return tone_mapped(value_of(begins[begin_at(x, y)], channel)); }
+
+bool plain(int x, int y) {
+    const View centre = views[0];
+    if (x <= centre.min_x || x >= centre.max_x || y <= centre.min_y || y >= centre.max_y) return false;
+    return single(x, y) && single(x - 1, y) && single(x + 1, y) && single(x, y - 1) && single(x, y + 1);
+}
+
+double coc_of(double inverse_z) {
+    if (!has_rule(focus_known)) return 2 * focus_px;
+    precise const double z = 1.0lf / inverse_z, scale = frame.focus_scale / frame.focus, apart = z - frame.focus;
+    precise const double of_infinity = -frame.focus_scale / z, finite = scale * (apart / z);
+    return abs(has_rule(focus_at_infinity) ? of_infinity : inverse_z == 0 ? scale : finite);
+}
+
+struct Detail {
+    double value, mean_around, gradient_x, gradient_y;
+};
+Detail detail(int x, int y, uint channel) {
+    const double left = centre_value(x - 1, y, channel), right = centre_value(x + 1, y, channel),
+                 above = centre_value(x, y - 1, channel), below = centre_value(x, y + 1, channel);
+    precise const double mean_around = (left + right + above + below) / 4.0lf;
+    precise const double gradient_x = (right - left) / 2.0lf, gradient_y = (below - above) / 2.0lf;
+    return Detail(centre_value(x, y, channel), mean_around, gradient_x, gradient_y);
+}
+
+void add_motion(double moved_difference, double change) {
+    precise double changes = change2 + change * change, both = change_difference + change * moved_difference,
+                   moved = difference2 + moved_difference * moved_difference;
+    change2 = changes;
+    change_difference = both;
+    difference2 = moved;
+    values_seen += 1;
+}
+
+void compare(int x, int y, uint from, uint to) {
+    Detail own[3];
+    precise double sum[3], total = 0;
+    for (uint k = 0; k < frame.colours[3]; ++k) own[k] = detail(x, y, frame.colours[k]);
+    for (uint k = 0; k < 3; ++k) sum[k] = 0;
+    for (uint i = from; i < to; ++i) {
+        if (marks[i].x == 0) continue;
+        const uvec4 fallen = landed[i];
+        const double weight = weight_of(fallen), dx = x_of(fallen), dy = y_of(fallen);
+        const View view = views[marks[i].x];
+        total = total + weight;
+        precise const double motion_x = (view.step_x - (double(x) + 0.5lf) * view.approach) * frame.inverse_scale,
+                             motion_y = (view.step_y - (double(y) + 0.5lf) * view.approach) * frame.inverse_scale;
+        for (uint k = 0; k < frame.colours[3]; ++k) {
+            const double value = tone_mapped(value_of(fallen.x, frame.colours[k]));
+            sum[k] = sum[k] + weight * value;
+            precise const double moved = value - own[k].value - (own[k].gradient_x * dx + own[k].gradient_y * dy),
+                                 change = own[k].gradient_x * motion_x + own[k].gradient_y * motion_y;
+            add_motion(moved, change);
+        }
+    }
+    for (uint k = 0; k < frame.colours[3]; ++k) {
+        precise const double apart = sum[k] / total - own[k].value, varied = own[k].mean_around - own[k].value;
+        precise const double all_apart = difference + apart * apart, all_varied = variation + varied * varied;
+        difference = all_apart;
+        variation = all_varied;
+    }
+}
+
+void look_at(uint pixel) {
+    const uint first = first_of(pixel), end = ends[pixel];
+    const ivec2 at = position_of(pixel);
+    for (uint from = first, to; from < end && marks[from].y != none; from = to) {
+        to = surface_end(from, end);
+        if (marks[from].x != 0 || marks[to - 1].x == 0 || !plain(at.x, at.y)) continue;
+        compare(at.x, at.y, from, to);
+        precise const double cocs = coc + coc_of(means[first + marks[from].y]);
+        coc = cocs;
+        pixels += 1;
+    }
+}
+
+bool block_moves() {
+    precise const double enough = least_change * values_seen;
+    if (!(change2 > enough)) return false;
+    precise const double moved = change_difference / change2, explained = moved * change_difference,
+                         much = least_explained * difference2;
+    return abs(moved) >= least_motion && explained >= much;
+}
+
+void main() {
+    const int columns = (frame.width + block_size - 1) / block_size, rows = (frame.height + block_size - 1) / block_size;
+    const uint block = item();
+    if (block >= uint(columns * rows)) return;
+    const int left = int(block) % columns * block_size, top = int(block) / columns * block_size;
+    for (int y = top; y < min(top + block_size, frame.height); ++y)
+        for (int x = left; x < min(left + block_size, frame.width); ++x) look_at(uint(y * frame.width + x));
+    precise const double noise = least_ratio * variation + least_difference * pixels;
+    const bool differ = difference > noise, in_focus = coc <= focus_px * pixels;
+    verdicts[block] = (!differ || in_focus ? may_average : 0) | (differ || block_moves() ? differs : 0);
+}

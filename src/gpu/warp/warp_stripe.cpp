@@ -1,0 +1,154 @@
+#include "gpu/warp/warp_stripe.h"
+
+#include "base/parallel.h"
+#include "warp/reprojected_views.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace sparselens::gpu {
+
+namespace {
+
+constexpr std::uint32_t averages = 1, focus_known = 2, focus_at_infinity = 4;
+
+struct Rows { // of a view, from the top of its data window
+    std::size_t first, end;
+};
+
+// Where a view shows what lies in the box at depths down to 1 / inverse_z: the votes ask there. Positions in the view are
+// linear in p, and change in one direction with 1 / z: the extremes lie at the corners.
+Rows rows_asked(const ReprojectedViews &views, std::size_t v, const Imath::Box2i &box, double inverse_z) {
+    const ViewMapping &mapping = views.reprojection(v).mapping();
+    const Imath::Box2i &data = views.samples(v).windows.data;
+    const auto height = std::size_t(views.samples(v).windows.height());
+    double top = std::numeric_limits<double>::infinity(), bottom = -top;
+    for (const double y : {double(box.min.y), box.max.y + 1.0})
+        for (const double depth : {0.0, inverse_z}) {
+            const double seen = mapping.in_view({box.min.x + 0.5, y}, depth).y;
+            if (!std::isfinite(seen)) return {0, height}; // behind the camera
+            top = std::min(top, seen);
+            bottom = std::max(bottom, seen);
+        }
+    const auto row = [&](double y) { return std::clamp(y - data.min.y, 0.0, double(height)); };
+    return {std::size_t(row(std::floor(top) - 1)), std::size_t(row(std::floor(bottom) + 2))};
+}
+
+Rows rows_that_reach(const ReprojectedViews &views, std::size_t v, const Imath::Box2i &box) {
+    const Reprojection &reprojection = views.reprojection(v);
+    const auto height = std::size_t(views.samples(v).windows.height());
+    Rows rows{height, 0};
+    for (std::size_t row = 0; row < height; ++row)
+        if (reprojection.may_reach(row, box.min.y, box.max.y)) {
+            rows.first = std::min(rows.first, row);
+            rows.end = row + 1;
+        }
+    return rows;
+}
+
+Rows rows_needed(const WarpScene &scene, std::size_t v, const Imath::Box2i &box, double inverse_z) {
+    Rows rows = rows_that_reach(scene.views, v, box);
+    if (!scene.averages) return rows;
+    Rows asked = rows_asked(scene.views, v, box, inverse_z);
+    if (v == 0) { // it is not asked; photo-consistency looks at the pixels around
+        const Windows &centre = scene.views.samples(0).windows;
+        const auto row = [&](int y) {
+            return std::size_t(std::clamp(y - centre.data.min.y, 0, centre.height()));
+        };
+        asked = {row(box.min.y - 1), row(box.max.y + 2)};
+    }
+    if (asked.first >= asked.end) return rows;
+    return {std::min(rows.first, asked.first), std::max(rows.end, asked.end)};
+}
+
+StripeView view_of(const ReprojectedViews &views, std::size_t v) {
+    const ViewMapping &mapping = views.reprojection(v).mapping();
+    const Imath::V2d offset = mapping.at_infinity({0, 0}), step = mapping.parallax({0, 0});
+    const Imath::Box2i &data = views.samples(v).windows.data;
+    return {mapping.unzoom(), mapping.approach(), offset.x,   offset.y,   step.x, step.y, data.min.x,
+            data.min.y,       data.max.x,         data.max.y, data.min.y, 0,      0,      0};
+}
+
+} // namespace
+
+double largest_inverse_z(const ReprojectedViews &views) {
+    std::vector<float> nearest(views.size(), std::numeric_limits<float>::infinity());
+    parallel_for(views.size(), [&](std::size_t v) {
+        for (const float z : views.samples(v).z) nearest[v] = std::min(nearest[v], z);
+    });
+    const float least = *std::ranges::min_element(nearest);
+    return least < std::numeric_limits<float>::min() ? std::numeric_limits<double>::infinity()
+                                                     : 1 / double(least);
+}
+
+WarpStripe make_stripe(const WarpScene &scene, const Imath::Box2i &box, double inverse_z) {
+    WarpStripe stripe;
+    stripe.box = box;
+    for (std::size_t v = 0; v < scene.views.size(); ++v) {
+        const Ldi &ldi = scene.views.samples(v);
+        const auto width = std::size_t(ldi.windows.width());
+        Rows rows = rows_needed(scene, v, box, inverse_z);
+        if (rows.first >= rows.end) rows = {0, 0};
+        StripeView view = view_of(scene.views, v);
+        view.first_row += int(rows.first);
+        view.rows = int(rows.end - rows.first);
+        view.begins = std::uint32_t(stripe.begins);
+        const WarpStripe::Slice slice{rows.first * width, (rows.end - rows.first) * width,
+                                      ldi.begin[rows.first * width], ldi.begin[rows.end * width]};
+        stripe.views.push_back(view);
+        stripe.slices.push_back(slice);
+        stripe.begins += slice.pixels + 1;
+        stripe.samples += slice.to - slice.from;
+    }
+    return stripe;
+}
+
+std::size_t buffer_bytes(const WarpScene &scene, const WarpStripe &stripe) {
+    const std::size_t of_sample = std::max(4 * (4 + scene.layout.channels.size()), std::size_t{16}),
+                      pixels = Grid(stripe.box).size();
+    return std::max({of_sample * stripe.samples, 4 * stripe.begins, 4 * (pixels + 1)});
+}
+
+StripeFrame frame_of(const WarpScene &scene, const WarpStripe &stripe, std::uint32_t most_in_pixel) {
+    StripeFrame frame{};
+    frame.tolerance = scene.tolerance;
+    frame.inverse_scale = 1 / scene.scale;
+    frame.first_x = stripe.box.min.x;
+    frame.first_y = stripe.box.min.y;
+    frame.width = Grid(stripe.box).width();
+    frame.height = Grid(stripe.box).height();
+    frame.views = std::uint32_t(stripe.views.size());
+    frame.samples = std::uint32_t(stripe.samples);
+    frame.channels = std::uint32_t(scene.layout.channels.size());
+    const std::size_t alpha = find_channel(scene.layout.channels, "A");
+    frame.alpha = alpha == npos ? no_channel : std::uint32_t(alpha);
+    for (const std::size_t colour : find_rgb(scene.layout.channels))
+        if (colour != npos) frame.colours[frame.colours[3]++] = std::uint32_t(colour);
+    frame.rules = scene.averages ? averages : 0;
+    if (scene.focus) {
+        frame.rules |= std::isinf(scene.focus->focus) ? focus_known | focus_at_infinity : focus_known;
+        frame.focus_scale = scene.focus->radius * scene.focus->focal_px;
+        frame.focus = scene.focus->focus;
+    }
+    frame.most_in_pixel = most_in_pixel;
+    return frame;
+}
+
+std::vector<std::uint32_t> begins_of(const WarpScene &scene, const WarpStripe &stripe) {
+    std::vector<std::uint32_t> begins(stripe.begins);
+    std::uint64_t before = 0; // samples of the views before
+    for (std::size_t v = 0; v < stripe.slices.size(); ++v) {
+        const WarpStripe::Slice &slice = stripe.slices[v];
+        const std::vector<std::uint64_t> &from = scene.views.samples(v).begin;
+        parallel_ranges(slice.pixels + 1, 1 << 16, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i)
+                begins[stripe.views[v].begins + i] =
+                    std::uint32_t(from[slice.first_pixel + i] - slice.from + before);
+        });
+        before += slice.to - slice.from;
+    }
+    return begins;
+}
+
+} // namespace sparselens::gpu

@@ -1,0 +1,101 @@
+#version 460
+// Which samples of a pixel show one surface, as find_surfaces() of src/warp/surfaces.cpp has it: one thread a pixel. The
+// samples are sorted by depth, view and number first, so that the order in which they came does not matter, and lie
+// surface by surface at the end, front to back. What does not belong to the pixel comes last, and is of no surface.
+#extension GL_GOOGLE_include_directive : require
+#include "warp_data.glsl"
+
+// Samples are numbered view by view.
+bool nearer(uvec4 a, uvec4 b) {
+    const float near = uintBitsToFloat(a.w), far = uintBitsToFloat(b.w);
+    return near != far ? near > far : a.x < b.x;
+}
+
+void sort_by_depth(uint first, uint end) {
+    for (uint i = first + 1; i < end; ++i) {
+        const uvec4 fallen = landed[i];
+        const uvec2 mark = marks[i];
+        uint at = i;
+        for (; at > first && nearer(fallen, landed[at - 1]); --at) {
+            landed[at] = landed[at - 1];
+            marks[at] = marks[at - 1];
+        }
+        landed[at] = fallen;
+        marks[at] = mark;
+    }
+}
+
+bool one_surface(uint a, uint b) {
+    const uint of_a = landed[a].w, of_b = landed[b].w;
+    precise const double apart = inverse_z_of(landed[a]) - inverse_z_of(landed[b]);
+    return abs(apart) < frame.tolerance || of_a == of_b;
+}
+
+// The first of those that belong to the pixel.
+uint behind_centre(uint pixel, uint first, uint end) {
+    uint centre = first;
+    while (centre < end && marks[centre].x != 0) ++centre;
+    if (centre == end) {
+        const View view = views[0];
+        const ivec2 at = position_of(pixel);
+        const bool inside = at.x >= view.min_x && at.x <= view.max_x && at.y >= view.min_y && at.y <= view.max_y;
+        return inside ? end : first;
+    }
+    uint from = first;
+    while (from < centre && !one_surface(from, centre)) ++from;
+    return from;
+}
+
+// Numbers all samples of the anchor's surface that belong to none yet, and finds the mean of their 1 / z.
+void claim(uint anchor, uint number, uint first, uint from, uint end) {
+    precise double sum = 0, total = 0;
+    for (uint i = from; i < end; ++i) {
+        if (marks[i].y != none || !one_surface(i, anchor)) continue;
+        marks[i].y = number;
+        const double weight = weight_of(landed[i]);
+        sum = sum + weight * inverse_z_of(landed[i]);
+        total = total + weight;
+    }
+    precise const double mean = sum / total;
+    means[first + number] = mean;
+}
+
+// The centre's samples say where surfaces are, before any other.
+void claim_all(uint first, uint from, uint end) {
+    uint number = 0;
+    for (uint pass = 0; pass < 2; ++pass)
+        for (uint i = from; i < end; ++i)
+            if (marks[i].y == none && (marks[i].x == 0) == (pass == 0)) claim(i, number++, first, from, end);
+}
+
+// Front to back; within a surface the views in order.
+bool before(uvec2 a, uvec2 b, uint first) {
+    if (a.y == b.y) return a.x < b.x;
+    if (a.y == none || b.y == none) return b.y == none;
+    const double near = means[first + a.y], far = means[first + b.y];
+    return near != far ? near > far : a.y < b.y;
+}
+
+void sort_by_surface(uint first, uint end) {
+    for (uint i = first + 1; i < end; ++i) {
+        const uvec4 fallen = landed[i];
+        const uvec2 mark = marks[i];
+        uint at = i;
+        for (; at > first && before(mark, marks[at - 1], first); --at) {
+            landed[at] = landed[at - 1];
+            marks[at] = marks[at - 1];
+        }
+        landed[at] = fallen;
+        marks[at] = mark;
+    }
+}
+
+void main() {
+    const uint pixel = item();
+    if (pixel >= pixel_count()) return;
+    const uint first = first_of(pixel), end = ends[pixel];
+    if (first == end) return;
+    sort_by_depth(first, end);
+    claim_all(first, behind_centre(pixel, first, end), end);
+    sort_by_surface(first, end);
+}

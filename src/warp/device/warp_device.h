@@ -1,0 +1,51 @@
+// Who turns reprojected views into samples in place of the CPU: a GPU (gpu/warp/warp_device.h). The warp prepares the views
+// for both alike (depths of edges, silhouettes), works itself on the rows that the device leaves, and looks for images in
+// mirrors and glass.
+#pragma once
+
+#include "base/device_report.h"
+#include "deep/ldi.h"
+#include "lens/thin_lens.h"
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace sparselens {
+
+class ReprojectedViews;
+
+inline constexpr int warp_band_rows = 16; // worked on at once; a device is given whole bands
+
+struct WarpScene {
+    const ReprojectedViews &views;
+    const Ldi &layout;             // windows and channels of the result
+    bool averages;                 // Merge::average
+    bool tests_photo_consistency;  // never without it
+    double tolerance;              // of 1 / z, within one surface
+    double scale;                  // R F
+    std::optional<ThinLens> focus; // where the focus is known
+};
+
+// Bands of the result, one below the other.
+struct WarpedBands {
+    std::size_t first, count;
+    Ldi ldi; // of their pixels alone
+    // By blocks of photo_block pixels of these bands, row by row: 1 where views differ (photo_consistency.h).
+    std::vector<std::uint8_t> differ;
+};
+
+class WarpDevice {
+public:
+    WarpDevice() = default;
+    WarpDevice(const WarpDevice &) = delete;
+    WarpDevice &operator=(const WarpDevice &) = delete;
+    virtual ~WarpDevice() = default;
+
+    // Works on those bands of the data window that it can: calls done() for each of them once.
+    virtual void warp(const WarpScene &scene, const std::function<void(WarpedBands)> &done) = 0;
+    virtual DeviceReport take_report() = 0; // of rows
+};
+
+} // namespace sparselens

@@ -1,0 +1,177 @@
+// The kernels of the warp against the CPU's.
+#include "gpu/gpu_fixture.h"
+#include "gpu/warp/warp_device.h"
+#include "support/mattes.h"
+#include "warp/warp_fixture.h"
+
+#include <bit>
+#include <map>
+#include <memory>
+
+namespace sparselens::gpu {
+namespace {
+
+using namespace warping;
+
+using Rows = std::map<std::string, std::size_t>;
+
+class WarpDeviceTest : public GpuTest {
+protected:
+    void open(std::size_t largest_buffer = ~std::size_t{0}) {
+        Watch small = watch();
+        small.largest_buffer = largest_buffer;
+        device = open_warp_device(*info, small);
+    }
+    Ldi on_device(const std::vector<View> &views, WarpOptions options) {
+        if (!device) open();
+        options.device = device.get();
+        return warped(views, options);
+    }
+    // The same bits; all rows are the device's.
+    void expect_same(const std::vector<View> &views, const WarpOptions &options) {
+        const Ldi expected = warped(views, options);
+        expect_same_bits(on_device(views, options), expected);
+        const DeviceReport did = device->take_report();
+        EXPECT_EQ(did.on_device, std::size_t(expected.windows.height()));
+        EXPECT_EQ(did.on_cpu, Rows());
+        EXPECT_EQ(did.failure, "");
+    }
+
+    std::unique_ptr<WarpDevice> device;
+};
+
+// Where the views disagree, where they lie apart, and where pixels become two samples.
+TEST_F(WarpDeviceTest, RandomViewsAreTheCpus) {
+    for (const int count : {1, 2, 5, 9}) {
+        const std::vector<View> views = random_views(windows_of_size(70, 50), count);
+        WarpOptions split = averaging, assumed = averaging;
+        split.split_silhouettes = true;
+        split.focus = 5;
+        assumed.test_photo_consistency = false;
+        for (const WarpOptions &options : {averaging, keeping, split, assumed}) expect_same(views, options);
+    }
+}
+
+TEST_F(WarpDeviceTest, PlanesAreTheCpus) {
+    for (const TwoPlanes &planes : {fence(), one_plane([](double x, double) { return float(x / 64); })}) {
+        const std::vector<View> views = five_views(planes, windows_of_size(64, 48), radius);
+        WarpOptions focused = averaging;
+        for (const double focus : {2.0, 5.0, double(inf)}) {
+            focused.focus = focus;
+            expect_same(views, focused);
+        }
+        expect_same(views, keeping);
+    }
+}
+
+// Cameras that stand in front of the centre view's or behind, zoom, and look past it.
+TEST_F(WarpDeviceTest, FramingsAreTheCpus) {
+    const Windows windows = windows_of_size(64, 48);
+    const Framing framings[] = {{0.02, 1.03, {0.013, -0.021}}, {-0.05, 0.9, {}}, {1.5, 1, {}}};
+    std::vector<View> views = random_views(windows, 1);
+    for (const Framing &framing : framings) {
+        views.push_back(fence().view(windows, {radius, 0.01}, framing));
+        expect_same(views, averaging);
+    }
+}
+
+// Of some views, a part was rendered, and one is cropped.
+TEST_F(WarpDeviceTest, MissingViewsAreTheCpus) {
+    std::vector<View> views = five_views(one_plane([](double x, double) { return float(x / 64); }),
+                                         windows_of_size(64, 48), radius);
+    for (std::size_t i = 0; i < views[1].z.size(); ++i)
+        if (i % 64 < 30) views[1].image.plane(3)[i] = 0;
+    View &cropped = views[2];
+    const Imath::Box2i box({8, 10}, {50, 40});
+    std::vector<float> depths;
+    for (int y = box.min.y; y <= box.max.y; ++y)
+        for (int x = box.min.x; x <= box.max.x; ++x)
+            depths.push_back(cropped.z[cropped.image.windows.index(x, y)]);
+    cropped.image = crop(cropped.image, box);
+    cropped.z = depths;
+    expect_same(views, averaging);
+    expect_same(views, keeping);
+}
+
+// A device in software cannot sort them all.
+TEST_F(WarpDeviceTest, ManySamplesOfAPixelAreTheCpus) {
+    const std::vector<View> views = random_views(windows_of_size(12, 10), 100);
+    const Ldi expected = warped(views);
+    expect_same_bits(on_device(views, averaging), expected);
+    const DeviceReport did = device->take_report();
+    EXPECT_EQ(did.on_cpu.contains("more samples in a pixel than it sorts"), info->kind == Kind::software);
+}
+
+TEST_F(WarpDeviceTest, CryptomattesAreTheCpus) {
+    std::vector<View> views = random_views(windows_of_size(30, 20), 3);
+    for (View &view : views) {
+        Image &image = view.image;
+        image.channels = channels_with_matte();
+        image.values.resize(image.windows.pixels() * image.channels.size(), 0.5f);
+    }
+    expect_same_bits(on_device(views, averaging), warped(views));
+    EXPECT_GT(device->take_report().on_cpu.at("Cryptomattes"), 0u);
+}
+
+// Ids are copied, also those whose bits are no float that a calculation would keep.
+TEST_F(WarpDeviceTest, IdsAreTheCpus) {
+    std::vector<View> views = random_views(windows_of_size(30, 20), 3);
+    for (View &view : views) {
+        Image &image = view.image;
+        image.channels.push_back({"id", PixelType::uint32});
+        for (std::size_t i = 0; i < image.windows.pixels(); ++i)
+            image.values.push_back(std::bit_cast<float>(std::uint32_t(i % 7 + 1)));
+    }
+    expect_same(views, averaging);
+    expect_same(views, keeping);
+}
+
+TEST_F(WarpDeviceTest, StripesMakeTheSameSamples) {
+    const std::vector<View> views = random_views(windows_of_size(90, 150), 5);
+    const Ldi expected = warped(views);
+    open(1 << 20);
+    expect_same(views, averaging);
+    open(1 << 12);
+    expect_same_bits(on_device(views, averaging), expected);
+    const DeviceReport did = device->take_report();
+    EXPECT_EQ(did.on_device, 0u);
+    EXPECT_EQ(did.on_cpu.at("more samples than its buffers hold"), std::size_t(expected.windows.height()));
+}
+
+// At each of its steps: memory, copies, runs.
+TEST_F(WarpDeviceTest, AFailureLosesNothing) {
+    const std::vector<View> views = random_views(windows_of_size(70, 50), 3);
+    const Ldi expected = warped(views);
+    int steps = 0, fail_at = 0, result = 0;
+    Watch failing = watch();
+    failing.fails = [&] { return ++steps == fail_at ? result : 0; };
+    const auto warped_with = [&](int at, int with) {
+        steps = 0;
+        fail_at = at;
+        result = with;
+        device = open_warp_device(*info, failing);
+        expect_same_bits(on_device(views, averaging), expected);
+        const DeviceReport did = device->take_report();
+        EXPECT_EQ(did.failure.empty(), at == 0);
+        EXPECT_EQ(did.on_device == 0, at != 0);
+        if (at == 0) return;
+        EXPECT_EQ(did.on_cpu.at("the device failed"), std::size_t(expected.windows.height()));
+        on_device(views, averaging);
+        EXPECT_EQ(device->take_report().on_device, 0u); // it is left alone
+    };
+    warped_with(0, 0);
+    const int all = steps;
+    EXPECT_GT(all, 40);
+    for (int at = 1; at <= all; at += 6) warped_with(at, -4); // VK_ERROR_DEVICE_LOST
+    warped_with(3, -2);                                       // VK_ERROR_OUT_OF_DEVICE_MEMORY
+    warped_with(all, -1);                                     // VK_ERROR_OUT_OF_HOST_MEMORY
+}
+
+TEST_F(WarpDeviceTest, NeedsDoublePrecision) {
+    DeviceInfo without = *info;
+    without.float64 = false;
+    EXPECT_THROW(open_warp_device(without), DeviceFailed);
+}
+
+} // namespace
+} // namespace sparselens::gpu
