@@ -60,6 +60,10 @@ Device::Device(const DeviceInfo &info, const Watch &watch) : info_(info), watch_
 
 Device::~Device() = default;
 
+double Device::most_turns() const {
+    return std::min(info_.kind == Kind::software ? 6e4 : watch_.most_turns, watch_.most_turns);
+}
+
 Program Device::program(std::span<const std::uint32_t> spirv, std::uint32_t buffers,
                         std::uint32_t push_bytes) {
     return guarded(info_, [&] {

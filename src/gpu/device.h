@@ -28,6 +28,7 @@ struct Watch {
     std::function<int()> fails = {};
     std::function<void(const std::string &)> validation = {}; // if set, the validation layer speaks here
     std::size_t largest_buffer = ~std::size_t{0};             // bytes, if the device allows as many
+    double most_turns = 1e300;                                // of loops, if the device allows as many
 };
 
 // Whether the validation layer is installed.
@@ -74,6 +75,9 @@ public:
 
     const DeviceInfo &info() const { return info_; }
     std::size_t largest_buffer() const; // bytes that a program can reach
+    // Of its loops, that a work group may take. Mesa's device in software ends a program after 65535, and what it has not
+    // written is garbage; other devices have no such bound.
+    double most_turns() const;
 
     // Bytes in the device's memory, at least one, uninitialised.
     Buffer buffer(std::size_t bytes);

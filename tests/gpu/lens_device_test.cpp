@@ -160,13 +160,26 @@ TEST_F(LensDeviceTest, HoldoutsAreTheCpus) {
     }
 }
 
-TEST_F(LensDeviceTest, InSoftwareLongFramesAreTheCpus) {
-    if (info->kind != Kind::software) GTEST_SKIP() << "a device in software is needed";
-    const Ldi ldi = surfaces(90, 70, true, 14);
-    const Image expected = gather(ldi, {.lens_samples = 4096});
-    device = open_gather_device(*info, watch());
-    EXPECT_EQ(gather(ldi, {.lens_samples = 4096, .device = device.get()}).values, expected.values);
-    EXPECT_EQ(device->take_report().on_device, 0u);
+// Of a few lens points each; tiles of which one lens point takes too long are the CPU's.
+TEST_F(LensDeviceTest, WhatTakesLongTakesPasses) {
+    LensLooks looks;
+    looks.aperture.spherical = 0.5;
+    looks.cat_eye = 0.9;
+    Watch few = watch();
+    for (const double turns : {8000.0, 3000.0}) {
+        few.most_turns = turns;
+        device = open_gather_device(*info, few);
+        expect_same(surfaces(90, 70, false, 14), {.lens_samples = 9});
+        expect_same(surfaces(70, 70, false, 14), {.lens_samples = 9, .looks = looks});
+    }
+    few.most_turns = 99;
+    device = open_gather_device(*info, few);
+    const Ldi ldi = surfaces(40, 30, true, 14);
+    EXPECT_EQ(gather(ldi, {.lens_samples = 4, .device = device.get()}).values,
+              gather(ldi, {.lens_samples = 4}).values);
+    const TileReport did = device->take_report();
+    EXPECT_EQ(did.on_device, 0u);
+    EXPECT_EQ(did.on_cpu, (Tiles{{"more steps than the device takes", 1}}));
 }
 
 // What does not change stays on the device: of these frames the positions, depths, coverages and most colours.

@@ -124,6 +124,13 @@ TEST_F(SelectiveDeviceTest, StripesMakeTheSamePicture) {
     EXPECT_EQ(did.on_cpu.at("more samples than its buffers hold"), 8u);
 }
 
+TEST_F(SelectiveDeviceTest, WhatTakesLongTakesPasses) {
+    Watch few = watch();
+    few.most_turns = 15000;
+    device = open_gather_device(*info, few);
+    expect_same(random_surfaces(windows_of_size(40, 30), lens, false, 8), lens, 3);
+}
+
 TEST_F(SelectiveDeviceTest, WithoutNumbersOf64BitsAllIsTheCpus) {
     const Ldi ldi = random_surfaces(windows_of_size(40, 30), lens, false, 6);
     DeviceInfo without = *info;

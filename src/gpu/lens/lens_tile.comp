@@ -7,6 +7,8 @@
 // those of a chunk are counted, listed and sorted by the pixel that they fall in, and each pixel puts its own over each
 // other. Every sum belongs to one thread, so that the order of the additions does not depend on who comes first.
 //
+// Where that takes long, it is cut into passes, each of some lens points; the sums wait in a buffer.
+//
 // gl_WorkGroupID.x: the quarter of a tile. gl_WorkGroupID.y: the group of four channels.
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #extension GL_EXT_shader_atomic_int64 : require
@@ -23,8 +25,9 @@ layout(local_size_x = threads) in;
 #include "tile_partial.glsl"
 #include "tile_sums.glsl"
 
-void write_pixel(uint t, uint group, ivec2 at, Sum sum, float total) {
-    const uint to = (group * tile_count + t) * 4 * pixels + at.y * 2 * size + at.x;
+uint place_of(uint t, uint group, ivec2 at) { return (group * tile_count + t) * 4 * pixels + at.y * 2 * size + at.x; }
+
+void write_pixel(uint to, Sum sum, float total) {
     const vec4 known = known_of(sum, total);
     precise vec4 value = vec4(0);
     for (uint k = 0; k < 4; ++k)
@@ -40,12 +43,16 @@ void main() {
     first = vec2(tile.x, tile.y);
     rules = tile.rules;
     held_out = tile.holdout;
+    const uint begin = pass * tile.lens_in_pass, end = min(begin + tile.lens_in_pass, tile.lens_count);
+    if (begin >= end) return; // it is done
     Sum sum[own];
-    for (uint j = 0; j < own; ++j) sum[j] = Sum(vec4(0), vec4(0));
-    precise float total = 0;
-    for (uint k = 0; k < tile.lens_count; ++k) {
+    for (uint j = 0; j < own; ++j) {
+        const uint from = 2 * place_of(t, group, pixel_of(j) + corner);
+        sum[j] = Sum(vec4(0), vec4(0));
+        if (pass > 0) sum[j] = Sum(sums[from], sums[from + 1]);
+    }
+    for (uint k = begin; k < end; ++k) {
         lens = lens_points[tile.lens + k];
-        total = total + lens.weight;
         const uint seen[own] = see_behind(tile);
         const Over over[own] = see_partial(tile, group);
         for (uint j = 0; j < own; ++j) {
@@ -55,5 +62,14 @@ void main() {
         }
         barrier();
     }
-    for (uint j = 0; j < own; ++j) write_pixel(t, group, pixel_of(j) + corner, sum[j], total);
+    precise const float total = lens.weight_before + lens.weight; // of all where the last one was at work
+    for (uint j = 0; j < own; ++j) {
+        const uint to = place_of(t, group, pixel_of(j) + corner);
+        if (end == tile.lens_count) {
+            write_pixel(to, sum[j], total);
+        } else {
+            sums[2 * to] = sum[j].light;
+            sums[2 * to + 1] = sum[j].weight;
+        }
+    }
 }

@@ -1,5 +1,6 @@
 #include "gpu/lens/lens_tiles.h"
 
+#include "base/grid.h"
 #include "base/parallel.h"
 
 #include <algorithm>
@@ -19,51 +20,58 @@ constexpr std::size_t stripe_bytes = std::size_t{512} << 20; // of a buffer, als
 constexpr std::uint32_t quarters = 4;                        // work groups a tile
 // Tests of a sample by a lens point that are submitted at once: what takes seconds, operating systems end.
 constexpr double work_at_once = 2e9;
+constexpr double turns_in_pass = 1e6; // of loops, for the same reason
 
 struct Push {
-    std::uint32_t first_tile, tile_count, sample_count, first_filler;
+    std::uint32_t first_tile, tile_count, sample_count, first_filler, pass;
     float depth_at_1;
 };
 
-// Mesa's device in software ends a program after 65535 turns of its loops, and what it has not written is garbage. About so
-// many turns a tile takes; more than it may, rather than less.
-bool takes_long_in_software(const TileScene &scene, const TileTask &task) {
-    std::size_t partial = 0;
-    for (const std::uint32_t b : task.samples)
-        partial += scene.samples.blocks[b].end - scene.samples.blocks[b].opaque_end;
-    const std::size_t blocks = task.samples.size() + task.fillers.size() + 4 * task.facets.size();
-    return task.lens.size() * (100 + blocks + partial / 4) > 60'000;
-}
-
+// Tests of a sample by a lens point that one of the tile's passes takes.
 double work_of(const Stripe &stripe, const StripeTile &tile) {
     double samples = quarters * double(tile.partial_count);
     for (std::uint32_t n = 0; n < tile.block_count; ++n) {
         const StripeBlock &block = stripe.blocks[stripe.block_lists[tile.blocks + n]];
         samples += block.opaque_end - block.begin;
     }
-    return samples * tile.lens_count;
+    return samples * std::min(tile.lens_count, tile.lens_in_pass);
+}
+
+std::uint32_t passes_of(const Stripe &stripe) {
+    std::uint32_t passes = 1;
+    for (const StripeTile &tile : stripe.tiles)
+        passes = std::max(passes, pieces_of(tile.lens_count, tile.lens_in_pass));
+    return passes;
 }
 
 } // namespace
 
-void LensTilesOnDevice::gather(const TileScene &scene, std::span<const TileTask> tasks,
+void LensTilesOnDevice::gather(const TileScene &scene, std::span<const TileTask> all,
                                const std::function<void(std::size_t, const TilePicture &)> &done,
                                TileReport &report) {
-    const auto lasts = [&](const TileTask &task) { return takes_long_in_software(scene, task); };
-    if (device_.info().kind == Kind::software && std::ranges::any_of(tasks, lasts)) {
-        report.on_cpu["more steps than a device in software takes"] += tasks.size();
-        return;
+    std::vector<TileTask> tasks;
+    std::vector<std::size_t> numbers; // of these among all
+    for (std::size_t n = 0; n < all.size(); ++n) {
+        if (turns_of(scene, all[n]) > device_.most_turns()) {
+            ++report.on_cpu["more steps than the device takes"];
+            continue;
+        }
+        tasks.push_back(all[n]);
+        numbers.push_back(n);
     }
-    if (!program_) program_.emplace(device_.program(code, 17, sizeof(Push)));
+    if (!program_) program_.emplace(device_.program(code, 18, sizeof(Push)));
     const std::size_t bytes = std::min(stripe_bytes, device_.largest_buffer());
+    const double turns = std::min(turns_in_pass, device_.most_turns());
     for (std::size_t begin = 0, count = 0; begin < tasks.size(); begin += std::max(count, std::size_t{1})) {
-        count = tasks_that_fit(scene, tasks.subspan(begin), bytes);
+        const std::span<const TileTask> left = std::span(tasks).subspan(begin);
+        count = tasks_that_fit(scene, left, bytes);
         if (count == 0) ++report.on_cpu["more samples than its buffers hold"];
         if (count == 0) continue;
         const bool whole = count == tasks.size() && fits_whole(scene, tasks, bytes);
         if (!whole) buffers_ = {};
-        report.uploaded += buffers_.bring(device_, make_stripe(scene, tasks.subspan(begin, count), whole));
-        gather_stripe(scene, [&](std::size_t t, const TilePicture &picture) { done(begin + t, picture); });
+        report.uploaded += buffers_.bring(device_, make_stripe(scene, left.first(count), whole, turns));
+        gather_stripe(scene,
+                      [&](std::size_t t, const TilePicture &picture) { done(numbers[begin + t], picture); });
         if (!whole) buffers_ = {};
         report.on_device += count;
     }
@@ -75,7 +83,10 @@ void LensTilesOnDevice::gather_stripe(const TileScene &scene,
                       all = tiles * tile_pixels * groups;
     const Buffer values = device_.buffer(all * 4 * sizeof(float)),
                  known = device_.buffer(all * sizeof(float));
-    run(buffers_.stripe(), groups, float(scene.depth_at_1), buffers_.bindings(values, known));
+    const std::uint32_t passes = passes_of(buffers_.stripe());
+    const Buffer sums = device_.buffer(passes > 1 ? all * 8 * sizeof(float) : 0);
+    for (std::uint32_t pass = 0; pass < passes; ++pass)
+        run(pass, groups, float(scene.depth_at_1), buffers_.bindings(values, known, sums));
     std::vector<float> value(all * 4), knowns(all);
     device_.download(std::as_writable_bytes(std::span(value)), values);
     device_.download(std::as_writable_bytes(std::span(knowns)), known);
@@ -84,14 +95,16 @@ void LensTilesOnDevice::gather_stripe(const TileScene &scene,
     });
 }
 
-void LensTilesOnDevice::run(const Stripe &stripe, std::size_t groups, float depth_at_1,
+void LensTilesOnDevice::run(std::uint32_t pass, std::size_t groups, float depth_at_1,
                             std::span<const Buffer *const> buffers) {
+    const Stripe &stripe = buffers_.stripe();
     const auto tiles = std::uint32_t(stripe.tiles.size());
     for (std::uint32_t first = 0, end = 0; first < tiles; first = end) {
         for (double work = 0; end < tiles && (end == first || work < work_at_once); ++end)
             work += work_of(stripe, stripe.tiles[end]);
-        const Push push{first, tiles, std::uint32_t(stripe.places.size()), std::uint32_t(stripe.first_filler),
-                        depth_at_1};
+        const Push push{
+            first, tiles,     std::uint32_t(stripe.places.size()), std::uint32_t(stripe.first_filler),
+            pass,  depth_at_1};
         device_.run(*program_, buffers, std::as_bytes(std::span(&push, 1)),
                     {quarters * (end - first), std::uint32_t(groups), 1});
     }

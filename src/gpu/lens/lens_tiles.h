@@ -1,4 +1,5 @@
-// Tiles of the lens gather on a device (lens_tile.comp). It leaves to the CPU what fits into no buffer.
+// Tiles of the lens gather on a device (lens_tile.comp). It leaves to the CPU what fits into no buffer, and tiles
+// of which one lens point takes more turns of loops than the device allows.
 #pragma once
 
 #include "dof/device/tile_device.h"
@@ -20,7 +21,7 @@ public:
 private:
     void gather_stripe(const TileScene &scene,
                        const std::function<void(std::size_t, const TilePicture &)> &done);
-    void run(const Stripe &stripe, std::size_t groups, float depth_at_1,
+    void run(std::uint32_t pass, std::size_t groups, float depth_at_1,
              std::span<const Buffer *const> buffers);
 
     Device &device_;

@@ -136,9 +136,12 @@ void place_facets(Stripe &stripe, const PlacedFacets &from, const Range &range, 
 // The lens points, which tiles share.
 std::uint32_t place_lens(Stripe &stripe, std::span<const LensSample> lens) {
     const auto at = std::uint32_t(stripe.lens.size());
-    for (const LensSample &p : lens)
-        stripe.lens.push_back(
-            {p.x, p.y, p.pixel_x, p.pixel_y, p.weight, p.rgb[0], p.rgb[1], p.rgb[2], p.behind, p.in_front});
+    float before = 0;
+    for (const LensSample &p : lens) {
+        stripe.lens.push_back({p.x, p.y, p.pixel_x, p.pixel_y, p.weight, p.rgb[0], p.rgb[1], p.rgb[2],
+                               p.behind, p.in_front, before});
+        before += p.weight;
+    }
     return at;
 }
 
@@ -155,8 +158,8 @@ void sort_partial(std::span<std::uint32_t> list, const Placed &what, const TileT
 }
 
 // The tiles, and the lists of what reaches each; the partial samples, the columns and the holdout are not filled in yet.
-void list_tiles(Stripe &stripe, const TileScene &scene, std::span<const TileTask> tasks,
-                const Ranges &ranges) {
+void list_tiles(Stripe &stripe, const TileScene &scene, std::span<const TileTask> tasks, const Ranges &ranges,
+                double most_turns) {
     const std::size_t fillers = ranges.samples.blocks(), facets = fillers + ranges.fillers.blocks();
     const auto count = [](std::span<const std::uint32_t> list) { return std::uint32_t(list.size()); };
     std::uint32_t lens = 0, partial = 0, columns = 0, holdout = 0, rules = 0;
@@ -167,21 +170,23 @@ void list_tiles(Stripe &stripe, const TileScene &scene, std::span<const TileTask
         if (another) rules = rules_of(scene, task.lens);
         const bool mirrors = std::ranges::any_of(task.samples, shows_images);
         const auto partials = std::uint32_t(partial_count(scene.samples, task));
-        stripe.tiles.push_back({.x = float(task.origin.x),
-                                .y = float(task.origin.y),
-                                .blocks = list_blocks(stripe, ranges.samples, 0, task.samples),
-                                .block_count = count(task.samples),
-                                .fillers = list_blocks(stripe, ranges.fillers, fillers, task.fillers),
-                                .filler_count = count(task.fillers),
-                                .partial = partial,
-                                .partial_count = partials,
-                                .lens = lens,
-                                .lens_count = std::uint32_t(task.lens.size()),
-                                .facets = list_blocks(stripe, ranges.facets, facets, task.facets),
-                                .facet_count = count(task.facets),
-                                .rules = rules | (mirrors ? std::uint32_t{images} : 0),
-                                .columns = columns,
-                                .holdout = holdout});
+        stripe.tiles.push_back(
+            {.x = float(task.origin.x),
+             .y = float(task.origin.y),
+             .blocks = list_blocks(stripe, ranges.samples, 0, task.samples),
+             .block_count = count(task.samples),
+             .fillers = list_blocks(stripe, ranges.fillers, fillers, task.fillers),
+             .filler_count = count(task.fillers),
+             .partial = partial,
+             .partial_count = partials,
+             .lens = lens,
+             .lens_count = std::uint32_t(task.lens.size()),
+             .lens_in_pass = std::uint32_t(std::clamp(most_turns / turns_of(scene, task), 1.0, 1e6)),
+             .facets = list_blocks(stripe, ranges.facets, facets, task.facets),
+             .facet_count = count(task.facets),
+             .rules = rules | (mirrors ? std::uint32_t{images} : 0),
+             .columns = columns,
+             .holdout = holdout});
         partial += partials;
         columns += std::uint32_t(column_words(scene, task));
         holdout += std::uint32_t(holdout_words(scene, task));
@@ -207,10 +212,15 @@ std::size_t tasks_that_fit(const TileScene &scene, std::span<const TileTask> tas
         const std::size_t most =
             std::max({ranges.sample_count(scene) * groups * 16, ranges.facets.count(scene.facets) * 12,
                       listed * 4, partial * 4, columns * 4, holdout * 4, lens * sizeof(StripeLens),
-                      (t + 1) * tile_pixels * groups * 16});
+                      (t + 1) * tile_pixels * groups * 32});
         if (most > bytes) return t;
     }
     return tasks.size();
+}
+
+double turns_of(const TileScene &scene, const TileTask &task) {
+    const auto blocks = double(task.samples.size() + task.fillers.size() + 4 * task.facets.size());
+    return 100 + blocks + double(partial_count(scene.samples, task)) / 4;
 }
 
 bool fits_whole(const TileScene &scene, std::span<const TileTask> tasks, std::size_t bytes) {
@@ -222,7 +232,7 @@ bool fits_whole(const TileScene &scene, std::span<const TileTask> tasks, std::si
            2 * needed.sample_count(scene) >= count;
 }
 
-Stripe make_stripe(const TileScene &scene, std::span<const TileTask> tasks, bool whole) {
+Stripe make_stripe(const TileScene &scene, std::span<const TileTask> tasks, bool whole, double most_turns) {
     Stripe stripe;
     Ranges ranges;
     if (whole)
@@ -246,7 +256,7 @@ Stripe make_stripe(const TileScene &scene, std::span<const TileTask> tasks, bool
         place_blocks(stripe, what);
     }
     place_facets(stripe, scene.facets, ranges.facets, ranges.samples.first(scene.samples));
-    list_tiles(stripe, scene, tasks, ranges);
+    list_tiles(stripe, scene, tasks, ranges, most_turns);
     parallel_for(tasks.size(), [&](std::size_t t) {
         const StripeTile &tile = stripe.tiles[t];
         sort_partial(std::span(stripe.partial_lists).subspan(tile.partial, tile.partial_count), samples,

@@ -22,11 +22,12 @@ struct StripeBlock {
     float x_min, x_max, y_min, y_max, coc_min, coc_max;
 };
 struct StripeLens {
-    float x, y, pixel_x, pixel_y, weight, red, green, blue, behind, in_front;
+    float x, y, pixel_x, pixel_y, weight, red, green, blue, behind, in_front, weight_before;
 };
 struct StripeTile {
     float x, y;
-    std::uint32_t blocks, block_count, fillers, filler_count, partial, partial_count, lens, lens_count;
+    std::uint32_t blocks, block_count, fillers, filler_count, partial, partial_count, lens, lens_count,
+        lens_in_pass;
     std::uint32_t facets, facet_count, rules, columns, holdout;
 };
 
@@ -56,7 +57,10 @@ std::size_t tasks_that_fit(const TileScene &scene, std::span<const TileTask> tas
 // then, so that the next frame of a pull of focus finds them where they were.
 bool fits_whole(const TileScene &scene, std::span<const TileTask> tasks, std::size_t bytes);
 
-// `whole`: of all samples of the scene; else of those that the tasks need.
-Stripe make_stripe(const TileScene &scene, std::span<const TileTask> tasks, bool whole);
+// Turns of the program's loops that a lens point of the tile takes; more than it may, rather than less.
+double turns_of(const TileScene &scene, const TileTask &task);
+
+// `whole`: of all samples of the scene; else of those that the tasks need. `most_turns`: in a pass, at least turns_of() each.
+Stripe make_stripe(const TileScene &scene, std::span<const TileTask> tasks, bool whole, double most_turns);
 
 } // namespace sparselens::gpu

@@ -70,11 +70,13 @@ std::size_t StripeBuffers::bring(Device &device, Stripe &&stripe) {
     return copied;
 }
 
-std::vector<const Buffer *> StripeBuffers::bindings(const Buffer &values, const Buffer &known) const {
+std::vector<const Buffer *> StripeBuffers::bindings(const Buffer &values, const Buffer &known,
+                                                    const Buffer &sums) const {
     std::vector<const Buffer *> all;
     for (const Buffer &buffer : buffers_) all.push_back(&buffer);
     if (stripe_.shown.empty()) all.back() = &buffers_[cocs];
     all.insert(all.begin() + 8, {&values, &known});
+    all.push_back(&sums);
     return all;
 }
 

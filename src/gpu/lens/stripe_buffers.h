@@ -17,7 +17,7 @@ public:
 
     const Stripe &stripe() const { return stripe_; }
     // In the order of the shader's bindings, with those that it writes.
-    std::vector<const Buffer *> bindings(const Buffer &values, const Buffer &known) const;
+    std::vector<const Buffer *> bindings(const Buffer &values, const Buffer &known, const Buffer &sums) const;
 
 private:
     Stripe stripe_;

@@ -22,6 +22,7 @@ struct Block {
 struct Lens {
     float x, y, pixel_x, pixel_y, weight;
     float red, green, blue, behind, in_front; // by what the weight is multiplied
+    float weight_before; // of the tile's lens points before it
 };
 struct Tile {
     float x, y;                  // of its first pixel
@@ -29,6 +30,7 @@ struct Tile {
     uint fillers, filler_count;  // among block_lists
     uint partial, partial_count; // among partial_lists
     uint lens, lens_count;
+    uint lens_in_pass;           // so many at most
     uint facets, facet_count;    // blocks of them, among block_lists
     uint rules;                  // a set of the following
     uint columns;                // see seen_through(), among columns[]
@@ -61,8 +63,9 @@ layout(binding = 13) readonly buffer Holdouts { uint holdouts[]; };
 layout(binding = 14) readonly buffer Cocs { float cocs[]; };   // by which they are seen and hide
 layout(binding = 15) readonly buffer Alphas { float alphas[]; };
 layout(binding = 16) readonly buffer Shown { float shown[]; }; // CoCs of what opaque ones show, be it an image in a mirror
+layout(binding = 17) buffer Sums { vec4 sums[]; }; // from one pass to the next: [group][tile][pixel][light, weight]
 layout(push_constant) uniform Push {
-    uint first_tile, tile_count, sample_count, first_filler;
+    uint first_tile, tile_count, sample_count, first_filler, pass;
     float depth_at_1; // perceptive depth at z = 1
 };
 const uint red = 1, green = 2, blue = 4, data = 16; // ColourSet

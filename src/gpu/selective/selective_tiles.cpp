@@ -19,8 +19,8 @@ constexpr std::uint32_t code[] = {
 constexpr std::uint32_t buffers = 14;
 constexpr std::size_t stripe_bytes = std::size_t{512} << 20; // of a buffer, also where a device allows more
 // Turns of its loops that a work group takes in a pass, and all that are submitted at once: what takes seconds, operating
-// systems end. Mesa's device in software ends a program after 65535.
-constexpr double steps_in_pass = 2e5, steps_in_software = 4e4, most_in_software = 6e4, steps_at_once = 2e6;
+// systems end.
+constexpr double steps_in_pass = 2e5, steps_at_once = 2e6;
 
 struct Push {
     double pixel_aspect;
@@ -84,16 +84,15 @@ void SelectiveTilesOnDevice::gather(const SplatScene &scene, std::span<const Spl
         return;
     }
     if (!program_) program_.emplace(device_.program(code, buffers, sizeof(Push)));
-    const bool software = device_.info().kind == Kind::software;
     const std::size_t bytes = std::min(stripe_bytes, device_.largest_buffer());
     for (std::size_t begin = 0, count = 0; begin < tasks.size(); begin += std::max(count, std::size_t{1})) {
         count = tasks_that_fit(scene, tasks.subspan(begin), bytes);
         if (count == 0) ++report.on_cpu["more samples than its buffers hold"];
         if (count == 0) continue;
-        const SplatStripe stripe =
-            make_stripe(scene, tasks.subspan(begin, count), software ? steps_in_software : steps_in_pass);
-        if (software && *std::ranges::max_element(stripe.steps) > most_in_software) {
-            report.on_cpu["more steps than a device in software takes"] += count;
+        const SplatStripe stripe = make_stripe(scene, tasks.subspan(begin, count),
+                                               std::min(steps_in_pass, device_.most_turns() * 2 / 3));
+        if (*std::ranges::max_element(stripe.steps) > device_.most_turns()) {
+            report.on_cpu["more steps than the device takes"] += count;
             continue;
         }
         const Placed placed(device_, scene, stripe);
