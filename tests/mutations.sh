@@ -22,6 +22,7 @@ alpha-dropped|src/dof/lens/lens_tile_partial.cpp|1 - samples_.alpha\[i\]|1.0f
 layers-too-far|src/dof/merge_layers.cpp|<= tolerance_)) return false|<= 4 * tolerance_)) return false
 not-renormalised|src/dof/lens/lens_tile.cpp|sums_\[at\] / known|sums_[at] / total_
 weight-dropped|src/warp/warp.cpp|out.weight.push_back(float(count))|out.weight.push_back(1.0f)
+texture-is-noise|src/plan/noise.cpp|gaussian >= least_gaussian \* count|gaussian >= 0
 view-in-part-shifts|src/warp/warp.cpp|emit_mean(balanced(surface.samples), out);|emit_mean(surface.samples, out);
 view-moved-wrong-way|src/view/view_mapping.cpp|V2d(focal_px \* position.x|V2d(-focal_px * position.x
 view-y-wrong-way|src/view/view_mapping.cpp|-focal_px \* position.y|focal_px * position.y

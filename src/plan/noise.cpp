@@ -15,6 +15,12 @@ namespace {
 
 constexpr int block_size = 8;
 
+// Blocks around that tell whether it is noise, and how many of them are Gaussian then: of white noise it is four in
+// five, of path-traced pictures (64 samples a pixel) half to two thirds, of a fine checker in a picture of 160x90 one
+// in seven.
+constexpr int surroundings = 2;
+constexpr double least_gaussian = 0.4;
+
 // Tone-mapped mean of the colours that the image has.
 std::vector<double> brightness(const Image &image) {
     std::vector<double> mean(image.windows.pixels());
@@ -74,7 +80,8 @@ public:
             const Imath::V2i at = blocks_.pixel(i) * block_size + Imath::V2i(1);
             own[i] = block_variance(picture, grid, at.x, at.y);
         });
-        for (std::size_t i = 0; i < own.size(); ++i) variance_[i] = mean_around(own, blocks_.pixel(i));
+        for (std::size_t i = 0; i < own.size(); ++i)
+            if (noise_around(own, blocks_.pixel(i))) variance_[i] = mean_around(own, blocks_.pixel(i));
     }
 
     // Of the block that the pixel lies in, or next to.
@@ -85,15 +92,32 @@ public:
     }
 
 private:
+    // visit(a block's own variance) for the block and those around it.
+    template <typename Visit>
+    void around(const std::vector<double> &own, const Imath::V2i &block, int reach,
+                const Visit &visit) const {
+        for (int y = block.y - reach; y <= block.y + reach; ++y)
+            for (int x = block.x - reach; x <= block.x + reach; ++x)
+                if (blocks_.contains(x, y)) visit(own[blocks_.index(x, y)]);
+    }
+
+    // Noise is everywhere, but aliased texture looks like it here and there.
+    bool noise_around(const std::vector<double> &own, const Imath::V2i &block) const {
+        int gaussian = 0, count = 0;
+        around(own, block, surroundings, [&](double variance) {
+            gaussian += variance > 0;
+            ++count;
+        });
+        return gaussian >= least_gaussian * count;
+    }
+
     double mean_around(const std::vector<double> &own, const Imath::V2i &block) const {
         double sum = 0;
         int count = 0;
-        for (int y = block.y - 1; y <= block.y + 1; ++y)
-            for (int x = block.x - 1; x <= block.x + 1; ++x)
-                if (blocks_.contains(x, y)) {
-                    sum += own[blocks_.index(x, y)];
-                    ++count;
-                }
+        around(own, block, 1, [&](double variance) {
+            sum += variance;
+            ++count;
+        });
         return sum / count;
     }
 

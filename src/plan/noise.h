@@ -3,7 +3,7 @@
 // Noise is distinguished from texture by two things. Its second differences are as large along every direction, but
 // those of texture are small along its edges. And they are Gaussian (the quartile and the median of their magnitudes are
 // in the ratio 0.3186 to 0.6745), but those of edges are sparse. Blocks of pixels that are not Gaussian count as free of
-// noise.
+// noise, and so do those among which few are: aliased texture is Gaussian in some blocks, by chance.
 #pragma once
 
 #include "base/image.h"

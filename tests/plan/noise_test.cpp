@@ -58,6 +58,20 @@ TEST(Noise, BladesAreNone) {
     }
 }
 
+// Aliased texture: one block in four looks as noise does.
+TEST(Noise, WhatLooksLikeNoiseHereAndThereIsNone) {
+    const auto with_a_noisy_block_in = [](int blocks) {
+        std::mt19937 random(5);
+        std::normal_distribution<double> noise(0.5, 0.02);
+        return noise_of([&](int x, int y) {
+            const double value = noise(random);
+            return ((x - 1) / 8 + 2 * ((y - 1) / 8)) % blocks == 0 ? value : 0.5;
+        });
+    };
+    EXPECT_LT(with_a_noisy_block_in(4), 1e-6);
+    EXPECT_GT(with_a_noisy_block_in(1), 3e-4);
+}
+
 // Of the left half only: it is found where it is, but for the blocks beside the border.
 TEST(Noise, IsFoundWhereItIs) {
     std::mt19937 random(5);
