@@ -24,11 +24,11 @@ struct Ground {
     std::uint32_t sample = Filler::nothing; // of the LDI
 };
 
-Ground ground_of(const Ldi &ldi, const ThinLens &lens, std::size_t pixel, bool known) {
+Ground ground_of(const Ldi &ldi, std::size_t alpha_channel, const ThinLens &lens, std::size_t pixel,
+                 bool known) {
     const auto at_depth = [&](double z, std::uint32_t sample) {
         return Ground{float(perceptive_depth(lens, z)), float(circle_of_confusion(lens, z)), sample};
     };
-    const std::size_t alpha_channel = ldi.alpha();
     double transmittance = 1;
     std::uint32_t last = Filler::nothing;
     for (const std::uint64_t i : ldi.pixel(pixel)) {
@@ -43,9 +43,10 @@ Ground ground_of(const Ldi &ldi, const ThinLens &lens, std::size_t pixel, bool k
 
 std::vector<Ground> find_grounds(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &known) {
     std::vector<Ground> grounds(ldi.windows.pixels());
+    const std::size_t alpha = ldi.alpha();
     parallel_ranges(grounds.size(), 4096, [&](std::size_t begin, std::size_t end) {
         for (std::size_t pixel = begin; pixel < end; ++pixel)
-            grounds[pixel] = ground_of(ldi, lens, pixel, known.intersects(ldi.windows.pixel(pixel)));
+            grounds[pixel] = ground_of(ldi, alpha, lens, pixel, known.intersects(ldi.windows.pixel(pixel)));
     });
     return grounds;
 }
@@ -114,22 +115,23 @@ Distances find_distances(std::span<const Ground> grounds, const Windows &windows
 // A side from which a ground goes on.
 struct Side {
     Ground ground;
+    std::size_t pixel; // of the ground
     int distance;
     auto order() const { return std::tuple(distance, ground.depth, ground.sample == Filler::nothing); }
 };
 
-Filler mean_of(const Ldi &ldi, std::size_t pixel, std::span<const Side> sides) {
+Filler mean_of(const Ldi &ldi, std::size_t alpha_channel, std::size_t pixel, std::span<const Side> sides) {
     const Side &nearest = *std::ranges::min_element(sides, {}, &Side::order);
     const bool nothing = nearest.ground.sample == Filler::nothing;
     Filler filler{std::uint32_t(pixel), std::numeric_limits<float>::infinity(), 0, {}};
     if (!nothing) filler.z = ldi.z[nearest.ground.sample];
     float sum = 0;
-    for (const auto &[ground, distance] : sides) {
+    for (const auto &[ground, from, distance] : sides) {
         if ((ground.sample == Filler::nothing) != nothing) continue;
         if (std::abs(ground.depth - nearest.ground.depth) >= float(one_surface_px)) continue;
         const float weight = 1 / float(distance);
-        const float coverage = nothing ? 1 : alpha_at(ldi, ldi.alpha(), ground.sample);
-        filler.part[filler.count++] = {ground.sample, weight / coverage};
+        const float coverage = nothing ? 1 : alpha_at(ldi, alpha_channel, ground.sample);
+        filler.part[filler.count++] = {ground.sample, std::uint32_t(from), weight / coverage};
         sum += weight;
     }
     for (Filler::Part &part : filler.part) part.share /= sum;
@@ -141,6 +143,7 @@ Filler mean_of(const Ldi &ldi, std::size_t pixel, std::span<const Side> sides) {
 std::vector<Filler> find_fillers(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &known) {
     const std::vector<Ground> grounds = find_grounds(ldi, lens, known);
     const Distances distances = find_distances(grounds, ldi.windows);
+    const std::size_t alpha = ldi.alpha();
     const std::size_t width = std::size_t(ldi.windows.width());
     const std::array<std::size_t, directions> step{1, 0 - std::size_t{1}, width, 0 - width};
     std::vector<std::vector<Filler>> rows(std::size_t(ldi.windows.height()));
@@ -149,9 +152,11 @@ std::vector<Filler> find_fillers(const Ldi &ldi, const ThinLens &lens, const Ima
             std::array<Side, directions> sides;
             std::size_t count = 0;
             for (std::size_t k = 0; k < directions; ++k)
-                if (const int n = distances[pixel][k]; n > 0)
-                    sides[count++] = {grounds[pixel - std::size_t(n) * step[k]], n};
-            if (count > 0) rows[row].push_back(mean_of(ldi, pixel, std::span(sides).first(count)));
+                if (const int n = distances[pixel][k]; n > 0) {
+                    const std::size_t from = pixel - std::size_t(n) * step[k];
+                    sides[count++] = {grounds[from], from, n};
+                }
+            if (count > 0) rows[row].push_back(mean_of(ldi, alpha, pixel, std::span(sides).first(count)));
         }
     });
     std::vector<Filler> fillers;

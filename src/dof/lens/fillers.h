@@ -26,6 +26,7 @@ namespace sparselens {
 struct Filler {
     struct Part {
         std::uint32_t sample; // of the LDI; `nothing`
+        std::uint32_t pixel;  // that has it, of the data window
         float share;          // of the sample's values
     };
     static constexpr std::uint32_t nothing = 0xffffffffu; // transparent to infinity

@@ -32,10 +32,9 @@ float alpha_of(const Ldi &ldi, std::size_t alpha_channel, std::uint64_t i) {
 
 // The samples of one pixel, its background included.
 void find_samples(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &known, int x, int y,
-                  std::vector<PlacedSample> &found) {
+                  std::size_t alpha_channel, std::vector<PlacedSample> &found) {
     const Imath::V2i at = ldi.windows.data.min + Imath::V2i(x, y);
     const SampleRange samples = ldi.pixel(ldi.windows.index(at.x, at.y));
-    const std::size_t alpha_channel = ldi.alpha();
     double transmittance = 1;
     for (const std::uint64_t i : samples) {
         const float alpha = alpha_of(ldi, alpha_channel, i);
@@ -54,10 +53,10 @@ void find_samples(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &know
 }
 
 // How many those are.
-SampleCounts count_samples(const Ldi &ldi, const Imath::Box2i &known, int x, int y) {
+SampleCounts count_samples(const Ldi &ldi, const Imath::Box2i &known, int x, int y,
+                           std::size_t alpha_channel) {
     const Imath::V2i at = ldi.windows.data.min + Imath::V2i(x, y);
     const SampleRange samples = ldi.pixel(ldi.windows.index(at.x, at.y));
-    const std::size_t alpha_channel = ldi.alpha();
     SampleCounts counts{0, std::uint32_t(samples.size())};
     double transmittance = 1;
     for (const std::uint64_t i : samples) {
@@ -170,9 +169,10 @@ BlockedSamples make_blocks(const Windows &windows, const CountSamples &count, co
 BlockedSamples make_blocks(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &known) {
     if (ldi.samples() + ldi.windows.pixels() >= BlockedSamples::background)
         throw Error("the LDI has more samples than can be gathered at once (2^32)");
-    const auto count = [&](int x, int y) { return count_samples(ldi, known, x, y); };
+    const std::size_t alpha = ldi.alpha();
+    const auto count = [&](int x, int y) { return count_samples(ldi, known, x, y, alpha); };
     const auto place = [&](int x, int y, std::vector<PlacedSample> &placed) {
-        find_samples(ldi, lens, known, x, y, placed);
+        find_samples(ldi, lens, known, x, y, alpha, placed);
     };
     return make_blocks(ldi.windows, count, place, !ldi.optical.empty());
 }
@@ -190,12 +190,12 @@ SamplePlaces::SamplePlaces(const BlockedSamples &samples, const Ldi &ldi, int to
     }
 }
 
-std::uint32_t place_of(const BlockedSamples &samples, const Ldi &ldi, std::uint64_t sample) {
-    const auto pixel = std::ranges::upper_bound(ldi.begin, sample) - ldi.begin.begin() - 1;
-    const std::ptrdiff_t width = ldi.windows.width();
-    constexpr int size = BlockedSamples::size;
-    const std::ptrdiff_t b = pixel / width / size * samples.columns + pixel % width / size;
-    const SampleBlock &block = samples.blocks[std::size_t(b)];
+std::uint32_t place_of(const BlockedSamples &samples, const Ldi &ldi, std::size_t pixel,
+                       std::uint64_t sample) {
+    const auto width = std::size_t(ldi.windows.width());
+    constexpr std::size_t size = BlockedSamples::size;
+    const std::size_t b = pixel / width / size * std::size_t(samples.columns) + pixel % width / size;
+    const SampleBlock &block = samples.blocks[b];
     const auto from = samples.source.begin();
     return std::uint32_t(std::find(from + block.begin, from + block.end, std::uint32_t(sample)) - from);
 }

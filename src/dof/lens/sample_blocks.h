@@ -75,8 +75,9 @@ private:
     std::vector<std::uint32_t> places_;
 };
 
-// Where one sample of the LDI is.
-std::uint32_t place_of(const BlockedSamples &samples, const Ldi &ldi, std::uint64_t sample);
+// Where one sample of the LDI is, which that pixel of its data window has.
+std::uint32_t place_of(const BlockedSamples &samples, const Ldi &ldi, std::size_t pixel,
+                       std::uint64_t sample);
 
 struct PlacedSample {
     float x, y, coc, depth, alpha;

@@ -31,11 +31,18 @@ public:
         float most; // share of all this that it may give away
         double along(std::size_t neighbour) const { return double(neighbour < 2 ? horizontal : vertical); }
     };
+    struct Neighbours {
+        std::array<std::uint64_t, 4> sample; // left, right, up, down
+        bool horizontal, vertical;           // both of the axis are there
+    };
     // The weights of the samples of some rows, and of the row on either side.
     struct Band {
         std::uint64_t first; // sample
         std::vector<Weights> weights;
+        std::vector<Neighbours> neighbours; // of those that have weights
+        std::vector<std::uint32_t> number;  // of a sample's neighbours among these
         const Weights &of(std::uint64_t sample) const { return weights[sample - first]; }
+        const Neighbours &beside(std::uint64_t sample) const { return neighbours[number[sample - first]]; }
     };
 
     // Whether samples of some pixels may have weights: those in columns [x, x + 1) to [last_x, last_x + 1), and rows alike.
@@ -45,14 +52,10 @@ public:
     // visit(sample, x, y) for the samples of rows [top, bottom) that may have weights, and perhaps for others.
     template <typename Visit>
     void for_each_near_focus(int top, int bottom, const Visit &visit) const;
-    // The change of sample i of pixel (x, y), in the rows of the band: its new value is the sum of the terms.
-    std::array<Term, 5> terms(const Band &band, std::uint64_t i, int x, int y) const;
+    // The change of sample i, in the rows of the band: its new value is the sum of the terms.
+    std::array<Term, 5> terms(const Band &band, std::uint64_t i) const;
 
 private:
-    struct Neighbours {
-        std::array<std::uint64_t, 4> sample; // left, right, up, down
-        bool horizontal, vertical;           // both of the axis are there
-    };
     struct Seen { // through the middle of the lens
         double coc;
         Imath::V2d offset; // off the grid, pixels
@@ -60,7 +63,7 @@ private:
     Seen seen(const MergedSample &place, int x, int y) const;
     Neighbours neighbours(std::uint64_t i, int x, int y) const;
     std::uint64_t surface_in(int x, int y, float z, double depth) const;
-    Weights weights(std::uint64_t i, int x, int y) const;
+    Weights weights(std::uint64_t i, int x, int y, Neighbours &n) const;
     double detail(std::uint64_t i, const Neighbours &n) const;
     double second_difference(std::uint64_t i, std::uint64_t a, std::uint64_t b, std::size_t k) const {
         const std::vector<float> &v = ldi_.values[rgb_[k]];
@@ -79,9 +82,13 @@ private:
 
 // The sample of a pixel nearest to that depth, planar and perceptive: of a stack of mist and sheets not just any within reach.
 std::uint64_t Sharpener::surface_in(int x, int y, float z, double depth) const {
-    if (x < 0 || y < 0 || x >= ldi_.windows.width() || y >= ldi_.windows.height()) return none;
-    const Imath::V2i at = ldi_.windows.data.min + Imath::V2i(x, y);
-    const SampleRange samples = ldi_.pixel(ldi_.windows.index(at.x, at.y));
+    const int width = ldi_.windows.width();
+    if (x < 0 || y < 0 || x >= width || y >= ldi_.windows.height()) return none;
+    const SampleRange samples = ldi_.pixel(std::size_t(y) * std::size_t(width) + std::size_t(x));
+    const auto distance = [&](std::uint64_t i) {
+        return std::abs(perceptive_depth(lens_, double(ldi_.z[i])) - depth);
+    };
+    if (samples.size() == 1) return distance(samples.from) < one_surface_px ? samples.from : none;
     const auto first = ldi_.z.begin() + std::ptrdiff_t(samples.from);
     const auto behind =
         samples.from +
@@ -90,10 +97,10 @@ std::uint64_t Sharpener::surface_in(int x, int y, float z, double depth) const {
     double least = one_surface_px;
     for (std::uint64_t i = std::max(behind, samples.from + 1) - 1; i < std::min(behind + 1, samples.to);
          ++i) {
-        const double distance = std::abs(perceptive_depth(lens_, double(ldi_.z[i])) - depth);
-        if (distance >= least) continue;
+        const double apart = distance(i);
+        if (apart >= least) continue;
         found = i;
-        least = distance;
+        least = apart;
     }
     return found;
 }
@@ -165,12 +172,13 @@ Sharpener::Seen Sharpener::seen(const MergedSample &place, int x, int y) const {
     return {bent, {at.x - std::floor(at.x) - 0.5, at.y - std::floor(at.y) - 0.5}};
 }
 
-Sharpener::Weights Sharpener::weights(std::uint64_t i, int x, int y) const {
+// `n` are set where a weight is above 0.
+Sharpener::Weights Sharpener::weights(std::uint64_t i, int x, int y, Neighbours &n) const {
     const Seen at = seen(sample_at(ldi_, i), x, y);
     Weights w{float(blur_.horizontal(at.coc, at.offset.x)),
               float(blur_.vertical(at.coc * lens_.pixel_aspect, at.offset.y)), 1};
     if (w.horizontal == 0 && w.vertical == 0) return {0, 0, 0};
-    const Neighbours n = neighbours(i, x, y);
+    n = neighbours(i, x, y);
     if (!n.horizontal) w.horizontal = 0;
     if (!n.vertical) w.vertical = 0;
     const int columns = (ldi_.windows.width() + noise_block - 1) / noise_block;
@@ -209,19 +217,26 @@ Sharpener::Band Sharpener::weigh(int top, int bottom) const {
     const std::size_t width = std::size_t(ldi_.windows.width());
     const int first = std::max(top - 1, 0), last = std::min(bottom + 1, ldi_.windows.height());
     const auto begin_of = [&](int row) { return ldi_.begin[std::size_t(row) * width]; };
-    Band band{begin_of(first), std::vector<Weights>(begin_of(last) - begin_of(first))};
-    for_each_near_focus(
-        first, last, [&](std::uint64_t i, int x, int y) { band.weights[i - band.first] = weights(i, x, y); });
+    const std::size_t count = begin_of(last) - begin_of(first);
+    Band band{begin_of(first), std::vector<Weights>(count), {}, std::vector<std::uint32_t>(count)};
+    for_each_near_focus(first, last, [&](std::uint64_t i, int x, int y) {
+        Neighbours n;
+        const Weights w = weights(i, x, y, n);
+        band.weights[i - band.first] = w;
+        if (w.most == 0) return;
+        band.number[i - band.first] = std::uint32_t(band.neighbours.size());
+        band.neighbours.push_back(n);
+    });
     return band;
 }
 
-std::array<Term, 5> Sharpener::terms(const Band &band, std::uint64_t i, int x, int y) const {
+std::array<Term, 5> Sharpener::terms(const Band &band, std::uint64_t i) const {
     std::array<Term, 5> terms;
     terms.fill({i, 0});
     terms[0].coefficient = 1;
     const Weights &own = band.of(i);
     if (own.most == 0) return terms;
-    const Neighbours n = neighbours(i, x, y);
+    const Neighbours &n = band.beside(i);
     for (std::size_t k = 0; k < 4; ++k) {
         if (!(k < 2 ? n.horizontal : n.vertical)) continue;
         // The same for both, so that no light is made or lost.
@@ -248,8 +263,8 @@ void sharpen_near_focus(const Ldi &ldi, const ThinLens &lens, const BlockedSampl
         if (!sharpener.near_focus(0, top, width - 1, bottom - 1)) return;
         const Sharpener::Band band = sharpener.weigh(top, bottom);
         const SamplePlaces places(samples, ldi, top, bottom);
-        const auto sharpen = [&](std::uint64_t i, int x, int y) {
-            const auto terms = sharpener.terms(band, i, x, y);
+        const auto sharpen = [&](std::uint64_t i, int, int) {
+            const auto terms = sharpener.terms(band, i);
             if (terms[0].coefficient == 1) return;
             for (std::size_t k = 0; k < ldi.channels.size(); ++k) {
                 if (k == alpha || !is_light(ldi.channels[k])) continue;

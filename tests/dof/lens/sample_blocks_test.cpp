@@ -47,11 +47,11 @@ TEST(SampleBlocks, TellWhereTheSamplesOfTheLdiAre) {
     const BlockedSamples samples = make_blocks(ldi, lens, ldi.windows.data);
     for (const auto &[top, bottom] : {std::pair(0, 16), std::pair(16, 32), std::pair(32, 37)}) {
         const SamplePlaces places(samples, ldi, top, bottom);
-        for (std::uint64_t i = ldi.begin[std::size_t(top) * 45]; i < ldi.begin[std::size_t(bottom) * 45];
-             ++i) {
-            EXPECT_EQ(samples.source[places.of(i)], i);
-            EXPECT_EQ(place_of(samples, ldi, i), places.of(i));
-        }
+        for (std::size_t pixel = std::size_t(top) * 45; pixel < std::size_t(bottom) * 45; ++pixel)
+            for (const std::uint64_t i : ldi.pixel(pixel)) {
+                EXPECT_EQ(samples.source[places.of(i)], i);
+                EXPECT_EQ(place_of(samples, ldi, pixel, i), places.of(i));
+            }
     }
 }
 
