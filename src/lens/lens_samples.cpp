@@ -3,19 +3,58 @@
 #include "base/random.h"
 #include "lens/lens_points.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 
 namespace sparselens {
 
+namespace {
+
+struct OwnStep {
+    std::size_t points;
+    double x, y; // pixels
+};
+
+// Of final quality, up to 32 pixels of CoC (dof/lens/lens_gather.cpp).
+constexpr std::array own_steps = std::to_array<OwnStep>({{288, 0.549027, 0.279015},
+                                                         {384, 0.484515, 0.778827},
+                                                         {480, 0.514910, 0.700320},
+                                                         {576, 0.317818, 0.515363}});
+
+std::vector<Imath::V2d> positions_by(const OwnStep &step) {
+    // In units of 2^-32, so that the fractional part is the integer product's wrap-around.
+    const auto fraction = [](double of) { return std::uint32_t(of * 0x1p32); };
+    const std::uint32_t x = fraction(step.x), y = fraction(step.y), middle = 1u << 31;
+    std::vector<Imath::V2d> positions;
+    for (std::uint32_t k = 0; k < step.points; ++k)
+        positions.emplace_back(double(middle + k * x) * 0x1p-32, double(middle + k * y) * 0x1p-32);
+    return positions;
+}
+
+} // namespace
+
+std::vector<std::size_t> numbers_with_own_steps() {
+    std::vector<std::size_t> numbers;
+    for (const OwnStep &step : own_steps) numbers.push_back(step.points);
+    return numbers;
+}
+
+std::vector<Imath::V2d> pixel_positions(std::size_t n) {
+    const auto own = std::ranges::find(own_steps, n, &OwnStep::points);
+    if (own != own_steps.end()) return positions_by(*own);
+    std::vector<Imath::V2d> positions;
+    for (std::uint32_t k = 0; k < n; ++k) positions.push_back(low_discrepancy_2d(k, {0.5, 0.5}));
+    return positions;
+}
+
 std::vector<LensSample> disc_lens_samples(std::size_t n, double pixel_aspect) {
     std::vector<LensSample> samples;
-    // Spiral order is by radius; a low-discrepancy sequence along it keeps lens and pixel position independent.
-    std::uint32_t k = 0;
-    for (const Imath::V2d &u : spiral_lens_points(int(n))) {
-        const Imath::V2d pixel = low_discrepancy_2d(k++, {0.5, 0.5});
-        samples.push_back(
-            {float(u.x), float(-u.y * pixel_aspect), float(pixel.x - 0.5), float(pixel.y - 0.5), 1});
-    }
+    const std::vector<Imath::V2d> lens = spiral_lens_points(int(n)), pixel = pixel_positions(n);
+    for (std::size_t k = 0; k < n; ++k)
+        samples.push_back({float(lens[k].x), float(-lens[k].y * pixel_aspect), float(pixel[k].x - 0.5),
+                           float(pixel[k].y - 0.5), 1});
     return samples;
 }
 

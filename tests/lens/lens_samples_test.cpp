@@ -1,9 +1,12 @@
+#include "base/random.h"
+#include "lens/lens_points.h"
 #include "lens/lens_samples.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 namespace sparselens {
@@ -107,6 +110,90 @@ TEST(LensSamples, AreStretchedByThePixelAspect) {
         EXPECT_NEAR(tall[i].y, 2 * round[i].y, 1e-6);
     }
 }
+
+constexpr int phases = 3; // of a sample in its pixel, along each axis
+
+using Weights = std::map<std::pair<int, int>, double>; // of pixels
+
+// What pixels see of a disc of a sample at `place`: exactly, each sum of a point of the lens and one of the pixel being a
+// unit square.
+Weights exact_disc(double coc, const Imath::V2d &place) {
+    constexpr int points = 4000;
+    Weights weights;
+    for (const Imath::V2d &u : spiral_lens_points(points)) {
+        const Imath::V2d at = coc * u + place - Imath::V2d(0.5);
+        const int x = int(std::floor(at.x)), y = int(std::floor(at.y));
+        const double s = at.x - x, t = at.y - y;
+        weights[{x, y}] += (1 - s) * (1 - t) / points;
+        weights[{x + 1, y}] += s * (1 - t) / points;
+        weights[{x, y + 1}] += (1 - s) * t / points;
+        weights[{x + 1, y + 1}] += s * t / points;
+    }
+    return weights;
+}
+
+// The sum of the squared errors of what pixels see of it, by a set of lens points.
+double squared_error(const std::vector<Imath::V2d> &positions, double coc, const Imath::V2d &place) {
+    Weights errors = exact_disc(coc, place);
+    const std::vector<Imath::V2d> lens = spiral_lens_points(int(positions.size()));
+    for (std::size_t k = 0; k < lens.size(); ++k) {
+        const Imath::V2d at = coc * lens[k] + positions[k] - Imath::V2d(0.5) + place;
+        errors[{int(std::floor(at.x)), int(std::floor(at.y))}] -= 1 / double(lens.size());
+    }
+    double sum = 0;
+    for (const auto &[pixel, error] : errors) sum += error * error;
+    return sum;
+}
+
+// Over discs from focus to where most pixels meet one lens point or none, whatever their positions.
+double mean_error(const std::vector<Imath::V2d> &positions) {
+    double sum = 0;
+    for (double coc = 0.5; coc <= 12; coc *= 1.3)
+        for (int y = 0; y < phases; ++y)
+            for (int x = 0; x < phases; ++x)
+                sum += squared_error(positions, coc, (Imath::V2d(x, y) + Imath::V2d(0.5)) / phases);
+    return sum;
+}
+
+std::vector<Imath::V2d> sequence(std::size_t n) {
+    std::vector<Imath::V2d> positions;
+    for (std::uint32_t k = 0; k < n; ++k) positions.push_back(low_discrepancy_2d(k, {0.5, 0.5}));
+    return positions;
+}
+
+TEST(PixelPositions, OfTheGathersSetsLeaveLessErrorThanTheSequence) {
+    for (const std::size_t n : numbers_with_own_steps())
+        EXPECT_LT(mean_error(pixel_positions(n)), mean_error(sequence(n))) << n;
+}
+
+// As a whole: within a decibel.
+TEST(PixelPositions, ThreeDoForFour) {
+    double own = 0, of_sequence = 0;
+    for (const std::size_t n : numbers_with_own_steps()) {
+        own += mean_error(pixel_positions(n));
+        of_sequence += mean_error(sequence(n * 4 / 3));
+    }
+    EXPECT_LT(own, 1.26 * of_sequence);
+}
+
+TEST(PixelPositions, LieInThePixelEvenlyAndBeginInTheMiddle) {
+    std::vector<std::size_t> numbers = numbers_with_own_steps();
+    for (const std::size_t n : {1u, 7u, 100u, 4096u}) numbers.push_back(n);
+    for (const std::size_t n : numbers) {
+        const std::vector<Imath::V2d> positions = pixel_positions(n);
+        ASSERT_EQ(positions.size(), n);
+        EXPECT_EQ(positions.front(), Imath::V2d(0.5));
+        Imath::V2d sum(0);
+        for (const Imath::V2d &p : positions) {
+            ASSERT_TRUE(p.x >= 0 && p.x < 1 && p.y >= 0 && p.y < 1) << n;
+            sum += p;
+        }
+        EXPECT_NEAR(sum.x / double(n), 0.5, 0.8 / std::pow(double(n), 0.75)) << n;
+        EXPECT_NEAR(sum.y / double(n), 0.5, 0.8 / std::pow(double(n), 0.75)) << n;
+    }
+}
+
+TEST(PixelPositions, OfOtherNumbersAreTheSequence) { EXPECT_EQ(pixel_positions(77), sequence(77)); }
 
 } // namespace
 } // namespace sparselens

@@ -46,7 +46,8 @@ private:
     // The error of a set falls with the number of points and grows with the blur. Measured on fence at 1920x1080
     // against 4096 points: 96 points at 4 pixels of CoC leave 50 dB, 256 points at 64 pixels 46 dB.
     static constexpr std::array<float, 6> largest_coc{6, 12, 20, 32, 48, INFINITY};
-    static constexpr std::array<std::size_t, 6> normal_points{96, 128, 160, 192, 224, 256};
+    static constexpr std::array<std::size_t, 6> normal_points{96, 128, 160, 192, 224, 256},
+        final_points{288, 384, 480, 576, 896, 1024}; // up to 576 by steps of their own (lens_samples.h)
 
     static std::size_t step_for(float coc) {
         return std::size_t(std::find_if(largest_coc.begin(), largest_coc.end() - 1,
@@ -57,7 +58,7 @@ private:
         if (options_.lens_samples > 0) return std::size_t(options_.lens_samples);
         switch (options_.quality) {
         case Quality::draft: return normal_points[step] / 3;
-        case Quality::final: return normal_points[step] * 4;
+        case Quality::final: return final_points[step];
         case Quality::normal: break;
         }
         return normal_points[step];
