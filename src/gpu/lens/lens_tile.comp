@@ -42,6 +42,8 @@ void main() {
     corner = ivec2(quarter % 2, quarter / 2) * size;
     first = vec2(tile.x, tile.y);
     rules = tile.rules;
+    partial_first = tile.partial[quarter];
+    partial_count = tile.partial_count[quarter];
     held_out = tile.holdout;
     const uint begin = pass * tile.lens_in_pass, end = min(begin + tile.lens_in_pass, tile.lens_count);
     if (begin >= end) return; // it is done
@@ -54,7 +56,7 @@ void main() {
     for (uint k = begin; k < end; ++k) {
         lens = lens_points[tile.lens + k];
         const uint seen[own] = see_behind(tile);
-        const Over over[own] = see_partial(tile, group);
+        const Over over[own] = see_partial(group);
         for (uint j = 0; j < own; ++j) {
             const float passed = opaque_passes(j, seen[j]);
             if ((rules & weighted) == 0) add_seen(sum[j], seen[j], passed, over[j], group);

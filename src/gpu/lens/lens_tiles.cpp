@@ -2,6 +2,7 @@
 
 #include "base/grid.h"
 #include "base/parallel.h"
+#include "gpu/lens/partial_lists.h"
 
 #include <algorithm>
 #include <array>
@@ -17,7 +18,6 @@ constexpr std::uint32_t code[] = {
 };
 
 constexpr std::size_t stripe_bytes = std::size_t{512} << 20; // of a buffer, also where a device allows more
-constexpr std::uint32_t quarters = 4;                        // work groups a tile
 // Tests of a sample by a lens point that are submitted at once: what takes seconds, operating systems end.
 constexpr double work_at_once = 2e9;
 constexpr double turns_in_pass = 1e6; // of loops, for the same reason
@@ -29,7 +29,8 @@ struct Push {
 
 // Tests of a sample by a lens point that one of the tile's passes takes.
 double work_of(const Stripe &stripe, const StripeTile &tile) {
-    double samples = quarters * double(tile.partial_count);
+    double samples = 0;
+    for (const std::uint32_t partial : tile.partial_count) samples += partial;
     for (std::uint32_t n = 0; n < tile.block_count; ++n) {
         const StripeBlock &block = stripe.blocks[stripe.block_lists[tile.blocks + n]];
         samples += block.opaque_end - block.begin;
@@ -106,7 +107,7 @@ void LensTilesOnDevice::run(std::uint32_t pass, std::size_t groups, float depth_
             first, tiles,     std::uint32_t(stripe.places.size()), std::uint32_t(stripe.first_filler),
             pass,  depth_at_1};
         device_.run(*program_, buffers, std::as_bytes(std::span(&push, 1)),
-                    {quarters * (end - first), std::uint32_t(groups), 1});
+                    {std::uint32_t(quarters) * (end - first), std::uint32_t(groups), 1});
     }
 }
 

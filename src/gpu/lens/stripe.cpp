@@ -1,7 +1,8 @@
 #include "gpu/lens/stripe.h"
 
 #include "base/parallel.h"
-#include "dof/facets/placed_facets.h"
+#include "gpu/lens/partial_lists.h"
+#include "gpu/lens/stripe_ranges.h"
 #include "gpu/lens/tile_rules.h"
 
 #include <algorithm>
@@ -10,63 +11,6 @@
 namespace sparselens::gpu {
 
 namespace {
-
-// A range of blocks, and what lies in them side by side: samples or facets.
-struct Range {
-    std::uint32_t first_block = ~0u, end_block = 0;
-
-    void add(std::uint32_t first, std::uint32_t last) {
-        first_block = std::min(first_block, first);
-        end_block = std::max(end_block, last + 1);
-    }
-    void add(std::span<const std::uint32_t> blocks) { // in ascending order
-        if (!blocks.empty()) add(blocks.front(), blocks.back());
-    }
-    void add_all(const auto &of) {
-        if (!of.blocks.empty()) add(0, std::uint32_t(of.blocks.size() - 1));
-    }
-    std::size_t blocks() const { return first_block < end_block ? end_block - first_block : 0; }
-    std::uint32_t first(const auto &of) const { return blocks() > 0 ? of.blocks[first_block].begin : 0; }
-    std::size_t count(const auto &of) const {
-        return blocks() > 0 ? of.blocks[end_block - 1].end - first(of) : 0;
-    }
-};
-
-// What tiles are gathered from, in the scene.
-struct Ranges {
-    Range samples, fillers, facets;
-
-    void add(const TileScene &scene, const TileTask &task) {
-        samples.add(task.samples);
-        fillers.add(task.fillers);
-        facets.add(task.facets);
-        for (const std::uint32_t b : task.facets) add_corners(scene, scene.facets.blocks[b]);
-    }
-    void add_all(const TileScene &scene) {
-        samples.add_all(scene.samples);
-        fillers.add_all(scene.fillers.samples);
-        facets.add_all(scene.facets);
-    }
-    std::size_t sample_count(const TileScene &scene) const {
-        return samples.count(scene.samples) + fillers.count(scene.fillers.samples);
-    }
-
-private:
-    // A facet can reach a tile that some of its corners do not.
-    void add_corners(const TileScene &scene, const FacetBlock &block) {
-        std::uint32_t least = ~0u, most = 0;
-        for (const std::vector<std::uint64_t> &keys : scene.facets.key)
-            for (std::uint32_t i = block.begin; i < block.end; ++i) {
-                least = std::min(least, std::uint32_t(keys[i]));
-                most = std::max(most, std::uint32_t(keys[i]));
-            }
-        if (least <= most) samples.add(block_of(scene.samples, least), block_of(scene.samples, most));
-    }
-    static std::uint32_t block_of(const BlockedSamples &samples, std::uint32_t sample) {
-        const auto after = std::ranges::upper_bound(samples.blocks, sample, {}, &SampleBlock::begin);
-        return std::uint32_t(after - samples.blocks.begin() - 1);
-    }
-};
 
 std::size_t partial_count(const BlockedSamples &samples, const TileTask &task) {
     std::size_t count = 0;
@@ -145,31 +89,18 @@ std::uint32_t place_lens(Stripe &stripe, std::span<const LensSample> lens) {
     return at;
 }
 
-// The tile's partial samples, front to back.
-void sort_partial(std::span<std::uint32_t> list, const Placed &what, const TileTask &task) {
-    const BlockedSamples &samples = what.from;
-    std::size_t n = 0;
-    for (const std::uint32_t b : task.samples)
-        for (std::uint32_t i = samples.blocks[b].opaque_end; i < samples.blocks[b].end; ++i) list[n++] = i;
-    std::ranges::sort(list, [&](std::uint32_t a, std::uint32_t b) {
-        return samples.depth[a] != samples.depth[b] ? samples.depth[a] > samples.depth[b] : a < b;
-    });
-    for (std::uint32_t &i : list) i -= what.range.first(samples); // these come first in a stripe
-}
-
-// The tiles, and the lists of what reaches each; the partial samples, the columns and the holdout are not filled in yet.
+// The tiles, and the lists of what reaches each; the columns and the holdout are not filled in yet.
 void list_tiles(Stripe &stripe, const TileScene &scene, std::span<const TileTask> tasks, const Ranges &ranges,
                 double most_turns) {
     const std::size_t fillers = ranges.samples.blocks(), facets = fillers + ranges.fillers.blocks();
     const auto count = [](std::span<const std::uint32_t> list) { return std::uint32_t(list.size()); };
-    std::uint32_t lens = 0, partial = 0, columns = 0, holdout = 0, rules = 0;
+    std::uint32_t lens = 0, columns = 0, holdout = 0, rules = 0;
     const auto shows_images = [&](std::uint32_t block) { return scene.samples.blocks[block].shows_images; };
     for (const TileTask &task : tasks) {
         const bool another = &task == tasks.data() || task.lens.data() != (&task - 1)->lens.data();
         if (another) lens = place_lens(stripe, task.lens);
         if (another) rules = rules_of(scene, task.lens);
         const bool mirrors = std::ranges::any_of(task.samples, shows_images);
-        const auto partials = std::uint32_t(partial_count(scene.samples, task));
         stripe.tiles.push_back(
             {.x = float(task.origin.x),
              .y = float(task.origin.y),
@@ -177,8 +108,8 @@ void list_tiles(Stripe &stripe, const TileScene &scene, std::span<const TileTask
              .block_count = count(task.samples),
              .fillers = list_blocks(stripe, ranges.fillers, fillers, task.fillers),
              .filler_count = count(task.fillers),
-             .partial = partial,
-             .partial_count = partials,
+             .partial = {},
+             .partial_count = {},
              .lens = lens,
              .lens_count = std::uint32_t(task.lens.size()),
              .lens_in_pass = std::uint32_t(std::clamp(most_turns / turns_of(scene, task), 1.0, 1e6)),
@@ -187,13 +118,25 @@ void list_tiles(Stripe &stripe, const TileScene &scene, std::span<const TileTask
              .rules = rules | (mirrors ? std::uint32_t{images} : 0),
              .columns = columns,
              .holdout = holdout});
-        partial += partials;
         columns += std::uint32_t(column_words(scene, task));
         holdout += std::uint32_t(holdout_words(scene, task));
     }
-    stripe.partial_lists.resize(partial);
     stripe.columns.resize(columns);
     stripe.holdout.resize(holdout);
+}
+
+// The partial samples of each quarter.
+void list_partial(Stripe &stripe, const BlockedSamples &samples, std::span<const TileTask> tasks,
+                  std::uint32_t first_sample) {
+    std::vector<PartialLists> lists(tasks.size());
+    parallel_for(tasks.size(), [&](std::size_t t) { lists[t] = partial_lists(samples, tasks[t]); });
+    for (std::size_t t = 0; t < tasks.size(); ++t)
+        for (std::size_t q = 0; q < quarters; ++q) {
+            stripe.tiles[t].partial[q] = std::uint32_t(stripe.partial_lists.size());
+            stripe.tiles[t].partial_count[q] = std::uint32_t(lists[t][q].size());
+            for (const std::uint32_t i : lists[t][q]) stripe.partial_lists.push_back(i - first_sample);
+            lists[t][q] = {};
+        }
 }
 
 } // namespace
@@ -211,7 +154,7 @@ std::size_t tasks_that_fit(const TileScene &scene, std::span<const TileTask> tas
         holdout += holdout_words(scene, tasks[t]);
         const std::size_t most =
             std::max({ranges.sample_count(scene) * groups * 16, ranges.facets.count(scene.facets) * 12,
-                      listed * 4, partial * 4, columns * 4, holdout * 4, lens * sizeof(StripeLens),
+                      listed * 4, partial * 4 * quarters, columns * 4, holdout * 4, lens * sizeof(StripeLens),
                       (t + 1) * tile_pixels * groups * 32});
         if (most > bytes) return t;
     }
@@ -257,10 +200,9 @@ Stripe make_stripe(const TileScene &scene, std::span<const TileTask> tasks, bool
     }
     place_facets(stripe, scene.facets, ranges.facets, ranges.samples.first(scene.samples));
     list_tiles(stripe, scene, tasks, ranges, most_turns);
+    list_partial(stripe, scene.samples, tasks, ranges.samples.first(scene.samples));
     parallel_for(tasks.size(), [&](std::size_t t) {
         const StripeTile &tile = stripe.tiles[t];
-        sort_partial(std::span(stripe.partial_lists).subspan(tile.partial, tile.partial_count), samples,
-                     tasks[t]);
         place_columns(std::span(stripe.columns).subspan(tile.columns, column_words(scene, tasks[t])), scene,
                       tasks[t]);
         place_holdout(std::span(stripe.holdout).subspan(tile.holdout, holdout_words(scene, tasks[t])), scene,

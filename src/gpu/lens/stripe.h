@@ -26,7 +26,7 @@ struct StripeLens {
 };
 struct StripeTile {
     float x, y;
-    std::uint32_t blocks, block_count, fillers, filler_count, partial, partial_count, lens, lens_count,
+    std::uint32_t blocks, block_count, fillers, filler_count, partial[4], partial_count[4], lens, lens_count,
         lens_in_pass;
     std::uint32_t facets, facet_count, rules, columns, holdout;
 };

@@ -28,7 +28,7 @@ struct Tile {
     float x, y;                  // of its first pixel
     uint blocks, block_count;    // among block_lists
     uint fillers, filler_count;  // among block_lists
-    uint partial, partial_count; // among partial_lists
+    uint partial[4], partial_count[4]; // of each quarter, among partial_lists
     uint lens, lens_count;
     uint lens_in_pass;           // so many at most
     uint facets, facet_count;    // blocks of them, among block_lists
@@ -82,6 +82,7 @@ shared uint listed_count;
 ivec2 corner; // in the tile
 vec2 first;   // pixel
 uint rules;   // of the tile
+uint partial_first, partial_count; // of the quarter
 uint held_out; // where holdouts[] has the tile's
 Lens lens;
 

@@ -21,13 +21,13 @@ void add_over(inout Over over, uint j, uint sample_, uint group) {
 }
 
 // The counts of a chunk by pixel, and the pixels of the two samples of it that are the thread's; -1: hidden or outside.
-int[2] count_chunk(Tile tile, uint begin) {
+int[2] count_chunk(uint begin) {
     int at[2];
     for (uint h = 0; h < 2; ++h) {
         at[h] = -1;
         const uint n = begin + thread() + threads * h;
-        if (n >= tile.partial_count) continue;
-        const uint i = partial_lists[tile.partial + n];
+        if (n >= partial_count) continue;
+        const uint i = partial_lists[partial_first + n];
         const ivec2 pixel = seen_at(i, cocs[i]);
         if (pixel.x < 0 || pixel.y < 0 || pixel.x >= size || pixel.y >= size) continue;
         if (key_of(uppers[i], i) < front[cell_of(pixel)]) continue;
@@ -49,11 +49,11 @@ void sort_list(uint begin, uint end) {
 
 // Lists the samples of a chunk by pixel, each pixel's front to back; false: there is none. Those of the thread's pixel j are
 // [start[j], counts[its pixel]) of listed[]. Ends with a barrier.
-bool list_chunk(Tile tile, uint begin, out uint start[own]) {
+bool list_chunk(uint begin, out uint start[own]) {
     for (uint j = 0; j < own; ++j) counts[thread() + threads * j] = 0;
     if (thread() == 0) listed_count = 0;
     barrier();
-    const int at[2] = count_chunk(tile, begin);
+    const int at[2] = count_chunk(begin);
     barrier();
     const bool any = listed_count != 0;
     barrier();
@@ -73,15 +73,15 @@ bool list_chunk(Tile tile, uint begin, out uint start[own]) {
     return true;
 }
 
-Over[own] see_partial(Tile tile, uint group) {
+Over[own] see_partial(uint group) {
     Over over[own];
     for (uint j = 0; j < own; ++j) over[j] = Over(vec4(0), vec4(0), 1, 0);
-    for (uint begin = 0; begin < tile.partial_count; begin += chunk) {
+    for (uint begin = 0; begin < partial_count; begin += chunk) {
         uint start[own];
-        if (!list_chunk(tile, begin, start)) continue;
+        if (!list_chunk(begin, start)) continue;
         for (uint j = 0; j < own; ++j)
             for (uint n = start[j]; n < counts[thread() + threads * j]; ++n)
-                add_over(over[j], j, partial_lists[tile.partial + begin + listed[n]], group);
+                add_over(over[j], j, partial_lists[partial_first + begin + listed[n]], group);
         barrier();
     }
     return over;

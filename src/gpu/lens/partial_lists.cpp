@@ -1,0 +1,55 @@
+#include "gpu/lens/partial_lists.h"
+
+#include "gpu/lens/tile_rules.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sparselens::gpu {
+
+namespace {
+
+constexpr float margin = 2; // pixels: where in a pixel a lens point sees, and rounding
+constexpr float size = tile_size / 2;
+
+// How far lens points move a sample, for each pixel of CoC.
+struct Reach {
+    float x = 0, y = 0;
+};
+
+Reach reach_of(const TileTask &task) {
+    Reach reach;
+    for (const LensSample &p : task.lens) {
+        reach.x = std::max(reach.x, std::abs(p.x));
+        reach.y = std::max(reach.y, std::abs(p.y));
+    }
+    return reach;
+}
+
+bool within(float at, float first, float reach) { return at > first - reach && at < first + size + reach; }
+
+} // namespace
+
+PartialLists partial_lists(const BlockedSamples &samples, const TileTask &task) {
+    const Reach reach = reach_of(task);
+    std::vector<std::uint32_t> sorted;
+    for (const std::uint32_t b : task.samples)
+        for (std::uint32_t i = samples.blocks[b].opaque_end; i < samples.blocks[b].end; ++i)
+            sorted.push_back(i);
+    std::ranges::sort(sorted, [&](std::uint32_t a, std::uint32_t b) {
+        return samples.depth[a] != samples.depth[b] ? samples.depth[a] > samples.depth[b] : a < b;
+    });
+    PartialLists lists;
+    for (const std::uint32_t i : sorted) {
+        const float coc = std::abs(samples.hiding_coc()[i]), across = coc * reach.x + margin,
+                    down = coc * reach.y + margin;
+        for (std::size_t q = 0; q < quarters; ++q) {
+            const float left = float(task.origin.x) + float(q % 2) * size,
+                        top = float(task.origin.y) + float(q / 2) * size;
+            if (within(samples.x[i], left, across) && within(samples.y[i], top, down)) lists[q].push_back(i);
+        }
+    }
+    return lists;
+}
+
+} // namespace sparselens::gpu

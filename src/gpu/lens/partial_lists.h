@@ -1,0 +1,20 @@
+// The samples of partial coverage that a tile's lens points can bring into each of its quarters, front to back, of equal
+// depth in ascending order.
+#pragma once
+
+#include "dof/device/tile_device.h"
+#include "dof/lens/sample_blocks.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace sparselens::gpu {
+
+inline constexpr std::size_t quarters = 4; // of a tile: left and right above, left and right below
+
+using PartialLists = std::array<std::vector<std::uint32_t>, quarters>;
+
+PartialLists partial_lists(const BlockedSamples &samples, const TileTask &task);
+
+} // namespace sparselens::gpu

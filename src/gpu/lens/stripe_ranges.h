@@ -1,0 +1,74 @@
+// Which blocks of a scene tiles are gathered from.
+#pragma once
+
+#include "dof/device/tile_device.h"
+#include "dof/facets/placed_facets.h"
+#include "dof/lens/filler_samples.h"
+#include "dof/lens/sample_blocks.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace sparselens::gpu {
+
+// A range of blocks, and what lies in them side by side: samples or facets.
+struct Range {
+    std::uint32_t first_block = ~0u, end_block = 0;
+
+    void add(std::uint32_t first, std::uint32_t last) {
+        first_block = std::min(first_block, first);
+        end_block = std::max(end_block, last + 1);
+    }
+    void add(std::span<const std::uint32_t> blocks) { // in ascending order
+        if (!blocks.empty()) add(blocks.front(), blocks.back());
+    }
+    void add_all(const auto &of) {
+        if (!of.blocks.empty()) add(0, std::uint32_t(of.blocks.size() - 1));
+    }
+    std::size_t blocks() const { return first_block < end_block ? end_block - first_block : 0; }
+    std::uint32_t first(const auto &of) const { return blocks() > 0 ? of.blocks[first_block].begin : 0; }
+    std::size_t count(const auto &of) const {
+        return blocks() > 0 ? of.blocks[end_block - 1].end - first(of) : 0;
+    }
+};
+
+// What tiles are gathered from, in the scene.
+struct Ranges {
+    Range samples, fillers, facets;
+
+    void add(const TileScene &scene, const TileTask &task) {
+        samples.add(task.samples);
+        fillers.add(task.fillers);
+        facets.add(task.facets);
+        for (const std::uint32_t b : task.facets) add_corners(scene, scene.facets.blocks[b]);
+    }
+    void add_all(const TileScene &scene) {
+        samples.add_all(scene.samples);
+        fillers.add_all(scene.fillers.samples);
+        facets.add_all(scene.facets);
+    }
+    std::size_t sample_count(const TileScene &scene) const {
+        return samples.count(scene.samples) + fillers.count(scene.fillers.samples);
+    }
+
+private:
+    // A facet can reach a tile that some of its corners do not.
+    void add_corners(const TileScene &scene, const FacetBlock &block) {
+        std::uint32_t least = ~0u, most = 0;
+        for (const std::vector<std::uint64_t> &keys : scene.facets.key)
+            for (std::uint32_t i = block.begin; i < block.end; ++i) {
+                least = std::min(least, std::uint32_t(keys[i]));
+                most = std::max(most, std::uint32_t(keys[i]));
+            }
+        if (least <= most) samples.add(block_of(scene.samples, least), block_of(scene.samples, most));
+    }
+    static std::uint32_t block_of(const BlockedSamples &samples, std::uint32_t sample) {
+        const auto after = std::ranges::upper_bound(samples.blocks, sample, {}, &SampleBlock::begin);
+        return std::uint32_t(after - samples.blocks.begin() - 1);
+    }
+};
+
+} // namespace sparselens::gpu
