@@ -247,6 +247,7 @@ def warp(
     silhouettes: Literal["split", "whole"] = "split",
     agreement: Literal["test", "assume"] = "test",
     optical: Literal["on", "off"] = "on",
+    device: Optional[str] = "cpu",
     progress: Optional[_Progress] = None,
     focal_length: Optional[float] = None,
     sensor_width: Optional[float] = None,

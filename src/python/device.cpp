@@ -1,6 +1,7 @@
 #include "python/device.h"
 
 #include "gpu/gather/gather_device.h"
+#include "gpu/warp/warp_device.h"
 
 #include <memory>
 #include <mutex>
@@ -10,52 +11,74 @@ namespace sparselens::python {
 namespace {
 
 // What the calls of a process share.
-struct Kept {
-    std::mutex mutex;
-    std::string word;
-    std::unique_ptr<TileDevice> device;
+template <typename Device>
+class Kept {
+public:
+    using Open = std::unique_ptr<Device> (*)(const gpu::DeviceInfo &, const gpu::Watch &);
+    // `verb`: in messages, "the CPU gathers".
+    Kept(Open open, std::string verb) : open_(open), verb_(std::move(verb)) {}
+
+    void with(const std::string &word, std::vector<std::string> &warnings,
+              const std::function<void(Device *)> &work) {
+        if (word == "cpu") return work(nullptr);
+        const std::lock_guard lock(mutex_);
+        if (word_ != word) look_for(word, warnings);
+        work(device_.get());
+        if (!device_) return;
+        const DeviceReport did = device_->take_report();
+        if (!did.failure.empty()) warnings.push_back(did.failure + "; the CPU did what it had not");
+    }
+    void release() {
+        const std::lock_guard lock(mutex_);
+        device_.reset();
+        word_.clear();
+    }
+
+private:
+    void look_for(const std::string &word, std::vector<std::string> &warnings) {
+        device_.reset();
+        word_.clear();
+        if (word != "auto" || gpu::may_have_gpu())
+            if (const auto chosen = gpu::choose_device(word, gpu::list_devices())) try {
+                    device_ = open_(*chosen, {});
+                } catch (const gpu::DeviceFailed &failure) {
+                    warnings.push_back(std::string(failure.what()) + "; the CPU " + verb_);
+                }
+        word_ = word;
+    }
+
+    Open open_;
+    std::string verb_;
+    std::mutex mutex_;
+    std::string word_;
+    std::unique_ptr<Device> device_;
 };
 
-Kept &kept() {
-    static Kept one;
+Kept<TileDevice> &gather_device() {
+    static Kept<TileDevice> one(gpu::open_gather_device, "gathers");
     return one;
 }
 
-std::unique_ptr<TileDevice> opened(const std::string &word, std::vector<std::string> &warnings) {
-    if (word == "auto" && !gpu::may_have_gpu()) return {};
-    const auto chosen = gpu::choose_device(word, gpu::list_devices());
-    if (!chosen) return {};
-    try {
-        return gpu::open_gather_device(*chosen);
-    } catch (const gpu::DeviceFailed &failure) {
-        warnings.push_back(std::string(failure.what()) + "; the CPU gathers");
-        return {};
-    }
+Kept<WarpDevice> &warp_device() {
+    static Kept<WarpDevice> one(gpu::open_warp_device, "warps");
+    return one;
 }
 
 } // namespace
 
-void with_device(const std::string &word, std::vector<std::string> &warnings,
-                 const std::function<void(TileDevice *)> &work) {
-    if (word == "cpu") return work(nullptr);
-    const std::lock_guard lock(kept().mutex);
-    if (kept().word != word) {
-        kept().device.reset();
-        kept().word.clear();
-        kept().device = opened(word, warnings);
-        kept().word = word;
-    }
-    TileDevice *device = kept().device.get();
-    work(device);
-    if (!device) return;
-    const TileReport did = device->take_report();
-    if (!did.failure.empty()) warnings.push_back(did.failure + "; the CPU gathered what it had not");
+void with_gather_device(const std::string &word, std::vector<std::string> &warnings,
+                        const std::function<void(TileDevice *)> &work) {
+    gather_device().with(word, warnings, work);
 }
 
-void release_device() {
-    const std::lock_guard lock(kept().mutex);
-    kept().device.reset();
-    kept().word.clear();
+void with_warp_device(const std::string &word, std::vector<std::string> &warnings,
+                      const std::function<void(WarpDevice *)> &work) {
+    warp_device().with(word, warnings, work);
+}
+
+void release_devices() {
+    gather_device().release();
+    warp_device().release();
 }
 
 } // namespace sparselens::python

@@ -177,7 +177,7 @@ inline constexpr const char *open_picture = R"(open_picture(path, *, stereo_view
 Opens a flat EXR and returns a Picture of all its channels. Raises Error where the file cannot be read.)";
 
 inline constexpr const char *warp =
-    R"(warp(views, *, merge='average', silhouettes='split', agreement='test', optical='on', progress=None, focal_length=None, sensor_width=None, fstop=None, lens_radius=None, focus_distance=None, scene_unit=None)
+    R"(warp(views, *, merge='average', silhouettes='split', agreement='test', optical='on', device='cpu', progress=None, focal_length=None, sensor_width=None, fstop=None, lens_radius=None, focus_distance=None, scene_unit=None)
 --
 
 Warps views into one layered depth image and returns an Ldi. As ldi-warp.
@@ -187,6 +187,7 @@ merge: "average" the views of a surface, or "keep" one sample per surface and th
 silhouettes: "split" pixels that mix two surfaces into two samples, or leave them "whole".
 agreement: "test" whether views agree out of focus before they are averaged, or "assume" it.
 optical: "on" finds the depth of what mirrors and glass show, which then is blurred and averaged by it, or "off".
+device: what warps: "cpu", "auto" (a GPU if there is one), "gpu" (a GPU, or Error), or a part of a device's name.
 progress: called with the name of the stage and a whole percentage.
 Lens values replace those of the centre view:
   focal_length (mm), sensor_width (mm, spans the display window), fstop (a number, or inf),

@@ -25,7 +25,7 @@ struct Asked {
     PictureOptions picture; // without the holdout
     WindowOptions windows;
     std::string channels; // comma-separated; empty: all
-    std::string device;   // as with_device() has it
+    std::string device;   // as with_gather_device() has it
     std::optional<Imath::V2i> focus_pixel;
     const OpenedLdi *holdout = nullptr; // kept alive by `keep_holdout`
     py::object keep_holdout, progress;
@@ -172,8 +172,9 @@ PictureObject gather(const py::object &ldi, const py::kwargs &given) {
     std::vector<std::string> warnings;
     auto picture = job<PictureObject>(asked.progress, [&](Progress &said) {
         PictureObject made;
-        with_device(asked.device, warnings,
-                    [&](TileDevice *device) { made = gathered(asked, in, camera, lens, device, said); });
+        with_gather_device(asked.device, warnings, [&](TileDevice *device) {
+            made = gathered(asked, in, camera, lens, device, said);
+        });
         return made;
     });
     for (const std::string &warning : warnings) warn(warning);

@@ -91,5 +91,5 @@ PYBIND11_MODULE(_sparselens, module) {
     bind_objects(module);
     bind_verbs(module);
     module.def("set_limits", &set_limits, doc::set_limits);
-    py::module_::import("atexit").attr("register")(py::cpp_function(&release_device));
+    py::module_::import("atexit").attr("register")(py::cpp_function(&release_devices));
 }

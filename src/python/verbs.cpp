@@ -9,6 +9,7 @@
 #include "measure/image_error.h"
 #include "measure/regions.h"
 #include "python/arrays.h"
+#include "python/device.h"
 #include "python/docs.h"
 #include "python/gather.h"
 #include "python/job.h"
@@ -86,11 +87,13 @@ WarpOptions warp_options(Keywords &keywords) {
 LdiObject warp(const py::object &views, const py::kwargs &given) {
     Keywords keywords("warp", given);
     const auto from = several<ViewObject>(views, "views", "a sequence of View");
-    const WarpOptions options = warp_options(keywords);
+    WarpOptions options = warp_options(keywords);
     const LensValues lens = lens_values(keywords);
+    const std::string given_device = keywords.text("device");
     const py::object progress = keywords.take("progress");
     keywords.done();
-    return job<OpenedLdi>(progress, [&](Progress &said) {
+    std::vector<std::string> warnings;
+    OpenedLdi made = job<OpenedLdi>(progress, [&](Progress &said) {
         std::vector<View> placed;
         std::vector<StatedView> stated;
         for (const ViewObject *view : from) {
@@ -104,9 +107,14 @@ LdiObject warp(const py::object &views, const py::kwargs &given) {
         out.camera = place_views(placed, stated);
         write_camera(out.header, out.camera);
         write_picture_window(out.header, placed[0].image.windows.data);
-        out.ldi = warp(placed, with_lens(options, out.camera, placed), said);
+        with_warp_device(given_device.empty() ? "cpu" : given_device, warnings, [&](WarpDevice *device) {
+            options.device = device;
+            out.ldi = warp(placed, with_lens(options, out.camera, placed), said);
+        });
         return out;
     });
+    for (const std::string &warning : warnings) warn(warning);
+    return {std::move(made)};
 }
 
 // The LDI without its samples.

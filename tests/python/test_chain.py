@@ -23,6 +23,19 @@ def test_warp_keywords(views, names, warped, tool, tmp_path, keywords):
         assert (tmp_path / "tool.exr").read_bytes() != warped.read_bytes()
 
 
+def test_warp_device(views):
+    try:
+        by_device = sparselens.warp(views, device="llvmpipe")
+    except sparselens.Error as error:
+        pytest.skip(str(error))
+    by_cpu = sparselens.warp(views)
+    assert numpy.array_equal(by_device.begin, by_cpu.begin)
+    for name in by_cpu.channels:
+        assert numpy.array_equal(by_device[name], by_cpu[name])
+    with pytest.raises(sparselens.Error, match="no device has that name"):
+        sparselens.warp(views, device="no-such")
+
+
 def test_warp_is_what_is_written(views, warped):
     ldi, read = sparselens.warp(views), sparselens.open_ldi(warped)
     assert numpy.array_equal(ldi.begin, read.begin)
