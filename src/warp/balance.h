@@ -23,10 +23,13 @@ inline constexpr double gradient_to_noise = 8; // gains 0.1 to 0.2 dB on fence a
 inline bool is_missing(const ReprojectedViews &views, std::size_t view, const Imath::V2d &place,
                        double inverse_z) {
     const Windows &windows = views.samples(view).windows;
-    const Imath::V2d seen = views.reprojection(view).mapping().in_view(place, inverse_z);
-    const Imath::Box2i &frame = views.samples(0).windows.data; // what lies beyond it is not missing
-    if (!(seen.x >= frame.min.x && seen.x < frame.max.x + 1.0)) return false;
-    if (!(seen.y >= frame.min.y && seen.y < frame.max.y + 1.0)) return false;
+    const ViewMapping &mapping = views.reprojection(view).mapping();
+    const Imath::V2d seen = mapping.in_view(place, inverse_z);
+    // What the centre view has beyond its frame in that direction is not missing, however the view is framed.
+    const Imath::V2d towards = mapping.at_infinity(seen);
+    const Imath::Box2i &frame = views.samples(0).windows.data;
+    if (!(towards.x >= frame.min.x && towards.x < frame.max.x + 1.0)) return false;
+    if (!(towards.y >= frame.min.y && towards.y < frame.max.y + 1.0)) return false;
     const Imath::V2i pixel(int(std::floor(seen.x)), int(std::floor(seen.y)));
     return !windows.data.intersects(pixel) ||
            views.samples(view).pixel(windows.index(pixel.x, pixel.y)).empty();

@@ -31,7 +31,9 @@ uint begin_at(View view, double x, double y) {
 // As src/warp/balance.h has it.
 bool is_missing(View view, double x, double y, double inverse_z) {
     double seen_x, seen_y;
-    if (!in_view(view, x, y, inverse_z, seen_x, seen_y) || !lies_in(views[0], seen_x, seen_y)) return false;
+    if (!in_view(view, x, y, inverse_z, seen_x, seen_y)) return false;
+    precise const double towards_x = seen_x * view.unzoom + view.offset_x, towards_y = seen_y * view.unzoom + view.offset_y;
+    if (!lies_in(views[0], towards_x, towards_y)) return false;
     if (!lies_in(view, seen_x, seen_y)) return true;
     const uint at = begin_at(view, seen_x, seen_y);
     return at == none || begins[at] == begins[at + 1];
