@@ -35,6 +35,9 @@ small-lamp-impure|src/warp/silhouettes.cpp|if (const Imath::V3d c = colour_of(i)
 strands-not-seen|src/warp/mixed/wisps.cpp|return std::min(along, down) >= many_jumps;|return std::min(along, down) > 4 * many_jumps;
 mixed-left-whole|src/warp/warp.cpp|options.split_silhouettes ? options.surface_px : 0|options.split_silhouettes ? 2 * options.surface_px : 0
 cluster-weights|src/deep/cluster.cpp|terms\[t\].coefficient /= weights|(void)weights
+lamp-shadows-square|src/dof/footprints/footprint.cpp|if (n == none) continue;|(void)n; continue;
+lamp-light-as-averaged|src/warp/lamps/lamp_light.cpp|change.factor = 1 + (\*wanted - all) / of_lamp;|change.factor = 1;
+lamp-depth-as-rendered|src/warp/lamps/lamp_depths.cpp|if (!shown.empty()) view_.z\[shown.front()\] = float(1 / inverse_z);|(void)inverse_z;
 lamps-opaque-alone|src/dof/lens/highlights.cpp|i < block.end; ++i) visit|i < block.opaque_end; ++i) visit
 lamp-counted-twice|src/dof/lens/highlights.cpp|colours.at(k, f.sample) \*= 1 - f.share;|
 light-made|src/dof/lens/sharpen.cpp|{n.sample\[k\], -shared}|{n.sample[k], 0}
