@@ -157,18 +157,18 @@ void add_seen(Gathered &to, const Ldi &ldi, std::size_t channel, const LensSampl
         }
 }
 
-// The channels of a pixel; `sure` is set to whether each lens point certainly sees what it sees.
+// The channels of a pixel; `unsure` is set to how many lens points may see something else than they do.
 std::vector<ReferenceValue> gather(const Ldi &ldi, const Scene &scene, const SlowLens &lens,
-                                   const Pixel &pixel, char &sure) {
+                                   const Pixel &pixel, std::uint32_t &unsure) {
     std::vector<Gathered> channels(ldi.channels.size());
     long double total = 0;
-    sure = 1;
+    unsure = 0;
     for (const LensSample &point : lens.points) {
         total += (long double)point.weight;
         if (!lens.passes(point, pixel)) continue;
         const std::vector<Way> ways = ways_to_see(scene, point, pixel);
-        for (const Way &way : ways)
-            if (ways.size() > 1 || !std::ranges::all_of(way.met, &Met::sure)) sure = 0;
+        const auto sure = [](const Way &way) { return std::ranges::all_of(way.met, &Met::sure); };
+        unsure += ways.size() > 1 || !std::ranges::all_of(ways, sure);
         for (std::size_t k = 0; k < channels.size(); ++k)
             add_seen(channels[k], ldi, k, point, ways, lens.darkens(ldi.channels[k]));
     }
@@ -177,7 +177,7 @@ std::vector<ReferenceValue> gather(const Ldi &ldi, const Scene &scene, const Slo
         const long double id = front_id(ldi, k, pixel);
         values[k] = holds_ids(ldi.channels[k]) ? ReferenceValue{id, id, id}
                                                : normalised(channels[k], total, flattened(ldi, k, pixel));
-        if (sure) values[k].least = values[k].most = values[k].value;
+        if (unsure == 0) values[k].least = values[k].most = values[k].value;
         if (lens.darkens(ldi.channels[k])) values[k] = lens.darkened(values[k], pixel);
     }
     return values;
@@ -204,15 +204,19 @@ ReferencePicture lens_gather_reference(const Ldi &ldi, const ThinLens &lens, con
     picture.windows.data = window;
     const std::size_t pixels = picture.windows.pixels(), channels = ldi.channels.size();
     picture.values.resize(channels * pixels);
-    std::vector<char> sure(pixels); // of its own: bits of a vector<bool> cannot be written by two threads
+    std::vector<std::uint32_t> unsure(pixels); // lens points
     parallel_for(pixels, [&](std::size_t i) {
         const Imath::V2i at = picture.windows.pixel(i);
         const Pixel pixel{at.x, at.y, (long double)std::max(ldi.windows.width(), ldi.windows.height()),
                           holdout};
-        const auto values = gather(ldi, scene, by, pixel, sure[i]);
+        const auto values = gather(ldi, scene, by, pixel, unsure[i]);
         for (std::size_t k = 0; k < channels; ++k) picture.values[k * pixels + i] = values[k];
     });
-    picture.sure.assign(sure.begin(), sure.end());
+    for (const std::uint32_t count : unsure) {
+        picture.sure.push_back(count == 0);
+        picture.unsure_points += double(count);
+    }
+    picture.unsure_points /= double(pixels) * double(points.size());
     return picture;
 }
 

@@ -59,6 +59,7 @@ struct ReferencePicture {
         return values[channel * windows.pixels() + windows.index(x, y)];
     }
     double unsure_share() const; // of the pixels
+    double unsure_points = 0;    // the share, of all lens points of all pixels, that may see something else
 };
 
 // As lens_gather, with these lens points everywhere, without highlights and sharpening. Ids are the

@@ -48,7 +48,7 @@ StressResult grazing() {
                  [](int x, int y) {
                      return Pixel{{(120 + 0.1 * x) / (28.5 - y), texture(x, y), 1, 0.3f * texture(y, x)}};
                  }),
-        plain_lens(), 32);
+        plain_lens(), 64);
 }
 // The same within two rows: from CoC -30 to 7 from one pixel to the next.
 StressResult steep() {

@@ -31,6 +31,7 @@ struct StressFamily {
 std::span<const StressCase> depth_stress();
 std::span<const StressCase> blur_stress();
 std::span<const StressCase> light_stress();
+std::span<const StressCase> lamp_stress();
 std::span<const StressCase> steep_stress();
 std::span<const StressCase> shape_stress();
 std::span<const StressCase> look_stress();
