@@ -166,8 +166,6 @@ bool HighlightTile::can_shadow(const Bounds &block, const Lamp &lamp) const {
 
 void HighlightTile::cast_shadow(std::uint32_t sample, const Footprint &footprint, std::uint32_t name,
                                 const Lamp &lamp) {
-    const bool opaque = is_opaque(samples_.alpha[sample]);
-    if (!opaque && std::ranges::binary_search(highlights_.sample, sample)) return;
     const auto coc = float(lamp.coc);
     const std::array<float, 4> centre{float(lamp.centre.x), float(lamp.centre.x), float(lamp.centre.y),
                                       float(lamp.centre.y)},
@@ -181,6 +179,8 @@ void HighlightTile::cast_shadow(std::uint32_t sample, const Footprint &footprint
     if (!(right > float(reached_.min.x) && left <= float(reached_.max.x) + 1 &&
           bottom > float(reached_.min.y) && top <= float(reached_.max.y) + 1))
         return; // no number where something is as blurred as the lamp
+    const bool opaque = is_opaque(samples_.alpha[sample]);
+    if (!opaque && std::ranges::binary_search(highlights_.sample, sample)) return;
     shadow_.hide({{left, top}, {right, bottom}}, opaque ? 1 : samples_.alpha[sample], name);
 }
 
