@@ -45,6 +45,8 @@ bad-alpha-kept|src/deep/sanitize.cpp|return v >= 0 \&\& v <= 1;|return v == v;
 nan-kept|src/deep/sanitize.cpp|return std::abs(v) <= 1e34f;|return !(std::abs(v) < 0);
 memory-unlimited|src/io/files/memory_limit.cpp|if (bytes <= allowed) return;|if (bytes <= allowed * 1e9) return;
 half-infinite|src/io/exr/exr_common.cpp|std::clamp(from\[i\], -largest, largest)|std::clamp(from[i], -2 * largest, 2 * largest)
+bands-too-narrow|src/dof/gather_rows.cpp|std::ceil(spread + goes_on)|std::ceil(0 * spread * goes_on)
+packed-to-halves|src/deep/packed/packed_rows.cpp|if (is_half(values\[i\])) continue;|if (values[i] < 1) continue;
 gpu-warp-surface-order|src/gpu/warp/warp_surfaces.comp|(marks\[i\].x == 0) == (pass == 0)|true
 gpu-warp-prefix-sum|src/gpu/warp/warp_scan_add.comp|sums\[i / block_size\]|0u
 wrong-samples-read|src/io/exr/exr_deep_part.cpp|ldi.begin\[first + i\]|ldi.begin[first]

@@ -1,5 +1,7 @@
 // dof-gather: makes the picture that a lens takes from a layered depth image.
 #include "deep/front_depth.h"
+#include "dof/border_reach.h"
+#include "dof/gather_rows.h"
 #include "gpu/gather/gather_device.h"
 #include "harness/tool.h"
 #include "io/camera/camera_write.h"
@@ -17,6 +19,7 @@
 #include "options/show.h"
 #include "options/window_options.h"
 
+#include <algorithm>
 #include <memory>
 #include <mutex>
 
@@ -33,6 +36,9 @@ Image gathered(const GatherCommand &options, GatherWindows &frame, const ThinLen
         return gather_picture(std::forward<decltype(ldi)>(ldi), lens, frame.gathered, frame.written,
                               options.picture, *tool.progress);
     };
+    if (const OpenedLdi &in = cache.last(); in.packed)
+        return gather_rows(*in.packed, lens, frame.gathered, frame.written, options.picture,
+                           memory_to_gather(in.samples_read, in.ldi.windows.pixels()), *tool.progress);
     if (options.show != Show::picture) return of(frame.ldi(cache.last()));
     if (frame.changed) return of(std::move(*frame.changed));
     return tool.last_frame ? of(cache.take_ldi()) : of(cache.last().ldi);
@@ -59,9 +65,10 @@ ReduceSamples reduce_samples(const GatherCommand &options, const ToolContext &to
                            !(header.dataWindow().intersects(header.displayWindow().min) &&
                              header.dataWindow().intersects(header.displayWindow().max));
         if (!linear->found || grows || highlight_gain(looks).gain != 1 || looks.breathing ||
-            camera.looks.breathing || !can_merge_layers(rows))
+            camera.looks.breathing)
             throw NeedsAllSamples();
         const ThinLens lens = resolve_lens(camera, rows.windows);
+        if (lens.radius == 0 && std::ranges::any_of(rows.channels, is_in_matte)) throw NeedsAllSamples();
         return reduced_first(std::move(rows), lens, options.picture);
     };
 }
@@ -71,11 +78,11 @@ void run(const GatherCommand &given, const ToolContext &tool, LdiCache &cache, G
     const OpenOptions by{options.lens, options.depth};
     OpenedLdi &in =
         cache.load(options.input, options.channels, by, options.colour, tool, reduce_samples(options, tool));
-    if (in.reduced) options.picture.layer_tolerance = 0; // they are merged
+    if (in.reduced && merges_by_rows(in.ldi.channels)) options.picture.layer_tolerance = 0; // they are merged
     say_camera(tool, options.input, in.camera);
     ThinLens lens = lens_for_ldi(in, options.focus_pixel, tool);
     const auto holdout = open_holdout(options.holdout, in.ldi.windows, options.windows.proxy, by);
-    say_border_reach(tool, options.input, in.ldi, lens);
+    say_border_reach(tool, options.input, in.packed ? border_of(*in.packed) : in.ldi, lens);
     GatherWindows frame = gather_windows(options.windows, in, lens);
     const LensFile looks = read_looks(options.looks, in.camera.fstop);
     raise_highlights(frame, in, highlight_gain(looks.values));

@@ -1,5 +1,7 @@
 #include "deep/channel_alpha.h"
 
+#include "deep/build.h"
+
 #include <algorithm>
 #include <array>
 #include <string>
@@ -36,9 +38,7 @@ void set_mean(const std::array<std::span<const float>, 3> &parts, std::span<floa
 }
 
 Ldi of_one_coverage(const Ldi &ldi, const Covered &covered) {
-    Ldi one = ldi;
-    one.channels.clear();
-    one.values.clear();
+    Ldi one = without_channels(ldi);
     const auto add = [&](std::size_t k) {
         if (k == npos || k == ldi.alpha() || find_channel(one.channels, ldi.channels[k].name) != npos) return;
         one.channels.push_back(ldi.channels[k]);

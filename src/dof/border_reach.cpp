@@ -1,5 +1,7 @@
 #include "dof/border_reach.h"
 
+#include "deep/build.h"
+
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -40,6 +42,26 @@ bool has_light_that_stands_out(std::vector<float> &all, const std::vector<float>
 }
 
 } // namespace
+
+Ldi border_of(const PackedRows &rows) {
+    const Imath::Box2i &data = rows.windows().data, &display = rows.windows().display;
+    const auto in_border = [&](const Imath::V2i &p) {
+        return display.intersects(p) &&
+               (p.x == display.min.x || p.x == display.max.x || p.y == display.min.y || p.y == display.max.y);
+    };
+    constexpr int rows_at_once = 16;
+    std::vector<Ldi> pieces;
+    for (int first = data.min.y; first <= data.max.y; first += rows_at_once) {
+        const Ldi some = rows.rows(first, std::min(first + rows_at_once - 1, data.max.y));
+        pieces.push_back(build_by_pixels(some, [&](std::size_t pixel, Ldi &out) {
+            if (!in_border(some.windows.pixel(pixel))) return;
+            for (const std::uint64_t i : some.pixel(pixel)) append(out, some, i);
+        }));
+    }
+    Ldi border = concatenate(pieces.front(), pieces);
+    border.windows = rows.windows();
+    return border;
+}
 
 BorderReach border_reach(const Ldi &ldi, const ThinLens &lens) {
     BorderReach reach{.rendered = least_overscan(ldi.windows)};

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "../deep/ldi.h"
+#include "../deep/packed/packed_rows.h"
 #include "../lens/thin_lens.h"
 
 namespace sparselens {
@@ -20,5 +21,8 @@ struct BorderReach {
 // fill the display window, because then nothing was cut off. Light stands out if it is more than four times as bright
 // as 31 of 32 samples of the border.
 BorderReach border_reach(const Ldi &ldi, const ThinLens &lens);
+
+// The LDI of packed samples, of which only those pixels have any.
+Ldi border_of(const PackedRows &rows);
 
 } // namespace sparselens

@@ -1,8 +1,10 @@
 #include "dof/gather_picture.h"
 
+#include "deep/channel_alpha.h"
 #include "deep/flatten.h"
 #include "dof/defocused_holdout.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace sparselens {
@@ -63,9 +65,17 @@ Ldi flattened(const Ldi &ldi) {
 
 } // namespace
 
+bool merges_by_rows(std::span<const Channel> channels) {
+    const std::size_t alpha = find_channel(channels, "A");
+    if (alpha == npos || std::ranges::any_of(channels, is_in_matte)) return false;
+    for (std::size_t k = 0; k < channels.size(); ++k)
+        if (coverage_of(channels, k) != alpha) return false;
+    return true;
+}
+
 Ldi reduced_first(Ldi rows, const ThinLens &lens, const PictureOptions &options) {
     if (lens.radius == 0) return flattened(rows);
-    if (!merges_layers(lens, options)) return rows;
+    if (!merges_layers(lens, options) || !merges_by_rows(rows.channels)) return rows;
     return merge_layers(std::move(rows), lens.radius * lens.focal_px, options.layer_tolerance);
 }
 

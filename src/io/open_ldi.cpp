@@ -29,7 +29,8 @@ void make_planar(Ldi &ldi, DepthMeaning meaning, const DepthRange &range, const 
         }
 }
 
-OpenedLdi with_camera(LdiFile file, const std::string &path, const OpenOptions &options) {
+// With all of the file but its packed samples.
+OpenedLdi with_camera(LdiFile &&file, const std::string &path, const OpenOptions &options) {
     OpenedLdi opened{.name = display_name(path),
                      .ldi = std::move(file.ldi),
                      .header = std::move(file.header),
@@ -67,9 +68,10 @@ public:
     }
 
     // The picture of the rows, which are ready, and what its samples would have said of it. None if no row was read.
-    std::optional<OpenedLdi> opened(LdiFile &file, const std::string &path) const {
+    std::optional<OpenedLdi> opened(LdiFile &&file, const std::string &path) const {
         if (in_file_ == 0) return {};
         OpenedLdi opened = with_camera(std::move(file), path, options_);
+        opened.packed = std::move(file.packed);
         opened.reduced = true;
         opened.samples_read = read_;
         opened.invisible = in_file_ - std::min(in_file_, read_);
@@ -115,7 +117,7 @@ OpenedLdi open_ldi(const std::string &path, const OpenOptions &options, const Re
     RowsReader reader(path, options, reduce);
     try {
         LdiFile file = read_ldi(path, options.depth.channel, options.depth.view, std::ref(reader));
-        if (std::optional<OpenedLdi> opened = reader.opened(file, path)) return std::move(*opened);
+        if (std::optional<OpenedLdi> opened = reader.opened(std::move(file), path)) return std::move(*opened);
         return ready_ldi(std::move(file), path, options);
     } catch (const NeedsAllSamples &) {
         return open_ldi(path, options);

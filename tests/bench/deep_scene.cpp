@@ -18,7 +18,7 @@ const DeepScene &scene_of(const std::string &name) {
     const auto found =
         std::ranges::find_if(deep_scenes(), [&](const DeepScene &s) { return s.name == name; });
     if (found == deep_scenes().end())
-        throw UsageError(fmt::format("no scene {}: must be one of dense, hair, volume", name));
+        throw UsageError(fmt::format("no scene {}: must be one of apart, dense, hair, tinted, volume", name));
     return *found;
 }
 
@@ -26,8 +26,8 @@ const DeepScene &scene_of(const std::string &name) {
 
 int main(int argc, char **argv) {
     if (argc != 5) {
-        fmt::print(stderr,
-                   "sparselens-deep-scene NAME WIDTH HEIGHT OUT.exr: NAME is dense, hair or volume\n");
+        fmt::print(stderr, "sparselens-deep-scene NAME WIDTH HEIGHT OUT.exr: NAME is apart, dense, hair, "
+                           "tinted or volume\n");
         return 2;
     }
     try {

@@ -186,7 +186,8 @@ TEST(MergeLayers, DenseScenesLookTheSame) {
         const Image whole = picture(0), merged = picture(layer_tolerance_px);
         const double decibels = image_error(merged, whole)[0].psnr_tonemapped;
         EXPECT_GT(decibels, 45) << scene.name;
-        EXPECT_TRUE(std::isfinite(decibels) || scene.name == std::string("hair")) << scene.name;
+        const bool none_merge = scene.name == std::string("hair") || scene.name == std::string("apart");
+        EXPECT_TRUE(std::isfinite(decibels) || none_merge) << scene.name;
     }
 }
 

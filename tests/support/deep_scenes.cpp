@@ -58,14 +58,35 @@ Ldi make_layers(int width, int height, const Layers &layers) {
     return ldi;
 }
 
+double wave(int x, int y, int i) { return std::sin(0.05 * x * (1 + 0.1 * i)) * std::cos(0.07 * y + i); }
+
 Ldi dense(int width, int height) {
     const auto sample = [](int x, int y, int i) {
         const double group = i / 4,
                      coc = (group == 0 ? 0.25 : 0.25 + 3.75 * group / 4) + 0.06 * double(i % 4);
-        const double wave = std::sin(0.05 * x * (1 + 0.1 * i)) * std::cos(0.07 * y + i);
-        return LayerSample{coc, coc, i == 19 ? 1 : 0.5 * (0.5 + 0.5 * wave)};
+        return LayerSample{coc, coc, i == 19 ? 1 : 0.5 * (0.5 + 0.5 * wave(x, y, i))};
     };
     return make_layers(width, height, {[](int, int) { return 20; }, sample});
+}
+
+Ldi apart(int width, int height) {
+    const auto sample = [](int x, int y, int i) {
+        const double coc = -4 + 0.5 * i;
+        return LayerSample{coc, coc, i == 19 ? 1 : 0.5 * (0.5 + 0.5 * wave(x, y, i))};
+    };
+    return make_layers(width, height, {[](int, int) { return 20; }, sample});
+}
+
+Ldi tinted(int width, int height) {
+    Ldi ldi = dense(width, height);
+    const std::vector<float> alpha = ldi.values.back();
+    for (const auto &[name, share] : {std::pair("AR", 0.9f), {"AG", 0.75f}, {"AB", 0.6f}}) {
+        ldi.channels.push_back({name});
+        ldi.values.push_back(alpha);
+        for (float &value : ldi.values.back())
+            if (value < 1) value *= share;
+    }
+    return ldi;
 }
 
 Ldi hair(int width, int height) {
@@ -84,13 +105,14 @@ Ldi hair(int width, int height) {
 
 Ldi volume(int width, int height) {
     const auto sample = [](int x, int y, int i) {
-        const double wave = std::sin(0.02 * x + 0.1 * i) * std::cos(0.03 * y - 0.05 * i);
-        return LayerSample{-4 + 0.1 * i, -4 + 0.1 * (i + 1), 0.02 + 0.018 * wave};
+        const double swell = std::sin(0.02 * x + 0.1 * i) * std::cos(0.03 * y - 0.05 * i);
+        return LayerSample{-4 + 0.1 * i, -4 + 0.1 * (i + 1), 0.02 + 0.018 * swell};
     };
     return make_layers(width, height, {[](int, int) { return 100; }, sample, true});
 }
 
-constexpr std::array scenes{DeepScene{"dense", dense}, DeepScene{"hair", hair}, DeepScene{"volume", volume}};
+constexpr std::array scenes{DeepScene{"apart", apart}, DeepScene{"dense", dense}, DeepScene{"hair", hair},
+                            DeepScene{"tinted", tinted}, DeepScene{"volume", volume}};
 
 } // namespace
 

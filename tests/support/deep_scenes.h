@@ -9,11 +9,13 @@
 
 namespace sparselens {
 
-// A scene by name, in channels R, G, B and A (half). CoC is that of deep_scene_camera().
+// A scene by name, in channels R, G, B and A (half) unless it says others. CoC is that of deep_scene_camera().
 //
 // dense   20 points a pixel in five groups, CoC 0.25 to 4.2 pixels, the last opaque: the profile scene that DeepC
 //         publishes for its DeepCDefocus
 // hair    60 points in a tenth of the pixels, in tufts of 32x64 pixels, CoC -3 to 1; a ground at CoC 6 behind it all
+// apart   20 points a pixel, half a pixel of CoC apart from -4 on, the last opaque: none can be merged
+// tinted  the points of dense with per-channel alpha: AR, AG and AB beside A
 // volume  100 volumes a pixel, end to end, CoC -4 to 6; transparent to infinity
 struct DeepScene {
     const char *name;

@@ -35,5 +35,9 @@ check() {
 
 check dense 384 216 1 24
 check hair 384 216 1 24
+# These are gathered in bands, whose least height does not grow with the picture: of high pictures, small ones show the growth.
+check apart 32 1600 1 24
+check tinted 16 3200 1 24
+check volume 16 1600 1 24
 check dense 384 216 0 12
 check volume 192 108 0 12

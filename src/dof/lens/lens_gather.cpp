@@ -245,7 +245,8 @@ void gather_on(TileDevice &device, Gathering &from, const TileScene &scene, std:
 Image gather_once(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window,
                   const LensGatherOptions &options, double coc, Progress &progress) {
     Image out = crop(options.holdout ? flatten_held_out(ldi, *options.holdout) : flatten(ldi), window);
-    BlockedSamples samples = make_blocks(ldi, lens, window);
+    const Imath::Box2i known = options.known.value_or(window);
+    BlockedSamples samples = make_blocks(ldi, lens, known);
     const Optics optics(ldi, lens, options.looks, coc);
     const Darkening darkening(optics.cat_eye, ldi, out.windows);
     darkening.darken(out);
@@ -256,12 +257,14 @@ Image gather_once(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &wind
     LensTiles chosen = tiles_of(out.windows);
     if (options.chosen) *options.chosen = chosen;
     if (!optics.moves() && std::ranges::all_of(samples.blocks, sharp)) return out;
+    const std::vector<Filler> found_fillers =
+        find_fillers(ldi, lens, known); // before there are colours, as it takes memory
     SampleColours colours = make_colours(ldi, samples);
     const SharpenLooks looks{optics.aperture, optics.field, optics.frame, coc, options.looks.magnification};
     sharpen_near_focus(ldi, lens, samples, colours, &looks);
     const LightChannels light = light_channels(ldi);
     const Highlights highlights = take_highlights(samples, light.brightness, light.all, colours);
-    FillerSamples fillers = place_fillers(ldi, lens, find_fillers(ldi, lens, window), samples, colours);
+    FillerSamples fillers = place_fillers(ldi, lens, found_fillers, samples, colours);
     optics.bend(fillers.samples);
     const PlacedFacets facets =
         place_facets(find_facets(ldi, lens, double(optics.widest())), ldi.samples(),

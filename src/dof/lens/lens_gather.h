@@ -27,11 +27,12 @@ struct LensGatherOptions {
     LensLooks looks = {};
     LensTiles *chosen = nullptr;             // where given: is told what was chosen
     std::optional<Imath::Box2i> region = {}; // tiles beside it stay as they were rendered
-    const Holdout *holdout = nullptr;        // holds the picture out
-    TileDevice *device = nullptr;            // where given: gathers the tiles that it can
+    std::optional<Imath::Box2i> known = {}; // pixels of which the empty ones are transparent; else the window
+    const Holdout *holdout = nullptr;       // holds the picture out
+    TileDevice *device = nullptr;           // where given: gathers the tiles that it can
 };
 
-// Pixels `window` (EXR coordinates, within the LDI's data window), channels of the LDI. In `window` an empty
+// Pixels `window` (EXR coordinates, within the LDI's data window), channels of the LDI. In `window`, or `known`, an empty
 // pixel is transparent to infinity; outside of it, nothing is known. Ids are the front samples'. The LDI is tidy,
 // the lens radius above 0, or 0 where the looks magnify.
 Image lens_gather(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window,

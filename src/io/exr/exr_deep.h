@@ -4,6 +4,7 @@
 #pragma once
 
 #include "../../deep/ldi.h"
+#include "../../deep/packed/packed_rows.h"
 #include "compression.h"
 
 #include <ImfHeader.h>
@@ -18,9 +19,10 @@ namespace sparselens {
 struct LdiFile {
     Ldi ldi;
     Imf::Header header;
-    bool deep = true;                  // false: the file is a flat picture
-    std::vector<std::string> notes;    // what was taken for what, and how several parts were combined
-    std::vector<std::string> warnings; // what is hardly meant
+    bool deep = true;                      // false: the file is a flat picture
+    std::vector<std::string> notes;        // what was taken for what, and how several parts were combined
+    std::vector<std::string> warnings;     // what is hardly meant
+    std::optional<PackedRows> packed = {}; // the samples, in place of those of `ldi`
 };
 
 // Reads the deep parts of one view of the file, else the flat ones (read_flat_exr). Of several deep parts:
@@ -37,8 +39,9 @@ LdiFile read_ldi(const std::string &path, const std::string &depth_channel = {},
                  const std::string &stereo_view = {});
 
 // The same with less memory, for a picture of which fewer samples are needed: `reduce` is given a few rows of it at a time,
-// by several threads at once, and what it makes of them is kept; it may not change the windows. It is not asked where the picture has
-// several parts, tiles, or is flat: then all samples are there.
+// by several threads at once, and what it makes of them is kept; it may not change the windows. What would take
+// more than memory_to_gather() is kept packed.
+// `reduce` is not asked where the picture has several parts, tiles, or is flat: then all samples are there.
 using ReduceFileRows = std::function<Ldi(const Imf::Header &header, Ldi rows)>;
 LdiFile read_ldi(const std::string &path, const std::string &depth_channel, const std::string &stereo_view,
                  const ReduceFileRows &reduce);

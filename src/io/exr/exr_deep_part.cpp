@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "dof/gather_rows.h"
 #include "io/exr/exr_common.h"
 #include "io/exr/rows/part_readers.h"
 #include "io/files/memory_limit.h"
@@ -160,14 +161,6 @@ void read_scanlines(const DeepSource &source, int number, Ldi &ldi, const Planes
     });
 }
 
-// All arrays of an LDI that have one entry a sample.
-std::vector<std::vector<float> *> arrays_of(Ldi &ldi) {
-    std::vector<std::vector<float> *> arrays{&ldi.z,  &ldi.z_back, &ldi.dx,
-                                             &ldi.dy, &ldi.weight, &ldi.optical};
-    for (std::vector<float> &values : ldi.values) arrays.push_back(&values);
-    return arrays;
-}
-
 // Room for as many samples as the file has takes no memory before it is used.
 void append_rows(Ldi &ldi, Ldi rows, std::uint64_t most) {
     ldi.channels = rows.channels;
@@ -182,16 +175,48 @@ void append_rows(Ldi &ldi, Ldi rows, std::uint64_t most) {
     });
 }
 
-// Rows [first, last] of the picture that `ldi` is to become; `counts`: of all of it.
-Ldi some_rows(Imf::DeepScanLineInputPart &part, const DeepSource &source, const Ldi &ldi,
+// What is kept of rows that are read.
+class KeptRows {
+public:
+    // `most`: samples of the file.
+    KeptRows(Ldi &ldi, std::uint64_t most, std::optional<PackedRows> &packed)
+        : ldi_(ldi), most_(most), packed_(packed) {
+        ldi.begin.assign(1, 0);
+        ldi.begin.reserve(ldi.windows.pixels() + 1);
+    }
+    void add(Ldi rows) {
+        if (packed_) return packed_->append(rows);
+        append_rows(ldi_, std::move(rows), most_);
+        if (takes_much()) pack();
+    }
+
+private:
+    bool takes_much() const {
+        return bytes_to_gather(ldi_.samples(), ldi_.channels) >
+               memory_to_gather(most_, ldi_.windows.pixels());
+    }
+    void pack() {
+        packed_.emplace(ldi_.windows);
+        packed_->append(ldi_);
+        for (std::vector<float> *array : arrays_of(ldi_)) std::vector<float>().swap(*array);
+        ldi_.begin.assign(ldi_.windows.pixels() + 1, 0);
+    }
+
+    Ldi &ldi_;
+    std::uint64_t most_;
+    std::optional<PackedRows> &packed_;
+};
+
+// Rows [first, last] of a picture; `counts`: of all of it.
+Ldi some_rows(Imf::DeepScanLineInputPart &part, const DeepSource &source, const Windows &windows,
               const std::vector<unsigned> &counts, const std::vector<FileChannel> &channels,
               const std::string &depth, int first, int last) {
     Ldi rows;
-    rows.windows = ldi.windows;
+    rows.windows = windows;
     rows.windows.data.min.y = first;
     rows.windows.data.max.y = last;
     const Planes planes = plan_planes(rows, channels, depth);
-    const auto begin = counts.begin() + std::ptrdiff_t(ldi.windows.index(ldi.windows.data.min.x, first));
+    const auto begin = counts.begin() + std::ptrdiff_t(windows.index(windows.data.min.x, first));
     std::vector<unsigned> here(begin, begin + std::ptrdiff_t(rows.windows.pixels()));
     set_counts(rows, here);
     make_room(rows, planes, source);
@@ -201,19 +226,18 @@ Ldi some_rows(Imf::DeepScanLineInputPart &part, const DeepSource &source, const 
 
 // `ldi` has its windows, and gets the rest.
 void read_reduced(const DeepSource &source, int number, Ldi &ldi, const std::vector<FileChannel> &channels,
-                  const std::string &depth, const ReduceRows &reduce) {
+                  const std::string &depth, const ReduceRows &reduce, std::optional<PackedRows> &packed) {
     PartReaders readers(source.stream, number);
     const std::vector<unsigned> counts = read_counts(readers, source, ldi);
-    const std::uint64_t most = ldi.begin.back();
     check_room(ldi, channels.size(), source);
-    ldi.begin.assign(1, 0);
-    ldi.begin.reserve(counts.size() + 1);
+    const Windows windows = ldi.windows;
+    KeptRows kept(ldi, ldi.begin.back(), packed);
     for_some_rows(
-        ldi.windows.data, readers,
+        windows.data, readers,
         [&](Imf::DeepScanLineInputPart &part, int first, int last) {
-            return reduce(some_rows(part, source, ldi, counts, channels, depth, first, last));
+            return reduce(some_rows(part, source, windows, counts, channels, depth, first, last));
         },
-        [&](Ldi rows) { append_rows(ldi, std::move(rows), most); });
+        [&](Ldi rows) { kept.add(std::move(rows)); });
 }
 
 void read_tiles(const DeepSource &source, int number, Ldi &ldi, const Planes &planes) {
@@ -242,7 +266,13 @@ void read_tiles(const DeepSource &source, int number, Ldi &ldi, const Planes &pl
 } // namespace
 
 Ldi read_deep_part(const DeepSource &source, int number, const std::vector<FileChannel> &channels,
-                   const std::string &depth, const ReduceRows &reduce) {
+                   const std::string &depth) {
+    std::optional<PackedRows> packed;
+    return read_deep_part(source, number, channels, depth, {}, packed);
+}
+
+Ldi read_deep_part(const DeepSource &source, int number, const std::vector<FileChannel> &channels,
+                   const std::string &depth, const ReduceRows &reduce, std::optional<PackedRows> &packed) {
     const Imf::Header &header = source.file.header(number);
     Ldi ldi;
     ldi.windows = windows_of(header);
@@ -252,7 +282,7 @@ Ldi read_deep_part(const DeepSource &source, int number, const std::vector<FileC
     const std::size_t pointers = tiled ? 2 * planes.named.size() : 0; // of scanlines a few rows at a time
     check_memory(source.path, source.held + memory_of(header, counts + pointers), source.size);
     if (reduce)
-        read_reduced(source, number, ldi, channels, depth, reduce);
+        read_reduced(source, number, ldi, channels, depth, reduce, packed);
     else if (tiled)
         read_tiles(source, number, ldi, planes);
     else

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "deep/ldi.h"
+#include "deep/packed/packed_rows.h"
 #include "io/exr/exr_parts.h"
 #include "io/files/file_stream.h"
 
@@ -9,6 +10,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,9 +31,12 @@ using ReduceRows = std::function<Ldi(Ldi rows)>;
 // Reads `channels` of the part: `depth` and depthBack, those that position samples, and the others as values. If
 // `depth` is empty there is no depth, and z stays empty. Samples are returned as they stand in the file. Throws Error,
 // naming the file, where it is damaged or asks for more memory than it may. With `reduce`, which needs a part of scanlines, a
-// few rows are read at a time, and what it makes of them is kept.
+// few rows are read at a time, and what it makes of them is kept: in `packed` where it is much, which leaves the LDI
+// without samples.
 Ldi read_deep_part(const DeepSource &source, int number, const std::vector<FileChannel> &channels,
-                   const std::string &depth, const ReduceRows &reduce = {});
+                   const std::string &depth);
+Ldi read_deep_part(const DeepSource &source, int number, const std::vector<FileChannel> &channels,
+                   const std::string &depth, const ReduceRows &reduce, std::optional<PackedRows> &packed);
 
 // A flat picture as an LDI of one sample per pixel.
 Ldi ldi_of_flat(const Image &image, const std::string &depth);

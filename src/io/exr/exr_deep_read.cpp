@@ -52,7 +52,7 @@ public:
         const std::vector<FileChannel> channels = named_channels(header);
         const std::string depth = depth_of(channels);
         const bool by_rows = reduce && !depth.empty() && header.type() == Imf::DEEPSCANLINE;
-        Ldi part = read_deep_part(source_, number, channels, depth, by_rows ? reduce : ReduceRows());
+        Ldi part = read_deep_part(source_, number, channels, depth, by_rows ? reduce : ReduceRows(), packed_);
         const auto whose = std::ranges::find_if(parts_, [&](const Ldi &other) {
             return depth.empty() ? part.windows == other.windows && part.begin == other.begin
                                  : same_samples(part, other);
@@ -91,6 +91,7 @@ public:
         return deep_merge(parts_);
     }
 
+    std::optional<PackedRows> packed() { return std::move(packed_); }
     std::vector<std::string> notes() const { return notes_; }
     std::vector<std::string> warnings() const { return warnings_; }
 
@@ -133,6 +134,7 @@ private:
     DeepSource source_;
     std::string view_, asked_;
     std::vector<Ldi> parts_;
+    std::optional<PackedRows> packed_; // the samples of the only part
     std::vector<std::string> notes_, warnings_;
     bool beauty_in_layer_ = true;
 };
@@ -186,7 +188,7 @@ LdiFile read_ldi(const std::string &path, const std::string &depth_channel, cons
         std::vector<std::string> notes = picture.notes();
         if (const auto flat = std::size_t(file.parts()) - deep.size(); flat > 0)
             notes.push_back(fmt::format("{} flat parts are not used beside the deep ones", flat));
-        return LdiFile{std::move(ldi), header, true, std::move(notes), picture.warnings()};
+        return LdiFile{std::move(ldi), header, true, std::move(notes), picture.warnings(), picture.packed()};
     });
 }
 

@@ -1,0 +1,152 @@
+#include "deep/packed/packed_rows.h"
+
+#include "base/parallel.h"
+
+#include <half.h>
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <limits>
+
+namespace sparselens {
+
+namespace {
+
+template <typename Values, typename Picture>
+std::vector<Values *> list_arrays(Picture &ldi) {
+    std::vector<Values *> arrays{&ldi.z, &ldi.z_back, &ldi.dx, &ldi.dy, &ldi.weight, &ldi.optical};
+    for (auto &values : ldi.values) arrays.push_back(&values);
+    return arrays;
+}
+
+std::uint16_t bits_of_half(float value) { return Imath::half(value).bits(); }
+
+float of_half(std::uint16_t bits) { return float(Imath::half(Imath::half::FromBits, bits)); }
+
+bool is_half(float value) {
+    return std::bit_cast<std::uint32_t>(of_half(bits_of_half(value))) == std::bit_cast<std::uint32_t>(value);
+}
+
+} // namespace
+
+PackedFloats::PackedFloats(std::span<const float> values) {
+    assert(values.size() <= std::numeric_limits<std::uint32_t>::max());
+    const std::size_t most = values.size() / 4; // of others: each takes as much as four halves
+    halves_.resize(values.size());
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        halves_[i] = bits_of_half(values[i]);
+        if (is_half(values[i])) continue;
+        if (others_.size() == most) {
+            floats_.assign(values.begin(), values.end());
+            std::vector<std::uint16_t>().swap(halves_);
+            std::vector<std::pair<std::uint32_t, float>>().swap(others_);
+            return;
+        }
+        others_.emplace_back(std::uint32_t(i), values[i]);
+    }
+    others_.shrink_to_fit();
+}
+
+void PackedFloats::unpack(std::size_t from, std::span<float> to) const {
+    if (!floats_.empty()) {
+        std::copy_n(floats_.begin() + std::ptrdiff_t(from), to.size(), to.begin());
+        return;
+    }
+    for (std::size_t i = 0; i < to.size(); ++i) to[i] = of_half(halves_[from + i]);
+    auto other = std::ranges::lower_bound(others_, from, {}, &std::pair<std::uint32_t, float>::first);
+    for (; other != others_.end() && other->first < from + to.size(); ++other)
+        to[other->first - from] = other->second;
+}
+
+std::size_t PackedFloats::bytes() const {
+    return halves_.capacity() * sizeof(halves_[0]) + others_.capacity() * sizeof(others_[0]) +
+           floats_.capacity() * sizeof(floats_[0]);
+}
+
+std::vector<std::vector<float> *> arrays_of(Ldi &ldi) { return list_arrays<std::vector<float>>(ldi); }
+
+std::vector<const std::vector<float> *> arrays_of(const Ldi &ldi) {
+    return list_arrays<const std::vector<float>>(ldi);
+}
+
+void PackedRows::append(const Ldi &rows) {
+    const std::vector<const std::vector<float> *> arrays = arrays_of(rows);
+    if (begin_.size() == 1) {
+        channels_ = rows.channels;
+        begin_.reserve(windows_.pixels() + 1);
+        present_.resize(arrays.size());
+    }
+    assert(rows.channels == channels_);
+    for (std::size_t k = 0; k < arrays.size(); ++k) present_[k] = present_[k] || !arrays[k]->empty();
+    const std::uint64_t before = begin_.back();
+    for (std::size_t i = 1; i < rows.begin.size(); ++i) begin_.push_back(before + rows.begin[i]);
+    Piece piece{before, begin_.back(), std::vector<PackedFloats>(arrays.size())};
+    parallel_for(arrays.size(), [&](std::size_t k) { piece.arrays[k] = PackedFloats(*arrays[k]); });
+    pieces_.push_back(std::move(piece));
+}
+
+void PackedRows::keep_channels(std::span<const Channel> channels) {
+    const std::size_t places = present_.size() - channels_.size(); // arrays that are no channel's
+    std::vector<std::size_t> kept;
+    for (std::size_t k = 0; k < places; ++k) kept.push_back(k);
+    for (const Channel &channel : channels) kept.push_back(places + find_channel(channels_, channel.name));
+    std::vector<bool> present;
+    for (const std::size_t k : kept) present.push_back(present_[k]);
+    for (Piece &piece : pieces_) {
+        std::vector<PackedFloats> arrays;
+        for (const std::size_t k : kept) arrays.push_back(std::move(piece.arrays[k]));
+        piece.arrays = std::move(arrays);
+    }
+    present_ = std::move(present);
+    channels_.assign(channels.begin(), channels.end());
+}
+
+std::uint64_t PackedRows::begin_of_row(int y) const {
+    return begin_[std::size_t(y - windows_.data.min.y) * std::size_t(windows_.width())];
+}
+
+std::uint64_t PackedRows::samples(int first, int last) const {
+    return begin_of_row(last + 1) - begin_of_row(first);
+}
+
+Ldi PackedRows::rows(int first, int last) const {
+    Ldi ldi;
+    ldi.windows = windows_;
+    ldi.windows.data.min.y = first;
+    ldi.windows.data.max.y = last;
+    ldi.channels = channels_;
+    ldi.values.resize(channels_.size());
+    const std::uint64_t from = begin_of_row(first), to = begin_of_row(last + 1);
+    const auto first_pixel = begin_.begin() + std::ptrdiff_t(windows_.index(windows_.data.min.x, first));
+    ldi.begin.assign(first_pixel, first_pixel + std::ptrdiff_t(ldi.windows.pixels() + 1));
+    for (std::uint64_t &of_pixel : ldi.begin) of_pixel -= from;
+    const std::vector<std::vector<float> *> arrays = arrays_of(ldi);
+    parallel_for(arrays.size(), [&](std::size_t k) {
+        if (present_[k]) arrays[k]->resize(to - from);
+    });
+    parallel_for(pieces_.size() * arrays.size(), [&](std::size_t i) {
+        const Piece &piece = pieces_[i / arrays.size()];
+        const std::size_t k = i % arrays.size();
+        const std::uint64_t begin = std::max(piece.begin, from), end = std::min(piece.end, to);
+        if (!present_[k] || begin >= end) return;
+        piece.arrays[k].unpack(begin - piece.begin, std::span(*arrays[k]).subspan(begin - from, end - begin));
+    });
+    return ldi;
+}
+
+std::size_t PackedRows::bytes() const {
+    std::size_t sum = begin_.capacity() * sizeof(begin_[0]);
+    for (const Piece &piece : pieces_)
+        for (const PackedFloats &values : piece.arrays) sum += values.bytes();
+    return sum;
+}
+
+Ldi with_empty_above(Ldi rows, int top) {
+    const std::size_t before = rows.windows.pixels();
+    rows.windows.data.min.y = top;
+    rows.begin.insert(rows.begin.begin(), rows.windows.pixels() - before, 0);
+    return rows;
+}
+
+} // namespace sparselens

@@ -1,0 +1,72 @@
+// The samples of an LDI in less memory: values that halves hold take two bytes, as they do in most files, and come back as
+// they were, bit by bit. For pictures that are worked on a few rows at a time.
+#pragma once
+
+#include "../ldi.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace sparselens {
+
+class PackedFloats {
+public:
+    PackedFloats() = default;
+    explicit PackedFloats(std::span<const float> values);
+
+    // Sets `to` to the values from number `from` on.
+    void unpack(std::size_t from, std::span<float> to) const;
+    std::size_t bytes() const;
+
+private:
+    std::vector<std::uint16_t> halves_;
+    std::vector<std::pair<std::uint32_t, float>> others_; // values that are no halves, by their number
+    std::vector<float> floats_;                           // in place of both where too many are none
+};
+
+class PackedRows {
+public:
+    // Of a picture of these windows, of which no row is there yet.
+    explicit PackedRows(const Windows &windows) : windows_(windows), begin_{0} {}
+
+    // The rows below those that are there, of the same channels.
+    void append(const Ldi &rows);
+
+    // Rows [first, last] (EXR coordinates) of the picture as an LDI of those rows.
+    Ldi rows(int first, int last) const;
+
+    // Forgets all channels but these, whose order it takes.
+    void keep_channels(std::span<const Channel> channels);
+
+    const Windows &windows() const { return windows_; }
+    const std::vector<Channel> &channels() const { return channels_; }
+    std::uint64_t samples() const { return begin_.back(); }
+    // Of rows [first, last].
+    std::uint64_t samples(int first, int last) const;
+    std::size_t bytes() const; // of all that is held
+
+private:
+    struct Piece {                        // some rows
+        std::uint64_t begin, end;         // samples of the picture
+        std::vector<PackedFloats> arrays; // as arrays_of() lists them; of none that is empty
+    };
+    std::uint64_t begin_of_row(int y) const;
+
+    Windows windows_;
+    std::vector<Channel> channels_;
+    std::vector<std::uint64_t> begin_; // as Ldi::begin, so far
+    std::vector<bool> present_;        // of the arrays
+    std::vector<Piece> pieces_;
+};
+
+// `rows` in the window that begins with row `top`: the pixels above them have no samples.
+Ldi with_empty_above(Ldi rows, int top);
+
+// All arrays of an LDI that have one entry a sample, those of its channels last.
+std::vector<std::vector<float> *> arrays_of(Ldi &ldi);
+std::vector<const std::vector<float> *> arrays_of(const Ldi &ldi);
+
+} // namespace sparselens

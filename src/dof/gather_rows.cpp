@@ -1,0 +1,231 @@
+#include "dof/gather_rows.h"
+
+#include "base/parallel.h"
+#include "deep/build.h"
+#include "deep/channel_alpha.h"
+#include "dof/lens/lens_tile.h"
+#include "dof/lens/optics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <mutex>
+#include <numbers>
+#include <vector>
+
+namespace sparselens {
+
+namespace {
+
+constexpr int rows_at_once = 16,
+              highlight_rows = 32; // the cells of highlights.cpp, the noise blocks of sharpen.cpp
+
+// Of the samples of some rows, or of all.
+struct Extremes {
+    double coc = 0;                                                               // pixels, without its sign
+    double least_depth = std::numeric_limits<double>::infinity(), most_depth = 0; // perceptive, pixels
+
+    void add(const ThinLens &lens, double z) {
+        coc = std::max(coc, std::abs(circle_of_confusion(lens, z)));
+        least_depth = std::min(least_depth, perceptive_depth(lens, z));
+        most_depth = std::max(most_depth, perceptive_depth(lens, z));
+    }
+    void add(const Extremes &other) {
+        coc = std::max(coc, other.coc);
+        least_depth = std::min(least_depth, other.least_depth);
+        most_depth = std::max(most_depth, other.most_depth);
+    }
+};
+
+// Whether light of some coverage comes from behind all samples of some pixel.
+bool sees_infinity(const Ldi &rows, std::size_t coverage) {
+    for (std::size_t pixel = 0; pixel + 1 < rows.begin.size(); ++pixel) {
+        double transmittance = 1;
+        for (const std::uint64_t i : rows.pixel(pixel))
+            transmittance *= 1 - double(std::clamp(alpha_at(rows, coverage, i), 0.0f, 1.0f));
+        if (lets_through(transmittance)) return true;
+    }
+    return false;
+}
+
+bool sees_infinity(const Ldi &rows) {
+    return std::ranges::any_of(by_coverage(rows),
+                               [&](const Covered &c) { return sees_infinity(rows, c.coverage); });
+}
+
+Extremes extremes_of(const Ldi &rows, const ThinLens &lens) {
+    Extremes found;
+    for (const float z : rows.z) found.add(lens, double(z));
+    for (const float optical : rows.optical)
+        found.coc = std::max(found.coc, std::abs(circle_of_confusion(lens, double(optical))));
+    if (sees_infinity(rows)) found.add(lens, std::numeric_limits<double>::infinity());
+    return found;
+}
+
+Extremes extremes_of(const PackedRows &rows, const ThinLens &lens) {
+    const Imath::Box2i &data = rows.windows().data;
+    Extremes all;
+    std::mutex adding;
+    parallel_for(std::size_t(pieces_of(rows.windows().height(), rows_at_once)), [&](std::size_t piece) {
+        const int first = data.min.y + int(piece) * rows_at_once;
+        const Extremes found =
+            extremes_of(rows.rows(first, std::min(first + rows_at_once - 1, data.max.y)), lens);
+        const std::lock_guard lock(adding);
+        all.add(found);
+    });
+    return all;
+}
+
+// Rows, both included.
+struct Band {
+    int first, last;
+};
+
+// Where the samples are that rows of the picture depend on, of which blocks of samples and cells stay whole.
+Band needed(const Band &band, const RowReach &reach, const Imath::Box2i &data) {
+    const int first = band.first - reach.seen - data.min.y, last = band.last + reach.seen - data.min.y;
+    const int whole = pieces_of(last + 1, highlight_rows) * highlight_rows;
+    const int from = (first < 0 ? 0 : first / highlight_rows * highlight_rows) - reach.prepared;
+    return {data.min.y + std::max(from, 0), std::min(data.min.y + whole - 1 + reach.prepared, data.max.y)};
+}
+
+class Bands {
+public:
+    Bands(const PackedRows &rows, const ThinLens &lens, const Imath::Box2i &gathered,
+          const PictureOptions &options)
+        : rows_(rows), lens_(lens), gathered_(gathered), options_(options),
+          reach_(reach_of(rows, lens, options.gather.lens.looks)) {}
+
+    // The highest that fit, in rows: of whole tiles.
+    int height(double memory) const {
+        const int tile_rows = pieces_of(gathered_.max.y - gathered_.min.y + 1, LensTile::size);
+        for (int parts = 1;; ++parts) {
+            const int height = pieces_of(tile_rows, parts) * LensTile::size;
+            if (height == LensTile::size || most_bytes(height) <= memory) return height;
+        }
+    }
+    // visit(rows) for all bands of that height, top down.
+    template <typename Visit>
+    void for_each(int height, const Visit &visit) const {
+        for (int y = gathered_.min.y; y <= gathered_.max.y; y += height)
+            visit(Band{y, std::min(y + height - 1, gathered_.max.y)});
+    }
+    Image gather(const Band &band, const Imath::Box2i &written, Progress &progress) const {
+        const Imath::Box2i &data = rows_.windows().data;
+        const Band from = needed(band, reach_, data);
+        PictureOptions by = options_;
+        by.gather.lens.known = gathered_;
+        by.gather.lens.known->min.y = std::max(gathered_.min.y, from.first);
+        by.gather.lens.known->max.y = std::min(gathered_.max.y, from.last);
+        // Places are counted from the picture's corner, and rounded as they are there.
+        return gather_picture(with_empty_above(rows_.rows(from.first, from.last), data.min.y), lens_,
+                              {{gathered_.min.x, band.first}, {gathered_.max.x, band.last}}, written, by,
+                              progress);
+    }
+
+private:
+    double most_bytes(int height) const {
+        std::uint64_t most = 0;
+        for_each(height, [&](const Band &band) {
+            const Band from = needed(band, reach_, rows_.windows().data);
+            most = std::max(most, rows_.samples(from.first, from.last));
+        });
+        return bytes_to_gather(most, rows_.channels()) + double(rows_.bytes());
+    }
+
+    const PackedRows &rows_;
+    const ThinLens &lens_;
+    const Imath::Box2i &gathered_;
+    const PictureOptions &options_;
+    RowReach reach_;
+};
+
+bool can_be_banded(const PackedRows &rows, const ThinLens &lens, const LensLooks &looks) {
+    const FocusField field(looks, lens, picture_frame(rows.windows(), looks));
+    return looks.magnification == 1 && field.flat();
+}
+
+Imath::Box2i common(const Imath::Box2i &window, const Band &band) {
+    return {{window.min.x, std::max(window.min.y, band.first)},
+            {window.max.x, std::min(window.max.y, band.last)}};
+}
+
+void copy_rows(const Image &band, Image &picture) {
+    const Imath::Box2i &rows = band.windows.data;
+    for (std::size_t k = 0; k < picture.channels.size(); ++k)
+        std::ranges::copy(band.plane(k), picture.plane(k).begin() +
+                                             std::ptrdiff_t(picture.windows.index(rows.min.x, rows.min.y)));
+}
+
+// Of which none has lens points.
+LensTiles tiles_of(const Imath::Box2i &gathered, const Band &band) {
+    const Tiles tiles({{gathered.min.x, band.first}, {gathered.max.x, band.last}}, LensTile::size);
+    return {LensTile::size, tiles.columns(), tiles.rows(), std::vector<int>(tiles.count())};
+}
+
+void add_tiles(LensTiles &all, const LensTiles &some) {
+    all.size = some.size;
+    all.columns = some.columns;
+    all.rows += some.rows;
+    all.lens_points.insert(all.lens_points.end(), some.lens_points.begin(), some.lens_points.end());
+}
+
+} // namespace
+
+double bytes_to_gather(std::uint64_t samples, std::span<const Channel> channels) {
+    constexpr std::size_t places = 3, prepared = 8; // depth and offsets; what BlockedSamples holds, in floats
+    const std::size_t groups = pieces_of(channels.size(), std::size_t{4});
+    const bool by_channel = find_channel(channels, "AR") != npos;
+    const std::size_t copied = by_channel ? 2 * (places + 4) : 0; // of one coverage, and merged
+    return double(samples) *
+           double((places + channels.size() + copied + prepared + 4 * groups) * sizeof(float));
+}
+
+double memory_to_gather(std::uint64_t samples_in_file, std::size_t pixels) {
+    return 18 * double(samples_in_file) + 40 * double(pixels) + 32 * 1024 * 1024;
+}
+
+RowReach reach_of(const PackedRows &rows, const ThinLens &lens, const LensLooks &looks) {
+    Extremes found = extremes_of(rows, lens);
+    for (const double coc : looks.chromatic_coc) found.coc += std::abs(coc);
+    const Aperture aperture(looks.aperture);
+    const Imath::V2d extent = aperture.half_extent();
+    const double spread = found.coc * std::max({extent.x, extent.y * lens.pixel_aspect, 1.0});
+    // A ground goes on so far (fillers.h), and is seen from so far.
+    const double nearer = std::max(found.most_depth - found.least_depth, 0.0);
+    const double goes_on = 1 + std::max(std::numbers::sqrt2 * nearer, found.coc);
+    constexpr double most = 1 << 20; // rows: no picture has more
+    constexpr int beside = 16; // rows: a block of samples, and neighbours whose links or edges they share
+    // Highlights look at the cells beside, sharpening at the noise blocks beside those, and at the row beside them.
+    return {int(std::min(std::ceil(spread + goes_on), most)) + beside,
+            2 * highlight_rows + BlockedSamples::size};
+}
+
+Image gather_rows(const PackedRows &rows, const ThinLens &lens, const Imath::Box2i &gathered,
+                  const Imath::Box2i &written, const PictureOptions &options, double memory,
+                  Progress &progress) {
+    const auto all_at_once = [&] {
+        const Imath::Box2i &data = rows.windows().data;
+        return gather_picture(rows.rows(data.min.y, data.max.y), lens, gathered, written, options, progress);
+    };
+    if (!can_be_banded(rows, lens, options.gather.lens.looks)) return all_at_once();
+    LensTiles all{}, some;
+    PictureOptions by = options;
+    by.gather.lens.chosen = &some;
+    const Bands bands(rows, lens, gathered, by);
+    const int height = bands.height(memory);
+    if (height > gathered.max.y - gathered.min.y) return all_at_once();
+    Windows windows = rows.windows();
+    windows.data = written;
+    Image picture(windows, rows.channels());
+    bands.for_each(height, [&](const Band &band) {
+        const Imath::Box2i here = common(written, band);
+        some = tiles_of(gathered, band);
+        if (!here.isEmpty()) copy_rows(bands.gather(band, here, progress), picture);
+        add_tiles(all, some);
+    });
+    if (options.gather.lens.chosen) *options.gather.lens.chosen = std::move(all);
+    return picture;
+}
+
+} // namespace sparselens

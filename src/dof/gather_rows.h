@@ -1,0 +1,35 @@
+// The picture of samples that are held packed (deep/packed/packed_rows.h), gathered in bands of rows: those that can reach a band
+// are unpacked, prepared, gathered from and dropped. The picture is the same, bit by bit, as that of all samples at once.
+#pragma once
+
+#include "../deep/packed/packed_rows.h"
+#include "gather_picture.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace sparselens {
+
+// As gather_picture() for the LDI of all rows, by the method lens and without a holdout. Bands are as high as `memory` (bytes)
+// allows for the samples and what a band is gathered from, and one row of tiles at least. Where a look bends the plane of focus or
+// magnifies the picture, all rows are gathered at once.
+Image gather_rows(const PackedRows &rows, const ThinLens &lens, const Imath::Box2i &gathered,
+                  const Imath::Box2i &written, const PictureOptions &options, double memory,
+                  Progress &progress);
+
+// Bytes that so many samples take as floats, with what is gathered from them.
+double bytes_to_gather(std::uint64_t samples, std::span<const Channel> channels);
+
+// Bytes that samples may take, with what is gathered from them, where the file has so many: with the picture and what there is for
+// each pixel, they stay within 24 for each sample of the file and 100 for each pixel, beside 32 MB.
+double memory_to_gather(std::uint64_t samples_in_file, std::size_t pixels);
+
+// How far, in rows, what the lens makes of a row depends on other rows, and its samples on those of others.
+struct RowReach {
+    int seen = 0;     // from where samples, and what is taken to lie between and behind them, reach a pixel
+    int prepared = 0; // from where those get their colours
+};
+RowReach reach_of(const PackedRows &rows, const ThinLens &lens, const LensLooks &looks);
+
+} // namespace sparselens
