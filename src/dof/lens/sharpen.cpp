@@ -3,6 +3,7 @@
 #include "base/parallel.h"
 #include "deep/build.h"
 #include "dof/footprints/interpolation_blur.h"
+#include "dof/footprints/surface_neighbours.h"
 
 #include <algorithm>
 #include <array>
@@ -31,18 +32,16 @@ public:
         float most; // share of all this that it may give away
         double along(std::size_t neighbour) const { return double(neighbour < 2 ? horizontal : vertical); }
     };
-    struct Neighbours {
-        std::array<std::uint64_t, 4> sample; // left, right, up, down
-        bool horizontal, vertical;           // both of the axis are there
-    };
     // The weights of the samples of some rows, and of the row on either side.
     struct Band {
         std::uint64_t first; // sample
         std::vector<Weights> weights;
-        std::vector<Neighbours> neighbours; // of those that have weights
-        std::vector<std::uint32_t> number;  // of a sample's neighbours among these
+        std::vector<SurfaceNeighbours> neighbours; // of those that have weights
+        std::vector<std::uint32_t> number;         // of a sample's neighbours among these
         const Weights &of(std::uint64_t sample) const { return weights[sample - first]; }
-        const Neighbours &beside(std::uint64_t sample) const { return neighbours[number[sample - first]]; }
+        const SurfaceNeighbours &beside(std::uint64_t sample) const {
+            return neighbours[number[sample - first]];
+        }
     };
 
     // Whether samples of some pixels may have weights: those in columns [x, x + 1) to [last_x, last_x + 1), and rows alike.
@@ -61,16 +60,13 @@ private:
         Imath::V2d offset; // off the grid, pixels
     };
     Seen seen(const MergedSample &place, int x, int y) const;
-    Neighbours neighbours(std::uint64_t i, int x, int y) const;
-    std::uint64_t surface_in(int x, int y, float z, double depth) const;
-    Weights weights(std::uint64_t i, int x, int y, Neighbours &n) const;
-    double detail(std::uint64_t i, const Neighbours &n) const;
+    Weights weights(std::uint64_t i, int x, int y, SurfaceNeighbours &n) const;
+    double detail(std::uint64_t i, const SurfaceNeighbours &n) const;
     double second_difference(std::uint64_t i, std::uint64_t a, std::uint64_t b, std::size_t k) const {
         const std::vector<float> &v = ldi_.values[rgb_[k]];
         return double(v[a]) - 2 * double(v[i]) + double(v[b]);
     }
 
-    static constexpr std::uint64_t none = ~std::uint64_t(0);
     const Ldi &ldi_;
     const ThinLens &lens_;
     const BlockedSamples &samples_;
@@ -80,42 +76,8 @@ private:
     InterpolationBlur blur_;
 };
 
-// The sample of a pixel nearest to that depth, planar and perceptive: of a stack of mist and sheets not just any within reach.
-std::uint64_t Sharpener::surface_in(int x, int y, float z, double depth) const {
-    const int width = ldi_.windows.width();
-    if (x < 0 || y < 0 || x >= width || y >= ldi_.windows.height()) return none;
-    const SampleRange samples = ldi_.pixel(std::size_t(y) * std::size_t(width) + std::size_t(x));
-    const auto distance = [&](std::uint64_t i) {
-        return std::abs(perceptive_depth(lens_, double(ldi_.z[i])) - depth);
-    };
-    if (samples.size() == 1) return distance(samples.from) < one_surface_px ? samples.from : none;
-    const auto first = ldi_.z.begin() + std::ptrdiff_t(samples.from);
-    const auto behind =
-        samples.from +
-        std::uint64_t(std::lower_bound(first, first + std::ptrdiff_t(samples.size()), z) - first);
-    std::uint64_t found = none;
-    double least = one_surface_px;
-    for (std::uint64_t i = std::max(behind, samples.from + 1) - 1; i < std::min(behind + 1, samples.to);
-         ++i) {
-        const double apart = distance(i);
-        if (apart >= least) continue;
-        found = i;
-        least = apart;
-    }
-    return found;
-}
-
-Sharpener::Neighbours Sharpener::neighbours(std::uint64_t i, int x, int y) const {
-    const double depth = perceptive_depth(lens_, double(ldi_.z[i]));
-    const auto beside = [&](int dx, int dy) { return surface_in(x + dx, y + dy, ldi_.z[i], depth); };
-    Neighbours n{{beside(-1, 0), beside(1, 0), beside(0, -1), beside(0, 1)}, false, false};
-    n.horizontal = n.sample[0] != none && n.sample[1] != none;
-    n.vertical = n.sample[2] != none && n.sample[3] != none;
-    return n;
-}
-
 // Root of the squared second differences of R, G and B along both axes.
-double Sharpener::detail(std::uint64_t i, const Neighbours &n) const {
+double Sharpener::detail(std::uint64_t i, const SurfaceNeighbours &n) const {
     double sum = 0;
     for (std::size_t k = 0; k < 3; ++k) {
         const double h = n.horizontal ? second_difference(i, n.sample[0], n.sample[1], k) : 0;
@@ -151,7 +113,7 @@ void Sharpener::measure_noise() {
                 const std::size_t pixel = std::size_t(y) * std::size_t(width) + std::size_t(x);
                 const SampleRange samples = ldi_.pixel(pixel);
                 if (samples.empty()) continue;
-                const Neighbours n = neighbours(samples.front(), x, y);
+                const SurfaceNeighbours n = surface_neighbours(ldi_, lens_, samples.front(), x, y);
                 if (n.horizontal && n.vertical) details.push_back(detail(samples.front(), n));
             }
         if (details.empty()) return;
@@ -173,12 +135,12 @@ Sharpener::Seen Sharpener::seen(const MergedSample &place, int x, int y) const {
 }
 
 // `n` are set where a weight is above 0.
-Sharpener::Weights Sharpener::weights(std::uint64_t i, int x, int y, Neighbours &n) const {
+Sharpener::Weights Sharpener::weights(std::uint64_t i, int x, int y, SurfaceNeighbours &n) const {
     const Seen at = seen(sample_at(ldi_, i), x, y);
     Weights w{float(blur_.horizontal(at.coc, at.offset.x)),
               float(blur_.vertical(at.coc * lens_.pixel_aspect, at.offset.y)), 1};
     if (w.horizontal == 0 && w.vertical == 0) return {0, 0, 0};
-    n = neighbours(i, x, y);
+    n = surface_neighbours(ldi_, lens_, i, x, y);
     if (!n.horizontal) w.horizontal = 0;
     if (!n.vertical) w.vertical = 0;
     const int columns = (ldi_.windows.width() + noise_block - 1) / noise_block;
@@ -220,7 +182,7 @@ Sharpener::Band Sharpener::weigh(int top, int bottom) const {
     const std::size_t count = begin_of(last) - begin_of(first);
     Band band{begin_of(first), std::vector<Weights>(count), {}, std::vector<std::uint32_t>(count)};
     for_each_near_focus(first, last, [&](std::uint64_t i, int x, int y) {
-        Neighbours n;
+        SurfaceNeighbours n;
         const Weights w = weights(i, x, y, n);
         band.weights[i - band.first] = w;
         if (w.most == 0) return;
@@ -236,7 +198,7 @@ std::array<Term, 5> Sharpener::terms(const Band &band, std::uint64_t i) const {
     terms[0].coefficient = 1;
     const Weights &own = band.of(i);
     if (own.most == 0) return terms;
-    const Neighbours &n = band.beside(i);
+    const SurfaceNeighbours &n = band.beside(i);
     for (std::size_t k = 0; k < 4; ++k) {
         if (!(k < 2 ? n.horizontal : n.vertical)) continue;
         // The same for both, so that no light is made or lost.

@@ -1,0 +1,48 @@
+#include "dof/footprints/surface_neighbours.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sparselens {
+
+namespace {
+
+// The sample of a pixel nearest to that depth, planar and perceptive: of a stack of mist and sheets not just any within reach.
+std::uint64_t surface_in(const Ldi &ldi, const ThinLens &lens, int x, int y, float z, double depth) {
+    const int width = ldi.windows.width();
+    if (x < 0 || y < 0 || x >= width || y >= ldi.windows.height()) return no_neighbour;
+    const SampleRange samples = ldi.pixel(std::size_t(y) * std::size_t(width) + std::size_t(x));
+    const auto distance = [&](std::uint64_t i) {
+        return std::abs(perceptive_depth(lens, double(ldi.z[i])) - depth);
+    };
+    if (samples.size() == 1) return distance(samples.from) < one_surface_px ? samples.from : no_neighbour;
+    const auto first = ldi.z.begin() + std::ptrdiff_t(samples.from);
+    const auto behind =
+        samples.from +
+        std::uint64_t(std::lower_bound(first, first + std::ptrdiff_t(samples.size()), z) - first);
+    std::uint64_t found = no_neighbour;
+    double least = one_surface_px;
+    for (std::uint64_t i = std::max(behind, samples.from + 1) - 1; i < std::min(behind + 1, samples.to);
+         ++i) {
+        const double apart = distance(i);
+        if (apart >= least) continue;
+        found = i;
+        least = apart;
+    }
+    return found;
+}
+
+} // namespace
+
+SurfaceNeighbours surface_neighbours(const Ldi &ldi, const ThinLens &lens, std::uint64_t i, int x, int y) {
+    const double depth = perceptive_depth(lens, double(ldi.z[i]));
+    const auto beside = [&](int dx, int dy) {
+        return surface_in(ldi, lens, x + dx, y + dy, ldi.z[i], depth);
+    };
+    SurfaceNeighbours n{{beside(-1, 0), beside(1, 0), beside(0, -1), beside(0, 1)}, false, false};
+    n.horizontal = n.sample[0] != no_neighbour && n.sample[1] != no_neighbour;
+    n.vertical = n.sample[2] != no_neighbour && n.sample[3] != no_neighbour;
+    return n;
+}
+
+} // namespace sparselens
