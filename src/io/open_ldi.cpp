@@ -1,6 +1,7 @@
 #include "io/open_ldi.h"
 
 #include "base/error.h"
+#include "deep/channel_alpha.h"
 #include "deep/tidy.h"
 #include "io/camera/camera_read.h"
 #include "io/depth_range.h"
@@ -28,6 +29,8 @@ void make_planar(Ldi &ldi, DepthMeaning meaning, const DepthRange &range, const 
             if (!ldi.z_back.empty()) ldi.z_back[i] = read.planar(ldi.z_back[i], pixel);
         }
 }
+
+bool has_coverage_by_colour(const Ldi &ldi) { return by_coverage(ldi).size() > 1; }
 
 // With all of the file but its packed samples.
 OpenedLdi with_camera(LdiFile &&file, const std::string &path, const OpenOptions &options) {
@@ -63,7 +66,7 @@ public:
         if (!all_valid(rows)) throw NeedsAllSamples();
         const std::size_t in_file = rows.samples();
         rows = tidy(std::move(rows));
-        count(in_file, rows.samples(), depths);
+        count(in_file, rows, depths);
         return reduce_(header, camera, std::move(rows));
     }
 
@@ -75,6 +78,7 @@ public:
         opened.reduced = true;
         opened.samples_read = read_;
         opened.invisible = in_file_ - std::min(in_file_, read_);
+        opened.coverage_by_colour = coverage_by_colour_;
         if (const auto warning = normalized_warning(options_.depth, depths_))
             opened.warnings.push_back(*warning);
         return opened;
@@ -87,10 +91,12 @@ private:
         if (least == rows.z.end()) return {std::numeric_limits<float>::infinity(), 0};
         return {*least, *most};
     }
-    void count(std::size_t in_file, std::size_t read, const std::array<float, 2> &depths) {
+    void count(std::size_t in_file, const Ldi &ready, const std::array<float, 2> &depths) {
+        const bool by_colour = has_coverage_by_colour(ready);
         const std::lock_guard lock(counting_);
         in_file_ += in_file;
-        read_ += read;
+        read_ += ready.samples();
+        coverage_by_colour_ = coverage_by_colour_ || by_colour;
         depths_ = {std::min(depths_[0], depths[0]), std::max(depths_[1], depths[1])};
     }
     bool all_valid(Ldi &rows) const {
@@ -106,6 +112,7 @@ private:
     const ReduceSamples &reduce_;
     std::mutex counting_; // of what follows
     std::size_t in_file_ = 0, read_ = 0;
+    bool coverage_by_colour_ = false;
     std::array<float, 2> depths_{std::numeric_limits<float>::infinity(), 0}; // the least and the most
 };
 
@@ -135,6 +142,7 @@ OpenedLdi ready_ldi(LdiFile file, const std::string &path, const OpenOptions &op
         opened.notes.push_back(edge_note(settled));
     const std::size_t in_file = opened.ldi.samples();
     opened.ldi = tidy(std::move(opened.ldi));
+    opened.coverage_by_colour = has_coverage_by_colour(opened.ldi);
     opened.samples_read = opened.ldi.samples();
     opened.invisible = in_file - std::min(in_file, opened.samples_read);
     return opened;

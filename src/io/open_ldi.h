@@ -27,6 +27,7 @@ struct OpenedLdi {
         0; // samples of the file that tidy() left out: they show nothing, or are one with another
     std::size_t samples_read = 0;             // tidy ones; more than `ldi` has where they were reduced
     bool reduced = false;                     // by a ReduceSamples
+    bool coverage_by_colour = false;          // AR, AG and AB differ in the file (deep/channel_alpha.h)
     std::optional<PackedRows> packed = {};    // the samples, in place of those of `ldi`, where they are many
     std::vector<std::string> notes, warnings; // see LdiFile
 

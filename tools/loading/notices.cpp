@@ -1,6 +1,5 @@
 #include "loading/notices.h"
 
-#include "deep/channel_alpha.h"
 #include "dof/border_reach.h"
 #include "io/files/file_stream.h"
 
@@ -16,8 +15,7 @@ void say_reading(const ToolContext &tool, const std::string &path, const std::ve
 
 void say_samples(const ToolContext &tool, const OpenedLdi &in) {
     say_reading(tool, in.name, in.notes, in.warnings);
-    if (tool.verbose && by_coverage(in.ldi).size() > 1)
-        tool.say(in.name + ": each colour has its own coverage (AR, AG, AB)");
+    if (in.coverage_by_colour) tool.say(in.name + ": each colour has its own coverage (AR, AG, AB)");
 }
 
 void say_border_reach(const ToolContext &tool, const std::string &path, const Ldi &ldi,
