@@ -38,7 +38,7 @@ Image gathered(const GatherCommand &options, GatherWindows &frame, const ThinLen
     };
     if (const OpenedLdi &in = cache.last(); in.packed)
         return gather_rows(*in.packed, lens, frame.gathered, frame.written, options.picture,
-                           memory_to_gather(in.samples_read, in.ldi.windows.pixels()), *tool.progress);
+                           {memory_to_gather(in.samples_read, in.ldi.windows.pixels())}, *tool.progress);
     if (options.show != Show::picture) return of(frame.ldi(cache.last()));
     if (frame.changed) return of(std::move(*frame.changed));
     return tool.last_frame ? of(cache.take_ldi()) : of(cache.last().ldi);

@@ -96,12 +96,14 @@ public:
         : rows_(rows), lens_(lens), gathered_(gathered), options_(options),
           reach_(reach_of(rows, lens, options.gather.lens.looks)) {}
 
-    // The highest that fit, in rows: of whole tiles.
-    int height(double memory) const {
+    // In rows.
+    int height(const BandLimits &limits) const {
+        const int least = limits.low ? LensTile::size : 2 * (reach_.seen + reach_.prepared) + highlight_rows;
         const int tile_rows = pieces_of(gathered_.max.y - gathered_.min.y + 1, LensTile::size);
         for (int parts = 1;; ++parts) {
-            const int height = pieces_of(tile_rows, parts) * LensTile::size;
-            if (height == LensTile::size || most_bytes(height) <= memory) return height;
+            const int height = pieces_of(tile_rows, parts) * LensTile::size,
+                      lower = pieces_of(tile_rows, parts + 1) * LensTile::size;
+            if (parts >= tile_rows || lower < least || most_bytes(height) <= limits.memory) return height;
         }
     }
     // visit(rows) for all bands of that height, top down.
@@ -202,7 +204,7 @@ RowReach reach_of(const PackedRows &rows, const ThinLens &lens, const LensLooks 
 }
 
 Image gather_rows(const PackedRows &rows, const ThinLens &lens, const Imath::Box2i &gathered,
-                  const Imath::Box2i &written, const PictureOptions &options, double memory,
+                  const Imath::Box2i &written, const PictureOptions &options, const BandLimits &limits,
                   Progress &progress) {
     const auto all_at_once = [&] {
         const Imath::Box2i &data = rows.windows().data;
@@ -213,7 +215,7 @@ Image gather_rows(const PackedRows &rows, const ThinLens &lens, const Imath::Box
     PictureOptions by = options;
     by.gather.lens.chosen = &some;
     const Bands bands(rows, lens, gathered, by);
-    const int height = bands.height(memory);
+    const int height = bands.height(limits);
     if (height > gathered.max.y - gathered.min.y) return all_at_once();
     Windows windows = rows.windows();
     windows.data = written;

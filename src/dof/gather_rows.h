@@ -11,11 +11,18 @@
 
 namespace sparselens {
 
-// As gather_picture() for the LDI of all rows, by the method lens and without a holdout. Bands are as high as `memory` (bytes)
-// allows for the samples and what a band is gathered from, and one row of tiles at least. Where a look bends the plane of focus or
-// magnifies the picture, all rows are gathered at once.
+// What decides how high bands are.
+struct BandLimits {
+    double memory; // bytes, of the samples and of what a band is gathered from: the highest bands that fit
+    bool low =
+        false; // none is too low; else they are no lower than what they need beside them (RowReach), even if they
+        // do not fit then: to prepare all bands takes at most about twice as long as to prepare all rows
+};
+
+// As gather_picture() for the LDI of all rows, by the method lens and without a holdout. Bands have whole rows of tiles. Where a look
+// bends the plane of focus or magnifies the picture, all rows are gathered at once.
 Image gather_rows(const PackedRows &rows, const ThinLens &lens, const Imath::Box2i &gathered,
-                  const Imath::Box2i &written, const PictureOptions &options, double memory,
+                  const Imath::Box2i &written, const PictureOptions &options, const BandLimits &limits,
                   Progress &progress);
 
 // Bytes that so many samples take as floats, with what is gathered from them.

@@ -53,7 +53,7 @@ protected:
     void expect_same(const Imath::Box2i &written) {
         const Image whole = gather_picture(ldi, lens, window, written, options, progress);
         const std::vector<int> chosen = tiles.lens_points;
-        const Image banded = gather_rows(packed(ldi), lens, window, written, options, 0, progress);
+        const Image banded = gather_rows(packed(ldi), lens, window, written, options, {0, true}, progress);
         EXPECT_EQ(banded.windows, whole.windows);
         EXPECT_EQ(banded.channels, whole.channels);
         EXPECT_TRUE(banded.values == whole.values);
@@ -80,9 +80,11 @@ TEST_F(GatherRows, BlurFarWiderThanTheCellsAroundIsTheSame) {
 
 TEST_F(GatherRows, MemoryThatIsEnoughTakesAllRowsAtOnce) {
     const Image whole = gather_picture(ldi, lens, window, window, options, progress);
-    EXPECT_TRUE(gather_rows(packed(ldi), lens, window, window, options, 1e12, progress).values ==
+    EXPECT_TRUE(gather_rows(packed(ldi), lens, window, window, options, {1e12}, progress).values ==
                 whole.values);
-    EXPECT_TRUE(gather_rows(packed(ldi), lens, window, window, options, 4e5, progress).values ==
+    EXPECT_TRUE(gather_rows(packed(ldi), lens, window, window, options, {4e5, true}, progress).values ==
+                whole.values);
+    EXPECT_TRUE(gather_rows(packed(ldi), lens, window, window, options, {0}, progress).values ==
                 whole.values);
 }
 
