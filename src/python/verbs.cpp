@@ -114,7 +114,8 @@ LdiObject warp(const py::object &views, const py::kwargs &given) {
         return out;
     });
     for (const std::string &warning : warnings) warn(warning);
-    return {std::move(made)};
+    LdiObject out{std::move(made)};
+    return out;
 }
 
 // The LDI without its samples.
