@@ -11,7 +11,7 @@ namespace sparselens {
 namespace {
 
 TEST(InOrder, EveryPieceIsTakenOnceAndInOrder) {
-    for (const std::size_t threads : {1, 2, 7}) {
+    for (const std::size_t threads : {1u, 2u, 7u}) {
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
         std::vector<std::size_t> taken;
         in_order(

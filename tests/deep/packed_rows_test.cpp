@@ -32,7 +32,7 @@ std::vector<float> unpacked(const PackedFloats &packed, std::size_t from, std::s
 }
 
 TEST(PackedFloats, ValuesComeBackAsTheyWere) {
-    for (const std::size_t step : {1000, 100, 5, 4, 3, 2}) {
+    for (const std::size_t step : {1000u, 100u, 5u, 4u, 3u, 2u}) {
         const std::vector<float> values = values_with_others(1000, step);
         const PackedFloats packed(values);
         expect_same_bits(unpacked(packed, 0, 1000), values);
@@ -72,7 +72,7 @@ TEST(PackedFloats, SpecialValuesComeBackAsTheyWere) {
 
 TEST(PackedFloats, HalvesTakeTwoBytesAndNothingTakesMoreThanFour) {
     EXPECT_EQ(PackedFloats(values_with_others(1000, 100'000)).bytes(), 2000u + 8);
-    for (const std::size_t step : {100, 5, 4, 3, 2})
+    for (const std::size_t step : {100u, 5u, 4u, 3u, 2u})
         EXPECT_LE(PackedFloats(values_with_others(1000, step)).bytes(), 4000u) << step;
 }
 
