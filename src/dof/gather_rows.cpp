@@ -184,7 +184,7 @@ double bytes_to_gather(std::uint64_t samples, std::span<const Channel> channels)
 }
 
 double memory_to_gather(std::uint64_t samples_in_file, std::size_t pixels) {
-    return 12 * double(samples_in_file) + 110 * double(pixels) + 32 * 1024 * 1024;
+    return 14 * double(samples_in_file) + 110 * double(pixels) + 32 * 1024 * 1024;
 }
 
 RowReach reach_of(const PackedRows &rows, const ThinLens &lens, const LensLooks &looks) {
