@@ -11,12 +11,12 @@
 
 namespace sparselens {
 
-// What decides how high bands are.
+// What decides how high bands are: as high as fits into `memory` (bytes), counting the samples and what a band is gathered from.
+// None is too low if `low`. Else bands are no lower than what they need beside them (RowReach), even if they do not fit: to prepare
+// all bands then takes at most about twice as long as to prepare all rows.
 struct BandLimits {
-    double memory; // bytes, of the samples and of what a band is gathered from: the highest bands that fit
-    bool low =
-        false; // none is too low; else they are no lower than what they need beside them (RowReach), even if they
-        // do not fit then: to prepare all bands takes at most about twice as long as to prepare all rows
+    double memory;
+    bool low = false;
 };
 
 // As gather_picture() for the LDI of all rows, by the method lens and without a holdout. Bands have whole rows of tiles. Where a look
