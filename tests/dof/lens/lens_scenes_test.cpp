@@ -1,8 +1,6 @@
 // The whole way from a scene to the lens picture, at small size, at the default quality.
 #include "deep/cluster.h"
-#include "deep/tidy.h"
 #include "dof/lens/lens_gather.h"
-#include "lab/trace/deep.h"
 #include "lens/lens_points.h"
 #include "measure/image_error.h"
 #include "support/traced.h"
@@ -114,15 +112,6 @@ TEST(LensScenes, LampsOfPartialCoverageAreSmoothDiscsToo) {
         const double mean = inside / pixels;
         EXPECT_LT(std::sqrt(squares / pixels - mean * mean), 0.05 * mean) << lamp.coc;
     }
-}
-
-TEST(LensScenes, MistIsItsReference) {
-    const SceneCamera scene("mist", 112, 63);
-    Progress silent;
-    const Image reference = scene.reference(576);
-    const Ldi ldi = tidy(render_peeled(scene.tracer, scene.settings, 4, 16, 1, silent));
-    std::printf("mist: %.2f dB\n", decibels(gather(ldi, scene), reference));
-    EXPECT_GT(decibels(gather(ldi, scene), reference), 45);
 }
 
 // The part of the scene "macro" that its near relief fills.
