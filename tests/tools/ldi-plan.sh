@@ -3,7 +3,8 @@
 . "$source_dir/tests/tools/deep.sh"
 plan=$bin/ldi-plan
 answers_help ldi-plan views/center.exr -o plan.json
-"$bin/dof-trace" fence --size 240x135 --spp 16 --reference 64 -o full
+"$bin/dof-trace" fence --size 240x135 --spp 16 -o full
+reference=$source_dir/tests/floors/references/fence.exr # of this size, 4096 rays a pixel
 
 # json FILE EXPRESSION: of the plan, in Python.
 json() { python3 -c "import json,sys; p = json.load(open(sys.argv[1])); print($2)" "$1"; }
@@ -20,17 +21,18 @@ grep -q 'of a full view' stdout || fail "no summary: $(cat stdout)"
 exits 0 "$plan" full/center.exr -o -
 grep -q '"views"' stdout || fail "no plan on standard output"
 
-# What is asked for is rendered, and as good for the picture as all of it.
+# What is asked for is rendered, and as good for the picture as all of it: within half a decibel, and far above the centre
+# view alone, whose hidden parts are guessed (docs/hidden.md: five views are 5 dB or more above the best guess).
 "$bin/dof-trace" fence --size 240x135 --spp 16 --plan plan.json -o planned
 [ ! -e planned/center.exr ] || fail "the centre view was not asked for"
 [ "$(ls planned/*.exr | wc -l)" -eq "$(json plan.json 'len(p["views"])')" ] || fail "views: $(ls planned)"
 psnr() { # LDI INPUTS...
     "$bin/ldi-warp" "$@" -o - | "$bin/dof-gather" - -d float -o picture.exr
-    "$bin/dof-compare" picture.exr full/reference.exr --json | python3 -c 'import json,sys; print(json.load(sys.stdin)["psnr_tonemapped"])'
+    "$bin/dof-compare" picture.exr "$reference" --json | python3 -c 'import json,sys; print(json.load(sys.stdin)["psnr_tonemapped"])'
 }
 alone=$(psnr full/center.exr) planned=$(psnr full/center.exr planned/view_*.exr) full=$(psnr full/center.exr full/view_*.exr)
 echo "centre alone $alone dB, planned $planned dB, full views $full dB"
-python3 -c "import sys; a, p, f = map(float, sys.argv[1:]); sys.exit(not (p > a + 3 and p > f - 0.5))" "$alone" "$planned" "$full" ||
+python3 -c "import sys; a, p, f = map(float, sys.argv[1:]); sys.exit(not (p > a + 5 and p > f - 0.5))" "$alone" "$planned" "$full" ||
     fail "planned views: $alone $planned $full"
 # So small that the bars of the fence are as thin as a pixel: what hides behind them is asked for, too. Its checkers are as
 # fine, but no noise. 40 dB: what is left out adds less error than full views have (36.8 dB).
