@@ -2,7 +2,6 @@
 #include "deep/flatten.h"
 #include "dof/lens/lens_gather.h"
 #include "lens/cat_eye.h"
-#include "lens/focus_field.h"
 #include "lens/psf.h"
 #include "support/lens_ldi.h"
 
@@ -86,37 +85,56 @@ TEST(LensLooks, GiveTheSameBitsOnAnyNumberOfThreads) {
     }
 }
 
-// A plane that is tilted as the plane of focus is sharp everywhere; c = R F (1/d - 1/z).
-TEST(LensLooks, FocusOnAPlaneThatIsTiltedLikeTheirs) {
-    for (const LensLooks &looks : {LensLooks{.field_curvature = 0.4}, LensLooks{.tilt = {2, 1}}}) {
-        const Windows windows = windows_of_size(96, 64);
-        const FocusField field(looks, lens, picture_frame(windows, looks));
-        const Ldi ldi = make_ldi(windows, rgba_channels(), [&](int x, int y) {
-            const float v = (x / 3 + y / 3) % 2 ? 1.0f : 0.1f;
-            return std::vector<Sample>{{lens.focus / field.factor({x + 0.5, y + 0.5}), {v, v, v, 1}}};
-        });
-        EXPECT_LT(largest_difference(gather(ldi, looks), flatten(ldi)), 0.02);
-        EXPECT_GT(largest_difference(gather(ldi, {}), flatten(ldi)), 0.1);
+// Of 1/d, by hand: (1 + K rho^2) (1 + tan X x/F + tan Y y/F), with x right and y up of the axis and rho in half diagonals.
+struct BentFocus {
+    double curvature, tan_x, tan_y;
+    double factor(double x, double y, double half_diagonal) const {
+        const double rho = std::sqrt(x * x + y * y) / half_diagonal;
+        return (1 + curvature * rho * rho) * (1 + (tan_x * x + tan_y * y) / lens.focal_px);
     }
+    LensLooks looks() const { return {.field_curvature = curvature, .tilt = {tan_x, tan_y}}; }
+};
+
+// A surface that lies where the lens is focused is sharp everywhere. With a tilt alone it is a plane in space, z + x tan X +
+// y tan Y = d. Pixels are square, and twice as wide as high; the data window is a part of the display window.
+TEST(LensLooks, FocusOnTheSurfaceThatTheirAnglesSay) {
+    for (const float aspect : {1.0f, 2.0f})
+        for (const BentFocus &bent : {BentFocus{0.4, 0, 0}, BentFocus{0, 2, -1}, BentFocus{0, 0, 6}}) {
+            Windows windows = windows_of_size(96, 60);
+            windows.data = {{3, 5}, {95, 50}};
+            windows.pixel_aspect = aspect;
+            ThinLens by = lens;
+            by.pixel_aspect = double(aspect);
+            const double half_diagonal = std::hypot(48, 30 / double(aspect));
+            const Ldi ldi = make_ldi(windows, rgba_channels(), [&](int px, int py) {
+                const float v = (px / 3 + py / 3) % 2 ? 1.0f : 0.1f;
+                const double x = px + 0.5 - 48, y = (30 - (py + 0.5)) / double(aspect);
+                return std::vector<Sample>{{lens.focus / bent.factor(x, y, half_diagonal), {v, v, v, 1}}};
+            });
+            EXPECT_LT(largest_difference(gather(ldi, bent.looks(), by), flatten(ldi)), 0.02);
+            EXPECT_GT(largest_difference(gather(ldi, {}, by), flatten(ldi)), 0.1);
+        }
 }
 
-// A lamp on a bent plane of focus has the disc that its place gives it.
+// A lamp of CoC 7 has the disc that the bent plane of focus gives it at its place: c = R F (1/d' - 1/z), R F / d = 7.68.
 TEST(LensLooks, SpreadALampByTheFocusAtItsPlace) {
-    const LensLooks looks{.tilt = {3, 0}};
-    const Windows windows = windows_of_size(128, 64);
-    const FocusField field(looks, lens, picture_frame(windows, looks));
-    for (const int at : {24, 104}) {
-        const Ldi ldi = make_ldi(windows, rgba_channels(), [&](int x, int y) {
-            std::vector<Sample> samples;
-            if (x == at && y == 32) samples.push_back({depth_of(lens, 7), {1000, 1000, 1000, 1}});
-            return samples;
-        });
-        const double coc = 7 + field.coc_offset({at + 0.5, 32.5});
-        const Image image = gather(ldi, looks);
-        double reached = 0;
-        for (const float v : image.plane(0)) reached += v > 0.5f * float(1000 / (3.14159 * coc * coc));
-        EXPECT_NEAR(reached, std::numbers::pi * coc * coc, 0.05 * std::numbers::pi * coc * coc) << coc;
-    }
+    const double half_diagonal = std::hypot(64, 32), rf_by_d = 0.06 * 640 / 5;
+    for (const BentFocus &bent : {BentFocus{0, 3, 0}, BentFocus{0, 0, 6}, BentFocus{0.5, 0, 0}})
+        for (const Imath::V2i &at : {Imath::V2i(24, 32), {104, 32}, {64, 14}, {64, 49}}) {
+            const Ldi ldi = make_ldi(windows_of_size(128, 64), rgba_channels(), [&](int x, int y) {
+                std::vector<Sample> samples;
+                if (Imath::V2i(x, y) == at) samples.push_back({depth_of(lens, 7), {1000, 1000, 1000, 1}});
+                return samples;
+            });
+            const double coc =
+                7 + rf_by_d * (bent.factor(at.x + 0.5 - 64, 32 - (at.y + 0.5), half_diagonal) - 1);
+            const Image image = gather(ldi, bent.looks());
+            double reached = 0;
+            for (const float v : image.plane(0))
+                reached += v > 0.5f * float(1000 / (std::numbers::pi * coc * coc));
+            EXPECT_NEAR(reached, std::numbers::pi * coc * coc, 0.05 * std::numbers::pi * coc * coc)
+                << coc << " at " << at;
+        }
 }
 
 TEST(LensLooks, MagnifyAboutTheAxis) {
