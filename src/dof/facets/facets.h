@@ -10,8 +10,8 @@
 // surfaces are flatter than the way from one to the other, and a pixel of mixed depth makes two steps of it. A sample has
 // at most one link each way: to the nearest depth.
 //
-// A facet is a triangle between three samples of four pixels that meet in a corner, two of whose sides are links and of
-// which some side is steep. Seen through the lens it extends the footprints of its samples: each of its points belongs to
+// A facet is a triangle between three samples of four pixels that meet in a corner, one of them in the upper left pixel, two of
+// whose sides are links and of which some side is steep; four samples that links go around are two, parted from the upper left. Seen through the lens it extends the footprints of its samples: each of its points belongs to
 // the sample that weighs most there (barycentric coordinates).
 #pragma once
 

@@ -1,6 +1,7 @@
 #include "dof/reference/facets_slowly.h"
 
 #include "dof/facets/facets.h"
+#include "dof/reference/find_facets_slowly.h"
 
 #include <algorithm>
 #include <cmath>
@@ -70,9 +71,8 @@ std::vector<std::array<std::size_t, 3>> place_facets_slowly(const Ldi &ldi, cons
     for (std::size_t i = 0; i < samples.size(); ++i)
         if (!samples[i].background) place[samples[i].source] = i;
     std::vector<std::array<std::size_t, 3>> facets;
-    for (const std::vector<Facet> &block : find_facets(ldi, lens, 1).blocks)
-        for (const Facet &f : block)
-            facets.push_back({place[f.sample[0]], place[f.sample[1]], place[f.sample[2]]});
+    for (const auto &sample : find_facets_slowly(ldi, lens, 1))
+        facets.push_back({place[sample[0]], place[sample[1]], place[sample[2]]});
     return facets;
 }
 

@@ -1,5 +1,5 @@
 // The lens gather, slow and obvious: every lens point of every pixel tries every sample, in long double, from the
-// formulas of design.md section 1 and, of this library's kernels, find_facets() and find_fillers() alone. Tests the
+// formulas of design.md section 1 and, of this library's kernels, find_fillers() alone. Tests the
 // fast one.
 //
 // A lens point looks through one point of the pixel. It sees the samples whose unit square, displaced by their

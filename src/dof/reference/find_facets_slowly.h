@@ -1,0 +1,18 @@
+// The facets of a picture, slow and obvious, from what dof/facets/facets.h says and none of the kernel's code: each step from
+// pixel to pixel is looked for anew. Tests find_facets().
+#pragma once
+
+#include "deep/ldi.h"
+#include "lens/thin_lens.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace sparselens {
+
+// Samples of the LDI, three for each facet, in no particular order.
+std::vector<std::array<std::uint64_t, 3>> find_facets_slowly(const Ldi &ldi, const ThinLens &lens,
+                                                             double widest);
+
+} // namespace sparselens
