@@ -184,10 +184,14 @@ TEST(MergeLayers, DenseScenesLookTheSame) {
             return gather_picture(ldi, lens, all, all, options, silent);
         };
         const Image whole = picture(0), merged = picture(layer_tolerance_px);
+        // Their layers lie farther apart than the tolerance: nothing may change at all.
+        if (scene.name == std::string("hair") || scene.name == std::string("apart")) {
+            EXPECT_EQ(merged.values, whole.values) << scene.name;
+            continue;
+        }
         const double decibels = image_error(merged, whole)[0].psnr_tonemapped;
         EXPECT_GT(decibels, 45) << scene.name;
-        const bool none_merge = scene.name == std::string("hair") || scene.name == std::string("apart");
-        EXPECT_TRUE(std::isfinite(decibels) || none_merge) << scene.name;
+        EXPECT_TRUE(std::isfinite(decibels)) << scene.name; // else nothing was merged
     }
 }
 
