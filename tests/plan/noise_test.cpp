@@ -46,7 +46,6 @@ TEST(Noise, GaussianNoiseIsMeasured) {
     }
 }
 
-// c = R F / d (z - d) / z: 2 px at z = inf, which averages over 4 pi pixels.
 // Random blades, upright or at 45 degrees, differ from pixel to pixel across, but not along.
 TEST(Noise, BladesAreNone) {
     for (const int slant : {0, 1}) {
@@ -94,6 +93,7 @@ TEST(Noise, IsFoundWhereItIs) {
     EXPECT_NEAR(sum / (48 * 98) / (0.02 * 0.02), 1, 0.2);
 }
 
+// c = R F / d (z - d) / z: 2 px at z = inf, which averages over 4 pi pixels.
 TEST(Noise, BlurAveragesIt) {
     const auto noise_at = [](float z) {
         std::mt19937 random(5);

@@ -118,7 +118,6 @@ TEST(Silhouettes, ALampHalfBehindAPostShinesAtItsOwnDepth) {
     }
 }
 
-// A lamp of three by three pixels shows one that is all its own: what its edges show is not what it is.
 // Left a post, right a board with a lamp behind its lower edge, whose last row is half lamp: what the board shows behind the
 // post's edge is the board, not the lamp at the board's depth.
 TEST(Silhouettes, WhatIsMixedItselfTellsLittleOfWhatLiesBehind) {
@@ -140,6 +139,7 @@ TEST(Silhouettes, WhatIsMixedItselfTellsLittleOfWhatLiesBehind) {
     }
 }
 
+// A lamp of three by three pixels shows one that is all its own: what its edges show is not what it is.
 TEST(Silhouettes, TheEdgesOfASmallLampArePartsOfIt) {
     const auto share = [](int x, int y) {
         const float across = x == 4 ? 1 : x == 3 ? 0.6f : x == 5 ? 0.4f : 0;
