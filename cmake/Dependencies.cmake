@@ -18,7 +18,8 @@ set_target_properties(OpenImageIO::OpenImageIO PROPERTIES INTERFACE_INCLUDE_DIRE
 
 # The laboratory traces its scenes with Embree. The demo and most tests need it.
 find_package(embree 3 CONFIG QUIET)
-option(SPARSELENS_LAB "Build the laboratory: dof-trace, dof-report, dof-stress (needs Embree 3)" ${embree_FOUND})
+sparselens_found_option(SPARSELENS_LAB "Build the laboratory: dof-trace, dof-report, dof-stress (needs Embree 3)"
+    "${embree_FOUND}")
 if(SPARSELENS_LAB AND NOT embree_FOUND)
     message(FATAL_ERROR "SPARSELENS_LAB needs Embree 3 (Debian: libembree-dev), which was not found. "
         "Install it, or configure with -DSPARSELENS_LAB=OFF: the library and the tools for pictures do without.")

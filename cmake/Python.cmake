@@ -10,7 +10,7 @@ if(Python_FOUND AND pybind11_FOUND)
 else()
     set(python_can_be_built OFF)
 endif()
-option(SPARSELENS_PYTHON "Build the Python module (needs pybind11 2.10 and Python 3.9)" ${python_can_be_built})
+sparselens_found_option(SPARSELENS_PYTHON "Build the Python module (needs pybind11 2.10 and Python 3.9)" ${python_can_be_built})
 if(SPARSELENS_PYTHON AND NOT python_can_be_built)
     message(FATAL_ERROR "SPARSELENS_PYTHON needs pybind11 (Debian: pybind11-dev) and Python (Debian: python3-dev), which "
         "were not found. Install them, or configure with -DSPARSELENS_PYTHON=OFF.")

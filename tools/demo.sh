@@ -27,9 +27,10 @@ done
 
 build() {
     "$here/tools/install-deps.sh" build demo
-    # A folder that the tests have configured is taken as it is: turning them off would throw away their objects.
-    [ -e "$here/build/build.ninja" ] ||
-        cmake --preset release -S "$here" --log-level=WARNING -DSPARSELENS_TESTS=OFF -DSPARSELENS_BENCHMARKS=OFF
+    # In a folder that the tests have configured they stay on: turning them off would throw away their objects.
+    local tests=()
+    [ -e "$here/build/build.ninja" ] || tests=(-DSPARSELENS_TESTS=OFF -DSPARSELENS_BENCHMARKS=OFF)
+    cmake --preset release -S "$here" --log-level=WARNING -DSPARSELENS_LAB=ON "${tests[@]}"
     cmake --build "$here/build" --target tools/all -j "$(nproc)"
 }
 
