@@ -13,8 +13,9 @@ demo='fonts-dejavu-core openimageio-tools'
 gpu='glslc libvulkan-dev mesa-vulkan-drivers spirv-tools vulkan-validationlayers'
 lint='clang-14 clang-format-14 clang-tidy-14'
 report='chromium gnuplot-nox'
-test='fish gnuplot-nox libbenchmark-dev libgtest-dev mypy openexr openimageio-tools pybind11-dev python3-dev
-      python3-jsonschema python3-numpy python3-openimageio python3-pytest python3-yaml time zsh'
+test='clang-format-14 dpkg-dev fakeroot file fish gnuplot-nox groff-base libbenchmark-dev libgtest-dev lintian munge mypy
+      openexr openimageio-tools pybind11-dev python3-dev python3-jsonschema python3-numpy python3-openimageio
+      python3-pytest python3-yaml slurm-client slurmctld slurmd time zsh'
 
 fail() {
     echo "install-deps: $*" >&2

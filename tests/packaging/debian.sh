@@ -20,7 +20,7 @@ if command -v lintian >/dev/null; then
     lintian --allow-root "${packages[@]}" >lintian.log 2>&1 || true
     ! grep '^E:' lintian.log || fail "lintian finds errors"
 else
-    echo "lintian is not installed: the packages are not checked by it"
+    echo "skipped: lintian is not installed"
 fi
 
 # dpkg checks the dependencies, against the host's list of packages.
@@ -53,7 +53,7 @@ if [ "$(id -u)" -eq 0 ] && chroot / true 2>/dev/null; then
     work=/work
     installed() { exits 0 env -i "$(command -v chroot)" "$root" "/usr/bin/$1" "${@:2}"; }
 else
-    echo "not root: the tools run from the root, not in it"
+    echo "skipped: the tools in the root itself: only root may change it"
     work=$root/work
     installed() { exits 0 env -i "$root/usr/bin/$1" "${@:2}"; }
 fi

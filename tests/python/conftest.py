@@ -6,6 +6,14 @@ import subprocess
 import pytest
 import sparselens
 
+
+
+def pytest_terminal_summary(terminalreporter):
+    """A line for each test that was skipped, as tests/skips.sh reads them."""
+    for report in terminalreporter.stats.get("skipped", []):
+        terminalreporter.line(f"skipped: {report.nodeid}: {report.longrepr[2]}")
+
+
 VIEWS = pathlib.Path(os.environ["SPARSELENS_VIEWS"])
 BIN = pathlib.Path(os.environ["SPARSELENS_BIN"])
 

@@ -99,7 +99,7 @@ if command -v gnuplot >/dev/null; then
         oiiotool --info out/plots/$plot.png >/dev/null || fail "no plot $plot.png"
     done
 else
-    echo 'plots were not tested: gnuplot is not installed'
+    echo 'skipped: plots: gnuplot is not installed'
 fi
 
 # The page holds all of itself.
@@ -128,16 +128,18 @@ awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) if ($i == "runs") at = i } NR > 1 &
 grep -q 'threads: 1' small/index.html || fail "--threads has no effect"
 
 # On a terminal it tells how far it is and what is left, elsewhere nothing.
-if command -v script >/dev/null; then
+if script -qec true /dev/null >terminal 2>&1 </dev/null; then
     rm -r small
     script -qec "'$report' --quick grass -o small --size 40x24" /dev/null >terminal </dev/null
     grep -Eq 'dof-report: [0-9]+ of [0-9]+, [0-9]+:[0-9]{2} left: grass/views-5x4/warped' terminal ||
         fail "no progress on a terminal: $(head -c 300 terminal)"
+else
+    echo "skipped: progress on a terminal: no pseudo-terminal can be made ($(head -c 300 terminal))"
 fi
 
 # The page in a browser: pictures are there, and moving the slider shows something else.
 chromium=$(command -v chromium || command -v chromium-browser || command -v google-chrome || true)
-[ -n "$chromium" ] || { echo 'the page was not opened: chromium is not installed (tools/install-deps.sh report)'; exit 0; }
+[ -n "$chromium" ] || { echo 'skipped: the page in a browser: chromium is not installed'; exit 0; }
 # shot NAME SCRIPT: a screenshot of the page after the script has run in it.
 shot() {
     { cat out/index.html; echo "<script>$2</script>"; } >"$1.html"

@@ -135,7 +135,7 @@ tally() { # NAME FOLDER
 
 # A valid file that packs its pixels denser than the memory limit allows: refused, unless --max-memory says more.
 dense_file() {
-    command -v oiiotool >/dev/null || { echo "skipped the dense file: needs oiiotool"; return; }
+    command -v oiiotool >/dev/null || { echo "skipped: the dense file: needs oiiotool"; return; }
     oiiotool --pattern constant:color=0,0,0,1,5 3000x2500 5 --chnames R,G,B,A,Z -d half -d Z=float \
         --compression zip -o dense.exr
     fails_saying 1 'dense.exr: asks for [0-9]+ MB of memory.*--max-memory' "$bin/dof-gather" dense.exr -o x.exr --lens-radius 0
@@ -158,7 +158,7 @@ else
         for file in "$damaged"/*; do every_tool "$file"; done
         tally "shared/damaged"
     else
-        echo "skipped ../shared/damaged: not at hand"
+        echo "skipped: ../shared/damaged is not there"
     fi
 fi
 [ "$faults" -eq 0 ] || fail "$faults faults"

@@ -79,7 +79,7 @@ if [ "$(id -u)" -eq 0 ] && mkdir full && mount -t tmpfs -o size=64k tmpfs full 2
         [ "$(cat full/x.exr)" = old ] && [ "$(ls -A full)" = x.exr ] || fail "a full disk: $(ls -lA full)"
     done
 else
-    echo "skipped the full disk: no tmpfs can be mounted"
+    echo "skipped: the full disk: no tmpfs can be mounted"
 fi
 fresh
 chmod 555 out
@@ -88,7 +88,7 @@ if [ "$(id -u)" -ne 0 ]; then
 elif command -v setpriv >/dev/null && chmod 755 "$scratch" && setpriv --reuid=65534 --clear-groups test -r ldi.exr -a -x "$bin/dof-gather"; then
     fails_saying 1 'out/x.exr: cannot write: Permission denied' setpriv --reuid=65534 --clear-groups "${gather[@]}" -o out/x.exr
 else
-    echo "skipped the read-only folder: root writes everywhere"
+    echo "skipped: the read-only folder: root writes everywhere"
 fi
 chmod 755 out
 untouched "read-only folder"

@@ -129,15 +129,21 @@ if command -v groff >/dev/null; then
         groff -man -Tutf8 -ww "$page" >page.txt 2>warnings || fail "$page: $(cat warnings)"
         [ ! -s warnings ] || fail "$page: $(cat warnings)"
     done
+else
+    echo "skipped: the manual pages: groff is not installed"
 fi
 [ "$(bash_words dof-gather --method s)" = "selective scatter" ] || fail "--method: $(bash_words dof-gather --method s)"
 [ "$(bash_words dof-gather --focus-d)" = "--focus-distance" ] || fail "--focus-d: $(bash_words dof-gather --focus-d)"
 if command -v zsh >/dev/null; then
     for file in completions/*.zsh; do zsh -fn "$file" || fail "$file is no zsh"; done
+else
+    echo "skipped: the completion of zsh, which is not installed"
 fi
 if command -v fish >/dev/null; then
     fish_words() { XDG_CONFIG_HOME=$PWD XDG_DATA_HOME=$PWD fish -Nc "source completions/$1.fish; complete -C \"$1 $2\"" | cut -f1 | xargs; }
     [ "$(fish_words dof-gather '--method s')" = "scatter selective" ] || fail "fish: --method: $(fish_words dof-gather '--method s')"
     [ "$(fish_words dof-gather --focus-d)" = "--focus-distance" ] || fail "fish: --focus-d: $(fish_words dof-gather --focus-d)"
+else
+    echo "skipped: the completion of fish, which is not installed"
 fi
 [ -z "$(bash_words dof-gather in)" ] || fail "names of files are bash's: $(bash_words dof-gather in)"
