@@ -4,58 +4,73 @@
 #   bash includes.sh
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
-faults=0
-fault() {
-    echo "FAIL: $*" >&2
-    faults=$((faults + 1))
+
+# What there is, a word and what it is said of: `floor FOLDER...`, the lowest first; `public HEADER`, by its path in src/;
+# `folder PATH`; `file PATH`; `include FILE NAME`.
+facts() {
+    sed -n '/^```floors$/,/^```$/{/^```/d;s/#.*//;s/^/floor /;p}' docs/code.md
+    sed -n '/^set(SPARSELENS_PUBLIC_HEADERS$/,/^)$/p' src/CMakeLists.txt | grep -oE '[a-z_/0-9]+\.h' | sed 's/^/public /'
+    find src tools -type d -printf 'folder %p\n'
+    find src tools -type f -printf 'file %p\n' | sort
+    find src tools -name '*.h' -o -name '*.cpp' -o -name '*.cpp.in' | sort | xargs grep -oH '^#include "[^"]*"' |
+        sed -E 's/^([^:]*):#include "(.*)"/include \1 \2/'
 }
 
-# FOLDER NUMBER, the lowest floor first: the lines of the block ```floors.
-floors=$(sed -n '/^```floors$/,/^```$/{/^```/d;p}' docs/code.md |
-    awk '{ for (i = 1; i <= NF && $i != "#"; ++i) print $i, NR }')
-[ -n "$floors" ] || fault "docs/code.md has no block of floors"
-declare -A floor_of
-while read -r folder number; do
-    floor_of[$folder]=$number
-    [ -d "$folder" ] || fault "docs/code.md names the folder $folder, which is not there"
-done <<<"$floors"
-
+facts | awk '
+function fault(what) {
+    print "FAIL: " what >"/dev/stderr"
+    ++faults
+}
+function folder_of(path) { return sub("/[^/]*$", "", path) ? path : "." }
+# The path without "." and "..".
+function normal(path,    parts, n, i, kept, result) {
+    n = split(path, parts, "/")
+    kept = 0
+    for (i = 1; i <= n; ++i) {
+        if (parts[i] == "" || parts[i] == ".") continue
+        if (parts[i] == ".." && kept > 0 && parts[kept] != "..") --kept
+        else parts[++kept] = parts[i]
+    }
+    for (i = 1; i <= kept; ++i) result = result (i > 1 ? "/" : "") parts[i]
+    return result
+}
 # The file that FILE means by "NAME": beside it, in tools/ or in src/.
-included() {
-    local path
-    for path in "$(dirname "$1")/$2" "tools/$2" "src/$2"; do
-        [ -e "$path" ] && { realpath -m --relative-to=. "$path"; return; }
-    done
-    echo "$2"
+function included(file, name,    path) {
+    path = normal(folder_of(file) "/" name)
+    if (path in is_file) return path
+    path = normal("tools/" name)
+    if (path in is_file) return path
+    path = normal("src/" name)
+    return path in is_file ? path : name
 }
-
-includes=$(find src tools -name '*.h' -o -name '*.cpp' -o -name '*.cpp.in' | sort |
-    xargs grep -oH '^#include "[^"]*"' | sed -E 's/^([^:]*):#include "(.*)"/\1 \2/')
-[ "$(wc -l <<<"$includes")" -gt 100 ] || fault "the includes were not found"
-while read -r file name; do
-    target=$(included "$file" "$name")
-    from=$(dirname "$file") to=$(dirname "$target")
-    [ "$from" != "$to" ] || continue
-    if [ -z "${floor_of[$from]-}" ]; then
-        fault "$file: its folder $from is on no floor of docs/code.md"
-    elif [ -z "${floor_of[$to]-}" ]; then
-        fault "$file includes $name: $to is on no floor of docs/code.md"
-    elif [ "${floor_of[$to]}" -ge "${floor_of[$from]}" ]; then
-        fault "$file includes $name: $to is not on a lower floor than $from"
-    fi
-done <<<"$includes"
-
-public=$(sed -n '/^set(SPARSELENS_PUBLIC_HEADERS$/,/^)$/p' src/CMakeLists.txt | grep -oE '[a-z_/0-9]+\.h')
-for header in $public; do
-    for name in $(sed -nE 's/^#include "(.*)"/\1/p' "src/$header"); do
-        path=$(realpath -m --relative-to=src "$(dirname "src/$header")/$name")
-        [ -e "src/$path" ] || fault "src/$header includes $name by another root than its own folder"
-        grep -qxF "$path" <<<"$public" || fault "src/$header is public and includes $name, which is not"
-    done
-done
-
-while read -r folder; do
-    files=$(find "$folder" -maxdepth 1 -type f | wc -l)
-    [ "$files" -le 25 ] || fault "$folder holds $files files of its own (25 at most)"
-done < <(find src tools -type d)
-exit $((faults > 0))
+function check_floors(file, name,    from, to) {
+    from = folder_of(file)
+    to = folder_of(included(file, name))
+    if (from == to) return
+    if (!(from in floor)) fault(file ": its folder " from " is on no floor of docs/code.md")
+    else if (!(to in floor)) fault(file " includes " name ": " to " is on no floor of docs/code.md")
+    else if (floor[to] >= floor[from]) fault(file " includes " name ": " to " is not on a lower floor than " from)
+}
+function check_public(file, name,    path) {
+    path = normal(folder_of(file) "/" name)
+    if (!(path in is_file)) fault(file " includes " name " by another root than its own folder")
+    if (!(path in is_public)) fault(file " is public and includes " name ", which is not")
+}
+$1 == "floor" { ++floors; for (i = 2; i <= NF; ++i) floor[$i] = floors }
+$1 == "public" { is_public["src/" $2] = 1; ++publics }
+$1 == "folder" { is_folder[$2] = 1 }
+$1 == "file" { is_file[$2] = 1; ++files[folder_of($2)] }
+$1 == "include" {
+    ++includes
+    check_floors($2, $3)
+    if ($2 in is_public) check_public($2, $3)
+}
+END {
+    if (floors == 0) fault("docs/code.md has no block of floors")
+    if (publics == 0) fault("src/CMakeLists.txt names no public headers")
+    if (includes <= 100) fault("the includes were not found")
+    for (path in floor) if (!(path in is_folder)) fault("docs/code.md names the folder " path ", which is not there")
+    for (path in is_public) if (!(path in is_file)) fault("src/CMakeLists.txt names the header " path ", which is not there")
+    for (path in files) if (files[path] > 25) fault(path " holds " files[path] " files of its own (25 at most)")
+    exit faults > 0
+}'
