@@ -36,6 +36,10 @@ fails_saying() {
     grep -Eq -e "$pattern" stderr || fail "'$pattern' is not in: $(cat stderr)"
 }
 
+# picture COMMAND...: makes and compares pictures by OpenEXR alone (tests/pictures/main.cpp): neither by what is tested nor by
+# OpenImageIO, which is asked where the question is what other programs see.
+picture() { "$bin/sparselens-pictures" "$@"; }
+
 # answers_help TOOL [ARGUMENTS...]: --help and --version work, and an unknown option after the arguments that the
 # tool cannot do without is a usage error.
 answers_help() {

@@ -1,6 +1,6 @@
 # What the scripts that test the deep tools share; sourced after check.sh. Leaves the five views of a small fence
 # in views/.
-for tool in oiiotool idiff exrheader; do
+for tool in oiiotool exrheader; do
     command -v $tool >/dev/null || skip "needs $tool (openimageio-tools, openexr)"
 done
 exits 0 "$bin/dof-trace" fence --size 96x54 --spp 1 -o views
@@ -11,24 +11,19 @@ differ() { if cmp -s "$1" "$2"; then fail "$1 and $2 are the same: $3"; fi; }
 
 # same_pixels A B WHY: the channels R, G, B, A are equal, whatever else the files hold.
 same_pixels() {
-    oiiotool "$1" --ch R,G,B,A -o a.tmp.exr
-    oiiotool "$2" --ch R,G,B,A -o b.tmp.exr
-    idiff -q -fail 0 -warn 0 a.tmp.exr b.tmp.exr >idiff.txt || fail "$1 and $2 differ: $3 ($(cat idiff.txt))"
+    picture same "$1" "$2" R,G,B,A >found || fail "$3: $(cat found)"
 }
 
 # same_samples A B WHY, differ_samples A B WHY: of deep files, whatever else they hold.
-dump() { oiiotool --dumpdata "$1" | tail -n +2 >"$2"; }
 same_samples() {
-    dump "$1" a.tmp.txt
-    dump "$2" b.tmp.txt
-    [ "$(wc -l <a.tmp.txt)" -gt 8 ] || fail "no samples in $1: $(cat a.tmp.txt)"
-    same a.tmp.txt b.tmp.txt "$1 and $2: $3"
+    picture same "$1" "$2" >found || fail "$3: $(cat found)"
+    [ "$(total "$1")" -gt 8 ] || fail "no samples in $1"
 }
-differ_samples() {
-    dump "$1" a.tmp.txt
-    dump "$2" b.tmp.txt
-    differ a.tmp.txt b.tmp.txt "$1 and $2: $3"
-}
+differ_samples() { picture differ "$1" "$2" >found || fail "$3: $(cat found)"; }
+
+# total FILE: the number of all samples; most FILE: the largest number in a pixel.
+total() { picture samples "$1" | cut -d ' ' -f 1; }
+most() { picture samples "$1" | cut -d ' ' -f 2; }
 
 # says FILE PATTERN: the file's header has it (grep -E).
 says() { exrheader "$1" | grep -Eq -e "$2" || fail "$1 does not say '$2': $(exrheader "$1")"; }

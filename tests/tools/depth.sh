@@ -1,19 +1,20 @@
 #!/bin/bash
 # Depths as other programs write them: negative, and from 0 to 1 between two planes.
 . "$(dirname "$0")/check.sh"
-for tool in oiiotool idiff; do command -v $tool >/dev/null || skip "needs $tool (openimageio-tools)"; done
 lens=(--focal-length 50 --sensor-width 36 --lens-radius 0.4 --focus-distance 2)
 gather=$bin/dof-gather
-oiiotool --pattern checker:color1=0.1,0.5,0.2,1,2:color2=0.9,0.2,0.1,1,6:width=8 24x16 5 --chnames R,G,B,A,Z -d float -o plain.exr
-oiiotool plain.exr --mulc 1,1,1,1,-1 -o negative.exr
-oiiotool plain.exr --subc 0,0,0,0,1 --divc 1,1,1,1,8 -o normalized.exr # 0 at 1, 1 at 9
-same_depth() { idiff -q -fail 1e-5 -warn 1e-5 expected.exr "$1" >idiff.txt || fail "$2 ($(cat idiff.txt))"; }
+dark=(R=0.9 G=0.2 B=0.1) # farther, at 6
+checker() { picture make "$1" 24x16 R=0.1 G=0.5 B=0.2 A=1 Z="$2" fill=8x8+8+0 "${dark[@]}" Z="$3" fill=8x8+0+8 "${dark[@]}" Z="$3" fill=8x8+16+8 "${dark[@]}" Z="$3"; }
+checker plain.exr 2 6
+checker negative.exr -2 -6
+checker normalized.exr 0.125 0.625 # 0 at 1, 1 at 9
+same_depth() { picture same expected.exr "$1" 1e-5 >found || fail "$2 ($(cat found))"; }
 exits 0 "$gather" plain.exr -o x.exr --lens-radius 0 --depth-out expected.exr
 exits 0 "$gather" negative.exr -o x.exr --lens-radius 0 --depth-out negative.z.exr --depth negative
 same_depth negative.z.exr "--depth negative"
 exits 0 "$bin/dof-gather" normalized.exr -o x.exr --lens-radius 0 --depth-out normalized.z.exr --depth normalized --near 1 --far 9
 same_depth normalized.z.exr "--depth normalized"
-oiiotool normalized.exr --attrib near 1.0 --attrib far 9.0 -o header.exr
+picture edit normalized.exr header.exr set=near:1 set=far:9
 exits 0 "$gather" header.exr -o x.exr --lens-radius 0 --depth-out header.z.exr --depth normalized
 same_depth header.z.exr "near and far of the header"
 
@@ -37,6 +38,6 @@ fails_saying 2 '--depth normalized: .* 0 and which is 1 is unknown: give --near 
 fails_saying 2 '--depth normalized: .* is unknown: give --far' "$gather" normalized.exr -o x.exr "${lens[@]}" --depth normalized --near 1
 fails_saying 2 '--near works with --depth normalized only' "$gather" plain.exr -o x.exr "${lens[@]}" --near 1
 fails_saying 1 'negative.exr: depth -2 in pixel 0,0 .*--depth says what the channel holds \(negative' "$gather" negative.exr -o x.exr "${lens[@]}"
-oiiotool plain.exr --divc 1,1,1,1,6 --clamp:max=1,1,1,1,0.95 --subc 0,0,0,0,-0.05 -o clipped.exr
+checker clipped.exr 0.38333334 1
 exits 0 "$gather" clipped.exr -o x.exr "${lens[@]}"
 grep -q 'warning: clipped.exr: its depths end at exactly 1, .*--depth normalized with --near and --far' stderr || fail "no warning: $(cat stderr)"

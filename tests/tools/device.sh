@@ -2,16 +2,14 @@
 # dof-gather --device and ldi-warp --device: the words, the machines without a GPU or without Vulkan, and what a device in
 # software makes.
 . "$(dirname "$0")/check.sh"
-command -v oiiotool >/dev/null || skip "needs oiiotool (openimageio-tools)"
 gather=$bin/dof-gather
 unset SPARSELENS_DEVICE
 
-oiiotool --pattern noise:type=uniform:min=0.2:max=0.8:seed=1 160x90 3 --chnames R,G,B \
-    --pattern constant:color=1,8 160x90 2 --chnames A,Z --fill:color=1,3 60x50+40+20 --chappend -d float -o input.exr
+noise() { picture make "$1" 160x90 R=noise:1"$2" G=noise:2"$2" B=noise:3"$2" A=1 Z=8 fill=60x50+"$3"+20 Z=3; } # FILE SEED X
+noise input.exr 1 40
 lens=(--focal-length 50 --sensor-width 36 --focus-distance 5 --lens-radius 0.25 -d float)
 exits 0 "$gather" input.exr "${lens[@]}" -o expected.exr
-oiiotool --pattern noise:type=uniform:min=0.2:max=0.8:seed=2 160x90 3 --chnames R,G,B \
-    --pattern constant:color=1,8 160x90 2 --chnames A,Z --fill:color=1,3 60x50+42+20 --chappend -d float -o rim.exr
+noise rim.exr 2 42
 warp=("$bin/ldi-warp" input.exr --view 0.02,0 rim.exr --focal-length 50 --sensor-width 36 --focus-distance 5)
 exits 0 "${warp[@]}" -o expected-ldi.exr
 
@@ -49,7 +47,7 @@ name=${name%% (*}
 exits 0 "$bin/dof-gather" input.exr "${lens[@]}" -o out.exr --device "$name" -v
 grep -q "^dof-gather: device: $name" stderr || fail "--device $name: $(cat stderr)"
 grep -qx 'dof-gather: tiles gathered by the device: 6 of 6' stderr || fail "--device $name: $(cat stderr)"
-oiiotool --fail 1e-4 --diff out.exr expected.exr >differ || fail "the device's picture: $(cat differ)"
+picture same out.exr expected.exr 1e-4 >differ || fail "the device's picture: $(cat differ)"
 SPARSELENS_DEVICE=$name exits 0 "$gather" input.exr "${lens[@]}" -o again.exr -v
 grep -q "^dof-gather: device: $name" stderr || fail "\$SPARSELENS_DEVICE: $(cat stderr)"
 cmp -s again.exr out.exr || fail "the device's picture is another one every time"
@@ -60,13 +58,13 @@ exits 0 "$gather" input.exr "${lens[@]}" -o frame.#.exr --frames 1-2 --device "$
 [ "$(grep -o 'uploaded to the device: .* MB' stderr | tail -n 1)" = 'uploaded to the device: 0.0 MB' ] ||
     fail "what does not change is uploaded again: $(cat stderr)"
 exits 0 "$gather" input.exr "${lens[@]}" -o expected.exr --holdout input.exr --spherical 0.5
-oiiotool --fail 1e-4 --diff frame.0002.exr expected.exr >differ || fail "a second frame: $(cat differ)"
+picture same frame.0002.exr expected.exr 1e-4 >differ || fail "a second frame: $(cat differ)"
 
 # The selective gather.
 exits 0 "$gather" input.exr "${lens[@]}" -o expected.exr --method selective --layers 3
 exits 0 "$gather" input.exr "${lens[@]}" -o out.exr --method selective --layers 3 --device "$name" -v
 grep -qx 'dof-gather: tiles gathered by the device: 15 of 15' stderr || fail "--method selective: $(cat stderr)"
-oiiotool --fail 1e-4 --diff out.exr expected.exr >differ || fail "the device's selective picture: $(cat differ)"
+picture same out.exr expected.exr 1e-4 >differ || fail "the device's selective picture: $(cat differ)"
 
 # The device's samples are those of the CPU, of each frame of a range.
 fails_saying 1 "device no-such: no device has that name; there is " "${warp[@]}" -o x.exr --device no-such

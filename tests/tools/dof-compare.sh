@@ -23,7 +23,9 @@ is() {
         fail "$1 ${3:-} is $value, not $2"
 }
 constant() { # FILE R,G,B,A SIZE
-    oiiotool --pattern constant:color="$2" "$3" 4 --chnames R,G,B,A -d "${4:-float}" -o "$1"
+    local values
+    IFS=, read -ra values <<<"$2"
+    picture make "$1" "$3" R="${values[0]}" G="${values[1]}" B="${values[2]}" A="${values[3]}"
 }
 
 answers_help dof-compare A.exr REF.exr
@@ -53,8 +55,7 @@ grep -Eq '^nonfinite \(image\) +0$' stdout || fail "no count in the table: $(cat
 [ ! -s stderr ] || fail "says on stderr: $(cat stderr)"
 
 # PSNR and the largest error as idiff sees them.
-oiiotool --pattern noise:type=uniform:min=0:max=1:seed=1 64x48 3 --chnames R,G,B -d half -o n1.exr
-oiiotool --pattern noise:type=uniform:min=0:max=1:seed=2 64x48 3 --chnames R,G,B -d half -o n2.exr
+for i in 1 2; do picture make n$i.exr 64x48 R=noise:1$i G=noise:2$i B=noise:3$i 'R*=0.9' half=; done
 idiff n1.exr n2.exr >idiff.txt || true
 exits 0 "$compare" n1.exr n2.exr --json
 is psnr "$(sed -n 's/.*Peak SNR = //p' idiff.txt)"
@@ -74,9 +75,7 @@ is psnr "$(decibels few.exr many.exr)" "" 0.0002
 is psnr_tonemapped "$(decibels few-toned.exr many-toned.exr)" "" 0.0002
 
 # Pixels that are not finite are counted and left out.
-constant bright.exr 1e38,1,1,1 1x1
-oiiotool bright.exr --mulc 10,1,1,1 -d float -o inf.exr
-oiiotool inf.exr b.exr --paste +3+4 -d float -o bad.exr
+picture edit b.exr bad.exr fill=1x1+3+4 R=inf
 exits 0 "$compare" bad.exr b.exr --json
 is nonfinite '{"image": 1, "reference": 0}'
 is pixels 639
@@ -87,7 +86,7 @@ is nonfinite '{"image": 0, "reference": 1}'
 is relmse 0
 
 # The reference's data window; what A lacks is transparent black.
-oiiotool b.exr --crop 16x20+16+0 -o right.exr
+picture edit b.exr right.exr crop=16x20+16+0
 exits 0 "$compare" right.exr b.exr --json
 is pixels 640
 is relmse 0.480769
@@ -98,11 +97,7 @@ is psnr null
 
 # Regions: left half in focus at 5, right half at 20, behind focus. F = 32 pixels.
 constant near.exr 1,1,1,1 16x20
-oiiotool --pattern constant:color=5 16x20 1 --chnames Z -o z5.exr
-oiiotool --pattern constant:color=20 16x20 1 --chnames Z -o z20.exr
-oiiotool z20.exr z5.exr --create 32x20 1 --chnames Z --paste +0+0 --paste +16+0 -d float -o z.exr
-oiiotool --pattern constant:color=5 32x20 1 --chnames other -d float -o other.exr
-oiiotool b.exr z.exr --chappend other.exr --chappend -d float -o ldi.exr
+picture edit b.exr ldi.exr Z=5 fill=16x20+16+0 Z=20 all= other=5
 lens=(--focal-length 36 --sensor-width 36 --lens-radius 0.9 --focus-distance 5) # c = 0 and 4.32
 regions() { exits 0 "$compare" a.exr b.exr --json --regions "$@"; }
 regions ldi.exr "${lens[@]}"
@@ -161,15 +156,14 @@ echo text >text.exr
 fails_saying 1 'text.exr' "$compare" a.exr text.exr
 fails_saying 1 'n1.exr.*64x48.*32x20' "$compare" n1.exr b.exr
 fails_saying 1 'n1.exr.*display window' "$compare" a.exr b.exr --regions n1.exr "${lens[@]}" --depth-channel R
-oiiotool z.exr -o onlyz.exr
+picture edit ldi.exr onlyz.exr channels=Z
 fails_saying 1 'onlyz.exr.*channel R' "$compare" onlyz.exr b.exr
 fails_saying 2 REF "$compare" a.exr
 fails_saying 2 'twice' "$compare" - -
 echo "dof-compare: fine"
 
 # --frames: how steady a sequence is. Of three pixels one stays, one changes evenly, one pops in the last frame.
-frame() { oiiotool --create 3x1 4 --chnames R,G,B,A --fill:color=0.5,0.5,0.5,1 1x1+0+0 --fill:color="$2,$2,$2,1" 1x1+1+0 \
-    --fill:color="$3,$3,$3,1" 1x1+2+0 -d float -o "$1"; }
+frame() { picture make "$1" 3x1 R=0.5 G=0.5 B=0.5 A=1 fill=1x1+1+0 R=$2 G=$2 B=$2 fill=1x1+2+0 R=$3 G=$3 B=$3; }
 frame s.0001.exr 0.50 0.5
 frame s.0002.exr 0.51 0.5
 frame s.0003.exr 0.52 0.9

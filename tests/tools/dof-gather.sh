@@ -6,7 +6,7 @@ gather=$bin/dof-gather
 answers_help dof-gather in.exr -o out.exr
 
 # The centre view with a further layer, so that layers can be told apart.
-layered() { oiiotool "$1" --ch R,G,B,A,Z,copy.R=R,copy.G=G -d half -d Z=float -o "$2"; }
+layered() { picture edit "$1" "$2" channels=R,G,B,A,Z,copy.R=R,copy.G=G half= float=Z; }
 layered views/center.exr center.exr
 for i in 0 1 2 3; do layered views/view_$i.exr view_$i.exr; done
 exits 0 "$bin/ldi-warp" center.exr view_?.exr -o ldi.exr
@@ -66,8 +66,8 @@ for text in '--method magic' '--quality best' '--layers 0' '--layers x' '--lens-
 done
 
 # Looks of the lens: each changes the picture, and wrong values are named.
-oiiotool --create 4x3 1 --fill:color=1 4x2 -o aperture.exr
-oiiotool --create 4x3 1 -o black.exr
+picture make aperture.exr 4x3 Y=0 fill=4x2 Y=1
+picture make black.exr 4x3 Y=0
 changes --blades 5
 exits 0 "$gather" ldi.exr -o blades.exr --blades 5
 changes_blades() {
@@ -141,10 +141,10 @@ oiiotool ldi.exr --attrib:type=int aperture_blades 5 --attrib:type=float apertur
     --attrib:type=float aperture_ratio 1.5 -o said.exr
 exits 0 "$gather" said.exr -o by-header.exr
 exits 0 "$gather" ldi.exr -o by-option.exr --blades 5 --blade-rotation 28.64788975654116 --squeeze 1.5
-idiff -q -fail 0.01 -warn 0.01 by-header.exr by-option.exr >/dev/null || fail "aperture_blades, aperture_rotation, aperture_ratio do not do what the options do"
+picture same by-header.exr by-option.exr 0.01 >/dev/null || fail "aperture_blades, aperture_rotation, aperture_ratio do not do what the options do"
 says by-option.exr '^aperture_blades .*: 5$'
 exits 0 "$gather" said.exr -o overruled.exr --blades 0 --squeeze 1 -d half
-idiff -q -fail 0.01 -warn 0.01 overruled.exr out.exr >/dev/null || fail "options do not beat the header"
+picture same overruled.exr out.exr 0.01 >/dev/null || fail "options do not beat the header"
 exits 0 "$gather" said.exr -o selective.exr --method selective
 grep -q 'warning: the aperture is taken for round' stderr || fail "no warning: $(cat stderr)"
 
@@ -168,8 +168,7 @@ grep -qx 'dof-gather: the focus distance is 18, the depth of pixel 1,0' stderr |
 # --depth-out: the depth of the front, as float.
 exits 0 "$gather" keep.exr -o x.exr --depth-out depth.exr
 says depth.exr '^ +Z, 32-bit floating-point'
-oiiotool views/center.exr --ch Z -o z.exr
-idiff -q -fail 0 -warn 0 depth.exr z.exr || fail "--depth-out is not the centre view's depth"
+picture same depth.exr views/center.exr Z || fail "--depth-out is not the centre view's depth"
 fails_saying 2 '--depth-out' "$gather" keep.exr -o x.exr --depth-out x.exr
 rm x.exr
 
@@ -183,18 +182,16 @@ chosen rgba "A B G R"
 same_pixels chosen.exr out.exr "--channels rgba"
 chosen copy "copy.G copy.R"
 chosen R,copy.G "R copy.G"
-oiiotool out.exr --ch R,copy.G -o a.exr
-idiff -q -fail 0 -warn 0 a.exr chosen.exr || fail "--channels changes what is left"
+picture same out.exr chosen.exr R,copy.G || fail "--channels changes what is left"
 chosen A A
 fails_saying 2 "'depth'" "$gather" ldi.exr -o x.exr --channels R,depth
 
 # A layer is gathered as the colours are.
-oiiotool out.exr --ch copy.R,copy.G --chnames R,G -o a.exr
-oiiotool out.exr --ch R,G -o b.exr
-idiff -q -fail 0 -warn 0 a.exr b.exr || fail "a copy of red is not gathered as red is"
+picture edit out.exr a.exr channels=R=copy.R,G=copy.G
+picture same a.exr out.exr R,G || fail "a copy of red is not gathered as red is"
 
 # --show: what the tool understood, in colours; the picture is not gathered.
-pixel() { oiiotool "$1" --cut "1x1+$2+$3" --printstats | sed -nE 's/.*Stats Avg: ([0-9. ]+).*/\1/p'; }
+pixel() { picture pixel "$1" "$2,$3" R,G,B,A; }
 for what in coc focus layers tiles; do
     exits 0 "$gather" ldi.exr -o show.$what.exr --show $what -d float
     [ "$(names show.$what.exr)" = "A B G R " ] || fail "--show $what has $(names show.$what.exr)"
@@ -220,9 +217,9 @@ rm x.exr
 # -d float is what -d half was rounded from.
 exits 0 "$gather" ldi.exr -o float.exr -d float
 says float.exr '^ +R, 32-bit floating-point'
-oiiotool float.exr -d half -o rounded.exr
+picture edit float.exr rounded.exr half=
 same_pixels rounded.exr out.exr "-d float, rounded"
-if idiff -q -fail 0 -warn 0 float.exr out.exr >idiff.txt; then fail "-d float changes nothing"; fi
+picture differ float.exr out.exr || fail "-d float changes nothing"
 exits 0 "$gather" ldi.exr -o half.exr -d half
 same half.exr out.exr "-d half of half"
 oiiotool ldi.exr -d float -o float.ldi.exr
@@ -265,7 +262,7 @@ done
 # Each lens value: the option, else the metadata, else an error that names the option.
 lens=(--focal-length 36 --sensor-width 36 --fstop 0.30000001192092896 --focus-distance 5 --scene-unit 1)
 exits 0 "$gather" nolens.exr -o options.exr "${lens[@]}"
-oiiotool options.exr -d half -o options.exr # oiiotool made all channels of nolens.exr float
+picture edit options.exr options.exr half= # oiiotool made all channels of nolens.exr float
 exits 0 "$gather" keep.exr -o metadata.exr
 same_pixels options.exr metadata.exr "lens by options and by metadata"
 without() {
@@ -280,19 +277,19 @@ refuses_wrong_lenses "$gather" ldi.exr -o x.exr
 
 # What the depth channel holds, and which it is.
 for z in 4 0.25; do
-    oiiotool --pattern constant:color=0.5,0.5,0.5,1,$z 5x5 5 --chnames R,G,B,A,Z -d float -o z$z.exr
+    picture make z$z.exr 5x5 R=0.5 G=0.5 B=0.5 A=1 Z=$z
 done
 exits 0 "$gather" z4.exr -o x.exr --lens-radius 0 --depth-out planar.exr
 exits 0 "$gather" z0.25.exr -o x.exr --lens-radius 0 --depth-out inverse.exr --depth inverse
-idiff -q -fail 0 -warn 0 planar.exr inverse.exr || fail "--depth inverse"
+picture same planar.exr inverse.exr || fail "--depth inverse"
 exits 0 "$gather" z4.exr -o x.exr --lens-radius 0 --depth-out distance.exr --depth distance \
     --focal-length 36 --sensor-width 36
-if idiff -q -fail 0 -warn 0 planar.exr distance.exr >idiff.txt; then fail "--depth distance changes nothing"; fi
-oiiotool z4.exr --chnames R,G,B,A,far.away -o named.exr
+picture differ planar.exr distance.exr || fail "--depth distance changes nothing"
+picture edit z4.exr named.exr channels=R,G,B,A,far.away=Z
 exits 0 "$gather" named.exr -o x.exr --lens-radius 0 --depth-out by_name.exr --depth-channel far.away
-idiff -q -fail 0 -warn 0 planar.exr by_name.exr || fail "--depth-channel"
+picture same planar.exr by_name.exr || fail "--depth-channel"
 fails_saying 1 'named.exr.*--depth-channel' "$gather" named.exr -o x.exr --lens-radius 0
-oiiotool z4.exr --mulc 1,1,1,1,-1 -o behind.exr
+picture edit z4.exr behind.exr 'Z*=-1'
 fails_saying 1 'behind.exr: depth -4.* in pixel 0,0' "$gather" behind.exr -o x.exr --lens-radius 0
 fails_saying 2 'aperture.*--fstop.*focal length.*--focal-length.*sensor.*--sensor-width.*--focus-distance' "$gather" z4.exr -o x.exr
 rm x.exr
@@ -341,18 +338,18 @@ fails_saying 2 '--output' "$gather" ldi.exr
 fails_saying 2 'IN' "$gather" -o x.exr
 
 # Highlights that grow: what is above the threshold, by the gain, from the threshold over the knee.
-oiiotool --pattern constant:color=0.5,0.5,0.5,1,5 32x16 5 --chnames R,G,B,A,Z --fill:color=4,4,4,1,5 8x8+4+4 -d float -o lights.exr
-level() { oiiotool "$1" --cut 1x1+7+7 --printstats | awk '/Stats Avg/ {print $3}'; }
+picture make lights.exr 32x16 R=0.5 G=0.5 B=0.5 A=1 Z=5 fill=8x8+4+4 R=4 G=4 B=4
+level() { picture pixel "$1" 7,7 R; }
 exits 0 "$gather" lights.exr -o grown.exr --lens-radius 0 --highlight-gain 3
-[ "$(level grown.exr)" = 12.000000 ] || fail "--highlight-gain: $(level grown.exr) is not 12"
-oiiotool grown.exr --cut 1x1+20+7 --printstats | grep -q 'Stats Avg: 0.500000' || fail "--highlight-gain changes what is not bright"
+[ "$(level grown.exr)" = 12 ] || fail "--highlight-gain: $(level grown.exr) is not 12"
+[ "$(picture pixel grown.exr 20,7 R)" = 0.5 ] || fail "--highlight-gain changes what is not bright"
 exits 0 "$gather" lights.exr -o grown.exr --lens-radius 0 --highlight-gain 3 --highlight-threshold 5
-[ "$(level grown.exr)" = 4.000000 ] || fail "--highlight-threshold: $(level grown.exr) is not 4"
+[ "$(level grown.exr)" = 4 ] || fail "--highlight-threshold: $(level grown.exr) is not 4"
 exits 0 "$gather" lights.exr -o grown.exr --lens-radius 0 --highlight-gain 3 --highlight-threshold 3 --highlight-knee 2
-[ "$(level grown.exr)" = 8.000000 ] || fail "--highlight-knee: $(level grown.exr) is not 8"
+[ "$(level grown.exr)" = 8 ] || fail "--highlight-knee: $(level grown.exr) is not 8"
 echo '{"highlight-gain": 3, "highlight-threshold": 3, "highlight-knee": 2}' >bright.json
 exits 0 "$gather" lights.exr -o grown.exr --lens-radius 0 --lens bright.json
-[ "$(level grown.exr)" = 8.000000 ] || fail "highlight-gain in a lens file: $(level grown.exr) is not 8"
+[ "$(level grown.exr)" = 8 ] || fail "highlight-gain in a lens file: $(level grown.exr) is not 8"
 fails_saying 2 'highlight-gain' "$gather" lights.exr -o x.exr --lens-radius 0 --highlight-gain 0.5
 fails_saying 2 'highlight-threshold' "$gather" lights.exr -o x.exr --lens-radius 0 --highlight-gain 2 --highlight-threshold -1
 fails_saying 2 'highlight-knee' "$gather" lights.exr -o x.exr --lens-radius 0 --highlight-gain 2 --highlight-knee 0

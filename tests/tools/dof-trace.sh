@@ -60,7 +60,7 @@ changes view_0.exr --lens-radius 0.03
 changes view_0.exr --scene-unit 0.5
 changes reference.exr --focus-distance 3
 # Looks of the lens are those of dof-gather; views from the whole lens show the shape of the aperture.
-oiiotool --create 4x3 1 --fill:color=1 4x2 -o aperture.exr
+picture make aperture.exr 4x3 Y=0 fill=4x2 Y=1
 echo '{"squeeze": 2}' >lens.json
 for look in '--blades 5' '--squeeze 2' '--spherical 0.5' '--aperture aperture.exr' '--cat-eye 1' '--axial-chromatic 0.1' \
     '--field-curvature 0.5' '--tilt 20,0' '--breathing 1' '--lens lens.json'; do

@@ -96,7 +96,7 @@ changes --sensor-width 30
 changes --depth distance
 exits 0 "$plan" full/center.exr -o none.json --lens-radius 0
 [ "$(json none.json 'p["advice"], p["views"]')" = "none []" ] || fail "a pinhole needs no views"
-oiiotool full/center.exr --chnames R,G,B,A,far.away -o named.exr
+picture edit full/center.exr named.exr channels=R,G,B,A,far.away=Z
 exits 0 "$plan" named.exr -o named.json --depth-channel far.away
 fails_saying 1 'named.exr' "$plan" named.exr -o x.json
 "$bin/dof-trace" slant --spp 16 --views 0 -o slant

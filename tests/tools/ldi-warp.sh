@@ -50,7 +50,7 @@ for value in both 1 ''; do
 done
 
 # One view is an LDI too, and needs no lens.
-oiiotool $center --eraseattrib '.*' -o bare.exr
+picture edit $center bare.exr 'erase=.*'
 exits 0 "$warp" bare.exr -o one.exr
 oiiotool one.exr --flatten -o flat.exr
 same_pixels flat.exr $center "the LDI of one view flattens to it"
@@ -71,7 +71,7 @@ exits 0 "$warp" $center --view 0,0.06 "${rim[1]}" --view -0.06,0 "${rim[2]}" -o 
 exits 0 "$warp" $center --view -0.06,0 "${rim[2]}" --view 0,0.06 "${rim[1]}" -o two_turned.exr
 same_samples two.exr two_turned.exr "the order of views"
 for text in abc 1 1, ,1 1,2,3 nan,0 0,inf; do fails_saying 2 "--view.*$text" "$warp" $center --view "$text" "${rim[0]}" -o x.exr; done
-oiiotool "${rim[0]}" --eraseattrib worldToCamera -o lost.exr
+picture edit "${rim[0]}" lost.exr erase=worldToCamera
 fails_saying 2 'lost.exr.*--view' "$warp" $center lost.exr -o x.exr
 
 # A view whose frustum is shifted, here 6 pixels to the right and 3 down, so that it has the same rays, gives the same
@@ -79,7 +79,7 @@ fails_saying 2 'lost.exr.*--view' "$warp" $center lost.exr -o x.exr
 exits 0 "$bin/dof-trace" fence --size 96x48 --overscan 8 --spp 1 --views 1 -o straight
 oiiotool straight/view_0.exr --origin -2-5 --fullsize 96x48+0+0 --attrib:type=matrix worldToNDC \
     1,0,0,0,0,-2,0,0,0.5625,0.5625,1,1,-0.06,0,-1,0 -o off_axis.exr
-oiiotool off_axis.exr --eraseattrib worldToNDC -o believed_straight.exr
+picture edit off_axis.exr believed_straight.exr erase=worldToNDC
 exits 0 "$warp" straight/center.exr straight/view_0.exr -o straight.exr
 exits 0 "$warp" straight/center.exr off_axis.exr -o shifted.exr -v
 same_samples shifted.exr straight.exr "an off-axis view of the same rays"
@@ -100,8 +100,7 @@ same verbose.exr average.exr "-v"
 
 # Every lens option changes the LDI or what it says.
 lens=(--focal-length 36 --sensor-width 36 --lens-radius 0.06 --focus-distance 5 --scene-unit 1)
-oiiotool $center --eraseattrib focus --eraseattrib FNumber --eraseattrib worldToNDC --eraseattrib 'pinhole.*' \
-    --eraseattrib 'sparselens:.*' -o nolens.exr
+picture edit $center nolens.exr 'erase=focus|FNumber|worldToNDC|pinhole.*|sparselens:.*'
 exits 0 "$warp" nolens.exr "${placed[@]}" "${lens[@]}" -o lens.exr
 changed() { # OPTION VALUE: instead of the one above
     local arguments=() i
@@ -129,7 +128,7 @@ refuses_wrong_lenses "$warp" $center -o x.exr
 
 # What depth channels hold, and which they are.
 for z in 4 0.25; do
-    oiiotool --pattern constant:color=0.5,0.5,0.5,1,$z 3x3 5 --chnames R,G,B,A,Z -d float -o z$z.exr
+    picture make z$z.exr 3x3 R=0.5 G=0.5 B=0.5 A=1 Z=$z
 done
 exits 0 "$warp" z4.exr -o planar.exr
 exits 0 "$warp" z0.25.exr -o inverse.exr --depth inverse
@@ -138,7 +137,7 @@ exits 0 "$warp" z4.exr -o distance.exr --depth distance --focal-length 36 --sens
 exits 0 "$warp" z4.exr -o lens_only.exr --focal-length 36 --sensor-width 36
 differ_samples distance.exr lens_only.exr "--depth distance"
 fails_saying 2 '--focal-length' "$warp" z4.exr -o x.exr --depth distance
-oiiotool z4.exr --chnames R,G,B,A,far.away -o named.exr
+picture edit z4.exr named.exr channels=R,G,B,A,far.away=Z
 exits 0 "$warp" named.exr -o by_name.exr --depth-channel far.away
 same_samples planar.exr by_name.exr "--depth-channel"
 fails_saying 1 'named.exr.*--depth-channel' "$warp" named.exr -o x.exr
@@ -168,9 +167,9 @@ fails_saying 1 'center.exr: cannot create the folder' "$warp" $center -o views/c
 fails_saying 1 'views: is a folder' "$warp" views -o x.exr
 head -c 3000 $center >cut.exr
 fails_saying 1 'cut.exr' "$warp" cut.exr -o x.exr
-oiiotool $center --fullsize 90x54 -o narrow.exr
+picture edit $center narrow.exr frame=90x54
 fails_saying 1 'narrow.exr: its display window differs' "$warp" $center --view 0.06,0 narrow.exr -o x.exr
-oiiotool $center --ch R,G,A,Z -o poor.exr
+picture edit $center poor.exr channels=R,G,A,Z
 fails_saying 1 'poor.exr: has no channel B' "$warp" $center --view 0.06,0 poor.exr -o x.exr
 [ ! -e x.exr ] || fail "a failure wrote x.exr"
 survives_failure "$warp" cut.exr
@@ -218,6 +217,6 @@ for scene in fence grass mist mirror; do
     exits 0 "$warp" planned_$scene/center.exr planned_$scene/view_?.exr -o x.exr
     silent "planned $scene"
 done
-oiiotool --pattern constant:color=0.5,0.5,0.5,1,4 96x54 5 --chnames R,G,B,A,Z -d float -o grey.exr
+picture make grey.exr 96x54 R=0.5 G=0.5 B=0.5 A=1 Z=4
 exits 0 "$warp" grey.exr --view 0.06,0 grey.exr --view -0.06,0 grey.exr --focal-length 36 --sensor-width 36 -o x.exr
 silent "one colour at one depth"

@@ -36,8 +36,8 @@ exits 0 "$bin/dof-gather" clustered.exr -o same.exr
 [ ! -s stderr ] || fail "stats without being asked: $(cat stderr)"
 
 # Cropped, masked and empty views give fewer pixels.
-oiiotool views/view_0.exr --cut 48x54+0+0 --fullsize 96x54+0+0 -o half.exr
-oiiotool views/view_1.exr --mulc 0,0,0,0,1 -o masked.exr
+picture edit views/view_0.exr half.exr crop=48x54
+picture edit views/view_1.exr masked.exr R=0 G=0 B=0 A=0
 exits 0 "$bin/ldi-warp" views/center.exr half.exr masked.exr -o x.exr --stats partial.json
 holds partial.json 0 's["views"] == 3' 's["views_empty"] == 1' "s['pixels_given'] == 1.5 * $pixels" "s['pixels_not_given'] == 1.5 * $pixels"
 
@@ -46,7 +46,7 @@ exits 0 "$bin/dof-gather" ldi.exr -o pull.#.exr --frames 3-5 --focus-distance 3:
 [ "$(wc -l <frames.json)" -eq 3 ] || fail "not a line a frame: $(cat frames.json)"
 holds frames.json 0 's["frame"] == 3' 's["input_read"]'
 holds frames.json 2 's["frame"] == 5' 'not s["input_read"]' 'set(s["lens_points"]) <= {"24"}'
-oiiotool views/center.exr --ch R,G,B,A,Z,more.R=R -o more.exr
+picture edit views/center.exr more.exr channels=R,G,B,A,Z,more.R=R
 exits 0 "$bin/dof-gather" more.exr -o x.exr --channels rgba --stats more.json
 holds more.json 0 's["channels_left_out"] == ["more.R"]'
 
