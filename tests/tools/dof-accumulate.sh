@@ -6,12 +6,11 @@ accumulate=$bin/dof-accumulate
 
 # lamp FILE X Y: 64x48, black, one pixel of 5 and a depth.
 lamp() {
-    oiiotool --pattern constant:color=5,5,5,1,7 1x1 5 --chnames R,G,B,A,Z --create 64x48 5 --chnames R,G,B,A,Z \
-        --paste +"$2"+"$3" -d half -d Z=float -o "$1"
+    picture make "$1" 64x48 R=0 G=0 B=0 A=0 Z=0 fill=1x1+$2+$3 R=5 G=5 B=5 A=1 Z=7 half=R,G,B,A
 }
 # value FILE X Y: of channel R.
 value() {
-    oiiotool "$1" --ch R --crop 1x1+"$2"+"$3" --printstats 2>/dev/null | sed -n 's/.*Stats Avg: *\([^ ]*\).*/\1/p'
+    picture pixel "$1" "$2,$3" R
 }
 # holds FILE X Y EXPECTED
 holds() {
@@ -20,8 +19,6 @@ holds() {
     awk -v a="$v" -v b="$4" 'BEGIN { exit !(a != "" && a - b < 2e-6 && b - a < 2e-6) }' ||
         fail "$1 ($2, $3) is $v, not $4"
 }
-
-pixels_of() { oiiotool --info -v --hash "$1" | grep SHA-1 || fail "no hash of $1"; }
 
 answers_help dof-accumulate VIEW.exr -o OUT.exr
 
@@ -71,12 +68,12 @@ fails_saying 1 'all views lie outside the aperture' "$accumulate" --view 1,0 lef
 # Types, windows, ids, standard streams, threads.
 exits 0 "$accumulate" "${views[@]:0:9}" "${lens[@]}" -d float -o third.exr
 oiiotool --info third.exr | grep -q '4 channel, float' || fail "-d float does not write float"
-oiiotool center.exr --crop 16x48+24+0 -o crop.exr
+picture edit center.exr crop.exr crop=16x48+24+0
 exits 0 "$accumulate" --view 0,0 center.exr --view 0.125,0 crop.exr "${lens[@]}" --outside unknown -d float -o out.exr
 holds out.exr 50 24 0
 holds out.exr 32 24 2.5
-oiiotool --pattern constant:color=1,1,1,1 64x48 4 --chnames R,G,B,A -d float -o white.exr
-oiiotool white.exr --crop 16x48+24+0 -o white_crop.exr
+picture make white.exr 64x48 R=1 G=1 B=1 A=1
+picture edit white.exr white_crop.exr crop=16x48+24+0
 exits 0 "$accumulate" --view 0,0 white.exr --view 0,0 white_crop.exr "${lens[@]}" -d float -o out.exr
 holds out.exr 50 24 1
 exits 0 "$accumulate" --view 0,0 white.exr --view 0,0 white_crop.exr "${lens[@]}" --outside transparent -d float -o out.exr
@@ -86,10 +83,10 @@ holds out.exr 30 24 1
 holds piped.exr 32 24 5
 exits 0 "$accumulate" "${views[@]}" --focal-length 36 --sensor-width 36 --focus-distance 3.3 --threads 1 -d float -o one.exr
 exits 0 "$accumulate" "${views[@]}" --focal-length 36 --sensor-width 36 --focus-distance 3.3 --threads 2 -d float -o two.exr
-[ "$(pixels_of one.exr)" = "$(pixels_of two.exr)" ] || fail "threads change the picture"
+picture same one.exr two.exr || fail "threads change the picture"
 
 # A value that is not finite is filled and told.
-oiiotool center.exr --mulc 1e38,1,1,1,1 --mulc 1e38,1,1,1,1 -d float -o overflow.exr
+picture edit center.exr overflow.exr float= fill=1x1+32+24 R=inf
 exits 0 "$accumulate" --view 0,0 center.exr --view 0,0 overflow.exr "${lens[@]}" -d float -o out.exr
 grep -q 'warning: overflow.exr: 1 values' stderr || fail "no warning of bad values: $(cat stderr)"
 holds out.exr 32 24 2.5
@@ -104,9 +101,9 @@ fails_saying 2 'focal length.*--focal-length' "$accumulate" "${views[@]}" -o non
 fails_saying 2 'center.exr.*worldToCamera.*--view' "$accumulate" center.exr left.exr "${lens[@]}" -o none.exr
 fails_saying 2 'half' "$accumulate" "${views[@]}" "${lens[@]}" -d int -o none.exr
 fails_saying 1 'missing.exr' "$accumulate" --view 0,0 missing.exr "${lens[@]}" -o none.exr
-oiiotool center.exr --ch R,G,B -o rgb.exr
+picture edit center.exr rgb.exr channels=R,G,B
 fails_saying 1 'rgb.exr: has no channel A' "$accumulate" --view 0,0 center.exr --view 0.1,0 rgb.exr "${lens[@]}" -o none.exr
-oiiotool center.exr --fullsize 60x48 -o other.exr
+picture edit center.exr other.exr frame=60x48
 fails_saying 1 'other.exr.*display window' "$accumulate" --view 0,0 center.exr --view 0,0 other.exr "${lens[@]}" -o none.exr
 [ ! -e none.exr ] || fail "a failed run left a picture"
 
@@ -116,7 +113,7 @@ exits 0 "$accumulate" fence/lens_*.exr --center fence/center.exr -o centered.exr
 [ ! -s stderr ] || fail "warns although --center is given: $(cat stderr)"
 exits 0 "$accumulate" fence/lens_*.exr -o guessed.exr
 grep -q 'warning: .*--center' stderr || fail "does not say that the centre is guessed"
-[ "$(pixels_of centered.exr)" != "$(pixels_of guessed.exr)" ] || fail "--center changes nothing"
+picture differ centered.exr guessed.exr || fail "--center changes nothing"
 fails_saying 2 'left.exr.*worldToCamera' "$accumulate" fence/lens_*.exr --center left.exr -o none.exr
 
 # Frusta that converge on the plane of focus: all see the lamp there in the same pixel, and focused elsewhere it moves as
@@ -143,7 +140,7 @@ fails_saying 1 'longer.exr: its focal length differs' "$accumulate" to_right.exr
 
 # 64 views of 16 samples each are nearer the truth than 64 rays a pixel through the lens. Overscan, so that the views
 # see what the lens sees beyond the border.
-trace() { exits 0 "$bin/dof-trace" fence -o "$1" --views 0 --size 160x90 "${@:2}"; }
+trace() { exits 0 "$bin/dof-trace" fence -o "$1" --views 0 --size 96x54 "${@:2}"; }
 trace truth --reference 1024
 trace rays --reference 64
 trace views --lens-views 64 --overscan 8

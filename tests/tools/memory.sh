@@ -1,7 +1,8 @@
 #!/bin/bash
 # How much memory dof-gather takes of deep files of many samples, by the growth between two sizes, so that what a process takes
 # anyway does not count: at most 24 bytes a sample and 100 bytes a pixel, and without a lens half as much a sample, because
-# samples are flattened as they are read. bash memory.sh BIN_DIR
+# samples are flattened as they are read. A picture that is no higher than what its bands need is gathered at once: from 20 bytes a
+# sample and 48 made of them, in vectors that double as they grow. bash memory.sh BIN_DIR
 . "$(dirname "$0")/check.sh"
 command -v python3 >/dev/null || skip "needs python3"
 [ -x "$bin/sparselens-deep-scene" ] || skip "needs the benchmarks (SPARSELENS_BENCHMARKS)"
@@ -13,13 +14,14 @@ subprocess.run(sys.argv[1:], check=True)
 print(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss * 1024)
 END
 
-# measure SCENE WIDTH HEIGHT CoC: sets `peak`, of dof-gather at draft quality, and `samples`. The CoCs are CoC times those of the
+quality=draft
+# measure SCENE WIDTH HEIGHT CoC: sets `peak`, of dof-gather at that quality, and `samples`. The CoCs are CoC times those of the
 # scene at all sizes.
 measure() {
     exits 0 "$bin/sparselens-deep-scene" "$1" "$2" "$3" in.exr
     rm -f stats.json
     peak=$(python3 peak.py "$bin/dof-gather" in.exr -o out.exr --lens-radius "$(awk "BEGIN { print 144 / $2 * $4 }")" \
-        --quality draft --threads 2 --stats stats.json)
+        --quality $quality --threads 2 --stats stats.json)
     samples=$(sed -E 's/.*"samples":([0-9]+).*/\1/' stats.json)
 }
 
@@ -33,11 +35,17 @@ check() {
     [ $grown -le $allowed ] || fail "$1: $small bytes at $2x$3, $peak at $((2 * $2))x$((2 * $3))"
 }
 
-check dense 384 216 1 24
+check dense 192 108 1 24
 check hair 384 216 1 24
 # These are gathered in bands, whose least height does not grow with the picture: of high pictures, small ones show the growth.
 check apart 32 1600 1 24
-check tinted 16 3200 1 24
-check volume 16 1600 1 24
-check dense 384 216 0 12
-check volume 192 108 0 12
+check tinted 16 1600 1 24
+check volume 16 800 1 24
+check dense 192 108 0 12
+check volume 96 54 0 12
+# Pictures of a usual shape, gathered at once.
+check apart 96 54 1 136
+check tinted 96 54 1 136
+check volume 96 54 1 136
+quality=normal
+check dense 192 108 1 24
