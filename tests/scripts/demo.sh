@@ -14,7 +14,8 @@ grep -Eq '^import sparselens.* ([0-9]+\.[0-9]+|left out: .*)$' stdout || fail "n
 decibels() { sed -nE "s/^ *$1.* ([0-9]+\.[0-9]+) +[01]\.[0-9]{4}\$/\1/p" stdout; }
 before=$(decibels 'the centre view as it is') after=$(decibels 'dof-gather --method lens')
 [ -n "$before" ] && [ -n "$after" ] || fail "no error figures: $(cat stdout)"
-awk "BEGIN { exit !($after > $before) }" || fail "defocusing brought nothing: $before dB before, $after dB after"
+# At most half the error of the view that it is made of, though that, of few rays, is in the reference too: 6 dB.
+awk "BEGIN { exit !($after >= $before + 6) }" || fail "defocusing brings too little: $before dB before, $after dB after"
 # It ends with what to look at: the pictures it names are there, and the commands it names work.
 sed '1,/^Look at/d' stdout >look
 pictures=$(sed '/^The best one/,$d' look | grep -oE '[^ (]+\.(png|exr)')
@@ -27,7 +28,7 @@ grep -E '^  .*/dof-gather ' look >commands || fail "names no command: $(cat stdo
 cp out/lens.exr best.exr
 rm out/lens.exr
 exits 0 bash -e commands
-oiiotool --fail 0 --diff out/lens.exr best.exr >/dev/null || fail "the command makes another picture: $(cat commands)"
+picture same out/lens.exr best.exr || fail "the command makes another picture: $(cat commands)"
 [ -s out/on-the-fence.png ] || fail "the second command makes no picture: $(cat commands)"
 for picture in out/fence.png out/lens.png out/lens.exr out/selective.png out/ldi.exr out/views/center.png; do
     [ -s $picture ] || fail "no $picture"

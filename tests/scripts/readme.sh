@@ -35,14 +35,26 @@ for document in "${documents[@]}"; do
         [ -x "$bin/$tool" ] || fail "$document names $tool, which is not built"
     done
 done
-# Options are those of a tool, or of a program that the project's own scripts call.
-{
-    for tool in "$bin"/ldi-* "$bin"/dof-*; do "$tool" --help; done
-    cat "$source_dir"/tools/*.sh "$source_dir"/tests/*.sh "$source_dir"/tests/*/*.sh "$source_dir"/share/*/*.{sh,py} "$source_dir"/tests/CMakeLists.txt
-} >options
+# Options are those of a tool by its own help, of a script of share/ that has them, or of another program.
+for tool in "$bin"/ldi-* "$bin"/dof-*; do "$tool" --help; done | grep -oE -e '--[a-z][a-z_-]+' >options
+cat "$source_dir"/share/{blender/sparselens_views.py,opencue/submit.py,slurm/submit.sh} >scripts
+grep -oE -e "\"--[a-z][a-z_-]+\"" scripts | tr -d '"' >>options
+cat >>options <<'END'
+--attrib
+--build
+--flatten
+--format-in-place
+--gtest_brief
+--info
+--install
+--output-on-failure
+--preset
+--requeue
+--test-dir
+END
 for document in "${documents[@]}"; do
     matches '(^|[ `(])--[a-z][a-z_-]+' "$source_dir/$document" | tr -d ' `(' | while read -r option; do
-        grep -qwF -e "$option" options || fail "$document names the option $option, which no tool has"
+        grep -qxF -e "$option" options || fail "$document names the option $option, which no tool has"
     done
 done
 for document in "$source_dir"/docs/*.md; do
@@ -63,9 +75,9 @@ by_script=$(sed -nE "/^build='/,/'\$/{s/^build=//;s/'//g;p}" "$source_dir/tools/
 by_hand=$(blocks README.md text | sed -n '/apt-get install/,/[^\\]$/{s/.*apt-get install//;p}' | packages)
 [ "$by_script" = "$by_hand" ] || fail "README.md's packages: $(diff <(echo "$by_script") <(echo "$by_hand"))"
 
-# run DOCUMENT: its shell examples, but for the project's own scripts.
+# run DOCUMENT: its shell examples, but for the project's own scripts; what they trace, as small pictures.
 run() {
-    blocks "$1" sh | grep -vE '^\./' >"$scratch/example" || true
+    blocks "$1" sh | sed -E '/^\.\//d; /--size/!s/^dof-trace [a-z]+/& --size 160x90/' >"$scratch/example"
     (cd "$2" && bash -euo pipefail "$scratch/example" >"$scratch/stdout" 2>"$scratch/stderr" </dev/null) ||
         fail "the examples of $1: $(cat "$scratch/stderr")"
 }

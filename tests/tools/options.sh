@@ -6,13 +6,23 @@ scripts=$source_dir/tests/tools
 command -v oiiotool >/dev/null || skip "needs oiiotool (openimageio-tools)"
 declare -A shown # "TOOL OPTION": its effect has been seen here
 
-# tested OPTION TOOL: its effect is seen here, or the tool's own script runs it with that option, or another one does by
-# the tool's name. A run that is to fail shows no effect.
+# judged PATTERN FILE...: a line that matches, of a run that is to succeed, is followed within eight lines by one that judges
+# what came of it, or does both itself. A run that is to fail shows no effect.
+judged() {
+    PATTERN=$1 awk '
+        FNR == 1 { left = 0 }
+        /^ *#/ || /fails_saying|survives_failure|exits [12]|expected=1/ { next }
+        $0 ~ ENVIRON["PATTERN"] { left = 9 }
+        left-- > 0 && /(^|[^a-z])(fail|same|same_[a-z]*|differ|differ_[a-z]*|within|holds|is|positive|says|agree|fewer|changes|changes_[a-z]*|changed|chosen|regions|expect_window|history|said|silent|check|show|newer) / { found = 1 }
+        END { exit !found }' "${@:2}"
+}
+# tested OPTION TOOL: its effect is seen here, or the tool's own script runs it with that option and judges what it gives, or another
+# one does by the tool's name.
 tested() {
     local option="(^|[^a-z-])$1([^a-z-]|\$)"
-    [ -n "${shown[$2 $1]:-}" ] || grep -Ev 'fails_saying|^ *#' "$scripts/$2.sh" | grep -Ee "$option" >/dev/null ||
-        grep -hEe "bin/$2.*$option" "$scripts"/*.sh | grep -v fails_saying >/dev/null
+    [ -n "${shown[$2 $1]:-}" ] || judged "$option" "$scripts/$2.sh" || judged "bin/$2.*$option" "$scripts"/*.sh
 }
+if tested --no-such-option dof-gather; then fail "an option of runs that fail counts as tested"; fi
 
 # --- Options that tools share, of each tool that has them ---
 

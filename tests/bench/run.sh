@@ -1,0 +1,33 @@
+# Once through each benchmark: all that are declared run to their end, and those that count what they work on have something to
+# work on. The times mean nothing here.
+#   bash run.sh BIN_DIR
+. "$(dirname "$0")/../tools/check.sh"
+command -v python3 >/dev/null || skip "needs python3 to read JSON"
+exits 0 "$bin/sparselens-bench" --benchmark_list_tests
+mv stdout declared
+exits 0 "$bin/sparselens-bench" --benchmark_min_time=0.0001 --benchmark_out=results.json --benchmark_out_format=json
+python3 - "$source_dir" <<'END_OF_PYTHON'
+import json, pathlib, re, sys
+declared = open("declared").read().split()
+results = {b["name"].removesuffix("/real_time"): b for b in json.load(open("results.json"))["benchmarks"]}
+faults = []
+for name in declared:
+    b = results.get(name.removesuffix("/real_time"))
+    if b is None:
+        faults.append(name + " did not run")
+    elif b.get("error_occurred"):
+        faults.append(name + ": " + b["error_message"])
+    elif b["iterations"] < 1 or not b["real_time"] > 0:
+        faults.append(name + " did nothing")
+    elif not name.startswith("psf_") and not b.get("items_per_second", 0) > 0:
+        faults.append(name + " worked on nothing")
+# Each file of benchmarks has some: the functions that it hands over, or the names that it registers.
+for file in sorted(pathlib.Path(sys.argv[1], "tests/bench").glob("*_bench.cpp")):
+    text = file.read_text()
+    for name in re.findall(r"^BENCHMARK(?:_CAPTURE)?\((\w+)", text, re.M) + re.findall(r'measure\("([\w/]+)"', text):
+        if not any(d == name or d.startswith(name + "/") for d in declared) and file.name != "trace_bench.cpp":
+            faults.append(f"{name} of {file.name} is not declared")
+if len(declared) < 30:
+    faults.append(f"only {len(declared)} benchmarks")
+sys.exit("\n".join(["FAIL:"] + faults) if faults else 0)
+END_OF_PYTHON
