@@ -37,17 +37,25 @@ logged cmake -S consumer -B consumer/build -G Ninja -DCMAKE_CXX_COMPILER="$compi
 logged cmake --build consumer/build -j 2
 
 # Each header alone, as CMake compiles the example, but with our warnings: the library's folder is no system's here. A header
-# that another one begins with is compiled by itself where that one is.
+# that a source of the library or another header begins with has been compiled by itself there, unless the build puts something before
+# all sources; installed headers find each other as they did there, by relative paths (tests/scripts/includes.sh). All together show
+# that they do.
 compile=$(sed -nE 's/^ *"command": "(.*) -o [^ ]+ -c [^ ]*pull-focus\.cpp",?$/\1/p' consumer/build/compile_commands.json | head -n 1)
 compile="${compile//-isystem $prefix\/include/-I$prefix/include} -fsyntax-only -x c++ -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror"
 [[ $compile == *"-I$prefix/include"* ]] || fail "the example is compiled without the installed headers: $compile"
 cd "$prefix/include"
 find sparselens -name '*.h' | sort >"$scratch/headers"
 [ "$(wc -l <"$scratch/headers")" -ge 50 ] || fail "only $(wc -l <"$scratch/headers") headers are installed"
-xargs grep -m 1 -H '^#include' <"$scratch/headers" | sed -nE 's|/[^/]*:#include "(.*)"|/\1|p' | xargs realpath -m --relative-to=. |
-    sort -u >"$scratch/begun_with"
-comm -23 "$scratch/headers" "$scratch/begun_with" >"$scratch/alone"
+xargs grep -m 1 -H '^#include' <"$scratch/headers" | sed -nE 's|/[^/]*:#include "(.*)"|/\1|p' | xargs realpath -m --relative-to=. \
+    >"$scratch/begun_with"
 cd "$scratch"
+ninja -C "$build" -t commands sparselens | grep -E -- '-c [^ ]+\.cpp$' >commands
+[ "$(wc -l <commands)" -ge 50 ] || fail "the library is compiled from $(wc -l <commands) sources"
+grep -q -e ' -include ' commands || grep -oE '[^ ]+\.cpp$' commands | xargs grep -m 1 -h '^#include' |
+    sed -nE 's|#include "(.*)"|sparselens/\1|p' >>begun_with
+sort -u begun_with | comm -23 headers - >alone
+sed 's/.*/#include <&>/' headers >all.h
+echo "$scratch/all.h" >>alone
 # shellcheck disable=SC2016
 xargs -P 2 -I HEADER sh -c 'echo "#include <HEADER>" | $0 - || exit 255' "$compile" <alone >log 2>&1 || fail "a header alone: $(head -n 20 log)"
 
