@@ -39,6 +39,28 @@ TEST(CatEye, LeavesTheLensOfTwoCircles) {
     }
 }
 
+// A lens that weighs its rim more behind focus, by 1 + S (2 r^2 - 1), and less in front: the sum over what two circles share, a
+// million points of the square around the lens.
+TEST(CatEye, LeavesOfARingWhatLiesWithinBothCircles) {
+    constexpr double s = 0.9, d = 0.7;
+    constexpr int n = 1000;
+    double behind = 0, in_front = 0;
+    for (int i = 0; i < n; ++i)
+        for (int j = 0; j < n; ++j) {
+            const double x = (i + 0.5) * 2 / n - 1, y = (j + 0.5) * 2 / n - 1, square = x * x + y * y;
+            if (square > 1 || (x - d) * (x - d) + y * y > 1) continue;
+            behind += (1 + s * (2 * square - 1)) * 4 / (n * n * std::numbers::pi); // of the whole disc: 1
+            in_front += (1 - s * (2 * square - 1)) * 4 / (n * n * std::numbers::pi);
+        }
+    const LensLooks looks{.aperture = {.spherical = s}, .cat_eye = 1};
+    const Aperture aperture(looks.aperture);
+    const CatEye cat_eye(aperture, looks, picture_frame(window(80, 60), looks));
+    const Imath::V2d p(40 + 50 * d, 30);
+    EXPECT_NEAR(cat_eye.share(Light::behind, p), behind, 1e-3);
+    EXPECT_NEAR(cat_eye.share(Light::in_front, p), in_front, 1e-3);
+    EXPECT_GT(in_front - behind, 0.01); // else the weights would not matter
+}
+
 TEST(CatEye, LeavesTheSameOfABoxAsOfItsPixels) {
     const Windows windows = window(64, 48);
     const auto grey =
