@@ -108,6 +108,8 @@ def test_windows():
     picture = sparselens.Picture(floats(2, 3, 3), data_window=(4, 5, 6, 6), display_window=(0, 0, 9, 9), pixel_aspect=2)
     assert (picture.width, picture.height, picture.pixel_aspect) == (3, 2, 2)
     assert picture.data_window == (4, 5, 6, 6) and picture.display_window == (0, 0, 9, 9)
+    alone = sparselens.Picture(floats(2, 3, 3), data_window=(4, 5, 6, 6))
+    assert alone.display_window == (4, 5, 6, 6)
 
 
 def test_invalid_values_are_repaired():
