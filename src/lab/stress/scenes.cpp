@@ -98,7 +98,7 @@ double sum_of(const Image &image, std::size_t channel) {
 }
 
 // Lens points of which rounding decides what they see: were these many, the comparison would prove little. With 16 a pixel,
-// that is at most one pixel in twenty; of the cases there are, 0.0028 at the most.
+// that is one of them in one pixel of twenty (docs/tolerances.md, section 4).
 constexpr double most_unsure = 0.05 / 16;
 
 StressResult against_reference(const Ldi &ldi, const ThinLens &lens, int lens_points) {
