@@ -111,7 +111,9 @@ wait "${daemons[$node]}" 2>/dev/null || true
 unset "daemons[$node]"
 processes=
 echo "killed $node after $SECONDS s"
-scontrol update NodeName="$node" State=DOWN Reason=killed # as an operator does; by itself Slurm takes half a minute
+# As an operator does. What a job of share/slurm does when its node is gone is tested here; that Slurm notices by itself,
+# after half a minute, is Slurm's own affair.
+scontrol update NodeName="$node" State=DOWN Reason=killed
 down() { sinfo -h -n "$node" -o %T | grep -q '^down'; }
 until_true 100 down || fail "Slurm does not see that $node is gone: $(sinfo)"
 echo "Slurm knows after $SECONDS s"
