@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <optional>
 
@@ -166,6 +167,34 @@ Edge edge_at(const Pixels &pixels, int x, int y) {
     return edge;
 }
 
+// By the pixels of a row: whether those within two pixels show surfaces that are apart. Most do not, and are no edge.
+std::vector<std::uint8_t> parted_around(const Pixels &pixels, int y) {
+    constexpr int reach = 2; // of edge_at()
+    const Grid &grid = pixels.grid;
+    const auto width = std::size_t(grid.width());
+    const int first = std::max(y - reach, 0), last = std::min(y + reach, grid.height() - 1);
+    const auto row = [&](int at) { return pixels.z.subspan(grid.index(0, at), width); };
+    std::vector<float> least(row(first).begin(), row(first).end()), most = least; // along y
+    for (int other = first + 1; other <= last; ++other) {
+        const std::span<const float> z = row(other);
+        for (std::size_t x = 0; x < width; ++x) {
+            least[x] = z[x] < least[x] ? z[x] : least[x];
+            most[x] = z[x] > most[x] ? z[x] : most[x];
+        }
+    }
+    std::vector<std::uint8_t> parted(width);
+    for (std::size_t x = 0; x < width; ++x) {
+        const std::size_t from = x > reach ? x - reach : 0, to = std::min(x + reach + 1, width);
+        float near = least[x], far = most[x];
+        for (std::size_t i = from; i < to; ++i) {
+            near = least[i] < near ? least[i] : near;
+            far = most[i] > far ? most[i] : far;
+        }
+        parted[x] = std::min(double(far), sky) > apart * double(near);
+    }
+    return parted;
+}
+
 // What was found in a row of pixels.
 struct Row {
     std::vector<std::pair<std::size_t, float>> partly_covered, opaque; // pixels, and their new depths
@@ -174,6 +203,7 @@ struct Row {
 
 Row row_at(const Pixels &pixels, int y) {
     Row row;
+    const std::vector<std::uint8_t> parted = parted_around(pixels, y);
     for (int x = 0; x < pixels.grid.width(); ++x) {
         const std::size_t own = pixels.grid.index(x, y);
         const float coverage = pixels.coverage(own);
@@ -183,6 +213,7 @@ Row row_at(const Pixels &pixels, int y) {
                 row.partly_covered.emplace_back(own, *depth);
             continue;
         }
+        if (!parted[std::size_t(x)]) continue;
         const Edge edge = edge_at(pixels, x, y);
         row.parted += edge.parted;
         row.mixed += edge.mixed;
