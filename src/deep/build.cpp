@@ -84,7 +84,7 @@ Ldi build_by_pixels(const Ldi &like, const std::function<void(std::size_t, Ldi &
             fill(grid.index(x, int(y)), piece);
         }
     });
-    return concatenate(like, rows);
+    return concatenate(like, std::move(rows));
 }
 
 namespace {
@@ -156,6 +156,29 @@ void make_moves(std::vector<float> &array, std::size_t k, const std::vector<Move
 
 } // namespace
 
+Ldi build_changed_pixels(const Ldi &like, const std::function<bool(std::size_t)> &changes,
+                         const std::function<void(std::size_t, Ldi &)> &fill) {
+    const auto width = std::size_t(like.windows.width());
+    std::vector<ChangedRow> rows(std::size_t(like.windows.height()));
+    parallel_for(rows.size(),
+                 [&](std::size_t y) { rows[y] = changed_row(like, y * width, width, changes, fill); });
+    Ldi result = empty_like(like);
+    result.begin.assign(like.begin.size(), 0);
+    std::vector<Move> moves; // one after the other, from the first sample to the last
+    for (std::size_t y = 0; y < rows.size(); ++y) list_moves(like, rows[y], y * width, result.begin, moves);
+    parallel_for(arrays_beside_values + like.values.size(), [&](std::size_t k) {
+        if (array_of(like, k).empty()) return;
+        std::vector<float> &to = array_of(result, k);
+        to.reserve(result.begin.back());
+        for (const Move &move : moves) {
+            const auto from =
+                array_of(move.from_row ? *move.from_row : like, k).begin() + std::ptrdiff_t(move.from);
+            to.insert(to.end(), from, from + std::ptrdiff_t(move.count));
+        }
+    });
+    return result;
+}
+
 void rebuild_pixels(Ldi &ldi, const std::function<bool(std::size_t)> &changes,
                     const std::function<void(std::size_t, Ldi &)> &fill) {
     constexpr std::size_t rows_at_once = 64;
@@ -180,37 +203,24 @@ void rebuild_pixels(Ldi &ldi, const std::function<bool(std::size_t)> &changes,
     ldi.begin = std::move(begin);
 }
 
-Ldi concatenate(const Ldi &like, std::span<const Ldi> pieces) {
+Ldi concatenate(const Ldi &like, std::vector<Ldi> pieces) {
     Ldi whole = empty_like(like);
     std::vector<std::uint64_t> first_sample(pieces.size() + 1, 0), first_pixel(pieces.size() + 1, 0);
     for (std::size_t i = 0; i < pieces.size(); ++i) {
         first_sample[i + 1] = first_sample[i] + pieces[i].samples();
         first_pixel[i + 1] = first_pixel[i] + pieces[i].begin.size() - 1;
     }
-    const auto gather = [&](std::vector<float> &to, const auto &array_of) {
-        if (std::all_of(pieces.begin(), pieces.end(), [&](const Ldi &p) { return array_of(p).empty(); }))
-            return;
+    for (std::size_t k = 0; k < arrays_beside_values + like.channels.size(); ++k) {
+        if (std::ranges::all_of(pieces, [k](const Ldi &piece) { return array_of(piece, k).empty(); }))
+            continue;
+        std::vector<float> &to = array_of(whole, k);
         to.resize(first_sample.back());
         parallel_for(pieces.size(), [&](std::size_t i) {
-            const std::vector<float> &from = array_of(pieces[i]);
-            std::copy(from.begin(), from.end(), to.begin() + std::ptrdiff_t(first_sample[i]));
+            std::vector<float> &from = array_of(pieces[i], k);
+            std::ranges::copy(from, to.begin() + std::ptrdiff_t(first_sample[i]));
+            from = {};
         });
-    };
-    gather(
-        whole.z, [](const Ldi &p) -> const auto & { return p.z; });
-    gather(
-        whole.z_back, [](const Ldi &p) -> const auto & { return p.z_back; });
-    gather(
-        whole.dx, [](const Ldi &p) -> const auto & { return p.dx; });
-    gather(
-        whole.dy, [](const Ldi &p) -> const auto & { return p.dy; });
-    gather(
-        whole.weight, [](const Ldi &p) -> const auto & { return p.weight; });
-    gather(
-        whole.optical, [](const Ldi &p) -> const auto & { return p.optical; });
-    for (std::size_t k = 0; k < whole.values.size(); ++k)
-        gather(
-            whole.values[k], [k](const Ldi &p) -> const auto & { return p.values[k]; });
+    }
     whole.begin.resize(first_pixel.back() + 1);
     parallel_for(pieces.size(), [&](std::size_t i) {
         for (std::size_t j = 0; j + 1 < pieces[i].begin.size(); ++j)

@@ -58,7 +58,7 @@ Ldi border_of(const PackedRows &rows) {
             for (const std::uint64_t i : some.pixel(pixel)) append(out, some, i);
         }));
     }
-    Ldi border = concatenate(pieces.front(), pieces);
+    Ldi border = concatenate(pieces.front(), std::move(pieces));
     border.windows = rows.windows();
     return border;
 }

@@ -18,6 +18,7 @@ Ldi deepen(const View &view, std::span<const Channel> channels) {
         ldi.begin[i + 1] =
             ldi.begin[i] + (view.z[i] > 0 && (alpha == npos || view.image.plane(alpha)[i] != 0) ? 1 : 0);
     const auto take = [&](std::span<const float> from, std::vector<float> &to) {
+        if (ldi.begin.back() == pixels) return to.assign(from.begin(), from.end());
         to.resize(ldi.begin.back());
         for (std::size_t i = 0; i < pixels; ++i)
             if (!ldi.pixel(i).empty()) to[ldi.pixel(i).front()] = from[i];

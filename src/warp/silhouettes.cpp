@@ -33,7 +33,8 @@ struct Estimate {
 class Separation {
 public:
     Separation(const Ldi &view, double scale, double jump);
-    void emit_pixel(std::size_t pixel, Ldi &out) const;
+    bool may_be_mixed(std::size_t pixel) const;
+    void emit_pixel(std::size_t pixel, Ldi &out) const; // of one that may be mixed
 
 private:
     enum Side : unsigned char { inside = 0, has_nearer = 1, has_farther = 2 };
@@ -204,13 +205,16 @@ std::optional<Mixture> Separation::find(int x, int y) const {
     return strands ? strands_before(samples_, x, y) : std::nullopt;
 }
 
-void Separation::emit_pixel(std::size_t pixel, Ldi &out) const {
-    if (samples_.is_empty(pixel)) return;
+bool Separation::may_be_mixed(std::size_t pixel) const {
+    if (samples_.is_empty(pixel)) return false;
     const std::uint64_t own = view_.pixel(pixel).front();
-    if (sides_[own] != inside && is_opaque(own)) {
-        const Imath::V2i at = samples_.grid().pixel(pixel);
-        if (const auto mixture = find(at.x, at.y)) return emit_mixture(own, *mixture, out);
-    }
+    return sides_[own] != inside && is_opaque(own);
+}
+
+void Separation::emit_pixel(std::size_t pixel, Ldi &out) const {
+    const std::uint64_t own = view_.pixel(pixel).front();
+    const Imath::V2i at = samples_.grid().pixel(pixel);
+    if (const auto mixture = find(at.x, at.y)) return emit_mixture(own, *mixture, out);
     append(out, view_, own);
 }
 
@@ -218,7 +222,9 @@ void Separation::emit_pixel(std::size_t pixel, Ldi &out) const {
 
 Ldi separate_silhouettes(const Ldi &view, double scale, double jump) {
     const Separation separation(view, scale, jump);
-    return build_by_pixels(view, [&](std::size_t pixel, Ldi &out) { separation.emit_pixel(pixel, out); });
+    return build_changed_pixels(
+        view, [&](std::size_t pixel) { return separation.may_be_mixed(pixel); },
+        [&](std::size_t pixel, Ldi &out) { separation.emit_pixel(pixel, out); });
 }
 
 } // namespace sparselens
