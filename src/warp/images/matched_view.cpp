@@ -1,6 +1,5 @@
 #include "warp/images/matched_view.h"
 
-#include "base/parallel.h"
 #include "lens/perceptive_depth.h"
 
 #include <algorithm>
@@ -9,77 +8,97 @@
 
 namespace sparselens {
 
+namespace {
+
+constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
+
+// Pixels by (1, 2, 1) / 4 along both axes: what lies between pixels is then about as noisy as what lies on them, and a step
+// of half a pixel follows the texture. at(x, y) is a pixel; those beyond `frame` are as those on its border.
+template <typename At>
+MatchedView::Pixel smoothed(const Imath::Box2i &frame, int x, int y, const At &at) {
+    const int above = std::max(y - 1, frame.min.y), below = std::min(y + 1, frame.max.y);
+    const auto along_y = [&](int column, std::size_t k) {
+        return 0.25f * (at(column, above)[k] + 2 * at(column, y)[k] + at(column, below)[k]);
+    };
+    const int left = std::max(x - 1, frame.min.x), right = std::min(x + 1, frame.max.x);
+    MatchedView::Pixel result{};
+    for (std::size_t k = 0; k < 3; ++k)
+        result[k] = 0.25f * (along_y(left, k) + 2 * along_y(x, k) + along_y(right, k));
+    return result;
+}
+
+// The depth of a pixel if it and all those around show one surface.
+template <typename At>
+float depth_of_one_surface(const Imath::Box2i &frame, int x, int y, const At &at) {
+    if (x <= frame.min.x || x >= frame.max.x || y <= frame.min.y || y >= frame.max.y) return unknown;
+    const float own = at(x, y)[3];
+    for (int v = y - 1; v <= y + 1; ++v)
+        for (int u = x - 1; u <= x + 1; ++u)
+            if (!(std::abs(at(u, v)[3] - own) <= one_mirror_px)) return unknown;
+    return own;
+}
+
+} // namespace
+
 MatchedView::MatchedView(const PlacedView &view, double scale)
-    : view_(view), grid_(view.samples->windows.grid()), pixels_(grid_.size()),
-      depths_(grid_.size(), std::numeric_limits<float>::quiet_NaN()) {
-    const Ldi &ldi = *view.samples;
-    const auto rgb = find_rgb(ldi.channels);
-    parallel_ranges(pixels_.size(), 4096, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            const SampleRange samples = ldi.pixel(i);
-            Pixel &pixel = pixels_[i];
-            pixel = {};
-            if (samples.empty()) continue;
-            if (samples.size() == 1)
-                depths_[i] = float(perceptive_depth(scale, double(ldi.z[samples.front()])));
-            for (std::size_t k = 0; k < 3; ++k)
-                if (rgb[k] != npos) {
-                    const float v = ldi.values[rgb[k]][samples.front()];
-                    pixel[k] = v / (1 + std::abs(v));
-                }
-        }
-    });
-    smooth();
-    mark_mixed();
+    : view_(view), scale_(scale), rgb_(find_rgb(view.samples->channels)), grid_(view.samples->windows.grid()),
+      corner_(grid_.box().min) {
+    const Tiles tiles(grid_.box(), tile_side);
+    columns_ = std::size_t(tiles.columns());
+    tiles_ = std::make_unique<Tile[]>(tiles.count());
 }
 
-void MatchedView::mark_mixed() {
-    const int width = grid_.width(), height = grid_.height();
-    parallel_for(std::size_t(height), [&](std::size_t row) {
-        const std::size_t first = row * std::size_t(width);
-        for (int x = 0; x < width; ++x) {
-            const std::size_t i = first + std::size_t(x);
-            bool alone = x > 0 && x + 1 < width && row > 0 && int(row) + 1 < height;
-            for (std::size_t line = i - std::size_t(width), n = 0; alone && n < 3;
-                 ++n, line += std::size_t(width))
-                for (std::size_t k = line - 1; k <= line + 1; ++k)
-                    alone = alone && std::abs(depths_[k] - depths_[i]) <= one_mirror_px;
-            pixels_[i][3] = alone ? depths_[i] : std::numeric_limits<float>::quiet_NaN();
-        }
-    });
+float MatchedView::depth(int x, int y) const {
+    if (!contains(x, y)) return unknown;
+    const Ldi &ldi = *view_.samples;
+    const SampleRange samples = ldi.pixel(grid_.index(x, y));
+    return samples.size() == 1 ? float(perceptive_depth(scale_, double(ldi.z[samples.front()]))) : unknown;
 }
 
-// By (1, 2, 1) / 4 along both axes: what lies between pixels is then about as noisy as what lies on them, and a step of
-// half a pixel follows the texture.
-void MatchedView::smooth() {
-    const std::vector<Pixel> sharp = pixels_;
-    const int width = grid_.width(), height = grid_.height();
-    parallel_for(std::size_t(height), [&](std::size_t row) {
-        const int y = int(row);
-        std::vector<Pixel> line(static_cast<std::size_t>(width)); // smoothed along y
-        const auto row_of = [&](int at) {
-            return &sharp[std::size_t(std::clamp(at, 0, height - 1)) * std::size_t(width)];
-        };
-        const Pixel *above = row_of(y - 1), *own = row_of(y), *below = row_of(y + 1);
-        for (std::size_t x = 0; x < line.size(); ++x)
-            for (std::size_t k = 0; k < 3; ++k)
-                line[x][k] = 0.25f * (above[x][k] + 2 * own[x][k] + below[x][k]);
-        Pixel *out = &pixels_[row * std::size_t(width)];
-        for (std::size_t x = 0; x < line.size(); ++x) {
-            const Pixel &left = line[x > 0 ? x - 1 : x], &right = line[std::min(x + 1, line.size() - 1)];
-            for (std::size_t k = 0; k < 3; ++k) out[x][k] = 0.25f * (left[k] + 2 * line[x][k] + right[k]);
+// As the view shows it, and its depth.
+MatchedView::Pixel MatchedView::sharp(int x, int y) const {
+    const Ldi &ldi = *view_.samples;
+    const SampleRange samples = ldi.pixel(grid_.index(x, y));
+    Pixel pixel{0, 0, 0, depth(x, y)};
+    for (std::size_t k = 0; k < 3 && !samples.empty(); ++k)
+        if (rgb_[k] != npos) {
+            const float v = ldi.values[rgb_[k]][samples.front()];
+            pixel[k] = v / (1 + std::abs(v));
         }
+    return pixel;
+}
+
+void MatchedView::make(std::size_t tile) const {
+    std::call_once(tiles_[tile].making, [&] {
+        const Imath::Box2i frame = grid_.box();
+        Imath::Box2i box = Tiles(frame, tile_side).box(tile);
+        box.max = {std::min(box.max.x + 1, frame.max.x), std::min(box.max.y + 1, frame.max.y)};
+        const Grid around(
+            Imath::Box2i({std::max(box.min.x - 1, frame.min.x), std::max(box.min.y - 1, frame.min.y)},
+                         {std::min(box.max.x + 1, frame.max.x), std::min(box.max.y + 1, frame.max.y)}));
+        std::vector<Pixel> pixels(around.size());
+        for (std::size_t i = 0; i < pixels.size(); ++i)
+            pixels[i] = sharp(around.pixel(i).x, around.pixel(i).y);
+        const auto at = [&](int x, int y) -> const Pixel & { return pixels[around.index(x, y)]; };
+        std::vector<Pixel> &out = tiles_[tile].pixels;
+        out.resize(std::size_t(stride) * std::size_t(stride));
+        for (int y = box.min.y; y <= box.max.y; ++y)
+            for (int x = box.min.x; x <= box.max.x; ++x) {
+                Pixel &pixel =
+                    out[std::size_t(y - box.min.y) * std::size_t(stride) + std::size_t(x - box.min.x)];
+                pixel = smoothed(frame, x, y, at);
+                pixel[3] = depth_of_one_surface(frame, x, y, at);
+            }
+        tiles_[tile].is_made.store(true, std::memory_order_release);
     });
 }
 
 bool MatchedView::at(const Imath::V2d &place, Pixel &out) const {
-    const Imath::V2i corner = grid_.box().min;
-    const double x = place.x - 0.5 - corner.x, y = place.y - 0.5 - corner.y;
+    const double x = place.x - 0.5 - corner_.x, y = place.y - 0.5 - corner_.y;
     if (!(x >= 0 && y >= 0 && x < grid_.width() - 1 && y < grid_.height() - 1)) return false;
     const int column = int(x), row = int(y);
     const float u = float(x - column), v = float(y - row);
-    const Pixel *p = &pixels_[std::size_t(row) * std::size_t(grid_.width()) + std::size_t(column)];
-    const Pixel *q = p + grid_.width();
+    const Pixel *p = from_corner(column, row), *q = p + stride;
     for (std::size_t k = 0; k < 3; ++k) {
         const float upper = p[0][k] + u * (p[1][k] - p[0][k]), lower = q[0][k] + u * (q[1][k] - q[0][k]);
         out[k] = upper + v * (lower - upper);

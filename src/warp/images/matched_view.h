@@ -1,11 +1,15 @@
-// A view as the search for images compares it: bounded colours, smoothed a little, and the depth of its surfaces.
+// A view as the search for images compares it: bounded colours, smoothed a little, and the depth of its surfaces. Made
+// tile by tile where it is looked at: most pictures show few mirrors.
 #pragma once
 
+#include "base/grid.h"
 #include "deep/ldi.h"
 #include "view/view_mapping.h"
 
 #include <array>
-#include <limits>
+#include <atomic>
+#include <memory>
+#include <mutex>
 #include <vector>
 
 namespace sparselens {
@@ -19,6 +23,7 @@ struct PlacedView {
     const ViewMapping *mapping;
 };
 
+// Several threads may look at one.
 class MatchedView {
 public:
     // R, G and B, tone-mapped so that one bright pixel does not decide, and the perceptive depth of the surface, which
@@ -29,27 +34,47 @@ public:
     MatchedView(const PlacedView &view, double scale);
 
     bool contains(int x, int y) const { return grid_.contains(x, y); }
-    const Pixel &at(int x, int y) const { return pixels_[grid_.index(x, y)]; }
+    const Pixel &at(int x, int y) const { return *from_corner(x - corner_.x, y - corner_.y); }
     // Between the middles of pixels, which lie at halves; the depth is that of the pixel which holds the place. False
     // outside of them.
     bool at(const Imath::V2d &place, Pixel &out) const;
 
     // Of the surface, if the pixel shows just one; else NaN.
-    float depth(int x, int y) const {
-        return contains(x, y) ? depths_[grid_.index(x, y)] : std::numeric_limits<float>::quiet_NaN();
-    }
+    float depth(int x, int y) const;
 
     const ViewMapping &mapping() const { return *view_.mapping; }
     const Ldi &samples() const { return *view_.samples; }
 
 private:
-    void smooth();
-    void mark_mixed();
+    static constexpr int tile_side = 64;
+    static constexpr int stride =
+        tile_side + 1; // a tile holds one more row and column, to look between pixels
+
+    struct Tile {
+        std::atomic<bool> is_made = false;
+        std::once_flag making;
+        std::vector<Pixel> pixels;
+    };
+
+    // The pixel of that column and row, counted from the window's corner. What follows it in memory is the one to the
+    // right; that below is `stride` further.
+    const Pixel *from_corner(int column, int row) const {
+        const auto x = unsigned(column), y = unsigned(row);
+        constexpr auto side = unsigned(tile_side);
+        const std::size_t tile = std::size_t(y / side) * columns_ + x / side;
+        if (!tiles_[tile].is_made.load(std::memory_order_acquire)) make(tile);
+        return &tiles_[tile].pixels[std::size_t(y % side) * std::size_t(stride) + x % side];
+    }
+    void make(std::size_t tile) const;
+    Pixel sharp(int x, int y) const;
 
     PlacedView view_;
+    double scale_;
+    std::array<std::size_t, 3> rgb_;
     Grid grid_;
-    std::vector<Pixel> pixels_;
-    std::vector<float> depths_;
+    Imath::V2i corner_;
+    std::size_t columns_; // of tiles
+    std::unique_ptr<Tile[]> tiles_;
 };
 
 } // namespace sparselens

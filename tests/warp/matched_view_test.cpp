@@ -1,0 +1,92 @@
+#include "base/random.h"
+#include "support/views.h"
+#include "warp/deepen.h"
+#include "warp/images/matched_view.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace sparselens {
+namespace {
+
+constexpr double scale = 24;
+
+// More than two tiles wide, at odd coordinates. Depths are those of two surfaces; some pixels show nothing.
+Ldi some_view() {
+    Windows windows = windows_of_size(200, 100);
+    windows.data = {{-5, 3}, {140, 93}};
+    View view = random_view(windows, {0, 0}, 7);
+    for (std::size_t i = 0; i < view.z.size(); ++i) {
+        const Imath::V2i p = windows.pixel(i);
+        view.z[i] = ((p.x + 5) / 9 + p.y / 7) % 2 == 0 ? 3.0f : 24.0f;
+    }
+    return deepen(view, view.image.channels);
+}
+
+// Slowly and obviously: the mean by 1, 2, 1 along both axes of tone-mapped colours.
+float smoothed(const Ldi &ldi, std::size_t channel, int x, int y) {
+    const Imath::Box2i &data = ldi.windows.data;
+    float sum = 0;
+    for (int dy = -1; dy <= 1; ++dy)
+        for (int dx = -1; dx <= 1; ++dx) {
+            const int u = std::clamp(x + dx, data.min.x, data.max.x),
+                      v = std::clamp(y + dy, data.min.y, data.max.y);
+            const SampleRange samples = ldi.pixel(ldi.windows.index(u, v));
+            const float value = samples.empty() ? 0 : ldi.values[channel][samples.front()];
+            sum += float((2 - std::abs(dx)) * (2 - std::abs(dy))) / 16 * value / (1 + std::abs(value));
+        }
+    return sum;
+}
+
+float own_depth(const Ldi &ldi, int x, int y) {
+    const SampleRange samples = ldi.pixel(ldi.windows.index(x, y));
+    return samples.size() == 1 ? float(scale / double(ldi.z[samples.front()]))
+                               : std::numeric_limits<float>::quiet_NaN();
+}
+
+TEST(MatchedView, PixelsAreSmoothedAndTellOneSurface) {
+    const Ldi ldi = some_view();
+    const ViewMapping mapping({0, 0}, 100, ldi.windows, {}, {});
+    const MatchedView view({&ldi, &mapping}, scale);
+    const Imath::Box2i &data = ldi.windows.data;
+    int known = 0;
+    for (int y = data.min.y; y <= data.max.y; ++y)
+        for (int x = data.min.x; x <= data.max.x; ++x) {
+            for (std::size_t k = 0; k < 3; ++k)
+                ASSERT_NEAR(view.at(x, y)[k], smoothed(ldi, k, x, y), 1e-6) << x << ' ' << y;
+            bool one = x > data.min.x && y > data.min.y && x < data.max.x && y < data.max.y;
+            for (int v = y - 1; one && v <= y + 1; ++v)
+                for (int u = x - 1; one && u <= x + 1; ++u)
+                    one = std::abs(own_depth(ldi, u, v) - own_depth(ldi, x, y)) <= one_mirror_px;
+            ASSERT_EQ(std::isnan(view.at(x, y)[3]), !one) << x << ' ' << y;
+            known += one;
+        }
+    EXPECT_GT(known, 500);
+}
+
+// Also where tiles meet.
+TEST(MatchedView, BetweenPixelsItIsLinear) {
+    const Ldi ldi = some_view();
+    const ViewMapping mapping({0, 0}, 100, ldi.windows, {}, {});
+    const MatchedView view({&ldi, &mapping}, scale);
+    const Imath::Box2i &data = ldi.windows.data;
+    for (int y = data.min.y; y < data.max.y; ++y)
+        for (int x = data.min.x; x < data.max.x; ++x) {
+            MatchedView::Pixel seen;
+            ASSERT_TRUE(view.at({x + 0.75, y + 1.0}, seen));
+            for (std::size_t k = 0; k < 3; ++k) {
+                const double upper = 0.75 * double(view.at(x, y)[k]) + 0.25 * double(view.at(x + 1, y)[k]),
+                             lower = 0.75 * double(view.at(x, y + 1)[k]) +
+                                     0.25 * double(view.at(x + 1, y + 1)[k]);
+                ASSERT_NEAR(double(seen[k]), (upper + lower) / 2, 1e-6) << x << ' ' << y;
+            }
+        }
+    MatchedView::Pixel seen;
+    EXPECT_FALSE(view.at({data.max.x + 0.75, data.min.y + 1.0}, seen));
+}
+
+} // namespace
+} // namespace sparselens
