@@ -10,7 +10,7 @@ namespace {
 
 constexpr double least_ratio = 3;         // noise alone gives up to 1.6, edges of texture up to 2
 constexpr double least_difference = 1e-5; // mean square, tone-mapped: less is not seen
-constexpr double least_motion = 0.3;      // pixels of perceptive depth
+constexpr double least_motion = 0.5;      // pixels of perceptive depth; sharp edges seem to move by less
 constexpr double least_explained = 0.5;   // share of the squared differences; noise alone gives a hundredth
 constexpr double least_change = 1e-5;     // mean square for each pixel of depth: nothing else tells
 constexpr double focus_px = 2;            // CoC up to which a surface counts as in focus

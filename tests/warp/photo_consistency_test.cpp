@@ -15,13 +15,14 @@ const Windows window = windows_of_size(64, 16);
 
 using Colour = std::function<float(double x, double y)>;
 
-// A wall at z = 2.2, on which each view sees colours of its own.
-std::vector<View> wall(const std::function<Colour(const Imath::V2d &camera)> &colour_for, float noise = 0) {
+// A wall at that depth, on which each view sees colours of its own.
+std::vector<View> wall(const std::function<Colour(const Imath::V2d &camera)> &colour_for, float noise = 0,
+                       double z = 2.2) {
     std::vector<View> views;
     for (const Imath::V2d &camera :
          {Imath::V2d(0, 0), Imath::V2d(radius, 0), Imath::V2d(0, radius), Imath::V2d(-radius, 0)}) {
         TwoPlanes scene;
-        scene.front_z = 2.2;
+        scene.front_z = z;
         scene.front_covers = [](double, double) { return true; };
         scene.front_red = colour_for(camera);
         scene.noise = noise;
@@ -30,15 +31,21 @@ std::vector<View> wall(const std::function<Colour(const Imath::V2d &camera)> &co
     return views;
 }
 
-// The share of pixels where the views may be averaged.
-double agreement(const std::vector<View> &views, std::optional<double> focus = {}) {
+PhotoConsistency consistency(const std::vector<View> &views, std::optional<double> focus = {}) {
     const ReprojectedViews placed(views, focal_px, scale, 0);
     ReprojectedRows rows = placed.place(window.data, 0, 15);
     PhotoConsistencyOptions options{.scale = scale};
     if (focus) options.lens = ThinLens{.radius = radius, .focal_px = focal_px, .focus = *focus};
-    const PhotoConsistency found =
-        find_photo_consistency(placed, options, window.data, find_surfaces(placed, 0.5 / scale, rows));
-    return double(std::ranges::count(found.averages, true)) / double(found.averages.size());
+    return find_photo_consistency(placed, options, window.data, find_surfaces(placed, 0.5 / scale, rows));
+}
+
+double share(const std::vector<bool> &pixels) {
+    return double(std::ranges::count(pixels, true)) / double(pixels.size());
+}
+
+// The share of pixels where the views may be averaged.
+double agreement(const std::vector<View> &views, std::optional<double> focus = {}) {
+    return share(consistency(views, focus).averages);
 }
 
 float stripes(double x) { return float(0.5 + 0.4 * std::sin(0.5 * x)); }
@@ -48,6 +55,24 @@ TEST(PhotoConsistency, OneTextureSeenByAll) {
     EXPECT_EQ(agreement(wall(
                   [](auto) { return [](double x, double) { return std::fmod(x, 10) < 5 ? 1.0f : 0.0f; }; })),
               1);
+}
+
+// An edge between two pixels stays there, though each view is shifted by a part of a pixel. No image moves like that.
+TEST(PhotoConsistency, SharpEdgesOfTextureDoNotMove) {
+    const auto edges = [](auto) {
+        return [](double x, double) { return std::fmod(x + 100, 8) < 4 ? 0.7f : 0.2f; };
+    };
+    for (const double shift : {2.25, 2.35, 2.45, 2.6})
+        EXPECT_EQ(share(consistency(wall(edges, 0, scale / shift)).differ), 0) << shift;
+}
+
+TEST(PhotoConsistency, ImagesThatMoveByAPixelDiffer) {
+    const auto image = [](const Imath::V2d &camera) { // of perceptive depth one pixel off
+        return [camera](double x, double) {
+            return float(0.5 + 0.4 * std::sin(0.2 * x + 0.2 * camera.x / radius));
+        };
+    };
+    EXPECT_GT(share(consistency(wall(image)).differ), 0.8);
 }
 
 TEST(PhotoConsistency, NoiseIsNoDisagreement) {

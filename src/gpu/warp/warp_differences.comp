@@ -4,7 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "warp_data.glsl"
 
-const double least_ratio = 3, least_difference = 1e-5lf, least_motion = 0.3lf, least_explained = 0.5lf,
+const double least_ratio = 3, least_difference = 1e-5lf, least_motion = 0.5lf, least_explained = 0.5lf,
              least_change = 1e-5lf, focus_px = 2;
 
 double difference = 0, variation = 0, coc = 0, pixels = 0;
