@@ -64,30 +64,40 @@ ReprojectedViews::ReprojectedViews(std::span<const View> views, double focal_px,
     if (separate && samples.size() > 1)
         settle_lamp_depths(samples, mappings, inverse_depth_step(scale, jump));
     sources_.resize(ordered.size());
-    parallel_for(ordered.size(), [&](std::size_t v) {
+    for (std::size_t v = 0; v < ordered.size();
+         ++v) { // one after the other, each by all threads, in less memory
         if (separate) samples[v] = separate_silhouettes(samples[v], scale, jump);
         sources_[v] = std::make_unique<Source>(std::move(samples[v]), mappings[v]);
-    });
+    }
 }
 
-ReprojectedRows ReprojectedViews::place(const Imath::Box2i &data, int first_row, int last_row) const {
+ReprojectedRows ReprojectedViews::place(const Imath::Box2i &data, int first_row, int last_row,
+                                        ReprojectedRows rows) const {
     const Grid grid(Imath::Box2i({data.min.x, first_row}, {data.max.x, last_row}));
     const auto pixel_of = [&](const ReprojectedSample &s) { return grid.index(s.x, s.y); };
-    ReprojectedRows rows{first_row, {}, {}};
+    const auto outside = [&](const ReprojectedSample &s) { return s.x < data.min.x || s.x > data.max.x; };
+    rows.first_row = first_row;
     rows.begin.assign(grid.size() + 1, 0);
-    std::vector<std::vector<ReprojectedSample>> landed(size());
+    rows.by_view.clear();
+    std::vector<std::size_t> end_of_view;
     for (std::size_t v = 0; v < size(); ++v) {
-        reprojection(v).append_rows(first_row, last_row, landed[v]);
-        std::erase_if(landed[v], [&](const auto &s) { return s.x < data.min.x || s.x > data.max.x; });
-        for (const ReprojectedSample &s : landed[v]) ++rows.begin[pixel_of(s) + 1];
+        const auto before = std::ptrdiff_t(rows.by_view.size());
+        reprojection(v).append_rows(first_row, last_row, rows.by_view);
+        rows.by_view.erase(std::remove_if(rows.by_view.begin() + before, rows.by_view.end(), outside),
+                           rows.by_view.end());
+        end_of_view.push_back(rows.by_view.size());
     }
+    for (const ReprojectedSample &s : rows.by_view) ++rows.begin[pixel_of(s) + 1];
     std::partial_sum(rows.begin.begin(), rows.begin.end(), rows.begin.begin());
     rows.samples.resize(rows.begin.back());
     std::vector<std::size_t> next(rows.begin.begin(), rows.begin.end() - 1);
+    std::size_t i = 0;
     for (std::uint32_t v = 0; v < size(); ++v)
-        for (const ReprojectedSample &s : landed[v])
+        for (; i < end_of_view[v]; ++i) {
+            const ReprojectedSample &s = rows.by_view[i];
             rows.samples[next[pixel_of(s)]++] = {
                 s, v, 0, samples(v).weight[s.source] * nearness(double(s.dx), double(s.dy))};
+        }
     return rows;
 }
 

@@ -22,9 +22,10 @@ struct ViewSample : ReprojectedSample {
 
 // Some rows of the centre view, pixel by pixel; within a pixel the views in order.
 struct ReprojectedRows {
-    int first_row; // EXR coordinate
+    int first_row = 0; // EXR coordinate
     std::vector<ViewSample> samples;
     std::vector<std::size_t> begin; // pixel i, counted along the rows, has samples [begin[i], begin[i + 1])
+    std::vector<ReprojectedSample> by_view; // the same, view by view
 
     std::size_t pixels() const { return begin.size() - 1; }
     std::span<ViewSample> pixel(std::size_t i) {
@@ -48,8 +49,10 @@ public:
         return samples(s.view).values[channel][s.source];
     }
 
-    // The samples that fall into the rows [first_row, last_row] of the data window.
-    ReprojectedRows place(const Imath::Box2i &data, int first_row, int last_row) const;
+    // The samples that fall into the rows [first_row, last_row] of the data window. Takes the memory of rows that are no
+    // longer needed.
+    ReprojectedRows place(const Imath::Box2i &data, int first_row, int last_row,
+                          ReprojectedRows no_longer_needed = {}) const;
 
 private:
     struct Source {

@@ -13,6 +13,8 @@
 #include "warp/photo_consistency.h"
 #include "warp/visibility_vote.h"
 
+#include <tbb/enumerable_thread_specific.h>
+
 #include <algorithm>
 #include <limits>
 #include <optional>
@@ -31,7 +33,8 @@ public:
 private:
     void grow_window();
     using Marks = std::vector<std::uint8_t>; // one a block of image_depths.h
-    Ldi warp_band(int first_row, int last_row, Marks &differ) const;
+    // Leaves its memory to the next band.
+    Ldi warp_band(int first_row, int last_row, Marks &differ, ReprojectedRows &rows) const;
     void warp_on_device(std::span<Ldi> pieces, Marks &differ) const;
     std::vector<PlacedView> placed() const;
     void emit(const Surface &surface, bool agree, Ldi &out) const;
@@ -135,8 +138,8 @@ void Warper::emit(const Surface &surface, bool agree, Ldi &out) const {
         emit_mean(surface.samples, out);
 }
 
-Ldi Warper::warp_band(int first_row, int last_row, Marks &differ) const {
-    ReprojectedRows rows = views_.place(layout_.windows.data, first_row, last_row);
+Ldi Warper::warp_band(int first_row, int last_row, Marks &differ, ReprojectedRows &rows) const {
+    rows = views_.place(layout_.windows.data, first_row, last_row, std::move(rows));
     const Surfaces surfaces = find_surfaces(views_, tolerance_, rows);
     std::vector<bool> agree(rows.pixels(), true);
     if (averages() && options_.test_photo_consistency) {
@@ -150,6 +153,10 @@ Ldi Warper::warp_band(int first_row, int last_row, Marks &differ) const {
             if (found.differ[pixel]) differ[blocks.tile_of(pixels.pixel(pixel))] = 1;
     }
     Ldi out = empty_like(layout_);
+    out.begin.reserve(rows.pixels() + 1);
+    for (std::vector<float> *array : {&out.z, &out.dx, &out.dy, &out.weight})
+        array->reserve(surfaces.list.size());
+    for (std::vector<float> &values : out.values) values.reserve(surfaces.list.size());
     out.begin.push_back(0);
     for (std::size_t pixel = 0; pixel < rows.pixels(); ++pixel) {
         out.begin.push_back(out.begin.back());
@@ -193,12 +200,15 @@ Ldi Warper::run(Progress &progress) const {
     Marks differ(Tiles(layout_.windows.data, image_block).count());
     progress.start("warping", bands.count());
     if (options_.device) warp_on_device(pieces, differ);
+    tbb::enumerable_thread_specific<ReprojectedRows> memory;
     parallel_for(bands.count(), [&](std::size_t band) {
         const Imath::Box2i rows = bands.box(band);
-        if (pieces[band].begin.empty()) pieces[band] = warp_band(rows.min.y, rows.max.y, differ);
+        if (pieces[band].begin.empty())
+            pieces[band] = warp_band(rows.min.y, rows.max.y, differ, memory.local());
         progress.advance();
     });
-    Ldi ldi = concatenate(layout_, pieces);
+    memory.clear();
+    Ldi ldi = concatenate(layout_, std::move(pieces));
     if (views_.size() < 2 || !(scale_ > 0)) return ldi;
     if (options_.find_images) show_images(placed(), scale_, differ, ldi);
     if (averages()) keep_light_of_lamps(placed(), scale_, options_.surface_px, ldi);
