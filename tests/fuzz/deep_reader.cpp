@@ -8,13 +8,14 @@
 #include "fuzz/fuzz.h"
 #include "io/camera/camera_read.h"
 #include "io/exr/exr_deep.h"
+#include "io/files/memory_file.h"
 #include "io/files/memory_limit.h"
 
 using namespace sparselens;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {
     set_memory_limit(std::uint64_t(4) << 20); // small pictures find the same faults sooner
-    const fuzz::MemoryFile file(data, size);
+    const MemoryFile file(fuzz::text_of(data, size));
     fuzz::may_fail([&] {
         LdiFile in = read_ldi(file.path());
         order_of(in.ldi);

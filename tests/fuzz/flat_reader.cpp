@@ -2,6 +2,7 @@
 #include "deep/sanitize.h"
 #include "fuzz/fuzz.h"
 #include "io/exr/exr_flat.h"
+#include "io/files/memory_file.h"
 #include "io/files/memory_limit.h"
 #include "warp/deepen.h"
 
@@ -9,7 +10,7 @@ using namespace sparselens;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {
     set_memory_limit(std::uint64_t(4) << 20); // small pictures find the same faults sooner
-    const fuzz::MemoryFile file(data, size);
+    const MemoryFile file(fuzz::text_of(data, size));
     fuzz::may_fail([&] { read_flat_header(file.path()); });
     fuzz::may_fail([&] {
         FlatFile flat = read_flat_exr(file.path());

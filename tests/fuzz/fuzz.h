@@ -5,25 +5,15 @@
 #include <cstddef>
 #include <cstdint>
 #include <exception>
-#include <string>
+#include <string_view>
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size);
 
 namespace sparselens::fuzz {
 
-// A file in memory, gone with the object; its path can be opened as any other's.
-class MemoryFile {
-public:
-    MemoryFile(const std::uint8_t *data, std::size_t size);
-    ~MemoryFile();
-    MemoryFile(const MemoryFile &) = delete;
-    MemoryFile &operator=(const MemoryFile &) = delete;
-
-    std::string path() const { return "/proc/self/fd/" + std::to_string(descriptor_); }
-
-private:
-    int descriptor_;
-};
+inline std::string_view text_of(const std::uint8_t *data, std::size_t size) {
+    return {reinterpret_cast<const char *>(data), size};
+}
 
 // Failing is an answer; crashing, hanging and taking memory are not.
 template <typename Work>

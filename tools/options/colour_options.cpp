@@ -5,7 +5,6 @@
 #include "io/exr/exr_flat.h"
 #include "io/exr/header_edit.h"
 #include "io/files/file_stream.h"
-#include "io/files/memory_limit.h"
 
 #include <CLI/CLI.hpp>
 #include <ImfChromaticitiesAttribute.h>
@@ -147,10 +146,6 @@ std::size_t write_picture(const ToolContext &tool, const ColourOptions &options,
         header = with_chromaticities(metadata, config.chromaticities_of(options.output_space));
     }
     if (!shown) return write_flat_exr(path, image, header, compression);
-    const Imath::Box2i &display = image.windows.display; // written as a whole
-    check_memory(
-        path, 3.0 * (double(display.max.x) - display.min.x + 1) * (double(display.max.y) - display.min.y + 1),
-        image.values.size() * sizeof(float));
     write_shown_picture(path, image);
     tool.say(path + ": written with a display transform");
     return 0;

@@ -27,7 +27,7 @@ bool written(OIIO::ImageOutput &file, const OiioPicture &picture) {
 
 const char *write(const OiioPicture &picture) {
     thread_local std::string why;
-    const auto file = OIIO::ImageOutput::create(picture.path);
+    const auto file = OIIO::ImageOutput::create(picture.format);
     if (file && written(*file, picture)) return nullptr;
     why = file ? file->geterror() : OIIO::geterror();
     return why.c_str();

@@ -8,6 +8,7 @@ namespace sparselens {
 
 struct OiioPicture {
     const char *path;
+    const char *format; // the extension that it is known by (png, without the dot); `path` need not end in it
     void *source;
     const float *(*row)(void *source, int y); // of row y from the top: pixel by pixel, channels together
     int width, height;

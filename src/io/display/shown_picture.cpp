@@ -3,15 +3,11 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "io/display/oiio_module.h"
+#include "io/files/memory_file.h"
+#include "io/files/memory_limit.h"
 #include "io/files/text_file.h"
-#include "io/files/unfinished.h"
-
-#include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <array>
-#include <atomic>
 #include <filesystem>
 #include <vector>
 
@@ -55,23 +51,6 @@ private:
 
 const float *row_of(void *rows, int y) { return static_cast<DisplayRows *>(rows)->row(y); }
 
-// A temporary file for OpenImageIO, which writes all formats to a file but only some of them to a stream.
-class TemporaryFile {
-public:
-    explicit TemporaryFile(const std::string &extension)
-        : unfinished_((std::filesystem::temp_directory_path() /
-                       fmt::format("sparselens.{}-{}.{}", ::getpid(), number_++, extension))
-                          .string()) {}
-    ~TemporaryFile() { ::unlink(path().c_str()); }
-    TemporaryFile(const TemporaryFile &) = delete;
-    TemporaryFile &operator=(const TemporaryFile &) = delete;
-    const std::string &path() const { return unfinished_.path(); }
-
-private:
-    static inline std::atomic<unsigned> number_ = 0; // threads may write at the same time
-    Unfinished unfinished_;
-};
-
 } // namespace
 
 bool is_shown_picture(const std::string &path) {
@@ -91,14 +70,18 @@ void write_shown_picture(const std::string &path, const Image &image) {
                             std::ranges::any_of(image.plane(alpha), [](float a) { return a < 1; });
     std::vector<std::size_t> channels(rgb.begin(), rgb.end());
     if (with_alpha) channels.push_back(alpha);
+    const Imath::Box2i &display = image.windows.display; // written as a whole
+    check_memory(
+        path, 3.0 * (double(display.max.x) - display.min.x + 1) * (double(display.max.y) - display.min.y + 1),
+        image.values.size() * sizeof(float));
     DisplayRows rows(image, channels, with_alpha);
     const bool deep_bits = extension.starts_with("tif") || extension == "dpx";
-    const TemporaryFile temporary(extension);
-    const char *failed = oiio.write({temporary.path().c_str(), &rows, row_of, image.windows.display_width(),
-                                     image.windows.display_height(), int(channels.size()), deep_bits ? 16 : 8,
-                                     image.windows.pixel_aspect});
+    const MemoryFile encoded; // OpenImageIO writes all formats to a file but only some of them to a stream
+    const char *failed = oiio.write({encoded.path().c_str(), extension.c_str(), &rows, row_of,
+                                     image.windows.display_width(), image.windows.display_height(),
+                                     int(channels.size()), deep_bits ? 16 : 8, image.windows.pixel_aspect});
     if (failed) throw Error(path + ": cannot write: " + failed);
-    write_text_file(path, read_text_file(temporary.path()));
+    write_text_file(path, read_text_file(encoded.path()));
 }
 
 } // namespace sparselens

@@ -1,3 +1,4 @@
+#include "base/error.h"
 #include "base/parallel.h"
 #include "io/display/shown_picture.h"
 #include "support/png.h"
@@ -7,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <random>
 
@@ -52,6 +54,29 @@ TEST(ShownPicture, CutsOffWhatIsOutsideOfTheRange) {
     image.values[1] = std::numeric_limits<float>::infinity();
     image.values[2] = -std::numeric_limits<float>::infinity();
     expect_reads_back(image);
+}
+
+// Files of a name that others can foretell are read and overwritten by others.
+TEST(ShownPicture, NoOtherFileIsWritten) {
+    const ScratchFolder scratch;
+    const char *before = std::getenv("TMPDIR");
+    const std::string kept = before ? before : "";
+    ::setenv("TMPDIR", scratch.file("none").c_str(), 1);
+    for (const char *format : {"png", "jpg", "tif", "bmp"})
+        EXPECT_NO_THROW(write_shown_picture(scratch.file("a.") + format, noise(20, 10))) << format;
+    before ? ::setenv("TMPDIR", kept.c_str(), 1) : ::unsetenv("TMPDIR");
+    EXPECT_EQ(scratch.entries(), 4u);
+    expect_reads_back(scratch.file("a.png"), noise(20, 10));
+}
+
+TEST(ShownPicture, AsksForNoMoreMemoryThanItsPixelsExplain) {
+    const ScratchFolder scratch;
+    Image image = noise(20, 10);
+    image.windows.display = {{0, 0}, {99'999, 99'999}};
+    EXPECT_NE(
+        what_of<Error>([&] { write_shown_picture(scratch.file("a.png"), image); }).find("a.png: asks for"),
+        std::string::npos);
+    EXPECT_EQ(scratch.entries(), 0u);
 }
 
 TEST(ShownPicture, ThreadsMayWriteAtTheSameTime) {
