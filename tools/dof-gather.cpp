@@ -20,6 +20,7 @@
 #include "options/window_options.h"
 
 #include <algorithm>
+#include <functional>
 #include <memory>
 #include <mutex>
 
@@ -44,28 +45,38 @@ Image gathered(const GatherCommand &options, GatherWindows &frame, const ThinLen
     return tool.last_frame ? of(cache.take_ldi()) : of(cache.last().ldi);
 }
 
-// Whether the colours of the file are linear: asked once, by the first of several threads.
-struct LinearAnswer {
-    std::once_flag asked;
-    bool found = false;
+// What holds of all rows of a frame: found once, by the first of several threads. A lens may come through a pipe.
+class OfFrame {
+public:
+    bool linear(const std::function<bool()> &find) {
+        std::call_once(linear_found_, [&] { linear_ = find(); });
+        return linear_;
+    }
+    const LensFile &looks(const GatherCommand &options, std::optional<double> fstop) {
+        std::call_once(looks_read_, [&] { looks_ = read_looks(options.looks, fstop); });
+        return looks_;
+    }
+
+private:
+    std::once_flag linear_found_, looks_read_;
+    bool linear_ = false;
+    LensFile looks_;
 };
 
 // Empty if the picture needs all samples: only as many are kept as it does, while the file is read.
-ReduceSamples reduce_samples(const GatherCommand &options, const ToolContext &tool) {
+ReduceSamples reduce_samples(const GatherCommand &options, const ToolContext &tool, OfFrame &frame) {
     const bool all = !tool.last_frame || options.show != Show::picture || !options.holdout.empty() ||
                      !options.depth_output.empty() || options.focus_pixel || options.windows.proxy > 1 ||
                      options.picture.method != &gather_methods().front();
     if (all) return {};
-    const auto linear = std::make_shared<LinearAnswer>();
-    return [&options, &tool, linear](const Imf::Header &header, const Camera &camera, Ldi rows) {
-        std::call_once(linear->asked,
-                       [&] { linear->found = is_linear(tool, options.colour, options.input, header); });
-        const LookValues looks = read_looks(options.looks, camera.fstop).values;
+    return [&options, &tool, &frame](const Imf::Header &header, const Camera &camera, Ldi rows) {
+        const bool linear =
+            frame.linear([&] { return is_linear(tool, options.colour, options.input, header); });
+        const LookValues &looks = frame.looks(options, camera.fstop).values;
         const bool grows = options.windows.overscan == OutputOverscan::grow &&
                            !(header.dataWindow().intersects(header.displayWindow().min) &&
                              header.dataWindow().intersects(header.displayWindow().max));
-        if (!linear->found || grows || highlight_gain(looks).gain != 1 || looks.breathing ||
-            camera.looks.breathing)
+        if (!linear || grows || highlight_gain(looks).gain != 1 || looks.breathing || camera.looks.breathing)
             throw NeedsAllSamples();
         const ThinLens lens = resolve_lens(camera, rows.windows);
         if (lens.radius == 0 && std::ranges::any_of(rows.channels, is_in_matte)) throw NeedsAllSamples();
@@ -76,15 +87,16 @@ ReduceSamples reduce_samples(const GatherCommand &options, const ToolContext &to
 void run(const GatherCommand &given, const ToolContext &tool, LdiCache &cache, GatherDevice &device) {
     GatherCommand options = given;
     const OpenOptions by{options.lens, options.depth};
-    OpenedLdi &in =
-        cache.load(options.input, options.channels, by, options.colour, tool, reduce_samples(options, tool));
+    OfFrame of_frame;
+    OpenedLdi &in = cache.load(options.input, options.channels, by, options.colour, tool,
+                               reduce_samples(options, tool, of_frame));
     if (in.reduced && merges_by_rows(in.ldi.channels)) options.picture.layer_tolerance = 0; // they are merged
     say_camera(tool, options.input, in.camera);
     ThinLens lens = lens_for_ldi(in, options.focus_pixel, tool);
     const auto holdout = open_holdout(options.holdout, in.ldi.windows, options.windows.proxy, by);
     say_border_reach(tool, options.input, in.packed ? border_of(*in.packed) : in.ldi, lens);
     GatherWindows frame = gather_windows(options.windows, in, lens);
-    const LensFile looks = read_looks(options.looks, in.camera.fstop);
+    const LensFile &looks = of_frame.looks(options, in.camera.fstop);
     raise_highlights(frame, in, highlight_gain(looks.values));
     const Ldi &ldi = frame.ldi(in);
     const std::size_t samples = in.samples_read;

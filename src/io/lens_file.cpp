@@ -2,7 +2,8 @@
 
 #include "base/error.h"
 #include "io/aperture_file.h"
-#include "io/files/text_file.h"
+#include "io/files/file_stream.h"
+#include "io/files/json_file.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -24,9 +25,10 @@ public:
     Reader(const std::string &path, std::optional<double> fstop) : path_(path), fstop_(fstop) {}
 
     LensFile read() {
-        const Json json = Json::parse(read_text_file(path_), nullptr, false);
+        const Json json = read_json_file(path_);
         if (!json.is_object())
-            throw Error(path_ + ": not a JSON object: expected e.g. {\"name\": \"Petzval\", \"cat-eye\": 1}");
+            throw Error(display_name(path_) +
+                        ": not a JSON object: expected e.g. {\"name\": \"Petzval\", \"cat-eye\": 1}");
         LensFile file;
         for (const auto &[key, value] : json.items()) read_key(file, key, value);
         return file;
@@ -34,7 +36,7 @@ public:
 
 private:
     [[noreturn]] void refuse(const std::string &key, const Json &value, const std::string &expected) const {
-        throw Error(fmt::format("{}: '{}' is {}, not {}", path_, key, value.dump(), expected));
+        throw Error(fmt::format("{}: '{}' is {}, not {}", path_, key, shown_in_message(value), expected));
     }
 
     static const LookNumber *number_called(const std::string &key) {
@@ -51,7 +53,8 @@ private:
             if (!value.is_string()) refuse(key, value, "a text");
             file.name = value.get<std::string>();
         } else if (key == "aperture") {
-            if (!value.is_string()) refuse(key, value, "the name of a file");
+            if (!value.is_string() || is_standard_stream(value.get<std::string>()))
+                refuse(key, value, "the name of a file");
             const std::filesystem::path folder = std::filesystem::path(path_).parent_path();
             file.values.picture = read_aperture_picture((folder / value.get<std::string>()).string());
         } else if (key == "cat-eye-darkening") {
@@ -76,6 +79,11 @@ private:
     double number_at(const std::string &key, const Json &value, const char *range,
                      bool (*valid)(double)) const {
         if (value.is_object()) return by_fstop(key, value, range, valid);
+        return plain_number(key, value, range, valid);
+    }
+
+    double plain_number(const std::string &key, const Json &value, const char *range,
+                        bool (*valid)(double)) const {
         if (!value.is_number() || !valid(value.get<double>())) refuse(key, value, range);
         return value.get<double>();
     }
@@ -89,7 +97,7 @@ private:
             if (error != std::errc() || end != text.data() + text.size() || !(fstop > 0) ||
                 !std::isfinite(fstop))
                 refuse(key + "' for '" + text, v, "for an f-number, e.g. \"1.4\"");
-            by_stops[std::log2(fstop)] = number_at(key, v, range, valid);
+            by_stops[std::log2(fstop)] = plain_number(key, v, range, valid);
         }
         if (by_stops.empty()) refuse(key, value, range);
         if (!fstop_)

@@ -81,7 +81,7 @@ TEST_F(LensFiles, AskForTheFNumberOnlyWhereAValueDependsOnIt) {
 TEST_F(LensFiles, ThatAreWrongAreNamedWithTheKey) {
     for (const auto &[text, expected] : std::initializer_list<std::pair<const char *, const char *>>{
              {"[]", "not a JSON object"},
-             {"{", "not a JSON object"},
+             {"{", "not JSON"},
              {R"({"no-look": 1})", "'no-look' is no look"},
              {R"({"name": 1})", "'name'"},
              {R"({"blades": 2})", "'blades' is 2, not 0 or a whole number"},
@@ -89,17 +89,44 @@ TEST_F(LensFiles, ThatAreWrongAreNamedWithTheKey) {
              {R"({"cat-eye": {"wide": 1}})", "'cat-eye' for 'wide'"},
              {R"({"cat-eye": {}})", "'cat-eye'"},
              {R"({"cat-eye": {"2": -1}})", "'cat-eye' is -1"},
+             {R"({"cat-eye": {"2": {"2": 1}}})", "'cat-eye' is {\"2\":1}, not a number"},
              {R"({"cat-eye-darkening": 1})", "'cat-eye-darkening'"},
              {R"({"axial-chromatic-type": "pink"})", "'axial-chromatic-type' is \"pink\""},
              {R"({"axial-chromatic-type": 1})", "'axial-chromatic-type'"},
              {R"({"tilt": 3})", "'tilt'"},
              {R"({"tilt": [90, 0]})", "'tilt'"},
              {R"({"aperture": 3})", "'aperture'"},
+             {R"({"aperture": "-"})", "'aperture' is \"-\", not the name of a file"},
              {R"({"aperture": "none.exr"})", "none.exr"}}) {
         const std::string message = error_of(text);
         EXPECT_NE(message.find(expected), std::string::npos) << text << ": " << message;
         EXPECT_NE(message.find(folder.file("")), std::string::npos) << message;
     }
+}
+
+TEST_F(LensFiles, ThatAreNestedIn33LevelsAreRefused) {
+    const auto nested = [](std::size_t n) {
+        return R"({"blades":)" + std::string(n, '[') + "1" + std::string(n, ']') + "}";
+    };
+    EXPECT_NE(error_of(nested(31)).find("'blades' is [[["), std::string::npos);
+    EXPECT_NE(error_of(nested(32)).find("deeper than 32 levels"), std::string::npos);
+}
+
+// Deeper than a stack would bear, in every way; and no message repeats what it refuses at length.
+TEST_F(LensFiles, ThatAreNestedDeeplyAreRefused) {
+    const std::size_t levels = 200'000;
+    const auto nested = [&](const std::string &open, const std::string &close) {
+        std::string text;
+        for (std::size_t i = 0; i < levels; ++i) text += open;
+        text += "1";
+        for (std::size_t i = 0; i < levels; ++i) text += close;
+        return R"({"blades":)" + text + "}";
+    };
+    for (const std::string &text : {nested("[", "]"), nested(R"({"1":)", "}"), nested("[", "")})
+        EXPECT_NE(error_of(text).find("lens.json: its JSON is nested deeper than 32 levels"),
+                  std::string::npos);
+    EXPECT_NE(error_of(R"({"blades": [[[[3]]]]})").find("'blades' is [[[[3]]]], not"), std::string::npos);
+    EXPECT_LT(error_of(R"({"name": [")" + std::string(1'000'000, 'x') + "\"]}").size(), 300u);
 }
 
 TEST_F(LensFiles, NameAPictureThatLiesBesideThem) {
@@ -109,6 +136,25 @@ TEST_F(LensFiles, NameAPictureThatLiesBesideThem) {
     EXPECT_EQ(picture->width, 3);
     EXPECT_EQ(picture->height, 2);
     EXPECT_EQ(picture->rgb, std::vector<float>(18, 0.5f));
+}
+
+// What is made of a picture takes 100 bytes for each of its pixels: a large one is averaged.
+TEST_F(LensFiles, AverageALargePicture) {
+    Image image(windows_of_size(5000, 3), {{"Y"}});
+    std::ranges::fill(image.plane(0), 0.5f);
+    for (std::size_t y = 0; y < 3; ++y) std::fill_n(&image.plane(0)[y * 5000], 2500, 1.5f);
+    write_flat_exr(folder.file("wide.exr"), image, {});
+    const auto picture = read(R"({"aperture": "wide.exr"})").values.picture;
+    ASSERT_EQ(picture->width, 1667); // squares of 3
+    ASSERT_EQ(picture->height, 1);
+    double left = 0, all = 0;
+    for (int x = 0; x < 1667; ++x)
+        for (std::size_t k = 0; k < 3; ++k) {
+            all += 9 * double(picture->rgb[std::size_t(x) * 3 + k]);
+            left += x < 833 ? 9 * double(picture->rgb[std::size_t(x) * 3 + k]) : 0;
+        }
+    EXPECT_NEAR(all, 3 * 3 * (2500 * 1.5 + 2500 * 0.5), 1e-2);
+    EXPECT_NEAR(left, 3 * 3 * 2500 * 1.5, 3 * 3 * 1.5 * 2); // to a square
 }
 
 TEST_F(LensFiles, AreBeatenByValues) {

@@ -51,7 +51,7 @@ exits 0 "$plan" full/center.exr -o rectangles.json --noise 0
 "$bin/dof-trace" fence --size 240x135 --spp 16 --plan rectangles.json -o rectangles
 [ "$(json rectangles.json '"mask" in p["views"][0]')" = False ] || fail "masks that were not asked for"
 fails_saying 1 'another size' "$bin/dof-trace" fence --size 80x45 --plan plan.json -o x
-fails_saying 1 'view_0.exr: not a plan' "$bin/dof-trace" fence --plan planned/view_0.exr -o x
+fails_saying 1 'view_0.exr: not JSON' "$bin/dof-trace" fence --plan planned/view_0.exr -o x
 fails_saying 1 'missing.json' "$bin/dof-trace" fence --plan missing.json -o x
 
 # --cameras: what dof-trace makes of the plan stands where the cameras say, in both kinds of file.

@@ -114,7 +114,18 @@ private:
 
 constexpr char exr_magic[] = {0x76, 0x2f, 0x31, 0x01};
 
-std::vector<char> read_whole(const std::string &path, int descriptor) {
+constexpr std::size_t most_text = std::size_t(64) << 20;
+
+void check_stream(const std::string &path, const std::vector<char> &bytes, std::size_t used,
+                  Content content) {
+    if (content == Content::text && used > most_text)
+        throw Error(display_name(path) + ": sends more than 64 MB of text, which is not what is read here");
+    if (content == Content::exr && used >= sizeof exr_magic &&
+        std::memcmp(bytes.data(), exr_magic, sizeof exr_magic) != 0)
+        throw Error(display_name(path) + ": not an EXR file");
+}
+
+std::vector<char> read_whole(const std::string &path, int descriptor, Content content) {
     std::vector<char> bytes;
     std::size_t used = 0;
     for (;;) {
@@ -124,9 +135,7 @@ std::vector<char> read_whole(const std::string &path, int descriptor) {
         if (got < 0) fail_of_system(path, "cannot read");
         if (got == 0) break;
         used += std::size_t(got);
-        // A stream of anything else may never end.
-        if (used >= sizeof exr_magic && std::memcmp(bytes.data(), exr_magic, sizeof exr_magic) != 0)
-            throw Error(display_name(path) + ": not an EXR file");
+        check_stream(path, bytes, used, content);
     }
     bytes.resize(used);
     return bytes;
@@ -134,10 +143,10 @@ std::vector<char> read_whole(const std::string &path, int descriptor) {
 
 } // namespace
 
-std::unique_ptr<InputStream> open_input(const std::string &path) {
+std::unique_ptr<InputStream> open_input(const std::string &path, Content content) {
     const auto in_memory = [&](int descriptor) {
-        return std::make_unique<MemoryInput>(
-            display_name(path), std::make_shared<const std::vector<char>>(read_whole(path, descriptor)));
+        return std::make_unique<MemoryInput>(display_name(path), std::make_shared<const std::vector<char>>(
+                                                                     read_whole(path, descriptor, content)));
     };
     if (path == "-") return in_memory(STDIN_FILENO);
     const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);

@@ -15,7 +15,7 @@ constexpr std::size_t most_at_once = std::numeric_limits<int>::max();
 } // namespace
 
 std::string read_text_file(const std::string &path) {
-    const auto stream = open_input(path);
+    const auto stream = open_input(path, Content::text);
     std::string contents(std::size_t(stream->size()), '\0');
     for (std::size_t done = 0; done < contents.size();) {
         const std::size_t count = std::min(contents.size() - done, most_at_once);

@@ -7,7 +7,7 @@
 
 namespace sparselens {
 
-// The contents of a file.
+// The contents of a file; `-` stands for standard input. Pipes and devices may send 64 MB.
 std::string read_text_file(const std::string &path);
 
 // The file appears whole or not at all (see OutputFile). `-` stands for standard output.

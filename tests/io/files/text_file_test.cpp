@@ -3,6 +3,10 @@
 #include "support/scratch_folder.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <fstream>
+#include <thread>
 
 namespace sparselens {
 namespace {
@@ -16,6 +20,18 @@ TEST(TextFile, AnyBytesComeBack) {
         EXPECT_EQ(contents_of(path), text);
         EXPECT_EQ(read_text_file(path), text);
     }
+}
+
+TEST(TextFile, MayComeThroughAPipe) {
+    const ScratchFolder scratch;
+    const std::string pipe = scratch.file("pipe"), text(200'000, 'x');
+    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+    std::thread writer([&] { std::ofstream(pipe) << text; });
+    const std::string read = read_text_file(pipe);
+    writer.join();
+    EXPECT_EQ(read, text);
+    EXPECT_EQ(what_of<Error>([] { read_text_file("/dev/zero"); }),
+              "/dev/zero: sends more than 64 MB of text, which is not what is read here");
 }
 
 TEST(TextFile, ErrorsNameTheFile) {

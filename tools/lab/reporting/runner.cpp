@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "io/files/folder.h"
+#include "io/files/json_file.h"
 #include "io/files/text_file.h"
 #include "lab/reporting/files.h"
 #include "lab/reporting/process.h"
@@ -55,11 +56,13 @@ public:
         const auto there = [&](const std::string &file) { return fs::exists(path(file)); };
         if (!std::ranges::all_of(step.outputs, there) || !there(record_of(step))) return {};
         try {
-            const auto json = nlohmann::json::parse(read_text_file(path(record_of(step)).string()));
+            const auto json = read_json_file(path(record_of(step)).string());
             if (json.at("identity") != identity) return {};
             return StepTimes{json.at("seconds"), json.at("peak_mb"), json.at("runs")};
         } catch (const nlohmann::json::exception &) {
-            return {};
+            return {}; // of another version
+        } catch (const Error &) {
+            return {}; // of a run that was cut off
         }
     }
 

@@ -1,7 +1,7 @@
 #include "lab/tracing/camera_json.h"
 
 #include "base/error.h"
-#include "io/files/text_file.h"
+#include "io/files/json_file.h"
 
 #include <nlohmann/json.hpp>
 
@@ -37,7 +37,7 @@ CameraSummary summary_of(const nlohmann::json &json) {
 CameraSummary read_camera_summary(const std::filesystem::path &folder) {
     const std::filesystem::path path = folder / "camera.json";
     try {
-        return summary_of(nlohmann::json::parse(read_text_file(path.string())));
+        return summary_of(read_json_file(path.string()));
     } catch (const nlohmann::json::exception &error) {
         throw Error(path.string() + ": " + error.what());
     }
