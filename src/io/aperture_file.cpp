@@ -1,15 +1,20 @@
 #include "io/aperture_file.h"
 
 #include "base/error.h"
+#include "base/grid.h"
 #include "io/exr/exr_flat.h"
 #include "lens/picture_table.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
 namespace sparselens {
 
 namespace {
+
+// Of the longer side. Tables of such a picture take 0.5 GB at most; a disc in a picture is smaller, or out of focus enough.
+constexpr int most_pixels = 2048;
 
 // The channels that weigh R, G and B.
 std::array<std::size_t, 3> weight_channels(const Image &image, const std::string &path) {
@@ -26,22 +31,38 @@ std::array<std::size_t, 3> weight_channels(const Image &image, const std::string
     return rgb;
 }
 
+// The picture, each of its pixels the mean of a square of as few pixels as keep it within `most_pixels`. What lies beyond
+// the border is black, half of it on each side.
+AperturePicture means_of_squares(const Image &image, const std::array<std::size_t, 3> &channels,
+                                 const std::string &path) {
+    const int width = image.windows.width(), height = image.windows.height();
+    const int side = pieces_of(std::max(width, height), most_pixels);
+    AperturePicture picture{pieces_of(width, side), pieces_of(height, side), {}};
+    picture.rgb.resize(std::size_t(picture.width) * std::size_t(picture.height) * 3);
+    const int before_x = (picture.width * side - width) / 2, before_y = (picture.height * side - height) / 2;
+    for (std::size_t k = 0; k < channels.size(); ++k) {
+        const auto plane = image.plane(channels[k]);
+        std::size_t i = 0;
+        for (int y = 0; y < height; ++y) {
+            const auto row = std::size_t((y + before_y) / side) * std::size_t(picture.width);
+            for (int x = 0; x < width; ++x, ++i) {
+                if (!(plane[i] >= 0 && std::isfinite(plane[i])))
+                    throw Error(path + ": a weight of the aperture is " + std::to_string(plane[i]) +
+                                ": give values of at least 0");
+                picture.rgb[3 * (row + std::size_t((x + before_x) / side)) + k] +=
+                    plane[i] / float(side) / float(side);
+            }
+        }
+    }
+    return picture;
+}
+
 } // namespace
 
 std::shared_ptr<const AperturePicture> read_aperture_picture(const std::string &path) {
     const Image image = read_flat_exr(path).image;
-    const std::array<std::size_t, 3> channels = weight_channels(image, path);
-    auto picture = std::make_shared<AperturePicture>();
-    picture->width = image.windows.width();
-    picture->height = image.windows.height();
-    for (std::size_t i = 0; i < image.windows.pixels(); ++i)
-        for (const std::size_t channel : channels) {
-            const float value = image.plane(channel)[i];
-            if (!(value >= 0 && std::isfinite(value)))
-                throw Error(path + ": a weight of the aperture is " + std::to_string(value) +
-                            ": give values of at least 0");
-            picture->rgb.push_back(value);
-        }
+    const auto picture =
+        std::make_shared<const AperturePicture>(means_of_squares(image, weight_channels(image, path), path));
     try {
         const PictureTable check(*picture, [](const Imath::V2d &) { return 1.0; });
     } catch (const Error &error) {
