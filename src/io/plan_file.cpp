@@ -1,9 +1,11 @@
 #include "io/plan_file.h"
 
 #include "base/error.h"
+#include "base/grid.h"
 #include "io/exr/exr_flat.h"
 #include "io/files/file_stream.h"
 #include "io/files/folder.h"
+#include "io/files/json_file.h"
 #include "io/files/text_file.h"
 #include "plan/rectangles.h"
 
@@ -13,13 +15,15 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 
 namespace sparselens {
 
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
+using Json = nlohmann::ordered_json; // written
+using Given = nlohmann::json;        // read
 
 Json json_of(const Imath::Box2i &box) { return {box.min.x, box.min.y, box.max.x, box.max.y}; }
 
@@ -56,34 +60,46 @@ Json json_of(const PlannedView &view, const std::string &name, const ThinLens &l
     return json;
 }
 
-Imath::Box2i box_of(const Json &json) {
-    const Imath::Box2i box({json.at(0), json.at(1)}, {json.at(2), json.at(3)});
+double pixels_of(const Imath::Box2i &box) {
+    return (double(box.max.x) - box.min.x + 1) * (double(box.max.y) - box.min.y + 1);
+}
+
+int whole_number(const Given &json) {
+    const double number = json.get<double>();
+    constexpr double most = std::numeric_limits<int>::max();
+    if (!(std::abs(number) <= most && std::trunc(number) == number))
+        throw Error("a corner of a window is " + shown_in_message(json) + ", not a pixel");
+    return int(number);
+}
+
+Imath::Box2i box_of(const Given &json) {
+    const Imath::Box2i box({whole_number(json.at(0)), whole_number(json.at(1))},
+                           {whole_number(json.at(2)), whole_number(json.at(3))});
     constexpr double most = 1 << 28; // pixels: no picture has more
-    const double width = double(box.max.x) - box.min.x + 1, height = double(box.max.y) - box.min.y + 1;
-    if (!(width > 0 && height > 0 && width * height <= most)) throw Error("a window is empty or too large");
+    if (box.isEmpty() || pixels_of(box) > most) throw Error("a window is empty or too large");
     return box;
 }
 
-// The rectangles' pixels, or the mask's.
-PixelMask mask_of(const Json &view, const fs::path &folder) {
-    PixelMask mask(box_of(view.at("data_window")));
-    if (view.contains("mask")) {
-        const Image image = read_flat_exr((folder / view.at("mask").get<std::string>()).string()).image;
-        const std::size_t alpha = find_channel(image.channels, "A");
-        if (alpha == npos) throw Error("a mask has no channel A");
-        for (int y = mask.data.min.y; y <= mask.data.max.y; ++y)
-            for (int x = mask.data.min.x; x <= mask.data.max.x; ++x)
-                if (image.windows.data.intersects(Imath::V2i(x, y)))
-                    mask.set[mask.index(x, y)] = image.at(alpha, x, y) > 0;
-        return mask;
+// They lie in the window of their view. A plan has at most 64 of them, which may overlap; more small ones are welcome.
+std::vector<Imath::Box2i> rectangles_of(const Given &view, const Imath::Box2i &window) {
+    std::vector<Imath::Box2i> rectangles;
+    double pixels = 0;
+    for (const Given &rectangle : view.at("rectangles")) {
+        rectangles.push_back(box_of(rectangle));
+        pixels += pixels_of(rectangles.back());
+        if (!window.intersects(rectangles.back().min) || !window.intersects(rectangles.back().max))
+            throw Error("a rectangle is not in the data_window of its view");
     }
-    for (const Json &rectangle : view.at("rectangles")) {
-        const Imath::Box2i box = box_of(rectangle);
-        for (int y = std::max(box.min.y, mask.data.min.y); y <= std::min(box.max.y, mask.data.max.y); ++y)
-            for (int x = std::max(box.min.x, mask.data.min.x); x <= std::min(box.max.x, mask.data.max.x); ++x)
-                mask.set[mask.index(x, y)] = 1;
-    }
-    return mask;
+    if (pixels > 64 * pixels_of(window)) throw Error("the rectangles of a view overlap too often");
+    return rectangles;
+}
+
+RequestedView view_of(const Given &json, const fs::path &folder) {
+    const Given &u = json.at("lens_point");
+    RequestedView view{{u.at(0), u.at(1)}, box_of(json.at("data_window")), {}, {}};
+    view.rectangles = rectangles_of(json, view.window);
+    if (json.contains("mask")) view.mask = (folder / json.at("mask").get<std::string>()).string();
+    return view;
 }
 
 } // namespace
@@ -118,15 +134,30 @@ void write_plan(const std::string &path, const Plan &plan, const PlanSetting &se
     write_text_file(path, json.dump(1) + "\n");
 }
 
+PixelMask mask_of(const RequestedView &view) {
+    PixelMask mask(view.window);
+    if (view.mask.empty()) {
+        for (const Imath::Box2i &box : view.rectangles)
+            for (int y = box.min.y; y <= box.max.y; ++y)
+                std::fill_n(&mask.set[mask.index(box.min.x, y)], Grid(box).width(), std::uint8_t(1));
+        return mask;
+    }
+    const Image image = read_flat_exr(view.mask).image;
+    const std::size_t alpha = find_channel(image.channels, "A");
+    if (alpha == npos) throw Error(view.mask + ": a mask has the channel A, which is not here");
+    for (int y = mask.data.min.y; y <= mask.data.max.y; ++y)
+        for (int x = mask.data.min.x; x <= mask.data.max.x; ++x)
+            if (image.windows.data.intersects(Imath::V2i(x, y)))
+                mask.set[mask.index(x, y)] = image.at(alpha, x, y) > 0;
+    return mask;
+}
+
 PlanRequest read_plan(const std::string &path) {
     try {
-        const Json json = Json::parse(read_text_file(path));
+        const Given json = read_json_file(path);
         PlanRequest request{box_of(json.at("display_window")), {}};
-        for (const Json &view : json.at("views")) {
-            const Json &u = view.at("lens_point");
-            request.views.push_back(
-                {view.at("name"), {u.at(0), u.at(1)}, mask_of(view, fs::path(path).parent_path())});
-        }
+        for (const Given &view : json.at("views"))
+            request.views.push_back(view_of(view, fs::path(path).parent_path()));
         return request;
     } catch (const nlohmann::json::exception &error) {
         throw Error(fmt::format("{}: not a plan of ldi-plan: {}", display_name(path), error.what()));

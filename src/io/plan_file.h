@@ -30,15 +30,19 @@ void write_plan(const std::string &path, const Plan &plan, const PlanSetting &se
                 const std::string &masks);
 
 struct RequestedView {
-    std::string name;
-    Imath::V2d u;   // lens point
-    PixelMask mask; // over the smallest window that contains it
+    Imath::V2d u;                         // lens point
+    Imath::Box2i window;                  // the smallest that contains what is to be rendered
+    std::vector<Imath::Box2i> rectangles; // in the window
+    std::string mask;                     // a file; empty: the pixels of the rectangles
 };
 
 struct PlanRequest {
     Imath::Box2i display;
     std::vector<RequestedView> views;
 };
+
+// The pixels of a view over its window: a byte each, so made one view at a time.
+PixelMask mask_of(const RequestedView &view);
 
 PlanRequest read_plan(const std::string &path);
 

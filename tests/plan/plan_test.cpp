@@ -135,7 +135,7 @@ TEST(PlanFile, MasksAndRectanglesComeBack) {
         ASSERT_EQ(read.views.size(), plan.views.size());
         for (std::size_t k = 0; k < plan.views.size(); ++k) {
             EXPECT_EQ(read.views[k].u, plan.views[k].u);
-            const PixelMask &asked = plan.views[k].mask, &back = read.views[k].mask;
+            const PixelMask &asked = plan.views[k].mask, back = mask_of(read.views[k]);
             std::size_t extra = 0;
             for (int y = asked.data.min.y; y <= asked.data.max.y; ++y)
                 for (int x = asked.data.min.x; x <= asked.data.max.x; ++x) {
@@ -146,6 +146,45 @@ TEST(PlanFile, MasksAndRectanglesComeBack) {
             EXPECT_TRUE(masks.empty() || extra == 0);
         }
     }
+}
+
+// As a file of a few bytes may ask for more memory, or work, than there is.
+TEST(PlanFile, ViewsAreRefusedThatNobodyCouldRender) {
+    const ScratchFolder folder;
+    const auto says = [&](const std::string &window, const std::string &rectangles) {
+        put_contents(folder.file("plan.json"),
+                     R"({"display_window": [0, 0, 9, 9], "views": [{"lens_point": [1, 0], "data_window": )" +
+                         window + R"(, "rectangles": [)" + rectangles + "]}]}");
+        return what_of<Error>([&] { read_plan(folder.file("plan.json")); });
+    };
+    const auto refused = [&](const std::string &window, const std::string &rectangles, const char *why) {
+        const std::string message = says(window, rectangles);
+        EXPECT_NE(message.find("plan.json: "), std::string::npos) << message;
+        EXPECT_NE(message.find(why), std::string::npos) << message;
+    };
+    EXPECT_EQ(says("[0, 0, 9, 9]", "[0, 0, 9, 9], [3, 3, 4, 4]"), "(nothing was thrown)");
+    refused("[0, 0, 1e300, 1]", "", "a corner of a window is 1e+300, not a pixel");
+    refused("[0, 0, 0.5, 1]", "", "not a pixel");
+    refused("[0, 0, 2147483648, 1]", "", "not a pixel");
+    refused("[-2147483647, 0, 2147483647, 0]", "", "too large");
+    refused("[0, 0, 16384, 16383]", "", "too large");
+    refused("[0, 0, 9, 9]", "[0, 0, 10, 9]", "not in the data_window");
+    std::string often = "[0, 0, 9, 9]";
+    for (int i = 1; i <= 64; ++i) often += ", [0, 0, 9, 9]";
+    refused("[0, 0, 9, 9]", often, "overlap too often");
+}
+
+// 1000 views of 16384 x 16384 pixels: as masks 268 GB.
+TEST(PlanFile, ViewsTakeNoMemoryBeforeTheyAreRendered) {
+    const ScratchFolder folder;
+    std::string text = R"({"display_window": [0, 0, 9, 9], "views": [)";
+    for (int i = 0; i < 1000; ++i)
+        text += std::string(i > 0 ? "," : "") +
+                R"({"lens_point": [1, 0], "data_window": [0, 0, 16383, 16383], "rectangles": []})";
+    put_contents(folder.file("plan.json"), text + "]}");
+    const PlanRequest plan = read_plan(folder.file("plan.json"));
+    EXPECT_EQ(plan.views.size(), 1000u);
+    EXPECT_TRUE(plan.views[999].rectangles.empty());
 }
 
 TEST(PlanFile, WhatIsNoPlanIsRefused) {

@@ -54,10 +54,11 @@ std::vector<Imath::V2d> trace_plan(const TraceJob &job) {
     std::vector<Imath::V2d> points;
     for (std::size_t k = 0; k < plan.views.size(); ++k) {
         const RequestedView &view = plan.views[k];
-        settings.windows.data = view.mask.data;
+        settings.windows.data = view.window;
         job.outputs.add(fmt::format("view_{}.exr", k), view.u, [&] {
+            const PixelMask mask = mask_of(view);
             return render_view(job.tracer, settings, view.u, job.options.samples, of_rim + std::uint32_t(k),
-                               job.progress, view.mask.set);
+                               job.progress, mask.set);
         });
         points.push_back(view.u);
     }
