@@ -487,10 +487,20 @@ def spiral_points(count):
             for radius, angle in polar]
 
 
+def plain_name(name):
+    """A plan's name for a view; it becomes a file's in the output folder,
+    and must not lead out of it."""
+    if not isinstance(name, str) or not re.fullmatch(r"\w[\w.-]{0,99}", name):
+        raise ValueError("--plan: the view %r has no plain name, such as "
+                         "view_0" % (name,))
+    return name
+
+
 def views_of_plan(plan):
     """Names, lens points and boxes of what a plan of ldi-plan asks for; it
     was made from the centre view, which is there already."""
-    return [("%s_%d" % (view["name"], number), view["lens_point"], box)
+    return [("%s_%d" % (plain_name(view["name"]), number),
+             view["lens_point"], box)
             for view in plan["views"]
             for number, box in enumerate(view["rectangles"])]
 
