@@ -8,6 +8,7 @@
 #include <cctype>
 #include <optional>
 #include <string_view>
+#include <unordered_set>
 
 namespace sparselens {
 
@@ -25,14 +26,16 @@ LayerName split(const std::string &name) {
 
 std::string last_component(const std::string &layer) { return lower_case(split(layer).last); }
 
-bool has_x(std::span<const Channel> channels, const std::string &layer) {
-    return std::ranges::any_of(channels, [&](const Channel &c) {
-        const auto [own, last] = split(c.name);
-        return own == layer && lower_case(last) == "x";
-    });
+using Layers = std::unordered_set<std::string>;
+
+Layers layers_with_x(std::span<const Channel> channels) {
+    Layers layers;
+    for (const Channel &channel : channels)
+        if (const auto [layer, last] = split(channel.name); lower_case(last) == "x") layers.insert(layer);
+    return layers;
 }
 
-bool is_data(const std::string &name, std::span<const Channel> channels) {
+bool is_data(const std::string &name, const Layers &with_x) {
     static constexpr std::array depths{"z", "zback"};
     static constexpr std::array coordinates{"x", "u", "v", "w"};
     static constexpr std::array layers{"n",
@@ -66,7 +69,7 @@ bool is_data(const std::string &name, std::span<const Channel> channels) {
     if (is_among(depths, lower) || is_among(layers, last_component(layer.empty() ? last : layer)))
         return true;
     if (layer.empty()) return false;
-    return is_among(coordinates, lower) || (lower == "y" && has_x(channels, layer));
+    return is_among(coordinates, lower) || (lower == "y" && with_x.contains(layer));
 }
 
 // The two numbers that a channel's name says of its place in a Cryptomatte: CryptoObject01.B is the id of rank 3.
@@ -105,12 +108,13 @@ bool is_in_matte(const Channel &channel) {
 bool is_light(const Channel &channel) { return !holds_ids(channel) && channel.kind == ChannelKind::light; }
 
 void find_kinds(std::span<Channel> channels, std::span<const std::string> mattes) {
+    const Layers with_x = layers_with_x(channels);
     for (Channel &channel : channels) {
         if (const auto place = matte_place(channel, mattes)) {
             channel.kind = place->kind;
             channel.matte = place->matte;
             channel.rank = place->rank;
-        } else if (channel.kind == ChannelKind::light && is_data(channel.name, channels))
+        } else if (channel.kind == ChannelKind::light && is_data(channel.name, with_x))
             channel.kind = ChannelKind::data;
     }
 }

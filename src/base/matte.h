@@ -37,10 +37,13 @@ public:
 
     void add(float id, double coverage);
     std::span<const Pair> ranked(); // by descending coverage, without what covers nothing
-    void clear() { pairs_.clear(); }
+    void clear() { pairs_.clear(), merged_ = 0; }
 
 private:
-    std::vector<Pair> pairs_;
+    void merge();
+
+    std::vector<Pair> pairs_; // of few ids one each; of many, what was added since merge() stands behind
+    std::size_t merged_ = 0;
 };
 
 // A weighted sum of the pairs of samples.

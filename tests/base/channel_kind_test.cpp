@@ -1,6 +1,7 @@
 #include "base/image.h"
 #include "base/matte.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -67,6 +68,46 @@ TEST(Matte, IsFoundInAnyOrderOfItsChannels) {
     EXPECT_EQ(mattes[0].ranks[0].coverage, 3u);
     EXPECT_EQ(mattes[0].ranks[1].id, 1u);
     EXPECT_EQ(mattes[0].ranks[1].coverage, 0u);
+}
+
+// Of a header that was made to take long: looking through all channels for each of them would take minutes.
+TEST(ChannelKind, OfManyChannelsAreFoundAtOnce) {
+    std::vector<Channel> channels;
+    for (int i = 0; i < 100'000; ++i) channels.push_back({fmt::format("layer{}.y", i)});
+    channels.push_back({"layer99.X"});
+    for (int i = 0; i < 50'000; ++i)
+        for (const char *c : {"r", "g"})
+            channels.push_back({fmt::format("crypto{:05}.{}", i, c), PixelType::float32});
+    find_kinds(channels);
+    EXPECT_EQ(channels[98].kind, ChannelKind::light);
+    EXPECT_EQ(channels[99].kind, ChannelKind::data);
+    const std::vector<Matte> mattes = find_mattes(channels);
+    ASSERT_EQ(mattes.size(), 500u); // of 100 ranks
+    EXPECT_EQ(mattes[3].name, "crypto003");
+    ASSERT_EQ(mattes[3].ranks.size(), 100u);
+    EXPECT_EQ(mattes[3].ranks[7].id, 100'001u + 2 * 307);
+    EXPECT_EQ(mattes[3].ranks[7].coverage, 100'001u + 2 * 307 + 1);
+}
+
+// Many ids in one pixel give the sums that few give, and take no more than sorting them.
+TEST(IdCoverage, AddsManyIds) {
+    const std::uint32_t n = 500'000;
+    IdCoverage sum;
+    for (const double coverage : {0.25, 0.5, -0.125})
+        for (std::uint32_t i = 0; i < n; ++i)
+            sum.add(std::bit_cast<float>(std::uint32_t(std::uint64_t(i) * 7919 % n)),
+                    coverage * (1 + double(i % 7 == 0)));
+    const auto pairs = sum.ranked();
+    ASSERT_EQ(pairs.size(), n);
+    const std::size_t twice = (n + 6) / 7;
+    for (std::size_t k = 0; k < n; ++k) ASSERT_EQ(pairs[k].coverage, k < twice ? 1.25 : 0.625) << k;
+    for (std::size_t k = 1; k < n; ++k) {
+        const auto bits = [&](std::size_t i) { return std::bit_cast<std::uint32_t>(pairs[i].id); };
+        ASSERT_TRUE(k == twice || bits(k - 1) < bits(k)) << k;
+    }
+    sum.clear();
+    sum.add(2, 0.5);
+    EXPECT_EQ(sum.ranked().size(), 1u);
 }
 
 TEST(IdCoverage, AddsByBitsAndRanks) {

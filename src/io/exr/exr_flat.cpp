@@ -17,6 +17,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <unordered_set>
 
 namespace sparselens {
 
@@ -69,21 +70,17 @@ void find_beauty(const Imf::MultiPartInputFile &file, PictureParts &picture) {
 
 // A channel whose name is taken is one of the part's layer: R of "diffuse" is diffuse.R.
 void add_part(Imf::MultiPartInputFile &file, int number, const std::string &path,
-              std::vector<std::string> &taken, PictureParts &picture) {
+              std::unordered_set<std::string> &taken, PictureParts &picture) {
     PartChannels part{number, {}};
     for (FileChannel &found : channels_of(file.header(number), picture.view, path)) {
-        const auto is_taken = [&](const std::string &name) {
-            return std::ranges::find(taken, name) != taken.end();
-        };
         std::string &name = found.channel.name;
-        if (is_taken(name)) name = layer_of(file.header(number)) + "." + name;
-        if (is_taken(name)) { // the same layer twice
+        if (taken.contains(name)) name = layer_of(file.header(number)) + "." + name;
+        if (!taken.insert(name).second) { // the same layer twice
             picture.warnings.push_back(
                 fmt::format("channel {} of part {} is not used: there is one of that name", found.in_file,
                             layer_of(file.header(number))));
             continue;
         }
-        taken.push_back(name);
         part.channels.push_back(std::move(found));
     }
     picture.parts.push_back(std::move(part));
@@ -101,7 +98,7 @@ PictureParts parts_of_picture(Imf::MultiPartInputFile &file, const std::string &
     const auto beauty = std::ranges::find_if(numbers, [&](int part) { return is_beauty(file.header(part)); });
     if (beauty != numbers.end()) std::rotate(numbers.begin(), beauty, beauty + 1);
     PictureParts picture{view, windows_of(file.header(numbers.front())), {}};
-    std::vector<std::string> taken;
+    std::unordered_set<std::string> taken; // names
     for (const int part : numbers) {
         const Windows windows = windows_of(file.header(part));
         if (!fits(windows, picture.windows)) {
