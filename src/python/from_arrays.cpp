@@ -8,23 +8,37 @@
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <array>
+#include <limits>
 
 namespace sparselens::python {
 
 namespace {
 
+// The box of the keyword, of no more than the coordinates that OpenEXR takes: none of its sides is beyond an int.
+std::optional<Imath::Box2i> window_from(Keywords &keywords, const char *name) {
+    const auto box = keywords.box(name);
+    constexpr int most = std::numeric_limits<int>::max() / 2;
+    if (box && (std::min(box->min.x, box->min.y) <= -most || std::max(box->max.x, box->max.y) >= most))
+        throw UsageError(fmt::format("{}: lies beyond {} pixels, which no file can say", name, most));
+    return box;
+}
+
 // Puts the windows that the keywords give in place of [0, width) x [0, height).
 void set_windows(Windows &windows, Keywords &keywords) {
-    if (const auto data = keywords.box("data_window")) {
+    if (const auto data = window_from(keywords, "data_window")) {
         const Grid grid(*data);
         if (grid.width() != windows.width() || grid.height() != windows.height())
             throw UsageError(fmt::format("data_window: is {} x {} pixels, but the arrays have {} x {}",
                                          grid.width(), grid.height(), windows.width(), windows.height()));
         windows.display = windows.data = *data;
     }
-    windows.display = keywords.box("display_window").value_or(windows.display);
-    windows.pixel_aspect = float(keywords.number("pixel_aspect").value_or(1));
+    windows.display = window_from(keywords, "display_window").value_or(windows.display);
+    const double aspect = keywords.number("pixel_aspect").value_or(1);
+    if (!(aspect >= 1e-6 && aspect <= 1e6))
+        throw UsageError(fmt::format("pixel_aspect: must be from 1e-6 to 1e6, not {:g}", aspect));
+    windows.pixel_aspect = float(aspect);
 }
 
 using Matrix = std::array<std::array<double, 4>, 4>;
