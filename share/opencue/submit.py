@@ -20,15 +20,25 @@ from outline.modules.shell import Shell
 FRAMES = "--frames=#FRAME_START#-#FRAME_END#"
 
 
+def chunk(text):
+    if not re.fullmatch(r"[1-9]\d{0,5}", text):
+        raise argparse.ArgumentTypeError(f"'{text}' is not a number from 1")
+    return int(text)
+
+
 def arguments(words):
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--frames", required=True, metavar="RANGE", help="frames, e.g. 1-24 or 1-24x2")
     parser.add_argument("--views", required=True, type=pathlib.Path, metavar="DIR", help="folder of the views")
     parser.add_argument("--output", required=True, type=pathlib.Path, metavar="DIR", help="folder of LDIs and pictures")
-    parser.add_argument("--chunk", type=int, default=1, metavar="N",
+    parser.add_argument("--chunk", type=chunk, default=1, metavar="N",
                         help="frames that one process works on; more than 1 only for frames in a row (default: 1)")
     parser.add_argument("gather_options", nargs="*", metavar="-- OPTIONS", help="options of dof-gather")
-    return parser.parse_args(words)
+    options = parser.parse_args(words)
+    if options.chunk > 1 and not re.fullmatch(r"-?\d+(--?\d+)?", options.frames):
+        parser.error(f"--chunk {options.chunk} needs frames in a row, e.g. 1-24, not {options.frames}: "
+                     "a process makes all frames from its first to its last")
+    return options
 
 
 def rim_views(folder):

@@ -9,8 +9,10 @@ set -euo pipefail
 [ $# -ge 3 ] || { echo "usage: submit.sh FRAMES VIEWS OUTPUT [OPTIONS OF DOF-GATHER]" >&2; exit 2; }
 here=$(cd "$(dirname "$0")" && pwd)
 frames=$1 views=$2 output=$3
+case $output in *\\*) echo "submit.sh: $output: sbatch takes no backslash in the name of a folder of logs" >&2; exit 2 ;; esac
 mkdir -p "$output"
-warp=$(sbatch --parsable --array="$frames" --output="$output/warp.%a.log" "$here/warp.sh" "$views" "$output")
+logs=${output//%/%%} # sbatch replaces %a
+warp=$(sbatch --parsable --array="$frames" --output="$logs/warp.%a.log" "$here/warp.sh" "$views" "$output")
 gather=$(sbatch --parsable --array="$frames" --dependency="aftercorr:$warp" --kill-on-invalid-dep=yes \
-    --output="$output/gather.%a.log" "$here/gather.sh" "$output" "${@:4}")
+    --output="$logs/gather.%a.log" "$here/gather.sh" "$output" "${@:4}")
 echo "$warp $gather"

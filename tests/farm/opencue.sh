@@ -42,3 +42,11 @@ exits 0 "${submit[@]}" --views 'the views' --chunk 2 -- --focus-distance 3
 printf '%s\n' 'warp None 1-2' 'warp None 3-3' 'gather warp 1-2' 'gather warp 3-3' | cmp - stdout || fail "layers: $(cat stdout)"
 for number in 0001 0002 0003; do cmp out/picture.$number.exr expected.exr || fail "frame $number"; done
 fails_saying 1 'still holds no view_' "${submit[@]}" --views still
+for frames in 1-24x2 1-20:4 1,3,5 1-3,7; do
+    exits 2 "${submit[@]}" --views 'the views' --frames "$frames" --chunk 2
+    grep -q 'needs frames in a row' stderr || fail "--chunk 2 --frames $frames: $(cat stderr)"
+done
+for chunk in 0 -1 x; do
+    exits 2 "${submit[@]}" --views 'the views' --chunk="$chunk"
+    grep -q 'is not a number from 1' stderr || fail "--chunk $chunk: $(cat stderr)"
+done

@@ -37,6 +37,22 @@ for template in "${templates[@]}"; do
     *) [ "$tasks" -eq 8 ] || fail "$template: $tasks tasks, not 2 of 4 frames" ;;
     esac
 done
+# Options with blanks in quotes; a quote without its second is a failure, and nothing in the options is run.
+for template in "${templates[@]}"; do
+    echo '{"name": "my lens", "blades": 6}' >'my lens.json'
+    rm -rf out
+    templates_tool run "$template" session Views="$scratch/the views" Output="$scratch/out" Frames=1 \
+        LensOptions="--focus-distance 3 --fstop 1 --lens '$scratch/my lens.json'"
+    exrheader out/picture.0001.exr | grep '^lensModel .*"my lens"' >/dev/null || fail "$template: --lens with a blank"
+    for options in '--lens "my lens.json' '$(touch run)' '; touch run'; do
+        if python3 "$farm/openjd_template.py" run "$template" session Views="$scratch/the views" Output="$scratch/out2" \
+            Frames=1 LensOptions="$options" >log 2>&1; then fail "$template: no failure: $options"; fi
+    done
+    [ ! -e run ] || fail "$template runs what stands in the options"
+done
+rm -rf out && templates_tool run "${templates[0]}" session Views="$scratch/the views" Output="$scratch/out" Frames=-1,1-3 \
+    LensOptions='--focus-distance 3 --fstop 1'
+
 # A task that runs again makes what is missing and leaves the rest alone.
 rm out/picture.0002.exr
 before=$(ls -i out)

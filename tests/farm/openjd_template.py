@@ -43,6 +43,12 @@ def expect(value, known, where):
             raise ValueError(f"{where}: nothing gives {name} a value here")
 
 
+def longest(text, parameters):
+    """The characters of a format string whose parameters are as long as they may be: 1024, unless they say less."""
+    most = {f"{kind}.{p['name']}": p.get("maxLength", 1024) for p in parameters for kind in ("Param", "RawParam")}
+    return len(REFERENCE.sub("", text)) + sum(most[name] for name in references(text))
+
+
 def check_parameter(parameter):
     allowed, control = parameter.get("allowedValues"), parameter.get("userInterface", {}).get("control", "HIDDEN")
     if allowed is not None and parameter.get("default", allowed[0]) not in allowed:
@@ -85,6 +91,8 @@ def check(template, schema):
     raw = {f"RawParam.{p['name']}" for p in parameters} | {f"Param.{p['name']}" for p in parameters if p["type"] != "PATH"}
     job = {f"Param.{p['name']}" for p in parameters}
     expect(template["name"], raw, "name")
+    if longest(template["name"], parameters) > 128:
+        raise ValueError("name: may be longer than 128 characters once its parameters have values")
     unique((step["name"] for step in template["steps"]), "steps")
     for i, step in enumerate(template["steps"]):
         check_step(step, [s["name"] for s in template["steps"][:i]], job, raw, template.get("extensions", []))
@@ -107,6 +115,7 @@ def faults():
         "an unknown property": lambda t: t.update(step=[]),
         "an unknown extension": lambda t: t.update(extensions=["TASK_CHUNKS"]),
         "a line feed in the name": lambda t: t.update(name="a\nb"),
+        "a name that may become too long": lambda t: t.update(name="sparselens {{Param.Frames}}"),
         "a path in the name": lambda t: t.update(name="{{Param.Views}}"),
         "two parameters of one name": lambda t: t["parameterDefinitions"].append(t["parameterDefinitions"][0]),
         "a parameter's name": lambda t: t["parameterDefinitions"][0].update(name="the views"),

@@ -1,6 +1,16 @@
 # The scripts of share/slurm on a real Slurm: munged, slurmctld and two slurmd on the loopback address, in the scratch
 # folder. 12 frames; a node is killed in the middle of a task; the pictures are those of the tools without Slurm.
 . "$(dirname "$0")/../tools/check.sh"
+
+# What submit.sh asks of sbatch, by a stand-in: a % of the folder stands for itself in the names of logs.
+mkdir stand-in
+printf '%s\n' '#!/bin/sh' 'echo "$@" >>asked' 'echo 7' >stand-in/sbatch
+chmod 755 stand-in/sbatch
+PATH=$PWD/stand-in:$PATH exits 0 bash "$source_dir/share/slurm/submit.sh" 1-2 views '100%a out'
+grep -qF -- '--output=100%%a out/warp.%a.log' asked && grep -qF -- '--output=100%%a out/gather.%a.log' asked ||
+    fail "the logs of a folder with %: $(cat asked)"
+PATH=$PWD/stand-in:$PATH fails_saying 2 'no backslash' bash "$source_dir/share/slurm/submit.sh" 1-2 views 'a\b'
+
 PATH=$PATH:/usr/sbin:/sbin
 for program in munged slurmctld slurmd sbatch; do
     command -v $program >/dev/null || skip "needs Slurm (slurmctld, slurmd, slurm-client, munge): no $program"
