@@ -2,8 +2,8 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
-#include "dof/gather_rows.h"
 #include "io/exr/exr_common.h"
+#include "io/exr/rows/kept_rows.h"
 #include "io/exr/rows/part_readers.h"
 #include "io/files/memory_limit.h"
 
@@ -160,52 +160,6 @@ void read_scanlines(const DeepSource &source, int number, Ldi &ldi, const Planes
         read_rows(part, ldi, planes, first, last, counts);
     });
 }
-
-// Room for as many samples as the file has takes no memory before it is used.
-void append_rows(Ldi &ldi, Ldi rows, std::uint64_t most) {
-    ldi.channels = rows.channels;
-    ldi.values.resize(rows.values.size());
-    const std::uint64_t before = ldi.begin.back();
-    for (std::size_t pixel = 0; pixel + 1 < rows.begin.size(); ++pixel)
-        ldi.begin.push_back(before + rows.begin[pixel + 1]);
-    const std::vector<std::vector<float> *> to = arrays_of(ldi), from = arrays_of(rows);
-    parallel_for(to.size(), [&](std::size_t k) {
-        if (!from[k]->empty()) to[k]->reserve(most);
-        to[k]->insert(to[k]->end(), from[k]->begin(), from[k]->end());
-    });
-}
-
-// What is kept of rows that are read.
-class KeptRows {
-public:
-    // `most`: samples of the file.
-    KeptRows(Ldi &ldi, std::uint64_t most, std::optional<PackedRows> &packed)
-        : ldi_(ldi), most_(most), packed_(packed) {
-        ldi.begin.assign(1, 0);
-        ldi.begin.reserve(ldi.windows.pixels() + 1);
-    }
-    void add(Ldi rows) {
-        if (packed_) return packed_->append(rows);
-        append_rows(ldi_, std::move(rows), most_);
-        if (takes_much()) pack();
-    }
-
-private:
-    bool takes_much() const {
-        return bytes_to_gather(ldi_.samples(), ldi_.channels) >
-               memory_to_gather(most_, ldi_.windows.pixels());
-    }
-    void pack() {
-        packed_.emplace(ldi_.windows);
-        packed_->append(ldi_);
-        for (std::vector<float> *array : arrays_of(ldi_)) std::vector<float>().swap(*array);
-        ldi_.begin.assign(ldi_.windows.pixels() + 1, 0);
-    }
-
-    Ldi &ldi_;
-    std::uint64_t most_;
-    std::optional<PackedRows> &packed_;
-};
 
 // Rows [first, last] of a picture; `counts`: of all of it.
 Ldi some_rows(Imf::DeepScanLineInputPart &part, const DeepSource &source, const Windows &windows,

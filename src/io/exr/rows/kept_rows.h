@@ -1,0 +1,28 @@
+// What is kept of rows of a deep part that are read one after the other: their samples, or where that is much, the samples
+// packed.
+#pragma once
+
+#include "deep/ldi.h"
+#include "deep/packed/packed_rows.h"
+
+#include <cstdint>
+#include <optional>
+
+namespace sparselens {
+
+class KeptRows {
+public:
+    // `most`: samples of the file.
+    KeptRows(Ldi &ldi, std::uint64_t most, std::optional<PackedRows> &packed);
+    void add(Ldi rows);
+
+private:
+    bool takes_much() const;
+    void pack();
+
+    Ldi &ldi_;
+    std::uint64_t most_;
+    std::optional<PackedRows> &packed_;
+};
+
+} // namespace sparselens
