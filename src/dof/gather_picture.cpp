@@ -3,6 +3,7 @@
 #include "deep/channel_alpha.h"
 #include "deep/flatten.h"
 #include "dof/defocused_holdout.h"
+#include "lens/perceptive_depth.h"
 
 #include <algorithm>
 #include <utility>
@@ -76,7 +77,8 @@ bool merges_by_rows(std::span<const Channel> channels) {
 Ldi reduced_first(Ldi rows, const ThinLens &lens, const PictureOptions &options) {
     if (lens.radius == 0) return flattened(rows);
     if (!merges_layers(lens, options) || !merges_by_rows(rows.channels)) return rows;
-    return merge_layers(std::move(rows), lens.radius * lens.focal_px, options.layer_tolerance);
+    return merge_layers(std::move(rows), perceptive_scale(lens.radius, lens.focal_px),
+                        options.layer_tolerance);
 }
 
 Image gather_picture(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &gathered,
@@ -89,15 +91,16 @@ Image gather_picture(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &g
     }
     if (!merges_layers(lens, options) || !can_merge_layers(ldi))
         return gather_layers(ldi, lens, gathered, written, options, progress);
-    return gather_merged(merge_layers(ldi, lens.radius * lens.focal_px, options.layer_tolerance), lens,
-                         gathered, written, options, progress);
+    return gather_merged(
+        merge_layers(ldi, perceptive_scale(lens.radius, lens.focal_px), options.layer_tolerance), lens,
+        gathered, written, options, progress);
 }
 
 Image gather_picture(Ldi &&ldi, const ThinLens &lens, const Imath::Box2i &gathered,
                      const Imath::Box2i &written, const PictureOptions &options, Progress &progress) {
     if (!merges_layers(lens, options) || !can_merge_layers(ldi))
         return gather_picture(std::as_const(ldi), lens, gathered, written, options, progress);
-    const double scale = lens.radius * lens.focal_px;
+    const double scale = perceptive_scale(lens.radius, lens.focal_px);
     return gather_merged(merge_layers(std::move(ldi), scale, options.layer_tolerance), lens, gathered,
                          written, options, progress);
 }

@@ -5,6 +5,7 @@
 #include "dof/merge_layers.h"
 #include "dof/selective/scatter.h"
 #include "dof/selective/selective.h"
+#include "lens/perceptive_depth.h"
 
 #include <algorithm>
 #include <array>
@@ -18,8 +19,8 @@ Image by_lens(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window, 
     const double tolerance = options.layer_tolerance;
     return composited(ldi, [&](const Ldi &one) {
         if (tolerance == 0) return lens_gather(one, lens, window, options.lens, progress);
-        return lens_gather(merge_layers(one, lens.radius * lens.focal_px, tolerance), lens, window,
-                           options.lens, progress);
+        return lens_gather(merge_layers(one, perceptive_scale(lens.radius, lens.focal_px), tolerance), lens,
+                           window, options.lens, progress);
     });
 }
 

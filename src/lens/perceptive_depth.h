@@ -4,6 +4,8 @@
 
 namespace sparselens {
 
+inline double perceptive_scale(double radius, double focal_px) { return radius * focal_px; }
+
 inline double perceptive_depth(double scale, double z) { return scale / z; }
 
 // The inverse: the depth that has this perceptive depth.

@@ -53,7 +53,7 @@ private:
 };
 
 Warper::Warper(std::span<const View> views, const WarpOptions &options)
-    : options_(options), scale_(options.radius * options.focal_px),
+    : options_(options), scale_(perceptive_scale(options.radius, options.focal_px)),
       tolerance_(scale_ > 0 ? inverse_depth_step(scale_, options.surface_px)
                             : std::numeric_limits<double>::infinity()),
       views_(views, options.focal_px, scale_,

@@ -10,6 +10,7 @@ constexpr ThinLens lens{.radius = 0.06, .focal_px = 640, .focus = 5};
 constexpr double scale = lens.radius * lens.focal_px;
 
 TEST(PerceptiveDepth, IsThatOfTheLens) {
+    EXPECT_EQ(perceptive_scale(lens.radius, lens.focal_px), scale);
     for (const double z : {0.25, 3.0, 1e9}) {
         EXPECT_EQ(perceptive_depth(scale, z), perceptive_depth(lens, z));
         EXPECT_DOUBLE_EQ(depth_of_perceptive(scale, perceptive_depth(scale, z)), z);
