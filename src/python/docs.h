@@ -231,7 +231,7 @@ proxy: makes a picture of 1 / proxy the size. region: (left, top, right, bottom)
 highlight_gain: makes lights above highlight_threshold (scene-linear luminance) up to so many times as bright, 1 to
   1000, over a knee of highlight_knee.
 Looks of the lens, of the method lens: blades (a whole number), blade_curvature (0 to 1), blade_rotation (degrees),
-  squeeze (above 0), spherical (-1 to 1), cat_eye (0 to 100, with cat_eye_darkening), axial_chromatic (mm, with
+  squeeze (0.001 to 1000), spherical (-1 to 1), cat_eye (0 to 100, with cat_eye_darkening), axial_chromatic (mm, with
   axial_chromatic_type "red-blue", "blue-yellow" or "green-magenta"), field_curvature (-1 to 1), breathing (0 to 2),
   tilt ((x, y), degrees), lens (a file of share/lenses, which the others beat), aperture (a picture, instead of blades).
 progress: called with the name of the stage and a whole percentage.

@@ -14,6 +14,7 @@ bool is_angle(double v) { return std::abs(v) <= 1e6; }
 bool is_cat_eye(double v) { return v >= 0 && v <= 100; }
 bool is_chromatic(double v) { return std::abs(v) <= 5; }
 bool is_breathing(double v) { return v >= 0 && v <= 2; }
+bool is_squeeze(double v) { return v >= 1e-3 && v <= 1e3; }
 bool is_gain(double v) { return v >= 1 && v <= 1000; }
 bool is_luminance(double v) { return v >= 0 && std::isfinite(v); }
 bool is_positive(double v) { return v > 0 && std::isfinite(v); }
@@ -30,7 +31,7 @@ constexpr std::array numbers{
         &LookValues::rotation, "a number of degrees", is_angle},
     LookNumber{"squeeze", "S",
                "How many times higher than wide the aperture is, e.g. 2 for an anamorphic lens (default: 1)",
-               &LookValues::squeeze, "a number above 0", is_positive},
+               &LookValues::squeeze, "a number from 0.001 to 1000", is_squeeze},
     LookNumber{
         "spherical", "S",
         "Spherical aberration from -1 to 1: above 0, discs behind focus have bright rims and those in front "

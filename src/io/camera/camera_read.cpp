@@ -124,7 +124,8 @@ void Reader::read_aperture() {
     if (looks.blades && (*looks.blades < 3 || *looks.blades > 16)) looks.blades = 0;
     looks.rotation = pick_look(Quantity::blade_rotation);
     looks.squeeze = pick_look(Quantity::squeeze);
-    if (looks.squeeze && !(*looks.squeeze > 0)) looks.squeeze.reset();
+    for (const LookNumber &number : look_numbers())
+        if (auto &value = looks.*number.value; value && !number.valid(*value)) value.reset();
     if (looks.blades && *looks.blades > 0)
         camera_.found.push_back(text_of(*looks.blades) + " blades (aperture_blades)");
     if (looks.squeeze && *looks.squeeze != 1)

@@ -48,6 +48,22 @@ TEST(CameraMetadata, EverythingComesBack) {
     EXPECT_EQ(read.lens_points, full_camera().lens_points);
 }
 
+// What no lens has says nothing: a squeeze of 1e-30 would make every sample reach every tile.
+TEST(CameraMetadata, AnApertureThatCannotBeIsNotRead) {
+    const auto looks_of = [](int blades, float ratio, float rotation) {
+        Imf::Header header;
+        header.insert("aperture_blades", Imf::IntAttribute(blades));
+        header.insert("aperture_ratio", Imf::FloatAttribute(ratio));
+        header.insert("aperture_rotation", Imf::FloatAttribute(rotation));
+        return read_camera(header).looks;
+    };
+    EXPECT_EQ(looks_of(5, 0.5f, 0).squeeze, 0.5);
+    for (const float ratio : {1e-30f, 0.0f, -1.0f, 1e30f})
+        EXPECT_FALSE(looks_of(5, ratio, 0).squeeze) << ratio;
+    EXPECT_EQ(looks_of(2, 1, 0).blades, 0); // Cycles takes them for none
+    EXPECT_FALSE(looks_of(5, 1, 1e30f).rotation);
+}
+
 TEST(CameraMetadata, NothingIsKnownOfAnEmptyHeader) {
     const Camera read = read_camera(Imf::Header());
     EXPECT_FALSE(read.focal_length_mm || read.sensor_width_mm || read.fstop || read.focus_distance ||
