@@ -2,7 +2,9 @@
 
 #include "base/text.h"
 #include "harness/one_line.h"
+#include "io/exr/exr_header_check.h"
 #include "io/exr/header_edit.h"
+#include "io/files/file_stream.h"
 
 #include <CLI/CLI.hpp>
 #include <ImfMultiPartInputFile.h>
@@ -12,7 +14,6 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <exception>
 #include <string_view>
 
 namespace sparselens {
@@ -74,14 +75,12 @@ bool records_history(const CLI::App &parsed) {
 
 std::optional<std::string> last_command(const std::string &path) {
     if (!Imf::isOpenExrFile(path.c_str())) return {};
-    try {
-        const Imf::MultiPartInputFile file(path.c_str());
-        const std::string history = text_of(file.header(0), "Exif:ImageHistory");
-        if (history.empty()) return {};
-        return history.substr(history.rfind('\n') + 1);
-    } catch (const std::exception &) {
-        return {};
-    }
+    const auto stream = open_input(path);
+    check_header(*stream, path);
+    const Imf::MultiPartInputFile file(*stream);
+    const std::string history = text_of(file.header(0), "Exif:ImageHistory");
+    if (history.empty()) return {};
+    return history.substr(history.rfind('\n') + 1);
 }
 
 void append_history(Imf::Header &header, const ToolContext &tool, const HistoryOptions &options) {

@@ -25,7 +25,8 @@ void add_history_option(CLI::App &app, HistoryOptions &options);
 // Whether the options, parsed, record the command line.
 bool records_history(const CLI::App &parsed);
 
-// The last line of the history of an EXR file; empty where it has none, or is not an EXR file.
+// The last line of the history of an EXR file; empty where it has none, or is not an EXR file. Throws a
+// std::exception where its header cannot be read.
 std::optional<std::string> last_command(const std::string &path);
 
 // Appends tool.command_line.

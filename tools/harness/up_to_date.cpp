@@ -1,6 +1,9 @@
 #include "harness/up_to_date.h"
 
+#include "base/error.h"
 #include "harness/history.h"
+#include "io/exr/exr_header_check.h"
+#include "io/files/file_stream.h"
 
 #include <ImfCheckFile.h>
 
@@ -18,7 +21,14 @@ namespace fs = std::filesystem;
 bool is_complete(const fs::path &file) {
     std::error_code error;
     if (!fs::is_regular_file(file, error) || fs::file_size(file, error) == 0) return false;
-    return file.extension() != ".exr" || !Imf::checkOpenEXRFile(file.c_str());
+    if (file.extension() != ".exr") return true;
+    try {
+        check_header(*open_input(file.string()),
+                     file.string()); // before OpenEXR believes what a header claims
+        return !Imf::checkOpenEXRFile(file.c_str());
+    } catch (const Error &) {
+        return false;
+    }
 }
 
 bool is_newest(const std::string &output, const std::vector<NamedFile> &inputs) {
@@ -29,12 +39,15 @@ bool is_newest(const std::string &output, const std::vector<NamedFile> &inputs) 
     });
 }
 
-// An output without history of its own has that of its input, whose last command is another tool's.
-Freshness compare_command(const std::string &output, const std::string &command_line) {
+// An output without history of its own has that of its input, whose last command is another tool's. One that cannot be read
+// is made again.
+Freshness compare_command(const std::string &output, const std::string &command_line) try {
     const std::optional<std::string> last = last_command(output);
     const std::string tool = command_line.substr(0, command_line.find(' ')) + ' ';
     if (command_line.empty() || !last || !last->starts_with(tool)) return Freshness::not_compared;
     return *last == command_line ? Freshness::fresh : Freshness::stale;
+} catch (const std::exception &) {
+    return Freshness::stale;
 }
 
 } // namespace
