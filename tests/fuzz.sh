@@ -1,7 +1,7 @@
 #!/bin/bash
 # Long fuzzing with libFuzzer, under AddressSanitizer and UndefinedBehaviorSanitizer.
 #
-#   tests/fuzz.sh [SECONDS [TARGET...]]     600 seconds each of deep_reader flat_reader camera_metadata command_line
+#   tests/fuzz.sh [SECONDS [TARGET...]]     600 seconds each of all that tests/fuzz/corpus has a folder for
 #
 # Begins with the kept corpus, tests/fuzz/corpus; what it finds new stays in build-fuzz/corpus, what fails in
 # build-fuzz/found. Needs clang-14; exit 77 without.
@@ -12,7 +12,8 @@ command -v clang++-14 >/dev/null || { echo "skipped: clang++-14 is not installed
 seconds=${1:-600}
 shift || true
 targets=("$@")
-[ $# -gt 0 ] || targets=(deep_reader flat_reader camera_metadata command_line)
+[ $# -gt 0 ] || targets=(tests/fuzz/corpus/*)
+targets=("${targets[@]##*/}")
 
 cmake --preset fuzz --log-level=WARNING
 cmake --build build-fuzz -j "$(nproc)" --target "${targets[@]/#/fuzz-}"

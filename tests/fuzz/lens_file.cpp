@@ -1,0 +1,19 @@
+// Any bytes as the JSON of a lens: read, and resolved for two f-numbers.
+#include "io/lens_file.h"
+
+#include "fuzz/fuzz.h"
+#include "io/files/memory_file.h"
+
+using namespace sparselens;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {
+    const MemoryFile file(fuzz::text_of(data, size));
+    fuzz::may_fail([&] { read_lens_file(file.path(), {}); });
+    fuzz::may_fail([&] {
+        const LensFile lens = read_lens_file(file.path(), 2.3);
+        for (const LookNumber &number : look_numbers()) // what is read is in its range
+            if (const auto &value = lens.values.*number.value; value && !number.valid(*value))
+                __builtin_trap();
+    });
+    return 0;
+}
