@@ -29,8 +29,9 @@ struct DeviceInfo {
     bool float64 = false;   // computes with numbers of 64 bits, which the selective gather needs
 };
 
-// Of this machine; empty where there is no loader or no driver. Never throws for want of either.
-std::vector<DeviceInfo> list_devices();
+// Of this machine; empty where there is no loader or no driver that works. Never throws for want of either, but says in
+// `why_none` what Vulkan did.
+std::vector<DeviceInfo> list_devices(std::string *why_none = nullptr);
 
 inline constexpr const char *no_devices = "Vulkan gives access to no device here";
 

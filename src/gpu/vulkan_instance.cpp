@@ -81,14 +81,16 @@ bool has_validation() try {
     return false; // no loader
 }
 
-std::vector<DeviceInfo> list_devices() try {
+std::vector<DeviceInfo> list_devices(std::string *why_none) try {
     const VulkanInstance vulkan;
     std::vector<DeviceInfo> devices;
     for (const vk::raii::PhysicalDevice &device : vk::raii::PhysicalDevices(vulkan.instance))
         devices.push_back(info_of(device, devices.size()));
+    if (devices.empty() && why_none) *why_none = "its drivers know no device";
     return devices;
-} catch (const std::exception &) {
-    return {}; // no loader, or no driver that works
+} catch (const std::exception &error) {
+    if (why_none) *why_none = std::string(error.what()) + " (VK_LOADER_DEBUG=error says more)";
+    return {};
 }
 
 } // namespace sparselens::gpu

@@ -31,6 +31,12 @@ LD_LIBRARY_PATH=$PWD/broken fails_saying 1 'device gpu: no GPU can be used; Vulk
     "$gather" input.exr "${lens[@]}" -o x.exr --device gpu
 LD_LIBRARY_PATH=$PWD/broken fails_saying 1 'device gpu: no GPU can be used; Vulkan gives access to no device here' \
     "${warp[@]}" -o x.exr --device gpu
+# -v says what Vulkan did: a loader that cannot be loaded, drivers that do not work.
+without_loader 1 "$gather" input.exr "${lens[@]}" -o x.exr --device gpu -v
+grep -Eq '^dof-gather: no device by Vulkan: .*load' stderr || fail "a broken loader: $(cat stderr)"
+echo '{"file_format_version": "1.0.0", "ICD": {"library_path": "./none.so", "api_version": "1.3.0"}}' >broken/driver.json
+VK_DRIVER_FILES=broken/driver.json VK_ICD_FILENAMES=broken/driver.json exits 1 "$gather" input.exr "${lens[@]}" -o x.exr --device gpu -v
+grep -Eq '^dof-gather: no device by Vulkan: .*(Driver|driver)' stderr || fail "a broken driver: $(cat stderr)"
 without_loader 0 "$bin/ldi-warp" --device list
 [ "$(cat stdout)" = "Vulkan gives access to no device here" ] || fail "ldi-warp --device list: $(cat stdout)"
 SPARSELENS_DEVICE=gpu LD_LIBRARY_PATH=$PWD/broken fails_saying 1 'device gpu: no GPU can be used' "$gather" input.exr "${lens[@]}" -o x.exr

@@ -3,12 +3,16 @@
 #include <fmt/format.h>
 
 #include <utility>
+#include <vector>
 
 namespace sparselens {
 
-std::optional<gpu::DeviceInfo> find_device(const std::string &word) {
+std::optional<gpu::DeviceInfo> find_device(const std::string &word, const ToolContext &tool) {
     if (word == "cpu" || (word == "auto" && !gpu::may_have_gpu())) return {};
-    return gpu::choose_device(word, gpu::list_devices());
+    std::string why_none;
+    const std::vector<gpu::DeviceInfo> there = gpu::list_devices(&why_none);
+    if (!why_none.empty()) tool.say("no device by Vulkan: " + why_none);
+    return gpu::choose_device(word, there);
 }
 
 void say_report(const ToolContext &tool, const DeviceReport &did, const DeviceWork &work) {

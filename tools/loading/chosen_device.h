@@ -16,8 +16,9 @@ struct DeviceWork {
     const char *verb, *units_done;
 };
 
-// None: the CPU. Throws Error where the word means a device that is not there.
-std::optional<gpu::DeviceInfo> find_device(const std::string &word);
+// None: the CPU. Throws Error where the word means a device that is not there. With --verbose, says why Vulkan has none: a
+// driver that does not work is none, too.
+std::optional<gpu::DeviceInfo> find_device(const std::string &word, const ToolContext &tool);
 // With --verbose: what the device did, and what it left to the CPU, and why. A warning if it failed.
 void say_report(const ToolContext &tool, const DeviceReport &did, const DeviceWork &work);
 
@@ -44,7 +45,7 @@ private:
     void look_for(const std::string &word, const ToolContext &tool) {
         device_.reset();
         name_ = "the CPU";
-        const auto chosen = find_device(word);
+        const auto chosen = find_device(word, tool);
         if (!chosen) return;
         try {
             device_ = open_(*chosen);

@@ -3,7 +3,10 @@
 
 namespace sparselens::gpu {
 
-std::vector<DeviceInfo> list_devices() { return {}; }
+std::vector<DeviceInfo> list_devices(std::string *why_none) {
+    if (why_none) *why_none = "this build has no kernels for GPUs";
+    return {};
+}
 
 std::unique_ptr<TileDevice> open_gather_device(const DeviceInfo &info, const Watch &) {
     throw DeviceFailed(info.name + " cannot be used: this build has no kernels for GPUs");
