@@ -12,8 +12,8 @@
 namespace sparselens {
 
 // What decides how high bands are: as high as fits into `memory` (bytes), counting the samples and what a band is gathered from.
-// None is too low if `low`. Else bands are no lower than what they need beside them (RowReach), even if they do not fit: to prepare
-// all bands then takes at most about twice as long as to prepare all rows.
+// Unless `low`, a band is at least as tall as its margins (RowReach), even over budget; preparation then costs at most
+// about twice that of all rows at once.
 struct BandLimits {
     double memory;
     bool low = false;

@@ -34,9 +34,10 @@ DepthRange depth_range(const DepthOptions &options, const Imf::Header &header) {
                                      near ? "1" : (far ? "0" : "0 and which is 1"),
                                      near ? "--far" : (far ? "--near" : "--near and --far")));
     if (!(*near > 0 && *near < *far))
-        throw UsageError(fmt::format("--depth normalized: --near {:g} and --far {:g} are no range of depths "
-                                     "above 0",
-                                     *near, *far));
+        throw UsageError(
+            fmt::format("--depth normalized: --near must be above 0 and less than --far: they are "
+                        "{:g} and {:g}",
+                        *near, *far));
     return {*near, *far};
 }
 

@@ -38,7 +38,7 @@ double magnification(const LookValues &values, const Camera &camera, const ThinL
     const double focal = focal_length_for("--breathing", camera) / 1000 / camera.metres_per_unit.value_or(1);
     if (!(lens.focus > focal))
         throw UsageError(
-            "--breathing: the focus distance is not beyond the focal length: no lens focuses that near");
+            "--breathing: the focus distance must exceed the focal length: no lens focuses nearer");
     return std::pow(unit_focusing_magnification(focal, lens.focus), breathing);
 }
 

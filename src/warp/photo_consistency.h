@@ -25,8 +25,7 @@ struct PhotoConsistencyOptions {
 // By pixel of some rows.
 struct PhotoConsistency {
     std::vector<bool> averages; // the views may be averaged
-    // In focus or not: they differ beyond noise, or as if the picture did not lie on the surface: moved by that much more
-    // or less, one explains the other.
+    // In focus or not: true where views differ by more than noise, or as they would if the image lay at another depth.
     std::vector<bool> differ;
 };
 

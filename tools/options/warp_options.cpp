@@ -38,11 +38,10 @@ void add_warp_options(CLI::App &app, WarpCommand &options) {
         ->type_name("test|assume")
         ->transform(words(agreement));
     const std::map<std::string, bool> optical{{"on", true}, {"off", false}};
-    app.add_option(
-           "--optical", options.find_images,
-           "With --agreement test, on: where views disagree, the depth is sought at which what a mirror or "
-           "glass shows lies, and that is blurred and averaged by its own depth; off: by that of the surface "
-           "(default: on)")
+    app.add_option("--optical", options.find_images,
+                   "With --agreement test, on: estimate the depth of images in mirrors and glass, and blur "
+                   "them by it; "
+                   "off: blur them by that of the surface (default: on)")
         ->type_name("on|off")
         ->transform(words(optical));
     add_device_option(app, options.device, "What warps");

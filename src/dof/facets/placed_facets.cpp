@@ -112,8 +112,7 @@ void draw_triangle(const Seen &seen, std::size_t i, const std::array<std::uint64
             const float b = side * ((x0 - x2) * (y - y2) - (y0 - y2) * (x - x2));
             const float c = side * ((x1 - x0) * (y - y0) - (y1 - y0) * (x - x0));
             const std::uint64_t nearest = std::max(a, b) >= c ? (a >= b ? key[0] : key[1]) : key[2];
-            const bool inside =
-                int(a >= 0) & int(b >= 0) & int(c >= 0); // no jumps, which nobody could foretell
+            const bool inside = int(a >= 0) & int(b >= 0) & int(c >= 0); // branch-free: unpredictable
             std::uint64_t &cell = cells[std::size_t(row * stride + column)];
             cell = std::max(cell, nearest * inside);
         }

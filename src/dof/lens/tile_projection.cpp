@@ -33,7 +33,7 @@ TileProjection::TileProjection(const LensSample &lens, float corner_x, float cor
 #endif
 void project_to_cells(const TileProjection &p, const float *x, const float *y, const float *coc, std::uint32_t count,
            std::int32_t *cells) {
-    const int stride = p.stride; // copies: the compiler need not fear that cells overlap them
+    const int stride = p.stride; // local copies rule out aliasing
     const float limit = float(stride - 1);
     for (std::uint32_t i = 0; i < count; ++i) {
         // The tile's place is taken off first, so that far from the corner nothing is rounded more than near it.

@@ -28,7 +28,7 @@ double nearest_beside(const SamplesAround &samples, int x, int y) {
     return nearest;
 }
 
-// What strands at that depth show where no light comes from between them: that of a rather dim one.
+// The colour of unlit strands at that depth: a low percentile of those around.
 std::optional<std::uint64_t> dim_one(const SamplesAround &samples, int x, int y, double depth) {
     std::vector<std::pair<double, std::uint64_t>> strands;
     samples.around(x, y, reach_of_light, [&](std::uint64_t i, int, int) {

@@ -50,13 +50,13 @@ void add_look_options(CLI::App &app, GivenLooks &given) {
     for (const LookNumber &number : look_numbers()) add_number(app, number, given)->group(group);
     app.add_flag_callback(
            "--cat-eye-darkening", [&given] { given.values.cat_eye_darkening = true; },
-           "Let the light be lost that the cat's eye cuts off, rather than count what is left as the whole")
+           "Darken where the cat's eye blocks light (default: keep the exposure)")
         ->group(group);
     const auto types = chromatic_types();
-    app.add_option("--axial-chromatic-type", given.values.chromatic_type,
-                   "Which colours come to focus elsewhere than green: red behind and blue before it; blue "
-                   "before it; "
-                   "red and blue behind it (default: red-blue)")
+    app.add_option(
+           "--axial-chromatic-type", given.values.chromatic_type,
+           "Colours that focus off the green plane: red behind and blue in front; blue in front; red and "
+           "blue behind (default: red-blue)")
         ->type_name("red-blue|blue-yellow|green-magenta")
         ->group(group)
         ->transform(words(std::map<std::string, ChromaticType>(types.begin(), types.end())));
