@@ -103,7 +103,7 @@ private:
         try {
             return !sanitize(rows, name_).any();
         } catch (const Error &) {
-            return false;
+            return false; // of these rows: the whole picture, read next, may have what they lack, or fails as they do
         }
     }
 
