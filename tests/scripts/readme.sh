@@ -5,7 +5,8 @@
 . "$(dirname "$0")/../tools/check.sh"
 readme=$source_dir/README.md
 cd "$source_dir"
-documents=(README.md CONTRIBUTING.md CHANGELOG.md docs/*.md share/blender/README.md)
+documents=(README.md CONTRIBUTING.md CHANGELOG.md docs/*.md share/*/README.md)
+scripts=(share/*/*.sh share/*/*.py share/*/*.yaml)
 cd "$scratch"
 PATH=$bin:$PATH
 
@@ -20,6 +21,16 @@ long=$(grep -vE '^\||\]\(' "$readme" | LC_ALL=C.UTF-8 grep -nE '^.{121}' || true
 
 # matches PATTERN FILE: each once, one a line; none is no error.
 matches() { grep -ohE "$1" "$2" | sort -u || true; }
+# named DOCUMENT: the files and tools that it names are there.
+named() {
+    matches '\b(src|tools|tests|share)/[A-Za-z0-9_./-]+\.(h|cpp|sh|py|txt)\b' "$source_dir/$1" |
+        while read -r file; do
+            [[ -e $source_dir/$file || $file == *NAME* ]] || fail "$1 names $file, which is not there"
+        done
+    matches '(^|[ `|(])(ldi|dof)-[a-z]+\b' "$source_dir/$1" | tr -d ' `|(' | while read -r tool; do
+        [ -x "$bin/$tool" ] || fail "$1 names $tool, which is not built"
+    done
+}
 
 # What is named is there.
 for document in "${documents[@]}"; do
@@ -27,14 +38,9 @@ for document in "${documents[@]}"; do
     matches '\]\([^)]+\)' "$source_dir/$document" | sed -E 's/^\]\(//;s/\)$//;s/#.*//' | while read -r link; do
         [[ -z $link || $link == *://* || -e $folder/$link ]] || fail "$document links to $link, which is not there"
     done
-    matches '\b(src|tools|tests|share)/[A-Za-z0-9_./-]+\.(h|cpp|sh|py|txt)\b' "$source_dir/$document" |
-        while read -r file; do
-            [[ -e $source_dir/$file || $file == *NAME* ]] || fail "$document names $file, which is not there"
-        done
-    matches '(^|[ `|(])(ldi|dof)-[a-z]+\b' "$source_dir/$document" | tr -d ' `|(' | while read -r tool; do
-        [ -x "$bin/$tool" ] || fail "$document names $tool, which is not built"
-    done
+    named "$document"
 done
+for script in "${scripts[@]}"; do named "$script"; done
 # Options are those of a tool by its own help, of a script of share/ that has them, or of another program.
 for tool in "$bin"/ldi-* "$bin"/dof-*; do "$tool" --help; done | grep -oE -e '--[a-z][a-z_-]+' >options
 cat "$source_dir"/share/{blender/sparselens_views.py,opencue/submit.py,slurm/submit.sh} >scripts

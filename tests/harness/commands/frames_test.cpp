@@ -27,7 +27,8 @@ TEST(FrameNumbers, AreThoseOfTheRange) {
         EXPECT_THROW(frame_numbers(wrong), UsageError) << wrong;
 }
 
-// Open Job Description: 1-20:2, and blanks; Slurm and OpenCue: the same; Nuke, Tractor, Deadline: 1-20x2.
+// Open Job Description: 1-20:2, and blanks; Slurm: the same; Nuke, Tractor, Deadline, OpenCue: 1-20x2. (To OpenCue 1-20:4 is
+// all frames in another order; it gives a process its first and last frame, docs/farm.md.)
 TEST(FrameNumbers, AreSpelledAsEveryEngineSpellsThem) {
     const std::vector odd{1, 3, 5, 7};
     for (const char *range : {"1-7:2", "1-7x2", "1-8:2", "1,3,5,7", "1-3:2,5-7:2", " 1 - 7:2 ", "1,3, 5,\t7"})
