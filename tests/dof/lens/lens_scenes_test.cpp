@@ -2,7 +2,6 @@
 #include "deep/cluster.h"
 #include "dof/lens/lens_gather.h"
 #include "lens/lens_points.h"
-#include "measure/image_error.h"
 #include "support/traced.h"
 #include "warp/warp.h"
 
@@ -28,10 +27,6 @@ Ldi warped(const SceneCamera &scene, const std::vector<View> &views) {
     const ThinLens &lens = scene.settings.lens;
     const Ldi ldi = warp(views, {.focal_px = lens.focal_px, .radius = lens.radius}, silent);
     return cluster(ldi, {.scale = lens.radius * lens.focal_px, .tolerance = 0.25}, silent).ldi;
-}
-
-double decibels(const Image &image, const Image &reference) {
-    return image_error(image, reference).front().psnr_tonemapped;
 }
 
 // A lamp of the scene "lamps": in a picture 320 pixels wide one pixel, at 640 two by two.
@@ -136,13 +131,10 @@ std::map<int, double> roughness_of_columns(const Image &image) {
     return rough;
 }
 
-// Lamps behind a steep relief do not shine through it, nor where tiles meet.
-TEST(LensScenes, MacroReliefIsItsReference) {
+// Lamps behind a steep relief do not shine through it where tiles meet; nor elsewhere: floors/floors.h.
+TEST(LensScenes, MacroReliefHasNoSeam) {
     const SceneCamera scene("macro", 256, 144);
     const Image image = relief(gather(warped(scene, scene.five_views(9)), scene, Quality::final));
-    const Image reference = relief(scene.reference(400));
-    std::printf("macro, relief: %.2f dB\n", decibels(image, reference));
-    EXPECT_GT(decibels(image, reference), 40);
     const std::map<int, double> rough = roughness_of_columns(image);
     double at_borders = 0, elsewhere = 0;
     for (const auto &[x, value] : rough) {
