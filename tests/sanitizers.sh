@@ -1,10 +1,10 @@
 #!/bin/bash
-# The test suite under sanitizers: longer than continuous integration has time for.
+# The test suite under sanitizers: longer than continuous integration has time for, but for the unit tests.
 #
-#   tests/sanitizers.sh [asan] [tsan]     asan: Address- and UndefinedBehaviorSanitizer, tsan: ThreadSanitizer; both
+#   tests/sanitizers.sh [--units] [asan] [tsan]     asan: Address- and UndefinedBehaviorSanitizer, tsan: ThreadSanitizer; both
 #
 # Builds in build-asan/ and build-tsan/. Left out are tests of the sources and of the package, which run nothing that
-# sanitizers could look at, and the demo.
+# sanitizers could look at, and the demo; with --units all but the unit tests.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 exec </dev/null
@@ -15,9 +15,14 @@ export TSAN_OPTIONS="halt_on_error=1:second_deadlock_stack=1:suppressions=$PWD/t
 export LSAN_OPTIONS="suppressions=$PWD/tests/lsan.suppressions:print_suppressions=0"
 export SPARSELENS_HOSTILE_SECONDS=60 SPARSELENS_HOSTILE_KB=4000000 # what the sanitizers need themselves
 
+targets=() tests=(-E '^(scripts|packaging|bench)\.')
+if [ "${1-}" = --units ]; then
+    shift
+    targets=(--target sparselens-tests) tests=(-R '^unit\.')
+fi
 [ $# -gt 0 ] || set -- asan tsan
 for sanitizer; do
     cmake --preset "$sanitizer" --log-level=WARNING
-    cmake --build "build-$sanitizer" -j "$(nproc)"
-    ctest --test-dir "build-$sanitizer" --output-on-failure --timeout 1800 -E '^(scripts|packaging|bench)\.'
+    cmake --build "build-$sanitizer" -j "$(nproc)" "${targets[@]}"
+    ctest --test-dir "build-$sanitizer" --output-on-failure --timeout 10000 -j 2 "${tests[@]}"
 done
