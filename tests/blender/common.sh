@@ -27,7 +27,7 @@ eevee_runs() {
     if (in_eevee "$1.blend" -P "$variants" -- render 1 1 1 "$PWD/probe.####.exr") 2>probe.log && [ -s probe.0001.exr ]; then
         rm probe.0001.exr
     else
-        echo "EEVEE not tried, it does not run here; xvfb and libgl1-mesa-dri may be missing ($(tail -n 1 probe.log))"
+        echo "skipped: EEVEE, which does not run here; xvfb and libgl1-mesa-dri may be missing ($(tail -n 1 probe.log))"
         return 1
     fi
 }
