@@ -122,8 +122,9 @@ exits 0 "$report" --quick --size 96x54 -o out grass --reference 512
 exits 0 "$report" --quick -o small grass --size 40x24 --runs 2 --threads 1 -v
 grep -q 'grass/reference' stderr || fail "-v does not name the steps: $(cat stderr)"
 oiiotool --info small/grass/reference/reference.exr | grep -q '40 x  *24' || fail "--size has no effect"
-awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) if ($i == "runs") at = i } NR > 1 && $at != 2 { exit 1 }' small/report.csv ||
-    fail "--runs has no effect"
+# A step that takes long is run less often, on a loaded machine too.
+awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) if ($i == "runs") at = i } NR > 1 { ++runs[$at] } END { for (r in runs) if (r != 1 && r != 2) exit 1; exit !runs[2] }' \
+    small/report.csv || fail "--runs has no effect: $(cut -d , -f 1-6 small/report.csv)"
 grep -q 'threads: 1' small/index.html || fail "--threads has no effect"
 
 # On a terminal it tells how far it is and what is left, elsewhere nothing.
