@@ -13,7 +13,7 @@ export ASAN_OPTIONS=detect_leaks=1:abort_on_error=1:allocator_may_return_null=1
 export UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1
 export TSAN_OPTIONS="halt_on_error=1:second_deadlock_stack=1:suppressions=$PWD/tests/tsan.suppressions"
 export LSAN_OPTIONS="suppressions=$PWD/tests/lsan.suppressions:print_suppressions=0"
-export SPARSELENS_HOSTILE_SECONDS=60 SPARSELENS_HOSTILE_KB=4000000 # what the sanitizers need themselves
+export SPARSELENS_HOSTILE_SECONDS=400 SPARSELENS_HOSTILE_KB=4000000 # what the sanitizers need themselves
 
 targets=() tests=(-E '^(scripts|packaging|bench)\.')
 if [ "${1-}" = --units ]; then
