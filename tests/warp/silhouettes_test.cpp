@@ -207,5 +207,31 @@ TEST(Silhouettes, WithoutColourOrCoverageNothingHappens) {
     EXPECT_EQ(separated(view).samples(), 16u * 9);
 }
 
+// Views without empty pixels go a faster way: one empty pixel in a corner changes what is around it alone.
+TEST(Silhouettes, AnEmptyPixelChangesWhatIsAroundItAlone) {
+    const auto views_of = [](bool with_empty) {
+        View view = random_view(windows_of_size(40, 30), {0, 0}, 11);
+        const std::size_t alpha = find_channel(view.image.channels, "A");
+        for (float &a : view.image.plane(alpha)) a = 1;
+        if (with_empty) view.image.plane(alpha)[0] = 0;
+        return separate_silhouettes(deepen(view, view.image.channels), 20, 0.5);
+    };
+    const Ldi full = views_of(false), other = views_of(true);
+    int split = 0;
+    for (int y = 0; y < 30; ++y)
+        for (int x = 0; x < 40; ++x) {
+            if (x < 6 && y < 6) continue;
+            const std::size_t pixel = full.windows.index(x, y);
+            ASSERT_EQ(full.pixel(pixel).size(), other.pixel(pixel).size()) << x << ' ' << y;
+            split += full.pixel(pixel).size() > 1;
+            for (std::uint64_t i = 0; i < full.pixel(pixel).size(); ++i) {
+                ASSERT_EQ(full.z[full.pixel(pixel).from + i], other.z[other.pixel(pixel).from + i]);
+                ASSERT_EQ(full.values[0][full.pixel(pixel).from + i],
+                          other.values[0][other.pixel(pixel).from + i]);
+            }
+        }
+    EXPECT_GT(split, 20);
+}
+
 } // namespace
 } // namespace sparselens

@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
+#include <vector>
 
 namespace sparselens {
 
@@ -27,6 +29,7 @@ public:
     std::uint64_t own_sample(int x, int y) const { return view_.pixel(grid_.index(x, y)).front(); }
 
     double depth_of(std::uint64_t i) const { return depths_[i]; }
+    std::span<const double> depths() const { return depths_; } // of all samples
     bool is_opaque(std::uint64_t i) const { return alpha_at(view_, alpha_, i) >= 1; }
     Imath::V3d colour_of(std::uint64_t i) const {
         const auto value = [&](std::size_t k) { return double(view_.values[rgb_[k]][i]); };
