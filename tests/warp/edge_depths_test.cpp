@@ -70,6 +70,21 @@ TEST(EdgeDepths, OtherDepthsStay) {
     }
 }
 
+// A filter spreads a low step over five pixels, of which no two side by side are apart; steep steps above it tell that
+// depth is filtered.
+TEST(EdgeDepths, LowStepsOfFilteredDepthAreSettledToo) {
+    const auto mixed = [](float near, float far, float share) {
+        return ViewPixel{.z = share * near + (1 - share) * far, .r = share + 0.2f * (1 - share)};
+    };
+    View view = make_view(windows_of_size(11, 12), {0, 0}, [&](int x, int y) {
+        if (y < 6) return mixed(3, 8, x < 5 ? 1.0f : x == 5 ? 0.6f : 0.0f);
+        return mixed(3, 3.4f, x < 4 ? 1.0f : x > 6 ? 0.0f : x == 4 ? 0.75f : x == 5 ? 0.55f : 0.25f);
+    });
+    settle_edge_depths(view);
+    EXPECT_EQ(view.z[view.image.windows.index(5, 2)], 3);
+    EXPECT_EQ(view.z[view.image.windows.index(5, 9)], 3);
+}
+
 TEST(EdgeDepths, AnLdiOfOneSampleAPixelIsAView) {
     View view = row_of({covered(3, 1), covered(inf, 0.4f), covered(8, 0.9f)});
     Ldi ldi = deepen(view, view.image.channels);
