@@ -94,20 +94,22 @@ void run(const GatherCommand &given, const ToolContext &tool, LdiCache &cache, G
     say_camera(tool, options.input, in.camera);
     ThinLens lens = lens_for_ldi(in, options.focus_pixel, tool);
     const auto holdout = open_holdout(options.holdout, in.ldi.windows, options.windows.proxy, by);
-    say_border_reach(tool, options.input, in.packed ? border_of(*in.packed) : in.ldi, lens);
+    const LensFile &given_looks = of_frame.looks(options, in.camera.fstop);
+    Imf::Header header = in.header;
     GatherWindows frame = gather_windows(options.windows, in, lens);
-    const LensFile &looks = of_frame.looks(options, in.camera.fstop);
-    raise_highlights(frame, in, highlight_gain(looks.values));
+    const LensLooks looks = looks_for_ldi(given_looks, in.camera, header, lens, frame.ldi(in).windows,
+                                          options.picture.method, tool);
+    say_border_reach(tool, options.input, in.packed ? border_of(*in.packed) : frame.ldi(in), lens, looks);
+    choose_windows(frame, options.windows, in, lens, looks);
+    raise_highlights(frame, in, highlight_gain(given_looks.values));
     const Ldi &ldi = frame.ldi(in);
     const std::size_t samples = in.samples_read;
     Image depth = options.depth_output.empty() ? Image() : crop(front_depth(ldi), frame.written);
-    Imf::Header header = in.header;
     LensTiles tiles;
     options.picture.holdout = holdout ? &*holdout : nullptr;
     options.picture.gather.lens.chosen = &tiles;
     options.picture.gather.lens.device = device.open(options.device, tool);
-    options.picture.gather.lens.looks =
-        looks_for_ldi(looks, in.camera, header, lens, ldi.windows, options.picture.method, tool);
+    options.picture.gather.lens.looks = looks;
     Image picture;
     if (needs_gather(options.show))
         picture = chosen_channels(gathered(options, frame, lens, cache, tool), options.channels);

@@ -1,12 +1,14 @@
 #include "deep/pad.h"
 
+#include "lens/light_reach.h"
+
 #include <algorithm>
 #include <cmath>
 
 namespace sparselens {
 
 namespace {
-constexpr double sharp = 0.5; // pixels; a smaller CoC spreads nothing (lens_gather.h)
+constexpr double sharp = 0.5; // pixels; light that reaches less far is not spread (lens_gather.h)
 }
 
 Ldi padded(Ldi ldi, const Imath::Box2i &data) {
@@ -25,17 +27,20 @@ Ldi padded(Ldi ldi, const Imath::Box2i &data) {
     return ldi;
 }
 
-Imath::Box2i reached_display(const Ldi &ldi, const ThinLens &lens) {
+Imath::Box2i reached_display(const Ldi &ldi, const ThinLens &lens, const LensLooks &looks) {
     const Imath::Box2i &display = ldi.windows.display;
+    const LightReach light(lens, looks, ldi.windows);
     Imath::Box2d reached;
     for (std::size_t pixel = 0; pixel < ldi.windows.pixels(); ++pixel) {
-        double largest = 0; // of the CoCs in this pixel
-        for (const std::uint64_t i : ldi.pixel(pixel))
-            largest = std::max(largest, std::abs(circle_of_confusion(lens, ldi.optical_z(i))));
-        if (largest < sharp) continue;
-        const Imath::V2d at(ldi.windows.pixel(pixel)),
-            reach(std::ceil(largest) + 1, std::ceil(largest * lens.pixel_aspect) + 1);
-        reached.extendBy(Imath::Box2d(at - reach, at + reach));
+        const Imath::V2d at = Imath::V2d(ldi.windows.pixel(pixel)) + Imath::V2d(0.5);
+        for (const std::uint64_t i : ldi.pixel(pixel)) {
+            const Imath::Box2d box = light.box(at, circle_of_confusion(lens, ldi.optical_z(i)));
+            const Imath::V2d reach = box.size() / 2;
+            if (std::max(reach.x, reach.y) < sharp && light.magnification() == 1) continue;
+            const Imath::V2d whole(std::ceil(reach.x) + 1, std::ceil(reach.y) + 1); // pixels that it touches
+            const Imath::V2d middle(std::floor(box.center().x), std::floor(box.center().y));
+            reached.extendBy(Imath::Box2d(middle - whole, middle + whole));
+        }
     }
     Imath::Box2i box;
     for (int axis = 0; axis < 2; ++axis) {

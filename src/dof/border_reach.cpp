@@ -1,6 +1,7 @@
 #include "dof/border_reach.h"
 
 #include "deep/build.h"
+#include "lens/light_reach.h"
 
 #include <algorithm>
 #include <cmath>
@@ -43,11 +44,13 @@ bool has_light_that_stands_out(std::vector<float> &all, const std::vector<float>
 
 } // namespace
 
-Ldi border_of(const PackedRows &rows) {
-    const Imath::Box2i &data = rows.windows().data, &display = rows.windows().display;
+Ldi border_of(const PackedRows &rows) { return border_of(rows, rows.windows().display); }
+
+Ldi border_of(const PackedRows &rows, const Imath::Box2i &window) {
+    const Imath::Box2i &data = rows.windows().data;
     const auto in_border = [&](const Imath::V2i &p) {
-        return display.intersects(p) &&
-               (p.x == display.min.x || p.x == display.max.x || p.y == display.min.y || p.y == display.max.y);
+        return window.intersects(p) &&
+               (p.x == window.min.x || p.x == window.max.x || p.y == window.min.y || p.y == window.max.y);
     };
     constexpr int rows_at_once = 16;
     std::vector<Ldi> pieces;
@@ -63,26 +66,33 @@ Ldi border_of(const PackedRows &rows) {
     return border;
 }
 
-BorderReach border_reach(const Ldi &ldi, const ThinLens &lens) {
+BorderReach border_reach(const Ldi &ldi, const ThinLens &lens, const LensLooks &looks) {
     BorderReach reach{.rendered = least_overscan(ldi.windows)};
     if (reach.rendered < 0) return {};
     const std::size_t alpha = ldi.alpha();
     const auto rgb = find_rgb(ldi.channels);
+    const Imath::Box2i &display = ldi.windows.display;
+    const LightReach light(lens, looks, ldi.windows);
     double largest = 0;
     std::vector<float> all, blurred; // the brightness of the samples
-    for_each_border_pixel(ldi.windows.display, [&](int x, int y) {
+    for_each_border_pixel(display, [&](int x, int y) {
+        const Imath::V2d at(x + 0.5, y + 0.5), shown = light.shown_at(at);
         for (const std::uint64_t i : ldi.pixel(ldi.windows.index(x, y))) {
             if (alpha != npos && ldi.values[alpha][i] < counts) continue;
-            const double coc = std::abs(circle_of_confusion(lens, ldi.optical_z(i)));
-            largest = std::max(largest, coc);
-            float light = 0;
+            const double coc = circle_of_confusion(lens, ldi.optical_z(i));
+            const Imath::V2d spread = light.at(at, coc);
+            if (x == display.min.x) largest = std::max(largest, spread.x + at.x - shown.x);
+            if (x == display.max.x) largest = std::max(largest, spread.x + shown.x - at.x);
+            if (y == display.min.y) largest = std::max(largest, spread.y + at.y - shown.y);
+            if (y == display.max.y) largest = std::max(largest, spread.y + shown.y - at.y);
+            float brightness = 0;
             for (const std::size_t k : rgb)
-                if (k != npos) light = std::max(light, ldi.values[k][i]);
-            all.push_back(light);
-            if (coc >= smallest_coc) blurred.push_back(light);
+                if (k != npos) brightness = std::max(brightness, ldi.values[k][i]);
+            all.push_back(brightness);
+            if (std::max(spread.x, spread.y) >= smallest_coc) blurred.push_back(brightness);
         }
     });
-    reach.needed = int(std::ceil(std::min(largest * std::max(1.0, lens.pixel_aspect), 65536.0)));
+    reach.needed = int(std::ceil(std::min(largest, 65536.0)));
     reach.bright = has_light_that_stands_out(all, blurred);
     return reach;
 }

@@ -6,12 +6,13 @@
 
 #include "../deep/ldi.h"
 #include "../deep/packed/packed_rows.h"
+#include "../lens/lens_looks.h"
 #include "../lens/thin_lens.h"
 
 namespace sparselens {
 
 struct BorderReach {
-    int needed = 0;      // pixels of overscan on each side: the largest CoC at the border, rounded up
+    int needed = 0; // pixels of overscan on each side: as far as light reaches across the border, rounded up
     int rendered = 0;    // pixels of overscan that the LDI has, on the side where it has the least
     bool bright = false; // something at the border stands out so far that its disc would be seen
     bool too_little() const { return rendered < needed; }
@@ -19,10 +20,11 @@ struct BorderReach {
 
 // Of the samples of at least half coverage in the outermost pixels of the display window; 0 if the data window does not
 // fill the display window, because then nothing was cut off. Light stands out if it is more than four times as bright
-// as 31 of 32 samples of the border.
-BorderReach border_reach(const Ldi &ldi, const ThinLens &lens);
+// as 31 of 32 samples of the border. How far it reaches is up to the looks too (lens/light_reach.h).
+BorderReach border_reach(const Ldi &ldi, const ThinLens &lens, const LensLooks &looks = {});
 
-// The LDI of packed samples, of which only those pixels have any.
+// The LDI of packed samples, of which only those pixels have any; or the outermost ones of another window.
 Ldi border_of(const PackedRows &rows);
+Ldi border_of(const PackedRows &rows, const Imath::Box2i &window);
 
 } // namespace sparselens

@@ -41,9 +41,11 @@ void check_growth(const OpenedLdi &in, const Ldi &ldi, const Imath::Box2i &windo
 
 // `ldi` with its pixels as far as the blur reaches into the display window, which becomes part of `picture`; empty if
 // it reaches nothing beyond `picture`.
-std::optional<Ldi> grown(const OpenedLdi &in, const Ldi &ldi, const ThinLens &lens, Imath::Box2i &picture) {
+std::optional<Ldi> grown(const OpenedLdi &in, const Ldi &ldi, const ThinLens &lens, const LensLooks &looks,
+                         Imath::Box2i &picture) {
     const Imath::Box2i before = picture;
-    if (lens.radius > 0 && !holds(picture, ldi.windows.display)) picture.extendBy(reached_display(ldi, lens));
+    if (lens.radius > 0 && !holds(picture, ldi.windows.display))
+        picture.extendBy(reached_display(ldi, lens, looks));
     if (picture == before) return {};
     check_growth(in, ldi, picture);
     return padded(ldi, picture);
@@ -55,15 +57,21 @@ GatherWindows gather_windows(const WindowOptions &options, const OpenedLdi &in, 
     lens.focal_px /= options.proxy;
     GatherWindows frame{reduced(read_picture_window(in.header), options.proxy), {}, {}};
     if (options.proxy > 1) frame.changed = proxy(in.ldi, options.proxy);
+    frame.written = frame.gathered;
+    return frame;
+}
+
+void choose_windows(GatherWindows &frame, const WindowOptions &options, const OpenedLdi &in,
+                    const ThinLens &lens, const LensLooks &looks) {
     if (options.overscan == OutputOverscan::grow)
-        if (auto padded = grown(in, frame.ldi(in), lens, frame.gathered)) frame.changed = std::move(padded);
+        if (auto padded = grown(in, frame.ldi(in), lens, looks, frame.gathered))
+            frame.changed = std::move(padded);
     frame.written = frame.gathered;
     if (options.overscan == OutputOverscan::crop)
         frame.written =
             common(frame.written, frame.ldi(in).windows.display, "--overscan crop: the display window");
     if (options.region)
         frame.written = common(frame.written, reduced(*options.region, options.proxy), "--region");
-    return frame;
 }
 
 void raise_highlights(GatherWindows &frame, const OpenedLdi &in, const HighlightGain &by) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "../dof/highlight_gain.h"
+#include "../lens/lens_looks.h"
 #include "open_ldi.h"
 
 #include <optional>
@@ -29,11 +30,15 @@ struct GatherWindows {
     const Ldi &ldi(const OpenedLdi &in) const { return changed ? *changed : in.ldi; }
 };
 
-// Scales `lens` and a copy of the LDI down to the proxy, and pads the copy where the blur reaches beyond the picture
-// into the display window, if --overscan=grow.
+// Those of the file, all of them written. Scales `lens` and a copy of the LDI down to the proxy.
+GatherWindows gather_windows(const WindowOptions &options, const OpenedLdi &in, ThinLens &lens);
+
+// Pads a copy of the LDI where the blur of a lens of these looks reaches beyond the picture into the display window, if
+// --overscan=grow, and chooses the pixels that are written.
 // Throws UsageError where a region or a display window contains no pixel of the picture, and Error where the padded
 // picture needs more memory than the LDI justifies (memory_limit.h).
-GatherWindows gather_windows(const WindowOptions &options, const OpenedLdi &in, ThinLens &lens);
+void choose_windows(GatherWindows &frame, const WindowOptions &options, const OpenedLdi &in,
+                    const ThinLens &lens, const LensLooks &looks);
 
 // Brightens the highlights of the LDI to gather. `in` itself stays as it is.
 void raise_highlights(GatherWindows &frame, const OpenedLdi &in, const HighlightGain &by);

@@ -135,13 +135,14 @@ PictureObject gathered_all(const Asked &asked, const OpenedLdi &in, Camera camer
     const auto holdout = holdout_of(asked, in.ldi);
     GatherWindows frame = gather_windows(asked.windows, in, lens);
     const LensFile looks = read_looks(asked.looks.given, camera.fstop);
+    PictureOptions options = asked.picture;
+    if (knows_looks(asked))
+        options.gather.lens.looks = picture_looks(looks, camera, out.header, lens, frame.ldi(in).windows);
+    choose_windows(frame, asked.windows, in, lens, options.gather.lens.looks);
     raise_highlights(frame, in, highlight_gain(looks.values));
     const Ldi &ldi = frame.ldi(in);
-    PictureOptions options = asked.picture;
     options.holdout = holdout ? &*holdout : nullptr;
     options.gather.lens.device = device;
-    if (knows_looks(asked))
-        options.gather.lens.looks = picture_looks(looks, camera, out.header, lens, ldi.windows);
     out.image = gather_picture(ldi, lens, frame.gathered, frame.written, options, progress);
     write_camera(out.header, camera);
     return out;

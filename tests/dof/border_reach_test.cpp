@@ -20,6 +20,19 @@ Ldi plane(double c, int overscan, const Imath::V2i &lamp = {20, 15}) {
     });
 }
 
+// Squeezed to 1/2, the lens is twice as wide; colours spread by their own CoC; a picture magnified by 1.1 shows 1.3 of 15
+// rows less above and below.
+TEST(BorderReach, IsUpToTheLooks) {
+    const auto needed = [](const LensLooks &looks) {
+        return border_reach(plane(4.7, 0), lens, looks).needed;
+    };
+    EXPECT_EQ(needed({.aperture = {.squeeze = 0.5}}), 10);
+    EXPECT_EQ(needed({.chromatic_coc = {-1.2, 0, 1.2}}), 6);
+    EXPECT_EQ(needed({.magnification = 1.1}), 4);
+    EXPECT_GT(needed({.field_curvature = 0.5}), 8); // 7.7 / 2 pixels more in the corner
+    EXPECT_GT(needed({.tilt = {3, 0}}), 5);
+}
+
 TEST(BorderReach, IsTheLargestBlurAtTheBorder) {
     for (const double c : {-12.3, -0.2, 4.7}) {
         const BorderReach reach = border_reach(plane(c, 0), lens);

@@ -18,9 +18,9 @@ void say_samples(const ToolContext &tool, const OpenedLdi &in) {
     if (in.coverage_by_colour) tool.say(in.name + ": each colour has its own coverage (AR, AG, AB)");
 }
 
-void say_border_reach(const ToolContext &tool, const std::string &path, const Ldi &ldi,
-                      const ThinLens &lens) {
-    const BorderReach reach = border_reach(ldi, lens);
+void say_border_reach(const ToolContext &tool, const std::string &path, const Ldi &ldi, const ThinLens &lens,
+                      const LensLooks &looks) {
+    const BorderReach reach = border_reach(ldi, lens, looks);
     if (reach.needed == 0) return;
     const std::string text =
         fmt::format("{}: the blur reaches {} pixels beyond the frame, and {} were rendered there",

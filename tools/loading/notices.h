@@ -3,6 +3,7 @@
 
 #include "harness/tool.h"
 #include "io/open_ldi.h"
+#include "lens/lens_looks.h"
 
 #include <string>
 
@@ -17,7 +18,8 @@ void say_samples(const ToolContext &tool, const OpenedLdi &in);
 
 // With --verbose: how much overscan the blur needs, and how much there is; a warning if there is too little, and light
 // stands at the border whose disc would be cut.
-void say_border_reach(const ToolContext &tool, const std::string &path, const Ldi &ldi, const ThinLens &lens);
+void say_border_reach(const ToolContext &tool, const std::string &path, const Ldi &ldi, const ThinLens &lens,
+                      const LensLooks &looks = {});
 
 // With --verbose: what the file says about its camera, and which attribute says so.
 void say_camera(const ToolContext &tool, const std::string &path, const Camera &camera);
