@@ -32,7 +32,7 @@ Imath::Box2i reached_display(const Ldi &ldi, const ThinLens &lens, const LensLoo
     const LightReach light(lens, looks, ldi.windows);
     Imath::Box2d reached;
     for (std::size_t pixel = 0; pixel < ldi.windows.pixels(); ++pixel) {
-        const Imath::V2d at = Imath::V2d(ldi.windows.pixel(pixel)) + Imath::V2d(0.5);
+        const Imath::V2d own(ldi.windows.pixel(pixel)), at = own + Imath::V2d(0.5);
         for (const std::uint64_t i : ldi.pixel(pixel)) {
             const Imath::Box2d box = light.box(at, circle_of_confusion(lens, ldi.optical_z(i)));
             const Imath::V2d reach = box.size() / 2;
@@ -40,6 +40,8 @@ Imath::Box2i reached_display(const Ldi &ldi, const ThinLens &lens, const LensLoo
             const Imath::V2d whole(std::ceil(reach.x) + 1, std::ceil(reach.y) + 1); // pixels that it touches
             const Imath::V2d middle(std::floor(box.center().x), std::floor(box.center().y));
             reached.extendBy(Imath::Box2d(middle - whole, middle + whole));
+            reached.extendBy(
+                Imath::Box2d(own - whole, own + whole)); // so that it leaves no frame before it is magnified
         }
     }
     Imath::Box2i box;

@@ -3,6 +3,7 @@
 #include "deep/channel_alpha.h"
 #include "deep/flatten.h"
 #include "dof/defocused_holdout.h"
+#include "dof/lens/beyond_frame.h"
 #include "lens/perceptive_depth.h"
 
 #include <algorithm>
@@ -23,8 +24,24 @@ Image cropped(Image picture, const Imath::Box2i &window) {
     return crop(picture, window);
 }
 
+// `ldi` is an Ldi&&, if it may be used up, or a const Ldi&. Where colours have coverages of their own, what goes on beyond the
+// frame is found for each (methods.cpp).
+template <typename AnyLdi>
+Image gather_frame(AnyLdi &&ldi, const ThinLens &lens, const Imath::Box2i &gathered,
+                   const GatherMethod &method, GatherOptions by, Progress &progress) {
+    if (&method != &gather_methods().front() || !by.beyond || by_coverage(ldi).size() > 1)
+        return method.gather(ldi, lens, gathered, by, progress);
+    const BeyondFrame all = go_on_beyond(std::forward<AnyLdi>(ldi), lens, by.lens.looks, by.beyond->frame,
+                                         by.lens.known.value_or(gathered), by.beyond->reach);
+    by.beyond.reset();
+    by.lens.known = all.known;
+    by.lens.unseen = all.unseen;
+    return method.gather(all.ldi, lens, gathered, by, progress);
+}
+
 // What is merged here is what could not be merged before.
-Image gather_layers(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &gathered,
+template <typename AnyLdi>
+Image gather_layers(AnyLdi &&ldi, const ThinLens &lens, const Imath::Box2i &gathered,
                     const Imath::Box2i &written, const PictureOptions &options, Progress &progress) {
     const auto sharp = options.holdout ? std::optional<Holdout>(*options.holdout) : std::nullopt;
     if (lens.radius == 0 && options.gather.lens.looks.magnification == 1)
@@ -33,14 +50,24 @@ Image gather_layers(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &ga
     by.lens.region = written;
     by.lens.holdout = sharp ? &*sharp : nullptr;
     by.layer_tolerance = merges_layers(lens, options) ? options.layer_tolerance : 0;
-    return cropped(options.method->gather(ldi, lens, gathered, by, progress), written);
+    return cropped(
+        gather_frame(std::forward<AnyLdi>(ldi), lens, gathered, *options.method, std::move(by), progress),
+        written);
 }
 
 // Once is enough: merged twice, layers would change by more than the tolerance.
-Image gather_merged(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &gathered,
+Image gather_merged(Ldi &&ldi, const ThinLens &lens, const Imath::Box2i &gathered,
                     const Imath::Box2i &written, PictureOptions options, Progress &progress) {
     options.layer_tolerance = 0;
-    return gather_layers(ldi, lens, gathered, written, options, progress);
+    return gather_layers(std::move(ldi), lens, gathered, written, options, progress);
+}
+
+// The frame is what is gathered where nothing else is said.
+PictureOptions framed(PictureOptions options, const Ldi &ldi, const ThinLens &lens,
+                      const Imath::Box2i &gathered) {
+    if (!options.gather.beyond && lens.radius > 0)
+        options.gather.beyond = {gathered, look_beyond(ldi, lens, options.gather.lens.looks, gathered)};
+    return options;
 }
 
 // A sample in each pixel that has any.
@@ -82,13 +109,14 @@ Ldi reduced_first(Ldi rows, const ThinLens &lens, const PictureOptions &options)
 }
 
 Image gather_picture(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &gathered,
-                     const Imath::Box2i &written, const PictureOptions &options, Progress &progress) {
-    if (options.holdout && options.holdout_defocused) {
-        PictureOptions without = options;
+                     const Imath::Box2i &written, const PictureOptions &given, Progress &progress) {
+    if (given.holdout && given.holdout_defocused) {
+        PictureOptions without = given;
         without.holdout = nullptr;
         return without_holdout(
-            gather_picture(with_holdout(ldi, *options.holdout), lens, gathered, written, without, progress));
+            gather_picture(with_holdout(ldi, *given.holdout), lens, gathered, written, without, progress));
     }
+    const PictureOptions options = framed(given, ldi, lens, gathered);
     if (!merges_layers(lens, options) || !can_merge_layers(ldi))
         return gather_layers(ldi, lens, gathered, written, options, progress);
     return gather_merged(
@@ -97,9 +125,12 @@ Image gather_picture(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &g
 }
 
 Image gather_picture(Ldi &&ldi, const ThinLens &lens, const Imath::Box2i &gathered,
-                     const Imath::Box2i &written, const PictureOptions &options, Progress &progress) {
+                     const Imath::Box2i &written, const PictureOptions &given, Progress &progress) {
+    if (given.holdout && given.holdout_defocused)
+        return gather_picture(std::as_const(ldi), lens, gathered, written, given, progress);
+    const PictureOptions options = framed(given, ldi, lens, gathered);
     if (!merges_layers(lens, options) || !can_merge_layers(ldi))
-        return gather_picture(std::as_const(ldi), lens, gathered, written, options, progress);
+        return gather_layers(std::move(ldi), lens, gathered, written, options, progress);
     const double scale = perceptive_scale(lens.radius, lens.focal_px);
     return gather_merged(merge_layers(std::move(ldi), scale, options.layer_tolerance), lens, gathered,
                          written, options, progress);

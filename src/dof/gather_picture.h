@@ -9,7 +9,8 @@ namespace sparselens {
 
 struct PictureOptions {
     const GatherMethod *method = &gather_methods().front();
-    GatherOptions gather = {}; // its region and its holdout are set here
+    GatherOptions gather =
+        {}; // its region and its holdout are set here, and what is beyond, where it is not given
     const Ldi *holdout =
         nullptr; // tidy, of the same display window; what it hides is not shown, nor is it itself
     bool holdout_defocused =

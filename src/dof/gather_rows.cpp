@@ -3,6 +3,8 @@
 #include "base/parallel.h"
 #include "deep/build.h"
 #include "deep/channel_alpha.h"
+#include "dof/border_reach.h"
+#include "dof/lens/beyond_frame.h"
 #include "dof/lens/lens_tile.h"
 #include "dof/lens/optics.h"
 
@@ -198,9 +200,10 @@ RowReach reach_of(const PackedRows &rows, const ThinLens &lens, const LensLooks 
     const double goes_on = 1 + std::max(std::numbers::sqrt2 * nearer, found.coc);
     constexpr double most = 1 << 20; // rows: no picture has more
     constexpr int beside = 16; // rows: a block of samples, and neighbours whose links or edges they share
-    // Highlights look at the cells beside, sharpening at the noise blocks beside those, and at the row beside them.
+    // Highlights look at the cells beside, sharpening at the noise blocks beside those, and at the row beside them; and what
+    // leaves the frame at the left or the right (beyond_frame.h), at as many rows as a cell has.
     return {int(std::min(std::ceil(spread + goes_on), most)) + beside,
-            2 * highlight_rows + BlockedSamples::size};
+            3 * highlight_rows + BlockedSamples::size};
 }
 
 Image gather_rows(const PackedRows &rows, const ThinLens &lens, const Imath::Box2i &gathered,
@@ -214,6 +217,9 @@ Image gather_rows(const PackedRows &rows, const ThinLens &lens, const Imath::Box
     LensTiles all{}, some;
     PictureOptions by = options;
     by.gather.lens.chosen = &some;
+    if (lens.radius > 0)
+        by.gather.beyond = {
+            gathered, look_beyond(border_of(rows, gathered), lens, options.gather.lens.looks, gathered)};
     const Bands bands(rows, lens, gathered, by);
     const int height = bands.height(limits);
     if (height > gathered.max.y - gathered.min.y) return all_at_once();

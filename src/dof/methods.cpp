@@ -1,6 +1,7 @@
 #include "dof/methods.h"
 
 #include "deep/channel_alpha.h"
+#include "dof/lens/beyond_frame.h"
 #include "dof/lens_mattes.h"
 #include "dof/merge_layers.h"
 #include "dof/selective/scatter.h"
@@ -14,13 +15,29 @@ namespace sparselens {
 
 namespace {
 
+// `gather(ldi, options)` of an LDI in which what leaves the frame goes on beyond it.
+template <typename Gather>
+Image gather_beyond(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window,
+                    const GatherOptions &options, const Gather &gather) {
+    if (!options.beyond) return gather(ldi, options.lens);
+    LensGatherOptions by = options.lens;
+    const BeyondFrame all = go_on_beyond(ldi, lens, by.looks, options.beyond->frame,
+                                         by.known.value_or(window), options.beyond->reach);
+    by.known = all.known;
+    by.unseen = all.unseen;
+    return gather(all.ldi, by);
+}
+
 Image by_lens(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window, const GatherOptions &options,
               Progress &progress) {
     const double tolerance = options.layer_tolerance;
+    const auto gather = [&](const Ldi &one, const LensGatherOptions &by) {
+        return lens_gather(one, lens, window, by, progress);
+    };
     return composited(ldi, [&](const Ldi &one) {
-        if (tolerance == 0) return lens_gather(one, lens, window, options.lens, progress);
-        return lens_gather(merge_layers(one, perceptive_scale(lens.radius, lens.focal_px), tolerance), lens,
-                           window, options.lens, progress);
+        if (tolerance == 0) return gather_beyond(one, lens, window, options, gather);
+        return gather_beyond(merge_layers(one, perceptive_scale(lens.radius, lens.focal_px), tolerance), lens,
+                             window, options, gather);
     });
 }
 
@@ -54,7 +71,10 @@ Image with_mattes(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &wind
                   const GatherOptions &options, Progress &progress) {
     if (std::ranges::none_of(ldi.channels, is_in_matte)) return method(ldi, lens, window, options, progress);
     const Image light = method(without_mattes(ldi), lens, window, options, progress);
-    const Image mattes = gather_mattes(ldi, lens, window, options.lens, progress);
+    const Image mattes =
+        gather_beyond(ldi, lens, window, options, [&](const Ldi &all, const LensGatherOptions &by) {
+            return gather_mattes(all, lens, window, by, progress);
+        });
     Image all(light.windows, ldi.channels);
     for (std::size_t k = 0; k < all.channels.size(); ++k) {
         const Image &from = is_in_matte(all.channels[k]) ? mattes : light;

@@ -7,6 +7,7 @@
 #include "../lens/thin_lens.h"
 #include "lens/lens_gather.h"
 
+#include <optional>
 #include <span>
 
 namespace sparselens {
@@ -16,6 +17,12 @@ struct GatherOptions {
     int layers = 8;             // selective: the largest number of layers kept apart in a pixel
     LensGatherOptions lens;     // lens: quality, lens points
     double layer_tolerance = 0; // lens: layers of the light that are merged (merge_layers.h), pixels; 0: none
+    // Lens: the frame, beyond which what leaves it goes on (lens/beyond_frame.h), and how far the lens looks there, pixels.
+    struct Beyond {
+        Imath::Box2i frame;
+        Imath::V2i reach;
+    };
+    std::optional<Beyond> beyond = {}; // else nothing is known there
 };
 
 struct GatherMethod {

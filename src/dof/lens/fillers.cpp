@@ -20,14 +20,13 @@ constexpr float unknown = -1; // depth of a ground
 // The last thing that a pixel holds.
 struct Ground {
     float depth = unknown;                  // perceptive depth, pixels
-    float coc = 0;                          // pixels
     std::uint32_t sample = Filler::nothing; // of the LDI
 };
 
 Ground ground_of(const Ldi &ldi, std::size_t alpha_channel, const ThinLens &lens, std::size_t pixel,
                  bool known) {
     const auto at_depth = [&](double z, std::uint32_t sample) {
-        return Ground{float(perceptive_depth(lens, z)), float(circle_of_confusion(lens, z)), sample};
+        return Ground{float(perceptive_depth(lens, z)), sample};
     };
     double transmittance = 1;
     std::uint32_t last = Filler::nothing;
@@ -41,19 +40,19 @@ Ground ground_of(const Ldi &ldi, std::size_t alpha_channel, const ThinLens &lens
     return last == Filler::nothing ? Ground{} : at_depth(double(ldi.z[last]), last);
 }
 
-std::vector<Ground> find_grounds(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &known) {
+std::vector<Ground> find_grounds(const Ldi &ldi, const ThinLens &lens, const KnownPixels &known) {
     std::vector<Ground> grounds(ldi.windows.pixels());
     const std::size_t alpha = ldi.alpha();
     parallel_ranges(grounds.size(), 4096, [&](std::size_t begin, std::size_t end) {
         for (std::size_t pixel = begin; pixel < end; ++pixel)
-            grounds[pixel] = ground_of(ldi, alpha, lens, pixel, known.intersects(ldi.windows.pixel(pixel)));
+            grounds[pixel] = ground_of(ldi, alpha, lens, pixel, known.has(ldi.windows, pixel));
     });
     return grounds;
 }
 
 // Whether a ground goes on n pixels beyond its end, where there is another.
 bool goes_on(const Ground &ground, const Ground &other, int n) {
-    if (other.depth == unknown) return float(n - 1) < std::abs(ground.coc);
+    if (other.depth == unknown) return false;
     const float nearer = other.depth - ground.depth;
     return nearer > float(one_surface_px) && float(n - 1) < std::numbers::sqrt2_v<float> * nearer;
 }
@@ -93,7 +92,7 @@ void continue_ground(std::span<const Ground> grounds, const Line &line, int i, s
         std::uint16_t &distance = distances[line.pixel(i + n)][direction];
         if (distance == 0)
             distance = std::uint16_t(n);
-        else if (other.depth != unknown && grounds[line.pixel(i + n - distance)].depth <= ground.depth)
+        else if (grounds[line.pixel(i + n - distance)].depth <= ground.depth)
             break;
     }
 }
@@ -140,7 +139,7 @@ Filler mean_of(const Ldi &ldi, std::size_t alpha_channel, std::size_t pixel, std
 
 } // namespace
 
-std::vector<Filler> find_fillers(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &known) {
+std::vector<Filler> find_fillers(const Ldi &ldi, const ThinLens &lens, const KnownPixels &known) {
     const std::vector<Ground> grounds = find_grounds(ldi, lens, known);
     const Distances distances = find_distances(grounds, ldi.windows);
     const std::size_t alpha = ldi.alpha();

@@ -1,11 +1,10 @@
 // Fillers: what is taken to lie where no view could look.
 //
 // The ground of a pixel is the last thing that it holds: what lies at infinity where it is transparent (nothing), else
-// its last sample of half coverage or more. A ground goes on along its row and its column, as far as some point of the
-// lens could see of it:
-// - behind nearer grounds: n pixels beyond its end while those are nearer by more than (n - 1) / sqrt(2) pixels of
-//   perceptive depth, as its edge may run at 45 degrees, and by more than one_surface_px;
-// - where no ground is known, beyond the known window: n pixels while n - 1 is less than its CoC.
+// its last sample of half coverage or more. A ground goes on along its row and its column behind nearer grounds, as far as
+// some point of the lens could see of it: n pixels beyond its end while those are nearer by more than (n - 1) / sqrt(2)
+// pixels of perceptive depth, as its edge may run at 45 degrees, and by more than one_surface_px. Where no ground is known,
+// none goes on: what lies beyond the frame, beyond_frame.h says.
 // Where grounds go on from several sides, the nearest side fills, of sides as near the farthest ground: the mean of
 // those that are one surface with it, each weighted by 1 / n.
 //
@@ -14,6 +13,7 @@
 #pragma once
 
 #include "deep/ldi.h"
+#include "dof/lens/known_pixels.h"
 #include "lens/thin_lens.h"
 
 #include <array>
@@ -40,8 +40,7 @@ struct Filler {
     bool is_nothing() const { return part[0].sample == nothing; }
 };
 
-// At most one a pixel, in the order of the pixels. `known`: the window (EXR coordinates) in which an empty pixel is
-// transparent to infinity. The LDI has less than 2^32 samples and pixels.
-std::vector<Filler> find_fillers(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &known);
+// At most one a pixel, in the order of the pixels. The LDI has less than 2^32 samples and pixels.
+std::vector<Filler> find_fillers(const Ldi &ldi, const ThinLens &lens, const KnownPixels &known);
 
 } // namespace sparselens

@@ -245,7 +245,7 @@ void gather_on(TileDevice &device, Gathering &from, const TileScene &scene, std:
 Image gather_once(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window,
                   const LensGatherOptions &options, double coc, Progress &progress) {
     Image out = crop(options.holdout ? flatten_held_out(ldi, *options.holdout) : flatten(ldi), window);
-    const Imath::Box2i known = options.known.value_or(window);
+    const KnownPixels known(options.known.value_or(window), options.unseen);
     BlockedSamples samples = make_blocks(ldi, lens, known);
     const Optics optics(ldi, lens, options.looks, coc);
     const Darkening darkening(optics.cat_eye, ldi, out.windows);

@@ -31,17 +31,18 @@ float alpha_of(const Ldi &ldi, std::size_t alpha_channel, std::uint64_t i) {
 }
 
 // The samples of one pixel, its background included.
-void find_samples(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &known, int x, int y,
+void find_samples(const Ldi &ldi, const ThinLens &lens, const KnownPixels &known, int x, int y,
                   std::size_t alpha_channel, std::vector<PlacedSample> &found) {
     const Imath::V2i at = ldi.windows.data.min + Imath::V2i(x, y);
-    const SampleRange samples = ldi.pixel(ldi.windows.index(at.x, at.y));
+    const std::size_t pixel = ldi.windows.index(at.x, at.y);
+    const SampleRange samples = ldi.pixel(pixel);
     double transmittance = 1;
     for (const std::uint64_t i : samples) {
         const float alpha = alpha_of(ldi, alpha_channel, i);
         transmittance *= 1 - double(alpha);
         found.push_back(sample_at(ldi, lens, x, y, alpha, i));
     }
-    if (!lets_through(transmittance) || !known.intersects(at)) return;
+    if (!lets_through(transmittance) || !known.has(ldi.windows, pixel)) return;
     const auto add_background = [&](float at_x, float at_y, float coc) {
         found.push_back({at_x, at_y, coc, 0, 1, BlockedSamples::background});
     };
@@ -53,10 +54,11 @@ void find_samples(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &know
 }
 
 // How many those are.
-SampleCounts count_samples(const Ldi &ldi, const Imath::Box2i &known, int x, int y,
+SampleCounts count_samples(const Ldi &ldi, const KnownPixels &known, int x, int y,
                            std::size_t alpha_channel) {
     const Imath::V2i at = ldi.windows.data.min + Imath::V2i(x, y);
-    const SampleRange samples = ldi.pixel(ldi.windows.index(at.x, at.y));
+    const std::size_t pixel = ldi.windows.index(at.x, at.y);
+    const SampleRange samples = ldi.pixel(pixel);
     SampleCounts counts{0, std::uint32_t(samples.size())};
     double transmittance = 1;
     for (const std::uint64_t i : samples) {
@@ -65,7 +67,7 @@ SampleCounts count_samples(const Ldi &ldi, const Imath::Box2i &known, int x, int
         counts.opaque += is_opaque(alpha);
     }
     const std::uint32_t backgrounds =
-        lets_through(transmittance) && known.intersects(at) ? (samples.empty() ? 1 : 2) : 0;
+        lets_through(transmittance) && known.has(ldi.windows, pixel) ? (samples.empty() ? 1 : 2) : 0;
     return {counts.opaque + backgrounds, counts.all + backgrounds};
 }
 
@@ -166,7 +168,7 @@ BlockedSamples make_blocks(const Windows &windows, const CountSamples &count, co
     return samples;
 }
 
-BlockedSamples make_blocks(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &known) {
+BlockedSamples make_blocks(const Ldi &ldi, const ThinLens &lens, const KnownPixels &known) {
     if (ldi.samples() + ldi.windows.pixels() >= BlockedSamples::background)
         throw Error("the LDI has more samples than can be gathered at once (2^32)");
     const std::size_t alpha = ldi.alpha();

@@ -4,6 +4,7 @@
 
 #include "deep/ldi.h"
 #include "dof/facets/opaque.h"
+#include "dof/lens/known_pixels.h"
 #include "lens/thin_lens.h"
 
 #include <bit>
@@ -60,9 +61,8 @@ inline std::uint64_t depth_key(float depth, std::uint32_t sample) {
 constexpr std::uint64_t background_key(std::uint32_t sample) { return (std::uint64_t(1) << 32) | sample; }
 constexpr std::uint64_t nearest_background = background_key(0xffffffffu);
 
-// `known`: the window (EXR coordinates) in which an empty pixel is transparent to infinity; outside of it,
-// nothing is known. Throws Error where the LDI has more samples than 32 bits count.
-BlockedSamples make_blocks(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &known);
+// `known`: what an empty pixel is. Throws Error where the LDI has more samples than 32 bits count.
+BlockedSamples make_blocks(const Ldi &ldi, const ThinLens &lens, const KnownPixels &known);
 
 // Where the samples of some rows of an LDI are in `samples`. The rows [top, bottom) are those of whole blocks.
 class SamplePlaces {

@@ -90,7 +90,7 @@ TEST(SampleBlocks, KnowTheBackgroundWhereLightComesThrough) {
         return samples;
     });
     const BlockedSamples samples =
-        make_blocks(ldi, lens, {{0, 0}, {5, 0}}); // of the second row nothing is known
+        make_blocks(ldi, lens, Imath::Box2i({0, 0}, {5, 0})); // of the second row nothing is known
     std::set<std::pair<float, float>> clear;
     for (std::size_t i = 0; i < samples.count(); ++i) {
         if (!is_background(samples, i)) continue;

@@ -1,0 +1,290 @@
+// What leaves the frame: by hand on a row of pixels, against a slow restatement of the rule, and what the lens makes of it, by
+// the convolution of what goes on for ever.
+#include "base/grid.h"
+#include "dof/gather_picture.h"
+#include "dof/lens/beyond_frame.h"
+#include "lens/lens_points.h"
+#include "support/lens_ldi.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace sparselens {
+namespace {
+
+const ThinLens lens{.radius = 0.06, .focal_px = 640, .focus = 5};  // CoC up to 7.7 px behind focus
+const ThinLens strong{.radius = 0.6, .focal_px = 640, .focus = 6}; // up to 64 px
+const std::vector<Channel> grey{{"Y"}}, grey_alpha{{"Y"}, {"A"}}, coloured{{"R"}, {"A"}};
+
+double infinite_coc(const ThinLens &of) { return of.radius * of.focal_px / of.focus; }
+double near_of(const ThinLens &of, double c) { return infinite_coc(of) - c; } // perceptive depth
+
+// A row of one sample a pixel at these CoCs, none where it is NAN; its value is its column.
+Ldi row_of(const std::vector<double> &cocs) {
+    return make_ldi(windows_of_size(int(cocs.size()), 1), grey, [&](int x, int) {
+        const double c = cocs[std::size_t(x)];
+        return std::isnan(c) ? std::vector<Sample>{} : std::vector<Sample>{{depth_of(lens, c), {float(x)}}};
+    });
+}
+
+constexpr float unknown = -1, nothing = -2;
+
+// The values of the front samples of a row, of so many pixels on either side of the frame.
+std::vector<float> values(const BeyondFrame &of, int first, int last) {
+    std::vector<float> found;
+    for (int x = first; x <= last; ++x) {
+        if (!of.ldi.windows.data.intersects(Imath::V2i(x, 0))) {
+            found.push_back(unknown);
+            continue;
+        }
+        const std::size_t pixel = of.ldi.windows.index(x, 0);
+        const SampleRange samples = of.ldi.pixel(pixel);
+        found.push_back(!samples.empty() ? of.ldi.values[0][samples.front()]
+                        : of.unseen[pixel] || !of.known.intersects(Imath::V2i(x, 0)) ? unknown
+                                                                                     : nothing);
+    }
+    return found;
+}
+
+BeyondFrame beyond(const Ldi &ldi, const Imath::Box2i &frame) {
+    return go_on_beyond(ldi, lens, {}, frame, frame, look_beyond(ldi, lens, {}, frame));
+}
+
+TEST(BeyondFrame, WhatLeavesItGoesOnAsFarAsTheLensSees) {
+    std::vector<double> cocs(20, 5);
+    cocs.front() = 1.4;
+    cocs.back() = -2.9;
+    const Ldi ldi = row_of(cocs);
+    const BeyondFrame all = beyond(ldi, ldi.windows.data);
+    EXPECT_EQ(values(all, -4, 1), (std::vector<float>{unknown, 0, 0, 0, 0, 1}));
+    EXPECT_EQ(values(all, 18, 22), (std::vector<float>{18, 19, 19, 19, 19}));
+    cocs.front() = cocs.back() = NAN;
+    const Ldi empty = row_of(cocs);
+    EXPECT_EQ(values(beyond(empty, empty.windows.data), -9, 1),
+              (std::vector<float>{unknown, nothing, nothing, nothing, nothing, nothing, nothing, nothing,
+                                  nothing, nothing, 1})); // up to 8 pixels away
+}
+
+// Rim views saw something 5 pixels near at three pixels beyond the frame (20, 21, 23), so they would have shown the rest of it.
+TEST(BeyondFrame, WhatViewsWouldHaveShownIsNotMadeUp) {
+    const double near = infinite_coc(lens) - 5, far = infinite_coc(lens) - 1.2; // CoCs 2.7 and 6.5
+    const auto picture = [&](double last) {
+        std::vector<double> cocs(20, far);
+        cocs[19] = last;
+        for (const double c : {near, near, double(NAN), near, double(NAN)}) cocs.push_back(c);
+        return row_of(cocs);
+    };
+    const Imath::Box2i frame({0, 0}, {19, 0});
+    // What is 1.2 pixels near was shown at the first pixel, and fills from the second on what the views left.
+    EXPECT_EQ(values(beyond(picture(far), frame), 19, 26),
+              (std::vector<float>{19, 20, 21, 19, 23, 19, 19, 19}));
+    // What is nearer ends where they showed its end.
+    EXPECT_EQ(values(beyond(picture(near), frame), 19, 25),
+              (std::vector<float>{19, 20, 21, unknown, 23, unknown, 19}));
+}
+
+TEST(BeyondFrame, KeepsCoverageAndWhatIsBehind) {
+    const Ldi ldi = make_ldi(windows_of_size(20, 1), grey_alpha, [](int x, int) {
+        return x < 19
+                   ? std::vector<Sample>{}
+                   : std::vector<Sample>{{depth_of(lens, -4), {0.2f, 0.25f}}, {depth_of(lens, 3), {0.5f, 1}}};
+    });
+    const BeyondFrame all = beyond(ldi, ldi.windows.data);
+    const SampleRange samples = all.ldi.pixel(all.ldi.windows.index(24, 0));
+    ASSERT_EQ(samples.size(), 2u);
+    EXPECT_EQ(all.ldi.values[1][samples.front()], 0.25f);
+    EXPECT_TRUE(all.unseen[all.ldi.windows.index(24, 0)]);
+    EXPECT_FALSE(all.unseen[all.ldi.windows.index(-1, 0)]);
+}
+
+// Of a lamp of 5 pixels' radius, cut off 3 pixels from its middle, 2 pixels are beyond.
+TEST(BeyondFrame, SmallLightsGoOnAsDiscs) {
+    const Ldi ldi = make_ldi(windows_of_size(80, 80), coloured, [](int x, int y) {
+        const float v = std::hypot(x + 0.5 - 3, y + 0.5 - 40) < 5 ? 100.0f : y < 10 ? 3.0f : 1.0f;
+        return std::vector<Sample>{{depth_of(lens, 7), {v, 1}}};
+    });
+    const BeyondFrame all = beyond(ldi, ldi.windows.data);
+    const auto value = [&](int x, int y) {
+        return all.ldi.values[0][all.ldi.pixel(all.ldi.windows.index(x, y)).front()];
+    };
+    EXPECT_EQ(value(0, 40), 100);
+    EXPECT_NEAR(value(-1, 40), 100, 1e-4);
+    double light = 0; // in units of the border's
+    for (int n = 1; n <= 7; ++n) light += double(value(-n, 40)) / 100;
+    EXPECT_NEAR(light, 2 * 1.75, 1); // 2 pixels, and what is left farther away
+    EXPECT_EQ(value(-5, 33), 1);
+    EXPECT_EQ(value(-5, 9), 3); // what is not four times as bright goes on
+    EXPECT_EQ(all.ldi.values[1][all.ldi.pixel(all.ldi.windows.index(-5, 40)).front()], 1);
+}
+
+// Slowly: each pixel beyond asks what the nearest one of the frame has.
+TEST(BeyondFrame, IsWhatTheRuleSays) {
+    for (const bool opaque : {true, false}) {
+        const Ldi ldi = random_surfaces(windows_of_size(70, 50), lens, opaque, 12);
+        const Imath::Box2i frame({5, 0}, {69, 45}); // views looked past the left and the lower side
+        const BeyondFrame all = beyond(ldi, frame);
+        const std::size_t alpha = opaque ? npos : ldi.alpha();
+        const auto open = [&](const SampleRange &samples) {
+            double left = 1;
+            for (const std::uint64_t i : samples)
+                left *= alpha == npos ? 0 : 1 - double(ldi.values[alpha][i]);
+            return left >= 1.0 / 2048;
+        };
+        const auto of_pixel = [&](const Imath::V2i &at) {
+            return ldi.windows.data.intersects(at) ? ldi.pixel(ldi.windows.index(at.x, at.y))
+                                                   : SampleRange{0, 0};
+        };
+        for (int y = -8; y < 54; ++y)
+            for (int x = -3; x < 78; ++x) {
+                const Imath::V2i p(x, y), q(std::clamp(x, 5, 69), std::clamp(y, 0, 45));
+                const double nx = std::abs(x - q.x), ny = std::abs(y - q.y), n = std::max(nx, ny);
+                const bool looked = (nx == 0 || ny == 0) && (x < 5 || y > 45);
+                ASSERT_TRUE(all.ldi.windows.data.intersects(p)) << p;
+                std::vector<float> expected;
+                for (const std::uint64_t i : of_pixel(p)) expected.push_back(ldi.z[i]);
+                if (n > 0 && open(of_pixel(p)))
+                    for (const std::uint64_t i : of_pixel(q)) {
+                        const auto z = double(ldi.z[i]);
+                        if (!looked || perceptive_depth(lens, z) < n - 0.5) expected.push_back(ldi.z[i]);
+                    }
+                std::ranges::sort(expected);
+                std::vector<float> found;
+                const std::size_t pixel = all.ldi.windows.index(x, y);
+                for (const std::uint64_t i : all.ldi.pixel(pixel)) found.push_back(all.ldi.z[i]);
+                ASSERT_EQ(found, expected) << p;
+                if (n == 0) continue;
+                ASSERT_EQ(!all.unseen[pixel], open(of_pixel(q))) << p;
+            }
+    }
+}
+
+// Pictures of shapes that go on for ever, seen in a frame.
+
+using Inside = std::function<bool(double, double)>;
+
+double covered_share(const Inside &inside, int x, int y) {
+    int covered = 0;
+    for (int i = 0; i < 64; ++i) covered += inside(x + (i % 8 + 0.5) / 8, y + (i / 8 + 0.5) / 8);
+    return covered / 64.0;
+}
+
+constexpr int width = 160, height = 90;
+
+// The pixels that five views of a shape so near show of it.
+Windows shown_windows(double near, bool five) {
+    Windows windows = windows_of_size(width, height);
+    if (!five) return windows;
+    windows.data.min -= Imath::V2i(int(near + 0.5));
+    windows.data.max += Imath::V2i(int(near + 0.5));
+    return windows;
+}
+bool in_frame(int x, int y) { return x >= 0 && y >= 0 && x < width && y < height; }
+// Rim views at the left, the right, above and below see no corners.
+bool in_corner(int x, int y) { return (x < 0 || x >= width) && (y < 0 || y >= height); }
+
+// A shape of value 0.8 at CoC c before nothing.
+Ldi element(const Inside &inside, double c, const ThinLens &by, bool five) {
+    return make_ldi(shown_windows(near_of(by, c), five), grey_alpha, [&](int x, int y) {
+        const auto alpha = float(in_corner(x, y) ? 0 : covered_share(inside, x, y));
+        return alpha == 0 ? std::vector<Sample>{}
+                          : std::vector<Sample>{{depth_of(by, c), {0.8f * alpha, alpha}}};
+    });
+}
+
+// A dark shape at CoC c before a sky of value 0.5; no view saw the sky beyond the frame.
+Ldi before_sky(const Inside &inside, double c, const ThinLens &by, bool five) {
+    return make_ldi(shown_windows(near_of(by, c), five), grey, [&](int x, int y) {
+        if (in_corner(x, y)) return std::vector<Sample>{};
+        if (inside(x + 0.5, y + 0.5)) return std::vector<Sample>{{depth_of(by, c), {0}}};
+        return in_frame(x, y) ? std::vector<Sample>{{INFINITY, {0.5f}}} : std::vector<Sample>{};
+    });
+}
+
+// How much each pixel sees of a shape as its pixels know it, up to 70 around the frame.
+class Convolution {
+public:
+    explicit Convolution(const Inside &inside) : grid_(width + 2 * around, height + 2 * around) {
+        for (std::size_t i = 0; i < grid_.size(); ++i) {
+            const Imath::V2i at = grid_.pixel(i) - Imath::V2i(around);
+            covered_.push_back(covered_share(inside, at.x, at.y));
+        }
+    }
+    double at(double c, int x, int y) const {
+        static const auto points = spiral_lens_points(1000);
+        double covered = 0;
+        for (std::size_t i = 0; i < points.size(); ++i)
+            covered += here(x + (double(i % 8) + 0.5) / 8 - c * points[i].x,
+                            y + (double(i / 8 % 8) + 0.5) / 8 + c * points[i].y);
+        return covered / double(points.size());
+    }
+
+private:
+    static constexpr int around = 70;
+    double here(double x, double y) const {
+        return covered_[grid_.index(int(std::floor(x)) + around, int(std::floor(y)) + around)];
+    }
+    Grid grid_;
+    std::vector<double> covered_;
+};
+
+// The largest difference of a channel from expected(x, y): along the borders, and across the middle.
+double off(const Ldi &ldi, const ThinLens &by, std::size_t channel,
+           const std::function<double(int, int)> &expected) {
+    Progress silent;
+    PictureOptions options;
+    options.gather.lens.quality = Quality::final;
+    const Imath::Box2i frame({0, 0}, {width - 1, height - 1});
+    const Image image = gather_picture(ldi, by, frame, frame, options, silent);
+    double worst = 0;
+    for (int y = 0; y < height; y += 3)
+        for (int x = 0; x < width; x += 3) {
+            if (x > 6 && x < width - 9 && y > 6 && y < height - 9 && x % 30 && y % 30) continue;
+            worst = std::max(worst, std::abs(double(image.at(channel, x, y)) - expected(x, y)));
+        }
+    return worst;
+}
+
+struct Shape {
+    const char *name;
+    Inside inside;
+};
+const std::vector<Shape> shapes{
+    {"from top to bottom", [](double x, double) { return x > 70.3 && x < 95.3; }},
+    {"from left to right", [](double, double y) { return y > 30 && y < 55; }},
+    {"along the left side", [](double x, double) { return x < 9.3; }},
+    {"along the upper side", [](double, double y) { return y < 9.3; }},
+    {"along the right side", [](double x, double) { return x > width - 9.3; }},
+    {"along the lower side", [](double, double y) { return y > height - 9.3; }},
+    {"over a corner", [](double x, double y) { return x > 100 && y > 50; }},
+    {"over the opposite corner", [](double x, double y) { return x < 40 && y < 30; }},
+};
+
+TEST(BeyondFrame, ElementsThatTheFrameCutsOffStayOpaque) {
+    for (const auto &[name, inside] : shapes) {
+        const Convolution shape(inside);
+        for (const bool five : {false, true})
+            for (const double c : {-60.0, -22.0, -4.0, 4.0, 22.0, 60.0}) {
+                const auto share = [&](int x, int y) { return shape.at(c, x, y); };
+                EXPECT_LT(off(element(inside, c, strong, five), strong, 1, share), 0.02)
+                    << name << ", CoC " << c << (five ? ", five views" : ", one view");
+            }
+    }
+}
+
+TEST(BeyondFrame, TheSkyBesideABarThatLeavesIsNoDarkerThere) {
+    for (const auto &[name, inside] : shapes) {
+        const Convolution shape(inside);
+        for (const bool five : {false, true})
+            for (const double c : {-22.0, -8.0}) {
+                const auto light = [&](int x, int y) { return 0.5 * (1 - shape.at(c, x, y)); };
+                EXPECT_LT(off(before_sky(inside, c, lens, five), lens, 0, light), 0.02)
+                    << name << ", CoC " << c << (five ? ", five views" : ", one view");
+            }
+    }
+}
+
+} // namespace
+} // namespace sparselens
