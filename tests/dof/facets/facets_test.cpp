@@ -100,6 +100,7 @@ TEST(Facets, SlopesGoOnToWhereTheyEnd) {
 // A plane of 3 pixels of CoC a pixel, dark, before a bright ground: what of the ground is seen through it.
 struct Tilted {
     static constexpr int width = 40, height = 200, middle = 20;
+    static constexpr float plane = 0.25f; // its light
     static double coc(int x) { return 3 * (x - middle); }
     // Whether a lens point sees the plane there at all: else it looks past its ends.
     static bool covered(double x, double u) {
@@ -110,7 +111,7 @@ struct Tilted {
     static Ldi ldi(const std::vector<Channel> &channels, float ground, float lamp) {
         return make_ldi(windows_of_size(width, height), channels, [&](int x, int y) {
             const float light = x == middle && y == height / 2 ? ground + lamp : ground;
-            std::vector<float> dark(channels.size(), 0), bright(channels.size(), light);
+            std::vector<float> dark(channels.size(), plane), bright(channels.size(), light);
             dark.back() = bright.back() = 1;
             return std::vector<Sample>{{depth_of(lens, coc(x)), dark}, {depth_of(lens, 79), bright}};
         });
@@ -130,7 +131,9 @@ TEST(Facets, NoLightPassesASteepSurface) {
                 total += double(p.weight);
                 if (!Tilted::covered(x + 0.5 - double(p.pixel_x), double(p.x))) past += double(p.weight);
             }
-            ASSERT_LE(double(image.at(0, x, y)), past / total + 1e-5) << x << ' ' << y;
+            const double light = double(image.at(0, x, y)), dark = double(Tilted::plane);
+            ASSERT_GE(light, dark - 1e-5) << x << ' ' << y;
+            ASSERT_LE(light, dark + (1 - dark) * past / total + 1e-5) << x << ' ' << y;
         }
 }
 
