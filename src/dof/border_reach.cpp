@@ -1,7 +1,7 @@
 #include "dof/border_reach.h"
 
 #include "deep/build.h"
-#include "lens/light_reach.h"
+#include "lens/reach/light_reach.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #include "deep/channel_alpha.h"
 #include "deep/flatten.h"
 #include "dof/defocused_holdout.h"
-#include "dof/lens/beyond_frame.h"
+#include "dof/lens/beyond/beyond_frame.h"
 #include "lens/perceptive_depth.h"
 
 #include <algorithm>

@@ -4,7 +4,7 @@
 #include "deep/build.h"
 #include "deep/channel_alpha.h"
 #include "dof/border_reach.h"
-#include "dof/lens/beyond_frame.h"
+#include "dof/lens/beyond/beyond_frame.h"
 #include "dof/lens/lens_tile.h"
 #include "dof/lens/optics.h"
 

@@ -1,7 +1,7 @@
 #include "dof/methods.h"
 
 #include "deep/channel_alpha.h"
-#include "dof/lens/beyond_frame.h"
+#include "dof/lens/beyond/beyond_frame.h"
 #include "dof/lens_mattes.h"
 #include "dof/merge_layers.h"
 #include "dof/selective/scatter.h"

@@ -13,7 +13,7 @@
 #pragma once
 
 #include "deep/ldi.h"
-#include "dof/lens/known_pixels.h"
+#include "dof/facets/known_pixels.h"
 #include "lens/thin_lens.h"
 
 #include <array>

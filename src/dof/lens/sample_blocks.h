@@ -3,8 +3,8 @@
 #pragma once
 
 #include "deep/ldi.h"
+#include "dof/facets/known_pixels.h"
 #include "dof/facets/opaque.h"
-#include "dof/lens/known_pixels.h"
 #include "lens/thin_lens.h"
 
 #include <bit>

@@ -2,7 +2,7 @@
 // the convolution of what goes on for ever.
 #include "base/grid.h"
 #include "dof/gather_picture.h"
-#include "dof/lens/beyond_frame.h"
+#include "dof/lens/beyond/beyond_frame.h"
 #include "lens/lens_points.h"
 #include "support/lens_ldi.h"
 

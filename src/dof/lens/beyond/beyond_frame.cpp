@@ -1,10 +1,10 @@
-#include "dof/lens/beyond_frame.h"
+#include "dof/lens/beyond/beyond_frame.h"
 
 #include "base/parallel.h"
 #include "deep/build.h"
 #include "dof/facets/opaque.h"
 #include "dof/lens/sample_colours.h"
-#include "lens/light_reach.h"
+#include "lens/reach/light_reach.h"
 
 #include <algorithm>
 #include <array>
