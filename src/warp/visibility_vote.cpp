@@ -9,14 +9,10 @@ namespace sparselens {
 
 namespace {
 
-struct Votes {
-    double there = 0, past = 0;
-};
-
 // What one pixel of a view says: each part of it by what it covers, and what it leaves open looks past everything. A
 // pixel that shows nothing at all may just not have been rendered.
 void count_votes(const Ldi &view, std::size_t alpha, std::size_t pixel, double inverse_z, double tolerance,
-                 Votes &votes) {
+                 const SeePast &past, Votes &votes) {
     if (view.pixel(pixel).empty()) return;
     double left = 1;
     for (const std::uint64_t i : view.pixel(pixel)) {
@@ -24,17 +20,20 @@ void count_votes(const Ldi &view, std::size_t alpha, std::size_t pixel, double i
         const double nearer = 1 / double(view.z[i]) - inverse_z;
         if (std::abs(nearer) < tolerance)
             votes.there += covers;
-        else if (nearer < 0)
+        else if (nearer < 0) {
             votes.past += covers;
+            if (past && covers > 0) past(view, i, covers);
+        }
         left -= covers;
     }
     votes.past += left;
+    votes.open += left;
 }
 
 } // namespace
 
-double visibility_vote(const ReprojectedViews &views, const Imath::V2d &place, double inverse_z,
-                       double tolerance) {
+Votes votes_on(const ReprojectedViews &views, const Imath::V2d &place, double inverse_z, double tolerance,
+               const SeePast &past) {
     const std::size_t alpha = find_channel(views.samples(0).channels, "A");
     Votes votes;
     for (std::size_t v = 1; v < views.size(); ++v) {
@@ -44,10 +43,15 @@ double visibility_vote(const ReprojectedViews &views, const Imath::V2d &place, d
         if (!(seen.x >= data.min.x && seen.x < data.max.x + 1.0)) continue;
         if (!(seen.y >= data.min.y && seen.y < data.max.y + 1.0)) continue;
         const std::size_t pixel = view.windows.index(int(std::floor(seen.x)), int(std::floor(seen.y)));
-        count_votes(view, alpha, pixel, inverse_z, tolerance, votes);
+        count_votes(view, alpha, pixel, inverse_z, tolerance, past, votes);
     }
-    const double all = votes.there + votes.past;
-    return all > 0 ? std::clamp(2 * votes.there / all - 0.5, 0.0, 1.0) : 1;
+    return votes;
+}
+
+double visibility_vote(const ReprojectedViews &views, const Imath::V2d &place, double inverse_z,
+                       double tolerance) {
+    const Votes votes = votes_on(views, place, inverse_z, tolerance);
+    return votes.all() > 0 ? std::clamp(2 * votes.there / votes.all() - 0.5, 0.0, 1.0) : 1;
 }
 
 } // namespace sparselens

@@ -7,12 +7,28 @@
 
 #include "warp/reprojected_views.h"
 
+#include <functional>
+
 namespace sparselens {
 
-// The coverage, 0..1, of a surface at (x, y) of the centre view (pixels) and depth 1 / inverse_z. It is 1 where three
-// quarters of the rim views that can tell see the surface, 0 where a quarter or fewer do, and in proportion between; 1
-// where no view can tell. A view can tell unless something nearer hides the position or it lies outside the view.
-// Depths whose inverses differ by less than `tolerance` are the same.
+// What rim views say of a position, each up to 1.
+struct Votes {
+    double there = 0; // they see the surface
+    double past = 0;  // they see past it,
+    double open = 0;  // and of that, past everything
+    double all() const { return there + past; }
+};
+
+// A sample that a view sees past the surface, and how much of the view's pixel it covers, above 0.
+using SeePast = std::function<void(const Ldi &view, std::uint64_t sample, double covers)>;
+
+// Of a surface at (x, y) of the centre view (pixels) and depth 1 / inverse_z. A view says nothing where something nearer
+// hides the position or where it lies outside the view. Depths whose inverses differ by less than `tolerance` are the same.
+Votes votes_on(const ReprojectedViews &views, const Imath::V2d &place, double inverse_z, double tolerance,
+               const SeePast &past = {});
+
+// The coverage, 0..1, of such a surface: 1 where three quarters of the votes are for it, 0 where a quarter or fewer are,
+// and in proportion between; 1 where no view can tell.
 double visibility_vote(const ReprojectedViews &views, const Imath::V2d &place, double inverse_z,
                        double tolerance);
 

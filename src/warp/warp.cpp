@@ -10,6 +10,7 @@
 #include "warp/images/image_depths.h"
 #include "warp/images/show_images.h"
 #include "warp/lamps/lamp_light.h"
+#include "warp/opaque_pixels.h"
 #include "warp/photo_consistency.h"
 #include "warp/visibility_vote.h"
 
@@ -209,6 +210,7 @@ Ldi Warper::run(Progress &progress) const {
     });
     memory.clear();
     Ldi ldi = concatenate(layout_, std::move(pieces));
+    keep_opaque(views_, tolerance_, ldi);
     if (views_.size() < 2 || !(scale_ > 0)) return ldi;
     if (options_.find_images) show_images(placed(), scale_, differ, ldi);
     if (averages()) keep_light_of_lamps(placed(), scale_, options_.surface_px, ldi);

@@ -1,7 +1,8 @@
 // From views to an LDI: a centre view and any number of rim views are warped into the pixels of the centre view.
 //
-// No sample is invented: each one is a pixel of some view, or an average of pixels of one surface. Two samples belong
-// to the same surface if their perceptive depths R F / z differ by less than `surface_px` pixels.
+// No sample is invented: each one is a pixel of some view, or an average of pixels of one surface, which what views see past
+// it may fill up (opaque_pixels.h). Two samples belong to the same surface if their perceptive depths R F / z differ by less
+// than `surface_px` pixels.
 #pragma once
 
 #include "../base/progress.h"

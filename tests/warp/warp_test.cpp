@@ -129,16 +129,27 @@ private:
 double depth_of(float z) { return focal_px * radius / double(z); }
 
 // Extra vision: seeing what no view saw. Every sample's colour lies among those of view pixels that land within a
-// pixel of it, on its surface (no more than surface_px from one of its samples, so twice that from their mean).
+// pixel of it, on its surface (no more than surface_px from one of its samples, so twice that from their mean). What fills
+// up the last of a pixel is what rim views see past it (opaque_pixels.h).
 TEST(Warp, NothingIsInvented) {
     const Windows w = windows_of_size(40, 30);
     for (const auto &views : {random_views(w, 6), five_views(fence(), w, radius)})
         for (const WarpOptions &options : {averaging, keeping}) {
             const Ldi ldi = warped(views, options);
             Witnesses witnesses(views);
+            const ReprojectedViews placed(views, focal_px, focal_px * radius, 0);
             for_each_pixel(ldi.windows.data, [&](int x, int y) {
-                for (const TestSample &s : pixel_at(ldi, x, y)) {
+                const TestPixel samples = pixel_at(ldi, x, y);
+                for (const TestSample &s : samples) {
                     float least = inf, most = -inf;
+                    const auto may_fill = [&](const Ldi &view, std::uint64_t i, double) {
+                        const float colour = view.values[0][i] / view.values[3][i];
+                        least = std::min(least, colour);
+                        most = std::max(most, colour);
+                    };
+                    if (&s == &samples.back())
+                        votes_on(placed, {x + 0.5 + double(s.dx), y + 0.5 + double(s.dy)}, 1 / double(s.z),
+                                 options.surface_px / (focal_px * radius), may_fill);
                     for_each_pixel({{x - 1, y - 1}, {x + 1, y + 1}}, [&](int near_x, int near_y) {
                         for (const Witness &seen : witnesses.at(near_x, near_y)) {
                             if (std::abs(seen.depth - depth_of(s.z)) > 2 * options.surface_px) continue;

@@ -1,0 +1,108 @@
+#include "warp/opaque_pixels.h"
+
+#include "base/matte.h"
+#include "base/parallel.h"
+#include "deep/build.h"
+#include "dof/facets/opaque.h"
+#include "warp/visibility_vote.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace sparselens {
+
+namespace {
+
+// A share of a sample of a view.
+struct Part {
+    const Ldi *view;
+    std::uint64_t sample;
+    double share;
+};
+
+class Filling {
+public:
+    Filling(const ReprojectedViews &views, double tolerance, Ldi &ldi)
+        : views_(views), tolerance_(tolerance), ldi_(ldi), alpha_(ldi.alpha()),
+          mattes_(find_mattes(ldi.channels)) {}
+
+    void fill_pixel(std::size_t pixel) {
+        if (!lets_light_through(ldi_, pixel)) return;
+        const auto last = last_sample(pixel);
+        const Imath::V2i at = ldi_.windows.pixel(pixel);
+        const Ldi &centre = views_.samples(0);
+        const bool in_frame = centre.windows.data.intersects(at);
+        if (!last || (in_frame && lets_light_through(centre, centre.windows.index(at.x, at.y)))) return;
+        std::vector<Part> past;
+        const Votes votes = ask(at, *last, past);
+        if (lets_through(votes.past)) // more than rounding
+            fill(*last, 1, past);
+        else if (votes.there > 0 || in_frame)
+            fill(*last, 1 / double(ldi_.values[alpha_][*last]), {});
+    }
+
+private:
+    bool lets_light_through(const Ldi &ldi, std::size_t pixel) const {
+        double left = 1;
+        for (const std::uint64_t i : ldi.pixel(pixel)) left *= 1 - double(alpha_at(ldi, alpha_, i));
+        return lets_through(left);
+    }
+
+    // The last one that is more than rounding.
+    std::optional<std::uint64_t> last_sample(std::size_t pixel) const {
+        std::optional<std::uint64_t> last;
+        for (const std::uint64_t i : ldi_.pixel(pixel))
+            if (lets_through(double(ldi_.values[alpha_][i]))) last = i;
+        return last;
+    }
+
+    // What the rim views see at a sample; `past`: what they see past it, in parts of what it leaves open.
+    Votes ask(const Imath::V2i &pixel, std::uint64_t sample, std::vector<Part> &past) const {
+        const Imath::V2d place(pixel.x + 0.5 + double(ldi_.dx[sample]),
+                               pixel.y + 0.5 + double(ldi_.dy[sample]));
+        const Votes votes =
+            votes_on(views_, place, 1 / double(ldi_.z[sample]), tolerance_,
+                     [&](const Ldi &view, std::uint64_t i, double covers) {
+                         past.push_back({&view, i, covers / double(alpha_at(view, alpha_, i))});
+                     });
+        const double left = 1 - double(ldi_.values[alpha_][sample]);
+        for (Part &part : past) part.share *= left / votes.past;
+        return votes;
+    }
+
+    // The sample becomes so many times itself and the other parts.
+    void fill(std::uint64_t sample, double factor, std::span<const Part> parts) {
+        MatteSum pairs(mattes_);
+        pairs.add(factor, [&](std::size_t k) { return ldi_.values[k][sample]; });
+        for (const Part &part : parts)
+            pairs.add(part.share, [&](std::size_t k) { return part.view->values[k][part.sample]; });
+        for (std::size_t k = 0; k < ldi_.channels.size(); ++k) {
+            if (holds_ids(ldi_.channels[k])) continue;
+            double sum = factor * double(ldi_.values[k][sample]);
+            for (const Part &part : parts) sum += part.share * double(part.view->values[k][part.sample]);
+            ldi_.values[k][sample] = float(sum);
+        }
+        pairs.take([&](std::size_t k, float value) { ldi_.values[k][sample] = value; });
+        float &covers = ldi_.values[alpha_][sample]; // which is the sum of its parts', and of rounding
+        if (!lets_through(1 - double(covers))) covers = 1;
+    }
+
+    const ReprojectedViews &views_;
+    double tolerance_;
+    Ldi &ldi_;
+    std::size_t alpha_;
+    std::vector<Matte> mattes_;
+};
+
+} // namespace
+
+void keep_opaque(const ReprojectedViews &views, double tolerance, Ldi &ldi) {
+    if (ldi.alpha() == npos) return;
+    Filling filling(views, tolerance, ldi);
+    parallel_ranges(ldi.windows.pixels(), 4096, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t pixel = begin; pixel < end; ++pixel) filling.fill_pixel(pixel);
+    });
+}
+
+} // namespace sparselens
