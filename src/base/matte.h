@@ -46,6 +46,16 @@ private:
     std::size_t merged_ = 0;
 };
 
+// write(k, value) for every channel of the matte; what has no rank left is dropped.
+template <typename Write>
+void write_pairs(const Matte &matte, std::span<const IdCoverage::Pair> ranked, const Write &write) {
+    for (std::size_t r = 0; r < matte.ranks.size(); ++r) {
+        const IdCoverage::Pair pair = r < ranked.size() ? ranked[r] : IdCoverage::Pair{0, 0};
+        write(matte.ranks[r].id, pair.id);
+        write(matte.ranks[r].coverage, float(pair.coverage));
+    }
+}
+
 // A weighted sum of the pairs of samples.
 class MatteSum {
 public:
@@ -59,16 +69,11 @@ public:
                 sums_[m].add(value(rank.id), factor * double(value(rank.coverage)));
     }
 
-    // write(k, value) for every channel of the mattes; what has no rank left is dropped. The sum is empty then.
+    // As write_pairs(), of every matte. The sum is empty then.
     template <typename Write>
     void take(const Write &write) {
         for (std::size_t m = 0; m < mattes_.size(); ++m) {
-            const std::span<const IdCoverage::Pair> pairs = sums_[m].ranked();
-            for (std::size_t r = 0; r < mattes_[m].ranks.size(); ++r) {
-                const IdCoverage::Pair pair = r < pairs.size() ? pairs[r] : IdCoverage::Pair{0, 0};
-                write(mattes_[m].ranks[r].id, pair.id);
-                write(mattes_[m].ranks[r].coverage, float(pair.coverage));
-            }
+            write_pairs(mattes_[m], sums_[m].ranked(), write);
             sums_[m].clear();
         }
     }

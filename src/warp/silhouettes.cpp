@@ -3,6 +3,7 @@
 #include "base/parallel.h"
 #include "deep/build.h"
 #include "lens/perceptive_depth.h"
+#include "warp/mixed/matte_shares.h"
 #include "warp/mixed/wisps.h"
 #include "warp/unmixing.h"
 
@@ -64,11 +65,12 @@ private:
     const Ldi &view_;
     SamplesAround samples_;
     double scale_, jump_;
+    std::vector<Matte> mattes_;
     std::vector<unsigned char> sides_; // of the first sample of each pixel
 };
 
 Separation::Separation(const Ldi &view, double scale, double jump)
-    : view_(view), samples_(view, scale), scale_(scale), jump_(jump) {
+    : view_(view), samples_(view, scale), scale_(scale), jump_(jump), mattes_(find_mattes(view.channels)) {
     sides_.assign(view.samples(), inside);
     if (!samples_.have_colours()) return;
     const Grid &grid = samples_.grid();
@@ -221,6 +223,7 @@ void Separation::emit_mixture(std::uint64_t i, const Mixture &mixture, Ldi &out)
     }
     emit(mixture.near_depth, front);
     emit(mixture.far_depth, behind);
+    share_mattes(view_, i, front, share, mattes_, out);
 }
 
 std::optional<Mixture> Separation::find(int x, int y) const {
