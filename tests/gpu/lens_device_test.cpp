@@ -48,6 +48,12 @@ protected:
         device->take_report();
     }
 
+    // Also of what the device leaves behind.
+    void TearDown() override {
+        device.reset();
+        GpuTest::TearDown();
+    }
+
     std::unique_ptr<TileDevice> device;
 };
 
@@ -77,11 +83,16 @@ TEST_F(LensDeviceTest, ManyPartialSamplesOfAPixelAreTheCpus) {
 }
 
 TEST_F(LensDeviceTest, ShapesOfTheLensAreTheCpus) {
-    LensLooks looks;
-    looks.aperture.blades = 6;
-    looks.magnification = 1.1;
-    looks.field_curvature = 0.3;
-    expect_same(surfaces(80, 70, false, 3), {.lens_samples = 12, .looks = looks});
+    const std::vector<LensLooks> shapes{
+        {.aperture = {.blades = 6}, .field_curvature = 0.3, .magnification = 1.1},
+        {.aperture = {.blades = 5, .curvature = 0.6, .rotation = 20}},
+        {.aperture = {.squeeze = 2}},
+        {.aperture = {.blades = 7, .squeeze = 0.5}},
+        {.tilt = {0.3, -0.2}},
+        {.chromatic_coc = {1.5, 0, -1.5}},
+    };
+    for (const LensLooks &looks : shapes)
+        expect_same(surfaces(80, 70, false, 3), {.lens_samples = 12, .looks = looks});
 }
 
 TEST_F(LensDeviceTest, LensPointsThatWeighDifferentlyAreTheCpus) {
@@ -137,12 +148,31 @@ TEST_F(LensDeviceTest, StripesMakeTheSamePicture) {
 }
 
 TEST_F(LensDeviceTest, IsItsReference) {
-    Ldi ldi = surfaces(40, 30, false, 5);
-    for (Channel &channel : ldi.channels) // no colours: the reference does not sharpen
-        if (channel.name != "A") channel.name += "0";
+    struct Case {
+        bool opaque, images;
+        std::uint32_t stream;
+        LensLooks looks = {};
+    };
+    const std::vector<Case> cases{{false, false, 5},
+                                  {true, false, 15},
+                                  {false, true, 25},
+                                  {true, true, 35},
+                                  {false, false, 45, {.aperture = {.blades = 5, .squeeze = 1.5}}},
+                                  {false, false, 55, {.aperture = {.spherical = 0.8}, .cat_eye = 0.9}}};
     device = open_gather_device(*info, watch());
-    const Image image = gather(ldi, {.lens_samples = 16, .device = device.get()});
-    expect_within(image, lens_gather_reference(ldi, lens, ldi.windows.data, disc_lens_samples(16, 1)));
+    for (const Case &c : cases) {
+        Ldi ldi = surfaces(40, 30, c.opaque, c.stream);
+        for (Channel &channel : ldi.channels) // no colours: the reference does not sharpen
+            if (channel.name != "A") channel.name += "0";
+        for (std::size_t i = 0; i < ldi.z.size() && c.images; ++i)
+            ldi.optical.push_back(ldi.z[i] * (random_unit(int(i), 1, c.stream) < 0.5 ? 1 : 1.7f));
+        const Image image = gather(ldi, {.lens_samples = 16, .looks = c.looks, .device = device.get()});
+        EXPECT_EQ(device->take_report().on_cpu, Tiles());
+        const Aperture aperture(c.looks.aperture);
+        const CatEye cat_eye(aperture, c.looks, picture_frame(ldi.windows, c.looks));
+        expect_within(image, lens_gather_reference(ldi, lens, ldi.windows.data, lens_samples(aperture, 16, 1),
+                                                   nullptr, cat_eye.cuts() ? &cat_eye : nullptr));
+    }
 }
 
 // Depths are looked up by single precision; those of a holdout that shows the same are equal all the same.

@@ -45,6 +45,12 @@ protected:
         device->take_report();
     }
 
+    // Also of what the device leaves behind.
+    void TearDown() override {
+        device.reset();
+        GpuTest::TearDown();
+    }
+
     std::unique_ptr<TileDevice> device;
 };
 

@@ -37,6 +37,12 @@ protected:
         EXPECT_EQ(did.failure, "");
     }
 
+    // Also of what the device leaves behind.
+    void TearDown() override {
+        device.reset();
+        GpuTest::TearDown();
+    }
+
     std::unique_ptr<WarpDevice> device;
 };
 
