@@ -1,7 +1,7 @@
 #include "warp/edge_depths.h"
 
 #include "base/parallel.h"
-#include "warp/unmixing.h"
+#include "warp/mixed/unmixing.h"
 
 #include <fmt/format.h>
 

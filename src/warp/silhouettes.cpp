@@ -4,8 +4,8 @@
 #include "deep/build.h"
 #include "lens/perceptive_depth.h"
 #include "warp/mixed/matte_shares.h"
+#include "warp/mixed/unmixing.h"
 #include "warp/mixed/wisps.h"
-#include "warp/unmixing.h"
 
 #include <algorithm>
 #include <array>

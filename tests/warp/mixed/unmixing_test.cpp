@@ -1,4 +1,4 @@
-#include "warp/unmixing.h"
+#include "warp/mixed/unmixing.h"
 
 #include <gtest/gtest.h>
 

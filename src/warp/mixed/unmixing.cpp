@@ -1,4 +1,4 @@
-#include "warp/unmixing.h"
+#include "warp/mixed/unmixing.h"
 
 #include <algorithm>
 #include <cmath>
