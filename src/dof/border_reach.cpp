@@ -61,7 +61,8 @@ Ldi border_of(const PackedRows &rows, const Imath::Box2i &window) {
             for (const std::uint64_t i : some.pixel(pixel)) append(out, some, i);
         }));
     }
-    Ldi border = concatenate(pieces.front(), std::move(pieces));
+    const Ldi like = empty_like(pieces.front());
+    Ldi border = concatenate(like, std::move(pieces));
     border.windows = rows.windows();
     return border;
 }
