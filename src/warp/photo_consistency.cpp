@@ -10,7 +10,8 @@ namespace {
 
 constexpr double least_ratio = 3;         // noise alone gives up to 1.6, edges of texture up to 2
 constexpr double least_difference = 1e-5; // mean square, tone-mapped: less is not seen
-constexpr double least_motion = 0.5;      // pixels of perceptive depth; sharp edges seem to move by less
+constexpr double least_motion = 0.3;      // pixels of perceptive depth
+constexpr double clear_motion = 0.5;      // the same; sharp edges seem to move by less
 constexpr double least_explained = 0.5;   // share of the squared differences; noise alone gives a hundredth
 constexpr double least_change = 1e-5;     // mean square for each pixel of depth: nothing else tells
 constexpr double focus_px = 2;            // CoC up to which a surface counts as in focus
@@ -31,11 +32,16 @@ struct Block {
         values += 1;
     }
     bool differs() const { return difference > least_ratio * variation + least_difference * pixels; }
-    // Whether a depth that is not that of the surface explains much of the difference, by linear regression.
-    bool moves() const {
-        if (!(change2 > least_change * values)) return false;
+    // By how much a depth that is not that of the surface would explain much of the difference, by linear regression.
+    double motion() const {
+        if (!(change2 > least_change * values)) return 0;
         const double moved = change_difference / change2, explained = moved * change_difference;
-        return std::abs(moved) >= least_motion && explained >= least_explained * difference2;
+        return explained >= least_explained * difference2 ? std::abs(moved) : 0;
+    }
+    Disagreement disagreement() const {
+        const double moved = motion();
+        if (differs() || moved >= clear_motion) return Disagreement::clear;
+        return moved >= least_motion ? Disagreement::slight : Disagreement::none;
     }
     bool in_focus() const { return coc <= focus_px * pixels; }
 };
@@ -133,10 +139,11 @@ PhotoConsistency find_photo_consistency(const ReprojectedViews &views, const Pho
             if (surface.seen_by_centre() && surface.samples.back().view != 0 &&
                 centre.plain(surface.samples[0].x, surface.samples[0].y))
                 compare(views, centre, options, surface, blocks[block_of(pixel)]);
-    PhotoConsistency found{std::vector<bool>(surfaces.pixels()), std::vector<bool>(surfaces.pixels())};
+    PhotoConsistency found{std::vector<bool>(surfaces.pixels()),
+                           std::vector<Disagreement>(surfaces.pixels())};
     for (std::size_t pixel = 0; pixel < surfaces.pixels(); ++pixel) {
         const Block &block = blocks[block_of(pixel)];
-        found.differ[pixel] = block.differs() || block.moves();
+        found.differ[pixel] = block.disagreement();
         found.averages[pixel] = !block.differs() || block.in_focus();
     }
     return found;

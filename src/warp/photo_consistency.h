@@ -7,6 +7,7 @@
 #pragma once
 
 #include "lens/thin_lens.h"
+#include "warp/images/disagreement.h"
 #include "warp/surfaces.h"
 
 #include <optional>
@@ -25,8 +26,8 @@ struct PhotoConsistencyOptions {
 // By pixel of some rows.
 struct PhotoConsistency {
     std::vector<bool> averages; // the views may be averaged
-    // In focus or not: true where views differ by more than noise, or as they would if the image lay at another depth.
-    std::vector<bool> differ;
+    // In focus or not: clear where views differ by more than noise, or as they would if the image lay at another depth.
+    std::vector<Disagreement> differ;
 };
 
 // Of some rows of `data`, whose surfaces are given.

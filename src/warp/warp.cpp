@@ -33,7 +33,7 @@ public:
 
 private:
     void grow_window();
-    using Marks = std::vector<std::uint8_t>; // one a block of image_depths.h
+    using Marks = std::vector<Disagreement>; // one a block of image_depths.h
     // Leaves its memory to the next band.
     Ldi warp_band(int first_row, int last_row, Marks &differ, ReprojectedRows &rows) const;
     void warp_on_device(std::span<Ldi> pieces, Marks &differ) const;
@@ -151,7 +151,7 @@ Ldi Warper::warp_band(int first_row, int last_row, Marks &differ, ReprojectedRow
         const Grid pixels(
             Imath::Box2i({layout_.windows.data.min.x, first_row}, {layout_.windows.data.max.x, last_row}));
         for (std::size_t pixel = 0; pixel < rows.pixels(); ++pixel)
-            if (found.differ[pixel]) differ[blocks.tile_of(pixels.pixel(pixel))] = 1;
+            differ[blocks.tile_of(pixels.pixel(pixel))] = found.differ[pixel];
     }
     Ldi out = empty_like(layout_);
     out.begin.reserve(rows.pixels() + 1);

@@ -1,5 +1,6 @@
 // Walls that are mirrors: what they show lies at another depth than they do, which the views tell.
 #include "support/views.h"
+#include "warp/images/image_depths.h"
 #include "warp/images/show_images.h"
 #include "warp/warp.h"
 
@@ -7,6 +8,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <vector>
 
 namespace sparselens {
 namespace {
@@ -65,6 +68,27 @@ Shares shares(const Ldi &ldi, double image_z, double within) {
             shares.right += std::abs(scale / ldi.optical_z(i) - scale / image_z) < within;
         }
     return {shares.found / pixels, shares.right / pixels};
+}
+
+// Of 5 x 5 blocks, row by row, C for those that differ clearly and s for slightly: x for those that are searched.
+std::string searched(const std::string &marks) {
+    const Imath::Box2i data({0, 0}, {5 * image_block - 1, 5 * image_block - 1});
+    std::vector<Disagreement> differ;
+    for (const char mark : marks) {
+        using enum Disagreement;
+        differ.push_back(mark == 'C' ? clear : mark == 's' ? slight : none);
+    }
+    std::string found(marks.size(), '.');
+    for (const std::size_t block : blocks_to_search(data, differ)) found[block] = 'x';
+    return found;
+}
+
+TEST(Images, BlocksThatStandAloneAreNotSearchedNorSlightPairs) {
+    const std::string nothing(25, '.');
+    EXPECT_EQ(searched("C......C.......s.s......."), nothing); // apart
+    EXPECT_EQ(searched("ss.....................ss"), nothing);
+    EXPECT_EQ(searched("CC.....................Cs"), "xx.....................x.");
+    EXPECT_EQ(searched("sss..sss..sss............"), "xxx..xxx..xxx............");
 }
 
 TEST(Images, DepthsBehindTheMirrorBeforeItAndBehindTheCamera) {

@@ -28,7 +28,7 @@ constexpr std::uint32_t emit_code[] = {
 };
 
 constexpr std::uint32_t bindings = 15, threads = 256;
-constexpr std::uint32_t may_average = 1, differs = 2; // of a verdict
+constexpr std::uint32_t may_average = 1, differs_slightly = 2, differs = 4; // of a verdict
 
 } // namespace
 
@@ -174,12 +174,14 @@ Ldi StripeWork::download(std::size_t samples) {
     return ldi;
 }
 
-std::vector<std::uint8_t> StripeWork::differing_blocks() {
+std::vector<Disagreement> StripeWork::differing_blocks() {
     std::vector<std::uint32_t> words(blocks_);
     device_.download(std::as_writable_bytes(std::span(words)), *buffers_[verdicts]);
-    std::vector<std::uint8_t> differ(blocks_);
-    std::ranges::transform(words, differ.begin(),
-                           [](std::uint32_t word) { return std::uint8_t((word & differs) != 0); });
+    std::vector<Disagreement> differ(blocks_);
+    std::ranges::transform(words, differ.begin(), [](std::uint32_t word) {
+        if (word & differs) return Disagreement::clear;
+        return word & differs_slightly ? Disagreement::slight : Disagreement::none;
+    });
     return differ;
 }
 

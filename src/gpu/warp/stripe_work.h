@@ -30,7 +30,7 @@ public:
     // can be done.
     bool land();
     Ldi merge();                                       // once, after land()
-    std::vector<std::uint8_t> differing_blocks();      // after merge(); see WarpedBands
+    std::vector<Disagreement> differing_blocks();      // after merge(); see WarpedBands
     std::size_t uploaded() const { return uploaded_; } // bytes
 
 private:

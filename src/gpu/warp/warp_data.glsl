@@ -39,7 +39,7 @@ layout(binding = 8) buffer Landed { uvec4 landed[]; }; // what fell into pixels:
 layout(binding = 9) buffer Marks { uvec2 marks[]; };   // of those the view, and the surface of the pixel or `none`
 layout(binding = 10) buffer Means { double means[]; }; // of a pixel's surfaces by number: the mean of 1 / z, later the coverage
 layout(binding = 11) buffer Verdicts { uint verdicts[]; }; // [block]: a set of the following
-const uint may_average = 1, differs = 2;
+const uint may_average = 1, differs_slightly = 2, differs = 4;
 layout(binding = 12) buffer Emitted { uint emitted[]; }; // [pixel]: how many samples, later where they begin
 layout(binding = 13) buffer Results { uint results[]; }; // [z, dx, dy, weight, channels][sample], bits
 layout(binding = 14) buffer State { uint too_many; } state; // not 0: more samples in a pixel than frame.most_in_pixel

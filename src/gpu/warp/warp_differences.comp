@@ -4,7 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "warp_data.glsl"
 
-const double least_ratio = 3, least_difference = 1e-5lf, least_motion = 0.5lf, least_explained = 0.5lf,
+const double least_ratio = 3, least_difference = 1e-5lf, least_motion = 0.3lf, clear_motion = 0.5lf, least_explained = 0.5lf,
              least_change = 1e-5lf, focus_px = 2;
 
 double difference = 0, variation = 0, coc = 0, pixels = 0;
@@ -97,12 +97,12 @@ void look_at(uint pixel) {
     }
 }
 
-bool block_moves() {
+double block_motion() {
     precise const double enough = least_change * values_seen;
-    if (!(change2 > enough)) return false;
+    if (!(change2 > enough)) return 0;
     precise const double moved = change_difference / change2, explained = moved * change_difference,
                          much = least_explained * difference2;
-    return abs(moved) >= least_motion && explained >= much;
+    return explained >= much ? abs(moved) : 0;
 }
 
 void main() {
@@ -114,5 +114,7 @@ void main() {
         for (int x = left; x < min(left + block_size, frame.width); ++x) look_at(uint(y * frame.width + x));
     precise const double noise = least_ratio * variation + least_difference * pixels;
     const bool differ = difference > noise, in_focus = coc <= focus_px * pixels;
-    verdicts[block] = (!differ || in_focus ? may_average : 0) | (differ || block_moves() ? differs : 0);
+    const double moved = block_motion();
+    const uint disagreement = differ || moved >= clear_motion ? differs : moved >= least_motion ? differs_slightly : 0;
+    verdicts[block] = (!differ || in_focus ? may_average : 0) | disagreement;
 }

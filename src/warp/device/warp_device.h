@@ -6,6 +6,7 @@
 #include "base/device_report.h"
 #include "deep/ldi.h"
 #include "lens/thin_lens.h"
+#include "warp/images/disagreement.h"
 
 #include <cstdint>
 #include <functional>
@@ -31,9 +32,8 @@ struct WarpScene {
 // Bands of the result, one below the other.
 struct WarpedBands {
     std::size_t first, count;
-    Ldi ldi; // of their pixels alone
-    // By blocks of photo_block pixels of these bands, row by row: 1 where views differ (photo_consistency.h).
-    std::vector<std::uint8_t> differ;
+    Ldi ldi;                          // of their pixels alone
+    std::vector<Disagreement> differ; // by blocks of photo_block pixels of these bands, row by row
 };
 
 class WarpDevice {

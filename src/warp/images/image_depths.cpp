@@ -13,6 +13,7 @@ namespace {
 
 constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
 constexpr double enough_found = 0.25; // of the pixels of a block, to search those beside it
+constexpr int enough_beside = 2;      // of the eight blocks beside one: more than a line ends with
 constexpr int near_by = 6;            // pixels, for the plane
 constexpr double agreement =
     0.4; // of the pixels around that found a depth are as near to it as the next says
@@ -211,13 +212,15 @@ void ImageDepths::go_on() {
 
 } // namespace
 
-std::vector<std::size_t> blocks_to_search(const Imath::Box2i &data, std::span<const std::uint8_t> differ) {
+std::vector<std::size_t> blocks_to_search(const Imath::Box2i &data, std::span<const Disagreement> differ) {
     const Tiles tiles(data, image_block);
     std::vector<std::size_t> blocks;
     for (std::size_t tile = 0; tile < tiles.count(); ++tile) {
-        bool alone = true;
-        for_each_beside(tiles, tile, [&](std::size_t other) { alone = alone && !differ[other]; });
-        if (differ[tile] && !alone) blocks.push_back(tile);
+        int beside = 0;
+        for_each_beside(tiles, tile,
+                        [&](std::size_t other) { beside += differ[other] != Disagreement::none; });
+        const bool clear = differ[tile] == Disagreement::clear, slight = differ[tile] == Disagreement::slight;
+        if ((clear && beside > 0) || (slight && beside >= enough_beside)) blocks.push_back(tile);
     }
     return blocks;
 }

@@ -2,6 +2,7 @@
 // made sure of by their neighbours, and continued to pixels of the same surface that do not tell.
 #pragma once
 
+#include "warp/images/disagreement.h"
 #include "warp/images/image_sweep.h"
 
 #include <cstdint>
@@ -12,8 +13,9 @@ namespace sparselens {
 
 inline constexpr int image_block = 8; // pixels wide and high
 
-// The blocks of `data` that are worth a search because they differ: not those that stand alone, as noise chooses such ones.
-std::vector<std::size_t> blocks_to_search(const Imath::Box2i &data, std::span<const std::uint8_t> differ);
+// The blocks of `data` that are worth a search because they differ: not those that stand alone, as noise chooses such ones;
+// and where they differ slightly not those that have fewer than two beside them.
+std::vector<std::size_t> blocks_to_search(const Imath::Box2i &data, std::span<const Disagreement> differ);
 
 // Searches those blocks, and others where it has found something beside them. The result is perceptive depth by pixel of
 // `data`, row by row; NaN: the pixel shows its surface, or nothing is known.

@@ -96,7 +96,7 @@ private:
 
 } // namespace
 
-void show_images(std::span<const PlacedView> views, double scale, std::span<const std::uint8_t> differ,
+void show_images(std::span<const PlacedView> views, double scale, std::span<const Disagreement> differ,
                  Ldi &ldi) {
     const std::vector<std::size_t> blocks = blocks_to_search(ldi.windows.data, differ);
     if (blocks.empty()) return;

@@ -1,0 +1,14 @@
+// How far the views of a block of pixels disagree, if what they show lies on its surface.
+#pragma once
+
+#include <cstdint>
+
+namespace sparselens {
+
+enum class Disagreement : std::uint8_t {
+    none,   // no more than noise
+    slight, // as an image would that moves a little against its surface, or a sharp edge of texture
+    clear   // more than that
+};
+
+} // namespace sparselens
