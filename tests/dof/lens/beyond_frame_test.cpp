@@ -81,9 +81,9 @@ TEST(BeyondFrame, WhatViewsWouldHaveShownIsNotMadeUp) {
     // What is 1.2 pixels near was shown at the first pixel, and fills from the second on what the views left.
     EXPECT_EQ(values(beyond(picture(far), frame), 19, 26),
               (std::vector<float>{19, 20, 21, 19, 23, 19, 19, 19}));
-    // What is nearer ends where they showed its end.
+    // What is nearer ends where they showed its end, and goes on as it was seen farthest out.
     EXPECT_EQ(values(beyond(picture(near), frame), 19, 25),
-              (std::vector<float>{19, 20, 21, unknown, 23, unknown, 19}));
+              (std::vector<float>{19, 20, 21, unknown, 23, unknown, 21}));
 }
 
 TEST(BeyondFrame, KeepsCoverageAndWhatIsBehind) {
@@ -137,6 +137,22 @@ TEST(BeyondFrame, IsWhatTheRuleSays) {
             return ldi.windows.data.intersects(at) ? ldi.pixel(ldi.windows.index(at.x, at.y))
                                                    : SampleRange{0, 0};
         };
+        // The depth of the pixel's sample, or of the last of its surface that views looked at.
+        const auto farthest_out = [&](Imath::V2i q, const Imath::V2i &to, bool looked, std::uint64_t i) {
+            const Imath::V2i step(std::clamp(to.x, -1, 1), std::clamp(to.y, -1, 1));
+            const auto near = [&](std::uint64_t k) { return perceptive_depth(lens, double(ldi.z[k])); };
+            for (double n = 1; looked && n <= near(i) + 0.5; ++n) {
+                const SampleRange samples = of_pixel(q += step);
+                std::vector<std::uint64_t> same;
+                for (const std::uint64_t k : samples)
+                    if (std::abs(near(k) - near(i)) < 0.5 &&
+                        (alpha == npos || ldi.values[alpha][k] >= 0.9995f))
+                        same.push_back(k);
+                if (same.empty()) break;
+                i = same.front();
+            }
+            return ldi.z[i];
+        };
         for (int y = -8; y < 54; ++y)
             for (int x = -3; x < 78; ++x) {
                 const Imath::V2i p(x, y), q(std::clamp(x, 5, 69), std::clamp(y, 0, 45));
@@ -147,8 +163,8 @@ TEST(BeyondFrame, IsWhatTheRuleSays) {
                 for (const std::uint64_t i : of_pixel(p)) expected.push_back(ldi.z[i]);
                 if (n > 0 && open(of_pixel(p)))
                     for (const std::uint64_t i : of_pixel(q)) {
-                        const auto z = double(ldi.z[i]);
-                        if (!looked || perceptive_depth(lens, z) < n - 0.5) expected.push_back(ldi.z[i]);
+                        const float z = farthest_out(q, Imath::V2i(x, y) - q, looked, i);
+                        if (!looked || perceptive_depth(lens, double(z)) < n - 0.5) expected.push_back(z);
                     }
                 std::ranges::sort(expected);
                 std::vector<float> found;

@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 namespace sparselens {
@@ -26,8 +27,8 @@ constexpr double sky = std::numeric_limits<double>::infinity();
 struct Leaving {
     std::uint32_t sample;
     double depth; // perceptive, pixels
-    float extent = std::numeric_limits<
-        float>::infinity(); // beyond the border, pixels, of the small light that it is part of
+    // Beyond the border, pixels, of the small light that it is part of.
+    float extent = std::numeric_limits<float>::infinity();
 
     // How much of its light goes on n pixels beyond the border.
     float light(int n) const {
@@ -84,11 +85,12 @@ public:
             const SampleRange here = samples(first + i * step);
             const float level = stands_out * level_around(bright, i);
             found.push_back({{}, !closed(here)});
-            for (const std::uint64_t of : here) {
-                found.back().leaving.push_back({std::uint32_t(of), depth(of)});
+            for (const std::uint64_t of : here)
                 if (brightness(of) > level)
-                    found.back().leaving.back().extent = extent_above(bright, inner, i, level);
-            }
+                    found.back().leaving.push_back(
+                        {std::uint32_t(of), depth(of), extent_above(bright, inner, i, level)});
+                else
+                    found.back().leaving.push_back(outermost(std::uint32_t(of), first + i * step, -in));
         }
         return found;
     }
@@ -112,6 +114,23 @@ private:
         const auto level = around.end() - 1 - std::ptrdiff_t(around.size() / 5);
         std::nth_element(around.begin(), level, around.end());
         return *level;
+    }
+    // Of the surface of that sample of a pixel, what rim views saw farthest beyond the frame.
+    Leaving outermost(std::uint32_t sample, Imath::V2i at, const Imath::V2i &out) const {
+        Leaving last{sample, depth(sample)};
+        for (int n = 1; double(n) <= last.depth + 0.5; ++n) {
+            const auto next = same_surface(samples(at += out), last.depth);
+            if (!next || !is_opaque(alpha_at(ldi_, alpha_, *next))) break;
+            last.sample = *next;
+            last.depth = depth(*next);
+        }
+        return last;
+    }
+    // The first one of these samples that is of the surface at that perceptive depth.
+    std::optional<std::uint32_t> same_surface(const SampleRange &range, double there) const {
+        for (const std::uint64_t i : range)
+            if (std::abs(depth(i) - there) < one_surface_px) return std::uint32_t(i);
+        return {};
     }
     // How far the disc reaches of which that pixel shows a part, brighter than that level.
     static float extent_above(const std::vector<float> &bright, const std::vector<float> &inner, int at,

@@ -4,8 +4,9 @@
 // A pixel beyond the frame continues the pixel of the frame that is nearest to it: it has its samples, with their coverage,
 // depth and place in the pixel, and lets light through to infinity if that does. Only across a side beyond which there are
 // samples, rim views looked past the frame, by the perceptive depth of what they saw: n pixels from the frame, what is nearer
-// than n - 1/2 pixels is there or not, as they showed it. Behind that goes on what is farther. Past corners they are taken not
-// to have looked. Where that leaves out what ends the frame's pixel, it is unknown what lies there.
+// than n - 1/2 pixels is there or not, as they showed it. Behind that goes on what is farther: a surface as it was seen
+// farthest out. Past corners they are taken not to have looked. Where that leaves out what ends the frame's pixel, it is
+// unknown what lies there.
 //
 // A small light goes on as a disc does, so that a lamp leaves no streak. It is one where it is brighter than four times what
 // four of five pixels up to 32 away along the border stay below. How wide it is there and 2 pixels within says how far its
