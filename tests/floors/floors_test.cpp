@@ -1,6 +1,6 @@
 // The whole way from views to the picture is as good as it was: floors.h.
 #include "deep/tidy.h"
-#include "dof/lens/lens_gather.h"
+#include "dof/gather_picture.h"
 #include "floors/floors.h"
 #include "io/exr/exr_flat.h"
 #include "lab/trace/deep.h"
@@ -35,8 +35,10 @@ Decibels decibels(const Image &image, const Image &reference) {
 
 Image gather(const Ldi &ldi, const SceneCamera &scene) {
     Progress silent;
-    return lens_gather(ldi, scene.settings.lens, scene.settings.windows.data, {.quality = Quality::final},
-                       silent);
+    PictureOptions options;
+    options.gather.lens.quality = Quality::final;
+    const Imath::Box2i &window = scene.settings.windows.data;
+    return gather_picture(ldi, scene.settings.lens, window, window, options, silent);
 }
 
 std::vector<View> views_of(const SceneCamera &scene) {
