@@ -126,11 +126,16 @@ Ldi with_each_coverage(const Ldi &ldi, const std::function<Ldi(std::size_t)> &ma
 }
 
 Image composited(const Ldi &ldi, const std::function<Image(const Ldi &)> &composite) {
+    return composited(ldi, composite, [&](Ldi &&one) { return composite(one); });
+}
+
+Image composited(const Ldi &ldi, const std::function<Image(const Ldi &)> &composite,
+                 const std::function<Image(Ldi &&)> &composite_one) {
     const std::vector<Covered> all = by_coverage(ldi);
     if (all.size() == 1) return composite(ldi);
     Image result;
     for (const Covered &covered : all) {
-        const Image one = composite(of_one_coverage(ldi, covered));
+        const Image one = composite_one(of_one_coverage(ldi, covered));
         if (result.channels.empty()) result = Image(one.windows, ldi.channels);
         for (const std::size_t k : covered.channels) {
             const std::string &name = k == covered.coverage ? "A" : ldi.channels[k].name;

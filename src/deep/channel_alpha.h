@@ -45,5 +45,8 @@ Ldi with_each_coverage(const Ldi &ldi, const std::function<Ldi(std::size_t alpha
 // alpha. The LDIs that it is given always have R, G and B, because coverage and brightness decide how a picture is
 // gathered.
 Image composited(const Ldi &ldi, const std::function<Image(const Ldi &)> &composite);
+// The same, where composite_one may use up the LDI that is made for one channel of coverage.
+Image composited(const Ldi &ldi, const std::function<Image(const Ldi &)> &composite,
+                 const std::function<Image(Ldi &&)> &composite_one);
 
 } // namespace sparselens

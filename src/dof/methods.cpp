@@ -10,18 +10,20 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 namespace sparselens {
 
 namespace {
 
-// `gather(ldi, options)` of an LDI in which what leaves the frame goes on beyond it.
-template <typename Gather>
-Image gather_beyond(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window,
+// `gather(ldi, options)` of an LDI in which what leaves the frame goes on beyond it. `ldi` is an Ldi&&, if it may be used up, or
+// a const Ldi&.
+template <typename AnyLdi, typename Gather>
+Image gather_beyond(AnyLdi &&ldi, const ThinLens &lens, const Imath::Box2i &window,
                     const GatherOptions &options, const Gather &gather) {
     if (!options.beyond) return gather(ldi, options.lens);
     LensGatherOptions by = options.lens;
-    const BeyondFrame all = go_on_beyond(ldi, lens, by.looks, options.beyond->frame,
+    const BeyondFrame all = go_on_beyond(std::forward<AnyLdi>(ldi), lens, by.looks, options.beyond->frame,
                                          by.known.value_or(window), options.beyond->reach);
     by.known = all.known;
     by.unseen = all.unseen;
@@ -34,11 +36,15 @@ Image by_lens(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window, 
     const auto gather = [&](const Ldi &one, const LensGatherOptions &by) {
         return lens_gather(one, lens, window, by, progress);
     };
-    return composited(ldi, [&](const Ldi &one) {
-        if (tolerance == 0) return gather_beyond(one, lens, window, options, gather);
-        return gather_beyond(merge_layers(one, perceptive_scale(lens.radius, lens.focal_px), tolerance), lens,
-                             window, options, gather);
-    });
+    const auto gather_one = [&]<typename AnyLdi>(AnyLdi &&one) {
+        if (tolerance == 0) return gather_beyond(std::forward<AnyLdi>(one), lens, window, options, gather);
+        const double scale = perceptive_scale(lens.radius, lens.focal_px);
+        return gather_beyond(merge_layers(std::forward<AnyLdi>(one), scale, tolerance), lens, window, options,
+                             gather);
+    };
+    return composited(
+        ldi, [&](const Ldi &one) { return gather_one(one); },
+        [&](Ldi &&one) { return gather_one(std::move(one)); });
 }
 
 Image by_selective(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window,

@@ -225,7 +225,10 @@ public:
     void run(Ldi &to, BeyondFrame &made) {
         made.known = grown_;
         made.unseen.assign(windows_.pixels(), 0);
-        picked_.from.reserve(ldi_.samples() + ldi_.samples() / 16);
+        const auto area = [](const Imath::Box2i &box) {
+            return double(box.size().x + 1) * (box.size().y + 1);
+        };
+        picked_.from.reserve(std::size_t(double(ldi_.samples()) * area(grown_) / area(known_))); // about
         picked_.begin.reserve(windows_.pixels() + 1);
         for (int y = windows_.data.min.y; y <= windows_.data.max.y; ++y)
             for (int x = windows_.data.min.x; x <= windows_.data.max.x; ++x) {
