@@ -39,7 +39,7 @@ check dense 192 108 1 24
 check hair 384 216 1 24
 # These are gathered in bands, whose least height does not grow with the picture: of high pictures, small ones show the growth.
 check apart 32 1600 1 24
-check tinted 16 1600 1 24
+check tinted 16 1600 1 27 # as much goes on beyond the frame of so narrow a picture as is in it
 check volume 16 800 1 24
 check dense 192 108 0 12
 check volume 96 54 0 12
