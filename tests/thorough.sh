@@ -1,16 +1,16 @@
 #!/bin/bash
 # What the tests and continuous integration have no time for; for a release, or the end of a large change. Takes hours.
 #
-#   tests/thorough.sh [ROW...]     all, or those of: lto no-lab no-gpu no-python shared tsan mutations fuzz
+#   tests/thorough.sh [ROW...]     all, or those of: lto no-lab no-gpu no-python shared asan tsan mutations fuzz
 #
 # lto: what differs between files of one name (tests/lto.sh); no-lab: all without Embree; no-gpu, no-python, shared: every
-# test without the kernels for GPUs, without the Python module, with a shared library; tsan: the tests under
-# ThreadSanitizer; mutations: every deliberate fault; fuzz: a minute of each target. Prints a table at the end; what each
+# test without the kernels for GPUs, without the Python module, with a shared library; asan: the unit tests under
+# AddressSanitizer and UndefinedBehaviorSanitizer; tsan: the tests under ThreadSanitizer; mutations: every deliberate fault; fuzz: a minute of each target. Prints a table at the end; what each
 # row said is in build-thorough/ROW.log. Exit 1 where one fails.
 set -uo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 exec </dev/null
-rows=(lto no-lab no-gpu no-python shared tsan mutations fuzz)
+rows=(lto no-lab no-gpu no-python shared asan tsan mutations fuzz)
 for row; do [[ " ${rows[*]} " == *" $row "* ]] || { echo "thorough.sh: no row $row (${rows[*]})" >&2; exit 2; }; done
 [ $# -eq 0 ] || rows=("$@")
 
@@ -28,6 +28,7 @@ run() {
     no-gpu) with -DSPARSELENS_GPU=OFF ;;
     no-python) with -DSPARSELENS_PYTHON=OFF ;;
     shared) with -DBUILD_SHARED_LIBS=ON ;;
+    asan) tests/sanitizers.sh --units asan ;;
     tsan) tests/sanitizers.sh tsan ;;
     mutations) tests/mutations.sh ;;
     fuzz) tests/fuzz.sh 60 ;;
