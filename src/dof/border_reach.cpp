@@ -1,6 +1,7 @@
 #include "dof/border_reach.h"
 
 #include "deep/build.h"
+#include "dof/lens/beyond/border_pixels.h"
 #include "lens/reach/light_reach.h"
 
 #include <algorithm>
@@ -15,19 +16,6 @@ constexpr float counts = 0.5f;    // of coverage: fainter samples blur unseen
 constexpr float stands_out = 4;   // times what is around it
 constexpr float smallest_coc = 2; // pixels: a lamp of less is no disc
 constexpr std::size_t faint = 32; // all but one of so many
-
-// visit(x, y) for the outermost pixels of a box.
-template <typename Visit>
-void for_each_border_pixel(const Imath::Box2i &box, const Visit &visit) {
-    for (int x = box.min.x; x <= box.max.x; ++x) {
-        visit(x, box.min.y);
-        if (box.max.y > box.min.y) visit(x, box.max.y);
-    }
-    for (int y = box.min.y + 1; y < box.max.y; ++y) {
-        visit(box.min.x, y);
-        if (box.max.x > box.min.x) visit(box.max.x, y);
-    }
-}
 
 int least_overscan(const Windows &windows) {
     const Imath::V2i before = windows.display.min - windows.data.min,

@@ -3,6 +3,7 @@
 #include "base/parallel.h"
 #include "deep/build.h"
 #include "dof/facets/opaque.h"
+#include "dof/lens/beyond/border_pixels.h"
 #include "dof/lens/sample_colours.h"
 #include "lens/reach/light_reach.h"
 
@@ -165,15 +166,6 @@ private:
     std::vector<std::size_t> brightness_;
 };
 
-// visit(pixel) for the outermost pixels of a box.
-template <typename Visit>
-void for_each_border_pixel(const Imath::Box2i &box, const Visit &visit) {
-    for (int x = box.min.x; x <= box.max.x; ++x)
-        visit(Imath::V2i(x, box.min.y)), visit(Imath::V2i(x, box.max.y));
-    for (int y = box.min.y; y <= box.max.y; ++y)
-        visit(Imath::V2i(box.min.x, y)), visit(Imath::V2i(box.max.x, y));
-}
-
 // The LDI of picked samples, and how much of their light is left.
 struct Picked {
     std::vector<std::uint64_t> begin{0};
@@ -299,7 +291,8 @@ Imath::V2i look_beyond(const Ldi &ldi, const ThinLens &lens, const LensLooks &lo
                        const Imath::Box2i &frame) {
     const Border border(ldi, lens, looks);
     Imath::V2d reach(0, 0);
-    for_each_border_pixel(frame, [&](const Imath::V2i &at) {
+    for_each_border_pixel(frame, [&](int x, int y) {
+        const Imath::V2i at(x, y);
         const Imath::V2d by = border.reach(at), beside = border.shown_beside(at);
         if (at.x == frame.min.x) reach.x = std::max(reach.x, by.x - beside.x);
         if (at.x == frame.max.x) reach.x = std::max(reach.x, by.x + beside.x);
