@@ -3,7 +3,7 @@
 #include "deep/channel_alpha.h"
 #include "deep/flatten.h"
 #include "dof/defocused_holdout.h"
-#include "dof/lens/beyond/beyond_frame.h"
+#include "dof/gather_beyond.h"
 #include "lens/perceptive_depth.h"
 
 #include <algorithm>
@@ -28,15 +28,16 @@ Image cropped(Image picture, const Imath::Box2i &window) {
 // frame is found for each (methods.cpp).
 template <typename AnyLdi>
 Image gather_frame(AnyLdi &&ldi, const ThinLens &lens, const Imath::Box2i &gathered,
-                   const GatherMethod &method, GatherOptions by, Progress &progress) {
-    if (&method != &gather_methods().front() || !by.beyond || by_coverage(ldi).size() > 1)
+                   const GatherMethod &method, const GatherOptions &by, Progress &progress) {
+    if (&method != &gather_methods().front() || by_coverage(ldi).size() > 1)
         return method.gather(ldi, lens, gathered, by, progress);
-    const BeyondFrame all = go_on_beyond(std::forward<AnyLdi>(ldi), lens, by.lens.looks, by.beyond->frame,
-                                         by.lens.known.value_or(gathered), by.beyond->reach);
-    by.beyond.reset();
-    by.lens.known = all.known;
-    by.lens.unseen = all.unseen;
-    return method.gather(all.ldi, lens, gathered, by, progress);
+    return gather_beyond(std::forward<AnyLdi>(ldi), lens, gathered, by,
+                         [&](const Ldi &all, const LensGatherOptions &all_by) {
+                             GatherOptions options = by;
+                             options.beyond.reset();
+                             options.lens = all_by;
+                             return method.gather(all, lens, gathered, options, progress);
+                         });
 }
 
 // What is merged here is what could not be merged before.
@@ -50,9 +51,8 @@ Image gather_layers(AnyLdi &&ldi, const ThinLens &lens, const Imath::Box2i &gath
     by.lens.region = written;
     by.lens.holdout = sharp ? &*sharp : nullptr;
     by.layer_tolerance = merges_layers(lens, options) ? options.layer_tolerance : 0;
-    return cropped(
-        gather_frame(std::forward<AnyLdi>(ldi), lens, gathered, *options.method, std::move(by), progress),
-        written);
+    return cropped(gather_frame(std::forward<AnyLdi>(ldi), lens, gathered, *options.method, by, progress),
+                   written);
 }
 
 // Once is enough: merged twice, layers would change by more than the tolerance.

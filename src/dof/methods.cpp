@@ -1,7 +1,7 @@
 #include "dof/methods.h"
 
 #include "deep/channel_alpha.h"
-#include "dof/lens/beyond/beyond_frame.h"
+#include "dof/gather_beyond.h"
 #include "dof/lens_mattes.h"
 #include "dof/merge_layers.h"
 #include "dof/selective/scatter.h"
@@ -15,20 +15,6 @@
 namespace sparselens {
 
 namespace {
-
-// `gather(ldi, options)` of an LDI in which what leaves the frame goes on beyond it. `ldi` is an Ldi&&, if it may be used up, or
-// a const Ldi&.
-template <typename AnyLdi, typename Gather>
-Image gather_beyond(AnyLdi &&ldi, const ThinLens &lens, const Imath::Box2i &window,
-                    const GatherOptions &options, const Gather &gather) {
-    if (!options.beyond) return gather(ldi, options.lens);
-    LensGatherOptions by = options.lens;
-    const BeyondFrame all = go_on_beyond(std::forward<AnyLdi>(ldi), lens, by.looks, options.beyond->frame,
-                                         by.known.value_or(window), options.beyond->reach);
-    by.known = all.known;
-    by.unseen = all.unseen;
-    return gather(all.ldi, by);
-}
 
 Image by_lens(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window, const GatherOptions &options,
               Progress &progress) {
