@@ -2,6 +2,7 @@
 
 #include "base/parallel.h"
 #include "deep/build.h"
+#include "deep/packed/packed_rows.h"
 #include "dof/facets/opaque.h"
 #include "dof/lens/beyond/border_pixels.h"
 #include "dof/lens/sample_colours.h"
@@ -173,9 +174,8 @@ struct Picked {
     std::vector<std::pair<std::uint32_t, float>> dimmed; // new samples
 };
 
-template <typename Value>
-std::vector<Value> picked(const std::vector<Value> &of, const std::vector<std::uint32_t> &from) {
-    std::vector<Value> values(of.empty() ? 0 : from.size());
+std::vector<float> picked(const std::vector<float> &of, const std::vector<std::uint32_t> &from) {
+    std::vector<float> values(of.empty() ? 0 : from.size());
     parallel_ranges(values.size(), 65536, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) values[i] = of[from[i]];
     });
@@ -185,12 +185,11 @@ std::vector<Value> picked(const std::vector<Value> &of, const std::vector<std::u
 // `to` may be the same LDI.
 void pick(const Ldi &of, Picked by, Ldi &to) {
     const std::vector<std::size_t> light = light_channels(of).all;
-    to.z = picked(of.z, by.from);
-    for (const auto part : {&Ldi::z_back, &Ldi::dx, &Ldi::dy, &Ldi::weight, &Ldi::optical})
-        to.*part = picked(of.*part, by.from);
     to.channels = of.channels;
     to.values.resize(of.values.size());
-    for (std::size_t k = 0; k < of.values.size(); ++k) to.values[k] = picked(of.values[k], by.from);
+    const std::vector<const std::vector<float> *> from = arrays_of(of);
+    const std::vector<std::vector<float> *> into = arrays_of(to);
+    for (std::size_t k = 0; k < from.size(); ++k) *into[k] = picked(*from[k], by.from);
     for (const auto &[sample, left] : by.dimmed)
         for (const std::size_t k : light) to.values[k][sample] *= left;
     to.begin = std::move(by.begin);
