@@ -1,6 +1,50 @@
 #include "base/text.h"
 
+#include <algorithm>
+#include <numeric>
+#include <utility>
+#include <vector>
+
 namespace sparselens {
+
+namespace {
+
+std::string letters_and_digits(std::string_view text) {
+    std::string result = lower_case(std::string(text));
+    std::erase_if(result, [](char c) { return (c < 'a' || c > 'z') && (c < '0' || c > '9'); });
+    return result;
+}
+
+// Levenshtein's distance, by rows of its table.
+std::size_t edits_between(std::string_view a, std::string_view b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    std::iota(row.begin(), row.end(), 0);
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        std::size_t diagonal = std::exchange(row[0], i + 1);
+        for (std::size_t j = 0; j < b.size(); ++j) {
+            const std::size_t exchanged = diagonal + (a[i] != b[j]);
+            diagonal = row[j + 1];
+            row[j + 1] = std::min({exchanged, row[j] + 1, diagonal + 1});
+        }
+    }
+    return row.back();
+}
+
+} // namespace
+
+std::string nearest_word(std::string_view given, std::span<const std::string> words) {
+    constexpr std::size_t longest = 100; // no word is longer, and the time is that squared
+    const std::string meant = letters_and_digits(given.substr(0, longest));
+    std::string nearest;
+    std::size_t fewest = meant.size() / 3 + 1;
+    for (const std::string &word : words) {
+        const std::size_t edits = edits_between(meant, letters_and_digits(word));
+        if (meant.empty() || edits >= fewest) continue;
+        fewest = edits;
+        nearest = word;
+    }
+    return nearest;
+}
 
 std::string lower_case(std::string text) {
     for (char &c : text)

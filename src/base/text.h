@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -13,6 +14,11 @@ std::string upper_case(std::string text);
 
 // The text in single quotes, as a POSIX shell reads it: it's becomes 'it'\''s'.
 std::string single_quoted(std::string_view text);
+
+// Which of `words` was meant by `given`, which is none of them: the one with the fewest letters and digits to add, leave out
+// or exchange; of all else, and of capitals, nothing counts (--f-stop is --fstop). Empty where that is more than a third of
+// them, or there is no letter or digit.
+std::string nearest_word(std::string_view given, std::span<const std::string> words);
 
 // Whether `word` is one of `words`, a range of strings.
 bool is_among(const auto &words, std::string_view word) {

@@ -1,6 +1,7 @@
 #include "python/keywords.h"
 
 #include "base/error.h"
+#include "base/text.h"
 
 #include <fmt/format.h>
 #include <pybind11/stl.h>
@@ -45,6 +46,7 @@ Keywords::Keywords(const char *function, const py::kwargs &given) : function_(fu
 }
 
 py::object Keywords::take(const char *name) {
+    known_.emplace_back(name);
     if (!left_.contains(name)) return py::none();
     py::object value = left_[name];
     PyDict_DelItemString(left_.ptr(), name);
@@ -142,9 +144,11 @@ void Keywords::refuse(const char *name, const std::string &wanted, const std::st
 }
 
 void Keywords::done() const {
-    for (const auto &item : left_)
-        throw py::type_error(
-            fmt::format("{}() has no keyword argument '{}'", function_, std::string(py::str(item.first))));
+    for (const auto &item : left_) {
+        const std::string name = py::str(item.first), nearest = nearest_word(name, known_);
+        throw py::type_error(fmt::format("{}() has no keyword argument '{}'{}", function_, name,
+                                         nearest.empty() ? "" : "; did you mean " + nearest + "?"));
+    }
 }
 
 LensValues lens_values(Keywords &keywords) {

@@ -14,6 +14,7 @@
 #include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace sparselens::python {
 
@@ -64,6 +65,7 @@ public:
 private:
     std::string function_;
     py::dict left_;
+    std::vector<std::string> known_; // all that were asked for
 };
 
 // focal_length, sensor_width, fstop, lens_radius, focus_distance, scene_unit.

@@ -28,5 +28,18 @@ TEST(Text, AWordIsAmongOthersOnlyWhenItIsEqual) {
     EXPECT_TRUE(is_among(std::array<const char *, 1>{"one"}, "one"));
 }
 
+TEST(Text, TheNearestWordIsTheOneThatWasMeant) {
+    const std::vector<std::string> words{"--fstop", "--focus-distance", "--focal-length", "--far", "--stats"};
+    EXPECT_EQ(nearest_word("--f-stop", words), "--fstop");
+    EXPECT_EQ(nearest_word("-F_Stop", words), "--fstop");
+    EXPECT_EQ(nearest_word("--focus-distnace", words), "--focus-distance"); // two letters exchanged
+    EXPECT_EQ(nearest_word("--fstp", words), "--fstop");
+    EXPECT_EQ(nearest_word("--state", words), "--stats");
+    for (const char *other : {"--no-such-option", "", "--", "-q", "--holdout", "--fa-r-t-h-e-r"})
+        EXPECT_EQ(nearest_word(other, words), "") << other;
+    EXPECT_EQ(nearest_word(std::string(100'000, 'x'), words), "");
+    EXPECT_EQ(nearest_word("fstop", {}), "");
+}
+
 } // namespace
 } // namespace sparselens

@@ -246,6 +246,9 @@ fails_saying 2 '^dof-gather: --layers: works with --method selective only' "$gat
 fails_saying 2 '^dof-gather: --fstop is given 2 times, with the values 2, 4: give it once' "$gather" -v ldi.exr -o y.exr --fstop 2 --fstop 4
 fails_saying 2 '^dof-gather: --output is given 2 times, with the values y.exr, z.exr' "$gather" ldi.exr -o y.exr -o z.exr
 fails_saying 2 '^dof-gather: --output is required' "$gather" -- ldi.exr
+fails_saying 2 '^dof-gather: unknown argument: --f-stop; did you mean --fstop\? ' "$gather" ldi.exr -o y.exr --f-stop 2
+fails_saying 2 '^dof-gather: unknown argument: --focus-distanse=3; did you mean --focus-distance\? ' "$gather" ldi.exr -o y.exr --focus-distanse=3
+fails_saying 2 '^dof-gather: unknown argument: --nonsense \(see --help\)$' "$gather" ldi.exr -o y.exr --nonsense
 fails_saying 2 '^dof-gather: unknown argument: -d' "$gather" -o y.exr -- ldi.exr -d
 cp ldi.exr ./-v
 cp ldi.exr ./--quality=final

@@ -1,6 +1,7 @@
 #include "harness/process.h"
 
 #include "base/error.h"
+#include "base/text.h"
 #include "harness/man_page.h"
 #include "harness/one_line.h"
 #include "io/files/memory_limit.h"
@@ -41,10 +42,20 @@ void handle_signals() {
         if (std::signal(number, stop) == SIG_IGN) std::signal(number, SIG_IGN); // as under nohup
 }
 
+// "; did you mean --fstop?", or nothing.
+std::string meant_by(const CLI::App &app, const std::string &argument) {
+    if (!argument.starts_with('-')) return {};
+    std::vector<std::string> names;
+    for (const CLI::Option *option : app.get_options())
+        for (const std::string &name : option->get_lnames()) names.push_back("--" + name);
+    const std::string nearest = nearest_word(argument.substr(0, argument.find('=')), names);
+    return nearest.empty() ? nearest : fmt::format("; did you mean {}?", nearest);
+}
+
 // What is wrong with the words: an argument that was not understood tells more than what is missing because of it.
 std::string explanation(const CLI::App &app, const CLI::ParseError &error) {
     for (const std::string &argument : app.remaining())
-        if (argument != "--") return "unknown argument: " + argument;
+        if (argument != "--") return "unknown argument: " + argument + meant_by(app, argument);
     if (dynamic_cast<const CLI::ArgumentMismatch *>(&error))
         for (const CLI::Option *option : app.get_options())
             if (option->get_items_expected_max() == 1 && option->count() > 1)
