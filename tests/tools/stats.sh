@@ -32,6 +32,11 @@ exits 0 "$bin/dof-gather" clustered.exr -o same.exr --stats -
 same same.exr out.exr "--stats"
 mv stderr by_stderr.json
 holds by_stderr.json 0 's["tool"] == "dof-gather"'
+exits 0 "$bin/dof-gather" clustered.exr -o - --stats -
+mv stdout same.exr
+mv stderr by_stderr.json
+same_pixels same.exr out.exr "--stats - beside -o -"
+holds by_stderr.json 0 's["tool"] == "dof-gather"'
 exits 0 "$bin/dof-gather" clustered.exr -o same.exr
 [ ! -s stderr ] || fail "stats without being asked: $(cat stderr)"
 

@@ -78,7 +78,9 @@ NamedFiles named_files(const CLI::App &parsed) {
     NamedFiles files;
     for (const CLI::Option *option : parsed.get_options()) {
         if (is_among(output_options, option->get_name())) add(files.outputs, *option);
-        if (option->get_name() == "--stats") add(files.also_written, *option);
+        if (option->get_name() == "--stats" && option->count() > 0 &&
+            option->results().front() != "-") // - is stderr
+            add(files.also_written, *option);
         if (option->get_name() == "--masks") add_masks(files.also_written, *option);
         if (is_input(*option)) add(files.inputs, *option);
     }
