@@ -90,7 +90,14 @@ for tool in dof-gather ldi-warp; do
     exits 0 "$bin/$tool" lamp.exr -o x.exr "${wide[@]}"
     grep -q 'warning: .* discs of lights outside the frame are missing' stderr || fail "$tool: no warning: $(cat stderr)"
 done
-rm x.exr
+# Of a range of frames it is said once, and of the others with -v.
+exits 0 "$bin/dof-gather" lamp.exr -o lamp.#.exr --frames 1-3 "${wide[@]}"
+[ "$(grep -c 'warning: .* discs of lights outside the frame are missing' stderr)" -eq 1 ] || fail "not one warning: $(cat stderr)"
+exits 0 "$bin/dof-gather" lamp.exr -o lamp.#.exr --frames 1-3 "${wide[@]}" -v
+[ "$(grep -c 'warning: .* discs of lights outside the frame are missing' stderr)" -eq 1 ] &&
+    [ "$(grep -c 'dof-gather: lamp.exr: .* discs of lights outside the frame are missing' stderr)" -eq 2 ] ||
+    fail "-v does not say it of each frame: $(cat stderr)"
+rm x.exr lamp.*.exr
 
 # --holdout: what is behind it goes, at its edge from one pixel to the next; what is in front stays.
 picture make wall.exr 40x20 R=0.5 G=0.5 B=0.5 A=1 Z=20

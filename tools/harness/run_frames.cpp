@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <map>
 #include <memory>
+#include <set>
 #include <utility>
 
 namespace sparselens {
@@ -97,16 +98,16 @@ std::string frame_name(const FrameCommands &commands, std::size_t i) {
     return commands.is_range() ? fmt::format("frame {}: ", commands.number(i)) : "";
 }
 
-// Whether -u leaves the frame alone. `warned`: the one warning of the whole range was given.
-bool is_up_to_date(const CLI::App &parsed, const ToolContext &tool, bool &warned) {
+// Whether -u leaves the frame alone.
+bool is_up_to_date(const CLI::App &parsed, const ToolContext &tool) {
     const NamedFiles files = named_files(parsed);
     const Freshness found = freshness_of(files, records_history(parsed) ? tool.command_line : "");
     if (found == Freshness::stale) return false;
     const std::string &output = files.outputs.front().path;
-    if (found == Freshness::not_compared && !warned)
-        warn(tool, "-u did not compare the options of " + output +
-                       " with those given, because no command line is recorded for it");
-    warned = warned || found == Freshness::not_compared;
+    if (found == Freshness::not_compared)
+        warn_once(tool, "-u",
+                  "-u did not compare the options of " + output +
+                      " with those given, because no command line is recorded for it");
     tool.say(output + " is up to date");
     return true;
 }
@@ -160,18 +161,20 @@ int run_words(const std::string &name, const std::string &description, const std
     const ProgressFormat format = first->frames.progress;
     const Process process(first->process, *context_of(name, *first));
     FrameRun run(first->frames.skip_bad_frames);
-    bool warned = false, go_on = true;
+    const auto warned = std::make_shared<std::set<std::string>>();
+    bool go_on = true;
     for (std::size_t i = 0; i < count && go_on; ++i) {
         parse(i, command);
         const Tool tool = context_of(name, *command);
         if (commands->is_range()) tool->frame = commands->number(i);
         tool->last_frame = i + 1 == count;
+        tool->warned = warned;
         tool->command_line = command_line(name, commands->words(i));
         tool->progress = progress_of(format, name, {i, count, tool->frame});
         const std::string frame_prefix = prefix + frame_name(*commands, i);
         const bool aside = !tool->last_frame && has_threads();
         const auto job = [&] {
-            if (!command->frames.update || !is_up_to_date(command->app, *tool, warned)) command->job(*tool);
+            if (!command->frames.update || !is_up_to_date(command->app, *tool)) command->job(*tool);
             if (aside) say_stage(format, *tool, *tool->last_step ? "writing" : "done");
         };
         const auto finish = [=] {

@@ -19,6 +19,13 @@ void warn(const ToolContext &tool, const std::string &text) {
     fmt::print(stderr, "{}: warning: {}\n", tool.tool_name, one_line(text));
 }
 
+void warn_once(const ToolContext &tool, const std::string &kind, const std::string &text) {
+    if (tool.warned->insert(kind).second)
+        warn(tool, text);
+    else
+        tool.say(one_line(text));
+}
+
 int run_tool(CLI::App &app, int argc, char **argv, const Job &job, Reads reads) {
     ProcessOptions options;
     add_process_options(app, options);

@@ -8,6 +8,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 
 namespace sparselens {
@@ -21,6 +22,9 @@ struct ToolContext {
     std::optional<int> frame;                // the number of the frame in a range
     bool last_frame = true;                  // what was read for it may be used up
     std::string command_line;                // see history.h
+
+    // What warn_once() has said in this range of frames; never null.
+    std::shared_ptr<std::set<std::string>> warned = std::make_shared<std::set<std::string>>();
 
     // Never null. A job may leave its last step here, which writes what it made and holds all that it needs: of a range of
     // frames, it runs while the next frame is at work, and no more than one at a time. It counts as part of the job.
@@ -49,5 +53,9 @@ int run_frames(const std::string &name, const std::string &description, int argc
 
 // Prints a warning to stderr, with or without --verbose: "tool: warning: text".
 void warn(const ToolContext &tool, const std::string &text);
+
+// The same for the first frame of a range that has something of this kind to say, a word for each kind; of later frames
+// only --verbose prints it. Not for last steps, which run beside the next frame.
+void warn_once(const ToolContext &tool, const std::string &kind, const std::string &text);
 
 } // namespace sparselens

@@ -26,7 +26,8 @@ void say_border_reach(const ToolContext &tool, const std::string &path, const Ld
         fmt::format("{}: the blur reaches {} pixels beyond the frame, and {} were rendered there",
                     display_name(path), reach.needed, reach.rendered);
     if (reach.too_little() && reach.bright)
-        warn(tool, text + "; discs of lights outside the frame are missing, so render more overscan");
+        warn_once(tool, "overscan",
+                  text + "; discs of lights outside the frame are missing, so render more overscan");
     else
         tool.say(text);
 }
