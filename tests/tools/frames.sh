@@ -192,6 +192,12 @@ fails_saying 2 'chain.0002.exr would overwrite the input ./chain.0002.exr' "$bin
 cmp -s ldi.exr chain.0001.exr || fail "an input was overwritten"
 [ ! -e chain.0002.exr ] || fail "a refused command wrote chain.0002.exr"
 
+# As RV and Houdini write it; a single @ is a part of a name.
+exits 0 "$bin/ldi-cluster" cluster.@@@@.exr -o 'houdini.$F4.exr' --tolerance 1 --frames 10-11
+[ -e houdini.0010.exr ] && [ -e houdini.0011.exr ] || fail "@@@@ and \$F4: $(ls)"
+exits 0 "$bin/ldi-cluster" one.exr -o shot@2x.exr --tolerance 1
+[ -e shot@2x.exr ] || fail "a name with an @: $(ls)"
+
 cp ldi.exr 'take#2.exr'
 exits 0 "$gather" 'take#2.exr' -o one.exr
 exits 0 "$gather" ldi.exr -o two.exr

@@ -70,6 +70,13 @@ TEST(FileAt, PutsTheNumberInEveryPlace) {
     EXPECT_EQ(file_at("a.%d.exr", -5), "a.-5.exr");
     EXPECT_EQ(file_at("1-9:2#/a.-5-5##.1,3,5-9%d.exr", 3), "0003/a.03.3.exr");
     EXPECT_EQ(file_at("take2#.exr", 3), "take20003.exr");
+    EXPECT_EQ(file_at("a.@@@@.exr", 12), "a.0012.exr"); // as RV has it
+    EXPECT_EQ(file_at("a.@@.exr", -5), "a.-5.exr");
+    EXPECT_EQ(file_at("shot@2x.@me.exr", 12), "shot@2x.@me.exr"); // a name
+    EXPECT_EQ(file_at("$F/a.$F4.exr", 12), "12/a.0012.exr");      // as Houdini has it
+    EXPECT_EQ(file_at("a.1-9$F2.exr", 3), "a.03.exr");
+    for (const char *name : {"$FF.exr", "$F4x.exr", "$F0.exr", "$F12.exr", "$f4.exr", "F4.exr"})
+        EXPECT_EQ(file_at(name, 12), name);
 }
 
 // The value of a list of numbers at a frame.

@@ -34,20 +34,23 @@ struct Place {
     int width = 0;     // digits, with zeros before the number
 };
 
-// A range of its own (1: one part at least is more than a number), then # or %04d (2, 3: the digits).
+// A range of its own (1: one part at least is more than a number), then #, @@, %04d (2, 3: the digits) or $F4 (4: the digit). A
+// single @ is a part of names, as in shot@2x.exr.
 const std::regex &sequence_pattern() {
     static const std::string number = R"(-?\d{1,7})", span = number + "-" + number + R"((?:[xy:]-?\d{1,7})?)",
                              part = "(?:" + span + "|" + number + ")";
     static const std::regex pattern("(" + span + "(?:," + part + ")*|" + number + "(?:," + part +
-                                    R"()+)?(#+|%(0\d{1,2})?d))");
+                                    R"()+)?(#+|@@+|%(0\d{1,2})?d|\$F([1-9]?)(?![A-Za-z0-9_])))");
     return pattern;
 }
 
 int width_of(const std::smatch &match) {
-    const std::string hashes = match[2];
-    if (hashes.front() == '#') return hashes.size() == 1 ? 4 : int(std::min<std::size_t>(hashes.size(), 32));
+    const std::string sign = match[2];
+    if (sign == "#") return 4;
+    if (sign.front() == '#' || sign.front() == '@') return int(std::min<std::size_t>(sign.size(), 32));
+    const std::string digits = sign.front() == '$' ? match[4] : match[3];
     int width = 0;
-    if (match[3].matched) std::from_chars(&*match[3].first, &*match[3].first + match[3].length(), width);
+    std::from_chars(digits.data(), digits.data() + digits.size(), width);
     return width;
 }
 

@@ -2,7 +2,8 @@
 //
 // A word that names a sequence of files stands for one file per frame: shot.####.exr, shot.%04d.exr, or with a range of
 // its own shot.1-24#.exr, so that sequences of different numbers can be combined. A single # stands for four digits (as
-// in oiiotool), several for as many digits (as in Nuke); a minus counts as one of them, as for printf. A word of values
+// in oiiotool), several for as many digits (as in Nuke), two or more @ too (as in RV and Shake), and $F4 for four (as in
+// Houdini; $F has no zeros before the number); a minus counts as one of them, as for printf. A word of values
 // keyed by frame (keys.h), 1:5.0,24:2.0, stands for the value at the frame; @keys.txt after a lens option stands for the
 // keys in that file.
 #pragma once
@@ -24,7 +25,7 @@ std::vector<int> frame_numbers(const std::string &range);
 // What a command line gives an option, "" where it does not.
 std::string value_of(const std::string &option, const std::vector<std::string> &words);
 
-// The name with every #, ##, ... and %04d replaced by the number. A minus before a range in the name is a sign, unless
+// The name with every #, ##, @@, ... %04d and $F4 replaced by the number. A minus before a range in the name is a sign, unless
 // it follows a letter or a digit: shot-1-24#.exr counts from 1, shot.-1-24#.exr from -1.
 std::string file_at(const std::string &name, int number);
 
