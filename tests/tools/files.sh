@@ -26,6 +26,19 @@ picture edit out.exr cut.exr channels=R=diffuse.R,G=diffuse.G,B=diffuse.B
 same cut.exr diffuse.exr "a layer's part"
 same z.exr depth.exr "depth in a part of its own"
 
+# A picture of another format is named as what it is; from a pipe, too.
+oiiotool one.exr --ch R,G,B -o view.png
+for tool in ldi-warp ldi-plan dof-gather; do
+    fails_saying 1 "^$tool: view.png: is a PNG picture, and EXR is needed: render to EXR" "$bin/$tool" view.png -o x.exr
+    [ ! -e x.exr ] || fail "$tool reads a PNG"
+done
+fails_saying 1 'view.png: is a PNG picture' "$bin/dof-gather" one.exr -o x.exr "${flat[@]}" --holdout view.png
+fails_saying 1 'view.png: is a PNG picture' "$bin/dof-gather" one.exr -o x.exr --focal-length 50 --sensor-width 36 --lens-radius 1 \
+    --focus-distance 3 --aperture view.png
+fails_saying 1 'standard stream: is a PNG picture' bash -c '"$1" - -o x.exr --lens-radius 0 <view.png' - "$bin/dof-gather"
+printf 'P6 2 2 255 abcdefghijkl' >view.ppm
+fails_saying 1 'view.ppm: not an EXR file' "$bin/dof-gather" view.ppm -o x.exr "${flat[@]}"
+
 # One part a view: the first view is the picture.
 part rgba.exr rgba.left l_rgba.exr --sattrib view left
 part depth.exr depth.left l_depth.exr --sattrib view left

@@ -1,9 +1,11 @@
 #include "io/exr/exr_header_check.h"
 
 #include "base/error.h"
+#include "io/files/not_exr.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <string_view>
 
@@ -48,7 +50,8 @@ public:
     HeaderWalk(InputStream &in, const std::string &path) : in_(in), path_(path) {}
 
     void run() {
-        if (in_.size() < 8 || word() != magic) return;
+        if (in_.size() < 8) return;
+        if (word() != magic) fail_as_other();
         const bool multipart = (word() & several_parts) != 0;
         bool more = one_header();
         while (more && multipart) more = one_header();
@@ -98,6 +101,12 @@ private:
         return in_.tellg() == end;
     }
 
+    [[noreturn]] void fail_as_other() {
+        std::array<char, 16> bytes{};
+        in_.seekg(0);
+        in_.read(bytes.data(), int(std::min<std::uint64_t>(bytes.size(), in_.size())));
+        throw Error(display_name(path_) + ": " + not_exr({bytes.data(), bytes.size()}));
+    }
     [[noreturn]] void fail(const std::string &name, const std::string &what) const {
         throw Error(fmt::format("{}: attribute {} {}", display_name(path_), name, what));
     }

@@ -13,8 +13,8 @@
 namespace sparselens {
 
 // Throws Error, naming the file and the attribute, where an attribute is larger than the file or does not have the size
-// of its type, or where the header does not end. A file that is not an EXR file is left for OpenEXR to report. Leaves
-// the stream at its beginning.
+// of its type, where the header does not end, or where the file is not an EXR file (not_exr.h). One of fewer than 8 bytes
+// is left for OpenEXR to report. Leaves the stream at its beginning.
 void check_header(InputStream &in, const std::string &path);
 
 } // namespace sparselens

@@ -1,5 +1,6 @@
 #include "base/error.h"
 #include "io/files/file_stream.h"
+#include "io/files/not_exr.h"
 #include "io/files/system_error.h"
 
 #include <fcntl.h>
@@ -122,7 +123,7 @@ void check_stream(const std::string &path, const std::vector<char> &bytes, std::
         throw Error(display_name(path) + ": sends more than 64 MB of text, which is not what is read here");
     if (content == Content::exr && used >= sizeof exr_magic &&
         std::memcmp(bytes.data(), exr_magic, sizeof exr_magic) != 0)
-        throw Error(display_name(path) + ": not an EXR file");
+        throw Error(display_name(path) + ": " + not_exr({bytes.data(), used}));
 }
 
 std::vector<char> read_whole(const std::string &path, int descriptor, Content content) {

@@ -49,9 +49,17 @@ TEST_F(HeaderCheck, SoundHeadersPass) {
     EXPECT_EQ(said(parts + attribute("a", "b", "c") + '\0' + attribute("d", "e", "") + '\0' + '\0'), "");
 }
 
-TEST_F(HeaderCheck, WhatIsNoExrIsNotLookedAt) {
-    EXPECT_EQ(said(""), "");
-    EXPECT_EQ(said("no picture at all"), "");
+TEST_F(HeaderCheck, WhatIsNoExrIsNamed) {
+    EXPECT_EQ(said(""), ""); // for OpenEXR to report
+    EXPECT_EQ(said("no picture at all"), "not an EXR file");
+    const std::string what_to_do =
+        " picture, and EXR is needed: render to EXR, with depth, or convert what needs no "
+        "depth (oiiotool IN -o OUT.exr)";
+    EXPECT_EQ(said("\x89PNG\r\n\x1a\n and more"), "is a PNG" + what_to_do);
+    EXPECT_EQ(said("\xff\xd8\xff\xe0 and more"), "is a JPEG" + what_to_do);
+    EXPECT_EQ(said(std::string("II*\0", 4) + "and more"), "is a TIFF" + what_to_do);
+    EXPECT_EQ(said("#?RADIANCE and more"), "is a Radiance" + what_to_do);
+    EXPECT_EQ(said("SDPX and more"), "is a DPX" + what_to_do);
 }
 
 TEST_F(HeaderCheck, AttributesLargerThanTheFile) {
