@@ -126,6 +126,8 @@ A flat picture. Its arrays can be written to.
 image: float32 (height, width, channels), (height, width), or (channels, height, width) with layout="chw". It is
 copied once. Raises TypeError and UsageError (a ValueError), which name the argument.)";
 
+inline constexpr const char *repr_png =
+    "The picture as PNG, through the default display and view; None without R, G and B. Notebooks call it.";
 inline constexpr const char *picture_init = "See help(sparselens.Picture).";
 inline constexpr const char *planned_view = "A view that is worth rendering.";
 inline constexpr const char *lens_point =

@@ -115,7 +115,10 @@ Asked asked_by(const py::kwargs &given) {
 Camera focused(Camera camera, const OpenedLdi &in, const std::optional<Imath::V2i> &pixel) {
     if (!pixel) return camera;
     const float z = front_depth(in.ldi, *pixel);
-    if (!(z > 0)) throw UsageError("focus_pixel: " + in.name + " has no sample there");
+    if (!(z > 0))
+        throw UsageError(
+            fmt::format("focus_pixel: ldi has no sample at ({}, {}); choose a pixel that shows something",
+                        pixel->x, pixel->y));
     camera.focus_distance = double(z);
     return camera;
 }

@@ -4,6 +4,7 @@
 #include "python/arrays.h"
 #include "python/docs.h"
 #include "python/from_arrays.h"
+#include "python/write.h"
 
 #include <fmt/format.h>
 #include <pybind11/stl.h>
@@ -194,10 +195,12 @@ void bind_picture(py::module_ &module) {
     type.def(py::init(&picture_from), py::arg("image"), doc::picture_init);
     bind_image(
         type, [](const PictureObject &picture) -> const Image & { return picture.image; }, Access::writable);
-    type.def("__repr__", [](const PictureObject &picture) {
-        return text_of("Picture", {}, picture.image.windows,
-                       fmt::format("{} channels", picture.image.channels.size()));
-    });
+    type.def("__repr__",
+             [](const PictureObject &picture) {
+                 return text_of("Picture", {}, picture.image.windows,
+                                fmt::format("{} channels", picture.image.channels.size()));
+             })
+        .def("_repr_png_", &png_of, doc::repr_png);
 }
 
 void bind_planned_view(py::module_ &module) {

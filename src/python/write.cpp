@@ -94,6 +94,15 @@ void write_plan_file(const std::string &path, const PlanObject &plan, Keywords &
 
 } // namespace
 
+py::object png_of(const PictureObject &picture) {
+    if (!all_found(find_rgb(picture.image.channels))) return py::none();
+    return py::bytes(job<std::string>(py::none(), [&](Progress &) {
+        Image image = picture.image;
+        Display().show(image, picture.header);
+        return shown_picture("Picture", "png", image);
+    }));
+}
+
 void write(const py::object &path, const py::object &what, const py::kwargs &given) {
     Keywords keywords("write", given);
     const std::string name = path_of(path, "path");

@@ -135,6 +135,14 @@ def test_write_for_the_screen(clustered, tool, tmp_path):
     assert (tmp_path / "python.png").read_bytes() == (tmp_path / "tool.png").read_bytes()
 
 
+def test_notebook(clustered, tmp_path):
+    """What a notebook shows is the file for the screen; what has no colours is text there."""
+    picture = sparselens.gather(sparselens.open_ldi(clustered))
+    sparselens.write(tmp_path / "shown.png", picture)
+    assert picture._repr_png_() == (tmp_path / "shown.png").read_bytes()
+    assert sparselens.front_depth(sparselens.open_ldi(clustered))._repr_png_() is None
+
+
 def test_write_type_and_compression(clustered, tool, tmp_path):
     tool("dof-gather", clustered, "-d", "float", "--compression", "piz", "-o", tmp_path / "tool.exr")
     picture = sparselens.gather(sparselens.open_ldi(clustered))

@@ -59,29 +59,32 @@ bool is_shown_picture(const std::string &path) {
     return oiio_module().support(extension.c_str()) != OiioModule::Support::none;
 }
 
-void write_shown_picture(const std::string &path, const Image &image) {
+std::string shown_picture(const std::string &name, const std::string &format, const Image &image) {
     const auto rgb = find_rgb(image.channels);
     if (!all_found(rgb))
-        throw Error(path + ": needs the channels R, G and B: write other channels to an EXR file");
-    const std::string extension = extension_of(path);
+        throw Error(name + ": needs the channels R, G and B: write other channels to an EXR file");
     const OiioModule &oiio = oiio_module();
     const std::size_t alpha = find_channel(image.channels, "A");
-    const bool with_alpha = alpha != npos && oiio.support(extension.c_str()) == OiioModule::Support::alpha &&
+    const bool with_alpha = alpha != npos && oiio.support(format.c_str()) == OiioModule::Support::alpha &&
                             std::ranges::any_of(image.plane(alpha), [](float a) { return a < 1; });
     std::vector<std::size_t> channels(rgb.begin(), rgb.end());
     if (with_alpha) channels.push_back(alpha);
     const Imath::Box2i &display = image.windows.display; // written as a whole
     check_memory(
-        path, 3.0 * (double(display.max.x) - display.min.x + 1) * (double(display.max.y) - display.min.y + 1),
+        name, 3.0 * (double(display.max.x) - display.min.x + 1) * (double(display.max.y) - display.min.y + 1),
         image.values.size() * sizeof(float));
     DisplayRows rows(image, channels, with_alpha);
-    const bool deep_bits = extension.starts_with("tif") || extension == "dpx";
+    const bool deep_bits = format.starts_with("tif") || format == "dpx";
     const MemoryFile encoded; // OpenImageIO writes all formats to a file but only some of them to a stream
-    const char *failed = oiio.write({encoded.path().c_str(), extension.c_str(), &rows, row_of,
+    const char *failed = oiio.write({encoded.path().c_str(), format.c_str(), &rows, row_of,
                                      image.windows.display_width(), image.windows.display_height(),
                                      int(channels.size()), deep_bits ? 16 : 8, image.windows.pixel_aspect});
-    if (failed) throw Error(path + ": cannot write: " + failed);
-    write_text_file(path, read_text_file(encoded.path()));
+    if (failed) throw Error(name + ": cannot write: " + failed);
+    return read_text_file(encoded.path());
+}
+
+void write_shown_picture(const std::string &path, const Image &image) {
+    write_text_file(path, shown_picture(path, extension_of(path), image));
 }
 
 } // namespace sparselens

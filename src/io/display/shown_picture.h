@@ -10,11 +10,13 @@ namespace sparselens {
 // Whether the extension is that of a format, other than OpenEXR, that OpenImageIO can write.
 bool is_shown_picture(const std::string &path);
 
-// Writes R, G and B (display values, premultiplied) of the display window, black outside the data window, with 8 bits,
+// The bytes of a file of that format (an extension, without the dot): R, G and B (display values, premultiplied) of the display window, black outside the data window, with 8 bits,
 // or 16 in TIFF and DPX: 0 and less becomes 0, 1 and more the largest value, NaN becomes 0. If A is below 1 somewhere
-// and the format has alpha, A is written too and the colours are unpremultiplied. The output is atomic (see
-// OutputFile). Any number of threads may write at the same time. Throws Error, naming the file, where R, G or B is
-// missing or OpenImageIO fails.
+// and the format has alpha, A is written too and the colours are unpremultiplied. Any number of threads may do so at the
+// same time. Throws Error, beginning with `name`, where R, G or B is missing or OpenImageIO fails.
+std::string shown_picture(const std::string &name, const std::string &format, const Image &image);
+
+// The same as a file, whose extension is the format. The output is atomic (see OutputFile).
 void write_shown_picture(const std::string &path, const Image &image);
 
 } // namespace sparselens
