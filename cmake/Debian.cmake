@@ -40,8 +40,8 @@ if(SPARSELENS_LAB)
     set(CPACK_DEBIAN_LAB_PACKAGE_NAME sparselens-lab)
     set(CPACK_DEBIAN_LAB_PACKAGE_SHLIBDEPS ON)
     set(CPACK_DEBIAN_LAB_PACKAGE_DEPENDS sparselens)
-    set(CPACK_COMPONENT_LAB_DESCRIPTION "The laboratory: test scenes and their ray tracer, the report of error against
-run time, and extreme cases.")
+    set(CPACK_COMPONENT_LAB_DESCRIPTION "The laboratory: test scenes and their ray tracer, and the report of error
+against run time.")
 endif()
 if(SPARSELENS_PYTHON)
     list(APPEND CPACK_COMPONENTS_ALL python)

@@ -22,7 +22,7 @@ code=0
 for target in "${targets[@]}"; do
     mkdir -p build-fuzz/corpus/"$target"
     echo "== $target"
-    build-fuzz/bin/fuzz-"$target" -max_total_time="$seconds" -timeout=10 -rss_limit_mb=1024 -max_len=65536 \
+    build-fuzz/fuzz/fuzz-"$target" -max_total_time="$seconds" -timeout=10 -rss_limit_mb=1024 -max_len=65536 \
         -close_fd_mask=3 -print_final_stats=1 -artifact_prefix=build-fuzz/found/"$target"- \
         build-fuzz/corpus/"$target" tests/fuzz/corpus/"$target" 2>&1 | tail -n 12 || code=1
 done
