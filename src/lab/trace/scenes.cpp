@@ -194,6 +194,21 @@ Scene element() {
     return scene;
 }
 
+// What stands among and behind the objects of "element": a plate to put it into.
+Scene plate() {
+    Scene scene = floor_and_wall();
+    scene.spheres = {{{0.9, -0.5, 3.6}, 0.45, dots}, {{-0.55, -0.35, 6.5}, 0.6, stripes}};
+    return scene;
+}
+
+Scene element_in_plate() {
+    Scene scene = plate();
+    const Scene added = element();
+    scene.spheres.insert(scene.spheres.end(), added.spheres.begin(), added.spheres.end());
+    scene.quads.insert(scene.quads.end(), added.quads.begin(), added.quads.end());
+    return scene;
+}
+
 constexpr SceneEntry scenes[] = {
     {"fence", "spheres and small bright lamps behind a thin dark fence", fence},
     {"grass", "spheres among 200 thin slanted blades", grass},
@@ -209,6 +224,8 @@ constexpr SceneEntry scenes[] = {
     {"curved-mirrors", "a convex ball before a concave wall", curved_mirrors},
     {"glossy-floor", "balls on a varnished floor: what it reflects lies over what it is", glossy_floor},
     {"element", "spheres and bars at five depths before nothing: alpha 0 beside them", element},
+    {"plate", "a room with two balls that stand among the objects of element", plate},
+    {"element-in-plate", "both in one", element_in_plate},
     {"mist", "sheets of partial coverage and overlapping volumes before a textured wall", mist},
     {"macro", "a head of steep relief, 85 mm and f/1 away, lamps of radiance 200 behind it", macro_scene},
 };

@@ -17,9 +17,9 @@ TEST(Scenes, NamesAreUniqueAndLensesComplete) {
         EXPECT_TRUE(camera.focal_length_mm && camera.sensor_width_mm && camera.fstop && camera.focus_distance)
             << entry.name;
     }
-    EXPECT_EQ(names, (std::set<std::string>{"brushed-mirror", "curved-mirrors", "element", "fence",
-                                            "glass-slab", "glossy-floor", "grass", "lamps", "macro", "mirror",
-                                            "mist", "plane-mirror", "planes", "slant"}));
+    EXPECT_EQ(names, (std::set<std::string>{"brushed-mirror", "curved-mirrors", "element", "element-in-plate",
+                                            "fence", "glass-slab", "glossy-floor", "grass", "lamps", "macro",
+                                            "mirror", "mist", "plane-mirror", "planes", "plate", "slant"}));
 }
 
 // Quads are planar, in order around, and convex: what the tracer takes for granted.
@@ -61,6 +61,28 @@ TEST(Scenes, GrassIsAsWritten) {
     const double t = 0.4 * (5292316 * 0x1p-24 - 0.5);
     const Imath::V3d top(x + w + t, 1, 1.8 + 8 * hash(199, 10, 1));
     EXPECT_NEAR((scene.quads.back().corners[2] - top).length(), 0, 1e-12);
+}
+
+// Some of the plate hides some of the element and the other way round, and no two objects meet.
+TEST(Scenes, ElementStandsInThePlate) {
+    const Scene element = build_scene("element"), plate = build_scene("plate"),
+                both = build_scene("element-in-plate");
+    EXPECT_EQ(both.spheres.size(), element.spheres.size() + plate.spheres.size());
+    EXPECT_EQ(both.quads.size(), element.quads.size() + plate.quads.size());
+    EXPECT_EQ(both.sky_coverage, 1);
+    EXPECT_EQ(both.camera.fstop, element.camera.fstop);
+    int hides = 0, hidden = 0;
+    for (const Sphere &own : element.spheres)
+        for (const Sphere &other : plate.spheres) {
+            EXPECT_GT((own.centre - other.centre).length(), own.radius + other.radius);
+            const auto seen = [](const Sphere &s) { return Imath::V2d(s.centre.x, s.centre.y) / s.centre.z; };
+            if ((seen(own) - seen(other)).length() >
+                own.radius / own.centre.z + other.radius / other.centre.z)
+                continue;
+            ++(own.centre.z < other.centre.z ? hides : hidden);
+        }
+    EXPECT_GT(hides, 0);
+    EXPECT_GT(hidden, 0);
 }
 
 TEST(Scenes, PlanesStandInFrontOfInAndBehindFocus) {
