@@ -270,13 +270,29 @@ def picture_size(render):
             render.resolution_y * render.resolution_percentage // 100)
 
 
+def border_box(render):
+    """The render region in pixels: x0, y0, x1, y1, y down, corners included,
+    as Blender rounds it."""
+    width, height = picture_size(render)
+    left, right = [int(x * width) for x in (render.border_min_x,
+                                            render.border_max_x)]
+    bottom, top = [int(y * height) for y in (render.border_min_y,
+                                             render.border_max_y)]
+    return left, height - top, right - 1, height - bottom - 1
+
+
 def shot_of(scene, eye):
     """The camera of an eye at the scene's current frame."""
     depsgraph = bpy.context.evaluated_depsgraph_get()
     camera = camera_of(scene, eye).evaluated_get(depsgraph)
     data, render = camera.data, scene.render
-    if camera.type != "CAMERA" or data.type != "PERSP":
-        raise ValueError("camera '%s' is not a perspective one" % camera.name)
+    if camera.type != "CAMERA":
+        raise ValueError("the scene's camera is '%s', which is no camera but "
+                         "of type %s: set a camera in the scene's properties"
+                         % (camera.name, camera.type))
+    if data.type != "PERSP":
+        raise ValueError("camera '%s' is not a perspective one: set its lens "
+                         "to Perspective" % camera.name)
     if eye.side and data.stereo.use_spherical_stereo:
         raise ValueError("camera '%s' has spherical stereo, whose views do "
                          "not stand on one lens: switch it off" % camera.name)
@@ -293,6 +309,13 @@ def shot_of(scene, eye):
     placement = without_scale(camera.matrix_world)
     if eye.side:
         placement = placement @ stereo_offset(data.stereo, eye.side)
+    focus_distance = focus_distance_of(data, placement, depsgraph)
+    for name, value in (("f-stop", data.dof.aperture_fstop),
+                        ("focus distance", focus_distance)):
+        if not value > 0:
+            raise ValueError("camera '%s' has %s 0 at frame %d: set one above "
+                             "0 in its depth of field" % (
+                                 camera.name, name, scene.frame_current))
     shift = data.shift_x + stereo_shift(data, eye.side), data.shift_y
     return Shot(
         camera=camera.name, placement=placement, size=(width, height),
@@ -300,7 +323,7 @@ def shot_of(scene, eye):
         focal_length=data.lens, sensor_width=sensor * width / fitted,
         shift=(shift[0] * fitted / width, shift[1] * fitted / width),
         clip=(data.clip_start, data.clip_end), fstop=data.dof.aperture_fstop,
-        focus_distance=focus_distance_of(data, placement, depsgraph),
+        focus_distance=focus_distance,
         blades=data.dof.aperture_blades, rotation=data.dof.aperture_rotation,
         ratio=data.dof.aperture_ratio)
 
@@ -326,6 +349,78 @@ def camera_attributes(shot, placement):
         "aperture_rotation": exr_float(shot.rotation),
         "aperture_ratio": exr_float(shot.ratio),
     }
+
+
+# --- What a scene asks for ---------------------------------------------------
+
+
+def parts_of(collection):
+    """A view layer's collection and all within, but for what is excluded."""
+    if not collection.exclude:
+        yield collection
+        for child in collection.children:
+            yield from parts_of(child)
+
+
+def holds_out(material):
+    return material is not None and material.node_tree is not None and any(
+        node.type == "HOLDOUT" for node in material.node_tree.nodes)
+
+
+def holdout_of(layer):
+    """What cuts holes into a view layer, in words; None where nothing does."""
+    for part in parts_of(layer.layer_collection):
+        if part.holdout and part.collection.all_objects:
+            return "collection '%s' is a holdout" % part.name
+    for thing in layer.objects:
+        if thing.hide_render:
+            continue
+        if thing.is_holdout:
+            return "object '%s' is a holdout" % thing.name
+        if any(holds_out(slot.material) for slot in thing.material_slots):
+            return "object '%s' has a holdout material" % thing.name
+    return None
+
+
+def denoises_in_vain(scene):
+    """Cycles ends with an error where it lacks the denoiser it is to use."""
+    if scene.render.engine != "CYCLES" or not scene.cycles.use_denoising:
+        return False
+    import _cycles
+    return (scene.cycles.denoiser != "OPTIX"
+            and not getattr(_cycles, "with_openimagedenoise", True))
+
+
+def check_scene(scene):
+    """Raises ValueError, which says what to change, where the scene cannot be
+    rendered. Returns what is to be said of how it is."""
+    layers = [layer for layer in scene.view_layers if layer.use]
+    if not layers:
+        raise ValueError("no view layer of scene '%s' is used for rendering: "
+                         "switch one on in its properties" % scene.name)
+    if scene.render.engine == "BLENDER_WORKBENCH":
+        raise ValueError("Workbench renders neither light nor whole alpha: "
+                         "choose Cycles or EEVEE as the render engine")
+    if denoises_in_vain(scene):
+        raise ValueError("denoising is on, but this Blender has no "
+                         "OpenImageDenoise: switch it off under Sampling in "
+                         "the render properties")
+    warnings = []
+    if scene.render.use_motion_blur:
+        warnings.append("motion blur is on: objects blur, but the camera "
+                        "stands still in each view")
+    if scene.render.use_border:
+        warnings.append("the render region is not used, because what is "
+                        "outside it blurs into it: to get its pixels alone, "
+                        "give dof-gather --region %d,%d,%d,%d"
+                        % border_box(scene.render))
+    found = next(filter(None, map(holdout_of, layers)), None)
+    if found:
+        warnings.append(found + ", whose edges come out wrong, because each "
+                        "view looks past it elsewhere: render it and the rest "
+                        "apart, without a holdout, and let dof-gather hold "
+                        "one out by the other (docs/comp.md)")
+    return warnings
 
 
 # --- Rendering ---------------------------------------------------------------
@@ -529,9 +624,6 @@ def render_frame(scene, folder, ending, views, eyes, overscan=0,
     """Renders the views of the current frame into the folder. `overscan` is
     in pixels, or AUTO."""
     shots = [(eye, shot_of(scene, eye)) for eye in eyes]
-    if scene.render.use_motion_blur:
-        warn("motion blur is on: objects blur, but the camera stands still "
-             "in each view")
     for eye, shot in shots:
         beyond = overscan
         if overscan == AUTO:
@@ -546,9 +638,12 @@ def render_frame(scene, folder, ending, views, eyes, overscan=0,
 
 
 def render_frames(scene, frames, folder, views_at, eyes, several=False,
-                  **options):
+                  say=warn, **options):
     """The same for a list of frames; views_at(frame) are the views of one.
-    With `several` the names carry the frame's number."""
+    With `several` the names carry the frame's number. Warnings go to `say`,
+    once for all frames."""
+    for text in check_scene(scene):
+        say(text)
     folder, before = os.path.abspath(folder), scene.frame_current
     os.makedirs(folder, exist_ok=True)
     try:
@@ -603,6 +698,7 @@ class SPARSELENS_OT_render_views(bpy.types.Operator):
             render_frames(scene, frames, bpy.path.abspath(settings.folder),
                           lambda frame: views, eyes_of(scene),
                           several=settings.animation,
+                          say=lambda text: self.report({"WARNING"}, text),
                           overscan=(AUTO if settings.overscan_auto
                                     else settings.overscan),
                           multilayer=settings.multilayer)

@@ -125,11 +125,51 @@ complains 1 "No such file" small.blend -P "$views" -- -o none --plan missing.jso
 complains 2 "usage: blender -b" small.blend -P "$views"
 complains 2 "invalid frame range" small.blend -P "$views" -- -o none --frames 1-
 complains 2 "not allowed with" small.blend -P "$views" -- -o none --frames 1-2 --frame 1
-[ -z "$(ls none 2>/dev/null)" ] || fail "an error left files: $(ls none)"
+# What cannot be rendered: one line, before anything is.
+refused() { # KIND PATTERN
+    variant small "$1"
+    complains 1 "^sparselens_views.py: error: .*$2" "$1.blend" -P "$views" -- -o none --samples 1 --frame 6
+    [ "$(grep -c 'sparselens_views.py\|Traceback' stderr)" -eq 1 ] || fail "$1: not one line: $(cat stderr)"
+}
+refused mesh "'Sphere', which is no camera but of type MESH: set a camera"
+refused wide "has f-stop 0 at frame 6: set one above 0"
+refused macro "has focus distance 0 at frame 6: set one above 0"
+refused unlayered "no view layer of scene 'Scene' is used for rendering: switch one on"
+refused workbench "Workbench .*: choose Cycles or EEVEE"
+if blender -b --python-expr 'import _cycles, sys; sys.exit(1 if _cycles.with_openimagedenoise else 0)' >said 2>&1; then
+    refused denoised "denoising is on, but this Blender has no OpenImageDenoise: switch it off"
+else
+    echo "skipped: denoising without a denoiser: this Blender has one"
+fi
+[ -z "$(ls -A none 2>/dev/null)" ] || fail "an error left files: $(ls -A none)"
 echo "errors: said, with their exit codes"
+
+# What is rendered otherwise than the scene asks for is said once for all frames.
+warned() { # KIND PATTERN
+    variant small "$1"
+    exits 0 blender --python-exit-code 1 -b "$1.blend" -P "$views" -- -o warned --samples 1 --views 1 --frames 1-2
+    [ "$(grep -Ec "^sparselens_views.py: warning: .*$2" stderr)" -eq 1 ] || fail "$1: not one '$2': $(cat stderr)"
+}
+for kind in held_collection held_object held_material; do
+    warned $kind "(collection 'held'|object 'Sphere') .*holdout.*render it and the rest apart.*docs/comp.md"
+done
+variant small unheld
+exits 0 blender --python-exit-code 1 -b unheld.blend -P "$views" -- -o warned --samples 1 --views 0
+if grep 'warning:' stderr; then fail "a holdout that is not rendered is warned of"; fi
+warned pinhole,region 'the render region is not used.*dof-gather --region'
+box=$(sed -nE 's/.*--region ([0-9,]+)$/\1/p' stderr)
+# The pixels of that region are those that Blender renders of it; the seed of each is another, so 36 dB.
+in_blender pinhole,region.blend -P "$views" -- -o region --samples 128 --views 0
+in_blender pinhole,region.blend -P "$variants" -- render 128 1 1 "$PWD/own.####.exr"
+IFS=, read -r x0 y0 x1 y1 <<<"$box"
+oiiotool region/center.exr --cut "$((x1 - x0 + 1))x$((y1 - y0 + 1))+$x0+$y0" --ch R,G,B -o cut.exr
+oiiotool own.0001.exr --ch R,G,B --origin +0+0 --fullpixels -o own.exr
+alike cut.exr own.exr 36
+echo "holdouts and the render region: said"
 
 # The add-on renders the same, and leaves the scene as it was; so does installing.
 in_blender marker.blend -P "$source_dir/tests/blender/addon.py" -- "$views" "$PWD/addon"
+grep -q 'Warning: the render region is not used' said || fail "the add-on does not say that the region is not used: $(tail -n 5 said)"
 in_blender marker.blend -P "$views" -- -o marker --frame 3 --samples 2 --overscan 3
 alike addon/center.exr marker/center.exr 90
 alike addon/view_3.exr marker/view_3.exr 90

@@ -124,6 +124,65 @@ def make_panorama(scene, camera):
     camera.data.type = "PANO"
 
 
+def make_mesh(scene, camera):
+    scene.camera = scene.objects["Sphere"]
+
+
+def make_wide(scene, camera):
+    """An f-stop that is keyed down to 0."""
+    key(camera.data.dof, "aperture_fstop", 0.5, 0)
+
+
+def make_macro(scene, camera):
+    camera.data.dof.focus_distance = 0
+
+
+def make_unlayered(scene, camera):
+    scene.view_layers[0].use = False
+
+
+def make_workbench(scene, camera):
+    scene.render.engine = "BLENDER_WORKBENCH"
+
+
+def make_denoised(scene, camera):
+    scene.cycles.use_denoising = True
+
+
+def make_region(scene, camera):
+    render = scene.render
+    render.use_border = render.use_crop_to_border = True
+    render.border_min_x, render.border_max_x, render.border_min_y, render.border_max_y = 0.26, 0.74, 0.2, 0.9
+
+
+def make_held_collection(scene, camera):
+    """A collection that is a holdout, within one that is none."""
+    outer, held = bpy.data.collections.new("outer"), bpy.data.collections.new("held")
+    scene.collection.children.link(outer)
+    outer.children.link(held)
+    held.objects.link(scene.objects["Sphere"])
+    scene.view_layers[0].layer_collection.children["outer"].children["held"].holdout = True
+
+
+def make_held_object(scene, camera):
+    scene.objects["Sphere"].is_holdout = True
+
+
+def make_held_material(scene, camera):
+    scene.objects["Sphere"].active_material.node_tree.nodes.new("ShaderNodeHoldout")
+
+
+def make_unheld(scene, camera):
+    """Holdouts that nothing renders: of no object, excluded, hidden."""
+    for name in "empty", "excluded":
+        made = bpy.data.collections.new(name)
+        scene.collection.children.link(made)
+        scene.view_layers[0].layer_collection.children[name].holdout = True
+    made.objects.link(bpy.data.objects.new("apart", scene.objects["Sphere"].data))
+    scene.view_layers[0].layer_collection.children["excluded"].exclude = True
+    scene.objects["Sphere.001"].is_holdout = scene.objects["Sphere.001"].hide_render = True
+
+
 def stereo(mode, pivot):
     def make(scene, camera):
         scene.render.use_multiview = True
