@@ -1,7 +1,7 @@
 #include "base/error.h"
 #include "harness/commands/frames.h"
 #include "harness/commands/named_files.h"
-#include "harness/commands/stereo_commands.h"
+#include "harness/commands/each_picture.h"
 #include "harness/frame_run.h"
 #include "harness/history.h"
 #include "harness/process.h"
@@ -9,7 +9,7 @@
 #include "harness/tool.h"
 #include "harness/up_to_date.h"
 #include "harness/words.h"
-#include "io/exr/stereo_views.h"
+#include "io/exr/picture_choice.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

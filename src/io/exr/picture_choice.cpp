@@ -1,4 +1,4 @@
-#include "io/exr/stereo_views.h"
+#include "io/exr/picture_choice.h"
 
 #include "io/exr/exr_common.h"
 #include "io/exr/exr_header_check.h"

@@ -1,4 +1,4 @@
-#include "harness/commands/stereo_commands.h"
+#include "harness/commands/each_picture.h"
 
 #include "base/error.h"
 #include "harness/commands/named_files.h"
