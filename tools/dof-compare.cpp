@@ -56,7 +56,8 @@ void add_options(CLI::App &app, Options &options) {
     add_lens_options(app, options.lens);
     add_depth_options(app, options.depth);
     for (CLI::Option *option : app.get_options())
-        if (option->get_group() == "Lens" && !option->check_lname("stereo-view"))
+        if (option->get_group() == "Lens" && !option->check_lname("stereo-view") &&
+            !option->check_lname("layer"))
             option->needs(regions); // they say how to read that file
     add_examples(app, {{"Compare a picture with its reference", "dof-compare picture.exr reference.exr"},
                        {"... also in focus, in the blur and at silhouettes, as JSON",
@@ -65,7 +66,7 @@ void add_options(CLI::App &app, Options &options) {
 }
 
 Image read_picture(const std::string &path, const Options &options, const ToolContext &tool) {
-    FlatFile file = read_flat_exr(path, options.depth.view);
+    FlatFile file = read_flat_exr(path, options.depth.picture);
     say_reading(tool, path, file.notes, file.warnings);
     return std::move(file.image);
 }

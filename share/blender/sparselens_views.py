@@ -480,6 +480,28 @@ def render_settings(scene, size, multilayer=False, codec="ZIP"):
         yield
 
 
+@contextmanager
+def only_layer(scene, name):
+    """Renders one view layer, for a while; with no name all that are used."""
+    with ExitStack() as stack:
+        for layer in scene.view_layers if name else ():
+            stack.enter_context(changed(layer, use=layer.name == name))
+        yield
+
+
+def check_layers(scene, name, multilayer):
+    """Says what of several view layers will not be written."""
+    names = [layer.name for layer in scene.view_layers]
+    if name and name not in names:
+        raise ValueError("--layer: the scene has no view layer '%s'; it has: "
+                         "%s" % (name, ", ".join(names)))
+    used = [layer.name for layer in scene.view_layers if layer.use]
+    if not name and not multilayer and len(used) > 1:
+        warn("the scene renders %d view layers, %s, of which the files hold "
+             "'%s' alone: choose one by --layer, or take all by --multilayer"
+             % (len(used), ", ".join(used), used[0]))
+
+
 def aim(camera, shot, placement, overscan):
     """Puts the made camera where a view is seen from. It sees `overscan`
     pixels more on each side; the sensor grows by as much."""
@@ -620,18 +642,20 @@ def warn(text):
 
 
 def render_frame(scene, folder, ending, views, eyes, overscan=0,
-                 multilayer=False):
+                 multilayer=False, layer=None):
     """Renders the views of the current frame into the folder. `overscan` is
-    in pixels, or AUTO."""
+    in pixels, or AUTO; `layer` the only view layer to render."""
     shots = [(eye, shot_of(scene, eye)) for eye in eyes]
     for eye, shot in shots:
         beyond = overscan
         if overscan == AUTO:
-            beyond = overscan_of(scene, folder, shot)
+            with only_layer(scene, layer):
+                beyond = overscan_of(scene, folder, shot)
             print("sparselens_views.py: frame %d%s: overscan of %d pixels" % (
                 scene.frame_current, eye.name and ", " + eye.name, beyond))
         size = [side + 2 * beyond for side in shot.size]
-        with render_settings(scene, size, multilayer), still_camera(scene):
+        with render_settings(scene, size, multilayer), still_camera(scene), \
+                only_layer(scene, layer):
             for name, u, box in views:
                 path = os.path.join(folder, name + eye.file_suffix + ending)
                 render_view(scene, path, shot, u, beyond, box)
@@ -645,6 +669,7 @@ def render_frames(scene, frames, folder, views_at, eyes, several=False,
     for text in check_scene(scene):
         say(text)
     folder, before = os.path.abspath(folder), scene.frame_current
+    check_layers(scene, options.get("layer"), options.get("multilayer"))
     os.makedirs(folder, exist_ok=True)
     try:
         for frame in frames:
@@ -799,6 +824,9 @@ def read_options(arguments):
     add("--multilayer", action="store_true",
         help="multilayer EXR with all passes of the view layers, AOVs and "
              "Cryptomatte too (default: colour and depth)")
+    add("--layer", metavar="NAME",
+        help="the only view layer to render (default: all that are switched "
+             "on; without --multilayer there may be only one)")
     add("--eye", metavar="NAME",
         help="view of a stereo scene, e.g. left (default: all of them, the "
              "eye's suffix in the names of the files)")
@@ -847,7 +875,8 @@ def main(arguments):
                   else options.frame]
     render_frames(scene, frames, options.output, views_at, eyes,
                   several=options.frames is not None,
-                  overscan=options.overscan, multilayer=options.multilayer)
+                  overscan=options.overscan, multilayer=options.multilayer,
+                  layer=options.layer)
 
 
 def run_as_script():

@@ -3,6 +3,7 @@
 
 #include "../view/depth.h"
 #include "../view/resolve_lens.h"
+#include "exr/picture_choice.h"
 
 #include <optional>
 #include <string>
@@ -12,7 +13,7 @@ namespace sparselens {
 struct DepthOptions {
     DepthMeaning meaning = DepthMeaning::planar;
     std::string channel = {}; // empty: Z, depth.Z and *.Depth.Z are tried
-    std::string view = {};    // of a stereo file; empty: the default one
+    PictureChoice picture = {};
     // In the unit of the depth channel: what lies at `far` (1e10) or beyond is the sky; both planes are needed where depth
     // is normalized (see depth_range.h).
     std::optional<double> near = {}, far = {};

@@ -26,7 +26,7 @@ Camera with_frustum_of(const Camera &other, Camera camera) {
 } // namespace
 
 OpenedView open_view(const std::string &path, const OpenOptions &options, const Camera &otherwise) {
-    return ready_view(read_flat_exr(path, options.depth.view), path, options, otherwise);
+    return ready_view(read_flat_exr(path, options.depth.picture), path, options, otherwise);
 }
 
 OpenedView ready_view(FlatFile file, const std::string &path, const OpenOptions &options,

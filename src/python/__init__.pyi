@@ -218,6 +218,7 @@ def open_view(
     far: Optional[float] = None,
     depth_channel: Optional[str] = None,
     stereo_view: Optional[str] = None,
+    layer: Optional[str] = None,
     focal_length: Optional[float] = None,
     sensor_width: Optional[float] = None,
     fstop: Optional[float] = None,
@@ -233,6 +234,7 @@ def open_ldi(
     far: Optional[float] = None,
     depth_channel: Optional[str] = None,
     stereo_view: Optional[str] = None,
+    layer: Optional[str] = None,
     focal_length: Optional[float] = None,
     sensor_width: Optional[float] = None,
     fstop: Optional[float] = None,
@@ -240,7 +242,7 @@ def open_ldi(
     focus_distance: Optional[float] = None,
     scene_unit: Optional[float] = None,
 ) -> Ldi: ...
-def open_picture(path: _Path, *, stereo_view: Optional[str] = None) -> Picture: ...
+def open_picture(path: _Path, *, stereo_view: Optional[str] = None, layer: Optional[str] = None) -> Picture: ...
 def warp(
     views: Union[View, Sequence[View]],
     *,

@@ -150,7 +150,7 @@ inline constexpr const char *noise_db =
 inline constexpr const char *overscan =
     R"(Pixels beyond the borders from which the lens brings light inside: (left, top, right, bottom).)";
 inline constexpr const char *open_view =
-    R"(open_view(path, *, position=None, center=None, depth='z', near=None, far=None, depth_channel=None, stereo_view=None, focal_length=None, sensor_width=None, fstop=None, lens_radius=None, focus_distance=None, scene_unit=None)
+    R"(open_view(path, *, position=None, center=None, depth='z', near=None, far=None, depth_channel=None, stereo_view=None, layer=None, focal_length=None, sensor_width=None, fstop=None, lens_radius=None, focus_distance=None, scene_unit=None)
 --
 
 Opens a rendered view, a flat EXR with depth, and returns a View. Invalid values are repaired, with a warning.
@@ -161,6 +161,7 @@ depth: what depth channels hold: "z" planar, "distance" along the ray, "inverse"
   "normalized" 0 at near to 1 at far. Depths beyond far (default: 1e10) are sky.
 depth_channel: default: the first of Z, depth.Z and *.Depth.Z.
 stereo_view: the view of a stereo file, such as "right".
+layer: the picture of a file that holds several, such as a view layer of Blender.
 Lens values replace those of the file:
   focal_length (mm), sensor_width (mm, spans the display window), fstop (a number, or inf),
   lens_radius (scene units, instead of fstop), focus_distance (scene units, or inf), scene_unit (metres)
@@ -168,12 +169,12 @@ Lens values replace those of the file:
 Raises Error where the file cannot be read, and UsageError where a value is missing.)";
 
 inline constexpr const char *open_ldi =
-    R"(open_ldi(path, *, depth='z', near=None, far=None, depth_channel=None, stereo_view=None, focal_length=None, sensor_width=None, fstop=None, lens_radius=None, focus_distance=None, scene_unit=None)
+    R"(open_ldi(path, *, depth='z', near=None, far=None, depth_channel=None, stereo_view=None, layer=None, focal_length=None, sensor_width=None, fstop=None, lens_radius=None, focus_distance=None, scene_unit=None)
 --
 
 Opens any deep EXR, or a flat one with depth, and returns an Ldi. Keywords and errors are those of open_view.)";
 
-inline constexpr const char *open_picture = R"(open_picture(path, *, stereo_view=None)
+inline constexpr const char *open_picture = R"(open_picture(path, *, stereo_view=None, layer=None)
 --
 
 Opens a flat EXR and returns a Picture of all its channels. Raises Error where the file cannot be read.)";

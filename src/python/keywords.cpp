@@ -163,6 +163,10 @@ LensValues lens_values(Keywords &keywords) {
     return lens;
 }
 
+PictureChoice picture_choice(Keywords &keywords) {
+    return {.stereo_view = keywords.text("stereo_view"), .layer = keywords.text("layer")};
+}
+
 DepthOptions depth_options(Keywords &keywords) {
     const auto meaning = keywords.word<DepthMeaning>("depth", {{"z", DepthMeaning::planar},
                                                                {"distance", DepthMeaning::distance},
@@ -171,7 +175,7 @@ DepthOptions depth_options(Keywords &keywords) {
                                                                {"normalized", DepthMeaning::normalized}});
     return {.meaning = meaning.value_or(DepthMeaning::planar),
             .channel = keywords.text("depth_channel"),
-            .view = keywords.text("stereo_view"),
+            .picture = picture_choice(keywords),
             .near = keywords.number("near"),
             .far = keywords.number("far", {.infinity_allowed = true})};
 }

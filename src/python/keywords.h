@@ -71,7 +71,10 @@ private:
 // focal_length, sensor_width, fstop, lens_radius, focus_distance, scene_unit.
 LensValues lens_values(Keywords &keywords);
 
-// depth, near, far, depth_channel, stereo_view.
+// stereo_view, layer.
+PictureChoice picture_choice(Keywords &keywords);
+
+// depth, near, far, depth_channel, stereo_view, layer.
 DepthOptions depth_options(Keywords &keywords);
 
 [[noreturn]] void wrong_type(const char *name, const char *wanted, const py::handle &found);

@@ -54,9 +54,10 @@ LdiObject open_ldi(const py::object &path, const py::kwargs &given) {
 
 PictureObject open_picture(const py::object &path, const py::kwargs &given) {
     Keywords keywords("open_picture", given);
-    const std::string name = path_of(path, "path"), view = keywords.text("stereo_view");
+    const std::string name = path_of(path, "path");
+    const PictureChoice picture = picture_choice(keywords);
     keywords.done();
-    auto file = job<FlatFile>(py::none(), [&](Progress &) { return read_flat_exr(name, view); });
+    auto file = job<FlatFile>(py::none(), [&](Progress &) { return read_flat_exr(name, picture); });
     warn_of(name, file.warnings, {});
     return {std::move(file.image), std::move(file.header)};
 }

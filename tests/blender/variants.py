@@ -116,6 +116,30 @@ def make_passes(scene, camera):
     layer.use_pass_normal = layer.use_pass_diffuse_color = layer.use_pass_cryptomatte_object = True
 
 
+def make_layers(scene, camera):
+    """The posts in a view layer of their own, as Cycles' pictures are put together later."""
+    posts = bpy.data.collections.new("posts")
+    scene.collection.children.link(posts)
+    for made in list(bpy.data.objects):
+        if made.name.startswith("Cube"):
+            scene.collection.objects.unlink(made)
+            posts.objects.link(made)
+    back = scene.view_layers[0]
+    front = scene.view_layers.new("front")
+    back.name = "back"
+    back.layer_collection.children["posts"].exclude = True
+    rest = bpy.data.collections.new("rest")
+    scene.collection.children.link(rest)
+    for made in list(scene.collection.objects):
+        if made.type == "MESH":
+            scene.collection.objects.unlink(made)
+            rest.objects.link(made)
+    front.layer_collection.children["rest"].exclude = True
+    for layer in (back, front):
+        layer.use_pass_z = layer.use_pass_cryptomatte_object = True
+    scene.render.film_transparent = True
+
+
 def make_homeless(scene, camera):
     scene.camera = None
 

@@ -50,8 +50,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
             for (const FileChannel &channel : found) channels.push_back(channel.channel);
             check_mattes(channels);
             beauty_warnings(channels);
-            if (const std::string layer = beauty_layer(channels); !layer.empty())
-                name_beauty(found, layer, channels);
+            const std::vector<PictureLayer> pictures = pictures_in(channels);
+            if (!pictures.empty()) {
+                const ChannelsOfPicture last(pictures.back(), channels);
+                for (const Channel &channel : channels) last.name_of(channel.name);
+                name_beauty(found, pictures.front().beauty, channels);
+            }
             is_luminance_chroma(header);
             find_depth_channel(channels, "", "fuzz");
         });

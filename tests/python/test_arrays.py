@@ -196,3 +196,18 @@ def test_wrong_arguments(kind, message, call):
 def test_kinds_of_errors():
     assert issubclass(sparselens.UsageError, ValueError) and issubclass(sparselens.Error, RuntimeError)
     assert not issubclass(sparselens.UsageError, sparselens.Error)
+
+
+def test_layer_of_a_file_with_two_pictures(tmp_path):
+    names = [f"{layer}.{channel}" for layer in ("bg", "fg")
+             for channel in ("Combined.R", "Combined.G", "Combined.B", "Depth.Z")]
+    path = tmp_path / "two.exr"
+    values = numpy.broadcast_to(numpy.arange(1, 9, dtype=numpy.float32), (4, 6, 8))
+    sparselens.write(path, sparselens.Picture(values, channels=names))
+    with pytest.raises(sparselens.UsageError, match="bg.Combined and fg.Combined: give layer with one of bg, fg"):
+        sparselens.open_view(path)
+    for layer, first in (("bg", 1), ("fg", 5)):
+        view = sparselens.open_view(path, layer=layer)
+        assert view["R"][0, 0] == first and view.z[0, 0] == first + 3
+        assert sparselens.open_ldi(path, layer=layer).z[0] == first + 3
+        assert sparselens.open_picture(path, layer=layer)["R"][0, 0] == first

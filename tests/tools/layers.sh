@@ -1,5 +1,5 @@
 #!/bin/bash
-# Files as other renderers write them: the beauty in a layer, parts of different data windows.
+# Files as other renderers write them: the beauty in a layer, several pictures in one file, parts of different data windows.
 . "$(dirname "$0")/check.sh"
 command -v oiiotool >/dev/null || skip "needs oiiotool (openimageio-tools)"
 gather=$bin/dof-gather
@@ -21,10 +21,65 @@ grep -q 'coverage: ViewLayer.Combined.A$' stderr || fail "ldi-warp -v: $(cat std
 same out.ldi.exr expected.ldi.exr "ldi-warp takes another beauty"
 exits 0 "$gather" blender.exr -o out.png "${lens[@]}"
 
+# Two pictures in one file, as Blender writes two view layers: each by its own depth, and none by chance.
+near=(Z=1.5 B=0.9)
+for name in fg bg; do
+    colours=(R=0.1 G=0.5)
+    [ $name = fg ] || colours=(R=0.8 G=0.2)
+    picture make $name.exr 24x16 "${colours[@]}" B=0.2 A=1 Z=4 fill=8x8+8+4 "${near[@]}"
+    oiiotool $name.exr --ch R,G,B,A,Z --chnames $name.Combined.R,$name.Combined.G,$name.Combined.B,$name.Combined.A,$name.Depth.Z -o named.$name.exr
+    near=(Z=9 R=0)
+done
+oiiotool named.bg.exr named.fg.exr --chappend -o two.exr
+for tool in dof-gather ldi-warp ldi-cluster ldi-plan; do
+    fails_saying 2 'two.exr: holds several pictures, bg.Combined and fg.Combined: give --layer with one of bg, fg' \
+        "$bin/$tool" two.exr -o x.exr "${lens[@]}"
+    fails_saying 2 'holds several pictures' "$bin/$tool" two.exr -o x.exr "${lens[@]}" --depth-channel fg.Depth.Z
+    fails_saying 1 "two.exr: has no layer 'hero' .*: its layers are bg, fg" "$bin/$tool" two.exr -o x.exr "${lens[@]}" --layer hero
+done
+for name in fg bg; do
+    picture edit $name.exr one.exr channels=R,G,B,A,Z
+    exits 0 "$gather" one.exr -o expected.$name.exr "${lens[@]}"
+    exits 0 "$gather" two.exr -o out.exr "${lens[@]}" --layer $name -v
+    same out.exr expected.$name.exr "dof-gather --layer $name"
+    grep -q "two.exr: depth: $name.Depth.Z" stderr || fail "--layer $name: $(cat stderr)"
+    exits 0 "$bin/ldi-warp" one.exr -o expected.ldi.exr
+    exits 0 "$bin/ldi-warp" two.exr -o out.ldi.exr --layer $name
+    same out.ldi.exr expected.ldi.exr "ldi-warp --layer $name"
+    exits 0 "$bin/ldi-cluster" two.exr -o less.exr --layers 1 --layer $name
+    exits 0 "$gather" less.exr -o out.exr "${lens[@]}"
+    same out.exr expected.$name.exr "ldi-cluster --layer $name"
+    exits 0 "$bin/ldi-plan" one.exr "${lens[@]}" --noise 0 -o expected.json
+    exits 0 "$bin/ldi-plan" two.exr "${lens[@]}" --noise 0 -o out.json --layer $name
+    diff <(grep -v '"center"' expected.json) <(grep -v '"center"' out.json) >differ || fail "ldi-plan --layer: $(cat differ)"
+    exits 0 "$bin/dof-accumulate" --view 0,0 one.exr -o expected.mean.exr --lens-radius 0
+    exits 0 "$bin/dof-accumulate" --view 0,0 two.exr -o out.exr --lens-radius 0 --layer $name
+    picture same out.exr expected.mean.exr R,G,B,A || fail "dof-accumulate --layer"
+done
+picture differ expected.fg.exr expected.bg.exr || fail "the two pictures are one"
+for name in fg bg; do
+    exits 0 "$bin/dof-compare" two.exr two.exr --json --layer $name
+    grep -q '"psnr": null' stdout || fail "dof-compare --layer $name: $(cat stdout)"
+done
+fails_saying 2 'holds several pictures' "$bin/dof-compare" two.exr two.exr
+# --layer all: one run for each, the same as naming it; %L is the name.
+exits 0 "$gather" two.exr -o 'each.%L.exr' "${lens[@]}" --layer all
+for name in fg bg; do same each.$name.exr expected.$name.exr "--layer all, $name"; done
+exits 0 "$bin/ldi-warp" two.exr -o 'each.%L.ldi.exr' --layer all
+for name in fg bg; do
+    exits 0 "$gather" each.$name.ldi.exr -o out.exr "${lens[@]}"
+    same out.exr expected.$name.exr "ldi-warp --layer all, $name"
+done
+fails_saying 2 'put %L' "$gather" two.exr -o x.exr "${lens[@]}" --layer all
+fails_saying 1 'plain.exr: it has one picture' "$gather" plain.exr -o 'x.%L.exr' "${lens[@]}" --layer=all
+
 # Layers of which none has such a name are a warning; the error about depth lists the channels.
 picture edit plain.exr diffuse.exr channels=diffuse.R=R,diffuse.G=G,diffuse.B=B,diffuse.A=A,Z
 exits 0 "$gather" diffuse.exr -o out.exr "${lens[@]}"
 grep -q 'warning: diffuse.exr: no layer is named as the beauty.*its layers are diffuse:' stderr || fail "no warning: $(cat stderr)"
+exits 0 "$gather" plain.exr -o expected.exr "${lens[@]}"
+exits 0 "$gather" diffuse.exr -o out.exr "${lens[@]}" --layer diffuse
+same out.exr expected.exr "--layer of a layer that no renderer calls the beauty"
 oiiotool plain.exr --chnames R,G,B,A,far -o far.exr
 fails_saying 1 'far.exr: has no depth channel.*--depth-channel; its channels are R, G, B, A, far' \
     "$gather" far.exr -o x.exr "${lens[@]}"

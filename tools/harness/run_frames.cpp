@@ -1,7 +1,7 @@
 #include "base/error.h"
+#include "harness/commands/each_picture.h"
 #include "harness/commands/frames.h"
 #include "harness/commands/named_files.h"
-#include "harness/commands/each_picture.h"
 #include "harness/frame_run.h"
 #include "harness/history.h"
 #include "harness/process.h"
@@ -67,12 +67,16 @@ void add_frame_options(CLI::App &app, FrameOptions &options) {
         ->group("Frames");
 }
 
-void explain_all_views(CLI::App &app) {
-    CLI::Option *option = app.get_option_no_throw("--stereo-view");
-    if (option)
-        option->description(
-            "Stereo view to read, e.g. right; all: one run for each view, whose name replaces %V in "
-            "the names of files (default: the file's first)");
+void explain_all_pictures(CLI::App &app) {
+    for (const EachPicture *each : {&each_view(), &each_layer()}) {
+        CLI::Option *option = app.get_option_no_throw(each->option);
+        if (!option) continue;
+        std::string text = option->get_description();
+        text.insert(text.rfind(" (default"),
+                    fmt::format("; all: one run for each {}, whose name replaces {} in the names of files",
+                                each->noun, each->placeholder));
+        option->description(text);
+    }
 }
 
 // The command line of the tool at one frame, parsed.
@@ -88,7 +92,7 @@ struct FrameCommand {
         add_frame_options(app, frames);
         add_process_options(app, process);
         add_memory_option(app, process);
-        explain_all_views(app);
+        explain_all_pictures(app);
     }
 };
 
@@ -187,36 +191,63 @@ int run_words(const std::string &name, const std::string &description, const std
     return run.worst();
 }
 
-// The views that the first input of the command names.
-std::vector<std::string> views_of_input(const CLI::App &parsed) {
+// The views or layers that the first input of the command names.
+std::vector<std::string> pictures_of_input(const EachPicture &each, const CLI::App &parsed) {
     const std::vector<NamedFile> inputs = named_files(parsed).inputs;
     const auto input = std::ranges::find_if(
         inputs, [](const NamedFile &file) { return file.option == "IN" || file.option == "views"; });
     if (input == inputs.end() || input->path == "-")
-        throw UsageError("--stereo-view all needs the name of the input, because it reads it once per view");
-    const std::vector<std::string> views = stereo_views(input->path);
-    if (views.empty()) throw Error(input->path + ": it names no stereo views; leave out --stereo-view all");
-    return views;
+        throw UsageError(fmt::format("{} all needs the name of the input, because it reads it once per {}",
+                                     each.option, each.noun));
+    const CLI::Option *view = parsed.get_option_no_throw(each_view().option);
+    const std::string of_view = view && view->count() > 0 ? view->as<std::string>() : std::string();
+    const std::vector<std::string> names =
+        &each == &each_view() ? stereo_views(input->path) : picture_layers(input->path, of_view);
+    if (names.empty())
+        throw Error(input->path +
+                    (&each == &each_view() ? ": it names no stereo views"
+                                           : ": it has one picture, outside of all layers") +
+                    "; leave out " + each.option + " all");
+    return names;
 }
+
+// A command line that asks for all views or layers as one for each; empty where help and the like, or an error in the words,
+// answered it.
+struct EachCommand {
+    std::vector<std::vector<std::string>> commands;
+    std::optional<int> answered = {};
+
+    void expand(const EachPicture &each, const std::string &name, const std::string &description,
+                const Prepare &prepare) {
+        std::vector<std::vector<std::string>> expanded;
+        for (const std::vector<std::string> &words : commands) {
+            if (!asks_for_all(each, words)) {
+                expanded.push_back(words);
+                continue;
+            }
+            FrameCommand first(name, description, prepare);
+            answered = parse_words(first.app, FrameCommands(words).words(0), prefix_of(name, words));
+            if (answered) return;
+            for (const std::string &picture : pictures_of_input(each, first.app))
+                expanded.push_back(words_for_one(each, words, picture));
+        }
+        commands = std::move(expanded);
+    }
+};
 
 } // namespace
 
 int run_frames(const std::string &name, const std::string &description, int argc, char **argv,
                const Prepare &prepare) {
     const std::vector<std::string> words(argv + 1, argv + argc);
-    if (!asks_for_all_views(words)) return run_words(name, description, words, prepare);
-    std::vector<std::vector<std::string>> commands;
-    std::optional<int> answered; // by --help and the like, or by an error in the words
-    const std::string prefix = prefix_of(name, words);
-    int worst = exit_code_of(prefix, [&] {
-        FrameCommand first(name, description, prepare);
-        answered = parse_words(first.app, FrameCommands(words).words(0), prefix);
-        if (answered) return;
-        for (const std::string &view : views_of_input(first.app))
-            commands.push_back(words_for_view(words, view));
+    EachCommand all{{words}};
+    int worst = exit_code_of(prefix_of(name, words), [&] {
+        for (const EachPicture *each : {&each_view(), &each_layer()})
+            if (!all.answered) all.expand(*each, name, description, prepare);
     });
-    if (answered) return *answered;
-    for (const auto &command : commands)
+    if (all.answered) return *all.answered;
+    if (worst != 0) return worst;
+    for (const auto &command : all.commands)
         worst = std::max(worst, run_words(name, description, command, prepare));
     return worst;
 }

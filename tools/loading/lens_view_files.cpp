@@ -12,8 +12,8 @@ namespace {
 
 // Reads the header of a view; from standard input, which cannot be read twice, the pixels too.
 Imf::Header open_header(LensViewFile &view) {
-    if (view.path != "-") return read_flat_header(view.path, view.stereo_view);
-    view.pixels = read_flat_exr(view.path, view.stereo_view);
+    if (view.path != "-") return read_flat_header(view.path, view.picture);
+    view.pixels = read_flat_exr(view.path, view.picture);
     return view.pixels->header;
 }
 
@@ -56,16 +56,14 @@ void find_shifts(const std::vector<Imf::Header> &headers, bool centre_is_known, 
 
 } // namespace
 
-FlatFile LensViewFile::take_pixels() {
-    return pixels ? std::move(*pixels) : read_flat_exr(path, stereo_view);
-}
+FlatFile LensViewFile::take_pixels() { return pixels ? std::move(*pixels) : read_flat_exr(path, picture); }
 
 LensViewFiles open_lens_views(const LensViewOptions &options) {
     LensViewFiles result;
     for (const std::string &path : options.files)
-        result.views.push_back({path, {0, 0}, {0, 0}, {}, options.stereo_view});
+        result.views.push_back({path, {0, 0}, {0, 0}, {}, options.picture});
     for (const auto &[position, path] : options.placed)
-        result.views.push_back({path, view_offset(position), {0, 0}, {}, options.stereo_view});
+        result.views.push_back({path, view_offset(position), {0, 0}, {}, options.picture});
     if (result.views.empty()) throw UsageError("no views are given; name their files");
     std::vector<Imf::Header> headers;
     for (LensViewFile &view : result.views) headers.push_back(open_header(view));
@@ -75,7 +73,7 @@ LensViewFiles open_lens_views(const LensViewOptions &options) {
             throw Error(result.views[i].path + ": the display window differs from that of " +
                         result.views[0].path);
     result.header =
-        options.centre.empty() ? headers.front() : read_flat_header(options.centre, options.stereo_view);
+        options.centre.empty() ? headers.front() : read_flat_header(options.centre, options.picture);
     result.centre = read_camera(result.header);
     if (!options.files.empty())
         place_by_metadata(std::span(result.views).first(options.files.size()), headers, options.centre,

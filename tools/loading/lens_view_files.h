@@ -16,7 +16,7 @@ struct LensViewFile {
     Imath::V2d position;    // on the lens: relative to its centre, scene units, x right, y up
     Imath::V2d shift{0, 0}; // from the point where its optical axis meets the picture to the centre's, pixels
     std::optional<FlatFile> pixels; // set if they were read already: standard input can be read only once
-    std::string stereo_view;        // of the file
+    PictureChoice picture;          // of the file
     FlatFile take_pixels();         // reads them if needed
 };
 

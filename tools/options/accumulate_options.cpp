@@ -25,7 +25,7 @@ void add_accumulate_options(CLI::App &app, AccumulateOptions &options) {
         ->type_name("unknown|transparent")
         ->transform(words(outside));
     add_lens_options(app, options.lens);
-    add_stereo_option(app, options.views.stereo_view);
+    add_picture_choice(app, options.views.picture);
     add_history_option(app, options.history);
     add_examples(app, {{"Average views that say where their cameras stood",
                         "dof-accumulate view_*.exr --center center.exr -o average.exr"}});

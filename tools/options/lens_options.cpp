@@ -68,11 +68,17 @@ void add_depth_options(CLI::App &app, DepthOptions &options) {
                    "Depth channel (default: the first of Z, depth.Z and *.Depth.Z)")
         ->type_name("NAME")
         ->group("Lens");
-    add_stereo_option(app, options.view);
+    add_picture_choice(app, options.picture);
 }
 
-void add_stereo_option(CLI::App &app, std::string &view) {
-    app.add_option("--stereo-view", view, "Stereo view to read, e.g. right (default: the file's first)")
+void add_picture_choice(CLI::App &app, PictureChoice &picture) {
+    app.add_option("--stereo-view", picture.stereo_view,
+                   "Stereo view to read, e.g. right (default: the file's first)")
+        ->type_name("NAME")
+        ->group("Lens");
+    app.add_option("--layer", picture.layer,
+                   "Picture to read of a file that holds several, such as a view layer of Blender: its "
+                   "beauty, depth and passes (default: the only one)")
         ->type_name("NAME")
         ->group("Lens");
 }

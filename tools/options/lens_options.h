@@ -9,8 +9,8 @@
 namespace sparselens {
 
 void add_lens_options(CLI::App &app, LensValues &values);
-void add_depth_options(CLI::App &app, DepthOptions &options); // the view among them
-void add_stereo_option(CLI::App &app, std::string &view);
+void add_depth_options(CLI::App &app, DepthOptions &options); // the choice of the picture among them
+void add_picture_choice(CLI::App &app, PictureChoice &picture);
 
 // What is neither 0 nor below (nor infinite, unless allowed). CLI11 reads "inf" and "nan" as numbers; the second is
 // never meant.

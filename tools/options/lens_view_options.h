@@ -3,6 +3,7 @@
 #pragma once
 
 #include "harness/commands/cli.h"
+#include "io/exr/picture_choice.h"
 
 #include <string>
 #include <utility>
@@ -14,7 +15,7 @@ struct LensViewOptions {
     std::vector<std::string> files;
     std::vector<std::pair<std::string, std::string>> placed; // "X,Y" and file
     std::string centre;                                      // a file whose camera stands at the lens centre
-    std::string stereo_view;                                 // empty: the files' default view
+    PictureChoice picture;                                   // of each file
 };
 
 void add_lens_view_options(CLI::App &app, LensViewOptions &options);

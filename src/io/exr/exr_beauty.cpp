@@ -1,5 +1,6 @@
 #include "io/exr/exr_beauty.h"
 
+#include "base/error.h"
 #include "base/text.h"
 #include "io/exr/exr_common.h"
 
@@ -8,40 +9,13 @@
 
 #include <algorithm>
 #include <array>
+#include <unordered_set>
 
 namespace sparselens {
 
 namespace {
 
-constexpr std::array names{"rgba", "rgb", "c", "ci", "beauty", "combined", "main", "default"};
-
-bool has_light(const std::vector<Channel> &channels, const std::string &name) {
-    const std::size_t k = find_channel(channels, name);
-    return k != npos && !holds_ids(channels[k]);
-}
-
-bool has_plain_colour(const std::vector<Channel> &channels) {
-    return std::ranges::any_of(rgb_names,
-                               [&](const char *name) { return find_channel(channels, name) != npos; });
-}
-
-// In the order of their channels.
-std::vector<std::string> colour_layers(const std::vector<Channel> &channels) {
-    std::vector<std::string> layers;
-    for (const Channel &channel : channels) {
-        if (!channel.name.ends_with(".R")) continue;
-        const std::string layer = channel.name.substr(0, channel.name.size() - 2);
-        const bool complete = std::ranges::all_of(
-            rgb_names, [&](const char *name) { return has_light(channels, layer + "." + name); });
-        if (complete) layers.push_back(layer);
-    }
-    return layers;
-}
-
-bool has_depth_beside(const std::string &layer, const std::vector<Channel> &channels) {
-    const std::size_t dot = layer.rfind('.');
-    return dot != std::string::npos && has_light(channels, layer.substr(0, dot) + ".Depth.Z");
-}
+constexpr std::array beauty_words{"rgba", "rgb", "c", "ci", "beauty", "combined", "main", "default"};
 
 std::string in_file(const std::vector<FileChannel> &channels, const std::vector<std::string> &wanted) {
     std::vector<std::string> found;
@@ -51,27 +25,87 @@ std::string in_file(const std::vector<FileChannel> &channels, const std::vector<
     return found.empty() ? "none" : fmt::format("{}", fmt::join(found, ", "));
 }
 
+constexpr std::array colours{"R", "G", "B", "A", "AR", "AG", "AB"};
+
+// Names of channels that hold no ids.
+using Names = std::unordered_set<std::string>;
+
+Names names_with_light(const std::vector<Channel> &channels) {
+    Names found;
+    for (const Channel &channel : channels)
+        if (!holds_ids(channel)) found.insert(channel.name);
+    return found;
+}
+
+// "fg." of "fg.Combined"; empty where there is no dot.
+std::string prefix_of(const std::string &layer) { return layer.substr(0, layer.rfind('.') + 1); }
+
+// The depth of a picture in a layer; empty where it has none.
+std::string own_depth(const PictureLayer &picture, const Names &channels) {
+    for (const std::string &name : {picture.prefix + "Depth.Z", picture.prefix + "depth.Z",
+                                    picture.prefix + "Z", picture.beauty + ".Z"})
+        if (!picture.prefix.empty() && channels.contains(name)) return name;
+    return {};
+}
+
+// Of all beauties the first in each layer.
+std::vector<PictureLayer> with_beauty(const std::vector<Channel> &channels) {
+    std::vector<PictureLayer> pictures;
+    Names found;
+    for (const std::string &layer : colour_layers(channels)) {
+        if (!is_beauty_name(layer)) continue;
+        const std::string prefix = prefix_of(layer);
+        if (!found.insert(prefix).second) continue;
+        pictures.push_back({prefix.empty() ? layer : prefix.substr(0, prefix.size() - 1), layer, prefix});
+    }
+    return pictures;
+}
+
+std::optional<PictureLayer> picture_named(const std::string &name, const std::vector<Channel> &channels) {
+    for (const PictureLayer &picture : with_beauty(channels))
+        if (name == picture.name || name == picture.beauty) return picture;
+    if (!is_among(colour_layers(channels), name)) return {};
+    return PictureLayer{name, name, name + "."};
+}
+
+std::vector<std::string> names_of(const std::vector<PictureLayer> &pictures,
+                                  std::string PictureLayer::*name) {
+    std::vector<std::string> names;
+    for (const PictureLayer &picture : pictures) names.push_back(picture.*name);
+    return names;
+}
+
 } // namespace
 
 bool is_beauty_name(std::string_view name) {
-    return is_among(names, lower_case(std::string(name.substr(name.rfind('.') + 1))));
+    return is_among(beauty_words, lower_case(std::string(name.substr(name.rfind('.') + 1))));
 }
 
-std::string beauty_names() { return fmt::format("{}", fmt::join(names, ", ")); }
+std::string beauty_names() { return fmt::format("{}", fmt::join(beauty_words, ", ")); }
 
-std::string beauty_layer(const std::vector<Channel> &channels) {
-    if (has_plain_colour(channels)) return {};
-    std::vector<std::string> layers = colour_layers(channels);
-    std::erase_if(layers, [](const std::string &layer) { return !is_beauty_name(layer); });
-    if (layers.empty()) return {};
-    const auto with_depth = std::ranges::find_if(
-        layers, [&](const std::string &layer) { return has_depth_beside(layer, channels); });
-    return with_depth == layers.end() ? layers.front() : *with_depth;
+bool has_plain_colour(const std::vector<Channel> &channels) {
+    return std::ranges::any_of(rgb_names,
+                               [&](const char *name) { return find_channel(channels, name) != npos; });
+}
+
+std::vector<std::string> colour_layers(const std::vector<Channel> &channels) {
+    const Names with_light = names_with_light(channels);
+    std::vector<std::string> layers;
+    for (const Channel &channel : channels) {
+        if (!channel.name.ends_with(".R")) continue;
+        const std::string layer = channel.name.substr(0, channel.name.size() - 2);
+        const bool complete = std::ranges::all_of(
+            rgb_names, [&](const char *name) { return with_light.contains(layer + "." + name); });
+        if (complete) layers.push_back(layer);
+    }
+    return layers;
 }
 
 std::vector<std::string> layers_without_beauty(const std::vector<Channel> &channels) {
-    if (has_plain_colour(channels) || !beauty_layer(channels).empty()) return {};
-    return colour_layers(channels);
+    if (has_plain_colour(channels)) return {};
+    std::vector<std::string> layers = colour_layers(channels);
+    const auto is_beauty = [](const std::string &layer) { return is_beauty_name(layer); };
+    return std::ranges::any_of(layers, is_beauty) ? std::vector<std::string>() : layers;
 }
 
 void name_beauty(std::vector<FileChannel> &channels, const std::string &layer,
@@ -96,8 +130,80 @@ std::vector<std::string> beauty_warnings(const std::vector<Channel> &channels) {
     if (layers.empty()) return {};
     return {fmt::format(
         "no layer is named as the beauty ({}), so that the picture has no R, G and B; its layers are {}: "
-        "rename the channels of one to R, G, B and A",
+        "give --layer with the one that is the picture",
         beauty_names(), first_of(layers))};
+}
+
+std::vector<PictureLayer> pictures_in(const std::vector<Channel> &channels) {
+    if (has_plain_colour(channels)) return {};
+    std::vector<PictureLayer> pictures = with_beauty(channels);
+    const Names names = names_with_light(channels);
+    const auto lacks_depth = [&](const PictureLayer &p) { return own_depth(p, names).empty(); };
+    if (!std::ranges::all_of(pictures, lacks_depth)) std::erase_if(pictures, lacks_depth);
+    return pictures;
+}
+
+std::optional<PictureLayer> chosen_picture(const std::vector<Channel> &channels, const std::string &asked,
+                                           const std::string &path) {
+    if (asked.empty()) {
+        const std::vector<PictureLayer> pictures = pictures_in(channels);
+        if (pictures.size() > 1)
+            throw UsageError(fmt::format("{}: holds several pictures, {}: give --layer with one of {}",
+                                         display_name(path),
+                                         fmt::join(names_of(pictures, &PictureLayer::beauty), " and "),
+                                         fmt::join(names_of(pictures, &PictureLayer::name), ", ")));
+        return {};
+    }
+    if (auto picture = picture_named(asked, channels)) return picture;
+    std::vector<std::string> names = names_of(with_beauty(channels), &PictureLayer::name);
+    if (names.empty()) names = colour_layers(channels);
+    throw Error(fmt::format("{}: has no layer '{}' with R, G and B (--layer): {}", display_name(path), asked,
+                            names.empty() ? "it has one picture, outside of all layers"
+                                          : "its layers are " + first_of(names)));
+}
+
+ChannelsOfPicture::ChannelsOfPicture(PictureLayer picture, const std::vector<Channel> &of_file)
+    : own_(std::move(picture)), depth_(own_depth(own_, names_with_light(of_file))) {
+    for (const PictureLayer &other : with_beauty(of_file))
+        if (other.beauty != own_.beauty)
+            others_.insert(other.prefix.empty() ? other.beauty + "." : other.prefix);
+}
+
+bool ChannelsOfPicture::owns(const std::string &channel) const {
+    return channel.starts_with(own_.prefix.empty() ? own_.beauty + "." : own_.prefix);
+}
+
+std::string ChannelsOfPicture::name_of(const std::string &channel) const {
+    for (const char *name : colours)
+        if (channel == own_.beauty + "." + name) return name;
+    if (depth_.ends_with(".Z") && !depth_.ends_with("epth.Z"))
+        for (const std::string end : {"", "Back"})
+            if (channel == depth_ + end) return "Z" + end;
+    return !owns(channel) && belongs_to_others(channel) ? "" : channel;
+}
+
+bool ChannelsOfPicture::belongs_to_others(const std::string &channel) const {
+    static constexpr std::array depths{"Z", "ZBack", "depth.Z", "depth.ZBack"};
+    if (is_among(colours, channel) || (!depth_.empty() && is_among(depths, channel))) return true;
+    for (std::size_t dot = channel.find('.'); dot != std::string::npos; dot = channel.find('.', dot + 1))
+        if (others_.contains(channel.substr(0, dot + 1))) return true;
+    return false;
+}
+
+std::string full_name(const std::string &channel, const std::string &part, bool one_of_several) {
+    if (!one_of_several || part.empty() || channel.starts_with(part + ".")) return channel;
+    return part + "." + channel;
+}
+
+std::vector<Channel> full_channels(const Imf::MultiPartInputFile &file, const std::vector<int> &parts,
+                                   const std::string &view, const std::string &path) {
+    std::vector<Channel> all;
+    for (const int part : parts)
+        for (FileChannel &found : channels_of(file.header(part), view, path)) {
+            found.channel.name = full_name(found.channel.name, layer_of(file.header(part)), file.parts() > 1);
+            all.push_back(std::move(found.channel));
+        }
+    return all;
 }
 
 } // namespace sparselens

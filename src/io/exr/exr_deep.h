@@ -6,6 +6,7 @@
 #include "../../deep/ldi.h"
 #include "../../deep/packed/packed_rows.h"
 #include "compression.h"
+#include "picture_choice.h"
 
 #include <ImfHeader.h>
 
@@ -31,19 +32,20 @@ struct LdiFile {
 // - the other parts are one object each, and the picture has the samples of all of them (see deep_merge());
 // - but if exactly one part has the name of a beauty (exr_parts.h), that part is the whole picture, and parts that are
 //   not layers of it are left out.
-// If no part has a channel R, G or B, a layer with the name of a beauty (exr_beauty.h) becomes R, G, B and A.
-// An empty `stereo_view` is the default view (exr_parts.h). A missing A is made of AR, AG and AB. If `depth_channel` is
+// If no part has a channel R, G or B, a layer with the name of a beauty (exr_beauty.h) becomes R, G, B and A. If the choice
+// names a layer, only what belongs to it is read, or to none (exr_beauty.h); UsageError where one part holds several
+// beauties and it names none. A missing A is made of AR, AG and AB. If `depth_channel` is
 // empty, Z, depth.Z and *.Depth.Z are tried; the back depths are in NAMEBack. Samples are returned as they stand in the
 // file (see tidy); a flat picture has one per pixel.
 LdiFile read_ldi(const std::string &path, const std::string &depth_channel = {},
-                 const std::string &stereo_view = {});
+                 const PictureChoice &choice = {});
 
 // The same with less memory, for a picture of which fewer samples are needed: `reduce` is given a few rows of it at a time,
 // by several threads at once, and what it makes of them is kept; it may not change the windows. What would take
 // more than memory_to_gather() is kept packed.
 // `reduce` is not asked where the picture has several parts, tiles, or is flat: then all samples are there.
 using ReduceFileRows = std::function<Ldi(const Imf::Header &header, Ldi rows)>;
-LdiFile read_ldi(const std::string &path, const std::string &depth_channel, const std::string &stereo_view,
+LdiFile read_ldi(const std::string &path, const std::string &depth_channel, const PictureChoice &choice,
                  const ReduceFileRows &reduce);
 
 // Writes a scanline deep EXR file, compressed as compression.h says; deepImageState describes the samples. Keeps all of

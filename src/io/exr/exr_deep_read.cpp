@@ -36,8 +36,22 @@ double memory_held_by(const Ldi &ldi) {
 // The parts of one view as one picture, see read_ldi().
 class DeepPicture {
 public:
-    DeepPicture(const DeepSource &source, const std::string &view, const std::string &depth_channel)
-        : source_(source), view_(view), asked_(depth_channel) {}
+    DeepPicture(const DeepSource &source, const std::string &view, const std::string &depth_channel,
+                const std::string &layer)
+        : source_(source), view_(view), asked_(depth_channel), layer_(layer) {}
+
+    // Of the parts those that hold something of the layer asked for.
+    std::vector<int> parts_of_layer(const std::vector<int> &numbers) {
+        if (layer_.empty()) return numbers;
+        const std::vector<Channel> all = full_channels(source_.file, numbers, view_, source_.path);
+        chosen_.emplace(*chosen_picture(all, layer_, source_.path), all);
+        std::vector<int> kept;
+        for (const int number : numbers)
+            if (std::ranges::any_of(full_channels(source_.file, {number}, view_, source_.path),
+                                    [&](const Channel &channel) { return chosen_->owns(channel.name); }))
+                kept.push_back(number);
+        return kept;
+    }
 
     // Layers of these parts have to stand for the beauty, where none of them has a colour outside of all layers.
     void find_beauty(const std::vector<int> &numbers) {
@@ -98,12 +112,23 @@ public:
 private:
     std::vector<FileChannel> named_channels(const Imf::Header &header) {
         std::vector<FileChannel> found = channels_of(header, view_, source_.path);
+        if (chosen_) return of_layer(std::move(found), layer_of(header));
         if (!beauty_in_layer_) return found;
         const std::vector<Channel> channels = plain(found);
-        if (const std::string layer = beauty_layer(channels); !layer.empty())
-            name_beauty(found, layer, channels);
+        chosen_picture(channels, {}, source_.path); // throws where there are several
+        if (const std::vector<PictureLayer> layers = pictures_in(channels); !layers.empty())
+            name_beauty(found, layers.front().beauty, channels);
         if (parts_.empty()) warnings_ = beauty_warnings(channels);
         return found;
+    }
+
+    std::vector<FileChannel> of_layer(std::vector<FileChannel> channels, const std::string &part) const {
+        for (FileChannel &found : channels)
+            found.channel.name =
+                chosen_->name_of(full_name(found.channel.name, part, source_.file.parts() > 1));
+        std::erase_if(channels, [](const FileChannel &found) { return found.channel.name.empty(); });
+        colours_first(channels);
+        return channels;
     }
 
     static std::vector<Channel> plain(const std::vector<FileChannel> &found) {
@@ -132,7 +157,8 @@ private:
     }
 
     DeepSource source_;
-    std::string view_, asked_;
+    std::string view_, asked_, layer_;
+    std::optional<ChannelsOfPicture> chosen_;
     std::vector<Ldi> parts_;
     std::optional<PackedRows> packed_; // the samples of the only part
     std::vector<std::string> notes_, warnings_;
@@ -140,9 +166,9 @@ private:
 };
 
 LdiFile read_flat_as_ldi(const DeepSource &source, InputStream &stream, const std::string &depth_channel,
-                         const std::string &stereo_view) {
+                         const PictureChoice &choice) {
     const std::string &path = source.path;
-    FlatFile flat = read_flat_part(source.file, path, stream, stereo_view);
+    FlatFile flat = read_flat_part(source.file, path, stream, choice);
     check_memory(path, 2 * memory_of(flat.header, flat.image.channels.size() + 1), source.size);
     const std::string depth = find_depth_channel(flat.image.channels, depth_channel, path);
     flat.notes.push_back("depth: " + depth);
@@ -152,11 +178,11 @@ LdiFile read_flat_as_ldi(const DeepSource &source, InputStream &stream, const st
 
 } // namespace
 
-LdiFile read_ldi(const std::string &path, const std::string &depth_channel, const std::string &stereo_view) {
-    return read_ldi(path, depth_channel, stereo_view, {});
+LdiFile read_ldi(const std::string &path, const std::string &depth_channel, const PictureChoice &choice) {
+    return read_ldi(path, depth_channel, choice, {});
 }
 
-LdiFile read_ldi(const std::string &path, const std::string &depth_channel, const std::string &stereo_view,
+LdiFile read_ldi(const std::string &path, const std::string &depth_channel, const PictureChoice &choice,
                  const ReduceFileRows &reduce) {
     return with_file_name(path, [&] {
         const auto stream = open_input(path);
@@ -164,12 +190,14 @@ LdiFile read_ldi(const std::string &path, const std::string &depth_channel, cons
         Imf::MultiPartInputFile file(*stream);
         const DeepSource source{file, *stream, path, stream->size()};
         const std::vector<int> deep = deep_parts(file);
-        if (deep.empty()) return read_flat_as_ldi(source, *stream, depth_channel, stereo_view);
-        auto [view, numbers] = parts_of_view(file, deep, stereo_view, path);
+        if (deep.empty()) return read_flat_as_ldi(source, *stream, depth_channel, choice);
+        const PartsOfView of_view = parts_of_view(file, deep, choice.stereo_view, path);
+        const std::string &view = of_view.view;
+        DeepPicture picture(source, view, depth_channel, choice.layer);
+        std::vector<int> numbers = picture.parts_of_layer(of_view.numbers);
         const auto beauty = [&](int part) { return is_beauty(file.header(part)); };
         const bool one_beauty = std::ranges::count_if(numbers, beauty) == 1;
         if (one_beauty) std::stable_partition(numbers.begin(), numbers.end(), beauty);
-        DeepPicture picture(source, view, depth_channel);
         picture.find_beauty(numbers);
         Imf::Header header = with_mattes_of(file, header_of_view(file.header(numbers.front()), view));
         const auto by_rows = [&](Ldi rows) {

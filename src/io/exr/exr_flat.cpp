@@ -60,30 +60,35 @@ struct PictureParts {
 void find_beauty(const Imf::MultiPartInputFile &file, PictureParts &picture) {
     const std::vector<Channel> channels = picture.channels();
     for (std::string &warning : beauty_warnings(channels)) picture.warnings.push_back(std::move(warning));
-    if (const std::string layer = beauty_layer(channels); !layer.empty())
-        for (PartChannels &part : picture.parts) name_beauty(part.channels, layer, channels);
+    if (const std::vector<PictureLayer> layers = pictures_in(channels); !layers.empty())
+        for (PartChannels &part : picture.parts) name_beauty(part.channels, layers.front().beauty, channels);
     for (const PartChannels &part : picture.parts)
         if (std::ranges::any_of(part.channels, [](const FileChannel &c) { return c.channel.name == "R"; }))
             picture.notes.push_back(beauty_note(
                 part.channels, file.parts() > 1 ? layer_of(file.header(part.part)) : std::string()));
 }
 
+using Chosen = std::optional<ChannelsOfPicture>; // of the file's pictures; none: all channels
+
 // A channel whose name is taken is one of the part's layer: R of "diffuse" is diffuse.R.
-void add_part(Imf::MultiPartInputFile &file, int number, const std::string &path,
+void add_part(Imf::MultiPartInputFile &file, int number, const std::string &path, const Chosen &chosen,
               std::unordered_set<std::string> &taken, PictureParts &picture) {
     PartChannels part{number, {}};
+    const std::string layer = layer_of(file.header(number));
     for (FileChannel &found : channels_of(file.header(number), picture.view, path)) {
         std::string &name = found.channel.name;
-        if (taken.contains(name)) name = layer_of(file.header(number)) + "." + name;
+        if (chosen) name = chosen->name_of(full_name(name, layer, file.parts() > 1));
+        if (name.empty()) continue;
+        if (taken.contains(name)) name = layer + "." + name;
         if (!taken.insert(name).second) { // the same layer twice
-            picture.warnings.push_back(
-                fmt::format("channel {} of part {} is not used: there is one of that name", found.in_file,
-                            layer_of(file.header(number))));
+            picture.warnings.push_back(fmt::format(
+                "channel {} of part {} is not used: there is one of that name", found.in_file, layer));
             continue;
         }
         part.channels.push_back(std::move(found));
     }
-    picture.parts.push_back(std::move(part));
+    colours_first(part.channels);
+    if (!part.channels.empty() || !chosen) picture.parts.push_back(std::move(part));
 }
 
 // Pictures of other display windows are not of the same camera.
@@ -91,11 +96,23 @@ bool fits(const Windows &part, const Windows &picture) {
     return part.display == picture.display && part.pixel_aspect == picture.pixel_aspect;
 }
 
-// The flat parts that make up the view, over the window that contains them all. The beauty first.
+// Whether the part holds the beauty, of the picture chosen.
+bool holds_beauty(const Imf::MultiPartInputFile &file, int part, const std::string &view,
+                  const std::string &path, const Chosen &chosen) {
+    if (!chosen) return is_beauty(file.header(part));
+    return std::ranges::any_of(full_channels(file, {part}, view, path),
+                               [&](const Channel &c) { return chosen->name_of(c.name) == "R"; });
+}
+
+// The flat parts that make up the picture, over the window that contains them all. The beauty first.
 PictureParts parts_of_picture(Imf::MultiPartInputFile &file, const std::string &path,
-                              const std::string &stereo_view) {
-    auto [view, numbers] = parts_of_view(file, flat_parts(file, path), stereo_view, path);
-    const auto beauty = std::ranges::find_if(numbers, [&](int part) { return is_beauty(file.header(part)); });
+                              const PictureChoice &choice) {
+    auto [view, numbers] = parts_of_view(file, flat_parts(file, path), choice.stereo_view, path);
+    const std::vector<Channel> all = full_channels(file, numbers, view, path);
+    Chosen chosen;
+    if (const auto layer = chosen_picture(all, choice.layer, path)) chosen.emplace(*layer, all);
+    const auto beauty = std::ranges::find_if(
+        numbers, [&, &view = view](int part) { return holds_beauty(file, part, view, path, chosen); });
     if (beauty != numbers.end()) std::rotate(numbers.begin(), beauty, beauty + 1);
     PictureParts picture{view, windows_of(file.header(numbers.front())), {}};
     std::unordered_set<std::string> taken; // names
@@ -108,7 +125,7 @@ PictureParts parts_of_picture(Imf::MultiPartInputFile &file, const std::string &
             continue;
         }
         picture.windows.data.extendBy(windows.data);
-        add_part(file, part, path, taken, picture);
+        add_part(file, part, path, chosen, taken, picture);
     }
     find_beauty(file, picture);
     return picture;
@@ -181,8 +198,8 @@ bool colours_by_luminance(const Imf::MultiPartInputFile &file, const PicturePart
 } // namespace
 
 FlatFile read_flat_part(Imf::MultiPartInputFile &file, const std::string &path, InputStream &stream,
-                        const std::string &stereo_view) {
-    PictureParts picture = parts_of_picture(file, path, stereo_view);
+                        const PictureChoice &choice) {
+    PictureParts picture = parts_of_picture(file, path, choice);
     const Imf::Header header = header_of(file, picture, path);
     std::vector<Channel> channels = picture.channels();
     find_kinds_by(header, channels);
@@ -199,21 +216,21 @@ FlatFile read_flat_part(Imf::MultiPartInputFile &file, const std::string &path, 
                     std::move(picture.warnings)};
 }
 
-FlatFile read_flat_exr(const std::string &path, const std::string &stereo_view) {
+FlatFile read_flat_exr(const std::string &path, const PictureChoice &choice) {
     return with_file_name(path, [&] {
         const auto stream = open_input(path);
         check_header(*stream, path);
         Imf::MultiPartInputFile file(*stream);
-        return read_flat_part(file, path, *stream, stereo_view);
+        return read_flat_part(file, path, *stream, choice);
     });
 }
 
-Imf::Header read_flat_header(const std::string &path, const std::string &stereo_view) {
+Imf::Header read_flat_header(const std::string &path, const PictureChoice &choice) {
     return with_file_name(path, [&] {
         const auto stream = open_input(path);
         check_header(*stream, path);
         Imf::MultiPartInputFile file(*stream);
-        return header_of(file, parts_of_picture(file, path, stereo_view), path);
+        return header_of(file, parts_of_picture(file, path, choice), path);
     });
 }
 

@@ -6,6 +6,7 @@
 
 #include "../../base/image.h"
 #include "compression.h"
+#include "picture_choice.h"
 
 #include <ImfHeader.h>
 #include <ImfMultiPartInputFile.h>
@@ -26,18 +27,18 @@ struct FlatFile {
     std::vector<std::string> warnings = {}; // what is hardly meant
 };
 
-// The flat parts of one view of the file as one picture: the beauty (by the name of the part, else the first part), then
+// The flat parts of one view of the file as one picture, or of those that belong to one layer of it: the beauty (by the name of the part, else the first part), then
 // all other parts of the same display window. The data window contains those of all parts; outside its own, a part is 0,
 // which as a depth is that of nothing. Parts that are not used are named in the warnings. A channel whose name is taken
 // becomes one of the layer of its part. If nothing is named R, G or B, the layer with the name of a beauty is taken for it
-// (exr_beauty.h: ViewLayer.Combined, Ci). An empty `stereo_view` is the default view of the file (see exr_parts.h). A
-// missing A is made of AR, AG and AB (see channel_alpha.h).
-FlatFile read_flat_exr(const std::string &path, const std::string &stereo_view = {});
+// (exr_beauty.h: ViewLayer.Combined, Ci); UsageError where several are and the choice names none (exr_beauty.h). A missing
+// A is made of AR, AG and AB (see channel_alpha.h).
+FlatFile read_flat_exr(const std::string &path, const PictureChoice &choice = {});
 // The header of the part with the beauty, without reading pixels.
-Imf::Header read_flat_header(const std::string &path, const std::string &stereo_view = {});
+Imf::Header read_flat_header(const std::string &path, const PictureChoice &choice = {});
 // `path` is for messages; `stream` is what `file` reads.
 FlatFile read_flat_part(Imf::MultiPartInputFile &file, const std::string &path, InputStream &stream,
-                        const std::string &stereo_view);
+                        const PictureChoice &choice);
 
 // Takes the depth channel out of the picture (see read_ldi for how it is found) and drops the other channels with
 // positions of samples (see is_position_channel), which must not be carried along like colours.

@@ -1,4 +1,5 @@
-// The stereo views ("left", "right", ...) that a file names.
+// Which picture of a file is read where it holds several: the views of a stereo file ("left", "right", ...), and layers that
+// are a picture each, as the view layers of Blender are (exr_beauty.h).
 #pragma once
 
 #include <string>
@@ -6,8 +7,16 @@
 
 namespace sparselens {
 
+struct PictureChoice {
+    std::string stereo_view = {}; // empty: the file's first
+    std::string layer = {};       // empty: the only one
+};
+
 // The views of all parts, the default view first; empty if the file names none. Reads only the header. Throws Error if
 // the file cannot be read.
 std::vector<std::string> stereo_views(const std::string &path);
+
+// The layers of a view that are a picture each; empty where none is. Reads only the header. Throws Error as above.
+std::vector<std::string> picture_layers(const std::string &path, const std::string &stereo_view = {});
 
 } // namespace sparselens

@@ -39,22 +39,77 @@ TEST(Beauty, TheNamesOfTheRenderersInAnyCaseAndAnyLayer) {
         EXPECT_FALSE(is_beauty_name(name)) << name;
 }
 
+Names beauties(const std::vector<Channel> &channels) {
+    Names names;
+    for (const PictureLayer &picture : pictures_in(channels)) names.push_back(picture.beauty);
+    return names;
+}
+
 TEST(Beauty, IsALayerOnlyWhereNoColourIsOutsideOfLayers) {
-    EXPECT_EQ(beauty_layer(layers({"diffuse", "Ci"})), "Ci");
-    EXPECT_EQ(beauty_layer(layers({"diffuse", "spec"})), "");
+    EXPECT_EQ(beauties(layers({"diffuse", "Ci"})), (Names{"Ci"}));
+    EXPECT_EQ(beauties(layers({"diffuse", "spec"})), Names());
     std::vector<Channel> with_plain = layers({"Ci"});
     with_plain.push_back({"G"});
-    EXPECT_EQ(beauty_layer(with_plain), "");
-    EXPECT_EQ(beauty_layer({{"Ci.R"}, {"Ci.G"}}), "") << "no B";
-    EXPECT_EQ(beauty_layer({{"Ci.R", PixelType::uint32}, {"Ci.G"}, {"Ci.B"}}), "") << "ids";
+    EXPECT_EQ(beauties(with_plain), Names());
+    EXPECT_EQ(beauties({{"Ci.R"}, {"Ci.G"}}), Names()) << "no B";
+    EXPECT_EQ(beauties({{"Ci.R", PixelType::uint32}, {"Ci.G"}, {"Ci.B"}}), Names()) << "ids";
 }
 
 // Blender writes the result of its compositor beside the render layers, and before them.
 TEST(Beauty, OfSeveralItIsTheOneWithADepth) {
     std::vector<Channel> channels = layers({"Composite.Combined", "ViewLayer.Combined"});
-    EXPECT_EQ(beauty_layer(channels), "Composite.Combined");
+    EXPECT_EQ(beauties(channels), (Names{"Composite.Combined", "ViewLayer.Combined"}));
     channels.push_back({"ViewLayer.Depth.Z", PixelType::float32});
-    EXPECT_EQ(beauty_layer(channels), "ViewLayer.Combined");
+    EXPECT_EQ(beauties(channels), (Names{"ViewLayer.Combined"}));
+    EXPECT_FALSE(chosen_picture(channels, "", "x.exr"));
+}
+
+// Two view layers, and what belongs to neither.
+std::vector<Channel> two_pictures() {
+    std::vector<Channel> channels = layers({"bg.Combined", "fg.Combined", "fg.Diffuse"});
+    for (const char *name :
+         {"bg.Depth.Z", "fg.Depth.Z", "fg.CryptoObject00.r", "bg.CryptoObject00.r", "Z", "mask"})
+        channels.push_back({name, PixelType::float32});
+    return channels;
+}
+
+TEST(Beauty, SeveralPicturesNeedAChoice) {
+    EXPECT_EQ(what_of<UsageError>([] { chosen_picture(two_pictures(), "", "x.exr"); }),
+              "x.exr: holds several pictures, bg.Combined and fg.Combined: give --layer with one of bg, fg");
+    EXPECT_EQ(what_of<Error>([] { chosen_picture(two_pictures(), "hero", "x.exr"); }),
+              "x.exr: has no layer 'hero' with R, G and B (--layer): its layers are bg, fg");
+    EXPECT_EQ(what_of<Error>([] {
+                  chosen_picture(layer("R"), "hero", "x.exr");
+              }).find("x.exr: has no layer 'hero'"),
+              0u);
+    for (const char *name : {"fg", "fg.Combined"})
+        EXPECT_EQ(chosen_picture(two_pictures(), name, "x.exr")->beauty, "fg.Combined") << name;
+    EXPECT_EQ(chosen_picture(two_pictures(), "fg.Diffuse", "x.exr")->beauty, "fg.Diffuse");
+}
+
+TEST(Beauty, APictureHasItsOwnChannelsAndThoseOfNone) {
+    const std::vector<Channel> all = two_pictures();
+    const ChannelsOfPicture fg(*chosen_picture(all, "fg", "x.exr"), all);
+    Names names;
+    for (const Channel &channel : all)
+        if (const std::string name = fg.name_of(channel.name); !name.empty()) names.push_back(name);
+    EXPECT_EQ(names, (Names{"R", "G", "B", "A", "fg.Diffuse.R", "fg.Diffuse.G", "fg.Diffuse.B",
+                            "fg.Diffuse.A", "fg.Depth.Z", "fg.CryptoObject00.r", "mask"}));
+    EXPECT_EQ(full_name("R", "fg.Combined", true), "fg.Combined.R");
+    EXPECT_EQ(full_name("fg.Combined.R", "fg.Combined", true), "fg.Combined.R");
+    EXPECT_EQ(full_name("fg.Combined.R", "whole", false), "fg.Combined.R");
+}
+
+TEST(Beauty, ALayerOfAllItsChannelsHasADepthToo) {
+    std::vector<Channel> all = layers({"bg", "fg"});
+    for (const char *name : {"fg.Z", "fg.ZBack", "Z"}) all.push_back({name, PixelType::float32});
+    const ChannelsOfPicture fg(*chosen_picture(all, "fg", "x.exr"), all),
+        bg(*chosen_picture(all, "bg", "x.exr"), all);
+    EXPECT_EQ(fg.name_of("fg.R"), "R");
+    EXPECT_EQ(fg.name_of("fg.Z"), "Z");
+    EXPECT_EQ(fg.name_of("fg.ZBack"), "ZBack");
+    EXPECT_EQ(fg.name_of("Z"), "") << "it is that of another picture";
+    EXPECT_EQ(bg.name_of("Z"), "Z") << "bg has none of its own";
 }
 
 class BeautyInFile : public testing::Test {
@@ -90,12 +145,31 @@ TEST_F(BeautyInFile, BlendersCombinedIsThePicture) {
     EXPECT_EQ(ldi.notes, view.notes);
 }
 
+TEST_F(BeautyInFile, OfSeveralPicturesOneIsRead) {
+    write_flat(two_pictures());
+    EXPECT_THROW(read_flat_exr(path), UsageError);
+    EXPECT_THROW(read_flat_header(path), UsageError);
+    EXPECT_THROW(read_ldi(path), UsageError);
+    const std::vector<Channel> all = two_pictures();
+    for (const std::string name : {"fg", "bg"}) {
+        const FlatFile file = read_flat_exr(path, {.layer = name});
+        EXPECT_EQ(file.image.plane(0)[0], float(find_channel(all, name + ".Combined.R") + 1));
+        EXPECT_EQ(find_channel(file.image.channels, "mask") != npos, true);
+        const LdiFile ldi = read_ldi(path, "", {.layer = name});
+        EXPECT_EQ(ldi.ldi.z[0], float(find_channel(all, name + ".Depth.Z") + 1));
+    }
+    EXPECT_EQ(picture_layers(path), (Names{"bg", "fg"}));
+    write_flat({{"R"}, {"G"}, {"B"}});
+    EXPECT_EQ(picture_layers(path), Names());
+}
+
 TEST_F(BeautyInFile, LayersWithoutABeautyAreAWarningThatListsThem) {
     write_flat(layers({"diffuse", "spec"}));
     const FlatFile file = read_flat_exr(path);
     EXPECT_EQ(names_of(file.image.channels).front(), "diffuse.A");
     ASSERT_EQ(file.warnings.size(), 1u);
     EXPECT_NE(file.warnings[0].find("its layers are diffuse, spec"), std::string::npos) << file.warnings[0];
+    EXPECT_EQ(read_flat_exr(path, {.layer = "spec"}).image.plane(0)[0], 5);
     write_flat({{"A"}, {"N.x"}});
     EXPECT_TRUE(read_flat_exr(path).warnings.empty()) << "a mask and data";
 }

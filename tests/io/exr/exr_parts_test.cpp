@@ -103,7 +103,8 @@ protected:
 
     std::vector<std::string> names_in(const std::string &view) {
         std::vector<std::string> names;
-        for (const Channel &channel : read_flat_exr(path, view).image.channels) names.push_back(channel.name);
+        for (const Channel &channel : read_flat_exr(path, {view}).image.channels)
+            names.push_back(channel.name);
         return names;
     }
 };
@@ -123,6 +124,20 @@ TEST_F(ExrParts, DeepPartsAreObjectsOfOnePicture) {
     EXPECT_FALSE(file.header.hasName());
     EXPECT_EQ(file.notes,
               (Names{"beauty: R, G, B; coverage: A (part hero)", "depth: Z", "2 deep parts are merged"}));
+}
+
+TEST_F(ExrParts, ALayerIsReadOfItsDeepPartsAlone) {
+    write({{"hero", "", object(4, 0.5f)}, {"fog", "", object(2, 0.25f, 0.5f)}});
+    const LdiFile fog = read_ldi(path, "", {.layer = "fog"});
+    EXPECT_EQ(fog.ldi.z, (std::vector<float>{2, 3}));
+    EXPECT_EQ(fog.ldi.values[fog.ldi.alpha()], (std::vector<float>{0.5f, 1}));
+    EXPECT_THROW(read_ldi(path, "", {.layer = "rain"}), Error);
+    write({{"fg.Combined", "", object(4, 0.5f)},
+           {"bg.Combined", "", object(2, 0.25f)},
+           {"fg.Diffuse", "", object(4, 0.125f)}});
+    const Ldi fg = read_ldi(path, "", {.layer = "fg"}).ldi;
+    EXPECT_EQ(fg.z, (std::vector<float>{4, 5}));
+    EXPECT_EQ(fg.values[find_channel(fg.channels, "fg.Diffuse.R")][0], 0.125f);
 }
 
 TEST_F(ExrParts, ADeepPartOfTheSameSamplesIsALayer) {
@@ -162,9 +177,9 @@ TEST_F(ExrParts, APartThatLiesNowhereIsAnError) {
 TEST_F(ExrParts, DeepViewsAreChosen) {
     write({{"rgba.left", "left", object(4, 0.5f)}, {"rgba.right", "right", object(2, 0.25f)}});
     EXPECT_EQ(read_ldi(path).ldi.z[0], 4);
-    EXPECT_EQ(read_ldi(path, "", "right").ldi.z[0], 2);
-    EXPECT_EQ(read_ldi(path, "", "right").header.view(), "right");
-    EXPECT_EQ(what_of<Error>([&] { read_ldi(path, "", "middle"); }),
+    EXPECT_EQ(read_ldi(path, "", {"right"}).ldi.z[0], 2);
+    EXPECT_EQ(read_ldi(path, "", {"right"}).header.view(), "right");
+    EXPECT_EQ(what_of<Error>([&] { read_ldi(path, "", {"middle"}); }),
               path + ": has no stereo view 'middle' (--stereo-view): its views are left, right");
 }
 
@@ -183,7 +198,7 @@ TEST_F(ExrParts, ViewsOfOnePartAreToldByTheirChannels) {
     EXPECT_EQ(names_in(""), (Names{"R", "N.x", "Z", "diffuse.R", "key.B"}));
     EXPECT_EQ(names_in("left"), names_in(""));
     EXPECT_EQ(names_in("right"), (Names{"R", "N.x", "Z", "diffuse.R", "spec.G"}));
-    const Image left = read_flat_exr(path).image, right = read_flat_exr(path, "right").image;
+    const Image left = read_flat_exr(path).image, right = read_flat_exr(path, {"right"}).image;
     const auto value = [](const Image &image, const char *name) {
         return image.plane(find_channel(image.channels, name))[0];
     };
@@ -193,27 +208,27 @@ TEST_F(ExrParts, ViewsOfOnePartAreToldByTheirChannels) {
     EXPECT_EQ(value(right, "Z"), 5);
     EXPECT_EQ(value(right, "diffuse.R"), 6);
     EXPECT_EQ(value(right, "N.x"), 8);
-    EXPECT_EQ(read_ldi(path, "", "right").ldi.z[0], 5);
+    EXPECT_EQ(read_ldi(path, "", {"right"}).ldi.z[0], 5);
 }
 
 TEST_F(ExrParts, ThePictureOfAViewSaysSo) {
     write_flat({{"R", 1}, {"right.R", 4}}, {"left", "right"});
     for (const char *view : {"left", "right"}) {
-        const Imf::Header header = read_flat_header(path, view);
+        const Imf::Header header = read_flat_header(path, {view});
         EXPECT_FALSE(Imf::hasMultiView(header));
         EXPECT_EQ(header.view(), view);
     }
     EXPECT_EQ(read_flat_header(path).view(), "left");
-    write_flat_exr(path, read_flat_exr(path, "right").image, read_flat_header(path, "right"));
-    EXPECT_EQ(read_flat_exr(path, "right").image.plane(0)[0], 4);
+    write_flat_exr(path, read_flat_exr(path, {"right"}).image, read_flat_header(path, {"right"}));
+    EXPECT_EQ(read_flat_exr(path, {"right"}).image.plane(0)[0], 4);
 }
 
 TEST_F(ExrParts, AFileWithoutViewsHasNone) {
     write_flat({{"R", 1}, {"right.R", 4}}, {});
     EXPECT_EQ(names_in(""), (Names{"R", "right.R"}));
-    EXPECT_EQ(what_of<Error>([&] { read_flat_exr(path, "right"); }),
+    EXPECT_EQ(what_of<Error>([&] { read_flat_exr(path, {"right"}); }),
               path + ": has no stereo view 'right' (--stereo-view): it names no views");
-    EXPECT_THROW(read_flat_header(path, "right"), Error);
+    EXPECT_THROW(read_flat_header(path, {"right"}), Error);
 }
 
 TEST_F(ExrParts, AIsMadeOfColouredAlphaWhereverItIsRead) {

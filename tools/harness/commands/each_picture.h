@@ -1,5 +1,6 @@
-// --stereo-view all: the same command once for each stereo view of the input, as --frames is for each frame. %V in a
-// name stands for the name of the view (as in Nuke), so that every view has an output of its own.
+// --stereo-view all and --layer all: the same command once for each stereo view or layer of the input, as --frames is for
+// each frame. A placeholder in a name stands for the name of the view (%V, as in Nuke) or of the layer (%L), so that every
+// picture has an output of its own.
 #pragma once
 
 #include <string>
@@ -7,10 +8,19 @@
 
 namespace sparselens {
 
-// Whether the words of a command line ask for all views.
-bool asks_for_all_views(const std::vector<std::string> &words);
+struct EachPicture {
+    std::string option, placeholder;
+    std::string noun; // "view"
+};
+const EachPicture &each_view();
+const EachPicture &each_layer();
 
-// The words for one view: --stereo-view names it, and %V is replaced. Throws UsageError if no output has %V in its name.
-std::vector<std::string> words_for_view(std::vector<std::string> words, const std::string &view);
+// Whether the words of a command line ask for all of them.
+bool asks_for_all(const EachPicture &each, const std::vector<std::string> &words);
+
+// The words for one of them: the option names it, and the placeholder is replaced. Throws UsageError if no output has the
+// placeholder in its name.
+std::vector<std::string> words_for_one(const EachPicture &each, std::vector<std::string> words,
+                                       const std::string &name);
 
 } // namespace sparselens

@@ -1,0 +1,31 @@
+#!/bin/bash
+# What is easily done wrong in Blender, and what the script and the tools say of it. A few minutes.
+#   bash mistakes.sh BIN_DIR
+. "$(dirname "$0")/common.sh"
+in_blender -P "$scene" -- CYCLES 96x54 save "$PWD/small.blend"
+same() { picture same "$1" "$2" >found 2>&1 || fail "$3 ($(cat found))"; }
+
+# Two view layers: a file that holds one of them says which, and of a file that holds both the tools take the one that is
+# named, with its own depth and mattes.
+variant small layers
+in_blender layers.blend -P "$views" -- -o both --samples 4 --views 2 --multilayer
+in_blender layers.blend -P "$views" -- -o either --samples 4 --views 0
+grep -q "warning: the scene renders 2 view layers, back, front, of which the files hold 'back' alone" said || fail "layers: $(cat said)"
+fails_saying 2 'both/center.exr: holds several pictures, back.Combined and front.Combined: give --layer' \
+    "$bin/ldi-warp" both/center.exr both/view_0.exr both/view_1.exr -o x.exr
+for layer in back front; do
+    in_blender layers.blend -P "$views" -- -o $layer --samples 4 --views 2 --layer $layer
+    in_blender layers.blend -P "$views" -- -o all_of_$layer --samples 4 --views 0 --layer $layer --multilayer
+    if grep -q warning said; then fail "--layer $layer: $(cat said)"; fi
+    exits 0 "$bin/ldi-warp" --layer $layer both/center.exr both/view_0.exr both/view_1.exr -o both.ldi.exr
+    exits 0 "$bin/ldi-warp" $layer/center.exr $layer/view_0.exr $layer/view_1.exr -o one.ldi.exr
+    for file in both one; do exits 0 "$bin/dof-gather" $file.ldi.exr --channels rgba -o $file.exr; done
+    same both.exr one.exr "--layer $layer of a file of two, and the layer alone"
+    exits 0 "$bin/dof-gather" both.ldi.exr --channels $layer.CryptoObject -o matte.exr
+    exits 0 "$bin/dof-gather" all_of_$layer/center.exr -o x.exr
+done
+picture differ back/center.exr front/center.exr || fail "two view layers are one picture"
+same either/center.exr back/center.exr "what is written without --layer"
+exits 1 blender -b layers.blend -P "$views" -- -o none --layer hero
+grep -q "no view layer 'hero'; it has: back, front" stderr || fail "--layer hero: $(cat stderr)"
+echo "two view layers: each by its own depth"
