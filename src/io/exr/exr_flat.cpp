@@ -238,13 +238,17 @@ std::vector<float> take_depth(Image &image, const std::string &depth_channel, co
     const std::string name = find_depth_channel(image.channels, depth_channel, path);
     const auto plane = image.plane(find_channel(image.channels, name));
     std::vector<float> depth(plane.begin(), plane.end());
-    std::vector<Channel> carried;
-    for (const Channel &channel : image.channels)
-        if (channel.name != name && !is_position_channel(channel.name)) carried.push_back(channel);
-    Image rest(image.windows, carried);
-    for (std::size_t k = 0; k < carried.size(); ++k)
-        std::ranges::copy(image.plane(find_channel(image.channels, carried[k].name)), rest.plane(k).begin());
-    image = std::move(rest);
+    std::size_t carried = 0; // in place: a picture may have many channels
+    for (std::size_t k = 0; k < image.channels.size(); ++k) {
+        if (image.channels[k].name == name || is_position_channel(image.channels[k].name)) continue;
+        if (carried != k) {
+            image.channels[carried] = std::move(image.channels[k]);
+            std::ranges::copy(image.plane(k), image.plane(carried).begin());
+        }
+        ++carried;
+    }
+    image.channels.resize(carried);
+    image.values.resize(carried * image.windows.pixels());
     return depth;
 }
 
