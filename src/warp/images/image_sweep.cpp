@@ -129,11 +129,9 @@ std::vector<ImageMatch> ImageSweep::search(const Imath::Box2i &block) const {
     std::vector<ImageMatch> matches(grid.size());
     const float surface = surface_of(centre, block);
     if (std::isnan(surface)) return matches;
-    const Depths depths(surface);
-    const Curves curve = mean_curves( // the last step: at the surface
-        views_, scale_, block, surface, depths.count + 1,
-        [&](PatchComparison &comparison, std::size_t k, std::span<float> out) {
-            if (k < depths.count) return comparison.at_depth(depths.at(double(k)), out);
+    const Curves at_surface = mean_curves( // one step
+        views_, scale_, block, surface, 1,
+        [&](PatchComparison &comparison, std::size_t, std::span<float> out) {
             comparison.at_depths([&](const Imath::V2i &p) { return double(centre.depth(p.x, p.y)); }, out);
         });
     for (std::size_t i = 0; i < grid.size(); ++i) {
@@ -142,9 +140,19 @@ std::vector<ImageMatch> ImageSweep::search(const Imath::Box2i &block) const {
         if (!(std::abs(own - surface) <= one_mirror_px)) continue;
         ImageMatch &match = matches[i];
         match.own_depth = own;
-        match.at_surface = curve.at(depths.count, i);
+        match.at_surface = at_surface.at(0, i);
         match.surface = !std::isnan(match.at_surface);
-        if (!match.surface || match.at_surface < least_difference) continue;
+    }
+    const auto worth_it = [](const ImageMatch &m) { return m.surface && m.at_surface >= least_difference; };
+    if (std::ranges::none_of(matches, worth_it)) return matches; // most edges of texture, once smoothed
+    const Depths depths(surface);
+    const Curves curve = mean_curves(views_, scale_, block, surface, depths.count,
+                                     [&](PatchComparison &comparison, std::size_t k, std::span<float> out) {
+                                         comparison.at_depth(depths.at(double(k)), out);
+                                     });
+    for (std::size_t i = 0; i < grid.size(); ++i) {
+        ImageMatch &match = matches[i];
+        if (!worth_it(match)) continue;
         if (const auto k = valley_of(curve, depths.count, i, match.at_surface)) {
             match.depth = float(depths.at(*k));
             match.found = std::abs(match.depth - match.own_depth) >= least_distance;
@@ -160,7 +168,9 @@ std::vector<float> ImageSweep::refined(const Imath::Box2i &block,
     const MatchedView &centre = views_[0];
     const Grid grid(block);
     std::vector<float> refined(grid.size(), unknown);
-    const float surface = surface_of(centre, block);
+    bool known = false;
+    for (std::size_t i = 0; i < grid.size() && !known; ++i) known = !std::isnan(depth_at(grid.pixel(i)));
+    const float surface = known ? surface_of(centre, block) : unknown;
     if (std::isnan(surface)) return refined;
     constexpr std::size_t steps = 2 * side + 1;
     const Curves curves = mean_curves(

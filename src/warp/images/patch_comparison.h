@@ -60,9 +60,9 @@ public:
         for (int y = 0; y < patches_.height; ++y)
             for (int x = 0; x < patches_.width; ++x) {
                 const Imath::V2i p = patches_.corner + Imath::V2i(x, y);
-                MatchedView::Pixel &own = own_[patches_.at(x, y)];
-                own[3] = unknown;
-                if (centre.contains(p.x, p.y)) own = centre.at(p.x, p.y);
+                if (!centre.contains(p.x, p.y)) continue;
+                const MatchedView::Pixel &pixel = centre.at(p.x, p.y);
+                if (on_surface(pixel[3])) own_[owns_++] = {x, y, pixel};
             }
     }
 
@@ -96,14 +96,13 @@ private:
     template <typename PlaceAt>
     void differences(const PlaceAt &place_at, std::span<float> out) {
         patches_.clear();
-        for (int y = 0; y < patches_.height; ++y)
-            for (int x = 0; x < patches_.width; ++x) {
-                const MatchedView::Pixel &own = own_[patches_.at(x, y)];
-                MatchedView::Pixel seen;
-                if (!on_surface(own[3]) || !view_.at(place_at(x, y), seen) || !on_surface(seen[3])) continue;
-                patches_.value[patches_.at(x, y)] = squared_difference(own, seen);
-                patches_.count[patches_.at(x, y)] = 1;
-            }
+        for (std::size_t n = 0; n < owns_; ++n) {
+            const Own &own = own_[n];
+            MatchedView::Pixel seen;
+            if (!view_.at(place_at(own.x, own.y), seen) || !on_surface(seen[3])) continue;
+            patches_.value[patches_.at(own.x, own.y)] = squared_difference(own.pixel, seen);
+            patches_.count[patches_.at(own.x, own.y)] = 1;
+        }
         patches_.sum();
         const int columns = patches_.width - 2 * Patches::reach, rows = patches_.height - 2 * Patches::reach;
         for (int y = 0; y < rows; ++y)
@@ -119,7 +118,13 @@ private:
     double scale_;
     float surface_;
     Patches patches_;
-    std::array<MatchedView::Pixel, std::size_t(Patches::most_side) * Patches::most_side> own_;
+    // The centre view's pixels that show the surface.
+    struct Own {
+        int x, y; // from the corner
+        MatchedView::Pixel pixel;
+    };
+    std::array<Own, std::size_t(Patches::most_side) * Patches::most_side> own_;
+    std::size_t owns_ = 0;
 };
 
 } // namespace sparselens
