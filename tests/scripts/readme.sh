@@ -46,14 +46,20 @@ for tool in "$bin"/ldi-* "$bin"/dof-*; do "$tool" --help; done | grep -oE -e '--
 cat "$source_dir"/share/{blender/sparselens_views.py,opencue/submit.py,slurm/submit.sh} >scripts
 grep -oE -e "\"--[a-z][a-z_-]+\"" scripts | tr -d '"' >>options
 cat >>options <<'END'
+--add
+--addc
 --attrib
 --build
+--ch
+--clamp
 --flatten
 --format-in-place
 --gtest_brief
 --info
 --install
+--mulc
 --output-on-failure
+--over
 --preset
 --requeue
 --test-dir
@@ -106,3 +112,5 @@ for document in "${documents[@]:1}"; do
     cp -r start "${document//\//_}"
     run "$document" "${document//\//_}"
 done
+# What docs/comp.md says of the pictures that it has made.
+(cd docs_comp.md && bash "$source_dir/tests/scripts/comp.sh" "$bin")
