@@ -1,4 +1,5 @@
-"""What share/blender/sparselens_views.py takes from a plan, without Blender: a stand-in for its modules is enough.
+"""What share/blender/sparselens_views.py takes from a plan, and what it says of a scene that it cannot render right, without
+Blender: a stand-in for its modules is enough. tests/blender/script.sh asks the same of Blender's own scenes.
 
     blender-plan.py SCRIPT
 """
@@ -43,3 +44,58 @@ for name in "../../x", "/tmp/x", "a/b", "..", ".", "", "a\\b", "a\nb", "-x", "x"
     except ValueError as error:
         if repr(name) not in str(error):
             sys.exit(f"{name!r}: {error}")
+
+
+def things(**members):
+    return types.SimpleNamespace(**members)
+
+
+def collection(name, children=(), objects=(1,), exclude=False, holdout=False):
+    return things(name=name, children=children, exclude=exclude, holdout=holdout,
+                  collection=things(all_objects=objects))
+
+
+def thing(name, hide_render=False, is_holdout=False, nodes=()):
+    material = things(node_tree=things(nodes=[things(type=kind) for kind in nodes]))
+    return things(name=name, hide_render=hide_render, is_holdout=is_holdout,
+                  material_slots=[things(material=None), things(material=material)])
+
+
+def layer(use=True, root=None, objects=()):
+    return things(use=use, layer_collection=root or collection("root"), objects=objects)
+
+
+def scene(layers, engine="CYCLES", **render):
+    settings = dict(use_motion_blur=False, use_border=False, resolution_x=96, resolution_y=54, resolution_percentage=50,
+                    border_min_x=0.25, border_max_x=0.75, border_min_y=0.2, border_max_y=0.9)
+    settings.update(render)
+    return things(name="Scene", view_layers=layers, render=things(engine=engine, **settings),
+                  cycles=things(use_denoising=False))
+
+
+def expect(found, *patterns):
+    if len(found) != len(patterns) or any(pattern not in text for pattern, text in zip(patterns, found)):
+        sys.exit(f"check_scene: {found} in place of {patterns}")
+
+
+def expect_refusal(scene, pattern):
+    try:
+        sys.exit(f"check_scene takes what {pattern!r} is to be said of: {script.check_scene(scene)}")
+    except ValueError as error:
+        expect([str(error)], pattern)
+
+
+expect(script.check_scene(scene([layer(objects=[thing("plain", nodes=["BSDF_PRINCIPLED"])])])))
+held = collection("outer", [collection("held", holdout=True)])
+none = collection("outer", [collection("empty", objects=(), holdout=True),
+                            collection("excluded", [collection("within", holdout=True)], exclude=True)])
+expect(script.check_scene(scene([layer(root=none, objects=[thing("hidden", hide_render=True, is_holdout=True)])])))
+expect(script.check_scene(scene([layer(root=held)])), "collection 'held' is a holdout")
+expect(script.check_scene(scene([layer(objects=[thing("ball", is_holdout=True)])])), "object 'ball' is a holdout")
+expect(script.check_scene(scene([layer(objects=[thing("ball", nodes=["EMISSION", "HOLDOUT"])])])),
+       "object 'ball' has a holdout material")
+expect(script.check_scene(scene([layer(), layer(use=False, root=held)])))
+expect(script.check_scene(scene([layer()], use_motion_blur=True, use_border=True)),
+       "motion blur", "--region 12,3,35,21") # of 48x27
+expect_refusal(scene([layer(use=False)]), "no view layer of scene 'Scene'")
+expect_refusal(scene([layer()], "BLENDER_WORKBENCH"), "choose Cycles or EEVEE")
