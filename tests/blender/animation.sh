@@ -1,5 +1,6 @@
 #!/bin/bash
-# Six frames of animated cameras against Cycles' own lens, frame by frame; and an element over a transparent film.
+# Six frames of animated cameras against Cycles' own lens, frame by frame; an element over a transparent film; and two elements
+# that hold each other out.
 #   bash animation.sh BIN_DIR [WIDTHxHEIGHT [TRUTH_SAMPLES [SAMPLES]]]      480x270, 96, 16 a view
 . "$(dirname "$0")/common.sh"
 size=${2:-480x270} truth_samples=${3:-96} samples=${4:-16}
@@ -40,3 +41,16 @@ rendered film 1
 film=$(error film 1)
 echo "transparent film: $film dB"
 better "$film" 41 0 "transparent film"
+
+# The recipe of docs/comp.md in place of holdouts: two elements, rendered apart, each held out by the other, add up to the whole.
+for part in ball others; do
+    variant still $part
+    in_blender $part.blend -P "$views" -- -o $part --samples "$samples"
+    "$bin/ldi-warp" $part/center.exr $part/view_*.exr -o $part.ldi.exr
+done
+"$bin/dof-gather" ball.ldi.exr --holdout others.ldi.exr --holdout-defocused -o ball.exr
+"$bin/dof-gather" others.ldi.exr --holdout ball.ldi.exr --holdout-defocused -o others.exr
+oiiotool ball.exr others.exr --add -o together.exr
+together=$(decibels together.exr still/truth.0001.exr)
+echo "held out by each other: $together dB"
+better "$together" "$still" -0.1 "two elements that hold each other out"

@@ -99,6 +99,17 @@ def make_film(scene, camera):
     scene.render.film_transparent = True
 
 
+def make_ball(scene, camera):
+    """The ball in focus alone: what the others cast on it stays."""
+    scene.render.film_transparent = True
+    for thing in scene.objects:
+        thing.visible_camera = thing.name == "Sphere"
+
+
+def make_others(scene, camera):
+    scene.objects["Sphere"].visible_camera = False
+
+
 def make_framing(scene, camera):
     """What the picture's edges depend on: shift, fit, pixels that are not square, a percentage."""
     camera.data.shift_x, camera.data.shift_y = 0.06, -0.04
