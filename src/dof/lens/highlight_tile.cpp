@@ -31,62 +31,6 @@ std::uint32_t name_of(std::uint32_t block, int columns) {
 
 } // namespace
 
-BlockFootprints::BlockFootprints(const Ldi &ldi, const BlockedSamples &samples)
-    : ldi_(ldi), samples_(samples), made_(samples.blocks.size()), computed_(samples.blocks.size()) {}
-
-const BlockFootprints::Block &BlockFootprints::of(std::uint32_t block) const {
-    std::call_once(made_[block], [&] {
-        Block &made = computed_[block];
-        made.footprints = compute(block);
-        made.near = bounds_of(samples_.blocks[block], made.footprints);
-    });
-    return computed_[block];
-}
-
-const NearBounds *BlockFootprints::Block::nearer_than(float depth) const {
-    const auto end = std::ranges::partition_point(near, [&](const NearBounds &n) { return n.depth > depth; });
-    return end == near.begin() ? nullptr : &end[-1];
-}
-
-std::vector<NearBounds> BlockFootprints::bounds_of(const SampleBlock &block,
-                                                   std::span<const Footprint> footprints) const {
-    std::vector<NearBounds> near;
-    for (std::size_t i = 0; i < footprints.size(); ++i) {
-        const auto &[place, coc] = footprints[i];
-        const auto [least, most] = std::ranges::minmax(coc);
-        near.push_back(
-            {samples_.depth[block.begin + i], place[0], place[1], place[2], place[3], least, most});
-    }
-    std::ranges::sort(near, std::ranges::greater(), &NearBounds::depth);
-    for (std::size_t i = 1; i < near.size(); ++i) {
-        const NearBounds &nearer = near[i - 1];
-        NearBounds &n = near[i];
-        n.x_min = std::min(n.x_min, nearer.x_min);
-        n.x_max = std::max(n.x_max, nearer.x_max);
-        n.y_min = std::min(n.y_min, nearer.y_min);
-        n.y_max = std::max(n.y_max, nearer.y_max);
-        n.coc_min = std::min(n.coc_min, nearer.coc_min);
-        n.coc_max = std::max(n.coc_max, nearer.coc_max);
-    }
-    return near;
-}
-
-std::vector<Footprint> BlockFootprints::compute(std::uint32_t block) const {
-    constexpr int size = BlockedSamples::size;
-    const int column = int(block) % samples_.columns, row = int(block) / samples_.columns;
-    std::vector<SampleRun> around;
-    for (int r = std::max(row - 1, 0); r <= std::min(row + 1, samples_.rows - 1); ++r)
-        for (int c = std::max(column - 1, 0); c <= std::min(column + 1, samples_.columns - 1); ++c) {
-            const SampleBlock &b = samples_.blocks[std::size_t(r * samples_.columns + c)];
-            around.push_back({b.begin, b.end});
-        }
-    const SampleBlock &own = samples_.blocks[block];
-    const Imath::V2i first = Imath::V2i(column, row) * size;
-    return footprints_of(ldi_,
-                         {samples_.x, samples_.y, samples_.hiding_coc(), samples_.depth, samples_.source},
-                         {first, first + Imath::V2i(size - 1)}, {own.begin, own.end}, around);
-}
-
 HighlightTile::HighlightTile(const Highlights &highlights, const BlockedSamples &samples,
                              const BlockFootprints &footprints, std::span<const ColourSet> sets,
                              const HighlightShape &shape, const HeldOut &held_out)

@@ -6,7 +6,7 @@
 // side.
 #pragma once
 
-#include "dof/footprints/footprint.h"
+#include "dof/lens/block_footprints.h"
 #include "dof/lens/highlights.h"
 #include "dof/lens/lens_tile.h"
 #include "dof/lens/sample_blocks.h"
@@ -20,7 +20,6 @@
 
 #include <array>
 #include <cstdint>
-#include <mutex>
 #include <span>
 #include <vector>
 
@@ -31,36 +30,6 @@ struct HighlightShape {
     const Aperture &aperture;
     const CatEye &cat_eye;
     double pixel_aspect = 1;
-};
-
-// The footprints of a sample and of all nearer ones of its block lie within these.
-struct NearBounds {
-    float depth; // perceptive, pixels: of the sample
-    float x_min, x_max, y_min, y_max, coc_min, coc_max;
-};
-
-// The footprints of the samples of a picture, by blocks.
-class BlockFootprints {
-public:
-    BlockFootprints(const Ldi &ldi, const BlockedSamples &samples);
-
-    struct Block {
-        std::vector<Footprint> footprints; // of its samples
-        std::vector<NearBounds> near;      // the nearest first
-        // Of the samples that are nearer than a perceptive depth; null: there are none.
-        const NearBounds *nearer_than(float depth) const;
-    };
-    // Computed when first asked for, by any thread.
-    const Block &of(std::uint32_t block) const;
-
-private:
-    std::vector<Footprint> compute(std::uint32_t block) const;
-    std::vector<NearBounds> bounds_of(const SampleBlock &block, std::span<const Footprint> footprints) const;
-
-    const Ldi &ldi_;
-    const BlockedSamples &samples_;
-    mutable std::vector<std::once_flag> made_;
-    mutable std::vector<Block> computed_;
 };
 
 class HighlightTile {
