@@ -31,22 +31,10 @@ Imath::Box2i reached(const Aperture &aperture, const Lamp &lamp, const Imath::Bo
             {pixel(high.x, box.min.x, box.max.x), pixel(high.y, box.min.y, box.max.y)}};
 }
 
-// What the cat-eye leaves of it is a circle too: the middle of the second circle moves in proportion to how far the light is
-// displaced. A place a on the lens passes if |scale a - centre| <= 1.
-struct Cut {
-    Imath::V2d scale, centre;
-};
-
-Cut cut_of(const CatEye &cat_eye, const Aperture &aperture, const Lamp &lamp) {
-    const double moved = cat_eye.shift_per_pixel() * lamp.coc;
-    const auto not_0 = [](double v) { return std::abs(v) < 1e-6 ? 1e-6 : v; };
-    return {{not_0(1 - moved / aperture.shape().squeeze), not_0(1 - moved)}, cat_eye.centre(lamp.centre)};
-}
-
 constexpr double cut_tolerance = 1e-3; // pixels, of arcs
 
 // The part of an outline that passes.
-Points cut_outline(Points outline, const Cut &cut, double coc) {
+Points cut_outline(Points outline, const LampCut &cut, double coc) {
     for (Imath::V2d &p : outline) p *= cut.scale;
     if (cut.scale.x * cut.scale.y < 0) std::reverse(outline.begin(), outline.end());
     Points left = within_unit_circle(outline, cut.centre, cut_tolerance / std::max(4.0, coc));
@@ -60,13 +48,13 @@ Points in_pixels(Points places, const Aperture &aperture, const Lamp &lamp) {
     return places;
 }
 
-void spread_outline(const Aperture &aperture, const Lamp &lamp, const CatEye *cat_eye, LampSpread &spread) {
+void spread_outline(const Aperture &aperture, const Lamp &lamp, const LampCut *cut, LampSpread &spread) {
     const Imath::V2d scale = scale_of(aperture, lamp);
     const double widest = std::max(std::abs(scale.x), std::abs(scale.y));
     Points outline = aperture.outline(widest);
     const double area = std::abs(signed_area(outline) * scale.x * scale.y),
                  at_middle = aperture.weight(lamp.coc > 0, 0), at_rim = aperture.weight(lamp.coc > 0, 1);
-    if (cat_eye) outline = cut_outline(std::move(outline), cut_of(*cat_eye, aperture, lamp), widest);
+    if (cut) outline = cut_outline(std::move(outline), *cut, widest);
     const RadialDensity density{
         at_middle / area, (at_rim - at_middle) / area, lamp.centre, {1 / scale.x, 1 / scale.y}};
     integrate_over_pixels(in_pixels(std::move(outline), aperture, lamp), density, spread.box, spread.weights);
@@ -88,8 +76,7 @@ void spread_picture(const Aperture &aperture, const PictureTable &picture, const
 }
 
 // A pixel of a picture keeps as much of its light as the circle covers of the pixel.
-void cut_picture(const Aperture &aperture, const Lamp &lamp, const CatEye &cat_eye, LampSpread &spread) {
-    const Cut cut = cut_of(cat_eye, aperture, lamp);
+void cut_picture(const Aperture &aperture, const Lamp &lamp, const LampCut &cut, LampSpread &spread) {
     Points circle = aperture_outline({}, cut_tolerance / std::max(4.0, std::abs(lamp.coc)));
     for (Imath::V2d &p : circle) p = (cut.centre + p) / cut.scale;
     std::vector<double> kept;
@@ -103,15 +90,21 @@ void cut_picture(const Aperture &aperture, const Lamp &lamp, const CatEye &cat_e
 
 } // namespace
 
+LampCut cut_of(const CatEye &cat_eye, const Aperture &aperture, const Lamp &lamp) {
+    const double moved = cat_eye.shift_per_pixel() * lamp.coc;
+    const auto not_0 = [](double v) { return std::abs(v) < 1e-6 ? 1e-6 : v; };
+    return {{not_0(1 - moved / aperture.shape().squeeze), not_0(1 - moved)}, cat_eye.centre(lamp.centre)};
+}
+
 LampSpread spread_lamp(const Aperture &aperture, const Lamp &lamp, const Imath::Box2i &box,
-                       const CatEye *cat_eye) {
+                       const LampCut *cut) {
     LampSpread spread{reached(aperture, lamp, box), false, {}, {}};
     if (spread.box.isEmpty()) return spread;
     if (const PictureTable *picture = aperture.picture(lamp.coc > 0)) {
         spread_picture(aperture, *picture, lamp, spread);
-        if (cat_eye) cut_picture(aperture, lamp, *cat_eye, spread);
+        if (cut) cut_picture(aperture, lamp, *cut, spread);
     } else {
-        spread_outline(aperture, lamp, cat_eye, spread);
+        spread_outline(aperture, lamp, cut, spread);
     }
     return spread;
 }

@@ -27,9 +27,16 @@ struct LampSpread {
         colours; // the same of R, G and B, if coloured; then weights are their mean
 };
 
+// What a cat-eye leaves of a lamp's light: that through the places a on the lens with |scale a - centre| <= 1. The middle of
+// the second circle moves in proportion to how far the light is displaced, so that this is a circle too.
+struct LampCut {
+    Imath::V2d scale, centre;
+};
+LampCut cut_of(const CatEye &cat_eye, const Aperture &aperture, const Lamp &lamp);
+
 // Within `box`, at most as large as it must be. The aperture is not a disc (lens/psf.h has those), unless a cat-eye cuts
 // it; what that leaves sums to less than 1.
 LampSpread spread_lamp(const Aperture &aperture, const Lamp &lamp, const Imath::Box2i &box,
-                       const CatEye *cat_eye = nullptr);
+                       const LampCut *cut = nullptr);
 
 } // namespace sparselens

@@ -8,7 +8,9 @@ namespace sparselens {
 
 namespace {
 
-constexpr float torn = 1; // pixels of perceptive depth: surfaces that are farther apart are two
+// Pixels of perceptive depth: surfaces that are farther apart are two; and are one altogether if they are no farther apart
+// than that.
+constexpr float torn = 1, whole = 0.75f;
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
 // Where the samples of a box of pixels are.
@@ -81,8 +83,15 @@ Footprint footprint(const SamplesInPicture &samples, const Neighbourhood &near, 
         const std::uint32_t n = near.neighbour(x + beside[k].x, y + beside[k].y, own);
         if (n == none) continue;
         const std::span<const float> place = k < 2 ? samples.x : samples.y;
-        f.place[k] = (place[own] + place[n]) / 2;
-        f.coc[k] = (samples.coc[own] + samples.coc[n]) / 2;
+        const float apart = std::abs(samples.depth[own] - samples.depth[n]);
+        const float joined = std::min((torn - apart) / (torn - whole), 1.0f);
+        // By whole 1024ths, so that nothing is rounded otherwise elsewhere in the picture.
+        const auto shared = [&](float alone, float a, float b) {
+            const float middle = (a + b) / 2;
+            return joined == 1 ? middle : alone + std::round(joined * (middle - alone) * 1024) / 1024;
+        };
+        f.place[k] = shared(f.place[k], place[own], place[n]);
+        f.coc[k] = shared(f.coc[k], samples.coc[own], samples.coc[n]);
     }
     return f;
 }

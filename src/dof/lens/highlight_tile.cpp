@@ -10,6 +10,11 @@ namespace sparselens {
 namespace {
 
 constexpr double least_share = 1e-4; // what a cat-eye leaves less of is dark
+constexpr float one_lamp = 1.1f;     // times as near: parts of one, at any aperture
+constexpr double few = 3;            // pixels of CoC: discs that are smaller are shadowed in cells
+constexpr double square_to = 1,
+                 point_from =
+                     2; // pixels of CoC: where light comes from a sample's square, and from its place
 constexpr std::size_t last = LensTile::size - 1;
 
 const Imath::Box2i tile({0, 0}, {int(last), int(last)});
@@ -20,6 +25,11 @@ Imath::Box2i pixels_around(const Imath::V2d &place, const Imath::V2d &extent) {
     const Imath::V2d low = place - extent, high = place + extent;
     return {{std::max(pixel(low.x), 0), std::max(pixel(low.y), 0)},
             {std::min(pixel(high.x), int(last)), std::min(pixel(high.y), int(last))}};
+}
+
+// How wide the square is that a sample's light comes from.
+double square_of(const Lamp &lamp) {
+    return std::clamp((point_from - std::abs(lamp.coc)) / (point_from - square_to), 0.0, 1.0);
 }
 
 // Of the first sample of a block: the same wherever the tile lies, and in all frames.
@@ -59,73 +69,143 @@ void HighlightTile::spread(const Imath::V2i &origin, std::span<const std::uint32
             const std::uint32_t s = all[h];
             const Lamp lamp{Imath::V2d(double(samples_.x[s]), double(samples_.y[s])) - Imath::V2d(origin),
                             double(samples_.coc[s]), shape_.pixel_aspect};
-            reached_ = pixels_around(lamp.centre, std::abs(lamp.coc) * half_extent_);
+            const double square = square_of(lamp);
+            const bool in_cells = std::abs(lamp.coc) < few;
+            const LampCells *cells = in_cells ? &cells_of(lamp) : nullptr;
+            reached_ =
+                pixels_around(lamp.centre, square > 0 ? std::abs(lamp.coc) * half_extent_ +
+                                                            (Imath::V2d(square) + cells->size(lamp)) * 0.5
+                                                      : std::abs(lamp.coc) * half_extent_);
             if (reached_.isEmpty()) continue;
-            const Spreading from{h, s, lamp, cast_shadows(s, lamp, blocks)};
+            const Screen screen = in_cells
+                                      ? Screen{LampCells::middle(), cells->shadow_scale(lamp.pixel_aspect),
+                                               LampCells::box(), true}
+                                      : Screen{lamp.centre, Imath::V2d(lamp.coc), reached_};
+            Spreading from{h, s, lamp, cast_shadows(s, lamp, screen, blocks)};
+            if (square > 0) {
+                spread_few(cells->shine(lamp, square, from.shadowed ? &shadow_ : nullptr, reached_), from);
+                continue;
+            }
+            std::optional<LampLight> light;
+            if (in_cells && from.shadowed) light = cells->shine(lamp, 0, &shadow_, reached_);
+            from.few = light ? &*light : nullptr;
             disc ? spread_disc(from) : spread_shape(from);
         }
     }
 }
 
+const LampCells &HighlightTile::cells_of(const Lamp &lamp) {
+    const bool behind = !(lamp.coc < 0);
+    std::optional<LampCells> &cells = cells_[behind];
+    if (shape_.cat_eye.cuts()) {
+        Lamp in_picture = lamp;
+        in_picture.centre += Imath::V2d(held_out_.corner + origin_);
+        const LampCut cut = cut_of(shape_.cat_eye, shape_.aperture, in_picture);
+        cells.emplace(shape_.aperture, behind, &cut);
+    } else if (!cells) {
+        cells.emplace(shape_.aperture, behind);
+    }
+    return *cells;
+}
+
 // False: there are none.
-bool HighlightTile::cast_shadows(std::uint32_t lamp_sample, const Lamp &lamp,
+bool HighlightTile::cast_shadows(std::uint32_t lamp_sample, const Lamp &lamp, const Screen &screen,
                                  std::span<const std::uint32_t> blocks) {
-    const float nearer_than = samples_.depth[lamp_sample] + float(one_surface_px);
+    const float x = samples_.x[lamp_sample], y = samples_.y[lamp_sample], depth = samples_.depth[lamp_sample];
+    // What is hardly nearer moves hardly, and hides the lamp only if it lies right before it.
+    const float hardly = depth + float(one_surface_px);
+    constexpr float beside = 2; // pixels
+    const auto is_beside = [&](float left, float right, float top, float bottom) {
+        return left < x + beside && right > x - beside && top < y + beside && bottom > y - beside;
+    };
     bool any = false;
     for (const std::uint32_t b : blocks) {
         const SampleBlock &block = samples_.blocks[b];
-        if (block.depth_max <= nearer_than || !can_shadow(block, lamp)) continue;
+        const float nearer_than =
+            is_beside(block.x_min, block.x_max, block.y_min, block.y_max) ? depth : hardly;
+        if (block.depth_max <= nearer_than || !can_shadow(block, lamp, screen)) continue;
         const BlockFootprints::Block &casting = footprints_.of(b);
         const NearBounds *near = casting.nearer_than(nearer_than);
-        if (!near || !can_shadow(*near, lamp)) continue;
-        if (!any) shadow_.begin(reached_);
+        if (!near || !can_shadow(*near, lamp, screen)) continue;
+        if (!any) shadow_.begin(screen.box, screen.fine);
         any = true;
         const std::uint32_t first = name_of(b, samples_.columns);
         for (std::uint32_t i = block.begin; i < block.end; ++i)
-            if (samples_.depth[i] > nearer_than)
-                cast_shadow(i, casting.footprints[i - block.begin], first + i - block.begin, lamp);
+            if (samples_.depth[i] > hardly ||
+                (samples_.depth[i] > depth &&
+                 is_beside(samples_.x[i], samples_.x[i], samples_.y[i], samples_.y[i])))
+                cast_shadow(lamp_sample, i, casting.footprints[i - block.begin], first + i - block.begin,
+                            lamp, screen);
         if (shadow_.dark()) return true; // no other shadow changes that
     }
     return any;
 }
 
-// Whether a shadow of one of its samples may reach the pixels that the lamp does.
+// Whether a shadow of one of its samples may reach the screen.
 template <typename Bounds>
-bool HighlightTile::can_shadow(const Bounds &block, const Lamp &lamp) const {
+bool HighlightTile::can_shadow(const Bounds &block, const Lamp &lamp, const Screen &screen) const {
     if (double(block.coc_min) <= lamp.coc && double(block.coc_max) >= lamp.coc) return true;
-    const double a = shadow_magnification(lamp.coc, double(block.coc_min)),
-                 b = shadow_magnification(lamp.coc, double(block.coc_max));
-    const double half =
-        std::max(std::abs(a), std::abs(b)); // a footprint reaches less than a pixel from its sample
-    const auto apart = [&](double low, double high, double centre, int first, int end) {
-        const auto [least, most] =
-            std::minmax({a * (low - centre), a * (high - centre), b * (low - centre), b * (high - centre)});
-        return centre + most + half < first || centre + least - half > end;
+    const auto reaches = [&](int axis, double low, double high) {
+        const double a = shadow_magnification(lamp.coc, double(block.coc_min), screen.scale[axis]),
+                     b = shadow_magnification(lamp.coc, double(block.coc_max), screen.scale[axis]);
+        const double half =
+            std::max(std::abs(a), std::abs(b)); // a footprint reaches less than a pixel from its sample
+        low -= origin_[axis] + lamp.centre[axis];
+        high -= origin_[axis] + lamp.centre[axis];
+        const auto [least, most] = std::minmax({a * low, a * high, b * low, b * high});
+        return !(screen.middle[axis] + most + half < screen.box.min[axis] ||
+                 screen.middle[axis] + least - half > screen.box.max[axis] + 1);
     };
-    return !apart(double(block.x_min) - origin_.x, double(block.x_max) - origin_.x, lamp.centre.x,
-                  reached_.min.x, reached_.max.x + 1) &&
-           !apart(double(block.y_min) - origin_.y, double(block.y_max) - origin_.y, lamp.centre.y,
-                  reached_.min.y, reached_.max.y + 1);
+    return reaches(0, double(block.x_min), double(block.x_max)) &&
+           reaches(1, double(block.y_min), double(block.y_max));
 }
 
-void HighlightTile::cast_shadow(std::uint32_t sample, const Footprint &footprint, std::uint32_t name,
-                                const Lamp &lamp) {
+// Whether it is another highlight's, of other pixels and no nearer than a part of the same lamp would be.
+bool HighlightTile::are_side_by_side(std::uint32_t lamp_sample, std::uint32_t sample) const {
+    const auto same = [&](const std::vector<float> &along) {
+        return std::floor(along[lamp_sample]) == std::floor(along[sample]);
+    };
+    return samples_.depth[sample] <= one_lamp * samples_.depth[lamp_sample] &&
+           !(same(samples_.x) && same(samples_.y)) && std::ranges::binary_search(highlights_.sample, sample);
+}
+
+void HighlightTile::cast_shadow(std::uint32_t lamp_sample, std::uint32_t sample, const Footprint &footprint,
+                                std::uint32_t name, const Lamp &lamp, const Screen &screen) {
     const auto coc = float(lamp.coc);
-    const std::array<float, 4> centre{float(lamp.centre.x), float(lamp.centre.x), float(lamp.centre.y),
-                                      float(lamp.centre.y)},
-        origin{float(origin_.x), float(origin_.x), float(origin_.y), float(origin_.y)};
-    std::array<float, 4> edge;
-    for (std::size_t k = 0; k < 4; ++k)
-        edge[k] = centre[k] +
-                  shadow_magnification(coc, footprint.coc[k]) * (footprint.place[k] - origin[k] - centre[k]);
-    const auto [left, right] = std::minmax(edge[0], edge[1]);
-    const auto [top, bottom] = std::minmax(edge[2], edge[3]);
-    if (!(right > float(reached_.min.x) && left <= float(reached_.max.x) + 1 &&
-          bottom > float(reached_.min.y) && top <= float(reached_.max.y) + 1))
-        return; // no number where something is as blurred as the lamp
+    // Along each axis from where to where. Past an edge that is more blurred than the lamp it is the other way round.
+    std::array<float, 2> low{-INFINITY, -INFINITY}, high{INFINITY, INFINITY};
+    for (std::size_t k = 0; k < 4; ++k) {
+        const std::size_t axis = k / 2;
+        const float m = shadow_magnification(coc, footprint.coc[k], float(screen.scale[int(axis)]));
+        const float edge =
+            float(screen.middle[int(axis)]) +
+            m * (footprint.place[k] - float(origin_[int(axis)]) - float(lamp.centre[int(axis)]));
+        const bool from_edge_on = (k % 2 == 0) == (m > 0);
+        if (from_edge_on)
+            low[axis] = std::max(low[axis], edge);
+        else
+            high[axis] = std::min(high[axis], edge);
+        if (std::isnan(edge)) return; // as blurred as the lamp, and right before it
+    }
+    const Imath::Box2f shadow({low[0], low[1]}, {high[0], high[1]});
+    if (!(high[0] > float(screen.box.min.x) && low[0] <= float(screen.box.max.x) + 1 && high[0] > low[0] &&
+          high[1] > float(screen.box.min.y) && low[1] <= float(screen.box.max.y) + 1 && high[1] > low[1]))
+        return;
     const bool opaque = is_opaque(samples_.alpha[sample]);
-    if (!opaque && std::ranges::binary_search(highlights_.sample, sample)) return;
-    shadow_.hide({{left, top}, {right, bottom}}, opaque ? 1 : samples_.alpha[sample], name);
+    if (!opaque && are_side_by_side(lamp_sample, sample)) return;
+    shadow_.hide(shadow, opaque ? 1 : samples_.alpha[sample], name);
+}
+
+// A disc of few pixels near the focus. Nothing of its light is hidden further.
+void HighlightTile::spread_few(const LampLight &light, const Spreading &from) {
+    const Spreading lit{from.highlight, from.sample, from.lamp};
+    for (int y = light.box.min.y; y <= light.box.max.y; ++y)
+        for (int x = light.box.min.x; x <= light.box.max.x; ++x) {
+            const Float4 share = light.lit[light.at(x, y)];
+            if (!(share[3] > 0)) continue;
+            const std::array<double, 3> colours{double(share[0]), double(share[1]), double(share[2])};
+            add_seen(lit, x, y, double(share[3]), shape_.aperture.coloured() ? &colours : nullptr);
+        }
 }
 
 void HighlightTile::spread_disc(const Spreading &from) {
@@ -140,27 +220,30 @@ void HighlightTile::spread_disc(const Spreading &from) {
 }
 
 void HighlightTile::spread_shape(const Spreading &from) {
-    const bool cut = shape_.cat_eye.cuts();
     const Imath::V2i corner = held_out_.corner + origin_; // a cat-eye depends on the place in the picture
     Lamp lamp = from.lamp;
     lamp.centre += Imath::V2d(corner);
-    const LampSpread spread =
-        spread_lamp(shape_.aperture, lamp, {corner, corner + tile.max}, cut ? &shape_.cat_eye : nullptr);
+    const LampCut cut = cut_of(shape_.cat_eye, shape_.aperture, lamp);
+    const LampSpread spread = spread_lamp(shape_.aperture, lamp, {corner, corner + tile.max},
+                                          shape_.cat_eye.cuts() ? &cut : nullptr);
     std::size_t i = 0;
     for (int y = spread.box.min.y - corner.y; !spread.box.isEmpty() && y <= spread.box.max.y - corner.y; ++y)
-        for (int x = spread.box.min.x - corner.x; x <= spread.box.max.x - corner.x; ++x, ++i) {
-            if (spread.weights[i] <= 0) continue;
-            const double left = cut && !shape_.cat_eye.darkens() ? left_by_cat_eye(lamp.coc > 0, x, y) : 1;
-            if (left < least_share) continue;
-            if (!spread.coloured) {
-                add(from, x, y, all_colours, spread.weights[i] / left);
-                continue;
-            }
-            add(from, x, y, red, spread.colours[i][0] / left);
-            add(from, x, y, green, spread.colours[i][1] / left);
-            add(from, x, y, blue, spread.colours[i][2] / left);
-            add(from, x, y, coverage | data, spread.weights[i] / left);
-        }
+        for (int x = spread.box.min.x - corner.x; x <= spread.box.max.x - corner.x; ++x, ++i)
+            if (spread.weights[i] > 0)
+                add_seen(from, x, y, spread.weights[i], spread.coloured ? &spread.colours[i] : nullptr);
+}
+
+// Past a cat-eye, by the share of the light that it leaves at a pixel. `colours`: null where all have the same weight.
+void HighlightTile::add_seen(const Spreading &from, int x, int y, double weight,
+                             const std::array<double, 3> *colours) {
+    const bool cut = shape_.cat_eye.cuts() && !shape_.cat_eye.darkens();
+    const double left = cut ? left_by_cat_eye(from.lamp.coc > 0, x, y) : 1;
+    if (left < least_share) return;
+    if (!colours) return add(from, x, y, all_colours, weight / left);
+    add(from, x, y, red, (*colours)[0] / left);
+    add(from, x, y, green, (*colours)[1] / left);
+    add(from, x, y, blue, (*colours)[2] / left);
+    add(from, x, y, coverage | data, weight / left);
 }
 
 // The share of the light that a cat-eye leaves at a pixel.
@@ -173,9 +256,14 @@ double HighlightTile::left_by_cat_eye(bool behind, int x, int y) {
     return shares[std::size_t(y) * size + std::size_t(x)];
 }
 
+// The share of a pixel's light that nothing hides.
+float HighlightTile::lit(const Spreading &from, int x, int y) const {
+    if (!from.shadowed || !reached_.intersects(Imath::V2i(x, y))) return 1;
+    return from.few ? from.few->lit_share(x, y) : shadow_.lit(x, y);
+}
+
 void HighlightTile::add(const Spreading &from, int x, int y, unsigned of, double weight) {
-    float share = float(weight);
-    if (from.shadowed && reached_.intersects(Imath::V2i(x, y))) share *= shadow_.lit(x, y);
+    float share = float(weight) * lit(from, x, y);
     if (share <= 0) return;
     if (held_out_.by) share *= held_out_.passes(origin_ + Imath::V2i(x, y), samples_.depth[from.sample]);
     for (std::size_t g = 0; g < sets_.size() / 4; ++g) {

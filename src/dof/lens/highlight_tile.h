@@ -1,9 +1,14 @@
 // The light of highlights (highlights.h) in one tile: the exact disc of each, less what stands before the lamp.
 //
 // Whether a place in a disc sees the lamp needs no lens points of the gather: place and lamp fix the point of the lens, and
-// so what hides the lamp there (lens/lamps/lamp_shadow.h). A sample hides what is farther by more than one_surface_px of
-// perceptive depth. Highlights of partial coverage hide none of each other: they are lamps smaller than a pixel, side by
+// so what hides the lamp there (lens/lamps/lamp_shadow.h). A sample hides all that is farther; those of one surface hide
+// none of each other, as they end where the next begins (dof/footprints/footprint.h). Highlights of partial
+// coverage in other pixels, no more than a tenth nearer, hide none of each other: they are lamps smaller than a pixel, side by
 // side.
+//
+// A disc of a few pixels is shadowed in cells of the lens (lens/lamps/lamp_cells.h), a larger one in pixels. The light of a
+// sample comes from its place where its CoC is two pixels or more. Near the focus it comes from the square of a pixel, as lens
+// points see it, so that what is in focus is as it was rendered; in between the square shrinks.
 #pragma once
 
 #include "dof/lens/block_footprints.h"
@@ -14,12 +19,14 @@
 #include "lens/aperture.h"
 #include "lens/cat_eye.h"
 #include "lens/lamp_spread.h"
+#include "lens/lamps/lamp_cells.h"
 #include "lens/lamps/lamp_shadow.h"
 
 #include <Imath/ImathVec.h>
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -55,17 +62,30 @@ private:
     struct Spreading { // the highlight at work
         std::uint32_t highlight, sample;
         Lamp lamp; // relative to the tile
-        bool shadowed;
+        bool shadowed = false;
+        const LampLight *few = nullptr; // of a disc of few pixels, if anything hides a part of it
+    };
+    // Where shadows are cast: a thing at x' of CoC c' lies there at middle + scale (x' - x) / (c - c').
+    struct Screen {
+        Imath::V2d middle, scale;
+        Imath::Box2i box;
+        bool fine = false; // in cells, not in pixels
     };
 
-    bool reaches(const Lamp &lamp) const;
+    void spread_few(const LampLight &light, const Spreading &from);
     void spread_disc(const Spreading &from);
     void spread_shape(const Spreading &from);
+    void add_seen(const Spreading &from, int x, int y, double weight, const std::array<double, 3> *colours);
     void add(const Spreading &from, int x, int y, unsigned of, double weight);
-    bool cast_shadows(std::uint32_t lamp_sample, const Lamp &lamp, std::span<const std::uint32_t> blocks);
+    float lit(const Spreading &from, int x, int y) const;
+    const LampCells &cells_of(const Lamp &lamp);
+    bool cast_shadows(std::uint32_t lamp_sample, const Lamp &lamp, const Screen &screen,
+                      std::span<const std::uint32_t> blocks);
     template <typename Bounds>
-    bool can_shadow(const Bounds &bounds, const Lamp &lamp) const;
-    void cast_shadow(std::uint32_t sample, const Footprint &footprint, std::uint32_t name, const Lamp &lamp);
+    bool can_shadow(const Bounds &bounds, const Lamp &lamp, const Screen &screen) const;
+    bool are_side_by_side(std::uint32_t lamp_sample, std::uint32_t sample) const;
+    void cast_shadow(std::uint32_t lamp_sample, std::uint32_t sample, const Footprint &footprint,
+                     std::uint32_t name, const Lamp &lamp, const Screen &screen);
     double left_by_cat_eye(bool behind, int x, int y);
 
     const Highlights &highlights_;
@@ -78,6 +98,7 @@ private:
     Imath::V2i origin_;
     Imath::Box2i reached_; // pixels of the tile, by the highlight at work
     LampShadow shadow_;
+    std::array<std::optional<LampCells>, 2> cells_;      // [behind], made when first asked for
     std::array<std::vector<double>, 2> left_by_cat_eye_; // [behind][pixel], computed when first asked for
     std::vector<float> light_;                           // [group][row][column][4]
 };

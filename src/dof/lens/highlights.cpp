@@ -13,7 +13,7 @@ namespace {
 constexpr int cell = 4;              // blocks wide and high
 constexpr std::size_t brightest = 5; // one sample of a window in so many may be a highlight
 constexpr float stands_out = 4;      // times what is around
-constexpr float smallest_coc = 2;    // pixels
+constexpr float wholly = 6;          // times that, from which all that stands out is spread
 
 struct Found {
     std::uint32_t sample;
@@ -83,8 +83,9 @@ std::vector<Found> HighlightFinder::find_in(const Imath::V2i &at) const {
     std::vector<Found> found;
     for_each_sample({at, at}, [&](std::uint32_t i) {
         const float brightness = brightness_of(i);
-        if (brightness > stands_out * level && std::abs(samples_.coc[i]) >= smallest_coc)
-            found.push_back({i, 1 - level / brightness});
+        if (!(brightness > stands_out * level)) return;
+        const float wholeness = std::min((brightness / level - stands_out) / (wholly - stands_out), 1.0f);
+        found.push_back({i, wholeness * (1 - level / brightness)});
     });
     return found;
 }

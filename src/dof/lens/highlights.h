@@ -21,9 +21,10 @@ struct Highlights {
 };
 
 // The highlights of a picture; what they spread is taken out of `colours`. A sample is one if the brightest of its
-// `brightness` channels is more than four times what four of five samples around it stay below, which bounds the cost, and
-// if its CoC is at least two pixels. "Around" is the darkest of four windows of 64 x 64 pixels that overlap there. Of the
-// channels only those in `colour_channels` are light.
+// `brightness` channels is more than four times what four of five samples around it stay below, which bounds the cost. "Around"
+// is the darkest of four windows of 64 x 64 pixels that overlap there. From six times on it spreads all that stands out,
+// below that less and less, so that nothing pops where a lamp is hardly one. Of the channels only those in `colour_channels`
+// are light.
 Highlights take_highlights(const BlockedSamples &samples, std::span<const std::size_t> brightness,
                            std::span<const std::size_t> colour_channels, SampleColours &colours);
 

@@ -73,8 +73,11 @@ void find_edges(const Samples &samples, Seen &own) {
     const auto edge = [&](const Imath::V2i &beside) {
         const int axis = beside.x != 0 ? 0 : 1;
         const Seen *other = neighbour(samples, own, own.pixel + beside);
-        if (!other) return Edge{own.place[axis] + 0.5 * (beside.x + beside.y), own.coc};
-        return Edge{(own.place[axis] + other->place[axis]) / 2, (own.coc + other->coc) / 2};
+        const Edge alone{own.place[axis] + 0.5 * (beside.x + beside.y), own.coc};
+        if (!other) return alone;
+        const Edge shared{(own.place[axis] + other->place[axis]) / 2, (own.coc + other->coc) / 2};
+        const double loose = std::max(0.0, (std::abs(other->depth - own.depth) - 0.75) / 0.25);
+        return Edge{std::lerp(shared.place, alone.place, loose), std::lerp(shared.coc, alone.coc, loose)};
     };
     own.left = edge({-1, 0});
     own.right = edge({1, 0});
@@ -104,22 +107,52 @@ public:
     SlowlyLit at(const Imath::V2i &pixel, int side) const {
         SlowlyLit sum;
         for (const SlowLamp &lamp : lamps_) {
-            const double c = samples_[lamp.sample].shine;
-            const double share = 1 / (std::numbers::pi * c * c * aspect_ * side * side); // of one place
-            for (int row = 0; row < side; ++row)
-                for (int column = 0; column < side; ++column) {
-                    const Imath::V2d q = Imath::V2d(pixel) + Imath::V2d(column + 0.5, row + 0.5) / side;
-                    const auto u = lens_point(lamp, q);
-                    if (u.x * u.x + u.y * u.y / (aspect_ * aspect_) > 1) continue;
-                    const double left = passed(lamp, u, q);
-                    for (std::size_t k = 0; k < 3; ++k) sum.light[k] += share * left * lamp.light[k];
-                    sum.unhidden += share * lamp.light[0];
-                }
+            const double c = samples_[lamp.sample].shine, square = std::clamp(2 - std::abs(c), 0.0, 1.0);
+            square > 0 ? add_from_square(sum, lamp, square, pixel, side)
+                       : add_from_place(sum, lamp, pixel, side);
         }
         return sum;
     }
 
 private:
+    void add_from_place(SlowlyLit &sum, const SlowLamp &lamp, const Imath::V2i &pixel, int side) const {
+        const double c = samples_[lamp.sample].shine;
+        const double share = 1 / (std::numbers::pi * c * c * aspect_ * side * side); // of one place
+        for (int row = 0; row < side; ++row)
+            for (int column = 0; column < side; ++column) {
+                const Imath::V2d q = Imath::V2d(pixel) + Imath::V2d(column + 0.5, row + 0.5) / side;
+                const auto u = lens_point(lamp, q);
+                if (u.x * u.x + u.y * u.y / (aspect_ * aspect_) > 1) continue;
+                add(sum, lamp, share, passed(lamp, u, q));
+            }
+    }
+
+    // Places in the lens, and how much of the square lies in the pixel as each sees it.
+    void add_from_square(SlowlyLit &sum, const SlowLamp &lamp, double square, const Imath::V2i &pixel,
+                         int side) const {
+        const int places = 8 * side;
+        const auto inside = [&](double at, int low) {
+            return std::max(0.0,
+                            std::min(at + square / 2, low + 1.0) - std::max(at - square / 2, double(low))) /
+                   square;
+        };
+        for (int row = 0; row < places; ++row)
+            for (int column = 0; column < places; ++column) {
+                Imath::V2d u = Imath::V2d(column + 0.5, row + 0.5) * 2.0 / places - Imath::V2d(1);
+                if (u.x * u.x + u.y * u.y > 1) continue;
+                u.y *= aspect_;
+                const Imath::V2d q = samples_[lamp.sample].place + samples_[lamp.sample].shine * u;
+                const double share =
+                    inside(q.x, pixel.x) * inside(q.y, pixel.y) * 4 / (std::numbers::pi * places * places);
+                if (share > 0) add(sum, lamp, share, passed(lamp, u, q));
+            }
+    }
+
+    static void add(SlowlyLit &sum, const SlowLamp &lamp, double share, double left) {
+        for (std::size_t k = 0; k < 3; ++k) sum.light[k] += share * left * lamp.light[k];
+        sum.unhidden += share * lamp.light[0];
+    }
+
     Imath::V2d lens_point(const SlowLamp &lamp, const Imath::V2d &q) const {
         return (q - samples_[lamp.sample].place) / samples_[lamp.sample].shine;
     }
@@ -129,8 +162,10 @@ private:
         double left = 1;
         for (std::size_t i = 0; i < samples_.size(); ++i) {
             const Seen &s = samples_[i];
-            if (!(s.depth > samples_[lamp.sample].depth + one_surface_px) || !covers(s, u, q)) continue;
-            if (s.alpha < 1 && shining_.contains(i)) continue;
+            if (!(s.depth > samples_[lamp.sample].depth) || !covers(s, u, q)) continue;
+            const Seen &of = samples_[lamp.sample];
+            if (s.alpha < 1 && s.pixel != of.pixel && s.depth <= 1.1 * of.depth && shining_.contains(i))
+                continue;
             left *= 1 - s.alpha;
         }
         return left;

@@ -3,10 +3,13 @@
 // tests HighlightTile.
 //
 // A place q in the disc of a lamp at x, of CoC c, sees it through u = (q - x) / c, if that lies in the lens. What is nearer than
-// the lamp by more than one_surface_px of perceptive depth hides it there by its coverage, if it covers q as seen through u. What it
-// covers is its unit square displaced by its CoC; beside a sample of a neighbouring pixel, of those the nearest in depth, less than a
-// pixel away in that, it ends half-way to it, at the mean of both places and CoCs (dof/footprints/footprint.h). Lamps of
-// partial coverage hide none of each other.
+// the lamp hides it there by its coverage, if it covers q as seen through u. What it
+// covers is its unit square displaced by its CoC; beside a sample of a neighbouring pixel, of those the nearest in depth, less than
+// three quarters of a pixel away in that, it ends half-way to it, at the mean of both places and CoCs, and up to a pixel in between
+// (dof/footprints/footprint.h). Lamps of partial coverage hide none of each other
+// in other pixels that are less than a tenth farther away. The light of a lamp whose CoC is below two
+// pixels comes from a square around its place, of a pixel up to one and narrower in between: there every place in the lens sends
+// it to the pixels that the square lies in.
 #pragma once
 
 #include "deep/ldi.h"

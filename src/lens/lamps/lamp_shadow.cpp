@@ -79,8 +79,9 @@ struct Reach {
 
 } // namespace
 
-void LampShadow::begin(const Imath::Box2i &box) {
+void LampShadow::begin(const Imath::Box2i &box, bool fine) {
     box_ = box;
+    thin_ = fine ? 1 : thin;
     width_ = std::size_t(box.max.x - box.min.x) + 1;
     const std::size_t pixels = width_ * (std::size_t(box.max.y - box.min.y) + 1);
     hidden_.assign(pixels, 0);
@@ -98,7 +99,7 @@ void LampShadow::hide(const Imath::Box2f &rectangle, float alpha, std::uint32_t 
         down(rectangle.min.y - float(box_.min.y), rectangle.max.y - float(box_.min.y),
              box_.max.y - box_.min.y + 1);
     if (across.begin >= across.end || down.begin >= down.end) return;
-    const bool veil = alpha < thin;
+    const bool veil = alpha < thin_;
     const std::uint64_t hides = alpha >= 1 ? ~std::uint64_t(0) : veil ? 0 : hidden_points(alpha, thing);
     const int first = across.first(), last = across.last();
     for (int y = down.first(); y <= down.last(); ++y) {
@@ -112,7 +113,7 @@ void LampShadow::hide(const Imath::Box2f &rectangle, float alpha, std::uint32_t 
             lit_pixels_ -= std::size_t(~hidden == 0 && ~before != 0);
             if (veil)
                 veil_[row + std::size_t(x)] *=
-                    std::pow(1 - alpha, float(std::popcount(hit)) * (1.0f / points));
+                    ~hit == 0 ? 1 - alpha : std::pow(1 - alpha, float(std::popcount(hit)) * (1.0f / points));
         }
     }
 }

@@ -15,18 +15,23 @@
 
 namespace sparselens {
 
-// c and c' in pixels, signed and different.
+// c and c' in pixels, signed and different. `scale`: c in the picture; on another screen, what c is there.
+template <typename Number>
+Number shadow_magnification(Number lamp_coc, Number coc, Number scale) {
+    return scale / (lamp_coc - coc);
+}
 template <typename Number>
 Number shadow_magnification(Number lamp_coc, Number coc) {
-    return lamp_coc / (lamp_coc - coc);
+    return shadow_magnification(lamp_coc, coc, lamp_coc);
 }
 
 // Which share of each pixel of a box is in shadow, by 64 points in each pixel: no two of them share a row or a column, so
 // that an edge that crosses a pixel along an axis hides one after the other.
 class LampShadow {
 public:
-    // Nothing is hidden yet. The box is relative to where places are counted from.
-    void begin(const Imath::Box2i &box);
+    // Nothing is hidden yet. The box is relative to where places are counted from. `fine`: its pixels are so small that what hides
+    // a share of light may hide it from all of a pixel alike.
+    void begin(const Imath::Box2i &box, bool fine = false);
 
     // The shadow of what covers a rectangle and hides a share `alpha` of light, (0, 1].
     void hide(const Imath::Box2f &rectangle, float alpha, std::uint32_t thing);
@@ -45,6 +50,7 @@ private:
 
     Imath::Box2i box_;
     std::size_t width_ = 0;
+    float thin_ = 0; // what hides less is a veil over the whole of what it covers in a pixel
     std::vector<std::uint64_t> hidden_; // [pixel]: a bit for each point
     std::size_t lit_pixels_ = 0;        // those of which some point is not hidden
     std::vector<float> veil_;           // [pixel]: what thin things let through

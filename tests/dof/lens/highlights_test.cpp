@@ -39,7 +39,7 @@ Ldi shining_plane(int size, const ThinLens &lens, double c, const std::function<
 
 TEST(TakeHighlights, TakesTheLightThatStandsOutAndLeavesTheRest) {
     const auto shine = [](int x, int y) { return x == 11 && y == 40 ? 60.0f : 0.0f; };
-    for (const double c : {2.5, -20.0}) {
+    for (const double c : {0.0, 1.5, -20.0}) {
         Blocked blocked(shining_plane(48, wide, c, shine), wide);
         const SampleColours before = blocked.colours;
         const Highlights highlights = blocked.take();
@@ -59,13 +59,25 @@ TEST(TakeHighlights, TakesTheLightThatStandsOutAndLeavesTheRest) {
     }
 }
 
-TEST(TakeHighlights, TakesNothingNearFocusNorWhatIsNoBrighterThanOther) {
-    const auto lamp = [](int x, int y) { return x == 11 && y == 40 ? 60.0f : 0.0f; };
-    EXPECT_TRUE(Blocked(shining_plane(48, wide, 1.5, lamp), wide).take().sample.empty());
+TEST(TakeHighlights, TakesNothingThatIsNoBrighterThanOther) {
     const auto bright_half = [](int x, int) { return x < 24 ? 60.0f : 0.0f; };
     EXPECT_TRUE(Blocked(shining_plane(48, wide, 9, bright_half), wide).take().sample.empty());
     const auto nothing = [](int, int) { return 0.0f; };
     EXPECT_TRUE(Blocked(shining_plane(48, wide, 9, nothing), wide).take().sample.empty());
+}
+
+// As it becomes brighter, a sample spreads more and more, without a step where it becomes a highlight.
+TEST(TakeHighlights, BeginsWithNothing) {
+    float last = 0;
+    for (float brightness = 2; brightness < 8; brightness += 0.05f) {
+        const auto shine = [&](int x, int y) { return x == 11 && y == 40 ? brightness : 0.0f; };
+        const Highlights highlights = Blocked(shining_plane(48, wide, 9, shine), wide).take();
+        const float spread = highlights.sample.empty() ? 0 : highlights.light.at(red_channel, 0);
+        ASSERT_GE(spread, last - 1e-5f);
+        ASSERT_LE(spread, last + 0.25f) << brightness; // a step would be three quarters of it
+        last = spread;
+    }
+    EXPECT_GT(last, 6);
 }
 
 TEST(TakeHighlights, TakesAWholeLampOfSixteenPixels) {
@@ -230,6 +242,72 @@ TEST(LensGatherOfAPoint, ShinesByTheShareOfTheLensThatSeesIt) {
         EXPECT_LT(worst, brightest_column / 32) << c.coc << " " << c.coc_before;
         EXPECT_NEAR(sum, expected_sum, brightest_column / 32) << c.coc << " " << c.coc_before;
     }
+}
+
+// The area of the unit disc at a < x < b.
+double disc_between(double a, double b) { return b <= a ? 0 : disc_left_of(b) - disc_left_of(a); }
+
+// A thin post x in [39, 43) before a lamp in the middle of pixel (36, 36): the share of the lens that sees it, by the area of
+// the disc on either side of the post. The lamp sees its left edge at the u.x of (39 - 36.5) = u.x (c - c'), its right edge alike.
+struct Post {
+    double left = 39, right = 43;
+    double share_seen(const ThinLens &lens, double lamp_z, double post_z) const {
+        const double apart = circle_of_confusion(lens, lamp_z) - circle_of_confusion(lens, post_z);
+        return 1 - disc_between((left - 36.5) / apart, (right - 36.5) / apart) / std::numbers::pi;
+    }
+    Ldi ldi(double lamp_z, double post_z) const {
+        return make_ldi(windows_of_size(80, 72), rgba_channels(), [&](int x, int y) {
+            std::vector<Sample> samples;
+            if (x >= left && x < right) samples.push_back({float(post_z), {0, 0, 0, 1}});
+            if (x == 36 && y == 36) samples.push_back({float(lamp_z), {1000, 500, 250, 1}});
+            return samples;
+        });
+    }
+};
+
+double light_in(const Image &image) {
+    double sum = 0;
+    for (const float v : image.plane(red_channel)) sum += double(v);
+    return sum;
+}
+
+// In steps of focus (from 2.4 pixels of CoC behind it to 0.9 in front) and of the aperture, the light is the share of the lens
+// that sees the lamp: to 0.2 %, as the cells of the lens have 64 points each in rows and columns of their own, so that an edge
+// that crosses the 32 columns of cells hides 1/2048 of the lens at a time.
+TEST(LensGatherOfAPoint, BehindAPostShinesByItsShareInSmallStepsOfFocusAndAperture) {
+    const Post post;
+    const double lamp_z = 8, post_z = 2;
+    const Ldi ldi = post.ldi(lamp_z, post_z);
+    double least = 1, most = 0;
+    for (int step = 0; step <= 100; ++step) {
+        ThinLens lens{.radius = 0.034, .focal_px = 640, .focus = 4.2 + 0.08 * step};
+        if (step % 2 == 1) lens.radius *= 0.5 + 0.007 * step, lens.focus = 6.5;
+        const double expected = post.share_seen(lens, lamp_z, post_z);
+        least = std::min(least, expected);
+        most = std::max(most, expected);
+        ASSERT_NEAR(light_in(gather(ldi, lens)), 1000 * expected, 2)
+            << "focus " << lens.focus << ", radius " << lens.radius;
+    }
+    EXPECT_LT(least, 0.75);
+    EXPECT_GT(most, 0.85);
+}
+
+// A lamp that goes through focus shrinks and grows without a pop: no pixel's second
+// difference is more than an eighth of what the lamp gives there. (But in focus itself, as light beside the pixel grows with |CoC|.)
+TEST(LensGatherOfAPoint, GoesThroughFocusSmoothly) {
+    const Post post;
+    const Ldi ldi = post.ldi(8, 2);
+    std::vector<Image> pictures;
+    for (int frame = 0; frame < 48; ++frame)
+        pictures.push_back(gather(ldi, {.radius = 0.034, .focal_px = 640, .focus = 5 + 0.1 * frame}));
+    for (std::size_t frame = 1; frame + 1 < pictures.size(); frame += frame == 29 ? 2 : 1)
+        for (int y = 30; y < 43; ++y)
+            for (int x = 30; x < 43; ++x) {
+                const auto at = [&](std::size_t f) { return double(pictures[f].at(red_channel, x, y)); };
+                const double around = at(frame - 1) + at(frame) + at(frame + 1);
+                ASSERT_LE(std::abs(at(frame - 1) - 2 * at(frame) + at(frame + 1)), 0.125 * around + 1.5)
+                    << frame << " " << x << " " << y;
+            }
 }
 
 // Nothing else moves: from frame to frame each pixel changes as the closed form above does, without pops.

@@ -1,0 +1,111 @@
+#include "lens/lamps/lamp_cells.h"
+
+#include "lens/psf.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sparselens {
+
+namespace {
+
+// How much of each of the cells in a row (or a column) lies in each pixel of one.
+class Overlaps {
+public:
+    // The cells follow each other from `first` on, `step` apart, each `width` wide about its middle. Pixels [begin, end).
+    Overlaps(double first, double step, double width, int begin, int end)
+        : pixels_(std::size_t(end - begin)), share_(std::size_t(LampCells::side) * pixels_) {
+        for (std::size_t i = 0; i < LampCells::side; ++i) {
+            const double middle = first + (double(i) + 0.5) * step, low = middle - width / 2 - begin;
+            const double high = low + width;
+            const auto pixel = [&](double v) { return std::size_t(std::clamp(v, 0.0, double(pixels_))); };
+            span_[i] = {pixel(std::floor(low)), pixel(std::floor(high) + 1)};
+            for (std::size_t p = span_[i][0]; p < span_[i][1]; ++p)
+                share_[i * pixels_ + p] =
+                    float((std::min(high, double(p + 1)) - std::max(low, double(p))) / width);
+        }
+    }
+    // visit(pixel, share) for those that a cell lies in.
+    template <typename Visit>
+    void for_each(std::size_t cell, const Visit &visit) const {
+        for (std::size_t p = span_[cell][0]; p < span_[cell][1]; ++p) visit(p, share_[cell * pixels_ + p]);
+    }
+
+private:
+    std::size_t pixels_;
+    std::vector<float> share_;                                          // [cell][pixel]
+    std::array<std::array<std::size_t, 2>, LampCells::side> span_ = {}; // of pixels
+};
+
+} // namespace
+
+LampCells::LampCells(const Aperture &aperture, bool behind, const LampCut *cut) : share_{} {
+    const Imath::V2d extent = aperture.half_extent();
+    scale_ = (behind ? 1 : -1) * (side / 2) / std::max(extent.x, extent.y);
+    const auto set = [&](int x, int y, const Float4 &share) {
+        share_[std::size_t(y) * side + std::size_t(x)] = share;
+    };
+    if (aperture.disc() && !cut) {
+        const double squeeze = aperture.shape().squeeze;
+        const PsfRows rows({middle(), std::abs(scale_) / squeeze, squeeze}, box());
+        std::array<double, PsfRows::max_size + 1> weights;
+        for (int y = rows.begin_row(); y < rows.end_row(); ++y) {
+            const PsfRows::Span span = rows.row(y, weights.data());
+            for (int x = span.begin; x < span.end; ++x) {
+                const auto w = float(weights[std::size_t(x)]);
+                set(x, y, Float4{w, w, w, w});
+            }
+        }
+        return;
+    }
+    const LampSpread spread = spread_lamp(aperture, {middle(), scale_}, box(), cut);
+    std::size_t i = 0;
+    for (int y = spread.box.min.y; !spread.box.isEmpty() && y <= spread.box.max.y; ++y)
+        for (int x = spread.box.min.x; x <= spread.box.max.x; ++x, ++i) {
+            const auto mean = float(spread.weights[i]);
+            if (!spread.coloured) {
+                set(x, y, Float4{mean, mean, mean, mean});
+                continue;
+            }
+            const std::array<double, 3> &c = spread.colours[i];
+            set(x, y, Float4{float(c[0]), float(c[1]), float(c[2]), mean});
+        }
+}
+
+Imath::V2d LampCells::size(const Lamp &lamp) const {
+    const double across = std::abs(lamp.coc / scale_);
+    return {across, across * lamp.pixel_aspect};
+}
+
+LampLight LampCells::shine(const Lamp &lamp, double square, const LampShadow *shadow,
+                           const Imath::Box2i &box) const {
+    const Imath::V2d cell = size(lamp), first = lamp.centre - cell * middle();
+    const Overlaps columns(first.x, cell.x, std::hypot(cell.x, square), box.min.x, box.max.x + 1),
+        rows(first.y, cell.y, std::hypot(cell.y, square), box.min.y, box.max.y + 1);
+    const auto width = std::size_t(box.max.x - box.min.x) + 1;
+    const std::size_t pixels = width * (std::size_t(box.max.y - box.min.y) + 1);
+    LampLight light{box, std::vector<Float4>(pixels, Float4{}), std::vector<Float4>(pixels, Float4{})};
+    std::vector<Float4> whole(width), lit(width); // of a row of cells
+    for (std::size_t j = 0; j < side; ++j) {
+        std::ranges::fill(whole, Float4{});
+        std::ranges::fill(lit, Float4{});
+        for (std::size_t i = 0; i < side; ++i) {
+            const Float4 share = share_[j * side + i];
+            if (!(share[3] > 0)) continue;
+            const Float4 left = share * (shadow ? shadow->lit(int(i), int(j)) : 1.0f);
+            columns.for_each(i, [&](std::size_t x, float in_pixel) {
+                whole[x] += in_pixel * share;
+                lit[x] += in_pixel * left;
+            });
+        }
+        rows.for_each(j, [&](std::size_t y, float in_pixel) {
+            for (std::size_t x = 0; x < width; ++x) {
+                light.whole[y * width + x] += in_pixel * whole[x];
+                light.lit[y * width + x] += in_pixel * lit[x];
+            }
+        });
+    }
+    return light;
+}
+
+} // namespace sparselens
