@@ -3,7 +3,7 @@
 #include "base/parallel.h"
 #include "deep/flatten.h"
 #include "dof/device/tile_device.h"
-#include "dof/lens/filler_samples.h"
+#include "dof/lens/fillers.h"
 #include "dof/lens/highlight_tile.h"
 #include "dof/lens/highlights.h"
 #include "dof/lens/lens_tile.h"

@@ -9,7 +9,7 @@
 #include "base/float4.h"
 #include "deep/holdout.h"
 #include "dof/facets/placed_facets.h"
-#include "dof/lens/filler_samples.h"
+#include "dof/lens/fillers.h"
 #include "dof/lens/sample_blocks.h"
 #include "dof/lens/sample_colours.h"
 #include "dof/lens/tile_projection.h"

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "dof/device/tile_device.h"
-#include "dof/lens/filler_samples.h"
+#include "dof/lens/fillers.h"
 #include "dof/lens/sample_blocks.h"
 #include "gpu/lens/tile_rules.h"
 

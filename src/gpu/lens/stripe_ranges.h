@@ -3,7 +3,7 @@
 
 #include "dof/device/tile_device.h"
 #include "dof/facets/placed_facets.h"
-#include "dof/lens/filler_samples.h"
+#include "dof/lens/fillers.h"
 #include "dof/lens/sample_blocks.h"
 
 #include <algorithm>
