@@ -17,10 +17,18 @@ constexpr float stands_out = 4;   // times what is around it
 constexpr float smallest_coc = 2; // pixels: a lamp of less is no disc
 constexpr std::size_t faint = 32; // all but one of so many
 
-int least_overscan(const Windows &windows) {
-    const Imath::V2i before = windows.display.min - windows.data.min,
-                     after = windows.data.max - windows.display.max;
-    return std::min({before.x, before.y, after.x, after.y});
+// What one side of the frame needs and has, in pixels. Light reaches farther down than across where pixels are not square.
+struct Side {
+    int rendered = 0;
+    double reach = 0;
+
+    void see(double to) { reach = std::max(reach, to); }
+    int needed() const { return int(std::ceil(std::min(reach, 65536.0))); }
+};
+
+bool has_less(const Side &a, const Side &b) {
+    const int a_lacks = std::max(a.needed() - a.rendered, 0), b_lacks = std::max(b.needed() - b.rendered, 0);
+    return a_lacks != b_lacks ? a_lacks < b_lacks : a.reach < b.reach;
 }
 
 bool has_light_that_stands_out(std::vector<float> &all, const std::vector<float> &blurred) {
@@ -56,13 +64,14 @@ Ldi border_of(const PackedRows &rows, const Imath::Box2i &window) {
 }
 
 BorderReach border_reach(const Ldi &ldi, const ThinLens &lens, const LensLooks &looks) {
-    BorderReach reach{.rendered = least_overscan(ldi.windows)};
-    if (reach.rendered < 0) return {};
+    const Imath::V2i before = ldi.windows.display.min - ldi.windows.data.min,
+                     after = ldi.windows.data.max - ldi.windows.display.max;
+    if (std::min({before.x, before.y, after.x, after.y}) < 0) return {};
+    Side left{before.x}, top{before.y}, right{after.x}, bottom{after.y};
     const std::size_t alpha = ldi.alpha();
     const auto rgb = find_rgb(ldi.channels);
     const Imath::Box2i &display = ldi.windows.display;
     const LightReach light(lens, looks, ldi.windows);
-    double largest = 0;
     std::vector<float> all, blurred; // the brightness of the samples
     for_each_border_pixel(display, [&](int x, int y) {
         const Imath::V2d at(x + 0.5, y + 0.5), shown = light.shown_at(at);
@@ -70,10 +79,10 @@ BorderReach border_reach(const Ldi &ldi, const ThinLens &lens, const LensLooks &
             if (alpha != npos && ldi.values[alpha][i] < counts) continue;
             const double coc = circle_of_confusion(lens, ldi.optical_z(i));
             const Imath::V2d spread = light.at(at, coc);
-            if (x == display.min.x) largest = std::max(largest, spread.x + at.x - shown.x);
-            if (x == display.max.x) largest = std::max(largest, spread.x + shown.x - at.x);
-            if (y == display.min.y) largest = std::max(largest, spread.y + at.y - shown.y);
-            if (y == display.max.y) largest = std::max(largest, spread.y + shown.y - at.y);
+            if (x == display.min.x) left.see(spread.x + at.x - shown.x);
+            if (x == display.max.x) right.see(spread.x + shown.x - at.x);
+            if (y == display.min.y) top.see(spread.y + at.y - shown.y);
+            if (y == display.max.y) bottom.see(spread.y + shown.y - at.y);
             float brightness = 0;
             for (const std::size_t k : rgb)
                 if (k != npos) brightness = std::max(brightness, ldi.values[k][i]);
@@ -81,9 +90,8 @@ BorderReach border_reach(const Ldi &ldi, const ThinLens &lens, const LensLooks &
             if (std::max(spread.x, spread.y) >= smallest_coc) blurred.push_back(brightness);
         }
     });
-    reach.needed = int(std::ceil(std::min(largest, 65536.0)));
-    reach.bright = has_light_that_stands_out(all, blurred);
-    return reach;
+    const Side worst = std::max({left, right, top, bottom}, has_less);
+    return {worst.needed(), worst.rendered, has_light_that_stands_out(all, blurred)};
 }
 
 } // namespace sparselens

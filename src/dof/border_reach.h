@@ -11,9 +11,10 @@
 
 namespace sparselens {
 
+// On the side where most is missing; where nothing is, on that which needs most.
 struct BorderReach {
-    int needed = 0; // pixels of overscan on each side: as far as light reaches across the border, rounded up
-    int rendered = 0;    // pixels of overscan that the LDI has, on the side where it has the least
+    int needed = 0;      // pixels of overscan: as far as light reaches across the border, rounded up
+    int rendered = 0;    // pixels of overscan that the LDI has
     bool bright = false; // something at the border stands out so far that its disc would be seen
     bool too_little() const { return rendered < needed; }
 };

@@ -50,6 +50,27 @@ TEST(BorderReach, FindsLampsAtTheBorderThatAreDiscs) {
     EXPECT_FALSE(border_reach(plane(0.5, 0, {0, 7}), lens).bright);
 }
 
+// Of pixels twice as wide as high a disc of 4.7 pixels across is 9.4 pixels high.
+TEST(BorderReach, IsAskedOfEachSideByItself) {
+    Ldi wide = plane(4.7, 10);
+    ThinLens high = lens;
+    wide.windows.pixel_aspect = 2;
+    high.pixel_aspect = 2;
+    EXPECT_FALSE(border_reach(wide, high).too_little());
+    EXPECT_EQ(border_reach(wide, high).needed, 10);
+    wide.windows.display.min.x -= 5; // 5 pixels beside it
+    EXPECT_FALSE(border_reach(wide, high).too_little());
+    wide.windows.display.max.y += 3; // 7 below
+    const BorderReach reach = border_reach(wide, high);
+    EXPECT_TRUE(reach.too_little());
+    EXPECT_EQ(reach.needed, 10);
+    EXPECT_EQ(reach.rendered, 7);
+    wide.windows.display.min.x -= 1; // 4 beside it, where 5 are needed: less is missing than below
+    EXPECT_EQ(border_reach(wide, high).rendered, 7);
+    wide.windows.display.max.y -= 3;
+    EXPECT_EQ(border_reach(wide, high).rendered, 4);
+}
+
 TEST(BorderReach, OfAnElementThatDoesNotFillTheFrameIsNothing) {
     Ldi element = plane(12, 0);
     element.windows.display.max += Imath::V2i(10);
