@@ -2,7 +2,7 @@
 #include "support/ldi_samples.h"
 #include "support/views.h"
 #include "warp/deepen.h"
-#include "warp/pose_check.h"
+#include "checks/pose_check.h"
 #include "warp/reproject.h"
 #include "warp/warp.h"
 

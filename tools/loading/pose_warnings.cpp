@@ -1,6 +1,6 @@
 #include "loading/pose_warnings.h"
 
-#include "warp/pose_check.h"
+#include "checks/pose_check.h"
 
 #include <fmt/format.h>
 

@@ -4,7 +4,7 @@
 #include "dof/accumulate/accumulate.h"
 #include "lab/stress/scenes.h"
 #include "view/view.h"
-#include "warp/pose_check.h"
+#include "checks/pose_check.h"
 #include "warp/warp.h"
 
 #include <algorithm>

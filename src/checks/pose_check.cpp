@@ -1,6 +1,6 @@
-#include "warp/pose_check.h"
+#include "checks/pose_check.h"
 
-#include "warp/pose_evidence.h"
+#include "checks/pose_evidence.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "warp/pose_evidence.h"
+#include "checks/pose_evidence.h"
 
 #include "view/view_mapping.h"
 

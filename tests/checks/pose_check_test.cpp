@@ -1,6 +1,6 @@
 #include "base/random.h"
 #include "support/views.h"
-#include "warp/pose_check.h"
+#include "checks/pose_check.h"
 
 #include <gtest/gtest.h>
 
