@@ -28,10 +28,10 @@ std::string last_component(const std::string &layer) { return lower_case(split(l
 
 using Layers = std::unordered_set<std::string>;
 
-Layers layers_with_x(std::span<const Channel> channels) {
+Layers layers_with(const char *letter, std::span<const Channel> channels) {
     Layers layers;
     for (const Channel &channel : channels)
-        if (const auto [layer, last] = split(channel.name); lower_case(last) == "x") layers.insert(layer);
+        if (const auto [layer, last] = split(channel.name); lower_case(last) == letter) layers.insert(layer);
     return layers;
 }
 
@@ -72,6 +72,29 @@ bool is_data(const std::string &name, const Layers &with_x) {
     return is_among(coordinates, lower) || (lower == "y" && with_x.contains(layer));
 }
 
+// Whether a component of a name is that of numbers of objects or materials: IndexOB of Blender, ID of Arnold, objectid of
+// Karma. Asked of every sample, so without copies.
+bool is_id_word(std::string_view word) {
+    static constexpr std::array<std::string_view, 10> words{
+        "id",         "indexob",     "indexma",    "objectid",    "object_id",
+        "materialid", "material_id", "instanceid", "instance_id", "primid"};
+    const auto same = [](char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == b; };
+    return word.ends_with("ID") || std::ranges::any_of(words, [&](std::string_view one) {
+               return std::ranges::equal(word, one, same);
+           });
+}
+
+// Which component of the name says that the channel holds such numbers: objectid, fg.ID; IndexOB.X. A depth never does.
+enum class IdWord { none, channel, layer };
+IdWord id_word(std::string_view name) {
+    const std::size_t dot = name.rfind('.');
+    const std::string_view last = name.substr(dot + 1); // all of it where there is no dot
+    if (is_id_word(last)) return IdWord::channel;
+    if (dot == name.npos || last == "Z" || last == "z") return IdWord::none;
+    const std::string_view layer = name.substr(0, dot);
+    return is_id_word(layer.substr(layer.rfind('.') + 1)) ? IdWord::layer : IdWord::none;
+}
+
 // The two numbers that a channel's name says of its place in a Cryptomatte: CryptoObject01.B is the id of rank 3.
 struct MattePlace {
     std::string matte;
@@ -99,7 +122,10 @@ std::optional<MattePlace> matte_place(const Channel &channel, std::span<const st
 
 } // namespace
 
-bool holds_ids(const Channel &channel) { return channel.type == PixelType::uint32 || is_in_matte(channel); }
+bool holds_ids(const Channel &channel) {
+    return channel.type == PixelType::uint32 || is_in_matte(channel) ||
+           (channel.kind == ChannelKind::data && id_word(channel.name) != IdWord::none);
+}
 
 bool is_in_matte(const Channel &channel) {
     return channel.kind == ChannelKind::matte_id || channel.kind == ChannelKind::matte_coverage;
@@ -108,13 +134,19 @@ bool is_in_matte(const Channel &channel) {
 bool is_light(const Channel &channel) { return !holds_ids(channel) && channel.kind == ChannelKind::light; }
 
 void find_kinds(std::span<Channel> channels, std::span<const std::string> mattes) {
-    const Layers with_x = layers_with_x(channels);
+    const Layers with_x = layers_with("x", channels), coloured = layers_with("g", channels);
+    const auto is_id = [&](const Channel &channel) {
+        const IdWord word = id_word(channel.name);
+        return channel.type != PixelType::uint32 &&
+               (word == IdWord::channel ||
+                (word == IdWord::layer && !coloured.contains(split(channel.name).layer)));
+    };
     for (Channel &channel : channels) {
         if (const auto place = matte_place(channel, mattes)) {
             channel.kind = place->kind;
             channel.matte = place->matte;
             channel.rank = place->rank;
-        } else if (channel.kind == ChannelKind::light && is_data(channel.name, with_x))
+        } else if (channel.kind == ChannelKind::light && (is_data(channel.name, with_x) || is_id(channel)))
             channel.kind = ChannelKind::data;
     }
 }

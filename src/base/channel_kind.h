@@ -2,10 +2,10 @@
 //
 //   light     colour and coverage: they are averaged; small bright ones are spread exactly, those near focus sharpened
 //   data      normals, positions, UV, motion, further depths: they are averaged, and that is all
-//   ids       integers, and the pairs of a Cryptomatte (matte.h): no calculation with them means anything
+//   ids       integers, numbers of layers named so (below), and the pairs of a Cryptomatte (matte.h): never calculated with
 //
 // A channel holds data if it is the X, Y, Z, U, V or W of a layer (Y beside X only: alone it is luminance), or Z or ZBack, or
-// if its layer has one of the names that renderers give to data (N, P, normal, position, uv, motion vector and the like).
+// if its layer is named so (N, P, normal, uv, motion vector, ...); and ids if that is IndexOB, objectid, *ID, ... without colours.
 #pragma once
 
 #include <span>
@@ -15,7 +15,7 @@ namespace sparselens {
 
 struct Channel;
 
-// Integers are ids by their type, whatever their kind says.
+// Integers are ids by their type, whatever their kind says; numbers of layers named as ids are data that holds_ids().
 enum class ChannelKind { light, data, matte_id, matte_coverage };
 
 bool holds_ids(const Channel &channel);

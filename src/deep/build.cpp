@@ -42,7 +42,7 @@ void append(Ldi &out, const Ldi &from, const MergedSample &sample) {
     const bool unchanged = sample.terms.size() == 1 && sample.terms[0].coefficient == 1;
     bool mattes = false;
     for (std::size_t k = 0; k < from.values.size(); ++k) {
-        const bool copied = holds_ids(from.channels[k]) || unchanged;
+        const bool copied = unchanged || holds_ids(from.channels[k]);
         mattes = mattes || (is_in_matte(from.channels[k]) && !unchanged);
         double sum = 0; // many small coefficients: float would lose the small ones
         if (!copied)

@@ -40,6 +40,20 @@ TEST(ChannelKind, IntegersAreIds) {
     EXPECT_FALSE(is_in_matte({"objectId", PixelType::uint32}));
 }
 
+TEST(ChannelKind, NumbersOfLayersNamedSoAreIds) {
+    for (const char *name : {"ViewLayer.IndexOB.X", "ViewLayer.IndexMA.X", "ID", "objectid", "ObjectID.Y",
+                             "fg.materialID", "primid"}) {
+        const Channel channel = found({{name, PixelType::float32}})[0];
+        EXPECT_TRUE(holds_ids(channel)) << name;
+        EXPECT_FALSE(is_light(channel)) << name;
+        EXPECT_FALSE(is_in_matte(channel)) << name;
+    }
+    for (const char *name : {"grid", "valid.R", "R", "Index.X", "objectID.Z", "IndexOB.N.X", "ab.grid.X"})
+        EXPECT_FALSE(holds_ids(found({{name, PixelType::float32}})[0])) << name;
+    for (const Channel &channel : found({{"objectID.R"}, {"objectID.G"}, {"objectID.B"}}))
+        EXPECT_TRUE(is_light(channel)) << "colours that stand for ids";
+}
+
 TEST(ChannelKind, RanksOfACryptomatteByNameOrByTheHeader) {
     const auto channels =
         found({{"CryptoObject01.B", PixelType::float32}, {"ViewLayer.CryptoAsset00.g", PixelType::float32}});

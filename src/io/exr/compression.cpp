@@ -50,15 +50,14 @@ Imf::Compression output_compression(bool deep, std::optional<Imf::Compression> a
     const auto allowed = [deep](const NamedCompression *method) { return method && (method->deep || !deep); };
     if (asked && !allowed(method_of(*asked)))
         throw UsageError("--compression: deep files may have " + compression_names(true, ", ") + " only");
-    const auto matte = std::ranges::find_if(channels, is_in_matte);
-    const auto keeps = [&](const NamedCompression *method) {
-        return method->exact || matte == channels.end();
-    };
+    const auto is_float_id = [](const Channel &c) { return holds_ids(c) && c.type != PixelType::uint32; };
+    const auto ids = std::ranges::find_if(channels, is_float_id);
+    const auto keeps = [&](const NamedCompression *method) { return method->exact || ids == channels.end(); };
     if (asked && !keeps(method_of(*asked)))
         throw UsageError(
             fmt::format("--compression: {} would destroy the ids in channel {}; use none, rle, zips, zip, "
                         "piz, b44 or b44a, or leave it out with --channels",
-                        method_of(*asked)->name, matte->name));
+                        method_of(*asked)->name, ids->name));
     if (asked) return *asked;
     if (to_pipe) return Imf::NO_COMPRESSION;
     const NamedCompression *own = method_of(metadata.compression());
