@@ -1,4 +1,5 @@
 // ldi-plan: plans which views from the rim of the lens, and which of their pixels, are worth rendering.
+#include "checks/view_warnings.h"
 #include "harness/tool.h"
 #include "io/cameras_file.h"
 #include "io/open_view.h"
@@ -42,6 +43,7 @@ void run(const PlanCommand &options, const ToolContext &tool) {
     warn_of_invalid_values(tool, options.centre, centre.bad);
     const Windows &windows = centre.view.image.windows;
     const ThinLens lens = centre.lens();
+    warn_of(tool, picture_warnings(centre.view, {centre.depth, centre.depth_filtered, lens}));
     const Plan plan = make_plan(centre.view, lens, options.plan, *tool.progress);
     write_plan(options.output, plan, {options.centre, windows, lens, options.plan.margin}, options.masks);
     if (!options.cameras.empty())

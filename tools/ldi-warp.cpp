@@ -1,12 +1,12 @@
 // ldi-warp: warps a centre view and views from the rim of the lens into one layered depth image.
 #include "base/error.h"
+#include "checks/view_warnings.h"
 #include "gpu/warp/warp_device.h"
 #include "harness/tool.h"
 #include "io/camera/camera_write.h"
 #include "io/exr/exr_deep.h"
 #include "loading/chosen_device.h"
 #include "loading/notices.h"
-#include "loading/pose_warnings.h"
 #include "loading/stage_stats.h"
 #include "loading/views.h"
 #include "options/colour_options.h"
@@ -48,6 +48,7 @@ void run(const WarpCommand &options, const ToolContext &tool, ChosenWarpDevice &
         say_reading(tool, in.views[i].name, in.notes[i], in.warnings[i]);
         warn_of_invalid_values(tool, in.views[i].name, in.bad[i]);
     }
+    say_layers(tool, in.views[0].name, in.views[0].image.channels);
     const Imf::Header as_read = in.header;
     for (View &view : in.views) in.header = to_linear(tool, options.colour, view.name, as_read, view);
     const WarpOptions warp_by = with_lens({.merge = options.merge,
@@ -56,18 +57,21 @@ void run(const WarpCommand &options, const ToolContext &tool, ChosenWarpDevice &
                                            .find_images = options.find_images,
                                            .device = device.open(options.device, tool)},
                                           in.camera, in.views);
+    ViewFacts facts{.depth = options.depth.meaning,
+                    .depth_filtered = in.depth_filtered,
+                    .focal_px = warp_by.focal_px,
+                    .lens_radius = lens_radius_of(in.camera).value_or(0)};
+    if (knows_lens(in.camera, in.views[0].image.windows))
+        facts.lens = resolve_lens(in.camera, in.views[0].image.windows);
     write_camera(in.header, in.camera);
     append_history(in.header, tool, options.history);
     write_picture_window(in.header, in.views[0].image.windows.data);
     Ldi ldi = warp(in.views, warp_by, *tool.progress);
     device.report(tool);
-    warn_of_wrong_poses(tool, in.views, warp_by.focal_px, lens_radius_of(in.camera).value_or(0));
+    warn_of(tool, view_warnings(in.views, facts));
     tool.say(fmt::format("{} views, {} samples in {} pixels", in.views.size(), ldi.samples(),
                          ldi.windows.pixels()));
-    const auto &camera = in.camera;
-    if (camera.focus_distance && lens_radius_of(camera) &&
-        focal_length_px(camera, ldi.windows.display_width()))
-        say_border_reach(tool, options.output, ldi, resolve_lens(camera, ldi.windows));
+    if (facts.lens) say_border_reach(tool, options.output, ldi, *facts.lens);
     *tool.last_step = [&tool, stats = warp_stats(in.views, ldi), ldi = std::move(ldi), header = in.header,
                        output = options.output, compression = options.compression] {
         warn_of_clamped(tool, output, write_ldi(output, ldi, header, compression));

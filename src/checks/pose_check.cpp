@@ -12,14 +12,17 @@ namespace sparselens {
 
 namespace {
 
-constexpr std::size_t enough = 200;  // pixels that tell
-constexpr double clearly = 0.7;      // times the contradiction
-constexpr double at_least = 0.01;    // less: rounding, noise
-constexpr double least_motion = 1;   // pixels between two positions: less is not seen
-constexpr double usual_motion = 16;  // of a view from the rim, pixels
-constexpr double fine_motion = 0.25; // pixels
-constexpr double one_side = 175;     // degrees within which all other views stand
-constexpr double equally_far = 1.2;  // ratio of distances
+constexpr std::size_t enough = 200;    // pixels that tell
+constexpr double clearly = 0.7;        // times the contradiction
+constexpr double at_least = 0.01;      // less: rounding, noise
+constexpr double least_motion = 1;     // pixels between two positions: less is not seen
+constexpr double usual_motion = 16;    // of a view from the rim, pixels
+constexpr double fine_motion = 0.25;   // pixels
+constexpr double worth_turning = 0.05; // less contradiction is that of noise
+constexpr double farthest_turned = 48; // pixels
+constexpr double turning_step = 1.5;   // pixels
+constexpr double one_side = 175;       // degrees within which all other views stand
+constexpr double equally_far = 1.2;    // ratio of distances
 
 // The least contradicted of the positions tried so far. Where much less is seen, little can contradict.
 class Search {
@@ -99,6 +102,42 @@ std::optional<Imath::V2d> better_position(const View &centre, const View &view, 
     return search.best();
 }
 
+std::optional<Imath::V2d> turned_by(const View &centre, const View &view, double focal_px) {
+    const PoseEvidence evidence(centre, view, focal_px);
+    const PoseVerdict stated = evidence.at(view.position);
+    if (stated.told < enough || stated.contradiction < worth_turning) return {};
+    const double width = view.image.windows.display_width();
+    Imath::V2d best(0, 0); // pixels, right and down
+    double least = stated.contradiction;
+    const auto attempt = [&](const Imath::V2d &axis) {
+        const PoseVerdict there = evidence.at(view.position, axis / width);
+        if (there.told < enough || 2 * there.told < stated.told || there.contradiction >= least) return;
+        least = there.contradiction;
+        best = axis;
+    };
+    std::vector<Imath::V2d> directions{{1, 0}, {0, 1}};
+    if (view.position.length() > 0)
+        directions.push_back(
+            Imath::V2d(view.position.x, -view.position.y).normalized()); // aimed at something
+    for (const Imath::V2d &direction : directions)
+        for (double by = 1; by <= farthest_turned; by += turning_step)
+            for (const double way : {by, -by}) attempt(direction * way);
+    for (double step = turning_step; step >= fine_motion;) {
+        const Imath::V2d before = best;
+        for (const Imath::V2d &axis : {Imath::V2d(1, 0), Imath::V2d(0, 1)})
+            for (const double way : {step, -step}) attempt(before + axis * way);
+        if (best == before) step /= 2;
+    }
+    if (best.length() < least_motion ||
+        least > std::min(clearly * stated.contradiction, stated.contradiction - at_least))
+        return {};
+    if (const auto moved = better_position(centre, view, focal_px);
+        moved && evidence.at(*moved).contradiction <= least)
+        return {};
+    const double degrees = 180 / std::numbers::pi;
+    return Imath::V2d(-std::atan2(best.x, focal_px), std::atan2(best.y, focal_px)) * degrees;
+}
+
 std::optional<std::size_t> same_picture(std::span<const View> views, std::size_t i, double focal_px) {
     const View &view = views[i];
     for (std::size_t other = 0; other < i; ++other) {
@@ -107,6 +146,18 @@ std::optional<std::size_t> same_picture(std::span<const View> views, std::size_t
         const double moved = (view.position - views[other].position).length() * evidence.motion();
         if (evidence.size() >= enough && moved >= least_motion) return other;
     }
+    return {};
+}
+
+std::optional<std::size_t> same_picture_and_place(std::span<const View> views, std::size_t i) {
+    const View &view = views[i];
+    const auto shows_something = [](float z) { return z > 0; };
+    if (std::ranges::none_of(view.z, shows_something))
+        return {}; // a view of which no pixel was worth rendering
+    for (std::size_t other = 0; other < i; ++other)
+        if (views[other].position == view.position && views[other].z == view.z &&
+            views[other].image.values == view.image.values)
+            return other;
     return {};
 }
 

@@ -17,9 +17,16 @@ namespace sparselens {
 std::optional<Imath::V2d> better_position(const View &centre, const View &view, double focal_px,
                                           double reach = 0);
 
+// How far the view's axis is turned, degrees to the right and up, where it clearly agrees with the centre view at its stated
+// place if it is turned so, and more than at any other place; as cameras are that are aimed at the focus. Empty else.
+std::optional<Imath::V2d> turned_by(const View &centre, const View &view, double focal_px);
+
 // The first of the views before views[i] that is the same picture, though it is said to stand elsewhere, whence it would
 // show the scene otherwise.
 std::optional<std::size_t> same_picture(std::span<const View> views, std::size_t i, double focal_px);
+
+// The first of the views before views[i] that is the same picture from the same place: one file given twice.
+std::optional<std::size_t> same_picture_and_place(std::span<const View> views, std::size_t i);
 
 // Whether views[0], which has to be the centre, stands at the edge of the others: all of them are to one side of it, and
 // they are not equally far from it, or farther than `lens_radius` (0: unknown). Of a single other view nothing is said.

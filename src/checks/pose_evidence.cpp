@@ -69,8 +69,10 @@ PoseEvidence::PoseEvidence(const View &centre, const View &view, double focal_px
         }
 }
 
-PoseVerdict PoseEvidence::at(const Imath::V2d &position) const {
-    const ViewMapping mapping(position, focal_px_, view_.view.image.windows, view_.view.framing,
+PoseVerdict PoseEvidence::at(const Imath::V2d &position, const Imath::V2d &axis) const {
+    Framing framing = view_.view.framing;
+    framing.principal_point += axis;
+    const ViewMapping mapping(position, focal_px_, view_.view.image.windows, framing,
                               centre_.view.framing.principal_point);
     double sum = 0;
     PoseVerdict verdict;

@@ -12,9 +12,9 @@
 
 namespace sparselens {
 
-// Only normalised depths need a near plane and take planes from the header (the attributes near and far, nearClip and
+// Only normalised and hyperbolic depths need a near plane and take planes from the header (the attributes near and far, nearClip and
 // farClip, clipNear and clipFar). UsageError: one of them is unknown, the far one is not behind the near one, or a near
-// plane is given for depths that are not normalised.
+// plane is given for other depths.
 DepthRange depth_range(const DepthOptions &options, const Imf::Header &header);
 
 // A warning where depths that are read as they stand look like normalised ones: none is above 1, and the farthest are

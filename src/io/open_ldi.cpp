@@ -138,8 +138,13 @@ OpenedLdi ready_ldi(LdiFile file, const std::string &path, const OpenOptions &op
         opened.warnings.push_back(*warning);
     make_planar(opened.ldi, options.depth.meaning, depth_range(options.depth, opened.header), opened.camera);
     opened.bad = sanitize(opened.ldi, opened.name);
-    if (const std::size_t settled = deep ? 0 : settle_edge_depths(opened.ldi))
-        opened.notes.push_back(edge_note(settled));
+    if (!deep) {
+        const SettledEdges settled = settle_edge_depths(opened.ldi);
+        opened.depth_filtered = settled.filtered;
+        if (settled.count > 0) opened.notes.push_back(edge_note(settled.count));
+    }
+    opened.deep = deep;
+    opened.depth = options.depth.meaning;
     const std::size_t in_file = opened.ldi.samples();
     opened.ldi = tidy(std::move(opened.ldi));
     opened.coverage_by_colour = has_coverage_by_colour(opened.ldi);

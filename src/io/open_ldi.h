@@ -25,11 +25,14 @@ struct OpenedLdi {
     InvalidValues bad; // what was repaired
     std::size_t invisible =
         0; // samples of the file that tidy() left out: they show nothing, or are one with another
-    std::size_t samples_read = 0;             // tidy ones; more than `ldi` has where they were reduced
-    bool reduced = false;                     // by a ReduceSamples
-    bool coverage_by_colour = false;          // AR, AG and AB differ in the file (deep/channel_alpha.h)
-    std::optional<PackedRows> packed = {};    // the samples, in place of those of `ldi`, where they are many
-    std::vector<std::string> notes, warnings; // see LdiFile
+    std::size_t samples_read = 0;              // tidy ones; more than `ldi` has where they were reduced
+    bool reduced = false;                      // by a ReduceSamples
+    bool deep = true;                          // the file; else it is a flat picture with depth
+    DepthMeaning depth = DepthMeaning::planar; // what the file's depths were read as
+    bool depth_filtered = false;               // of a flat picture: see edge_depths.h
+    bool coverage_by_colour = false;           // AR, AG and AB differ in the file (deep/channel_alpha.h)
+    std::optional<PackedRows> packed = {};     // the samples, in place of those of `ldi`, where they are many
+    std::vector<std::string> notes, warnings;  // see LdiFile
 
     // UsageError: a value of the lens is unknown (see resolve_lens.h).
     ThinLens lens() const { return resolve_lens(camera, ldi.windows); }

@@ -31,12 +31,12 @@ OpenedView open_view(const std::string &path, const OpenOptions &options, const 
 
 OpenedView ready_view(FlatFile file, const std::string &path, const OpenOptions &options,
                       const Camera &otherwise) {
-    OpenedView opened{{display_name(path), std::move(file.image), {}},
-                      std::move(file.header),
-                      {},
-                      {},
-                      std::move(file.notes),
-                      std::move(file.warnings)};
+    OpenedView opened{.view = {display_name(path), std::move(file.image), {}},
+                      .header = std::move(file.header),
+                      .camera = {},
+                      .bad = {},
+                      .notes = std::move(file.notes),
+                      .warnings = std::move(file.warnings)};
     View &view = opened.view;
     opened.notes.push_back("depth: " + find_depth_channel(view.image.channels, options.depth.channel, path));
     view.z = take_depth(view.image, options.depth.channel, path);
@@ -48,7 +48,10 @@ OpenedView ready_view(FlatFile file, const std::string &path, const OpenOptions 
                            depth_range(options.depth, opened.header), frustum);
     for (std::size_t i = 0; i < view.z.size(); ++i) view.z[i] = read.planar(view.z[i], i);
     opened.bad = sanitize(view);
-    if (const std::size_t settled = settle_edge_depths(view)) opened.notes.push_back(edge_note(settled));
+    const SettledEdges settled = settle_edge_depths(view);
+    opened.depth = options.depth.meaning;
+    opened.depth_filtered = settled.filtered;
+    if (settled.count > 0) opened.notes.push_back(edge_note(settled.count));
     return opened;
 }
 

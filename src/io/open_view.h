@@ -20,6 +20,8 @@ struct OpenedView {
     Imf::Header header;
     Camera camera;                                      // of the header, with the user's values over it
     InvalidValues bad;                                  // what was repaired
+    DepthMeaning depth = DepthMeaning::planar;          // what the file's depths were read as
+    bool depth_filtered = false;                        // see SettledEdges
     std::vector<std::string> notes = {}, warnings = {}; // see FlatFile
 
     // UsageError: a value of the lens is unknown (see resolve_lens.h).

@@ -16,7 +16,7 @@ _Pair = tuple[float, float]
 _Box = tuple[int, int, int, int]
 _Matrix = Union[Sequence[Sequence[float]], numpy.typing.NDArray[numpy.floating[Any]]]
 _Layout = Literal["hwc", "chw"]
-_Depth = Literal["z", "distance", "inverse", "negative", "normalized"]
+_Depth = Literal["z", "distance", "inverse", "negative", "normalized", "hyperbolic"]
 _Progress = Callable[[str, int], object]
 
 class Error(RuntimeError): ...

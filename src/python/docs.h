@@ -158,7 +158,7 @@ Opens a rendered view, a flat EXR with depth, and returns a View. Invalid values
 position: (x, y), where the camera stood relative to the centre view, scene units; default: as the file says.
 center: the centre view, which gives what this file does not say of its frustum.
 depth: what depth channels hold: "z" planar, "distance" along the ray, "inverse" 1 / z, "negative" -z,
-  "normalized" 0 at near to 1 at far. Depths beyond far (default: 1e10) are sky.
+  "normalized" 0 at near to 1 at far, "hyperbolic" the same, linear in 1 / z. Depths beyond far (default: 1e10) are sky.
 depth_channel: default: the first of Z, depth.Z and *.Depth.Z.
 stereo_view: the view of a stereo file, such as "right".
 layer: the picture of a file that holds several, such as a view layer of Blender.

@@ -172,7 +172,8 @@ DepthOptions depth_options(Keywords &keywords) {
                                                                {"distance", DepthMeaning::distance},
                                                                {"inverse", DepthMeaning::inverse},
                                                                {"negative", DepthMeaning::negative},
-                                                               {"normalized", DepthMeaning::normalized}});
+                                                               {"normalized", DepthMeaning::normalized},
+                                                               {"hyperbolic", DepthMeaning::hyperbolic}});
     return {.meaning = meaning.value_or(DepthMeaning::planar),
             .channel = keywords.text("depth_channel"),
             .picture = picture_choice(keywords),

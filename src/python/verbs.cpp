@@ -1,4 +1,5 @@
 #include "base/error.h"
+#include "checks/view_warnings.h"
 #include "deep/cluster.h"
 #include "deep/flatten.h"
 #include "deep/front_depth.h"
@@ -108,10 +109,16 @@ LdiObject warp(const py::object &views, const py::kwargs &given) {
         out.camera = place_views(placed, stated);
         write_camera(out.header, out.camera);
         write_picture_window(out.header, placed[0].image.windows.data);
+        ViewFacts facts{.depth = from[0]->in.depth, .depth_filtered = from[0]->in.depth_filtered};
+        facts.lens_radius = lens_radius_of(out.camera).value_or(0);
+        const Windows &windows = placed[0].image.windows;
+        facts.focal_px = focal_length_px(out.camera, windows.display_width()).value_or(0);
+        if (knows_lens(out.camera, windows)) facts.lens = resolve_lens(out.camera, windows);
         with_warp_device(given_device.empty() ? "cpu" : given_device, warnings, [&](WarpDevice *device) {
             options.device = device;
             out.ldi = warp(placed, with_lens(options, out.camera, placed), said);
         });
+        for (std::string &warning : view_warnings(placed, facts)) warnings.push_back(std::move(warning));
         return out;
     });
     for (const std::string &warning : warnings) warn(warning);

@@ -9,7 +9,7 @@ namespace sparselens {
 bool is_sky(DepthMeaning meaning, double value, double far) {
     constexpr double largest_half = 65504;
     if (meaning == DepthMeaning::inverse) return value >= 0 && value <= 1 / far;
-    if (meaning == DepthMeaning::normalized) return value >= 1;
+    if (meaning == DepthMeaning::normalized || meaning == DepthMeaning::hyperbolic) return value >= 1;
     const double depth =
         meaning == DepthMeaning::negative ? std::abs(value) : value; // the sky may be positive
     return depth >= far || depth == largest_half;
@@ -24,6 +24,10 @@ double planar_depth(DepthMeaning meaning, double value, int x, int y, const Wind
     const double right = x + 0.5 - axis.x;
     const double down = (y + 0.5 - axis.y) / windows.pixel_aspect;
     return value / std::sqrt(1 + (right * right + down * down) / (focal_px * focal_px));
+}
+
+double hyperbolic_depth(double value, const DepthRange &range) {
+    return range.near / (1 - value * (1 - range.near / range.far));
 }
 
 double normalized_depth(double value, const DepthRange &range) {

@@ -8,8 +8,9 @@
 namespace sparselens {
 
 // What the numbers of a depth channel are: planar z, the length of the ray, 1 / planar z, -z (the z of a camera space that
-// looks along its negative axis), or a number from 0 to 1 between two planes (normalized_depth).
-enum class DepthMeaning { planar, distance, inverse, negative, normalized };
+// looks along its negative axis), a number from 0 to 1 between two planes (normalized_depth), or such a number that is linear
+// in 1 / z, as depth buffers hold it (hyperbolic_depth).
+enum class DepthMeaning { planar, distance, inverse, negative, normalized, hyperbolic };
 
 // Planes in front of the camera, scene units. What lies at `far` or beyond is the sky.
 struct DepthRange {
@@ -18,17 +19,20 @@ struct DepthRange {
 
 // Whether a depth value stands for the sky: `far` and everything beyond (renderers write 1e10, 1e30, infinity or their
 // far clip), and 65504, the largest half, to which such values are clamped. For inverse depth: 1 / far and below; for
-// normalised depth: 1 and above.
+// normalised and hyperbolic depth: 1 and above.
 bool is_sky(DepthMeaning meaning, double value, double far);
 
 // The planar depth of pixel (x, y), EXR coordinates. focal_px (pixels) and the principal point (where the optical axis
 // meets the picture, see Camera) are used for ray lengths only. An inverse depth of 0 is infinity. `meaning` is not
-// normalized.
+// normalized or hyperbolic.
 double planar_depth(DepthMeaning meaning, double value, int x, int y, const Windows &windows, double focal_px,
                     const Imath::V2d &principal_point = {0, 0});
 
 // The depth of a value that is 0 at the near plane and 1 at the far one, linear in between; where the far plane is
 // infinitely far, as a depth buffer without a far plane has it: near / (1 - value).
 double normalized_depth(double value, const DepthRange &range);
+
+// The same, linear in 1 / z: (1 / near - 1 / z) / (1 / near - 1 / far) is the value.
+double hyperbolic_depth(double value, const DepthRange &range);
 
 } // namespace sparselens

@@ -16,6 +16,7 @@ float DepthReader::planar(float value, std::size_t i) const {
     if (is_sky(meaning_, double(value), range_.far)) return std::numeric_limits<float>::infinity();
     if (meaning_ == DepthMeaning::planar) return value;
     if (meaning_ == DepthMeaning::normalized) return float(normalized_depth(double(value), range_));
+    if (meaning_ == DepthMeaning::hyperbolic) return float(hyperbolic_depth(double(value), range_));
     const Imath::V2i p = windows_.pixel(i);
     return float(planar_depth(meaning_, double(value), p.x, p.y, windows_, focal_px_, principal_point_));
 }

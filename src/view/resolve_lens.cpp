@@ -100,6 +100,12 @@ std::optional<double> perceptive_scale(const Camera &camera, const Windows &wind
     return radius > 0 ? radius * resolve_focal_px(camera, windows) : 0;
 }
 
+bool knows_lens(const Camera &camera, const Windows &windows) {
+    const std::optional<double> radius = lens_radius_of(camera);
+    return radius == 0.0 ||
+           (radius && focal_length_px(camera, windows.display_width()) && camera.focus_distance);
+}
+
 ThinLens resolve_lens(const Camera &camera, const Windows &windows) {
     const std::optional<double> radius = lens_radius_of(camera);
     if (radius == 0.0) return {.radius = 0, .pixel_aspect = windows.pixel_aspect};

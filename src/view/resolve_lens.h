@@ -39,6 +39,9 @@ double resolve_focal_px(const Camera &camera, const Windows &windows);
 // is unknown: throws UsageError if `required`, else empty.
 std::optional<double> perceptive_scale(const Camera &camera, const Windows &windows, bool required);
 
+// Whether resolve_lens() knows all that it needs.
+bool knows_lens(const Camera &camera, const Windows &windows);
+
 // The lens; throws UsageError, which names all missing values. A lens of radius 0 (or f-number inf) needs no other
 // value. `windows` gives the display width and the pixel aspect.
 ThinLens resolve_lens(const Camera &camera, const Windows &windows);

@@ -223,7 +223,7 @@ Row row_at(const Pixels &pixels, int y) {
 }
 
 // Replaces them all at once: none is taken from a depth that was replaced before it.
-std::size_t settle(const Pixels &pixels, std::span<float> z) {
+SettledEdges settle(const Pixels &pixels, std::span<float> z) {
     std::vector<Row> rows(std::size_t(pixels.grid.height()));
     parallel_for(rows.size(), [&](std::size_t y) { rows[y] = row_at(pixels, int(y)); });
     std::size_t count = 0, parted = 0, mixed = 0;
@@ -239,7 +239,7 @@ std::size_t settle(const Pixels &pixels, std::span<float> z) {
     const bool filtered = double(mixed) > least_mixed * double(parted);
     for (const Row &row : rows)
         if (filtered) replace(row.opaque);
-    return count;
+    return {count, filtered};
 }
 
 // plane(k) is that of channel k.
@@ -257,14 +257,14 @@ Pixels pixels_of(const Windows &windows, std::span<const Channel> channels, std:
 
 } // namespace
 
-std::size_t settle_edge_depths(View &view) {
+SettledEdges settle_edge_depths(View &view) {
     const Image &image = view.image;
     return settle(
         pixels_of(image.windows, image.channels, view.z, [&](std::size_t k) { return image.plane(k); }),
         view.z);
 }
 
-std::size_t settle_edge_depths(Ldi &ldi) {
+SettledEdges settle_edge_depths(Ldi &ldi) {
     return settle(pixels_of(ldi.windows, ldi.channels, ldi.z,
                             [&](std::size_t k) { return std::span<const float>(ldi.values[k]); }),
                   ldi.z);

@@ -21,10 +21,15 @@
 
 namespace sparselens {
 
-// How many depths were replaced. Depths are planar, > 0 up to inf; colours are premultiplied, and all values valid (see
+struct SettledEdges {
+    std::size_t count = 0; // depths that were replaced
+    bool filtered = false; // opaque pixels among them: the depth is filtered like a colour
+};
+
+// Depths are planar, > 0 up to inf; colours are premultiplied, and all values valid (see
 // sanitize.h). An Ldi must have one sample in each pixel.
-std::size_t settle_edge_depths(View &view);
-std::size_t settle_edge_depths(Ldi &ldi);
+SettledEdges settle_edge_depths(View &view);
+SettledEdges settle_edge_depths(Ldi &ldi);
 
 // What a reader notes of it.
 std::string edge_note(std::size_t settled);

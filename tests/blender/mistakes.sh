@@ -29,3 +29,25 @@ same either/center.exr back/center.exr "what is written without --layer"
 exits 1 blender -b layers.blend -P "$views" -- -o none --layer hero
 grep -q "no view layer 'hero'; it has: back, front" stderr || fail "--layer hero: $(cat stderr)"
 echo "two view layers: each by its own depth"
+
+# A view rendered by hand with depth of field on is noticed; one without, and the script's, are not.
+in_blender -P "$scene" -- CYCLES 480x270 save "$PWD/large.blend"
+variant large pinhole
+lens=(--focal-length 50 --sensor-width 36 --fstop 0.5 --focus-distance 4)
+for kind in large pinhole; do
+    in_blender $kind.blend -P "$variants" -- render 16 1 1 "$PWD/$kind.####.exr"
+    exits 0 "$bin/ldi-warp" $kind.0001.exr "${lens[@]}" -o x.exr
+    mv stderr $kind.said
+done
+grep -q 'warning: large.0001.exr: its edges out of focus are blurred.*switch depth of field off' large.said || fail "depth of field: $(cat large.said)"
+if grep -v 'render more overscan' pinhole.said; then fail "a pinhole"; fi
+echo "depth of field that is on: said"
+
+# Cameras that are aimed at the focus, as the eyes of a stereo pair that toes in.
+variant large toe,pinhole
+in_blender toe,pinhole.blend -P "$views" -- -o toe --samples 8 --views 0
+exits 1 "$bin/ldi-warp" toe/center_L.exr toe/center_R.exr -o x.exr
+grep -q 'center_R.exr: .*turned' stderr || fail "a turned view by its matrix: $(cat stderr)"
+exits 0 "$bin/ldi-warp" toe/center_L.exr --view 0.2,0 toe/center_R.exr -o x.exr
+grep -q 'warning: toe/center_R.exr: disagrees .* if it were turned by .* render all views with parallel axes' stderr || fail "a turned view: $(cat stderr)"
+echo "turned views: said"

@@ -266,6 +266,7 @@ def make_still(scene, frame):
 def render(scene, samples, first, last, path):
     settings = scene.render.image_settings
     settings.file_format, settings.color_mode, settings.color_depth = "OPEN_EXR", "RGBA", "16"
+    settings.use_zbuffer = scene.view_layers[0].use_pass_z = True
     scene.cycles.samples = samples
     for frame in range(first, last + 1):
         scene.frame_set(frame)

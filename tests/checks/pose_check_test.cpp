@@ -1,10 +1,12 @@
 #include "base/random.h"
-#include "support/views.h"
 #include "checks/pose_check.h"
+#include "support/views.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <vector>
 
@@ -101,6 +103,47 @@ TEST(PoseCheck, TheSamePictureFromTwoPlacesIsFound) {
     EXPECT_FALSE(same_picture(views, 2, focal_px));
     views[3].position = {0.1, 0.005}; // a twentieth of a pixel away at the wall, a quarter at the card
     EXPECT_FALSE(same_picture(views, 3, focal_px));
+}
+
+// The picture moved by so many pixels, right and down: turned, or nearly so.
+View shifted(const View &view, const Imath::V2i &by) {
+    View moved = view;
+    const Windows &w = view.image.windows;
+    for (int y = w.data.min.y; y <= w.data.max.y; ++y)
+        for (int x = w.data.min.x; x <= w.data.max.x; ++x) {
+            const Imath::V2i from(std::clamp(x - by.x, w.data.min.x, w.data.max.x),
+                                  std::clamp(y - by.y, w.data.min.y, w.data.max.y));
+            moved.z[w.index(x, y)] = view.z[w.index(from.x, from.y)];
+            for (std::size_t k = 0; k < view.image.channels.size(); ++k)
+                moved.image.at(k, x, y) = view.image.at(k, from.x, from.y);
+        }
+    return moved;
+}
+
+TEST(PoseCheck, ATurnedViewIsNamedAsTurned) {
+    const View centre = card_before_wall({0, 0}), view = card_before_wall({0.15, 0.05});
+    EXPECT_FALSE(turned_by(centre, view, focal_px));
+    for (const Imath::V2i &by : {Imath::V2i(7, 0), Imath::V2i(-9, 3), Imath::V2i(0, -12)}) {
+        const auto turned = turned_by(centre, shifted(view, by), focal_px);
+        ASSERT_TRUE(turned) << by;
+        const auto degrees = [](int pixels) { return std::atan2(pixels, focal_px) * 180 / std::numbers::pi; };
+        EXPECT_NEAR(turned->x, degrees(-by.x), degrees(1)) << by;
+        EXPECT_NEAR(turned->y, degrees(by.y), degrees(1)) << by;
+    }
+    for (const Imath::V2d &wrong : {Imath::V2d(-0.15, -0.05), Imath::V2d(0, 0), Imath::V2d(0.3, 0.1)})
+        EXPECT_FALSE(turned_by(centre, said_to_stand_at(view, wrong), focal_px)) << wrong;
+}
+
+TEST(PoseCheck, TheSamePictureFromTheSamePlaceIsFound) {
+    const View view = card_before_wall({0.1, 0});
+    const std::vector<View> views{card_before_wall({0, 0}), view, card_before_wall({-0.1, 0}), view,
+                                  said_to_stand_at(view, {0, 0.1})};
+    EXPECT_EQ(same_picture_and_place(views, 3), std::optional<std::size_t>(1));
+    for (const std::size_t i : {1, 2, 4}) EXPECT_FALSE(same_picture_and_place(views, i)) << i;
+    View empty = view;
+    std::ranges::fill(empty.z, 0.0f);
+    EXPECT_FALSE(same_picture_and_place(std::vector<View>{empty, empty}, 1))
+        << "nothing of them was worth rendering";
 }
 
 // Views of which only the places count; the first of them is that of the first view.

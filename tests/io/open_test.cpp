@@ -116,6 +116,10 @@ TEST_F(Opened, NormalizedDepthNeedsBothPlanes) {
     normalized.far = 10;
     EXPECT_EQ(depths_of_view(normalized), (std::vector<float>{2, 6, inf}));
     EXPECT_EQ(depths_of_ldi(normalized), (std::vector<float>{2, 6, inf}));
+    DepthOptions hyperbolic = normalized;
+    hyperbolic.meaning = DepthMeaning::hyperbolic;
+    EXPECT_EQ(depths_of_view(hyperbolic), depths_of_ldi(hyperbolic));
+    EXPECT_FLOAT_EQ(depths_of_view(hyperbolic)[1], 1 / 0.3f); // the mean of 1 / 2 and 1 / 10
     normalized.far = double(inf);
     EXPECT_EQ(depths_of_view(normalized), (std::vector<float>{2, 4, inf}));
     EXPECT_THROW(depths_of_view({.near = 1.0}), UsageError); // it would have no effect

@@ -117,7 +117,17 @@ fails_saying 1 "no colour space 'nowhere'" "$bin/dof-gather" in.exr -o x.exr "${
 fails_saying 1 "no display 'wall'" "$bin/dof-gather" in.exr -o x.png "${flat[@]}" --display wall
 fails_saying 1 "'upside-down'" "$bin/dof-gather" in.exr -o x.png "${flat[@]}" --view-transform upside-down
 fails_saying 1 'gone.ocio.*--colorconfig' "$bin/dof-gather" in.exr -o x.exr "${flat[@]}" --colorconfig gone.ocio
-fails_saying 1 'gone.ocio.*OCIO' env OCIO=gone.ocio "$bin/dof-gather" in.exr -o x.exr "${flat[@]}"
+fails_saying 1 'gone.ocio.*OCIO' env OCIO=gone.ocio "$bin/dof-gather" in.exr -o x.exr "${flat[@]}" --colorspace sRGB
+exits 1 env OCIO=gone.ocio "$bin/dof-gather" in.exr -o x.png "${flat[@]}"
+grep -q '^dof-gather: gone.ocio .*OCIO' stderr || fail "PNG without a configuration: $(cat stderr)"
+# From EXR to EXR a bad $OCIO is a warning, one for all files.
+exits 0 "$bin/dof-gather" in.exr -o good.exr -d float "${flat[@]}"
+exits 0 env OCIO=gone.ocio "$bin/dof-gather" in.exr -o bad.exr -d float "${flat[@]}"
+within bad.exr good.exr 0 'from EXR to EXR without $OCIO'
+grep -Eq '^dof-gather: warning: gone.ocio \(\$OCIO\): no such file; EXR is taken as linear: mend \$OCIO, or .*--colorconfig' stderr ||
+    fail "a bad \$OCIO: $(cat stderr)"
+exits 0 env OCIO=gone.ocio "$bin/ldi-warp" in.exr --view 1,0 in.exr -o two.exr --focal-length 50 --sensor-width 36
+[ "$(grep -c OCIO stderr)" = 1 ] || fail "a bad \$OCIO, more than once: $(cat stderr)"
 fails_saying 2 '--display' "$bin/dof-gather" in.exr -o x.exr "${flat[@]}" --display sRGB
 fails_saying 2 '--display' "$bin/dof-gather" in.exr -o x.png "${flat[@]}" --display sRGB --output-colorspace sRGB
 fails_saying 1 'x.png: needs the channels R, G and B' "$bin/dof-gather" in.exr -o x.png "${flat[@]}" --channels A

@@ -18,6 +18,11 @@ picture edit normalized.exr header.exr set=near:1 set=far:9
 exits 0 "$gather" header.exr -o x.exr --lens-radius 0 --depth-out header.z.exr --depth normalized
 same_depth header.z.exr "near and far of the header"
 
+checker hyperbolic.exr 0.5625 0.9375 # 0 at 1, 1 at 9, linear in 1 / z
+exits 0 "$gather" hyperbolic.exr -o x.exr --lens-radius 0 --depth-out hyperbolic.z.exr --depth hyperbolic --near 1 --far 9
+same_depth hyperbolic.z.exr "--depth hyperbolic"
+fails_saying 2 '--depth hyperbolic: .* is unknown: give --near and --far' "$gather" hyperbolic.exr -o x.exr "${lens[@]}" --depth hyperbolic
+
 # Every tool that reads depth has the near plane.
 differ() { if cmp -s "$1" "$2"; then fail "$3 changes nothing"; fi; }
 for near in 1 3; do
@@ -36,8 +41,8 @@ differ compared.1.json compared.3.json "dof-compare --near"
 # What is missing or ignored is wrong usage; what is met without the option points to it.
 fails_saying 2 '--depth normalized: .* 0 and which is 1 is unknown: give --near and --far' "$gather" normalized.exr -o x.exr "${lens[@]}" --depth normalized
 fails_saying 2 '--depth normalized: .* is unknown: give --far' "$gather" normalized.exr -o x.exr "${lens[@]}" --depth normalized --near 1
-fails_saying 2 '--near works with --depth normalized only' "$gather" plain.exr -o x.exr "${lens[@]}" --near 1
+fails_saying 2 '--near works with --depth normalized and --depth hyperbolic only' "$gather" plain.exr -o x.exr "${lens[@]}" --near 1
 fails_saying 1 'negative.exr: depth -2 in pixel 0,0 .*--depth says what the channel holds \(negative' "$gather" negative.exr -o x.exr "${lens[@]}"
 checker clipped.exr 0.38333334 1
 exits 0 "$gather" clipped.exr -o x.exr "${lens[@]}"
-grep -q 'warning: clipped.exr: its depths end at exactly 1, .*--depth normalized with --near and --far' stderr || fail "no warning: $(cat stderr)"
+grep -q 'warning: clipped.exr: its depths end at exactly 1, .*--depth normalized with --near and --far, or --depth hyperbolic' stderr || fail "no warning: $(cat stderr)"

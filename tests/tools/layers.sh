@@ -40,7 +40,7 @@ done
 for name in fg bg; do
     picture edit $name.exr one.exr channels=R,G,B,A,Z
     exits 0 "$gather" one.exr -o expected.$name.exr "${lens[@]}"
-    exits 0 "$gather" two.exr -o out.exr "${lens[@]}" --layer $name -v
+    exits 0 "$bin/dof-gather" two.exr -o out.exr "${lens[@]}" --layer $name -v
     same out.exr expected.$name.exr "dof-gather --layer $name"
     grep -q "two.exr: depth: $name.Depth.Z" stderr || fail "--layer $name: $(cat stderr)"
     exits 0 "$bin/ldi-warp" one.exr -o expected.ldi.exr

@@ -103,6 +103,16 @@ TEST(NormalizedDepth, IsLinearBetweenThePlanes) {
     EXPECT_FALSE(is_sky(DepthMeaning::normalized, 0.999, range.far));
 }
 
+TEST(HyperbolicDepth, IsLinearInInverseDepthBetweenThePlanes) {
+    const DepthRange range{2, 10};
+    for (const double z : {2.0, 2.5, 4.0, 8.0, 10.0})
+        EXPECT_NEAR(hyperbolic_depth((1 / range.near - 1 / z) / (1 / range.near - 1 / range.far), range), z,
+                    1e-12);
+    EXPECT_EQ(hyperbolic_depth(0.75, {2, inf}), 8);
+    EXPECT_TRUE(is_sky(DepthMeaning::hyperbolic, 1, range.far));
+    EXPECT_FALSE(is_sky(DepthMeaning::hyperbolic, 0.999, range.far));
+}
+
 TEST(NormalizedDepth, WithoutAFarPlaneIsThatOfADepthBuffer) {
     const DepthRange range{2, inf};
     EXPECT_EQ(normalized_depth(0, range), 2);

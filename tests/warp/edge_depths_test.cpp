@@ -88,7 +88,7 @@ TEST(EdgeDepths, LowStepsOfFilteredDepthAreSettledToo) {
 TEST(EdgeDepths, AnLdiOfOneSampleAPixelIsAView) {
     View view = row_of({covered(3, 1), covered(inf, 0.4f), covered(8, 0.9f)});
     Ldi ldi = deepen(view, view.image.channels);
-    EXPECT_EQ(settle_edge_depths(ldi), 1u);
+    EXPECT_EQ(settle_edge_depths(ldi).count, 1u);
     EXPECT_EQ(ldi.z, (Depths{3, 3, 8}));
     EXPECT_EQ(ldi.values[3], (std::vector<float>{1, 0.4f, 0.9f}));
 }
@@ -111,7 +111,9 @@ TEST(EdgeDepths, FilteredDepthBecomesThatOfTheSurfaceShownMost) {
         View view = disc_before_wall([&](float share, int, int) {
             return share == 0 && wall == 1e10f ? inf : share * 2 + (1 - share) * wall;
         });
-        EXPECT_GT(settle_edge_depths(view), 20u);
+        const SettledEdges settled = settle_edge_depths(view);
+        EXPECT_GT(settled.count, 20u);
+        EXPECT_TRUE(settled.filtered);
         for (std::size_t i = 0; i < view.z.size(); ++i) {
             const float share = view.image.plane(0)[i];
             if (share < 0.1f || share > 0.9f || (share > 0.4f && share < 0.6f)) continue;
@@ -127,7 +129,9 @@ TEST(EdgeDepths, DepthThatIsNotFilteredStays) {
         return unit_interval(mix_bits(std::uint32_t(x), std::uint32_t(y))) < double(share) ? 2.0f : 10.0f;
     });
     const std::vector<float> before = view.z;
-    EXPECT_EQ(settle_edge_depths(view), 0u);
+    const SettledEdges settled = settle_edge_depths(view);
+    EXPECT_EQ(settled.count, 0u);
+    EXPECT_FALSE(settled.filtered);
     EXPECT_EQ(view.z, before);
 }
 
@@ -135,7 +139,9 @@ TEST(EdgeDepths, ASteepSlopeStays) {
     View view = make_view(windows_of_size(16, 12), {0, 0}, [](int x, int y) {
         return ViewPixel{.z = 2 + float(y) / 6, .r = float(x + 8 * y), .g = 50.0f + float(4 * x - 4 * y)};
     });
-    EXPECT_EQ(settle_edge_depths(view), 0u);
+    const SettledEdges settled = settle_edge_depths(view);
+    EXPECT_EQ(settled.count, 0u);
+    EXPECT_FALSE(settled.filtered);
 }
 
 // Lamps over nothing, seen through a lens: discs (where the centre view shows their centres, and their radius, in

@@ -35,6 +35,7 @@ OpenedLdi &LdiCache::load(const std::string &path, const std::string &channels, 
         say_samples(tool, opened);
         warn_of_invalid_values(tool, path, opened.bad);
         opened.header = to_linear(tool, colour, path, opened.header, opened.ldi);
+        warn_of_flat_picture(tool, opened);
         channels_left_out_ = keep_and_tell(opened.ldi, channels);
         if (opened.packed) opened.packed->keep_channels(opened.ldi.channels);
         key_ = key;

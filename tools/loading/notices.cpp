@@ -1,7 +1,10 @@
 #include "loading/notices.h"
 
+#include "checks/front_view.h"
+#include "checks/view_warnings.h"
 #include "dof/border_reach.h"
 #include "io/files/file_stream.h"
+#include "io/layer_notes.h"
 
 #include <fmt/format.h>
 
@@ -13,9 +16,25 @@ void say_reading(const ToolContext &tool, const std::string &path, const std::ve
     for (const std::string &warning : warnings) warn(tool, display_name(path) + ": " + warning);
 }
 
+void say_layers(const ToolContext &tool, const std::string &path, std::span<const Channel> channels) {
+    for (const std::string &note : layer_notes(channels)) tool.say(display_name(path) + ": " + note);
+}
+
 void say_samples(const ToolContext &tool, const OpenedLdi &in) {
     say_reading(tool, in.name, in.notes, in.warnings);
+    say_layers(tool, in.name, in.ldi.channels);
     if (in.coverage_by_colour) tool.say(in.name + ": each colour has its own coverage (AR, AG, AB)");
+}
+
+void warn_of(const ToolContext &tool, const std::vector<std::string> &warnings) {
+    for (const std::string &warning : warnings) warn(tool, warning);
+}
+
+void warn_of_flat_picture(const ToolContext &tool, const OpenedLdi &in) {
+    if (in.deep) return;
+    ViewFacts facts{.depth = in.depth, .depth_filtered = in.depth_filtered};
+    if (knows_lens(in.camera, in.ldi.windows)) facts.lens = in.lens();
+    warn_of(tool, picture_warnings(front_view(in.ldi, in.name), facts));
 }
 
 void say_border_reach(const ToolContext &tool, const std::string &path, const Ldi &ldi, const ThinLens &lens,

@@ -5,6 +5,7 @@
 #include "io/open_ldi.h"
 #include "lens/lens_looks.h"
 
+#include <span>
 #include <string>
 
 namespace sparselens {
@@ -13,8 +14,17 @@ namespace sparselens {
 void say_reading(const ToolContext &tool, const std::string &path, const std::vector<std::string> &notes,
                  const std::vector<std::string> &warnings);
 
-// The same for an LDI; with --verbose also whether it has per-channel alpha.
+// With --verbose: what happens to each layer, a line each.
+void say_layers(const ToolContext &tool, const std::string &path, std::span<const Channel> channels);
+
+// The same as say_reading() and say_layers() for an LDI; with --verbose also whether it has per-channel alpha.
 void say_samples(const ToolContext &tool, const OpenedLdi &in);
+
+// One line on stderr for each.
+void warn_of(const ToolContext &tool, const std::vector<std::string> &warnings);
+
+// What picture_warnings() says of a flat picture; of a deep one, nothing.
+void warn_of_flat_picture(const ToolContext &tool, const OpenedLdi &in);
 
 // With --verbose: how much overscan the blur needs, and how much there is; a warning if there is too little, and light
 // stands at the border whose disc would be cut.

@@ -31,7 +31,10 @@ OpenedViews open_views(const ViewList &list, const OpenOptions &options) {
     for (std::size_t i = 0; i < paths.size(); ++i) {
         OpenedView next = open_view(paths[i], options, i > 0 ? stated[0].camera : Camera{});
         stated.push_back({paths[i], next.camera, positions[i]});
-        if (i == 0) opened.header = std::move(next.header);
+        if (i == 0) {
+            opened.header = std::move(next.header);
+            opened.depth_filtered = next.depth_filtered;
+        }
         add(opened, next);
     }
     opened.camera = place_views(opened.views, stated);

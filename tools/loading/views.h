@@ -9,9 +9,10 @@
 namespace sparselens {
 
 struct OpenedViews {
-    std::vector<View> views; // the centre view first
-    Imf::Header header;      // of the centre view
-    Camera camera;           // of the centre view, with the options over it; the lens points of all views
+    std::vector<View> views;     // the centre view first
+    Imf::Header header;          // of the centre view
+    Camera camera;               // of the centre view, with the options over it; the lens points of all views
+    bool depth_filtered = false; // of the centre view, see SettledEdges
     std::vector<InvalidValues> bad;                        // of each view
     std::vector<std::vector<std::string>> notes, warnings; // of each view, see OpenedView
 };

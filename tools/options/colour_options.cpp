@@ -11,6 +11,7 @@
 #include <ImfStandardAttributes.h>
 #include <ImfStringAttribute.h>
 
+#include <mutex>
 #include <optional>
 
 namespace sparselens {
@@ -38,6 +39,21 @@ std::optional<std::string> space_by_attribute(const ToolContext &tool, const Col
     return space;
 }
 
+// The configuration; none where $OCIO names one that cannot be read, and nothing but a guess needs it.
+std::optional<ColourConfig> config_if_readable(const ToolContext &tool, const ColourOptions &options) {
+    try {
+        return ColourConfig(options.config);
+    } catch (const Error &error) {
+        if (!options.config.empty() || !options.input_space.empty()) throw;
+        static std::once_flag said; // of all files
+        std::call_once(said, [&] {
+            warn(tool, std::string(error.what()) +
+                           "; EXR is taken as linear: mend $OCIO, or name a configuration by --colorconfig");
+        });
+        return {};
+    }
+}
+
 struct LinearColours {
     Imf::Header header;                            // says in which space they are
     std::optional<ColourTransform> transform = {}; // to there; empty: there is nothing to do
@@ -48,7 +64,9 @@ LinearColours linear_colours(const ToolContext &tool, const ColourOptions &optio
     const bool says = Imf::hasChromaticities(header), asked = !options.input_space.empty();
     const bool ours = header.findTypedAttribute<Imf::StringAttribute>("sparselens:version") != nullptr;
     if (!asked && !says && (ours || is_pipe(path))) return {header};
-    const ColourConfig config(options.config);
+    const std::optional<ColourConfig> readable = config_if_readable(tool, options);
+    if (!readable) return {header};
+    const ColourConfig &config = *readable;
     std::string from = options.input_space;
     if (!asked && says) {
         const auto space = space_by_attribute(tool, config, path, header);

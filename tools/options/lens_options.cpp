@@ -46,21 +46,26 @@ void add_depth_options(CLI::App &app, DepthOptions &options) {
                                                        {"distance", DepthMeaning::distance},
                                                        {"inverse", DepthMeaning::inverse},
                                                        {"negative", DepthMeaning::negative},
-                                                       {"normalized", DepthMeaning::normalized}};
+                                                       {"normalized", DepthMeaning::normalized},
+                                                       {"hyperbolic", DepthMeaning::hyperbolic}};
     app.add_option(
            "--depth", options.meaning,
            "What depth channels hold: z: planar; distance: from the camera along the ray; inverse: 1 / z; "
-           "negative: -z; normalized: 0 at --near to 1 at --far (default: z)")
-        ->type_name("z|distance|inverse|negative|normalized")
+           "negative: -z; normalized: 0 at --near to 1 at --far; hyperbolic: the same, but linear in 1 / z, "
+           "as in a "
+           "depth buffer (default: z)")
+        ->type_name("z|distance|inverse|negative|normalized|hyperbolic")
         ->transform(words(meanings))
         ->group("Lens");
-    app.add_option("--near", options.near,
-                   "With --depth normalized, the depth of 0 (default: the near attribute of the file)")
+    app.add_option(
+           "--near", options.near,
+           "With --depth normalized and hyperbolic, the depth of 0 (default: the near attribute of the file)")
         ->type_name("D")
         ->check(number("a number above 0"))
         ->group("Lens");
     app.add_option("--far", options.far,
-                   "Depths beyond this are sky; with --depth normalized, the depth of 1 (default: 1e10)")
+                   "Depths beyond this are sky; with --depth normalized and hyperbolic, the depth of 1 "
+                   "(default: 1e10)")
         ->type_name("D")
         ->check(number("a number above 0", {.infinity_allowed = true}))
         ->group("Lens");

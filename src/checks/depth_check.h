@@ -1,0 +1,26 @@
+// Whether depths are planar, or linear in 1 / z: 1 / z itself, or a depth buffer's number from 0 to 1.
+//
+// On a plane 1 / z is linear across the picture. So in the middle between two pixels of one surface, z is the harmonic mean
+// of theirs, and a depth that is linear in 1 / z is the plain mean.
+#pragma once
+
+#include "../view/view.h"
+
+#include <cstddef>
+
+namespace sparselens {
+
+struct DepthSlopes {
+    std::size_t slopes = 0; // places where a surface recedes so that it tells
+    double planar = 0;      // the share of them that have the harmonic mean,
+    double inverse = 0;     // and the plain one
+};
+
+DepthSlopes slopes_of_depth(const View &view);
+
+// Of 33 rendered and traced pictures, 0.82 to 1 of the slopes are planar and at most 0.02 inverse, but for one of round things
+// alone, of which 0.2 are planar and 0.03 inverse. Of their 1 / z 0.81 to 1 are inverse. False where too few tell: of what
+// faces the camera nothing recedes.
+bool looks_inverse(const DepthSlopes &slopes);
+
+} // namespace sparselens

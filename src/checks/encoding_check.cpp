@@ -1,0 +1,94 @@
+#include "checks/encoding_check.h"
+
+#include "checks/picture_lines.h"
+
+#include <Imath/ImathVec.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace sparselens {
+
+namespace {
+
+constexpr std::size_t enough = 100;      // edges
+constexpr double between = 0.5;          // light and sRGB
+constexpr double contrast = 0.15;        // of the sides, relative to their sum
+constexpr double even = 0.1;             // change within a side, of the contrast
+constexpr double clearly_mixed = 0.15;   // of either side
+constexpr double least_departure = 0.01; // of the curve from the line, of the contrast
+
+// sRGB.
+Imath::V3d decoded(const Imath::V3d &v) {
+    const auto one = [](double c) { return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4); };
+    return {one(v.x), one(v.y), one(v.z)};
+}
+Imath::V3d encoded(const Imath::V3d &v) {
+    const auto one = [](double c) {
+        return c <= 0.0031308 ? c * 12.92 : 1.055 * std::pow(c, 1 / 2.4) - 0.055;
+    };
+    return {one(v.x), one(v.y), one(v.z)};
+}
+
+// Where a mixture of a and b lies that is `along` on the way from a to b, if mixed as light and then encoded.
+Imath::V3d on_curve(const Imath::V3d &a, const Imath::V3d &b, double along) {
+    const Imath::V3d light_a = decoded(a), light_b = decoded(b), way = b - a;
+    double low = 0, high = 1;
+    Imath::V3d at = a;
+    for (int i = 0; i < 30; ++i) {
+        const double share = (low + high) / 2;
+        at = encoded(light_a * (1 - share) + light_b * share);
+        ((at - a).dot(way) < along * way.length2() ? low : high) = share;
+    }
+    return at;
+}
+
+// Of a pixel between two sides; empty where it tells nothing.
+std::optional<double> place_of(const Imath::V3d &a, const Imath::V3d &pixel, const Imath::V3d &b) {
+    const Imath::V3d way = b - a;
+    const double along = (pixel - a).dot(way) / way.length2();
+    if (along < clearly_mixed || along > 1 - clearly_mixed) return {};
+    const Imath::V3d on_line = a + way * along;
+    const Imath::V3d departure = on_curve(a, b, along) - on_line;
+    if (departure.length() < least_departure * way.length()) return {};
+    return (pixel - on_line).dot(departure) / departure.length2();
+}
+
+bool is_displayable(const Imath::V3d &v) {
+    return std::min({v.x, v.y, v.z}) >= 0 && std::max({v.x, v.y, v.z}) <= 1;
+}
+
+} // namespace
+
+EdgeMixing mixing_at_edges(const View &view) {
+    const std::array rgb = find_rgb(view.image.channels);
+    if (!all_found(rgb)) return {};
+    const std::array planes{view.image.plane(rgb[0]), view.image.plane(rgb[1]), view.image.plane(rgb[2])};
+    const auto colour = [&](std::size_t i) {
+        return Imath::V3d(double(planes[0][i]), double(planes[1][i]), double(planes[2][i]));
+    };
+    std::vector<double> places;
+    visit_lines(view.image.windows.grid(), [&](const PictureLine &line) {
+        for (std::size_t i = 2; i + 2 < line.length; ++i) {
+            const Imath::V3d a = colour(line[i - 1]), b = colour(line[i + 1]);
+            const double apart = (b - a).length();
+            if (!(apart > contrast * (a + b).length())) continue;
+            if (!is_displayable(a) || !is_displayable(b)) continue;
+            if ((colour(line[i - 2]) - a).length() > even * apart) continue;
+            if ((colour(line[i + 2]) - b).length() > even * apart) continue;
+            if (const auto place = place_of(a, colour(line[i]), b)) places.push_back(*place);
+        }
+    });
+    if (places.empty()) return {};
+    const auto middle = places.begin() + std::ptrdiff_t(places.size() / 2);
+    std::ranges::nth_element(places, middle);
+    return {places.size(), *middle};
+}
+
+bool looks_encoded(const EdgeMixing &mixing) { return mixing.edges >= enough && mixing.encoded > between; }
+
+} // namespace sparselens

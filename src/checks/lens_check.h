@@ -1,0 +1,23 @@
+// What lenses and the places of views say of units that were mixed up: millimetres for scene units, centimetres for metres.
+#pragma once
+
+#include "../lens/thin_lens.h"
+#include "../view/view.h"
+
+#include <span>
+#include <vector>
+
+namespace sparselens {
+
+// The largest circle of confusion of all that the view shows, pixels; 0 where it shows nothing.
+double largest_circle_of_confusion(const View &view, const ThinLens &lens);
+
+// Whether such a lens leaves a picture as it is: the blur is narrower than a pixel everywhere. A unit that is wrong by 100 or
+// 1000 does that to nearly every shot; a lens of radius 0 is meant to, and does not count.
+bool blurs_nothing(double largest_coc, const ThinLens &lens);
+
+// The views that stand farther from the centre than three radii of the lens. Nothing that such a lens sees is seen from there,
+// and units that are mixed up differ by ten and more.
+std::vector<std::size_t> views_beyond_lens(std::span<const View> views, double lens_radius);
+
+} // namespace sparselens

@@ -1,0 +1,119 @@
+#include "checks/view_warnings.h"
+
+#include "checks/blur_check.h"
+#include "checks/depth_check.h"
+#include "checks/encoding_check.h"
+#include "checks/lens_check.h"
+#include "checks/pose_check.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace sparselens {
+
+namespace {
+
+// As --view takes it; as exact as pixels tell it.
+std::string text(const Imath::V2d &p) {
+    const double rounding = 1e-6 * p.length();
+    const auto clean = [rounding](double v) { return std::abs(v) > rounding ? v : 0; };
+    return fmt::format("{:.4g},{:.4g}", clean(p.x), clean(p.y));
+}
+
+using Warnings = std::vector<std::string>;
+
+void say_of_lens(const View &view, const ThinLens &lens, Warnings &said) {
+    const double largest = largest_circle_of_confusion(view, lens);
+    if (blurs_nothing(largest, lens))
+        said.push_back(fmt::format(
+            "{}: the largest circle of confusion is {:.2g} pixels, so that the lens blurs nothing: check the "
+            "unit of the scene (--scene-unit 0.01 where it is a centimetre), the aperture and the focus",
+            view.name, largest));
+    if (looks_defocused(sharpness_of_edges(view, lens)))
+        said.push_back(view.name +
+                       ": its edges out of focus are blurred, as of a picture with depth of field, which "
+                       "blurs them again: switch depth of field off in the render");
+}
+
+void say_of_first(std::span<const View> views, double lens_radius, Warnings &said) {
+    if (!first_is_at_the_edge(views, lens_radius)) return;
+    const auto middle = view_in_the_middle(views);
+    said.push_back(
+        fmt::format("{}: stands at the edge of the lens, with all other views to one side; give the view "
+                    "from the middle first{}",
+                    views[0].name, middle ? ", " + views[*middle].name : std::string()));
+}
+
+void say_of_distances(std::span<const View> views, double lens_radius, Warnings &said) {
+    const std::vector<std::size_t> beyond = views_beyond_lens(views, lens_radius);
+    if (beyond.empty()) return;
+    const View &view = views[beyond.front()];
+    said.push_back(fmt::format(
+        "{}{}: stands {:.3g} from the centre, {:.3g} times the radius of the lens, {:.3g}: positions "
+        "(--view), the "
+        "radius and the unit of the scene (--scene-unit) do not go together; positions are in scene units",
+        view.name, beyond.size() > 1 ? fmt::format(" and {} more", beyond.size() - 1) : "",
+        view.position.length(), view.position.length() / lens_radius, lens_radius));
+}
+
+// Of one view; empty where it is where it should be.
+std::string said_of_pose(std::span<const View> views, std::size_t i, double focal_px, double reach) {
+    const View &view = views[i];
+    if (const auto other = same_picture_and_place(views, i))
+        return fmt::format(
+            "{}: is the same picture as {}, from the same place, and counts twice; leave it out", view.name,
+            views[*other].name);
+    if (const auto other = same_picture(views, i, focal_px))
+        return fmt::format("{}: is the same picture as {}, though it is said to stand at {} and that at "
+                           "{}; render it from there, or leave it out",
+                           view.name, views[*other].name, text(view.position), text(views[*other].position));
+    if (const auto turned = turned_by(views[0], view, focal_px))
+        return fmt::format(
+            "{}: disagrees with the centre view, and would agree if it were turned by {:.2g} degrees to the "
+            "right and {:.2g} up (or its lens shifted so): render all views with parallel axes, not aimed "
+            "at the focus",
+            view.name, turned->x, turned->y);
+    if (const auto better = better_position(views[0], view, focal_px, reach))
+        return fmt::format(
+            "{}: disagrees with the centre view at its stated position {}; it would agree at {} "
+            "(--view {} {})",
+            view.name, text(view.position), text(*better), text(*better), view.name);
+    return {};
+}
+
+} // namespace
+
+Warnings picture_warnings(const View &view, const ViewFacts &facts) {
+    Warnings said;
+    if (looks_encoded(mixing_at_edges(view)))
+        said.push_back(view.name +
+                       ": its colours mix at edges as sRGB codes do, not as light does: if they are encoded "
+                       "for a display, give --colorspace sRGB, or render scene-linear");
+    if (facts.depth_filtered)
+        said.push_back(view.name +
+                       ": its depth is averaged over edges; what could be was repaired: render depth "
+                       "without a filter, as the closest or the first sample of each pixel");
+    if (facts.depth == DepthMeaning::planar && looks_inverse(slopes_of_depth(view)))
+        said.push_back(view.name +
+                       ": its depths are linear in 1 / z, as planes show: give --depth inverse where what is "
+                       "near has the larger values, else --depth hyperbolic with --near and --far");
+    if (facts.lens) say_of_lens(view, *facts.lens, said);
+    return said;
+}
+
+Warnings view_warnings(std::span<const View> views, const ViewFacts &facts) {
+    Warnings said = picture_warnings(views[0], facts);
+    say_of_first(views, facts.lens_radius, said);
+    say_of_distances(views, facts.lens_radius, said);
+    double reach = 0;
+    for (const View &view : views) reach = std::max(reach, view.position.length());
+    for (std::size_t i = 1; i < views.size(); ++i)
+        if (std::string pose = said_of_pose(views, i, facts.focal_px, reach > 0 ? reach : facts.lens_radius);
+            !pose.empty())
+            said.push_back(std::move(pose));
+    return said;
+}
+
+} // namespace sparselens

@@ -1,0 +1,161 @@
+// What pictures show of mistakes, on pictures of which each pixel is a formula.
+#include "checks/blur_check.h"
+#include "checks/depth_check.h"
+#include "checks/encoding_check.h"
+#include "checks/lens_check.h"
+#include "checks/view_warnings.h"
+#include "support/views.h"
+#include "view/depth.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace sparselens {
+namespace {
+
+constexpr float inf = std::numeric_limits<float>::infinity();
+
+float srgb(float v) { return v <= 0.0031308f ? v * 12.92f : 1.055f * std::pow(v, 1 / 2.4f) - 0.055f; }
+
+// Stripes 8 pixels wide whose edges lie anywhere within pixels, which mix the colours of both sides.
+View stripes(const std::function<float(float)> &stored) {
+    return make_view(windows_of_size(128, 64), {0, 0}, [&](int x, int y) {
+        const double at = x + 0.37 * y, place = std::fmod(at, 16);
+        const double share = place < 8 ? std::clamp(place, 0.0, 1.0) : std::clamp(9 - place, 0.0, 1.0);
+        const auto mixed = [&](double a, double b) { return stored(float(a + (b - a) * share)); };
+        return ViewPixel{.z = 3, .r = mixed(0.8, 0.05), .g = mixed(0.1, 0.6), .b = mixed(0.02, 0.3)};
+    });
+}
+
+TEST(EncodingCheck, LightMixesAtEdgesAndCodesDoNot) {
+    const EdgeMixing light = mixing_at_edges(stripes([](float v) { return v; }));
+    EXPECT_GT(light.edges, 500u);
+    EXPECT_NEAR(light.encoded, 0, 0.01);
+    EXPECT_FALSE(looks_encoded(light));
+    const EdgeMixing codes = mixing_at_edges(stripes(srgb));
+    EXPECT_NEAR(codes.encoded, 1, 0.01);
+    EXPECT_TRUE(looks_encoded(codes));
+}
+
+TEST(EncodingCheck, GreysSayNothing) {
+    View view = stripes(srgb);
+    for (const std::size_t k : {1, 2}) std::ranges::copy(view.image.plane(0), view.image.plane(k).begin());
+    EXPECT_FALSE(looks_encoded(mixing_at_edges(view)));
+}
+
+// A floor and a wall that stands askew, as `stored` of their depths.
+View floor_and_wall(const std::function<double(double z)> &stored) {
+    return make_view(windows_of_size(120, 100), {0, 0}, [&](int x, int y) {
+        const double z = y > 55 ? 40.0 / (y - 50) : 1 / (0.1 + 0.001 * x);
+        return ViewPixel{.z = float(stored(z))};
+    });
+}
+
+TEST(DepthCheck, PlanesAreLinearInInverseDepth) {
+    const DepthSlopes planar = slopes_of_depth(floor_and_wall([](double z) { return z; }));
+    EXPECT_GT(planar.slopes, 1000u);
+    EXPECT_GT(planar.planar, 0.95);
+    EXPECT_LT(planar.inverse, 0.01);
+    EXPECT_FALSE(looks_inverse(planar));
+    const DepthRange range{0.5, 100};
+    for (const std::function<double(double)> &stored :
+         {std::function([](double z) { return 1 / z; }), std::function([&](double z) {
+              return (1 / range.near - 1 / z) / (1 / range.near - 1 / range.far);
+          })}) {
+        const DepthSlopes inverse = slopes_of_depth(floor_and_wall(stored));
+        EXPECT_GT(inverse.inverse, 0.95);
+        EXPECT_TRUE(looks_inverse(inverse));
+    }
+}
+
+TEST(DepthCheck, WhatFacesTheCameraSaysNothing) {
+    const View wall = make_view(windows_of_size(120, 100), {0, 0},
+                                [](int x, int) { return ViewPixel{.z = x < 60 ? 2.0f : inf}; });
+    EXPECT_EQ(slopes_of_depth(wall).slopes, 0u);
+    EXPECT_FALSE(looks_inverse(slopes_of_depth(wall)));
+}
+
+// R F = 40, focused at 10: a CoC of -6 at 4, and of 2 at 20.
+constexpr ThinLens lens{.radius = 0.4, .focal_px = 100, .focus = 10};
+
+// A bright card before a dark wall, whose edge is `width` pixels wide.
+View card_of(double width) {
+    return make_view(windows_of_size(120, 100), {0, 0}, [&](int x, int) {
+        const double share = std::clamp((x + 0.5 - 60) / width + 0.5, 0.0, 1.0);
+        const auto mixed = [&](double a, double b) { return float(a + (b - a) * share); };
+        return ViewPixel{
+            .z = x < 60 ? 4.0f : 20.0f, .r = mixed(0.9, 0.1), .g = mixed(0.2, 0.3), .b = mixed(0.1, 0.6)};
+    });
+}
+
+TEST(BlurCheck, EdgesOutOfFocusAreSharpThroughAPinhole) {
+    const EdgeSharpness sharp = sharpness_of_edges(card_of(1), lens);
+    EXPECT_GE(sharp.edges, 200u);
+    EXPECT_NEAR(sharp.steepest, 1, 1e-5);
+    EXPECT_FALSE(looks_defocused(sharp));
+    const EdgeSharpness blurred = sharpness_of_edges(card_of(12), lens); // twice the CoC
+    EXPECT_NEAR(blurred.steepest, 3.0 / 12, 0.01);
+    EXPECT_TRUE(looks_defocused(blurred));
+}
+
+TEST(BlurCheck, EdgesInFocusMayBeAnything) {
+    const ThinLens on_the_card{.radius = 0.4, .focal_px = 100, .focus = 4};
+    EXPECT_EQ(sharpness_of_edges(card_of(12), on_the_card).edges, 0u);
+    EXPECT_EQ(sharpness_of_edges(card_of(12), {.radius = 0}).edges, 0u);
+}
+
+TEST(LensCheck, AUnitTooSmallBlursNothing) {
+    const View view = card_of(1);
+    EXPECT_NEAR(largest_circle_of_confusion(view, lens), 6, 1e-9);
+    EXPECT_FALSE(blurs_nothing(6, lens));
+    const ThinLens centimetres{.radius = 0.004, .focal_px = 100, .focus = 10};
+    EXPECT_NEAR(largest_circle_of_confusion(view, centimetres), 0.06, 1e-9);
+    EXPECT_TRUE(blurs_nothing(0.06, centimetres));
+    EXPECT_FALSE(blurs_nothing(0, {.radius = 0})) << "is meant to";
+}
+
+View at(const Imath::V2d &position) {
+    View view = card_of(1);
+    view.position = position;
+    view.name = "view";
+    return view;
+}
+
+TEST(LensCheck, AViewBeyondThreeRadii) {
+    const std::vector<View> views{at({0, 0}), at({0.4, 0}), at({1.19, 0}), at({0, -1.21}), at({400, 0})};
+    EXPECT_EQ(views_beyond_lens(views, 0.4), (std::vector<std::size_t>{3, 4}));
+    EXPECT_TRUE(views_beyond_lens(views, 0).empty()) << "unknown";
+}
+
+std::string said_of(const View &view, const ViewFacts &facts) {
+    std::string all;
+    for (const std::string &warning : picture_warnings(view, facts)) all += warning + "\n";
+    return all;
+}
+
+TEST(ViewWarnings, EachSaysWhatToDo) {
+    const ThinLens tiny{.radius = 0.004, .focal_px = 100, .focus = 10};
+    EXPECT_EQ(said_of(card_of(1), {.lens = lens}), "");
+    EXPECT_NE(said_of(card_of(1), {.lens = tiny}).find("0.06 pixels"), std::string::npos);
+    EXPECT_NE(said_of(card_of(1), {.lens = tiny}).find("--scene-unit"), std::string::npos);
+    EXPECT_NE(said_of(card_of(12), {.lens = lens}).find("switch depth of field off"), std::string::npos);
+    EXPECT_NE(said_of(stripes(srgb), {}).find("--colorspace sRGB"), std::string::npos);
+    EXPECT_NE(said_of(stripes([](float v) { return v; }), {.depth_filtered = true}).find("without a filter"),
+              std::string::npos);
+    const View inverse = floor_and_wall([](double z) { return 1 / z; });
+    EXPECT_NE(said_of(inverse, {}).find("--depth hyperbolic"), std::string::npos);
+    EXPECT_EQ(said_of(inverse, {.depth = DepthMeaning::distance}), "") << "as asked for";
+    const std::vector<View> views{at({0, 0}), at({400, 0}), at({-400, 0})};
+    const auto said = view_warnings(views, {.lens = lens, .focal_px = 100, .lens_radius = 0.4});
+    ASSERT_FALSE(said.empty());
+    EXPECT_EQ(said[0].find("view and 1 more: stands 400 from the centre, 1e+03 times the radius"), 0u)
+        << said[0];
+}
+
+} // namespace
+} // namespace sparselens

@@ -1,0 +1,78 @@
+#!/bin/bash
+# What is easily done wrong with views, on those of the ray tracer: each is a warning that says what to do, and views that are
+# right are met with silence.
+. "$(dirname "$0")/check.sh"
+command -v oiiotool >/dev/null || skip "needs oiiotool (openimageio-tools)"
+warp=$bin/ldi-warp gather=$bin/dof-gather
+unset OCIO
+silent() { [ ! -s stderr ] || fail "complained of: $* ($(cat stderr))"; }
+says_once() { # PATTERN WHAT
+    [ "$(grep -Ec -e "$1" stderr)" = 1 ] || fail "$2: $(cat stderr)"
+}
+exits 0 "$bin/dof-trace" fence --size 640x360 --spp 4 --views 4 --reference 16 -o views
+center=views/center.exr rim=(views/view_?.exr)
+exits 0 "$warp" $center "${rim[@]}" -o x.exr
+silent "good views"
+exits 0 "$gather" $center -o x.exr --quality draft
+silent "a good view"
+exits 0 "$bin/ldi-plan" $center -o plan.json
+silent "ldi-plan of a good view"
+
+# met PATTERN FILE [OPTIONS...]: by all tools that begin with a picture.
+met() {
+    exits 0 "$warp" "${@:2}" -o x.exr
+    says_once "^ldi-warp: warning: $2: $1" "ldi-warp"
+    exits 0 "$gather" "${@:2}" -o x.exr --quality draft
+    says_once "^dof-gather: warning: $2: $1" "dof-gather"
+    exits 0 "$bin/ldi-plan" "${@:2}" -o plan.json
+    says_once "^ldi-plan: warning: $2: $1" "ldi-plan"
+}
+# With the colours, or the depth, of another file.
+colours_of() { oiiotool $center --ch Z "$1" --ch R,G,B,A --chappend --ch R,G,B,A,Z -d half -d Z=float -o "$2"; }
+depth_of() { oiiotool $center --ch R,G,B,A "$1" --chappend -d half -d Z=float -o "$2"; }
+
+# Depth of field rendered into the view: of the tracer's lens.
+colours_of views/reference.exr defocused.exr
+met 'its edges out of focus are blurred.*switch depth of field off' defocused.exr
+
+# Colours encoded for a display; --colorspace makes them right.
+oiiotool $center --ch R,G,B,A --colorconvert linear sRGB -o coded.exr
+colours_of coded.exr srgb.exr
+met 'its colours mix at edges as sRGB codes do.*--colorspace sRGB' srgb.exr
+exits 0 "$warp" srgb.exr -o x.exr --colorspace sRGB
+silent "--colorspace sRGB"
+
+# Depth that is 1 / z, or a depth buffer's; said so, it is right.
+oiiotool $center --ch Z -o z.exr
+oiiotool --pattern constant:color=1 640x360 1 z.exr --div --chnames Z -d float -o inverse.z.exr
+depth_of inverse.z.exr inverse.exr
+met 'its depths are linear in 1 / z.*--depth inverse .*--depth hyperbolic with --near and --far' inverse.exr
+exits 0 "$warp" inverse.exr -o x.exr --depth inverse
+silent "--depth inverse"
+oiiotool inverse.z.exr --mulc -2.2222222 --addc 1.1111111 --chnames Z -d float -o hyperbolic.z.exr # planes at 2 and 20
+depth_of hyperbolic.z.exr hyperbolic.exr
+met 'its depths are linear in 1 / z' hyperbolic.exr
+exits 0 "$warp" hyperbolic.exr -o x.exr --depth hyperbolic --near 2 --far 20
+silent "--depth hyperbolic"
+exits 0 "$gather" hyperbolic.exr -o x.exr --lens-radius 0 --depth-out z.hyperbolic.exr --depth hyperbolic --near 2 --far 20
+picture same z.exr z.hyperbolic.exr Z 1e-3 || fail "--depth hyperbolic: another depth"
+
+# Depth averaged over edges, as its colours are.
+exits 0 "$bin/dof-trace" fence --size 1280x720 --spp 1 --views 0 -o large
+oiiotool large/center.exr --ch R,G,B,A,Z --resize:filter=box 640x360 --fullsize 640x360+0+0 -d half -d Z=float -o averaged.exr
+met 'its depth is averaged over edges.*without a filter' averaged.exr
+
+# Centimetres taken for metres: the lens is too small by 100.
+picture edit $center centimetres.exr 'erase=sparselens:metresPerUnit'
+lens=(--focal-length 36 --sensor-width 36 --fstop 30 --focus-distance 5)
+met 'the largest circle of confusion is 0\.[0-9]* pixels.*--scene-unit 0.01' centimetres.exr "${lens[@]}"
+exits 0 "$gather" centimetres.exr "${lens[@]}" --scene-unit 0.01 -o x.exr
+silent "--scene-unit"
+exits 0 "$gather" $center --lens-radius 0 -o x.exr
+silent "a pinhole"
+
+# Places of views in millimetres; the same view twice.
+exits 0 "$warp" $center --view 60,0 views/view_0.exr --view 0,60 views/view_1.exr -o x.exr
+says_once 'warning: views/view_0.exr and 1 more: stands 60 from the centre, 1e\+03 times the radius of the lens, 0.06: positions' "millimetres"
+exits 0 "$warp" $center "${rim[@]}" views/view_2.exr -o x.exr
+says_once 'warning: views/view_2.exr: is the same picture as views/view_2.exr, from the same place' "a view twice"
