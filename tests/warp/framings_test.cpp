@@ -1,8 +1,8 @@
 // Views whose frusta are shifted, of another focal length, or that stand before or behind the lens, warped.
+#include "checks/pose_check.h"
 #include "support/ldi_samples.h"
 #include "support/views.h"
 #include "warp/deepen.h"
-#include "checks/pose_check.h"
 #include "warp/reproject.h"
 #include "warp/warp.h"
 

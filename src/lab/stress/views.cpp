@@ -1,10 +1,10 @@
 #include "base/error.h"
 #include "base/random.h"
+#include "checks/pose_check.h"
 #include "deep/flatten.h"
 #include "dof/accumulate/accumulate.h"
 #include "lab/stress/scenes.h"
 #include "view/view.h"
-#include "checks/pose_check.h"
 #include "warp/warp.h"
 
 #include <algorithm>
