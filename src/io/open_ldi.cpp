@@ -8,6 +8,7 @@
 #include "io/exr/exr_deep.h"
 #include "io/files/file_stream.h"
 #include "view/depth_reader.h"
+#include "view/speckles.h"
 #include "warp/edge_depths.h"
 
 #include <algorithm>
@@ -131,6 +132,16 @@ OpenedLdi open_ldi(const std::string &path, const OpenOptions &options, const Re
     }
 }
 
+namespace {
+
+// Of one that has one sample in each pixel.
+std::size_t settle_speckles_of(Ldi &ldi) {
+    const std::vector<std::span<const float>> planes(ldi.values.begin(), ldi.values.end());
+    return settle_speckles(ldi.windows, ldi.channels, planes, ldi.z);
+}
+
+} // namespace
+
 OpenedLdi ready_ldi(LdiFile file, const std::string &path, const OpenOptions &options) {
     const bool deep = file.deep;
     OpenedLdi opened = with_camera(std::move(file), path, options);
@@ -139,6 +150,8 @@ OpenedLdi ready_ldi(LdiFile file, const std::string &path, const OpenOptions &op
     make_planar(opened.ldi, options.depth.meaning, depth_range(options.depth, opened.header), opened.camera);
     opened.bad = sanitize(opened.ldi, opened.name);
     if (!deep) {
+        if (const std::size_t speckles = settle_speckles_of(opened.ldi))
+            opened.warnings.push_back(speckle_warning(speckles));
         const SettledEdges settled = settle_edge_depths(opened.ldi);
         opened.depth_filtered = settled.filtered;
         if (settled.count > 0) opened.notes.push_back(edge_note(settled.count));

@@ -6,6 +6,7 @@
 #include "io/exr/exr_flat.h"
 #include "io/files/file_stream.h"
 #include "view/depth_reader.h"
+#include "view/speckles.h"
 #include "warp/edge_depths.h"
 
 namespace sparselens {
@@ -48,6 +49,8 @@ OpenedView ready_view(FlatFile file, const std::string &path, const OpenOptions 
                            depth_range(options.depth, opened.header), frustum);
     for (std::size_t i = 0; i < view.z.size(); ++i) view.z[i] = read.planar(view.z[i], i);
     opened.bad = sanitize(view);
+    if (const std::size_t speckles = settle_speckles(view))
+        opened.warnings.push_back(speckle_warning(speckles));
     const SettledEdges settled = settle_edge_depths(view);
     opened.depth = options.depth.meaning;
     opened.depth_filtered = settled.filtered;
