@@ -7,7 +7,7 @@ same() { picture same "$1" "$2" >found 2>&1 || fail "$3 ($(cat found))"; }
 names() { exrheader "$1" | sed -nE 's/^ +([A-Za-z.]+), (16|32)-bit.*/\1/p' | tr '\n' ' '; }
 
 oiiotool --pattern fill:topleft=0.1,0.5,0.9,1:topright=1,0,0,1:bottomleft=0,1,0,1:bottomright=1,0.25,0.5,1 24x16 4 --chnames R,G,B,A -d float -o rgba.exr
-oiiotool --pattern fill:topleft=2:topright=3:bottomleft=5:bottomright=9 24x16 1 --chnames Z -d float -o depth.exr
+oiiotool --pattern checker:width=4:height=4:color1=2:color2=5 24x16 1 --chnames Z -d float -o depth.exr
 picture edit rgba.exr diffuse.exr channels=R,G,B 'R*=0.5' 'G*=0.5' 'B*=0.5'
 oiiotool rgba.exr depth.exr --chappend -d float -o one.exr
 exits 0 "$bin/dof-gather" one.exr -o expected.exr "${flat[@]}"
