@@ -1,199 +1,22 @@
 #include "dof/lens/beyond/beyond_frame.h"
 
-#include "base/parallel.h"
-#include "deep/build.h"
-#include "deep/packed/packed_rows.h"
-#include "dof/facets/opaque.h"
+#include "base/grid.h"
+#include "dof/lens/beyond/border.h"
 #include "dof/lens/beyond/border_pixels.h"
-#include "dof/lens/sample_colours.h"
-#include "lens/reach/light_reach.h"
+#include "dof/lens/beyond/picked.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <utility>
 
 namespace sparselens {
 
 namespace {
 
-constexpr int cell = 32;        // pixels: of highlights.cpp, in whole blocks
-constexpr int along = 32;       // pixels on either side: what is around
-constexpr float stands_out = 4; // times what four of five samples there stay below
-constexpr int inwards = 2;      // pixels: where discs are measured a second time
+constexpr int cell = 32; // pixels: of highlights.cpp, in whole blocks
 constexpr double sky = std::numeric_limits<double>::infinity();
-
-// A sample of a pixel at the border.
-struct Leaving {
-    std::uint32_t sample;
-    double depth; // perceptive, pixels
-    // Beyond the border, pixels, of the small light that it is part of.
-    float extent = std::numeric_limits<float>::infinity();
-
-    // How much of its light goes on n pixels beyond the border.
-    float light(int n) const {
-        const float share = extent / float(n);
-        return share >= 1 ? 1 : share * share;
-    }
-};
-
-// How far a disc reaches beyond the border that is so wide there and `inwards` pixels within.
-float disc_beyond(int width, int inner) {
-    const double half = width / 2.0, inner_half = inner / 2.0;
-    // half^2 + y^2 == inner_half^2 + (y - inwards)^2
-    const double y =
-        ((inner_half - half) * (inner_half + half) / inwards + inwards) / 2; // of its middle, from the border
-    return float(std::clamp(std::hypot(half, y) - y, 0.0, 2.0 * width));
-}
-
-struct BorderPixel {
-    std::vector<Leaving> leaving; // front to back
-    bool open = true;             // lets light through to infinity
-};
-
-// Reads what leaves the frame at pixels of its border.
-class Border {
-public:
-    Border(const Ldi &ldi, const ThinLens &lens, const LensLooks &looks)
-        : ldi_(ldi), lens_(lens), light_(lens, looks, ldi.windows), alpha_(ldi.alpha()),
-          brightness_(light_channels(ldi).brightness) {}
-
-    // How far its light reaches.
-    Imath::V2d reach(const Imath::V2i &at) const {
-        const Imath::V2d middle = Imath::V2d(at) + Imath::V2d(0.5);
-        Imath::V2d most(0, 0);
-        const auto add = [&](double z) {
-            const Imath::V2d reach = light_.at(middle, circle_of_confusion(lens_, z));
-            most = {std::max(most.x, reach.x), std::max(most.y, reach.y)};
-        };
-        for (const std::uint64_t i : samples(at)) add(ldi_.optical_z(i));
-        if (!closed(samples(at))) add(sky);
-        return most;
-    }
-    // How far right and down lies what the magnified picture shows there.
-    Imath::V2d shown_beside(const Imath::V2i &at) const {
-        const Imath::V2d middle = Imath::V2d(at) + Imath::V2d(0.5);
-        return light_.shown_at(middle) - middle;
-    }
-    // All of a side: from a pixel on, along `step`; the frame lies at `in`.
-    std::vector<BorderPixel> side(const Imath::V2i &first, const Imath::V2i &step, const Imath::V2i &in,
-                                  int count) const {
-        const std::vector<float> bright = brightest(first, step, count),
-                                 inner = brightest(first + inwards * in, step, count);
-        std::vector<BorderPixel> found;
-        for (int i = 0; i < count; ++i) {
-            const SampleRange here = samples(first + i * step);
-            const float level = stands_out * level_around(bright, i);
-            found.push_back({{}, !closed(here)});
-            for (const std::uint64_t of : here)
-                if (brightness(of) > level)
-                    found.back().leaving.push_back(
-                        {std::uint32_t(of), depth(of), extent_above(bright, inner, i, level)});
-                else
-                    found.back().leaving.push_back(outermost(std::uint32_t(of), first + i * step, -in));
-        }
-        return found;
-    }
-    // Whether samples of that pixel leave no light.
-    bool closed(const SampleRange &range) const {
-        double transmittance = 1;
-        for (const std::uint64_t i : range)
-            transmittance *= 1 - double(std::clamp(alpha_at(ldi_, alpha_, i), 0.0f, 1.0f));
-        return !lets_through(transmittance);
-    }
-    SampleRange samples(const Imath::V2i &at) const {
-        return ldi_.windows.data.intersects(at) ? ldi_.pixel(ldi_.windows.index(at.x, at.y)) : SampleRange{};
-    }
-
-private:
-    static float level_around(const std::vector<float> &bright, int at) {
-        std::vector<float> around;
-        for (int i = std::max(at - along, 0); i <= std::min(at + along, int(bright.size()) - 1); ++i)
-            if (bright[std::size_t(i)] >= 0) around.push_back(bright[std::size_t(i)]);
-        if (around.empty()) return 0;
-        const auto level = around.end() - 1 - std::ptrdiff_t(around.size() / 5);
-        std::nth_element(around.begin(), level, around.end());
-        return *level;
-    }
-    // Of the surface of that sample of a pixel, what rim views saw farthest beyond the frame.
-    Leaving outermost(std::uint32_t sample, Imath::V2i at, const Imath::V2i &out) const {
-        Leaving last{sample, depth(sample)};
-        for (int n = 1; double(n) <= last.depth + 0.5; ++n) {
-            const auto next = same_surface(samples(at += out), last.depth);
-            if (!next || !is_opaque(alpha_at(ldi_, alpha_, *next))) break;
-            last.sample = *next;
-            last.depth = depth(*next);
-        }
-        return last;
-    }
-    // The first one of these samples that is of the surface at that perceptive depth.
-    std::optional<std::uint32_t> same_surface(const SampleRange &range, double there) const {
-        for (const std::uint64_t i : range)
-            if (std::abs(depth(i) - there) < one_surface_px) return std::uint32_t(i);
-        return {};
-    }
-    // How far the disc reaches of which that pixel shows a part, brighter than that level.
-    static float extent_above(const std::vector<float> &bright, const std::vector<float> &inner, int at,
-                              float level) {
-        const int from = std::max(at - along, 0), to = std::min(at + along, int(bright.size()) - 1);
-        int first = at, last = at;
-        while (first > from && bright[std::size_t(first) - 1] > level) --first;
-        while (last < to && bright[std::size_t(last) + 1] > level) ++last;
-        int width = 0; // two pixels inwards
-        for (int i = std::max(2 * first - last, from); i <= std::min(2 * last - first, to); ++i)
-            width += inner[std::size_t(i)] > level;
-        return disc_beyond(last - first + 1, width);
-    }
-    // The brightest sample of each pixel; -1: none.
-    std::vector<float> brightest(const Imath::V2i &first, const Imath::V2i &step, int count) const {
-        std::vector<float> bright(std::size_t(count), -1.0f);
-        for (int i = 0; i < count; ++i)
-            for (const std::uint64_t of : samples(first + i * step))
-                bright[std::size_t(i)] = std::max(bright[std::size_t(i)], brightness(of));
-        return bright;
-    }
-    double depth(std::uint64_t i) const { return perceptive_depth(lens_, double(ldi_.z[i])); }
-    float brightness(std::uint64_t i) const {
-        float most = 0;
-        for (const std::size_t k : brightness_) most = std::max(most, ldi_.values[k][i]);
-        return most;
-    }
-    const Ldi &ldi_;
-    const ThinLens &lens_;
-    LightReach light_;
-    std::size_t alpha_;
-    std::vector<std::size_t> brightness_;
-};
-
-// The LDI of picked samples, and how much of their light is left.
-struct Picked {
-    std::vector<std::uint64_t> begin{0};
-    std::vector<std::uint32_t> from;                     // [new sample]
-    std::vector<std::pair<std::uint32_t, float>> dimmed; // new samples
-};
-
-std::vector<float> picked(const std::vector<float> &of, const std::vector<std::uint32_t> &from) {
-    std::vector<float> values(of.empty() ? 0 : from.size());
-    parallel_ranges(values.size(), 65536, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) values[i] = of[from[i]];
-    });
-    return values;
-}
-
-// `to` may be the same LDI.
-void pick(const Ldi &of, Picked by, Ldi &to) {
-    const std::vector<std::size_t> light = light_channels(of).all;
-    to.channels = of.channels;
-    to.values.resize(of.values.size());
-    const std::vector<const std::vector<float> *> from = arrays_of(of);
-    const std::vector<std::vector<float> *> into = arrays_of(to);
-    for (std::size_t k = 0; k < from.size(); ++k) *into[k] = picked(*from[k], by.from);
-    for (const auto &[sample, left] : by.dimmed)
-        for (const std::size_t k : light) to.values[k][sample] *= left;
-    to.begin = std::move(by.begin);
-}
 
 class Continuation {
 public:
@@ -224,7 +47,7 @@ public:
         for (int y = windows_.data.min.y; y <= windows_.data.max.y; ++y)
             for (int x = windows_.data.min.x; x <= windows_.data.max.x; ++x) {
                 add(Imath::V2i(x, y), made);
-                picked_.begin.push_back(picked_.from.size());
+                picked_.end_pixel();
             }
         pick(ldi_, std::move(picked_), to);
         to.windows = windows_;
@@ -246,14 +69,10 @@ private:
         looked_[top] = data.min.y < frame_.min.y;
         looked_[bottom] = data.max.y > frame_.max.y;
     }
-    void keep(std::uint32_t sample, float light = 1) {
-        if (light < 1) picked_.dimmed.push_back({std::uint32_t(picked_.from.size()), light});
-        picked_.from.push_back(sample);
-    }
     void add(const Imath::V2i &at, BeyondFrame &made) {
         const SampleRange own = border_.samples(at);
         if (frame_.intersects(at) || !grown_.intersects(at)) {
-            for (const std::uint64_t i : own) keep(std::uint32_t(i));
+            for (const std::uint64_t i : own) picked_.keep(std::uint32_t(i));
             return;
         }
         const Imath::V2i nearest(std::clamp(at.x, known_.min.x, known_.max.x),
@@ -271,7 +90,7 @@ private:
             for (const Leaving &l : border.leaving)
                 if (l.depth < shown) pixel.push_back({l.sample, l.light(std::max(n.x, n.y))});
         std::ranges::stable_sort(pixel, {}, [&](const auto &of) { return ldi_.z[of.first]; });
-        for (const auto &[sample, light] : pixel) keep(sample, light);
+        for (const auto &[sample, light] : pixel) picked_.keep(sample, light);
     }
 
     const Ldi &ldi_;

@@ -1,0 +1,27 @@
+// The LDI of picked samples, and how much of their light is left.
+#pragma once
+
+#include "deep/ldi.h"
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace sparselens {
+
+struct Picked {
+    std::vector<std::uint64_t> begin{0};                 // of each pixel, as Ldi::begin
+    std::vector<std::uint32_t> from;                     // [new sample]
+    std::vector<std::pair<std::uint32_t, float>> dimmed; // new samples
+
+    void keep(std::uint32_t sample, float light = 1) {
+        if (light < 1) dimmed.push_back({std::uint32_t(from.size()), light});
+        from.push_back(sample);
+    }
+    void end_pixel() { begin.push_back(from.size()); }
+};
+
+// The windows of `to`, which may be the same LDI, stay as they are.
+void pick(const Ldi &of, Picked by, Ldi &to);
+
+} // namespace sparselens
