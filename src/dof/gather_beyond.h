@@ -19,6 +19,7 @@ Image gather_beyond(AnyLdi &&ldi, const ThinLens &lens, const Imath::Box2i &wind
                                          by.known.value_or(window), options.beyond->reach);
     by.known = all.known;
     by.unseen = all.unseen;
+    by.seen = options.beyond->frame;
     return gather(all.ldi, by);
 }
 

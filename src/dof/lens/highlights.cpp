@@ -24,7 +24,7 @@ struct Found {
 class HighlightFinder {
 public:
     HighlightFinder(const BlockedSamples &samples, std::span<const std::size_t> channels,
-                    const SampleColours &colours);
+                    const SampleColours &colours, const std::optional<Imath::Box2i> &seen);
     std::vector<Found> find() const;
 
 private:
@@ -36,19 +36,26 @@ private:
     // visit(sample) for the samples of the cells in a box.
     template <typename Visit>
     void for_each_sample(const Imath::Box2i &cells, const Visit &visit) const;
+    // What lets light through beyond the frame is no less known than the frame's pixel beside it.
+    bool is_seen(std::uint32_t sample) const {
+        if (!seen_ || samples_.source[sample] == BlockedSamples::background) return true;
+        return seen_->intersects(
+            Imath::V2i(int(std::floor(samples_.x[sample])), int(std::floor(samples_.y[sample]))));
+    }
     float level_of(const Imath::Box2i &cells) const;
     std::vector<Found> find_in(const Imath::V2i &at) const;
 
     const BlockedSamples &samples_;
     std::span<const std::size_t> channels_;
     const SampleColours &colours_;
+    const std::optional<Imath::Box2i> &seen_;
     Grid cells_, windows_; // a window's lower right cell is the one of its own column and row
     std::vector<float> levels_;
 };
 
 HighlightFinder::HighlightFinder(const BlockedSamples &samples, std::span<const std::size_t> channels,
-                                 const SampleColours &colours)
-    : samples_(samples), channels_(channels), colours_(colours),
+                                 const SampleColours &colours, const std::optional<Imath::Box2i> &seen)
+    : samples_(samples), channels_(channels), colours_(colours), seen_(seen),
       cells_(pieces_of(samples.columns, cell), pieces_of(samples.rows, cell)),
       windows_(cells_.width() + 1, cells_.height() + 1), levels_(windows_.size()) {
     parallel_for(windows_.size(), [&](std::size_t i) {
@@ -69,8 +76,9 @@ void HighlightFinder::for_each_sample(const Imath::Box2i &cells, const Visit &vi
 
 // What all but the brightest samples of a window stay below.
 float HighlightFinder::level_of(const Imath::Box2i &cells) const {
-    std::vector<float> levels;
-    for_each_sample(cells, [&](std::uint32_t i) { levels.push_back(brightness_of(i)); });
+    std::vector<float> levels, all;
+    for_each_sample(cells, [&](std::uint32_t i) { (is_seen(i) ? levels : all).push_back(brightness_of(i)); });
+    if (levels.empty()) levels = std::move(all);
     if (levels.empty()) return 0;
     const auto limit = levels.end() - 1 - std::ptrdiff_t(levels.size() / brightest);
     std::nth_element(levels.begin(), limit, levels.end());
@@ -102,8 +110,9 @@ std::vector<Found> HighlightFinder::find() const {
 } // namespace
 
 Highlights take_highlights(const BlockedSamples &samples, std::span<const std::size_t> brightness,
-                           std::span<const std::size_t> colour_channels, SampleColours &colours) {
-    const std::vector<Found> all = HighlightFinder(samples, brightness, colours).find();
+                           std::span<const std::size_t> colour_channels, SampleColours &colours,
+                           const std::optional<Imath::Box2i> &seen) {
+    const std::vector<Found> all = HighlightFinder(samples, brightness, colours, seen).find();
     Highlights highlights{{},
                           {colours.groups, all.size(), std::vector<float>(colours.groups * all.size() * 4)}};
     for (const Found &f : all) {

@@ -9,7 +9,10 @@
 #include "dof/lens/sample_blocks.h"
 #include "dof/lens/sample_colours.h"
 
+#include <Imath/ImathBox.h>
+
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -22,10 +25,12 @@ struct Highlights {
 
 // The highlights of a picture; what they spread is taken out of `colours`. A sample is one if the brightest of its
 // `brightness` channels is more than four times what four of five samples around it stay below, which bounds the cost. "Around"
-// is the darkest of four windows of 64 x 64 pixels that overlap there. From six times on it spreads all that stands out,
-// below that less and less, so that nothing pops where a lamp is hardly one. Of the channels only those in `colour_channels`
-// are light.
+// is the darkest of four windows of 64 x 64 pixels that overlap there: of what each shows in `seen` (pixels relative to the data
+// window's corner) or lets light through, as what else lies beyond is made up; but of all that it shows where that is nothing.
+// From six times on it spreads all that stands out, below that less and less, so that nothing pops where a lamp is hardly one.
+// Of the channels only those in `colour_channels` are light.
 Highlights take_highlights(const BlockedSamples &samples, std::span<const std::size_t> brightness,
-                           std::span<const std::size_t> colour_channels, SampleColours &colours);
+                           std::span<const std::size_t> colour_channels, SampleColours &colours,
+                           const std::optional<Imath::Box2i> &seen = {});
 
 } // namespace sparselens

@@ -260,10 +260,13 @@ Image gather_once(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &wind
     const std::vector<Filler> found_fillers =
         find_fillers(ldi, lens, known); // before there are colours, as it takes memory
     SampleColours colours = make_colours(ldi, samples);
-    const SharpenLooks looks{optics.aperture, optics.field, optics.frame, coc, options.looks.magnification};
+    const SharpenLooks looks{optics.aperture, optics.field, optics.frame, coc, options.looks.magnification,
+                             options.seen};
     sharpen_near_focus(ldi, lens, samples, colours, &looks);
     const LightChannels light = light_channels(ldi);
-    const Highlights highlights = take_highlights(samples, light.brightness, light.all, colours);
+    std::optional<Imath::Box2i> seen = options.seen;
+    if (seen) seen = Imath::Box2i(seen->min - ldi.windows.data.min, seen->max - ldi.windows.data.min);
+    const Highlights highlights = take_highlights(samples, light.brightness, light.all, colours, seen);
     FillerSamples fillers = place_fillers(ldi, lens, found_fillers, samples, colours);
     optics.bend(fillers.samples);
     const PlacedFacets facets =

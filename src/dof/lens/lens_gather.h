@@ -29,10 +29,11 @@ struct LensGatherOptions {
     LensTiles *chosen = nullptr;             // where given: is told what was chosen
     std::optional<Imath::Box2i> region = {}; // tiles beside it stay as they were rendered
     std::optional<Imath::Box2i> known =
-        {};                            // pixels of which the empty ones are transparent; else the window;
-    std::span<const char> unseen = {}; // [pixel of the data window] but for these
-    const Holdout *holdout = nullptr;  // holds the picture out
-    TileDevice *device = nullptr;      // where given: gathers the tiles that it can
+        {};                                // pixels of which the empty ones are transparent; else the window;
+    std::span<const char> unseen = {};     // [pixel of the data window] but for these
+    std::optional<Imath::Box2i> seen = {}; // pixels that were seen, not made up beyond the frame; else all
+    const Holdout *holdout = nullptr;      // holds the picture out
+    TileDevice *device = nullptr;          // where given: gathers the tiles that it can
 };
 
 // Pixels `window` (EXR coordinates, within the LDI's data window), channels of the LDI. In `window`, or `known`, an empty

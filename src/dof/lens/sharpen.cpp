@@ -62,6 +62,9 @@ private:
     Seen seen(const MergedSample &place, int x, int y) const;
     Weights weights(std::uint64_t i, int x, int y, SurfaceNeighbours &n) const;
     double detail(std::uint64_t i, const SurfaceNeighbours &n) const;
+    bool was_seen(std::size_t pixel) const {
+        return !looks_ || !looks_->seen || looks_->seen->intersects(ldi_.windows.pixel(pixel));
+    }
     double second_difference(std::uint64_t i, std::uint64_t a, std::uint64_t b, std::size_t k) const {
         const std::vector<float> &v = ldi_.values[rgb_[k]];
         return double(v[a]) - 2 * double(v[i]) + double(v[b]);
@@ -112,7 +115,7 @@ void Sharpener::measure_noise() {
             for (int x = left; x < right; ++x) {
                 const std::size_t pixel = std::size_t(y) * std::size_t(width) + std::size_t(x);
                 const SampleRange samples = ldi_.pixel(pixel);
-                if (samples.empty()) continue;
+                if (samples.empty() || !was_seen(pixel)) continue;
                 const SurfaceNeighbours n = surface_neighbours(ldi_, lens_, samples.front(), x, y);
                 if (n.horizontal && n.vertical) details.push_back(detail(samples.front(), n));
             }

@@ -14,15 +14,19 @@
 #include "lens/focus_field.h"
 #include "lens/thin_lens.h"
 
+#include <optional>
+
 namespace sparselens {
 
 // The lens's looks as far as they matter here: the shape of the aperture, how the CoC of a sample differs from that of a
-// flat plane of focus (`coc` pixels and what the field says), and where the magnified picture shows it.
+// flat plane of focus (`coc` pixels and what the field says), and where the magnified picture shows it. And the pixels that
+// were seen (EXR coordinates): what is made up beyond them tells nothing of the noise; if none is given, all were.
 struct SharpenLooks {
     const Aperture &aperture;
     const FocusField &field;
     const PictureFrame &frame;
     double coc = 0, magnification = 1;
+    std::optional<Imath::Box2i> seen = {};
 };
 
 // Every channel of a sample is changed by the same weights (so that layers still add up to the beauty), chosen

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <optional>
 #include <vector>
 
 namespace sparselens {
@@ -21,9 +22,9 @@ constexpr std::size_t red_channel = 0, alpha = 3;
 
 struct Blocked : BlockedLdi {
     using BlockedLdi::BlockedLdi;
-    Highlights take() {
+    Highlights take(const std::optional<Imath::Box2i> &seen = {}) {
         const std::size_t brightness[] = {0, 1, 2};
-        return take_highlights(samples, brightness, brightness, colours);
+        return take_highlights(samples, brightness, brightness, colours, seen);
     }
 };
 
@@ -57,6 +58,20 @@ TEST(TakeHighlights, TakesTheLightThatStandsOutAndLeavesTheRest) {
             for (std::size_t k = 0; k < 4 && i != lamp; ++k)
                 ASSERT_EQ(blocked.colours.at(k, i), before.at(k, i));
     }
+}
+
+// Four fifths of the picture are dark, but were not seen: the rest does not stand out of them.
+TEST(TakeHighlights, AsksOnlyWhatWasSeenForWhatIsAround) {
+    const Ldi ldi = shining_plane(64, wide, 20, [](int x, int y) {
+        return x >= 12 ? 0.01f - float(0.5 + 0.5 * random_unit(x, y, 1)) : x == 5 && y == 40 ? 60.0f : 0.0f;
+    });
+    EXPECT_GT(Blocked(ldi, wide).take().sample.size(), 700u);
+    Blocked blocked(ldi, wide);
+    const Highlights highlights = blocked.take(Imath::Box2i({0, 0}, {11, 63}));
+    ASSERT_EQ(highlights.sample.size(), 1u);
+    EXPECT_EQ(blocked.samples.x[highlights.sample[0]], 5.5f);
+    // Where nothing was seen, what is there is all there is to ask.
+    EXPECT_GT(Blocked(ldi, wide).take(Imath::Box2i({-9, 0}, {-1, 63})).sample.size(), 700u);
 }
 
 TEST(TakeHighlights, TakesNothingThatIsNoBrighterThanOther) {

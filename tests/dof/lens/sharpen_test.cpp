@@ -1,6 +1,8 @@
 #include "dof/lens/blocked_fixture.h"
 #include "dof/lens/lens_gather.h"
 #include "dof/lens/sharpen.h"
+#include "lens/lens_looks.h"
+#include "lens/picture_frame.h"
 #include "support/lens_ldi.h"
 
 #include <gtest/gtest.h>
@@ -10,6 +12,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <optional>
 
 namespace sparselens {
 namespace {
@@ -96,6 +99,26 @@ TEST(Sharpen, LeavesNoiseAlone) {
     // An edge between noisy areas is no noise.
     const auto edge = [&](int x, int y) { return noise(x, y) + (x < 32 ? 0 : 2); };
     EXPECT_GT(change(plane(1, edge)), 0.1);
+}
+
+// What is made up beside noise is calm, and would have the noise taken for detail.
+TEST(Sharpen, AsksOnlyWhatWasSeenForItsNoise) {
+    const Ldi ldi = plane(1, [](int x, int y) { return x < 20 ? 0.5 + 0.1 * random_unit(x, y, 1) : 0.5; });
+    const auto change = [&](const std::optional<Imath::Box2i> &seen) {
+        const LensLooks none;
+        const Aperture aperture(none.aperture);
+        const PictureFrame frame = picture_frame(ldi.windows, none);
+        const FocusField field(none, lens, frame);
+        const SharpenLooks looks{aperture, field, frame, 0, 1, seen};
+        BlockedLdi blocked(ldi, lens);
+        const SampleColours before = blocked.colours;
+        sharpen_near_focus(ldi, lens, blocked.samples, blocked.colours, &looks);
+        double squares = 0;
+        for (std::size_t i = 0; i < before.count; ++i)
+            squares += std::pow(double(blocked.colours.at(0, i)) - double(before.at(0, i)), 2);
+        return squares;
+    };
+    EXPECT_LT(change(Imath::Box2i({0, 0}, {19, 63})), 0.1 * change({}));
 }
 
 TEST(Sharpen, NeverMakesLightNegative) {
