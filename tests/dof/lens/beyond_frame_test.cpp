@@ -68,22 +68,26 @@ TEST(BeyondFrame, WhatLeavesItGoesOnAsFarAsTheLensSees) {
                                   nothing, nothing, 1})); // up to 8 pixels away
 }
 
-// Rim views saw something 5 pixels near at three pixels beyond the frame (20, 21, 23), so they would have shown the rest of it.
+// Rim views saw what is 5 pixels near up to five pixels beyond the frame, so they would have shown the rest of it.
 TEST(BeyondFrame, WhatViewsWouldHaveShownIsNotMadeUp) {
     const double near = infinite_coc(lens) - 5, far = infinite_coc(lens) - 1.2; // CoCs 2.7 and 6.5
-    const auto picture = [&](double last) {
+    const auto beside = [&](double last, const std::vector<double> &seen) {
         std::vector<double> cocs(20, far);
         cocs[19] = last;
-        for (const double c : {near, near, double(NAN), near, double(NAN)}) cocs.push_back(c);
-        return row_of(cocs);
+        cocs.insert(cocs.end(), seen.begin(), seen.end());
+        return values(beyond(row_of(cocs), {{0, 0}, {19, 0}}), 19, 26);
     };
-    const Imath::Box2i frame({0, 0}, {19, 0});
-    // What is 1.2 pixels near was shown at the first pixel, and fills from the second on what the views left.
-    EXPECT_EQ(values(beyond(picture(far), frame), 19, 26),
-              (std::vector<float>{19, 20, 21, 19, 23, 19, 19, 19}));
-    // What is nearer ends where they showed its end, and goes on as it was seen farthest out.
-    EXPECT_EQ(values(beyond(picture(near), frame), 19, 25),
-              (std::vector<float>{19, 20, 21, unknown, 23, unknown, 21}));
+    // What is 1.2 pixels near was shown at the first pixel, and fills from the second on what the views left. What is nearer
+    // ends where they showed its end, whether it left the frame or not.
+    const std::vector<double> ends{near, near, NAN, NAN, NAN};
+    EXPECT_EQ(beside(far, ends), (std::vector<float>{19, 20, 21, 19, 19, 19, 19, 19}));
+    EXPECT_EQ(beside(near, ends),
+              (std::vector<float>{19, 20, 21, unknown, unknown, unknown, unknown, unknown}));
+    // It goes on from where they could look no farther, or from one pixel before, where parallax tears it.
+    EXPECT_EQ(beside(far, {NAN, NAN, NAN, near, near}),
+              (std::vector<float>{19, unknown, 19, 19, 23, 24, 24, 24}));
+    EXPECT_EQ(beside(far, {NAN, NAN, NAN, near, NAN}),
+              (std::vector<float>{19, unknown, 19, 19, 23, 19, 23, 23}));
 }
 
 TEST(BeyondFrame, KeepsCoverageAndWhatIsBehind) {
@@ -120,6 +124,24 @@ TEST(BeyondFrame, SmallLightsGoOnAsDiscs) {
     EXPECT_EQ(all.ldi.values[1][all.ldi.pixel(all.ldi.windows.index(-5, 40)).front()], 1);
 }
 
+// A lamp of 5 pixels' radius lies 5 pixels beyond the frame, as near as 4 pixels: rim views saw four columns of it.
+TEST(BeyondFrame, SmallLightsThatViewsCutOffGoOnAsDiscs) {
+    const Imath::Box2i frame({10, 0}, {79, 79});
+    const Ldi ldi = make_ldi(windows_of_size(80, 80), coloured, [&](int x, int y) {
+        const bool lamp = x >= 6 && std::hypot(x + 0.5 - 5, y + 0.5 - 40) < 5;
+        return lamp     ? std::vector<Sample>{{depth_of(lens, infinite_coc(lens) - 4), {100, 1}}}
+               : x >= 9 ? std::vector<Sample>{{depth_of(lens, 7), {1, 1}}}
+                        : std::vector<Sample>{};
+    });
+    const BeyondFrame all = go_on_beyond(ldi, lens, {}, frame, frame, {20, 20});
+    const auto light = [&](int x, int y) {
+        return double(all.ldi.values[0][all.ldi.pixel(all.ldi.windows.index(x, y)).front()]) / 100;
+    };
+    for (int x = 1; x < 6; ++x) EXPECT_EQ(light(x, 40), 1) << x;
+    EXPECT_LT(light(-6, 40), 0.3);
+    EXPECT_EQ(light(5, 33), 0.01);
+}
+
 // Slowly: each pixel beyond asks what the nearest one of the frame has.
 TEST(BeyondFrame, IsWhatTheRuleSays) {
     for (const bool opaque : {true, false}) {
@@ -137,42 +159,65 @@ TEST(BeyondFrame, IsWhatTheRuleSays) {
             return ldi.windows.data.intersects(at) ? ldi.pixel(ldi.windows.index(at.x, at.y))
                                                    : SampleRange{0, 0};
         };
-        // The depth of the pixel's sample, or of the last of its surface that views looked at.
-        const auto farthest_out = [&](Imath::V2i q, const Imath::V2i &to, bool looked, std::uint64_t i) {
-            const Imath::V2i step(std::clamp(to.x, -1, 1), std::clamp(to.y, -1, 1));
-            const auto near = [&](std::uint64_t k) { return perceptive_depth(lens, double(ldi.z[k])); };
-            for (double n = 1; looked && n <= near(i) + 0.5; ++n) {
-                const SampleRange samples = of_pixel(q += step);
-                std::vector<std::uint64_t> same;
-                for (const std::uint64_t k : samples)
-                    if (std::abs(near(k) - near(i)) < 0.5 &&
-                        (alpha == npos || ldi.values[alpha][k] >= 0.9995f))
-                        same.push_back(k);
-                if (same.empty()) break;
-                i = same.front();
+        const auto near = [&](std::uint64_t k) { return perceptive_depth(lens, double(ldi.z[k])); };
+        // Those samples, m pixels from the frame, that no view looked farther at; or one pixel farther, and saw none.
+        const auto seen_last = [&](const Imath::V2i &at, const Imath::V2i &step, int m) {
+            std::vector<std::uint64_t> found;
+            for (const std::uint64_t i : of_pixel(at)) {
+                bool shown = false;
+                for (const std::uint64_t k : of_pixel(at + step))
+                    shown = shown || std::abs(near(k) - near(i)) < 0.5;
+                if (near(i) < m + 0.5 || (near(i) < m + 1.5 && !shown)) found.push_back(i);
             }
-            return ldi.z[i];
+            return found;
+        };
+        struct Beyond {
+            std::vector<std::uint64_t> samples;
+            bool open;
+        };
+        const auto beside_frame = [&](const Imath::V2i &p) {
+            const Imath::V2i q(std::clamp(p.x, 5, 69), std::clamp(p.y, 0, 45));
+            const Imath::V2i step(std::clamp(p.x - q.x, -1, 1), std::clamp(p.y - q.y, -1, 1));
+            const double n = std::max(std::abs(p.x - q.x), std::abs(p.y - q.y));
+            const bool looked = p.x < 5 || p.y > 45;
+            const Imath::V2i from = q;
+            Beyond found{{}, open(of_pixel(from))};
+            for (const std::uint64_t i : of_pixel(p)) found.samples.push_back(i);
+            if (!open(of_pixel(p))) return found;
+            if (!looked)
+                for (const std::uint64_t i : of_pixel(from)) found.samples.push_back(i);
+            else
+                for (int m = 0; m < n; ++m)
+                    for (const std::uint64_t i : seen_last(q + m * step, step, m))
+                        if (near(i) < n - 0.5) found.samples.push_back(i);
+            return found;
+        };
+        const auto past_corner = [&](const Imath::V2i &p) {
+            const Beyond above = beside_frame({std::clamp(p.x, 5, 69), p.y}),
+                         beside = beside_frame({p.x, std::clamp(p.y, 0, 45)});
+            Beyond found{{}, above.open};
+            for (const std::uint64_t i : of_pixel(p)) found.samples.push_back(i);
+            if (!open(of_pixel(p))) return found;
+            for (const std::uint64_t i : above.samples)
+                if (std::ranges::any_of(beside.samples,
+                                        [&](std::uint64_t k) { return std::abs(near(k) - near(i)) < 0.5; }))
+                    found.samples.push_back(i);
+            return found;
         };
         for (int y = -8; y < 54; ++y)
             for (int x = -3; x < 78; ++x) {
-                const Imath::V2i p(x, y), q(std::clamp(x, 5, 69), std::clamp(y, 0, 45));
-                const double nx = std::abs(x - q.x), ny = std::abs(y - q.y), n = std::max(nx, ny);
-                const bool looked = (nx == 0 || ny == 0) && (x < 5 || y > 45);
+                const Imath::V2i p(x, y);
+                if (frame.intersects(p)) continue;
                 ASSERT_TRUE(all.ldi.windows.data.intersects(p)) << p;
-                std::vector<float> expected;
-                for (const std::uint64_t i : of_pixel(p)) expected.push_back(ldi.z[i]);
-                if (n > 0 && open(of_pixel(p)))
-                    for (const std::uint64_t i : of_pixel(q)) {
-                        const float z = farthest_out(q, Imath::V2i(x, y) - q, looked, i);
-                        if (!looked || perceptive_depth(lens, double(z)) < n - 0.5) expected.push_back(z);
-                    }
+                const Beyond there =
+                    (x < 5 || x > 69) && (y < 0 || y > 45) ? past_corner(p) : beside_frame(p);
+                std::vector<float> expected, found;
+                for (const std::uint64_t i : there.samples) expected.push_back(ldi.z[i]);
                 std::ranges::sort(expected);
-                std::vector<float> found;
                 const std::size_t pixel = all.ldi.windows.index(x, y);
                 for (const std::uint64_t i : all.ldi.pixel(pixel)) found.push_back(all.ldi.z[i]);
                 ASSERT_EQ(found, expected) << p;
-                if (n == 0) continue;
-                ASSERT_EQ(!all.unseen[pixel], open(of_pixel(q))) << p;
+                ASSERT_EQ(!all.unseen[pixel], there.open) << p;
             }
     }
 }

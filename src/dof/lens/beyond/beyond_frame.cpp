@@ -59,38 +59,68 @@ private:
     void read_border() {
         const Imath::V2i down(0, 1), across(1, 0);
         const Imath::V2i size = known_.size() + Imath::V2i(1);
-        sides_[left] = border_.side(known_.min, down, across, size.y);
-        sides_[right] = border_.side({known_.max.x, known_.min.y}, down, -across, size.y);
-        sides_[top] = border_.side(known_.min, across, down, size.x);
-        sides_[bottom] = border_.side({known_.min.x, known_.max.y}, across, -down, size.x);
         const Imath::Box2i &data = ldi_.windows.data;
         looked_[left] = data.min.x < frame_.min.x;
         looked_[right] = data.max.x > frame_.max.x;
         looked_[top] = data.min.y < frame_.min.y;
         looked_[bottom] = data.max.y > frame_.max.y;
+        sides_[left] = border_.side(known_.min, down, -across, size.y, looked_[left]);
+        sides_[right] = border_.side({known_.max.x, known_.min.y}, down, across, size.y, looked_[right]);
+        sides_[top] = border_.side(known_.min, across, -down, size.x, looked_[top]);
+        sides_[bottom] = border_.side({known_.min.x, known_.max.y}, across, down, size.x, looked_[bottom]);
     }
+    // Samples, and how much of their light is left.
+    using Pixel = std::vector<std::pair<std::uint32_t, float>>;
+
     void add(const Imath::V2i &at, BeyondFrame &made) {
-        const SampleRange own = border_.samples(at);
+        Pixel pixel;
         if (frame_.intersects(at) || !grown_.intersects(at)) {
-            for (const std::uint64_t i : own) picked_.keep(std::uint32_t(i));
-            return;
+            add_all(border_.samples(at), pixel);
+        } else {
+            const Imath::V2i nearest(std::clamp(at.x, known_.min.x, known_.max.x),
+                                     std::clamp(at.y, known_.min.y, known_.max.y));
+            const bool open = at.x == nearest.x || at.y == nearest.y ? go_on(at, pixel)
+                                                                     : go_on_past_corner(at, nearest, pixel);
+            made.unseen[windows_.index(at.x, at.y)] = !open;
+            std::ranges::stable_sort(pixel, {}, [&](const auto &of) { return ldi_.z[of.first]; });
         }
-        const Imath::V2i nearest(std::clamp(at.x, known_.min.x, known_.max.x),
-                                 std::clamp(at.y, known_.min.y, known_.max.y));
-        const Imath::V2i n(std::abs(at.x - nearest.x), std::abs(at.y - nearest.y));
-        const Side side = n.x > 0 ? (at.x < nearest.x ? left : right) : (at.y < nearest.y ? top : bottom);
-        const bool corner = n.x > 0 && n.y > 0;
-        const BorderPixel &border =
-            sides_[side][std::size_t(n.x > 0 ? nearest.y - known_.min.y : nearest.x - known_.min.x)];
-        made.unseen[windows_.index(at.x, at.y)] = !border.open;
-        const double shown = corner || !looked_[side] ? sky : n.x + n.y - 0.5; // what is no farther
-        std::vector<std::pair<std::uint32_t, float>> pixel;
-        for (const std::uint64_t i : own) pixel.push_back({std::uint32_t(i), 1.0f});
-        if (!border_.closed(own))
-            for (const Leaving &l : border.leaving)
-                if (l.depth < shown) pixel.push_back({l.sample, l.light(std::max(n.x, n.y))});
-        std::ranges::stable_sort(pixel, {}, [&](const auto &of) { return ldi_.z[of.first]; });
         for (const auto &[sample, light] : pixel) picked_.keep(sample, light);
+    }
+    static void add_all(const SampleRange &samples, Pixel &to) {
+        for (const std::uint64_t i : samples) to.push_back({std::uint32_t(i), 1.0f});
+    }
+    // What lies there, beside the frame. Returns whether that lets light through to infinity.
+    bool go_on(const Imath::V2i &at, Pixel &pixel) const {
+        const bool across = at.x < known_.min.x || at.x > known_.max.x;
+        const Side side =
+            across ? (at.x < known_.min.x ? left : right) : (at.y < known_.min.y ? top : bottom);
+        const int along = across ? at.y - known_.min.y : at.x - known_.min.x;
+        const BorderPixel &border = sides_[side][std::size_t(along)];
+        const int n = std::array{known_.min.x - at.x, at.x - known_.max.x, known_.min.y - at.y,
+                                 at.y - known_.max.y}[side];
+        const SampleRange own = border_.samples(at);
+        add_all(own, pixel);
+        if (border_.closed(own)) return border.open;
+        const double shown = looked_[side] ? n - 0.5 : sky; // what is no farther
+        for (const Leaving &l : border.leaving)
+            if (l.from < n && l.depth < shown) pixel.push_back({l.sample, l.light(n)});
+        return border.open;
+    }
+    // What lies both above or below and beside it is one surface.
+    bool go_on_past_corner(const Imath::V2i &at, const Imath::V2i &nearest, Pixel &pixel) const {
+        Pixel above, beside;
+        const bool open = go_on({nearest.x, at.y}, above);
+        go_on({at.x, nearest.y}, beside);
+        const SampleRange own = border_.samples(at);
+        add_all(own, pixel);
+        if (border_.closed(own)) return open;
+        for (const auto &[sample, light] : above)
+            for (const auto &[other, other_light] : beside)
+                if (std::abs(border_.depth(sample) - border_.depth(other)) < one_surface_px) {
+                    pixel.push_back({sample, std::min(light, other_light)});
+                    break;
+                }
+        return open;
     }
 
     const Ldi &ldi_;

@@ -2,15 +2,16 @@
 // and what enters nothing stays nothing.
 //
 // A pixel beyond the frame continues the pixel of the frame that is nearest to it: it has its samples, with their coverage,
-// depth and place in the pixel, and lets light through to infinity if that does. Only across a side beyond which there are
-// samples, rim views looked past the frame, by the perceptive depth of what they saw: n pixels from the frame, what is nearer
-// than n - 1/2 pixels is there or not, as they showed it. Behind that goes on what is farther: a surface as it was seen
-// farthest out. Past corners they are taken not to have looked. Where that leaves out what ends the frame's pixel, it is
-// unknown what lies there.
+// depth and place in the pixel, and lets light through to infinity if that does. Across a side beyond which there are samples,
+// rim views looked past the frame, by the perceptive depth of what they saw: n pixels from the frame, what is nearer than
+// n - 1/2 pixels is there or not, as they showed it. There a sample goes on from the last pixel in which they could see it, or
+// from the last but one, if they saw nothing of its surface in the last, where parallax may tear it. So what they saw to end
+// ends, and what only they saw goes on too. Past corners lies what goes on both above or below the frame and beside it. Where
+// that leaves out what ends the frame's pixel, it is unknown what lies there.
 //
 // A small light goes on as a disc does, so that a lamp leaves no streak. It is one where it is brighter than four times what
-// four of five pixels up to 32 away along the border stay below. How wide it is there and 2 pixels within says how far its
-// disc reaches beyond; n times as far, 1 / n^2 of its light is left.
+// four of five pixels up to 32 away along the border stay below. How wide it is where it was seen last, and 2 pixels before
+// (1, where it was not that long), says how far its disc reaches on; n times as far, 1 / n^2 of its light is left.
 #pragma once
 
 #include "deep/ldi.h"

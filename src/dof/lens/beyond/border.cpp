@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace sparselens {
 
@@ -13,16 +14,14 @@ namespace {
 
 constexpr int along = 32;       // pixels on either side: what is around
 constexpr float stands_out = 4; // times what four of five samples there stay below
-constexpr int inwards = 2;      // pixels: where discs are measured a second time
 constexpr double sky = std::numeric_limits<double>::infinity();
 
-// How far a disc reaches beyond the border that is so wide there and `inwards` pixels within.
-float disc_beyond(int width, int inner) {
-    const double half = width / 2.0, inner_half = inner / 2.0;
-    // half^2 + y^2 == inner_half^2 + (y - inwards)^2
-    const double y =
-        ((inner_half - half) * (inner_half + half) / inwards + inwards) / 2; // of its middle, from the border
-    return float(std::clamp(std::hypot(half, y) - y, 0.0, 2.0 * width));
+// How far a disc reaches beyond a line that cuts it that wide, if it is as wide as `inner` so far within.
+float disc_beyond(double width, double inner, double within) {
+    const double half = width / 2, inner_half = inner / 2;
+    // half^2 + y^2 == inner_half^2 + (y - within)^2
+    const double y = ((inner_half - half) * (inner_half + half) / within + within) / 2; // of its middle
+    return float(std::clamp(std::hypot(half, y) - y, 0.0, 2 * width));
 }
 
 float level_around(const std::vector<float> &bright, int at) {
@@ -33,18 +32,6 @@ float level_around(const std::vector<float> &bright, int at) {
     const auto level = around.end() - 1 - std::ptrdiff_t(around.size() / 5);
     std::nth_element(around.begin(), level, around.end());
     return *level;
-}
-
-// How far the disc reaches of which that pixel shows a part, brighter than that level.
-float extent_above(const std::vector<float> &bright, const std::vector<float> &inner, int at, float level) {
-    const int from = std::max(at - along, 0), to = std::min(at + along, int(bright.size()) - 1);
-    int first = at, last = at;
-    while (first > from && bright[std::size_t(first) - 1] > level) --first;
-    while (last < to && bright[std::size_t(last) + 1] > level) ++last;
-    int width = 0; // two pixels inwards
-    for (int i = std::max(2 * first - last, from); i <= std::min(2 * last - first, to); ++i)
-        width += inner[std::size_t(i)] > level;
-    return disc_beyond(last - first + 1, width);
 }
 
 } // namespace
@@ -70,23 +57,43 @@ Imath::V2d Border::shown_beside(const Imath::V2i &at) const {
     return light_.shown_at(middle) - middle;
 }
 
-std::vector<BorderPixel> Border::side(const Imath::V2i &first, const Imath::V2i &step, const Imath::V2i &in,
-                                      int count) const {
-    const std::vector<float> bright = brightest(first, step, count),
-                             inner = brightest(first + inwards * in, step, count);
+struct Border::Line {
+    Imath::V2i first, step, out;
+    int count;
+    Imath::V2i pixel(int i, int n) const { return first + i * step + n * out; }
+};
+
+std::vector<BorderPixel> Border::side(const Imath::V2i &first, const Imath::V2i &step, const Imath::V2i &out,
+                                      int count, bool looked) const {
+    const Line line{first, step, out, count};
+    const std::vector<float> bright = brightest(first, step, count);
     std::vector<BorderPixel> found;
+    found.resize(std::size_t(count));
     for (int i = 0; i < count; ++i) {
-        const SampleRange here = samples(first + i * step);
-        const float level = stands_out * level_around(bright, i);
-        found.push_back({{}, !closed(here)});
-        for (const std::uint64_t of : here)
-            if (brightness(of) > level)
-                found.back().leaving.push_back(
-                    {std::uint32_t(of), depth(of), extent_above(bright, inner, i, level)});
-            else
-                found.back().leaving.push_back(outermost(std::uint32_t(of), first + i * step, -in));
+        BorderPixel &pixel = found[std::size_t(i)];
+        pixel.leaving = leaving(line, i, stands_out * level_around(bright, i), looked);
+        pixel.open = !closed(samples(line.pixel(i, 0)));
     }
     return found;
+}
+
+std::vector<Leaving> Border::leaving(const Line &line, int i, float level, bool looked) const {
+    std::vector<Leaving> found;
+    for (int n = 0; ldi_.windows.data.intersects(line.pixel(i, n)) && (n == 0 || looked); ++n)
+        for (const std::uint64_t of : samples(line.pixel(i, n))) {
+            if (looked && !seen_last(of, line, i, n)) continue;
+            const float reaches = brightness(of) > level ? extent(line, i, n, of, level)
+                                                         : std::numeric_limits<float>::infinity();
+            found.push_back({std::uint32_t(of), depth(of), n, reaches});
+        }
+    return found;
+}
+
+// Whether no rim view looked farther at the surface of that sample, n pixels beyond the border; or one more pixel, without
+// seeing it: parallax may tear a surface.
+bool Border::seen_last(std::uint64_t sample, const Line &line, int i, int n) const {
+    const double left = depth(sample) + 0.5 - n;
+    return left < 1 || (left < 2 && !shows(samples(line.pixel(i, n + 1)), depth(sample)));
 }
 
 bool Border::closed(const SampleRange &range) const {
@@ -96,23 +103,43 @@ bool Border::closed(const SampleRange &range) const {
     return !lets_through(transmittance);
 }
 
-// Of the surface of that sample of a pixel, what rim views saw farthest beyond the frame.
-Leaving Border::outermost(std::uint32_t sample, Imath::V2i at, const Imath::V2i &out) const {
-    Leaving last{sample, depth(sample)};
-    for (int n = 1; double(n) <= last.depth + 0.5; ++n) {
-        const auto next = same_surface(samples(at += out), last.depth);
-        if (!next || !is_opaque(alpha_at(ldi_, alpha_, *next))) break;
-        last.sample = *next;
-        last.depth = depth(*next);
-    }
-    return last;
+// Whether any of these samples is of the surface at that perceptive depth.
+bool Border::shows(const SampleRange &range, double there) const {
+    for (const std::uint64_t i : range)
+        if (std::abs(depth(i) - there) < one_surface_px) return true;
+    return false;
 }
 
-// The first one of these samples that is of the surface at that perceptive depth.
-std::optional<std::uint32_t> Border::same_surface(const SampleRange &range, double there) const {
-    for (const std::uint64_t i : range)
-        if (std::abs(depth(i) - there) < one_surface_px) return std::uint32_t(i);
-    return {};
+// The brightest of the surface at that perceptive depth.
+float Border::light_at(const Imath::V2i &at, double there) const {
+    float most = 0;
+    for (const std::uint64_t i : samples(at))
+        if (std::abs(depth(i) - there) < one_surface_px) most = std::max(most, brightness(i));
+    return most;
+}
+
+// How far the disc reaches of which that sample, n pixels beyond the border, shows a part.
+float Border::extent(const Line &line, int at, int n, std::uint64_t sample, float level) const {
+    const double there = depth(sample);
+    const auto light = [&](int i, int row) {
+        const float value = i < 0 || i >= line.count ? 0 : light_at(line.pixel(i, row), there);
+        return value > level ? value : 0;
+    };
+    int first = at, last = at;
+    while (first > at - along && light(first - 1, n) > 0) --first;
+    while (last < at + along && light(last + 1, n) > 0) ++last;
+    float most = 0;
+    for (int i = first; i <= last; ++i) most = std::max(most, light(i, n));
+    const auto width = [&](int row) { // as if all of it were as bright
+        double sum = 0;
+        for (int i = 2 * first - last; i <= 2 * last - first; ++i)
+            sum += double(std::min(light(i, row) / most, 1.0f));
+        return sum;
+    };
+    const double here = width(n);
+    for (const int within : {2, 1})
+        if (const double inner = width(n - within); inner > 0) return disc_beyond(here, inner, within);
+    return disc_beyond(here, 0, 0.5);
 }
 
 // The brightest sample of each pixel; -1: none.

@@ -14,23 +14,24 @@
 
 namespace sparselens {
 
-// A sample of a pixel at the border.
+// A sample that goes on beyond the frame.
 struct Leaving {
     std::uint32_t sample;
     double depth; // perceptive, pixels
-    // Beyond the border, pixels, of the small light that it is part of.
-    float extent = std::numeric_limits<float>::infinity();
+    int from;     // where it was seen last: pixels beyond the border
+    float extent; // beyond that, pixels, of the small light that it is part of; infinite for all else
 
     // How much of its light goes on n pixels beyond the border.
     float light(int n) const {
-        const float share = extent / float(n);
+        const float share = extent / float(n - from);
         return share >= 1 ? 1 : share * share;
     }
 };
 
+// At a pixel of the border.
 struct BorderPixel {
-    std::vector<Leaving> leaving; // front to back
-    bool open = true;             // lets light through to infinity
+    std::vector<Leaving> leaving;
+    bool open = true; // lets light through to infinity
 };
 
 class Border {
@@ -41,21 +42,26 @@ public:
     Imath::V2d reach(const Imath::V2i &at) const;
     // How far right and down lies what the magnified picture shows there.
     Imath::V2d shown_beside(const Imath::V2i &at) const;
-    // All of a side: from a pixel on, along `step`; the frame lies at `in`.
-    std::vector<BorderPixel> side(const Imath::V2i &first, const Imath::V2i &step, const Imath::V2i &in,
-                                  int count) const;
+    // All of a side: from a pixel on, along `step`; `out` is away from the frame. `looked`: rim views looked past it.
+    std::vector<BorderPixel> side(const Imath::V2i &first, const Imath::V2i &step, const Imath::V2i &out,
+                                  int count, bool looked) const;
     // Whether samples of that pixel leave no light.
     bool closed(const SampleRange &range) const;
     SampleRange samples(const Imath::V2i &at) const {
         return ldi_.windows.data.intersects(at) ? ldi_.pixel(ldi_.windows.index(at.x, at.y)) : SampleRange{};
     }
+    double depth(std::uint64_t sample) const { return perceptive_depth(lens_, double(ldi_.z[sample])); }
 
 private:
-    Leaving outermost(std::uint32_t sample, Imath::V2i at, const Imath::V2i &out) const;
-    std::optional<std::uint32_t> same_surface(const SampleRange &range, double there) const;
+    struct Line;
+    std::vector<Leaving> leaving(const Line &line, int i, float level, bool looked) const;
+    bool seen_last(std::uint64_t sample, const Line &line, int i, int n) const;
+    bool shows(const SampleRange &range, double there) const;
+    float extent(const Line &line, int at, int n, std::uint64_t sample, float level) const;
+    float light_at(const Imath::V2i &at, double there) const;
     std::vector<float> brightest(const Imath::V2i &first, const Imath::V2i &step, int count) const;
-    double depth(std::uint64_t i) const { return perceptive_depth(lens_, double(ldi_.z[i])); }
-    float brightness(std::uint64_t i) const;
+
+    float brightness(std::uint64_t sample) const;
 
     const Ldi &ldi_;
     const ThinLens &lens_;
