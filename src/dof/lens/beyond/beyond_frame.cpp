@@ -28,11 +28,10 @@ public:
         grown_.max.x += reach.x;
         if (known.min.y == frame.min.y) grown_.min.y -= reach.y;
         if (known.max.y == frame.max.y) grown_.max.y += reach.y;
-        const auto whole = [](int of) { return pieces_of(of, cell) * cell; };
+        const Imath::V2i beyond = ldi.windows.data.min - (frame.min - reach); // whatever the band
+        const auto whole = [](int of) { return pieces_of(std::max(of, 0), cell) * cell; };
         windows_ = ldi.windows;
-        const Imath::V2i corner = frame.min - Imath::V2i(whole(reach.x), whole(reach.y)); // whatever the band
-        windows_.data.min = {std::min(ldi.windows.data.min.x, corner.x),
-                             std::min(ldi.windows.data.min.y, corner.y)};
+        windows_.data.min -= Imath::V2i(whole(beyond.x), whole(beyond.y));
         windows_.data.extendBy(grown_.max);
         read_border();
     }
