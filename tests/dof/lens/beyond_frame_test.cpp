@@ -90,6 +90,26 @@ TEST(BeyondFrame, WhatViewsWouldHaveShownIsNotMadeUp) {
               (std::vector<float>{19, unknown, 19, 19, 23, 19, 23, 23}));
 }
 
+// Three bars as near as the one that the frame cuts off are 2 or 3 pixels wide, others wider or at other depths.
+TEST(BeyondFrame, WhatIsCutOffEndsAsOthersAsNearAndWideDo) {
+    const auto bars = [&](int cut, std::vector<int> widths, double c) {
+        std::vector<double> cocs(std::size_t(cut), -2.9);
+        for (const int width : widths) {
+            cocs.insert(cocs.end(), 4, 5);
+            cocs.insert(cocs.end(), std::size_t(width), c);
+        }
+        cocs.insert(cocs.end(), 64, 5);
+        const Ldi ldi = row_of(cocs);
+        return values(beyond(ldi, ldi.windows.data), -4, 0);
+    };
+    EXPECT_EQ(bars(2, {7, 3, 3}, -2.9), (std::vector<float>{2, 2, 2, 0, 0}));
+    EXPECT_EQ(bars(2, {3, 2, 7}, -2.9), (std::vector<float>{2, 2, 2, 2, 0}));
+    EXPECT_EQ(bars(3, {2}, -2.9), (std::vector<float>{3, 3, 3, 3, 0}));    // counted in whole pixels
+    EXPECT_EQ(bars(4, {2, 1}, -2.9), (std::vector<float>{0, 0, 0, 0, 0})); // much wider than all others
+    EXPECT_EQ(bars(2, {2, 2}, -1.5), (std::vector<float>{0, 0, 0, 0, 0})); // others are not as near
+    EXPECT_EQ(bars(2, {}, -2.9), (std::vector<float>{0, 0, 0, 0, 0}));
+}
+
 TEST(BeyondFrame, KeepsCoverageAndWhatIsBehind) {
     const Ldi ldi = make_ldi(windows_of_size(20, 1), grey_alpha, [](int x, int) {
         return x < 19
@@ -171,6 +191,36 @@ TEST(BeyondFrame, IsWhatTheRuleSays) {
             }
             return found;
         };
+        // Where the surface in front at q ends beyond the frame, and how wide it is in it.
+        struct End {
+            double beyond = INFINITY;
+            int width = 0;
+        };
+        const auto end_of = [&](const Imath::V2i &q, const Imath::V2i &in) {
+            struct Run {
+                double first, last;
+                int width;
+            };
+            std::vector<Run> runs;
+            for (int m = 0; m < 64; ++m) {
+                const SampleRange here = of_pixel(q + m * in);
+                const bool solid =
+                    !here.empty() && (alpha == npos || ldi.values[alpha][here.front()] >= 0.9995f);
+                const double depth = solid ? near(here.front()) : -1;
+                if (runs.empty() || std::abs(depth - runs.back().last) >= 0.5)
+                    runs.push_back({depth, depth, 1});
+                else
+                    runs.back().last = depth, ++runs.back().width;
+            }
+            End end;
+            if (runs.size() < 2 || runs[0].first < 0 || runs[0].last < runs[1].first) return end;
+            for (std::size_t r = 1; r + 1 < runs.size(); ++r)
+                if (runs[r].first > runs[r - 1].last && runs[r].last > runs[r + 1].first &&
+                    std::abs(runs[r].last - runs[0].first) < 0.5 && runs[r].width >= runs[0].width - 1)
+                    end = {std::min(end.beyond, std::max(0.0, double(runs[r].width - runs[0].width))),
+                           runs[0].width};
+            return end;
+        };
         struct Beyond {
             std::vector<std::uint64_t> samples;
             bool open;
@@ -180,7 +230,8 @@ TEST(BeyondFrame, IsWhatTheRuleSays) {
             const Imath::V2i step(std::clamp(p.x - q.x, -1, 1), std::clamp(p.y - q.y, -1, 1));
             const double n = std::max(std::abs(p.x - q.x), std::abs(p.y - q.y));
             const bool looked = p.x < 5 || p.y > 45;
-            const Imath::V2i from = q;
+            const End end = looked ? End{} : end_of(q, -step);
+            const Imath::V2i from = n > end.beyond ? q - end.width * step : q;
             Beyond found{{}, open(of_pixel(from))};
             for (const std::uint64_t i : of_pixel(p)) found.samples.push_back(i);
             if (!open(of_pixel(p))) return found;

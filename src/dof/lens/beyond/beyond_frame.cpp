@@ -97,6 +97,12 @@ private:
         const BorderPixel &border = sides_[side][std::size_t(along)];
         const int n = std::array{known_.min.x - at.x, at.x - known_.max.x, known_.min.y - at.y,
                                  at.y - known_.max.y}[side];
+        if (n > border.ends) {
+            const int in = (side == left || side == top ? 1 : -1) * (n + border.behind);
+            const SampleRange behind = border_.samples(at + (across ? Imath::V2i(in, 0) : Imath::V2i(0, in)));
+            add_all(behind, pixel);
+            return !border_.closed(behind);
+        }
         const SampleRange own = border_.samples(at);
         add_all(own, pixel);
         if (border_.closed(own)) return border.open;

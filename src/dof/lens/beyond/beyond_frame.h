@@ -9,6 +9,10 @@
 // ends, and what only they saw goes on too. Past corners lies what goes on both above or below the frame and beside it. Where
 // that leaves out what ends the frame's pixel, it is unknown what lies there.
 //
+// Across other sides, an opaque surface in front ends where others do: those that the row shows whole within 64 pixels, nearer
+// than what is on either side of them, as near as it (one_surface_px) and at most one pixel narrower. It becomes as wide as the
+// narrowest of them; past that goes on what lies beside it in the frame. If there are none, it goes on.
+//
 // A small light goes on as a disc does, so that a lamp leaves no streak. It is one where it is brighter than four times what
 // four of five pixels up to 32 away along the border stay below. How wide it is where it was seen last, and 2 pixels before
 // (1, where it was not that long), says how far its disc reaches on; n times as far, 1 / n^2 of its light is left.

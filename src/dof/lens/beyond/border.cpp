@@ -14,6 +14,7 @@ namespace {
 
 constexpr int along = 32;       // pixels on either side: what is around
 constexpr float stands_out = 4; // times what four of five samples there stay below
+constexpr int inwards = 64;     // pixels: as far as any band of rows reaches (gather_rows.cpp)
 constexpr double sky = std::numeric_limits<double>::infinity();
 
 // How far a disc reaches beyond a line that cuts it that wide, if it is as wide as `inner` so far within.
@@ -73,6 +74,7 @@ std::vector<BorderPixel> Border::side(const Imath::V2i &first, const Imath::V2i 
         BorderPixel &pixel = found[std::size_t(i)];
         pixel.leaving = leaving(line, i, stands_out * level_around(bright, i), looked);
         pixel.open = !closed(samples(line.pixel(i, 0)));
+        if (!looked) find_end(pixel, line, i);
     }
     return found;
 }
@@ -94,6 +96,38 @@ std::vector<Leaving> Border::leaving(const Line &line, int i, float level, bool 
 bool Border::seen_last(std::uint64_t sample, const Line &line, int i, int n) const {
     const double left = depth(sample) + 0.5 - n;
     return left < 1 || (left < 2 && !shows(samples(line.pixel(i, n + 1)), depth(sample)));
+}
+
+// The depth of what is opaque in front there; below 0: nothing.
+double Border::front(const Imath::V2i &at) const {
+    const SampleRange here = samples(at);
+    return here.empty() || !is_opaque(alpha_at(ldi_, alpha_, here.front())) ? -1 : depth(here.front());
+}
+
+// Others in front of what is beside them, as near and about as wide, tell how far what is cut off there goes on.
+void Border::find_end(BorderPixel &of, const Line &line, int i) const {
+    const double cut = front(line.pixel(i, 0));
+    if (cut < 0) return;
+    int width = 0, least = inwards;
+    double last = cut;
+    bool nearer = true; // the surface at hand, than what is before it
+    for (int from = 0, n = 1; n < inwards; ++n) {
+        const double here = front(line.pixel(i, -n));
+        if (std::abs(here - last) >= one_surface_px) {
+            const bool ends = nearer && here < last;
+            if (from == 0 && !ends) return;
+            if (from == 0)
+                width = n;
+            else if (ends && std::abs(last - cut) < one_surface_px && n - from >= width - 1)
+                least = std::min(least, n - from);
+            nearer = here > last;
+            from = n;
+        }
+        last = here;
+    }
+    if (least == inwards) return;
+    of.ends = std::max(least - width, 0);
+    of.behind = width;
 }
 
 bool Border::closed(const SampleRange &range) const {

@@ -32,6 +32,8 @@ struct Leaving {
 struct BorderPixel {
     std::vector<Leaving> leaving;
     bool open = true; // lets light through to infinity
+    // What is in front there ends so many pixels beyond the border; what lies behind it, that many pixels within, goes on.
+    int ends = std::numeric_limits<int>::max(), behind = 0;
 };
 
 class Border {
@@ -56,6 +58,8 @@ private:
     struct Line;
     std::vector<Leaving> leaving(const Line &line, int i, float level, bool looked) const;
     bool seen_last(std::uint64_t sample, const Line &line, int i, int n) const;
+    void find_end(BorderPixel &of, const Line &line, int i) const;
+    double front(const Imath::V2i &at) const;
     bool shows(const SampleRange &range, double there) const;
     float extent(const Line &line, int at, int n, std::uint64_t sample, float level) const;
     float light_at(const Imath::V2i &at, double there) const;
