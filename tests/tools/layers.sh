@@ -93,3 +93,17 @@ oiiotool cropped.exr depth.exr --chappend -o united.exr
 exits 0 "$gather" united.exr -o expected.exr "${lens[@]}"
 exits 0 "$gather" parts.exr -o out.exr "${lens[@]}"
 same out.exr expected.exr "parts of two data windows"
+
+# Numbers of objects are ids where their layer is named so: no pixel holds the mean of two. -v says what happens to each layer.
+picture make ids.exr 48x32 R=0.2 G=0.5 B=0.1 A=1 Z=1.5 ViewLayer.IndexOB.X=1 ViewLayer.Vector.X=1 fill=16x16+16+8 Z=9 ViewLayer.IndexOB.X=2 ViewLayer.Vector.X=2
+exits 0 "$bin/ldi-warp" ids.exr -o ids.ldi.exr
+for input in ids.exr ids.ldi.exr; do
+    exits 0 "$gather" $input -o out.exr "${lens[@]}" -v
+    [ "$(oiiotool out.exr --ch ViewLayer.IndexOB.X --colorcount:eps=0 1:2 -o x.exr | awk '{ n += $1 } END { print n }')" = 1536 ] ||
+        fail "$input: ids are averaged: $(oiiotool out.exr --ch ViewLayer.IndexOB.X --colorcount:eps=0 1:2)"
+    [ "$(oiiotool out.exr --ch ViewLayer.Vector.X --colorcount:eps=0 1:2 -o x.exr | awk '{ n += $1 } END { print n }')" -lt 1500 ] ||
+        fail "$input: other data is not averaged"
+    for said in 'of the picture: light' 'ViewLayer.IndexOB: ids: those of the front sample' 'ViewLayer.Vector: data: averaged'; do
+        grep -q "dof-gather: $input: layer $said" stderr || fail "-v: $said ($(cat stderr))"
+    done
+done
