@@ -13,6 +13,7 @@ namespace {
 constexpr int cell = 4;              // blocks wide and high
 constexpr std::size_t brightest = 5; // one sample of a window in so many may be a highlight
 constexpr float stands_out = 4;      // times what is around
+constexpr float near_focus = 2;      // pixels of CoC
 constexpr float wholly = 6;          // times that, from which all that stands out is spread
 
 struct Found {
@@ -42,7 +43,7 @@ private:
         return seen_->intersects(
             Imath::V2i(int(std::floor(samples_.x[sample])), int(std::floor(samples_.y[sample]))));
     }
-    float level_of(const Imath::Box2i &cells) const;
+    float level_of(const Imath::Box2i &cells, bool nothing_counts) const;
     std::vector<Found> find_in(const Imath::V2i &at) const;
 
     const BlockedSamples &samples_;
@@ -50,17 +51,19 @@ private:
     const SampleColours &colours_;
     const std::optional<Imath::Box2i> &seen_;
     Grid cells_, windows_; // a window's lower right cell is the one of its own column and row
-    std::vector<float> levels_;
+    std::vector<float> levels_, covered_levels_; // with what is nothing, and without
 };
 
 HighlightFinder::HighlightFinder(const BlockedSamples &samples, std::span<const std::size_t> channels,
                                  const SampleColours &colours, const std::optional<Imath::Box2i> &seen)
     : samples_(samples), channels_(channels), colours_(colours), seen_(seen),
       cells_(pieces_of(samples.columns, cell), pieces_of(samples.rows, cell)),
-      windows_(cells_.width() + 1, cells_.height() + 1), levels_(windows_.size()) {
+      windows_(cells_.width() + 1, cells_.height() + 1), levels_(windows_.size()),
+      covered_levels_(windows_.size()) {
     parallel_for(windows_.size(), [&](std::size_t i) {
         const Imath::V2i last = windows_.pixel(i);
-        levels_[i] = level_of({last - Imath::V2i(1), last});
+        levels_[i] = level_of({last - Imath::V2i(1), last}, true);
+        covered_levels_[i] = level_of({last - Imath::V2i(1), last}, false);
     });
 }
 
@@ -75,9 +78,12 @@ void HighlightFinder::for_each_sample(const Imath::Box2i &cells, const Visit &vi
 }
 
 // What all but the brightest samples of a window stay below.
-float HighlightFinder::level_of(const Imath::Box2i &cells) const {
+float HighlightFinder::level_of(const Imath::Box2i &cells, bool nothing_counts) const {
     std::vector<float> levels, all;
-    for_each_sample(cells, [&](std::uint32_t i) { (is_seen(i) ? levels : all).push_back(brightness_of(i)); });
+    for_each_sample(cells, [&](std::uint32_t i) {
+        if (nothing_counts || samples_.source[i] != BlockedSamples::background)
+            (is_seen(i) ? levels : all).push_back(brightness_of(i));
+    });
     if (levels.empty()) levels = std::move(all);
     if (levels.empty()) return 0;
     const auto limit = levels.end() - 1 - std::ptrdiff_t(levels.size() / brightest);
@@ -86,11 +92,15 @@ float HighlightFinder::level_of(const Imath::Box2i &cells) const {
 }
 
 std::vector<Found> HighlightFinder::find_in(const Imath::V2i &at) const {
-    const auto level_at = [&](int x, int y) { return levels_[windows_.index(at.x + x, at.y + y)]; };
-    const float level = std::min({level_at(0, 0), level_at(1, 0), level_at(0, 1), level_at(1, 1)});
+    const auto level_in = [&](const std::vector<float> &levels) {
+        const auto level_at = [&](int x, int y) { return levels[windows_.index(at.x + x, at.y + y)]; };
+        return std::min({level_at(0, 0), level_at(1, 0), level_at(0, 1), level_at(1, 1)});
+    };
+    const float any_level = level_in(levels_), covered_level = level_in(covered_levels_);
     std::vector<Found> found;
     for_each_sample({at, at}, [&](std::uint32_t i) {
-        const float brightness = brightness_of(i);
+        const float brightness = brightness_of(i),
+                    level = std::abs(samples_.coc[i]) < near_focus ? covered_level : any_level;
         if (!(brightness > stands_out * level)) return;
         const float wholeness = std::min((brightness / level - stands_out) / (wholly - stands_out), 1.0f);
         found.push_back({i, wholeness * (1 - level / brightness)});
