@@ -44,7 +44,7 @@ TEST(EncodingCheck, LightMixesAtEdgesAndCodesDoNot) {
 
 TEST(EncodingCheck, GreysSayNothing) {
     View view = stripes(srgb);
-    for (const std::size_t k : {1, 2}) std::ranges::copy(view.image.plane(0), view.image.plane(k).begin());
+    for (const std::size_t k : {1u, 2u}) std::ranges::copy(view.image.plane(0), view.image.plane(k).begin());
     EXPECT_FALSE(looks_encoded(mixing_at_edges(view)));
 }
 

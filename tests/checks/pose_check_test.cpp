@@ -139,7 +139,7 @@ TEST(PoseCheck, TheSamePictureFromTheSamePlaceIsFound) {
     const std::vector<View> views{card_before_wall({0, 0}), view, card_before_wall({-0.1, 0}), view,
                                   said_to_stand_at(view, {0, 0.1})};
     EXPECT_EQ(same_picture_and_place(views, 3), std::optional<std::size_t>(1));
-    for (const std::size_t i : {1, 2, 4}) EXPECT_FALSE(same_picture_and_place(views, i)) << i;
+    for (const std::size_t i : {1u, 2u, 4u}) EXPECT_FALSE(same_picture_and_place(views, i)) << i;
     View empty = view;
     std::ranges::fill(empty.z, 0.0f);
     EXPECT_FALSE(same_picture_and_place(std::vector<View>{empty, empty}, 1))
