@@ -1,7 +1,10 @@
 # What the library stands on.
 find_package(Imath 3.1 CONFIG REQUIRED)
 find_package(OpenEXR 3.1 CONFIG REQUIRED)
-find_package(OpenImageIO 2.4 CONFIG REQUIRED)
+find_package(OpenImageIO CONFIG REQUIRED) # its version file accepts no other major version than the one asked for
+if(OpenImageIO_VERSION VERSION_LESS 2.4)
+    message(FATAL_ERROR "OpenImageIO ${OpenImageIO_VERSION} was found in ${OpenImageIO_DIR}; sparselens needs 2.4 or later")
+endif()
 find_package(TBB CONFIG REQUIRED)
 find_package(CLI11 CONFIG REQUIRED)
 find_package(fmt 9.1 CONFIG REQUIRED)
@@ -17,10 +20,13 @@ list(FILTER oiio_includes EXCLUDE REGEX opencv)
 set_target_properties(OpenImageIO::OpenImageIO PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "${oiio_includes}")
 
 # The laboratory traces its scenes with Embree. The demo and most tests need it.
-find_package(embree 3 CONFIG QUIET)
-sparselens_found_option(SPARSELENS_LAB "Build the laboratory: dof-trace, dof-report, dof-stress (needs Embree 3)"
+find_package(embree 4 CONFIG QUIET)
+if(NOT embree_FOUND)
+    find_package(embree 3 CONFIG QUIET)
+endif()
+sparselens_found_option(SPARSELENS_LAB "Build the laboratory: dof-trace, dof-report, dof-stress (needs Embree 3 or 4)"
     "${embree_FOUND}")
 if(SPARSELENS_LAB AND NOT embree_FOUND)
-    message(FATAL_ERROR "SPARSELENS_LAB needs Embree 3 (Debian: libembree-dev), which was not found. "
+    message(FATAL_ERROR "SPARSELENS_LAB needs Embree 3 or 4 (Debian: libembree-dev), which was not found. "
         "Install it, or configure with -DSPARSELENS_LAB=OFF: the library and the tools for pictures do without.")
 endif()

@@ -58,12 +58,16 @@ std::string lacks(const vk::raii::PhysicalDevice &device, std::uint32_t version)
 VulkanInstance::VulkanInstance(const std::function<void(const std::string &)> *message)
     : instance(make_instance(loader, message != nullptr)) {
     if (!message) return;
-    using Severity = vk::DebugUtilsMessageSeverityFlagBitsEXT;
-    using Type = vk::DebugUtilsMessageTypeFlagBitsEXT;
-    const vk::DebugUtilsMessengerCreateInfoEXT create(
-        {}, Severity::eWarning | Severity::eError, Type::eValidation | Type::ePerformance, heard,
-        const_cast<std::function<void(const std::string &)> *>(message));
-    messenger.emplace(instance, create);
+    // By C's structure: the type of the callback in that of Vulkan-Hpp has changed.
+    VkDebugUtilsMessengerCreateInfoEXT create{};
+    create.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT;
+    create.messageSeverity =
+        VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
+    create.messageType =
+        VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_TYPE_PERFORMANCE_BIT_EXT;
+    create.pfnUserCallback = heard;
+    create.pUserData = const_cast<std::function<void(const std::string &)> *>(message);
+    messenger.emplace(instance, vk::DebugUtilsMessengerCreateInfoEXT(create));
 }
 
 DeviceInfo info_of(const vk::raii::PhysicalDevice &device, std::size_t index) {

@@ -1,8 +1,8 @@
 #include "lab/trace/tracer.h"
 
 #include "base/error.h"
+#include "lab/trace/embree.h"
 
-#include <embree3/rtcore.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -111,7 +111,7 @@ void load(std::span<const Ray> rays, float reach, RayN &packet, int *valid) {
 }
 
 struct CollectContext {
-    RTCIntersectContext embree; // first, so that the filter finds the rest behind it
+    QueryContext embree; // first, so that the filter finds the rest behind it
     const std::vector<Shape> *shapes;
     unsigned quads;
     const Ray *ray;
@@ -145,8 +145,7 @@ Tracer::Tracer(const Scene &scene) : impl_(std::make_unique<Impl>()) {
     if (!impl_->device)
         throw Error(fmt::format("Embree cannot be started: error {}", int(rtcGetDeviceError(nullptr))));
     impl_->embree.reset(rtcNewScene(impl_->device.get()));
-    rtcSetSceneFlags(impl_->embree.get(),
-                     RTCSceneFlags(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
+    rtcSetSceneFlags(impl_->embree.get(), RTCSceneFlags(RTC_SCENE_FLAG_ROBUST | filtered_scene));
     add_quads(impl_->device.get(), impl_->embree.get(), scene.quads);
     add_spheres(impl_->device.get(), impl_->embree.get(), scene.spheres);
     rtcCommitScene(impl_->embree.get());
@@ -171,10 +170,7 @@ void Tracer::nearest(std::span<const Ray> rays, std::span<Hit> hits) const {
         load(some, std::numeric_limits<float>::infinity(), packet.ray, valid);
         for (unsigned &id : packet.hit.geomID) id = RTC_INVALID_GEOMETRY_ID;
         for (unsigned &id : packet.hit.instID[0]) id = RTC_INVALID_GEOMETRY_ID;
-        RTCIntersectContext context;
-        rtcInitIntersectContext(&context);
-        context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-        rtcIntersect16(valid, impl_->embree.get(), &context, &packet);
+        intersect_coherent(valid, impl_->embree.get(), packet);
         for (std::size_t i = 0; i < some.size(); ++i) {
             const unsigned geometry = packet.hit.geomID[i];
             if (geometry == RTC_INVALID_GEOMETRY_ID) {
@@ -193,9 +189,7 @@ void Tracer::blocked(std::span<const Ray> rays, std::span<bool> blocked) const {
         alignas(64) int valid[packet_size];
         RTCRay16 packet;
         load(some, 1, packet, valid);
-        RTCIntersectContext context;
-        rtcInitIntersectContext(&context);
-        rtcOccluded16(valid, impl_->embree.get(), &context, &packet);
+        find_occluded(valid, impl_->embree.get(), packet);
         for (std::size_t i = 0; i < some.size(); ++i) blocked[first + i] = packet.tfar[i] < 0;
     }
 }
@@ -203,8 +197,7 @@ void Tracer::blocked(std::span<const Ray> rays, std::span<bool> blocked) const {
 void Tracer::all(const Ray &ray, std::vector<Hit> &hits) const {
     hits.clear();
     CollectContext context;
-    rtcInitIntersectContext(&context.embree);
-    context.embree.filter = collect;
+    init_context(context.embree);
     context.shapes = &impl_->shapes;
     context.quads = unsigned(impl_->scene.quads.size());
     context.ray = &ray;
@@ -220,7 +213,7 @@ void Tracer::all(const Ray &ray, std::vector<Hit> &hits) const {
     single.ray.mask = ~0u;
     single.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     single.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect1(impl_->embree.get(), &context.embree, &single);
+    intersect_filtered(impl_->embree.get(), context.embree, collect, single);
     std::sort(hits.begin(), hits.end(), [](const Hit &a, const Hit &b) {
         return a.t < b.t || (a.t == b.t && a.primitive < b.primitive);
     });
