@@ -188,7 +188,7 @@ LdiFile read_ldi(const std::string &path, const std::string &depth_channel, cons
         const auto stream = open_input(path);
         check_header(*stream, path);
         Imf::MultiPartInputFile file(*stream);
-        const DeepSource source{file, *stream, path, stream->size()};
+        const DeepSource source{file, *stream, path, stream->bytes()};
         const std::vector<int> deep = deep_parts(file);
         if (deep.empty()) return read_flat_as_ldi(source, *stream, depth_channel, choice);
         const PartsOfView of_view = parts_of_view(file, deep, choice.stereo_view, path);

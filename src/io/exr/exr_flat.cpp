@@ -205,14 +205,14 @@ FlatFile read_flat_part(Imf::MultiPartInputFile &file, const std::string &path, 
     find_kinds_by(header, channels);
     const MissingCoverage missing(file, picture);
     if (!missing.covered.isEmpty()) channels.push_back({"A"});
-    check_memory(path, memory_of(header, channels.size()), stream.size());
+    check_memory(path, memory_of(header, channels.size()), stream.bytes());
     Image image(picture.windows, channels);
     std::size_t k = 0;
     for (const PartChannels &part : picture.parts) k = read_channels(file, part, image, k);
     if (colours_by_luminance(file, picture, path)) read_luminance_chroma(stream, image);
     if (!missing.covered.isEmpty()) missing.fill(image);
     add_mean_coverage(image);
-    return FlatFile{std::move(image), header, stream.size(), std::move(picture.notes),
+    return FlatFile{std::move(image), header, stream.bytes(), std::move(picture.notes),
                     std::move(picture.warnings)};
 }
 

@@ -50,7 +50,7 @@ public:
     HeaderWalk(InputStream &in, const std::string &path) : in_(in), path_(path) {}
 
     void run() {
-        if (in_.size() < 8) return;
+        if (in_.bytes() < 8) return;
         if (word() != magic) fail_as_other();
         const bool multipart = (word() & several_parts) != 0;
         bool more = one_header();
@@ -70,7 +70,7 @@ private:
 
     void check_attribute(const std::string &name, const std::string &type, std::uint64_t bytes) {
         const std::uint64_t begin = in_.tellg();
-        if (bytes > in_.size() - begin)
+        if (bytes > in_.bytes() - begin)
             fail(name, fmt::format("claims {} bytes, more than the file has", bytes));
         for (const FixedSize &fixed : fixed_sizes)
             if (fixed.type == type && fixed.bytes != bytes) fail(name, "does not have the size of its type");
@@ -104,7 +104,7 @@ private:
     [[noreturn]] void fail_as_other() {
         std::array<char, 16> bytes{};
         in_.seekg(0);
-        in_.read(bytes.data(), int(std::min<std::uint64_t>(bytes.size(), in_.size())));
+        in_.read(bytes.data(), int(std::min<std::uint64_t>(bytes.size(), in_.bytes())));
         throw Error(display_name(path_) + ": " + not_exr({bytes.data(), bytes.size()}));
     }
     [[noreturn]] void fail(const std::string &name, const std::string &what) const {
@@ -112,7 +112,7 @@ private:
     }
     void skip(std::uint64_t bytes) {
         const std::uint64_t at = in_.tellg();
-        if (bytes > in_.size() - at) throw Error(display_name(path_) + ": the file is truncated");
+        if (bytes > in_.bytes() - at) throw Error(display_name(path_) + ": the file is truncated");
         in_.seekg(at + bytes);
     }
     unsigned char byte() {

@@ -33,7 +33,12 @@ public:
         if (position > bytes_->size()) throw Error(std::string(fileName()) + ": the file is truncated");
         position_ = position;
     }
-    std::uint64_t size() const override { return bytes_->size(); }
+    std::uint64_t bytes() const override { return bytes_->size(); }
+    std::uint64_t read_from(std::uint64_t position, char *to, std::uint64_t count) const override {
+        const std::uint64_t there = std::min(count, bytes_->size() - std::min(position, bytes()));
+        std::copy_n(bytes_->begin() + std::ptrdiff_t(std::min(position, bytes())), there, to);
+        return there;
+    }
     std::unique_ptr<InputStream> another() const override {
         return std::make_unique<MemoryInput>(fileName(), bytes_);
     }
@@ -89,7 +94,11 @@ public:
     }
     std::uint64_t tellg() override { return position_; }
     void seekg(std::uint64_t position) override { position_ = position; }
-    std::uint64_t size() const override { return size_; }
+    std::uint64_t bytes() const override { return size_; }
+    std::uint64_t read_from(std::uint64_t position, char *to, std::uint64_t count) const override {
+        if (position > most_bytes || count > most_bytes - position) fail_as_truncated();
+        return read_at(file_->number(), to, count, position);
+    }
     std::unique_ptr<InputStream> another() const override {
         return std::make_unique<FileInput>(fileName(), file_, size_);
     }

@@ -20,9 +20,20 @@ namespace sparselens {
 class InputStream : public Imf::IStream {
 public:
     using Imf::IStream::IStream;
-    virtual std::uint64_t size() const = 0; // bytes
+    virtual std::uint64_t bytes() const = 0; // of the whole file
+    // Copies `count` bytes from `position` on, or as many as there are, and returns how many. For any number of threads.
+    virtual std::uint64_t read_from(std::uint64_t position, char *to, std::uint64_t count) const = 0;
     // The same bytes for another thread, from their beginning.
     virtual std::unique_ptr<InputStream> another() const = 0;
+
+    // What OpenEXR asks its streams from 3.3 on: it checks a header against the size, and reads without seeking. Before that
+    // nobody calls them, so they override nothing.
+    using Imf::IStream::read;
+    virtual std::int64_t size() { return std::int64_t(bytes()); }
+    virtual bool isStatelessRead() const { return true; }
+    virtual std::int64_t read(void *to, std::uint64_t count, std::uint64_t position) {
+        return std::int64_t(read_from(position, static_cast<char *>(to), count));
+    }
 };
 
 // What a file is expected to hold. A pipe or a device that sends anything else may never end: it is left at once where it
