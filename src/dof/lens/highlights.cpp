@@ -43,7 +43,8 @@ private:
         return seen_->intersects(
             Imath::V2i(int(std::floor(samples_.x[sample])), int(std::floor(samples_.y[sample]))));
     }
-    float level_of(const Imath::Box2i &cells, bool nothing_counts) const;
+    enum class Of { seen, seen_and_covered, all };
+    float level_of(const Imath::Box2i &cells, Of of) const;
     std::vector<Found> find_in(const Imath::V2i &at) const;
 
     const BlockedSamples &samples_;
@@ -52,6 +53,7 @@ private:
     const std::optional<Imath::Box2i> &seen_;
     Grid cells_, windows_; // a window's lower right cell is the one of its own column and row
     std::vector<float> levels_, covered_levels_; // with what is nothing, and without
+    std::vector<float> made_up_levels_;          // with what lies beyond
 };
 
 HighlightFinder::HighlightFinder(const BlockedSamples &samples, std::span<const std::size_t> channels,
@@ -59,11 +61,13 @@ HighlightFinder::HighlightFinder(const BlockedSamples &samples, std::span<const 
     : samples_(samples), channels_(channels), colours_(colours), seen_(seen),
       cells_(pieces_of(samples.columns, cell), pieces_of(samples.rows, cell)),
       windows_(cells_.width() + 1, cells_.height() + 1), levels_(windows_.size()),
-      covered_levels_(windows_.size()) {
+      covered_levels_(windows_.size()), made_up_levels_(windows_.size()) {
     parallel_for(windows_.size(), [&](std::size_t i) {
         const Imath::V2i last = windows_.pixel(i);
-        levels_[i] = level_of({last - Imath::V2i(1), last}, true);
-        covered_levels_[i] = level_of({last - Imath::V2i(1), last}, false);
+        const Imath::Box2i window{last - Imath::V2i(1), last};
+        levels_[i] = level_of(window, Of::seen);
+        covered_levels_[i] = level_of(window, Of::seen_and_covered);
+        made_up_levels_[i] = seen_ ? level_of(window, Of::all) : 0;
     });
 }
 
@@ -78,11 +82,11 @@ void HighlightFinder::for_each_sample(const Imath::Box2i &cells, const Visit &vi
 }
 
 // What all but the brightest samples of a window stay below.
-float HighlightFinder::level_of(const Imath::Box2i &cells, bool nothing_counts) const {
+float HighlightFinder::level_of(const Imath::Box2i &cells, Of of) const {
     std::vector<float> levels, all;
     for_each_sample(cells, [&](std::uint32_t i) {
-        if (nothing_counts || samples_.source[i] != BlockedSamples::background)
-            (is_seen(i) ? levels : all).push_back(brightness_of(i));
+        if (of != Of::seen_and_covered || samples_.source[i] != BlockedSamples::background)
+            (of == Of::all || is_seen(i) ? levels : all).push_back(brightness_of(i));
     });
     if (levels.empty()) levels = std::move(all);
     if (levels.empty()) return 0;
@@ -96,11 +100,13 @@ std::vector<Found> HighlightFinder::find_in(const Imath::V2i &at) const {
         const auto level_at = [&](int x, int y) { return levels[windows_.index(at.x + x, at.y + y)]; };
         return std::min({level_at(0, 0), level_at(1, 0), level_at(0, 1), level_at(1, 1)});
     };
-    const float any_level = level_in(levels_), covered_level = level_in(covered_levels_);
+    const float any_level = level_in(levels_), covered_level = level_in(covered_levels_),
+                made_up_level = level_in(made_up_levels_);
     std::vector<Found> found;
     for_each_sample({at, at}, [&](std::uint32_t i) {
-        const float brightness = brightness_of(i),
-                    level = std::abs(samples_.coc[i]) < near_focus ? covered_level : any_level;
+        const float brightness = brightness_of(i);
+        float level = std::abs(samples_.coc[i]) < near_focus ? covered_level : any_level;
+        if (!is_seen(i)) level = std::max(level, made_up_level); // so that few of them are highlights, too
         if (!(brightness > stands_out * level)) return;
         const float wholeness = std::min((brightness / level - stands_out) / (wholly - stands_out), 1.0f);
         found.push_back({i, wholeness * (1 - level / brightness)});

@@ -27,6 +27,7 @@ struct Highlights {
 // `brightness` channels is more than four times what four of five samples around it stay below, which bounds the cost. "Around"
 // is the darkest of four windows of 64 x 64 pixels that overlap there: of what each shows in `seen` (pixels relative to the data
 // window's corner) or lets light through, as what else lies beyond is made up; but of all that it shows where that is nothing.
+// What is made up has to stand out of all that it shows, too, so that no more than a fifth of that are highlights.
 // From six times on it spreads all that stands out, below that less and less, so that nothing pops where a lamp is hardly one.
 // Of the channels only those in `colour_channels` are light.
 Highlights take_highlights(const BlockedSamples &samples, std::span<const std::size_t> brightness,

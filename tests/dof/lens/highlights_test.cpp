@@ -74,6 +74,17 @@ TEST(TakeHighlights, AsksOnlyWhatWasSeenForWhatIsAround) {
     EXPECT_GT(Blocked(ldi, wide).take(Imath::Box2i({-9, 0}, {-1, 63})).sample.size(), 700u);
 }
 
+// Only the dark part was seen. What is made up beside it is bright all over, and only its lamp stands out of that.
+TEST(TakeHighlights, AsksWhatIsMadeUpToStandOutOfItself) {
+    const Ldi ldi = shining_plane(64, wide, 20, [](int x, int y) {
+        return x < 12 ? 0.01f - float(0.5 + 0.5 * random_unit(x, y, 1)) : x == 40 && y == 40 ? 60.0f : 0.0f;
+    });
+    Blocked blocked(ldi, wide);
+    const Highlights highlights = blocked.take(Imath::Box2i({0, 0}, {11, 63}));
+    ASSERT_EQ(highlights.sample.size(), 1u);
+    EXPECT_EQ(blocked.samples.x[highlights.sample[0]], 40.5f);
+}
+
 TEST(TakeHighlights, TakesNothingThatIsNoBrighterThanOther) {
     const auto bright_half = [](int x, int) { return x < 24 ? 60.0f : 0.0f; };
     EXPECT_TRUE(Blocked(shining_plane(48, wide, 9, bright_half), wide).take().sample.empty());
