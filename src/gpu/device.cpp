@@ -61,8 +61,7 @@ Device::Vulkan::Vulkan(const DeviceInfo &info, const Watch &watch_)
       memories(physical.getMemoryProperties()), watch(watch_) {}
 
 void Device::Vulkan::ask_watch() const {
-    if (const int result = watch.fails ? watch.fails() : 0)
-        throw_as_asked(vk::Result(result));
+    if (const int result = watch.fails ? watch.fails() : 0) throw_as_asked(vk::Result(result));
 }
 
 Device::Device(const DeviceInfo &info, const Watch &watch) : info_(info), watch_(watch) {
