@@ -21,6 +21,7 @@ constexpr double fine_motion = 0.25;   // pixels
 constexpr double worth_turning = 0.05; // less contradiction is that of noise
 constexpr double farthest_turned = 48; // pixels
 constexpr double turning_step = 1.5;   // pixels
+constexpr std::size_t some = 4;        // one pixel in so many tells roughly how far a view is turned
 constexpr double one_side = 175;       // degrees within which all other views stand
 constexpr double equally_far = 1.2;    // ratio of distances
 
@@ -108,24 +109,28 @@ std::optional<Imath::V2d> turned_by(const View &centre, const View &view, double
     if (stated.told < enough || stated.contradiction < worth_turning) return {};
     const double width = view.image.windows.display_width();
     Imath::V2d best(0, 0); // pixels, right and down
-    double least = stated.contradiction;
-    const auto attempt = [&](const Imath::V2d &axis) {
-        const PoseVerdict there = evidence.at(view.position, axis / width);
-        if (there.told < enough || 2 * there.told < stated.told || there.contradiction >= least) return;
+    double least = 1;
+    const auto attempt = [&](const Imath::V2d &axis, std::size_t every) {
+        const PoseVerdict there = evidence.at(view.position, axis / width, every);
+        const std::size_t told = there.told * every;
+        if (told < enough || 2 * told < stated.told || there.contradiction >= least) return;
         least = there.contradiction;
         best = axis;
     };
+    attempt({0, 0}, some);
     std::vector<Imath::V2d> directions{{1, 0}, {0, 1}};
     if (view.position.length() > 0)
         directions.push_back(
             Imath::V2d(view.position.x, -view.position.y).normalized()); // aimed at something
     for (const Imath::V2d &direction : directions)
         for (double by = 1; by <= farthest_turned; by += turning_step)
-            for (const double way : {by, -by}) attempt(direction * way);
+            for (const double way : {by, -by}) attempt(direction * way, some);
+    least = 1;
+    attempt(best, 1);
     for (double step = turning_step; step >= fine_motion;) {
         const Imath::V2d before = best;
         for (const Imath::V2d &axis : {Imath::V2d(1, 0), Imath::V2d(0, 1)})
-            for (const double way : {step, -step}) attempt(before + axis * way);
+            for (const double way : {step, -step}) attempt(before + axis * way, 1);
         if (best == before) step /= 2;
     }
     if (best.length() < least_motion ||

@@ -69,14 +69,15 @@ PoseEvidence::PoseEvidence(const View &centre, const View &view, double focal_px
         }
 }
 
-PoseVerdict PoseEvidence::at(const Imath::V2d &position, const Imath::V2d &axis) const {
+PoseVerdict PoseEvidence::at(const Imath::V2d &position, const Imath::V2d &axis, std::size_t every) const {
     Framing framing = view_.view.framing;
     framing.principal_point += axis;
     const ViewMapping mapping(position, focal_px_, view_.view.image.windows, framing,
                               centre_.view.framing.principal_point);
     double sum = 0;
     PoseVerdict verdict;
-    for (const Pixel &pixel : pixels_) {
+    for (std::size_t i = 0; i < pixels_.size(); i += every) {
+        const Pixel &pixel = pixels_[i];
         const Imath::V2d landed =
             mapping.at_infinity(pixel.place) + mapping.parallax(pixel.place) * (1 / pixel.z);
         if (!holds(centre_.view.image.windows.data, landed)) continue;

@@ -40,7 +40,8 @@ public:
     // What they say if the view stands at `position`, and its optical axis meets the picture farther right and down by `axis`
     // display widths than its framing says. A pixel in front of what the centre view shows contradicts by 1,
     // one on the same surface by the relative difference of its colour from those that this surface has around there.
-    PoseVerdict at(const Imath::V2d &position, const Imath::V2d &axis = {0, 0}) const;
+    // One pixel in `every` is asked.
+    PoseVerdict at(const Imath::V2d &position, const Imath::V2d &axis = {0, 0}, std::size_t every = 1) const;
 
     // How many pixels the nearest of them moves for each scene unit that the view is moved; 0 where there are none.
     double motion() const;
