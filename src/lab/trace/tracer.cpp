@@ -1,7 +1,7 @@
 #include "lab/trace/tracer.h"
 
 #include "base/error.h"
-#include "lab/trace/embree.h"
+#include "lab/embree/embree.h"
 
 #include <fmt/format.h>
 
