@@ -79,6 +79,18 @@ struct MatteError {
     }
 };
 
+// The largest sum of a pixel's coverages.
+float most_covered(const Image &picture) {
+    const std::vector<Matte> mattes = find_mattes(picture.channels);
+    float most = 0;
+    for (std::size_t i = 0; i < picture.windows.pixels(); ++i) {
+        float sum = 0;
+        for (const Matte::Rank &rank : mattes[0].ranks) sum += picture.plane(rank.coverage)[i];
+        most = std::max(most, sum);
+    }
+    return most;
+}
+
 std::map<int, MatteError> errors_of_five_views(const SceneCamera &scene) {
     std::vector<View> views;
     const ThinLens &lens = scene.settings.lens;
@@ -89,6 +101,7 @@ std::map<int, MatteError> errors_of_five_views(const SceneCamera &scene) {
     const Ldi ldi = cluster(warped, {.scale = lens.radius * lens.focal_px, .tolerance = 0.25}, silent).ldi;
     const Image picture = gather_methods().front().gather(
         ldi, lens, scene.settings.windows.data, {.layers = 8, .lens = {.quality = Quality::final}}, silent);
+    EXPECT_LE(most_covered(picture), 1.005f);
     std::map<int, MatteError> errors;
     for (std::size_t i = 0; i < picture.windows.pixels(); ++i)
         for (const auto &[object, share] : seen_by_lens(scene, picture.windows.pixel(i))) {

@@ -21,6 +21,7 @@ public:
     MemoryInput(const std::string &name, std::shared_ptr<const std::vector<char>> bytes)
         : InputStream(name.c_str()), bytes_(std::move(bytes)) {}
 
+    using InputStream::read;
     bool read(char c[], int n) override {
         if (n < 0 || std::uint64_t(n) > bytes_->size() - position_)
             throw Error(std::string(fileName()) + ": the file is truncated");
@@ -78,6 +79,7 @@ public:
     FileInput(const std::string &name, std::shared_ptr<const Descriptor> file, std::uint64_t size)
         : InputStream(name.c_str()), file_(std::move(file)), size_(size) {}
 
+    using InputStream::read;
     bool read(char c[], int n) override {
         if (n < 0 || position_ > most_bytes - std::uint64_t(n)) fail_as_truncated();
         const auto wanted = std::size_t(n);
