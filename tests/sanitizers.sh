@@ -1,5 +1,5 @@
 #!/bin/bash
-# The test suite under sanitizers: longer than continuous integration has time for, which runs the unit tests so.
+# The test suite under sanitizers: longer than continuous integration has time for, but for the unit tests.
 #
 #   tests/sanitizers.sh [--units] [asan] [tsan]     asan: Address- and UndefinedBehaviorSanitizer, tsan: ThreadSanitizer; both
 #

@@ -4,9 +4,9 @@
 #   tests/thorough.sh [ROW...]     all, or those of: lto no-lab no-gpu no-python shared asan tsan mutations fuzz
 #
 # lto: what differs between files of one name (tests/lto.sh); no-lab: all without Embree; no-gpu, no-python, shared: every
-# test without the kernels for GPUs, without the Python module, with a shared library; asan: the tests under
-# AddressSanitizer and UndefinedBehaviorSanitizer; tsan: under ThreadSanitizer; mutations: every deliberate fault; fuzz: a
-# minute of each target. Prints a table at the end; what each row said is in build-thorough/ROW.log. Exit 1 where one fails.
+# test without the kernels for GPUs, without the Python module, with a shared library; asan: the unit tests under
+# AddressSanitizer and UndefinedBehaviorSanitizer; tsan: the tests under ThreadSanitizer; mutations: every deliberate fault; fuzz: a minute of each target. Prints a table at the end; what each
+# row said is in build-thorough/ROW.log. Exit 1 where one fails.
 set -uo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 exec </dev/null
@@ -28,7 +28,7 @@ run() {
     no-gpu) with -DSPARSELENS_GPU=OFF ;;
     no-python) with -DSPARSELENS_PYTHON=OFF ;;
     shared) with -DBUILD_SHARED_LIBS=ON ;;
-    asan) tests/sanitizers.sh asan ;;
+    asan) tests/sanitizers.sh --units asan ;;
     tsan) tests/sanitizers.sh tsan ;;
     mutations) tests/mutations.sh ;;
     fuzz) tests/fuzz.sh 60 ;;
