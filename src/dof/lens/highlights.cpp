@@ -44,7 +44,11 @@ private:
             Imath::V2i(int(std::floor(samples_.x[sample])), int(std::floor(samples_.y[sample]))));
     }
     enum class Of { seen, seen_and_covered, all };
-    float level_of(const Imath::Box2i &cells, Of of) const;
+    // What a window holds besides samples that were seen. Where it holds nothing else, its levels are one.
+    struct Besides {
+        bool background = false, unseen = false;
+    };
+    float level_of(const Imath::Box2i &cells, Of of, Besides &besides) const;
     std::vector<Found> find_in(const Imath::V2i &at) const;
 
     const BlockedSamples &samples_;
@@ -65,9 +69,11 @@ HighlightFinder::HighlightFinder(const BlockedSamples &samples, std::span<const 
     parallel_for(windows_.size(), [&](std::size_t i) {
         const Imath::V2i last = windows_.pixel(i);
         const Imath::Box2i window{last - Imath::V2i(1), last};
-        levels_[i] = level_of(window, Of::seen);
-        covered_levels_[i] = level_of(window, Of::seen_and_covered);
-        made_up_levels_[i] = seen_ ? level_of(window, Of::all) : 0;
+        Besides besides;
+        const float level = level_of(window, Of::seen, besides);
+        levels_[i] = level;
+        covered_levels_[i] = besides.background ? level_of(window, Of::seen_and_covered, besides) : level;
+        made_up_levels_[i] = besides.unseen ? level_of(window, Of::all, besides) : level;
     });
 }
 
@@ -82,11 +88,14 @@ void HighlightFinder::for_each_sample(const Imath::Box2i &cells, const Visit &vi
 }
 
 // What all but the brightest samples of a window stay below.
-float HighlightFinder::level_of(const Imath::Box2i &cells, Of of) const {
+float HighlightFinder::level_of(const Imath::Box2i &cells, Of of, Besides &besides) const {
     std::vector<float> levels, all;
     for_each_sample(cells, [&](std::uint32_t i) {
-        if (of != Of::seen_and_covered || samples_.source[i] != BlockedSamples::background)
-            (of == Of::all || is_seen(i) ? levels : all).push_back(brightness_of(i));
+        const bool background = samples_.source[i] == BlockedSamples::background, seen = is_seen(i);
+        besides.background = besides.background || background;
+        besides.unseen = besides.unseen || !seen;
+        if (of != Of::seen_and_covered || !background)
+            (of == Of::all || seen ? levels : all).push_back(brightness_of(i));
     });
     if (levels.empty()) levels = std::move(all);
     if (levels.empty()) return 0;
