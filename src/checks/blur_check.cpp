@@ -1,5 +1,6 @@
 #include "checks/blur_check.h"
 
+#include "base/median.h"
 #include "checks/picture_lines.h"
 
 #include <Imath/ImathVec.h>
@@ -91,9 +92,7 @@ EdgeSharpness sharpness_of_edges(const View &view, const ThinLens &lens) {
             if (const auto steepest = steepest_of({planes, coc, line, i})) found.push_back(*steepest);
     });
     if (found.empty()) return {};
-    const auto middle = found.begin() + std::ptrdiff_t(found.size() / 2);
-    std::ranges::nth_element(found, middle);
-    return {found.size(), *middle};
+    return {found.size(), median(found)};
 }
 
 bool looks_defocused(const EdgeSharpness &sharpness) {

@@ -1,5 +1,6 @@
 #include "checks/encoding_check.h"
 
+#include "base/median.h"
 #include "checks/picture_lines.h"
 
 #include <Imath/ImathVec.h>
@@ -84,9 +85,7 @@ EdgeMixing mixing_at_edges(const View &view) {
         }
     });
     if (places.empty()) return {};
-    const auto middle = places.begin() + std::ptrdiff_t(places.size() / 2);
-    std::ranges::nth_element(places, middle);
-    return {places.size(), *middle};
+    return {places.size(), median(places)};
 }
 
 bool looks_encoded(const EdgeMixing &mixing) { return mixing.edges >= enough && mixing.encoded > between; }

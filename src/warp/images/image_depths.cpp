@@ -1,6 +1,7 @@
 #include "warp/images/image_depths.h"
 
 #include "base/grid.h"
+#include "base/median.h"
 #include "base/parallel.h"
 
 #include <algorithm>

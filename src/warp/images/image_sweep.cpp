@@ -1,5 +1,6 @@
 #include "warp/images/image_sweep.h"
 
+#include "base/median.h"
 #include "warp/images/patch_comparison.h"
 
 #include <algorithm>
@@ -106,12 +107,6 @@ std::optional<double> valley_of(const Curves &curve, std::size_t count, std::siz
 }
 
 } // namespace
-
-float median(std::span<float> values) {
-    const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
 
 float robust_mean(std::span<float> differences) {
     const auto unknowns = // ranges::partition() returns what clang 14 cannot compile

@@ -44,9 +44,6 @@ private:
     double scale_;
 };
 
-// The middle one, of at least one, the upper of two. Reorders them.
-float median(std::span<float> values);
-
 // The mean of the best three quarters of those that are not NaN; NaN if fewer than half are numbers. Reorders them.
 float robust_mean(std::span<float> differences);
 

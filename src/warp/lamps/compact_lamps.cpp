@@ -1,5 +1,6 @@
 #include "warp/lamps/compact_lamps.h"
 
+#include "base/median.h"
 #include "base/parallel.h"
 
 #include <algorithm>
@@ -31,13 +32,12 @@ std::vector<Seed> seeds_of(const Grid &grid, std::span<const float> brightness, 
     }
     const auto [least, most] = std::ranges::minmax(values);
     if (!(most > stands_out * least)) return {};
-    const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
+    const float middle = median(values);
     std::vector<Seed> seeds;
     for (int y = box.min.y; y <= box.max.y; ++y)
         for (int x = box.min.x; x <= box.max.x; ++x) {
             const std::size_t i = grid.index(x, y);
-            if (brightness[i] > stands_out * *middle) seeds.push_back({i, brightness[i], *middle});
+            if (brightness[i] > stands_out * middle) seeds.push_back({i, brightness[i], middle});
         }
     return seeds;
 }

@@ -1,5 +1,6 @@
 #include "warp/lamps/lamp_light.h"
 
+#include "base/median.h"
 #include "base/parallel.h"
 #include "deep/channel_alpha.h"
 #include "lens/perceptive_depth.h"
@@ -28,13 +29,6 @@ struct Change {
     std::vector<std::uint64_t> samples;
     double factor = 1;
 };
-
-// Of an even number, the upper one of the two in the middle.
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
 
 class Calibration {
 public:
@@ -122,7 +116,7 @@ std::optional<double> Calibration::light_of_views(const CompactLamp &lamp, const
         if (light) lights.push_back(*light);
         if (v == 0 && !light) return {};
     }
-    const double middle = median(lights);
+    const double middle = median(std::vector(lights)); // they keep their order
     const double tolerance = middle * std::min(most_noise, noise_of_pixels / double(lamp.pixels.size()));
     const auto differs = [&](double light) { return std::abs(light - middle) > tolerance; };
     if (differs(lights[0])) return {};
