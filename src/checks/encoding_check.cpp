@@ -40,7 +40,7 @@ Imath::V3d on_curve(const Imath::V3d &a, const Imath::V3d &b, double along) {
     const Imath::V3d light_a = decoded(a), light_b = decoded(b), way = b - a;
     double low = 0, high = 1;
     Imath::V3d at = a;
-    for (int i = 0; i < 30; ++i) {
+    for (int i = 0; i < 12; ++i) { // far finer than any judgement
         const double share = (low + high) / 2;
         at = encoded(light_a * (1 - share) + light_b * share);
         ((at - a).dot(way) < along * way.length2() ? low : high) = share;

@@ -167,30 +167,34 @@ Edge edge_at(const Pixels &pixels, int x, int y) {
     return edge;
 }
 
-// By the pixels of a row: whether those within two pixels show surfaces that are apart. Most do not, and are no edge.
+// The pixels on either side that edge_at() asks.
+constexpr int reach = 2;
+
+// By the pixels of a row: whether those around them show surfaces that are apart. Most do not, and are no edge.
 std::vector<std::uint8_t> parted_around(const Pixels &pixels, int y) {
-    constexpr int reach = 2; // of edge_at()
+    constexpr float nearly_apart = 1.09f; // below `apart`, whatever is rounded
     const Grid &grid = pixels.grid;
     const auto width = std::size_t(grid.width());
     const int first = std::max(y - reach, 0), last = std::min(y + reach, grid.height() - 1);
-    const auto row = [&](int at) { return pixels.z.subspan(grid.index(0, at), width); };
-    std::vector<float> least(row(first).begin(), row(first).end()), most = least; // along y
-    for (int other = first + 1; other <= last; ++other) {
-        const std::span<const float> z = row(other);
+    // Along y; beyond both ends of the row there is nothing.
+    std::vector<float> least(width + 2 * reach, std::numeric_limits<float>::infinity()),
+        most(width + 2 * reach, -std::numeric_limits<float>::infinity());
+    for (int other = first; other <= last; ++other) {
+        const float *z = &pixels.z[grid.index(0, other)];
+        float *near = &least[reach], *far = &most[reach];
         for (std::size_t x = 0; x < width; ++x) {
-            least[x] = z[x] < least[x] ? z[x] : least[x];
-            most[x] = z[x] > most[x] ? z[x] : most[x];
+            near[x] = z[x] < near[x] ? z[x] : near[x];
+            far[x] = z[x] > far[x] ? z[x] : far[x];
         }
     }
     std::vector<std::uint8_t> parted(width);
     for (std::size_t x = 0; x < width; ++x) {
-        const std::size_t from = x > reach ? x - reach : 0, to = std::min(x + reach + 1, width);
         float near = least[x], far = most[x];
-        for (std::size_t i = from; i < to; ++i) {
-            near = least[i] < near ? least[i] : near;
-            far = most[i] > far ? most[i] : far;
+        for (std::size_t i = 1; i <= 2 * reach; ++i) {
+            near = least[x + i] < near ? least[x + i] : near;
+            far = most[x + i] > far ? most[x + i] : far;
         }
-        parted[x] = std::min(double(far), sky) > apart * double(near);
+        parted[x] = std::min(far, float(sky)) > nearly_apart * near;
     }
     return parted;
 }

@@ -51,6 +51,7 @@ private:
     ReprojectedViews views_;
     Ldi layout_; // windows and channels of the result
     std::vector<Matte> mattes_;
+    std::vector<bool> ids_; // whether a channel holds_ids()
 };
 
 Warper::Warper(std::span<const View> views, const WarpOptions &options)
@@ -65,6 +66,7 @@ Warper::Warper(std::span<const View> views, const WarpOptions &options)
     layout_.channels = views[0].image.channels;
     layout_.values.resize(layout_.channels.size());
     mattes_ = find_mattes(layout_.channels);
+    for (const Channel &channel : layout_.channels) ids_.push_back(holds_ids(channel));
     if (averages()) grow_window();
 }
 
@@ -103,14 +105,14 @@ void Warper::emit_mean(std::span<const ViewSample> samples, Ldi &out) const {
     for (std::size_t k = 0; k < out.channels.size(); ++k) {
         double sum = 0;
         for (const ViewSample &s : samples) sum += s.weight * views_.value(s, k);
-        const bool id = holds_ids(out.channels[k]);
-        out.values[k].push_back(id ? views_.value(samples[0], k) : float(coverage * (sum / total)));
+        out.values[k].push_back(ids_[k] ? views_.value(samples[0], k) : float(coverage * (sum / total)));
     }
+    ++out.begin.back();
+    if (mattes_.empty()) return;
     MatteSum pairs(mattes_);
     for (const ViewSample &s : samples)
         pairs.add(coverage * s.weight / total, [&](std::size_t k) { return views_.value(s, k); });
     pairs.take([&](std::size_t k, float value) { out.values[k].back() = value; });
-    ++out.begin.back();
 }
 
 // The centre's sample, else the most central one, as it is.
