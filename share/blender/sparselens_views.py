@@ -103,11 +103,41 @@ ROWS_A_CHUNK = {0: 1, 1: 1, 2: 1, 3: 16, 4: 32, 5: 16, 6: 32, 7: 32, 8: 32,
                 9: 256}  # by the number of the compression
 
 
-def with_attributes(data, attributes):
-    """The bytes of an EXR with these attributes added or replaced. The chunks
-    are kept; their table of offsets moves, and so do their rows where the
-    data window does."""
+def channel_list(header):
+    """Names of the channels, and the bytes behind each name: 4 of type, 4
+    flags, 8 sampling."""
+    packed, at, found = header["channels"][1], 0, []
+    while packed[at] != 0:
+        name_end = packed.index(b"\0", at)
+        found.append((packed[at:name_end].decode(),
+                      packed[name_end + 1:name_end + 17]))
+        at = name_end + 17
+    return found
+
+
+PLAIN_NAMES = ["A", "B", "G", "R", "Z"]
+
+
+def name_plainly(header):
+    """Where an EXR holds no more than colour and depth, their channels lose
+    the names of the view layer and its passes: A, B, G, R, Z, which are in
+    the same order."""
+    channels = channel_list(header)
+    if [name.rsplit(".", 1)[-1] for name, _ in channels] != PLAIN_NAMES:
+        return
+    header["channels"] = "chlist", b"".join(
+        plain.encode() + b"\0" + rest
+        for plain, (_, rest) in zip(PLAIN_NAMES, channels)) + b"\0"
+    header.pop("BlenderMultiChannel", None)
+
+
+def with_attributes(data, attributes, plain=False):
+    """The bytes of an EXR with these attributes added or replaced, and with
+    `plain` names of its channels. The chunks are kept; their table of offsets
+    moves, and so do their rows where the data window does."""
     header, end = read_header(data)
+    if plain:
+        name_plainly(header)
     _, top, _, bottom = struct.unpack("<4i", header["dataWindow"][1])
     rows = ROWS_A_CHUNK[header["compression"][1][0]]
     count = (bottom - top) // rows + 1
@@ -127,17 +157,14 @@ def with_attributes(data, attributes):
 
 
 def depth_rows(data):
-    """The rows of channel Z of an EXR without compression, from the top."""
+    """The rows of the depth of an EXR without compression, from the top."""
     header, end = read_header(data)
     left, top, right, bottom = struct.unpack("<4i", header["dataWindow"][1])
-    channels, at, before = header["channels"][1], 0, 0
-    while channels[at] != 0:
-        name_end = channels.index(b"\0", at)
-        if channels[at:name_end] == b"Z":
+    before = 0
+    for name, rest in channel_list(header):
+        if name == "Z" or name.endswith(".Depth.Z"):
             break
-        half = struct.unpack_from("<i", channels, name_end + 1)[0] == 1
-        before += 2 if half else 4
-        at = name_end + 17
+        before += 2 if struct.unpack_from("<i", rest)[0] == 1 else 4
     else:
         raise ValueError("an EXR without depth")
     width = right - left + 1
@@ -458,6 +485,37 @@ def still_camera(scene):
         bpy.data.cameras.remove(data)
 
 
+def file_settings(settings, multilayer, codec):
+    """Values for `settings`, the image_settings of a render, that give an EXR
+    with depth. Since Blender 4.0 only multilayer files have depth; Blender 5
+    wants to know of several layers first, and parts of a file are its way of
+    storing them unless told to interleave."""
+    known = settings.bl_rna.properties
+    single = not multilayer and "use_zbuffer" in known
+    values = {
+        "media_type": "IMAGE" if single else "MULTI_LAYER_IMAGE",
+        "file_format": "OPEN_EXR" if single else "OPEN_EXR_MULTILAYER",
+        "color_mode": "RGBA", "color_depth": "16", "exr_codec": codec,
+        "use_exr_interleave": True, "use_zbuffer": True,
+        "color_management": "FOLLOW_SCENE"}
+    return {name: value for name, value in values.items() if name in known}
+
+
+@contextmanager
+def colour_and_depth(layer):
+    """Switches off all other passes of a view layer for a while, but for its
+    AOVs and light groups, which have no switch."""
+    with ExitStack() as stack:
+        for owner in (layer, layer.cycles, layer.eevee):
+            names = [prop.identifier for prop in owner.bl_rna.properties
+                     if prop.identifier.startswith("use_pass_")
+                     or prop.identifier == "denoising_store_passes"]
+            stack.enter_context(changed(owner, **{
+                name: name in ("use_pass_combined", "use_pass_z")
+                for name in names}))
+        yield
+
+
 @contextmanager
 def render_settings(scene, size, multilayer=False, codec="ZIP"):
     """EXR with depth, of a picture of that size, and of nothing else than the
@@ -466,9 +524,7 @@ def render_settings(scene, size, multilayer=False, codec="ZIP"):
     with ExitStack() as stack:
         stack.enter_context(changed(
             render.image_settings,
-            file_format="OPEN_EXR_MULTILAYER" if multilayer else "OPEN_EXR",
-            color_mode="RGBA", color_depth="16", exr_codec=codec,
-            use_zbuffer=True, color_management="FOLLOW_SCENE"))
+            **file_settings(render.image_settings, multilayer, codec)))
         stack.enter_context(changed(
             render, filepath="", use_multiview=False, use_compositing=False,
             use_sequencer=False, use_stamp=False, use_border=False,
@@ -476,7 +532,8 @@ def render_settings(scene, size, multilayer=False, codec="ZIP"):
             border_min_y=0, border_max_y=1, resolution_percentage=100,
             resolution_x=size[0], resolution_y=size[1]))
         for layer in scene.view_layers:
-            stack.enter_context(changed(layer, use_pass_z=True))
+            stack.enter_context(changed(layer, use_pass_z=True) if multilayer
+                                else colour_and_depth(layer))
         yield
 
 
@@ -489,8 +546,9 @@ def only_layer(scene, name):
         yield
 
 
-def check_layers(scene, name, multilayer):
-    """Says what of several view layers will not be written."""
+def layer_to_render(scene, name, multilayer):
+    """The name of the only view layer to render, or None for all. Says what
+    of several will not be written."""
     names = [layer.name for layer in scene.view_layers]
     if name and name not in names:
         raise ValueError("--layer: the scene has no view layer '%s'; it has: "
@@ -500,6 +558,7 @@ def check_layers(scene, name, multilayer):
         warn("the scene renders %d view layers, %s, of which the files hold "
              "'%s' alone: choose one by --layer, or take all by --multilayer"
              % (len(used), ", ".join(used), used[0]))
+    return name or (None if multilayer else used[0])
 
 
 def aim(camera, shot, placement, overscan):
@@ -527,9 +586,10 @@ def set_border(render, box, overscan):
     render.border_max_y = (height - y0 + 0.25) / height
 
 
-def render_view(scene, path, shot, u, overscan, box=None):
+def render_view(scene, path, shot, u, overscan, box=None, plain=True):
     """Renders what is seen from lens point u (x right, y up; the lens has the
-    radius 1). The file appears complete or not at all."""
+    radius 1). The file appears complete or not at all; its channels have
+    `plain` names where it holds colour and depth alone."""
     radius = shot.lens_radius
     placement = shot.placement @ Matrix.Translation(
         (radius * u[0], radius * u[1], 0))
@@ -546,7 +606,7 @@ def render_view(scene, path, shot, u, overscan, box=None):
     try:
         bpy.ops.render.render(write_still=True, scene=scene.name)
         with open(partial, "rb") as file:
-            data = with_attributes(file.read(), attributes)
+            data = with_attributes(file.read(), attributes, plain)
         with open(partial, "wb") as file:
             file.write(data)
         os.replace(partial, path)
@@ -658,7 +718,8 @@ def render_frame(scene, folder, ending, views, eyes, overscan=0,
                 only_layer(scene, layer):
             for name, u, box in views:
                 path = os.path.join(folder, name + eye.file_suffix + ending)
-                render_view(scene, path, shot, u, beyond, box)
+                render_view(scene, path, shot, u, beyond, box,
+                            plain=not multilayer)
 
 
 def render_frames(scene, frames, folder, views_at, eyes, several=False,
@@ -669,7 +730,8 @@ def render_frames(scene, frames, folder, views_at, eyes, several=False,
     for text in check_scene(scene):
         say(text)
     folder, before = os.path.abspath(folder), scene.frame_current
-    check_layers(scene, options.get("layer"), options.get("multilayer"))
+    options["layer"] = layer_to_render(scene, options.get("layer"),
+                                       options.get("multilayer"))
     os.makedirs(folder, exist_ok=True)
     try:
         for frame in frames:
