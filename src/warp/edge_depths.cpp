@@ -19,6 +19,7 @@ namespace {
 constexpr float far_beyond = 16;          // times the depth of what is beside
 constexpr double sky = 1e10;              // what renderers write of it, which a filter mixes in
 constexpr double same_depth = 0.02;       // relative
+constexpr int strand_steps = 4;           // of two pixels: how far a strand may go on without a depth
 constexpr double worth_of_coverage = 0.1; // against a relative difference of colours
 constexpr double apart = 1.1;             // two surfaces: the ratio of their depths, at least
 constexpr double least_of_step = 0.6;     // of the difference twice as far out: a slope has 0.5 of it
@@ -199,6 +200,33 @@ std::vector<std::uint8_t> parted_around(const Pixels &pixels, int y) {
     return parted;
 }
 
+// Whether a strand over nothing may lie there, all of whose depths within two pixels the renderer missed.
+bool is_lost(const Pixels &pixels, std::size_t own) {
+    return pixels.coverage(own) > 0 && pixels.coverage(own) < 1 && !std::isfinite(pixels.z[own]);
+}
+
+// A thin strand shows its depth in few of its pixels. Those beside nothing that are left take theirs from one another, two
+// pixels farther at a time. Returns how many did.
+std::size_t settle_strands(const Pixels &pixels, std::vector<std::size_t> lost, std::span<float> z) {
+    std::size_t count = 0;
+    for (int farther = 0; farther < strand_steps && !lost.empty(); ++farther) {
+        std::vector<std::size_t> left;
+        std::vector<std::pair<std::size_t, float>> found;
+        for (const std::size_t i : lost) {
+            const Imath::V2i at = pixels.grid.pixel(i);
+            const Surroundings around = look_around(pixels, at.x, at.y, 2);
+            if (around.best != 0 && around.nothing)
+                found.emplace_back(i, around.best);
+            else
+                left.push_back(i);
+        }
+        for (const auto &[i, depth] : found) z[i] = depth;
+        count += found.size();
+        lost = std::move(left);
+    }
+    return count;
+}
+
 // What was found in a row of pixels.
 struct Row {
     std::vector<std::pair<std::size_t, float>> partly_covered, opaque; // pixels, and their new depths
@@ -231,6 +259,7 @@ SettledEdges settle(const Pixels &pixels, std::span<float> z) {
     std::vector<Row> rows(std::size_t(pixels.grid.height()));
     parallel_for(rows.size(), [&](std::size_t y) { rows[y] = row_at(pixels, int(y)); });
     std::size_t count = 0, parted = 0, mixed = 0;
+    std::vector<std::size_t> lost;
     const auto replace = [&](const auto &changes) {
         for (const auto &[i, depth] : changes) z[i] = depth;
         count += changes.size();
@@ -240,6 +269,9 @@ SettledEdges settle(const Pixels &pixels, std::span<float> z) {
         mixed += row.mixed;
         replace(row.partly_covered);
     }
+    for (std::size_t i = 0; i < z.size(); ++i)
+        if (is_lost(pixels, i)) lost.push_back(i);
+    count += settle_strands(pixels, std::move(lost), z);
     const bool filtered = double(mixed) > least_mixed * double(parted);
     for (const Row &row : rows)
         if (filtered) replace(row.opaque);

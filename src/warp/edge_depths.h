@@ -5,7 +5,8 @@
 //   - The pixel is partly covered (0 < A < 1), and its depth is that of the nothing beside the surface: infinite,
 //     or more than 16 times that of each more covered pixel around it, or, beside a pixel that shows nothing, A times that
 //     of one, which is the mean of a surface and of zeros. It becomes the depth of the pixel around it that explains it best: its colour without
-//     coverage is similar, and it is well covered. "Around" are the eight neighbours, else the 24 within two pixels.
+//     coverage is similar, and it is well covered. "Around" are the eight neighbours, else the 24 within two pixels. A strand over
+//     nothing, thinner than a pixel, shows its depth in few pixels: up to 8 pixels farther it goes on from those that have one.
 //   - The pixel is opaque, and its depth and its colour are mixed of those of two pixels on opposite sides in the same
 //     proportion, at a step and not on a slope. It takes the depth of that which it shows more of. This is done only in
 //     a picture where many edges are like that: its depth is filtered. In others it is chance.

@@ -70,6 +70,18 @@ TEST(EdgeDepths, OtherDepthsStay) {
     }
 }
 
+// The renderer saw the depth of its first pixel only. Before nothing it is a strand, else what has no depth of its own.
+TEST(EdgeDepths, AStrandOverNothingGoesOn) {
+    for (const bool nothing : {true, false}) {
+        View view = make_view(windows_of_size(14, 2), {0, 0}, [&](int x, int y) {
+            return y == 1 && nothing ? covered(inf, 0) : covered(x == 0 ? 3 : inf, 0.4f);
+        });
+        settle_edge_depths(view);
+        const int settled = nothing ? 10 : 2; // 2 pixels, and 8 more
+        for (int x = 0; x < 14; ++x) EXPECT_EQ(view.z[std::size_t(x)], x <= settled ? 3 : inf) << x;
+    }
+}
+
 // A filter spreads a low step over five pixels, of which no two side by side are apart; steep steps above it tell that
 // depth is filtered.
 TEST(EdgeDepths, LowStepsOfFilteredDepthAreSettledToo) {
