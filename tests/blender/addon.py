@@ -32,12 +32,36 @@ def state(scene):
     return found
 
 
+class Recorder:
+    """In place of a layout: what the panel shows of the settings, and its buttons."""
+
+    def __init__(self):
+        self.shown = []
+
+    def prop(self, settings, name):
+        self.shown.append(settings.bl_rna.properties[name].identifier)
+
+    def operator(self, name):
+        self.shown.append(name)
+
+
+def draw_panel(addon):
+    """Without windows nothing draws a panel, so this does."""
+    if not addon.SPARSELENS_PT_panel.is_registered:
+        sys.exit("the panel is not registered")
+    panel = type("Panel", (), {"layout": Recorder()})()
+    addon.SPARSELENS_PT_panel.draw(panel, bpy.context)
+    if "overscan_auto" not in panel.layout.shown or panel.layout.shown[-1] != "sparselens.render_views":
+        sys.exit("the panel shows %s" % panel.layout.shown)
+
+
 def main(path, folder, overscan=""):
     spec = importlib.util.spec_from_file_location("sparselens_views", path)
     addon = importlib.util.module_from_spec(spec)
     sys.modules[spec.name] = addon
     spec.loader.exec_module(addon)
     addon.register()
+    draw_panel(addon)
 
     scene = bpy.context.scene
     scene.frame_set(3)

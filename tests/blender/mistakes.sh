@@ -35,7 +35,7 @@ in_blender -P "$scene" -- CYCLES 480x270 save "$PWD/large.blend"
 variant large pinhole
 lens=(--focal-length 50 --sensor-width 36 --fstop 0.5 --focus-distance 4)
 for kind in large pinhole; do
-    in_blender $kind.blend -P "$variants" -- render 16 1 1 "$PWD/$kind.####.exr"
+    in_blender $kind.blend -P "$variants" -- render_depth 16 1 1 "$PWD/$kind.####.exr"
     exits 0 "$bin/ldi-warp" $kind.0001.exr "${lens[@]}" -o x.exr
     mv stderr $kind.said
 done

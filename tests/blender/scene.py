@@ -23,15 +23,21 @@ def material(name, colours, scale):
     links.new(coordinates.outputs["Object"], checker.inputs["Vector"])
     shader = nodes["Principled BSDF"]
     shader.inputs["Roughness"].default_value = 1
-    shader.inputs["Specular"].default_value = 0
+    shader.inputs["Specular" if bpy.app.version < (4, 0) else "Specular IOR Level"].default_value = 0
     links.new(checker.outputs["Color"], shader.inputs["Base Color"])
     return made
+
+
+def engine_named(engine):
+    """EEVEE had another name from Blender 4.2 to 4.5."""
+    renamed = engine == "BLENDER_EEVEE" and (4, 2) <= bpy.app.version < (5, 0)
+    return "BLENDER_EEVEE_NEXT" if renamed else engine
 
 
 def build(engine, size, path):
     bpy.ops.wm.read_factory_settings(use_empty=True)
     scene = bpy.context.scene
-    scene.render.engine = engine
+    scene.render.engine = engine_named(engine)
     scene.render.resolution_x, scene.render.resolution_y = size
     scene.render.resolution_percentage = 100
     scene.cycles.samples, scene.cycles.use_denoising, scene.cycles.use_adaptive_sampling = 64, False, False
@@ -114,7 +120,7 @@ def main(engine, size, action, *rest):
     if action == "save":
         return build(engine, size, rest[0])
     scene = bpy.context.scene
-    scene.render.engine = engine
+    scene.render.engine = engine_named(engine)
     scene.render.resolution_x, scene.render.resolution_y = size
     if action == "truth":
         return truth(scene, int(rest[0]), rest[1])

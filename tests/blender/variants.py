@@ -5,7 +5,8 @@
     blender -b SCENE.blend -P variants.py -- still FRAME OUT.blend
         the same frame with a camera that nothing animates
     blender -b SCENE.blend -P variants.py -- render SAMPLES FIRST LAST OUT.####.exr
-        the frames as Blender itself renders them; with several eyes OUT.####_L.exr and OUT.####_R.exr
+        the frames as Blender itself renders them; with several eyes OUT.####_L.exr and OUT.####_R.exr; `render_depth`
+        writes depth, too, which takes a multilayer file since Blender 4.0
 """
 
 import math
@@ -242,7 +243,7 @@ def make_cameras(scene, camera):
 
 
 def make_eevee(scene, camera):
-    scene.render.engine = "BLENDER_EEVEE"
+    scene.render.engine = "BLENDER_EEVEE_NEXT" if (4, 2) <= bpy.app.version < (5, 0) else "BLENDER_EEVEE"
 
 
 def make_still(scene, frame):
@@ -263,10 +264,15 @@ def make_still(scene, frame):
     scene.camera = made
 
 
-def render(scene, samples, first, last, path):
+def render(scene, depth, samples, first, last, path):
     settings = scene.render.image_settings
-    settings.file_format, settings.color_mode, settings.color_depth = "OPEN_EXR", "RGBA", "16"
-    settings.use_zbuffer = scene.view_layers[0].use_pass_z = True
+    if depth and bpy.app.version >= (5, 0):
+        settings.media_type, settings.use_exr_interleave = "MULTI_LAYER_IMAGE", True
+    settings.file_format = "OPEN_EXR_MULTILAYER" if depth and bpy.app.version >= (4, 0) else "OPEN_EXR"
+    settings.color_mode, settings.color_depth = "RGBA", "16"
+    scene.view_layers[0].use_pass_z = True
+    if depth and bpy.app.version < (4, 0):
+        settings.use_zbuffer = True
     scene.cycles.samples = samples
     for frame in range(first, last + 1):
         scene.frame_set(frame)
@@ -276,8 +282,8 @@ def render(scene, samples, first, last, path):
 
 def main(action, *rest):
     scene = bpy.context.scene
-    if action == "render":
-        return render(scene, *[int(number) for number in rest[:3]], rest[3])
+    if action in ("render", "render_depth"):
+        return render(scene, action == "render_depth", *[int(number) for number in rest[:3]], rest[3])
     if action == "still":
         make_still(scene, int(rest[0]))
     else:

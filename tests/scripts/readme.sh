@@ -50,6 +50,7 @@ cat >>options <<'END'
 --addc
 --attrib
 --build
+--command
 --ch
 --clamp
 --flatten

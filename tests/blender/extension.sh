@@ -1,0 +1,37 @@
+#!/bin/bash
+# share/blender as users install it, into settings of its own: as an extension where Blender has those (4.2 and later), built and
+# checked by Blender itself; else the one file, as an add-on. Its operator then renders what the script does. A minute.
+#   bash extension.sh BIN_DIR
+. "$(dirname "$0")/common.sh"
+export HOME=$PWD/home XDG_CONFIG_HOME=$PWD/home/.config
+mkdir home
+in_blender -P "$scene" -- CYCLES 96x54 save "$PWD/small.blend"
+
+if blender --command extension --help 2>/dev/null | grep -q server-generate; then
+    quietly blender --command extension validate "$source_dir/share/blender"
+    quietly blender --command extension build --source-dir "$source_dir/share/blender" --output-dir "$PWD"
+    zip=$(echo sparselens_views-*.zip)
+    quietly blender --command extension validate "$zip"
+    grep -q Success said || fail "validate: $(cat said)"
+    quietly blender --command extension install-file -r user_default -e "$zip"
+    enable=
+    echo "extension: $zip is valid and was installed"
+else
+    enable="import bpy
+bpy.ops.preferences.addon_install(filepath='$views')
+bpy.ops.preferences.addon_enable(module='sparselens_views')"
+    echo "add-on: installed; this Blender has no extensions"
+fi
+cat >operate.py <<EOF
+$enable
+import bpy
+scene = bpy.context.scene
+assert bpy.types.SPARSELENS_PT_panel.is_registered
+scene.cycles.samples = 2
+scene.sparselens.folder, scene.sparselens.views = "$PWD/installed", 1
+assert bpy.ops.sparselens.render_views() == {"FINISHED"}
+EOF
+in_blender small.blend -P operate.py
+in_blender small.blend -P "$views" -- -o script --views 1 --samples 2
+for view in center view_0; do alike installed/$view.exr script/$view.exr 90; done
+echo "installed: the operator renders what the script does"
