@@ -1,6 +1,7 @@
-# sparselens_found_option(NAME HELP FOUND): the option NAME, ON where what it needs is found. What was left out because it
-# was not there is taken in when it has come; ON and OFF that somebody asked for stay.
-function(sparselens_found_option name help found)
+# sparselens_found_option(NAME HELP FOUND WHAT NEEDED): the option NAME, ON where what it needs is found. What was left out
+# because it was not there is taken in when it has come; ON and OFF that somebody asked for stay. WHAT is what the option
+# builds, and NEEDED what may be missing, both for sparselens_say_left_out().
+function(sparselens_found_option name help found what needed)
     if(found AND NOT ${name} AND ${name}_LEFT_OUT)
         set(${name} ON CACHE BOOL "${help}" FORCE)
         message(STATUS "${name} is on now: what it needs has been found")
@@ -11,4 +12,15 @@ function(sparselens_found_option name help found)
         unset(${name}_LEFT_OUT CACHE)
     endif()
     option(${name} "${help}" ${found})
+    if(NOT ${name} AND ${name}_LEFT_OUT)
+        set_property(GLOBAL APPEND PROPERTY SPARSELENS_LEFT_OUT "Left out: ${what}. Missing: ${needed}")
+    endif()
+endfunction()
+
+# The last lines of configuring: what was left out because something is missing, and what to install.
+function(sparselens_say_left_out)
+    get_property(lines GLOBAL PROPERTY SPARSELENS_LEFT_OUT)
+    foreach(line IN LISTS lines)
+        message(NOTICE "${line}")
+    endforeach()
 endfunction()

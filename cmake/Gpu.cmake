@@ -9,7 +9,8 @@ if(VULKAN_HEADERS AND GLSLC AND SPIRV_VAL)
 else()
     set(gpu_found OFF)
 endif()
-sparselens_found_option(SPARSELENS_GPU "Build the kernels for GPUs (needs the headers of Vulkan, glslc and spirv-val)" ${gpu_found})
+sparselens_found_option(SPARSELENS_GPU "Build the kernels for GPUs (needs the headers of Vulkan, glslc and spirv-val)" ${gpu_found}
+    "the kernels for GPUs (--device gpu)" "headers of Vulkan, glslc or spirv-val (Debian: libvulkan-dev, glslc, spirv-tools)")
 if(SPARSELENS_GPU AND NOT gpu_found)
     message(FATAL_ERROR "SPARSELENS_GPU needs the headers of Vulkan, glslc and spirv-val (Debian: libvulkan-dev, glslc, "
         "spirv-tools), and not all were found. Install them, or configure with -DSPARSELENS_GPU=OFF.")

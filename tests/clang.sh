@@ -9,7 +9,12 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 exec </dev/null
 
+# need PROGRAM: it is version 14's, which is in Debian 12 alone.
 need() {
+    if ! command -v "$1" >/dev/null && ! grep -q '^VERSION_CODENAME=bookworm' /etc/os-release; then
+        echo "skipped: $1, which is in Debian 12 alone"
+        exit 77
+    fi
     command -v "$1" >/dev/null || { echo "skipped: $1 is not installed"; exit 77; }
 }
 

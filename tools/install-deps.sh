@@ -1,21 +1,30 @@
 #!/bin/sh
 # Installs the Debian packages that a job here needs and this machine lacks.
 #
-#   tools/install-deps.sh SET...      sets: build, demo, gpu, lint, report, test
+#   tools/install-deps.sh SET...      sets: blender, build, demo, gpu, lint, report, test
 #
-# Needs nothing but a Debian base system, and root or sudo if something is missing. Prints one line when all is
+# Needs nothing but a Debian base system (12 or later), and root or sudo if something is missing. Prints one line when all is
 # there; exit 1, with one line saying why, when it is not and cannot be had.
 set -eu
 
+release=$(sed -n 's/^VERSION_CODENAME=//p' "${SPARSELENS_OS_RELEASE-/etc/os-release}" 2>/dev/null || true)
+blender='blender libgl1-mesa-dri xauth xvfb'
 build='g++ cmake ninja-build pkg-config libcli11-dev libembree-dev libfmt-dev libimath-dev libopencolorio-dev
        libopenexr-dev libopenimageio-dev libtbb-dev nlohmann-json3-dev'
 demo='fonts-dejavu-core openimageio-tools'
 gpu='glslc libvulkan-dev mesa-vulkan-drivers spirv-tools vulkan-validationlayers'
 lint='clang-14 clang-format-14 clang-tidy-14'
 report='chromium gnuplot-nox'
-test='clang-format-14 dpkg-dev fakeroot file fish gnuplot-nox groff-base libbenchmark-dev libgtest-dev lintian munge mypy
+test='dpkg-dev fakeroot file fish gnuplot-nox groff-base libbenchmark-dev libgtest-dev lintian munge mypy
       openexr openimageio-tools pybind11-dev python3-dev python3-jsonschema python3-numpy python3-openimageio
       python3-pytest python3-yaml slurm-client slurmctld slurmd time zsh'
+# What releases differ in. The sources are formatted as clang-format 14 does it, which Debian 12 alone has; Blender 5's
+# extensions need what its package does not bring.
+case $release in
+bookworm) test="clang-format-14 $test" ;;
+trixie) ;;
+*) blender="$blender python3-cattr python3-requests" ;;
+esac
 
 fail() {
     echo "install-deps: $*" >&2
@@ -25,13 +34,17 @@ fail() {
 packages_of() {
     for set_name; do
         case $set_name in
+        blender) echo $blender ;;
         build) echo $build ;;
         demo) echo $demo ;;
         gpu) echo $gpu ;;
-        lint) echo $lint ;;
+        lint)
+            [ "$release" = bookworm ] || fail "clang 14, of the set lint, is in Debian 12 alone"
+            echo $lint
+            ;;
         report) echo $report ;;
         test) echo $test ;;
-        *) fail "unknown set '$set_name' (build, demo, gpu, lint, report, test)" ;;
+        *) fail "unknown set '$set_name' (blender, build, demo, gpu, lint, report, test)" ;;
         esac
     done
 }
@@ -54,8 +67,8 @@ apt_get() {
         >>"$log" 2>&1 </dev/null
 }
 
-[ $# -gt 0 ] || fail "name at least one set: build, demo, gpu, lint, report, test"
-wanted=$(packages_of "$@")
+[ $# -gt 0 ] || fail "name at least one set: blender, build, demo, gpu, lint, report, test"
+wanted=$(packages_of "$@") || exit 1
 if ! command -v dpkg-query >/dev/null; then
     echo "install-deps: not a Debian system, so nothing was checked; needed are: $(echo $wanted)"
     exit 0

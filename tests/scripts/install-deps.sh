@@ -16,7 +16,7 @@ stand_in() {
     chmod +x "bin/$1"
 }
 mkdir bin
-for base in cat env grep mktemp rm sh sort tail; do ln -s "$(command -v $base)" bin/$base; done
+for base in cat env grep mktemp rm sed sh sort tail; do ln -s "$(command -v $base)" bin/$base; done
 run() { PATH=$scratch/bin "$script" "$@" >output 2>&1; }
 one_line() { [ "$(wc -l <output)" -eq 1 ]; }
 installed='g++ ninja-build pkg-config libcli11-dev libembree-dev libfmt-dev libimath-dev libopencolorio-dev
@@ -52,6 +52,21 @@ run build && fail "no sudo, yet it passed"
 stand_in sudo 'echo sudo >>calls; exec "$@"'
 run build || fail "failed with sudo"
 [ "$(grep -c '^sudo$' calls)" -eq 2 ] || fail "sudo was not used"
+
+# What the releases of Debian differ in; of an unknown one it is what the newest has.
+asks_for() { # CODENAME SET
+    echo "VERSION_CODENAME=$1" >os-release
+    rm -f calls
+    SPARSELENS_OS_RELEASE=$scratch/os-release run "$2" && tr ' ' '\n' <calls >asked
+}
+asks_for bookworm test && grep -qx clang-format-14 asked || fail "no clang-format-14 in Debian 12"
+asks_for trixie test && grep -qx fish asked || fail "no fish in Debian 13"
+grep -q clang asked && fail "clang-format-14 is not in Debian 13"
+asks_for trixie lint && fail "the set lint passed in Debian 13"
+{ one_line && grep -q 'in Debian 12 alone' output; } || fail "no clear line on lint in Debian 13"
+asks_for trixie blender && ! grep -q cattr asked || fail "Blender 4.3 needs no cattrs"
+asks_for forky blender && grep -qx python3-cattr asked || fail "Blender 5 needs cattrs"
+
 rm bin/apt-get
 run build && fail "no apt-get, yet it passed"
 { one_line && grep -q 'apt-get is not there.*cmake' output; } || fail "no clear line without apt-get"

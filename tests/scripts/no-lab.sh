@@ -36,6 +36,7 @@ grep -q 'SPARSELENS_LAB=OFF' "$build/said" || { cat "$build/said"; exit 1; }
 rm "$build/CMakeCache.txt"
 configure || { cat "$build/said"; exit 1; }
 grep -q '^SPARSELENS_LAB:BOOL=OFF$' "$build/CMakeCache.txt" || { echo "the laboratory is on without Embree"; exit 1; }
+tail -n 15 "$build/said" | grep -q '^Left out: the laboratory .*libembree-dev' || { tail "$build/said"; echo "the last lines do not say what is left out, and why"; exit 1; }
 ninja -C "$build" -t commands >"$build/commands"
 grep -q 'dof-gather' "$build/commands" || { echo "no dof-gather is built"; exit 1; }
 if grep -iE 'embree|sparselens_lab|(src|tools|tests)/lab/' "$build/commands"; then

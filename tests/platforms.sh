@@ -1,0 +1,110 @@
+#!/bin/bash
+# All tests in another release of Debian, in a root of its own: made by debootstrap, or the one that an earlier run made.
+#
+#   tests/platforms.sh SUITE [STEP...]     SUITE: bookworm, trixie, sid; steps: tests, blender (both)
+#
+# tests: what is committed is built and tested by tests/run.sh; blender: then tests/blender against Debian's Blender. Prints a
+# table at the end: versions, tests, skips; exit 1 where something fails. Needs root, debootstrap, and apt's lists (apt-get
+# update), whose mirror of Debian it takes. Roots lie in $SPARSELENS_ROOTS (/var/tmp/sparselens-roots), 3 GB each; what the
+# steps said is in SUITE-STEP.log there. A $CCACHE_DIR is used by the builds, too.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+exec </dev/null
+source=$PWD
+
+fail() {
+    echo "platforms.sh: $*" >&2
+    exit 1
+}
+case ${1-} in bookworm | trixie | sid) suite=$1 ;; *) fail "name a suite: bookworm, trixie or sid" ;; esac
+shift
+steps=("$@")
+[ $# -gt 0 ] || steps=(tests blender)
+for step in "${steps[@]}"; do [[ $step =~ ^(tests|blender)$ ]] || fail "no step $step (tests, blender)"; done
+[ "$(id -u)" -eq 0 ] || fail "only root may make a root of another release and mount in it"
+roots=${SPARSELENS_ROOTS:-/var/tmp/sparselens-roots}
+root=$roots/$suite
+
+# As apt has it on this machine: the mirror, a proxy, and whether old lists are good enough.
+make_root() {
+    command -v debootstrap >/dev/null || fail "debootstrap is not installed"
+    local mirror proxy=
+    mirror=$(apt-get indextargets --format '$(REPO_URI)' 'Label: Debian' 'Created-By: Packages' | sort -u | head -n 1)
+    [ -n "$mirror" ] || fail "apt knows no mirror of Debian: apt-get update"
+    eval "$(apt-config shell proxy Acquire::http::Proxy)"
+    mkdir -p "$roots"
+    http_proxy=${proxy:-${http_proxy-}} debootstrap --variant=minbase "$suite" "$root.new" "$mirror" >"$root-root.log" 2>&1 ||
+        fail "debootstrap: $(tail -n 1 "$root-root.log")"
+    apt-config dump | grep -E '^Acquire::(http::Proxy|Check-Valid-Until|Check-Date) ' >"$root.new/etc/apt/apt.conf.d/99host" || true
+    mv "$root.new" "$root"
+}
+
+# Nothing that is mounted here may reach the machine's own /dev, nor be unmounted there: so it is private.
+mounted=()
+mount_at() { # FOLDER ARGUMENT...
+    mkdir -p "$root$1"
+    mountpoint -q "$root$1" && return
+    mount "${@:2}" "$root$1"
+    mounted+=("$root$1")
+}
+unmount() {
+    local i
+    for ((i = ${#mounted[@]} - 1; i >= 0; --i)); do umount "${mounted[i]}"; done
+}
+within() {
+    env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C.UTF-8 ${CCACHE_DIR:+CCACHE_DIR=/var/cache/ccache} \
+        ${CCACHE_DIR:+CMAKE_CXX_COMPILER_LAUNCHER=ccache} chroot "$root" bash -euc "cd /root/sparselens && $1"
+}
+
+[ -e "$root/etc/debian_version" ] || make_root
+trap unmount EXIT
+mount_at /proc -t proc proc
+mount_at /sys -t sysfs sysfs
+[ ! -d /sys/fs/cgroup ] || mount_at /sys/fs/cgroup --bind --make-private /sys/fs/cgroup
+mount_at /dev --bind --make-private /dev
+mount_at /dev/pts --bind --make-private /dev/pts
+mount_at /dev/shm -t tmpfs tmpfs
+cp -L /etc/resolv.conf "$root/etc/" 2>/dev/null || true
+within true 2>/dev/null || git clone -q "$source" "$root/root/sparselens"
+git -C "$root/root/sparselens" fetch -q "$source" HEAD
+git -C "$root/root/sparselens" checkout -q --detach FETCH_HEAD
+# The first packages are those that installing others and cloning needs.
+within 'export DEBIAN_FRONTEND=noninteractive; apt-get -q update && apt-get -q -y install --no-install-recommends ca-certificates git '"${CCACHE_DIR:+ccache}" \
+    >"$root-packages.log" 2>&1 || fail "apt-get: $(grep -m 1 '^E:' "$root-packages.log")"
+[ -z "${CCACHE_DIR-}" ] || mount_at /var/cache/ccache --bind "$CCACHE_DIR"
+[ ! -d "$source/../shared" ] || mount_at /root/shared --bind "$source/../shared"
+
+code=0
+results=()
+for step in "${steps[@]}"; do
+    log=$root-$step.log
+    case $step in
+    tests)
+        within tests/run.sh >"$log" 2>&1 || code=1
+        results+=("$(sed -nE 's/^.* tests passed, .* out of ([0-9]+)$/tests: \1/p' "$log")"
+            "$(sed -nE 's/^([0-9]+)% tests passed, ([0-9]+) tests? failed .*/failed: \2/p' "$log")"
+            "$(grep '^left out' "$log" || echo 'left out: nothing')")
+        ;;
+    blender)
+        # Views of a scene of 240x135 take minutes where docs/blender.md's figures take hours.
+        if within 'tools/install-deps.sh build blender demo test && cmake --preset release --log-level=WARNING &&
+                cmake --build build -j "$(nproc)" && tests/blender/run.sh build/bin 240x135 64 24 16' >"$log" 2>&1; then
+            results+=("Blender: passed" "$(grep '^skipped' "$log" || echo 'Blender: skipped nothing')")
+        else
+            code=1
+            results+=("Blender: failed: $(tail -n 1 "$log")")
+        fi
+        ;;
+    esac
+done
+
+version() { within "dpkg-query -W -f='\${Version}' $1" 2>/dev/null || echo none; }
+echo "| $suite | $(git rev-parse --short HEAD), $(date +%Y-%m-%d) |"
+echo "|---|---|"
+for package in g++ cmake libopenexr-dev libopenimageio-dev libopencolorio-dev libembree-dev libtbb-dev libfmt-dev \
+    pybind11-dev python3 python3-numpy libvulkan-dev blender; do
+    echo "| $package | $(version $package) |"
+done
+printf '%s\n' "${results[@]}" | sed -E '/^$/d; s/^([^:]*): (.*)$/| \1 | \2 |/'
+[ $code -eq 0 ] || echo "platforms.sh: something failed: see $root-*.log"
+exit $code
