@@ -7,6 +7,8 @@ namespace sparselens {
 
 namespace {
 
+constexpr double whole = 0.75 * one_surface_px; // what is no farther away shows the surface altogether
+
 // The sample of a pixel nearest to that depth, planar and perceptive: of a stack of mist and sheets not just any within reach.
 std::uint64_t surface_in(const Ldi &ldi, const ThinLens &lens, int x, int y, float z, double depth) {
     const int width = ldi.windows.width();
@@ -39,9 +41,17 @@ SurfaceNeighbours surface_neighbours(const Ldi &ldi, const ThinLens &lens, std::
     const auto beside = [&](int dx, int dy) {
         return surface_in(ldi, lens, x + dx, y + dy, ldi.z[i], depth);
     };
-    SurfaceNeighbours n{{beside(-1, 0), beside(1, 0), beside(0, -1), beside(0, 1)}, false, false};
-    n.horizontal = n.sample[0] != no_neighbour && n.sample[1] != no_neighbour;
-    n.vertical = n.sample[2] != no_neighbour && n.sample[3] != no_neighbour;
+    SurfaceNeighbours n{{beside(-1, 0), beside(1, 0), beside(0, -1), beside(0, 1)}, 0, 0};
+    const auto shown = [&](std::uint64_t a, std::uint64_t b) {
+        if (a == no_neighbour || b == no_neighbour) return 0.0f;
+        const auto apart = [&](std::uint64_t k) {
+            return std::abs(perceptive_depth(lens, double(ldi.z[k])) - depth);
+        };
+        return float(
+            std::min((one_surface_px - std::max(apart(a), apart(b))) / (one_surface_px - whole), 1.0));
+    };
+    n.horizontal = shown(n.sample[0], n.sample[1]);
+    n.vertical = shown(n.sample[2], n.sample[3]);
     return n;
 }
 

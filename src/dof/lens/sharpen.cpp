@@ -83,9 +83,9 @@ private:
 double Sharpener::detail(std::uint64_t i, const SurfaceNeighbours &n) const {
     double sum = 0;
     for (std::size_t k = 0; k < 3; ++k) {
-        const double h = n.horizontal ? second_difference(i, n.sample[0], n.sample[1], k) : 0;
-        const double v = n.vertical ? second_difference(i, n.sample[2], n.sample[3], k) : 0;
-        sum += h * h + v * v;
+        const double h = n.horizontal > 0 ? second_difference(i, n.sample[0], n.sample[1], k) : 0;
+        const double v = n.vertical > 0 ? second_difference(i, n.sample[2], n.sample[3], k) : 0;
+        sum += double(n.horizontal) * h * h + double(n.vertical) * v * v;
     }
     return std::sqrt(sum);
 }
@@ -117,7 +117,7 @@ void Sharpener::measure_noise() {
                 const SampleRange samples = ldi_.pixel(pixel);
                 if (samples.empty() || !was_seen(pixel)) continue;
                 const SurfaceNeighbours n = surface_neighbours(ldi_, lens_, samples.front(), x, y);
-                if (n.horizontal && n.vertical) details.push_back(detail(samples.front(), n));
+                if (n.horizontal > 0 && n.vertical > 0) details.push_back(detail(samples.front(), n));
             }
         if (details.empty()) return;
         const auto at = details.begin() + std::ptrdiff_t(double(details.size() - 1) * noise_quantile);
@@ -144,8 +144,8 @@ Sharpener::Weights Sharpener::weights(std::uint64_t i, int x, int y, SurfaceNeig
               float(blur_.vertical(at.coc * lens_.pixel_aspect, at.offset.y)), 1};
     if (w.horizontal == 0 && w.vertical == 0) return {0, 0, 0};
     n = surface_neighbours(ldi_, lens_, i, x, y);
-    if (!n.horizontal) w.horizontal = 0;
-    if (!n.vertical) w.vertical = 0;
+    w.horizontal *= n.horizontal;
+    w.vertical *= n.vertical;
     const int columns = (ldi_.windows.width() + noise_block - 1) / noise_block;
     const double noise = 5 * noise_[std::size_t(y / noise_block * columns + x / noise_block)],
                  d = detail(i, n);
@@ -156,8 +156,8 @@ Sharpener::Weights Sharpener::weights(std::uint64_t i, int x, int y, SurfaceNeig
         const std::vector<float> &v = ldi_.values[k];
         double given = 0; // at most, to brighter neighbours: no more than there is
         for (std::size_t to = 0; to < 4; ++to)
-            if (to < 2 ? n.horizontal : n.vertical)
-                given += 0.5 * (w.along(to) + InterpolationBlur::largest_weight) *
+            if (const double shown = n.along(to); shown > 0)
+                given += 0.5 * shown * (w.along(to) + InterpolationBlur::largest_weight) *
                          std::max(0.0, double(v[n.sample[to]]) - double(v[i]));
         if (given > 0 && given * double(w.most) > double(v[i]))
             w.most = float(std::max(0.0, double(v[i])) / given);
@@ -203,10 +203,12 @@ std::array<Term, 5> Sharpener::terms(const Band &band, std::uint64_t i) const {
     if (own.most == 0) return terms;
     const SurfaceNeighbours &n = band.beside(i);
     for (std::size_t k = 0; k < 4; ++k) {
-        if (!(k < 2 ? n.horizontal : n.vertical)) continue;
-        // The same for both, so that no light is made or lost.
         const Weights &other = band.of(n.sample[k]);
-        const double shared = 0.5 * (own.along(k) + other.along(k)) * double(std::min(own.most, other.most));
+        if (n.along(k) == 0 || other.most == 0) continue;
+        // The same for both, so that no light is made or lost.
+        const double shown = std::min(n.along(k), band.beside(n.sample[k]).along(k));
+        const double shared =
+            0.5 * shown * (own.along(k) + other.along(k)) * double(std::min(own.most, other.most));
         terms[0].coefficient += shared;
         terms[k + 1] = {n.sample[k], -shared};
     }

@@ -121,6 +121,32 @@ TEST(Sharpen, AsksOnlyWhatWasSeenForItsNoise) {
     EXPECT_LT(change(Imath::Box2i({0, 0}, {19, 63})), 0.1 * change({}));
 }
 
+// As the aperture opens, the wall behind the edge of a lamp becomes another surface; not from one frame to the next.
+TEST(Sharpen, LetsGoOfASurfaceByAndBy) {
+    const auto edge_at = [](double rf) { // R F; the surfaces are as far apart as it makes them
+        const ThinLens by{.radius = rf / 640, .focal_px = 640, .focus = 6};
+        const Ldi ldi = make_ldi(windows_of_size(64, 64), rgba_channels(), [](int x, int) {
+            const float v = x < 30 ? 0.1f : x < 33 ? 50.0f : x == 33 ? 5.0f : 0.1f;
+            return std::vector<Sample>{{x < 30 || x > 33 ? 22.0f : 11.0f, {v, v / 2, v / 4, 1}}};
+        });
+        BlockedLdi blocked(ldi, by);
+        sharpen_near_focus(ldi, by, blocked.samples, blocked.colours);
+        const std::uint64_t sample = ldi.pixel(ldi.windows.index(33, 32)).front();
+        const std::size_t place =
+            place_of(blocked.samples, ldi, ldi.windows.index(33, 32), std::uint32_t(sample));
+        return double(blocked.colours.at(0, place));
+    };
+    constexpr double joined = 0.3 * 22, parted = 0.55 * 22; // pixels of perceptive depth, between them
+    EXPECT_EQ(edge_at(parted), 5);
+    EXPECT_LT(edge_at(joined), 2);
+    double last = edge_at(joined);
+    for (int step = 1; step <= 100; ++step) {
+        const double now = edge_at(joined + (parted - joined) * step / 100);
+        EXPECT_LT(std::abs(now - last), 0.3) << step;
+        last = now;
+    }
+}
+
 TEST(Sharpen, NeverMakesLightNegative) {
     const auto lamps = [](int x, int y) {
         return random_unit(x, y, 1) > 0.9 ? 100 * random_unit(x, y, 2) : 0.01 * random_unit(x, y, 3);
