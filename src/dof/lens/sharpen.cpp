@@ -195,6 +195,9 @@ Sharpener::Band Sharpener::weigh(int top, int bottom) const {
     return band;
 }
 
+// Of the four sides of SurfaceNeighbours.
+constexpr std::size_t opposite(std::size_t side) { return side ^ 1; }
+
 std::array<Term, 5> Sharpener::terms(const Band &band, std::uint64_t i) const {
     std::array<Term, 5> terms;
     terms.fill({i, 0});
@@ -203,10 +206,13 @@ std::array<Term, 5> Sharpener::terms(const Band &band, std::uint64_t i) const {
     if (own.most == 0) return terms;
     const SurfaceNeighbours &n = band.beside(i);
     for (std::size_t k = 0; k < 4; ++k) {
+        if (n.along(k) == 0) continue;
         const Weights &other = band.of(n.sample[k]);
-        if (n.along(k) == 0 || other.most == 0) continue;
-        // The same for both, so that no light is made or lost.
-        const double shown = std::min(n.along(k), band.beside(n.sample[k]).along(k));
+        if (other.most == 0) continue;
+        // The same for both, so that no light is made or lost; before a wall, it may have a nearer neighbour.
+        const SurfaceNeighbours &back = band.beside(n.sample[k]);
+        if (back.sample[opposite(k)] != i) continue;
+        const double shown = std::min(n.along(k), back.along(k));
         const double shared =
             0.5 * shown * (own.along(k) + other.along(k)) * double(std::min(own.most, other.most));
         terms[0].coefficient += shared;

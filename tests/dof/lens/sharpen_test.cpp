@@ -159,6 +159,20 @@ TEST(Sharpen, NeverMakesLightNegative) {
     EXPECT_GT(change(ldi), 1);
 }
 
+// The wall beside a lamp has the wall behind the lamp for its neighbour, not the lamp: it gives nothing to that.
+TEST(Sharpen, MakesNoLightBeforeAWall) {
+    const Ldi ldi = make_ldi(windows_of_size(64, 64), rgba_channels(), [](int x, int y) {
+        std::vector<Sample> samples{{depth_of(lens, 1.2), {0.2f, 0.2f, 0.2f, 1}}};
+        if (x == 32 && y == 32) samples.insert(samples.begin(), {depth_of(lens, 1), {500, 500, 500, 1}});
+        return samples;
+    });
+    BlockedLdi blocked(ldi, lens);
+    sharpen_near_focus(ldi, lens, blocked.samples, blocked.colours);
+    double light = 0;
+    for (std::size_t i = 0; i < blocked.colours.count; ++i) light += double(blocked.colours.at(0, i));
+    EXPECT_NEAR(light, 500 + 64 * 64 * 0.2, 0.01);
+}
+
 // Denoisers leave negative colours. A sample that has nothing brighter beside it gives nothing away.
 TEST(Sharpen, KeepsNegativeColours) {
     const Ldi ldi = plane(1, [](int, int) { return -1e-3; });
