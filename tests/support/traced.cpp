@@ -15,6 +15,9 @@ SceneCamera::SceneCamera(std::string_view name, int width, int height) : tracer(
     settings.lens.focus = *camera.focus_distance;
 }
 
+SceneCamera::SceneCamera(const Scene &scene, const ThinLens &lens, int width, int height)
+    : tracer(scene), settings{.windows = windows_of_size(width, height), .lens = lens} {}
+
 View SceneCamera::view(const Imath::V2d &u, int samples, std::uint32_t stream) const {
     Progress silent;
     const Image picture = render_view(tracer, settings, u, samples, stream, silent);

@@ -12,6 +12,7 @@ namespace sparselens::lab {
 // A scene with its own lens; a size in the ratio 16:9 frames what 640x360 does.
 struct SceneCamera {
     SceneCamera(std::string_view name, int width, int height);
+    SceneCamera(const Scene &scene, const ThinLens &lens, int width, int height);
 
     View view(const Imath::V2d &u, int samples, std::uint32_t stream) const; // position: lens.radius * u
     std::vector<View> five_views(int samples) const; // the centre, then the rim every 90 degrees

@@ -210,12 +210,14 @@ void HighlightTile::spread_few(const LampLight &light, const Spreading &from) {
 
 void HighlightTile::spread_disc(const Spreading &from) {
     const double squeeze = shape_.aperture.shape().squeeze;
-    const PsfRows rows(
-        {from.lamp.centre, std::abs(from.lamp.coc) / squeeze, from.lamp.pixel_aspect * squeeze}, tile);
+    const double coc = std::abs(from.lamp.coc);
+    const PsfRows rows({from.lamp.centre, coc / squeeze, from.lamp.pixel_aspect * squeeze}, tile);
+    const LampDisc disc{from.lamp.centre, {coc / squeeze, coc * from.lamp.pixel_aspect}};
     std::array<double, PsfRows::max_size + 1> weights;
     for (int y = rows.begin_row(); y < rows.end_row(); ++y) {
         const PsfRows::Span span = rows.row(y, weights.data());
-        for (int x = span.begin; x < span.end; ++x) add(from, x, y, all_colours, weights[std::size_t(x)]);
+        for (int x = span.begin; x < span.end; ++x)
+            add(from, x, y, all_colours, weights[std::size_t(x)], &disc);
     }
 }
 
@@ -257,13 +259,15 @@ double HighlightTile::left_by_cat_eye(bool behind, int x, int y) {
 }
 
 // The share of a pixel's light that nothing hides.
-float HighlightTile::lit(const Spreading &from, int x, int y) const {
+float HighlightTile::lit(const Spreading &from, int x, int y, const LampDisc *disc) const {
     if (!from.shadowed || !reached_.intersects(Imath::V2i(x, y))) return 1;
-    return from.few ? from.few->lit_share(x, y) : shadow_.lit(x, y);
+    if (from.few) return from.few->lit_share(x, y);
+    return disc ? shadow_.lit(x, y, *disc) : shadow_.lit(x, y);
 }
 
-void HighlightTile::add(const Spreading &from, int x, int y, unsigned of, double weight) {
-    float share = float(weight) * lit(from, x, y);
+void HighlightTile::add(const Spreading &from, int x, int y, unsigned of, double weight,
+                        const LampDisc *disc) {
+    float share = float(weight) * lit(from, x, y, disc);
     if (share <= 0) return;
     if (held_out_.by) share *= held_out_.passes(origin_ + Imath::V2i(x, y), samples_.depth[from.sample]);
     for (std::size_t g = 0; g < sets_.size() / 4; ++g) {

@@ -76,8 +76,9 @@ private:
     void spread_disc(const Spreading &from);
     void spread_shape(const Spreading &from);
     void add_seen(const Spreading &from, int x, int y, double weight, const std::array<double, 3> *colours);
-    void add(const Spreading &from, int x, int y, unsigned of, double weight);
-    float lit(const Spreading &from, int x, int y) const;
+    // `disc`: where the light of one lies; of a pixel that its edge crosses, only what lies in it is lit.
+    void add(const Spreading &from, int x, int y, unsigned of, double weight, const LampDisc *disc = nullptr);
+    float lit(const Spreading &from, int x, int y, const LampDisc *disc) const;
     const LampCells &cells_of(const Lamp &lamp);
     bool cast_shadows(std::uint32_t lamp_sample, const Lamp &lamp, const Screen &screen,
                       std::span<const std::uint32_t> blocks);

@@ -93,6 +93,19 @@ float LampShadow::lit_points(std::size_t pixel) const {
     return float(points - std::popcount(hidden_[pixel])) * (1.0f / points);
 }
 
+float LampShadow::lit(int x, int y, const LampDisc &disc) const {
+    const std::uint64_t hidden = hidden_[at(x, y)];
+    if (hidden == 0 || ~hidden == 0) return lit(x, y);
+    int inside = 0, lit_inside = 0;
+    for (int k = 0; k < points; ++k)
+        if (disc.contains(x + (k + 0.5) / points, y + (reversed(k) + 0.5) / points)) {
+            ++inside;
+            lit_inside += (hidden >> k & 1) == 0;
+        }
+    if (inside == 0) return lit(x, y);
+    return float(lit_inside) / float(inside) * veil_[at(x, y)];
+}
+
 void LampShadow::hide(const Imath::Box2f &rectangle, float alpha, std::uint32_t thing) {
     const Reach across(rectangle.min.x - float(box_.min.x), rectangle.max.x - float(box_.min.x),
                        box_.max.x - box_.min.x + 1),

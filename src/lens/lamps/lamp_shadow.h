@@ -25,6 +25,14 @@ Number shadow_magnification(Number lamp_coc, Number coc) {
     return shadow_magnification(lamp_coc, coc, lamp_coc);
 }
 
+struct LampDisc {
+    Imath::V2d centre, radius;
+    bool contains(double x, double y) const {
+        const double u = (x - centre.x) / radius.x, v = (y - centre.y) / radius.y;
+        return u * u + v * v <= 1;
+    }
+};
+
 // Which share of each pixel of a box is in shadow, by 64 points in each pixel: no two of them share a row or a column, so
 // that an edge that crosses a pixel along an axis hides one after the other.
 class LampShadow {
@@ -41,6 +49,9 @@ public:
 
     // The share of a pixel of the box that is not hidden.
     float lit(int x, int y) const { return lit_points(at(x, y)) * veil_[at(x, y)]; }
+
+    // The same of the part of the pixel that lies in the disc.
+    float lit(int x, int y, const LampDisc &disc) const;
 
 private:
     std::size_t at(int x, int y) const {

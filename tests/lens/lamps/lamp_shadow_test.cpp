@@ -55,6 +55,25 @@ TEST(LampShadow, ChangesByOnePointAtATime) {
     }
 }
 
+// Of a pixel that a disc's edge crosses, what lies in the disc is lit or not.
+TEST(LampShadow, CountsWhatLiesInADisc) {
+    const LampDisc disc{{5, 5}, {3, 3}};
+    for (const float edge : {7.25f, 7.5f, 7.75f}) {
+        LampShadow shadow;
+        shadow.begin(box);
+        shadow.hide({{edge, -9}, {19, 19}}, 1, 0);
+        int inside = 0, lit = 0; // of pixel (7, 5)
+        for (int i = 0; i < 10000; ++i) {
+            const double x = 7 + (i % 100 + 0.5) / 100, y = 5 + (i / 100 + 0.5) / 100;
+            inside += disc.contains(x, y);
+            lit += disc.contains(x, y) && x < double(edge);
+        }
+        EXPECT_NEAR(double(shadow.lit(7, 5, disc)), double(lit) / inside, 0.02) << edge;
+        EXPECT_EQ(shadow.lit(7, 5, LampDisc{{5, 5}, {9, 9}}), shadow.lit(7, 5));
+        EXPECT_EQ(shadow.lit(4, 5, disc), 1);
+    }
+}
+
 TEST(LampShadow, JoinsNeighboursWithoutACrackAndCountsNothingTwice) {
     LampShadow shadow;
     shadow.begin(box);
