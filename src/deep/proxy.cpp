@@ -1,5 +1,6 @@
 #include "deep/proxy.h"
 
+#include "base/subpixels.h"
 #include "deep/build.h"
 #include "deep/channel_alpha.h"
 #include "deep/tidy.h"
@@ -11,8 +12,6 @@
 namespace sparselens {
 
 namespace {
-
-int floor_div(int a, int b) { return a >= 0 ? a / b : -((-a + b - 1) / b); }
 
 // A small pixel at an edge is covered in part, which takes a channel to say so.
 Ldi with_coverage(Ldi ldi) {
@@ -88,11 +87,6 @@ void append_surfaces(const Ldi &ldi, std::size_t alpha, const std::vector<Seen> 
 
 } // namespace
 
-Imath::Box2i reduced(const Imath::Box2i &box, int factor) {
-    return {{floor_div(box.min.x, factor), floor_div(box.min.y, factor)},
-            {floor_div(box.max.x, factor), floor_div(box.max.y, factor)}};
-}
-
 Ldi proxy(const Ldi &large, int factor) {
     if (factor == 1) return large;
     const Ldi ldi = with_coverage(large);
@@ -108,6 +102,19 @@ Ldi proxy(const Ldi &large, int factor) {
         });
     });
     return tidy(std::move(out));
+}
+
+Ldi enlarged(const Ldi &ldi, int factor) {
+    Ldi like = empty_like(ldi);
+    like.windows.display = subpixels_in(like.windows.display, factor);
+    like.windows.data = subpixels_in(like.windows.data, factor);
+    Ldi out = build_by_pixels(like, [&](std::size_t pixel, Ldi &row) {
+        const Imath::V2i at = like.windows.pixel(pixel);
+        const Imath::V2i from = reduced({at, at}, factor).min;
+        for (const std::uint64_t i : ldi.pixel(ldi.windows.index(from.x, from.y))) append(row, ldi, i);
+    });
+    out.dx.clear(), out.dy.clear();
+    return out;
 }
 
 } // namespace sparselens

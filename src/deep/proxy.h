@@ -1,12 +1,9 @@
-// A small LDI that stands for a large one, for quick previews.
+// A small LDI that stands for a large one, for quick previews, and the other way round.
 #pragma once
 
 #include "ldi.h"
 
 namespace sparselens {
-
-// The pixels that contain those of `box` when `factor` of these, across and down, become one.
-Imath::Box2i reduced(const Imath::Box2i &box, int factor);
 
 // The LDI at 1 / factor of its size, factor >= 1. Samples of a pixel whose depths differ by at most a hundredth are one
 // surface. Its coverage and colours are its share of the mean of the flattened pixels, so that the flattened small LDI
@@ -14,5 +11,8 @@ Imath::Box2i reduced(const Imath::Box2i &box, int factor);
 // are kept behind it. Ids are those of the first sample of a surface. Data windows whose size is not a multiple of
 // `factor` are filled up with empty pixels. The result has a channel A even if `ldi` has none.
 Ldi proxy(const Ldi &ldi, int factor);
+
+// The LDI at `factor` times its size: each pixel as often, across and down. Where in a pixel its samples lie is forgotten.
+Ldi enlarged(const Ldi &ldi, int factor);
 
 } // namespace sparselens

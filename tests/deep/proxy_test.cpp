@@ -1,3 +1,4 @@
+#include "base/subpixels.h"
 #include "deep/flatten.h"
 #include "deep/order.h"
 #include "deep/pad.h"
