@@ -4,7 +4,6 @@
 #include "dof/gather_rows.h"
 #include "gpu/gather/gather_device.h"
 #include "harness/tool.h"
-#include "io/camera/camera_write.h"
 #include "io/channels.h"
 #include "io/exr/exr_flat.h"
 #include "io/gather_windows.h"
@@ -34,15 +33,21 @@ using GatherDevice = ChosenDevice<TileDevice>;
 Image gathered(const GatherCommand &options, GatherWindows &frame, const ThinLens &lens, LdiCache &cache,
                const ToolContext &tool) {
     const auto of = [&](auto &&ldi) {
-        return gather_picture(std::forward<decltype(ldi)>(ldi), lens, frame.gathered, frame.written,
+        return gather_picture(std::forward<decltype(ldi)>(ldi), lens, frame.gathered, frame.needed,
                               options.picture, *tool.progress);
     };
     if (const OpenedLdi &in = cache.last(); in.packed)
-        return gather_rows(*in.packed, lens, frame.gathered, frame.written, options.picture,
+        return gather_rows(*in.packed, lens, frame.gathered, frame.needed, options.picture,
                            {memory_to_gather(in.samples_read, in.ldi.windows.pixels())}, *tool.progress);
     if (options.show != Show::picture) return of(frame.ldi(cache.last()));
     if (frame.changed) return of(std::move(*frame.changed));
     return tool.last_frame ? of(cache.take_ldi()) : of(cache.last().ldi);
+}
+
+// Whose circles of confusion are in pixels of the picture.
+ThinLens in_pixels(ThinLens lens, const Subpixels &of) {
+    lens.focal_px /= of.across;
+    return lens;
 }
 
 // What holds of all rows of a frame: found once, by the first of several threads. A lens may come through a pipe.
@@ -92,19 +97,21 @@ void run(const GatherCommand &given, const ToolContext &tool, LdiCache &cache, G
                                reduce_samples(options, tool, of_frame));
     if (in.reduced && merges_by_rows(in.ldi.channels)) options.picture.layer_tolerance = 0; // they are merged
     say_camera(tool, options.input, in.camera);
-    ThinLens lens = lens_for_ldi(in, options.focus_pixel, tool);
-    const auto holdout = open_holdout(options.holdout, in.ldi.windows, options.windows.proxy, by);
+    ThinLens lens = lens_for_ldi(in, options.focus_pixel, subpixels_of(options.windows, in).across, tool);
+    const auto holdout = open_holdout(options.holdout, in, options.windows, by);
     const LensFile &given_looks = of_frame.looks(options, in.camera.fstop);
     Imf::Header header = in.header;
     GatherWindows frame = gather_windows(options.windows, in, lens);
     const LensLooks looks = looks_for_ldi(given_looks, in.camera, header, lens, frame.ldi(in).windows,
                                           options.picture.method, tool);
-    say_border_reach(tool, options.input, in.packed ? border_of(*in.packed) : frame.ldi(in), lens, looks);
+    say_border_reach(tool, options.input, in.packed ? border_of(*in.packed) : frame.ldi(in), lens,
+                     frame.subpixels.across, looks);
     choose_windows(frame, options.windows, in, lens, looks);
     raise_highlights(frame, in, highlight_gain(given_looks.values));
     const Ldi &ldi = frame.ldi(in);
     const std::size_t samples = in.samples_read;
-    Image depth = options.depth_output.empty() ? Image() : crop(front_depth(ldi), frame.written);
+    Image depth =
+        options.depth_output.empty() ? Image() : frame.picture_of(crop(front_depth(ldi), frame.needed));
     LensTiles tiles;
     options.picture.holdout = holdout ? &*holdout : nullptr;
     options.picture.gather.lens.chosen = &tiles;
@@ -112,11 +119,13 @@ void run(const GatherCommand &given, const ToolContext &tool, LdiCache &cache, G
     options.picture.gather.lens.looks = looks;
     Image picture;
     if (needs_gather(options.show))
-        picture = chosen_channels(gathered(options, frame, lens, cache, tool), options.channels);
+        picture =
+            frame.picture_of(chosen_channels(gathered(options, frame, lens, cache, tool), options.channels));
     device.report(tool);
     if (options.show != Show::picture)
-        picture = crop(shown(options.show, ldi, lens, frame.gathered, tiles), frame.written);
-    write_camera(header, in.camera);
+        picture = frame.picture_of(crop(
+            shown(options.show, ldi, in_pixels(lens, frame.subpixels), frame.gathered, tiles), frame.needed));
+    frame.describe(header, in.camera);
     append_history(header, tool, options.history);
     *tool.last_step = [&tool, header, depth = std::move(depth), picture = std::move(picture),
                        output = options.output, depth_output = options.depth_output, type = options.type,

@@ -16,16 +16,17 @@ using namespace sparselens::lab;
 void trace(const TraceOptions &options, const ToolContext &tool) {
     const Scene scene = build_scene(options.scene);
     const Camera camera = camera_with_options(options.lens, scene.camera);
-    const RenderSettings settings = render_settings(options, camera);
+    const RenderSettings settings = render_settings(options, camera), view = view_settings(options, camera);
     const Tracer tracer(seen_after(scene, options.dolly));
     TraceOutputs outputs(options.folder, camera, settings, options.type, tool);
-    const TraceJob job{options, tracer, settings, outputs, *tool.progress};
-    if (!options.plan.empty()) return outputs.write_summary(trace_plan(job), options.samples, 0);
+    const TraceJob job{options, tracer, settings, view, view_samples(options), outputs, *tool.progress};
+    if (!options.plan.empty())
+        return outputs.write_summary(trace_plan(job), options.samples, options.supersample, 0);
     const std::vector<Imath::V2d> rim = trace_rim(job);
     trace_lens(job);
     trace_reference(job);
     trace_deep(job);
-    outputs.write_summary(rim, options.samples, options.reference);
+    outputs.write_summary(rim, options.samples, options.supersample, options.reference);
 }
 
 } // namespace

@@ -71,7 +71,8 @@ void run(const WarpCommand &options, const ToolContext &tool, ChosenWarpDevice &
     warn_of(tool, view_warnings(in.views, facts));
     tool.say(fmt::format("{} views, {} samples in {} pixels", in.views.size(), ldi.samples(),
                          ldi.windows.pixels()));
-    if (facts.lens) say_border_reach(tool, options.output, ldi, *facts.lens);
+    if (facts.lens)
+        say_border_reach(tool, options.output, ldi, *facts.lens, in.camera.supersample.value_or(1));
     *tool.last_step = [&tool, stats = warp_stats(in.views, ldi), ldi = std::move(ldi), header = in.header,
                        output = options.output, compression = options.compression] {
         warn_of_clamped(tool, output, write_ldi(output, ldi, header, compression));

@@ -4,6 +4,7 @@
 #include "deep/pad.h"
 #include "deep/proxy.h"
 #include "io/camera/camera_read.h"
+#include "io/camera/camera_write.h"
 #include "io/files/memory_limit.h"
 
 #include <fmt/format.h>
@@ -39,39 +40,99 @@ void check_growth(const OpenedLdi &in, const Ldi &ldi, const Imath::Box2i &windo
     }
 }
 
-// `ldi` with its pixels as far as the blur reaches into the display window, which becomes part of `picture`; empty if
-// it reaches nothing beyond `picture`.
+// The sub-pixels of the display window that share a pixel with those of `box`, and these.
+Imath::Box2i whole_blocks(Imath::Box2i box, const Imath::Box2i &display, int across) {
+    const Imath::Box2i blocks = subpixels_in(reduced(box, across), across);
+    const Imath::Box2i inside({std::max(blocks.min.x, display.min.x), std::max(blocks.min.y, display.min.y)},
+                              {std::min(blocks.max.x, display.max.x), std::min(blocks.max.y, display.max.y)});
+    if (!inside.isEmpty()) box.extendBy(inside);
+    return box;
+}
+
+// `ldi` with its pixels as far as the blur reaches into the display window, by whole blocks of sub-pixels, which become part of
+// `picture`; empty if it reaches nothing beyond `picture`.
 std::optional<Ldi> grown(const OpenedLdi &in, const Ldi &ldi, const ThinLens &lens, const LensLooks &looks,
-                         Imath::Box2i &picture) {
+                         int across, Imath::Box2i &picture) {
     const Imath::Box2i before = picture;
     if (lens.radius > 0 && !holds(picture, ldi.windows.display))
         picture.extendBy(reached_display(ldi, lens, looks));
+    picture = whole_blocks(picture, ldi.windows.display, across);
     if (picture == before) return {};
     check_growth(in, ldi, picture);
     return padded(ldi, picture);
 }
 
+// How many pixels of the LDI, across and down, become one that is gathered: a proxy is for quick previews.
+int smaller_by(const WindowOptions &options, const Subpixels &by) {
+    return options.proxy > 1 ? options.proxy * by.across : 1;
+}
+
+void need_all(GatherWindows &frame) {
+    frame.needed = frame.gathered;
+    frame.picture = reduced(frame.gathered, frame.subpixels.across);
+}
+
 } // namespace
 
+Subpixels subpixels_of(const WindowOptions &options, const OpenedLdi &in) {
+    const Subpixels by{options.supersample.value_or(in.camera.supersample.value_or(1)),
+                       options.filter.value_or(in.camera.pixel_filter.value_or(PixelFilter{}))};
+    const Imath::Box2i &display = in.ldi.windows.display;
+    if (subpixels_in(reduced(display, by.across), by.across) != display)
+        throw UsageError(fmt::format(
+            "{}: its display window cannot be divided into pixels of {} x {}: give another --supersample",
+            in.name, by.across, by.across));
+    return by;
+}
+
+Image GatherWindows::picture_of(Image needed_pixels) const {
+    if (subpixels.across == 1) return needed_pixels;
+    return mean_of_subpixels(needed_pixels, subpixels, picture);
+}
+
+void GatherWindows::describe(Imf::Header &header, const Camera &camera) const {
+    write_picture_camera(header, camera);
+    if (subpixels.across > 1) write_picture_window(header, picture);
+}
+
 GatherWindows gather_windows(const WindowOptions &options, const OpenedLdi &in, ThinLens &lens) {
-    lens.focal_px /= options.proxy;
-    GatherWindows frame{reduced(read_picture_window(in.header), options.proxy), {}, {}};
-    if (options.proxy > 1) frame.changed = proxy(in.ldi, options.proxy);
-    frame.written = frame.gathered;
+    const Subpixels by = subpixels_of(options, in);
+    const int smaller = smaller_by(options, by);
+    lens.focal_px /= smaller;
+    GatherWindows frame{reduced(read_picture_window(in.header), smaller), {}, {}, {}, {}};
+    if (smaller > 1)
+        frame.changed = proxy(in.ldi, smaller);
+    else
+        frame.subpixels = by;
+    need_all(frame);
     return frame;
 }
 
 void choose_windows(GatherWindows &frame, const WindowOptions &options, const OpenedLdi &in,
                     const ThinLens &lens, const LensLooks &looks) {
     if (options.overscan == OutputOverscan::grow)
-        if (auto padded = grown(in, frame.ldi(in), lens, looks, frame.gathered))
+        if (auto padded = grown(in, frame.ldi(in), lens, looks, frame.subpixels.across, frame.gathered))
             frame.changed = std::move(padded);
-    frame.written = frame.gathered;
+    need_all(frame);
     if (options.overscan == OutputOverscan::crop)
-        frame.written =
-            common(frame.written, frame.ldi(in).windows.display, "--overscan crop: the display window");
+        frame.picture = common(frame.picture, reduced(frame.ldi(in).windows.display, frame.subpixels.across),
+                               "--overscan crop: the display window");
     if (options.region)
-        frame.written = common(frame.written, reduced(*options.region, options.proxy), "--region");
+        frame.picture = common(frame.picture, reduced(*options.region, options.proxy), "--region");
+    const Imath::Box2i under = subpixels_under(frame.picture, frame.subpixels);
+    frame.needed = common(frame.gathered, under, "the picture");
+}
+
+Ldi holdout_for(const OpenedLdi &in, const WindowOptions &options, const Ldi &holdout,
+                const std::string &name) {
+    const Subpixels by = subpixels_of(options, in);
+    const Imath::Box2i &display = in.ldi.windows.display;
+    const bool coarse = holdout.windows.display != display;
+    if (coarse && holdout.windows.display != reduced(display, by.across))
+        throw Error(name + ": its display window differs from that of the picture it holds out; use a "
+                           "holdout of the same size");
+    if (options.proxy > 1) return proxy(holdout, coarse ? options.proxy : smaller_by(options, by));
+    return coarse ? enlarged(holdout, by.across) : holdout;
 }
 
 void raise_highlights(GatherWindows &frame, const OpenedLdi &in, const HighlightGain &by) {

@@ -1,6 +1,7 @@
 // The pixels that are gathered, and the LDI that they are gathered from.
 #pragma once
 
+#include "../base/subpixels.h"
 #include "../dof/highlight_gain.h"
 #include "../lens/lens_looks.h"
 #include "open_ldi.h"
@@ -20,25 +21,42 @@ struct WindowOptions {
     OutputOverscan overscan = OutputOverscan::grow;
     int proxy = 1;                           // this number of pixels, across and down, becomes one
     std::optional<Imath::Box2i> region = {}; // in the full-size picture
+    std::optional<int> supersample =
+        {}; // sub-pixels of the LDI, across and down, that become a pixel; else as its file says
+    std::optional<PixelFilter> filter = {}; // else as its file says, else a box
 };
 
-// The pixels that are gathered, and those of them that are written.
+// As options or the file have it. Throws UsageError where a block of sub-pixels would be cut by the display window.
+Subpixels subpixels_of(const WindowOptions &options, const OpenedLdi &in);
+
+// The pixels that are gathered, those of them that are needed, and the picture that they become, by `subpixels`. A proxy is made of
+// pixels of its own: it has no sub-pixels.
 struct GatherWindows {
-    Imath::Box2i gathered, written;
+    Imath::Box2i gathered, needed, picture;
+    Subpixels subpixels;
     std::optional<Ldi> changed; // the LDI to gather; empty: the LDI as it was read
 
     const Ldi &ldi(const OpenedLdi &in) const { return changed ? *changed : in.ldi; }
+    // The picture of what was gathered, or of anything else of the pixels that are needed.
+    Image picture_of(Image needed_pixels) const;
+    // Says in its header how it was taken: its pixels are no sub-pixels.
+    void describe(Imf::Header &header, const Camera &camera) const;
 };
 
-// Those of the file, all of them written. Scales `lens` and a copy of the LDI down to the proxy.
+// Those of the file, all of them needed. Scales `lens` and a copy of the LDI down to the proxy.
 GatherWindows gather_windows(const WindowOptions &options, const OpenedLdi &in, ThinLens &lens);
 
 // Pads a copy of the LDI where the blur of a lens of these looks reaches beyond the picture into the display window, if
-// --overscan=grow, and chooses the pixels that are written.
+// --overscan=grow, and chooses the pixels of the picture.
 // Throws UsageError where a region or a display window contains no pixel of the picture, and Error where the padded
 // picture needs more memory than the LDI justifies (memory_limit.h).
 void choose_windows(GatherWindows &frame, const WindowOptions &options, const OpenedLdi &in,
                     const ThinLens &lens, const LensLooks &looks);
+
+// A holdout of the LDI's size, or of that of the picture, whose pixels then hold out all of their sub-pixels; made as small as the
+// proxy. Throws Error, naming it, where it has another.
+Ldi holdout_for(const OpenedLdi &in, const WindowOptions &options, const Ldi &holdout,
+                const std::string &name);
 
 // Brightens the highlights of the LDI to gather. `in` itself stays as it is.
 void raise_highlights(GatherWindows &frame, const OpenedLdi &in, const HighlightGain &by);

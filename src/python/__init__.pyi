@@ -38,6 +38,8 @@ class Camera:
     @property
     def world_to_camera(self) -> Optional[list[list[float]]]: ...
     @property
+    def supersample(self) -> Optional[int]: ...
+    @property
     def lens_points(self) -> list[_Pair]: ...
 
 class _Windows:
@@ -287,6 +289,8 @@ def gather(
     device: Optional[str] = "cpu",
     overscan: Literal["grow", "keep", "crop"] = "grow",
     proxy: int = 1,
+    supersample: Optional[int] = None,
+    pixel_filter: Optional[str] = None,
     region: Optional[_Box] = None,
     highlight_gain: Optional[float] = 1,
     highlight_threshold: Optional[float] = 1,

@@ -45,6 +45,8 @@ inline constexpr const char *focus_distance = "Scene units, or inf.";
 inline constexpr const char *scene_unit = "Length of a scene unit, metres.";
 inline constexpr const char *world_to_camera =
     R"(4 rows of 4 numbers that act on row vectors, as in OpenEXR. Camera space: x right, y up, z forward.)";
+inline constexpr const char *supersample =
+    "Of an LDI and its views: so many pixels, across and down, are one of the picture.";
 inline constexpr const char *lens_points =
     "Of an LDI: where its views stood, (x, y) in scene units, x right, y up.";
 inline constexpr const char *view = R"(View(image, z=None, **keywords)
@@ -215,7 +217,7 @@ Lens values replace those of the LDI:
 Raises UsageError where the lens is unknown, and Error where several LDIs are not of one camera.)";
 
 inline constexpr const char *gather =
-    R"(gather(ldi, *, channels=None, method='lens', quality='normal', lens_samples=0, layer_tolerance=0.25, layers=8, focus_pixel=None, holdout=None, holdout_defocused=False, device='cpu', overscan='grow', proxy=1, region=None, highlight_gain=1, highlight_threshold=1, highlight_knee=1, blades=None, blade_curvature=None, blade_rotation=None, squeeze=None, spherical=None, cat_eye=None, axial_chromatic=None, field_curvature=None, breathing=None, cat_eye_darkening=False, axial_chromatic_type='red-blue', tilt=None, lens=None, aperture=None, progress=None, focal_length=None, sensor_width=None, fstop=None, lens_radius=None, focus_distance=None, scene_unit=None)
+    R"(gather(ldi, *, channels=None, method='lens', quality='normal', lens_samples=0, layer_tolerance=0.25, layers=8, focus_pixel=None, holdout=None, holdout_defocused=False, device='cpu', overscan='grow', proxy=1, supersample=None, pixel_filter=None, region=None, highlight_gain=1, highlight_threshold=1, highlight_knee=1, blades=None, blade_curvature=None, blade_rotation=None, squeeze=None, spherical=None, cat_eye=None, axial_chromatic=None, field_curvature=None, breathing=None, cat_eye_darkening=False, axial_chromatic_type='red-blue', tilt=None, lens=None, aperture=None, progress=None, focal_length=None, sensor_width=None, fstop=None, lens_radius=None, focus_distance=None, scene_unit=None)
 --
 
 Makes the picture that a lens takes of an LDI and returns a Picture. As dof-gather.
@@ -230,7 +232,9 @@ holdout: an Ldi that hides what is behind it and is not shown itself; it stays s
 device: what gathers, by the methods lens and selective: "cpu", "auto" (a GPU if there is one), "gpu" (a GPU, or Error),
   or a part of a device's name, also of one in software.
 overscan: "grow" the picture as far as the blur reaches, "keep" the pixels of the LDI, "crop" to the display window.
-proxy: makes a picture of 1 / proxy the size. region: (left, top, right, bottom), makes only these pixels.
+proxy: makes a picture of 1 / proxy the size. supersample: so many pixels of the LDI, across and down, are one of the
+  picture (default: as its file says, else 1); pixel_filter: that of the picture, "box", "blackman-harris" or "gaussian", the
+  latter two with ":WIDTH" if wanted (default: as the file says, else "box"). focus_pixel and region count its pixels. region: (left, top, right, bottom), makes only these pixels.
 highlight_gain: makes lights above highlight_threshold (scene-linear luminance) up to so many times as bright, 1 to
   1000, over a knee of highlight_knee.
 Looks of the lens, of the method lens: blades (a whole number), blade_curvature (0 to 1), blade_rotation (degrees),

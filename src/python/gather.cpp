@@ -2,9 +2,7 @@
 
 #include "base/error.h"
 #include "deep/front_depth.h"
-#include "deep/proxy.h"
 #include "dof/gather_picture.h"
-#include "io/camera/camera_write.h"
 #include "io/channels.h"
 #include "io/gather_windows.h"
 #include "io/picture_looks.h"
@@ -101,7 +99,14 @@ Asked asked_by(const py::kwargs &given) {
         {{"grow", OutputOverscan::grow}, {"keep", OutputOverscan::keep}, {"crop", OutputOverscan::crop}});
     asked.windows = {.overscan = overscan.value_or(OutputOverscan::grow),
                      .proxy = keywords.whole("proxy", 1, 1024).value_or(1),
-                     .region = keywords.box("region")};
+                     .region = keywords.box("region"),
+                     .supersample = keywords.whole("supersample", 1, most_across)};
+    if (const std::string filter = keywords.text("pixel_filter"); !filter.empty()) {
+        asked.windows.filter = pixel_filter_of(filter);
+        if (!asked.windows.filter)
+            Keywords::refuse("pixel_filter", "box, blackman-harris or gaussian, with :WIDTH if wanted",
+                             filter);
+    }
     asked.channels = keywords.list("channels");
     asked.focus_pixel = keywords.pixel("focus_pixel");
     asked.lens = lens_values(keywords);
@@ -112,9 +117,10 @@ Asked asked_by(const py::kwargs &given) {
     return asked;
 }
 
-Camera focused(Camera camera, const OpenedLdi &in, const std::optional<Imath::V2i> &pixel) {
+Camera focused(Camera camera, const OpenedLdi &in, const Asked &asked) {
+    const std::optional<Imath::V2i> &pixel = asked.focus_pixel;
     if (!pixel) return camera;
-    const float z = front_depth(in.ldi, *pixel);
+    const float z = front_depth(in.ldi, middle_subpixel(*pixel, subpixels_of(asked.windows, in).across));
     if (!(z > 0))
         throw UsageError(
             fmt::format("focus_pixel: ldi has no sample at ({}, {}); choose a pixel that shows something",
@@ -123,19 +129,11 @@ Camera focused(Camera camera, const OpenedLdi &in, const std::optional<Imath::V2
     return camera;
 }
 
-// The holdout at the size of the picture.
-std::optional<Ldi> holdout_of(const Asked &asked, const Ldi &ldi) {
-    if (!asked.holdout) return {};
-    const Ldi &holdout = asked.holdout->ldi;
-    if (holdout.windows.display != ldi.windows.display)
-        throw UsageError("holdout: its display window differs from that of the picture it holds out");
-    return asked.windows.proxy == 1 ? holdout : proxy(holdout, asked.windows.proxy);
-}
-
 PictureObject gathered_all(const Asked &asked, const OpenedLdi &in, Camera camera, ThinLens lens,
                            TileDevice *device, Progress &progress) {
     PictureObject out{{}, in.header};
-    const auto holdout = holdout_of(asked, in.ldi);
+    std::optional<Ldi> holdout;
+    if (asked.holdout) holdout = holdout_for(in, asked.windows, asked.holdout->ldi, "holdout");
     GatherWindows frame = gather_windows(asked.windows, in, lens);
     const LensFile looks = read_looks(asked.looks.given, camera.fstop);
     PictureOptions options = asked.picture;
@@ -146,8 +144,8 @@ PictureObject gathered_all(const Asked &asked, const OpenedLdi &in, Camera camer
     const Ldi &ldi = frame.ldi(in);
     options.holdout = holdout ? &*holdout : nullptr;
     options.gather.lens.device = device;
-    out.image = gather_picture(ldi, lens, frame.gathered, frame.written, options, progress);
-    write_camera(out.header, camera);
+    out.image = frame.picture_of(gather_picture(ldi, lens, frame.gathered, frame.needed, options, progress));
+    frame.describe(out.header, camera);
     return out;
 }
 
@@ -167,7 +165,7 @@ PictureObject gathered(const Asked &asked, const OpenedLdi &in, const Camera &ca
 PictureObject gather(const py::object &ldi, const py::kwargs &given) {
     const Asked asked = asked_by(given);
     const OpenedLdi &in = argument<OpenedLdi>(ldi, "ldi", "an Ldi");
-    const Camera camera = focused(camera_with_options(asked.lens, in.camera), in, asked.focus_pixel);
+    const Camera camera = focused(camera_with_options(asked.lens, in.camera), in, asked);
     const ThinLens lens = resolve_lens(camera, in.ldi.windows);
     if (const auto warning = warning_of_wide_lens(camera, lens)) warn(*warning);
     if (!knows_looks(asked))

@@ -96,6 +96,7 @@ void bind_camera(py::module_ &module) {
         .def_readonly("sensor_width", &Camera::sensor_width_mm, doc::sensor_width)
         .def_readonly("fstop", &Camera::fstop, doc::fstop)
         .def_property_readonly("lens_radius", &lens_radius_of, doc::lens_radius)
+        .def_readonly("supersample", &Camera::supersample, doc::supersample)
         .def_readonly("focus_distance", &Camera::focus_distance, doc::focus_distance)
         .def_readonly("scene_unit", &Camera::metres_per_unit, doc::scene_unit)
         .def_property_readonly(

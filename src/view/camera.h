@@ -1,6 +1,7 @@
 // The camera that took a picture, as a file or a command line describes it. Every value may be unknown.
 #pragma once
 
+#include "../base/pixel_filter.h"
 #include "framing.h"
 #include "look_values.h"
 
@@ -31,6 +32,8 @@ struct Camera {
     std::optional<Imath::V2d> principal_point;
     std::optional<Imath::M44d> world_to_camera;
     std::optional<Imath::M44d> world_to_ndc; // NDC: (0,0) and (1,1) are the display window's corners, y down
+    std::optional<int> supersample; // sub-pixels, across and down, that become one pixel; [1, most_across]
+    std::optional<PixelFilter> pixel_filter; // of the picture that they become
     std::vector<Imath::V2d> lens_points;     // of an LDI: where its views stood, scene units, x right, y up
 
     std::vector<std::string> found; // what was read, and from which attribute, for messages

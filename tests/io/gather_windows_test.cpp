@@ -1,4 +1,5 @@
 // Growth with each look: the picture of an element is the same whether its data window is tight or large.
+#include "base/error.h"
 #include "deep/pad.h"
 #include "dof/gather_picture.h"
 #include "io/gather_windows.h"
@@ -34,7 +35,7 @@ Image gathered(const OpenedLdi &in, const LensLooks &looks) {
     PictureOptions options;
     options.gather.lens = {.lens_samples = 256, .looks = looks};
     Progress silent;
-    return gather_picture(frame.ldi(in), by, frame.gathered, frame.written, options, silent);
+    return gather_picture(frame.ldi(in), by, frame.gathered, frame.needed, options, silent);
 }
 
 TEST(GatherWindows, GrowAsFarAsTheLooksSpreadLight) {
@@ -66,6 +67,59 @@ TEST(GatherWindows, GrowAsFarAsTheLooksSpreadLight) {
                 << " tilt " << looks.tilt << " chromatic " << looks.chromatic_coc[0] << " magnification "
                 << looks.magnification;
         }
+}
+
+// Fine pixels of an element that begins and ends within blocks, with a lens of radius 0: the mean of each block, where nothing
+// beside the element is there to be averaged. A part of it is the same.
+TEST(GatherWindows, HaveWholeBlocksOfSubpixels) {
+    OpenedLdi in = element(0);
+    in.ldi.windows.data = {{141, 31}, {152, 42}};
+    in.header.dataWindow() = in.ldi.windows.data;
+    const auto made = [&](const WindowOptions &options) {
+        ThinLens sharp = lens;
+        sharp.radius = 0;
+        GatherWindows frame = gather_windows(options, in, sharp);
+        choose_windows(frame, options, in, sharp, {});
+        PictureOptions by;
+        Progress silent;
+        return frame.picture_of(
+            gather_picture(frame.ldi(in), sharp, frame.gathered, frame.needed, by, silent));
+    };
+    const Image all = made({.supersample = 2});
+    EXPECT_EQ(all.windows.display, Imath::Box2i({0, 0}, {95, 63}));
+    EXPECT_EQ(all.windows.data, Imath::Box2i({70, 15}, {76, 21}));
+    EXPECT_FLOAT_EQ(all.at(1, 70, 15), 0.25f);
+    EXPECT_FLOAT_EQ(all.at(1, 70, 17), 0.5f);
+    EXPECT_FLOAT_EQ(all.at(0, 73, 17), 0.8f);
+    double covered = 0;
+    for (const float a : all.plane(1)) covered += double(a);
+    EXPECT_NEAR(covered, 144.0 / 4, 1e-5);
+    const Imath::Box2i part({71, 16}, {74, 18});
+    const PixelFilter wide{PixelFilter::Shape::gaussian, 2};
+    const Image filtered = made({.supersample = 2, .filter = wide}),
+                some = made({.region = part, .supersample = 2, .filter = wide});
+    EXPECT_EQ(some.values, crop(filtered, part).values);
+    in.camera.supersample = 2;
+    EXPECT_EQ(made({}).values, all.values);
+    EXPECT_EQ(made({.supersample = 1}).windows.data, in.ldi.windows.data);
+    EXPECT_THROW(made({.supersample = 5}), UsageError);
+    in.camera.supersample = 1;
+    EXPECT_EQ(made({.proxy = 2, .supersample = 2}).windows, made({.proxy = 4}).windows);
+}
+
+TEST(HoldoutFor, IsAsLargeAsTheLdiOrAsThePicture) {
+    const OpenedLdi in = element(0);
+    const Ldi coarse = make_ldi(windows_of_size(96, 64), {{"A"}}, [](int x, int y) {
+        return std::vector<Sample>{{double(1 + x + 100 * y), {1}}};
+    });
+    const Ldi fine = holdout_for(in, {.supersample = 2}, coarse, "holdout");
+    EXPECT_EQ(fine.windows.data, Imath::Box2i({0, 0}, {191, 127}));
+    for (const Imath::V2i &at : {Imath::V2i(0, 0), Imath::V2i(191, 127), Imath::V2i(57, 100)})
+        EXPECT_EQ(fine.z[fine.pixel(fine.windows.index(at.x, at.y)).front()],
+                  float(1 + at.x / 2 + 100 * (at.y / 2)));
+    EXPECT_THROW(holdout_for(in, {}, coarse, "holdout"), Error);
+    EXPECT_EQ(holdout_for(in, {.proxy = 2, .supersample = 2}, coarse, "holdout").windows.display,
+              Imath::Box2i({0, 0}, {47, 31}));
 }
 
 } // namespace

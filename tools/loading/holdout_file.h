@@ -2,16 +2,15 @@
 #pragma once
 
 #include "deep/ldi.h"
-#include "io/open_options.h"
+#include "io/gather_windows.h"
 
 #include <optional>
 #include <string>
 
 namespace sparselens {
 
-// Empty if the path is empty. The picture is reduced by `proxy_factor`. Throws Error if its display window differs from
-// that of `windows`.
-std::optional<Ldi> open_holdout(const std::string &path, const Windows &windows, int proxy_factor,
+// Empty if the path is empty, else as holdout_for() has it (io/gather_windows.h).
+std::optional<Ldi> open_holdout(const std::string &path, const OpenedLdi &ldi, const WindowOptions &windows,
                                 const OpenOptions &options);
 
 } // namespace sparselens

@@ -1,6 +1,7 @@
 #include "loading/ldi_lens.h"
 
 #include "base/error.h"
+#include "base/subpixels.h"
 #include "deep/front_depth.h"
 #include "io/picture_looks.h"
 
@@ -8,9 +9,10 @@
 
 namespace sparselens {
 
-ThinLens lens_for_ldi(OpenedLdi &in, const std::optional<Imath::V2i> &focus_pixel, const ToolContext &tool) {
+ThinLens lens_for_ldi(OpenedLdi &in, const std::optional<Imath::V2i> &focus_pixel, int across,
+                      const ToolContext &tool) {
     if (focus_pixel) {
-        const float z = front_depth(in.ldi, *focus_pixel);
+        const float z = front_depth(in.ldi, middle_subpixel(*focus_pixel, across));
         if (!(z > 0))
             throw UsageError("--focus-pixel: " + in.name +
                              " has no sample there; choose a pixel that shows something");

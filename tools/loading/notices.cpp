@@ -38,12 +38,12 @@ void warn_of_flat_picture(const ToolContext &tool, const OpenedLdi &in) {
 }
 
 void say_border_reach(const ToolContext &tool, const std::string &path, const Ldi &ldi, const ThinLens &lens,
-                      const LensLooks &looks) {
+                      int across, const LensLooks &looks) {
     const BorderReach reach = border_reach(ldi, lens, looks);
     if (reach.needed == 0) return;
     const std::string text =
         fmt::format("{}: the blur reaches {} pixels beyond the frame, and {} were rendered there",
-                    display_name(path), reach.needed, reach.rendered);
+                    display_name(path), pieces_of(reach.needed, across), reach.rendered / across);
     if (reach.too_little() && reach.bright)
         warn_once(tool, "overscan",
                   text + "; discs of lights outside the frame are missing, so render more overscan");

@@ -26,10 +26,10 @@ void warn_of(const ToolContext &tool, const std::vector<std::string> &warnings);
 // What picture_warnings() says of a flat picture; of a deep one, nothing.
 void warn_of_flat_picture(const ToolContext &tool, const OpenedLdi &in);
 
-// With --verbose: how much overscan the blur needs, and how much there is; a warning if there is too little, and light
-// stands at the border whose disc would be cut.
+// With --verbose: how much overscan the blur needs, and how much there is, in pixels of `across` sub-pixels; a warning if there is
+// too little, and light stands at the border whose disc would be cut.
 void say_border_reach(const ToolContext &tool, const std::string &path, const Ldi &ldi, const ThinLens &lens,
-                      const LensLooks &looks = {});
+                      int across, const LensLooks &looks = {});
 
 // With --verbose: what the file says about its camera, and which attribute says so.
 void say_camera(const ToolContext &tool, const std::string &path, const Camera &camera);

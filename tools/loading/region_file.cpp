@@ -1,6 +1,7 @@
 #include "loading/region_file.h"
 
 #include "base/error.h"
+#include "deep/proxy.h"
 #include "io/open_ldi.h"
 #include "loading/notices.h"
 #include "measure/regions.h"
@@ -11,12 +12,16 @@ namespace sparselens {
 
 std::vector<std::uint8_t> regions_over(const Windows &target, const std::string &file,
                                        const OpenOptions &options, const ToolContext &tool) {
-    const OpenedLdi in = open_ldi(file, options);
+    OpenedLdi in = open_ldi(file, options);
     say_samples(tool, in);
     warn_of_invalid_values(tool, file, in.bad);
+    const auto has_size = [&](const Windows &windows) {
+        return windows.display_width() == target.display_width() &&
+               windows.display_height() == target.display_height();
+    };
+    if (!has_size(in.ldi.windows)) in.ldi = proxy(in.ldi, in.camera.supersample.value_or(1));
     const Windows &windows = in.ldi.windows;
-    if (windows.display_width() != target.display_width() ||
-        windows.display_height() != target.display_height())
+    if (!has_size(windows))
         throw Error(file + ": its display window differs in size from that of the reference; use a file of "
                            "the same picture");
     const ThinLens lens = in.lens();

@@ -42,6 +42,28 @@ void add_window_options(CLI::App &app, WindowOptions &options) {
         ->type_name("N")
         ->check(CLI::Range(1, 1024))
         ->group("Windows");
+    app.add_option("--supersample", options.supersample,
+                   "This number of the file's pixels, across and down, becomes one of the picture; 1: none "
+                   "(default: as the file says, else 1)")
+        ->type_name("N")
+        ->check(CLI::Range(1, most_across))
+        ->group("Windows");
+    app.add_option_function<std::string>(
+           "--pixel-filter",
+           [&options](const std::string &text) {
+               options.filter = pixel_filter_of(text);
+               if (!options.filter)
+                   throw CLI::ValidationError(
+                       "--pixel-filter",
+                       fmt::format("must be box, blackman-harris or gaussian, the latter two with :WIDTH in "
+                                   "pixels if wanted, not '{}'",
+                                   text));
+           },
+           "With --supersample, the filter that the renderer has for pixels of the picture, and its width as "
+           "Cycles has "
+           "it (default: as the file says, else box; width 1.5)")
+        ->type_name("box|blackman-harris|gaussian[:WIDTH]")
+        ->group("Windows");
     app.add_option_function<std::string>(
            "--region",
            [&options](const std::string &text) {

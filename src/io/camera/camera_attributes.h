@@ -20,6 +20,8 @@ namespace sparselens {
 // Attributes without a standard name that are not quantities.
 inline constexpr const char *lens_points_name = "sparselens:lensPoints"; // text "x,y x,y ...", scene units
 inline constexpr const char *picture_window_name = "sparselens:dataWindow";
+inline constexpr const char *supersample_name = "ldi.supersample";  // int
+inline constexpr const char *pixel_filter_name = "ldi.pixelFilter"; // text, as pixel_filter_of() has it
 
 enum class Quantity {
     focal_length, // mm

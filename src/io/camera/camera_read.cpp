@@ -4,6 +4,7 @@
 #include "view/projection.h"
 
 #include <ImfBoxAttribute.h>
+#include <ImfIntAttribute.h>
 #include <ImfStringAttribute.h>
 #include <fmt/format.h>
 
@@ -30,6 +31,25 @@ std::vector<Imath::V2d> read_points(const Imf::Header &header) {
     char comma = 0;
     while (in >> p.x >> comma >> p.y && comma == ',') points.push_back(p);
     return points;
+}
+
+void read_subpixels(const Imf::Header &header, Camera &camera) {
+    if (const auto *across = header.findTypedAttribute<Imf::IntAttribute>(supersample_name)) {
+        if (across->value() >= 1 && across->value() <= most_across)
+            camera.supersample = across->value();
+        else
+            camera.unsure["--supersample"] =
+                fmt::format("{} is {}, not from 1 to {}", supersample_name, across->value(), most_across);
+    }
+    if (const auto *filter = header.findTypedAttribute<Imf::StringAttribute>(pixel_filter_name)) {
+        camera.pixel_filter = pixel_filter_of(filter->value());
+        if (!camera.pixel_filter)
+            camera.unsure["--pixel-filter"] =
+                std::string(pixel_filter_name) + " is not a filter that is known";
+    }
+    if (camera.supersample && *camera.supersample > 1)
+        camera.found.push_back(fmt::format("{0} x {0} pixels are one of the picture ({1})",
+                                           *camera.supersample, supersample_name));
 }
 
 // Builds the camera from its attributes, and notes which attribute gave which value.
@@ -206,6 +226,7 @@ Camera read_camera(const Imf::Header &header) {
     const CameraAttributes attributes = find_camera_attributes(header);
     Camera camera = Reader(attributes).read();
     camera.lens_points = read_points(header);
+    read_subpixels(header, camera);
     return camera;
 }
 

@@ -53,9 +53,19 @@ void write_camera(Imf::Header &header, const Camera &camera) {
     put("aperture_ratio", camera.looks.squeeze, as_float);
     put("worldToCamera", camera.world_to_camera, as_matrix);
     put("worldToNDC", camera.world_to_ndc, as_matrix);
+    put(supersample_name, camera.supersample, [](int across) { return Imf::IntAttribute(across); });
+    put(pixel_filter_name, camera.pixel_filter,
+        [](const PixelFilter &filter) { return Imf::StringAttribute(text_of(filter)); });
     if (!camera.lens_points.empty())
         set_attribute(header, lens_points_name, Imf::StringAttribute(points_text(camera.lens_points)));
     set_attribute(header, version_name, Imf::StringAttribute(SPARSELENS_VERSION));
+}
+
+void write_picture_camera(Imf::Header &header, Camera camera) {
+    camera.supersample.reset();
+    camera.pixel_filter.reset();
+    for (const char *name : {supersample_name, pixel_filter_name}) header = without_attribute(header, name);
+    write_camera(header, camera);
 }
 
 void write_picture_window(Imf::Header &header, const Imath::Box2i &window) {

@@ -27,6 +27,8 @@ Camera full_camera() {
     camera.world_to_camera = Imath::M44d(1, 0, 0, 0, 0, 0.5, 0.25, 0, 0, -0.25, 0.5, 0, 7, 8, 9, 1);
     camera.world_to_ndc = Imath::M44d(2, 0, 0, 0, 0, -3, 0, 0, 0.5, 0.5, 1, 1, 0, 0, -1, 0);
     camera.looks = {.blades = 7, .rotation = 30, .squeeze = 1.5};
+    camera.supersample = 3;
+    camera.pixel_filter = PixelFilter{PixelFilter::Shape::gaussian, 2.5};
     camera.lens_points = {{0, 0}, {0.0625, -0.03125}, {-1e-9, 12345.5}};
     return camera;
 }
@@ -46,6 +48,29 @@ TEST(CameraMetadata, EverythingComesBack) {
     EXPECT_EQ(read.world_to_camera, full_camera().world_to_camera);
     EXPECT_EQ(read.world_to_ndc, full_camera().world_to_ndc);
     EXPECT_EQ(read.lens_points, full_camera().lens_points);
+    EXPECT_EQ(read.supersample, 3);
+    EXPECT_EQ(read.pixel_filter, full_camera().pixel_filter);
+}
+
+// What a lens takes of sub-pixels has pixels.
+TEST(CameraMetadata, APictureHasNoSubpixels) {
+    Imf::Header header;
+    write_camera(header, full_camera());
+    write_picture_camera(header, full_camera());
+    const Camera read = read_camera(header);
+    EXPECT_FALSE(read.supersample || read.pixel_filter);
+    EXPECT_EQ(read.fstop, 2.75);
+}
+
+TEST(CameraMetadata, SubpixelsThatCannotBeAreNotRead) {
+    for (const int across : {-1, 0, 17}) {
+        Imf::Header header;
+        header.insert("ldi.supersample", Imf::IntAttribute(across));
+        header.insert("ldi.pixelFilter", Imf::StringAttribute("sinc"));
+        const Camera read = read_camera(header);
+        EXPECT_FALSE(read.supersample || read.pixel_filter);
+        EXPECT_TRUE(read.unsure.contains("--supersample") && read.unsure.contains("--pixel-filter"));
+    }
 }
 
 // What no lens has says nothing: a squeeze of 1e-30 would make every sample reach every tile.

@@ -77,9 +77,16 @@ void add_picture_options(CLI::App &app, TraceOptions &options) {
         ->type_name("N")
         ->check(CLI::Range(0, largest_count));
     app.add_option("--spp", options.samples,
-                   fmt::format("Samples per pixel of a view (default: {})", options.samples))
+                   fmt::format("Samples of a view per pixel of the picture (default: {})", options.samples))
         ->type_name("N")
         ->check(CLI::Range(1, largest_count));
+    app.add_option(
+           "--supersample", options.supersample,
+           fmt::format("Render views and deep pictures at N times the size with 1/N^2 of the samples per "
+                       "pixel, so with as many rays; the reference stays as it is (default: {})",
+                       options.supersample))
+        ->type_name("N")
+        ->check(CLI::Range(1, most_across));
     app.add_option("--reference", options.reference,
                    "Rays per pixel of a reference by distributed ray tracing (default: no reference)")
         ->type_name("SPP")
@@ -97,12 +104,13 @@ void add_rendering_options(CLI::App &app, TraceOptions &options) {
                    throw CLI::ValidationError(
                        "--size", fmt::format("must be WIDTHxHEIGHT (e.g. 640x360), not '{}'", text));
            },
-           fmt::format("Size of the display window, in pixels (default: {}x{})", options.width,
+           fmt::format("Size of the display window, in pixels of the picture (default: {}x{})", options.width,
                        options.height))
         ->type_name("WxH");
-    app.add_option("--overscan", options.overscan,
-                   fmt::format("Pixels rendered beyond the display window on every side (default: {})",
-                               options.overscan))
+    app.add_option(
+           "--overscan", options.overscan,
+           fmt::format("Pixels of the picture rendered beyond the display window on every side (default: {})",
+                       options.overscan))
         ->type_name("PX")
         ->check(CLI::Range(0, largest_side));
     app.add_option(
@@ -157,6 +165,26 @@ void add_trace_options(CLI::App &app, TraceOptions &options) {
                  {{"Render the centre view and four from the rim of the lens", "dof-trace fence -o views"},
                   {"Render a reference of 256 rays per pixel, too, in a small picture",
                    "dof-trace grass -o small --size 160x90 --reference 256"}});
+}
+
+int view_samples(const TraceOptions &options) {
+    const int subpixels = options.supersample * options.supersample;
+    if (options.samples % subpixels != 0)
+        throw UsageError(
+            fmt::format("--spp must be a multiple of {0}, as many as --supersample {1} makes of a "
+                        "pixel",
+                        subpixels, options.supersample));
+    return options.samples / subpixels;
+}
+
+RenderSettings view_settings(const TraceOptions &options, const Camera &camera) {
+    TraceOptions fine = options;
+    const double pixels = double(options.width) * options.height * options.supersample * options.supersample;
+    if (pixels > double(largest_picture))
+        throw UsageError(
+            fmt::format("--size and --supersample ask for more than {} pixels", largest_picture));
+    for (int *length : {&fine.width, &fine.height, &fine.overscan}) *length *= options.supersample;
+    return render_settings(fine, camera);
 }
 
 RenderSettings render_settings(const TraceOptions &options, const Camera &camera) {

@@ -24,8 +24,9 @@ struct TraceOptions {
     std::string folder;
     std::string plan; // a plan to render instead of the centre view and the rim views
     int views = 4, lens_views = 0;
-    int samples = 16;  // per pixel of a view
-    int reference = 0; // rays per pixel; 0: no reference
+    int samples = 16;    // per pixel of the picture, of each view
+    int supersample = 1; // pixels of views, across and down, in one of the picture
+    int reference = 0;   // rays per pixel; 0: no reference
     int width = 640, height = 360;
     int overscan = 0; // pixels
     double dolly = 0; // scene units
@@ -42,8 +43,12 @@ bool read_size(const std::string &text, TraceOptions &options);
 
 void add_trace_options(CLI::App &app, TraceOptions &options);
 
-// The windows, the lens and the light; `camera` is that of the scene, changed by the options. Throws UsageError where
-// the picture is unreasonably large.
+// The windows, the lens and the light of the picture, and those of the views; `camera` is that of the scene, changed by the options.
+// Throws UsageError where they are unreasonably large.
 RenderSettings render_settings(const TraceOptions &options, const Camera &camera);
+RenderSettings view_settings(const TraceOptions &options, const Camera &camera);
+
+// Per pixel of a view. Throws UsageError where a pixel of the picture has no such number for each of its sub-pixels.
+int view_samples(const TraceOptions &options);
 
 } // namespace sparselens::lab

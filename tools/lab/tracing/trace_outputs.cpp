@@ -42,6 +42,14 @@ TraceOutputs::TraceOutputs(std::string folder, Camera camera, RenderSettings set
                           lens.focus, lens.focal_px));
 }
 
+// The finer pixels are, the more of them are one of the picture.
+Camera TraceOutputs::camera_of(const Windows &windows, const Imath::V2d &u) const {
+    Camera camera = camera_at(camera_, settings_.windows, settings_.lens.radius * u);
+    const int across = windows.display_width() / settings_.windows.display_width();
+    if (across > 1) camera.supersample = across;
+    return camera;
+}
+
 void TraceOutputs::note(const std::string &name, double seconds) {
     seconds_.emplace_back(name, seconds);
     tool_.say(fmt::format("{}: {:.3f} s", path(name), seconds));
@@ -52,7 +60,7 @@ void TraceOutputs::add(const std::string &name, const Imath::V2d &u, const std::
     Image image = timed(make, seconds);
     set_colour_type(image.channels, type_);
     Imf::Header header;
-    write_camera(header, camera_at(camera_, settings_.windows, settings_.lens.radius * u));
+    write_camera(header, camera_of(image.windows, u));
     write_flat_exr(path(name), image, header);
     note(name, seconds);
 }
@@ -62,12 +70,12 @@ void TraceOutputs::add_deep(const std::string &name, const std::function<Ldi()> 
     Ldi ldi = timed(make, seconds);
     set_colour_type(ldi.channels, type_);
     Imf::Header header;
-    write_camera(header, camera_at(camera_, settings_.windows, {0, 0}));
+    write_camera(header, camera_of(ldi.windows, {0, 0}));
     write_ldi(path(name), ldi, header);
     note(name, seconds);
 }
 
-void TraceOutputs::write_summary(const std::vector<Imath::V2d> &views, int view_samples,
+void TraceOutputs::write_summary(const std::vector<Imath::V2d> &views, int view_samples, int supersample,
                                  int reference_samples) const {
     nlohmann::ordered_json json{{"width", settings_.windows.display_width()},
                                 {"height", settings_.windows.display_height()},
@@ -78,6 +86,7 @@ void TraceOutputs::write_summary(const std::vector<Imath::V2d> &views, int view_
                                 {"lens_radius", settings_.lens.radius},
                                 {"views", nlohmann::ordered_json::array()},
                                 {"view_spp", view_samples},
+                                {"supersample", supersample},
                                 {"ref_spp", reference_samples},
                                 {"seconds", nlohmann::ordered_json::object()}};
     for (const Imath::V2d &u : views) json["views"].push_back({u.x, u.y});

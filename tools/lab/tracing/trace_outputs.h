@@ -15,7 +15,7 @@ namespace sparselens::lab {
 
 class TraceOutputs {
 public:
-    // Creates the folder; throws Error where that fails.
+    // `settings` are those of the picture; views may have finer pixels. Creates the folder; throws Error where that fails.
     TraceOutputs(std::string folder, Camera camera, RenderSettings settings, PixelType type,
                  const ToolContext &tool);
 
@@ -23,10 +23,13 @@ public:
     void add(const std::string &name, const Imath::V2d &u, const std::function<Image()> &make);
     void add_deep(const std::string &name, const std::function<Ldi()> &make);
 
-    // Writes DIR/camera.json; an infinite number is written as null. `views` are the lens points of the rim views.
-    void write_summary(const std::vector<Imath::V2d> &views, int view_samples, int reference_samples) const;
+    // Writes DIR/camera.json; an infinite number is written as null. `views` are the lens points of the rim views, whose samples are
+    // counted per pixel of the picture.
+    void write_summary(const std::vector<Imath::V2d> &views, int view_samples, int supersample,
+                       int reference_samples) const;
 
 private:
+    Camera camera_of(const Windows &windows, const Imath::V2d &u) const;
     void note(const std::string &name, double seconds);
     std::string path(const std::string &name) const { return folder_ + "/" + name; }
 

@@ -16,17 +16,17 @@ namespace {
 // Streams of random numbers; the reference has 0.
 enum Stream : std::uint32_t { of_centre = 1, of_deep = 0x1000000, of_rim = 0x2000000, of_lens = 0x3000000 };
 
-void add_view(const TraceJob &job, const RenderSettings &settings, const std::string &name,
+void add_view(const TraceJob &job, const RenderSettings &settings, int samples, const std::string &name,
               const Imath::V2d &u, std::uint32_t stream) {
-    job.outputs.add(name, u, [&] {
-        return render_view(job.tracer, settings, u, job.options.samples, stream, job.progress);
-    });
+    job.outputs.add(name, u,
+                    [&] { return render_view(job.tracer, settings, u, samples, stream, job.progress); });
 }
 
-void add_views(const TraceJob &job, const RenderSettings &settings, fmt::format_string<std::size_t &> format,
-               const std::vector<Imath::V2d> &points, std::uint32_t stream) {
+void add_views(const TraceJob &job, const RenderSettings &settings, int samples,
+               fmt::format_string<std::size_t &> format, const std::vector<Imath::V2d> &points,
+               std::uint32_t stream) {
     for (std::size_t k = 0; k < points.size(); ++k)
-        add_view(job, settings, fmt::format(format, k), points[k], stream + std::uint32_t(k));
+        add_view(job, settings, samples, fmt::format(format, k), points[k], stream + std::uint32_t(k));
 }
 
 // Views are averaged with equal weights: the looks of the aperture's shape show so, others do not.
@@ -48,16 +48,17 @@ std::vector<Imath::V2d> lens_view_points(const LensLooks &looks, int n) {
 
 std::vector<Imath::V2d> trace_plan(const TraceJob &job) {
     const PlanRequest plan = read_plan(job.options.plan);
-    RenderSettings settings = job.settings;
+    RenderSettings settings = job.view;
     if (plan.display != settings.windows.display)
-        throw Error(job.options.plan + ": made for a picture of another size: give the same --size as there");
+        throw Error(job.options.plan + ": made for a picture of another size: give the same --size "
+                                       "and --supersample as there");
     std::vector<Imath::V2d> points;
     for (std::size_t k = 0; k < plan.views.size(); ++k) {
         const RequestedView &view = plan.views[k];
         settings.windows.data = view.window;
         job.outputs.add(fmt::format("view_{}.exr", k), view.u, [&] {
             const PixelMask mask = mask_of(view);
-            return render_view(job.tracer, settings, view.u, job.options.samples, of_rim + std::uint32_t(k),
+            return render_view(job.tracer, settings, view.u, job.view_samples, of_rim + std::uint32_t(k),
                                job.progress, mask.set);
         });
         points.push_back(view.u);
@@ -67,16 +68,16 @@ std::vector<Imath::V2d> trace_plan(const TraceJob &job) {
 
 std::vector<Imath::V2d> trace_rim(const TraceJob &job) {
     const std::vector<Imath::V2d> rim = rim_lens_points(job.options.views);
-    add_view(job, job.settings, "center.exr", {0, 0}, of_centre);
-    add_views(job, job.settings, "view_{}.exr", rim, of_rim);
+    add_view(job, job.view, job.view_samples, "center.exr", {0, 0}, of_centre);
+    add_views(job, job.view, job.view_samples, "view_{}.exr", rim, of_rim);
     return rim;
 }
 
 void trace_lens(const TraceJob &job) {
     RenderSettings to_average = job.settings;
     to_average.scattered = true;
-    add_views(job, to_average, "lens_{:04}.exr", lens_view_points(job.settings.looks, job.options.lens_views),
-              of_lens);
+    add_views(job, to_average, job.options.samples, "lens_{:04}.exr",
+              lens_view_points(job.settings.looks, job.options.lens_views), of_lens);
 }
 
 void trace_reference(const TraceJob &job) {
@@ -87,21 +88,21 @@ void trace_reference(const TraceJob &job) {
 }
 
 void trace_deep(const TraceJob &job) {
-    const int samples = job.options.samples;
+    const int samples = job.view_samples;
     for (const auto &[kind, layers] : job.options.deep) switch (kind) {
         case DeepKind::visible:
             job.outputs.add_deep("deep_visible.exr", [&] {
-                return render_visible(job.tracer, job.settings, samples, of_deep, job.progress);
+                return render_visible(job.tracer, job.view, samples, of_deep, job.progress);
             });
             break;
         case DeepKind::peel:
             job.outputs.add_deep("deep_peel.exr", [&, layers = layers] {
-                return render_peeled(job.tracer, job.settings, layers, samples, of_deep, job.progress);
+                return render_peeled(job.tracer, job.view, layers, samples, of_deep, job.progress);
             });
             break;
         case DeepKind::strata:
             job.outputs.add_deep("deep_strata.exr", [&, layers = layers] {
-                return render_strata(job.tracer, job.settings, layers, samples, of_deep, job.progress);
+                return render_strata(job.tracer, job.view, layers, samples, of_deep, job.progress);
             });
         }
 }

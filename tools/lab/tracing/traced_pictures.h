@@ -13,7 +13,9 @@ namespace sparselens::lab {
 struct TraceJob {
     const TraceOptions &options;
     const Tracer &tracer;
-    const RenderSettings &settings;
+    const RenderSettings &settings; // of the picture: the reference, and views that are to be averaged
+    const RenderSettings &view;     // of the other views and deep pictures, whose pixels may be finer,
+    int view_samples;               // and which have so many samples in each
     TraceOutputs &outputs;
     Progress &progress;
 };
