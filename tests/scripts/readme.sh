@@ -53,6 +53,7 @@ cat >>options <<'END'
 --command
 --ch
 --clamp
+--chappend
 --flatten
 --format-in-place
 --gtest_brief
@@ -63,6 +64,7 @@ cat >>options <<'END'
 --over
 --preset
 --requeue
+--source-dir
 --test-dir
 END
 for document in "${documents[@]}"; do
