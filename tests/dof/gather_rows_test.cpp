@@ -18,7 +18,7 @@ PackedRows packed(const Ldi &ldi) {
     return rows;
 }
 
-// Stairs that come and go, hair, holes, and small lamps: links, partial samples, fillers and highlights.
+// Stairs that come and go, hair, holes, small lamps, and strips that are hardly lamps: links, partial samples, fillers and highlights.
 std::vector<Sample> scene(int x, int y) {
     const auto random = [&](std::uint32_t stream) { return float(random_unit(x, y, stream)); };
     std::vector<Sample> samples;
@@ -28,11 +28,14 @@ std::vector<Sample> scene(int x, int y) {
                            .dx = random(5) - 0.5f,
                            .dy = random(6) - 0.5f});
     };
-    const bool lamp = x == 11 && y % lamps_apart == 20;
+    const bool lamp = x == 11 && y % lamps_apart == 20, strip = y / 40 % 4 == 1 && x % 2 == 0;
     if (random(1) < 0.3f) add(3 + 0.1 * double(random(2)), 0.2f + 0.5f * random(3), 0.4f);
     if ((x / 6 + y / 10) % 3 == 0) add(4 + 0.02 * (y % 10), 1, 0.3f + 0.3f * random(7));
     if (y / 40 % 5 != 3)
-        add(8 + 0.5 * std::sin(0.2 * y), 1, lamp ? 500.0f : 0.5f + 0.2f * std::sin(0.9f * float(x + y)));
+        add(8 + 0.5 * std::sin(0.2 * y), 1,
+            lamp    ? 500.0f
+            : strip ? 8.0f
+                    : 0.5f + 0.2f * std::sin(0.9f * float(x + y)));
     return samples;
 }
 

@@ -5,7 +5,8 @@
 namespace sparselens {
 
 BlockFootprints::BlockFootprints(const Ldi &ldi, const BlockedSamples &samples)
-    : ldi_(ldi), samples_(samples), made_(samples.blocks.size()), computed_(samples.blocks.size()) {}
+    : ldi_(ldi), samples_(samples), areas_(samples), made_(samples.blocks.size()),
+      computed_(samples.blocks.size()) {}
 
 const BlockFootprints::Block &BlockFootprints::of(std::uint32_t block) const {
     std::call_once(made_[block], [&] {

@@ -3,6 +3,7 @@
 
 #include "dof/footprints/footprint.h"
 #include "dof/lens/sample_blocks.h"
+#include "dof/lens/shadow_areas.h"
 
 #include <cstdint>
 #include <mutex>
@@ -30,6 +31,8 @@ public:
     };
     // Computed when first asked for, by any thread.
     const Block &of(std::uint32_t block) const;
+    // What many blocks hold, without their footprints.
+    const ShadowAreas &areas() const { return areas_; }
 
 private:
     std::vector<Footprint> compute(std::uint32_t block) const;
@@ -37,6 +40,7 @@ private:
 
     const Ldi &ldi_;
     const BlockedSamples &samples_;
+    ShadowAreas areas_;
     mutable std::vector<std::once_flag> made_;
     mutable std::vector<Block> computed_;
 };

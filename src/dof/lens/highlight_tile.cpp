@@ -10,7 +10,6 @@ namespace sparselens {
 namespace {
 
 constexpr double least_share = 1e-4; // what a cat-eye leaves less of is dark
-constexpr float one_lamp = 1.1f;     // times as near: parts of one, at any aperture
 constexpr double few = 3;            // pixels of CoC: discs that are smaller are shadowed in cells
 constexpr double square_to = 1,
                  point_from =
@@ -32,21 +31,14 @@ double square_of(const Lamp &lamp) {
     return std::clamp((point_from - std::abs(lamp.coc)) / (point_from - square_to), 0.0, 1.0);
 }
 
-// Of the first sample of a block: the same wherever the tile lies, and in all frames.
-std::uint32_t name_of(std::uint32_t block, int columns) {
-    constexpr int blocks = LensTile::size / BlockedSamples::size;
-    const int column = int(block) % columns % blocks, row = int(block) / columns % blocks;
-    return std::uint32_t(row * blocks + column) << 10;
-}
-
 } // namespace
 
 HighlightTile::HighlightTile(const Highlights &highlights, const BlockedSamples &samples,
                              const BlockFootprints &footprints, std::span<const ColourSet> sets,
                              const HighlightShape &shape, const HeldOut &held_out)
-    : highlights_(highlights), samples_(samples), footprints_(footprints), sets_(sets.begin(), sets.end()),
-      shape_(shape), held_out_(held_out), half_extent_(shape.aperture.half_extent()),
-      light_(sets.size() * size * size) {
+    : highlights_(highlights), samples_(samples), shadows_(highlights, samples, footprints),
+      sets_(sets.begin(), sets.end()), shape_(shape), held_out_(held_out),
+      half_extent_(shape.aperture.half_extent()), light_(sets.size() * size * size) {
     half_extent_.y *= shape.pixel_aspect;
 }
 
@@ -60,38 +52,56 @@ void HighlightTile::spread(const Imath::V2i &origin, std::span<const std::uint32
     origin_ = origin;
     std::ranges::fill(light_, 0.0f);
     for (auto &left : left_by_cat_eye_) left.clear();
-    const bool disc = shape_.aperture.disc() && !shape_.cat_eye.cuts();
     const std::vector<std::uint32_t> &all = highlights_.sample;
+    shadows_.begin(origin, blocks, shape_.pixel_aspect);
     for (const std::uint32_t b : blocks) {
         const SampleBlock &block = samples_.blocks[b];
-        auto h = std::uint32_t(std::ranges::lower_bound(all, block.begin) - all.begin());
-        for (; h < all.size() && all[h] < block.end; ++h) {
-            const std::uint32_t s = all[h];
-            const Lamp lamp{Imath::V2d(double(samples_.x[s]), double(samples_.y[s])) - Imath::V2d(origin),
-                            double(samples_.coc[s]), shape_.pixel_aspect};
-            const double square = square_of(lamp);
-            const bool in_cells = std::abs(lamp.coc) < few;
-            const LampCells *cells = in_cells ? &cells_of(lamp) : nullptr;
-            reached_ =
-                pixels_around(lamp.centre, square > 0 ? std::abs(lamp.coc) * half_extent_ +
-                                                            (Imath::V2d(square) + cells->size(lamp)) * 0.5
-                                                      : std::abs(lamp.coc) * half_extent_);
-            if (reached_.isEmpty()) continue;
-            const Screen screen = in_cells
-                                      ? Screen{LampCells::middle(), cells->shadow_scale(lamp.pixel_aspect),
-                                               LampCells::box(), true}
-                                      : Screen{lamp.centre, Imath::V2d(lamp.coc), reached_};
-            Spreading from{h, s, lamp, cast_shadows(s, lamp, screen, blocks)};
-            if (square > 0) {
-                spread_few(cells->shine(lamp, square, from.shadowed ? &shadow_ : nullptr, reached_), from);
-                continue;
-            }
-            std::optional<LampLight> light;
-            if (in_cells && from.shadowed) light = cells->shine(lamp, 0, &shadow_, reached_);
-            from.few = light ? &*light : nullptr;
-            disc ? spread_disc(from) : spread_shape(from);
-        }
+        const auto first = std::ranges::lower_bound(all, block.begin),
+                   end = std::ranges::lower_bound(all, block.end);
+        if (first == end) continue;
+        for (const std::vector<std::uint32_t> &group : shadow_groups(samples_, {first, end}))
+            spread_group(group);
     }
+}
+
+// The pixels that the light of a highlight may reach.
+Imath::Box2i HighlightTile::reach_of(const Lamp &lamp) {
+    const Imath::V2d disc = std::abs(lamp.coc) * half_extent_;
+    const double square = square_of(lamp);
+    if (!(square > 0)) return pixels_around(lamp.centre, disc);
+    return pixels_around(lamp.centre, disc + (Imath::V2d(square) + cells_of(lamp).size(lamp)) * 0.5);
+}
+
+void HighlightTile::spread_group(std::span<const std::uint32_t> group) {
+    reached_ = {};
+    for (const std::uint32_t s : group) {
+        const Imath::Box2i reach = reach_of(shadows_.lamp(s));
+        if (!reach.isEmpty()) reached_.extendBy(reach);
+    }
+    if (reached_.isEmpty()) return;
+    shadows_.share(group, reached_);
+    if (shadows_.dark()) return;
+    for (const std::uint32_t s : group) spread_one(s);
+}
+
+void HighlightTile::spread_one(std::uint32_t sample) {
+    const std::vector<std::uint32_t> &all = highlights_.sample;
+    const Lamp lamp = shadows_.lamp(sample);
+    const double square = square_of(lamp);
+    const bool in_cells = std::abs(lamp.coc) < few;
+    const LampCells *cells = in_cells ? &cells_of(lamp) : nullptr;
+    const ShadowScreen screen =
+        in_cells ? ShadowScreen{LampCells::middle(), cells->shadow_scale(lamp.pixel_aspect), LampCells::box(),
+                                true}
+                 : ShadowScreen{lamp.centre, Imath::V2d(lamp.coc), reached_};
+    Spreading from{std::uint32_t(std::ranges::lower_bound(all, sample) - all.begin()), sample, lamp,
+                   shadows_.cast(sample, screen)};
+    const LampShadow *shadow = in_cells && from.shadowed ? &shadows_.own() : nullptr;
+    if (square > 0) return spread_few(cells->shine(lamp, square, shadow, reached_), from);
+    std::optional<LampLight> light;
+    if (shadow) light = cells->shine(lamp, 0, shadow, reached_);
+    from.few = light ? &*light : nullptr;
+    shape_.aperture.disc() && !shape_.cat_eye.cuts() ? spread_disc(from) : spread_shape(from);
 }
 
 const LampCells &HighlightTile::cells_of(const Lamp &lamp) {
@@ -106,94 +116,6 @@ const LampCells &HighlightTile::cells_of(const Lamp &lamp) {
         cells.emplace(shape_.aperture, behind);
     }
     return *cells;
-}
-
-// False: there are none.
-bool HighlightTile::cast_shadows(std::uint32_t lamp_sample, const Lamp &lamp, const Screen &screen,
-                                 std::span<const std::uint32_t> blocks) {
-    const float x = samples_.x[lamp_sample], y = samples_.y[lamp_sample], depth = samples_.depth[lamp_sample];
-    // What is hardly nearer moves hardly, and hides the lamp only if it lies right before it.
-    const float hardly = depth + float(one_surface_px);
-    constexpr float beside = 2; // pixels
-    const auto is_beside = [&](float left, float right, float top, float bottom) {
-        return left < x + beside && right > x - beside && top < y + beside && bottom > y - beside;
-    };
-    bool any = false;
-    for (const std::uint32_t b : blocks) {
-        const SampleBlock &block = samples_.blocks[b];
-        const float nearer_than =
-            is_beside(block.x_min, block.x_max, block.y_min, block.y_max) ? depth : hardly;
-        if (block.depth_max <= nearer_than || !can_shadow(block, lamp, screen)) continue;
-        const BlockFootprints::Block &casting = footprints_.of(b);
-        const NearBounds *near = casting.nearer_than(nearer_than);
-        if (!near || !can_shadow(*near, lamp, screen)) continue;
-        if (!any) shadow_.begin(screen.box, screen.fine);
-        any = true;
-        const std::uint32_t first = name_of(b, samples_.columns);
-        for (std::uint32_t i = block.begin; i < block.end; ++i)
-            if (samples_.depth[i] > hardly ||
-                (samples_.depth[i] > depth &&
-                 is_beside(samples_.x[i], samples_.x[i], samples_.y[i], samples_.y[i])))
-                cast_shadow(lamp_sample, i, casting.footprints[i - block.begin], first + i - block.begin,
-                            lamp, screen);
-        if (shadow_.dark()) return true; // no other shadow changes that
-    }
-    return any;
-}
-
-// Whether a shadow of one of its samples may reach the screen.
-template <typename Bounds>
-bool HighlightTile::can_shadow(const Bounds &block, const Lamp &lamp, const Screen &screen) const {
-    if (double(block.coc_min) <= lamp.coc && double(block.coc_max) >= lamp.coc) return true;
-    const auto reaches = [&](int axis, double low, double high) {
-        const double a = shadow_magnification(lamp.coc, double(block.coc_min), screen.scale[axis]),
-                     b = shadow_magnification(lamp.coc, double(block.coc_max), screen.scale[axis]);
-        const double half =
-            std::max(std::abs(a), std::abs(b)); // a footprint reaches less than a pixel from its sample
-        low -= origin_[axis] + lamp.centre[axis];
-        high -= origin_[axis] + lamp.centre[axis];
-        const auto [least, most] = std::minmax({a * low, a * high, b * low, b * high});
-        return !(screen.middle[axis] + most + half < screen.box.min[axis] ||
-                 screen.middle[axis] + least - half > screen.box.max[axis] + 1);
-    };
-    return reaches(0, double(block.x_min), double(block.x_max)) &&
-           reaches(1, double(block.y_min), double(block.y_max));
-}
-
-// Whether it is another highlight's, of other pixels and no nearer than a part of the same lamp would be.
-bool HighlightTile::are_side_by_side(std::uint32_t lamp_sample, std::uint32_t sample) const {
-    const auto same = [&](const std::vector<float> &along) {
-        return std::floor(along[lamp_sample]) == std::floor(along[sample]);
-    };
-    return samples_.depth[sample] <= one_lamp * samples_.depth[lamp_sample] &&
-           !(same(samples_.x) && same(samples_.y)) && std::ranges::binary_search(highlights_.sample, sample);
-}
-
-void HighlightTile::cast_shadow(std::uint32_t lamp_sample, std::uint32_t sample, const Footprint &footprint,
-                                std::uint32_t name, const Lamp &lamp, const Screen &screen) {
-    const auto coc = float(lamp.coc);
-    // Along each axis from where to where. Past an edge that is more blurred than the lamp it is the other way round.
-    std::array<float, 2> low{-INFINITY, -INFINITY}, high{INFINITY, INFINITY};
-    for (std::size_t k = 0; k < 4; ++k) {
-        const std::size_t axis = k / 2;
-        const float m = shadow_magnification(coc, footprint.coc[k], float(screen.scale[int(axis)]));
-        const float edge =
-            float(screen.middle[int(axis)]) +
-            m * (footprint.place[k] - float(origin_[int(axis)]) - float(lamp.centre[int(axis)]));
-        const bool from_edge_on = (k % 2 == 0) == (m > 0);
-        if (from_edge_on)
-            low[axis] = std::max(low[axis], edge);
-        else
-            high[axis] = std::min(high[axis], edge);
-        if (std::isnan(edge)) return; // as blurred as the lamp, and right before it
-    }
-    const Imath::Box2f shadow({low[0], low[1]}, {high[0], high[1]});
-    if (!(high[0] > float(screen.box.min.x) && low[0] <= float(screen.box.max.x) + 1 && high[0] > low[0] &&
-          high[1] > float(screen.box.min.y) && low[1] <= float(screen.box.max.y) + 1 && high[1] > low[1]))
-        return;
-    const bool opaque = is_opaque(samples_.alpha[sample]);
-    if (!opaque && are_side_by_side(lamp_sample, sample)) return;
-    shadow_.hide(shadow, opaque ? 1 : samples_.alpha[sample], name);
 }
 
 // A disc of few pixels near the focus. Nothing of its light is hidden further.
@@ -262,7 +184,7 @@ double HighlightTile::left_by_cat_eye(bool behind, int x, int y) {
 float HighlightTile::lit(const Spreading &from, int x, int y, const LampDisc *disc) const {
     if (!from.shadowed || !reached_.intersects(Imath::V2i(x, y))) return 1;
     if (from.few) return from.few->lit_share(x, y);
-    return disc ? shadow_.lit(x, y, *disc) : shadow_.lit(x, y);
+    return shadows_.lit(x, y, disc);
 }
 
 void HighlightTile::add(const Spreading &from, int x, int y, unsigned of, double weight,

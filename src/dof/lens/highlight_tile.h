@@ -1,10 +1,5 @@
 // The light of highlights (highlights.h) in one tile: the exact disc of each, less what stands before the lamp.
-//
-// Whether a place in a disc sees the lamp needs no lens points of the gather: place and lamp fix the point of the lens, and
-// so what hides the lamp there (lens/lamps/lamp_shadow.h). A sample hides all that is farther; those of one surface hide
-// none of each other, as they end where the next begins (dof/footprints/footprint.h). Highlights of partial
-// coverage in other pixels, no more than a tenth nearer, hide none of each other: they are lamps smaller than a pixel, side by
-// side.
+// What hides it: highlight_shadows.h.
 //
 // A disc of a few pixels is shadowed in cells of the lens (lens/lamps/lamp_cells.h), a larger one in pixels. The light of a
 // sample comes from its place where its CoC is two pixels or more. Near the focus it comes from the square of a pixel, as lens
@@ -12,6 +7,7 @@
 #pragma once
 
 #include "dof/lens/block_footprints.h"
+#include "dof/lens/highlight_shadows.h"
 #include "dof/lens/highlights.h"
 #include "dof/lens/lens_tile.h"
 #include "dof/lens/sample_blocks.h"
@@ -20,7 +16,6 @@
 #include "lens/cat_eye.h"
 #include "lens/lamp_spread.h"
 #include "lens/lamps/lamp_cells.h"
-#include "lens/lamps/lamp_shadow.h"
 
 #include <Imath/ImathVec.h>
 
@@ -65,13 +60,9 @@ private:
         bool shadowed = false;
         const LampLight *few = nullptr; // of a disc of few pixels, if anything hides a part of it
     };
-    // Where shadows are cast: a thing at x' of CoC c' lies there at middle + scale (x' - x) / (c - c').
-    struct Screen {
-        Imath::V2d middle, scale;
-        Imath::Box2i box;
-        bool fine = false; // in cells, not in pixels
-    };
-
+    Imath::Box2i reach_of(const Lamp &lamp);
+    void spread_group(std::span<const std::uint32_t> group);
+    void spread_one(std::uint32_t sample);
     void spread_few(const LampLight &light, const Spreading &from);
     void spread_disc(const Spreading &from);
     void spread_shape(const Spreading &from);
@@ -80,25 +71,17 @@ private:
     void add(const Spreading &from, int x, int y, unsigned of, double weight, const LampDisc *disc = nullptr);
     float lit(const Spreading &from, int x, int y, const LampDisc *disc) const;
     const LampCells &cells_of(const Lamp &lamp);
-    bool cast_shadows(std::uint32_t lamp_sample, const Lamp &lamp, const Screen &screen,
-                      std::span<const std::uint32_t> blocks);
-    template <typename Bounds>
-    bool can_shadow(const Bounds &bounds, const Lamp &lamp, const Screen &screen) const;
-    bool are_side_by_side(std::uint32_t lamp_sample, std::uint32_t sample) const;
-    void cast_shadow(std::uint32_t lamp_sample, std::uint32_t sample, const Footprint &footprint,
-                     std::uint32_t name, const Lamp &lamp, const Screen &screen);
     double left_by_cat_eye(bool behind, int x, int y);
 
     const Highlights &highlights_;
     const BlockedSamples &samples_;
-    const BlockFootprints &footprints_;
+    HighlightShadows shadows_;
     std::vector<ColourSet> sets_;
     HighlightShape shape_;
     HeldOut held_out_;
     Imath::V2d half_extent_; // of the aperture, for each pixel of CoC
     Imath::V2i origin_;
-    Imath::Box2i reached_; // pixels of the tile, by the highlight at work
-    LampShadow shadow_;
+    Imath::Box2i reached_;                               // pixels of the tile, by the highlights at work
     std::array<std::optional<LampCells>, 2> cells_;      // [behind], made when first asked for
     std::array<std::vector<double>, 2> left_by_cat_eye_; // [behind][pixel], computed when first asked for
     std::vector<float> light_;                           // [group][row][column][4]

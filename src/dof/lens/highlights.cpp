@@ -2,6 +2,7 @@
 
 #include "base/grid.h"
 #include "base/parallel.h"
+#include "dof/lens/bright_share.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,11 +11,12 @@ namespace sparselens {
 
 namespace {
 
-constexpr int cell = 4;              // blocks wide and high
-constexpr std::size_t brightest = 5; // one sample of a window in so many may be a highlight
-constexpr float stands_out = 4;      // times what is around
-constexpr float near_focus = 2;      // pixels of CoC
-constexpr float wholly = 6;          // times that, from which all that stands out is spread
+constexpr int cell = 4;                     // blocks wide and high
+constexpr std::size_t brightest = 5;        // one sample of a window in so many may be a highlight
+constexpr float stands_out = 4;             // times what is around
+constexpr float near_focus = 2;             // pixels of CoC
+constexpr float wholly = 6;                 // times that, from which all that stands out is spread
+constexpr double rare = 0.15, common = 0.3; // shares of what is around: a lamp, and none
 
 struct Found {
     std::uint32_t sample;
@@ -58,6 +60,7 @@ private:
     Grid cells_, windows_; // a window's lower right cell is the one of its own column and row
     std::vector<float> levels_, covered_levels_; // with what is nothing, and without
     std::vector<float> made_up_levels_;          // with what lies beyond
+    BrightShare as_bright_;
 };
 
 HighlightFinder::HighlightFinder(const BlockedSamples &samples, std::span<const std::size_t> channels,
@@ -65,7 +68,8 @@ HighlightFinder::HighlightFinder(const BlockedSamples &samples, std::span<const 
     : samples_(samples), channels_(channels), colours_(colours), seen_(seen),
       cells_(pieces_of(samples.columns, cell), pieces_of(samples.rows, cell)),
       windows_(cells_.width() + 1, cells_.height() + 1), levels_(windows_.size()),
-      covered_levels_(windows_.size()), made_up_levels_(windows_.size()) {
+      covered_levels_(windows_.size()), made_up_levels_(windows_.size()),
+      as_bright_(samples, [this](std::uint32_t i) { return brightness_of(i); }) {
     parallel_for(windows_.size(), [&](std::size_t i) {
         const Imath::V2i last = windows_.pixel(i);
         const Imath::Box2i window{last - Imath::V2i(1), last};
@@ -117,8 +121,11 @@ std::vector<Found> HighlightFinder::find_in(const Imath::V2i &at) const {
         float level = std::abs(samples_.coc[i]) < near_focus ? covered_level : any_level;
         if (!is_seen(i)) level = std::max(level, made_up_level); // so that few of them are highlights, too
         if (!(brightness > stands_out * level)) return;
+        const double rarity =
+            std::clamp((common - as_bright_.around(i, brightness)) / (common - rare), 0.0, 1.0);
+        if (!(rarity > 0)) return;
         const float wholeness = std::min((brightness / level - stands_out) / (wholly - stands_out), 1.0f);
-        found.push_back({i, wholeness * (1 - level / brightness)});
+        found.push_back({i, float(rarity) * wholeness * (1 - level / brightness)});
     });
     return found;
 }

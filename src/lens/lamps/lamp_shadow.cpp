@@ -77,6 +77,17 @@ struct Reach {
     }
 };
 
+// Of the points of a pixel that lie in a disc; of all, where none does.
+float lit_points(std::uint64_t hidden, int x, int y, const LampDisc &disc) {
+    int inside = 0, lit_inside = 0;
+    for (int k = 0; k < points; ++k)
+        if (disc.contains(x + (k + 0.5) / points, y + (reversed(k) + 0.5) / points)) {
+            ++inside;
+            lit_inside += (hidden >> k & 1) == 0;
+        }
+    return inside > 0 ? float(lit_inside) / float(inside) : float(points - std::popcount(hidden)) / points;
+}
+
 } // namespace
 
 void LampShadow::begin(const Imath::Box2i &box, bool fine) {
@@ -89,21 +100,13 @@ void LampShadow::begin(const Imath::Box2i &box, bool fine) {
     veil_.assign(pixels, 1);
 }
 
-float LampShadow::lit_points(std::size_t pixel) const {
-    return float(points - std::popcount(hidden_[pixel])) * (1.0f / points);
-}
-
-float LampShadow::lit(int x, int y, const LampDisc &disc) const {
-    const std::uint64_t hidden = hidden_[at(x, y)];
-    if (hidden == 0 || ~hidden == 0) return lit(x, y);
-    int inside = 0, lit_inside = 0;
-    for (int k = 0; k < points; ++k)
-        if (disc.contains(x + (k + 0.5) / points, y + (reversed(k) + 0.5) / points)) {
-            ++inside;
-            lit_inside += (hidden >> k & 1) == 0;
-        }
-    if (inside == 0) return lit(x, y);
-    return float(lit_inside) / float(inside) * veil_[at(x, y)];
+float LampShadow::lit(int x, int y, const LampDisc *disc, const LampShadow *other) const {
+    const std::size_t i = at(x, y);
+    const std::uint64_t hidden = hidden_[i] | (other ? other->hidden_[i] : 0);
+    const float veil = veil_[i] * (other ? other->veil_[i] : 1);
+    const bool crossed = disc && hidden != 0 && ~hidden != 0 && !disc->contains_pixel(x, y);
+    return veil * (crossed ? lit_points(hidden, x, y, *disc)
+                           : float(points - std::popcount(hidden)) * (1.0f / points));
 }
 
 void LampShadow::hide(const Imath::Box2f &rectangle, float alpha, std::uint32_t thing) {

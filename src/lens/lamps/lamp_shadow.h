@@ -31,6 +31,9 @@ struct LampDisc {
         const double u = (x - centre.x) / radius.x, v = (y - centre.y) / radius.y;
         return u * u + v * v <= 1;
     }
+    bool contains_pixel(int x, int y) const {
+        return contains(x, y) && contains(x + 1, y) && contains(x, y + 1) && contains(x + 1, y + 1);
+    }
 };
 
 // Which share of each pixel of a box is in shadow, by 64 points in each pixel: no two of them share a row or a column, so
@@ -47,17 +50,14 @@ public:
     // Whether all of the box is hidden.
     bool dark() const { return lit_pixels_ == 0; }
 
-    // The share of a pixel of the box that is not hidden.
-    float lit(int x, int y) const { return lit_points(at(x, y)) * veil_[at(x, y)]; }
-
-    // The same of the part of the pixel that lies in the disc.
-    float lit(int x, int y, const LampDisc &disc) const;
+    // The share of a pixel of the box that is not hidden: of all of it, or of the part of it that lies in a disc. What `other`
+    // hides is hidden, too; it has the same box.
+    float lit(int x, int y, const LampDisc *disc = nullptr, const LampShadow *other = nullptr) const;
 
 private:
     std::size_t at(int x, int y) const {
         return std::size_t(y - box_.min.y) * width_ + std::size_t(x - box_.min.x);
     }
-    float lit_points(std::size_t pixel) const;
 
     Imath::Box2i box_;
     std::size_t width_ = 0;

@@ -60,18 +60,19 @@ TEST(TakeHighlights, TakesTheLightThatStandsOutAndLeavesTheRest) {
     }
 }
 
-// Four fifths of the picture are dark, but were not seen: the rest does not stand out of them.
+// Four fifths of the picture are dark, but were not seen: what shines beside them does not stand out of them.
 TEST(TakeHighlights, AsksOnlyWhatWasSeenForWhatIsAround) {
     const Ldi ldi = shining_plane(64, wide, 20, [](int x, int y) {
-        return x >= 12 ? 0.01f - float(0.5 + 0.5 * random_unit(x, y, 1)) : x == 5 && y == 40 ? 60.0f : 0.0f;
+        const bool bright = x < 12 && (x + y) % 3 == 0;
+        return x == 5 && y == 40 ? 60.0f : bright ? 0.0f : 0.01f - float(0.5 + 0.5 * random_unit(x, y, 1));
     });
-    EXPECT_GT(Blocked(ldi, wide).take().sample.size(), 700u);
+    EXPECT_GT(Blocked(ldi, wide).take().sample.size(), 240u);
     Blocked blocked(ldi, wide);
     const Highlights highlights = blocked.take(Imath::Box2i({0, 0}, {11, 63}));
     ASSERT_EQ(highlights.sample.size(), 1u);
     EXPECT_EQ(blocked.samples.x[highlights.sample[0]], 5.5f);
     // Where nothing was seen, what is there is all there is to ask.
-    EXPECT_GT(Blocked(ldi, wide).take(Imath::Box2i({-9, 0}, {-1, 63})).sample.size(), 700u);
+    EXPECT_GT(Blocked(ldi, wide).take(Imath::Box2i({-9, 0}, {-1, 63})).sample.size(), 240u);
 }
 
 // Only the dark part was seen. What is made up beside it is bright all over, and only its lamp stands out of that.

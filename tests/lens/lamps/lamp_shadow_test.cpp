@@ -57,7 +57,7 @@ TEST(LampShadow, ChangesByOnePointAtATime) {
 
 // Of a pixel that a disc's edge crosses, what lies in the disc is lit or not.
 TEST(LampShadow, CountsWhatLiesInADisc) {
-    const LampDisc disc{{5, 5}, {3, 3}};
+    const LampDisc disc{{5, 5}, {3, 3}}, wide{{5, 5}, {9, 9}};
     for (const float edge : {7.25f, 7.5f, 7.75f}) {
         LampShadow shadow;
         shadow.begin(box);
@@ -68,10 +68,26 @@ TEST(LampShadow, CountsWhatLiesInADisc) {
             inside += disc.contains(x, y);
             lit += disc.contains(x, y) && x < double(edge);
         }
-        EXPECT_NEAR(double(shadow.lit(7, 5, disc)), double(lit) / inside, 0.02) << edge;
-        EXPECT_EQ(shadow.lit(7, 5, LampDisc{{5, 5}, {9, 9}}), shadow.lit(7, 5));
-        EXPECT_EQ(shadow.lit(4, 5, disc), 1);
+        EXPECT_NEAR(double(shadow.lit(7, 5, &disc)), double(lit) / inside, 0.02) << edge;
+        EXPECT_EQ(shadow.lit(7, 5, &wide), shadow.lit(7, 5));
+        EXPECT_EQ(shadow.lit(4, 5, &disc), 1);
     }
+}
+
+TEST(LampShadow, OfTwoHidesWhatEitherHides) {
+    LampShadow one, other, both;
+    for (LampShadow *shadow : {&one, &other, &both}) shadow->begin(box);
+    const Imath::Box2f left({0, 0}, {3.3f, 19}), above({0, 0}, {19, 4.6f});
+    one.hide(left, 1, 0);
+    other.hide(above, 0.5f, 1);
+    both.hide(left, 1, 0);
+    both.hide(above, 0.5f, 1);
+    const LampDisc disc{{3, 4}, {2, 2}};
+    for (int y = 2; y < 7; ++y)
+        for (int x = 2; x < 5; ++x) {
+            EXPECT_EQ(one.lit(x, y, nullptr, &other), both.lit(x, y));
+            EXPECT_EQ(one.lit(x, y, &disc, &other), both.lit(x, y, &disc));
+        }
 }
 
 TEST(LampShadow, JoinsNeighboursWithoutACrackAndCountsNothingTwice) {

@@ -1,0 +1,37 @@
+// How much of what a lens point may see beside a sample is as bright as it.
+//
+// A lamp is rare in its own disc: few lens points see it, so that their mean is noise. What covers a fifth of its disc or more
+// is a bright surface, which they see well (n of them with a relative deviation of sqrt((1 / share - 1) / n) at most), however
+// dark it is beside it.
+#pragma once
+
+#include "base/grid.h"
+#include "dof/lens/sample_blocks.h"
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace sparselens {
+
+class BrightShare {
+public:
+    BrightShare(const BlockedSamples &samples, const std::function<float(std::uint32_t sample)> &brightness);
+
+    // The share, [0, 1], of the samples around one that are half as bright or brighter: within its CoC, but 32 to 64
+    // pixels, to either side. It changes continuously with brightness, place and CoC: those from a quarter to all of it count in part.
+    double around(std::uint32_t sample, float brightness) const;
+
+private:
+    static constexpr int octaves = 32; // of brightness, from 2^-16 on
+    static int octave_of(float brightness);
+    double count(int octave, const std::array<double, 4> &box) const;
+
+    const BlockedSamples &samples_;
+    Grid corners_; // of cells
+    std::vector<std::uint32_t>
+        below_; // [octave][corner]: how many before that corner are of that octave or brighter
+};
+
+} // namespace sparselens

@@ -1,0 +1,230 @@
+#include "dof/lens/highlight_shadows.h"
+
+#include "dof/lens/lens_tile.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <tuple>
+#include <unordered_map>
+
+namespace sparselens {
+
+namespace {
+
+constexpr float one_lamp = 1.1f;          // times as near: parts of one, at any aperture
+constexpr float beside = 2;               // pixels: right before a lamp
+constexpr float group_of_coc = 1.0f / 32; // the size of a group, of the CoC
+
+// The largest power of two, so that groups do not change with every change of the focus; a block at most.
+int group_size(float coc) {
+    int size = 1;
+    while (size < BlockedSamples::size && float(2 * size) <= group_of_coc * std::abs(coc)) size *= 2;
+    return size;
+}
+
+// What samples of one group have in common.
+auto group_of(const BlockedSamples &samples, std::uint32_t i) {
+    const int size = group_size(samples.coc[i]);
+    const auto cell = [&](float v, double step) { return std::int64_t(std::floor(double(v) / step)); };
+    return std::tuple(size, cell(samples.x[i], size), cell(samples.y[i], size),
+                      cell(samples.depth[i], one_surface_px), size > 1 ? 0 : i);
+}
+
+std::uint32_t middle_of(const BlockedSamples &samples, std::span<const std::uint32_t> group) {
+    Imath::V2d sum(0);
+    const auto place = [&](std::uint32_t i) {
+        return Imath::V2d(double(samples.x[i]), double(samples.y[i]));
+    };
+    for (const std::uint32_t i : group) sum += place(i);
+    const Imath::V2d mean = sum / double(group.size());
+    return *std::ranges::min_element(group, {}, [&](std::uint32_t i) { return (place(i) - mean).length2(); });
+}
+
+// Of the first sample of a block: the same wherever the tile lies, and in all frames.
+std::uint32_t name_of(std::uint32_t block, int columns) {
+    constexpr int blocks = LensTile::size / BlockedSamples::size;
+    const int column = int(block) % columns % blocks, row = int(block) / columns % blocks;
+    return std::uint32_t(row * blocks + column) << 10;
+}
+
+// Whether the shadows of what lies within these bounds are nearly the same for all of a group.
+bool is_shared(const NearBounds &bounds, double lamp_coc) {
+    return lamp_coc > 0 ? double(bounds.coc_max) <= lamp_coc / 2 : double(bounds.coc_min) >= lamp_coc / 2;
+}
+
+} // namespace
+
+std::vector<std::vector<std::uint32_t>> shadow_groups(const BlockedSamples &samples,
+                                                      std::span<const std::uint32_t> highlights) {
+    std::vector<std::uint32_t> sorted(highlights.begin(), highlights.end());
+    const auto key = [&](std::uint32_t i) { return group_of(samples, i); };
+    std::ranges::stable_sort(sorted, {}, key);
+    std::vector<std::vector<std::uint32_t>> groups;
+    for (const std::uint32_t i : sorted) {
+        if (groups.empty() || key(groups.back().front()) != key(i)) groups.emplace_back();
+        groups.back().push_back(i);
+    }
+    return groups;
+}
+
+const NearBounds *HighlightShadows::nearer_than(const Asked &lamp, std::uint32_t block) const {
+    return footprints_.of(block).nearer_than(lamp.nearer_than(samples_.blocks[block]));
+}
+
+void HighlightShadows::begin(const Imath::V2i &origin, std::span<const std::uint32_t> blocks,
+                             double pixel_aspect) {
+    origin_ = origin;
+    pixel_aspect_ = pixel_aspect;
+    by_area_.clear();
+    std::unordered_map<std::size_t, std::size_t> known;
+    for (const std::uint32_t b : blocks) {
+        const std::size_t area = footprints_.areas().of(b);
+        const auto [at, added] = known.try_emplace(area, by_area_.size());
+        if (added) by_area_.push_back({area, {}});
+        by_area_[at->second].blocks.push_back(b);
+    }
+}
+
+Lamp HighlightShadows::lamp(std::uint32_t sample) const {
+    return {Imath::V2d(double(samples_.x[sample]), double(samples_.y[sample])) - Imath::V2d(origin_),
+            double(samples_.coc[sample]), pixel_aspect_};
+}
+
+// visit(block, bounds) for those that may cast a shadow, until it is false.
+template <typename Visit>
+void HighlightShadows::for_each_block(const Asked &lamp, const Visit &visit) const {
+    for (const auto &[area, blocks] : by_area_) {
+        const ShadowBounds *bounds = footprints_.areas().nearer_than(area, lamp.depth);
+        if (!bounds || !can_shadow(lamp, *bounds)) continue;
+        for (const std::uint32_t b : blocks) {
+            const SampleBlock &block = samples_.blocks[b];
+            if (block.depth_max <= lamp.nearer_than(block) || !can_shadow(lamp, block)) continue;
+            const NearBounds *near = nearer_than(lamp, b);
+            if (near && can_shadow(lamp, *near) && !visit(b, *near)) return;
+        }
+    }
+}
+
+void HighlightShadows::share(std::span<const std::uint32_t> group, const Imath::Box2i &box) {
+    shares_ = false;
+    group_.reset();
+    apart_.clear();
+    if (group.size() == 1) return;
+    const std::uint32_t middle = middle_of(samples_, group);
+    const auto [farthest, nearest] =
+        std::ranges::minmax(group, {}, [&](std::uint32_t i) { return samples_.depth[i]; });
+    const Lamp lamp = this->lamp(middle);
+    group_ = Asked{middle,
+                   lamp,
+                   {lamp.centre, Imath::V2d(lamp.coc), box},
+                   samples_.depth[farthest],
+                   samples_.depth[nearest] + float(one_surface_px),
+                   {}};
+    for (const std::uint32_t i : group) group_->place.extendBy(Imath::V2f(samples_.x[i], samples_.y[i]));
+    for (const std::uint32_t i : group) {
+        group_->place.extendBy(Imath::V2f(samples_.x[i], samples_.y[i]));
+        group_->spread = std::max(group_->spread, (this->lamp(i).centre - lamp.centre).length());
+    }
+    for_each_block(*group_, [&](std::uint32_t b, const NearBounds &near) {
+        if (!is_shared(near, lamp.coc)) {
+            apart_.push_back(b);
+            return true;
+        }
+        if (!shares_) shared_.begin(box);
+        shares_ = true;
+        cast_block(*group_, b, shared_);
+        return !shared_.dark(); // no other shadow changes that
+    });
+}
+
+bool HighlightShadows::cast(std::uint32_t sample, const ShadowScreen &screen) {
+    const float depth = samples_.depth[sample];
+    const Imath::V2f place(samples_.x[sample], samples_.y[sample]);
+    const Asked asked{sample, lamp(sample), screen, depth, depth + float(one_surface_px), {place, place}};
+    has_own_ = false;
+    const auto cast_own = [&](std::uint32_t b) {
+        if (!has_own_) own_.begin(screen.box, screen.fine);
+        has_own_ = true;
+        cast_block(asked, b, own_);
+        return !own_.dark(); // no other shadow changes that
+    };
+    if (!group_) for_each_block(asked, [&](std::uint32_t b, const NearBounds &) { return cast_own(b); });
+    for (const std::uint32_t b : apart_)
+        if (!cast_own(b)) break;
+    return shares_ || has_own_;
+}
+
+float HighlightShadows::lit(int x, int y, const LampDisc *disc) const {
+    return has_own_ ? own_.lit(x, y, disc, shares_ ? &shared_ : nullptr) : shared_.lit(x, y, disc);
+}
+
+void HighlightShadows::cast_block(const Asked &lamp, std::uint32_t b, LampShadow &shadow) const {
+    const SampleBlock &block = samples_.blocks[b];
+    const std::vector<Footprint> &footprints = footprints_.of(b).footprints;
+    const std::uint32_t first = name_of(b, samples_.columns);
+    for (std::uint32_t i = block.begin; i < block.end; ++i)
+        if (samples_.depth[i] > lamp.hardly ||
+            (samples_.depth[i] > lamp.depth &&
+             lamp.is_beside({{samples_.x[i], samples_.y[i]}, {samples_.x[i], samples_.y[i]}})))
+            cast_one(lamp, i, footprints[i - block.begin], first + i - block.begin, shadow);
+}
+
+// Whether a shadow of one of its samples may reach the screen.
+template <typename Bounds>
+bool HighlightShadows::can_shadow(const Asked &asked, const Bounds &block) const {
+    const auto &[lamp, screen] = std::tie(asked.lamp, asked.screen);
+    if (double(block.coc_min) <= lamp.coc && double(block.coc_max) >= lamp.coc) return true;
+    const auto reaches = [&](int axis, double low, double high) {
+        const double a = shadow_magnification(lamp.coc, double(block.coc_min), screen.scale[axis]),
+                     b = shadow_magnification(lamp.coc, double(block.coc_max), screen.scale[axis]);
+        // A footprint reaches less than a pixel from its sample.
+        const double half = std::max(std::abs(a), std::abs(b)) * (1 + asked.spread) + asked.spread;
+        low -= origin_[axis] + lamp.centre[axis];
+        high -= origin_[axis] + lamp.centre[axis];
+        const auto [least, most] = std::minmax({a * low, a * high, b * low, b * high});
+        return !(screen.middle[axis] + most + half < screen.box.min[axis] ||
+                 screen.middle[axis] + least - half > screen.box.max[axis] + 1);
+    };
+    return reaches(0, double(block.x_min), double(block.x_max)) &&
+           reaches(1, double(block.y_min), double(block.y_max));
+}
+
+// Whether it is another highlight's, of other pixels and no nearer than a part of the same lamp would be.
+bool HighlightShadows::are_side_by_side(std::uint32_t lamp_sample, std::uint32_t sample) const {
+    const auto same = [&](const std::vector<float> &along) {
+        return std::floor(along[lamp_sample]) == std::floor(along[sample]);
+    };
+    return samples_.depth[sample] <= one_lamp * samples_.depth[lamp_sample] &&
+           !(same(samples_.x) && same(samples_.y)) && std::ranges::binary_search(highlights_.sample, sample);
+}
+
+void HighlightShadows::cast_one(const Asked &asked, std::uint32_t sample, const Footprint &footprint,
+                                std::uint32_t name, LampShadow &into) const {
+    const auto &[lamp, screen] = std::tie(asked.lamp, asked.screen);
+    const auto coc = float(lamp.coc);
+    // Along each axis from where to where. Past an edge that is more blurred than the lamp it is the other way round.
+    std::array<float, 2> low{-INFINITY, -INFINITY}, high{INFINITY, INFINITY};
+    for (std::size_t k = 0; k < 4; ++k) {
+        const std::size_t axis = k / 2;
+        const float m = shadow_magnification(coc, footprint.coc[k], float(screen.scale[int(axis)]));
+        const float edge =
+            float(screen.middle[int(axis)]) +
+            m * (footprint.place[k] - float(origin_[int(axis)]) - float(lamp.centre[int(axis)]));
+        const bool from_edge_on = (k % 2 == 0) == (m > 0);
+        if (from_edge_on)
+            low[axis] = std::max(low[axis], edge);
+        else
+            high[axis] = std::min(high[axis], edge);
+        if (std::isnan(edge)) return; // as blurred as the lamp, and right before it
+    }
+    const Imath::Box2f shadow({low[0], low[1]}, {high[0], high[1]});
+    if (!(high[0] > float(screen.box.min.x) && low[0] <= float(screen.box.max.x) + 1 && high[0] > low[0] &&
+          high[1] > float(screen.box.min.y) && low[1] <= float(screen.box.max.y) + 1 && high[1] > low[1]))
+        return;
+    const bool opaque = is_opaque(samples_.alpha[sample]);
+    if (!opaque && are_side_by_side(asked.sample, sample)) return;
+    into.hide(shadow, opaque ? 1 : samples_.alpha[sample], name);
+}
+
+} // namespace sparselens

@@ -1,0 +1,115 @@
+// What hides highlights (highlights.h) in one tile.
+//
+// Whether a place in a disc sees the lamp needs no lens points of the gather: place and lamp fix the point of the lens, and
+// so what hides the lamp there (lens/lamps/lamp_shadow.h). A sample hides all that is farther; those of one surface hide
+// none of each other, as they end where the next begins (dof/footprints/footprint.h). Highlights of partial
+// coverage in other pixels, no more than a tenth nearer, hide none of each other: they are lamps smaller than a pixel, side by
+// side.
+//
+// The pixels of one lamp share the shadows that are nearly the same for all of them, so that a lamp costs no more where it has
+// more pixels. Of two places of a lamp, w pixels apart, the shadows of one thing lie (1 - m) w apart, m as in lamp_shadow.h:
+// less than w, if the thing is out of focus on the other side or half as much as the lamp at most. Samples within a square of
+// 1/32 of their CoC take that shadow from the one in their middle, and it is off by a fiftieth of the disc's radius at most.
+// What stands nearer to the lamp is cast for each sample.
+#pragma once
+
+#include "dof/lens/block_footprints.h"
+#include "dof/lens/highlights.h"
+#include "dof/lens/sample_blocks.h"
+#include "lens/lamp_spread.h"
+#include "lens/lamps/lamp_shadow.h"
+
+#include <Imath/ImathBox.h>
+#include <Imath/ImathVec.h>
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace sparselens {
+
+// Where shadows are cast: a thing at x' of CoC c' lies there at middle + scale (x' - x) / (c - c').
+struct ShadowScreen {
+    Imath::V2d middle, scale;
+    Imath::Box2i box;
+    bool fine = false; // in cells of the lens, not in pixels
+};
+
+// Groups of those highlights that share shadows; each sample is in one of them. All of them are of one block.
+std::vector<std::vector<std::uint32_t>> shadow_groups(const BlockedSamples &samples,
+                                                      std::span<const std::uint32_t> highlights);
+
+class HighlightShadows {
+public:
+    HighlightShadows(const Highlights &highlights, const BlockedSamples &samples,
+                     const BlockFootprints &footprints)
+        : highlights_(highlights), samples_(samples), footprints_(footprints) {}
+
+    // Of the tile whose first pixel is `origin`, relative to the data window's corner. `blocks`: those that can reach it.
+    void begin(const Imath::V2i &origin, std::span<const std::uint32_t> blocks, double pixel_aspect);
+
+    // For a group: what its samples share, in the pixels of a box. Only cast() for each tells the rest.
+    void share(std::span<const std::uint32_t> group, const Imath::Box2i &box);
+
+    // For one sample of the group, on a screen of that box. False: nothing hides a part of it.
+    bool cast(std::uint32_t sample, const ShadowScreen &screen);
+
+    // Whether all of the box is hidden from the whole group.
+    bool dark() const { return shares_ && shared_.dark(); }
+
+    // As LampShadow::lit().
+    float lit(int x, int y, const LampDisc *disc = nullptr) const;
+
+    // What cast() said, of a group of one.
+    const LampShadow &own() const { return own_; }
+
+    Lamp lamp(std::uint32_t sample) const; // relative to the tile
+
+private:
+    // A lamp, or the middle one of a group.
+    struct Asked {
+        std::uint32_t sample;
+        Lamp lamp;
+        ShadowScreen screen;
+        // What is hardly nearer moves hardly, and hides the lamp only if it lies right before it.
+        float depth, hardly;
+        Imath::Box2f place; // of all
+        double spread = 0;  // pixels: of the group around it
+
+        bool is_beside(const Imath::Box2f &box) const {
+            constexpr float beside = 2; // pixels
+            return box.min.x < place.max.x + beside && box.max.x > place.min.x - beside &&
+                   box.min.y < place.max.y + beside && box.max.y > place.min.y - beside;
+        }
+        float nearer_than(const SampleBlock &block) const {
+            return is_beside({{block.x_min, block.y_min}, {block.x_max, block.y_max}}) ? depth : hardly;
+        }
+    };
+    const NearBounds *nearer_than(const Asked &lamp, std::uint32_t block) const;
+    void cast_block(const Asked &lamp, std::uint32_t block, LampShadow &shadow) const;
+    void cast_one(const Asked &lamp, std::uint32_t sample, const Footprint &footprint, std::uint32_t name,
+                  LampShadow &shadow) const;
+    template <typename Visit>
+    void for_each_block(const Asked &lamp, const Visit &visit) const;
+    template <typename Bounds>
+    bool can_shadow(const Asked &lamp, const Bounds &bounds) const;
+    bool are_side_by_side(std::uint32_t lamp_sample, std::uint32_t sample) const;
+
+    const Highlights &highlights_;
+    const BlockedSamples &samples_;
+    const BlockFootprints &footprints_;
+    Imath::V2i origin_;
+    double pixel_aspect_ = 1;
+    struct AreaBlocks {
+        std::size_t area;
+        std::vector<std::uint32_t> blocks;
+    };
+    std::vector<AreaBlocks> by_area_;  // those that can reach the tile
+    std::optional<Asked> group_;       // of several samples
+    std::vector<std::uint32_t> apart_; // blocks that cast other shadows on each of its samples
+    LampShadow shared_, own_;
+    bool shares_ = false, has_own_ = false;
+};
+
+} // namespace sparselens

@@ -1,0 +1,87 @@
+// How much of what is around is as bright, against a count, and what that makes of lamps.
+#include "base/random.h"
+#include "dof/lens/blocked_fixture.h"
+#include "dof/lens/bright_share.h"
+#include "dof/lens/highlights.h"
+#include "support/lens_ldi.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace sparselens {
+namespace {
+
+constexpr int size = 256;
+const ThinLens lens{.radius = 2.4, .focal_px = 640, .focus = 5};
+
+// All of CoC c; the first columns are as bright as that, the others dark.
+Ldi half_bright(double c, int columns, float bright) {
+    return make_ldi(windows_of_size(size, size), rgba_channels(), [&](int x, int y) {
+        const float v = x < columns ? bright : 0.01f + 0.001f * float(random_unit(x, y, 1));
+        return std::vector<Sample>{{depth_of(lens, c), {v, v, v, 1}}};
+    });
+}
+
+std::uint32_t sample_at(const BlockedSamples &samples, int x, int y) {
+    for (std::uint32_t i = 0; i < samples.count(); ++i)
+        if (samples.x[i] == float(x) + 0.5f && samples.y[i] == float(y) + 0.5f) return i;
+    return BlockedSamples::background;
+}
+
+// Boxes that end at cells, which are 32 pixels: about x = 127.5 they would be from 64 to 192, but for half a pixel of 128.
+TEST(BrightShare, IsTheCountOfWhatIsHalfAsBright) {
+    for (const int columns : {0, 64, 128, 192, 256}) {
+        const Ldi ldi = half_bright(-64, columns, 3);
+        const BlockedLdi blocked(ldi, lens);
+        const auto brightness = [&](std::uint32_t i) { return blocked.colours.at(0, i); };
+        const BrightShare share(blocked.samples, brightness);
+        const double expected = std::clamp((columns - 64) / 128.0, 0.0, 1.0);
+        const std::uint32_t i = sample_at(blocked.samples, 128, 128);
+        for (const float as : {0.1f, 2.0f, 3.9f})
+            EXPECT_NEAR(share.around(i, as), expected, 0.5 / 128 + 1e-6);
+        EXPECT_EQ(share.around(i, 16), 0);
+        EXPECT_NEAR(share.around(i, 0.001f), 1, 1e-9);
+    }
+}
+
+TEST(BrightShare, ChangesContinuouslyWithTheCoC) {
+    double last = -1;
+    for (double c = 20; c < 110; c += 0.5) {
+        const Ldi ldi = half_bright(c, 140, 3);
+        const BlockedLdi blocked(ldi, lens);
+        const BrightShare share(blocked.samples, [&](std::uint32_t i) { return blocked.colours.at(0, i); });
+        const double now = share.around(sample_at(blocked.samples, 30, 128), 3);
+        if (last >= 0) {
+            EXPECT_NEAR(now, last, 0.02) << c;
+        }
+        last = now;
+    }
+    EXPECT_GT(last, 0.9); // 140 of 140 columns, of which the last cell has 12 of 32
+}
+
+// A strip of the bright surface stands four times out of what is dark beside it, and is no lamp: lens points see it well. A lamp
+// in the dark is one, and so is one on the surface.
+TEST(TakeHighlights, TakesNoBrightSurfaceForALamp) {
+    const auto taken = [](double c, float lamp) {
+        Ldi ldi = half_bright(c, 140, 0.4f);
+        for (const int x : {60, 200})
+            for (std::size_t k = 0; k < 3 && lamp > 0; ++k) ldi.values[k][std::size_t(100 * size + x)] = lamp;
+        BlockedLdi blocked(ldi, lens);
+        const std::array<std::size_t, 3> channels{0, 1, 2};
+        const Highlights found = take_highlights(blocked.samples, channels, channels, blocked.colours);
+        std::vector<float> x;
+        for (const std::uint32_t i : found.sample) x.push_back(blocked.samples.x[i]);
+        std::ranges::sort(x);
+        return x;
+    };
+    for (const double c : {1.0, -20.0, 45.0, -90.0}) {
+        EXPECT_EQ(taken(c, 0), std::vector<float>()) << c;
+        EXPECT_EQ(taken(c, 60), (std::vector<float>{60.5f, 200.5f})) << c;
+    }
+}
+
+} // namespace
+} // namespace sparselens

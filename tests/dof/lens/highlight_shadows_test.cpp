@@ -1,0 +1,154 @@
+// The pixels of one lamp share shadows, which are those of each to within a fiftieth of the disc.
+#include "base/random.h"
+#include "dof/lens/blocked_fixture.h"
+#include "dof/lens/highlight_shadows.h"
+#include "dof/lens/highlights.h"
+#include "support/lens_ldi.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace sparselens {
+namespace {
+
+constexpr int size = 64;
+constexpr double lamp_coc = 280; // eight pixels in a group
+const ThinLens lens{.radius = 2.4, .focal_px = 640, .focus = 5};
+const Imath::Box2i box({0, 0}, {size - 1, size - 1});
+
+// A lamp of eight by eight pixels before a wall, and boards of sixteen pixels before it that lie about a CoC.
+struct LampBehindBoards : BlockedLdi {
+    BlockFootprints footprints;
+    std::vector<std::uint32_t> lamp, blocks;
+    Highlights highlights;
+
+    static Ldi scene(double boards) {
+        return make_ldi(windows_of_size(size, size), rgba_channels(), [&](int x, int y) {
+            std::vector<Sample> samples;
+            if (random_unit(x / 16, y / 16, 1) < 0.4)
+                samples.push_back({depth_of(lens, boards - random_unit(x / 16, y / 16, 2)), {0, 0, 0, 1}});
+            if (is_lamp(x, y)) samples.push_back({depth_of(lens, lamp_coc), {900, 900, 900, 1}});
+            samples.push_back({depth_of(lens, lamp_coc + 9), {1, 1, 1, 1}});
+            return samples;
+        });
+    }
+    static bool is_lamp(int x, int y) { return x >= 24 && x < 32 && y >= 32 && y < 40; }
+
+    explicit LampBehindBoards(const Ldi &ldi)
+        : BlockedLdi(ldi, lens), footprints(ldi, samples), blocks(samples.blocks.size()) {
+        std::iota(blocks.begin(), blocks.end(), 0u);
+        for (std::uint32_t i = 0; i < samples.count(); ++i)
+            if (samples.source[i] != BlockedSamples::background && ldi.values[0][samples.source[i]] == 900)
+                lamp.push_back(i);
+        highlights.sample = lamp;
+    }
+
+    // Of each of the lamp's samples, one after the other, the share that is lit at each pixel.
+    std::vector<float> lit(bool together) {
+        HighlightShadows shadows(highlights, samples, footprints);
+        shadows.begin({0, 0}, blocks, 1);
+        std::vector<float> all;
+        if (together) shadows.share(lamp, box);
+        for (const std::uint32_t i : lamp) {
+            if (!together) shadows.share(std::span(&i, 1), box);
+            const Lamp own = shadows.lamp(i);
+            const bool any = shadows.cast(i, {own.centre, Imath::V2d(own.coc), box});
+            for (int y = 0; y < size; ++y)
+                for (int x = 0; x < size; ++x) all.push_back(any ? shadows.lit(x, y) : 1);
+        }
+        return all;
+    }
+};
+
+double mean(std::span<const float> values) {
+    return std::accumulate(values.begin(), values.end(), 0.0) / double(values.size());
+}
+
+// Shadows of boards in focus lie where the boards do, whatever place of the lamp they are seen from. Others are off by |1 - m|
+// times the distance to the middle of the group, which is four pixels on average; boards of 16 pixels, two fifths of all, have
+// edges on every (16 m) pixels, across and down.
+TEST(HighlightShadows, OfAGroupAreThoseOfEachSample) {
+    for (const double boards : {0.5, -40.0, -280.0, 90.0, 130.0}) {
+        const Ldi ldi = LampBehindBoards::scene(boards);
+        LampBehindBoards scene(ldi);
+        ASSERT_EQ(scene.lamp.size(), 64u);
+        const std::vector<float> together = scene.lit(true), alone = scene.lit(false);
+        const double m = lamp_coc / (lamp_coc - boards + 1);
+        double off = 0;
+        for (std::size_t i = 0; i < alone.size(); ++i) off += std::abs(double(together[i] - alone[i]));
+        EXPECT_LE(off / double(alone.size()), 2 * 4 * std::abs(1 - m) / (16 * m) * 0.5 + 0.01) << boards;
+        EXPECT_NEAR(mean(together), mean(alone), 0.02) << boards;
+        EXPECT_LT(mean(alone), 0.95) << boards; // they do hide the lamp
+        EXPECT_GT(mean(alone), 0.1) << boards;
+    }
+}
+
+TEST(HighlightShadows, OfWhatStandsRightBeforeALampAreCastForEachSample) {
+    const Ldi ldi = LampBehindBoards::scene(0.9 * lamp_coc);
+    LampBehindBoards scene(ldi);
+    const std::vector<float> together = scene.lit(true), alone = scene.lit(false);
+    EXPECT_EQ(together, alone);
+    EXPECT_LT(mean(alone), 0.99);
+}
+
+TEST(ShadowGroups, HoldEachSampleOnceAndAreSmall) {
+    const Ldi ldi = make_ldi(windows_of_size(size, size), rgba_channels(), [&](int x, int y) {
+        const double c = std::exp(8 * random_unit(x / 16, y / 16, 1) - 1) * (x < 32 ? 1 : -1);
+        return std::vector<Sample>{{depth_of({.radius = 50, .focal_px = 640, .focus = 5}, c), {1, 1, 1, 1}}};
+    });
+    const BlockedLdi blocked(ldi, {.radius = 50, .focal_px = 640, .focus = 5});
+    const BlockedSamples &samples = blocked.samples;
+    std::size_t several = 0;
+    for (const SampleBlock &block : samples.blocks) {
+        std::vector<std::uint32_t> all(block.end - block.begin), found;
+        std::iota(all.begin(), all.end(), block.begin);
+        for (const std::vector<std::uint32_t> &group : shadow_groups(samples, all)) {
+            found.insert(found.end(), group.begin(), group.end());
+            several += group.size() > 1;
+            for (const std::uint32_t i : group) {
+                const float reach = std::abs(samples.coc[group[0]]) / 32;
+                EXPECT_TRUE(i == group[0] || std::abs(samples.x[i] - samples.x[group[0]]) <= reach);
+                EXPECT_TRUE(i == group[0] || std::abs(samples.y[i] - samples.y[group[0]]) <= reach);
+                EXPECT_LE(std::abs(samples.depth[i] - samples.depth[group[0]]), float(one_surface_px));
+            }
+        }
+        std::ranges::sort(found);
+        EXPECT_EQ(found, all);
+    }
+    EXPECT_GT(several, 10u);
+}
+
+TEST(ShadowAreas, BoundAllThatIsNearer) {
+    const Ldi ldi = make_ldi(windows_of_size(100, 70), rgba_channels(), [&](int x, int y) {
+        std::vector<Sample> samples;
+        for (int n = 0; n < 3; ++n)
+            if (random_unit(x, y, n) < 0.6)
+                samples.push_back({float(2 + 20 * n + 9 * random_unit(x / 7, y / 5, n + 3)), {1, 1, 1, 1}});
+        return samples;
+    });
+    const BlockedLdi blocked(ldi, lens);
+    const BlockedSamples &samples = blocked.samples;
+    const ShadowAreas areas(samples);
+    for (const double z : {1.0, 2.5, 4.0, 11.0, 24.0, 45.0, 1e6}) {
+        const auto depth = float(perceptive_depth(lens, z));
+        for (std::uint32_t b = 0; b < samples.blocks.size(); ++b) {
+            const ShadowBounds *bounds = areas.nearer_than(areas.of(b), depth);
+            for (std::uint32_t i = samples.blocks[b].begin; i < samples.blocks[b].end; ++i) {
+                if (!(samples.depth[i] > depth)) continue;
+                ASSERT_TRUE(bounds);
+                EXPECT_TRUE(bounds->x_min <= samples.x[i] && samples.x[i] <= bounds->x_max);
+                EXPECT_TRUE(bounds->y_min <= samples.y[i] && samples.y[i] <= bounds->y_max);
+                EXPECT_TRUE(bounds->coc_min < samples.coc[i] && samples.coc[i] < bounds->coc_max);
+            }
+            if (z == 1) {
+                EXPECT_EQ(bounds, nullptr);
+            }
+        }
+    }
+}
+
+} // namespace
+} // namespace sparselens
