@@ -117,12 +117,11 @@ std::map<int, MatteError> errors_of_five_views(const SceneCamera &scene) {
 
 constexpr int width = 160, height = 90;
 
-// Of 18 lamps of a quarter of a pixel each, five are off by more today.
+// 18 lamps of a quarter of a pixel each. Their corners lie in the middle of it, so that five have the wall's depth in all views.
 TEST(TracedMattes, SmallObjectsFarOutOfFocus) {
     const auto errors = errors_of_five_views(SceneCamera("lamps", width, height));
     EXPECT_EQ(errors.size(), 19u);
-    const auto missing = std::ranges::count_if(errors, [](const auto &of) { return !of.second.is_there(); });
-    EXPECT_LE(missing, 5);
+    for (const auto &[object, error] : errors) EXPECT_TRUE(error.is_there()) << "object " << object;
 }
 
 TEST(TracedMattes, SpheresAndLampsBehindAFence) {

@@ -2,6 +2,7 @@
 
 #include "base/parallel.h"
 #include "warp/lamps/compact_lamps.h"
+#include "warp/lamps/lamp_parallax.h"
 #include "warp/lamps/pixel_light.h"
 
 #include <algorithm>
@@ -16,15 +17,6 @@ namespace {
 constexpr int small = 3; // pixels, wide and high: no pixel need show the lamp alone
 constexpr double most_of_edge =
     0.3; // of the brightest pixel's light: with less, a pixel of a larger lamp is an edge
-constexpr double same_place = 0.75; // pixels between where two views show one lamp
-constexpr double same_light = 0.33; // relative, of one lamp in two views
-
-// A lamp that stands before all that is around it.
-struct KnownLamp {
-    Imath::V2d place{0, 0}; // its middle
-    double light = 0;
-    double inverse_z = 0;
-};
 
 // A lamp of a view.
 struct SeenLamp {
@@ -32,6 +24,7 @@ struct SeenLamp {
     double around = 0;              // 1 / z of the nearest that is around
     std::vector<Imath::V2i> pixels; // whose light is to be at the lamp's depth
     std::vector<Imath::V2i> at_its_depth;
+    bool settled = false; // by other views
 };
 
 bool is_small(std::span<const Imath::V2i> pixels) {
@@ -61,6 +54,8 @@ public:
     LampsOfView(Ldi &view, double tolerance);
     std::span<const SeenLamp> lamps() const { return lamps_; }
     void settle_by_neighbours();
+    // Those whose depth is not known, by rows.
+    std::vector<LampBeforeWall> unknown() const;
     // By lamps whose places are in the centre view.
     void settle_by_others(const ViewMapping &mapping, std::span<const KnownLamp> others);
 
@@ -82,7 +77,7 @@ LampsOfView::LampsOfView(Ldi &view, double tolerance) : view_(view), light_(view
 }
 
 SeenLamp LampsOfView::look_at(const CompactLamp &found, double around) const {
-    SeenLamp seen{{}, around, {}, {}};
+    SeenLamp seen{{}, around, {}, {}, false};
     KnownLamp &lamp = seen.lamp;
     const double enough = is_small(found.pixels) ? 0 : most_of_edge * light_at(found.pixels[0]);
     double nearest = 0;
@@ -123,24 +118,34 @@ void LampsOfView::settle_by_neighbours() {
     }
 }
 
+std::vector<LampBeforeWall> LampsOfView::unknown() const {
+    std::vector<LampBeforeWall> found;
+    for (const SeenLamp &seen : lamps_)
+        if (!seen.settled && seen.lamp.inverse_z == 0 && is_small(seen.pixels))
+            found.push_back({seen.lamp, seen.around});
+    std::ranges::stable_sort(found, {}, [](const LampBeforeWall &of) { return of.lamp.place.y; });
+    return found;
+}
+
 void LampsOfView::settle_by_others(const ViewMapping &mapping, std::span<const KnownLamp> others) {
     std::vector<KnownLamp> expected(others.begin(), others.end());
     for (KnownLamp &lamp : expected) lamp.place = mapping.in_view(lamp.place, lamp.inverse_z);
     std::erase_if(expected, [](const KnownLamp &lamp) { return !std::isfinite(lamp.place.y); });
     const auto row = [](const KnownLamp &lamp) { return lamp.place.y; };
     std::ranges::stable_sort(expected, {}, row);
-    for (const SeenLamp &seen : lamps_) {
+    for (SeenLamp &seen : lamps_) {
         const KnownLamp &own = seen.lamp;
-        if (own.inverse_z != 0 || !is_small(seen.pixels)) continue;
+        if (seen.settled || own.inverse_z != 0 || !is_small(seen.pixels)) continue;
         double nearest = same_place, inverse_z = 0;
         auto other = std::ranges::lower_bound(expected, own.place.y - same_place, {}, row);
         for (; other != expected.end() && other->place.y <= own.place.y + same_place; ++other) {
             const double off = (other->place - own.place).length();
-            if (!(off < nearest) || std::abs(other->light - own.light) > same_light * own.light) continue;
+            if (!(off < nearest) || !is_same_light(*other, own)) continue;
             nearest = off;
             inverse_z = other->inverse_z;
         }
         if (!(inverse_z > seen.around + tolerance_)) continue;
+        seen.settled = true;
         for (const Imath::V2i &p : seen.pixels) move(p, inverse_z);
     }
 }
@@ -152,7 +157,8 @@ void settle_lamp_depths(std::span<Ldi> views, std::span<const ViewMapping> mappi
     parallel_for(views.size(), [&](std::size_t v) { found[v].emplace(views[v], tolerance); });
     std::vector<KnownLamp> known; // in the centre view
     for (std::size_t v = 0; v < views.size(); ++v)
-        for (const auto &[lamp, around, pixels, at_its_depth] : found[v]->lamps()) {
+        for (const SeenLamp &seen : found[v]->lamps()) {
+            const KnownLamp &lamp = seen.lamp;
             if (lamp.inverse_z == 0) continue;
             known.push_back(lamp);
             known.back().place =
@@ -162,6 +168,11 @@ void settle_lamp_depths(std::span<Ldi> views, std::span<const ViewMapping> mappi
         found[v]->settle_by_neighbours();
         found[v]->settle_by_others(mappings[v], known);
     });
+    std::vector<std::vector<LampBeforeWall>> unknown;
+    for (const auto &view : found) unknown.push_back(view->unknown());
+    const std::vector<KnownLamp> by_parallax = depths_by_parallax(unknown, mappings, tolerance);
+    if (by_parallax.empty()) return;
+    parallel_for(views.size(), [&](std::size_t v) { found[v]->settle_by_others(mappings[v], by_parallax); });
 }
 
 } // namespace sparselens

@@ -3,7 +3,8 @@
 // A renderer takes the depth of a pixel on a lamp's edge from one of its samples, which may be of the lamp or of the wall
 // behind. Either way most of its light is the lamp's, and would be seen at the depth of the wall. So pixels of a small lamp
 // that stands before all that is around it take the depth of those beside them that have the lamp's. Where a view has none
-// of these, other views tell, which show as much light at that place. Pixels that show little of a lamp stay as they are, if a
+// of these, other views tell, which show as much light at that place. Where all views have the wall's depth, the places tell at
+// which all of them show the lamp, unless it may as well be on the wall. Pixels that show little of a lamp stay as they are, if a
 // pixel beside them shows nothing else than the lamp: silhouettes.h can take those apart.
 #pragma once
 

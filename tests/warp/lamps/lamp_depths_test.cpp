@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <functional>
 #include <vector>
 
@@ -88,6 +89,32 @@ TEST(LampDepths, OtherViewsTell) {
               (Moved{{{11, 10}, lamp}, {{12, 10}, lamp}, {{11, 11}, lamp}, {{12, 11}, lamp}}));
     EXPECT_EQ(settled({picture(before), picture(flat(200))}, stand), Moved{});            // another light
     EXPECT_EQ(settled({picture(before), picture(flat(450))}, {{0, 0}, {0, 0}}), Moved{}); // another place
+}
+
+// All views have the wall's depth. From each the lamps lie where a depth of 2 would show them; or where the wall's would.
+TEST(LampDepths, ThePlacesInAllViewsTell) {
+    constexpr double step =
+        double(lamp) / focal_px; // of a view: one pixel at depth 2, a fifth of one at the wall
+    const std::vector<Imath::V2d> stand{{0, 0}, {5 * step, 0}, {0, 5 * step}, {-5 * step, 0}, {0, -5 * step}};
+    const auto seen = [&](double z, int shown,
+                          int apart) { // lamps on a grid, if they are `apart`, in the first views
+        std::vector<Ldi> views;
+        for (std::size_t v = 0; v < stand.size(); ++v)
+            views.push_back(picture([&, v](int x, int y) {
+                const double by = focal_px / z;
+                const int left = x - 15 + int(std::lround(by * stand[v].x)),
+                          top = y - 15 - int(std::lround(by * stand[v].y));
+                const bool on = apart > 0 ? left % apart == 0 && top % apart == 0 : left == 0 && top == 0;
+                return on && int(v) < shown ? shining(wall, 500) : none;
+            }));
+        return settled(views, stand);
+    };
+    EXPECT_EQ(
+        seen(double(lamp), 5, 0),
+        (Moved{{{15, 15}, lamp}, {{10, 15}, lamp}, {{15, 20}, lamp}, {{20, 15}, lamp}, {{15, 10}, lamp}}));
+    EXPECT_EQ(seen(double(lamp), 4, 0), Moved{}); // the fifth would show it on the wall, too
+    EXPECT_EQ(seen(double(wall), 5, 0), Moved{});
+    EXPECT_EQ(seen(double(wall), 5, 8), Moved{}); // each lies where another would, before the wall
 }
 
 } // namespace
