@@ -195,6 +195,9 @@ class Shot:
     blades: int            # 0: a round aperture
     rotation: float        # of the blades, radians
     ratio: float           # 1: round; 2: twice as high as wide
+    supersample: int       # pixels of `size`, across and down, in one of the
+                           # scene's picture
+    pixel_filter: str      # of the picture, as ldi.pixelFilter has it
 
     @property
     def lens_radius(self):
@@ -308,7 +311,19 @@ def border_box(render):
     return left, height - top, right - 1, height - bottom - 1
 
 
-def shot_of(scene, eye):
+def pixel_filter_of(scene):
+    """The filter of the scene's engine and its width, as ldi.pixelFilter has
+    them. EEVEE's is Cycles' default one."""
+    if scene.render.engine != "CYCLES":
+        return "blackman-harris:%g" % scene.render.filter_size
+    name = {"BOX": "box", "GAUSSIAN": "gaussian",
+            "BLACKMAN_HARRIS": "blackman-harris"}[
+                scene.cycles.pixel_filter_type]
+    return name if name == "box" else "%s:%g" % (name,
+                                                 scene.cycles.filter_width)
+
+
+def shot_of(scene, eye, supersample=1):
     """The camera of an eye at the scene's current frame."""
     depsgraph = bpy.context.evaluated_depsgraph_get()
     camera = camera_of(scene, eye).evaluated_get(depsgraph)
@@ -345,14 +360,16 @@ def shot_of(scene, eye):
                                  camera.name, name, scene.frame_current))
     shift = data.shift_x + stereo_shift(data, eye.side), data.shift_y
     return Shot(
-        camera=camera.name, placement=placement, size=(width, height),
+        camera=camera.name, placement=placement,
+        size=(width * supersample, height * supersample),
         pixel_aspect=render.pixel_aspect_x / render.pixel_aspect_y,
         focal_length=data.lens, sensor_width=sensor * width / fitted,
         shift=(shift[0] * fitted / width, shift[1] * fitted / width),
         clip=(data.clip_start, data.clip_end), fstop=data.dof.aperture_fstop,
         focus_distance=focus_distance,
         blades=data.dof.aperture_blades, rotation=data.dof.aperture_rotation,
-        ratio=data.dof.aperture_ratio)
+        ratio=data.dof.aperture_ratio, supersample=supersample,
+        pixel_filter=pixel_filter_of(scene))
 
 
 def camera_attributes(shot, placement):
@@ -360,7 +377,11 @@ def camera_attributes(shot, placement):
     forward, where Blender's z points backward."""
     field = shot.sensor_width / shot.focal_length
     to_camera = Matrix.Diagonal((1, 1, -1, 1)) @ placement.inverted()
-    return {
+    subpixels = {} if shot.supersample == 1 else {
+        "ldi.supersample": exr_int(shot.supersample),
+        "ldi.pixelFilter": exr_text(shot.pixel_filter),
+    }
+    return subpixels | {
         "Camera": exr_text(shot.camera),
         "pinholeFocalLength": exr_float(shot.focal_length),
         "aperture": exr_float(shot.fstop),
@@ -538,6 +559,23 @@ def render_settings(scene, size, multilayer=False, codec="ZIP"):
 
 
 @contextmanager
+def finer(scene, supersample):
+    """As many fewer samples a pixel, for a while, as pixels are smaller."""
+    subpixels = supersample * supersample
+    cycles = scene.render.engine == "CYCLES"
+    samples = (scene.cycles.samples if cycles
+               else scene.eevee.taa_render_samples)
+    if samples < subpixels:
+        raise ValueError(
+            "--supersample %d: %d samples a pixel are too few for %d pixels "
+            "in its place" % (supersample, samples, subpixels))
+    fewer = round(samples / subpixels)
+    with (changed(scene.cycles, samples=fewer) if cycles
+          else changed(scene.eevee, taa_render_samples=fewer)):
+        yield
+
+
+@contextmanager
 def only_layer(scene, name):
     """Renders one view layer, for a while; with no name all that are used."""
     with ExitStack() as stack:
@@ -702,20 +740,24 @@ def warn(text):
 
 
 def render_frame(scene, folder, ending, views, eyes, overscan=0,
-                 multilayer=False, layer=None):
+                 multilayer=False, layer=None, supersample=1):
     """Renders the views of the current frame into the folder. `overscan` is
-    in pixels, or AUTO; `layer` the only view layer to render."""
-    shots = [(eye, shot_of(scene, eye)) for eye in eyes]
+    in pixels of the scene's picture, or AUTO; `layer` the only view layer to
+    render; `supersample` how many pixels, across and down, are rendered for
+    one of the picture."""
+    shots = [(eye, shot_of(scene, eye, supersample)) for eye in eyes]
     for eye, shot in shots:
-        beyond = overscan
+        pixels = overscan
         if overscan == AUTO:
             with only_layer(scene, layer):
-                beyond = overscan_of(scene, folder, shot)
+                pixels = math.ceil(overscan_of(scene, folder, shot)
+                                   / supersample)
             print("sparselens_views.py: frame %d%s: overscan of %d pixels" % (
-                scene.frame_current, eye.name and ", " + eye.name, beyond))
+                scene.frame_current, eye.name and ", " + eye.name, pixels))
+        beyond = pixels * supersample
         size = [side + 2 * beyond for side in shot.size]
         with render_settings(scene, size, multilayer), still_camera(scene), \
-                only_layer(scene, layer):
+                only_layer(scene, layer), finer(scene, supersample):
             for name, u, box in views:
                 path = os.path.join(folder, name + eye.file_suffix + ending)
                 render_view(scene, path, shot, u, beyond, box,
@@ -760,6 +802,10 @@ class SPARSELENS_Settings(bpy.types.PropertyGroup):
         name="Automatic Overscan",
         description="As many pixels beyond each side as the blur at the "
                     "border needs, at each frame, instead of Overscan")
+    supersample: bpy.props.IntProperty(
+        name="Supersample", description="Pixels rendered, across and down, "
+        "for each of the picture, with as many fewer samples",
+        default=1, min=1, max=16)
     multilayer: bpy.props.BoolProperty(
         name="All Passes",
         description="Multilayer EXR with all passes of the view layers")
@@ -788,7 +834,8 @@ class SPARSELENS_OT_render_views(bpy.types.Operator):
                           say=lambda text: self.report({"WARNING"}, text),
                           overscan=(AUTO if settings.overscan_auto
                                     else settings.overscan),
-                          multilayer=settings.multilayer)
+                          multilayer=settings.multilayer,
+                          supersample=settings.supersample)
         except (ValueError, OSError, RuntimeError) as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
@@ -879,9 +926,13 @@ def read_options(arguments):
         help="frames to render, e.g. 1-24; the files are center.####.exr, "
              "view_0.####.exr, ...")
     add("--samples", type=natural_number, metavar="N",
-        help="samples a pixel (default: the scene's)")
+        help="samples a pixel of the picture (default: the scene's)")
+    add("--supersample", type=natural_number, default=1, metavar="N",
+        help="render N times the width and height with 1/N^2 of the samples "
+             "a pixel; dof-gather makes the picture of the scene's size of "
+             "it (default: 1)")
     add("--overscan", type=overscan_option, default=0, metavar="PX",
-        help="pixels to render beyond each side of the picture (default: 0); "
+        help="pixels of the picture to render beyond each side (default: 0); "
              "auto: as many as the blur at the border of each frame needs")
     add("--multilayer", action="store_true",
         help="multilayer EXR with all passes of the view layers, AOVs and "
@@ -901,6 +952,11 @@ def read_options(arguments):
     options = parser.parse_args(arguments)
     if options.samples == 0:
         parser.error("argument --samples: 0 samples make no picture")
+    if not 1 <= options.supersample <= 16:
+        parser.error("argument --supersample: must be from 1 to 16")
+    if options.supersample > 1 and options.lens_views:
+        parser.error("argument --lens-views: their average is the picture: "
+                     "render them without --supersample")
     return options
 
 
@@ -938,7 +994,7 @@ def main(arguments):
     render_frames(scene, frames, options.output, views_at, eyes,
                   several=options.frames is not None,
                   overscan=options.overscan, multilayer=options.multilayer,
-                  layer=options.layer)
+                  layer=options.layer, supersample=options.supersample)
 
 
 def run_as_script():

@@ -73,6 +73,28 @@ exrheader over/center.exr >header
 grep -Fq "dataWindow (type box2i): (-$(asked plan.json) -" header || fail "not $(asked plan.json): $(grep dataWindow header)"
 echo "--overscan auto: what the plan asks for"
 
+# --supersample: the views of a scene of twice the size with a quarter of the samples, which say so, and the picture of the scene's
+# size. Noise of the same seed is the same.
+in_blender small.blend --python-expr "import bpy; r = bpy.context.scene.render; r.resolution_x *= 2; r.resolution_y *= 2
+bpy.context.scene.cycles.filter_width = 2; bpy.ops.wm.save_as_mainfile(filepath='$PWD/large.blend')"
+in_blender small.blend -P "$views" -- -o fine --samples 16 --views 1 --supersample 2
+in_blender large.blend -P "$views" -- -o by_hand --samples 4 --views 1
+in_blender small.blend --python-expr "import bpy; bpy.context.scene.cycles.filter_width = 2" -P "$views" -- -o wide --samples 16 --views 1 --supersample 2
+for view in center view_0; do alike wide/$view.exr by_hand/$view.exr 60; done
+exrheader wide/center.exr >header
+grep -Fq 'ldi.pixelFilter (type string): "blackman-harris:2"' header || fail "the filter: $(grep ldi header)"
+exrheader fine/view_0.exr >header
+grep -Fq 'ldi.supersample (type int): 2' header || fail "--supersample: $(grep ldi header)"
+grep -Fq 'displayWindow (type box2i): (0 0) - (191 107)' header || fail "--supersample: $(grep displayWindow header)"
+! exrheader by_hand/center.exr | grep 'ldi\.' >/dev/null || fail "a scene of twice the size has sub-pixels"
+defocused fine.exr fine/center.exr fine/view_0.exr
+exrheader fine.exr | grep -F 'displayWindow (type box2i): (0 0) - (95 53)' >/dev/null || fail "the picture of sub-pixels is not of the scene's size"
+in_blender small.blend -P "$views" -- -o fine_over --samples 4 --views 0 --supersample 2 --overscan 3
+exrheader fine_over/center.exr | grep -F 'dataWindow (type box2i): (-6 -6) - (197 113)' >/dev/null || fail "--supersample and --overscan"
+if blender --python-exit-code 1 -b small.blend -P "$views" -- -o few --samples 3 --supersample 2 >said 2>&1; then fail "3 samples for 4 pixels"; fi
+grep -q 'error: --supersample 2: 3 samples a pixel are too few' said || fail "3 samples for 4 pixels: $(tail -n 3 said)"
+echo "--supersample: the views of twice the size"
+
 # Eyes of a stereo scene, by Blender's own stereo render. The right eye has a seed of its own there: 36 dB; a wrong
 # convergence is at 31 dB and less.
 for kind in offaxis offaxis_left parallel toe toe_left cameras; do
