@@ -117,6 +117,7 @@ void run(const GatherCommand &given, const ToolContext &tool, LdiCache &cache, G
     options.picture.gather.lens.chosen = &tiles;
     options.picture.gather.lens.device = device.open(options.device, tool);
     options.picture.gather.lens.looks = looks;
+    options.picture.gather.lens.across = frame.subpixels.across;
     Image picture;
     if (needs_gather(options.show))
         picture =

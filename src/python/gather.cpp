@@ -144,6 +144,7 @@ PictureObject gathered_all(const Asked &asked, const OpenedLdi &in, Camera camer
     const Ldi &ldi = frame.ldi(in);
     options.holdout = holdout ? &*holdout : nullptr;
     options.gather.lens.device = device;
+    options.gather.lens.across = frame.subpixels.across;
     out.image = frame.picture_of(gather_picture(ldi, lens, frame.gathered, frame.needed, options, progress));
     frame.describe(out.header, camera);
     return out;

@@ -25,6 +25,7 @@ enum class Quality { draft, normal, final };
 struct LensGatherOptions {
     Quality quality = Quality::normal;
     int lens_samples = 0; // points in every tile; 0: by the quality and what the tile needs
+    int across = 1;       // pixels, across and down, that become one of the picture (base/subpixels.h)
     LensLooks looks = {};
     LensTiles *chosen = nullptr;             // where given: is told what was chosen
     std::optional<Imath::Box2i> region = {}; // tiles beside it stay as they were rendered

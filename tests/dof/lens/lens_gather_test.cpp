@@ -395,5 +395,25 @@ TEST(LensGather, TakesDepthsUpToInfinity) {
     }
 }
 
+// By the CoC in pixels of the picture: 7 sub-pixels are 3.5 pixels of two.
+TEST(LensGather, SubpixelsTakeThreeQuartersOfAPixelsPoints) {
+    const Ldi ldi = make_ldi(windows_of_size(64, 64), grey_alpha, [](int, int) {
+        return std::vector<Sample>{{depth_of(lens, 7), {0.7f, 1}}};
+    });
+    const auto points = [&](Quality quality, int across, int lens_samples) {
+        LensTiles tiles;
+        gather(ldi, lens,
+               {.quality = quality, .lens_samples = lens_samples, .across = across, .chosen = &tiles});
+        return tiles.lens_points.front();
+    };
+    EXPECT_EQ(points(Quality::final, 1, 0), 384);
+    EXPECT_EQ(points(Quality::final, 2, 0), 216);
+    EXPECT_EQ(points(Quality::final, 4, 0), 216);
+    EXPECT_EQ(points(Quality::normal, 1, 0), 128);
+    EXPECT_EQ(points(Quality::normal, 2, 0), 72);
+    EXPECT_EQ(points(Quality::draft, 2, 0), 24);
+    EXPECT_EQ(points(Quality::final, 2, 40), 40);
+}
+
 } // namespace
 } // namespace sparselens
