@@ -3,33 +3,47 @@
 #include "base/error.h"
 
 #include <ImfPartType.h>
+#include <OpenEXRConfig.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <vector>
 
 namespace sparselens {
 
 namespace {
 
-constexpr std::array methods{
+constexpr std::array methods {
     NamedCompression{"none", Imf::NO_COMPRESSION, true, true},
-    NamedCompression{"rle", Imf::RLE_COMPRESSION, true, true},
-    NamedCompression{"zips", Imf::ZIPS_COMPRESSION, true, true},
-    NamedCompression{"zip", Imf::ZIP_COMPRESSION, false, true},
-    NamedCompression{"piz", Imf::PIZ_COMPRESSION, false, true},
-    NamedCompression{"pxr24", Imf::PXR24_COMPRESSION, false, false},
-    NamedCompression{"b44", Imf::B44_COMPRESSION, false, true}, // lossy for halves only
-    NamedCompression{"b44a", Imf::B44A_COMPRESSION, false, true},
-    NamedCompression{"dwaa", Imf::DWAA_COMPRESSION, false, false},
-    NamedCompression{"dwab", Imf::DWAB_COMPRESSION, false, false},
+        NamedCompression{"rle", Imf::RLE_COMPRESSION, true, true},
+        NamedCompression{"zips", Imf::ZIPS_COMPRESSION, true, true},
+        NamedCompression{"zip", Imf::ZIP_COMPRESSION, false, true},
+        NamedCompression{"piz", Imf::PIZ_COMPRESSION, false, true},
+        NamedCompression{"pxr24", Imf::PXR24_COMPRESSION, false, false},
+        NamedCompression{"b44", Imf::B44_COMPRESSION, false, true}, // lossy for halves only
+        NamedCompression{"b44a", Imf::B44A_COMPRESSION, false, true},
+        NamedCompression{"dwaa", Imf::DWAA_COMPRESSION, false, false},
+        NamedCompression{"dwab", Imf::DWAB_COMPRESSION, false, false},
+#if OPENEXR_VERSION_MAJOR > 3 || OPENEXR_VERSION_MINOR >= 4
+        NamedCompression{"htj2k256", Imf::HTJ2K256_COMPRESSION, false, true},
+        NamedCompression{"htj2k32", Imf::HTJ2K32_COMPRESSION, false, true},
+#endif
 };
 
 const NamedCompression *method_of(Imf::Compression value) {
     const auto found = std::ranges::find(methods, value, &NamedCompression::value);
     return found == methods.end() ? nullptr : &*found;
+}
+
+template <typename Chosen>
+std::string names_of(const Chosen &chosen, const std::string &separator = ", ") {
+    std::vector<std::string> names;
+    for (const NamedCompression &method : methods)
+        if (std::invoke(chosen, method)) names.emplace_back(method.name);
+    return fmt::format("{}", fmt::join(names, separator));
 }
 
 bool is_deep(const Imf::Header &header) { return header.hasType() && Imf::isDeepData(header.type()); }
@@ -39,10 +53,7 @@ bool is_deep(const Imf::Header &header) { return header.hasType() && Imf::isDeep
 std::span<const NamedCompression> compressions() { return methods; }
 
 std::string compression_names(bool deep, const std::string &separator) {
-    std::vector<std::string> names;
-    for (const NamedCompression &method : methods)
-        if (method.deep || !deep) names.emplace_back(method.name);
-    return fmt::format("{}", fmt::join(names, separator));
+    return names_of([deep](const NamedCompression &method) { return method.deep || !deep; }, separator);
 }
 
 Imf::Compression output_compression(bool deep, std::optional<Imf::Compression> asked, bool to_pipe,
@@ -54,10 +65,9 @@ Imf::Compression output_compression(bool deep, std::optional<Imf::Compression> a
     const auto ids = std::ranges::find_if(channels, is_float_id);
     const auto keeps = [&](const NamedCompression *method) { return method->exact || ids == channels.end(); };
     if (asked && !keeps(method_of(*asked)))
-        throw UsageError(
-            fmt::format("--compression: {} would destroy the ids in channel {}; use none, rle, zips, zip, "
-                        "piz, b44 or b44a, or leave it out with --channels",
-                        method_of(*asked)->name, ids->name));
+        throw UsageError(fmt::format("--compression: {} would destroy the ids in channel {}; use one of {}, "
+                                     "or leave it out with --channels",
+                                     method_of(*asked)->name, ids->name, names_of(&NamedCompression::exact)));
     if (asked) return *asked;
     if (to_pipe) return Imf::NO_COMPRESSION;
     const NamedCompression *own = method_of(metadata.compression());

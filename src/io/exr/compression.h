@@ -15,10 +15,11 @@ namespace sparselens {
 struct NamedCompression {
     const char *name; // as OpenEXR and OpenImageIO spell it
     Imf::Compression value;
-    bool deep;  // deep files may have it (OpenEXR 3.1)
+    bool deep;  // deep files may have it (OpenEXR 3.1 to 3.4)
     bool exact; // keeps all bits of 32-bit floats
 };
 
+// All that the OpenEXR has which this is compiled with: htj2k256 and htj2k32 from 3.4 on.
 std::span<const NamedCompression> compressions();
 
 // The names that flat or deep files may have, separated by `separator`.
