@@ -4,10 +4,10 @@
 #include "io/camera/camera_write.h"
 #include "io/display/colour.h"
 #include "io/display/shown_picture.h"
+#include "io/display/stated_space.h"
 #include "python/arrays.h"
 #include "python/job.h"
 
-#include <ImfStandardAttributes.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -38,9 +38,8 @@ struct Display {
 
     void show(Image &image, const Imf::Header &header) const {
         const ColourConfig colours(config);
-        std::string from = colours.scene_linear();
-        if (Imf::hasChromaticities(header))
-            from = colours.linear_space(Imf::chromaticities(header)).value_or(from);
+        const auto stated = stated_space(colours, header);
+        const std::string from = stated && stated->space ? *stated->space : colours.scene_linear();
         transform_colours(colours.to_display(display, view, from), image);
     }
 };

@@ -77,6 +77,40 @@ exits 0 "$bin/dof-gather" odd.exr -o x.png "${flat[@]}"
 grep -q 'warning: odd.exr: its chromaticities .*--colorspace' stderr || fail "odd chromaticities: $(cat stderr)"
 rm x.png
 
+# colorInteropID and oiio:ColorSpace name the space after chromaticities, and before the file rules; what was converted does
+# not carry the id of what it was, nor does what goes by chromaticities that say otherwise.
+stated() { exrheader "$1" | sed -nE 's/^(colorInteropID|oiio:ColorSpace) .*: "(.*)"$/\1=\2/p' | tr '\n' ' '; }
+says() { [ "$(stated "$1")" = "$2" ] || fail "$1 says $(stated "$1"), not $2"; }
+picture edit in.exr id.exr set=colorInteropID:lin_ap1_scene set=oiio:ColorSpace:ACEScg
+exits 0 "$bin/dof-gather" id.exr -o kept.exr -d float "${flat[@]}" -v
+grep -q 'colour space ACEScg' stderr || fail "colorInteropID is ignored: $(cat stderr)"
+within kept.exr plain.exr 0 "colorInteropID changes an EXR"
+says kept.exr 'colorInteropID=lin_ap1_scene oiio:ColorSpace=ACEScg '
+exits 0 "$bin/dof-gather" id.exr -o out709.exr -d float "${flat[@]}" --output-colorspace 'Linear Rec.709'
+oiiotool --colorconfig "$config" in.exr --ch R,G,B,A --colorconvert ACEScg 'Linear Rec.709' -o expected.exr
+within out709.exr expected.exr 1e-5 "from colorInteropID to --output-colorspace"
+says out709.exr 'colorInteropID=lin_rec709_scene '
+exits 0 "$bin/dof-gather" id.exr -o srgb.exr -d float "${flat[@]}" --output-colorspace sRGB
+says srgb.exr ''
+exits 0 "$bin/dof-gather" id.exr -o plain709.exr -d float "${flat[@]}" --colorspace 'Linear Rec.709'
+says plain709.exr 'colorInteropID=lin_rec709_scene '
+picture edit ap1.exr both.exr set=colorInteropID:lin_rec2020_scene
+exits 0 "$bin/dof-gather" both.exr -o kept.exr "${flat[@]}"
+says kept.exr 'colorInteropID=lin_ap1_scene '
+picture edit in.exr oiio.exr set=oiio:ColorSpace:sRGB
+exits 0 "$bin/dof-gather" oiio.exr -o kept.exr -d float "${flat[@]}" -v
+grep -q 'colour space sRGB' stderr || fail "oiio:ColorSpace is ignored: $(cat stderr)"
+says kept.exr ''
+differ kept.exr plain.exr "an EXR that oiio:ColorSpace calls encoded"
+picture edit in.exr odd.exr set=colorInteropID:nobody_knows
+exits 0 "$bin/dof-gather" odd.exr -o x.exr -d float "${flat[@]}"
+grep -q 'warning: odd.exr: its colorInteropID is .*--colorspace' stderr || fail "an odd colorInteropID: $(cat stderr)"
+picture edit in.exr data.exr set=colorInteropID:data
+exits 0 "$bin/dof-gather" data.exr -o x.exr -d float "${flat[@]}"
+if grep warning: stderr; then fail "colorInteropID data"; fi
+within x.exr plain.exr 0 "colorInteropID data"
+rm x.exr
+
 # Out: any space, and through a display and a view.
 exits 0 "$bin/dof-gather" in.exr -o acescg.exr -d float "${flat[@]}" --output-colorspace ACEScg
 oiiotool --colorconfig "$config" in.exr --ch R,G,B,A --colorconvert 'Linear Rec.709' ACEScg -o expected.exr

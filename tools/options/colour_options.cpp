@@ -2,12 +2,11 @@
 
 #include "base/error.h"
 #include "io/display/shown_picture.h"
+#include "io/display/stated_space.h"
 #include "io/exr/exr_flat.h"
-#include "io/exr/header_edit.h"
 #include "io/files/file_stream.h"
 
 #include <CLI/CLI.hpp>
-#include <ImfChromaticitiesAttribute.h>
 #include <ImfStandardAttributes.h>
 #include <ImfStringAttribute.h>
 
@@ -18,25 +17,12 @@ namespace sparselens {
 
 namespace {
 
-// With the attribute chromaticities, or without one.
-Imf::Header with_chromaticities(const Imf::Header &header, const std::optional<Imf::Chromaticities> &value) {
-    if (!value) return without_attribute(header, "chromaticities");
-    Imf::Header result = header;
-    set_attribute(result, "chromaticities", Imf::ChromaticitiesAttribute(*value));
-    return result;
-}
-
 bool is_pipe(const std::string &path) { return path == "-" || path == display_name("-"); }
 
-// What the file says of its space, if it says anything.
-std::optional<std::string> space_by_attribute(const ToolContext &tool, const ColourConfig &config,
-                                              const std::string &path, const Imf::Header &header) {
-    const auto space = config.linear_space(Imf::chromaticities(header));
-    if (!space)
-        warn(tool, display_name(path) +
-                       ": its chromaticities are of no colour space that the colour configuration "
-                       "names; they are taken for scene-linear: give --colorspace");
-    return space;
+void warn_of_unnamed(const ToolContext &tool, const std::string &path, const std::string &attribute) {
+    warn(tool, display_name(path) + ": its " + attribute + (attribute == "chromaticities" ? " are" : " is") +
+                   " of no colour space that the colour configuration names; its colours are taken for "
+                   "scene-linear: give --colorspace");
 }
 
 // The configuration; none where $OCIO names one that cannot be read, and nothing but a guess needs it.
@@ -61,17 +47,19 @@ struct LinearColours {
 
 LinearColours linear_colours(const ToolContext &tool, const ColourOptions &options, const std::string &path,
                              const Imf::Header &header) {
-    const bool says = Imf::hasChromaticities(header), asked = !options.input_space.empty();
+    const bool says = states_space(header), asked = !options.input_space.empty();
     const bool ours = header.findTypedAttribute<Imf::StringAttribute>("sparselens:version") != nullptr;
     if (!asked && !says && (ours || is_pipe(path))) return {header};
     const std::optional<ColourConfig> readable = config_if_readable(tool, options);
     if (!readable) return {header};
     const ColourConfig &config = *readable;
     std::string from = options.input_space;
-    if (!asked && says) {
-        const auto space = space_by_attribute(tool, config, path, header);
-        if (!space) return {header};
-        from = *space;
+    if (const auto stated = stated_space(config, header); stated && !asked) {
+        if (!stated->space) {
+            warn_of_unnamed(tool, path, stated->attribute);
+            return {header};
+        }
+        from = *stated->space;
     }
     if (from.empty()) from = config.space_of_file(path);
     tool.say(display_name(path) + ": colour space " + from);
@@ -80,7 +68,7 @@ LinearColours linear_colours(const ToolContext &tool, const ColourOptions &optio
     // A file without the attribute is of Rec.709, by the definition of OpenEXR, and need not say so.
     const bool silent =
         own && !asked && !says && config.linear_space({}) == from && config.scene_linear() == from;
-    LinearColours result{silent ? header : with_chromaticities(header, config.chromaticities_of(to))};
+    LinearColours result{silent ? header : with_space(config, header, to)};
     if (!own) result.transform = config.between(from, to);
     return result;
 }
@@ -105,8 +93,9 @@ void add_input_colour_options(CLI::App &app, ColourOptions &options) {
         ->type_name("FILE")
         ->group("Colour");
     app.add_option("--colorspace", options.input_space,
-                   "Colour space of the input (default: by its chromaticities, else the file rules of the "
-                   "configuration)")
+                   "Colour space of the input (default: by its chromaticities or colorInteropID, else the "
+                   "file rules of "
+                   "the configuration)")
         ->type_name("SPACE")
         ->group("Colour");
 }
@@ -161,7 +150,7 @@ std::size_t write_picture(const ToolContext &tool, const ColourOptions &options,
     if (shown || !options.output_space.empty()) {
         const ColourConfig config(options.config);
         transform_colours(output_transform(config, options, space_of(config, metadata)), image);
-        header = with_chromaticities(metadata, config.chromaticities_of(options.output_space));
+        header = with_space(config, metadata, options.output_space);
     }
     if (!shown) return write_flat_exr(path, image, header, compression);
     write_shown_picture(path, image);

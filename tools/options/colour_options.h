@@ -22,8 +22,8 @@ struct ColourOptions {
 void add_input_colour_options(CLI::App &app, ColourOptions &options);
 void add_output_colour_options(CLI::App &app, ColourOptions &options); // of the output
 
-// Makes the colours of a file linear, and returns its header, whose attribute chromaticities then says of which space
-// they are. Their space in the file is --colorspace, else that of its chromaticities; else files of these tools are
+// Makes the colours of a file linear, and returns its header, which then says of which space they are
+// (stated_space.h). Their space in the file is --colorspace, else what its header states; else files of these tools are
 // scene-linear, and the file rules of the configuration name the space of other files. Colours in a linear space with
 // known chromaticities stay as they are; all others become scene-linear.
 Imf::Header to_linear(const ToolContext &tool, const ColourOptions &options, const std::string &path,

@@ -63,9 +63,11 @@ std::vector<std::string> spaces_of(const ocio::Config &config) {
 }
 
 // Linear spaces by what they are (ITU-R BT.709 and BT.2020, SMPTE RP 431-2 with D65, S-2014-004 and ST 2065-1 of the
-// Academy), and the names that the configurations of OpenColorIO, the Academy and Blender give them.
+// Academy), their ids of the Color Interop Forum, and the names that the configurations of OpenColorIO, the Academy and
+// Blender give them.
 struct LinearSpace {
     Imf::Chromaticities chromaticities;
+    const char *interop_id;
     std::vector<const char *> names;
 };
 
@@ -74,15 +76,21 @@ const std::vector<LinearSpace> &linear_spaces() {
     static const V d65(0.3127f, 0.3290f), aces_white(0.32168f, 0.33767f);
     static const std::vector<LinearSpace> spaces{
         {{V(0.64f, 0.33f), V(0.30f, 0.60f), V(0.15f, 0.06f), d65},
+         "lin_rec709_scene",
          {"lin_rec709", "Linear Rec.709", "Linear Rec.709 (sRGB)", "lin_rec709_srgb", "lin_srgb",
           "Utility - Linear - sRGB", "Utility - Linear - Rec.709"}},
         {{V(0.713f, 0.293f), V(0.165f, 0.830f), V(0.128f, 0.044f), aces_white},
+         "lin_ap1_scene",
          {"ACEScg", "lin_ap1", "ACES - ACEScg"}},
         {{V(0.7347f, 0.2653f), V(0, 1), V(0.0001f, -0.0770f), aces_white},
+         "lin_ap0_scene",
          {"ACES2065-1", "lin_ap0", "ACES - ACES2065-1"}},
         {{V(0.708f, 0.292f), V(0.170f, 0.797f), V(0.131f, 0.046f), d65},
+         "lin_rec2020_scene",
          {"lin_rec2020", "Linear Rec.2020", "Utility - Linear - Rec.2020"}},
-        {{V(0.680f, 0.320f), V(0.265f, 0.690f), V(0.150f, 0.060f), d65}, {"lin_p3d65", "Linear P3-D65"}}};
+        {{V(0.680f, 0.320f), V(0.265f, 0.690f), V(0.150f, 0.060f), d65},
+         "lin_p3d65_scene",
+         {"lin_p3d65", "Linear P3-D65"}}};
     return spaces;
 }
 
@@ -98,6 +106,22 @@ std::optional<std::string> own_name(const ocio::Config &config, const std::strin
     const auto space = config.getColorSpace(name.c_str());
     if (!space) return {};
     return space->getName();
+}
+
+// The id that a space has in the configuration itself.
+std::string configured_id(const ocio::ColorSpace &space) {
+#if OCIO_VERSION_HEX >= 0x02050000
+    return space.getInteropID();
+#else
+    (void)space;
+    return {};
+#endif
+}
+
+std::optional<std::string> first_own_name(const ocio::Config &config, const LinearSpace &space) {
+    for (const char *name : space.names)
+        if (const auto own = own_name(config, name)) return own;
+    return {};
 }
 
 } // namespace
@@ -164,8 +188,7 @@ ColourTransform ColourConfig::between(const std::string &from, const std::string
 std::optional<std::string> ColourConfig::linear_space(const Imf::Chromaticities &chromaticities) const {
     for (const LinearSpace &space : linear_spaces())
         if (same_chromaticities(space.chromaticities, chromaticities))
-            for (const char *name : space.names)
-                if (const auto own = own_name(*impl_->config, name)) return own;
+            return first_own_name(*impl_->config, space);
     return {};
 }
 
@@ -175,6 +198,29 @@ std::optional<Imf::Chromaticities> ColourConfig::chromaticities_of(const std::st
     for (const LinearSpace &linear : linear_spaces())
         for (const char *name : linear.names)
             if (own_name(*impl_->config, name) == asked) return linear.chromaticities;
+    return {};
+}
+
+std::optional<std::string> ColourConfig::space_named(const std::string &name_or_id) const {
+    const ocio::Config &config = *impl_->config;
+    if (name_or_id.empty()) return {};
+    if (const auto own = own_name(config, name_or_id)) return own;
+    for (int i = 0; i < config.getNumColorSpaces(); ++i) {
+        const auto space = config.getColorSpace(config.getColorSpaceNameByIndex(i));
+        if (configured_id(*space) == name_or_id) return space->getName();
+    }
+    for (const LinearSpace &space : linear_spaces())
+        if (space.interop_id == name_or_id) return first_own_name(config, space);
+    return {};
+}
+
+std::string ColourConfig::interop_id(const std::string &space) const {
+    const auto asked = impl_->config->getColorSpace(space.c_str());
+    if (!asked) return {};
+    const std::string configured = configured_id(*asked);
+    if (!configured.empty()) return configured;
+    for (const LinearSpace &linear : linear_spaces())
+        if (first_own_name(*impl_->config, linear) == asked->getName()) return linear.interop_id;
     return {};
 }
 

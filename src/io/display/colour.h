@@ -47,6 +47,12 @@ public:
     std::optional<std::string> linear_space(const Imf::Chromaticities &chromaticities) const;
     std::optional<Imf::Chromaticities> chromaticities_of(const std::string &space) const;
 
+    // The configuration's own name of a space, by any name that it has there, or by its id of the Color Interop Forum
+    // (lin_ap1_scene); and the id of a space, empty where it is neither a linear one as above nor has one in the
+    // configuration (OpenColorIO 2.5).
+    std::optional<std::string> space_named(const std::string &name_or_id) const;
+    std::string interop_id(const std::string &space) const;
+
 private:
     struct Impl;
     std::shared_ptr<const Impl> impl_;

@@ -1,0 +1,29 @@
+// What the header of an EXR says of the colour space of its colours. In this order: chromaticities; colorInteropID, an id of the
+// Color Interop Forum (OpenEXR 3.4, Blender 5, OpenImageIO 3.1); oiio:ColorSpace, such an id, or a name of a configuration.
+#pragma once
+
+#include "../../io/display/colour.h"
+
+#include <ImfHeader.h>
+
+#include <optional>
+#include <string>
+
+namespace sparselens {
+
+// Whether it says anything: the ids "unknown" and "data" do not.
+bool states_space(const Imf::Header &header);
+
+struct StatedSpace {
+    std::string attribute;            // that says so
+    std::optional<std::string> space; // as the configuration names it, if it does
+};
+
+// What it says; nothing where it says nothing, or no more than an oiio:ColorSpace that the configuration does not know.
+std::optional<StatedSpace> stated_space(const ColourConfig &config, const Imf::Header &header);
+
+// The header for colours in that space: with its chromaticities, or without where it has none. The others, where there are
+// some, stay if they say the same; else the id becomes that of the space, or goes, as does oiio:ColorSpace.
+Imf::Header with_space(const ColourConfig &config, const Imf::Header &header, const std::string &space);
+
+} // namespace sparselens
