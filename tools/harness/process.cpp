@@ -17,6 +17,7 @@
 
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <new>
 
@@ -64,6 +65,17 @@ std::string explanation(const CLI::App &app, const CLI::ParseError &error) {
     return error.what();
 }
 
+// From 2.4 on CLI11 passes over a value of the environment that an option's check refuses.
+void refuse_passed_over(const CLI::App &app) {
+    for (const CLI::Option *option : app.get_options()) {
+        const std::string &name = option->get_envname();
+        const char *value = name.empty() ? nullptr : std::getenv(name.c_str());
+        if (value && *value && option->count() == 0)
+            throw CLI::ValidationError("$" + name,
+                                       fmt::format("'{}' is no value of {}", value, option->get_name()));
+    }
+}
+
 } // namespace
 
 void add_process_options(CLI::App &app, ProcessOptions &options) {
@@ -89,7 +101,8 @@ std::optional<int> parse_words(CLI::App &app, const std::vector<std::string> &wo
                                const std::string &prefix) {
     try {
         app.parse(std::vector<std::string>(words.rbegin(), words.rend())); // as CLI11 wants them
-    } catch (const CLI::Success &answer) {                                 // --help, --version
+        refuse_passed_over(app);
+    } catch (const CLI::Success &answer) { // --help, --version
         return app.exit(answer);
     } catch (const CLI::ParseError &error) {
         return fail(prefix, explanation(app, error) + " (see --help)", 2);
