@@ -121,8 +121,11 @@ std::vector<Found> HighlightFinder::find_in(const Imath::V2i &at) const {
         float level = std::abs(samples_.coc[i]) < near_focus ? covered_level : any_level;
         if (!is_seen(i)) level = std::max(level, made_up_level); // so that few of them are highlights, too
         if (!(brightness > stands_out * level)) return;
+        // What stands out of nothing alone is few samples, and exact discs are better than lens points.
         const double rarity =
-            std::clamp((common - as_bright_.around(i, brightness)) / (common - rare), 0.0, 1.0);
+            covered_level > any_level
+                ? 1
+                : std::clamp((common - as_bright_.around(i, brightness)) / (common - rare), 0.0, 1.0);
         if (!(rarity > 0)) return;
         const float wholeness = std::min((brightness / level - stands_out) / (wholly - stands_out), 1.0f);
         found.push_back({i, float(rarity) * wholeness * (1 - level / brightness)});

@@ -93,6 +93,18 @@ TEST(TakeHighlights, TakesNothingThatIsNoBrighterThanOther) {
     EXPECT_TRUE(Blocked(shining_plane(48, wide, 9, nothing), wide).take().sample.empty());
 }
 
+// A bar of a fifth of the picture, whose brightness is common beside it, but which stands out of nothing alone.
+TEST(TakeHighlights, TakesAllOfAThinElementOverNothing) {
+    const Ldi ldi = make_ldi(windows_of_size(64, 64), rgba_channels(), [](int x, int y) {
+        const float v = float(0.5 + 0.5 * random_unit(x, y, 1));
+        return x < 12 ? std::vector<Sample>{{depth_of(wide, 9), {v, v, v, 1}}} : std::vector<Sample>{};
+    });
+    Blocked blocked(ldi, wide);
+    const Highlights highlights = blocked.take();
+    ASSERT_EQ(highlights.sample.size(), 12u * 64);
+    for (const std::uint32_t i : highlights.sample) ASSERT_EQ(blocked.colours.at(red_channel, i), 0);
+}
+
 // As it becomes brighter, a sample spreads more and more, without a step where it becomes a highlight.
 TEST(TakeHighlights, BeginsWithNothing) {
     float last = 0;
