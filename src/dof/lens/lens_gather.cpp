@@ -38,6 +38,7 @@ public:
         const std::size_t step = step_for(largest / float(options_.across)), set = doubled * steps + step;
         std::call_once(made_[set], [&] {
             sets_[set] = lens_samples(aperture_, points_of(step) << doubled, pixel_aspect_);
+            if (options_.across > 1) look_from_the_middle(sets_[set]);
         });
         return sets_[set];
     }
@@ -51,6 +52,11 @@ private:
     static constexpr std::array<std::size_t, 6> normal_points{96, 128, 160, 192, 224, 256},
         final_points{288, 384, 480, 576, 896, 1024}; // up to 576 by steps of their own (lens_samples.h)
 
+    // Sub-pixels beside each other already look from different places: within each, half as far from its middle brings more than all
+    // of it, .5 dB on fence and grass at normal quality (at final .0).
+    static void look_from_the_middle(std::vector<LensSample> &points) {
+        for (LensSample &point : points) point.pixel_x /= 2, point.pixel_y /= 2;
+    }
     static std::size_t step_for(float coc) {
         return std::size_t(std::find_if(largest_coc.begin(), largest_coc.end() - 1,
                                         [&](float most) { return coc <= most; }) -

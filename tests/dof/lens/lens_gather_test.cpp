@@ -415,5 +415,34 @@ TEST(LensGather, SubpixelsTakeThreeQuartersOfAPixelsPoints) {
     EXPECT_EQ(points(Quality::final, 2, 40), 40);
 }
 
+// The variance of a spread sample: a disc's c^2 / 4, and 1/12 each of the sample's square and of the places in a pixel that lens
+// points look from; of sub-pixels, those are half as wide. Pixels add up to it over samples all over a pixel. Of data, as light near
+// the focus is sharpened. Half the width is .06 less; that places and lens points are not quite independent is .01.
+TEST(LensGather, SubpixelsLookFromNearTheirMiddle) {
+    std::vector<Channel> channels{{"N.X"}, {"A"}};
+    find_kinds(channels);
+    constexpr double coc = 2;
+    constexpr int places = 16, middle = 8;
+    for (const int across : {1, 2, 3}) {
+        double sum = 0, square = 0;
+        for (int place = 0; place < places; ++place) {
+            const double dx = (place + 0.5) / places - 0.5;
+            const Ldi ldi = make_ldi(windows_of_size(17, 17), channels, [&](int x, int y) {
+                const bool lit = x == middle && y == middle;
+                return std::vector<Sample>{{depth_of(lens, coc), {lit ? 1.0f : 0.0f, 1}, float(dx), 0}};
+            });
+            const Image image = gather(ldi, lens, {.lens_samples = 1024, .across = across});
+            for (int y = 0; y < 17; ++y)
+                for (int x = 0; x < 17; ++x) {
+                    const double light = double(image.at(0, x, y)), far = x - middle - dx;
+                    sum += light;
+                    square += light * far * far;
+                }
+        }
+        const double wide = across == 1 ? 1 : 0.5;
+        EXPECT_NEAR(square / sum, coc * coc / 4 + 1.0 / 12 + wide * wide / 12, 0.02) << across;
+    }
+}
+
 } // namespace
 } // namespace sparselens
