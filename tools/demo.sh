@@ -75,6 +75,10 @@ compared() {
 for_screen=(--ch R,G,B --colorconvert linear sRGB --clamp:min=0:max=1)
 to_png() { oiiotool "$1.exr" "${for_screen[@]}" -d uint8 -o "$1.png"; }
 
+# Where Debian has it, as OpenImageIO finds it by its name up to 2.4 only.
+font=/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf
+[ -e "$font" ] || font=DejaVuSans
+
 # strip FILE WIDTH: before, after and reference side by side, each WIDTH wide; below them the same detail of each.
 strip() {
     local width=${size%x*} height=${size#*x} pictures=() details=() i
@@ -84,7 +88,7 @@ strip() {
     local titles=('before: the centre view' 'after: from 5 views' "reference: $reference_spp rays a pixel")
     for i in 0 1 2; do
         pictures+=("${files[i]}" "${for_screen[@]}" --resize "$panel" --fill:color=0.1,0.1,0.1 "$2x20+0+0"
-            "--text:x=6:y=14:size=12:font=DejaVuSans" "${titles[i]}")
+            "--text:x=6:y=14:size=12:font=$font" "${titles[i]}")
         details+=("${files[i]}" "${for_screen[@]}" --cut "$detail" --resize:filter=box "$panel")
     done
     oiiotool "${pictures[@]}" "${details[@]}" --mosaic:pad=4 3x2 -d uint8 -o "$1"

@@ -17,7 +17,7 @@ lint='clang-14 clang-format-14 clang-tidy-14'
 report='chromium gnuplot-nox'
 test='dpkg-dev fakeroot file fish gnuplot-nox groff-base libbenchmark-dev libgtest-dev lintian munge mypy
       openexr openimageio-tools pybind11-dev python3-dev python3-jsonschema python3-numpy python3-openimageio
-      python3-pytest python3-yaml slurm-client slurmctld slurmd time zsh'
+      python3-pytest python3-venv python3-yaml slurm-client slurmctld slurmd time zsh'
 # What releases differ in. The sources are formatted as clang-format 14 does it, which Debian 12 alone has; Blender 5's
 # extensions need what its package does not bring.
 case $release in

@@ -15,10 +15,13 @@ traced=$(realpath "${6:-$scratch}")
 mkdir -p "$traced"
 cd "$scratch"
 
+font=/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf # OpenImageIO finds it by its name up to 2.4 only
+[ -e "$font" ] || font=DejaVuSans
+
 # Half as large under its name, and lamps of a thousand times the white of the wall beside it: a power shows both.
 shown() {
     oiiotool "$1" --ch R,G,B --resize:filter=box 320x0 --clamp:min=0 --powc 0.3 --mulc 0.4 --clamp:max=1 \
-        --text:x=5:y=13:size=12:color=0.8,0.8,0.8:font="${FONT:-DejaVuSans}" "$3" -d uint8 -o "$2"
+        --text:x=5:y=13:size=12:color=0.8,0.8,0.8:font="${FONT:-$font}" "$3" -d uint8 -o "$2"
 }
 tiles=()
 look() {

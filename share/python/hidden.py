@@ -21,6 +21,7 @@ import sparselens
 BACKDROP = 1e9     # depth of what stands for nothing, scene units
 DETAIL = (96, 54)  # pixels of the enlarged detail
 ENLARGED = 4
+FONT = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf"  # Debian's; by its name OpenImageIO finds it up to 2.4 only
 
 
 def arguments():
@@ -211,7 +212,7 @@ def write_sheet(path, folder, panels):
         large = pixels[..., :3].repeat(ENLARGED, 0).repeat(ENLARGED, 1)
         sparselens.write(name, numpy.ascontiguousarray(large, dtype=numpy.float32), type="float")
         words += [name, "--colorconvert", "linear", "sRGB", "--clamp:min=0:max=1", "--fill:color=0.1,0.1,0.1",
-                  f"{large.shape[1]}x18+0+0", "--text:x=4:y=13:size=12:font=DejaVuSans", title]
+                  f"{large.shape[1]}x18+0+0", f"--text:x=4:y=13:size=12:font={FONT}", title]
     run("oiiotool", *words, "--mosaic:pad=4", f"2x{(len(panels) + 1) // 2}", "-d", "uint8", "-o", path)
 
 

@@ -1,6 +1,6 @@
 # The script of share/opencue, with a stand-in for OpenCue's Python packages that runs at once what Cuebot would start. The
 # stand-in was written with the script, from OpenCue's documentation, and knows only what the script calls: it shows that the
-# script does what it means to, not that OpenCue takes it. That takes a Cuebot, which no Debian package has.
+# script does what it means to. That OpenCue's own packages take the job is shown by peers.sh; that a Cuebot does, by nothing here.
 . "$(dirname "$0")/../tools/check.sh"
 command -v python3 >/dev/null || skip "needs python3"
 
