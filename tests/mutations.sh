@@ -22,6 +22,7 @@ while IFS='|' read -r name file what instead _; do
     [ -f "$file" ] || { complain "$name: there is no $file"; continue; }
     changed=$(sed "s|$what|$instead|" "$file" | diff "$file" - | grep -c '^<' || true)
     [ "$changed" -eq 1 ] || complain "$name: changes $changed lines of $file, not one"
+    [[ ! "${instead//\\&/}" == *"&"* ]] || complain "$name: puts what it finds in for a &; write \\&"
 done <<<"$faults"
 [ $wrong -eq 0 ] || exit 1
 [ "${1-}" != --check ] || exit 0
