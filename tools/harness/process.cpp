@@ -76,6 +76,19 @@ void refuse_passed_over(const CLI::App &app) {
     }
 }
 
+// From 2.6 on CLI11 asks for what is required before it calls what options call, of which --man and --device list print and
+// end.
+void parse_all(CLI::App &app, std::vector<std::string> words) {
+    try {
+        app.parse(std::move(words));
+    } catch (const CLI::RequiredError &) {
+        for (CLI::Option *option : app.get_options())
+            if (option->count() > 0 && !option->get_callback_run()) option->run_callback();
+        throw;
+    }
+    refuse_passed_over(app);
+}
+
 } // namespace
 
 void add_process_options(CLI::App &app, ProcessOptions &options) {
@@ -100,9 +113,8 @@ void add_memory_option(CLI::App &app, ProcessOptions &options) {
 std::optional<int> parse_words(CLI::App &app, const std::vector<std::string> &words,
                                const std::string &prefix) {
     try {
-        app.parse(std::vector<std::string>(words.rbegin(), words.rend())); // as CLI11 wants them
-        refuse_passed_over(app);
-    } catch (const CLI::Success &answer) { // --help, --version
+        parse_all(app, std::vector<std::string>(words.rbegin(), words.rend())); // as CLI11 wants them
+    } catch (const CLI::Success &answer) {                                      // --help, --version
         return app.exit(answer);
     } catch (const CLI::ParseError &error) {
         return fail(prefix, explanation(app, error) + " (see --help)", 2);
