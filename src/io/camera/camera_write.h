@@ -11,10 +11,10 @@ namespace sparselens {
 // Writes the values that are known, and sparselens:version. The rest of the header is left alone.
 void write_camera(Imf::Header &header, const Camera &camera);
 
-// Writes the data window of the pictures that are made from an LDI (see read_picture_window).
 // The same of a picture that a lens takes: its pixels are no sub-pixels.
 void write_picture_camera(Imf::Header &header, Camera camera);
 
+// Writes the data window of the pictures that are made from an LDI (see read_picture_window).
 void write_picture_window(Imf::Header &header, const Imath::Box2i &window);
 
 } // namespace sparselens
