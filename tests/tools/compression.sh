@@ -3,15 +3,14 @@
 . "$(dirname "$0")/check.sh"
 for tool in oiiotool exrheader; do command -v $tool >/dev/null || skip "needs $tool (openimageio-tools, openexr)"; done
 lens=(--focal-length 50 --sensor-width 36 --lens-radius 0.1 --focus-distance 2)
-# As exrheader calls them.
+# As exrheader calls them up to OpenEXR 3.3; later ones write the name first.
 declare -A called=([none]=none [rle]='run-length encoding' [zips]='zip, individual scanlines' [zip]='zip, multi-scanline blocks'
-    [piz]=piz [pxr24]=pxr24 [b44]=b44 [b44a]=b44a [dwaa]='dwa, small scanline blocks' [dwab]='dwa, medium scanline blocks'
-    [htj2k256]='htj2k256' [htj2k32]='htj2k32')
+    [piz]=piz [pxr24]=pxr24 [b44]=b44 [b44a]=b44a [dwaa]='dwa, small scanline blocks' [dwab]='dwa, medium scanline blocks')
 # Those that this OpenEXR has.
 mapfile -t methods < <("$bin/dof-gather" --help | sed -nE 's/.*--compression ([a-z0-9|]+).*/\1/p' | tr '|' '\n')
 [ ${#methods[@]} -ge 10 ] || fail "--help names the methods ${methods[*]}"
 compression_is() { # FILE METHOD
-    exrheader "$1" | grep -x "compression (type compression): ${called[$2]}" >said || fail "$1 is not $2: $(exrheader "$1" | grep ^compression)"
+    exrheader "$1" | grep -x "compression (type compression): \(${called[$2]-}\|$2: .*\)" >said || fail "$1 is not $2: $(exrheader "$1" | grep ^compression)"
 }
 
 # A pattern that halves and DCT coefficients do not hold exactly.
