@@ -200,10 +200,10 @@ RowReach reach_of(const PackedRows &rows, const ThinLens &lens, const LensLooks 
     const double goes_on = 1 + std::max(std::numbers::sqrt2 * nearer, found.coc);
     constexpr double most = 1 << 20; // rows: no picture has more
     constexpr int beside = 16; // rows: a block of samples, and neighbours whose links or edges they share
-    // Highlights look at two cells beside, sharpening at the noise blocks beside those, and at the row beside them; and what
+    // Highlights look at the cells beside, sharpening at the noise blocks beside those, and at the row beside them; and what
     // leaves the frame at the left or the right (beyond_frame.h), at as many rows as a cell has.
     return {int(std::min(std::ceil(spread + goes_on), most)) + beside,
-            4 * highlight_rows + BlockedSamples::size};
+            3 * highlight_rows + BlockedSamples::size};
 }
 
 Image gather_rows(const PackedRows &rows, const ThinLens &lens, const Imath::Box2i &gathered,

@@ -9,8 +9,8 @@ namespace {
 
 constexpr int cell = 4; // blocks wide and high
 constexpr double cell_px = cell * BlockedSamples::size;
-constexpr double least_reach = 32, most_reach = 64; // pixels
-constexpr double half = 1;                          // octave
+constexpr double reach = 32; // pixels: as far as bands of rows let highlights look (gather_rows.cpp)
+constexpr double half = 1;   // octave
 
 } // namespace
 
@@ -56,7 +56,6 @@ double BrightShare::count(int octave, const std::array<double, 4> &box) const {
 }
 
 double BrightShare::around(std::uint32_t sample, float brightness) const {
-    const double reach = std::clamp(std::abs(double(samples_.coc[sample])), least_reach, most_reach);
     const auto in_cells = [&](double v, int corners) {
         return std::clamp(v / cell_px, 0.0, double(corners - 1));
     };

@@ -1,6 +1,6 @@
 // How much of what a lens point may see beside a sample is as bright as it.
 //
-// A lamp is rare in its own disc: few lens points see it, so that their mean is noise. What covers a fifth of its disc or more
+// A lamp is rare: few lens points see it, so that their mean is noise. What covers a fifth of what they see or more
 // is a bright surface, which they see well (n of them with a relative deviation of sqrt((1 / share - 1) / n) at most), however
 // dark it is beside it.
 #pragma once
@@ -19,8 +19,8 @@ class BrightShare {
 public:
     BrightShare(const BlockedSamples &samples, const std::function<float(std::uint32_t sample)> &brightness);
 
-    // The share, [0, 1], of the samples around one that are half as bright or brighter: within its CoC, but 32 to 64
-    // pixels, to either side. It changes continuously with brightness, place and CoC: those from a quarter to all of it count in part.
+    // The share, [0, 1], of the samples within 32 pixels of one, across and down, that are half as bright or brighter. It changes
+    // continuously with brightness and place: those from a quarter to all of it count in part.
     double around(std::uint32_t sample, float brightness) const;
 
 private:

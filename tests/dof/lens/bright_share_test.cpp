@@ -31,35 +31,34 @@ std::uint32_t sample_at(const BlockedSamples &samples, int x, int y) {
     return BlockedSamples::background;
 }
 
-// Boxes that end at cells, which are 32 pixels: about x = 127.5 they would be from 64 to 192, but for half a pixel of 128.
+// Boxes that end at cells, which are 32 pixels: about x = 128 they would be from 96 to 160, but for half a pixel.
 TEST(BrightShare, IsTheCountOfWhatIsHalfAsBright) {
-    for (const int columns : {0, 64, 128, 192, 256}) {
+    for (const int columns : {0, 96, 128, 160, 256}) {
         const Ldi ldi = half_bright(-64, columns, 3);
         const BlockedLdi blocked(ldi, lens);
         const auto brightness = [&](std::uint32_t i) { return blocked.colours.at(0, i); };
         const BrightShare share(blocked.samples, brightness);
-        const double expected = std::clamp((columns - 64) / 128.0, 0.0, 1.0);
+        const double expected = std::clamp((columns - 96) / 64.0, 0.0, 1.0);
         const std::uint32_t i = sample_at(blocked.samples, 128, 128);
-        for (const float as : {0.1f, 2.0f, 3.9f})
-            EXPECT_NEAR(share.around(i, as), expected, 0.5 / 128 + 1e-6);
+        for (const float as : {0.1f, 2.0f, 3.9f}) EXPECT_NEAR(share.around(i, as), expected, 0.5 / 64 + 1e-6);
         EXPECT_EQ(share.around(i, 16), 0);
         EXPECT_NEAR(share.around(i, 0.001f), 1, 1e-9);
     }
 }
 
-TEST(BrightShare, ChangesContinuouslyWithTheCoC) {
-    double last = -1;
-    for (double c = 20; c < 110; c += 0.5) {
-        const Ldi ldi = half_bright(c, 140, 3);
-        const BlockedLdi blocked(ldi, lens);
-        const BrightShare share(blocked.samples, [&](std::uint32_t i) { return blocked.colours.at(0, i); });
-        const double now = share.around(sample_at(blocked.samples, 30, 128), 3);
-        if (last >= 0) {
-            EXPECT_NEAR(now, last, 0.02) << c;
-        }
-        last = now;
+TEST(BrightShare, ChangesContinuouslyWithThePlaceAndTheBrightness) {
+    const Ldi ldi = half_bright(20, 140, 3);
+    const BlockedLdi blocked(ldi, lens);
+    const BrightShare share(blocked.samples, [&](std::uint32_t i) { return blocked.colours.at(0, i); });
+    for (int x = 60; x < 200; ++x) {
+        const double here = share.around(sample_at(blocked.samples, x, 128), 3),
+                     beside = share.around(sample_at(blocked.samples, x + 1, 128), 3);
+        EXPECT_LE(beside, here + 1e-9) << x;
+        EXPECT_GE(beside, here - 1.01 / 64) << x;
     }
-    EXPECT_GT(last, 0.9); // 140 of 140 columns, of which the last cell has 12 of 32
+    const std::uint32_t i = sample_at(blocked.samples, 120, 128);
+    for (double brightness = 1; brightness < 20; brightness *= 1.01)
+        EXPECT_NEAR(share.around(i, float(brightness)), share.around(i, float(1.01 * brightness)), 0.02);
 }
 
 // A strip of the bright surface stands four times out of what is dark beside it, and is no lamp: lens points see it well. A lamp

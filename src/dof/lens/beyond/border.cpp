@@ -14,7 +14,7 @@ namespace {
 
 constexpr int along = 32;       // pixels on either side: what is around
 constexpr float stands_out = 4; // times what four of five samples there stay below
-constexpr int inwards = 128;    // pixels: no farther than bands of rows reach (gather_rows.cpp)
+constexpr int inwards = 96;     // pixels: no farther than bands of rows reach (gather_rows.cpp)
 constexpr double sky = std::numeric_limits<double>::infinity();
 
 // How far a disc reaches beyond a line that cuts it that wide, if it is as wide as `inner` so far within.
