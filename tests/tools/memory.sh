@@ -26,14 +26,20 @@ measure() {
 }
 
 # check SCENE WIDTH HEIGHT CoC BYTES [BEYOND]: two times as wide and high takes at most so many bytes a sample more. So many pixels
-# of a row go on beyond the frame, at either size, and count as others do.
+# of a row go on beyond the frame, at either size, and count as others do. Which pieces are in memory at once depends on how
+# two threads meet, by a few percent: the least of three runs tells what is needed.
 check() {
-    measure $1 $2 $3 $4
-    local small=$peak fewer=$samples
-    measure $1 $((2 * $2)) $((2 * $3)) $4
-    local grown=$((peak - small)) allowed=$(($5 * (samples - fewer) + 100 * (3 * $2 + ${6-0}) * $3))
-    printf '%-8s CoC %s %10d bytes more (at most %d)\n' $1 $4 $grown $allowed
-    [ $grown -le $allowed ] || fail "$1: $small bytes at $2x$3, $peak at $((2 * $2))x$((2 * $3))"
+    local small=999999999999 large=999999999999 fewer grown allowed run
+    for run in 1 2 3; do
+        measure $1 $2 $3 $4
+        small=$((peak < small ? peak : small)) fewer=$samples
+        measure $1 $((2 * $2)) $((2 * $3)) $4
+        large=$((peak < large ? peak : large))
+        grown=$((large - small)) allowed=$(($5 * (samples - fewer) + 100 * (3 * $2 + ${6-0}) * $3))
+        printf '%-8s CoC %s %10d bytes more (at most %d)\n' $1 $4 $grown $allowed
+        [ $grown -gt $allowed ] || return 0
+    done
+    fail "$1: $small bytes at $2x$3, $large at $((2 * $2))x$((2 * $3))"
 }
 
 check dense 192 108 1 24

@@ -1,6 +1,7 @@
 #include "dof/lens/block_footprints.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace sparselens {
 
@@ -12,37 +13,22 @@ const BlockFootprints::Block &BlockFootprints::of(std::uint32_t block) const {
     std::call_once(made_[block], [&] {
         Block &made = computed_[block];
         made.footprints = compute(block);
-        made.near = bounds_of(samples_.blocks[block], made.footprints);
+        made.near = steps_of(samples_.blocks[block], made.footprints);
     });
     return computed_[block];
 }
 
-const NearBounds *BlockFootprints::Block::nearer_than(float depth) const {
-    const auto end = std::ranges::partition_point(near, [&](const NearBounds &n) { return n.depth > depth; });
-    return end == near.begin() ? nullptr : &end[-1];
-}
-
-std::vector<NearBounds> BlockFootprints::bounds_of(const SampleBlock &block,
-                                                   std::span<const Footprint> footprints) const {
-    std::vector<NearBounds> near;
+NearSteps BlockFootprints::steps_of(const SampleBlock &block, std::span<const Footprint> footprints) const {
+    constexpr std::size_t in_step = 1; // with others at the depth of the lamp, bounds would tell nothing
+    std::vector<NearBounds> samples;
+    samples.reserve(footprints.size() + 1);
     for (std::size_t i = 0; i < footprints.size(); ++i) {
         const auto &[place, coc] = footprints[i];
         const auto [least, most] = std::ranges::minmax(coc);
-        near.push_back(
+        samples.push_back(
             {samples_.depth[block.begin + i], place[0], place[1], place[2], place[3], least, most});
     }
-    std::ranges::sort(near, std::ranges::greater(), &NearBounds::depth);
-    for (std::size_t i = 1; i < near.size(); ++i) {
-        const NearBounds &nearer = near[i - 1];
-        NearBounds &n = near[i];
-        n.x_min = std::min(n.x_min, nearer.x_min);
-        n.x_max = std::max(n.x_max, nearer.x_max);
-        n.y_min = std::min(n.y_min, nearer.y_min);
-        n.y_max = std::max(n.y_max, nearer.y_max);
-        n.coc_min = std::min(n.coc_min, nearer.coc_min);
-        n.coc_max = std::max(n.coc_max, nearer.coc_max);
-    }
-    return near;
+    return {std::move(samples), in_step};
 }
 
 std::vector<Footprint> BlockFootprints::compute(std::uint32_t block) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "dof/footprints/footprint.h"
+#include "dof/lens/near_bounds.h"
 #include "dof/lens/sample_blocks.h"
 #include "dof/lens/shadow_areas.h"
 
@@ -12,12 +13,6 @@
 
 namespace sparselens {
 
-// The footprints of a sample and of all nearer ones of its block lie within these.
-struct NearBounds {
-    float depth; // perceptive, pixels: of the sample
-    float x_min, x_max, y_min, y_max, coc_min, coc_max;
-};
-
 // The footprints of the samples of a picture, by blocks.
 class BlockFootprints {
 public:
@@ -25,9 +20,7 @@ public:
 
     struct Block {
         std::vector<Footprint> footprints; // of its samples
-        std::vector<NearBounds> near;      // the nearest first
-        // Of the samples that are nearer than a perceptive depth; null: there are none.
-        const NearBounds *nearer_than(float depth) const;
+        NearSteps near;                    // of these footprints
     };
     // Computed when first asked for, by any thread.
     const Block &of(std::uint32_t block) const;
@@ -36,7 +29,7 @@ public:
 
 private:
     std::vector<Footprint> compute(std::uint32_t block) const;
-    std::vector<NearBounds> bounds_of(const SampleBlock &block, std::span<const Footprint> footprints) const;
+    NearSteps steps_of(const SampleBlock &block, std::span<const Footprint> footprints) const;
 
     const Ldi &ldi_;
     const BlockedSamples &samples_;

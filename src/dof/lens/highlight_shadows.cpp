@@ -48,11 +48,6 @@ std::uint32_t name_of(std::uint32_t block, int columns) {
     return std::uint32_t(row * blocks + column) << 10;
 }
 
-// Whether the shadows of what lies within these bounds are nearly the same for all of a group.
-bool is_shared(const NearBounds &bounds, double lamp_coc) {
-    return lamp_coc > 0 ? double(bounds.coc_max) <= lamp_coc / 2 : double(bounds.coc_min) >= lamp_coc / 2;
-}
-
 } // namespace
 
 std::vector<std::vector<std::uint32_t>> shadow_groups(const BlockedSamples &samples,
@@ -68,8 +63,17 @@ std::vector<std::vector<std::uint32_t>> shadow_groups(const BlockedSamples &samp
     return groups;
 }
 
-const NearBounds *HighlightShadows::nearer_than(const Asked &lamp, std::uint32_t block) const {
-    return footprints_.of(block).nearer_than(lamp.nearer_than(samples_.blocks[block]));
+// Whether the shadows of what a block has before a group are nearly the same for all of it.
+bool HighlightShadows::is_shared(const Asked &group, std::uint32_t b) const {
+    const SampleBlock &block = samples_.blocks[b];
+    const std::vector<Footprint> &footprints = footprints_.of(b).footprints;
+    const float nearer_than = group.nearer_than(block), most = float(group.lamp.coc / 2);
+    for (std::uint32_t i = block.begin; i < block.end; ++i) {
+        if (!(samples_.depth[i] > nearer_than)) continue;
+        const auto [least_coc, most_coc] = std::ranges::minmax(footprints[i - block.begin].coc);
+        if (most > 0 ? most_coc > most : least_coc < most) return false;
+    }
+    return true;
 }
 
 void HighlightShadows::begin(const Imath::V2i &origin, std::span<const std::uint32_t> blocks,
@@ -91,17 +95,17 @@ Lamp HighlightShadows::lamp(std::uint32_t sample) const {
             double(samples_.coc[sample]), pixel_aspect_};
 }
 
-// visit(block, bounds) for those that may cast a shadow, until it is false.
+// visit(block) for those that may cast a shadow, until it is false.
 template <typename Visit>
 void HighlightShadows::for_each_block(const Asked &lamp, const Visit &visit) const {
     for (const auto &[area, blocks] : by_area_) {
-        const ShadowBounds *bounds = footprints_.areas().nearer_than(area, lamp.depth);
+        const NearBounds *bounds = footprints_.areas().nearer_than(area, lamp.depth);
         if (!bounds || !can_shadow(lamp, *bounds)) continue;
         for (const std::uint32_t b : blocks) {
             const SampleBlock &block = samples_.blocks[b];
             if (block.depth_max <= lamp.nearer_than(block) || !can_shadow(lamp, block)) continue;
-            const NearBounds *near = nearer_than(lamp, b);
-            if (near && can_shadow(lamp, *near) && !visit(b, *near)) return;
+            const NearBounds *near = footprints_.of(b).near.nearer_than(lamp.nearer_than(block));
+            if (near && can_shadow(lamp, *near) && !visit(b)) return;
         }
     }
 }
@@ -126,8 +130,8 @@ void HighlightShadows::share(std::span<const std::uint32_t> group, const Imath::
         group_->place.extendBy(Imath::V2f(samples_.x[i], samples_.y[i]));
         group_->spread = std::max(group_->spread, (this->lamp(i).centre - lamp.centre).length());
     }
-    for_each_block(*group_, [&](std::uint32_t b, const NearBounds &near) {
-        if (!is_shared(near, lamp.coc)) {
+    for_each_block(*group_, [&](std::uint32_t b) {
+        if (!is_shared(*group_, b)) {
             apart_.push_back(b);
             return true;
         }
@@ -149,7 +153,7 @@ bool HighlightShadows::cast(std::uint32_t sample, const ShadowScreen &screen) {
         cast_block(asked, b, own_);
         return !own_.dark(); // no other shadow changes that
     };
-    if (!group_) for_each_block(asked, [&](std::uint32_t b, const NearBounds &) { return cast_own(b); });
+    if (!group_) for_each_block(asked, cast_own);
     for (const std::uint32_t b : apart_)
         if (!cast_own(b)) break;
     return shares_ || has_own_;

@@ -86,7 +86,7 @@ private:
             return is_beside({{block.x_min, block.y_min}, {block.x_max, block.y_max}}) ? depth : hardly;
         }
     };
-    const NearBounds *nearer_than(const Asked &lamp, std::uint32_t block) const;
+    bool is_shared(const Asked &group, std::uint32_t block) const;
     void cast_block(const Asked &lamp, std::uint32_t block, LampShadow &shadow) const;
     void cast_one(const Asked &lamp, std::uint32_t sample, const Footprint &footprint, std::uint32_t name,
                   LampShadow &shadow) const;

@@ -2,22 +2,15 @@
 // of their blocks need be asked.
 #pragma once
 
+#include "dof/lens/near_bounds.h"
 #include "dof/lens/sample_blocks.h"
 
 #include <cstddef>
 #include <cstdint>
 #include <mutex>
-#include <span>
 #include <vector>
 
 namespace sparselens {
-
-// Of the samples that are nearer than some depth, and perhaps of some that are not. Their centres, and the CoCs of their
-// footprints (dof/footprints/footprint.h), whose edges lie less than a pixel from the centres.
-struct ShadowBounds {
-    float depth; // of the nearest sample that is not within, perceptive, pixels
-    float x_min, x_max, y_min, y_max, coc_min, coc_max;
-};
 
 class ShadowAreas {
 public:
@@ -31,16 +24,17 @@ public:
         return std::size_t(row / size) * std::size_t(columns_) + std::size_t(column / size);
     }
 
-    // Of the samples of an area that are nearer than a perceptive depth; null: there are none. For any thread.
-    const ShadowBounds *nearer_than(std::size_t area, float depth) const;
+    // Of the samples of an area that are nearer than a perceptive depth; null: there are none. Their centres, and the CoCs of their
+    // footprints (dof/footprints/footprint.h), whose edges lie less than a pixel from the centres. For any thread.
+    const NearBounds *nearer_than(std::size_t area, float depth) const;
 
 private:
-    std::vector<ShadowBounds> steps_of(std::size_t area) const;
+    NearSteps steps_of(std::size_t area) const;
 
     const BlockedSamples &samples_;
     int columns_;
     mutable std::vector<std::once_flag> made_;
-    mutable std::vector<std::vector<ShadowBounds>> steps_; // [area]: more and more samples, the nearest first
+    mutable std::vector<NearSteps> steps_; // [area]
 };
 
 } // namespace sparselens

@@ -1,0 +1,29 @@
+// Bounds of what is nearer than some depth, of many samples: what lies beyond them casts no shadow on a lamp.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace sparselens {
+
+// Of samples that are nearer than some depth, and perhaps of some that are not.
+struct NearBounds {
+    float depth; // of the nearest sample that is not within, perceptive, pixels
+    float x_min, x_max, y_min, y_max, coc_min, coc_max;
+};
+
+class NearSteps {
+public:
+    NearSteps() = default;
+    // Of samples, with the depth and the extent of each. One step is kept for so many of them.
+    NearSteps(std::vector<NearBounds> samples, std::size_t in_step);
+
+    // Of all that are nearer than a depth; null: there are none.
+    const NearBounds *nearer_than(float depth) const;
+
+private:
+    std::vector<NearBounds>
+        steps_; // more and more samples, the nearest first: the first step has none, the last one all
+};
+
+} // namespace sparselens
