@@ -13,7 +13,6 @@ namespace sparselens {
 namespace {
 
 constexpr float one_lamp = 1.1f;          // times as near: parts of one, at any aperture
-constexpr float beside = 2;               // pixels: right before a lamp
 constexpr float group_of_coc = 1.0f / 32; // the size of a group, of the CoC
 
 // The largest power of two, so that groups do not change with every change of the focus; a block at most.
@@ -125,7 +124,6 @@ void HighlightShadows::share(std::span<const std::uint32_t> group, const Imath::
                    samples_.depth[farthest],
                    samples_.depth[nearest] + float(one_surface_px),
                    {}};
-    for (const std::uint32_t i : group) group_->place.extendBy(Imath::V2f(samples_.x[i], samples_.y[i]));
     for (const std::uint32_t i : group) {
         group_->place.extendBy(Imath::V2f(samples_.x[i], samples_.y[i]));
         group_->spread = std::max(group_->spread, (this->lamp(i).centre - lamp.centre).length());
