@@ -175,7 +175,8 @@ void HighlightShadows::cast_block(const Asked &lamp, std::uint32_t b, LampShadow
 // Whether a shadow of one of its samples may reach the screen.
 template <typename Bounds>
 bool HighlightShadows::can_shadow(const Asked &asked, const Bounds &block) const {
-    const auto &[lamp, screen] = std::tie(asked.lamp, asked.screen);
+    const Lamp &lamp = asked.lamp;
+    const ShadowScreen &screen = asked.screen;
     if (double(block.coc_min) <= lamp.coc && double(block.coc_max) >= lamp.coc) return true;
     const auto reaches = [&](int axis, double low, double high) {
         const double a = shadow_magnification(lamp.coc, double(block.coc_min), screen.scale[axis]),
@@ -203,7 +204,8 @@ bool HighlightShadows::are_side_by_side(std::uint32_t lamp_sample, std::uint32_t
 
 void HighlightShadows::cast_one(const Asked &asked, std::uint32_t sample, const Footprint &footprint,
                                 std::uint32_t name, LampShadow &into) const {
-    const auto &[lamp, screen] = std::tie(asked.lamp, asked.screen);
+    const Lamp &lamp = asked.lamp;
+    const ShadowScreen &screen = asked.screen;
     const auto coc = float(lamp.coc);
     // Along each axis from where to where. Past an edge that is more blurred than the lamp it is the other way round.
     std::array<float, 2> low{-INFINITY, -INFINITY}, high{INFINITY, INFINITY};

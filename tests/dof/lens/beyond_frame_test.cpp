@@ -391,8 +391,8 @@ TEST(BeyondFrame, ElementsThatTheFrameCutsOffStayOpaque) {
 
 TEST(BeyondFrame, TheSkyBesideABarThatLeavesIsNoDarkerThere) {
     for (const auto &[name, inside] : shapes) {
-        const Convolution shape([&](double x, double y) { // its pixels are whole
-            return inside(std::floor(x) + 0.5, std::floor(y) + 0.5);
+        const Convolution shape([&, &covers = inside](double x, double y) { // its pixels are whole
+            return covers(std::floor(x) + 0.5, std::floor(y) + 0.5);
         });
         for (const bool five : {false, true})
             for (const double c : {-22.0, -8.0}) {

@@ -124,7 +124,7 @@ TEST(ShadowGroups, HoldEachSampleOnceAndAreSmall) {
 TEST(ShadowAreas, BoundAllThatIsNearer) {
     const Ldi ldi = make_ldi(windows_of_size(100, 70), rgba_channels(), [&](int x, int y) {
         std::vector<Sample> samples;
-        for (int n = 0; n < 3; ++n)
+        for (std::uint32_t n = 0; n < 3; ++n)
             if (random_unit(x, y, n) < 0.6)
                 samples.push_back({float(2 + 20 * n + 9 * random_unit(x / 7, y / 5, n + 3)), {1, 1, 1, 1}});
         return samples;
