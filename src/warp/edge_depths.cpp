@@ -200,11 +200,6 @@ std::vector<std::uint8_t> parted_around(const Pixels &pixels, int y) {
     return parted;
 }
 
-// Whether a strand over nothing may lie there, all of whose depths within two pixels the renderer missed.
-bool is_lost(const Pixels &pixels, std::size_t own) {
-    return pixels.coverage(own) > 0 && pixels.coverage(own) < 1 && !std::isfinite(pixels.z[own]);
-}
-
 // A thin strand shows its depth in few of its pixels. Those beside nothing that are left take theirs from one another, two
 // pixels farther at a time. Returns how many did.
 std::size_t settle_strands(const Pixels &pixels, std::vector<std::size_t> lost, std::span<float> z) {
@@ -230,6 +225,7 @@ std::size_t settle_strands(const Pixels &pixels, std::vector<std::size_t> lost, 
 // What was found in a row of pixels.
 struct Row {
     std::vector<std::pair<std::size_t, float>> partly_covered, opaque; // pixels, and their new depths
+    std::vector<std::size_t> lost; // partly covered, and all depths within two pixels were missed
     std::size_t parted = 0, mixed = 0;
 };
 
@@ -243,6 +239,8 @@ Row row_at(const Pixels &pixels, int y) {
         if (coverage < 1) {
             if (const auto depth = depth_of_partly_covered(pixels, x, y))
                 row.partly_covered.emplace_back(own, *depth);
+            else if (!std::isfinite(pixels.z[own]))
+                row.lost.push_back(own);
             continue;
         }
         if (!parted[std::size_t(x)]) continue;
@@ -268,9 +266,8 @@ SettledEdges settle(const Pixels &pixels, std::span<float> z) {
         parted += row.parted;
         mixed += row.mixed;
         replace(row.partly_covered);
+        lost.insert(lost.end(), row.lost.begin(), row.lost.end());
     }
-    for (std::size_t i = 0; i < z.size(); ++i)
-        if (is_lost(pixels, i)) lost.push_back(i);
     count += settle_strands(pixels, std::move(lost), z);
     const bool filtered = double(mixed) > least_mixed * double(parted);
     for (const Row &row : rows)

@@ -1,5 +1,7 @@
 #include "dof/lens/bright_share.h"
 
+#include "base/parallel.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -7,10 +9,9 @@ namespace sparselens {
 
 namespace {
 
-constexpr int cell = 4; // blocks wide and high
-constexpr double cell_px = cell * BlockedSamples::size;
-constexpr double reach = 32; // pixels: as far as bands of rows let highlights look (gather_rows.cpp)
-constexpr double half = 1;   // octave
+constexpr double cell_px = BrightShare::cell * BlockedSamples::size;
+constexpr double reach = cell_px; // as far as bands of rows let highlights look (gather_rows.cpp)
+constexpr double half = 1;        // octave
 
 } // namespace
 
@@ -24,11 +25,13 @@ BrightShare::BrightShare(const BlockedSamples &samples, const std::function<floa
     const auto at = [&](int octave, int x, int y) -> std::uint32_t & {
         return below_[std::size_t(octave) * corners_.size() + corners_.index(x, y)];
     };
-    for (std::size_t b = 0; b < samples.blocks.size(); ++b) {
-        const int column = int(b) % samples.columns / cell, row = int(b) / samples.columns / cell;
-        for (std::uint32_t i = samples.blocks[b].begin; i < samples.blocks[b].end; ++i)
-            ++at(octave_of(brightness(i)), column + 1, row + 1);
-    }
+    parallel_for(std::size_t(corners_.height() - 1), [&](std::size_t row) {
+        const std::size_t columns = std::size_t(samples.columns), first = row * cell * columns,
+                          last = std::min(first + cell * columns, samples.blocks.size());
+        for (std::size_t b = first; b < last; ++b)
+            for (std::uint32_t i = samples.blocks[b].begin; i < samples.blocks[b].end; ++i)
+                ++at(octave_of(brightness(i)), int(b % columns) / cell + 1, int(row) + 1);
+    });
     for (int octave = octaves - 2; octave >= 0; --octave)
         for (std::size_t i = 0; i < corners_.size(); ++i)
             below_[std::size_t(octave) * corners_.size() + i] +=

@@ -17,9 +17,11 @@ namespace sparselens {
 
 class BrightShare {
 public:
+    static constexpr int cell = 4; // blocks wide and high, as highlights look at them
+
     BrightShare(const BlockedSamples &samples, const std::function<float(std::uint32_t sample)> &brightness);
 
-    // The share, [0, 1], of the samples within 32 pixels of one, across and down, that are half as bright or brighter. It changes
+    // The share, [0, 1], of the samples within a cell's width of one, across and down, that are half as bright or brighter. It changes
     // continuously with brightness and place: those from a quarter to all of it count in part.
     double around(std::uint32_t sample, float brightness) const;
 

@@ -5,40 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <tuple>
 #include <unordered_map>
 
 namespace sparselens {
 
 namespace {
 
-constexpr float one_lamp = 1.1f;          // times as near: parts of one, at any aperture
-constexpr float group_of_coc = 1.0f / 32; // the size of a group, of the CoC
-
-// The largest power of two, so that groups do not change with every change of the focus; a block at most.
-int group_size(float coc) {
-    int size = 1;
-    while (size < BlockedSamples::size && float(2 * size) <= group_of_coc * std::abs(coc)) size *= 2;
-    return size;
-}
-
-// What samples of one group have in common.
-auto group_of(const BlockedSamples &samples, std::uint32_t i) {
-    const int size = group_size(samples.coc[i]);
-    const auto cell = [&](float v, double step) { return std::int64_t(std::floor(double(v) / step)); };
-    return std::tuple(size, cell(samples.x[i], size), cell(samples.y[i], size),
-                      cell(samples.depth[i], one_surface_px), size > 1 ? 0 : i);
-}
-
-std::uint32_t middle_of(const BlockedSamples &samples, std::span<const std::uint32_t> group) {
-    Imath::V2d sum(0);
-    const auto place = [&](std::uint32_t i) {
-        return Imath::V2d(double(samples.x[i]), double(samples.y[i]));
-    };
-    for (const std::uint32_t i : group) sum += place(i);
-    const Imath::V2d mean = sum / double(group.size());
-    return *std::ranges::min_element(group, {}, [&](std::uint32_t i) { return (place(i) - mean).length2(); });
-}
+constexpr float one_lamp = 1.1f; // times as near: parts of one, at any aperture
 
 // Of the first sample of a block: the same wherever the tile lies, and in all frames.
 std::uint32_t name_of(std::uint32_t block, int columns) {
@@ -48,19 +21,6 @@ std::uint32_t name_of(std::uint32_t block, int columns) {
 }
 
 } // namespace
-
-std::vector<std::vector<std::uint32_t>> shadow_groups(const BlockedSamples &samples,
-                                                      std::span<const std::uint32_t> highlights) {
-    std::vector<std::uint32_t> sorted(highlights.begin(), highlights.end());
-    const auto key = [&](std::uint32_t i) { return group_of(samples, i); };
-    std::ranges::stable_sort(sorted, {}, key);
-    std::vector<std::vector<std::uint32_t>> groups;
-    for (const std::uint32_t i : sorted) {
-        if (groups.empty() || key(groups.back().front()) != key(i)) groups.emplace_back();
-        groups.back().push_back(i);
-    }
-    return groups;
-}
 
 // Whether the shadows of what a block has before a group are nearly the same for all of it.
 bool HighlightShadows::is_shared(const Asked &group, std::uint32_t b) const {
@@ -89,9 +49,22 @@ void HighlightShadows::begin(const Imath::V2i &origin, std::span<const std::uint
     }
 }
 
-Lamp HighlightShadows::lamp(std::uint32_t sample) const {
-    return {Imath::V2d(double(samples_.x[sample]), double(samples_.y[sample])) - Imath::V2d(origin_),
-            double(samples_.coc[sample]), pixel_aspect_};
+Imath::V2f HighlightShadows::place(std::uint32_t highlight) const {
+    const std::uint32_t i = highlights_.sample[highlight];
+    return {samples_.x[i], samples_.y[i]};
+}
+
+Lamp HighlightShadows::lamp(std::uint32_t highlight) const {
+    return {Imath::V2d(place(highlight)) - Imath::V2d(origin_),
+            double(samples_.coc[highlights_.sample[highlight]]), pixel_aspect_};
+}
+
+std::uint32_t HighlightShadows::middle_of(std::span<const std::uint32_t> group) const {
+    Imath::V2d sum(0);
+    for (const std::uint32_t h : group) sum += Imath::V2d(place(h));
+    const Imath::V2d mean = sum / double(group.size());
+    return *std::ranges::min_element(
+        group, {}, [&](std::uint32_t h) { return (Imath::V2d(place(h)) - mean).length2(); });
 }
 
 // visit(block) for those that may cast a shadow, until it is false.
@@ -114,19 +87,19 @@ void HighlightShadows::share(std::span<const std::uint32_t> group, const Imath::
     group_.reset();
     apart_.clear();
     if (group.size() == 1) return;
-    const std::uint32_t middle = middle_of(samples_, group);
-    const auto [farthest, nearest] =
-        std::ranges::minmax(group, {}, [&](std::uint32_t i) { return samples_.depth[i]; });
+    const std::uint32_t middle = middle_of(group);
+    const auto depth = [&](std::uint32_t h) { return samples_.depth[highlights_.sample[h]]; };
+    const auto [farthest, nearest] = std::ranges::minmax(group, {}, depth);
     const Lamp lamp = this->lamp(middle);
-    group_ = Asked{middle,
+    group_ = Asked{highlights_.sample[middle],
                    lamp,
                    {lamp.centre, Imath::V2d(lamp.coc), box},
-                   samples_.depth[farthest],
-                   samples_.depth[nearest] + float(one_surface_px),
+                   depth(farthest),
+                   depth(nearest) + float(one_surface_px),
                    {}};
-    for (const std::uint32_t i : group) {
-        group_->place.extendBy(Imath::V2f(samples_.x[i], samples_.y[i]));
-        group_->spread = std::max(group_->spread, (this->lamp(i).centre - lamp.centre).length());
+    for (const std::uint32_t h : group) {
+        group_->place.extendBy(place(h));
+        group_->spread = std::max(group_->spread, (this->lamp(h).centre - lamp.centre).length());
     }
     for_each_block(*group_, [&](std::uint32_t b) {
         if (!is_shared(*group_, b)) {
@@ -140,10 +113,11 @@ void HighlightShadows::share(std::span<const std::uint32_t> group, const Imath::
     });
 }
 
-bool HighlightShadows::cast(std::uint32_t sample, const ShadowScreen &screen) {
+bool HighlightShadows::cast(std::uint32_t highlight, const ShadowScreen &screen) {
+    const std::uint32_t sample = highlights_.sample[highlight];
     const float depth = samples_.depth[sample];
-    const Imath::V2f place(samples_.x[sample], samples_.y[sample]);
-    const Asked asked{sample, lamp(sample), screen, depth, depth + float(one_surface_px), {place, place}};
+    const Imath::V2f at = place(highlight);
+    const Asked asked{sample, lamp(highlight), screen, depth, depth + float(one_surface_px), {at, at}};
     has_own_ = false;
     const auto cast_own = [&](std::uint32_t b) {
         if (!has_own_) own_.begin(screen.box, screen.fine);

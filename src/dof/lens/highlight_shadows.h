@@ -8,9 +8,9 @@
 //
 // The pixels of one lamp share the shadows that are nearly the same for all of them, so that a lamp costs no more where it has
 // more pixels. Of two places of a lamp, w pixels apart, the shadows of one thing lie (1 - m) w apart, m as in lamp_shadow.h:
-// less than w, if the thing is out of focus on the other side or half as much as the lamp at most. Samples within a square of
-// 1/32 of their CoC take that shadow from the one in their middle, and it is off by a fiftieth of the disc's radius at most.
-// What stands nearer to the lamp is cast for each sample.
+// less than w, if the thing is out of focus on the other side or half as much as the lamp at most. The members of a group
+// (highlight_groups.h) take that shadow from the one in their middle, and it is off by a fiftieth of the disc's radius at most.
+// What stands nearer to the lamp is cast for each of them.
 #pragma once
 
 #include "dof/lens/block_footprints.h"
@@ -36,10 +36,6 @@ struct ShadowScreen {
     bool fine = false; // in cells of the lens, not in pixels
 };
 
-// Groups of those highlights that share shadows; each sample is in one of them. All of them are of one block.
-std::vector<std::vector<std::uint32_t>> shadow_groups(const BlockedSamples &samples,
-                                                      std::span<const std::uint32_t> highlights);
-
 class HighlightShadows {
 public:
     HighlightShadows(const Highlights &highlights, const BlockedSamples &samples,
@@ -49,11 +45,12 @@ public:
     // Of the tile whose first pixel is `origin`, relative to the data window's corner. `blocks`: those that can reach it.
     void begin(const Imath::V2i &origin, std::span<const std::uint32_t> blocks, double pixel_aspect);
 
-    // For a group: what its samples share, in the pixels of a box. Only cast() for each tells the rest.
+    // Highlights are named by their place in Highlights.
+    // For a group: what its members share, in the pixels of a box. Only cast() for each tells the rest.
     void share(std::span<const std::uint32_t> group, const Imath::Box2i &box);
 
-    // For one sample of the group, on a screen of that box. False: nothing hides a part of it.
-    bool cast(std::uint32_t sample, const ShadowScreen &screen);
+    // For one member of the group, on a screen of that box. False: nothing hides a part of it.
+    bool cast(std::uint32_t highlight, const ShadowScreen &screen);
 
     // Whether all of the box is hidden from the whole group.
     bool dark() const { return shares_ && shared_.dark(); }
@@ -64,7 +61,7 @@ public:
     // What cast() said, of a group of one.
     const LampShadow &own() const { return own_; }
 
-    Lamp lamp(std::uint32_t sample) const; // relative to the tile
+    Lamp lamp(std::uint32_t highlight) const; // relative to the tile
 
 private:
     // A lamp, or the middle one of a group.
@@ -86,6 +83,8 @@ private:
             return is_beside({{block.x_min, block.y_min}, {block.x_max, block.y_max}}) ? depth : hardly;
         }
     };
+    Imath::V2f place(std::uint32_t highlight) const; // relative to the data window's corner
+    std::uint32_t middle_of(std::span<const std::uint32_t> group) const;
     bool is_shared(const Asked &group, std::uint32_t block) const;
     void cast_block(const Asked &lamp, std::uint32_t block, LampShadow &shadow) const;
     void cast_one(const Asked &lamp, std::uint32_t sample, const Footprint &footprint, std::uint32_t name,

@@ -52,16 +52,10 @@ void HighlightTile::spread(const Imath::V2i &origin, std::span<const std::uint32
     origin_ = origin;
     std::ranges::fill(light_, 0.0f);
     for (auto &left : left_by_cat_eye_) left.clear();
-    const std::vector<std::uint32_t> &all = highlights_.sample;
+    if (highlights_.sample.empty()) return;
     shadows_.begin(origin, blocks, shape_.pixel_aspect);
-    for (const std::uint32_t b : blocks) {
-        const SampleBlock &block = samples_.blocks[b];
-        const auto first = std::ranges::lower_bound(all, block.begin),
-                   end = std::ranges::lower_bound(all, block.end);
-        if (first == end) continue;
-        for (const std::vector<std::uint32_t> &group : shadow_groups(samples_, {first, end}))
-            spread_group(group);
-    }
+    for (const std::uint32_t b : blocks)
+        highlights_.groups.for_each(b, [&](std::span<const std::uint32_t> group) { spread_group(group); });
 }
 
 // The pixels that the light of a highlight may reach.
@@ -74,19 +68,18 @@ Imath::Box2i HighlightTile::reach_of(const Lamp &lamp) {
 
 void HighlightTile::spread_group(std::span<const std::uint32_t> group) {
     reached_ = {};
-    for (const std::uint32_t s : group) {
-        const Imath::Box2i reach = reach_of(shadows_.lamp(s));
+    for (const std::uint32_t h : group) {
+        const Imath::Box2i reach = reach_of(shadows_.lamp(h));
         if (!reach.isEmpty()) reached_.extendBy(reach);
     }
     if (reached_.isEmpty()) return;
     shadows_.share(group, reached_);
     if (shadows_.dark()) return;
-    for (const std::uint32_t s : group) spread_one(s);
+    for (const std::uint32_t h : group) spread_one(h);
 }
 
-void HighlightTile::spread_one(std::uint32_t sample) {
-    const std::vector<std::uint32_t> &all = highlights_.sample;
-    const Lamp lamp = shadows_.lamp(sample);
+void HighlightTile::spread_one(std::uint32_t highlight) {
+    const Lamp lamp = shadows_.lamp(highlight);
     const double square = square_of(lamp);
     const bool in_cells = std::abs(lamp.coc) < few;
     const LampCells *cells = in_cells ? &cells_of(lamp) : nullptr;
@@ -94,8 +87,7 @@ void HighlightTile::spread_one(std::uint32_t sample) {
         in_cells ? ShadowScreen{LampCells::middle(), cells->shadow_scale(lamp.pixel_aspect), LampCells::box(),
                                 true}
                  : ShadowScreen{lamp.centre, Imath::V2d(lamp.coc), reached_};
-    Spreading from{std::uint32_t(std::ranges::lower_bound(all, sample) - all.begin()), sample, lamp,
-                   shadows_.cast(sample, screen)};
+    Spreading from{highlight, highlights_.sample[highlight], lamp, shadows_.cast(highlight, screen)};
     const LampShadow *shadow = in_cells && from.shadowed ? &shadows_.own() : nullptr;
     if (square > 0) return spread_few(cells->shine(lamp, square, shadow, reached_), from);
     std::optional<LampLight> light;

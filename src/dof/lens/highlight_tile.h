@@ -62,7 +62,7 @@ private:
     };
     Imath::Box2i reach_of(const Lamp &lamp);
     void spread_group(std::span<const std::uint32_t> group);
-    void spread_one(std::uint32_t sample);
+    void spread_one(std::uint32_t highlight);
     void spread_few(const LampLight &light, const Spreading &from);
     void spread_disc(const Spreading &from);
     void spread_shape(const Spreading &from);

@@ -11,7 +11,7 @@ namespace sparselens {
 
 namespace {
 
-constexpr int cell = 4;                     // blocks wide and high
+constexpr int cell = BrightShare::cell;
 constexpr std::size_t brightest = 5;        // one sample of a window in so many may be a highlight
 constexpr float stands_out = 4;             // times what is around
 constexpr float near_focus = 2;             // pixels of CoC
@@ -148,8 +148,8 @@ Highlights take_highlights(const BlockedSamples &samples, std::span<const std::s
                            std::span<const std::size_t> colour_channels, SampleColours &colours,
                            const std::optional<Imath::Box2i> &seen) {
     const std::vector<Found> all = HighlightFinder(samples, brightness, colours, seen).find();
-    Highlights highlights{{},
-                          {colours.groups, all.size(), std::vector<float>(colours.groups * all.size() * 4)}};
+    Highlights highlights{
+        {}, {colours.groups, all.size(), std::vector<float>(colours.groups * all.size() * 4)}, {}};
     for (const Found &f : all) {
         for (const std::size_t k : colour_channels) {
             highlights.light.at(k, highlights.sample.size()) = f.share * colours.at(k, f.sample);
@@ -157,6 +157,7 @@ Highlights take_highlights(const BlockedSamples &samples, std::span<const std::s
         }
         highlights.sample.push_back(f.sample);
     }
+    highlights.groups = HighlightGroups(samples, highlights.sample);
     return highlights;
 }
 

@@ -6,6 +6,7 @@
 // one smaller than a pixel always is.
 #pragma once
 
+#include "dof/lens/highlight_groups.h"
 #include "dof/lens/sample_blocks.h"
 #include "dof/lens/sample_colours.h"
 
@@ -21,6 +22,7 @@ namespace sparselens {
 struct Highlights {
     std::vector<std::uint32_t> sample; // of the BlockedSamples, ascending
     SampleColours light;               // what each spreads; none in A
+    HighlightGroups groups;            // of those samples
 };
 
 // The highlights of a picture; what they spread is taken out of `colours`. A sample is one if the brightest of its

@@ -2,7 +2,7 @@
 // Color Interop Forum (OpenEXR 3.4, Blender 5, OpenImageIO 3.1); oiio:ColorSpace, such an id, or a name of a configuration.
 #pragma once
 
-#include "../../io/display/colour.h"
+#include "colour.h"
 
 #include <ImfHeader.h>
 

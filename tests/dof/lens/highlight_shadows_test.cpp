@@ -51,11 +51,13 @@ struct LampBehindBoards : BlockedLdi {
         HighlightShadows shadows(highlights, samples, footprints);
         shadows.begin({0, 0}, blocks, 1);
         std::vector<float> all;
-        if (together) shadows.share(lamp, box);
-        for (const std::uint32_t i : lamp) {
-            if (!together) shadows.share(std::span(&i, 1), box);
-            const Lamp own = shadows.lamp(i);
-            const bool any = shadows.cast(i, {own.centre, Imath::V2d(own.coc), box});
+        std::vector<std::uint32_t> group(lamp.size());
+        std::iota(group.begin(), group.end(), 0u);
+        if (together) shadows.share(group, box);
+        for (const std::uint32_t h : group) {
+            if (!together) shadows.share(std::span(&h, 1), box);
+            const Lamp own = shadows.lamp(h);
+            const bool any = shadows.cast(h, {own.centre, Imath::V2d(own.coc), box});
             for (int y = 0; y < size; ++y)
                 for (int x = 0; x < size; ++x) all.push_back(any ? shadows.lit(x, y) : 1);
         }
@@ -94,18 +96,22 @@ TEST(HighlightShadows, OfWhatStandsRightBeforeALampAreCastForEachSample) {
     EXPECT_LT(mean(alone), 0.99);
 }
 
-TEST(ShadowGroups, HoldEachSampleOnceAndAreSmall) {
+TEST(HighlightGroups, HoldEachSampleOnceAndAreSmall) {
     const Ldi ldi = make_ldi(windows_of_size(size, size), rgba_channels(), [&](int x, int y) {
         const double c = std::exp(8 * random_unit(x / 16, y / 16, 1) - 1) * (x < 32 ? 1 : -1);
         return std::vector<Sample>{{depth_of({.radius = 50, .focal_px = 640, .focus = 5}, c), {1, 1, 1, 1}}};
     });
     const BlockedLdi blocked(ldi, {.radius = 50, .focal_px = 640, .focus = 5});
     const BlockedSamples &samples = blocked.samples;
+    std::vector<std::uint32_t> every(samples.count());
+    std::iota(every.begin(), every.end(), 0u);
+    const HighlightGroups groups(samples, every);
     std::size_t several = 0;
-    for (const SampleBlock &block : samples.blocks) {
+    for (std::uint32_t b = 0; b < samples.blocks.size(); ++b) {
+        const SampleBlock &block = samples.blocks[b];
         std::vector<std::uint32_t> all(block.end - block.begin), found;
         std::iota(all.begin(), all.end(), block.begin);
-        for (const std::vector<std::uint32_t> &group : shadow_groups(samples, all)) {
+        groups.for_each(b, [&](std::span<const std::uint32_t> group) {
             found.insert(found.end(), group.begin(), group.end());
             several += group.size() > 1;
             for (const std::uint32_t i : group) {
@@ -114,7 +120,7 @@ TEST(ShadowGroups, HoldEachSampleOnceAndAreSmall) {
                 EXPECT_TRUE(i == group[0] || std::abs(samples.y[i] - samples.y[group[0]]) <= reach);
                 EXPECT_LE(std::abs(samples.depth[i] - samples.depth[group[0]]), float(one_surface_px));
             }
-        }
+        });
         std::ranges::sort(found);
         EXPECT_EQ(found, all);
     }
