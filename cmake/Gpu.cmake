@@ -16,6 +16,18 @@ if(SPARSELENS_GPU AND NOT gpu_found)
         "spirv-tools), and not all were found. Install them, or configure with -DSPARSELENS_GPU=OFF.")
 endif()
 
+# The headers of src/kernels as GLSL: `#include "kernels/NAME.h"` in shaders.
+function(sparselens_kernel_headers)
+    foreach(header IN LISTS ARGN)
+        set(made ${CMAKE_CURRENT_BINARY_DIR}/glsl/${header})
+        add_custom_command(OUTPUT ${made}
+            COMMAND ${CMAKE_COMMAND} -DFROM=${CMAKE_CURRENT_SOURCE_DIR}/${header} -DTO=${made} -P ${PROJECT_SOURCE_DIR}/cmake/AsGlsl.cmake
+            DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${header} ${PROJECT_SOURCE_DIR}/cmake/AsGlsl.cmake VERBATIM)
+        list(APPEND all ${made})
+    endforeach()
+    set(kernel_headers ${all} PARENT_SCOPE)
+endfunction()
+
 # sparselens_shader(SOURCE SHADER INCLUDED...): SHADER, a path below the current folder, is compiled and validated before
 # SOURCE, which includes its words as NAME.inc; it includes the other files.
 function(sparselens_shader source shader)
@@ -25,10 +37,10 @@ function(sparselens_shader source shader)
     set(made ${folder}/${name})
     file(MAKE_DIRECTORY ${folder})
     add_custom_command(OUTPUT ${made}.inc
-        COMMAND ${GLSLC} --target-env=vulkan1.2 -O -Werror ${from} -o ${made}.spv
+        COMMAND ${GLSLC} --target-env=vulkan1.2 -O -Werror -I ${CMAKE_CURRENT_BINARY_DIR}/glsl ${from} -o ${made}.spv
         COMMAND ${SPIRV_VAL} --target-env vulkan1.2 ${made}.spv
-        COMMAND ${GLSLC} --target-env=vulkan1.2 -O -Werror -mfmt=num ${from} -o ${made}.inc
-        DEPENDS ${from} ${ARGN} VERBATIM)
+        COMMAND ${GLSLC} --target-env=vulkan1.2 -O -Werror -I ${CMAKE_CURRENT_BINARY_DIR}/glsl -mfmt=num ${from} -o ${made}.inc
+        DEPENDS ${from} ${ARGN} ${kernel_headers} VERBATIM)
     set_property(SOURCE ${source} APPEND PROPERTY OBJECT_DEPENDS ${made}.inc)
     set_property(SOURCE ${source} APPEND PROPERTY INCLUDE_DIRECTORIES ${folder})
 endfunction()

@@ -5,15 +5,12 @@
 #include "deep/build.h"
 #include "deep/channel_alpha.h"
 #include "deep/flatten.h"
+#include "kernels/holdout_rules.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace sparselens {
-
-namespace {
-constexpr double rounding = 1e-6; // relative, of a depth that has been through float and perceptive depth
-}
 
 Holdout::Holdout(Ldi ldi) : ldi_(std::move(ldi)), alpha_(ldi_.alpha()) {}
 
@@ -24,9 +21,9 @@ double Holdout::passes(int x, int y, double z) const {
     for (const std::uint64_t i : ldi_.pixel(pixel)) {
         if (!(passed > 0)) break;
         const double front = ldi_.z[i], back = back_at(ldi_, i);
-        if (!(front < z * (1 - rounding))) break;
+        if (!kernels::is_held_out(front, z)) break;
         const double clear = std::max(0.0, 1 - double(alpha_at(ldi_, alpha_, i)));
-        passed *= back > z ? std::pow(clear, (z - front) / (back - front)) : clear;
+        passed *= kernels::passes_part(front, back, clear, z);
     }
     return passed;
 }

@@ -4,6 +4,8 @@
 // A lens point u lies in the unit disc, u.y up. docs/design.md section 1 derives the formulas from similar triangles.
 #pragma once
 
+#include "../kernels/surface.h"
+
 #include <Imath/ImathVec.h>
 
 namespace sparselens {
@@ -19,10 +21,6 @@ struct ThinLens {
 // difference of their circles of confusion (CoC) at any focus distance, so an LDI that is clustered by it can still
 // be refocused.
 double perceptive_depth(const ThinLens &lens, double z);
-
-// Perceptive depths that differ by less, in pixels, count as one surface: seen from the rim of the lens the two move
-// apart by less than half a pixel, so that pictures of both fall into the same pixels.
-inline constexpr double one_surface_px = 0.5;
 
 // The signed CoC radius in pixels, negative in front of the focus. Never NaN for z and focus in (0, inf].
 double circle_of_confusion(const ThinLens &lens, double z);

@@ -12,7 +12,8 @@
 //
 // A facet is a triangle between three samples of four pixels that meet in a corner, one of them in the upper left pixel, two of
 // whose sides are links and of which some side is steep; four samples that links go around are two, parted from the upper left. Seen through the lens it extends the footprints of its samples: each of its points belongs to
-// the sample that weighs most there (barycentric coordinates).
+// the sample that weighs most there (barycentric coordinates), unless the squares of its samples cover it
+// (kernels/lens_rules.h).
 #pragma once
 
 #include "deep/ldi.h"
@@ -36,10 +37,6 @@ struct FacetBlocks {
 
 // A difference of perceptive depth, pixels, from which on a side of a facet is steep.
 inline constexpr float steep_px = 0.25f;
-
-// A facet whose corners a lens point sees no farther apart than that, in x and in y, in pixels, is not drawn: the squares
-// of its samples cover it.
-inline constexpr float parted_px = 1 + 1.0f / 16;
 
 // `widest`: how far lens points are from the middle at most. The LDI has less than 2^32 samples.
 FacetBlocks find_facets(const Ldi &ldi, const ThinLens &lens, double widest);

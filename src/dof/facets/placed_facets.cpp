@@ -1,6 +1,7 @@
 #include "dof/facets/placed_facets.h"
 
 #include "base/parallel.h"
+#include "kernels/lens_rules.h"
 
 #include <algorithm>
 #include <cmath>
@@ -63,12 +64,8 @@ struct Seen {
     for (std::size_t i = 0; i < count; ++i) e.least[i] = e.least[i] < e.at[2][i] ? e.least[i] : e.at[2][i];
     for (std::size_t i = 0; i < count; ++i) e.most[i] = e.at[0][i] > e.at[1][i] ? e.at[0][i] : e.at[1][i];
     for (std::size_t i = 0; i < count; ++i) e.most[i] = e.most[i] > e.at[2][i] ? e.most[i] : e.at[2][i];
-    for (std::size_t i = 0; i < count; ++i) {
-        const float left = last - e.least[i];
-        e.first[i] = std::int32_t(last) - std::int32_t(left > -1 ? (left < last - 1 ? left : last - 1) : -1);
-    }
-    for (std::size_t i = 0; i < count; ++i)
-        e.last[i] = std::int32_t(e.most[i] > 0 ? (e.most[i] < last ? e.most[i] : last) : 0);
+    for (std::size_t i = 0; i < count; ++i) e.first[i] = kernels::first_between(e.least[i], last);
+    for (std::size_t i = 0; i < count; ++i) e.last[i] = kernels::last_between(e.most[i], last);
 }
 
 // The corners of facets one after the other.
@@ -82,17 +79,20 @@ struct Corners {
 #endif
 void project(const Corners &corners, const LensSample &lens, const FacetGrid &grid, std::size_t count, Seen &seen) {
     const float lens_x = lens.x, lens_y = lens.y, corner_x = grid.corner_x, corner_y = grid.corner_y;
-    const float shift_x = lens.pixel_x + 0.5f, shift_y = lens.pixel_y + 0.5f;
+    const float shift_x = lens.pixel_x + kernels::shift_of_facets,
+                shift_y = lens.pixel_y + kernels::shift_of_facets;
     for (std::size_t k = 0; k < 3; ++k)
         for (std::size_t i = 0; i < count; ++i) {
-            seen.x.at[k][i] = (corners.x[k][i] - corner_x) + (corners.coc[k][i] * lens_x + shift_x);
-            seen.y.at[k][i] = (corners.y[k][i] - corner_y) + (corners.coc[k][i] * lens_y + shift_y);
+            seen.x.at[k][i] =
+                kernels::seen_along(corners.x[k][i], corner_x, corners.coc[k][i], lens_x, shift_x);
+            seen.y.at[k][i] =
+                kernels::seen_along(corners.y[k][i], corner_y, corners.coc[k][i], lens_y, shift_y);
         }
     measure(seen.x, count, float(grid.stride - 2));
     measure(seen.y, count, float(grid.stride - 2));
     for (std::size_t i = 0; i < count; ++i) {
-        const int parted = int(seen.x.most[i] - seen.x.least[i] > parted_px) |
-                           int(seen.y.most[i] - seen.y.least[i] > parted_px);
+        const int parted = int(seen.x.most[i] - seen.x.least[i] > kernels::parted_px) |
+                           int(seen.y.most[i] - seen.y.least[i] > kernels::parted_px);
         seen.drawn[i] =
             parted & int(seen.x.first[i] <= seen.x.last[i]) & int(seen.y.first[i] <= seen.y.last[i]);
     }
@@ -102,16 +102,15 @@ void draw_triangle(const Seen &seen, std::size_t i, const std::array<std::uint64
                    std::span<std::uint64_t> cells) {
     const float x0 = seen.x.at[0][i], x1 = seen.x.at[1][i], x2 = seen.x.at[2][i];
     const float y0 = seen.y.at[0][i], y1 = seen.y.at[1][i], y2 = seen.y.at[2][i];
-    const float side =
-        (x1 - x0) * (y2 - y0) - (x2 - x0) * (y1 - y0) < 0 ? -1.0f : 1.0f; // seen from behind: -1
+    const float side = kernels::twice_area(x0, y0, x1, y1, x2, y2) < 0 ? -1.0f : 1.0f; // seen from behind: -1
     for (int row = seen.y.first[i]; row <= seen.y.last[i]; ++row)
         for (int column = seen.x.first[i]; column <= seen.x.last[i]; ++column) {
             const float x = float(column), y = float(row);
-            // Twice the areas over against the corners.
-            const float a = side * ((x2 - x1) * (y - y1) - (y2 - y1) * (x - x1));
-            const float b = side * ((x0 - x2) * (y - y2) - (y0 - y2) * (x - x2));
-            const float c = side * ((x1 - x0) * (y - y0) - (y1 - y0) * (x - x0));
-            const std::uint64_t nearest = std::max(a, b) >= c ? (a >= b ? key[0] : key[1]) : key[2];
+            // Over against the corners.
+            const float a = side * kernels::twice_area(x1, y1, x2, y2, x, y);
+            const float b = side * kernels::twice_area(x2, y2, x0, y0, x, y);
+            const float c = side * kernels::twice_area(x0, y0, x1, y1, x, y);
+            const std::uint64_t nearest = key[kernels::nearest_corner(a, b, c)];
             const bool inside = int(a >= 0) & int(b >= 0) & int(c >= 0); // branch-free: unpredictable
             std::uint64_t &cell = cells[std::size_t(row * stride + column)];
             cell = std::max(cell, nearest * inside);

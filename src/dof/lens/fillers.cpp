@@ -53,7 +53,7 @@ std::vector<Ground> find_grounds(const Ldi &ldi, const ThinLens &lens, const Kno
 bool goes_on(const Ground &ground, const Ground &other, int n) {
     if (other.depth == unknown) return false;
     const float nearer = other.depth - ground.depth;
-    return nearer > float(one_surface_px) && float(n - 1) < std::numbers::sqrt2_v<float> * nearer;
+    return nearer > one_surface_px && float(n - 1) < std::numbers::sqrt2_v<float> * nearer;
 }
 
 // The pixels of a row or a column, from either end.
@@ -126,7 +126,7 @@ Filler mean_of(const Ldi &ldi, std::size_t alpha_channel, std::size_t pixel, std
     float sum = 0;
     for (const auto &[ground, from, distance] : sides) {
         if ((ground.sample == Filler::nothing) != nothing) continue;
-        if (std::abs(ground.depth - nearest.ground.depth) >= float(one_surface_px)) continue;
+        if (std::abs(ground.depth - nearest.ground.depth) >= one_surface_px) continue;
         const float weight = 1 / float(distance);
         const float coverage = nothing ? 1 : alpha_at(ldi, alpha_channel, ground.sample);
         filler.part[filler.count++] = {ground.sample, std::uint32_t(from), weight / coverage};

@@ -91,12 +91,9 @@ void HighlightShadows::share(std::span<const std::uint32_t> group, const Imath::
     const auto depth = [&](std::uint32_t h) { return samples_.depth[highlights_.sample[h]]; };
     const auto [farthest, nearest] = std::ranges::minmax(group, {}, depth);
     const Lamp lamp = this->lamp(middle);
-    group_ = Asked{highlights_.sample[middle],
-                   lamp,
-                   {lamp.centre, Imath::V2d(lamp.coc), box},
-                   depth(farthest),
-                   depth(nearest) + float(one_surface_px),
-                   {}};
+    group_ = Asked{
+        highlights_.sample[middle],      lamp, {lamp.centre, Imath::V2d(lamp.coc), box}, depth(farthest),
+        depth(nearest) + one_surface_px, {}};
     for (const std::uint32_t h : group) {
         group_->place.extendBy(place(h));
         group_->spread = std::max(group_->spread, (this->lamp(h).centre - lamp.centre).length());
@@ -117,7 +114,7 @@ bool HighlightShadows::cast(std::uint32_t highlight, const ShadowScreen &screen)
     const std::uint32_t sample = highlights_.sample[highlight];
     const float depth = samples_.depth[sample];
     const Imath::V2f at = place(highlight);
-    const Asked asked{sample, lamp(highlight), screen, depth, depth + float(one_surface_px), {at, at}};
+    const Asked asked{sample, lamp(highlight), screen, depth, depth + one_surface_px, {at, at}};
     has_own_ = false;
     const auto cast_own = [&](std::uint32_t b) {
         if (!has_own_) own_.begin(screen.box, screen.fine);

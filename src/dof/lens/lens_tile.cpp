@@ -19,7 +19,7 @@ LensTile::LensTile(const BlockedSamples &samples, const SampleColours &colours, 
 
 float LensTile::known_weight(int x, int y) const {
     const float known = total_ - unknown_[std::size_t(y * size + x)];
-    return known > 1e-6f * total_ ? known : 0; // what rounding leaves of a weight is no knowledge
+    return kernels::known_weight(known, total_);
 }
 
 bool LensTile::known(int x, int y) const {
@@ -142,7 +142,7 @@ float LensTile::passes(int x, int y, float depth) const {
 
 // Whether what lies at that depth is behind something in a cell, also where a surface is torn there.
 bool LensTile::hides(int x, int y, float depth) const {
-    const std::uint64_t limit = depth_key(depth + float(one_surface_px), 0xffffffffu);
+    const std::uint64_t limit = kernels::hiding_key(depth);
     const auto front = [&](int column, int row) { return front_[cell_of(column, row)] > limit; };
     return front(x, y) || (front(x - 1, y) && front(x + 1, y)) || (front(x, y - 1) && front(x, y + 1));
 }

@@ -13,6 +13,7 @@
 #include "dof/lens/sample_blocks.h"
 #include "dof/lens/sample_colours.h"
 #include "dof/lens/tile_projection.h"
+#include "kernels/lens_layout.h"
 #include "lens/cat_eye.h"
 #include "lens/lens_samples.h"
 
@@ -37,7 +38,8 @@ struct HeldOut {
 
 class LensTile {
 public:
-    static constexpr int size = 64; // pixels wide and high: the buffers of a lens point stay in the cache
+    static constexpr int size =
+        lens_kernel::tile_size; // pixels wide and high: the buffers of a lens point stay in the cache
 
     // What is gathered from: blocks of samples, of facets between them, and of fillers.
     struct Blocks {
@@ -58,8 +60,7 @@ public:
 
 private:
     // The buffers have a border of one pixel, and one of cells that take what falls outside of that.
-    static constexpr float one_mirror_px = 1; // samples that differ by less in depth belong to one mirror
-    static constexpr int border = 2, stride = size + 2 * border;
+    static constexpr int border = lens_kernel::border, stride = lens_kernel::tile_stride;
     static std::size_t cell_of(int x, int y) { return std::size_t((y + border) * stride + x + border); }
     static int column_of(std::size_t cell) { return int(cell) % stride - border; }
     static int row_of(std::size_t cell) { return int(cell) / stride - border; }
@@ -100,9 +101,8 @@ private:
     bool in_columns(int x, int y) const {
         return x >= columns_[std::size_t(y)].begin && x < columns_[std::size_t(y)].end;
     }
-    // A cat-eye that darkens takes light from colours only: their mean is that over lens points, not over weights.
     bool is_darkened(std::size_t channel) const {
-        return cat_eye_ && cat_eye_->darkens() && is_colour(colours_.sets[channel]);
+        return kernels::is_darkened(colours_.sets[channel], cat_eye_ && cat_eye_->darkens());
     }
     Float4 known_in_front(std::size_t group) const;
     void count_in_front(std::size_t at, float share); // an index of sums_

@@ -11,8 +11,6 @@ namespace sparselens {
 
 namespace {
 
-constexpr float covered_at_all = 1 - 0x1p-24f; // a sample without coverage may still give light
-
 // Sorts by depth, the nearest first, then by index.
 std::uint64_t order_key(float depth, std::uint32_t sample) {
     return (std::uint64_t(~std::bit_cast<std::uint32_t>(depth)) << 32) | sample;
@@ -84,7 +82,7 @@ std::size_t LensTile::see_partial_alone() {
         covered += share == 1;
         float *over = &over_[cell * 4];
         store4(over, load4(over) + share * load4(colour));
-        transmittance_[cell] = std::min(share * left[n], covered_at_all);
+        transmittance_[cell] = kernels::left_behind(share, left[n]);
     }
     return covered;
 }
@@ -107,7 +105,7 @@ std::size_t LensTile::see_partial_by_rules() {
             float *over = &over_[((first_group + g) * stride * stride + cell) * 4];
             store4(over, load4(over) + share * load4(colour));
         }
-        const float passed = std::min(transmittance * partial_.left[n], covered_at_all);
+        const float passed = kernels::left_behind(transmittance, partial_.left[n]);
         if (in_front(i)) hidden_in_front_[cell] += transmittance - passed;
         transmittance_[cell] = passed;
     }

@@ -10,12 +10,6 @@
 
 namespace sparselens {
 
-namespace {
-
-constexpr float side_by_side = 1.5f; // pixels: samples that are no farther apart have none between them
-
-} // namespace
-
 void LensTile::see_images(const LensSample &lens) {
     sees_images_ = false;
     if (samples_.surface_coc.empty()) return;
@@ -52,7 +46,7 @@ std::uint64_t LensTile::image_at(std::size_t cell) const {
     const float depth = samples_.depth[std::uint32_t(front)];
     for (const std::size_t at : {cell, cell - 1, cell + 1, cell - stride, cell + stride}) {
         const std::uint32_t image = image_[at];
-        if (image != 0 && std::abs(samples_.depth[image - 1] - depth) < one_mirror_px)
+        if (image != 0 && kernels::is_in_mirror(samples_.depth[image - 1], depth))
             return samples_.key[image - 1];
     }
     return front;
@@ -64,11 +58,11 @@ std::uint64_t LensTile::torn_at(std::size_t cell) const {
     std::uint64_t farthest = 0;
     for (const std::size_t step : {std::size_t{1}, std::size_t(stride)}) {
         const std::uint64_t one = front_[cell - step], other = front_[cell + step];
-        if (std::min(one, other) <= nearest_background) continue;
+        if (is_background(one) || is_background(other)) continue;
         const std::uint32_t a = std::uint32_t(one), b = std::uint32_t(other);
-        if (std::abs(samples_.x[a] - samples_.x[b]) >= side_by_side) continue;
-        if (std::abs(samples_.y[a] - samples_.y[b]) >= side_by_side) continue;
-        if (std::abs(depth(one) - depth(other)) >= float(one_surface_px)) continue;
+        if (!kernels::is_crack(samples_.x[a] - samples_.x[b], samples_.y[a] - samples_.y[b],
+                               depth(one) - depth(other)))
+            continue;
         const std::uint64_t farther = depth(one) <= depth(other) ? one : other;
         if (farthest == 0 || depth(farther) < depth(farthest)) farthest = farther;
     }

@@ -43,7 +43,7 @@ void LensTile::begin_weighted(std::span<const LensSample> lens) {
 
 float LensTile::known_of(std::size_t at) const {
     const float known = float(known_[at] + (two_sided_ ? double(known_in_front_[at]) : 0));
-    return known > 1e-6f * total_ ? known : 0;
+    return kernels::known_weight(known, total_);
 }
 
 void LensTile::find_columns(const LensSample &lens) {
@@ -58,18 +58,14 @@ bool LensTile::seen_by_none() const {
            std::ranges::all_of(columns_, [](const CatEye::Columns &c) { return c.begin >= c.end; });
 }
 
-// Data takes no part: what has no colour is the same for all light.
 void LensTile::weigh_channels(const LensSample &lens) {
     for (std::size_t k = 0; k < colours_.groups * 4; ++k) {
-        const ColourSet set = colours_.sets[k];
-        const float colour = set == red     ? lens.rgb[0]
-                             : set == green ? lens.rgb[1]
-                             : set == blue  ? lens.rgb[2]
-                                            : 1;
-        light_weights_[0][k] = lens.weight * colour * (set == data ? 1 : lens.behind);
-        light_weights_[1][k] = lens.weight * colour * (set == data ? 1 : lens.in_front);
-        for (const std::size_t side : {0u, 1u})
+        for (const std::size_t side : {0u, 1u}) {
+            light_weights_[side][k] =
+                kernels::light_weight(colours_.sets[k], lens.weight, lens.rgb[0], lens.rgb[1], lens.rgb[2],
+                                      side == 1 ? lens.in_front : lens.behind);
             known_weights_[side][k] = is_darkened(k) ? lens.weight : light_weights_[side][k];
+        }
     }
 }
 
@@ -103,7 +99,7 @@ void LensTile::sum_up_known() {
 bool LensTile::opaque_in_front(std::size_t cell) const {
     if (!two_sided_) return false;
     const std::uint64_t key = shown()[cell];
-    if (key != 0) return key > nearest_background && in_front(std::uint32_t(key));
+    if (key != 0) return !is_background(key) && in_front(std::uint32_t(key));
     return filler_[cell] != 0 && fillers_.samples.coc[std::uint32_t(filler_[cell])] < 0;
 }
 
@@ -136,7 +132,7 @@ void LensTile::add_row_weighted(int y, std::size_t &empty) {
             }
             const std::size_t i = std::uint32_t(key);
             Float4 light = behind;
-            if (two_sided && coc[i] < 0 && key > nearest_background) {
+            if (two_sided && coc[i] < 0 && !is_background(key)) {
                 light = in_front;
                 store4(known, load4(known) + more);
             }

@@ -5,9 +5,9 @@
 #include "deep/ldi.h"
 #include "dof/facets/known_pixels.h"
 #include "dof/facets/opaque.h"
+#include "kernels/lens_rules.h"
 #include "lens/thin_lens.h"
 
-#include <bit>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -55,11 +55,13 @@ void bound(SampleBlock &block, const BlockedSamples &samples);
 
 // Orders samples by depth (perceptive, at least 0), then by index; never 0. The index is its lower half.
 inline std::uint64_t depth_key(float depth, std::uint32_t sample) {
-    return (std::uint64_t(std::bit_cast<std::uint32_t>(depth) + 2) << 32) | sample;
+    return kernels::key_of(kernels::upper_of_depth(depth), sample);
 }
 // A background lies behind what the LDI has at infinity.
-constexpr std::uint64_t background_key(std::uint32_t sample) { return (std::uint64_t(1) << 32) | sample; }
-constexpr std::uint64_t nearest_background = background_key(0xffffffffu);
+inline std::uint64_t background_key(std::uint32_t sample) {
+    return kernels::key_of(kernels::background_upper, sample);
+}
+inline bool is_background(std::uint64_t key) { return kernels::upper_of(key) <= kernels::background_upper; }
 
 // `known`: what an empty pixel is. Throws Error where the LDI has more samples than 32 bits count.
 BlockedSamples make_blocks(const Ldi &ldi, const ThinLens &lens, const KnownPixels &known);

@@ -5,6 +5,7 @@
 #include "base/parallel.h"
 #include "deep/ldi.h"
 #include "dof/lens/sample_blocks.h"
+#include "kernels/lens_rules.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -14,7 +15,14 @@
 namespace sparselens {
 
 // What a channel is to a lens that treats colours differently; one bit each, so that they make sets.
-enum ColourSet : std::uint8_t { red = 1, green = 2, blue = 4, coverage = 8, data = 16, all_colours = 31 };
+enum ColourSet : std::uint8_t {
+    red = kernels::is_red,
+    green = kernels::is_green,
+    blue = kernels::is_blue,
+    coverage = kernels::is_coverage,
+    data = kernels::is_data,
+    all_colours = 31
+};
 inline bool is_colour(ColourSet set) { return (set & (red | green | blue)) != 0; }
 
 struct SampleColours {

@@ -1,5 +1,7 @@
 #include "dof/lens/tile_projection.h"
 
+#include "kernels/lens_rules.h"
+
 #include <algorithm>
 #include <cstddef>
 
@@ -23,8 +25,9 @@ void find_reached(const float *least, const float *most, const float *coc_of_lea
 } // namespace
 
 TileProjection::TileProjection(const LensSample &lens, float corner_x, float corner_y, int row)
-    : lens_x(lens.x), lens_y(lens.y), tile_x(corner_x), tile_y(corner_y), shift_x(lens.pixel_x + 1),
-      shift_y(lens.pixel_y + 1), stride(row) {}
+    : lens_x(lens.x), lens_y(lens.y), tile_x(corner_x), tile_y(corner_y),
+      shift_x(lens.pixel_x + kernels::shift_of_samples), shift_y(lens.pixel_y + kernels::shift_of_samples),
+      stride(row) {}
 
 // Compiled for several instruction sets, as this loop is most of the gather's work; they all give the same. Not
 // under ThreadSanitizer, as the loader chooses among them before that has begun.
@@ -36,12 +39,9 @@ void project_to_cells(const TileProjection &p, const float *x, const float *y, c
     const int stride = p.stride; // local copies rule out aliasing
     const float limit = float(stride - 1);
     for (std::uint32_t i = 0; i < count; ++i) {
-        // The tile's place is taken off first, so that far from the corner nothing is rounded more than near it.
-        const float cx = (x[i] - p.tile_x) + (coc[i] * p.lens_x + p.shift_x);
-        const float cy = (y[i] - p.tile_y) + (coc[i] * p.lens_y + p.shift_y);
-        // One bound after the other, so that each is one instruction.
-        const float right = cx > 0 ? cx : 0, down = cy > 0 ? cy : 0;
-        const float column = right < limit ? right : limit, row = down < limit ? down : limit;
+        const float cx = kernels::seen_along(x[i], p.tile_x, coc[i], p.lens_x, p.shift_x);
+        const float cy = kernels::seen_along(y[i], p.tile_y, coc[i], p.lens_y, p.shift_y);
+        const float column = kernels::cell_along(cx, limit), row = kernels::cell_along(cy, limit);
         cells[i] = std::int32_t(row) * stride + std::int32_t(column);
     }
 }

@@ -45,7 +45,7 @@ struct SeenFacet {
         long double widest = 0;
         for (std::size_t k = 0; k < 3; ++k)
             widest = std::max({widest, std::abs(side(k).x), std::abs(side(k).y)});
-        return {widest - (long double)parted_px, 2 * unclear};
+        return {widest - (long double)kernels::parted_px, 2 * unclear};
     }
     // How far the place is from where the next corner would weigh most; corner k weighs most where that is above 0.
     Margin nearest(std::size_t k) const {

@@ -14,6 +14,11 @@
 #extension GL_EXT_shader_atomic_int64 : require
 #extension GL_GOOGLE_include_directive : require
 
+#define Real float
+#include "kernels/surface.h"
+#include "kernels/lens_layout.h"
+#include "kernels/lens_rules.h"
+#include "kernels/holdout_rules.h"
 #include "tile_data.glsl"
 
 layout(local_size_x = threads) in;
@@ -25,7 +30,7 @@ layout(local_size_x = threads) in;
 #include "tile_partial.glsl"
 #include "tile_sums.glsl"
 
-uint place_of(uint t, uint group, ivec2 at) { return (group * tile_count + t) * 4 * pixels + at.y * 2 * size + at.x; }
+uint place_of(uint t, uint group, ivec2 at) { return (group * push.tile_count + t) * 4 * pixels + at.y * 2 * size + at.x; }
 
 void write_pixel(uint to, Sum sum, float total) {
     const vec4 known = known_of(sum, total);
@@ -37,7 +42,7 @@ void write_pixel(uint to, Sum sum, float total) {
 }
 
 void main() {
-    const uint t = first_tile + gl_WorkGroupID.x / 4, quarter = gl_WorkGroupID.x % 4, group = gl_WorkGroupID.y;
+    const uint t = push.first_tile + gl_WorkGroupID.x / 4, quarter = gl_WorkGroupID.x % 4, group = gl_WorkGroupID.y;
     const Tile tile = tiles[t];
     corner = ivec2(quarter % 2, quarter / 2) * size;
     first = vec2(tile.x, tile.y);
@@ -45,13 +50,13 @@ void main() {
     partial_first = tile.partial[quarter];
     partial_count = tile.partial_count[quarter];
     held_out = tile.holdout;
-    const uint begin = pass * tile.lens_in_pass, end = min(begin + tile.lens_in_pass, tile.lens_count);
+    const uint begin = push.pass * tile.lens_in_pass, end = min(begin + tile.lens_in_pass, tile.lens_count);
     if (begin >= end) return; // it is done
     Sum sum[own];
     for (uint j = 0; j < own; ++j) {
         const uint from = 2 * place_of(t, group, pixel_of(j) + corner);
         sum[j] = Sum(vec4(0), vec4(0));
-        if (pass > 0) sum[j] = Sum(sums[from], sums[from + 1]);
+        if (push.pass > 0) sum[j] = Sum(sums[from], sums[from + 1]);
     }
     for (uint k = begin; k < end; ++k) {
         lens = lens_points[tile.lens + k];

@@ -3,6 +3,7 @@
 #include "base/grid.h"
 #include "base/parallel.h"
 #include "gpu/lens/partial_lists.h"
+#include "gpu/lens/tile_rules.h"
 
 #include <algorithm>
 #include <array>
@@ -22,17 +23,12 @@ constexpr std::size_t stripe_bytes = std::size_t{512} << 20; // of a buffer, als
 constexpr double work_at_once = 2e9;
 constexpr double turns_in_pass = 1e6; // of loops, for the same reason
 
-struct Push {
-    std::uint32_t first_tile, tile_count, sample_count, first_filler, pass;
-    float depth_at_1;
-};
-
 // Tests of a sample by a lens point that one of the tile's passes takes.
-double work_of(const Stripe &stripe, const StripeTile &tile) {
+double work_of(const Stripe &stripe, const lens_kernel::Tile &tile) {
     double samples = 0;
     for (const std::uint32_t partial : tile.partial_count) samples += partial;
     for (std::uint32_t n = 0; n < tile.block_count; ++n) {
-        const StripeBlock &block = stripe.blocks[stripe.block_lists[tile.blocks + n]];
+        const lens_kernel::Block &block = stripe.blocks[stripe.block_lists[tile.blocks + n]];
         samples += block.opaque_end - block.begin;
     }
     return samples * std::min(tile.lens_count, tile.lens_in_pass);
@@ -40,7 +36,7 @@ double work_of(const Stripe &stripe, const StripeTile &tile) {
 
 std::uint32_t passes_of(const Stripe &stripe) {
     std::uint32_t passes = 1;
-    for (const StripeTile &tile : stripe.tiles)
+    for (const lens_kernel::Tile &tile : stripe.tiles)
         passes = std::max(passes, pieces_of(tile.lens_count, tile.lens_in_pass));
     return passes;
 }
@@ -60,7 +56,7 @@ void LensTilesOnDevice::gather(const TileScene &scene, std::span<const TileTask>
         tasks.push_back(all[n]);
         numbers.push_back(n);
     }
-    if (!program_) program_.emplace(device_.program(code, 18, sizeof(Push)));
+    if (!program_) program_.emplace(device_.program(code, 18, sizeof(lens_kernel::Push)));
     const std::size_t bytes = std::min(stripe_bytes, device_.largest_buffer());
     const double turns = std::min(turns_in_pass, device_.most_turns());
     for (std::size_t begin = 0, count = 0; begin < tasks.size(); begin += std::max(count, std::size_t{1})) {
@@ -103,11 +99,11 @@ void LensTilesOnDevice::run(std::uint32_t pass, std::size_t groups, float depth_
     for (std::uint32_t first = 0, end = 0; first < tiles; first = end) {
         for (double work = 0; end < tiles && (end == first || work < work_at_once); ++end)
             work += work_of(stripe, stripe.tiles[end]);
-        const Push push{
+        const lens_kernel::Push push{
             first, tiles,     std::uint32_t(stripe.places.size()), std::uint32_t(stripe.first_filler),
             pass,  depth_at_1};
         device_.run(*program_, buffers, std::as_bytes(std::span(&push, 1)),
-                    {std::uint32_t(quarters) * (end - first), std::uint32_t(groups), 1});
+                    {lens_kernel::quarters * (end - first), std::uint32_t(groups), 1});
     }
 }
 

@@ -1,7 +1,5 @@
 #include "gpu/lens/partial_lists.h"
 
-#include "gpu/lens/tile_rules.h"
-
 #include <algorithm>
 #include <cmath>
 
@@ -10,7 +8,7 @@ namespace sparselens::gpu {
 namespace {
 
 constexpr float margin = 2; // pixels: where in a pixel a lens point sees, and rounding
-constexpr float size = tile_size / 2;
+constexpr float size = lens_kernel::size;
 
 // How far lens points move a sample, for each pixel of CoC.
 struct Reach {
@@ -43,7 +41,7 @@ PartialLists partial_lists(const BlockedSamples &samples, const TileTask &task) 
     for (const std::uint32_t i : sorted) {
         const float coc = std::abs(samples.hiding_coc()[i]), across = coc * reach.x + margin,
                     down = coc * reach.y + margin;
-        for (std::size_t q = 0; q < quarters; ++q) {
+        for (std::size_t q = 0; q < lens_kernel::quarters; ++q) {
             const float left = float(task.origin.x) + float(q % 2) * size,
                         top = float(task.origin.y) + float(q / 2) * size;
             if (within(samples.x[i], left, across) && within(samples.y[i], top, down)) lists[q].push_back(i);

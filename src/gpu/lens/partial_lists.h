@@ -4,6 +4,7 @@
 
 #include "dof/device/tile_device.h"
 #include "dof/lens/sample_blocks.h"
+#include "kernels/lens_layout.h"
 
 #include <array>
 #include <cstdint>
@@ -11,9 +12,7 @@
 
 namespace sparselens::gpu {
 
-inline constexpr std::size_t quarters = 4; // of a tile: left and right above, left and right below
-
-using PartialLists = std::array<std::vector<std::uint32_t>, quarters>;
+using PartialLists = std::array<std::vector<std::uint32_t>, lens_kernel::quarters>;
 
 PartialLists partial_lists(const BlockedSamples &samples, const TileTask &task);
 

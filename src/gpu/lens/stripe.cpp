@@ -115,7 +115,7 @@ void list_tiles(Stripe &stripe, const TileScene &scene, std::span<const TileTask
              .lens_in_pass = std::uint32_t(std::clamp(most_turns / turns_of(scene, task), 1.0, 1e6)),
              .facets = list_blocks(stripe, ranges.facets, facets, task.facets),
              .facet_count = count(task.facets),
-             .rules = rules | (mirrors ? std::uint32_t{images} : 0),
+             .rules = rules | (mirrors ? lens_kernel::images : 0),
              .columns = columns,
              .holdout = holdout});
         columns += std::uint32_t(column_words(scene, task));
@@ -131,7 +131,7 @@ void list_partial(Stripe &stripe, const BlockedSamples &samples, std::span<const
     std::vector<PartialLists> lists(tasks.size());
     parallel_for(tasks.size(), [&](std::size_t t) { lists[t] = partial_lists(samples, tasks[t]); });
     for (std::size_t t = 0; t < tasks.size(); ++t)
-        for (std::size_t q = 0; q < quarters; ++q) {
+        for (std::size_t q = 0; q < lens_kernel::quarters; ++q) {
             stripe.tiles[t].partial[q] = std::uint32_t(stripe.partial_lists.size());
             stripe.tiles[t].partial_count[q] = std::uint32_t(lists[t][q].size());
             for (const std::uint32_t i : lists[t][q]) stripe.partial_lists.push_back(i - first_sample);
@@ -154,8 +154,8 @@ std::size_t tasks_that_fit(const TileScene &scene, std::span<const TileTask> tas
         holdout += holdout_words(scene, tasks[t]);
         const std::size_t most =
             std::max({ranges.sample_count(scene) * groups * 16, ranges.facets.count(scene.facets) * 12,
-                      listed * 4, partial * 4 * quarters, columns * 4, holdout * 4, lens * sizeof(StripeLens),
-                      (t + 1) * tile_pixels * groups * 32});
+                      listed * 4, partial * 4 * lens_kernel::quarters, columns * 4, holdout * 4,
+                      lens * sizeof(lens_kernel::Lens), (t + 1) * tile_pixels * groups * 32});
         if (most > bytes) return t;
     }
     return tasks.size();
@@ -202,7 +202,7 @@ Stripe make_stripe(const TileScene &scene, std::span<const TileTask> tasks, bool
     list_tiles(stripe, scene, tasks, ranges, most_turns);
     list_partial(stripe, scene.samples, tasks, ranges.samples.first(scene.samples));
     parallel_for(tasks.size(), [&](std::size_t t) {
-        const StripeTile &tile = stripe.tiles[t];
+        const lens_kernel::Tile &tile = stripe.tiles[t];
         place_columns(std::span(stripe.columns).subspan(tile.columns, column_words(scene, tasks[t])), scene,
                       tasks[t]);
         place_holdout(std::span(stripe.holdout).subspan(tile.holdout, holdout_words(scene, tasks[t])), scene,

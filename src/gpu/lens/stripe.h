@@ -6,7 +6,7 @@
 #include "dof/device/tile_device.h"
 #include "dof/lens/fillers.h"
 #include "dof/lens/sample_blocks.h"
-#include "gpu/lens/tile_rules.h"
+#include "kernels/lens_layout.h"
 
 #include <array>
 #include <cstddef>
@@ -16,21 +16,6 @@
 
 namespace sparselens::gpu {
 
-// As in the shader.
-struct StripeBlock {
-    std::uint32_t begin, opaque_end;
-    float x_min, x_max, y_min, y_max, coc_min, coc_max;
-};
-struct StripeLens {
-    float x, y, pixel_x, pixel_y, weight, red, green, blue, behind, in_front, weight_before;
-};
-struct StripeTile {
-    float x, y;
-    std::uint32_t blocks, block_count, fillers, filler_count, partial[4], partial_count[4], lens, lens_count,
-        lens_in_pass;
-    std::uint32_t facets, facet_count, rules, columns, holdout;
-};
-
 struct Stripe {
     // Of samples: those of the LDI, then fillers.
     std::vector<std::array<float, 2>> places;
@@ -39,15 +24,15 @@ struct Stripe {
     std::vector<float> shown;   // CoCs of what they show; empty without mirrors and glass: `cocs`
     std::vector<float> colours; // [group][sample][4]
     std::size_t first_filler = 0;
-    std::vector<StripeBlock> blocks;   // of samples, of fillers and of facets
-    std::vector<std::uint32_t> facets; // three samples each
+    std::vector<lens_kernel::Block> blocks; // of samples, of fillers and of facets
+    std::vector<std::uint32_t> facets;      // three samples each
     std::vector<std::uint32_t> block_lists, partial_lists;
-    std::vector<StripeLens> lens;
+    std::vector<lens_kernel::Lens> lens;
     std::vector<std::uint32_t>
         columns; // [tile][lens point][two rows]: begin and end of the pixels that see through it
-    std::vector<std::uint32_t> holdout; // of each tile, see place_holdout()
-    std::vector<StripeTile> tiles;      // one a task
-    std::vector<std::uint32_t> sets;    // [channel]: its ColourSet
+    std::vector<std::uint32_t> holdout;   // of each tile, see place_holdout()
+    std::vector<lens_kernel::Tile> tiles; // one a task
+    std::vector<std::uint32_t> sets;      // [channel]: its ColourSet
 };
 
 // How many of the tasks, from the first, fit into buffers of that many bytes.

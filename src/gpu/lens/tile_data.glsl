@@ -1,48 +1,4 @@
-// What the kernel of the lens gather works on: bindings, shared memory, and the lens point at hand. All of a stripe
-// (stripe.h).
-
-const uint threads = 256;
-const int size = 32;             // pixels a quarter is wide and high
-const int side = size + 2;       // with the cells next to it, where cracks are looked for
-const uint cells = side * side;
-const uint pixels = size * size; // threads * own
-const uint own = 4;              // pixels of a thread
-const uint chunk = 512;          // partial samples at once
-const int tile_stride = 68;      // of LensTile, as its projection clamps to it
-const int tile_border = 2;
-const uint none = 0xffffffffu;
-const float covered_at_all = 1 - 1.0 / 16777216;
-const float one_surface_px = 0.5;
-const float side_by_side = 1.5;
-
-struct Block {
-    uint begin, opaque_end;
-    float x_min, x_max, y_min, y_max, coc_min, coc_max;
-};
-struct Lens {
-    float x, y, pixel_x, pixel_y, weight;
-    float red, green, blue, behind, in_front; // by what the weight is multiplied
-    float weight_before; // of the tile's lens points before it
-};
-struct Tile {
-    float x, y;                  // of its first pixel
-    uint blocks, block_count;    // among block_lists
-    uint fillers, filler_count;  // among block_lists
-    uint partial[4], partial_count[4]; // of each quarter, among partial_lists
-    uint lens, lens_count;
-    uint lens_in_pass;           // so many at most
-    uint facets, facet_count;    // blocks of them, among block_lists
-    uint rules;                  // a set of the following
-    uint columns;                // see seen_through(), among columns[]
-    uint holdout;                // see passes(), among holdouts[]
-};
-const uint weighted = 1;  // lens points weigh differently for colours or sides of the focus, or not all pixels see through
-const uint two_sided = 2; // they do for sides of the focus
-const uint images = 4;    // mirrors or glass reach the tile
-const uint cat_eye = 8;   // not all pixels see through a lens point
-const uint darkens = 16;  // and that takes light from the pixels
-const uint holdout = 32;  // a holdout stays sharp
-
+// What the kernel of the lens gather works on: bindings, shared memory, and the lens point at hand. All of a stripe (stripe.h).
 
 // Of samples, apart from each other what changes in a pull of focus and what does not.
 layout(binding = 0) readonly buffer Places { vec2 places[]; };
@@ -64,11 +20,7 @@ layout(binding = 14) readonly buffer Cocs { float cocs[]; };   // by which they 
 layout(binding = 15) readonly buffer Alphas { float alphas[]; };
 layout(binding = 16) readonly buffer Shown { float shown[]; }; // CoCs of what opaque ones show, be it an image in a mirror
 layout(binding = 17) buffer Sums { vec4 sums[]; }; // from one pass to the next: [group][tile][pixel][light, weight]
-layout(push_constant) uniform Push {
-    uint first_tile, tile_count, sample_count, first_filler, pass;
-    float depth_at_1; // perceptive depth at z = 1
-};
-const uint red = 1, green = 2, blue = 4, data = 16; // ColourSet
+layout(push_constant) uniform Pushed { Push push; };
 
 shared uint64_t front[2 * cells]; // keys of the nearest samples, then of the nearest images or fillers; 0: none
 shared uint near_blocks[threads]; // those that reach the quarter
@@ -87,11 +39,6 @@ uint held_out; // where holdouts[] has the tile's
 Lens lens;
 
 uint thread() { return gl_LocalInvocationIndex; }
-
-float depth_of(uint upper) { return upper < 2 ? 0 : uintBitsToFloat(upper - 2); }
-uint64_t key_of(uint upper, uint sample_) { return (uint64_t(upper) << 32) | uint64_t(sample_); }
-uint upper_of(uint64_t key) { return uint(key >> 32); }
-uint sample_of(uint64_t key) { return uint(key & 0xffffffffUL); }
 
 ivec2 pixel_of(uint j) { return ivec2((thread() + threads * j) % size, (thread() + threads * j) / size); }
 uint cell_of(ivec2 pixel) { return uint((pixel.y + 1) * side + pixel.x + 1); }

@@ -1,8 +1,5 @@
 // What a holdout that stays sharp lets through (deep/holdout.h).
 
-const float farthest = 3e38;
-const float rounding = 1e-6; // relative, of depths that are equal
-
 float part_of(uint part, uint k) { return uintBitsToFloat(holdouts[held_out + 4 * pixels + 1 + 3 * part + k]); }
 
 // The share of the light from that perceptive depth that passes at the thread's pixel `j`.
@@ -10,12 +7,12 @@ float passes(uint j, float depth) {
     if ((rules & holdout) == 0) return 1;
     const ivec2 at = pixel_of(j) + corner;
     const uint pixel = held_out + at.y * 2 * size + at.x, end = holdouts[pixel + 1];
-    const float z = depth > 0 ? min(depth_at_1 / depth, farthest) : farthest;
+    const float farthest = 3e38, z = depth > 0 ? min(push.depth_at_1 / depth, farthest) : farthest;
     float passed = 1;
     for (uint part = holdouts[pixel]; part < end && passed > 0; ++part) {
         const float begins = part_of(part, 0), ends = part_of(part, 1), clear = part_of(part, 2);
-        if (!(begins < z * (1 - rounding))) break;
-        passed *= ends > z && clear > 0 ? pow(clear, (z - begins) / (ends - begins)) : clear;
+        if (!is_held_out(begins, z)) break;
+        passed *= passes_part(begins, ends, clear, z);
     }
     return passed;
 }

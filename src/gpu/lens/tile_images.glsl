@@ -1,8 +1,6 @@
 // What a lens point sees in mirrors and glass: the image, in the window that their surface is. After see_opaque() and
 // see_facets().
 
-const float one_mirror_px = 1;
-
 bool is_image(uint sample_) { return shown[sample_] != cocs[sample_]; }
 
 // Greater for a smaller CoC, then for a smaller index.
@@ -37,7 +35,7 @@ uint image_at(uint cell) {
     for (uint n = 0; n < 5; ++n) {
         const uint64_t key = front[cells + around[n]];
         const uint image = sample_of(~key);
-        if (key != 0UL && abs(depth_of(uppers[image]) - depth_of(uppers[sample_])) < one_mirror_px) return image;
+        if (key != 0UL && is_in_mirror(depth_of(uppers[image]), depth_of(uppers[sample_]))) return image;
     }
     return sample_;
 }

@@ -1,15 +1,11 @@
 // What a lens point sees of the opaque samples, and of facets between them (dof/facets): the nearest key in each cell.
 
-const float parted_px = 1 + 1.0 / 16;
-
 // The pixel of the quarter, or next to it, that the lens point sees a sample in; outside: x < -1.
 ivec2 seen_at(uint sample_, float coc) {
     const vec2 place = places[sample_];
-    const float limit = tile_stride - 1;
-    precise float cx = (place.x - (first.x - 1)) + (coc * lens.x + (lens.pixel_x + 1));
-    precise float cy = (place.y - (first.y - 1)) + (coc * lens.y + (lens.pixel_y + 1));
-    const float column = cx > 0 ? (cx < limit ? cx : limit) : 0, row = cy > 0 ? (cy < limit ? cy : limit) : 0;
-    const ivec2 at = ivec2(int(column), int(row)) - tile_border - corner;
+    const float x = seen_along(place.x, first.x - 1, coc, lens.x, lens.pixel_x + shift_of_samples),
+                y = seen_along(place.y, first.y - 1, coc, lens.y, lens.pixel_y + shift_of_samples);
+    const ivec2 at = ivec2(int(cell_along(x, tile_stride - 1)), int(cell_along(y, tile_stride - 1))) - border - corner;
     const bool inside = all(greaterThanEqual(at, ivec2(-1))) && all(lessThanEqual(at, ivec2(size)));
     return inside ? at : ivec2(-2);
 }
@@ -51,7 +47,7 @@ void see_opaque(uint list, uint count, uint offset) {
 
 // A facet's corners as the lens point sees them, in cells of the tile.
 struct Triangle {
-    precise vec3 x, y;
+    vec3 x, y;
     uint corner[3]; // samples
 };
 
@@ -61,30 +57,26 @@ Triangle triangle_of(uint facet) {
         t.corner[k] = facets[3 * facet + k];
         const vec2 place = places[t.corner[k]];
         const float coc = cocs[t.corner[k]];
-        precise float x = (place.x - (first.x - 1)) + (coc * lens.x + (lens.pixel_x + 0.5));
-        precise float y = (place.y - (first.y - 1)) + (coc * lens.y + (lens.pixel_y + 0.5));
-        t.x[k] = x;
-        t.y[k] = y;
+        t.x[k] = seen_along(place.x, first.x - 1, coc, lens.x, lens.pixel_x + shift_of_facets);
+        t.y[k] = seen_along(place.y, first.y - 1, coc, lens.y, lens.pixel_y + shift_of_facets);
     }
     return t;
 }
 
+float least_of(vec3 at) { return min(min(at[0], at[1]), at[2]); }
+float most_of(vec3 at) { return max(max(at[0], at[1]), at[2]); }
+
 // The cells of the quarter whose middle lies between the corners, along one axis.
 ivec2 extent_of(vec3 at, int corner_) {
-    const float last = tile_stride - 2, least = min(min(at[0], at[1]), at[2]), most = max(max(at[0], at[1]), at[2]);
-    const int from = int(last) - int(clamp(last - least, -1, last - 1)), to = int(clamp(most, 0, last));
-    return ivec2(max(from, corner_ + 1), min(to, corner_ + side));
+    const float last = tile_stride - border;
+    return ivec2(max(first_between(least_of(at), last), corner_ + 1), min(last_between(most_of(at), last), corner_ + side));
 }
 
-bool parted(vec3 at) {
-    precise const float apart = max(max(at[0], at[1]), at[2]) - min(min(at[0], at[1]), at[2]);
-    return apart > parted_px;
-}
+bool parted(vec3 at) { return most_of(at) - least_of(at) > parted_px; }
 
-// Twice the area of the triangle between two corners and a point, seen from one side.
+// Between two corners and a point.
 float area(Triangle t, uint from, uint to, vec2 at) {
-    precise const float doubled = (t.x[to] - t.x[from]) * (at.y - t.y[from]) - (t.y[to] - t.y[from]) * (at.x - t.x[from]);
-    return doubled;
+    return twice_area(t.x[from], t.y[from], t.x[to], t.y[to], at.x, at.y);
 }
 
 void draw(Triangle t) {
@@ -95,8 +87,8 @@ void draw(Triangle t) {
             const float a = turned * area(t, 1, 2, vec2(column, row)), b = turned * area(t, 2, 0, vec2(column, row)),
                         c = turned * area(t, 0, 1, vec2(column, row));
             if (a < 0 || b < 0 || c < 0) continue;
-            const uint nearest = t.corner[max(a, b) >= c ? (a >= b ? 0 : 1) : 2];
-            atomicMax(front[cell_of(ivec2(column, row) - tile_border - corner)], key_of(uppers[nearest], nearest));
+            const uint nearest = t.corner[nearest_corner(a, b, c)];
+            atomicMax(front[cell_of(ivec2(column, row) - border - corner)], key_of(uppers[nearest], nearest));
         }
 }
 

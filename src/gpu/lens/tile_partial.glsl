@@ -12,9 +12,8 @@ void add_over(inout Over over, uint j, uint sample_, uint group) {
     const bool in_front = (rules & two_sided) != 0 && cocs[sample_] < 0;
     precise vec4 colour = in_front ? over.colour_in_front : over.colour;
     precise const float share = over.transmittance * passes(j, depth_of(uppers[sample_]));
-    colour = colour + share * colours[group * sample_count + sample_];
-    precise float passed = over.transmittance * (1 - alphas[sample_]);
-    passed = min(passed, covered_at_all);
+    colour = colour + share * colours[group * push.sample_count + sample_];
+    const float passed = left_behind(over.transmittance, 1 - alphas[sample_]);
     precise float hidden = over.hidden_in_front;
     if (in_front) hidden = hidden + (over.transmittance - passed);
     over = Over(in_front ? over.colour : colour, in_front ? colour : over.colour_in_front, passed, hidden);

@@ -10,6 +10,8 @@
 
 namespace sparselens::gpu {
 
+using namespace lens_kernel;
+
 namespace {
 
 constexpr int rows_a_word = 2;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "dof/device/tile_device.h"
+#include "kernels/lens_layout.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -10,20 +11,9 @@
 
 namespace sparselens::gpu {
 
-inline constexpr int tile_size = 64; // LensTile::size
-inline constexpr std::size_t tile_pixels = tile_size * tile_size;
+inline constexpr std::size_t tile_pixels = lens_kernel::tile_size * lens_kernel::tile_size;
 
-// As in the shader; one bit each.
-enum Rules : std::uint32_t {
-    weighted = 1,
-    two_sided = 2,
-    images = 4,
-    cat_eye = 8,
-    darkens = 16,
-    holdout = 32
-};
-
-// All but `images`.
+// Those of lens_layout.h, all but `images`.
 std::uint32_t rules_of(const TileScene &scene, std::span<const LensSample> lens);
 
 // [lens point][two rows]: where the pixels of a row begin that see through it, and where they end, 8 bits each. None without

@@ -9,7 +9,7 @@ struct Sum {
 // Adds what the lens point sees: a sample, or what is unknown (`none`), behind partial ones; `passes`: the share of the sample's
 // light that a holdout lets through.
 void add_seen(inout Sum sum, uint seen, float passes, Over over, uint group) {
-    const vec4 behind = seen != none ? colours[group * sample_count + seen] : vec4(0);
+    const vec4 behind = seen != none ? colours[group * push.sample_count + seen] : vec4(0);
     precise vec4 light = sum.light;
     precise float unknown = sum.weight.x;
     if (seen != none) light = light + lens.weight * passes * behind;
@@ -24,23 +24,19 @@ void add_seen(inout Sum sum, uint seen, float passes, Over over, uint group) {
     sum = Sum(light, vec4(unknown));
 }
 
-// By what the lens point weighs each channel, for what lies in front of focus or behind. Data takes no part: what has no
-// colour is the same for all light.
+// By what the lens point weighs each channel, for what lies in front of focus or behind.
 vec4 channel_weights(uint group, bool in_front) {
-    precise vec4 weights;
-    for (uint k = 0; k < 4; ++k) {
-        const uint set = sets[group * 4 + k];
-        const float colour = set == red ? lens.red : set == green ? lens.green : set == blue ? lens.blue : 1;
-        weights[k] = lens.weight * colour * (set == data ? 1 : in_front ? lens.in_front : lens.behind);
-    }
+    const float side_ = in_front ? lens.in_front : lens.behind;
+    vec4 weights;
+    for (uint k = 0; k < 4; ++k)
+        weights[k] = light_weight(sets[group * 4 + k], lens.weight, lens.red, lens.green, lens.blue, side_);
     return weights;
 }
 
-// How these count in what the sum is divided by. Past a cat-eye that darkens, the mean of colours is that over lens points.
+// How these count in what the sum is divided by.
 vec4 known_weights(uint group, vec4 weights) {
-    if ((rules & darkens) == 0) return weights;
     for (uint k = 0; k < 4; ++k)
-        if ((sets[group * 4 + k] & (red | green | blue)) != 0) weights[k] = lens.weight;
+        if (is_darkened(sets[group * 4 + k], (rules & darkens) != 0)) weights[k] = lens.weight;
     return weights;
 }
 
@@ -55,7 +51,7 @@ bool seen_through(Tile tile, uint k, ivec2 at) {
 // Backgrounds lie behind, wherever they are seen.
 bool in_front_of_focus(uint sample_) {
     if ((rules & two_sided) == 0 || sample_ == none) return false;
-    return (sample_ >= first_filler || uppers[sample_] >= 2) && shown[sample_] < 0;
+    return (sample_ >= push.first_filler || uppers[sample_] > background_upper) && shown[sample_] < 0;
 }
 
 void add_weighted(inout Sum sum, vec4 weight, vec4 light, float covered, vec4 colour) {
@@ -69,7 +65,7 @@ void add_seen_weighted(inout Sum sum, uint seen, float passes, Over over, uint g
     const vec4 lights[2] = {channel_weights(group, false), channel_weights(group, true)};
     const vec4 weights[2] = {known_weights(group, lights[0]), known_weights(group, lights[1])};
     const uint side_ = in_front_of_focus(seen) ? 1 : 0;
-    precise const vec4 behind = seen != none ? passes * colours[group * sample_count + seen] : vec4(0);
+    precise const vec4 behind = seen != none ? passes * colours[group * push.sample_count + seen] : vec4(0);
     if (seen != none) add_weighted(sum, weights[side_], lights[side_], 1, behind);
     if (over.transmittance >= 1) return;
     precise const float hidden = 1 - over.transmittance;
@@ -80,10 +76,9 @@ void add_seen_weighted(inout Sum sum, uint seen, float passes, Over over, uint g
     if (seen != none) add_weighted(sum, weights[side_], lights[side_], -hidden, taken);
 }
 
-// The weight of what is known; what rounding leaves of a weight is no knowledge.
+// The weight of what is known.
 vec4 known_of(Sum sum, float total) {
-    precise vec4 known = (rules & weighted) != 0 ? sum.weight : vec4(total - sum.weight.x);
-    for (uint k = 0; k < 4; ++k)
-        if (!(known[k] > 1e-6 * total)) known[k] = 0;
+    vec4 known = (rules & weighted) != 0 ? sum.weight : vec4(total - sum.weight.x);
+    for (uint k = 0; k < 4; ++k) known[k] = known_weight(known[k], total);
     return known;
 }

@@ -6,11 +6,10 @@ uint64_t torn_at(uint cell) {
     uint64_t farthest = 0UL;
     for (uint step = 1; step <= side; step += side - 1) {
         const uint64_t one = front[cell - step], other = front[cell + step];
-        if (upper_of(one) < 2 || upper_of(other) < 2) continue;
-        const vec2 apart = abs(places[sample_of(one)] - places[sample_of(other)]);
-        if (any(greaterThanEqual(apart, vec2(side_by_side)))) continue;
+        if (upper_of(one) <= background_upper || upper_of(other) <= background_upper) continue;
+        const vec2 apart = places[sample_of(one)] - places[sample_of(other)];
         const float depth_a = depth_of(upper_of(one)), depth_b = depth_of(upper_of(other));
-        if (abs(depth_a - depth_b) >= one_surface_px) continue;
+        if (!is_crack(apart.x, apart.y, depth_a - depth_b)) continue;
         const uint64_t farther = depth_a <= depth_b ? one : other;
         if (farthest == 0UL || depth_of(upper_of(farther)) < depth_of(upper_of(farthest))) farthest = farther;
     }
@@ -19,10 +18,9 @@ uint64_t torn_at(uint cell) {
 
 // Whether what lies at that depth is behind something in a cell, also where a surface is torn there.
 bool hides(uint cell, float depth) {
-    const uint limit = floatBitsToUint(depth + one_surface_px) + 2;
-    return upper_of(front[cell]) > limit ||
-           (upper_of(front[cell - 1]) > limit && upper_of(front[cell + 1]) > limit) ||
-           (upper_of(front[cell - side]) > limit && upper_of(front[cell + side]) > limit);
+    const uint64_t limit = hiding_key(depth);
+    return front[cell] > limit || (front[cell - 1] > limit && front[cell + 1] > limit) ||
+           (front[cell - side] > limit && front[cell + side] > limit);
 }
 
 // What lies behind the partial samples in the thread's pixels: a sample, `none` where that is unknown. Ends with a

@@ -4,6 +4,7 @@
 
 #include "base/grid.h"
 #include "deep/ldi.h"
+#include "kernels/surface.h"
 #include "view/view_mapping.h"
 
 #include <array>
@@ -13,9 +14,6 @@
 #include <vector>
 
 namespace sparselens {
-
-// Pixels of perceptive depth: pixels a few pixels apart that differ by no more show one surface.
-inline constexpr float one_mirror_px = 1;
 
 // A view of one sample a pixel or, on silhouettes, more; the mapping tells where it stands.
 struct PlacedView {

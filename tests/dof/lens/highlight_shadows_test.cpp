@@ -118,7 +118,7 @@ TEST(HighlightGroups, HoldEachSampleOnceAndAreSmall) {
                 const float reach = std::abs(samples.coc[group[0]]) / 32;
                 EXPECT_TRUE(i == group[0] || std::abs(samples.x[i] - samples.x[group[0]]) <= reach);
                 EXPECT_TRUE(i == group[0] || std::abs(samples.y[i] - samples.y[group[0]]) <= reach);
-                EXPECT_LE(std::abs(samples.depth[i] - samples.depth[group[0]]), float(one_surface_px));
+                EXPECT_LE(std::abs(samples.depth[i] - samples.depth[group[0]]), one_surface_px);
             }
         });
         std::ranges::sort(found);

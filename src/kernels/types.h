@@ -1,0 +1,21 @@
+// What GLSL has built in, for the other headers of this folder: they are written in what C++ and GLSL have in common, and a
+// build makes GLSL of them (cmake/AsGlsl.cmake). Each rule that the CPU and a device both follow stands there once.
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+
+namespace sparselens::kernels {
+
+using std::abs, std::asin, std::floor, std::max, std::min, std::pow, std::sqrt;
+using uint = std::uint32_t;
+using uint64_t = std::uint64_t;
+static_assert(sizeof(int) == sizeof(uint) && sizeof(float) == 4 && sizeof(double) == 8);
+
+inline uint floatBitsToUint(float value) { return std::bit_cast<uint>(value); }
+inline float uintBitsToFloat(uint bits) { return std::bit_cast<float>(bits); }
+
+} // namespace sparselens::kernels
