@@ -4,7 +4,7 @@
 // The centre and the pixels are in EXR pixel coordinates, y down. The disc is an ellipse with the half axes `radius`
 // and radius * pixel_aspect. The weight of a pixel is area(disc and pixel) / area(disc), the share of the light that
 // falls into it. The weights of all pixels sum to 1. A radius of 0 is a point, whose light all falls into the pixel
-// that contains it.
+// that contains it; so is a disc of a radius below kernels::smallest_psf_radius.
 #pragma once
 
 #include <Imath/ImathBox.h>
@@ -14,14 +14,15 @@
 
 namespace sparselens {
 
+namespace kernels {
+struct Band;
+}
+
 struct Psf {
     Imath::V2d centre;
     double radius = 0; // pixels; tested up to 1e4
     double pixel_aspect = 1;
 };
-
-// A disc of a smaller radius is treated as a point.
-inline constexpr double smallest_psf_radius = 1e-9;
 
 // The share of the light that falls into a box (EXR pixel coordinates), in closed form; the error is below 1e-14.
 double psf_share(const Psf &psf, const Imath::Box2d &box);
@@ -52,11 +53,10 @@ public:
 
 private:
     using Table = std::array<double, max_size + 1>;
-    struct Band;
     Span columns_within(double distance) const;
-    void add_band(const Band &band, double *weights) const;
+    void add_band(const kernels::Band &band, double *weights) const;
     template <int Direction>
-    void add_arc(const Band &band, int column, double *weights) const;
+    void add_arc(const kernels::Band &band, int column, double *weights) const;
 
     Psf psf_;
     Imath::Box2i box_;

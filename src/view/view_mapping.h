@@ -12,6 +12,7 @@
 #pragma once
 
 #include "base/image.h"
+#include "kernels/warp_rules.h"
 #include "view/framing.h"
 
 namespace sparselens {
@@ -26,8 +27,12 @@ public:
                 const Imath::V2d &centre_principal_point = {0, 0});
 
     // p = at_infinity(q) + parallax(q) / z.
-    Imath::V2d at_infinity(const Imath::V2d &q) const { return q * unzoom_ + offset_; }
-    Imath::V2d parallax(const Imath::V2d &q) const { return step_ - q * approach_; }
+    Imath::V2d at_infinity(const Imath::V2d &q) const {
+        return {kernels::at_infinity(q.x, unzoom_, offset_.x), kernels::at_infinity(q.y, unzoom_, offset_.y)};
+    }
+    Imath::V2d parallax(const Imath::V2d &q) const {
+        return {kernels::parallax(q.x, step_.x, approach_), kernels::parallax(q.y, step_.y, approach_)};
+    }
 
     // Where the view shows what the centre view shows at p; NaN where that lies behind the camera of the view.
     Imath::V2d in_view(const Imath::V2d &p, double inverse_z) const;

@@ -8,6 +8,7 @@
 // each axis.
 #pragma once
 
+#include "kernels/warp_rules.h"
 #include "warp/reprojected_views.h"
 
 #include <algorithm>
@@ -16,8 +17,6 @@
 #include <vector>
 
 namespace sparselens {
-
-inline constexpr double gradient_to_noise = 8; // gains 0.1 to 0.2 dB on fence and yard from 5 to 17
 
 // Whether the view was not rendered where it would see that place.
 inline bool is_missing(const ReprojectedViews &views, std::size_t view, const Imath::V2d &place,
@@ -28,8 +27,8 @@ inline bool is_missing(const ReprojectedViews &views, std::size_t view, const Im
     // What the centre view has beyond its frame in that direction is not missing, however the view is framed.
     const Imath::V2d towards = mapping.at_infinity(seen);
     const Imath::Box2i &frame = views.samples(0).windows.data;
-    if (!(towards.x >= frame.min.x && towards.x < frame.max.x + 1.0)) return false;
-    if (!(towards.y >= frame.min.y && towards.y < frame.max.y + 1.0)) return false;
+    if (!kernels::lies_in(towards.x, frame.min.x, frame.max.x)) return false;
+    if (!kernels::lies_in(towards.y, frame.min.y, frame.max.y)) return false;
     const Imath::V2i pixel(int(std::floor(seen.x)), int(std::floor(seen.y)));
     return !windows.data.intersects(pixel) ||
            views.samples(view).pixel(windows.index(pixel.x, pixel.y)).empty();
@@ -46,24 +45,13 @@ inline bool some_view_is_missing(const ReprojectedViews &views, std::span<const 
     return false;
 }
 
-// The samples with those weights, up to a common factor; none has less than a hundredth of its own. They are not empty.
-// For weights w and offsets x: w (1 - x . b), b = (1 / g^2 + sum of w x x^T)^-1 (sum of w x).
+// The samples with those weights, up to a common factor. They are not empty.
 inline std::vector<ViewSample> balanced(std::span<const ViewSample> samples) {
-    constexpr double least_share = 0.01;
-    constexpr double not_known = 1 / (gradient_to_noise * gradient_to_noise);
-    double xx = not_known, xy = 0, yy = not_known, x = 0, y = 0;
-    for (const ViewSample &s : samples) {
-        const double dx = double(s.dx), dy = double(s.dy);
-        xx += s.weight * dx * dx;
-        xy += s.weight * dx * dy;
-        yy += s.weight * dy * dy;
-        x += s.weight * dx;
-        y += s.weight * dy;
-    }
-    const double determinant = xx * yy - xy * xy; // > 0: the matrix is positive definite
-    const double bx = (yy * x - xy * y) / determinant, by = (xx * y - xy * x) / determinant;
+    kernels::Offsets offsets = kernels::no_offsets();
+    for (const ViewSample &s : samples) kernels::add_offset(offsets, s.weight, double(s.dx), double(s.dy));
+    const double by_x = kernels::balance_x(offsets), by_y = kernels::balance_y(offsets);
     std::vector<ViewSample> result(samples.begin(), samples.end());
-    for (ViewSample &s : result) s.weight *= std::max(least_share, 1 - double(s.dx) * bx - double(s.dy) * by);
+    for (ViewSample &s : result) s.weight *= kernels::balanced_share(double(s.dx), double(s.dy), by_x, by_y);
     return result;
 }
 

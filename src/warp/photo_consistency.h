@@ -6,6 +6,7 @@
 // equally large; a reflection that moves relative to its surface makes the difference larger.
 #pragma once
 
+#include "kernels/photo_rules.h"
 #include "lens/thin_lens.h"
 #include "warp/images/disagreement.h"
 #include "warp/surfaces.h"
@@ -13,8 +14,6 @@
 #include <optional>
 
 namespace sparselens {
-
-inline constexpr int photo_block = 8; // pixels wide and high
 
 struct PhotoConsistencyOptions {
     // On a surface in focus all directions are averaged, as the lens does. Empty: the focus is unknown, and no surface
@@ -29,6 +28,9 @@ struct PhotoConsistency {
     // In focus or not: clear where views differ by more than noise, or as they would if the image lay at another depth.
     std::vector<Disagreement> differ;
 };
+
+// By what is said of a block (kernels/photo_rules.h).
+Disagreement disagreement_of(std::uint32_t verdict);
 
 // Of some rows of `data`, whose surfaces are given.
 PhotoConsistency find_photo_consistency(const ReprojectedViews &views, const PhotoConsistencyOptions &options,

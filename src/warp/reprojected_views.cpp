@@ -4,7 +4,6 @@
 #include "base/parallel.h"
 #include "lens/perceptive_depth.h"
 #include "warp/deepen.h"
-#include "warp/images/nearness.h"
 #include "warp/lamps/lamp_depths.h"
 #include "warp/silhouettes.h"
 
@@ -96,7 +95,7 @@ ReprojectedRows ReprojectedViews::place(const Imath::Box2i &data, int first_row,
         for (; i < end_of_view[v]; ++i) {
             const ReprojectedSample &s = rows.by_view[i];
             rows.samples[next[pixel_of(s)]++] = {
-                s, v, 0, samples(v).weight[s.source] * nearness(double(s.dx), double(s.dy))};
+                s, v, 0, samples(v).weight[s.source] * kernels::nearness(double(s.dx), double(s.dy))};
         }
     return rows;
 }

@@ -1,5 +1,7 @@
 #include "warp/surfaces.h"
 
+#include "kernels/warp_rules.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -23,7 +25,7 @@ void sort_stably(std::span<ViewSample> samples, const Before &before) {
 }
 
 bool one_surface(const ViewSample &a, const ViewSample &b, double tolerance) {
-    return std::abs(double(a.inverse_z) - double(b.inverse_z)) < tolerance || a.inverse_z == b.inverse_z;
+    return kernels::is_one_surface(double(a.inverse_z), double(b.inverse_z), tolerance);
 }
 
 // Of the samples of a pixel, front to back, those that belong to it.

@@ -1,6 +1,7 @@
 #include "warp/visibility_vote.h"
 
 #include "deep/build.h"
+#include "kernels/warp_rules.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +17,7 @@ void count_votes(const Ldi &view, std::size_t alpha, std::size_t pixel, double i
     if (view.pixel(pixel).empty()) return;
     double left = 1;
     for (const std::uint64_t i : view.pixel(pixel)) {
-        const double covers = std::clamp(double(alpha_at(view, alpha, i)), 0.0, left);
+        const double covers = kernels::covers(double(alpha_at(view, alpha, i)), left);
         const double nearer = 1 / double(view.z[i]) - inverse_z;
         if (std::abs(nearer) < tolerance)
             votes.there += covers;
@@ -40,8 +41,8 @@ Votes votes_on(const ReprojectedViews &views, const Imath::V2d &place, double in
         const Ldi &view = views.samples(v);
         const Imath::V2d seen = views.reprojection(v).mapping().in_view(place, inverse_z);
         const Imath::Box2i &data = view.windows.data;
-        if (!(seen.x >= data.min.x && seen.x < data.max.x + 1.0)) continue;
-        if (!(seen.y >= data.min.y && seen.y < data.max.y + 1.0)) continue;
+        if (!kernels::lies_in(seen.x, data.min.x, data.max.x)) continue;
+        if (!kernels::lies_in(seen.y, data.min.y, data.max.y)) continue;
         const std::size_t pixel = view.windows.index(int(std::floor(seen.x)), int(std::floor(seen.y)));
         count_votes(view, alpha, pixel, inverse_z, tolerance, past, votes);
     }
@@ -51,7 +52,7 @@ Votes votes_on(const ReprojectedViews &views, const Imath::V2d &place, double in
 double visibility_vote(const ReprojectedViews &views, const Imath::V2d &place, double inverse_z,
                        double tolerance) {
     const Votes votes = votes_on(views, place, inverse_z, tolerance);
-    return votes.all() > 0 ? std::clamp(2 * votes.there / votes.all() - 0.5, 0.0, 1.0) : 1;
+    return kernels::coverage_by_votes(votes.there, votes.past);
 }
 
 } // namespace sparselens

@@ -80,38 +80,32 @@ void Warper::grow_window() {
     }
 }
 
-// The mean of positions belongs to the mean of colours: where colour is linear, nothing is blurred.
 void Warper::emit_mean(std::span<const ViewSample> samples, Ldi &out) const {
-    double count = 0, total = 0, dx = 0, dy = 0,
-           inverse_z = 0; // double: views may be many, depths near each other
-    for (const ViewSample &s : samples) {
-        count += views_.samples(s.view).weight[s.source];
-        total += s.weight;
-        dx += s.weight * s.dx;
-        dy += s.weight * s.dy;
-        inverse_z += s.weight * s.inverse_z;
-    }
-    dx /= total;
-    dy /= total;
-    inverse_z /= total;
-    const Imath::V2d place(samples[0].x + 0.5 + dx, samples[0].y + 0.5 + dy);
-    const double coverage = samples[0].view == 0 ? 1 : visibility_vote(views_, place, inverse_z, tolerance_);
+    kernels::Mean mean{}; // double: views may be many, depths near each other
+    for (const ViewSample &s : samples)
+        kernels::add_to_mean(mean, s.weight, double(views_.samples(s.view).weight[s.source]), double(s.dx),
+                             double(s.dy), double(s.inverse_z));
+    kernels::divide_mean(mean);
+    const Imath::V2d place(samples[0].x + 0.5 + mean.dx, samples[0].y + 0.5 + mean.dy);
+    const double coverage =
+        samples[0].view == 0 ? 1 : visibility_vote(views_, place, mean.inverse_z, tolerance_);
     if (coverage == 0) return;
     const bool alone = samples.size() == 1;
-    out.z.push_back(alone ? views_.samples(samples[0].view).z[samples[0].source] : float(1 / inverse_z));
-    out.dx.push_back(float(dx));
-    out.dy.push_back(float(dy));
-    out.weight.push_back(float(count));
+    out.z.push_back(alone ? views_.samples(samples[0].view).z[samples[0].source] : float(1 / mean.inverse_z));
+    out.dx.push_back(float(mean.dx));
+    out.dy.push_back(float(mean.dy));
+    out.weight.push_back(float(mean.merged));
     for (std::size_t k = 0; k < out.channels.size(); ++k) {
         double sum = 0;
         for (const ViewSample &s : samples) sum += s.weight * views_.value(s, k);
-        out.values[k].push_back(ids_[k] ? views_.value(samples[0], k) : float(coverage * (sum / total)));
+        out.values[k].push_back(ids_[k] ? views_.value(samples[0], k)
+                                        : float(coverage * (sum / mean.weights)));
     }
     ++out.begin.back();
     if (mattes_.empty()) return;
     MatteSum pairs(mattes_);
     for (const ViewSample &s : samples)
-        pairs.add(coverage * s.weight / total, [&](std::size_t k) { return views_.value(s, k); });
+        pairs.add(coverage * s.weight / mean.weights, [&](std::size_t k) { return views_.value(s, k); });
     pairs.take([&](std::size_t k, float value) { out.values[k].back() = value; });
 }
 
@@ -170,7 +164,7 @@ Ldi Warper::warp_band(int first_row, int last_row, Marks &differ, ReprojectedRow
 
 // Bands that the device is done with have a piece; the first of several that come together has them all.
 void Warper::warp_on_device(std::span<Ldi> pieces, Marks &differ) const {
-    static_assert(photo_block == image_block && warp_band_rows % image_block == 0);
+    static_assert(kernels::photo_block == image_block && warp_band_rows % image_block == 0);
     const WarpScene scene{.views = views_,
                           .layout = layout_,
                           .averages = averages(),

@@ -26,7 +26,7 @@ double error_of(const std::vector<ViewSample> &samples, const std::vector<double
         x += by[i] * double(samples[i].dx);
         y += by[i] * double(samples[i].dy);
     }
-    return noise + gradient_to_noise * gradient_to_noise * (x * x + y * y);
+    return noise + kernels::gradient_to_noise * kernels::gradient_to_noise * (x * x + y * y);
 }
 
 std::vector<double> shares(const std::vector<ViewSample> &samples) {
@@ -92,7 +92,8 @@ TEST(Balance, AViewRenderedInPartMovesNothing) {
     const Ldi ldi = warp(views, options, silent);
     EXPECT_NEAR(ldi.dx[ldi.pixel(right).front()], 0, 1e-5);
     const double w = std::exp(-0.5),
-                 g = gradient_to_noise * gradient_to_noise; // 0.3 px: one spread of nearness()
+                 g = kernels::gradient_to_noise *
+                     kernels::gradient_to_noise; // 0.3 px: one spread of nearness()
     const double plain = 0.3 * w / (1 + w), b = 0.3 * w / (1 / g + 0.09 * w), of_rim = w * (1 - 0.3 * b);
     EXPECT_NEAR(std::abs(double(ldi.dx[ldi.pixel(left).front()])), 0.3 * of_rim / (1 + of_rim), 1e-4);
     EXPECT_LT(0.3 * of_rim / (1 + of_rim), plain / 3);

@@ -11,8 +11,6 @@ namespace sparselens {
 
 struct SplatBlocks;
 
-inline constexpr int splat_tile_size = 32; // pixels a tile is wide and high, at most
-
 // A block of splats that can reach a tile.
 struct VisitedBlock {
     std::uint32_t block;
@@ -32,7 +30,7 @@ struct SplatTask {
     std::span<const VisitedBlock> blocks; // front to back
 };
 
-// What a tile has gathered. Its pixels are counted row by row, splat_tile_size a row.
+// What a tile has gathered. Its pixels are counted row by row, splat_kernel::size a row.
 struct SplatPicture {
     const float *values; // four colours of each pixel, those of the next group `group_step` values later
     const float *alphas; // of each pixel

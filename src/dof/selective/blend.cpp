@@ -1,6 +1,6 @@
 #include "dof/selective/blend.h"
 
-#include "lens/psf.h"
+#include "kernels/layer_rules.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,11 +21,7 @@ int depth_bin(double coc) {
 }
 
 double window_share(const Imath::Box2i &data, double pixel_aspect, int x, int y, double radius) {
-    const double left = x + 0.5 - data.min.x, right = data.max.x + 0.5 - x;
-    const double above = y + 0.5 - data.min.y, below = data.max.y + 0.5 - y, high = radius * pixel_aspect;
-    if (left >= radius && right >= radius && above >= high && below >= high) return 1;
-    return psf_share({{x + 0.5, y + 0.5}, radius, pixel_aspect},
-                     {Imath::V2d(data.min), Imath::V2d(data.max) + Imath::V2d(1, 1)});
+    return kernels::window_share(data.min.x, data.min.y, data.max.x, data.max.y, pixel_aspect, x, y, radius);
 }
 
 // From back to front, so that `known` is at each layer what lies there or behind it.
@@ -38,10 +34,10 @@ double blend_layers(std::span<const double> layers, std::span<double> colours) {
         const double coverage = layer[0];
         known += layer[1];
         if (coverage <= 0) continue;
-        const double share = std::min(1.0, coverage / std::min(1.0, known));
+        const double share = kernels::layer_share(coverage, known);
         for (std::size_t k = 0; k < colours.size(); ++k)
-            colours[k] = share * (layer[sums_before_colours + k] / coverage) + (1 - share) * colours[k];
-        alpha = share + (1 - share) * alpha;
+            colours[k] = kernels::over(share, layer[sums_before_colours + k] / coverage, colours[k]);
+        alpha = kernels::over(share, 1, alpha);
     }
     return alpha;
 }
@@ -54,7 +50,7 @@ void TileLayers::clear() { std::fill(states_.begin(), states_.end(), State{}); }
 
 void TileLayers::add(std::size_t pixel, int bin, const double *sums, std::size_t stride, double scale) {
     State &state = states_[pixel];
-    if (state.count > 0 && bin <= state.last_bin + 1) {
+    if (state.count > 0 && kernels::joins_layer(bin, state.last_bin)) {
         double *current = layer(pixel, state.count - 1);
         for (std::size_t k = 0; k < size_; ++k) current[k] += scale * sums[k * stride];
     } else {

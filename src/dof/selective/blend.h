@@ -33,9 +33,6 @@ int depth_bin(double coc);
 // radius, for its mean radius.
 inline constexpr std::size_t sums_before_colours = 2;
 
-// A bin of which less is known has nothing but what rounding left at a disc's edge.
-inline constexpr double least_known = 1e-12;
-
 // The part of a disc of that radius around pixel (x, y) that lies in the data window.
 double window_share(const Imath::Box2i &data, double pixel_aspect, int x, int y, double radius);
 

@@ -90,7 +90,7 @@ double blend_fragments(std::vector<Fragment> &fragments, const std::vector<Splat
     int last_bin = 0;
     for (std::size_t i = 0; i < bins.numbers.size(); ++i) {
         const double *sums = &bins.sums[i * bin_size], known = sums[1];
-        if (known <= least_known) continue;
+        if (known <= kernels::least_known) continue;
         const double scale = 1 / window_share(source.ldi().windows.data, source.lens().pixel_aspect, x, y,
                                               sums[bin_size - 1] / known);
         if (layers.empty() || bins.numbers[i] > last_bin + 1) layers.resize(layers.size() + layer_size);

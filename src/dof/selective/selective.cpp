@@ -5,6 +5,7 @@
 #include "dof/device/tile_device.h"
 #include "dof/selective/blend.h"
 #include "dof/selective/splat_blocks.h"
+#include "kernels/splat_layout.h"
 #include "lens/psf.h"
 
 #include <tbb/enumerable_thread_specific.h>
@@ -16,7 +17,7 @@ namespace sparselens {
 
 namespace {
 
-constexpr int tile_size = splat_tile_size;
+constexpr int tile_size = splat_kernel::size;
 static_assert(tile_size <= PsfRows::max_size);
 constexpr std::size_t tile_pixels = std::size_t(tile_size) * tile_size;
 
@@ -106,7 +107,7 @@ void TileGather::finish_bin(int bin) {
             double *sums = &sums_[pixels_.index(x, y)];
             for (std::size_t k = 0; k < size; ++k) sums[k * tile_pixels] += uniform_[k];
             const double known = sums[tile_pixels];
-            if (known > least_known) {
+            if (known > kernels::least_known) {
                 const double radius = sums[(size - 1) * tile_pixels] / known;
                 const double scale = 1 / window_share(data_, pixel_aspect_, x, y, radius);
                 layers_.add(pixels_.index(x, y), bin, sums, tile_pixels, scale);

@@ -4,6 +4,7 @@
 
 #include "deep/ldi.h"
 #include "dof/selective/blend.h"
+#include "kernels/layer_rules.h"
 #include "lens/thin_lens.h"
 
 #include <Imath/ImathVec.h>
@@ -76,7 +77,7 @@ void SplatSource::for_each(std::size_t pixel, const Visit &visit) const {
         if (alpha <= 0) continue;
         const double coc = circle_of_confusion(lens_, ldi_.optical_z(i));
         const int bin = depth_bin(coc);
-        const bool same_layer = last && bin <= last->bin + 1;
+        const bool same_layer = last && kernels::joins_layer(bin, last->bin);
         if (same_layer && passed <= too_little) continue;
         if (last) {
             if (!same_layer) last->known += passed, passed = 1;

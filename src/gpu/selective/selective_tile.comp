@@ -12,6 +12,11 @@
 // gl_WorkGroupID.x: the tile. gl_WorkGroupID.y: the group of four colours.
 #extension GL_GOOGLE_include_directive : require
 
+#define Real double
+#include "arc_sine.glsl"
+#include "kernels/splat_layout.h"
+#include "kernels/psf_rules.h"
+#include "kernels/layer_rules.h"
 #include "splat_data.glsl"
 
 layout(local_size_x = threads) in;
@@ -34,12 +39,12 @@ void keep_bin(uint at, uint step_, Bin bin) {
 }
 
 void begin_pass() {
-    uniform_ = pass == 0 ? no_sums() : bin_from(running_at(bin_sums), 1);
+    uniform_ = push.pass == 0 ? no_sums() : bin_from(running_at(bin_sums), 1);
     for (uint j = 0; j < own; ++j) {
         const uint state = place * 2 * pixels + pixel_of(j);
-        bins[j] = pass == 0 ? no_sums() : bin_from(running_at(0) + pixel_of(j), pixels);
-        layer_count[j] = pass == 0 ? 0 : states[state];
-        last_bin[j] = pass == 0 ? 0 : states[state + pixels];
+        bins[j] = push.pass == 0 ? no_sums() : bin_from(running_at(0) + pixel_of(j), pixels);
+        layer_count[j] = push.pass == 0 ? 0 : states[state];
+        last_bin[j] = push.pass == 0 ? 0 : states[state + pixels];
     }
 }
 
@@ -79,13 +84,13 @@ void add_splat(uint s, uint j) {
 }
 
 void main() {
-    const uint t = first_tile + gl_WorkGroupID.x;
+    const uint t = push.first_tile + gl_WorkGroupID.x;
     group = gl_WorkGroupID.y;
     place = t * gl_NumWorkGroups.y + group;
     tile = tiles[t];
     begin_pass();
-    const uint end = cuts[t * (passes + 1) + pass + 1];
-    for (uint n = cuts[t * (passes + 1) + pass]; n < end; ++n) {
+    const uint end = cuts[t * (push.passes + 1) + push.pass + 1];
+    for (uint n = cuts[t * (push.passes + 1) + push.pass]; n < end; ++n) {
         const uint visit = lists[n];
         const Piece piece = pieces[visit >> 2];
         if ((visit & covers) != 0) add_uniform(piece.block);
@@ -97,7 +102,7 @@ void main() {
         }
         if ((visit & ends_bin) != 0) finish_bin(piece.bin);
     }
-    if (pass + 1 < passes) {
+    if (push.pass + 1 < push.passes) {
         end_pass();
         return;
     }

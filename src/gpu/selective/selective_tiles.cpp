@@ -22,12 +22,6 @@ constexpr std::size_t stripe_bytes = std::size_t{512} << 20; // of a buffer, als
 // systems end.
 constexpr double steps_in_pass = 2e5, steps_at_once = 2e6;
 
-struct Push {
-    double pixel_aspect;
-    std::array<std::int32_t, 4> data;
-    std::uint32_t first_tile, tile_count, pass, passes, splat_count, limit;
-};
-
 // A stripe on the device.
 struct Placed {
     std::array<Buffer, 8> in;
@@ -46,8 +40,9 @@ private:
           gaps(device.buffer(state.gaps * sizeof(std::int32_t))),
           states(device.buffer(state.states * sizeof(std::int32_t))),
           running(device.buffer(stripe.passes > 1 ? state.running * sizeof(double) : 0)),
-          values(device.buffer(stripe.groups * stripe.tiles.size() * splat_tile_pixels * 4 * sizeof(float))),
-          alphas(device.buffer(stripe.tiles.size() * splat_tile_pixels * sizeof(float))) {}
+          values(
+              device.buffer(stripe.groups * stripe.tiles.size() * splat_kernel::pixels * 4 * sizeof(float))),
+          alphas(device.buffer(stripe.tiles.size() * splat_kernel::pixels * sizeof(float))) {}
 };
 
 void run(Device &device, const Program &program, const SplatScene &scene, const SplatStripe &stripe,
@@ -61,14 +56,17 @@ void run(Device &device, const Program &program, const SplatScene &scene, const 
         for (std::uint32_t first = 0, end = 0; first < tiles; first = end) {
             for (double steps = 0; end < tiles && (end == first || steps < steps_at_once); ++end)
                 steps += stripe.steps[end];
-            const Push push{scene.pixel_aspect,
-                            {scene.data.min.x, scene.data.min.y, scene.data.max.x, scene.data.max.y},
-                            first,
-                            tiles,
-                            pass,
-                            std::uint32_t(stripe.passes),
-                            std::uint32_t(stripe.splats),
-                            std::uint32_t(scene.layers)};
+            const splat_kernel::Push push{scene.pixel_aspect,
+                                          scene.data.min.x,
+                                          scene.data.min.y,
+                                          scene.data.max.x,
+                                          scene.data.max.y,
+                                          first,
+                                          tiles,
+                                          pass,
+                                          std::uint32_t(stripe.passes),
+                                          std::uint32_t(stripe.splats),
+                                          std::uint32_t(scene.layers)};
             device.run(program, all, std::as_bytes(std::span(&push, 1)),
                        {end - first, std::uint32_t(stripe.groups), 1});
         }
@@ -83,7 +81,7 @@ void SelectiveTilesOnDevice::gather(const SplatScene &scene, std::span<const Spl
         report.on_cpu["the device has no numbers of 64 bits"] += tasks.size();
         return;
     }
-    if (!program_) program_.emplace(device_.program(code, buffers, sizeof(Push)));
+    if (!program_) program_.emplace(device_.program(code, buffers, sizeof(splat_kernel::Push)));
     const std::size_t bytes = std::min(stripe_bytes, device_.largest_buffer());
     for (std::size_t begin = 0, count = 0; begin < tasks.size(); begin += std::max(count, std::size_t{1})) {
         count = tasks_that_fit(scene, tasks.subspan(begin), bytes);
@@ -98,13 +96,13 @@ void SelectiveTilesOnDevice::gather(const SplatScene &scene, std::span<const Spl
         const Placed placed(device_, scene, stripe);
         for (const Buffer &in : placed.in) report.uploaded += in.bytes();
         run(device_, *program_, scene, stripe, placed);
-        std::vector<float> values(stripe.groups * count * splat_tile_pixels * 4),
-            alphas(count * splat_tile_pixels);
+        std::vector<float> values(stripe.groups * count * splat_kernel::pixels * 4),
+            alphas(count * splat_kernel::pixels);
         device_.download(std::as_writable_bytes(std::span(values)), placed.values);
         device_.download(std::as_writable_bytes(std::span(alphas)), placed.alphas);
         parallel_for(count, [&](std::size_t t) {
-            done(begin + t, {&values[t * splat_tile_pixels * 4], &alphas[t * splat_tile_pixels],
-                             count * splat_tile_pixels * 4});
+            done(begin + t, {&values[t * splat_kernel::pixels * 4], &alphas[t * splat_kernel::pixels],
+                             count * splat_kernel::pixels * 4});
         });
         report.on_device += count;
     }

@@ -1,29 +1,6 @@
 // What the kernel of the selective gather works on: bindings, and what a work group shares. All of a stripe
 // (splat_stripe.h).
 
-const uint threads = 256;
-const int size = 32;           // pixels a tile is wide and high, at most
-const uint pixels = size * size;
-const uint own = 4;            // pixels of a thread
-const uint chunk = 32;         // splats at once, as many as a number has bits
-const int strip_size = 8;      // pixels of a row of the tile
-const uint strips = 4;         // a row
-const uint edges = size + 1;   // of columns, or of rows
-const uint bin_sums = 7;       // coverage, known, four colours, known times radius
-const uint layer_sums = 6;     // without the last
-const double pi = 3.141592653589793lf;
-
-struct Tile {
-    int x_min, y_min, x_max, y_max; // its pixels, the last ones included
-};
-// Up to 1024 splats of a block, which lie in one bin.
-struct Piece {
-    uint begin, end; // splats
-    int bin;
-    uint block;
-};
-const uint covers = 2, ends_bin = 1; // of an entry of lists[]; what remains is 4 times the piece
-
 layout(binding = 0) readonly buffer Discs { double discs[]; };   // [splat]: x, y, radius
 layout(binding = 1) readonly buffer Shares { float shares[]; };  // [splat]: coverage, known, known times radius
 layout(binding = 2) readonly buffer Colours { vec4 colours[]; }; // [group][splat]
@@ -40,11 +17,7 @@ layout(binding = 10) buffer States { int states[]; };
 layout(binding = 11) buffer Running { double running[]; };
 layout(binding = 12) writeonly buffer Values { vec4 values[]; }; // [group][tile][pixel]
 layout(binding = 13) writeonly buffer Alphas { float alphas[]; }; // [tile][pixel]
-layout(push_constant) uniform Push {
-    double pixel_aspect;
-    ivec2 data_min, data_max; // window: the first pixel and the last
-    uint first_tile, tile_count, pass, passes, splat_count, limit;
-};
+layout(push_constant) uniform Pushed { Push push; };
 
 // The splats of a chunk.
 shared dvec4 disc[chunk];              // x, y, radius, 1 / area

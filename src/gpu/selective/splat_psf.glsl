@@ -1,53 +1,20 @@
 // The weight of a pixel in the disc of a splat: what PsfRows of src/lens/psf.cpp says of rows, said of one pixel, with the
 // same sums in the same order.
 
-const double smallest_radius = 1e-9lf;
-
-int floor_within(double x, int low, int high) { return low + int(clamp(x - low, 0.0lf, double(high - low))); }
-
-double half_chord(double radius, double d) {
-    precise const double squared = (radius - d) * (radius + d);
-    return sqrt(max(0.0lf, squared));
-}
-
 ivec2 columns_within(double centre, double distance_) {
-    precise const double least = centre - distance_, most = centre + distance_ + 1;
-    return ivec2(floor_within(least, tile.x_min, tile.x_max + 1), floor_within(most, tile.x_min, tile.x_max + 1));
+    return ivec2(first_within(centre, distance_, tile.x_min, tile.x_max + 1), end_within(centre, distance_, tile.x_min, tile.x_max + 1));
 }
 
 // The rows and columns of the tile that the disc touches.
 ivec4 touched_by(dvec3 d) {
-    const bool point = d.z < smallest_radius;
+    const bool point = d.z < smallest_psf_radius;
     const double radius = point ? 0 : d.z;
-    precise const double high = radius * pixel_aspect, top = d.y - high, bottom = d.y + high + 1;
+    precise const double high = radius * push.pixel_aspect;
     const ivec2 columns = columns_within(d.x, radius);
-    ivec2 rows = ivec2(floor_within(top, tile.y_min, tile.y_max + 1), floor_within(bottom, tile.y_min, tile.y_max + 1));
+    ivec2 rows = ivec2(first_within(d.y, high, tile.y_min, tile.y_max + 1), end_within(d.y, high, tile.y_min, tile.y_max + 1));
     if (columns.x >= columns.y || d.x + d.z < tile.x_min || d.x - d.z > tile.x_max + 1) rows.y = rows.x;
     return ivec4(rows, columns);
 }
-
-// The two series are one here, with zeros for what the shorter one has not: zeros do not change its sum.
-double segment_area(double radius, double chord_squared) {
-    const bool longer = radius < 2.5lf;
-    precise const double t = chord_squared / (4 * radius * radius);
-    precise double sum = longer ? 0.265231504305lf : 0;
-    sum = sum * t + (longer ? -0.36436085167lf : 0);
-    sum = sum * t + (longer ? 0.297929303522lf : 0);
-    sum = sum * t + (longer ? -0.0786869562199lf : 0);
-    sum = sum * t + (longer ? 0.0636289091899lf : 0);
-    sum = sum * t + (longer ? 0.0460867824798lf : 0);
-    sum = sum * t + (longer ? 0.0697332580261lf : 5.0lf / 72);
-    sum = sum * t + (longer ? 0.107131328214lf : 3.0lf / 28);
-    sum = sum * t + (longer ? 0.200000176699lf : 1.0lf / 5);
-    sum = sum * t + (longer ? 0.666666666224lf : 2.0lf / 3);
-    precise const double area = radius * radius * t * sqrt(t) * sum;
-    return area;
-}
-
-// The part of a row on one side of the centre's row, as in src/lens/psf.cpp.
-struct Band {
-    double low, high, outer, inner;
-};
 
 double chord_at(uint s, int edge, Band band) {
     return clamp(column_chord[s * edges + uint(edge - tile.x_min)], band.low, band.high);
@@ -62,9 +29,7 @@ void add_arc(inout double weight, uint s, Band band, int x, int first, int direc
     const double from_x = at_edge ? begins : band.inner, from_y = at_edge ? chord_at(s, before, band) : band.high;
     if (from_x >= band.outer) return;
     const double to_x = min(ends, band.outer), to_y = chord_at(s, after, band);
-    precise const double run = max(0.0lf, to_x - from_x), fall = from_y - to_y;
-    precise const double area = run * ((from_y + to_y) / 2 - band.low) + segment_area(d.z, run * run + fall * fall);
-    precise const double sum = weight + d.w * area;
+    precise const double sum = weight + d.w * area_under(from_x, from_y, to_x, to_y, band.low, d.z);
     weight = sum;
 }
 
@@ -87,20 +52,14 @@ void add_band(inout double weight, uint s, Band band, int x) {
 // Of splat s of the chunk in the pixel at (x, y), which it touches.
 double weight_of(uint s, int x, int y) {
     const dvec4 d = disc[s];
-    precise const double top = (y - d.y) / pixel_aspect, bottom = (y + 1 - d.y) / pixel_aspect;
+    precise const double top = (y - d.y) / push.pixel_aspect, bottom = (y + 1 - d.y) / push.pixel_aspect;
     const uint row = s * edges + uint(y - tile.y_min);
     const double at_top = row_chord[row], at_bottom = row_chord[row + 1];
-    const bool point = d.z < smallest_radius, above = top < 0, below = bottom > 0;
+    const bool point = d.z < smallest_psf_radius, above = top < 0, below = bottom > 0;
     double weight = point ? 1 : 0;
     // The row that holds the centre is two bands: above the centre, and below.
     for (int side = above ? 0 : 1; side < (point ? 0 : below ? 2 : 1); ++side) {
-        const double near = side == 0 ? -bottom : top, far = side == 0 ? -top : bottom;
-        Band band;
-        band.low = above && below ? 0 : min(near, d.z);
-        band.high = min(far, d.z);
-        band.outer = above && below ? d.z : side == 0 ? at_bottom : at_top;
-        band.inner = side == 0 ? at_top : at_bottom;
-        add_band(weight, s, band, x);
+        add_band(weight, s, band_of(side == 0, top, bottom, at_top, at_bottom, d.z), x);
     }
     return weight;
 }
@@ -127,14 +86,14 @@ void load_chunk(uint begin, uint count) {
         disc[thread()] = dvec4(d, area_to_weight);
         touched[thread()] = touched_by(d);
         share[thread()] = vec3(shares[3 * i], shares[3 * i + 1], shares[3 * i + 2]);
-        colour[thread()] = colours[group * splat_count + i];
+        colour[thread()] = colours[group * push.splat_count + i];
     }
     barrier();
     for (uint e = thread(); e < 2 * count * edges; e += threads) {
         const uint n = e / 2, s = n / edges;
         const int edge = int(n % edges);
         const dvec4 d = disc[s];
-        precise const double across = abs(edge + tile.x_min - d.x), down = abs(edge + tile.y_min - d.y) / pixel_aspect;
+        precise const double across = abs(edge + tile.x_min - d.x), down = abs(edge + tile.y_min - d.y) / push.pixel_aspect;
         if (e % 2 == 0) column_chord[n] = half_chord(d.z, across);
         else row_chord[n] = half_chord(d.z, down);
     }

@@ -11,7 +11,6 @@ namespace sparselens::gpu {
 namespace {
 
 constexpr std::size_t piece_size = 1024; // splats
-constexpr std::uint32_t covers = 2, ends_bin = 1;
 
 std::size_t groups_of(const SplatBlocks &splats) {
     return std::max<std::size_t>(1, pieces_of(splats.colours, std::size_t{4}));
@@ -36,14 +35,13 @@ struct Range {
 };
 
 // At most so many, of the loops for a piece and of those for the end of a bin.
-double steps_of(const SplatPiece &piece) {
-    constexpr double chunk = 32, for_each_splat = 4 * 7, for_each_chunk = 32;
+double steps_of(const splat_kernel::Piece &piece) {
+    constexpr double for_each_splat = 4 * 7, for_each_chunk = 32;
     const double splats = piece.end - piece.begin;
-    return splats * for_each_splat + (splats / chunk + 1) * for_each_chunk + 1;
+    return splats * for_each_splat + (splats / double(splat_kernel::chunk) + 1) * for_each_chunk + 1;
 }
 double steps_of_bin(const SplatScene &scene, std::size_t bins_before) {
-    constexpr double own = 4;
-    return own * (1 + (bins_before >= scene.layers ? 2 * double(scene.layers + 1) : 0));
+    return double(splat_kernel::own) * (1 + (bins_before >= scene.layers ? 2 * double(scene.layers + 1) : 0));
 }
 double steps_of_blend(const SplatScene &scene) { return 4 * double(scene.layers + 2); }
 
@@ -64,15 +62,15 @@ void place_splats(SplatStripe &stripe, const SplatBlocks &from, const Range &ran
 }
 
 void place_sums(SplatStripe &stripe, const SplatBlocks &from) {
-    stripe.sums.resize(from.blocks.size() * stripe.groups * splat_bin_sums);
+    stripe.sums.resize(from.blocks.size() * stripe.groups * splat_kernel::bin_sums);
     for (std::size_t b = 0; b < from.blocks.size(); ++b) {
         const double *sums = &from.sums[b * from.size()];
         for (std::size_t g = 0; g < stripe.groups; ++g) {
-            double *to = &stripe.sums[(b * stripe.groups + g) * splat_bin_sums];
+            double *to = &stripe.sums[(b * stripe.groups + g) * splat_kernel::bin_sums];
             std::copy_n(sums, sums_before_colours, to);
             for (std::size_t k = 4 * g; k < std::min(4 * g + 4, from.colours); ++k)
                 to[sums_before_colours + k % 4] = sums[sums_before_colours + k];
-            to[splat_bin_sums - 1] = sums[from.size() - 1];
+            to[splat_kernel::bin_sums - 1] = sums[from.size() - 1];
         }
     }
 }
@@ -108,7 +106,8 @@ std::vector<std::uint32_t> list_tile(SplatStripe &stripe, const SplatScene &scen
                 begins.push_back(std::uint32_t(stripe.lists.size()));
                 steps = steps_of_blend(scene);
             }
-            stripe.lists.push_back(piece << 2 | (visited.covers ? covers : 0) | (ends ? ends_bin : 0));
+            stripe.lists.push_back(piece << 2 | (visited.covers ? splat_kernel::covers : 0) |
+                                   (ends ? splat_kernel::ends_bin : 0));
             steps += takes;
             largest = std::max(largest, steps);
             bins += ends;
@@ -123,14 +122,14 @@ std::vector<std::uint32_t> list_tile(SplatStripe &stripe, const SplatScene &scen
 
 SplatState state_of(const SplatScene &scene, std::size_t tiles) {
     const std::size_t places = tiles * groups_of(scene.splats),
-                      entries = places * (scene.layers + 1) * splat_tile_pixels;
-    return {entries * splat_layer_sums, entries, places * 2 * splat_tile_pixels,
-            places * (splat_tile_pixels + 1) * splat_bin_sums};
+                      entries = places * (scene.layers + 1) * splat_kernel::pixels;
+    return {entries * splat_kernel::layer_sums, entries, places * 2 * splat_kernel::pixels,
+            places * (splat_kernel::pixels + 1) * splat_kernel::bin_sums};
 }
 
 std::size_t tasks_that_fit(const SplatScene &scene, std::span<const SplatTask> tasks, std::size_t bytes) {
     const std::size_t groups = groups_of(scene.splats);
-    if (scene.splats.blocks.size() * groups * splat_bin_sums * sizeof(double) > bytes) return 0;
+    if (scene.splats.blocks.size() * groups * splat_kernel::bin_sums * sizeof(double) > bytes) return 0;
     Range range;
     std::size_t listed = 0;
     for (std::size_t t = 0; t < tasks.size(); ++t) {

@@ -5,8 +5,8 @@
 #pragma once
 
 #include "dof/device/splat_tiles.h"
+#include "kernels/splat_layout.h"
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -14,27 +14,17 @@
 
 namespace sparselens::gpu {
 
-inline constexpr std::size_t splat_tile_pixels = std::size_t{splat_tile_size} * splat_tile_size;
-inline constexpr std::size_t splat_bin_sums = 7, splat_layer_sums = 6; // of a group of four colours
-
-// As in the shader.
-struct SplatPiece {
-    std::uint32_t begin, end;
-    std::int32_t bin;
-    std::uint32_t block;
-};
-
 struct SplatStripe {
     std::size_t groups = 0, splats = 0, passes = 0;
     std::vector<double> discs;  // [splat]: x, y, radius
     std::vector<float> shares;  // [splat]: coverage, known, known times radius
     std::vector<float> colours; // [group][splat][4]
-    std::vector<SplatPiece> pieces;
-    std::vector<double> sums;         // [block][group][splat_bin_sums]
+    std::vector<splat_kernel::Piece> pieces;
+    std::vector<double> sums;         // [block][group][splat_kernel::bin_sums]
     std::vector<std::uint32_t> lists; // pieces times 4, with the bits of the shader
     std::vector<std::uint32_t> cuts;  // [tile][pass]: where it begins in the lists; one more is the end
-    std::vector<std::array<std::int32_t, 4>> tiles; // the first pixel and the last
-    std::vector<double> steps;                      // of a tile in a pass, at most
+    std::vector<splat_kernel::Tile> tiles;
+    std::vector<double> steps; // of a tile in a pass, at most
 };
 
 // What of a stripe stays on the device from one pass to the next, in numbers.

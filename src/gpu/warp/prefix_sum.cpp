@@ -1,6 +1,7 @@
 #include "gpu/warp/prefix_sum.h"
 
 #include "base/grid.h"
+#include "kernels/warp_layout.h"
 
 namespace sparselens::gpu {
 
@@ -13,8 +14,8 @@ constexpr std::uint32_t add_code[] = {
 #include <warp_scan_add.comp.inc>
 };
 
-constexpr std::size_t block = 1024, threads = 256; // as in the shaders
-constexpr std::size_t most_in_row = 1 << 15;       // every device takes as many groups
+using warp_kernel::scan_block, warp_kernel::threads;
+constexpr std::size_t most_in_row = 1 << 15; // every device takes as many groups
 
 } // namespace
 
@@ -27,12 +28,12 @@ PrefixSum::PrefixSum(Device &device)
     : device_(device), within_(device.program(within_code, 2, 4)), add_(device.program(add_code, 2, 4)) {}
 
 void PrefixSum::run(Buffer &numbers, std::size_t count) {
-    const std::size_t blocks = pieces_of(count, block);
+    const std::size_t blocks = pieces_of(count, std::size_t{scan_block});
     Buffer sums = device_.buffer(blocks * 4);
     const auto push_count = std::uint32_t(count);
     const std::array<const Buffer *, 2> buffers{&numbers, &sums};
     const auto push = std::as_bytes(std::span(&push_count, 1));
-    device_.run(within_, buffers, push, groups_for(count, block));
+    device_.run(within_, buffers, push, groups_for(count, std::size_t{scan_block}));
     if (blocks <= 1) return;
     run(sums, blocks);
     device_.run(add_, buffers, push, groups_for(count, threads));

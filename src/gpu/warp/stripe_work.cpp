@@ -27,8 +27,8 @@ constexpr std::uint32_t emit_code[] = {
 #include <warp_emit.comp.inc>
 };
 
-constexpr std::uint32_t bindings = 15, threads = 256;
-constexpr std::uint32_t may_average = 1, differs_slightly = 2, differs = 4; // of a verdict
+using warp_kernel::threads;
+constexpr std::uint32_t bindings = 15;
 
 } // namespace
 
@@ -59,8 +59,8 @@ WarpKernels::WarpKernels(Device &device)
 StripeWork::StripeWork(Device &device, WarpKernels &kernels, const WarpScene &scene, const WarpStripe &stripe,
                        std::uint32_t most_in_pixel)
     : device_(device), kernels_(kernels), scene_(scene), stripe_(stripe), pixels_(Grid(stripe.box).size()),
-      blocks_(Tiles(stripe.box, photo_block).count()) {
-    const StripeFrame constants = frame_of(scene, stripe, most_in_pixel);
+      blocks_(Tiles(stripe.box, kernels::photo_block).count()) {
+    const warp_kernel::Frame constants = frame_of(scene, stripe, most_in_pixel);
     upload(frame, std::as_bytes(std::span(&constants, 1)));
     upload(views, std::as_bytes(std::span(stripe.views)));
     const std::vector<std::uint32_t> first_samples = begins_of(scene, stripe);
@@ -148,7 +148,7 @@ Ldi StripeWork::merge() {
     if (scene_.tests_photo_consistency)
         run(kernels_.differences, {}, groups_for(blocks_, threads));
     else
-        device_.fill(*buffers_[verdicts], may_average);
+        device_.fill(*buffers_[verdicts], kernels::may_average);
     make(emitted, (pixels_ + 1) * 4);
     run(kernels_.vote, {}, groups);
     kernels_.sum.run(*buffers_[emitted], pixels_ + 1);
@@ -178,10 +178,7 @@ std::vector<Disagreement> StripeWork::differing_blocks() {
     std::vector<std::uint32_t> words(blocks_);
     device_.download(std::as_writable_bytes(std::span(words)), *buffers_[verdicts]);
     std::vector<Disagreement> differ(blocks_);
-    std::ranges::transform(words, differ.begin(), [](std::uint32_t word) {
-        if (word & differs) return Disagreement::clear;
-        return word & differs_slightly ? Disagreement::slight : Disagreement::none;
-    });
+    std::ranges::transform(words, differ.begin(), disagreement_of);
     return differ;
 }
 

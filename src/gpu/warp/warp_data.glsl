@@ -4,30 +4,14 @@
 // Arithmetic is in double precision and in the order of the CPU's, without fused multiply-add (`precise`), so that
 // the samples are those of src/warp bit for bit.
 
-const uint threads = 256;
+#include "kernels/warp_layout.h"
+#include "kernels/warp_rules.h"
+#include "kernels/photo_rules.h"
+#include "kernels/coc_rules.h"
+
 layout(local_size_x = threads) in;
 
-const uint none = 0xffffffffu;
-
-// As in the C++.
-struct View {
-    double unzoom, approach, offset_x, offset_y, step_x, step_y; // ViewMapping
-    int min_x, min_y, max_x, max_y;                              // its data window
-    int first_row, rows;                                         // those that are there
-    uint begins;                                                 // where begins[] has them
-    uint unused;
-};
-layout(binding = 0) readonly buffer Frame {
-    double tolerance, inverse_scale, focus_scale, focus; // focus_scale: R F of the lens
-    int first_x, first_y, width, height;                 // of the rows
-    uint views, samples, channels, alpha;                // alpha: the channel, or `none`
-    uint colours[4];                                     // red, green and blue, those that are there; their number
-    uint rules, most_in_pixel;
-} frame;
-const uint averages = 1;          // Merge::average
-const uint focus_known = 2;       // so there is a CoC
-const uint focus_at_infinity = 4; // of the lens
-
+layout(binding = 0) readonly buffer FrameBuffer { Frame frame; };
 layout(binding = 1) readonly buffer Views { View views[]; };
 layout(binding = 2) readonly buffer Begins { uint begins[]; }; // [view][pixel]: its first sample, and one after the last
 layout(binding = 3) readonly buffer Depths { float depths[]; };   // [sample]
@@ -38,13 +22,10 @@ layout(binding = 7) buffer Ends { uint ends[]; };                 // [pixel]: se
 layout(binding = 8) buffer Landed { uvec4 landed[]; }; // what fell into pixels: the sample, dx, dy, 1 / z (bits)
 layout(binding = 9) buffer Marks { uvec2 marks[]; };   // of those the view, and the surface of the pixel or `none`
 layout(binding = 10) buffer Means { double means[]; }; // of a pixel's surfaces by number: the mean of 1 / z, later the coverage
-layout(binding = 11) buffer Verdicts { uint verdicts[]; }; // [block]: a set of the following
-const uint may_average = 1, differs_slightly = 2, differs = 4;
+layout(binding = 11) buffer Verdicts { uint verdicts[]; }; // [block]: photo_verdict()
 layout(binding = 12) buffer Emitted { uint emitted[]; }; // [pixel]: how many samples, later where they begin
 layout(binding = 13) buffer Results { uint results[]; }; // [z, dx, dy, weight, channels][sample], bits
 layout(binding = 14) buffer State { uint too_many; } state; // not 0: more samples in a pixel than frame.most_in_pixel
-
-const int block_size = 8; // pixels that photo-consistency looks at together
 
 uint item() { return (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * threads + gl_LocalInvocationIndex; }
 uint pixel_count() { return uint(frame.width * frame.height); }
@@ -60,21 +41,6 @@ float value_of(uint sample_, uint channel) { return uintBitsToFloat(values[chann
 double x_of(uvec4 fallen) { return double(uintBitsToFloat(fallen.y)); }
 double y_of(uvec4 fallen) { return double(uintBitsToFloat(fallen.z)); }
 double inverse_z_of(uvec4 fallen) { return double(uintBitsToFloat(fallen.w)); }
-
-// nearness() of src/warp/images/nearness.h.
-double nearness(double dx, double dy) {
-    const double coefficients[14] = {1.0lf, 1.0lf, 1.0lf / 2.0lf, 1.0lf / 6.0lf, 1.0lf / 24.0lf, 1.0lf / 120.0lf,
-                                     1.0lf / 720.0lf, 1.0lf / 5040.0lf, 1.0lf / 40320.0lf, 1.0lf / 362880.0lf,
-                                     1.0lf / 3628800.0lf, 1.0lf / 39916800.0lf, 1.0lf / 479001600.0lf,
-                                     1.0lf / 6227020800.0lf};
-    precise const double t = (dx * dx + dy * dy) * (-0.5lf / (0.3lf * 0.3lf) / 8.0lf);
-    precise double e = coefficients[13];
-    for (int k = 12; k >= 0; --k) e = e * t + coefficients[k];
-    e = e * e;
-    e = e * e;
-    e = e * e;
-    return e;
-}
 
 // By which it counts in the mean of its surface.
 double weight_of(uvec4 fallen) {

@@ -4,23 +4,14 @@
 #extension GL_GOOGLE_include_directive : require
 #include "warp_data.glsl"
 
-const double least_ratio = 3, least_difference = 1e-5lf, least_motion = 0.3lf, clear_motion = 0.5lf, least_explained = 0.5lf,
-             least_change = 1e-5lf, focus_px = 2;
-
-double difference = 0, variation = 0, coc = 0, pixels = 0;
-double change2 = 0, change_difference = 0, difference2 = 0, values_seen = 0;
-
-double tone_mapped(float v) {
-    precise const double mapped = double(v) / (1.0lf + abs(double(v)));
-    return mapped;
-}
+PhotoBlock shown;
 
 // Of the centre view, which holds the rows around.
 uint begin_at(int x, int y) {
     return views[0].begins + uint((y - views[0].first_row) * (views[0].max_x - views[0].min_x + 1) + x - views[0].min_x);
 }
 bool single(int x, int y) { return begins[begin_at(x, y) + 1] - begins[begin_at(x, y)] == 1; }
-double centre_value(int x, int y, uint channel) { return tone_mapped(value_of(begins[begin_at(x, y)], channel)); }
+double centre_value(int x, int y, uint channel) { return bounded(double(value_of(begins[begin_at(x, y)], channel))); }
 
 bool plain(int x, int y) {
     const View centre = views[0];
@@ -28,11 +19,10 @@ bool plain(int x, int y) {
     return single(x, y) && single(x - 1, y) && single(x + 1, y) && single(x, y - 1) && single(x, y + 1);
 }
 
-double coc_of(double inverse_z) {
+double coc_at(double inverse_z) {
     if (!has_rule(focus_known)) return 2 * focus_px;
-    precise const double z = 1.0lf / inverse_z, scale = frame.focus_scale / frame.focus, apart = z - frame.focus;
-    precise const double of_infinity = -frame.focus_scale / z, finite = scale * (apart / z);
-    return abs(has_rule(focus_at_infinity) ? of_infinity : inverse_z == 0 ? scale : finite);
+    precise const double z = 1.0lf / inverse_z;
+    return abs(coc_of(frame.focus_scale, frame.focus, has_rule(focus_at_infinity), z, inverse_z == 0));
 }
 
 struct Detail {
@@ -46,15 +36,6 @@ Detail detail(int x, int y, uint channel) {
     return Detail(centre_value(x, y, channel), mean_around, gradient_x, gradient_y);
 }
 
-void add_motion(double moved_difference, double change) {
-    precise double changes = change2 + change * change, both = change_difference + change * moved_difference,
-                   moved = difference2 + moved_difference * moved_difference;
-    change2 = changes;
-    change_difference = both;
-    difference2 = moved;
-    values_seen += 1;
-}
-
 void compare(int x, int y, uint from, uint to) {
     Detail own[3];
     precise double sum[3], total = 0;
@@ -66,21 +47,19 @@ void compare(int x, int y, uint from, uint to) {
         const double weight = weight_of(fallen), dx = x_of(fallen), dy = y_of(fallen);
         const View view = views[marks[i].x];
         total = total + weight;
-        precise const double motion_x = (view.step_x - (double(x) + 0.5lf) * view.approach) * frame.inverse_scale,
-                             motion_y = (view.step_y - (double(y) + 0.5lf) * view.approach) * frame.inverse_scale;
+        precise const double motion_x = parallax(double(x) + 0.5lf, view.step_x, view.approach) * frame.inverse_scale,
+                             motion_y = parallax(double(y) + 0.5lf, view.step_y, view.approach) * frame.inverse_scale;
         for (uint k = 0; k < frame.colours[3]; ++k) {
-            const double value = tone_mapped(value_of(fallen.x, frame.colours[k]));
+            const double value = bounded(double(value_of(fallen.x, frame.colours[k])));
             sum[k] = sum[k] + weight * value;
             precise const double moved = value - own[k].value - (own[k].gradient_x * dx + own[k].gradient_y * dy),
                                  change = own[k].gradient_x * motion_x + own[k].gradient_y * motion_y;
-            add_motion(moved, change);
+            add_motion(shown, moved, change);
         }
     }
     for (uint k = 0; k < frame.colours[3]; ++k) {
         precise const double apart = sum[k] / total - own[k].value, varied = own[k].mean_around - own[k].value;
-        precise const double all_apart = difference + apart * apart, all_varied = variation + varied * varied;
-        difference = all_apart;
-        variation = all_varied;
+        add_channel(shown, apart, varied);
     }
 }
 
@@ -91,30 +70,17 @@ void look_at(uint pixel) {
         to = surface_end(from, end);
         if (marks[from].x != 0 || marks[to - 1].x == 0 || !plain(at.x, at.y)) continue;
         compare(at.x, at.y, from, to);
-        precise const double cocs = coc + coc_of(means[first + marks[from].y]);
-        coc = cocs;
-        pixels += 1;
+        add_pixel(shown, coc_at(means[first + marks[from].y]));
     }
 }
 
-double block_motion() {
-    precise const double enough = least_change * values_seen;
-    if (!(change2 > enough)) return 0;
-    precise const double moved = change_difference / change2, explained = moved * change_difference,
-                         much = least_explained * difference2;
-    return explained >= much ? abs(moved) : 0;
-}
-
 void main() {
-    const int columns = (frame.width + block_size - 1) / block_size, rows = (frame.height + block_size - 1) / block_size;
+    const int columns = (frame.width + photo_block - 1) / photo_block, rows = (frame.height + photo_block - 1) / photo_block;
     const uint block = item();
     if (block >= uint(columns * rows)) return;
-    const int left = int(block) % columns * block_size, top = int(block) / columns * block_size;
-    for (int y = top; y < min(top + block_size, frame.height); ++y)
-        for (int x = left; x < min(left + block_size, frame.width); ++x) look_at(uint(y * frame.width + x));
-    precise const double noise = least_ratio * variation + least_difference * pixels;
-    const bool differ = difference > noise, in_focus = coc <= focus_px * pixels;
-    const double moved = block_motion();
-    const uint disagreement = differ || moved >= clear_motion ? differs : moved >= least_motion ? differs_slightly : 0;
-    verdicts[block] = (!differ || in_focus ? may_average : 0) | disagreement;
+    const int left = int(block) % columns * photo_block, top = int(block) / columns * photo_block;
+    shown = PhotoBlock(0, 0, 0, 0, 0, 0, 0, 0);
+    for (int y = top; y < min(top + photo_block, frame.height); ++y)
+        for (int x = left; x < min(left + photo_block, frame.width); ++x) look_at(uint(y * frame.width + x));
+    verdicts[block] = photo_verdict(shown);
 }

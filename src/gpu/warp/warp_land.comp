@@ -16,9 +16,9 @@ void main() {
     if (i >= uint(width * view.rows)) return;
     const double from_x = double(view.min_x + int(i) % width) + 0.5lf,
                  from_y = double(view.first_row + int(i) / width) + 0.5lf;
-    precise const double far_x = from_x * view.unzoom + view.offset_x, far_y = from_y * view.unzoom + view.offset_y;
-    precise const double parallax_x = view.step_x - from_x * view.approach,
-                         parallax_y = view.step_y - from_y * view.approach;
+    const double far_x = at_infinity(from_x, view.unzoom, view.offset_x), far_y = at_infinity(from_y, view.unzoom, view.offset_y),
+                 parallax_x = parallax(from_x, view.step_x, view.approach),
+                 parallax_y = parallax(from_y, view.step_y, view.approach);
     for (uint s = begins[view.begins + i]; s < begins[view.begins + i + 1]; ++s) {
         precise const double inverse_z = 1.0lf / double(depths[s]);
         precise const double x = far_x + parallax_x * inverse_z, y = far_y + parallax_y * inverse_z;

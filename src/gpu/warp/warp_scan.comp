@@ -1,7 +1,9 @@
 #version 460
 // The prefix sum of a block of numbers: each becomes the sum of those before it in the block; sums[] gets the sum of the
 // block. (G. E. Blelloch, "Prefix sums and their applications", 1990, block by block.)
-const uint threads = 256, own = 4; // numbers of a thread
+#extension GL_GOOGLE_include_directive : require
+#include "kernels/warp_layout.h"
+
 layout(local_size_x = threads) in;
 
 layout(binding = 0) buffer Numbers { uint numbers[]; };
@@ -12,10 +14,10 @@ shared uint sum_up_to[threads];
 
 void main() {
     const uint block = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x, me = gl_LocalInvocationIndex;
-    const uint first = (block * threads + me) * own;
-    if (block * threads * own >= count) return;
-    uint mine[own], sum = 0;
-    for (uint i = 0; i < own; ++i) {
+    const uint first = (block * threads + me) * scanned;
+    if (block * threads * scanned >= count) return;
+    uint mine[scanned], sum = 0;
+    for (uint i = 0; i < scanned; ++i) {
         mine[i] = first + i < count ? numbers[first + i] : 0;
         sum += mine[i];
     }
@@ -28,7 +30,7 @@ void main() {
     }
     if (me == threads - 1) sums[block] = sum_up_to[me];
     uint before = sum_up_to[me] - sum;
-    for (uint i = 0; i < own && first + i < count; ++i) {
+    for (uint i = 0; i < scanned && first + i < count; ++i) {
         numbers[first + i] = before;
         before += mine[i];
     }

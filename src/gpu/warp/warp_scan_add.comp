@@ -1,6 +1,8 @@
 #version 460
 // Adds to each number of a block (warp_scan.comp) the sum of the blocks before it.
-const uint threads = 256, block_size = 1024;
+#extension GL_GOOGLE_include_directive : require
+#include "kernels/warp_layout.h"
+
 layout(local_size_x = threads) in;
 
 layout(binding = 0) buffer Numbers { uint numbers[]; };
@@ -9,5 +11,5 @@ layout(push_constant) uniform Push { uint count; };
 
 void main() {
     const uint i = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * threads + gl_LocalInvocationIndex;
-    if (i < count) numbers[i] += sums[i / block_size];
+    if (i < count) numbers[i] += sums[i / scan_block];
 }

@@ -11,8 +11,6 @@ namespace sparselens::gpu {
 
 namespace {
 
-constexpr std::uint32_t averages = 1, focus_known = 2, focus_at_infinity = 4;
-
 struct Rows { // of a view, from the top of its data window
     std::size_t first, end;
 };
@@ -62,7 +60,7 @@ Rows rows_needed(const WarpScene &scene, std::size_t v, const Imath::Box2i &box,
     return {std::min(rows.first, asked.first), std::max(rows.end, asked.end)};
 }
 
-StripeView view_of(const ReprojectedViews &views, std::size_t v) {
+warp_kernel::View view_of(const ReprojectedViews &views, std::size_t v) {
     const ViewMapping &mapping = views.reprojection(v).mapping();
     const Imath::V2d offset = mapping.at_infinity({0, 0}), step = mapping.parallax({0, 0});
     const Imath::Box2i &data = views.samples(v).windows.data;
@@ -90,7 +88,7 @@ WarpStripe make_stripe(const WarpScene &scene, const Imath::Box2i &box, double i
         const auto width = std::size_t(ldi.windows.width());
         Rows rows = rows_needed(scene, v, box, inverse_z);
         if (rows.first >= rows.end) rows = {0, 0};
-        StripeView view = view_of(scene.views, v);
+        warp_kernel::View view = view_of(scene.views, v);
         view.first_row += int(rows.first);
         view.rows = int(rows.end - rows.first);
         view.begins = std::uint32_t(stripe.begins);
@@ -110,8 +108,8 @@ std::size_t buffer_bytes(const WarpScene &scene, const WarpStripe &stripe) {
     return std::max({of_sample * stripe.samples, 4 * stripe.begins, 4 * (pixels + 1)});
 }
 
-StripeFrame frame_of(const WarpScene &scene, const WarpStripe &stripe, std::uint32_t most_in_pixel) {
-    StripeFrame frame{};
+warp_kernel::Frame frame_of(const WarpScene &scene, const WarpStripe &stripe, std::uint32_t most_in_pixel) {
+    warp_kernel::Frame frame{};
     frame.tolerance = scene.tolerance;
     frame.inverse_scale = 1 / scene.scale;
     frame.first_x = stripe.box.min.x;
@@ -122,12 +120,14 @@ StripeFrame frame_of(const WarpScene &scene, const WarpStripe &stripe, std::uint
     frame.samples = std::uint32_t(stripe.samples);
     frame.channels = std::uint32_t(scene.layout.channels.size());
     const std::size_t alpha = find_channel(scene.layout.channels, "A");
-    frame.alpha = alpha == npos ? no_channel : std::uint32_t(alpha);
+    frame.alpha = alpha == npos ? warp_kernel::none : std::uint32_t(alpha);
     for (const std::size_t colour : find_rgb(scene.layout.channels))
         if (colour != npos) frame.colours[frame.colours[3]++] = std::uint32_t(colour);
-    frame.rules = scene.averages ? averages : 0;
+    frame.rules = scene.averages ? warp_kernel::averages : 0;
     if (scene.focus) {
-        frame.rules |= std::isinf(scene.focus->focus) ? focus_known | focus_at_infinity : focus_known;
+        frame.rules |= std::isinf(scene.focus->focus)
+                           ? warp_kernel::focus_known | warp_kernel::focus_at_infinity
+                           : warp_kernel::focus_known;
         frame.focus_scale = scene.focus->radius * scene.focus->focal_px;
         frame.focus = scene.focus->focus;
     }

@@ -2,6 +2,7 @@
 // picture whose samples fit into no buffer of the device goes stripe by stripe.
 #pragma once
 
+#include "kernels/warp_layout.h"
 #include "warp/device/warp_device.h"
 
 #include <Imath/ImathBox.h>
@@ -12,22 +13,6 @@
 
 namespace sparselens::gpu {
 
-inline constexpr std::uint32_t no_channel = ~0u;
-
-// As in the shader.
-struct StripeView {
-    double unzoom, approach, offset_x, offset_y, step_x, step_y;
-    std::int32_t min_x, min_y, max_x, max_y, first_row, rows;
-    std::uint32_t begins, unused;
-};
-struct StripeFrame {
-    double tolerance, inverse_scale, focus_scale, focus;
-    std::int32_t first_x, first_y, width, height;
-    std::uint32_t views, samples, channels, alpha;
-    std::uint32_t colours[4];
-    std::uint32_t rules, most_in_pixel;
-};
-
 struct WarpStripe {
     // The rows that are needed of a view.
     struct Slice {
@@ -37,7 +22,7 @@ struct WarpStripe {
 
     Imath::Box2i box; // of the result
     std::vector<Slice> slices;
-    std::vector<StripeView> views;
+    std::vector<warp_kernel::View> views;
     std::size_t samples = 0, begins = 0; // of all slices
 };
 
@@ -50,7 +35,7 @@ WarpStripe make_stripe(const WarpScene &scene, const Imath::Box2i &box, double i
 // Of the largest buffer that it takes.
 std::size_t buffer_bytes(const WarpScene &scene, const WarpStripe &stripe);
 
-StripeFrame frame_of(const WarpScene &scene, const WarpStripe &stripe, std::uint32_t most_in_pixel);
+warp_kernel::Frame frame_of(const WarpScene &scene, const WarpStripe &stripe, std::uint32_t most_in_pixel);
 // Where the samples of each pixel begin; after those of a view, where its last one ends.
 std::vector<std::uint32_t> begins_of(const WarpScene &scene, const WarpStripe &stripe);
 

@@ -26,9 +26,7 @@ void sort_by_depth(uint first, uint end) {
 }
 
 bool one_surface(uint a, uint b) {
-    const uint of_a = landed[a].w, of_b = landed[b].w;
-    precise const double apart = inverse_z_of(landed[a]) - inverse_z_of(landed[b]);
-    return abs(apart) < frame.tolerance || of_a == of_b;
+    return is_one_surface(inverse_z_of(landed[a]), inverse_z_of(landed[b]), frame.tolerance);
 }
 
 // The first of those that belong to the pixel.

@@ -13,11 +13,11 @@ void count_votes(uint begin, uint end, double inverse_z) {
     precise double left = 1, seen = there, missed = past;
     for (uint i = begin; i < end; ++i) {
         const double alpha = frame.alpha == none ? 1.0lf : double(value_of(i, frame.alpha));
-        const double covers = alpha < 0 ? 0.0lf : left < alpha ? left : alpha;
+        const double covered = covers(alpha, left);
         precise const double nearer = 1.0lf / double(depths[i]) - inverse_z;
-        if (abs(nearer) < frame.tolerance) seen = seen + covers;
-        else if (nearer < 0) missed = missed + covers;
-        left = left - covers;
+        if (abs(nearer) < frame.tolerance) seen = seen + covered;
+        else if (nearer < 0) missed = missed + covered;
+        left = left - covered;
     }
     missed = missed + left;
     there = seen;
@@ -36,8 +36,7 @@ double vote(ivec2 pixel, Mean mean) {
     there = 0;
     past = 0;
     for (uint v = 1; v < frame.views; ++v) ask(views[v], x, y, mean.inverse_z);
-    precise const double all = there + past, share = 2.0lf * there / all - 0.5lf;
-    return !(all > 0) ? 1.0lf : share < 0 ? 0.0lf : share > 1 ? 1.0lf : share;
+    return coverage_by_votes(there, past);
 }
 
 void main() {

@@ -33,7 +33,7 @@ struct WarpScene {
 struct WarpedBands {
     std::size_t first, count;
     Ldi ldi;                          // of their pixels alone
-    std::vector<Disagreement> differ; // by blocks of photo_block pixels of these bands, row by row
+    std::vector<Disagreement> differ; // by blocks of kernels::photo_block pixels of these bands, row by row
 };
 
 class WarpDevice {

@@ -4,7 +4,6 @@
 #include "base/parallel.h"
 #include "lens/perceptive_depth.h"
 #include "warp/images/image_depths.h"
-#include "warp/images/nearness.h"
 
 #include <algorithm>
 #include <cmath>
@@ -63,7 +62,7 @@ private:
         if (!(std::abs(off.x) <= 0.5 && std::abs(off.y) <= 0.5)) return;
         const Ldi &ldi = view.samples();
         const std::uint64_t i = ldi.pixel(ldi.windows.index(q.x, q.y)).front();
-        seen.push_back({&ldi, i, off.x, off.y, double(ldi.weight[i]) * nearness(off.x, off.y)});
+        seen.push_back({&ldi, i, off.x, off.y, double(ldi.weight[i]) * kernels::nearness(off.x, off.y)});
     }
 
     void store(std::uint64_t i, double depth, const std::vector<ImageSample> &seen) const {

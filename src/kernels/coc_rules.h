@@ -1,0 +1,14 @@
+// The circle of confusion (lens/thin_lens.h).
+#pragma once
+
+namespace sparselens::kernels {
+
+// Signed, pixels. `scale`: R F. A focus or a depth at infinity is told apart, as a quotient of infinities is nothing.
+inline double coc_of(double scale, double focus, bool focus_at_infinity, double z, bool z_at_infinity) {
+    if (focus_at_infinity) return -scale / z;
+    if (z_at_infinity) return scale / focus;
+    // (z - d) / z, not 1/d - 1/z: the difference of two nearby depths is exact, that of their inverses is not.
+    return (scale / focus) * ((z - focus) / z);
+}
+
+} // namespace sparselens::kernels

@@ -1,0 +1,41 @@
+// What the CPU lays out for the warp on a device, and how the device divides it (gpu/warp).
+#pragma once
+
+#include "kernels/types.h"
+
+#include <cstddef>
+
+namespace sparselens::warp_kernel {
+
+using kernels::uint;
+
+inline constexpr uint none = 0xffffffffu;
+inline constexpr uint threads = 256; // of a work group
+
+// A prefix sum (warp_scan.comp): numbers of a thread, and those of a work group, which are summed up at once.
+inline constexpr uint scanned = 4, scan_block = threads * scanned;
+
+struct View {
+    double unzoom, approach, offset_x, offset_y, step_x, step_y; // ViewMapping
+    int min_x, min_y, max_x, max_y;                              // its data window
+    int first_row, rows;                                         // those that are there
+    uint begins;                                                 // where the list of first samples has them
+    uint unused;
+};
+static_assert(sizeof(View) == 80 && offsetof(View, min_x) == 48 && offsetof(View, begins) == 72);
+
+struct Frame {
+    double tolerance, inverse_scale, focus_scale, focus; // focus_scale: R F of the lens
+    int first_x, first_y, width, height;                 // of the rows
+    uint views, samples, channels, alpha;                // alpha: the channel, or `none`
+    uint colours[4];           // red, green and blue, those that are there; their number
+    uint rules, most_in_pixel; // rules: a set of the following
+};
+static_assert(sizeof(Frame) == 88 && offsetof(Frame, first_x) == 32 && offsetof(Frame, colours) == 64 &&
+              offsetof(Frame, rules) == 80);
+
+inline constexpr uint averages = 1;          // Merge::average
+inline constexpr uint focus_known = 2;       // so there is a CoC
+inline constexpr uint focus_at_infinity = 4; // of the lens
+
+} // namespace sparselens::warp_kernel
