@@ -82,6 +82,9 @@ std::string section(const CLI::App &app, const std::string &group, bool argument
     return text;
 }
 
+// Of the options and arguments that are given none: "Options", since CLI11 2.5 "OPTIONS".
+std::string group_of_none() { return CLI::OptionDefaults().get_group(); }
+
 std::string environment(const CLI::App &app) {
     std::string text;
     for (const CLI::Option *option : app.get_options())
@@ -102,11 +105,11 @@ std::string man_page(const CLI::App &app, const std::string &version) {
     std::string text = ".TH " + upper_case(app.get_name()) + " 1 \"\" \"sparselens " + version +
                        "\" \"User Commands\"\n.SH NAME\n" + roff(app.get_name()) + " \\- " +
                        roff(app.get_description()) + "\n.SH SYNOPSIS\n" + synopsis(app);
-    const std::string arguments = section(app, "Options", true);
+    const std::string arguments = section(app, group_of_none(), true);
     if (!arguments.empty()) text += ".SH ARGUMENTS\n" + arguments;
-    text += ".SH OPTIONS\n" + section(app, "Options", false);
+    text += ".SH OPTIONS\n" + section(app, group_of_none(), false);
     for (const std::string &group : app.get_groups())
-        if (group != "Options") text += ".SS " + group + "\n" + section(app, group, false);
+        if (group != group_of_none()) text += ".SS " + group + "\n" + section(app, group, false);
     return text +
            ".SH EXIT STATUS\n0: done; 1: failed (input, output, memory); 2: usage error.\n.SH ENVIRONMENT\n" +
            environment(app) + examples(app);
