@@ -71,13 +71,18 @@ warp_kernel::View view_of(const ReprojectedViews &views, std::size_t v) {
 } // namespace
 
 double largest_inverse_z(const ReprojectedViews &views) {
-    std::vector<float> nearest(views.size(), std::numeric_limits<float>::infinity());
+    constexpr float infinity = std::numeric_limits<float>::infinity(),
+                    normal = std::numeric_limits<float>::min(); // devices may take what is less for 0
+    std::vector<float> nearest(views.size(), infinity), farthest(views.size(), 1);
     parallel_for(views.size(), [&](std::size_t v) {
-        for (const float z : views.samples(v).z) nearest[v] = std::min(nearest[v], z);
+        for (const float z : views.samples(v).z) {
+            nearest[v] = std::min(nearest[v], z);
+            if (z < infinity) farthest[v] = std::max(farthest[v], z);
+        }
     });
-    const float least = *std::ranges::min_element(nearest);
-    return least < std::numeric_limits<float>::min() ? std::numeric_limits<double>::infinity()
-                                                     : 1 / double(least);
+    const float least = *std::ranges::min_element(nearest), most = *std::ranges::max_element(farthest);
+    return least < normal || 1 / double(most) < normal ? std::numeric_limits<double>::infinity()
+                                                       : 1 / double(least);
 }
 
 WarpStripe make_stripe(const WarpScene &scene, const Imath::Box2i &box, double inverse_z) {
