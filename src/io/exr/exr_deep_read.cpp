@@ -11,6 +11,7 @@
 #include "io/exr/exr_parts.h"
 #include "io/exr/header_edit.h"
 #include "io/files/memory_limit.h"
+#include "io/files/open_exr.h"
 
 #include <ImfPartType.h>
 #include <fmt/format.h>
@@ -187,7 +188,7 @@ LdiFile read_ldi(const std::string &path, const std::string &depth_channel, cons
     return with_file_name(path, [&] {
         const auto stream = open_input(path);
         check_header(*stream, path);
-        Imf::MultiPartInputFile file(*stream);
+        Imf::MultiPartInputFile file = open_exr(*stream);
         const DeepSource source{file, *stream, path, stream->bytes()};
         const std::vector<int> deep = deep_parts(file);
         if (deep.empty()) return read_flat_as_ldi(source, *stream, depth_channel, choice);

@@ -8,6 +8,7 @@
 #include "io/exr/exr_parts.h"
 #include "io/exr/luminance/luminance_chroma.h"
 #include "io/files/memory_limit.h"
+#include "io/files/open_exr.h"
 
 #include <ImfFrameBuffer.h>
 #include <ImfInputPart.h>
@@ -220,7 +221,7 @@ FlatFile read_flat_exr(const std::string &path, const PictureChoice &choice) {
     return with_file_name(path, [&] {
         const auto stream = open_input(path);
         check_header(*stream, path);
-        Imf::MultiPartInputFile file(*stream);
+        Imf::MultiPartInputFile file = open_exr(*stream);
         return read_flat_part(file, path, *stream, choice);
     });
 }
@@ -229,7 +230,7 @@ Imf::Header read_flat_header(const std::string &path, const PictureChoice &choic
     return with_file_name(path, [&] {
         const auto stream = open_input(path);
         check_header(*stream, path);
-        Imf::MultiPartInputFile file(*stream);
+        Imf::MultiPartInputFile file = open_exr(*stream);
         return header_of(file, parts_of_picture(file, path, choice), path);
     });
 }

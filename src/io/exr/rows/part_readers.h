@@ -4,6 +4,7 @@
 
 #include "base/in_order.h"
 #include "io/files/file_stream.h"
+#include "io/files/open_exr.h"
 
 #include <ImfDeepScanLineInputPart.h>
 #include <ImfMultiPartInputFile.h>
@@ -34,7 +35,7 @@ public:
 private:
     struct Reader {
         Reader(const InputStream &from, int number)
-            : stream(from.another()), file(*stream), part(file, number) {}
+            : stream(from.another()), file(open_exr(*stream)), part(file, number) {}
         std::unique_ptr<InputStream> stream;
         Imf::MultiPartInputFile file;
         Imf::DeepScanLineInputPart part;
