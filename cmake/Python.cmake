@@ -21,7 +21,12 @@ if(NOT SPARSELENS_PYTHON)
     return()
 endif()
 
-# Where that Python looks for packages below the prefix; else where it would below a prefix of its own.
+# Where that Python looks for packages below the prefix; else where it would below a prefix of its own. A wheel has a folder for
+# what goes there (pyproject.toml).
+if(SKBUILD)
+    set(SPARSELENS_PYTHON_DIR ${SKBUILD_PLATLIB_DIR})
+    return()
+endif()
 execute_process(COMMAND ${Python_EXECUTABLE} -c [[
 import os, site, sys, sysconfig
 below = [os.path.relpath(folder, sys.argv[1]) for folder in site.getsitepackages()]

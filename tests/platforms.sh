@@ -1,9 +1,10 @@
 #!/bin/bash
 # All tests in another release of Debian, in a root of its own: made by debootstrap, or the one that an earlier run made.
 #
-#   tests/platforms.sh SUITE [STEP...]     SUITE: bookworm, trixie, sid; steps: tests, blender (both)
+#   tests/platforms.sh SUITE [STEP...]     SUITE: bookworm, trixie, sid; steps: tests, wheel, blender (all)
 #
-# tests: what is committed is built and tested by tests/run.sh; blender: then tests/blender against Debian's Blender. Prints a
+# tests: what is committed is built and tested by tests/run.sh; then wheel: tests/packaging/wheel.sh, with what pip makes of it;
+# blender: tests/blender against Debian's Blender. Prints a
 # table at the end: versions, tests, skips; exit 1 where something fails. Needs root, debootstrap, and apt's lists (apt-get
 # update), whose mirror of Debian it takes. Roots lie in $SPARSELENS_ROOTS (/var/tmp/sparselens-roots), 3 GB each; what the
 # steps said is in SUITE-STEP.log there. A $CCACHE_DIR is used by the builds, too.
@@ -19,8 +20,8 @@ fail() {
 case ${1-} in bookworm | trixie | sid) suite=$1 ;; *) fail "name a suite: bookworm, trixie or sid" ;; esac
 shift
 steps=("$@")
-[ $# -gt 0 ] || steps=(tests blender)
-for step in "${steps[@]}"; do [[ $step =~ ^(tests|blender)$ ]] || fail "no step $step (tests, blender)"; done
+[ $# -gt 0 ] || steps=(tests wheel blender)
+for step in "${steps[@]}"; do [[ $step =~ ^(tests|wheel|blender)$ ]] || fail "no step $step (tests, wheel, blender)"; done
 [ "$(id -u)" -eq 0 ] || fail "only root may make a root of another release and mount in it"
 roots=${SPARSELENS_ROOTS:-/var/tmp/sparselens-roots}
 root=$roots/$suite
@@ -84,6 +85,10 @@ for step in "${steps[@]}"; do
         results+=("$(sed -nE 's/^.* tests passed, .* out of ([0-9]+)$/tests: \1/p' "$log")"
             "$(sed -nE 's/^([0-9]+)% tests passed, ([0-9]+) tests? failed .*/failed: \2/p' "$log")"
             "$(grep '^left out' "$log" || echo 'left out: nothing')")
+        ;;
+    wheel)
+        within 'tests/packaging/wheel.sh build/bin' >"$log" 2>&1 || [ $? -eq 77 ] || code=1
+        results+=("wheel: $(tail -n 1 "$log" | sed 's/^wheel: //')")
         ;;
     blender)
         # Views of a scene of 240x135 take minutes where docs/blender.md's figures take hours.

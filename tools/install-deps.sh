@@ -19,11 +19,14 @@ test='dpkg-dev fakeroot file fish gnuplot-nox groff-base libbenchmark-dev libgte
       openexr openimageio-tools pybind11-dev python3-dev python3-jsonschema python3-numpy python3-openimageio
       python3-pytest python3-venv python3-yaml slurm-client slurmctld slurmd time zsh'
 # What releases differ in. The sources are formatted as clang-format 14 does it, which Debian 12 alone has; Blender 5's
-# extensions need what its package does not bring.
+# extensions need what its package does not bring; what makes a wheel is in Debian 13 and later.
 case $release in
 bookworm) test="clang-format-14 $test" ;;
-trixie) ;;
-*) blender="$blender python3-cattr python3-requests" ;;
+trixie) test="$test python3-scikit-build-core" ;;
+*)
+    blender="$blender python3-cattr python3-requests"
+    test="$test python3-scikit-build-core"
+    ;;
 esac
 
 fail() {

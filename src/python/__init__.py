@@ -1,5 +1,11 @@
 """The package sparselens: everything in it is in the compiled module."""
-from ._sparselens import *  # noqa: F403: all of it
+try:
+    from ._sparselens import *  # noqa: F403: all of it
+except ImportError as error:
+    if "cannot open shared object file" not in str(error):
+        raise
+    raise ImportError(f"{error}: sparselens needs the OpenEXR, OpenColorIO, oneTBB and fmt that it was built with; "
+                      "install them (docs/python.md), or build it again") from None
 from ._sparselens import __doc__, __version__
 
 __all__ = [name for name in dir() if not name.startswith("_")]
