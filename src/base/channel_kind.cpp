@@ -72,12 +72,12 @@ bool is_data(const std::string &name, const Layers &with_x) {
     return is_among(coordinates, lower) || (lower == "y" && with_x.contains(layer));
 }
 
-// Whether a component of a name is that of numbers of objects or materials: IndexOB of Blender, ID of Arnold, objectid of
-// Karma. Asked of every sample, so without copies.
+// Whether a component of a name is that of numbers of objects or materials: IndexOB of Blender (Object Index since 5.0), ID of
+// Arnold, objectid of Karma. Asked of every sample, so without copies.
 bool is_id_word(std::string_view word) {
-    static constexpr std::array<std::string_view, 10> words{
-        "id",         "indexob",     "indexma",    "objectid",    "object_id",
-        "materialid", "material_id", "instanceid", "instance_id", "primid"};
+    static constexpr std::array<std::string_view, 12> words{
+        "id",        "indexob",    "indexma",     "object index", "material index", "objectid",
+        "object_id", "materialid", "material_id", "instanceid",   "instance_id",    "primid"};
     const auto same = [](char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == b; };
     return word.ends_with("ID") || std::ranges::any_of(words, [&](std::string_view one) {
                return std::ranges::equal(word, one, same);

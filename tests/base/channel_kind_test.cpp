@@ -41,8 +41,9 @@ TEST(ChannelKind, IntegersAreIds) {
 }
 
 TEST(ChannelKind, NumbersOfLayersNamedSoAreIds) {
-    for (const char *name : {"ViewLayer.IndexOB.X", "ViewLayer.IndexMA.X", "ID", "objectid", "ObjectID.Y",
-                             "fg.materialID", "primid"}) {
+    for (const char *name :
+         {"ViewLayer.IndexOB.X", "ViewLayer.IndexMA.X", "ViewLayer.Object Index.X", "a.Material Index.X",
+          "ID", "objectid", "ObjectID.Y", "fg.materialID", "primid"}) {
         const Channel channel = found({{name, PixelType::float32}})[0];
         EXPECT_TRUE(holds_ids(channel)) << name;
         EXPECT_FALSE(is_light(channel)) << name;

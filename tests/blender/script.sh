@@ -116,7 +116,8 @@ in_blender passes.blend -P "$views" -- -o layers --samples 4 --multilayer
 in_blender passes.blend -P "$views" -- -o plain --samples 4
 for view in center view_0 view_1 view_2 view_3; do
     exrheader layers/$view.exr >header
-    for what in "ViewLayer.Combined.R," "ViewLayer.Depth.Z," "ViewLayer.DiffCol.R," "ViewLayer.Normal.X," \
+    grep -Eq 'ViewLayer\.(DiffCol|Diffuse Color)\.R,' header || fail "--multilayer: no colour of diffuse in $view.exr" # since 5.0 by its name
+    for what in "ViewLayer.Combined.R," "ViewLayer.Depth.Z," "ViewLayer.Normal.X," \
         "ViewLayer.CryptoObject00.r," cryptomatte/ sparselens:sensorWidth; do
         grep -Fq "$what" header || fail "--multilayer: no $what in $view.exr"
     done
