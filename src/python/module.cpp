@@ -75,12 +75,27 @@ void set_limits(const py::kwargs &given) {
         set_memory_limit(*bytes < 1 ? std::optional<std::uint64_t>() : std::uint64_t(std::min(*bytes, most)));
 }
 
+// Of numpy 2 pybind11 reads wrong values before its version 2.12. Where there is no numpy, the functions say so that need it.
+void refuse_unknown_numpy() {
+#if PYBIND11_VERSION_HEX < 0x020c0000
+    try {
+        if (std::stoi(py::module_::import("numpy").attr("__version__").cast<std::string>()) < 2) return;
+    } catch (const py::error_already_set &) {
+        return;
+    }
+    throw py::import_error(
+        "sparselens was built with a pybind11 that knows numpy 1 alone: install numpy 1, or "
+        "build with pybind11 2.12 or later");
+#endif
+}
+
 } // namespace
 
 } // namespace sparselens::python
 
 PYBIND11_MODULE(_sparselens, module) {
     using namespace sparselens::python;
+    refuse_unknown_numpy();
     py::options options;
     options.disable_function_signatures(); // the texts of docs.h begin with them, as Python writes them
     module.doc() = doc::module;

@@ -60,6 +60,14 @@ cmp tool.exr build.exr || fail "the wheel makes another picture than the build"
 exits 0 used dof-gather ldi.exr -o tool.png
 cmp tool.png python.png || fail "the module and the tool of the wheel write different PNGs"
 
+# An array library that it cannot read is refused (pybind11 before 2.12).
+mkdir numpy2
+echo '__version__ = "2.0.0"' >numpy2/numpy.py
+if grep -q 'knows numpy 1 alone' used/lib/python3*/site-packages/sparselens/_sparselens*.so; then
+    exits 1 used python -c 'import sys; sys.path.insert(0, "numpy2"); import sparselens'
+    grep -q 'ImportError: .*install numpy 1' stderr || fail "takes numpy 2: $(tail -n 1 stderr)"
+fi
+
 # Where a library is missing that it was linked with, it says what to do.
 module=$(echo used/lib/python3*/site-packages/sparselens/_sparselens*.so)
 sed -i 's/libtbb\.so\./libtbc.so./g' "$module"
