@@ -1,76 +1,12 @@
-#include "base/random.h"
 #include "base/subpixels.h"
-#include "dof/reference/subpixels_slowly.h"
+#include "support/all_channels.h"
 
 #include <gtest/gtest.h>
-
-#include <bit>
-#include <functional>
 
 namespace sparselens {
 namespace {
 
-using Shape = PixelFilter::Shape;
-const PixelFilter wide{Shape::blackman_harris, 1.5};
-
-Windows windows_of(const Imath::Box2i &display, const Imath::Box2i &data) { return {display, data, 1}; }
-
-// Colours, coverage, data, ids of two kinds and a matte.
-std::vector<Channel> all_channels() {
-    std::vector<Channel> channels{{"R"}, {"A"}, {"N.X"}, {"N.Y"}, {"id", PixelType::uint32}, {"IndexOB"}};
-    for (const char *name : {"CryptoObject00.R", "CryptoObject00.G", "CryptoObject00.B", "CryptoObject00.A"})
-        channels.push_back({name, PixelType::float32});
-    find_kinds(channels);
-    return channels;
-}
-
-Image filled(const Windows &windows, const std::vector<Channel> &channels,
-             const std::function<float(std::size_t k, int x, int y)> &value) {
-    Image image(windows, channels);
-    const Imath::Box2i &data = windows.data;
-    for (std::size_t k = 0; k < channels.size(); ++k)
-        for (int y = data.min.y; y <= data.max.y; ++y)
-            for (int x = data.min.x; x <= data.max.x; ++x) image.at(k, x, y) = value(k, x, y);
-    return image;
-}
-
-// Whole numbers as ids, of which there are few.
-Image random_picture(const Windows &windows) {
-    std::vector<Channel> channels = all_channels();
-    return filled(windows, channels, [&](std::size_t k, int x, int y) {
-        const std::uint32_t bits = mix_bits(std::uint32_t(k), mix_bits(std::uint32_t(x), std::uint32_t(y)));
-        const float share = float(bits >> 8) / 0x1p24f;
-        if (channels[k].kind == ChannelKind::matte_id) return float(1 + bits % 3);
-        if (channels[k].kind == ChannelKind::matte_coverage) return share / 2;
-        return holds_ids(channels[k]) ? std::bit_cast<float>(bits % 5) : share;
-    });
-}
-
-// Also where the data window begins within a block, and ends within one.
-TEST(Subpixels, AreAsTheReferenceHasThem) {
-    for (const int across : {1, 2, 3, 4})
-        for (const PixelFilter &filter : {PixelFilter{}, wide, PixelFilter{Shape::gaussian, 3}}) {
-            const Imath::Box2i display({0, 0}, {12 * across - 1, 9 * across - 1});
-            for (const Imath::Box2i &data :
-                 {display, Imath::Box2i({-7, -3}, {11 * across, 10 * across + 1})}) {
-                const Image fine = random_picture(windows_of(display, data));
-                const Imath::Box2i box({2, 1}, {8, 7});
-                const Subpixels by{across, filter};
-                const Image fast = mean_of_subpixels(fine, by, box),
-                            slow = mean_of_subpixels_slowly(fine, by, box);
-                ASSERT_EQ(fast.windows, slow.windows);
-                for (std::size_t i = 0; i < fast.values.size(); ++i) {
-                    const Channel &channel = fast.channels[i / fast.windows.pixels()];
-                    if (is_light(channel) || channel.kind == ChannelKind::matte_coverage)
-                        ASSERT_NEAR(fast.values[i], slow.values[i], 1e-6) << channel.name;
-                    else
-                        ASSERT_EQ(std::bit_cast<std::uint32_t>(fast.values[i]),
-                                  std::bit_cast<std::uint32_t>(slow.values[i]))
-                            << channel.name;
-                }
-            }
-        }
-}
+const PixelFilter wide{PixelFilter::Shape::blackman_harris, 1.5};
 
 // Exactly, as the shares add up to 1, also where the border cuts the filter off.
 TEST(Subpixels, WhatIsConstantStaysSo) {

@@ -1,5 +1,4 @@
-// A picture of many surfaces through the selective gather and through the scatter that checks it.
-#include "dof/selective/scatter.h"
+// A picture of many surfaces through the selective gather.
 #include "dof/selective/selective.h"
 #include "support/lens_ldi.h"
 
@@ -26,16 +25,8 @@ void selective(benchmark::State &state) {
     state.SetItemsProcessed(state.iterations() * std::int64_t(ldi.samples()));
 }
 
-void scatter(benchmark::State &state) {
-    const Ldi ldi = picture(64, 36);
-    Progress progress;
-    for (auto _ : state) benchmark::DoNotOptimize(scatter(ldi, opened(state), {}, progress));
-    state.SetItemsProcessed(state.iterations() * std::int64_t(ldi.samples()));
-}
-
 BENCHMARK(selective)->Arg(1)->Arg(10)->Arg(40)->Arg(160)->Arg(20000)->UseRealTime()->Unit(
     benchmark::kMillisecond);
-BENCHMARK(scatter)->Arg(1)->Arg(10)->Arg(40)->UseRealTime()->Unit(benchmark::kMillisecond);
 
 } // namespace
 } // namespace sparselens

@@ -1,15 +1,11 @@
-// A picture held out by another: by the closed forms of one surface in front of another, and the fast gather against
-// the slow one.
+// A picture held out by another: by the closed forms of one surface in front of another.
 #include "deep/flatten.h"
 #include "deep/holdout.h"
 #include "dof/lens/lens_gather.h"
-#include "lens/lens_samples.h"
 #include "support/lens_ldi.h"
-#include "support/reference_picture.h"
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <limits>
 
 namespace sparselens {
@@ -52,9 +48,9 @@ TEST(Holdout, OfAVolumeHidesByHowMuchIsInFront) {
     EXPECT_NEAR(holdout.passes(0, 0, 5), 0.25, 1e-12);
 }
 
-Image gather(const Ldi &ldi, const Holdout *holdout, int points = 0) {
+Image gather(const Ldi &ldi, const Holdout *holdout) {
     Progress silent;
-    return lens_gather(ldi, lens, ldi.windows.data, {.lens_samples = points, .holdout = holdout}, silent);
+    return lens_gather(ldi, lens, ldi.windows.data, {.holdout = holdout}, silent);
 }
 
 // A wall far out of focus shows the edge of what holds it out as sharp as it is.
@@ -84,22 +80,6 @@ TEST(Holdout, FlattensAsTheClosedForm) {
     EXPECT_FLOAT_EQ(out.at(0, 0, 0), 0.25f + 0.5f * 0.5f * 0.5f + 0.25f * 0.25f * 1);
     EXPECT_FLOAT_EQ(out.at(1, 0, 0), 0.5f + 0.5f * 0.5f * 0.5f + 0.25f * 0.25f * 1);
     EXPECT_FLOAT_EQ(out.at(0, 1, 0), flatten(ldi).at(0, 1, 0));
-}
-
-TEST(Holdout, FastIsAsTheReference) {
-    const Windows windows = windows_of_size(70, 9);
-    for (const bool opaque : {true, false}) {
-        Ldi ldi = random_surfaces(windows, lens, opaque, 5);
-        for (auto &values : ldi.values) // no lamps: the reference spreads no highlights
-            for (float &v : values) v = std::min(v, 1.0f);
-        for (Channel &channel : ldi.channels) // without names of colours nothing is sharpened
-            if (channel.name != "A") channel.name = "layer." + channel.name;
-        const Holdout holdout(random_surfaces(windows, lens, false, 11));
-        const auto points = disc_lens_samples(64, lens.pixel_aspect);
-        const Image fast = gather(ldi, &holdout, 64);
-        expect_within(fast, lens_gather_reference(ldi, lens, windows.data, points, &holdout));
-        EXPECT_GT(largest_difference(fast, gather(ldi, nullptr, 64)), 0.5);
-    }
 }
 
 } // namespace

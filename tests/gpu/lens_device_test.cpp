@@ -1,4 +1,4 @@
-// The kernel of the lens gather against the CPU's and against the slow reference.
+// The kernel of the lens gather against the CPU's.
 #include "deep/tidy.h"
 #include "dof/device/tile_device.h"
 #include "dof/lens/lens_gather.h"
@@ -6,7 +6,6 @@
 #include "gpu/gpu_fixture.h"
 #include "lens/lens_samples.h"
 #include "support/lens_ldi.h"
-#include "support/reference_picture.h"
 
 #include <algorithm>
 #include <memory>
@@ -145,34 +144,6 @@ TEST_F(LensDeviceTest, StripesMakeTheSamePicture) {
     const TileReport did = tiny->take_report();
     EXPECT_EQ(did.on_device, 0u);
     EXPECT_GT(did.on_cpu.at("more samples than its buffers hold"), 0u);
-}
-
-TEST_F(LensDeviceTest, IsItsReference) {
-    struct Case {
-        bool opaque, images;
-        std::uint32_t stream;
-        LensLooks looks = {};
-    };
-    const std::vector<Case> cases{{false, false, 5},
-                                  {true, false, 15},
-                                  {false, true, 25},
-                                  {true, true, 35},
-                                  {false, false, 45, {.aperture = {.blades = 5, .squeeze = 1.5}}},
-                                  {false, false, 55, {.aperture = {.spherical = 0.8}, .cat_eye = 0.9}}};
-    device = open_gather_device(*info, watch());
-    for (const Case &c : cases) {
-        Ldi ldi = surfaces(40, 30, c.opaque, c.stream);
-        for (Channel &channel : ldi.channels) // no colours: the reference does not sharpen
-            if (channel.name != "A") channel.name += "0";
-        for (std::size_t i = 0; i < ldi.z.size() && c.images; ++i)
-            ldi.optical.push_back(ldi.z[i] * (random_unit(int(i), 1, c.stream) < 0.5 ? 1 : 1.7f));
-        const Image image = gather(ldi, {.lens_samples = 16, .looks = c.looks, .device = device.get()});
-        EXPECT_EQ(device->take_report().on_cpu, Tiles());
-        const Aperture aperture(c.looks.aperture);
-        const CatEye cat_eye(aperture, c.looks, picture_frame(ldi.windows, c.looks));
-        expect_within(image, lens_gather_reference(ldi, lens, ldi.windows.data, lens_samples(aperture, 16, 1),
-                                                   nullptr, cat_eye.cuts() ? &cat_eye : nullptr));
-    }
 }
 
 // Depths are looked up by single precision; those of a holdout that shows the same are equal all the same.

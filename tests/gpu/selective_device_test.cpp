@@ -1,6 +1,5 @@
-// The kernel of the selective gather against the CPU's and against the scatter, its slow reference.
+// The kernel of the selective gather against the CPU's.
 #include "dof/device/tile_device.h"
-#include "dof/selective/scatter.h"
 #include "dof/selective/selective.h"
 #include "gpu/gather/gather_device.h"
 #include "gpu/gpu_fixture.h"
@@ -100,17 +99,6 @@ TEST_F(SelectiveDeviceTest, ManyPartialSamplesOfAPixelAreTheCpus) {
             return samples;
         });
     expect_same(ldi, lens, 2);
-}
-
-TEST_F(SelectiveDeviceTest, IsItsReference) {
-    device = open_gather_device(*info, watch());
-    for (const bool opaque : {true, false}) {
-        const Ldi ldi = random_surfaces(windows_of_size(60, 40), lens, opaque, 4);
-        const Image image = gather(ldi, lens, {32, device.get()});
-        Progress silent;
-        EXPECT_LE(largest_difference(image, scatter(ldi, lens, {}, silent)), 1e-4 * largest_of(image));
-    }
-    EXPECT_GT(device->take_report().on_device, 0u);
 }
 
 TEST_F(SelectiveDeviceTest, StripesMakeTheSamePicture) {
