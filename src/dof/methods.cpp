@@ -9,8 +9,8 @@
 #include "lens/perceptive_depth.h"
 
 #include <algorithm>
-#include <array>
 #include <utility>
+#include <vector>
 
 namespace sparselens {
 
@@ -45,9 +45,6 @@ Image by_scatter(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &windo
     return composited(ldi, [&](const Ldi &one) { return crop(scatter(one, lens, {}, progress), window); });
 }
 
-using Method = Image (*)(const Ldi &, const ThinLens &, const Imath::Box2i &, const GatherOptions &,
-                         Progress &);
-
 Ldi without_mattes(Ldi ldi) {
     for (std::size_t k = ldi.channels.size(); k-- > 0;)
         if (is_in_matte(ldi.channels[k])) {
@@ -57,31 +54,41 @@ Ldi without_mattes(Ldi ldi) {
     return ldi;
 }
 
-// The light by `method`, the mattes by the lens gather, whatever the method: the others only blend.
-template <Method method>
-Image with_mattes(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window,
-                  const GatherOptions &options, Progress &progress) {
-    if (std::ranges::none_of(ldi.channels, is_in_matte)) return method(ldi, lens, window, options, progress);
-    const Image light = method(without_mattes(ldi), lens, window, options, progress);
+std::vector<GatherMethod> &table() {
+    static std::vector<GatherMethod> methods{
+        {"lens", "what hides what is decided for every point of the lens", true, by_lens},
+        {"selective", "a few blurred layers per pixel, the published method", true, by_selective},
+        {"scatter",
+         "each sample spread exactly, a slow check of selective that takes minutes where the blur is large",
+         false, by_scatter}};
+    return methods;
+}
+
+} // namespace
+
+// Cryptomattes by the lens gather, whatever the method: the others only blend.
+Image GatherMethod::gather(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window,
+                           const GatherOptions &options, Progress &progress) const {
+    if (std::ranges::none_of(ldi.channels, is_in_matte)) return light(ldi, lens, window, options, progress);
+    const Image lit = light(without_mattes(ldi), lens, window, options, progress);
     const Image mattes =
         gather_beyond(ldi, lens, window, options, [&](const Ldi &all, const LensGatherOptions &by) {
             return gather_mattes(all, lens, window, by, progress);
         });
-    Image all(light.windows, ldi.channels);
+    Image all(lit.windows, ldi.channels);
     for (std::size_t k = 0; k < all.channels.size(); ++k) {
-        const Image &from = is_in_matte(all.channels[k]) ? mattes : light;
+        const Image &from = is_in_matte(all.channels[k]) ? mattes : lit;
         std::ranges::copy(from.plane(find_channel(from.channels, all.channels[k].name)),
                           all.plane(k).begin());
     }
     return all;
 }
 
-constexpr std::array methods{GatherMethod{"lens", with_mattes<by_lens>},
-                             GatherMethod{"selective", with_mattes<by_selective>},
-                             GatherMethod{"scatter", with_mattes<by_scatter>}};
+std::span<const GatherMethod> gather_methods() { return table(); }
 
-} // namespace
-
-std::span<const GatherMethod> gather_methods() { return methods; }
+bool join_gather_methods(const GatherMethod &method) {
+    table().push_back(method);
+    return true;
+}
 
 } // namespace sparselens

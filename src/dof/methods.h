@@ -26,14 +26,24 @@ struct GatherOptions {
 };
 
 struct GatherMethod {
+    using Gather = Image (*)(const Ldi &, const ThinLens &, const Imath::Box2i &window, const GatherOptions &,
+                             Progress &);
     const char *name;
+    const char *what; // it does: a few words for users
+    bool on_devices;  // GatherOptions::lens.device may be given
+    Gather light;     // all channels but Cryptomattes
+
     // Gathers the pixels of a window (EXR coordinates) within the data window of the LDI: all its channels, each by its
     // own coverage (deep/channel_alpha.h). The LDI must be tidy and the lens radius above 0.
-    Image (*gather)(const Ldi &, const ThinLens &, const Imath::Box2i &window, const GatherOptions &,
-                    Progress &);
+    Image gather(const Ldi &, const ThinLens &, const Imath::Box2i &window, const GatherOptions &,
+                 Progress &) const;
 };
 
 // The default method first.
 std::span<const GatherMethod> gather_methods();
+
+// One more method, at the end. Before main alone, as pointers to methods are kept: for programs that have methods of their
+// own. Returns true, so that it can be called where a constant is initialised.
+bool join_gather_methods(const GatherMethod &);
 
 } // namespace sparselens

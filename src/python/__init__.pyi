@@ -278,7 +278,7 @@ def gather(
     ldi: Ldi,
     *,
     channels: Optional[Union[str, Sequence[str]]] = None,
-    method: Literal["lens", "selective", "scatter"] = "lens",
+    method: Literal["lens", "selective"] = "lens",
     quality: Optional[Literal["draft", "normal", "final"]] = "normal",
     lens_samples: Optional[int] = 0,
     layer_tolerance: Optional[float] = 0.25,

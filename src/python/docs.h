@@ -223,7 +223,7 @@ inline constexpr const char *gather =
 Makes the picture that a lens takes of an LDI and returns a Picture. As dof-gather.
 
 channels: names of channels, layers or Cryptomattes, or "rgba", as a sequence or separated by commas; default: all.
-method: "lens", "selective" or "scatter".
+method: "lens" or "selective".
 quality: "draft", "normal" or "final"; lens_samples: points of the lens in every tile, 0: as many as the quality needs.
 layer_tolerance: layers of a pixel whose circles of confusion differ by less are merged first, pixels; 0: none.
   Both belong to the method lens; layers, the layers kept apart in a pixel, belongs to selective.

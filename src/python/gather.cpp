@@ -39,8 +39,7 @@ void set_method(Asked &asked, Keywords &keywords) {
         const auto methods = gather_methods();
         const auto found =
             std::ranges::find_if(methods, [&](const GatherMethod &m) { return m.name == name; });
-        if (found == methods.end())
-            throw UsageError("method: must be one of lens, selective, scatter, not " + name);
+        if (found == methods.end()) throw UsageError("method: must be lens or selective, not " + name);
         asked.picture.method = &*found;
     }
     const auto quality = keywords.word<Quality>(
@@ -61,9 +60,6 @@ void set_method(Asked &asked, Keywords &keywords) {
     if (layers && asked.picture.method->name != std::string("selective")) refuse("layers", "selective");
     asked.device = keywords.text("device");
     if (asked.device.empty()) asked.device = "cpu";
-    if (asked.device != "cpu" && asked.device != "auto" &&
-        asked.picture.method->name == std::string("scatter"))
-        throw UsageError("device: works with method='lens' and method='selective' only");
     asked.picture.gather.lens.quality = quality.value_or(asked.picture.gather.lens.quality);
     asked.picture.gather.lens.lens_samples = points.value_or(0);
     asked.picture.gather.layers = layers.value_or(asked.picture.gather.layers);

@@ -25,8 +25,7 @@ void check(const CLI::App &parsed, const GatherCommand &options) {
     const std::string look = first_look_option(parsed);
     if (!look.empty() && options.picture.method != &gather_methods().front())
         throw CLI::ValidationError(look, "works with --method lens only");
-    if (options.device != "cpu" && options.device != "auto" &&
-        options.picture.method->name == std::string("scatter"))
+    if (options.device != "cpu" && options.device != "auto" && !options.picture.method->on_devices)
         throw CLI::ValidationError("--device " + options.device,
                                    "works with --method lens and --method selective only");
     if (options.show == Show::tiles && options.picture.method != &gather_methods().front())

@@ -44,8 +44,11 @@ void add_pixel_option(CLI::App &app, const std::string &name, std::optional<Imat
 }
 
 void add_method_option(CLI::App &app, const GatherMethod *&method) {
-    std::vector<std::string> names;
-    for (const GatherMethod &m : gather_methods()) names.emplace_back(m.name);
+    std::vector<std::string> names, what;
+    for (const GatherMethod &m : gather_methods()) {
+        names.emplace_back(m.name);
+        what.push_back(fmt::format("{}: {}", m.name, m.what));
+    }
     const auto read = [&method, names](const std::string &text) {
         for (const GatherMethod &m : gather_methods())
             if (text == m.name) {
@@ -57,12 +60,7 @@ void add_method_option(CLI::App &app, const GatherMethod *&method) {
     };
     app.add_option_function<std::string>(
            "--method", read,
-           fmt::format("Gather method. lens: what hides what is decided for every "
-                       "point of the lens; selective: a few blurred layers per pixel, "
-                       "the published method; scatter: each sample spread exactly, a "
-                       "slow check of selective that takes minutes where the blur is "
-                       "large (default: {})",
-                       names.front()))
+           fmt::format("Gather method. {} (default: {})", fmt::join(what, "; "), names.front()))
         ->type_name(fmt::format("{}", fmt::join(names, "|")));
 }
 
