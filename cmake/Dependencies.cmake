@@ -18,16 +18,3 @@ pkg_check_modules(OpenColorIO REQUIRED IMPORTED_TARGET OpenColorIO>=2.1)
 get_target_property(oiio_includes OpenImageIO::OpenImageIO INTERFACE_INCLUDE_DIRECTORIES)
 list(FILTER oiio_includes EXCLUDE REGEX opencv)
 set_target_properties(OpenImageIO::OpenImageIO PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "${oiio_includes}")
-
-# The laboratory traces its scenes with Embree. The demo and most tests need it.
-find_package(embree 4 CONFIG QUIET)
-if(NOT embree_FOUND)
-    find_package(embree 3 CONFIG QUIET)
-endif()
-sparselens_found_option(SPARSELENS_LAB "Build the laboratory: dof-trace, dof-report, dof-stress (needs Embree 3 or 4)"
-    "${embree_FOUND}" "the laboratory (dof-trace, dof-report, dof-stress), which the demo and most tests need"
-    "Embree 3 or 4 (Debian: libembree-dev)")
-if(SPARSELENS_LAB AND NOT embree_FOUND)
-    message(FATAL_ERROR "SPARSELENS_LAB needs Embree 3 or 4 (Debian: libembree-dev), which was not found. "
-        "Install it, or configure with -DSPARSELENS_LAB=OFF: the library and the tools for pictures do without.")
-endif()

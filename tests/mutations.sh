@@ -41,7 +41,7 @@ cmake --preset release --log-level=WARNING -DSPARSELENS_BENCHMARKS=OFF -DSPARSEL
 # build CAUGHT_BY: what those tests need; other tests than the unit tests may need anything.
 build() {
     local targets=()
-    is_ctest "$1" || targets=(sparselens-tests dof-stress)
+    is_ctest "$1" || targets=(sparselens-tests sparselens-lab-tests dof-stress)
     ninja -C build -j "$(nproc)" "${targets[@]}" >build.log 2>&1
 }
 ctests=$(ctest --test-dir build -N | sed -n 's/^ *Test *#[0-9]*: //p')
@@ -49,10 +49,13 @@ is_ctest() { [ -n "$1" ] && grep -qxF -e "$1" <<<"$ctests"; }
 
 # failed_units FILTER: the unit tests of that filter that fail; one that never ends, or takes the others with it, fails too.
 failed_units() {
-    local code=0 failed
-    timeout 3000 build/bin/sparselens-tests --gtest_brief=1 --gtest_filter="$1" >units.log 2>&1 || code=$?
-    failed=$(sed -nE 's/^\[  FAILED  \] ([A-Za-z0-9_/.]+).*/\1/p' units.log | sort -u)
-    [ $code -eq 0 ] || echo "${failed:-sparselens-tests ends with $code}"
+    local code failed tests
+    for tests in sparselens-tests sparselens-lab-tests; do
+        code=0
+        timeout 3000 "build/bin/$tests" --gtest_brief=1 --gtest_filter="$1" >units.log 2>&1 || code=$?
+        failed=$(sed -nE 's/^\[  FAILED  \] ([A-Za-z0-9_/.]+).*/\1/p' units.log | sort -u)
+        [ $code -eq 0 ] || echo "${failed:-$tests ends with $code}"
+    done
 }
 # failing_tests CAUGHT_BY: the tests that fail. By itself the unit tests but those of the ray tracer; where none fails,
 # dof-stress.

@@ -31,7 +31,7 @@ build() {
     local tests=()
     [ -e "$here/build/build.ninja" ] || tests=(-DSPARSELENS_TESTS=OFF -DSPARSELENS_BENCHMARKS=OFF)
     cmake --preset release -S "$here" --log-level=WARNING -DSPARSELENS_LAB=ON "${tests[@]}"
-    cmake --build "$here/build" --target tools/all -j "$(nproc)"
+    cmake --build "$here/build" --target tools/all dof-trace -j "$(nproc)"
 }
 
 table=()

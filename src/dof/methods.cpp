@@ -4,7 +4,6 @@
 #include "dof/gather_beyond.h"
 #include "dof/lens_mattes.h"
 #include "dof/merge_layers.h"
-#include "dof/selective/scatter.h"
 #include "dof/selective/selective.h"
 #include "lens/perceptive_depth.h"
 
@@ -40,11 +39,6 @@ Image by_selective(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &win
     });
 }
 
-Image by_scatter(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window, const GatherOptions &,
-                 Progress &progress) {
-    return composited(ldi, [&](const Ldi &one) { return crop(scatter(one, lens, {}, progress), window); });
-}
-
 Ldi without_mattes(Ldi ldi) {
     for (std::size_t k = ldi.channels.size(); k-- > 0;)
         if (is_in_matte(ldi.channels[k])) {
@@ -57,10 +51,7 @@ Ldi without_mattes(Ldi ldi) {
 std::vector<GatherMethod> &table() {
     static std::vector<GatherMethod> methods{
         {"lens", "what hides what is decided for every point of the lens", true, by_lens},
-        {"selective", "a few blurred layers per pixel, the published method", true, by_selective},
-        {"scatter",
-         "each sample spread exactly, a slow check of selective that takes minutes where the blur is large",
-         false, by_scatter}};
+        {"selective", "a few blurred layers per pixel, the published method", true, by_selective}};
     return methods;
 }
 

@@ -10,9 +10,9 @@ cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 facts() {
     sed -n '/^```floors$/,/^```$/{/^```/d;s/#.*//;s/^/floor /;p}' docs/code.md
     sed -n '/^set(SPARSELENS_PUBLIC_HEADERS$/,/^)$/p' src/CMakeLists.txt | grep -oE '[a-z_/0-9]+\.h' | sed 's/^/public /'
-    find src tools -type d -printf 'folder %p\n'
-    find src tools -type f -printf 'file %p\n' | sort
-    find src tools -name '*.h' -o -name '*.cpp' -o -name '*.cpp.in' | sort | xargs grep -oH '^#include "[^"]*"' |
+    find src tools lab -path lab/tests -prune -o -type d -printf 'folder %p\n'
+    find src tools lab -path lab/tests -prune -o -type f -printf 'file %p\n' | sort
+    find src tools lab -path lab/tests -prune -o '(' -name '*.h' -o -name '*.cpp' -o -name '*.cpp.in' ')' -print | sort | xargs grep -oH '^#include "[^"]*"' |
         sed -E 's/^([^:]*):#include "(.*)"/include \1 \2/'
 }
 
@@ -34,14 +34,14 @@ function normal(path,    parts, n, i, kept, result) {
     for (i = 1; i <= kept; ++i) result = result (i > 1 ? "/" : "") parts[i]
     return result
 }
-# The file that FILE means by "NAME": beside it, in tools/ or in src/.
+# The file that FILE means by "NAME": beside it, in tools/, in src/ or as it stands.
 function included(file, name,    path) {
     path = normal(folder_of(file) "/" name)
     if (path in is_file) return path
     path = normal("tools/" name)
     if (path in is_file) return path
     path = normal("src/" name)
-    return path in is_file ? path : name
+    return path in is_file ? path : normal(name)
 }
 function check_floors(file, name,    from, to) {
     from = folder_of(file)

@@ -1,6 +1,6 @@
 #!/bin/bash
-# Without Embree the project configures, the laboratory is off, the library builds, and no command that builds or links
-# the rest names Embree, the laboratory or a header of either. If the laboratory is asked for, the error says what to do.
+# Without Embree the project configures, the laboratory is off where nobody asks for it, the library builds, and no command that
+# builds or links the rest names Embree, the laboratory or a header of either. If it is asked for, the error says what to do.
 #
 #   tests/scripts/no-lab.sh BUILD_DIR     the commands of the library are those of BUILD_DIR, so that is not built again
 #   tests/scripts/no-lab.sh all           builds the tools and the tests too, and runs the unit tests
@@ -36,14 +36,13 @@ grep -q 'SPARSELENS_LAB=OFF' "$build/said" || { cat "$build/said"; exit 1; }
 rm "$build/CMakeCache.txt"
 configure || { cat "$build/said"; exit 1; }
 grep -q '^SPARSELENS_LAB:BOOL=OFF$' "$build/CMakeCache.txt" || { echo "the laboratory is on without Embree"; exit 1; }
-tail -n 15 "$build/said" | grep -q '^Left out: the laboratory .*libembree-dev' || { tail "$build/said"; echo "the last lines do not say what is left out, and why"; exit 1; }
 ninja -C "$build" -t commands >"$build/commands"
 grep -q 'dof-gather' "$build/commands" || { echo "no dof-gather is built"; exit 1; }
-if grep -iE 'embree|sparselens_lab|(src|tools|tests)/lab/' "$build/commands"; then
+if grep -iE 'embree|sparselens_lab|[ /]lab/' "$build/commands"; then
     echo "these commands need the laboratory"
     exit 1
 fi
-if grep -rnE '#include [<"](embree|lab/)' src tools --include='*.h' --include='*.cpp' | grep -vE '^(src|tools)/lab/|^tools/dof-(report|stress|trace)\.cpp:'; then
+if grep -rnE '#include [<"](embree|lab/)' src tools tests --include='*.h' --include='*.cpp'; then
     echo "these files need the laboratory"
     exit 1
 fi

@@ -4,7 +4,7 @@
 plan=$bin/ldi-plan
 answers_help ldi-plan views/center.exr -o plan.json
 "$bin/dof-trace" fence --size 240x135 --spp 16 -o full
-reference=$source_dir/tests/floors/references/fence.exr # of this size, 4096 rays a pixel
+reference=$source_dir/lab/tests/floors/references/fence.exr # of this size, 4096 rays a pixel
 
 # json FILE EXPRESSION: of the plan, in Python.
 json() { python3 -c "import json,sys; p = json.load(open(sys.argv[1])); print($2)" "$1"; }

@@ -1,6 +1,5 @@
 #include "base/random.h"
 #include "deep/flatten.h"
-#include "dof/selective/scatter.h"
 #include "lens/lens_points.h"
 #include "support/views.h"
 #include "warp/deepen.h"

@@ -1,7 +1,6 @@
 // What is opaque in the views lets no light through in the LDI, nor through a lens; what is not, does.
 #include "deep/flatten.h"
 #include "dof/methods.h"
-#include "dof/reference/lens_gather_reference.h"
 #include "lens/lens_samples.h"
 #include "support/mattes.h"
 #include "warp/opaque_pixels.h"

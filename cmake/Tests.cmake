@@ -1,0 +1,39 @@
+# How tests are declared, here and in the laboratory.
+
+# A script that exits 77 has said what it lacks (skips.sh) and counts as skipped.
+function(sparselens_script_test name)
+    add_test(NAME ${name} COMMAND bash ${ARGN})
+    set_tests_properties(${name} PROPERTIES SKIP_RETURN_CODE 77)
+endfunction()
+
+# sparselens_unit_tests(NAME EXECUTABLE SHARDS): in shards, as a process for each test would cost more than most tests.
+function(sparselens_unit_tests name executable shards)
+    foreach(shard RANGE 1 ${shards})
+        math(EXPR index "${shard} - 1")
+        add_test(NAME ${name}.${shard} COMMAND ${executable} --gtest_brief=1)
+        set_tests_properties(${name}.${shard} PROPERTIES
+            ENVIRONMENT "GTEST_TOTAL_SHARDS=${shards};GTEST_SHARD_INDEX=${index}")
+    endforeach()
+endfunction()
+
+# sparselens_costs(NAME=SECONDS...): in a new folder ctest knows no times: the longest first, so that none is left to run
+# alone. In CPU seconds.
+function(sparselens_costs)
+    foreach(pair IN LISTS ARGN)
+        string(REPLACE "=" ";" pair ${pair})
+        list(GET pair 0 name)
+        list(GET pair 1 cost)
+        if(TEST ${name})
+            set_tests_properties(${name} PROPERTIES COST ${cost})
+        endif()
+    endforeach()
+endfunction()
+
+# What most unit tests include, compiled once.
+function(sparselens_precompiled_tests target)
+    target_precompile_headers(${target} PRIVATE <algorithm> <array> <cmath> <filesystem> <fstream> <functional> <map>
+        <memory> <numeric> <optional> <random> <span> <sstream> <string> <vector> <ImathVec.h> <gtest/gtest.h>)
+    # In precompiled headers GCC 12 sees overflows of std::string that are not there.
+    target_compile_options(${target} PRIVATE
+        $<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds> $<$<CXX_COMPILER_ID:GNU>:-Wno-stringop-overflow>)
+endfunction()

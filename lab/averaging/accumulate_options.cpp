@@ -1,0 +1,34 @@
+#include "lab/averaging/accumulate_options.h"
+
+#include "harness/examples.h"
+#include "harness/words.h"
+#include "options/picture_options.h"
+
+#include <CLI/CLI.hpp>
+
+#include <map>
+
+namespace sparselens {
+
+void add_accumulate_options(CLI::App &app, AccumulateOptions &options) {
+    const std::map<std::string, bool> outside{{"unknown", false}, {"transparent", true}};
+    add_lens_view_options(app, options.views);
+    app.add_option("-o,--output", options.output, "Average to write (EXR); - for standard output")
+        ->required()
+        ->type_name("OUT.exr");
+    add_type_option(app, options.type);
+    add_compression_option(app, options.compression, false);
+    app.add_option("--outside", options.transparent_outside,
+                   "What lies outside the data window of a view. unknown: the view does not count there; "
+                   "transparent: "
+                   "black, within the display window (default: unknown)")
+        ->type_name("unknown|transparent")
+        ->transform(words(outside));
+    add_lens_options(app, options.lens);
+    add_picture_choice(app, options.views.picture);
+    add_history_option(app, options.history);
+    add_examples(app, {{"Average views that say where their cameras stood",
+                        "dof-accumulate view_*.exr --center center.exr -o average.exr"}});
+}
+
+} // namespace sparselens

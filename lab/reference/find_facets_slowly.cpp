@@ -1,0 +1,113 @@
+#include "lab/reference/find_facets_slowly.h"
+
+#include "deep/build.h"
+#include "dof/facets/facets.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace sparselens {
+
+namespace {
+
+// An opaque sample, the pixel that holds it, and its perceptive depth: a float, as where it is sorted, so that what is as near
+// here is as near there.
+struct Opaque {
+    Imath::V2i pixel;
+    std::uint64_t sample;
+    float depth;
+};
+using Found = std::optional<Opaque>;
+
+class SlowFacets {
+public:
+    SlowFacets(const Ldi &ldi, const ThinLens &lens, double steep) : ldi_(ldi), lens_(lens), steep_(steep) {}
+
+    std::vector<Opaque> opaque_in(const Imath::V2i &pixel) const {
+        std::vector<Opaque> found;
+        if (!ldi_.windows.data.intersects(pixel)) return found;
+        for (const std::uint64_t i : ldi_.pixel(ldi_.windows.index(pixel.x, pixel.y)))
+            if (alpha_at(ldi_, ldi_.alpha(), i) >= 0.9995f)
+                found.push_back({pixel, i, float(perceptive_depth(lens_, 1)) / ldi_.z[i]});
+        return found;
+    }
+
+    // Those with a corner in this sample's pixel, which is the upper left one of four.
+    void add_facets(const Opaque &a, std::vector<std::array<std::uint64_t, 3>> &facets) const {
+        const Imath::V2i right(1, 0), down(0, 1);
+        const Found b = linked(a, right), c = linked(a, down);
+        const Found d_by_b = b ? linked(*b, down) : Found(), d_by_c = c ? linked(*c, right) : Found();
+        const bool closed = d_by_b && d_by_c && d_by_b->sample == d_by_c->sample;
+        const auto add = [&](const Found &second, const Found &third) {
+            if (!second || !third) return;
+            const auto [least, most] = std::minmax({a.depth, second->depth, third->depth});
+            if (double(most) - double(least) >= steep_)
+                facets.push_back({a.sample, second->sample, third->sample});
+        };
+        add(b, d_by_b);
+        add(c, d_by_c);
+        if (!closed) add(b, c);
+    }
+
+private:
+    Found nearest(const Imath::V2i &pixel, double depth) const {
+        Found nearest;
+        for (const Opaque &s : opaque_in(pixel))
+            if (!nearest || std::abs(double(s.depth) - depth) < std::abs(double(nearest->depth) - depth))
+                nearest = s;
+        return nearest;
+    }
+
+    // Steps of depth from pixel to pixel, each looked for where the last one leads; 0 where there is none that runs its way.
+    std::array<double, 2> next_steps(Opaque from, const Imath::V2i &step, double last) const {
+        std::array<double, 2> steps{0, 0};
+        for (double &s : steps) {
+            const Found next = nearest(from.pixel + step, double(from.depth) + last);
+            if (!next) break;
+            const double difference = double(next->depth) - double(from.depth);
+            if (difference * last <= 0) break;
+            last = s = difference;
+            from = *next;
+        }
+        return steps;
+    }
+
+    Found linked(const Opaque &a, const Imath::V2i &step) const {
+        const Found b = nearest(a.pixel + step, double(a.depth));
+        if (!b) return {};
+        const double d = double(b->depth) - double(a.depth);
+        if (std::abs(d) < double(steep_px)) return b;
+        // Five steps in a line, the middle one from a to b; those before it as they are met on the way back, which is down where
+        // the way on is up.
+        const auto after = next_steps(*b, step, d), before = next_steps(a, Imath::V2i(0) - step, -d);
+        const double line[] = {-before[1], -before[0], d, after[0], after[1]};
+        double s = 0;
+        for (int first = 0; first <= 2; ++first) {
+            double smaller = INFINITY; // of the other two of these three
+            for (int k = first; k < first + 3; ++k)
+                if (k != 2) smaller = std::min(smaller, std::abs(line[k]));
+            s = std::max(s, smaller);
+        }
+        return std::abs(d) < double(steep_px) + 2 * s ? b : Found();
+    }
+
+    const Ldi &ldi_;
+    const ThinLens &lens_;
+    double steep_;
+};
+
+} // namespace
+
+std::vector<std::array<std::uint64_t, 3>> find_facets_slowly(const Ldi &ldi, const ThinLens &lens,
+                                                             double widest) {
+    const SlowFacets slow(ldi, lens, double(steep_px) / widest);
+    std::vector<std::array<std::uint64_t, 3>> facets;
+    const Imath::Box2i &data = ldi.windows.data;
+    for (int y = data.min.y; y < data.max.y; ++y)
+        for (int x = data.min.x; x < data.max.x; ++x)
+            for (const Opaque &a : slow.opaque_in({x, y})) slow.add_facets(a, facets);
+    return facets;
+}
+
+} // namespace sparselens

@@ -1,0 +1,110 @@
+// The whole way from views to the picture is as good as it was: floors.h.
+#include "deep/tidy.h"
+#include "dof/gather_picture.h"
+#include "io/exr/exr_flat.h"
+#include "lab/tests/floors/floors.h"
+#include "lab/tests/support/traced.h"
+#include "lab/trace/deep.h"
+#include "measure/image_error.h"
+#include "warp/deepen.h"
+#include "warp/edge_depths.h"
+#include "warp/warp.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <string>
+
+namespace sparselens {
+namespace {
+
+using namespace lab;
+
+constexpr int border_px = 16;
+
+Decibels decibels(const Image &image, const Image &reference) {
+    const Windows &windows = reference.windows;
+    const Imath::Box2i inside(windows.data.min + Imath::V2i(border_px),
+                              windows.data.max - Imath::V2i(border_px));
+    std::vector<std::uint8_t> bits(windows.pixels());
+    for (std::size_t i = 0; i < bits.size(); ++i) bits[i] = inside.intersects(windows.pixel(i)) ? 1 : 2;
+    const std::vector<ErrorFigures> figures = image_error(image, reference, bits, 2);
+    return {figures[1].psnr_tonemapped, figures[2].psnr_tonemapped};
+}
+
+Image gather(const Ldi &ldi, const SceneCamera &scene) {
+    Progress silent;
+    PictureOptions options;
+    options.gather.lens.quality = Quality::final;
+    const Imath::Box2i &window = scene.settings.windows.data;
+    return gather_picture(ldi, scene.settings.lens, window, window, options, silent);
+}
+
+std::vector<View> views_of(const SceneCamera &scene) {
+    std::vector<View> views = scene.five_views(16);
+    for (View &view : views) settle_edge_depths(view); // as where they are read
+    return views;
+}
+
+Image from_five_views(const std::vector<View> &views, const SceneCamera &scene) {
+    Progress silent;
+    const ThinLens &lens = scene.settings.lens;
+    const WarpOptions options{.focal_px = lens.focal_px, .radius = lens.radius, .focus = lens.focus};
+    return gather(warp(views, options, silent), scene);
+}
+
+Image reference_of(const std::string &name, const SceneCamera &scene) {
+    const std::string file = std::string(SPARSELENS_REFERENCES_DIR) + "/" + name + ".exr";
+    return rgba_over(read_flat_exr(file).image, scene.settings.windows, file);
+}
+
+void expect_no_worse(const Decibels &now, const Decibels &measured) {
+    EXPECT_GE(now.inside, measured.inside - floor_below);
+    EXPECT_GE(now.border, measured.border - floor_below);
+}
+
+class Floors : public testing::TestWithParam<MeasuredScene> {};
+
+TEST_P(Floors, Hold) {
+    const MeasuredScene &measured = GetParam();
+    const SceneCamera scene(measured.scene, 240, 135);
+    const Image reference = reference_of(measured.scene, scene);
+    const std::vector<View> views = views_of(scene);
+    const Image five = from_five_views(views, scene),
+                one = gather(deepen(views[0], views[0].image.channels), scene);
+    const MeasuredScene now{measured.scene, decibels(five, reference), decibels(one, reference),
+                            double(std::ranges::min(five.plane(3)))};
+    std::printf("{\"%s\", {%.2f, %.2f}, {%.2f, %.2f}, %.4f},\n", now.scene, now.five_views.inside,
+                now.five_views.border, now.one_view.inside, now.one_view.border, now.least_alpha);
+    expect_no_worse(now.five_views, measured.five_views);
+    expect_no_worse(now.one_view, measured.one_view);
+    EXPECT_GE(now.least_alpha, measured.least_alpha - 1e-4); // of float sums of weights: section 3
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Floors, testing::ValuesIn(measured_scenes), [](const auto &of) {
+    std::string name = of.param.scene;
+    std::erase(name, '-');
+    return name;
+});
+
+TEST(ReliefFloors, HoldForMacro) {
+    const SceneCamera scene("macro", 240, 135);
+    const Imath::Box2i relief{{45, 27}, {195, 108}};
+    const Image image = from_five_views(views_of(scene), scene), reference = reference_of("macro", scene);
+    const double now = image_error(crop(image, relief), crop(reference, relief)).front().psnr_tonemapped;
+    std::printf("relief of macro %.2f\n", now);
+    EXPECT_GE(now, measured_macro_relief - floor_below);
+}
+
+TEST(DeepFloors, HoldForMist) {
+    const SceneCamera scene("mist", 240, 135);
+    Progress silent;
+    const Ldi ldi = tidy(render_peeled(scene.tracer, scene.settings, 4, 16, 1, silent));
+    const Decibels now = decibels(gather(ldi, scene), reference_of("mist", scene));
+    std::printf("deep mist {%.2f, %.2f}\n", now.inside, now.border);
+    expect_no_worse(now, measured_deep_mist);
+}
+
+} // namespace
+} // namespace sparselens

@@ -1,0 +1,134 @@
+// Mattes of a traced scene from five views, against those of 256 views of the lens.
+#include "deep/cluster.h"
+#include "dof/methods.h"
+#include "lab/tests/support/traced.h"
+#include "lens/lens_points.h"
+#include "support/mattes.h"
+#include "warp/warp.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace sparselens {
+namespace {
+
+using namespace lab;
+
+constexpr int grid = 4; // rays of a pixel along one axis
+
+// Adds the share of the rays that meet each object.
+void count_objects(const Tracer &tracer, const std::vector<Ray> &rays, double weight,
+                   std::map<int, double> &shares) {
+    std::vector<Hit> hits(rays.size());
+    tracer.nearest(rays, hits);
+    for (const Hit &hit : hits)
+        if (!hit.sky()) shares[hit.primitive] += weight / double(rays.size());
+}
+
+Imath::V2d in_pixel(const Imath::V2i &pixel, int i) {
+    return {pixel.x + (i % grid + 0.5) / grid, pixel.y + (i / grid + 0.5) / grid};
+}
+
+View with_matte(View view, const SceneCamera &scene, const Imath::V2d &u) {
+    Image image(view.image.windows, channels_with_matte(3));
+    for (std::size_t k = 0; k < 4; ++k) std::ranges::copy(view.image.plane(k), image.plane(k).begin());
+    const std::vector<Matte> mattes = find_mattes(image.channels);
+    for (std::size_t i = 0; i < image.windows.pixels(); ++i) {
+        std::vector<Ray> rays;
+        for (int r = 0; r < grid * grid; ++r)
+            rays.push_back(view_ray(scene.settings, u, in_pixel(image.windows.pixel(i), r)));
+        std::map<int, double> shares;
+        count_objects(scene.tracer, rays, 1, shares);
+        MatteSum sum(mattes);
+        std::vector<float> one(image.channels.size());
+        for (const auto &[object, share] : shares) {
+            one[mattes[0].ranks[0].id] = hashed(std::uint32_t(object));
+            one[mattes[0].ranks[0].coverage] = float(share);
+            sum.add(1, [&](std::size_t k) { return one[k]; });
+        }
+        sum.take([&](std::size_t k, float value) { image.plane(k)[i] = value; });
+    }
+    view.image = std::move(image);
+    return view;
+}
+
+std::map<int, double> seen_by_lens(const SceneCamera &scene, const Imath::V2i &pixel) {
+    std::map<int, double> shares;
+    const auto points = spiral_lens_points(256);
+    for (const Imath::V2d &u : points) {
+        std::vector<Ray> rays;
+        for (const int r : {1, 7, 8, 14}) // four, none above another
+            rays.push_back(lens_ray(scene.settings, u, in_pixel(pixel, r)));
+        count_objects(scene.tracer, rays, 1.0 / double(points.size()), shares);
+    }
+    return shares;
+}
+
+// Of each object, over all pixels: sums of its share of them and of the picture's error in it, and of their squares.
+struct MatteError {
+    double shares = 0, errors = 0, shares_squared = 0, errors_squared = 0;
+
+    // An object as small as a lamp is met by few rays of the five views: two standard errors of their number, and a fifth
+    // for what edges and other objects hide from them.
+    bool is_there() const {
+        const double allowed = 0.2 + 2 / std::sqrt(5 * grid * grid * shares);
+        return std::abs(errors) <= allowed * shares && errors_squared <= allowed * allowed * shares_squared;
+    }
+};
+
+// The largest sum of a pixel's coverages.
+float most_covered(const Image &picture) {
+    const std::vector<Matte> mattes = find_mattes(picture.channels);
+    float most = 0;
+    for (std::size_t i = 0; i < picture.windows.pixels(); ++i) {
+        float sum = 0;
+        for (const Matte::Rank &rank : mattes[0].ranks) sum += picture.plane(rank.coverage)[i];
+        most = std::max(most, sum);
+    }
+    return most;
+}
+
+std::map<int, MatteError> errors_of_five_views(const SceneCamera &scene) {
+    std::vector<View> views;
+    const ThinLens &lens = scene.settings.lens;
+    for (View &view : scene.five_views(16))
+        views.push_back(with_matte(view, scene, view.position / lens.radius));
+    Progress silent;
+    const Ldi warped = warp(views, {.focal_px = lens.focal_px, .radius = lens.radius}, silent);
+    const Ldi ldi = cluster(warped, {.scale = lens.radius * lens.focal_px, .tolerance = 0.25}, silent).ldi;
+    const Image picture = gather_methods().front().gather(
+        ldi, lens, scene.settings.windows.data, {.layers = 8, .lens = {.quality = Quality::final}}, silent);
+    EXPECT_LE(most_covered(picture), 1.005f);
+    std::map<int, MatteError> errors;
+    for (std::size_t i = 0; i < picture.windows.pixels(); ++i)
+        for (const auto &[object, share] : seen_by_lens(scene, picture.windows.pixel(i))) {
+            const double error = coverage_in(picture, hashed(std::uint32_t(object)), i) - share;
+            MatteError &of = errors[object];
+            of.shares += share;
+            of.errors += error;
+            of.shares_squared += share * share;
+            of.errors_squared += error * error;
+        }
+    return errors;
+}
+
+constexpr int width = 160, height = 90;
+
+// 18 lamps of a quarter of a pixel each. Their corners lie in the middle of it, so that five have the wall's depth in all views.
+TEST(TracedMattes, SmallObjectsFarOutOfFocus) {
+    const auto errors = errors_of_five_views(SceneCamera("lamps", width, height));
+    EXPECT_EQ(errors.size(), 19u);
+    for (const auto &[object, error] : errors) EXPECT_TRUE(error.is_there()) << "object " << object;
+}
+
+TEST(TracedMattes, SpheresAndLampsBehindAFence) {
+    const auto errors = errors_of_five_views(SceneCamera("fence", width, height));
+    EXPECT_GE(errors.size(), 35u);
+    for (const auto &[object, error] : errors) EXPECT_TRUE(error.is_there()) << "object " << object;
+}
+
+} // namespace
+} // namespace sparselens

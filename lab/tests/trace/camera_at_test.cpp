@@ -1,0 +1,42 @@
+#include "lab/tests/trace/small_scenes.h"
+#include "lab/trace/camera_at.h"
+
+#include <gtest/gtest.h>
+
+namespace sparselens::lab {
+namespace {
+
+// A point of the world lands, through the file's matrices, where the tracer's own rays see it.
+TEST(CameraAt, MatricesAgreeWithTheRays) {
+    Camera camera = build_scene("fence").camera;
+    camera.focal_length_mm = 50;
+    RenderSettings settings = settings_of_size(320, 180);
+    settings.lens.focal_px = 320 * 50.0 / 36;
+    const Imath::V2d u(-0.4, 0.8), p(70.25, 33.5);
+    const Camera moved = camera_at(camera, settings.windows, settings.lens.radius * u);
+    const Ray ray = view_ray(settings, u, p);
+    const Imath::V3d point = ray.origin + 7.0 * ray.direction;
+    Imath::V3d ndc, local;
+    moved.world_to_ndc->multVecMatrix(point, ndc);
+    EXPECT_NEAR(ndc.x, p.x / 320, 1e-12);
+    EXPECT_NEAR(ndc.y, p.y / 180, 1e-12);
+    moved.world_to_camera->multVecMatrix(point, local);
+    EXPECT_NEAR(local.x, 7 * ray.direction.x, 1e-12);
+    EXPECT_NEAR(local.y, 7 * ray.direction.y, 1e-12);
+    EXPECT_NEAR(local.z, 7, 1e-12);
+}
+
+TEST(CameraAt, PositionIsTheLensPoint) {
+    const Camera camera = build_scene("fence").camera;
+    const Windows windows = windows_of_size(64, 36);
+    const Camera centre = camera_at(camera, windows, {0, 0}),
+                 moved = camera_at(camera, windows, {0.06, -0.03});
+    const auto position = position_relative_to(centre, moved, "view");
+    ASSERT_TRUE(position);
+    EXPECT_LT((*position - Imath::V3d(0.06, -0.03, 0)).length(), 1e-12);
+    EXPECT_EQ(moved.fstop, camera.fstop);
+    EXPECT_EQ(moved.focus_distance, camera.focus_distance);
+}
+
+} // namespace
+} // namespace sparselens::lab
