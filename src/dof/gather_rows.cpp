@@ -5,7 +5,7 @@
 #include "deep/channel_alpha.h"
 #include "dof/border_reach.h"
 #include "dof/lens/beyond/beyond_frame.h"
-#include "dof/lens/lens_tile.h"
+#include "dof/lens/lens_tiles.h"
 #include "dof/lens/optics.h"
 
 #include <algorithm>
@@ -100,11 +100,11 @@ public:
 
     // In rows.
     int height(const BandLimits &limits) const {
-        const int least = limits.low ? LensTile::size : 2 * (reach_.seen + reach_.prepared) + highlight_rows;
-        const int tile_rows = pieces_of(gathered_.max.y - gathered_.min.y + 1, LensTile::size);
+        const int least = limits.low ? lens_tile_size : 2 * (reach_.seen + reach_.prepared) + highlight_rows;
+        const int tile_rows = pieces_of(gathered_.max.y - gathered_.min.y + 1, lens_tile_size);
         for (int parts = 1;; ++parts) {
-            const int height = pieces_of(tile_rows, parts) * LensTile::size,
-                      lower = pieces_of(tile_rows, parts + 1) * LensTile::size;
+            const int height = pieces_of(tile_rows, parts) * lens_tile_size,
+                      lower = pieces_of(tile_rows, parts + 1) * lens_tile_size;
             if (parts >= tile_rows || lower < least || most_bytes(height) <= limits.memory) return height;
         }
     }
@@ -163,8 +163,8 @@ void copy_rows(const Image &band, Image &picture) {
 
 // Of which none has lens points.
 LensTiles tiles_of(const Imath::Box2i &gathered, const Band &band) {
-    const Tiles tiles({{gathered.min.x, band.first}, {gathered.max.x, band.last}}, LensTile::size);
-    return {LensTile::size, tiles.columns(), tiles.rows(), std::vector<int>(tiles.count())};
+    const Tiles tiles({{gathered.min.x, band.first}, {gathered.max.x, band.last}}, lens_tile_size);
+    return {lens_tile_size, tiles.columns(), tiles.rows(), std::vector<int>(tiles.count())};
 }
 
 void add_tiles(LensTiles &all, const LensTiles &some) {

@@ -1,4 +1,4 @@
-// By which rules a lens point sees samples, and what it adds to a pixel (dof/lens/lens_tile.h, gpu/lens).
+// By which rules a lens point sees samples, and what it adds to a pixel (dof/lens/gather_tile.h, gpu/lens).
 #pragma once
 
 #include "kernels/surface.h"

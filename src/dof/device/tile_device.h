@@ -24,7 +24,7 @@ struct PlacedFacets;
 class CatEye;
 class Holdout;
 
-// One tile of LensTile::size pixels, and what LensTile::gather() is given for it.
+// One tile of lens_tile_size pixels, and what it is gathered from.
 struct TileTask {
     Imath::V2i origin;
     std::span<const std::uint32_t> samples, facets, fillers; // blocks of them

@@ -1,6 +1,6 @@
 #include "dof/lens/highlight_shadows.h"
 
-#include "dof/lens/lens_tile.h"
+#include "dof/lens/lens_tiles.h"
 
 #include <algorithm>
 #include <array>
@@ -15,7 +15,7 @@ constexpr float one_lamp = 1.1f; // times as near: parts of one, at any aperture
 
 // Of the first sample of a block: the same wherever the tile lies, and in all frames.
 std::uint32_t name_of(std::uint32_t block, int columns) {
-    constexpr int blocks = LensTile::size / BlockedSamples::size;
+    constexpr int blocks = lens_tile_size / BlockedSamples::size;
     const int column = int(block) % columns % blocks, row = int(block) / columns % blocks;
     return std::uint32_t(row * blocks + column) << 10;
 }

@@ -14,13 +14,13 @@ constexpr double few = 3;            // pixels of CoC: discs that are smaller ar
 constexpr double square_to = 1,
                  point_from =
                      2; // pixels of CoC: where light comes from a sample's square, and from its place
-constexpr std::size_t last = LensTile::size - 1;
+constexpr std::size_t last = lens_tile_size - 1;
 
 const Imath::Box2i tile({0, 0}, {int(last), int(last)});
 
 // The pixels of the tile within `extent` of a place.
 Imath::Box2i pixels_around(const Imath::V2d &place, const Imath::V2d &extent) {
-    const auto pixel = [](double v) { return int(std::floor(std::clamp(v, -1.0, LensTile::size + 1.0))); };
+    const auto pixel = [](double v) { return int(std::floor(std::clamp(v, -1.0, lens_tile_size + 1.0))); };
     const Imath::V2d low = place - extent, high = place + extent;
     return {{std::max(pixel(low.x), 0), std::max(pixel(low.y), 0)},
             {std::min(pixel(high.x), int(last)), std::min(pixel(high.y), int(last))}};

@@ -7,9 +7,10 @@
 #pragma once
 
 #include "dof/lens/block_footprints.h"
+#include "dof/lens/held_out.h"
 #include "dof/lens/highlight_shadows.h"
 #include "dof/lens/highlights.h"
-#include "dof/lens/lens_tile.h"
+#include "dof/lens/lens_tiles.h"
 #include "dof/lens/sample_blocks.h"
 #include "dof/lens/sample_colours.h"
 #include "lens/aperture.h"
@@ -49,7 +50,7 @@ public:
     bool dark(int x, int y) const;
 
 private:
-    static constexpr int size = LensTile::size;
+    static constexpr int size = lens_tile_size;
     static std::size_t at(int x, int y, std::size_t channel) {
         return (channel / 4 * size * size + std::size_t(y * size + x)) * 4 + channel % 4;
     }

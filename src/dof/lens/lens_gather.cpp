@@ -3,10 +3,12 @@
 #include "base/parallel.h"
 #include "deep/flatten.h"
 #include "dof/device/tile_device.h"
+#include "dof/facets/placed_facets.h"
 #include "dof/lens/fillers.h"
+#include "dof/lens/gather_tile.h"
 #include "dof/lens/highlight_tile.h"
 #include "dof/lens/highlights.h"
-#include "dof/lens/lens_tile.h"
+#include "dof/lens/lens_tiles.h"
 #include "dof/lens/optics.h"
 #include "dof/lens/sample_blocks.h"
 #include "dof/lens/sharpen.h"
@@ -148,15 +150,15 @@ private:
 // visit(x, y) for the pixels of the tile at `corner` (relative to the window) that lie in the window.
 template <typename Visit>
 void for_each_pixel(const Imath::V2i &corner, const Windows &windows, const Visit &visit) {
-    for (int y = 0; y < LensTile::size && corner.y + y < windows.height(); ++y)
-        for (int x = 0; x < LensTile::size && corner.x + x < windows.width(); ++x) visit(x, y);
+    for (int y = 0; y < lens_tile_size && corner.y + y < windows.height(); ++y)
+        for (int x = 0; x < lens_tile_size && corner.x + x < windows.width(); ++x) visit(x, y);
 }
 
 // None has lens points yet.
 LensTiles tiles_of(const Windows &windows) {
-    LensTiles tiles{LensTile::size,
-                    (windows.width() + LensTile::size - 1) / LensTile::size,
-                    (windows.height() + LensTile::size - 1) / LensTile::size,
+    LensTiles tiles{lens_tile_size,
+                    (windows.width() + lens_tile_size - 1) / lens_tile_size,
+                    (windows.height() + lens_tile_size - 1) / lens_tile_size,
                     {}};
     tiles.lens_points.resize(std::size_t(tiles.columns) * std::size_t(tiles.rows), 0);
     return tiles;
@@ -175,9 +177,11 @@ struct PreparedTile {
     std::size_t number;
     Imath::V2i first;  // pixel, EXR coordinates
     Imath::V2i origin; // the same, relative to the data window's corner
-    LensTile::Blocks blocks = {};
+    std::vector<std::uint32_t> samples = {}, facets = {}, fillers = {}; // blocks of them
     std::span<const LensSample> lens = {};
     std::vector<LensSample> stretched = {};
+
+    TileTask task() const { return {origin, samples, facets, fillers, lens}; }
 };
 
 // All that tiles are gathered from, and the picture that they make.
@@ -202,35 +206,36 @@ struct Gathering {
     // None where nothing is out of focus: the flattened LDI is there already.
     std::optional<PreparedTile> prepare(std::size_t t) {
         const Imath::V2i corner(int(t) % chosen.columns, int(t) / chosen.columns);
-        const Imath::V2i first = out.windows.data.min + corner * LensTile::size;
-        const Imath::Box2i pixels(first, first + Imath::V2i(LensTile::size - 1));
+        const Imath::V2i first = out.windows.data.min + corner * lens_tile_size;
+        const Imath::Box2i pixels(first, first + Imath::V2i(lens_tile_size - 1));
         if (options.region && !options.region->intersects(pixels)) return {};
         PreparedTile tile{t, first, first - optics.corner};
-        const Imath::V2d gradient = optics.coc_gradient(first, LensTile::size);
+        const Imath::V2d gradient = optics.coc_gradient(first, lens_tile_size);
         const float steepest = float(stretch(gradient, gradient.normalized() * double(finder.extent())));
         const float largest =
-            finder.find(tile.origin, LensTile::size, steepest, tile.blocks.samples) * optics.widest();
+            finder.find(tile.origin, lens_tile_size, steepest, tile.samples) * optics.widest();
         if (largest < in_focus && !optics.moves()) return {};
-        const std::vector<LensSample> &points = sets.for_coc(largest, optics.doubled(first, LensTile::size));
-        filler_finder.find(tile.origin, LensTile::size, steepest, tile.blocks.fillers);
-        find_blocks(facets, tile.origin, LensTile::size, steepest * finder.extent(), tile.blocks.facets);
+        const std::vector<LensSample> &points = sets.for_coc(largest, optics.doubled(first, lens_tile_size));
+        filler_finder.find(tile.origin, lens_tile_size, steepest, tile.fillers);
+        find_blocks(facets, tile.origin, lens_tile_size, steepest * finder.extent(), tile.facets);
         tile.lens = points;
         if (!optics.field.flat()) tile.lens = tile.stretched = stretched(points, gradient);
         return tile;
     }
 
-    // Sets its pixels to value(x, y, channel), where that is known(x, y), and what highlights spread there.
-    template <typename Known, typename Value>
-    void finish(const PreparedTile &tile, const Known &known, const Value &value) const {
+    // Sets its pixels to what is gathered, and to what highlights spread there.
+    void finish(const PreparedTile &tile, const TilePicture &picture) const {
         chosen.lens_points[tile.number] = int(tile.lens.size());
         HighlightTile &lit = lamps.local();
-        lit.spread(tile.origin, tile.blocks.samples);
+        lit.spread(tile.origin, tile.samples);
         for_each_pixel(tile.first - out.windows.data.min, out.windows, [&](int x, int y) {
+            const auto pixel = std::size_t(y * lens_tile_size + x);
             // A few lens points may all miss: better sharp than black.
-            if (!known(x, y) && lit.dark(x, y)) return;
+            if (!picture.is_known(pixel) && lit.dark(x, y)) return;
             const Imath::V2i at = tile.first + Imath::V2i(x, y);
             for (const std::size_t k : gathered)
-                out.at(k, at.x, at.y) = darkening.left(k, at.x, at.y) * value(x, y, k) + lit.value(x, y, k);
+                out.at(k, at.x, at.y) =
+                    darkening.left(k, at.x, at.y) * picture.value(pixel, k) + lit.value(x, y, k);
         });
     }
 };
@@ -241,14 +246,9 @@ void gather_on(TileDevice &device, Gathering &from, const TileScene &scene, std:
     parallel_for(tiles.size(), [&](std::size_t t) { tiles[t] = from.prepare(t); });
     std::erase(tiles, std::nullopt);
     std::vector<TileTask> tasks;
-    for (const auto &tile : tiles)
-        tasks.push_back(
-            {tile->origin, tile->blocks.samples, tile->blocks.facets, tile->blocks.fillers, tile->lens});
+    for (const auto &tile : tiles) tasks.push_back(tile->task());
     device.gather(scene, tasks, [&](std::size_t n, const TilePicture &picture) {
-        const auto pixel = [](int x, int y) { return std::size_t(y * LensTile::size + x); };
-        from.finish(
-            *tiles[n], [&](int x, int y) { return picture.is_known(pixel(x, y)); },
-            [&](int x, int y, std::size_t k) { return picture.value(pixel(x, y), k); });
+        from.finish(*tiles[n], picture);
         done[tiles[n]->number] = true;
     });
 }
@@ -293,22 +293,14 @@ Image gather_once(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &wind
     Gathering from{lens, options, optics, samples, fillers, facets, darkening, lamps, out, chosen};
     progress.start("gathering", from.tiles());
     std::vector<char> done(from.tiles(), false);
-    if (options.device)
-        gather_on(
-            *options.device, from,
-            {samples, colours, fillers, facets, cat_eye, optics.corner, held_out.by, held_out.depth_at_1},
-            done);
-    tbb::enumerable_thread_specific<LensTile> tiles(
-        [&] { return LensTile(samples, colours, facets, fillers, held_out, cat_eye); });
+    const TileScene scene{samples, colours,       fillers,     facets,
+                          cat_eye, optics.corner, held_out.by, held_out.depth_at_1};
+    if (options.device) gather_on(*options.device, from, scene, done);
     parallel_for(from.tiles(), [&](std::size_t t) {
         progress.advance();
-        const std::optional<PreparedTile> prepared = done[t] ? std::nullopt : from.prepare(t);
-        if (!prepared) return;
-        LensTile &tile = tiles.local();
-        tile.gather(prepared->origin, prepared->blocks, prepared->lens);
-        from.finish(
-            *prepared, [&](int x, int y) { return tile.known(x, y); },
-            [&](int x, int y, std::size_t k) { return tile.value(x, y, k); });
+        const std::optional<PreparedTile> tile = done[t] ? std::nullopt : from.prepare(t);
+        if (!tile) return;
+        gather_tile(scene, tile->task(), [&](const TilePicture &picture) { from.finish(*tile, picture); });
     });
     if (options.chosen) *options.chosen = std::move(chosen);
     return out;

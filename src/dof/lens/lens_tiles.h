@@ -6,8 +6,10 @@
 
 namespace sparselens {
 
+inline constexpr int lens_tile_size = 64; // pixels wide and high: what a lens point sees stays in the cache
+
 struct LensTiles {
-    int size = 64;                // pixels wide and high; less at the right and lower edge
+    int size = lens_tile_size;    // pixels wide and high; less at the right and lower edge
     int columns = 0, rows = 0;    // from the window's upper left corner
     std::vector<int> lens_points; // [row][column]; 0: nothing is out of focus, the flattened LDI is copied
 };

@@ -1,5 +1,5 @@
 #version 460
-// The lens gather of a quarter of a tile: what src/dof/lens/lens_tile.h says, with the same sums in the same order.
+// The lens gather of a quarter of a tile: what src/dof/lens/gather_tile.h says, with the same sums in the same order.
 //
 // A work group takes the lens points one after the other. It finds the blocks that the lens point moves into its pixels,
 // and of their samples and facets the nearest opaque one in each cell, by the atomic maximum of their keys in shared memory.

@@ -1,0 +1,85 @@
+// How a lens point counts at the pixels of a tile, and how much is known there.
+//
+// Where a lens point sees what is unknown, it is left out, and the weights of the others are renormalised: so what is known is
+// summed up beside the light. One of these types is the argument of Weigh (weigh.h).
+#pragma once
+
+#include "base/float4.h"
+#include "dof/lens/see.h"
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace sparselens {
+
+// What a pixel's partial samples are before something opaque, for four channels.
+struct Covered {
+    std::array<Float4, 2> over; // [side]: the sum of their colours
+    float taken;                // of the light behind them
+    Float4 behind;              // its colour; 0 where it is unknown
+    std::size_t side;           // on which it lies
+};
+
+// Lens points that count alike for all channels, pixels and sides of the focus.
+class EvenLight {
+public:
+    static constexpr std::size_t sides = 1;
+
+    explicit EvenLight(const TileScene &) : unknown_(tile_cells::pixels) {}
+
+    // Counts a lens point as known, and behind focus, in all pixels that see through it. What follows is of this one.
+    void count(const LensSample &point, const Seen &) { total_ += weight_ = point.weight; }
+    // By what light of a group of channels is multiplied.
+    Float4 of(std::size_t, std::size_t) const { return Float4{} + weight_; }
+    Float4 with(Float4 sum, std::size_t, const Covered &c) const {
+        return sum + weight_ * (c.over[0] - c.taken * c.behind);
+    }
+    // A share of it is not known at a pixel of the tile.
+    void lose(std::size_t pixel, float share) { unknown_[pixel] += share * weight_; }
+    // A share of it is in front of focus.
+    void put_in_front(std::size_t, float) {}
+
+    // Of all lens points: the weight of what is known; 0: nothing is. [group][pixel][4].
+    std::vector<float> known(std::size_t groups) const;
+
+private:
+    float total_ = 0, weight_ = 0;
+    std::vector<float> unknown_; // [pixel]
+};
+
+// Lens points that count otherwise for R, G and B, that not all pixels see through, and, if there are two `sides`, otherwise
+// for what lies behind focus (0) and in front (1).
+template <std::size_t sides_>
+class ChannelLight {
+public:
+    static constexpr std::size_t sides = sides_;
+
+    explicit ChannelLight(const TileScene &scene);
+
+    void count(const LensSample &point, const Seen &seen);
+    Float4 of(std::size_t group, std::size_t side) const { return load4(&light_[side][group * 4]); }
+    Float4 with(Float4 sum, std::size_t group, const Covered &c) const {
+        for (std::size_t side = 0; side < sides; ++side) sum += of(group, side) * c.over[side];
+        return sum - c.taken * of(group, c.side) * c.behind;
+    }
+    void lose(std::size_t pixel, float share);
+    void put_in_front(std::size_t pixel, float share);
+
+    std::vector<float> known(std::size_t groups) const;
+
+private:
+    void weigh_channels(const LensSample &point);
+
+    const TileScene &scene_;
+    float total_ = 0;
+    std::array<std::vector<float>, 2>
+        light_,                 // [side][channel], of the lens point: by what light is multiplied,
+        weight_;                // and how it counts in what the sum is divided by
+    std::vector<double> steps_; // [group][row][column][4]: how much more the pixels from that column on see
+    std::vector<double> lost_;  // [group][pixel][4]: of that is unknown
+    std::vector<float>
+        in_front_; // [group][pixel][4], if there are two sides: how much more as part of it is in front
+};
+
+} // namespace sparselens

@@ -1,0 +1,265 @@
+#include "dof/lens/see.h"
+
+#include "dof/facets/placed_facets.h"
+#include "kernels/lens_rules.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace sparselens {
+
+using namespace tile_cells;
+
+namespace {
+
+// Sorts by depth, the nearest first, then by index.
+std::uint64_t order_key(float depth, std::uint32_t sample) {
+    return (std::uint64_t(~std::bit_cast<std::uint32_t>(depth)) << 32) | sample;
+}
+
+// Which of a row's keys are 0, bit by bit: by their upper halves, several at once.
+constexpr int half = size / 2;
+constexpr std::array<std::uint32_t, half> one_bit = [] {
+    std::array<std::uint32_t, half> bits{};
+    for (std::size_t n = 0; n < half; ++n) bits[n] = std::uint32_t{1} << n;
+    return bits;
+}();
+std::uint32_t zeros_of_half(const std::uint64_t *keys) {
+    std::uint32_t zeros = 0;
+    for (std::size_t n = 0; n < half; ++n)
+        zeros |= (0 - std::uint32_t(std::uint32_t(keys[n] >> 32) == 0)) & one_bit[n]; // no branch
+    return zeros;
+}
+std::uint64_t zeros_of(const std::uint64_t *keys) {
+    static_assert(size == 64);
+    return std::uint64_t{zeros_of_half(keys + half)} << half | zeros_of_half(keys);
+}
+
+// Calls visit(begin, cells) with where a lens point sees the opaque samples of a block, from the one `begin` on, a few at once.
+template <typename Visit>
+[[gnu::always_inline]] inline void for_opaque(const TileProjection &projection, const BlockedSamples &samples,
+                                              const std::vector<float> &coc, const SampleBlock &block,
+                                              const Visit &visit) {
+    std::array<std::int32_t, 256> cells;
+    for (std::uint32_t begin = block.begin; begin < block.opaque_end; begin += std::uint32_t(cells.size())) {
+        const std::uint32_t some = std::min(std::uint32_t(cells.size()), block.opaque_end - begin);
+        project_to_cells(projection, &samples.x[begin], &samples.y[begin], &coc[begin], some, cells.data());
+        visit(begin, std::span<const std::int32_t>(cells).first(some));
+    }
+}
+
+} // namespace
+
+See::See(const TileScene &scene, const TileTask &tile) : scene_(scene), tile_(tile) {
+    seen_.origin = tile.origin;
+    seen_.columns.fill({0, size});
+    seen_.front.resize(count);
+    seen_.filler.resize(count);
+    bounds_.set(tile.samples, scene.samples);
+    filler_bounds_.set(tile.fillers, scene.fillers.samples);
+    collect_partial();
+}
+
+// The steps. What shows through cracks is seen last: a crack lies between what the lens point meets, and a filler behind it.
+const Seen &See::through(const LensSample &point) {
+    constexpr Cells everywhere{1 - border, 1 - border, size + border - 1, size + border - 1};
+    see_columns(point);
+    see_opaque(point, scene_.samples, bounds_, everywhere, seen_.front);
+    see_facets(point);
+    see_images(point);
+    find_empty();
+    find_cracks();
+    see_fillers(point);
+    close_cracks();
+    project_to_cells(projection(point), seen_.partial.x.data(), seen_.partial.y.data(),
+                     seen_.partial.coc.data(), std::uint32_t(seen_.partial.count()),
+                     seen_.partial_cells.data());
+    return seen_;
+}
+
+// Those that some lens point brings into the tile, or into a pixel next to it.
+void See::collect_partial() {
+    const BlockedSamples &samples = scene_.samples;
+    float reach_x = 0, reach_y = 0; // for each pixel of CoC
+    for (const LensSample &p : tile_.lens) {
+        reach_x = std::max(reach_x, std::abs(p.x));
+        reach_y = std::max(reach_y, std::abs(p.y));
+    }
+    const auto in_reach = [&](std::uint32_t i) {
+        const float coc = std::abs(samples.coc[i]), x = samples.x[i] - float(tile_.origin.x),
+                    y = samples.y[i] - float(tile_.origin.y);
+        const float across = coc * reach_x + border, down = coc * reach_y + border;
+        return x > -across && x < size + across && y > -down && y < size + down;
+    };
+    std::vector<std::uint64_t> order;
+    for (const std::uint32_t b : tile_.samples)
+        for (std::uint32_t i = samples.blocks[b].opaque_end; i < samples.blocks[b].end; ++i)
+            if (in_reach(i)) order.push_back(order_key(samples.depth[i], i));
+    std::sort(order.begin(), order.end());
+    PartialSamples &partial = seen_.partial;
+    partial.sample.assign(order.begin(), order.end()); // the lower half
+    const auto in_order = [&](auto &to, const auto &value) {
+        to.resize(order.size());
+        std::ranges::transform(partial.sample, to.begin(), value);
+    };
+    in_order(partial.x, [&](std::uint32_t i) { return samples.x[i]; });
+    in_order(partial.y, [&](std::uint32_t i) { return samples.y[i]; });
+    in_order(partial.coc, [&](std::uint32_t i) { return samples.coc[i]; });
+    in_order(partial.depth, [&](std::uint32_t i) { return samples.depth[i]; });
+    in_order(partial.left, [&](std::uint32_t i) { return 1 - samples.alpha[i]; });
+    in_order(partial.key, [&](std::uint32_t i) { return samples.key[i]; });
+    seen_.partial_cells.resize(order.size());
+}
+
+TileProjection See::projection(const LensSample &point) const {
+    return {point, float(tile_.origin.x) - (border - 1), float(tile_.origin.y) - (border - 1), stride};
+}
+
+void See::see_columns(const LensSample &point) {
+    if (!scene_.cat_eye) return; // all, as they are
+    const Imath::V2i first = scene_.corner + tile_.origin;
+    for (int y = 0; y < size; ++y)
+        seen_.columns[std::size_t(y)] = scene_.cat_eye->columns(point, first.x, size, first.y + y);
+}
+
+// The nearest opaque one in each of some cells.
+void See::see_opaque(const LensSample &point, const BlockedSamples &samples, BlockBounds &bounds,
+                     const Cells &seen, std::vector<std::uint64_t> &front) const {
+    std::fill(&front[at(-border, seen.top)], &front[at(-border, seen.bottom)], 0);
+    const TileProjection to_cells = projection(point);
+    const auto x = float(tile_.origin.x), y = float(tile_.origin.y);
+    const BlockBounds::Box box{x + float(seen.left), x + float(seen.right), y + float(seen.top),
+                               y + float(seen.bottom)};
+    for (const std::uint32_t b : bounds.reached(point, box))
+        for_opaque(to_cells, samples, samples.hiding_coc(), samples.blocks[b],
+                   [&](std::uint32_t begin, std::span<const std::int32_t> cells) {
+                       const std::uint64_t *key = &samples.key[begin];
+                       for (std::size_t i = 0; i < cells.size(); ++i) {
+                           std::uint64_t &cell = front[std::size_t(cells[i])];
+                           cell = std::max(cell, key[i]);
+                       }
+                   });
+}
+
+// What lies between the samples of steep surfaces.
+void See::see_facets(const LensSample &point) {
+    const FacetGrid grid{float(tile_.origin.x) - (border - 1), float(tile_.origin.y) - (border - 1), stride};
+    draw_facets(scene_.facets, tile_.facets, point, grid, seen_.front);
+}
+
+// Of mirrors and glass, the image, in the window that their surface is.
+void See::see_images(const LensSample &point) {
+    seen_.images.clear();
+    const auto shows_images = [&](std::uint32_t b) { return scene_.samples.blocks[b].shows_images; };
+    if (scene_.samples.surface_coc.empty() || std::ranges::none_of(tile_.samples, shows_images)) return;
+    image_.assign(count, 0);
+    const TileProjection to_cells = projection(point);
+    for (const std::uint32_t b : tile_.samples)
+        if (shows_images(b)) find_images(to_cells, scene_.samples.blocks[b]);
+    seen_.images = seen_.front;
+    for (int y = 0; y < size; ++y)
+        for (int x = 0; x < size; ++x) seen_.images[at(x, y)] = image_at(at(x, y));
+}
+
+void See::find_images(const TileProjection &projection, const SampleBlock &block) {
+    const BlockedSamples &samples = scene_.samples;
+    for_opaque(projection, samples, samples.coc, block,
+               [&](std::uint32_t begin, std::span<const std::int32_t> cells) {
+                   for (std::uint32_t i = 0; i < cells.size(); ++i) {
+                       if (!samples.is_image(begin + i)) continue;
+                       std::uint32_t &nearest = image_[std::size_t(cells[i])];
+                       if (nearest == 0 || samples.coc[begin + i] < samples.coc[nearest - 1])
+                           nearest = begin + i + 1;
+                   }
+               });
+}
+
+// The key of the sample that shows what is seen of the front one in a cell.
+std::uint64_t See::image_at(std::size_t cell) const {
+    const BlockedSamples &samples = scene_.samples;
+    const std::uint64_t front = seen_.front[cell];
+    if (front == 0 || !samples.is_image(std::uint32_t(front))) return front;
+    const float depth = samples.depth[std::uint32_t(front)];
+    for (const std::size_t near : {cell, cell - 1, cell + 1, cell - stride, cell + stride}) {
+        const std::uint32_t image = image_[near];
+        if (image != 0 && kernels::is_in_mirror(samples.depth[image - 1], depth))
+            return samples.key[image - 1];
+    }
+    return front;
+}
+
+void See::find_empty() {
+    for (int y = 0; y < size; ++y) {
+        const auto [begin, end] = seen_.columns[std::size_t(y)];
+        const std::uint64_t within = begin < end ? ~std::uint64_t{} >> (size - (end - begin)) << begin : 0;
+        seen_.empty[std::size_t(y)] = zeros_of(&seen_.front[at(0, y)]) & within;
+    }
+}
+
+// Those of the empty cells are no longer empty.
+void See::find_cracks() {
+    cracks_.clear();
+    seen_.for_each_empty([&](std::size_t cell) {
+        const std::uint64_t key = torn_at(cell);
+        if (key == 0) return;
+        cracks_.push_back({std::uint32_t(cell), key});
+        seen_.empty[std::size_t(row(cell))] ^= std::uint64_t{1} << column(cell);
+    });
+}
+
+// The sample that shows through a crack at an empty cell, as a key; 0: there is no crack.
+std::uint64_t See::torn_at(std::size_t cell) const {
+    const BlockedSamples &samples = scene_.samples;
+    const auto depth = [&](std::uint64_t key) { return samples.depth[std::uint32_t(key)]; };
+    std::uint64_t farthest = 0;
+    for (const std::size_t step : {std::size_t{1}, std::size_t(stride)}) {
+        const std::uint64_t one = seen_.front[cell - step], other = seen_.front[cell + step];
+        if (is_background(one) || is_background(other)) continue;
+        const std::uint32_t a = std::uint32_t(one), b = std::uint32_t(other);
+        if (!kernels::is_crack(samples.x[a] - samples.x[b], samples.y[a] - samples.y[b],
+                               depth(one) - depth(other)))
+            continue;
+        const std::uint64_t farther = depth(one) <= depth(other) ? one : other;
+        if (farthest == 0 || depth(farther) < depth(farthest)) farthest = farther;
+    }
+    return farthest;
+}
+
+// The fillers of empty cells, and of them those that show.
+void See::see_fillers(const LensSample &point) {
+    std::uint64_t columns = 0;
+    Cells box{0, size, 0, 0};
+    for (int y = 0; y < size; ++y) {
+        if (seen_.empty[std::size_t(y)] == 0) continue;
+        columns |= seen_.empty[std::size_t(y)];
+        box.top = std::min(box.top, y);
+        box.bottom = y + 1;
+    }
+    if (columns == 0) return;
+    box.left = std::countr_zero(columns);
+    box.right = size - std::countl_zero(columns);
+    const BlockedSamples &fillers = scene_.fillers.samples;
+    see_opaque(point, fillers, filler_bounds_, box, seen_.filler);
+    seen_.for_each_empty([&](std::size_t cell) {
+        std::uint64_t &filler = seen_.filler[cell];
+        if (filler != 0 && hides(cell, fillers.depth[std::uint32_t(filler)])) filler = 0;
+    });
+}
+
+// Whether what lies at that depth is behind something in a cell, also where a surface is torn there.
+bool See::hides(std::size_t cell, float depth) const {
+    const std::uint64_t limit = kernels::hiding_key(depth);
+    const auto front = [&](std::size_t c) { return seen_.front[c] > limit; };
+    return front(cell) || (front(cell - 1) && front(cell + 1)) ||
+           (front(cell - stride) && front(cell + stride));
+}
+
+void See::close_cracks() {
+    for (const Crack &crack : cracks_) {
+        seen_.front[crack.cell] = crack.key;
+        if (!seen_.images.empty()) seen_.images[crack.cell] = crack.key;
+    }
+}
+
+} // namespace sparselens

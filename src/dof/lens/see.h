@@ -1,0 +1,120 @@
+// What one point of the lens sees of a tile.
+//
+// Through it, the picture is one like any other: each sample is a square one pixel wide and high, moved by its circle of
+// confusion, and the nearest opaque one hides what is behind it. lens_gather_reference.h says the same slowly, and what
+// cracks and fillers are.
+#pragma once
+
+#include "dof/device/tile_device.h"
+#include "dof/lens/fillers.h"
+#include "dof/lens/lens_tiles.h"
+#include "dof/lens/sample_blocks.h"
+#include "dof/lens/tile_projection.h"
+#include "kernels/lens_layout.h"
+#include "lens/cat_eye.h"
+#include "lens/lens_samples.h"
+
+#include <Imath/ImathVec.h>
+
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <vector>
+
+namespace sparselens {
+
+// The cells of a tile: its pixels, a border of one pixel, and one of cells that take what falls outside of that.
+namespace tile_cells {
+using lens_kernel::border, lens_kernel::tile_stride;
+constexpr int size = lens_tile_size, stride = tile_stride;
+static_assert(size == lens_kernel::tile_size);
+constexpr std::size_t count = std::size_t(stride * stride), pixels = std::size_t(size * size);
+constexpr std::size_t at(int x, int y) { return std::size_t((y + border) * stride + x + border); }
+constexpr int column(std::size_t cell) { return int(cell) % stride - border; }
+constexpr int row(std::size_t cell) { return int(cell) / stride - border; }
+} // namespace tile_cells
+
+// Samples of partial coverage that a tile may see, front to back. All that is asked of them is side by side in that order, as
+// they are many.
+struct PartialSamples {
+    std::vector<std::uint32_t> sample; // of the BlockedSamples
+    std::vector<float> x, y, coc, depth;
+    std::vector<float> left; // what each leaves of the light behind it
+    std::vector<std::uint64_t> key;
+
+    std::size_t count() const { return sample.size(); }
+};
+
+// Keys name samples by their lower half: those of the picture, or the fillers.
+struct Seen {
+    Imath::V2i origin; // the tile's first pixel, relative to the data window's corner
+    PartialSamples partial;
+    // Of one lens point:
+    std::array<CatEye::Columns, tile_cells::size> columns; // [row]: the pixels that see through it
+    std::vector<std::uint64_t>
+        front; // [cell]: key of the nearest opaque sample, or of one that shows through a crack; 0: none
+    std::vector<std::uint64_t>
+        images; // [cell]: the same, with that of what mirrors and glass show; empty: there are none
+    std::array<std::uint64_t, tile_cells::size>
+        empty;                         // [row]: of these pixels those where there is none, bit by bit
+    std::vector<std::uint64_t> filler; // [cell], where it is empty: key of the filler that shows; 0: unknown
+    std::vector<std::int32_t>
+        partial_cells; // where each of the partial samples lies, before or behind `front`
+
+    const std::vector<std::uint64_t> &shown() const { return images.empty() ? front : images; }
+    // visit(cell); it may fill that.
+    template <typename Visit>
+    void for_each_empty(const Visit &visit) const {
+        for (int y = 0; y < tile_cells::size; ++y)
+            for (std::uint64_t row = empty[std::size_t(y)]; row != 0; row &= row - 1)
+                visit(tile_cells::at(std::countr_zero(row), y));
+    }
+    bool sees_through(int x, int y) const { // of the tile
+        return x >= columns[std::size_t(y)].begin && x < columns[std::size_t(y)].end;
+    }
+};
+
+class See {
+public:
+    // Looks at a tile. Both stay as they are meanwhile.
+    See(const TileScene &scene, const TileTask &tile);
+
+    // Before any lens point: the tile, and its partial samples.
+    const Seen &seen() const { return seen_; }
+    // The result changes with the next lens point.
+    const Seen &through(const LensSample &point);
+
+private:
+    struct Cells { // by the pixels of the tile, right and bottom excluded
+        int left, top, right, bottom;
+    };
+    struct Crack {
+        std::uint32_t cell;
+        std::uint64_t key; // of the sample that shows through it
+    };
+    void collect_partial();
+    TileProjection projection(const LensSample &point) const;
+    void see_columns(const LensSample &point);
+    void see_opaque(const LensSample &point, const BlockedSamples &samples, BlockBounds &bounds,
+                    const Cells &seen, std::vector<std::uint64_t> &front) const;
+    void see_facets(const LensSample &point);
+    void see_images(const LensSample &point);
+    void find_images(const TileProjection &projection, const SampleBlock &block);
+    std::uint64_t image_at(std::size_t cell) const;
+    void find_empty();
+    void find_cracks();
+    std::uint64_t torn_at(std::size_t cell) const;
+    void see_fillers(const LensSample &point);
+    bool hides(std::size_t cell, float depth) const;
+    void close_cracks();
+
+    const TileScene &scene_;
+    const TileTask &tile_;
+    BlockBounds bounds_, filler_bounds_; // of its blocks of samples, of fillers
+    std::vector<std::uint32_t>
+        image_; // [cell]: the nearest image that lies there, as its sample's index plus one
+    std::vector<Crack> cracks_;
+    Seen seen_;
+};
+
+} // namespace sparselens

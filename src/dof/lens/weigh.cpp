@@ -1,0 +1,204 @@
+#include "dof/lens/weigh.h"
+
+#include "kernels/lens_rules.h"
+
+#include <algorithm>
+#include <span>
+#include <type_traits>
+
+namespace sparselens {
+
+using namespace tile_cells;
+
+namespace {
+
+constexpr bool in_tile(int x, int y) { return x >= 0 && y >= 0 && x < size && y < size; }
+std::size_t pixel_of(std::size_t cell) { return std::size_t(row(cell) * size + column(cell)); }
+
+} // namespace
+
+template <typename Light>
+Weigh<Light>::Weigh(const TileScene &scene, const Seen &tile)
+    : scene_(scene), held_out_{scene.holdout, scene.depth_at_1, scene.corner}, light_(scene),
+      left_(count, 1.0f), over_(Light::sides * scene.colours.groups * count * 4),
+      in_front_(Light::sides > 1 ? count : 0), covered_cells_(count + 1),
+      sums_(scene.colours.groups * pixels * 4), known_(sums_.size() / 4) {
+    for (std::size_t g = 0; g < scene.colours.groups; ++g)
+        for (const std::uint32_t i : tile.partial.sample) {
+            const float *colour = &scene.colours.group(g)[std::size_t(i) * 4];
+            partial_.insert(partial_.end(), colour, colour + 4);
+        }
+}
+
+template <typename Light>
+void Weigh<Light>::add(const Seen &seen, const LensSample &point) {
+    light_.count(point, seen);
+    add_opaque(seen);
+    add_fillers(seen);
+    cover(seen);
+    add_covered(seen);
+    uncover();
+}
+
+template <typename Light>
+void Weigh<Light>::add_opaque(const Seen &seen) {
+    const bool held_out = held_out_.by != nullptr;
+    for (std::size_t g = 0; g < scene_.colours.groups; ++g) {
+        const float *colours = scene_.colours.group(g).data();
+        const Float4 behind = light_.of(g, 0), in_front = light_.of(g, Light::sides - 1);
+        for (int y = 0; y < size; ++y) {
+            const auto [begin, end] = seen.columns[std::size_t(y)];
+            const std::uint64_t *row_keys = &seen.shown()[at(0, y)];
+            float *row_sums = &sums_[(g * pixels + std::size_t(y * size)) * 4];
+            for (std::ptrdiff_t x = begin; x < end; ++x) {
+                const std::uint64_t key = row_keys[x];
+                if (key == 0) continue;
+                const std::size_t side = side_of(key);
+                Float4 light = side > 0 ? in_front : behind;
+                if (held_out) light *= opaque_passes(seen, at(int(x), y));
+                float *sum = row_sums + x * 4;
+                store4(sum, load4(sum) + light * load4(colours + std::size_t(std::uint32_t(key)) * 4));
+                if (side > 0 && g == 0) light_.put_in_front(std::size_t(y * size + x), 1);
+            }
+        }
+    }
+}
+
+// What is behind the empty cells without a filler is not known.
+template <typename Light>
+void Weigh<Light>::add_fillers(const Seen &seen) {
+    seen.for_each_empty([&](std::size_t cell) {
+        const std::size_t pixel = pixel_of(cell);
+        const Opaque filler = opaque_at(seen, cell);
+        if (!filler.colours) return light_.lose(pixel, 1);
+        const float passed = opaque_passes(seen, cell);
+        for (std::size_t g = 0; g < scene_.colours.groups; ++g) {
+            float *sum = &sums_[(g * pixels + pixel) * 4];
+            store4(sum, load4(sum) + passed * light_.of(g, filler.side) * filler.colour(g));
+        }
+        if (filler.side > 0) light_.put_in_front(pixel, 1);
+    });
+}
+
+// Composites the partial samples. Most pictures have one group of channels, and most of their time goes here.
+template <typename Light>
+void Weigh<Light>::cover(const Seen &seen) {
+    const auto all = [](std::size_t, std::size_t) { return 1.0f; };
+    const auto held_out = [&](std::size_t n, std::size_t cell) {
+        return passes(seen, cell, seen.partial.depth[n]);
+    };
+    const auto by = [&](auto groups) {
+        held_out_.by ? cover_by(seen, groups, held_out) : cover_by(seen, groups, all);
+    };
+    scene_.colours.groups == 1 ? by(std::integral_constant<std::size_t, 1>()) : by(scene_.colours.groups);
+}
+
+template <typename Light>
+template <typename Groups, typename Passes>
+void Weigh<Light>::cover_by(const Seen &seen, Groups groups, const Passes &passed) {
+    const PartialSamples &partial = seen.partial;
+    const std::size_t samples = partial.count();
+    const std::int32_t *cells = seen.partial_cells.data();
+    const std::uint64_t *key = partial.key.data(), *front = seen.front.data();
+    const float *leaves = partial.left.data(), *coc = partial.coc.data(), *colours = partial_.data();
+    float *lefts = left_.data(), *over = over_.data();
+    std::uint32_t *covered = covered_cells_.data();
+    for (std::size_t n = 0; n < samples; ++n) {
+        const auto cell = std::size_t(cells[n]);
+        if (key[n] < front[cell]) continue;
+        const float left = lefts[cell], share = left * passed(n, cell);
+        const std::size_t side = Light::sides > 1 && coc[n] < 0 ? 1 : 0;
+        *covered = std::uint32_t(cell);
+        covered += left == 1;
+        for (std::size_t g = 0; g < groups; ++g) {
+            float *sum = over + ((side * groups + g) * count + cell) * 4;
+            store4(sum, load4(sum) + share * load4(colours + (g * samples + n) * 4));
+        }
+        lefts[cell] = kernels::left_behind(left, leaves[n]);
+        if (side > 0) in_front_[cell] += left - lefts[cell];
+    }
+    covered_ = std::span(covered_cells_.data(), covered);
+}
+
+// Puts the partial samples in front of what add_opaque() and add_fillers() added.
+template <typename Light>
+void Weigh<Light>::add_covered(const Seen &seen) {
+    const std::size_t groups = scene_.colours.groups;
+    for (const std::uint32_t cell : covered_) {
+        const int x = column(cell), y = row(cell);
+        if (!in_tile(x, y) || !seen.sees_through(x, y)) continue;
+        const auto pixel = std::size_t(y * size + x);
+        const Opaque behind = opaque_at(seen, cell);
+        const float hidden = 1 - left_[cell];
+        if (!behind.colours) light_.lose(pixel, -hidden);
+        Covered covered{{}, behind.colours ? hidden * opaque_passes(seen, cell) : 0, {}, behind.side};
+        for (std::size_t g = 0; g < groups; ++g) {
+            for (std::size_t side = 0; side < Light::sides; ++side)
+                covered.over[side] = load4(&over_[((side * groups + g) * count + cell) * 4]);
+            if (behind.colours) covered.behind = behind.colour(g);
+            float *sum = &sums_[(g * pixels + pixel) * 4];
+            store4(sum, light_.with(load4(sum), g, covered));
+        }
+        if (Light::sides > 1) light_.put_in_front(pixel, in_front_[cell] - (behind.side > 0 ? hidden : 0));
+    }
+}
+
+template <typename Light>
+void Weigh<Light>::uncover() {
+    const std::size_t layers = Light::sides * scene_.colours.groups;
+    for (const std::uint32_t cell : covered_) {
+        left_[cell] = 1;
+        if (Light::sides > 1) in_front_[cell] = 0;
+        for (std::size_t n = 0; n < layers; ++n) store4(&over_[(n * count + cell) * 4], Float4{});
+    }
+    covered_ = {};
+}
+
+template <typename Light>
+TilePicture Weigh<Light>::picture() {
+    const std::vector<float> known = light_.known(scene_.colours.groups);
+    for (std::size_t n = 0; n < known.size(); ++n) {
+        sums_[n] = known[n] > 0 ? sums_[n] / known[n] : 0;
+        known_[n / 4] = std::max(known_[n / 4], known[n]);
+    }
+    return {sums_.data(), known_.data(), scene_.colours.groups, pixels * 4};
+}
+
+// Backgrounds lie behind focus, wherever they are seen.
+template <typename Light>
+std::size_t Weigh<Light>::side_of(std::uint64_t key) const {
+    return Light::sides > 1 && !is_background(key) && scene_.samples.coc[std::uint32_t(key)] < 0 ? 1 : 0;
+}
+
+template <typename Light>
+typename Weigh<Light>::Opaque Weigh<Light>::opaque_at(const Seen &seen, std::size_t cell) const {
+    const auto of = [](const SampleColours &colours, std::uint64_t key, std::size_t side) {
+        return Opaque{colours.values.data() + std::size_t(std::uint32_t(key)) * 4, colours.count * 4, side};
+    };
+    if (const std::uint64_t key = seen.shown()[cell]) return of(scene_.colours, key, side_of(key));
+    const std::uint64_t key = seen.filler[cell];
+    if (key == 0) return {};
+    const bool in_front = Light::sides > 1 && scene_.fillers.samples.coc[std::uint32_t(key)] < 0;
+    return of(scene_.fillers.colours, key, in_front);
+}
+
+template <typename Light>
+float Weigh<Light>::passes(const Seen &seen, std::size_t cell, float depth) const {
+    const int x = column(cell), y = row(cell);
+    return in_tile(x, y) ? held_out_.passes(seen.origin + Imath::V2i(x, y), depth) : 1;
+}
+
+template <typename Light>
+float Weigh<Light>::opaque_passes(const Seen &seen, std::size_t cell) const {
+    if (!held_out_.by) return 1;
+    const std::uint64_t front = seen.front[cell];
+    return passes(seen, cell,
+                  front != 0 ? scene_.samples.depth[std::uint32_t(front)]
+                             : scene_.fillers.samples.depth[std::uint32_t(seen.filler[cell])]);
+}
+
+template class Weigh<EvenLight>;
+template class Weigh<ChannelLight<1>>;
+template class Weigh<ChannelLight<2>>;
+
+} // namespace sparselens

@@ -1,0 +1,57 @@
+// A tile of 64 x 64 pixels, by hand: what See and Weigh look at.
+#pragma once
+
+#include "blocked_fixture.h"
+#include "dof/facets/placed_facets.h"
+#include "dof/lens/see.h"
+#include "support/lens_ldi.h"
+
+#include <algorithm>
+#include <functional>
+#include <numeric>
+#include <vector>
+
+namespace sparselens {
+
+struct TileFixture {
+    static constexpr ThinLens lens{
+        .radius = 0.06, .focal_px = 640, .focus = 5}; // CoC up to 7.7 px behind focus
+
+    Ldi ldi; // channels Y and A
+    BlockedLdi blocked;
+    FillerSamples fillers; // none
+    PlacedFacets facets;
+    std::vector<LensSample> points;
+    std::vector<std::uint32_t> blocks;
+
+    TileFixture(const std::function<std::vector<Sample>(int x, int y)> &samples_at,
+                std::vector<LensSample> lens_points)
+        : ldi(make_ldi(windows_of_size(64, 64), {{"Y"}, {"A"}}, samples_at)), blocked(ldi, lens),
+          fillers(place_fillers(ldi, lens, {}, blocked.samples, blocked.colours)),
+          points(std::move(lens_points)), blocks(blocked.samples.blocks.size()) {
+        std::iota(blocks.begin(), blocks.end(), 0u);
+        blocked.colours.sets.assign(4, data);
+        blocked.colours.sets[0] = green;
+        blocked.colours.sets[1] = coverage;
+    }
+    TileScene scene(const CatEye *cat_eye = nullptr) const {
+        return {blocked.samples, blocked.colours, fillers, facets, cat_eye, {0, 0}, nullptr, 1};
+    }
+    TileTask task() const { return {{0, 0}, blocks, {}, {}, points}; }
+    // Of the one in its place in a pixel.
+    std::uint64_t key(int x, int y, std::size_t place = 0) const {
+        const std::size_t source = ldi.begin[std::size_t(y * 64 + x)] + place;
+        const auto &sources = blocked.samples.source;
+        return blocked.samples.key[std::size_t(std::ranges::find(sources, source) - sources.begin())];
+    }
+};
+
+// An opaque sample of that CoC and value.
+inline Sample opaque_at(double coc, float value = 1) {
+    return {depth_of(TileFixture::lens, coc), {value, 1}};
+}
+inline Sample partial_at(double coc, float alpha, float value = 1) {
+    return {depth_of(TileFixture::lens, coc), {alpha * value, alpha}};
+}
+
+} // namespace sparselens

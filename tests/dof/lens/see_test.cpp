@@ -1,0 +1,98 @@
+// What a lens point sees of a tile, by closed forms.
+#include "see_fixture.h"
+
+#include <gtest/gtest.h>
+
+namespace sparselens {
+namespace {
+
+using Samples = std::vector<Sample>;
+
+// How many pixels of the tile show what `key(x, y)` says.
+template <typename Key>
+int count_shown(const Seen &seen, const Key &key) {
+    int count = 0;
+    for (int y = 0; y < 64; ++y)
+        for (int x = 0; x < 64; ++x) count += seen.shown()[tile_cells::at(x, y)] == key(x, y);
+    return count;
+}
+int count_empty(const Seen &seen) {
+    int count = 0;
+    seen.for_each_empty([&](std::size_t) { ++count; });
+    return count;
+}
+
+TEST(See, WhatIsInFocusIsSeenWhereItIs) {
+    const TileFixture tile([](int, int) { return Samples{opaque_at(0)}; }, {{.75f, -.5f, .4f, -.4f, 1}});
+    const TileScene scene = tile.scene();
+    const TileTask task = tile.task();
+    See see(scene, task);
+    const Seen &seen = see.through(tile.points[0]);
+    EXPECT_EQ(count_shown(seen, [&](int x, int y) { return tile.key(x, y); }), 64 * 64);
+    EXPECT_EQ(count_empty(seen), 0);
+}
+
+TEST(See, WhatIsOutOfFocusIsSeenAsFarAwayAsItsCircleIsWide) {
+    const TileFixture tile(
+        [](int x, int y) { return x == 10 && y == 20 ? Samples{opaque_at(-4)} : Samples{}; },
+        {{.75f, -.5f, 0, 0, 1}});
+    const TileScene scene = tile.scene();
+    const TileTask task = tile.task();
+    See see(scene, task);
+    const Seen &seen = see.through(tile.points[0]);
+    EXPECT_EQ(seen.front[tile_cells::at(10 - 3, 20 + 2)], tile.key(10, 20));
+    EXPECT_EQ(count_shown(seen, [&](int, int) { return tile.key(10, 20); }), 1);
+}
+
+TEST(See, TheNearerOfTwoSurfacesIsInFront) {
+    const auto near = [](int x, int y) { return x == 30 && y == 30; };
+    const TileFixture tile([&](int x, int y) { return Samples{near(x, y) ? opaque_at(-6) : opaque_at(0)}; },
+                           {{.5f, .5f, 0, 0, 1}});
+    const TileScene scene = tile.scene();
+    const TileTask task = tile.task();
+    See see(scene, task);
+    const Seen &seen = see.through(tile.points[0]);
+    EXPECT_EQ(seen.front[tile_cells::at(27, 27)], tile.key(30, 30));
+    EXPECT_EQ(count_shown(seen, [&](int x, int y) { return tile.key(x, y); }), 64 * 64 - 2);
+    EXPECT_EQ(count_empty(seen), 1); // no view saw what it hid: it is at (30, 30)
+    EXPECT_EQ(seen.empty[30], std::uint64_t{1} << 30);
+}
+
+// Two columns of one surface, seen at 16.7 and 18.1: what is between shows the farther.
+TEST(See, ASurfaceShowsThroughTheCracksBetweenItsSamples) {
+    const TileFixture tile([](int x, int) { return Samples{opaque_at(x <= 10 ? 6 : 6.4)}; },
+                           {{1, 0, .2f, 0, 1}});
+    const TileScene scene = tile.scene();
+    const TileTask task = tile.task();
+    See see(scene, task);
+    const Seen &seen = see.through(tile.points[0]);
+    for (const int y : {0, 31, 63}) {
+        EXPECT_EQ(seen.front[tile_cells::at(16, y)], tile.key(10, y));
+        EXPECT_EQ(seen.front[tile_cells::at(17, y)], tile.key(11, y));
+        EXPECT_EQ(seen.front[tile_cells::at(18, y)], tile.key(11, y));
+        EXPECT_EQ(seen.front[tile_cells::at(19, y)], tile.key(12, y));
+        EXPECT_FALSE(seen.empty[std::size_t(y)] >> 17 & 1);
+    }
+}
+
+TEST(See, PartialSamplesAreFrontToBackWhereverTheyLie) {
+    const TileFixture tile(
+        [](int x, int y) {
+            return x == 20 && y == 20 ? Samples{partial_at(-2, .25f), partial_at(4, .5f), opaque_at(6)}
+                                      : Samples{};
+        },
+        {{.5f, 0, 0, 0, 1}});
+    const TileScene scene = tile.scene();
+    const TileTask task = tile.task();
+    See see(scene, task);
+    const Seen &seen = see.through(tile.points[0]);
+    ASSERT_EQ(seen.partial.count(), 2u);
+    EXPECT_EQ(seen.partial.key, (std::vector{tile.key(20, 20, 0), tile.key(20, 20, 1)}));
+    EXPECT_EQ(seen.partial.left, (std::vector{.75f, .5f}));
+    EXPECT_EQ(seen.partial_cells,
+              (std::vector{std::int32_t(tile_cells::at(19, 20)), std::int32_t(tile_cells::at(22, 20))}));
+    EXPECT_EQ(seen.front[tile_cells::at(23, 20)], tile.key(20, 20, 2));
+}
+
+} // namespace
+} // namespace sparselens

@@ -1,0 +1,128 @@
+// What lens points add to the sums, by closed forms: of what they see, written down by hand.
+#include "dof/lens/weigh.h"
+#include "lens/picture_frame.h"
+#include "see_fixture.h"
+
+#include <gtest/gtest.h>
+
+namespace sparselens {
+namespace {
+
+using Samples = std::vector<Sample>;
+using tile_cells::at;
+
+constexpr int x = 12, y = 34; // the pixel that is asked for
+constexpr std::size_t pixel = y * 64 + x;
+
+// Three samples at every pixel: partial, and one behind it, of value 2; in front of focus, opaque, of value 8.
+struct WeighTest : testing::Test {
+    const TileFixture tile{[](int column, int row) {
+                               if (column == 1 && row == 1) return Samples{opaque_at(-3, 8)};
+                               if (column == 0 && row == 0) return Samples{partial_at(2, .25f, 4)};
+                               return Samples{opaque_at(4, 2)};
+                           },
+                           {}};
+    const std::uint64_t behind = tile.key(x, y), in_front = tile.key(1, 1), partial = tile.key(0, 0);
+
+    // A lens point that sees nothing, the partial sample somewhere else.
+    Seen nothing() const {
+        const auto i = std::uint32_t(partial);
+        const BlockedSamples &samples = tile.blocked.samples;
+        Seen seen;
+        seen.columns.fill({0, 64});
+        seen.empty.fill(~std::uint64_t{});
+        seen.front.resize(tile_cells::count);
+        seen.filler.resize(tile_cells::count);
+        seen.partial = {{i},    {samples.x[i]}, {samples.y[i]}, {samples.coc[i]}, {samples.depth[i]},
+                        {.75f}, {partial}};
+        seen.partial_cells = {0};
+        return seen;
+    }
+    // ... but for an opaque sample at the pixel.
+    Seen opaque(std::uint64_t key) const {
+        Seen seen = nothing();
+        seen.front[at(x, y)] = key;
+        seen.empty[y] ^= std::uint64_t{1} << x;
+        return seen;
+    }
+    // The same behind the partial one.
+    static Seen covered(Seen seen) {
+        seen.partial_cells = {std::int32_t(at(x, y))};
+        return seen;
+    }
+    struct Mean {
+        float value, known;
+    };
+    // Of channel Y, of lens points that see that each.
+    template <typename Light>
+    Mean mean(const std::vector<std::pair<LensSample, Seen>> &points, const CatEye *cat_eye = nullptr) const {
+        const TileScene scene = tile.scene(cat_eye);
+        Weigh<Light> weigh(scene, points.front().second);
+        for (const auto &[point, seen] : points) weigh.add(seen, point);
+        const TilePicture picture = weigh.picture();
+        EXPECT_EQ(picture.is_known(pixel), picture.known[pixel] > 0);
+        return {picture.value(pixel, 0), picture.known[pixel]};
+    }
+};
+
+constexpr LensSample point{0, 0, 0, 0, .5f}, heavy{0, 0, 0, 0, 1.5f};
+
+TEST_F(WeighTest, AllSeeOneSample) {
+    const Mean even = mean<EvenLight>({{point, opaque(behind)}, {heavy, opaque(behind)}});
+    EXPECT_FLOAT_EQ(even.value, 2);
+    EXPECT_FLOAT_EQ(even.known, 2);
+}
+
+TEST_F(WeighTest, EachCountsByItsWeight) {
+    EXPECT_FLOAT_EQ(mean<EvenLight>({{point, opaque(behind)}, {heavy, opaque(in_front)}}).value,
+                    (2 + 3 * 8) / 4.f);
+}
+
+TEST_F(WeighTest, WhatIsUnknownDoesNotCount) {
+    const Mean half = mean<EvenLight>({{point, opaque(behind)}, {heavy, nothing()}});
+    EXPECT_FLOAT_EQ(half.value, 2);
+    EXPECT_FLOAT_EQ(half.known, .5f);
+    EXPECT_EQ(mean<EvenLight>({{point, nothing()}}).known, 0);
+}
+
+TEST_F(WeighTest, APartialSampleLetsTheRestThrough) {
+    EXPECT_FLOAT_EQ(mean<EvenLight>({{point, covered(opaque(behind))}}).value, .25f * 4 + .75f * 2);
+    EXPECT_FLOAT_EQ(mean<EvenLight>({{point, covered(opaque(in_front))}}).value, 8) << "it is behind that";
+}
+
+TEST_F(WeighTest, APartialSampleBeforeTheUnknownCountsByItsCoverage) {
+    const Mean alone = mean<EvenLight>({{point, covered(nothing())}});
+    EXPECT_FLOAT_EQ(alone.value, 4);
+    EXPECT_FLOAT_EQ(alone.known, .25f * .5f);
+}
+
+TEST_F(WeighTest, ColoursAndSidesCountByTheirs) {
+    const LensSample green_rim{0, 0, 0, 0, 1, {1, 3, 1}, .5f, 1.5f}, rim{0, 0, 0, 0, 1, {1, 1, 1}, 1.5f, .5f};
+    const float by_side = mean<ChannelLight<2>>({{green_rim, opaque(in_front)}, {rim, opaque(behind)}}).value;
+    EXPECT_FLOAT_EQ(by_side, (3 * 1.5f * 8 + 1.5f * 2) / (3 * 1.5f + 1.5f));
+    const float one_side =
+        mean<ChannelLight<1>>({{green_rim, opaque(behind)}, {rim, covered(opaque(behind))}}).value;
+    EXPECT_FLOAT_EQ(one_side, (1.5f * 2 + 1.5f * (.25f * 4 + .75f * 2)) / 3);
+}
+
+// A cat's eye lets one lens point of two through at that pixel. It is the mean, whatever light comes through that point; or,
+// where it darkens, that light.
+TEST_F(WeighTest, ACatsEyeLeavesOutOrDarkens) {
+    const LensSample bright{0, 0, 0, 0, .5f, {1, 3, 1}};
+    Seen beside = opaque(in_front);
+    beside.columns[y] = {x + 1, 64};
+    beside.empty[y] = 0;
+    for (const bool darkens : {false, true}) {
+        LensLooks looks;
+        looks.cat_eye = 1;
+        looks.cat_eye_darkening = darkens;
+        const Aperture aperture;
+        const CatEye cat_eye(aperture, looks, picture_frame(tile.ldi.windows, looks));
+        const Mean cut = mean<ChannelLight<1>>({{bright, opaque(behind)}, {point, beside}}, &cat_eye);
+        EXPECT_FLOAT_EQ(cut.value, darkens ? 6 : 2);
+        EXPECT_FLOAT_EQ(cut.known, darkens ? .5f : 1.5f);
+    }
+}
+
+} // namespace
+} // namespace sparselens
