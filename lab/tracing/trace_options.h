@@ -5,7 +5,7 @@
 #include "harness/commands/cli.h"
 #include "lab/trace/render.h"
 #include "options/lens_options.h"
-#include "options/looks/look_options.h"
+#include "options/look_options.h"
 
 #include <string>
 #include <vector>

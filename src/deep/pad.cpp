@@ -1,6 +1,6 @@
 #include "deep/pad.h"
 
-#include "lens/reach/light_reach.h"
+#include "lens/light_reach.h"
 
 #include <algorithm>
 #include <cmath>

@@ -11,7 +11,7 @@ namespace sparselens {
 Ldi padded(Ldi ldi, const Imath::Box2i &data);
 
 // The pixels of the display window that a lens of these looks spreads samples over, each as far as its own light reaches
-// (lens/reach/light_reach.h), from half a pixel on. Empty where there are none.
+// (lens/light_reach.h), from half a pixel on. Empty where there are none.
 Imath::Box2i reached_display(const Ldi &ldi, const ThinLens &lens, const LensLooks &looks = {});
 
 } // namespace sparselens

@@ -2,7 +2,7 @@
 
 #include "deep/build.h"
 #include "dof/lens/beyond/border_pixels.h"
-#include "lens/reach/light_reach.h"
+#include "lens/light_reach.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "../deep/ldi.h"
-#include "../deep/packed/packed_rows.h"
+#include "../deep/packed_rows.h"
 #include "../lens/lens_looks.h"
 #include "../lens/thin_lens.h"
 
@@ -21,7 +21,7 @@ struct BorderReach {
 
 // Of the samples of at least half coverage in the outermost pixels of the display window; 0 if the data window does not
 // fill the display window, because then nothing was cut off. Light stands out if it is more than four times as bright
-// as 31 of 32 samples of the border. How far it reaches is up to the looks too (lens/reach/light_reach.h).
+// as 31 of 32 samples of the border. How far it reaches is up to the looks too (lens/light_reach.h).
 BorderReach border_reach(const Ldi &ldi, const ThinLens &lens, const LensLooks &looks = {});
 
 // The LDI of packed samples, of which only those pixels have any; or the outermost ones of another window.

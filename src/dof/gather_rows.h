@@ -1,8 +1,8 @@
-// The picture of samples that are held packed (deep/packed/packed_rows.h), gathered in bands of rows: those that can reach a band
+// The picture of samples that are held packed (deep/packed_rows.h), gathered in bands of rows: those that can reach a band
 // are unpacked, prepared, gathered from and dropped. The picture is the same, bit by bit, as that of all samples at once.
 #pragma once
 
-#include "../deep/packed/packed_rows.h"
+#include "../deep/packed_rows.h"
 #include "gather_picture.h"
 
 #include <cstddef>

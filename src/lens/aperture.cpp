@@ -1,7 +1,7 @@
 #include "lens/aperture.h"
 
 #include "lens/outline.h"
-#include "lens/polygons/polygon_pixels.h"
+#include "lens/polygon_pixels.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "dof/device/tile_device.h"
-#include "warp/device/warp_device.h"
+#include "warp/warp_device.h"
 
 #include <functional>
 #include <string>

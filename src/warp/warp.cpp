@@ -6,13 +6,13 @@
 #include "lens/perceptive_depth.h"
 #include "view/resolve_lens.h"
 #include "warp/balance.h"
-#include "warp/device/warp_device.h"
 #include "warp/images/image_depths.h"
 #include "warp/images/show_images.h"
 #include "warp/lamps/lamp_light.h"
 #include "warp/opaque_pixels.h"
 #include "warp/photo_consistency.h"
 #include "warp/visibility_vote.h"
+#include "warp/warp_device.h"
 
 #include <tbb/enumerable_thread_specific.h>
 

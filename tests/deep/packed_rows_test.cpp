@@ -1,4 +1,4 @@
-#include "deep/packed/packed_rows.h"
+#include "deep/packed_rows.h"
 #include "support/ldi_samples.h"
 
 #include <gtest/gtest.h>

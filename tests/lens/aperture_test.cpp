@@ -2,7 +2,7 @@
 #include "lens/aperture.h"
 #include "lens/lens_samples.h"
 #include "lens/outline.h"
-#include "lens/polygons/polygon_pixels.h"
+#include "lens/polygon_pixels.h"
 
 #include <gtest/gtest.h>
 

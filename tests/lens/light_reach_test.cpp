@@ -1,5 +1,5 @@
 // How far looks spread light: closed forms.
-#include "lens/reach/light_reach.h"
+#include "lens/light_reach.h"
 
 #include <gtest/gtest.h>
 

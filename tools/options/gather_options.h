@@ -6,7 +6,7 @@
 #include "harness/history.h"
 #include "options/colour_options.h"
 #include "options/lens_options.h"
-#include "options/looks/look_options.h"
+#include "options/look_options.h"
 #include "options/picture_options.h"
 #include "options/show.h"
 #include "options/window_options.h"

@@ -1,7 +1,7 @@
 // What hides highlights (highlights.h) in one tile.
 //
 // Whether a place in a disc sees the lamp needs no lens points of the gather: place and lamp fix the point of the lens, and
-// so what hides the lamp there (lens/lamps/lamp_shadow.h). A sample hides all that is farther; those of one surface hide
+// so what hides the lamp there (lens/lamp_shadow.h). A sample hides all that is farther; those of one surface hide
 // none of each other, as they end where the next begins (dof/footprints/footprint.h). Highlights of partial
 // coverage in other pixels, no more than a tenth nearer, hide none of each other: they are lamps smaller than a pixel, side by
 // side.
@@ -16,8 +16,8 @@
 #include "dof/lens/block_footprints.h"
 #include "dof/lens/highlights.h"
 #include "dof/lens/sample_blocks.h"
+#include "lens/lamp_shadow.h"
 #include "lens/lamp_spread.h"
-#include "lens/lamps/lamp_shadow.h"
 
 #include <Imath/ImathBox.h>
 #include <Imath/ImathVec.h>

@@ -1,7 +1,7 @@
 // The light of highlights (highlights.h) in one tile: the exact disc of each, less what stands before the lamp.
 // What hides it: highlight_shadows.h.
 //
-// A disc of a few pixels is shadowed in cells of the lens (lens/lamps/lamp_cells.h), a larger one in pixels. The light of a
+// A disc of a few pixels is shadowed in cells of the lens (lens/lamp_cells.h), a larger one in pixels. The light of a
 // sample comes from its place where its CoC is two pixels or more. Near the focus it comes from the square of a pixel, as lens
 // points see it, so that what is in focus is as it was rendered; in between the square shrinks.
 #pragma once
@@ -15,8 +15,8 @@
 #include "dof/lens/sample_colours.h"
 #include "lens/aperture.h"
 #include "lens/cat_eye.h"
+#include "lens/lamp_cells.h"
 #include "lens/lamp_spread.h"
-#include "lens/lamps/lamp_cells.h"
 
 #include <Imath/ImathVec.h>
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "gpu/device.h"
-#include "warp/device/warp_device.h"
+#include "warp/warp_device.h"
 
 #include <memory>
 

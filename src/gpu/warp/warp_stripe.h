@@ -3,7 +3,7 @@
 #pragma once
 
 #include "kernels/warp_layout.h"
-#include "warp/device/warp_device.h"
+#include "warp/warp_device.h"
 
 #include <Imath/ImathBox.h>
 

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "../../deep/ldi.h"
-#include "../../deep/packed/packed_rows.h"
+#include "../../deep/packed_rows.h"
 #include "compression.h"
 #include "picture_choice.h"
 

@@ -3,8 +3,8 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "io/exr/exr_common.h"
-#include "io/exr/rows/kept_rows.h"
-#include "io/exr/rows/part_readers.h"
+#include "io/exr/kept_rows.h"
+#include "io/exr/part_readers.h"
 #include "io/files/memory_limit.h"
 
 #include <ImfDeepFrameBuffer.h>

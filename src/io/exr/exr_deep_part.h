@@ -2,7 +2,7 @@
 #pragma once
 
 #include "deep/ldi.h"
-#include "deep/packed/packed_rows.h"
+#include "deep/packed_rows.h"
 #include "io/exr/exr_parts.h"
 #include "io/files/file_stream.h"
 

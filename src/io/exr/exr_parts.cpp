@@ -6,7 +6,7 @@
 #include "io/exr/exr_common.h"
 #include "io/exr/exr_mattes.h"
 #include "io/exr/header_edit.h"
-#include "io/exr/luminance/luminance_chroma.h"
+#include "io/exr/luminance_chroma.h"
 
 #include <ImfStandardAttributes.h>
 #include <fmt/format.h>

@@ -33,7 +33,7 @@ struct BeyondFrame {
 };
 
 // How far the lens looks beyond the frame, in pixels across and down: as far as light of its outermost pixels reaches
-// (lens/reach/light_reach.h), which is all that is needed of the LDI; and at most by half of its longer side.
+// (lens/light_reach.h), which is all that is needed of the LDI; and at most by half of its longer side.
 Imath::V2i look_beyond(const Ldi &ldi, const ThinLens &lens, const LensLooks &looks,
                        const Imath::Box2i &frame);
 

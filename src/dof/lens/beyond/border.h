@@ -4,7 +4,7 @@
 
 #include "deep/ldi.h"
 #include "lens/lens_looks.h"
-#include "lens/reach/light_reach.h"
+#include "lens/light_reach.h"
 #include "lens/thin_lens.h"
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 #include "dof/lens/beyond/picked.h"
 
 #include "base/parallel.h"
-#include "deep/packed/packed_rows.h"
+#include "deep/packed_rows.h"
 #include "dof/lens/sample_colours.h"
 
 namespace sparselens {

@@ -1,7 +1,7 @@
 // Colours stored as luminance and chroma, as OpenEXR writes them and as a renderer would beside a depth.
 #include "io/exr/exr_deep.h"
 #include "io/exr/exr_flat.h"
-#include "io/exr/luminance/luminance_chroma.h"
+#include "io/exr/luminance_chroma.h"
 #include "support/scratch_folder.h"
 
 #include <ImfChannelList.h>

@@ -1,4 +1,4 @@
-#include "lens/reach/light_reach.h"
+#include "lens/light_reach.h"
 
 #include "lens/aperture.h"
 

@@ -2,7 +2,7 @@
 // they were, bit by bit. For pictures that are worked on a few rows at a time.
 #pragma once
 
-#include "../ldi.h"
+#include "ldi.h"
 
 #include <cstddef>
 #include <cstdint>

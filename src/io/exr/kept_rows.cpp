@@ -1,4 +1,4 @@
-#include "io/exr/rows/kept_rows.h"
+#include "io/exr/kept_rows.h"
 
 #include "base/parallel.h"
 #include "dof/gather_rows.h"

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "deep/ldi.h"
-#include "deep/packed/packed_rows.h"
+#include "deep/packed_rows.h"
 
 #include <cstdint>
 #include <optional>

@@ -1,4 +1,4 @@
-#include "io/exr/luminance/luminance_chroma.h"
+#include "io/exr/luminance_chroma.h"
 
 #include "base/text.h"
 

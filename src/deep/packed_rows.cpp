@@ -1,4 +1,4 @@
-#include "deep/packed/packed_rows.h"
+#include "deep/packed_rows.h"
 
 #include "base/parallel.h"
 

@@ -1,4 +1,4 @@
-#include "lens/lamps/lamp_shadow.h"
+#include "lens/lamp_shadow.h"
 #include "support/ldi_samples.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "lens/lamps/lamp_cells.h"
+#include "lens/lamp_cells.h"
 
 #include "lens/psf.h"
 

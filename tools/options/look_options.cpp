@@ -1,4 +1,4 @@
-#include "options/looks/look_options.h"
+#include "options/look_options.h"
 
 #include "harness/words.h"
 

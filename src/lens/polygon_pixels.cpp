@@ -1,4 +1,4 @@
-#include "lens/polygons/polygon_pixels.h"
+#include "lens/polygon_pixels.h"
 
 #include <algorithm>
 #include <cmath>

@@ -7,8 +7,8 @@
 
 #include "base/float4.h"
 #include "lens/aperture.h"
+#include "lens/lamp_shadow.h"
 #include "lens/lamp_spread.h"
-#include "lens/lamps/lamp_shadow.h"
 
 #include <Imath/ImathBox.h>
 #include <Imath/ImathVec.h>
