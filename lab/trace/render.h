@@ -5,7 +5,7 @@
 
 #include "base/image.h"
 #include "base/progress.h"
-#include "dof/highlight_gain.h"
+#include "deep/highlight_gain.h"
 #include "lab/trace/shading.h"
 #include "lens/lens_looks.h"
 #include "lens/thin_lens.h"

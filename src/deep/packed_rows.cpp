@@ -142,6 +142,19 @@ std::size_t PackedRows::bytes() const {
     return sum;
 }
 
+double bytes_to_gather(std::uint64_t samples, std::span<const Channel> channels) {
+    constexpr std::size_t places = 3, prepared = 8; // depth and offsets; what BlockedSamples holds, in floats
+    const std::size_t groups = pieces_of(channels.size(), std::size_t{4});
+    const bool by_channel = find_channel(channels, "AR") != npos;
+    const std::size_t copied = by_channel ? 2 * (places + 4) : 0; // of one coverage, and merged
+    return double(samples) *
+           double((places + channels.size() + copied + prepared + 4 * groups) * sizeof(float));
+}
+
+double memory_to_gather(std::uint64_t samples_in_file, std::size_t pixels) {
+    return 14 * double(samples_in_file) + 110 * double(pixels) + 32 * 1024 * 1024;
+}
+
 Ldi with_empty_above(Ldi rows, int top) {
     const std::size_t before = rows.windows.pixels();
     rows.windows.data.min.y = top;

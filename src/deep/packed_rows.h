@@ -62,6 +62,15 @@ private:
     std::vector<Piece> pieces_;
 };
 
+// Bytes that so many samples take as floats, with what is gathered from them.
+double bytes_to_gather(std::uint64_t samples, std::span<const Channel> channels);
+
+// Bytes that samples may take, with what is gathered from them, where the file has so many: with the picture, deep files of ten
+// samples a pixel and more stay within 24 for each sample and 100 for each pixel, beside 32 MB. It is more for each pixel and
+// less for each sample than that, so that LDIs of opaque views, of one or two samples a pixel, are gathered at once: bands
+// would take them half as long again and save a tenth of the memory.
+double memory_to_gather(std::uint64_t samples_in_file, std::size_t pixels);
+
 // `rows` in the window that begins with row `top`: the pixels above them have no samples.
 Ldi with_empty_above(Ldi rows, int top);
 

@@ -25,15 +25,6 @@ Image gather_rows(const PackedRows &rows, const ThinLens &lens, const Imath::Box
                   const Imath::Box2i &written, const PictureOptions &options, const BandLimits &limits,
                   Progress &progress);
 
-// Bytes that so many samples take as floats, with what is gathered from them.
-double bytes_to_gather(std::uint64_t samples, std::span<const Channel> channels);
-
-// Bytes that samples may take, with what is gathered from them, where the file has so many: with the picture, deep files of ten
-// samples a pixel and more stay within 24 for each sample and 100 for each pixel, beside 32 MB. It is more for each pixel and
-// less for each sample than that, so that LDIs of opaque views, of one or two samples a pixel, are gathered at once: bands
-// would take them half as long again and save a tenth of the memory.
-double memory_to_gather(std::uint64_t samples_in_file, std::size_t pixels);
-
 // How far, in rows, what the lens makes of a row depends on other rows, and its samples on those of others.
 struct RowReach {
     int seen = 0;     // from where samples, and what is taken to lie between and behind them, reach a pixel

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "../base/subpixels.h"
-#include "../dof/highlight_gain.h"
+#include "../deep/highlight_gain.h"
 #include "../lens/lens_looks.h"
 #include "open_ldi.h"
 

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "deep/channel_alpha.h"
+#include "deep/edge_depths.h"
 #include "deep/tidy.h"
 #include "io/camera/camera_read.h"
 #include "io/depth_range.h"
@@ -9,7 +10,6 @@
 #include "io/files/file_stream.h"
 #include "view/depth_reader.h"
 #include "view/speckles.h"
-#include "warp/edge_depths.h"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,6 @@
 #include "io/open_view.h"
 
+#include "deep/edge_depths.h"
 #include "io/camera/camera_read.h"
 #include "io/depth_range.h"
 #include "io/exr/exr_common.h"
@@ -7,7 +8,6 @@
 #include "io/files/file_stream.h"
 #include "view/depth_reader.h"
 #include "view/speckles.h"
-#include "warp/edge_depths.h"
 
 namespace sparselens {
 

@@ -23,7 +23,7 @@ struct LookValues {
     std::optional<ChromaticType> chromatic_type = {};
     std::optional<bool> cat_eye_darkening = {};
     std::optional<double> highlight_gain = {}, highlight_threshold = {},
-                          highlight_knee = {}; // dof/highlight_gain.h
+                          highlight_knee = {}; // deep/highlight_gain.h
     std::shared_ptr<const AperturePicture> picture = {};
 };
 

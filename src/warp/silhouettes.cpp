@@ -2,9 +2,9 @@
 
 #include "base/parallel.h"
 #include "deep/build.h"
+#include "deep/unmixing.h"
 #include "lens/perceptive_depth.h"
 #include "warp/mixed/matte_shares.h"
-#include "warp/mixed/unmixing.h"
 #include "warp/mixed/wisps.h"
 
 #include <algorithm>

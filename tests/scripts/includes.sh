@@ -1,14 +1,15 @@
 # Includes run one way, down the floors that docs/code.md lists: a file includes what lies in its own folder or on a
-# lower floor. Public headers, which are installed, include public headers alone, by relative paths, so that one include
+# lower floor, and nothing that the same document says may never be. Public headers, which are installed, include public headers alone, by relative paths, so that one include
 # root is enough.
 #   bash includes.sh
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
-# What there is, a word and what it is said of: `floor FOLDER...`, the lowest first; `public HEADER`, by its path in src/;
+# What there is, a word and what it is said of: `floor FOLDER...`, the lowest first; `never FOLDER...: FOLDER...`; `public HEADER`, by its path in src/;
 # `folder PATH`; `file PATH`; `include FILE NAME`.
 facts() {
     sed -n '/^```floors$/,/^```$/{/^```/d;s/#.*//;s/^/floor /;p}' docs/code.md
+    sed -n '/^```never$/,/^```$/{/^```/d;s/#.*//;s/:/ &/;s/^/never /;p}' docs/code.md
     sed -n '/^set(SPARSELENS_PUBLIC_HEADERS$/,/^)$/p' src/CMakeLists.txt | grep -oE '[a-z_/0-9]+\.h' | sed 's/^/public /'
     find src tools lab -path lab/tests -prune -o -type d -printf 'folder %p\n'
     find src tools lab -path lab/tests -prune -o -type f -printf 'file %p\n' | sort
@@ -51,22 +52,45 @@ function check_floors(file, name,    from, to) {
     else if (!(to in floor)) fault(file " includes " name ": " to " is on no floor of docs/code.md")
     else if (floor[to] >= floor[from]) fault(file " includes " name ": " to " is not on a lower floor than " from)
 }
+# PATH lies in one of the folders, or in folders of theirs.
+function lies_in(path, folders,    names, n, i) {
+    n = split(folders, names, " ")
+    for (i = 1; i <= n; ++i) if (index(path "/", names[i] "/") == 1) return 1
+    return 0
+}
+function check_never(file, name,    from, to, i) {
+    from = folder_of(file)
+    to = folder_of(included(file, name))
+    for (i = 1; i <= nevers; ++i)
+        if (lies_in(from, never_from[i]) && lies_in(to, never_to[i]) && !lies_in(to, never_from[i]))
+            fault(file " includes " name ": that may never be")
+}
 function check_public(file, name,    path) {
     path = normal(folder_of(file) "/" name)
     if (!(path in is_file)) fault(file " includes " name " by another root than its own folder")
     if (!(path in is_public)) fault(file " is public and includes " name ", which is not")
 }
 $1 == "floor" { ++floors; for (i = 2; i <= NF; ++i) floor[$i] = floors }
+$1 == "never" {
+    from = to = $0
+    sub(/^never /, "", from)
+    sub(/:.*/, "", from)
+    sub(/.*:/, "", to)
+    never_from[++nevers] = from
+    never_to[nevers] = to
+}
 $1 == "public" { is_public["src/" $2] = 1; ++publics }
 $1 == "folder" { is_folder[$2] = 1 }
 $1 == "file" { is_file[$2] = 1 }
 $1 == "include" {
     ++includes
     check_floors($2, $3)
+    check_never($2, $3)
     if ($2 in is_public) check_public($2, $3)
 }
 END {
     if (floors == 0) fault("docs/code.md has no block of floors")
+    if (nevers == 0) fault("docs/code.md does not say what may never be")
     if (publics == 0) fault("src/CMakeLists.txt names no public headers")
     if (includes <= 100) fault("the includes were not found")
     for (path in floor) if (!(path in is_folder)) fault("docs/code.md names the folder " path ", which is not there")

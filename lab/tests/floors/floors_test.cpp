@@ -1,4 +1,5 @@
 // The whole way from views to the picture is as good as it was: floors.h.
+#include "deep/edge_depths.h"
 #include "deep/tidy.h"
 #include "dof/gather_picture.h"
 #include "io/exr/exr_flat.h"
@@ -7,7 +8,6 @@
 #include "lab/trace/deep.h"
 #include "measure/image_error.h"
 #include "warp/deepen.h"
-#include "warp/edge_depths.h"
 #include "warp/warp.h"
 
 #include <gtest/gtest.h>

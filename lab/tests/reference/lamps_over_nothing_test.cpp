@@ -1,9 +1,9 @@
 // Lamps over nothing, whose edges have the depth of the sky.
 #include "base/random.h"
+#include "deep/edge_depths.h"
 #include "lab/methods/scatter.h"
 #include "lens/lens_points.h"
 #include "support/views.h"
-#include "warp/edge_depths.h"
 #include "warp/warp.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,6 @@
 #include "io/exr/kept_rows.h"
 
 #include "base/parallel.h"
-#include "dof/gather_rows.h"
 
 #include <utility>
 #include <vector>

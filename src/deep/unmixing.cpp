@@ -1,4 +1,4 @@
-#include "warp/mixed/unmixing.h"
+#include "deep/unmixing.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
-#include "warp/edge_depths.h"
+#include "deep/edge_depths.h"
 
 #include "base/parallel.h"
-#include "warp/mixed/unmixing.h"
+#include "deep/unmixing.h"
 
 #include <fmt/format.h>
 

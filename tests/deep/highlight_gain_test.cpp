@@ -1,5 +1,5 @@
 // Lights that grow before the gather: closed forms.
-#include "dof/highlight_gain.h"
+#include "deep/highlight_gain.h"
 #include "support/ldi_samples.h"
 
 #include <gtest/gtest.h>

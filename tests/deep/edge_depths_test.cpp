@@ -1,9 +1,9 @@
 #include "base/random.h"
+#include "deep/edge_depths.h"
 #include "deep/flatten.h"
 #include "lens/lens_points.h"
 #include "support/views.h"
 #include "warp/deepen.h"
-#include "warp/edge_depths.h"
 #include "warp/warp.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "warp/mixed/unmixing.h"
+#include "deep/unmixing.h"
 
 #include <gtest/gtest.h>
 

@@ -5,8 +5,8 @@
 // alone and has no step, so nothing flickers in a sequence; light is added, not conserved.
 #pragma once
 
-#include "../deep/ldi.h"
 #include "../view/look_values.h"
+#include "ldi.h"
 
 #include <array>
 

@@ -1,4 +1,4 @@
-#include "dof/highlight_gain.h"
+#include "deep/highlight_gain.h"
 
 #include "base/luminance.h"
 #include "base/parallel.h"
