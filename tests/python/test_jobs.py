@@ -63,7 +63,7 @@ def test_interrupt_ends_the_work(views):
     other = threading.Thread(target=interrupt)
     other.start()
     with pytest.raises(KeyboardInterrupt):
-        sparselens.gather(ldi, method="scatter", lens_radius=2, focus_distance=1, progress=tell)
+        sparselens.gather(ldi, lens_samples=1 << 14, lens_radius=2, focus_distance=1, progress=tell)
     other.join()
     assert said[-1] < 100
     sparselens.gather(ldi)  # nothing is broken

@@ -1,6 +1,6 @@
 #!/bin/bash
-# How large the product is: src and tools, without the laboratory. Lines and files of C++, GLSL and what they are made of, includes
-# of own files, and arrows, which are pairs of folders of which one includes the other.
+# How large the product is: src and tools, without the laboratory. Lines and files of C++, GLSL and templates of either, includes
+# of own files, and arrows: pairs of rooms, which are the folders of src and of tools, of which one includes the other.
 #
 #   tests/scripts/size.sh [COMMIT]     of the working tree, or of a commit
 set -euo pipefail

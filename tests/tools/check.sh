@@ -9,6 +9,10 @@ export SPARSELENS_NO_HISTORY=1 # files are compared that another command made
 trap 'rm -rf "$scratch"' EXIT
 cd "$scratch"
 
+# Is the laboratory there? It has tools of its own, and a method of dof-gather.
+lab() { [ -x "$bin/dof-trace" ]; }
+of_lab() { ! lab || echo "$@"; } # of_lab WORD...: these, if so
+
 fail() {
     echo "FAIL: $*" >&2
     exit 1

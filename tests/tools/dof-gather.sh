@@ -44,7 +44,7 @@ changes() {
     differ changed.exr out.exr "$*"
 }
 changes --method selective
-changes --method scatter
+! lab || changes --method scatter
 changes --focus-distance 3
 changes --focus-distance inf
 changes --fstop 1
@@ -131,7 +131,7 @@ done
 fails_saying 1 'black.exr.* black' "$gather" ldi.exr -o x.exr --aperture black.exr
 fails_saying 1 'none.exr' "$gather" ldi.exr -o x.exr --aperture none.exr
 fails_saying 2 '--aperture.*--blades|--blades.*--aperture' "$gather" ldi.exr -o x.exr --aperture aperture.exr --blades 5
-for method in selective scatter; do
+for method in selective $(of_lab scatter); do
     for look in '--blades 5' '--squeeze 2' '--spherical 0.5' '--cat-eye 1' '--axial-chromatic 0.1' '--field-curvature 0.5' \
         '--tilt 3,0' '--breathing 1' '--aperture aperture.exr' '--lens lens.json'; do
         # shellcheck disable=SC2086
@@ -233,11 +233,11 @@ says half.exr '^ +R, 16-bit floating-point'
 same_pixels half.exr out.exr "-d half of float"
 
 # What the chosen method would ignore is refused.
-for text in '--quality final --method selective' '--layer-tolerance 1 --method selective' '--lens-samples 9 --method scatter' '--holdout ldi.exr --method scatter'; do
+for text in '--quality final --method selective' '--layer-tolerance 1 --method selective' '--lens-samples 9 --method selective' '--holdout ldi.exr --method selective'; do
     # shellcheck disable=SC2086
     fails_saying 2 "^dof-gather: ${text%% *}: works with --method lens only" "$gather" ldi.exr -o y.exr $text
 done
-for method in lens scatter; do
+for method in lens $(of_lab scatter); do
     fails_saying 2 '^dof-gather: --layers: works with --method selective only' "$gather" ldi.exr -o y.exr --layers 2 --method $method
 done
 fails_saying 2 '^dof-gather: --layers: works with --method selective only' "$gather" ldi.exr -o y.exr --layers 2
@@ -259,7 +259,7 @@ for name in -v --quality=final; do
 done
 
 # Threads do not matter, whatever the method; -v changes no picture.
-for method in lens selective scatter; do
+for method in lens selective $(of_lab scatter); do
     exits 0 "$gather" ldi.exr -o one.exr --threads 1 --method $method
     exits 0 "$gather" ldi.exr -o two.exr --threads 2 --method $method -v
     same one.exr two.exr "$method with 1 thread and with 2"

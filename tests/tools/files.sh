@@ -62,15 +62,17 @@ exits 0 "$bin/ldi-warp" stereo.exr -o ldi.exr --merge keep --stereo-view right
 exits 0 "$bin/ldi-cluster" ldi.exr -o less.exr --layers 1 --stereo-view right
 exits 0 "$bin/dof-gather" less.exr -o out.exr "${flat[@]}"
 picture same out.exr right.exr 1e-3 || fail "ldi-warp and ldi-cluster --stereo-view"
-exits 0 "$bin/dof-accumulate" --view 0,0 stereo.exr -o out.exr -d float --lens-radius 0 --stereo-view right
-picture edit out.exr cut.exr channels=R,G,B
-same cut.exr right.exr "dof-accumulate --stereo-view"
+if lab; then
+    exits 0 "$bin/dof-accumulate" --view 0,0 stereo.exr -o out.exr -d float --lens-radius 0 --stereo-view right
+    picture edit out.exr cut.exr channels=R,G,B
+    same cut.exr right.exr "dof-accumulate --stereo-view"
+    fails_saying 1 'left, right' "$bin/dof-accumulate" --view 0,0 stereo.exr -o x.exr --lens-radius 0 --stereo-view middle
+fi
 exits 0 "$bin/dof-compare" stereo.exr stereo.exr --json --stereo-view right
 exits 0 "$bin/ldi-plan" stereo.exr -o plan.json --stereo-view right --fstop 2 --focus-distance 3 --focal-length 50 --sensor-width 36
 for tool in dof-gather ldi-warp ldi-cluster ldi-plan; do
     fails_saying 1 "stereo.exr: has no stereo view 'middle' .*left, right" "$bin/$tool" stereo.exr -o x.exr --stereo-view middle
 done
-fails_saying 1 'left, right' "$bin/dof-accumulate" --view 0,0 stereo.exr -o x.exr --lens-radius 0 --stereo-view middle
 fails_saying 1 'left, right' "$bin/dof-compare" stereo.exr stereo.exr --stereo-view middle
 fails_saying 1 "one.exr: .*names no views" "$bin/dof-gather" one.exr -o x.exr "${flat[@]}" --stereo-view left
 
@@ -147,15 +149,17 @@ exrheader out.exr | grep -q '^Software .*sparselens .* : dof-gather - --lens-rad
 exrheader out.exr | grep -q '^shot .*"sq01"' || fail "the centre view's metadata is lost"
 chain 2 again.exr
 cmp -s out.exr again.exr || fail "threads and the output's name are in the picture"
-exits 0 "$bin/dof-accumulate" --view 0,0 one.exr -o out.exr --lens-radius 0
-history out.exr | grep -q 'dof-accumulate --view 0,0 one.exr --lens-radius 0$' || fail "dof-accumulate: $(history out.exr)"
+if lab; then
+    exits 0 "$bin/dof-accumulate" --view 0,0 one.exr -o out.exr --lens-radius 0
+    history out.exr | grep -q 'dof-accumulate --view 0,0 one.exr --lens-radius 0$' || fail "dof-accumulate: $(history out.exr)"
+    exits 0 "$bin/dof-accumulate" --view 0,0 'centre view.exr' -o again.exr --lens-radius 0 --no-history
+    [ "$(history again.exr)" = "render shot" ] || fail "dof-accumulate --no-history: $(history again.exr)"
+fi
 exits 0 "$bin/dof-gather" 'centre view.exr' -o out.exr --lens-radius 0 --no-history
 [ "$(history out.exr)" = "render shot" ] || fail "--no-history: $(history out.exr)"
 exits 0 "$bin/ldi-warp" 'centre view.exr' -o ldi.exr --no-history
 exits 0 "$bin/ldi-cluster" ldi.exr -o less.exr --layers 1 --no-history
 [ "$(history less.exr)" = "render shot" ] || fail "--no-history of an LDI: $(history less.exr)"
-exits 0 "$bin/dof-accumulate" --view 0,0 'centre view.exr' -o again.exr --lens-radius 0 --no-history
-[ "$(history again.exr)" = "render shot" ] || fail "dof-accumulate --no-history: $(history again.exr)"
 export SPARSELENS_NO_HISTORY=1
 exits 0 "$bin/dof-gather" 'centre view.exr' -o again.exr --lens-radius 0
 cmp -s out.exr again.exr || fail "\$SPARSELENS_NO_HISTORY is not --no-history"
@@ -215,6 +219,7 @@ for output in one.exr soft.exr; do
     fails_saying 2 "--output $output would overwrite the input one.exr" "$bin/ldi-warp" kept.exr --view 0.1,0 one.exr -o $output "${known[@]}"
     fails_saying 2 "--output $output would overwrite the input one.exr" "$bin/ldi-cluster" one.exr -o $output --layers 1
     fails_saying 2 "--output $output would overwrite the input one.exr" "$bin/ldi-plan" one.exr -o $output "${known[@]}"
+    lab || continue
     fails_saying 2 "--output $output would overwrite the input one.exr" "$bin/dof-accumulate" --view 0,0 kept.exr --view 1,0 one.exr -o $output --lens-radius 0
     fails_saying 2 "--output $output would overwrite the input one.exr" "$bin/dof-accumulate" --view 0,0 kept.exr --center one.exr -o $output
 done
