@@ -18,7 +18,7 @@ export SPARSELENS_HOSTILE_SECONDS=400 SPARSELENS_HOSTILE_KB=4000000 # what the s
 targets=() tests=(-E '^(scripts|packaging|bench)\.')
 if [ "${1-}" = --units ]; then
     shift
-    targets=(--target sparselens-tests) tests=(-R '^unit\.')
+    targets=(--target sparselens-tests sparselens-lab-tests) tests=(-R '^(lab\.)?unit\.')
 fi
 [ $# -gt 0 ] || set -- asan tsan
 for sanitizer; do
