@@ -23,7 +23,7 @@ long=$(grep -vE '^\||\]\(' "$readme" | LC_ALL=C.UTF-8 grep -nE '^.{121}' || true
 matches() { grep -ohE "$1" "$2" | sort -u || true; }
 # named DOCUMENT: the files and tools that it names are there.
 named() {
-    matches '\b(src|tools|tests|share)/[A-Za-z0-9_./-]+\.(h|cpp|sh|py|txt)\b' "$source_dir/$1" |
+    matches '\b(src|tools|tests|share|lab)/[A-Za-z0-9_./-]+\.(h|cpp|sh|py|txt)\b' "$source_dir/$1" |
         while read -r file; do
             [[ -e $source_dir/$file || $file == *NAME* ]] || fail "$1 names $file, which is not there"
         done
