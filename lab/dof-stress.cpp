@@ -80,7 +80,7 @@ int main(int argc, char **argv) {
     app.add_option("--case", options.one_case, "Run only the case of this name, or of this FAMILY/NAME")
         ->type_name("NAME");
     app.add_flag("--markdown", options.markdown,
-                 "Print the tables of docs/stress.md, with the reason for each bound");
+                 "Print the tables of lab/results/stress.md, with the reason for each bound");
     add_examples(app, {{"Run one case", "dof-stress --case z_nan"}});
     return run_tool(
         app, argc, argv, [&](const ToolContext &) { stress(options); }, Reads::nothing);

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """What hidden surfaces are worth: the same scenes gathered from what a renderer's own deep file holds, from guesses at
-what it lacks, and from what ldi-warp makes of five views, each against the truth by ray tracing. See docs/hidden.md.
+what it lacks, and from what ldi-warp makes of five views, each against the truth by ray tracing. See lab/results/hidden.md.
 
     hidden.py fence grass mist path/to/views -o FOLDER
 

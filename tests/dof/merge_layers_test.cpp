@@ -171,7 +171,7 @@ TEST(MergeLayers, SamplesThatAreReducedFirstMakeTheSamePicture) {
     }
 }
 
-// The bound of docs/techniques.md, and what decides whether layers are merged at all.
+// The bound of lab/results/techniques.md, and what decides whether layers are merged at all.
 TEST(MergeLayers, DenseScenesLookTheSame) {
     for (const DeepScene &scene : deep_scenes()) {
         const Ldi ldi = tidy(scene.make(64, 48));

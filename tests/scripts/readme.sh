@@ -5,7 +5,7 @@
 . "$(dirname "$0")/../tools/check.sh"
 readme=$source_dir/README.md
 cd "$source_dir"
-documents=(README.md CONTRIBUTING.md CHANGELOG.md docs/*.md share/*/README.md)
+documents=(README.md CONTRIBUTING.md CHANGELOG.md docs/*.md lab/results/*.md share/*/README.md)
 scripts=(share/*/*.sh share/*/*.py share/*/*.yaml)
 cd "$scratch"
 PATH=$bin:$PATH

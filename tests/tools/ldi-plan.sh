@@ -22,7 +22,7 @@ exits 0 "$plan" full/center.exr -o -
 grep -q '"views"' stdout || fail "no plan on standard output"
 
 # What is asked for is rendered, and as good for the picture as all of it: within half a decibel, and far above the centre
-# view alone, whose hidden parts are guessed (docs/hidden.md: five views are 5 dB or more above the best guess).
+# view alone, whose hidden parts are guessed (lab/results/hidden.md: five views are 5 dB or more above the best guess).
 "$bin/dof-trace" fence --size 240x135 --spp 16 --plan plan.json -o planned
 [ ! -e planned/center.exr ] || fail "the centre view was not asked for"
 [ "$(ls planned/*.exr | wc -l)" -eq "$(json plan.json 'len(p["views"])')" ] || fail "views: $(ls planned)"

@@ -1,6 +1,6 @@
 #!/bin/bash
 # What each stage leaves out because the scene does not need it never shows: each switch on against off, over all test
-# scenes. The bounds are those of docs/techniques.md. bash leave-out.sh BIN_DIR
+# scenes. The bounds are those of lab/results/techniques.md. bash leave-out.sh BIN_DIR
 . "$(dirname "$0")/check.sh"
 
 decibels() { "$bin/dof-compare" "$1" "$2" | awk '$1 == "psnr_tonemapped" { print $2 }'; }

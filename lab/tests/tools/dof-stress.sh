@@ -1,5 +1,5 @@
 #!/bin/bash
-# dof-stress from the shell: every case holds its bound, one line each; docs/stress.md names them all.
+# dof-stress from the shell: every case holds its bound, one line each; lab/results/stress.md names them all.
 . "$(dirname "$0")/../../../tests/tools/check.sh"
 answers_help dof-stress
 exits 0 "$bin/dof-stress"
@@ -9,7 +9,7 @@ if grep -v ' pass$' stdout; then fail "not every line ends in pass"; fi
 if ! awk '{print $1}' stdout | sort | uniq -d | diff - /dev/null; then fail "two cases of one name"; fi
 sed -E 's|^[a-z]+/([^ ]+) .*|\1|' stdout >names
 while read -r name; do
-    grep -qF "| $name |" "$source_dir/docs/stress.md" || fail "docs/stress.md lacks $name: see how it is made there"
+    grep -qF "| $name |" "$source_dir/lab/results/stress.md" || fail "lab/results/stress.md lacks $name: see how it is made there"
 done <names
 
 exits 0 "$bin/dof-stress" --case z_nan
