@@ -9,7 +9,7 @@ if grep -v ' pass$' stdout; then fail "not every line ends in pass"; fi
 if ! awk '{print $1}' stdout | sort | uniq -d | diff - /dev/null; then fail "two cases of one name"; fi
 sed -E 's|^[a-z]+/([^ ]+) .*|\1|' stdout >names
 while read -r name; do
-    grep -qF "| $name |" "$source_dir/lab/results/stress.md" || fail "lab/results/stress.md lacks $name: see how it is made there"
+    grep -qF "| $name |" "$source_dir/lab/results/stress.md" || fail "lab/results/stress.md lacks $name: run lab/measure stress"
 done <names
 
 exits 0 "$bin/dof-stress" --case z_nan

@@ -1,0 +1,7 @@
+# What hidden surfaces are worth: share/python/hidden.py on three scenes, and on yard where it is there. 15 minutes.
+. "$(dirname "$0")/common.inc" "$1"
+scenes=(fence grass mist)
+[ ! -e "$shared/views/yard" ] || scenes+=("$shared/views/yard")
+echo '```'
+PYTHONPATH=$bin/../python python3 "$(dirname "$0")/../../share/python/hidden.py" "${scenes[@]}" --bin "$bin" -o .
+echo '```'

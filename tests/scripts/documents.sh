@@ -1,0 +1,47 @@
+# What the documents may hold: as many words as one reads, and figures that a command measured. bash documents.sh
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+fail() {
+    echo "FAIL: $*" >&2
+    exit 1
+}
+
+# What a user or a programmer meets is 15000 words at most.
+read_by_all=(README.md CONTRIBUTING.md
+    docs/{shell,looks,renderers,blender,python,library,code,design,file-format,farm,gpu}.md)
+words=$(cat "${read_by_all[@]}" | wc -w)
+[ "$words" -le 15000 ] || fail "README.md, CONTRIBUTING.md and the documents of docs have $words words (15000 at most)"
+
+# measured PAGE DOCUMENT: what stands there between the marks of lab/measure.
+measured() { sed -n "/^<!-- measured: $1 /,/^<!-- end -->\$/{/^<!-- /d;p}" "$2"; }
+count=0
+for document in README.md docs/*.md lab/results/*.md; do
+    while read -r _ _ page hash _; do
+        [ -e "lab/measures/$page.sh" ] || fail "$document: there is no lab/measures/$page.sh"
+        if [ "$hash" = "-->" ]; then # a page that was never measured
+            [ "$(measured "$page" "$document")" = "Not measured yet with this tree: \`lab/measure $page\`." ] ||
+                fail "$document has figures of $page that lab/measure has not written"
+            continue
+        fi
+        [ "$(measured "$page" "$document" | sha256sum | cut -c 1-16)" = "$hash" ] ||
+            fail "$document: figures of $page were changed by hand: measure them with lab/measure $page"
+        measured "$page" "$document" | grep -qE "^\`lab/measure $page\`: commit [0-9a-f]{10}" ||
+            fail "$document: figures of $page do not say their commit"
+        count=$((count + 1))
+    done < <(grep -E '^<!-- measured: ' "$document")
+    [ "$(grep -cE '^<!-- measured: ' "$document")" -eq "$(grep -c '^<!-- end -->$' "$document")" ] || fail "$document: a mark of lab/measure has no end"
+    # Tables of figures come from there. Those of comp.md are held by comp.sh, platforms.md has versions.
+    [[ $document != docs/comp.md && $document != docs/platforms.md ]] || continue
+    pasted=$(sed '/^<!-- measured: /,/^<!-- end -->$/d' "$document" | grep -E '^\|.*\| *[-+]?[0-9]+\.[0-9]+ *(dB|s|GB)? *\|.*\| *[-+]?[0-9]+\.[0-9]+' || true)
+    [ -z "$pasted" ] || fail "$document has a table of figures that no command measured: $(head -n 1 <<<"$pasted")"
+done
+for script in lab/measures/*.sh; do
+    page=$(basename "$script" .sh)
+    grep -qE "^<!-- measured: $page " README.md docs/*.md lab/results/*.md || fail "no document shows what $script measures"
+done
+grep -vE '^#' lab/measures/techniques.txt | while IFS='|' read -r technique file what instead; do
+    changed=$(sed "s|$what|$instead|" "$file" | diff "$file" - | grep -c '^<' || true)
+    [ "$changed" -eq 1 ] || fail "lab/measures/techniques.txt: \"$technique\" changes $changed lines of $file, not one"
+done
+[ "$count" -gt 0 ] || fail "no document has figures of lab/measure"
+echo "documents: $words words, $count tables of lab/measure"
