@@ -6,7 +6,7 @@
 . "$(dirname "$0")/common.sh"
 size=${2:-480x270} truth_samples=${3:-96} lens_views=${4:-24} samples=${5:-16}
 
-# The script of the Defocus node is written for the compositor of Blender 3 and 4; for others there is the figure of docs/blender.md.
+# The script of the Defocus node is written for the compositor of Blender 3 and 4; for others there is the figure of lab/results/blender.md.
 has_node() { blender -b --python-expr 'import bpy, sys; sys.exit(bpy.app.version >= (5, 0))' >/dev/null 2>&1; }
 has_node || echo "skipped: the Defocus node, whose figure is that of Blender 3.4"
 

@@ -60,11 +60,14 @@ cat >>options <<'END'
 --info
 --install
 --mulc
+--no-build-isolation
+--no-deps
 --output-on-failure
 --over
 --preset
 --requeue
 --source-dir
+--system-site-packages
 --test-dir
 END
 for document in "${documents[@]}"; do
