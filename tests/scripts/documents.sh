@@ -25,7 +25,7 @@ for document in README.md docs/*.md lab/results/*.md; do
         fi
         [ "$(measured "$page" "$document" | sha256sum | cut -c 1-16)" = "$hash" ] ||
             fail "$document: figures of $page were changed by hand: measure them with lab/measure $page"
-        measured "$page" "$document" | grep -qE "^\`lab/measure $page\`: commit [0-9a-f]{10}" ||
+        measured "$page" "$document" | grep -E "^\`lab/measure $page\`: commit [0-9a-f]{10}" >/dev/null ||
             fail "$document: figures of $page do not say their commit"
         count=$((count + 1))
     done < <(grep -E '^<!-- measured: ' "$document")
