@@ -75,6 +75,26 @@ TEST(See, ASurfaceShowsThroughTheCracksBetweenItsSamples) {
     }
 }
 
+// A mirror in focus: the window stays where it is, and what it shows, of CoC 6, moves in it by 3 pixels.
+TEST(See, AMirrorShowsWhatItShowsWhereItIs) {
+    const TileFixture tile(
+        [](int, int) {
+            Sample sample = opaque_at(0);
+            sample.optical = depth_of(TileFixture::lens, 6);
+            return Samples{sample};
+        },
+        {{.5f, 0, 0, 0, 1}});
+    const TileScene scene = tile.scene();
+    const TileTask task = tile.task();
+    See see(scene, task);
+    const Seen &seen = see.through(tile.points[0]);
+    // Of the columns left of the first image, the one beside it shows that, the others the mirror.
+    EXPECT_EQ(count_shown(seen, [&](int x, int y) { return tile.key(std::max(x - 3, x < 2 ? x : 0), y); }),
+              64 * 64);
+    EXPECT_EQ(seen.front[tile_cells::at(40, 50)], tile.key(40, 50));
+    EXPECT_EQ(seen.shown()[tile_cells::at(40, 50)], tile.key(37, 50));
+}
+
 TEST(See, PartialSamplesAreFrontToBackWhereverTheyLie) {
     const TileFixture tile(
         [](int x, int y) {
