@@ -1,8 +1,8 @@
 #include "lab/reference/lamps_slowly.h"
 
+#include "base/coverage.h"
 #include "base/parallel.h"
 #include "deep/build.h"
-#include "dof/facets/opaque.h"
 
 #include <algorithm>
 #include <cmath>

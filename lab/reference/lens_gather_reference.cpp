@@ -37,7 +37,7 @@ enum class Kind { red, green, blue, coverage, data };
 
 Kind kind_of(const Channel &channel) {
     const std::string part = channel.name.substr(channel.name.rfind('.') + 1);
-    if (channel.type == PixelType::uint32) return Kind::data;
+    if (channel.kind != ChannelKind::light || holds_ids(channel)) return Kind::data;
     if (part == "A") return Kind::coverage;
     return part == "R" ? Kind::red : part == "G" ? Kind::green : part == "B" ? Kind::blue : Kind::data;
 }

@@ -133,6 +133,14 @@ bool is_in_matte(const Channel &channel) {
 
 bool is_light(const Channel &channel) { return !holds_ids(channel) && channel.kind == ChannelKind::light; }
 
+ColourPart colour_part(const Channel &channel) {
+    static constexpr std::array<std::string_view, 4> parts{"R", "G", "B", "A"};
+    const std::string_view name = channel.name, last = name.substr(name.rfind('.') + 1);
+    const auto found = std::ranges::find(parts, last);
+    return is_light(channel) && found != parts.end() ? ColourPart(1 + (found - parts.begin()))
+                                                     : ColourPart::none;
+}
+
 void find_kinds(std::span<Channel> channels, std::span<const std::string> mattes) {
     const Layers with_x = layers_with("x", channels), coloured = layers_with("g", channels);
     const auto is_id = [&](const Channel &channel) {

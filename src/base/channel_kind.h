@@ -22,6 +22,10 @@ bool holds_ids(const Channel &channel);
 bool is_in_matte(const Channel &channel);
 bool is_light(const Channel &channel); // coverage too
 
+// Which colour a channel of light is, by the last part of its name, so that layers have colours, too.
+enum class ColourPart { none, red, green, blue, coverage };
+ColourPart colour_part(const Channel &channel);
+
 // Sets the kind of each channel. `mattes` are the names that the header gives to Cryptomattes; layers of 32-bit floats
 // whose names begin with "crypto" and end in two digits are ranks of one, too.
 void find_kinds(std::span<Channel> channels, std::span<const std::string> mattes = {});

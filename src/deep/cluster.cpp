@@ -1,5 +1,6 @@
 #include "deep/cluster.h"
 
+#include "base/coverage.h"
 #include "deep/build.h"
 #include "deep/channel_alpha.h"
 #include "lens/perceptive_depth.h"
@@ -10,10 +11,6 @@
 namespace sparselens {
 
 namespace {
-
-// From here on half rounds an alpha to 1: its last step below 1 is 2^-11. Such a sample has nothing behind it once it
-// is written.
-constexpr float opaque_in_half = 1 - 0x1p-12f;
 
 // A pixel's samples, front to back, with their perceptive depths (descending).
 struct Pixel {
@@ -90,7 +87,7 @@ void set_shares(const Pixel &p, std::uint64_t begin, std::uint64_t end, double t
     terms.clear();
     double transmittance = 1;
     std::uint64_t i = begin;
-    for (; i < end && alpha_at(p.ldi, p.alpha, i) < opaque_in_half; ++i) {
+    for (; i < end && !is_one_in_half(alpha_at(p.ldi, p.alpha, i)); ++i) {
         terms.push_back({i, transmittance});
         transmittance *= 1 - double(alpha_at(p.ldi, p.alpha, i));
     }
@@ -99,7 +96,7 @@ void set_shares(const Pixel &p, std::uint64_t begin, std::uint64_t end, double t
     const std::size_t first_opaque = terms.size();
     double weights = 0;
     for (; i < end && surface - p.back(i) <= tolerance; ++i)
-        if (alpha_at(p.ldi, p.alpha, i) >= opaque_in_half) {
+        if (is_one_in_half(alpha_at(p.ldi, p.alpha, i))) {
             const double weight = sample_at(p.ldi, i).weight;
             terms.push_back({i, transmittance * weight});
             weights += weight;

@@ -136,7 +136,7 @@ std::optional<Sides> sides_of(const Pixels &pixels, int x, int y, const Imath::V
 bool is_mixed(const Pixels &pixels, std::size_t own, const Sides &sides) {
     if (!(sides.share > clearly_mixed && sides.share < 1 - clearly_mixed)) return false;
     const auto mix = unmix(pixels.colour(own), pixels.colour(sides.near), pixels.colour(sides.far),
-                           sides.share < 0.5, largest_mix_residual);
+                           sides.share < 0.5 ? mostly_b : mostly_f, largest_mix_residual);
     return mix && std::abs(mix->share - sides.share) <= same_share;
 }
 

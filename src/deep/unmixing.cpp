@@ -7,18 +7,17 @@ namespace sparselens {
 
 namespace {
 constexpr double least_contrast = 0.1; // between F and B, as a share of their own size
-constexpr double prior = 0.05;         // weight of "not mixed" against the colours, as a share of their size
 constexpr double least_share = 0.02;   // less than this of a pixel is not worth a sample
 } // namespace
 
-std::optional<Mix> unmix(const Imath::V3d &c, const Imath::V3d &f, const Imath::V3d &b, bool mostly_b,
+std::optional<Mix> unmix(const Imath::V3d &c, const Imath::V3d &f, const Imath::V3d &b, const MixPrior &prior,
                          double largest_residual) {
     const Imath::V3d contrast = f - b, offset = c - b;
     const double size = 0.5 * (f.dot(f) + b.dot(b)), distance = contrast.dot(contrast);
     if (distance <= least_contrast * least_contrast * size) return {};
-    const double doubt = prior * prior * size, unmixed = mostly_b ? 0 : 1;
-    double share = (offset.dot(contrast) + doubt * unmixed) / (distance + doubt);
-    share = mostly_b ? std::clamp(share, 0.0, 0.5) : std::clamp(share, 0.5, 1.0);
+    const double doubt = prior.weight * prior.weight * size;
+    double share = std::clamp((offset.dot(contrast) + doubt * prior.share) / (distance + doubt), prior.least,
+                              prior.most);
     const Imath::V3d rest = offset - share * contrast;
     const double residual = std::sqrt(rest.dot(rest) / distance);
     if (residual > largest_residual) return {};

@@ -12,11 +12,17 @@ struct Mix {
     double residual; // distance of c from the line through F and B, as a share of their contrast |F - B|
 };
 
-// Solves by least squares, with a prior that c is not mixed. If `mostly_b`, a is at most half, else at least half. The
-// rest of c without B is light: (1 - a) B exceeds c in no channel. Returns nothing where F and B are too similar, where
+// What is expected of a: `share`, by that weight against the colours as a share of their size; and its bounds.
+struct MixPrior {
+    double weight, share, least, most;
+};
+inline constexpr MixPrior no_prior{0, 0, 0, 1}, mostly_b{0.05, 0, 0, 0.5},
+    mostly_f{0.05, 1, 0.5, 1}; // these: not mixed
+
+// Solves by least squares. The rest of c without B is light: (1 - a) B exceeds c in no channel. Returns nothing where F and B are too similar, where
 // c is farther from the line than largest_residual, where the share of one of them is negligible, or where a colour is
 // NaN.
-std::optional<Mix> unmix(const Imath::V3d &c, const Imath::V3d &f, const Imath::V3d &b, bool mostly_b,
+std::optional<Mix> unmix(const Imath::V3d &c, const Imath::V3d &f, const Imath::V3d &b, const MixPrior &prior,
                          double largest_residual);
 
 } // namespace sparselens

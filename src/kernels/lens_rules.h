@@ -50,11 +50,12 @@ inline float twice_area(float x0, float y0, float x1, float y1, float x2, float 
 // The corner over against the largest of three areas: that which weighs most.
 inline uint nearest_corner(float a, float b, float c) { return max(a, b) >= c ? (a >= b ? 0u : 1u) : 2u; }
 
-// Two samples on either side of an empty cell, so far apart in x and y (pixels, not moved by the lens point) and in depth: a
-// surface torn by parallax. Samples that are no farther apart have none between them.
+// Two samples on either side of an empty cell, so far apart in x and y (pixels, not moved by the lens point): a surface torn
+// by parallax, if they show one. Samples that are no farther apart have none between them.
 inline constexpr float side_by_side_px = 1.5f;
-inline bool is_crack(float x, float y, float depth) {
-    return abs(x) < side_by_side_px && abs(y) < side_by_side_px && abs(depth) < one_surface_px;
+inline bool is_crack(float x, float y, float depth_a, float depth_b) {
+    return abs(x) < side_by_side_px && abs(y) < side_by_side_px &&
+           is_one_surface(depth_a, depth_b, one_surface_px);
 }
 
 // What hides a filler of that depth has a greater key.
@@ -63,7 +64,9 @@ inline uint64_t hiding_key(float depth) {
 }
 
 // Whether an image in a mirror or glass is seen where their surface is.
-inline bool is_in_mirror(float image_depth, float depth) { return abs(image_depth - depth) < one_mirror_px; }
+inline bool is_in_mirror(float image_depth, float depth) {
+    return is_one_surface(image_depth, depth, one_mirror_px);
+}
 
 // What a sample of partial coverage leaves of the light behind it: less than all, as a sample without coverage may still
 // give light.

@@ -8,7 +8,10 @@ namespace sparselens::kernels {
 inline constexpr int photo_block = 8; // pixels wide and high
 
 // Bounded, so that one bright pixel does not decide for its block.
-inline double bounded(double v) { return v / (1 + abs(v)); }
+template <typename Real>
+inline Real bounded(Real v) {
+    return v / (1 + abs(v));
+}
 
 // What a block of pixels has shown so far.
 struct PhotoBlock {

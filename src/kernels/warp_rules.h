@@ -18,9 +18,6 @@ inline double place_in_view(double p, double offset, double step_, double invers
 // Whether a position lies in pixels `first` to `last`.
 inline bool lies_in(double at, int first, int last) { return at >= first && at < last + 1.0; }
 
-// Whether two samples show one surface, by their 1 / z.
-inline bool is_one_surface(double a, double b, double tolerance) { return abs(a - b) < tolerance || a == b; }
-
 // How much a pixel of a view counts in the mean of what falls into a pixel of the centre view at (dx, dy) from its middle, in
 // pixels. A mean of pixels that lie apart is blurred, hence those near the middle count more.
 //

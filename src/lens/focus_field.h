@@ -24,6 +24,13 @@ public:
         return (1 + looks_.field_curvature * place.dot(place)) * (1 + looks_.tilt.dot(q) / focal_px_);
     }
 
+    // The CoC, in the magnified picture, of what would have that one in a flat one; and where it is shown.
+    double bent(double coc, const Imath::V2d &p) const {
+        return looks_.magnification * (coc + coc_offset(p));
+    }
+    Imath::V2d shown_at(const Imath::V2d &p) const { return frame_.magnified(p, looks_.magnification); }
+    bool moves() const { return looks_.magnification != 1; }
+
     // What is added to the CoC of what the ray through the middle of the lens shows at p, pixels.
     double coc_offset(const Imath::V2d &p) const { return at_focus_ * (factor(p) - 1); }
 

@@ -1,9 +1,9 @@
 #include "warp/opaque_pixels.h"
 
+#include "base/coverage.h"
 #include "base/matte.h"
 #include "base/parallel.h"
 #include "deep/build.h"
-#include "dof/facets/opaque.h"
 #include "warp/visibility_vote.h"
 
 #include <algorithm>

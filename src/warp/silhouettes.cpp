@@ -163,7 +163,8 @@ std::optional<Mixture> Separation::mixture_of(int x, int y) const {
     if (!behind) return with_one_pixel(x, y, mixture.near_depth, front->colour);
     const Imath::V3d f =
         front->pure ? front->colour : purest(x, y, mixture.near_depth, front->colour, behind->colour);
-    const auto mix = unmix(colour_of(own), f, behind->colour, own_is_far, largest_residual);
+    const auto mix =
+        unmix(colour_of(own), f, behind->colour, own_is_far ? mostly_b : mostly_f, largest_residual);
     if (!mix) return with_one_pixel(x, y, mixture.near_depth, f);
     mixture.share = mix->share;
     mixture.behind = behind->terms;
@@ -194,7 +195,8 @@ std::optional<Mixture> Separation::with_one_pixel(int x, int y, double near_dept
     around(x, y, 1, [&](std::uint64_t i, int, int) {
         if (i == own || depth_of(i) >= near_depth - jump_ || !is_opaque(i)) return;
         const Imath::V3d b = colour_of(i);
-        const auto mix = unmix(colour_of(own), front, b, own_is_far, largest_residual_of_one);
+        const auto mix =
+            unmix(colour_of(own), front, b, own_is_far ? mostly_b : mostly_f, largest_residual_of_one);
         if (!mix || mix->residual >= least) return;
         if (std::min(mix->share, 1 - mix->share) < least_share_of_one) return;
         least = mix->residual;

@@ -1,6 +1,6 @@
 #include "warp/surfaces.h"
 
-#include "kernels/warp_rules.h"
+#include "kernels/surface.h"
 
 #include <algorithm>
 #include <cmath>

@@ -16,7 +16,7 @@ V3d mixed(double share, const V3d &f, const V3d &b) { return share * f + (1 - sh
 
 TEST(Unmix, FindsTheShareOfTheFirst) {
     for (const double share : {0.05, 0.25, 0.45, 0.55, 0.75, 0.95}) {
-        const auto mix = unmix(mixed(share, red, green), red, green, share < 0.5, 0.1);
+        const auto mix = unmix(mixed(share, red, green), red, green, share < 0.5 ? mostly_b : mostly_f, 0.1);
         ASSERT_TRUE(mix) << share;
         EXPECT_NEAR(mix->share, share, 0.005); // "not mixed" has a say
         EXPECT_LT(mix->residual, 0.005);
@@ -25,9 +25,9 @@ TEST(Unmix, FindsTheShareOfTheFirst) {
 
 TEST(Unmix, TheShareIsOnTheSideOfThePixelsDepth) {
     const V3d bright{1, 1, 0.5}, dark{0, 0.2, 0.1};
-    EXPECT_DOUBLE_EQ(unmix(mixed(0.55, bright, dark), bright, dark, true, 0.2)->share, 0.5);
-    EXPECT_DOUBLE_EQ(unmix(mixed(0.45, bright, dark), bright, dark, false, 0.2)->share, 0.5);
-    EXPECT_FALSE(unmix(mixed(0.9, bright, dark), bright, dark, true, 0.2));
+    EXPECT_DOUBLE_EQ(unmix(mixed(0.55, bright, dark), bright, dark, mostly_b, 0.2)->share, 0.5);
+    EXPECT_DOUBLE_EQ(unmix(mixed(0.45, bright, dark), bright, dark, mostly_f, 0.2)->share, 0.5);
+    EXPECT_FALSE(unmix(mixed(0.9, bright, dark), bright, dark, mostly_b, 0.2));
 }
 
 TEST(Unmix, SaysHowFarTheColourIsFromTheLine) {
@@ -37,31 +37,31 @@ TEST(Unmix, SaysHowFarTheColourIsFromTheLine) {
     // At a right angle to the line: it has little blue.
     const double along = contrast[2] / size;
     c += 0.15 * (V3d(0, 0, size) - along * contrast) / std::sqrt(1 - along * along);
-    const auto mix = unmix(c, red, green, true, 0.2);
+    const auto mix = unmix(c, red, green, mostly_b, 0.2);
     ASSERT_TRUE(mix);
     EXPECT_NEAR(mix->residual, 0.15, 0.01);
-    EXPECT_FALSE(unmix(c, red, green, true, 0.1));
+    EXPECT_FALSE(unmix(c, red, green, mostly_b, 0.1));
 }
 
 TEST(Unmix, LeavesLightInFront) {
     const V3d dark{0, 0, 0}, bright{1, 1, 1};
     for (const double level : {0.05, 0.3, 0.49, 0.55}) {
         const V3d c{level, level * 0.95, level * 1.05};
-        const auto mix = unmix(c, dark, bright, level > 0.5, 0.2);
+        const auto mix = unmix(c, dark, bright, level > 0.5 ? mostly_b : mostly_f, 0.2);
         ASSERT_TRUE(mix) << level;
         for (int k = 0; k < 3; ++k) EXPECT_LE((1 - mix->share) * bright[k], c[k] * (1 + 1e-12));
     }
 }
 
 TEST(Unmix, SaysNothingWhereNothingCanBeTold) {
-    EXPECT_FALSE(unmix(red, red, red, false, 0.2));
-    EXPECT_FALSE(unmix(red, red, green, false, 0.2));  // not mixed
-    EXPECT_FALSE(unmix(green, red, green, true, 0.2)); // nor this
+    EXPECT_FALSE(unmix(red, red, red, mostly_f, 0.2));
+    EXPECT_FALSE(unmix(red, red, green, mostly_f, 0.2));   // not mixed
+    EXPECT_FALSE(unmix(green, red, green, mostly_b, 0.2)); // nor this
     for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity()}) {
         const V3d wrong{0.5, bad, 0}, half = mixed(0.5, red, green);
-        EXPECT_FALSE(unmix(wrong, red, green, true, 0.2));
-        EXPECT_FALSE(unmix(half, wrong, green, true, 0.2));
-        EXPECT_FALSE(unmix(half, red, wrong, true, 0.2));
+        EXPECT_FALSE(unmix(wrong, red, green, mostly_b, 0.2));
+        EXPECT_FALSE(unmix(half, wrong, green, mostly_b, 0.2));
+        EXPECT_FALSE(unmix(half, red, wrong, mostly_b, 0.2));
     }
 }
 

@@ -35,9 +35,6 @@ struct FacetBlocks {
     std::vector<std::vector<Facet>> blocks; // those that have any, row by row
 };
 
-// A difference of perceptive depth, pixels, from which on a side of a facet is steep.
-inline constexpr float steep_px = 0.25f;
-
 // `widest`: how far lens points are from the middle at most. The LDI has less than 2^32 samples.
 FacetBlocks find_facets(const Ldi &ldi, const ThinLens &lens, double widest);
 

@@ -34,13 +34,13 @@ LinkedSample Links::linked(const LinkedSample &a, const Imath::V2i &pixel, const
     if (!a.found()) return a;
     const LinkedSample b = nearest(pixel + step, a.depth);
     if (!b.found()) return b;
-    const float difference = b.depth - a.depth, least = std::abs(difference) - steep_px;
-    if (least < 0) return b;
+    if (kernels::is_one_surface(a.depth, b.depth, steep_px)) return b;
+    const float difference = b.depth - a.depth;
     const Steps on = steps_beyond(b, pixel + step, step, difference);
     const Steps back = steps_beyond(a, pixel, Imath::V2i(0) - step, 0 - difference);
     const float slope =
         std::max({std::min(on[0], on[1]), std::min(back[0], back[1]), std::min(on[0], back[0])});
-    return least < 2 * slope ? b : LinkedSample{};
+    return std::abs(difference) - steep_px < 2 * slope ? b : LinkedSample{};
 }
 
 } // namespace sparselens

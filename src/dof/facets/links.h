@@ -1,9 +1,9 @@
 // Which opaque samples of pixels side by side lie on one surface: facets.h says when they are linked.
 #pragma once
 
+#include "base/coverage.h"
 #include "deep/build.h"
 #include "deep/ldi.h"
-#include "dof/facets/opaque.h"
 #include "lens/thin_lens.h"
 
 #include <array>

@@ -1,5 +1,7 @@
 #include "dof/footprints/footprint.h"
 
+#include "kernels/surface.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,9 +10,8 @@ namespace sparselens {
 
 namespace {
 
-// Pixels of perceptive depth: surfaces that are farther apart are two; and are one altogether if they are no farther apart
-// than that.
-constexpr float torn = 1, whole = 0.75f;
+// Pixels of perceptive depth: surfaces are one altogether if they are no farther apart, and two from torn_px on.
+constexpr float whole = 0.75f;
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
 // Where the samples of a box of pixels are.
@@ -38,7 +39,7 @@ public:
     std::uint32_t neighbour(int x, int y, std::uint32_t of) const {
         if (!box_.intersects(Imath::V2i(x, y))) return none;
         std::uint32_t found = none;
-        float least = torn;
+        float least = torn_px;
         for (std::uint64_t i = ldi_.begin[pixel(x, y)]; i < ldi_.begin[pixel(x, y) + 1]; ++i) {
             const std::uint32_t n = place(y, i);
             const float apart = std::abs(samples_.depth[n] - samples_.depth[of]);
@@ -84,7 +85,7 @@ Footprint footprint(const SamplesInPicture &samples, const Neighbourhood &near, 
         if (n == none) continue;
         const std::span<const float> place = k < 2 ? samples.x : samples.y;
         const float apart = std::abs(samples.depth[own] - samples.depth[n]);
-        const float joined = std::min((torn - apart) / (torn - whole), 1.0f);
+        const float joined = std::min((torn_px - apart) / (torn_px - whole), 1.0f);
         // By whole 1024ths, so that nothing is rounded otherwise elsewhere in the picture.
         const auto shared = [&](float alone, float a, float b) {
             const float middle = (a + b) / 2;

@@ -126,7 +126,7 @@ Filler mean_of(const Ldi &ldi, std::size_t alpha_channel, std::size_t pixel, std
     float sum = 0;
     for (const auto &[ground, from, distance] : sides) {
         if ((ground.sample == Filler::nothing) != nothing) continue;
-        if (std::abs(ground.depth - nearest.ground.depth) >= one_surface_px) continue;
+        if (!kernels::is_one_surface(ground.depth, nearest.ground.depth, one_surface_px)) continue;
         const float weight = 1 / float(distance);
         const float coverage = nothing ? 1 : alpha_at(ldi, alpha_channel, ground.sample);
         filler.part[filler.count++] = {ground.sample, std::uint32_t(from), weight / coverage};

@@ -271,8 +271,7 @@ Image gather_once(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &wind
     const std::vector<Filler> found_fillers =
         find_fillers(ldi, lens, known); // before there are colours, as it takes memory
     SampleColours colours = make_colours(ldi, samples);
-    const SharpenLooks looks{optics.aperture, optics.field, optics.frame, coc, options.looks.magnification,
-                             options.seen};
+    const SharpenLooks looks{optics.aperture, optics.field, coc, options.seen};
     sharpen_near_focus(ldi, lens, samples, colours, &looks);
     const LightChannels light = light_channels(ldi);
     std::optional<Imath::Box2i> seen = options.seen;

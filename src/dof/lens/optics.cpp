@@ -21,15 +21,12 @@ float Optics::widest() const { return float(std::max(aperture.half_extent().x, a
 
 void Optics::bend(BlockedSamples &samples) const {
     if (!moves() && coc == 0 && field.flat()) return;
-    const double magnification = looks.magnification;
     parallel_for(samples.blocks.size(), [&](std::size_t b) {
         SampleBlock &block = samples.blocks[b];
         for (std::uint32_t i = block.begin; i < block.end; ++i) {
             const Imath::V2d p = Imath::V2d(double(samples.x[i]), double(samples.y[i])) + Imath::V2d(corner);
-            const Imath::V2d at = frame.magnified(p, magnification) - Imath::V2d(corner);
-            const auto bent = [&](float of) {
-                return float(magnification * (double(of) + coc + field.coc_offset(p)));
-            };
+            const Imath::V2d at = field.shown_at(p) - Imath::V2d(corner);
+            const auto bent = [&](float of) { return float(field.bent(double(of) + coc, p)); };
             samples.coc[i] = bent(samples.coc[i]);
             if (!samples.surface_coc.empty()) samples.surface_coc[i] = bent(samples.surface_coc[i]);
             samples.x[i] = float(at.x);

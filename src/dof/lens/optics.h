@@ -29,7 +29,7 @@ struct Optics {
     // How many times the lens points of a tile are doubled: so many that pixels see as many past a cat-eye as of a whole
     // lens. `first`, `size`: as of coc_gradient().
     std::size_t doubled(const Imath::V2i &first, int size) const;
-    bool moves() const { return looks.magnification != 1; }
+    bool moves() const { return field.moves(); }
     float widest() const; // of the aperture, for each pixel of CoC
 
     // Adds to the CoC of samples, whose places are relative to the corner, and moves them to where the magnified picture

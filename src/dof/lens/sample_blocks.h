@@ -2,9 +2,9 @@
 // whose bounds tell at once which lens points bring none of their samples into a tile.
 #pragma once
 
+#include "base/coverage.h"
 #include "deep/ldi.h"
 #include "dof/facets/known_pixels.h"
-#include "dof/facets/opaque.h"
 #include "kernels/lens_rules.h"
 #include "lens/thin_lens.h"
 

@@ -2,11 +2,13 @@
 // [group][sample][4], premultiplied; channel k of the LDI is entry k % 4 of group k / 4.
 #pragma once
 
+#include "base/channel_kind.h"
 #include "base/parallel.h"
 #include "deep/ldi.h"
 #include "dof/lens/sample_blocks.h"
 #include "kernels/lens_rules.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -41,19 +43,12 @@ struct SampleColours {
     }
 };
 
-// By the last part of the channel's name, so that layers have colours too. `count` >= the number of channels.
+// `count` >= the number of channels.
 inline std::vector<ColourSet> colour_sets(const Ldi &ldi, std::size_t count) {
     std::vector<ColourSet> sets(count, data);
-    for (std::size_t k = 0; k < ldi.channels.size(); ++k) {
-        const std::string &name = ldi.channels[k].name;
-        const std::string part = name.substr(name.rfind('.') + 1);
-        if (ldi.channels[k].type == PixelType::uint32) continue;
-        sets[k] = part == "R"   ? red
-                  : part == "G" ? green
-                  : part == "B" ? blue
-                  : part == "A" ? coverage
-                                : data;
-    }
+    constexpr std::array of_part{data, red, green, blue, coverage};
+    for (std::size_t k = 0; k < ldi.channels.size(); ++k)
+        sets[k] = of_part[std::size_t(colour_part(ldi.channels[k]))];
     return sets;
 }
 

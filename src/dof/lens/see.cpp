@@ -217,8 +217,8 @@ std::uint64_t See::torn_at(std::size_t cell) const {
         const std::uint64_t one = seen_.front[cell - step], other = seen_.front[cell + step];
         if (is_background(one) || is_background(other)) continue;
         const std::uint32_t a = std::uint32_t(one), b = std::uint32_t(other);
-        if (!kernels::is_crack(samples.x[a] - samples.x[b], samples.y[a] - samples.y[b],
-                               depth(one) - depth(other)))
+        if (!kernels::is_crack(samples.x[a] - samples.x[b], samples.y[a] - samples.y[b], depth(one),
+                               depth(other)))
             continue;
         const std::uint64_t farther = depth(one) <= depth(other) ? one : other;
         if (farthest == 0 || depth(farther) < depth(farthest)) farthest = farther;

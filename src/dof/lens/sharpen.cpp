@@ -19,12 +19,9 @@ constexpr double noise_quantile = 0.3; // the calmer part of a block shows its n
 class Sharpener {
 public:
     Sharpener(const Ldi &ldi, const ThinLens &lens, const BlockedSamples &samples, const SharpenLooks *looks)
-        : ldi_(ldi), lens_(lens), samples_(samples), looks_(looks), rgb_(),
-          blur_(looks ? &looks->aperture : nullptr) {
-        for (std::size_t k = 0; k < 3; ++k)
-            rgb_[k] = find_channel(ldi.channels, std::array{"R", "G", "B"}[k]);
-    }
-    bool usable() const { return std::find(rgb_.begin(), rgb_.end(), npos) == rgb_.end(); }
+        : ldi_(ldi), lens_(lens), samples_(samples), looks_(looks), rgb_(find_rgb(ldi.channels)),
+          blur_(looks ? &looks->aperture : nullptr) {}
+    bool usable() const { return all_found(rgb_); }
 
     // By which a sample may exchange light with its neighbours.
     struct Weights { // float: there is one a sample
@@ -131,9 +128,9 @@ Sharpener::Seen Sharpener::seen(const MergedSample &place, int x, int y) const {
     const double coc = circle_of_confusion(lens_, double(place.optical));
     if (!looks_) return {coc, offset};
     const Imath::V2d p = Imath::V2d(ldi_.windows.data.min + Imath::V2i(x, y)) + Imath::V2d(0.5) + offset;
-    const double bent = looks_->magnification * (coc + looks_->coc + looks_->field.coc_offset(p));
-    if (looks_->magnification == 1) return {bent, offset};
-    const Imath::V2d at = looks_->frame.magnified(p, looks_->magnification);
+    const double bent = looks_->field.bent(coc + looks_->coc, p);
+    if (!looks_->field.moves()) return {bent, offset};
+    const Imath::V2d at = looks_->field.shown_at(p);
     return {bent, {at.x - std::floor(at.x) - 0.5, at.y - std::floor(at.y) - 0.5}};
 }
 

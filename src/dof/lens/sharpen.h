@@ -19,13 +19,12 @@
 namespace sparselens {
 
 // The lens's looks as far as they matter here: the shape of the aperture, how the CoC of a sample differs from that of a
-// flat plane of focus (`coc` pixels and what the field says), and where the magnified picture shows it. And the pixels that
+// flat plane of focus (`coc` pixels and what the field says), and where the picture shows it. And the pixels that
 // were seen (EXR coordinates): what is made up beyond them tells nothing of the noise; if none is given, all were.
 struct SharpenLooks {
     const Aperture &aperture;
     const FocusField &field;
-    const PictureFrame &frame;
-    double coc = 0, magnification = 1;
+    double coc = 0;
     std::optional<Imath::Box2i> seen = {};
 };
 

@@ -9,7 +9,7 @@ uint64_t torn_at(uint cell) {
         if (upper_of(one) <= background_upper || upper_of(other) <= background_upper) continue;
         const vec2 apart = places[sample_of(one)] - places[sample_of(other)];
         const float depth_a = depth_of(upper_of(one)), depth_b = depth_of(upper_of(other));
-        if (!is_crack(apart.x, apart.y, depth_a - depth_b)) continue;
+        if (!is_crack(apart.x, apart.y, depth_a, depth_b)) continue;
         const uint64_t farther = depth_a <= depth_b ? one : other;
         if (farthest == 0UL || depth_of(upper_of(farther)) < depth_of(upper_of(farthest))) farthest = farther;
     }

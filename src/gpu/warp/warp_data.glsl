@@ -4,6 +4,8 @@
 // Arithmetic is in double precision and in the order of the CPU's, without fused multiply-add (`precise`), so that
 // the samples are those of src/warp bit for bit.
 
+#define Real double
+#include "kernels/surface.h"
 #include "kernels/warp_layout.h"
 #include "kernels/warp_rules.h"
 #include "kernels/photo_rules.h"

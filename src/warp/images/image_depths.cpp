@@ -68,7 +68,7 @@ public:
 private:
     bool search_tile(std::size_t tile);
     bool one_surface_with(const ImageMatch &a, const ImageMatch &b) const {
-        return a.surface && b.surface && std::abs(a.own_depth - b.own_depth) <= one_mirror_px;
+        return a.surface && b.surface && kernels::is_one_surface(a.own_depth, b.own_depth, one_mirror_px);
     }
     // visit(index, scratch) for the pixels of the tiles that were searched.
     template <typename Visit>

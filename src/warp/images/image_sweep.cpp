@@ -132,7 +132,7 @@ std::vector<ImageMatch> ImageSweep::search(const Imath::Box2i &block) const {
     for (std::size_t i = 0; i < grid.size(); ++i) {
         const Imath::V2i p = grid.pixel(i);
         const float own = centre.depth(p.x, p.y);
-        if (!(std::abs(own - surface) <= one_mirror_px)) continue;
+        if (!kernels::is_one_surface(own, surface, one_mirror_px)) continue;
         ImageMatch &match = matches[i];
         match.own_depth = own;
         match.at_surface = at_surface.at(0, i);

@@ -1,5 +1,6 @@
 #include "warp/images/matched_view.h"
 
+#include "kernels/photo_rules.h"
 #include "lens/perceptive_depth.h"
 
 #include <algorithm>
@@ -34,7 +35,7 @@ float depth_of_one_surface(const Imath::Box2i &frame, int x, int y, const At &at
     const float own = at(x, y)[3];
     for (int v = y - 1; v <= y + 1; ++v)
         for (int u = x - 1; u <= x + 1; ++u)
-            if (!(std::abs(at(u, v)[3] - own) <= one_mirror_px)) return unknown;
+            if (!kernels::is_one_surface(at(u, v)[3], own, one_mirror_px)) return unknown;
     return own;
 }
 
@@ -61,10 +62,7 @@ MatchedView::Pixel MatchedView::sharp(int x, int y) const {
     const SampleRange samples = ldi.pixel(grid_.index(x, y));
     Pixel pixel{0, 0, 0, depth(x, y)};
     for (std::size_t k = 0; k < 3 && !samples.empty(); ++k)
-        if (rgb_[k] != npos) {
-            const float v = ldi.values[rgb_[k]][samples.front()];
-            pixel[k] = v / (1 + std::abs(v));
-        }
+        if (rgb_[k] != npos) pixel[k] = kernels::bounded(ldi.values[rgb_[k]][samples.front()]);
     return pixel;
 }
 

@@ -24,7 +24,7 @@ struct PlacedView {
 // Several threads may look at one.
 class MatchedView {
 public:
-    // R, G and B, tone-mapped so that one bright pixel does not decide, and the perceptive depth of the surface, which
+    // R, G and B, bounded so that one bright pixel does not decide, and the perceptive depth of the surface, which
     // is NaN where the pixel or one beside it shows several surfaces, none or another one: the colours are mixed there.
     using Pixel = std::array<float, 4>;
 

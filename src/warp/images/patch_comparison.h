@@ -91,7 +91,7 @@ private:
     static constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
     static constexpr float least_share = 0.4f; // of a patch, to be compared
 
-    bool on_surface(float depth) const { return std::abs(depth - surface_) <= one_mirror_px; }
+    bool on_surface(float depth) const { return kernels::is_one_surface(depth, surface_, one_mirror_px); }
 
     template <typename PlaceAt>
     void differences(const PlaceAt &place_at, std::span<float> out) {

@@ -55,7 +55,7 @@ private:
         const Imath::V2i q(int(std::floor(place.x)), int(std::floor(place.y)));
         if (!view.contains(q.x, q.y)) return;
         const float own = views_[0].depth(pixel.x, pixel.y);
-        if (!(std::abs(view.depth(q.x, q.y) - own) <= one_mirror_px)) return;
+        if (!kernels::is_one_surface(view.depth(q.x, q.y), own, one_mirror_px)) return;
         const Imath::V2d from(q.x + 0.5, q.y + 0.5);
         const Imath::V2d off =
             view.mapping().at_infinity(from) + view.mapping().parallax(from) * inverse_z - middle;

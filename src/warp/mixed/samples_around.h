@@ -2,6 +2,7 @@
 // larger is nearer.
 #pragma once
 
+#include "base/coverage.h"
 #include "base/grid.h"
 #include "deep/ldi.h"
 #include "lens/perceptive_depth.h"
@@ -30,7 +31,7 @@ public:
 
     double depth_of(std::uint64_t i) const { return depths_[i]; }
     std::span<const double> depths() const { return depths_; } // of all samples
-    bool is_opaque(std::uint64_t i) const { return alpha_at(view_, alpha_, i) >= 1; }
+    bool is_opaque(std::uint64_t i) const { return sparselens::is_opaque(alpha_at(view_, alpha_, i)); }
     Imath::V3d colour_of(std::uint64_t i) const {
         const auto value = [&](std::size_t k) { return double(view_.values[rgb_[k]][i]); };
         return {value(0), value(1), value(2)};

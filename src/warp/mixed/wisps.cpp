@@ -1,5 +1,7 @@
 #include "warp/mixed/wisps.h"
 
+#include "deep/unmixing.h"
+
 #include <cmath>
 #include <utility>
 
@@ -17,7 +19,6 @@ constexpr double dim_strand =
     0.3; // so many of the strands around are dimmer than what they are taken to show
 constexpr double least_share = 0.02;     // less than this of a pixel is not worth a sample
 constexpr double largest_residual = 0.1; // of a colour that is explained, as a share of it
-constexpr double least_contrast = 0.1;   // between F and B, as a share of their size
 
 double brightness(const SamplesAround &samples, std::uint64_t i) { return samples.colour_of(i).length(); }
 
@@ -67,19 +68,6 @@ Imath::V3d most_different(const SamplesAround &samples, int x, int y, double dep
     return result;
 }
 
-// The share of F in c = a F + (1 - a) B, if that explains c.
-std::optional<double> share_of(const Imath::V3d &c, const Imath::V3d &f, const Imath::V3d &b) {
-    const Imath::V3d contrast = f - b;
-    const double size = 0.5 * (f.length2() + b.length2()), distance = contrast.length2();
-    if (!(distance > least_contrast * least_contrast * size)) return {};
-    double share = std::clamp((c - b).dot(contrast) / distance, 0.0, 1.0);
-    if ((c - share * f - (1 - share) * b).length() > largest_residual * c.length()) return {};
-    for (int k = 0; k < 3; ++k) // what is left in front is light
-        if ((1 - share) * b[k] > c[k]) share = 1 - std::max(c[k], 0.0) / b[k];
-    if (!(share >= least_share && share <= 1 - least_share)) return {};
-    return share;
-}
-
 } // namespace
 
 bool among_strands(const SamplesAround &samples, int x, int y) {
@@ -124,9 +112,10 @@ std::optional<Mixture> strands_before(const SamplesAround &samples, int x, int y
     samples.around(x, y, reach, [&](std::uint64_t i, int, int) {
         if (samples.depth_of(i) > near_depth - apart || !samples.is_opaque(i)) return;
         const Imath::V3d b = samples.colour_of(i);
-        const auto share = share_of(samples.colour_of(own), most_different(samples, x, y, near_depth, b), b);
-        if (share && (!best || *share > best->share))
-            best = {near_depth, samples.depth_of(i), *share, {{i, 1}}};
+        const Imath::V3d c = samples.colour_of(own), f = most_different(samples, x, y, near_depth, b);
+        const auto mix = unmix(c, f, b, no_prior, largest_residual * c.length() / (f - b).length());
+        if (mix && (!best || mix->share > best->share))
+            best = {near_depth, samples.depth_of(i), mix->share, {{i, 1}}};
     });
     return best;
 }

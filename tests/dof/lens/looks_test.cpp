@@ -281,14 +281,20 @@ TEST(LensLooks, LeaveAPinholeItsLight) {
 TEST(LensLooks, LeaveDataAlone) {
     std::vector<Channel> channels = rgba_channels();
     channels.push_back({"velocity"});
+    channels.push_back({"normal.R"}); // red by its letter alone
+    find_kinds(channels);
     const auto sample = [](int x, int y) {
         const float v = float(random_unit(x, y, 3));
-        return std::vector<Sample>{{depth_of(lens, x < 32 ? 5 : -4), {v, v, v, 1, v}}};
+        return std::vector<Sample>{{depth_of(lens, x < 32 ? 5 : -4), {v, v, v, 1, v, v}}};
     };
     const Ldi ldi = make_ldi(windows_of_size(64, 64), channels, sample);
     const Image round = gather(ldi, {}), ringed = gather(ldi, {.aperture = {.spherical = 1}});
-    for (std::size_t i = 0; i < round.plane(4).size(); ++i)
-        ASSERT_NEAR(ringed.plane(4)[i], round.plane(4)[i], 1e-6);
+    const Image split = gather(ldi, {.chromatic_coc = {-2, 0, 3}});
+    for (const std::size_t k : {4u, 5u})
+        for (std::size_t i = 0; i < round.plane(k).size(); ++i) {
+            ASSERT_NEAR(ringed.plane(k)[i], round.plane(k)[i], 1e-6) << k;
+            ASSERT_NEAR(split.plane(k)[i], split.plane(4)[i], 1e-6) << k;
+        }
     EXPECT_GT(std::abs(ringed.plane(0)[64 * 32 + 32] - round.plane(0)[64 * 32 + 32]), 1e-4);
 }
 

@@ -109,7 +109,7 @@ TEST(Sharpen, AsksOnlyWhatWasSeenForItsNoise) {
         const Aperture aperture(none.aperture);
         const PictureFrame frame = picture_frame(ldi.windows, none);
         const FocusField field(none, lens, frame);
-        const SharpenLooks looks{aperture, field, frame, 0, 1, seen};
+        const SharpenLooks looks{aperture, field, 0, seen};
         BlockedLdi blocked(ldi, lens);
         const SampleColours before = blocked.colours;
         sharpen_near_focus(ldi, lens, blocked.samples, blocked.colours, &looks);

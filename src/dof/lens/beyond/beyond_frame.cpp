@@ -121,7 +121,7 @@ private:
         if (border_.closed(own)) return open;
         for (const auto &[sample, light] : above)
             for (const auto &[other, other_light] : beside)
-                if (std::abs(border_.depth(sample) - border_.depth(other)) < one_surface_px) {
+                if (is_one_surface(border_.depth(sample), border_.depth(other))) {
                     pixel.push_back({sample, std::min(light, other_light)});
                     break;
                 }

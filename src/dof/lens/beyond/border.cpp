@@ -1,7 +1,7 @@
 #include "dof/lens/beyond/border.h"
 
+#include "base/coverage.h"
 #include "deep/build.h"
-#include "dof/facets/opaque.h"
 #include "dof/lens/sample_colours.h"
 
 #include <algorithm>
@@ -113,12 +113,12 @@ void Border::find_end(BorderPixel &of, const Line &line, int i) const {
     bool nearer = true; // the surface at hand, than what is before it
     for (int from = 0, n = 1; n < inwards; ++n) {
         const double here = front(line.pixel(i, -n));
-        if (std::abs(here - last) >= one_surface_px) {
+        if (!is_one_surface(here, last)) {
             const bool ends = nearer && here < last;
             if (from == 0 && !ends) return;
             if (from == 0)
                 width = n;
-            else if (ends && std::abs(last - cut) < one_surface_px && n - from >= width - 1)
+            else if (ends && is_one_surface(last, cut) && n - from >= width - 1)
                 least = std::min(least, n - from);
             nearer = here > last;
             from = n;
@@ -140,7 +140,7 @@ bool Border::closed(const SampleRange &range) const {
 // Whether any of these samples is of the surface at that perceptive depth.
 bool Border::shows(const SampleRange &range, double there) const {
     for (const std::uint64_t i : range)
-        if (std::abs(depth(i) - there) < one_surface_px) return true;
+        if (is_one_surface(depth(i), there)) return true;
     return false;
 }
 
@@ -148,7 +148,7 @@ bool Border::shows(const SampleRange &range, double there) const {
 float Border::light_at(const Imath::V2i &at, double there) const {
     float most = 0;
     for (const std::uint64_t i : samples(at))
-        if (std::abs(depth(i) - there) < one_surface_px) most = std::max(most, brightness(i));
+        if (is_one_surface(depth(i), there)) most = std::max(most, brightness(i));
     return most;
 }
 

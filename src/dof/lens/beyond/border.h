@@ -3,6 +3,7 @@
 #pragma once
 
 #include "deep/ldi.h"
+#include "kernels/surface.h"
 #include "lens/lens_looks.h"
 #include "lens/light_reach.h"
 #include "lens/thin_lens.h"
@@ -13,6 +14,11 @@
 #include <vector>
 
 namespace sparselens {
+
+// By perceptive depth.
+inline bool is_one_surface(double a, double b) {
+    return kernels::is_one_surface<double>(a, b, one_surface_px);
+}
 
 // A sample that goes on beyond the frame.
 struct Leaving {

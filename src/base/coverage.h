@@ -1,0 +1,15 @@
+// What counts as full coverage, and as none.
+#pragma once
+
+namespace sparselens {
+
+// Hides what is behind it: half's last steps below 1 are rounding, not coverage.
+inline bool is_opaque(float alpha) { return alpha >= 0.9995f; }
+// Less than 1/2048 of a pixel left over is rounding too.
+inline bool lets_through(double transmittance) { return transmittance >= 1.0 / 2048; }
+
+// Of which half leaves nothing: its last step below 1 is 2^-11. What is less keeps what is behind it where samples are merged,
+// as a lamp shines through the last step.
+inline bool is_one_in_half(float alpha) { return alpha >= 1 - 0x1p-12f; }
+
+} // namespace sparselens
