@@ -119,7 +119,8 @@ for path in "$bin"/ldi-* "$bin"/dof-*; do
     exits 0 "$path" --help
     cmp -s stdout short_help || fail "$tool: -h and --help differ"
     show "$tool" --help --version --man --completion
-    grep -oE '^  +-[^ ]+' stdout | tr -d ' ' | tr ',' '\n' | sort -u >names
+    # "-v,--verbose", and of CLI11 2.6 "-v,     --verbose"
+    grep -oE '^  +(-[a-z], +)?-[^ ]+' stdout | tr -d ' ' | tr ',' '\n' | sort -u >names
     [ "$(wc -l <names)" -ge 8 ] || fail "$tool --help names $(cat names)"
     bash_words "$tool" - | tr ' ' '\n' | sort -u | diff names - >differ || fail "$tool: help and completion: $(cat differ)"
     sed -nE "s/^ +'\\*(-[^[]+)\\[.*/\\1/p" "completions/$tool.zsh" | sort -u | diff names - >differ || fail "$tool: help and zsh: $(cat differ)"
