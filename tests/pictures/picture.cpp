@@ -1,5 +1,7 @@
 #include "pictures/picture.h"
 
+#include "io/files/open_exr.h"
+
 #include <ImfChannelList.h>
 #include <ImfDeepFrameBuffer.h>
 #include <ImfDeepScanLineInputPart.h>
@@ -8,6 +10,7 @@
 #include <ImfMultiPartInputFile.h>
 #include <ImfOutputFile.h>
 #include <ImfPartType.h>
+#include <ImfStdIO.h>
 
 #include <cstddef>
 #include <stdexcept>
@@ -100,9 +103,10 @@ const Channel &Picture::channel(const std::string &name) const {
     throw std::runtime_error("there is no channel " + name);
 }
 
-Picture read(const std::string &name) {
-    Imf::MultiPartInputFile file(name.c_str());
-    if (file.parts() != 1) throw std::runtime_error(name + ": has more than one part");
+Picture read(const std::string &name) try {
+    Imf::StdIFStream stream(name.c_str());
+    Imf::MultiPartInputFile file = sparselens::open_exr(stream);
+    if (file.parts() != 1) throw std::runtime_error("has more than one part");
     Picture picture{file.header(0)};
     picture.deep = picture.header.hasType() && picture.header.type() == Imf::DEEPSCANLINE;
     const Imf::ChannelList &list = picture.header.channels();
@@ -113,6 +117,8 @@ Picture read(const std::string &name) {
     else
         read_flat(file, picture);
     return picture;
+} catch (const std::exception &error) {
+    throw std::runtime_error(name + ": " + error.what());
 }
 
 void write(const Picture &picture, const std::string &name) {

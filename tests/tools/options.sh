@@ -120,7 +120,8 @@ for path in "$bin"/ldi-* "$bin"/dof-*; do
     cmp -s stdout short_help || fail "$tool: -h and --help differ"
     show "$tool" --help --version --man --completion
     # "-v,--verbose", and of CLI11 2.6 "-v,     --verbose"
-    grep -oE '^  +(-[a-z], +)?-[^ ]+' stdout | tr -d ' ' | tr ',' '\n' | sort -u >names
+    grep -oE '^  +(-[a-z], +)?-[^ ]+' stdout | tr -d ' ' >options
+    tr ',' '\n' <options | sort -u >names
     [ "$(wc -l <names)" -ge 8 ] || fail "$tool --help names $(cat names)"
     bash_words "$tool" - | tr ' ' '\n' | sort -u | diff names - >differ || fail "$tool: help and completion: $(cat differ)"
     sed -nE "s/^ +'\\*(-[^[]+)\\[.*/\\1/p" "completions/$tool.zsh" | sort -u | diff names - >differ || fail "$tool: help and zsh: $(cat differ)"
@@ -129,9 +130,9 @@ for path in "$bin"/ldi-* "$bin"/dof-*; do
     sed -nE 's/\\fB((\\-)+[^\\]+(\\-[^\\]+)*)\\fR/\n&\n/gp' "$tool.1" | sed -nE 's/^\\fB(\\-.*)\\fR$/\1/p' | sed 's/\\-/-/g' | sort -u |
         diff names - >differ || fail "$tool: help and manual page: $(cat differ)"
     # An option of two names is tested by one of them.
-    grep -oE '^  +-[^ ]+' stdout | tr -d ' ' | while IFS=, read -r one two; do
+    while IFS=, read -r one two; do
         tested "$one" "$tool" || { [ -n "$two" ] && tested "$two" "$tool"; } || fail "$tool: no script shows what $one $two does"
-    done
+    done <options
 done
 
 # The page is one that man can set, and options with words offer them.

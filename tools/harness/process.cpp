@@ -19,6 +19,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <locale>
 #include <new>
 
 namespace sparselens {
@@ -41,6 +42,15 @@ void handle_signals() {
     std::signal(SIGPIPE, SIG_IGN); // a reader that went away is an error to report, not a silent death
     for (const int number : {SIGINT, SIGTERM, SIGHUP})
         if (std::signal(number, stop) == SIG_IGN) std::signal(number, SIG_IGN); // as under nohup
+}
+
+// CLI11 2.6 passes over what separates thousands in numbers, by default a comma: 2,5 would be 25.
+class NoThousands : public std::numpunct<char> {
+    char do_thousands_sep() const override { return '_'; }
+};
+void take_commas_for_no_digits() {
+    [[maybe_unused]] static const std::locale before =
+        std::locale::global(std::locale(std::locale(), new NoThousands));
 }
 
 // "; did you mean --fstop?", or nothing.
@@ -112,6 +122,7 @@ void add_memory_option(CLI::App &app, ProcessOptions &options) {
 
 std::optional<int> parse_words(CLI::App &app, const std::vector<std::string> &words,
                                const std::string &prefix) {
+    take_commas_for_no_digits();
     try {
         parse_all(app, std::vector<std::string>(words.rbegin(), words.rend())); // as CLI11 wants them
     } catch (const CLI::Success &answer) {                                      // --help, --version
