@@ -23,8 +23,8 @@ RayTracingCurves ray_tracing_curves(std::span<const ReportRow> rows);
 // One row compared with ray tracing.
 struct RowVerdict {
     Reached seconds, rays; // what ray tracing takes for the error of the row
-    std::optional<double>
-        equal_time; // by how many dB the row is better in the same time; empty outside the measured range
+    // by how many dB the row is better in the same time; empty outside the measured range
+    std::optional<double> equal_time;
 };
 RowVerdict row_verdict(const ReportRow &row, const RayTracingCurves &ray_tracing);
 

@@ -11,8 +11,8 @@ namespace sparselens::lab {
 
 struct StepCommand {
     Stage stage;
-    std::vector<std::string>
-        words; // the program, by its name in the folder of the tools, and arguments; paths are relative to the report
+    // the program, by its name in the folder of the tools, and arguments; paths are relative to the report
+    std::vector<std::string> words;
 };
 
 struct Step {

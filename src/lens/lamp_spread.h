@@ -23,8 +23,8 @@ struct LampSpread {
     Imath::Box2i box; // empty: none
     bool coloured = false;
     std::vector<double> weights; // [row][column]
-    std::vector<std::array<double, 3>>
-        colours; // the same of R, G and B, if coloured; then weights are their mean
+    // the same of R, G and B, if coloured; then weights are their mean
+    std::vector<std::array<double, 3>> colours;
 };
 
 // What a cat-eye leaves of a lamp's light: that through the places a on the lens with |scale a - centre| <= 1. The middle of

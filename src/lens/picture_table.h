@@ -41,8 +41,8 @@ private:
     int width_ = 0, height_ = 0; // of the content
     bool coloured_ = false;
     Imath::V2d half_extent_;
-    std::vector<LightOfColours>
-        sums_; // [height + 1][width + 1]: of what lies below and left; row 0 is the lowest
+    // [height + 1][width + 1]: of what lies below and left; row 0 is the lowest
+    std::vector<LightOfColours> sums_;
 };
 
 } // namespace sparselens

@@ -39,8 +39,8 @@ constexpr double noticeably_more = 1.1, about_as_much = 0.95;
 struct Candidate {
     Imath::V2d u{0, 0};
     PixelMask hidden, wanted;
-    std::vector<std::uint32_t>
-        uncovers;    // pixels of the centre view behind which something appears, ascending
+    // pixels of the centre view behind which something appears, ascending
+    std::vector<std::uint32_t> uncovers;
     double cost = 0; // pixels to render
 };
 

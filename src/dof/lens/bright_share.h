@@ -32,8 +32,8 @@ private:
 
     const BlockedSamples &samples_;
     Grid corners_; // of cells
-    std::vector<std::uint32_t>
-        below_; // [octave][corner]: how many before that corner are of that octave or brighter
+    // [octave][corner]: how many before that corner are of that octave or brighter
+    std::vector<std::uint32_t> below_;
 };
 
 } // namespace sparselens

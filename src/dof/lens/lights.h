@@ -73,13 +73,14 @@ private:
 
     const TileScene &scene_;
     float total_ = 0;
-    std::array<std::vector<float>, 2>
-        light_,                 // [side][channel], of the lens point: by what light is multiplied,
-        weight_;                // and how it counts in what the sum is divided by
-    std::vector<double> steps_; // [group][row][column][4]: how much more the pixels from that column on see
-    std::vector<double> lost_;  // [group][pixel][4]: of that is unknown
-    std::vector<float>
-        in_front_; // [group][pixel][4], if there are two sides: how much more as part of it is in front
+    // Of the lens point, [side][channel]: by what light is multiplied, and how it counts in what the sum is divided by.
+    std::array<std::vector<float>, 2> light_, weight_;
+    // [group][row][column][4]: how much more the pixels from that column on see.
+    std::vector<double> steps_;
+    // [group][pixel][4]: of that is unknown.
+    std::vector<double> lost_;
+    // [group][pixel][4], if there are two sides: how much more as part of it is in front.
+    std::vector<float> in_front_;
 };
 
 } // namespace sparselens

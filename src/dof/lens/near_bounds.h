@@ -22,8 +22,8 @@ public:
     const NearBounds *nearer_than(float depth) const;
 
 private:
-    std::vector<NearBounds>
-        steps_; // more and more samples, the nearest first: the first step has none, the last one all
+    // more and more samples, the nearest first: the first step has none, the last one all
+    std::vector<NearBounds> steps_;
 };
 
 } // namespace sparselens

@@ -51,15 +51,15 @@ struct Seen {
     PartialSamples partial;
     // Of one lens point:
     std::array<CatEye::Columns, tile_cells::size> columns; // [row]: the pixels that see through it
-    std::vector<std::uint64_t>
-        front; // [cell]: key of the nearest opaque sample, or of one that shows through a crack; 0: none
-    std::vector<std::uint64_t>
-        images; // [cell]: the same, with that of what mirrors and glass show; empty: there are none
-    std::array<std::uint64_t, tile_cells::size>
-        empty;                         // [row]: of these pixels those where there is none, bit by bit
+    // [cell]: key of the nearest opaque sample, or of one that shows through a crack; 0: none
+    std::vector<std::uint64_t> front;
+    // [cell]: the same, with that of what mirrors and glass show; empty: there are none
+    std::vector<std::uint64_t> images;
+    // [row]: of these pixels those where there is none, bit by bit
+    std::array<std::uint64_t, tile_cells::size> empty;
     std::vector<std::uint64_t> filler; // [cell], where it is empty: key of the filler that shows; 0: unknown
-    std::vector<std::int32_t>
-        partial_cells; // where each of the partial samples lies, before or behind `front`
+    // where each of the partial samples lies, before or behind `front`
+    std::vector<std::int32_t> partial_cells;
 
     const std::vector<std::uint64_t> &shown() const { return images.empty() ? front : images; }
     // visit(cell); it may fill that.
@@ -111,8 +111,8 @@ private:
     const TileScene &scene_;
     const TileTask &tile_;
     BlockBounds bounds_, filler_bounds_; // of its blocks of samples, of fillers
-    std::vector<std::uint32_t>
-        image_; // [cell]: the nearest image that lies there, as its sample's index plus one
+    // [cell]: the nearest image that lies there, as its sample's index plus one
+    std::vector<std::uint32_t> image_;
     std::vector<Crack> cracks_;
     Seen seen_;
 };

@@ -26,8 +26,8 @@ struct SplatBlocks {
     std::size_t colours = 0, bins = 0; // how many
 
     std::vector<SplatBlock> blocks; // ascending bins, then squares of pixels
-    std::vector<double>
-        sums; // [block][size()]: values / area of the PSF in pixels, where the block can cover a tile
+    // [block][size()]: values / area of the PSF in pixels, where the block can cover a tile
+    std::vector<double> sums;
 
     std::size_t size() const { return sums_before_colours + colours + 1; }
     std::span<const float> value(std::size_t splat) const {

@@ -28,8 +28,8 @@ struct Stripe {
     std::vector<std::uint32_t> facets;      // three samples each
     std::vector<std::uint32_t> block_lists, partial_lists;
     std::vector<lens_kernel::Lens> lens;
-    std::vector<std::uint32_t>
-        columns; // [tile][lens point][two rows]: begin and end of the pixels that see through it
+    // [tile][lens point][two rows]: begin and end of the pixels that see through it
+    std::vector<std::uint32_t> columns;
     std::vector<std::uint32_t> holdout;   // of each tile, see place_holdout()
     std::vector<lens_kernel::Tile> tiles; // one a task
     std::vector<std::uint32_t> sets;      // [channel]: its ColourSet
