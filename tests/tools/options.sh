@@ -2,7 +2,7 @@
 # Every option of every tool is in --help, in the manual page, in the completion, and in a script that shows its effect;
 # those that tools share are shown here, for each tool.
 . "$(dirname "$0")/check.sh"
-scripts=$source_dir/tests/tools
+scripts=("$source_dir"/tests/tools/*.sh "$source_dir"/lab/tests/tools/*.sh)
 command -v oiiotool >/dev/null || skip "needs oiiotool (openimageio-tools)"
 declare -A shown # "TOOL OPTION": its effect has been seen here
 
@@ -19,8 +19,9 @@ judged() {
 # tested OPTION TOOL: its effect is seen here, or the tool's own script runs it with that option and judges what it gives, or another
 # one does by the tool's name.
 tested() {
-    local option="(^|[^a-z-])$1([^a-z-]|\$)"
-    [ -n "${shown[$2 $1]:-}" ] || judged "$option" "$scripts/$2.sh" || judged "bin/$2.*$option" "$scripts"/*.sh
+    local option="(^|[^a-z-])$1([^a-z-]|\$)" own=$source_dir/tests/tools/$2.sh
+    [ -e "$own" ] || own=$source_dir/lab/tests/tools/$2.sh
+    [ -n "${shown[$2 $1]:-}" ] || judged "$option" "$own" || judged "bin/$2.*$option" "${scripts[@]}"
 }
 if tested --no-such-option dof-gather; then fail "an option of runs that fail counts as tested"; fi
 
