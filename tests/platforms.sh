@@ -103,7 +103,7 @@ for step in "${steps[@]}"; do
 done
 
 version() { within "dpkg-query -W -f='\${Version}' $1" 2>/dev/null || echo none; }
-echo "| $suite | $(git rev-parse --short HEAD), $(date +%Y-%m-%d) |"
+echo "| $suite | $(git -C "$root/root/sparselens" rev-parse --short HEAD), $(date +%Y-%m-%d) |"
 echo "|---|---|"
 for package in g++ cmake libopenexr-dev libopenimageio-dev libopencolorio-dev libembree-dev libtbb-dev libfmt-dev \
     pybind11-dev python3 python3-numpy libvulkan-dev blender; do

@@ -42,9 +42,13 @@ until_true() {
     done
 }
 
-# Slurm 22.05 starts no node without cgroups, whatever its plugins.
-[ -e /sys/fs/cgroup/cgroup.controllers ] || [ -d /sys/fs/cgroup/freezer ] ||
-    skip "no cgroups are mounted in /sys/fs/cgroup"
+# Newer ones are told to do without cgroups. Slurm 22.05 starts no node without them, whatever its plugins.
+cgroups=CgroupPlugin=disabled
+if [ "$(slurmctld -V | sed -E 's/[^0-9]*([0-9]+).*/\1/')" -lt 23 ]; then
+    [ -e /sys/fs/cgroup/cgroup.controllers ] || [ -d /sys/fs/cgroup/freezer ] ||
+        skip "no cgroups are mounted in /sys/fs/cgroup"
+    cgroups=CgroupAutomount=no
+fi
 
 # --- Slurm ---
 user=$(id -un) port=$((20000 + $$ % 20000))
@@ -80,14 +84,14 @@ NodeName=n1 NodeHostname=localhost NodeAddr=127.0.0.1 Port=$((port + 1)) CPUs=2
 NodeName=n2 NodeHostname=localhost NodeAddr=127.0.0.1 Port=$((port + 2)) CPUs=2
 PartitionName=all Nodes=n1,n2 Default=YES State=UP
 END
-echo 'CgroupAutomount=no' >cgroup.conf
+echo $cgroups >cgroup.conf
 start munged munged --foreground --force --key-file="$scratch/key" --socket="$scratch/munge.socket" --num-threads=2 \
     --pid-file="$scratch/munged.pid" --log-file="$scratch/munged-log" --seed-file="$scratch/munged.seed"
-until_true 100 test -S munge.socket || fail "munged does not start: $(tail -1 munged.log)"
+until_true 100 test -S munge.socket || fail "munged does not start: $(tail -n 1 munged.log)"
 start slurmctld slurmctld -D -c
 for node in n1 n2; do start $node slurmd -D -N $node; done
 idle() { [ "$(sinfo -h -N -o %T | sort -u)" = idle ]; }
-until_true 200 idle || fail "Slurm does not start: $(tail -2 slurmctld.log n1.log n2.log)"
+until_true 200 idle || fail "Slurm does not start: $(tail -n 2 slurmctld.log n1.log n2.log)"
 echo "Slurm runs after $SECONDS s"
 
 # --- 12 frames, and their pictures without Slurm ---
@@ -127,13 +131,15 @@ processes=
 echo "killed $node after $SECONDS s"
 # As an operator does. What a job of share/slurm does when its node is gone is tested here; that Slurm notices by itself,
 # after half a minute, is Slurm's own affair.
-scontrol update NodeName="$node" State=DOWN Reason=killed
+set_down() { scontrol update NodeName="$node" State=DOWN Reason=killed; }
+set_down
 down() { sinfo -h -n "$node" -o %T | grep -q '^down'; }
 until_true 100 down || fail "Slurm does not see that $node is gone: $(sinfo)"
 echo "Slurm knows after $SECONDS s"
 
-done_all() { [ -z "$(squeue -h)" ]; }
-until_true 600 done_all || fail "it does not end: $(squeue; tail -20 slurmctld.log)"
+# Said again, as Slurm 24 waits for ever for a task that was given to the node as it died.
+done_all() { set_down && [ -z "$(squeue -h)" ]; }
+until_true 600 done_all || fail "it does not end: $(squeue; tail -n 20 slurmctld.log)"
 echo "all is done after $SECONDS s"
 state() { scontrol show job "$1_$2" | grep -oE '(JobState|Restarts)=[A-Z0-9]+' | tr '\n' ' '; }
 [ "$(state "$warp" 5)" = "JobState=COMPLETED Restarts=1 " ] || fail "frame 5 was not started again: $(state "$warp" 5)"
