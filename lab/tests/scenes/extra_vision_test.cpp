@@ -1,5 +1,6 @@
 // Extra vision: a layered picture that shows what no view saw. An LDI warped from views has none, a scene cut into
 // strata has, and the same measure tells them apart.
+#include "lab/tests/support/traced.h"
 #include "lab/trace/deep.h"
 #include "lab/trace/scenes.h"
 #include "warp/warp.h"
@@ -13,25 +14,6 @@ namespace sparselens {
 namespace {
 
 using namespace lab;
-
-RenderSettings small_settings() {
-    RenderSettings settings;
-    settings.windows = windows_of_size(96, 54);
-    settings.lens = {.radius = 0.06, .focal_px = 96, .focus = 5};
-    return settings;
-}
-
-View traced_view(const Tracer &tracer, const RenderSettings &settings, const Imath::V2d &u) {
-    Progress silent;
-    const Image picture = render_view(tracer, settings, u, 1, 0, silent);
-    View view{"view", Image(picture.windows, rgba_channels()), {}, settings.lens.radius * u};
-    for (std::size_t k = 0; k < 4; ++k)
-        std::ranges::copy(picture.plane(find_channel(picture.channels, view.image.channels[k].name)),
-                          view.image.plane(k).begin());
-    const auto z = picture.plane(find_channel(picture.channels, "Z"));
-    view.z.assign(z.begin(), z.end());
-    return view;
-}
 
 // Whether the view shows a surface within a pixel of perceptive depth of the sample's, within a pixel of where the
 // sample would be seen. `p`: the sample's place in the centre view.
@@ -64,19 +46,19 @@ std::size_t samples_no_view_saw(const Ldi &ldi, const std::vector<View> &views, 
 }
 
 TEST(ExtraVision, AbsentFromWarpedViewsPresentInStrata) {
-    const RenderSettings settings = small_settings();
-    const Tracer tracer(build_scene("fence"));
+    const SceneCamera camera(build_scene("fence"), {.radius = 0.06, .focal_px = 96, .focus = 5}, 96, 54);
+    const RenderSettings &settings = camera.settings;
     std::vector<View> views;
     for (const Imath::V2d &u :
          {Imath::V2d(0, 0), Imath::V2d(1, 0), Imath::V2d(0, 1), Imath::V2d(-1, 0), Imath::V2d(0, -1)})
-        views.push_back(traced_view(tracer, settings, u));
+        views.push_back(camera.view(u, 1, 0));
     Progress silent;
     for (const Merge merge : {Merge::average, Merge::keep}) {
         const Ldi ldi = warp(views, {.focal_px = 96, .radius = 0.06, .merge = merge}, silent);
         EXPECT_EQ(samples_no_view_saw(ldi, views, settings.lens), 0u);
         EXPECT_GT(ldi.samples(), settings.windows.pixels());
     }
-    const Ldi strata = render_strata(tracer, settings, 4, 1, 0, silent);
+    const Ldi strata = render_strata(camera.tracer, settings, 4, 1, 0, silent);
     EXPECT_GT(samples_no_view_saw(strata, views, settings.lens), strata.samples() / 20);
 }
 
