@@ -5,7 +5,7 @@ echo "|---|---|---|---|"
 for scene in fence grass; do
     trace $scene.truth $scene --size 640x360 --views 0 --reference 2048
     trace $scene $scene --size 640x360
-    ldi-plan $scene/center.exr -o plan.json 2>plan.log
+    ldi-plan $scene/center.exr -o plan.json >plan.log
     rm -rf $scene.planned
     dof-trace $scene --size 640x360 --plan plan.json -o $scene.planned >/dev/null
     # shellcheck disable=SC2046
