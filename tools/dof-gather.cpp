@@ -4,6 +4,7 @@
 #include "dof/gather_rows.h"
 #include "gpu/gather/gather_device.h"
 #include "harness/tool.h"
+#include "io/camera/camera_write.h"
 #include "io/channels.h"
 #include "io/exr/exr_flat.h"
 #include "io/gather_windows.h"
@@ -126,7 +127,7 @@ void run(const GatherCommand &given, const ToolContext &tool, LdiCache &cache, G
     if (options.show != Show::picture)
         picture = frame.picture_of(crop(
             shown(options.show, ldi, in_pixels(lens, frame.subpixels), frame.gathered, tiles), frame.needed));
-    frame.describe(header, in.camera);
+    write_picture_camera(header, in.camera);
     append_history(header, tool, options.history);
     *tool.last_step = [&tool, header, depth = std::move(depth), picture = std::move(picture),
                        output = options.output, depth_output = options.depth_output, type = options.type,

@@ -4,7 +4,6 @@
 #include "deep/pad.h"
 #include "deep/proxy.h"
 #include "io/camera/camera_read.h"
-#include "io/camera/camera_write.h"
 #include "io/files/memory_limit.h"
 
 #include <fmt/format.h>
@@ -88,11 +87,6 @@ Subpixels subpixels_of(const WindowOptions &options, const OpenedLdi &in) {
 Image GatherWindows::picture_of(Image needed_pixels) const {
     if (subpixels.across == 1) return needed_pixels;
     return mean_of_subpixels(needed_pixels, subpixels, picture);
-}
-
-void GatherWindows::describe(Imf::Header &header, const Camera &camera) const {
-    write_picture_camera(header, camera);
-    if (subpixels.across > 1) write_picture_window(header, picture);
 }
 
 GatherWindows gather_windows(const WindowOptions &options, const OpenedLdi &in, ThinLens &lens) {

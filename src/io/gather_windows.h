@@ -39,8 +39,6 @@ struct GatherWindows {
     const Ldi &ldi(const OpenedLdi &in) const { return changed ? *changed : in.ldi; }
     // The picture of what was gathered, or of anything else of the pixels that are needed.
     Image picture_of(Image needed_pixels) const;
-    // Says in its header how it was taken: its pixels are no sub-pixels.
-    void describe(Imf::Header &header, const Camera &camera) const;
 };
 
 // Those of the file, all of them needed. Scales `lens` and a copy of the LDI down to the proxy.

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "deep/front_depth.h"
 #include "dof/gather_picture.h"
+#include "io/camera/camera_write.h"
 #include "io/channels.h"
 #include "io/gather_windows.h"
 #include "io/picture_looks.h"
@@ -142,7 +143,7 @@ PictureObject gathered_all(const Asked &asked, const OpenedLdi &in, Camera camer
     options.gather.lens.device = device;
     options.gather.lens.across = frame.subpixels.across;
     out.image = frame.picture_of(gather_picture(ldi, lens, frame.gathered, frame.needed, options, progress));
-    frame.describe(out.header, camera);
+    write_picture_camera(out.header, camera);
     return out;
 }
 

@@ -27,6 +27,7 @@ for method in lens selective; do
     exits 0 "$bin/dof-gather" ldi.exr -o region.exr --method $method --region 70,20,99,200 --depth-out depth.exr
     expect_window region.exr dataWindow '(70 20) - (99 103)'
     expect_window region.exr displayWindow '(0 0) - (159 95)'
+    expect_window region.exr sparselens:dataWindow ''
     expect_window depth.exr dataWindow '(70 20) - (99 103)'
     picture edit whole.exr expected.exr crop=30x84+70+20
     same region.exr expected.exr "--region, $method"

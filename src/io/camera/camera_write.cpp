@@ -64,7 +64,8 @@ void write_camera(Imf::Header &header, const Camera &camera) {
 void write_picture_camera(Imf::Header &header, Camera camera) {
     camera.supersample.reset();
     camera.pixel_filter.reset();
-    for (const char *name : {supersample_name, pixel_filter_name}) header = without_attribute(header, name);
+    for (const char *name : {supersample_name, pixel_filter_name, picture_window_name})
+        header = without_attribute(header, name);
     write_camera(header, camera);
 }
 

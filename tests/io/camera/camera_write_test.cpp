@@ -56,7 +56,9 @@ TEST(CameraMetadata, EverythingComesBack) {
 TEST(CameraMetadata, APictureHasNoSubpixels) {
     Imf::Header header;
     write_camera(header, full_camera());
+    write_picture_window(header, {{1, 1}, {6, 4}});
     write_picture_camera(header, full_camera());
+    EXPECT_EQ(header.find("sparselens:dataWindow"), header.end()) << "that of the LDI";
     const Camera read = read_camera(header);
     EXPECT_FALSE(read.supersample || read.pixel_filter);
     EXPECT_EQ(read.fstop, 2.75);
