@@ -49,7 +49,7 @@ OpenedLdi with_camera(LdiFile &&file, const std::string &path, const OpenOptions
 } // namespace
 
 OpenedLdi open_ldi(const std::string &path, const OpenOptions &options) {
-    return ready_ldi(read_ldi(path, options.depth.channel, options.depth.picture), path, options);
+    return ready_ldi(read_ldi(path, options.depth.picture), path, options);
 }
 
 namespace {
@@ -124,7 +124,7 @@ OpenedLdi open_ldi(const std::string &path, const OpenOptions &options, const Re
         return open_ldi(path, options);
     RowsReader reader(path, options, reduce);
     try {
-        LdiFile file = read_ldi(path, options.depth.channel, options.depth.picture, std::ref(reader));
+        LdiFile file = read_ldi(path, options.depth.picture, std::ref(reader));
         if (std::optional<OpenedLdi> opened = reader.opened(std::move(file), path)) return std::move(*opened);
         return ready_ldi(std::move(file), path, options);
     } catch (const NeedsAllSamples &) {

@@ -12,7 +12,6 @@ namespace sparselens {
 
 struct DepthOptions {
     DepthMeaning meaning = DepthMeaning::planar;
-    std::string channel = {}; // empty: Z, depth.Z and *.Depth.Z are tried
     PictureChoice picture = {};
     // In the unit of the depth channel: what lies at `far` (1e10) or beyond is the sky; both planes are needed where depth
     // is normalized or hyperbolic (see depth_range.h).

@@ -39,8 +39,9 @@ OpenedView ready_view(FlatFile file, const std::string &path, const OpenOptions 
                       .notes = std::move(file.notes),
                       .warnings = std::move(file.warnings)};
     View &view = opened.view;
-    opened.notes.push_back("depth: " + find_depth_channel(view.image.channels, options.depth.channel, path));
-    view.z = take_depth(view.image, options.depth.channel, path);
+    opened.notes.push_back("depth: " +
+                           find_depth_channel(view.image.channels, options.depth.picture.depth, path));
+    view.z = take_depth(view.image, options.depth.picture.depth, path);
     const Camera own = read_camera(opened.header);
     opened.camera = camera_with_options(options.lens, own);
     const Camera frustum = camera_with_options(options.lens, with_frustum_of(otherwise, own));

@@ -149,12 +149,12 @@ ViewObject view_from(const py::object &image, const py::object &depth, const py:
     const auto position = keywords.pair("position");
     OpenOptions options{lens_values(keywords), depth_options(keywords)};
     if (!depth.is_none()) {
-        if (!options.depth.channel.empty())
+        if (!options.depth.picture.depth.empty())
             throw UsageError("depth_channel: is given with an array of depth");
         if (find_channel(file.image.channels, "Z") != npos)
             throw UsageError("channels: Z is there, and an array of depth too; give one of the two");
         add_plane(file.image, depth, "z", "Z");
-        options.depth.channel = "Z";
+        options.depth.picture.depth = "Z";
     }
     set_windows(file.image.windows, keywords);
     file.header = header_for(file.image.windows, keywords);

@@ -174,9 +174,10 @@ DepthOptions depth_options(Keywords &keywords) {
                                                                {"negative", DepthMeaning::negative},
                                                                {"normalized", DepthMeaning::normalized},
                                                                {"hyperbolic", DepthMeaning::hyperbolic}});
+    PictureChoice picture = picture_choice(keywords);
+    picture.depth = keywords.text("depth_channel");
     return {.meaning = meaning.value_or(DepthMeaning::planar),
-            .channel = keywords.text("depth_channel"),
-            .picture = picture_choice(keywords),
+            .picture = std::move(picture),
             .near = keywords.number("near"),
             .far = keywords.number("far", {.infinity_allowed = true})};
 }

@@ -93,7 +93,7 @@ TEST_F(Opened, OtherDepthsAreErrorsThatNameThePixel) {
 
 TEST_F(Opened, InverseDepth) {
     write({0.5f, 0, 4}, {1, 1, 1});
-    const DepthOptions inverse{.meaning = DepthMeaning::inverse, .channel = {}};
+    const DepthOptions inverse{.meaning = DepthMeaning::inverse};
     EXPECT_EQ(depths_of_view(inverse), (std::vector<float>{2, inf, 0.25f}));
     EXPECT_EQ(depths_of_ldi(inverse), (std::vector<float>{2, inf, 0.25f}));
 }
@@ -151,7 +151,7 @@ TEST_F(Opened, DepthsThatEndAtOneAreAWarning) {
 // F = 1 pixel, and the optical axis goes through the first of three pixels, a third of the width left of the middle.
 TEST_F(Opened, DistanceFollowsAShiftedLens) {
     write({2, 2, 2}, {1, 1, 1}, {1.0f / 3, 0});
-    const DepthOptions distance{.meaning = DepthMeaning::distance, .channel = {}};
+    const DepthOptions distance{.meaning = DepthMeaning::distance};
     LensValues lens;
     lens.focal_length_mm = 12;
     lens.sensor_width_mm = 36;
@@ -163,7 +163,7 @@ TEST_F(Opened, DistanceFollowsAShiftedLens) {
 // What a rim view does not say of its frustum is as in the centre.
 TEST_F(Opened, DistanceInASilentViewIsAsInTheCentre) {
     write({2, 2, 2}, {1, 1, 1});
-    const DepthOptions distance{.meaning = DepthMeaning::distance, .channel = {}};
+    const DepthOptions distance{.meaning = DepthMeaning::distance};
     Camera centre;
     centre.field = 3;
     centre.principal_point = {-1.0 / 3, 0};
@@ -175,7 +175,7 @@ TEST_F(Opened, DistanceInASilentViewIsAsInTheCentre) {
 // F = 1 pixel, three pixels in a row: 45 degrees on either side of the axis.
 TEST_F(Opened, DistanceNeedsTheFocalLength) {
     write({2, 2, 2}, {1, 1, 1});
-    const DepthOptions distance{.meaning = DepthMeaning::distance, .channel = {}};
+    const DepthOptions distance{.meaning = DepthMeaning::distance};
     LensValues lens;
     EXPECT_THROW(depths_of_view(distance, lens), UsageError);
     EXPECT_THROW(depths_of_ldi(distance, lens), UsageError);
@@ -192,7 +192,7 @@ TEST_F(Opened, DeepFilesComeTidyBackDepthsToo) {
                        {.z = 0.5f, .alpha = 0.5f},
                        {.z = 9, .colour = 0, .alpha = 0}}}),
               Imf::Header());
-    const DepthOptions inverse{.meaning = DepthMeaning::inverse, .channel = {}};
+    const DepthOptions inverse{.meaning = DepthMeaning::inverse};
     const Ldi ldi = open_ldi(path, {.depth = inverse}).ldi;
     EXPECT_EQ(ldi.z, (std::vector<float>{2, 4}));
     EXPECT_EQ(ldi.z_back, (std::vector<float>{2, 8}));

@@ -23,8 +23,8 @@ OpenedLdi &LdiCache::load(const std::string &path, const std::string &channels, 
                           const ColourOptions &colour, const ToolContext &tool, const ReduceSamples &reduce) {
     const DepthOptions &depth = options.depth;
     const LensValues &lens = options.lens;
-    const Key key(path, channels, depth.meaning, depth.channel, depth.near, depth.far,
-                  depth.picture.stereo_view, depth.picture.layer, lens.focal_length_mm, lens.sensor_width_mm,
+    const Key key(path, channels, depth.meaning, depth.near, depth.far, depth.picture.stereo_view,
+                  depth.picture.layer, depth.picture.depth, lens.focal_length_mm, lens.sensor_width_mm,
                   colour.config, colour.input_space);
     read_now_ = !last_ || taken_ || key_ != key;
     if (read_now_) {

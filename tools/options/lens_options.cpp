@@ -69,7 +69,7 @@ void add_depth_options(CLI::App &app, DepthOptions &options) {
         ->type_name("D")
         ->check(number("a number above 0", {.infinity_allowed = true}))
         ->group("Lens");
-    app.add_option("--depth-channel", options.channel,
+    app.add_option("--depth-channel", options.picture.depth,
                    "Depth channel (default: the first of Z, depth.Z and *.Depth.Z)")
         ->type_name("NAME")
         ->group("Lens");

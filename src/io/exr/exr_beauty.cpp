@@ -162,8 +162,13 @@ std::optional<PictureLayer> chosen_picture(const std::vector<Channel> &channels,
                                           : "its layers are " + first_of(names)));
 }
 
-ChannelsOfPicture::ChannelsOfPicture(PictureLayer picture, const std::vector<Channel> &of_file)
-    : own_(std::move(picture)), depth_(own_depth(own_, names_with_light(of_file))) {
+ChannelsOfPicture::ChannelsOfPicture(PictureLayer picture, const std::vector<Channel> &of_file,
+                                     const std::string &depth)
+    : own_(std::move(picture)) {
+    if (find_channel(of_file, depth) != npos)
+        asked_depth_ = depth;
+    else
+        depth_ = own_depth(own_, names_with_light(of_file));
     for (const PictureLayer &other : with_beauty(of_file))
         if (other.beauty != own_.beauty)
             others_.insert(other.prefix.empty() ? other.beauty + "." : other.prefix);
@@ -179,6 +184,8 @@ std::string ChannelsOfPicture::name_of(const std::string &channel) const {
     if (depth_.ends_with(".Z") && !depth_.ends_with("epth.Z"))
         for (const std::string end : {"", "Back"})
             if (channel == depth_ + end) return "Z" + end;
+    if (!asked_depth_.empty() && (channel == asked_depth_ || channel == asked_depth_ + "Back"))
+        return channel;
     return !owns(channel) && belongs_to_others(channel) ? "" : channel;
 }
 

@@ -60,10 +60,12 @@ std::optional<PictureLayer> chosen_picture(const std::vector<Channel> &channels,
 // Which channels of a file make up a picture of it: its own, and those that belong to no picture.
 class ChannelsOfPicture {
 public:
-    ChannelsOfPicture(PictureLayer picture, const std::vector<Channel> &of_file);
+    // `depth`: the channel asked for as its depth, whichever layer it is of; empty: none.
+    ChannelsOfPicture(PictureLayer picture, const std::vector<Channel> &of_file,
+                      const std::string &depth = {});
 
     bool owns(const std::string &channel) const;
-    // The name in the picture: R of fg.Combined.R, Z of fg.Z, else the same. Empty: the channel belongs to another picture, or
+    // The name in the picture: R of fg.Combined.R, Z of fg.Z where no depth is asked for, else the same. Empty: the channel belongs to another picture, or
     // is a depth outside of all layers where the picture has one of its own.
     std::string name_of(const std::string &channel) const;
 
@@ -72,7 +74,8 @@ private:
 
     PictureLayer own_;
     std::unordered_set<std::string> others_; // prefixes of other pictures
-    std::string depth_;                      // its own; empty: it has none
+    std::string depth_;                      // its own; empty: it has none, or another is asked for
+    std::string asked_depth_;
 };
 
 // The channels of several parts of one file by full names: R of the part fg.Combined is fg.Combined.R. Those of the only

@@ -34,19 +34,17 @@ struct LdiFile {
 //   not layers of it are left out.
 // If no part has a channel R, G or B, a layer with the name of a beauty (exr_beauty.h) becomes R, G, B and A. If the choice
 // names a layer, only what belongs to it is read, or to none (exr_beauty.h); UsageError where one part holds several
-// beauties and it names none. A missing A is made of AR, AG and AB. If `depth_channel` is
-// empty, Z, depth.Z and *.Depth.Z are tried; the back depths are in NAMEBack. Samples are returned as they stand in the
+// beauties and it names none. A missing A is made of AR, AG and AB. The back
+// depths are in the channel NAMEBack beside the depth's. Samples are returned as they stand in the
 // file (see tidy); a flat picture has one per pixel.
-LdiFile read_ldi(const std::string &path, const std::string &depth_channel = {},
-                 const PictureChoice &choice = {});
+LdiFile read_ldi(const std::string &path, const PictureChoice &choice = {});
 
 // The same with less memory, for a picture of which fewer samples are needed: `reduce` is given a few rows of it at a time,
 // by several threads at once, and what it makes of them is kept; it may not change the windows. What would take
 // more than memory_to_gather() is kept packed.
 // `reduce` is not asked where the picture has several parts, tiles, or is flat: then all samples are there.
 using ReduceFileRows = std::function<Ldi(const Imf::Header &header, Ldi rows)>;
-LdiFile read_ldi(const std::string &path, const std::string &depth_channel, const PictureChoice &choice,
-                 const ReduceFileRows &reduce);
+LdiFile read_ldi(const std::string &path, const PictureChoice &choice, const ReduceFileRows &reduce);
 
 // Writes a scanline deep EXR file, compressed as compression.h says; deepImageState describes the samples. Keeps all of
 // `metadata` that does not describe its own pixels. Returns the number of values that became the largest half, as

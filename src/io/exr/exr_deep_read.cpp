@@ -37,15 +37,14 @@ double memory_held_by(const Ldi &ldi) {
 // The parts of one view as one picture, see read_ldi().
 class DeepPicture {
 public:
-    DeepPicture(const DeepSource &source, const std::string &view, const std::string &depth_channel,
-                const std::string &layer)
-        : source_(source), view_(view), asked_(depth_channel), layer_(layer) {}
+    DeepPicture(const DeepSource &source, const std::string &view, const PictureChoice &choice)
+        : source_(source), view_(view), asked_(choice.depth), layer_(choice.layer) {}
 
     // Of the parts those that hold something of the layer asked for.
     std::vector<int> parts_of_layer(const std::vector<int> &numbers) {
         if (layer_.empty()) return numbers;
         const std::vector<Channel> all = full_channels(source_.file, numbers, view_, source_.path);
-        chosen_.emplace(*chosen_picture(all, layer_, source_.path), all);
+        chosen_.emplace(*chosen_picture(all, layer_, source_.path), all, asked_);
         std::vector<int> kept;
         for (const int number : numbers)
             if (std::ranges::any_of(full_channels(source_.file, {number}, view_, source_.path),
@@ -166,12 +165,11 @@ private:
     bool beauty_in_layer_ = true;
 };
 
-LdiFile read_flat_as_ldi(const DeepSource &source, InputStream &stream, const std::string &depth_channel,
-                         const PictureChoice &choice) {
+LdiFile read_flat_as_ldi(const DeepSource &source, InputStream &stream, const PictureChoice &choice) {
     const std::string &path = source.path;
     FlatFile flat = read_flat_part(source.file, path, stream, choice);
     check_memory(path, 2 * memory_of(flat.header, flat.image.channels.size() + 1), source.size);
-    const std::string depth = find_depth_channel(flat.image.channels, depth_channel, path);
+    const std::string depth = find_depth_channel(flat.image.channels, choice.depth, path);
     flat.notes.push_back("depth: " + depth);
     return LdiFile{ldi_of_flat(flat.image, depth), flat.header, false, std::move(flat.notes),
                    std::move(flat.warnings)};
@@ -179,22 +177,19 @@ LdiFile read_flat_as_ldi(const DeepSource &source, InputStream &stream, const st
 
 } // namespace
 
-LdiFile read_ldi(const std::string &path, const std::string &depth_channel, const PictureChoice &choice) {
-    return read_ldi(path, depth_channel, choice, {});
-}
+LdiFile read_ldi(const std::string &path, const PictureChoice &choice) { return read_ldi(path, choice, {}); }
 
-LdiFile read_ldi(const std::string &path, const std::string &depth_channel, const PictureChoice &choice,
-                 const ReduceFileRows &reduce) {
+LdiFile read_ldi(const std::string &path, const PictureChoice &choice, const ReduceFileRows &reduce) {
     return with_file_name(path, [&] {
         const auto stream = open_input(path);
         check_header(*stream, path);
         Imf::MultiPartInputFile file = open_exr(*stream);
         const DeepSource source{file, *stream, path, stream->bytes()};
         const std::vector<int> deep = deep_parts(file);
-        if (deep.empty()) return read_flat_as_ldi(source, *stream, depth_channel, choice);
+        if (deep.empty()) return read_flat_as_ldi(source, *stream, choice);
         const PartsOfView of_view = parts_of_view(file, deep, choice.stereo_view, path);
         const std::string &view = of_view.view;
-        DeepPicture picture(source, view, depth_channel, choice.layer);
+        DeepPicture picture(source, view, choice);
         std::vector<int> numbers = picture.parts_of_layer(of_view.numbers);
         const auto beauty = [&](int part) { return is_beauty(file.header(part)); };
         const bool one_beauty = std::ranges::count_if(numbers, beauty) == 1;

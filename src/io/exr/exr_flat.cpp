@@ -111,7 +111,7 @@ PictureParts parts_of_picture(Imf::MultiPartInputFile &file, const std::string &
     auto [view, numbers] = parts_of_view(file, flat_parts(file, path), choice.stereo_view, path);
     const std::vector<Channel> all = full_channels(file, numbers, view, path);
     Chosen chosen;
-    if (const auto layer = chosen_picture(all, choice.layer, path)) chosen.emplace(*layer, all);
+    if (const auto layer = chosen_picture(all, choice.layer, path)) chosen.emplace(*layer, all, choice.depth);
     const auto beauty = std::ranges::find_if(
         numbers, [&, &view = view](int part) { return holds_beauty(file, part, view, path, chosen); });
     if (beauty != numbers.end()) std::rotate(numbers.begin(), beauty, beauty + 1);

@@ -1,5 +1,5 @@
 // Which picture of a file is read where it holds several: the views of a stereo file ("left", "right", ...), and layers that
-// are a picture each, as the view layers of Blender are (exr_beauty.h).
+// are a picture each, as the view layers of Blender are (exr_beauty.h). And which of its channels is the depth.
 #pragma once
 
 #include <string>
@@ -10,6 +10,7 @@ namespace sparselens {
 struct PictureChoice {
     std::string stereo_view = {}; // empty: the file's first
     std::string layer = {};       // empty: the only one
+    std::string depth = {};       // a channel, of any layer; empty: Z, depth.Z and *.Depth.Z are tried
 };
 
 // The views of all parts, the default view first; empty if the file names none. Reads only the header. Throws Error if

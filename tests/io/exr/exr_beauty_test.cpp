@@ -110,6 +110,8 @@ TEST(Beauty, ALayerOfAllItsChannelsHasADepthToo) {
     EXPECT_EQ(fg.name_of("fg.ZBack"), "ZBack");
     EXPECT_EQ(fg.name_of("Z"), "") << "it is that of another picture";
     EXPECT_EQ(bg.name_of("Z"), "Z") << "bg has none of its own";
+    for (const std::string depth : {"Z", "fg.Z"})
+        EXPECT_EQ(ChannelsOfPicture(*chosen_picture(all, "fg", "x.exr"), all, depth).name_of(depth), depth);
 }
 
 class BeautyInFile : public testing::Test {
@@ -155,8 +157,14 @@ TEST_F(BeautyInFile, OfSeveralPicturesOneIsRead) {
         const FlatFile file = read_flat_exr(path, {.layer = name});
         EXPECT_EQ(file.image.plane(0)[0], float(find_channel(all, name + ".Combined.R") + 1));
         EXPECT_EQ(find_channel(file.image.channels, "mask") != npos, true);
-        const LdiFile ldi = read_ldi(path, "", {.layer = name});
+        const LdiFile ldi = read_ldi(path, {.layer = name});
         EXPECT_EQ(ldi.ldi.z[0], float(find_channel(all, name + ".Depth.Z") + 1));
+    }
+    for (const std::string depth : {"bg.Depth.Z", "fg.Depth.Z"}) { // the depth may be that of any picture
+        const float value = float(find_channel(all, depth) + 1);
+        const DepthOptions options{.picture = {.layer = "fg", .depth = depth}};
+        EXPECT_EQ(read_ldi(path, options.picture).ldi.z[0], value) << depth;
+        EXPECT_EQ(open_view(path, {.depth = options}).view.z[0], value) << depth;
     }
     EXPECT_EQ(picture_layers(path), (Names{"bg", "fg"}));
     write_flat({{"R"}, {"G"}, {"B"}});

@@ -256,7 +256,7 @@ TEST_F(ExrDeep, TheDeepPartIsTheOneThatIsRead) {
     }
     expect_equal(read_ldi(path).ldi, ldi);
     EXPECT_EQ(read_flat_exr(path).image.at(0, -9, 4), 0.25f); // and the flat one for who wants a flat picture
-    EXPECT_THROW(read_ldi(path, "Z"), Error);
+    EXPECT_THROW(read_ldi(path, {.depth = "Z"}), Error);
 }
 
 TEST_F(ExrDeep, ADeepFileIsNoFlatPicture) {
@@ -294,11 +294,11 @@ TEST_F(ExrDeep, TheDepthChannelIsFoundOrAskedFor) {
         part.writePixels(4);
     }
     EXPECT_EQ(read_ldi(path).ldi.z, ldi.values[0]);
-    const Ldi other = read_ldi(path, "depth.Z").ldi;
+    const Ldi other = read_ldi(path, {.depth = "depth.Z"}).ldi;
     EXPECT_EQ(other.z, ldi.z);
     EXPECT_EQ(find_channel(other.channels, "Z"), npos); // two depths would be written under one name
     EXPECT_TRUE(what_of<Error>([&] {
-                    read_ldi(path, "N");
+                    read_ldi(path, {.depth = "N"});
                 }).starts_with(path + ": has no channel N (--depth-channel); its channels are "));
     expect_equal(round_trip(other).ldi, rounded(other));
 }

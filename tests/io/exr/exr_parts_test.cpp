@@ -128,14 +128,14 @@ TEST_F(ExrParts, DeepPartsAreObjectsOfOnePicture) {
 
 TEST_F(ExrParts, ALayerIsReadOfItsDeepPartsAlone) {
     write({{"hero", "", object(4, 0.5f)}, {"fog", "", object(2, 0.25f, 0.5f)}});
-    const LdiFile fog = read_ldi(path, "", {.layer = "fog"});
+    const LdiFile fog = read_ldi(path, {.layer = "fog"});
     EXPECT_EQ(fog.ldi.z, (std::vector<float>{2, 3}));
     EXPECT_EQ(fog.ldi.values[fog.ldi.alpha()], (std::vector<float>{0.5f, 1}));
-    EXPECT_THROW(read_ldi(path, "", {.layer = "rain"}), Error);
+    EXPECT_THROW(read_ldi(path, {.layer = "rain"}), Error);
     write({{"fg.Combined", "", object(4, 0.5f)},
            {"bg.Combined", "", object(2, 0.25f)},
            {"fg.Diffuse", "", object(4, 0.125f)}});
-    const Ldi fg = read_ldi(path, "", {.layer = "fg"}).ldi;
+    const Ldi fg = read_ldi(path, {.layer = "fg"}).ldi;
     EXPECT_EQ(fg.z, (std::vector<float>{4, 5}));
     EXPECT_EQ(fg.values[find_channel(fg.channels, "fg.Diffuse.R")][0], 0.125f);
 }
@@ -177,9 +177,9 @@ TEST_F(ExrParts, APartThatLiesNowhereIsAnError) {
 TEST_F(ExrParts, DeepViewsAreChosen) {
     write({{"rgba.left", "left", object(4, 0.5f)}, {"rgba.right", "right", object(2, 0.25f)}});
     EXPECT_EQ(read_ldi(path).ldi.z[0], 4);
-    EXPECT_EQ(read_ldi(path, "", {"right"}).ldi.z[0], 2);
-    EXPECT_EQ(read_ldi(path, "", {"right"}).header.view(), "right");
-    EXPECT_EQ(what_of<Error>([&] { read_ldi(path, "", {"middle"}); }),
+    EXPECT_EQ(read_ldi(path, {"right"}).ldi.z[0], 2);
+    EXPECT_EQ(read_ldi(path, {"right"}).header.view(), "right");
+    EXPECT_EQ(what_of<Error>([&] { read_ldi(path, {"middle"}); }),
               path + ": has no stereo view 'middle' (--stereo-view): its views are left, right");
 }
 
@@ -208,7 +208,7 @@ TEST_F(ExrParts, ViewsOfOnePartAreToldByTheirChannels) {
     EXPECT_EQ(value(right, "Z"), 5);
     EXPECT_EQ(value(right, "diffuse.R"), 6);
     EXPECT_EQ(value(right, "N.x"), 8);
-    EXPECT_EQ(read_ldi(path, "", {"right"}).ldi.z[0], 5);
+    EXPECT_EQ(read_ldi(path, {"right"}).ldi.z[0], 5);
 }
 
 TEST_F(ExrParts, ThePictureOfAViewSaysSo) {
