@@ -11,7 +11,7 @@
 
 namespace sparselens {
 
-// Which colours come to focus elsewhere than green: red behind the sensor and blue before it; only blue, before it; red and
+// Which colours focus off the green's plane: red behind the sensor and blue before it; only blue, before it; red and
 // blue, behind it.
 enum class ChromaticType { red_blue, blue_yellow, green_magenta };
 
