@@ -1,5 +1,6 @@
 #include "io/exr/exr_flat.h"
 
+#include "base/text.h"
 #include "deep/channel_alpha.h"
 #include "io/exr/exr_beauty.h"
 #include "io/exr/exr_common.h"
@@ -18,6 +19,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <unordered_set>
 
 namespace sparselens {
@@ -164,36 +166,30 @@ struct MissingCoverage {
 std::size_t read_channels(Imf::MultiPartInputFile &file, const PartChannels &part, Image &image,
                           std::size_t k) {
     const Windows &w = image.windows;
+    const Imf::Header &header = file.header(part.part);
+    std::optional<LuminanceChroma> made;
+    if (is_luminance_chroma(header)) made.emplace(header);
+    std::array<std::span<float>, 3> colours;
     Imf::FrameBuffer pixels;
     for (const auto &[in_file, channel] : part.channels) {
-        if (in_file.empty()) { // see read_luminance_chroma()
-            ++k;
+        const std::span<float> plane = image.plane(k++);
+        if (made && is_among(rgb_names, in_file)) {
+            colours[std::size_t(std::ranges::find(rgb_names, in_file) - rgb_names.begin())] = plane;
             continue;
         }
         const auto type = channel.type == PixelType::uint32 ? Imf::UINT : Imf::FLOAT;
-        pixels.insert(in_file, Imf::Slice::Make(type, image.plane(k++).data(), w.data, sizeof(float),
+        pixels.insert(in_file, Imf::Slice::Make(type, plane.data(), w.data, sizeof(float),
                                                 sizeof(float) * std::size_t(w.width())));
     }
+    if (std::ranges::any_of(colours, &std::span<float>::empty)) made.reset();
+    if (made) made->insert_into(pixels);
     if (pixels.begin() == pixels.end()) return k;
     Imf::InputPart input(file, part.part);
     input.setFrameBuffer(pixels);
-    const Imath::Box2i &own = file.header(part.part).dataWindow();
+    const Imath::Box2i &own = header.dataWindow();
     input.readPixels(own.min.y, own.max.y);
+    if (made) made->write(colours, Grid(w.data));
     return k;
-}
-
-// Throws Error where they are not in the first part, which alone OpenEXR makes colours of.
-bool colours_by_luminance(const Imf::MultiPartInputFile &file, const PictureParts &picture,
-                          const std::string &path) {
-    for (const PartChannels &part : picture.parts) {
-        if (!is_luminance_chroma(file.header(part.part))) continue;
-        if (part.part == 0) return true;
-        throw Error(
-            fmt::format("{}: part {} stores luminance and chroma, which is read in the first part only; "
-                        "convert it to R, G and B",
-                        display_name(path), part.part));
-    }
-    return false;
 }
 
 } // namespace
@@ -210,7 +206,6 @@ FlatFile read_flat_part(Imf::MultiPartInputFile &file, const std::string &path, 
     Image image(picture.windows, channels);
     std::size_t k = 0;
     for (const PartChannels &part : picture.parts) k = read_channels(file, part, image, k);
-    if (colours_by_luminance(file, picture, path)) read_luminance_chroma(stream, image);
     if (!missing.covered.isEmpty()) missing.fill(image);
     add_mean_coverage(image);
     return FlatFile{std::move(image), header, stream.bytes(), std::move(picture.notes),

@@ -97,7 +97,7 @@ std::vector<FileChannel> channels_of(const Imf::Header &header, const std::strin
     const Imf::ChannelList &list = header.channels();
     const bool by_luminance = is_luminance_chroma(header);
     if (by_luminance)
-        for (const char *colour : rgb_names) channels.push_back({"", {colour, PixelType::half}});
+        for (const char *colour : rgb_names) channels.push_back({colour, {colour, PixelType::half}});
     for (auto it = list.begin(); it != list.end(); ++it) {
         if (by_luminance && is_luminance_or_chroma(it.name())) continue;
         const NameInView name = split_name(it.name(), views);

@@ -41,7 +41,7 @@ PartsOfView parts_of_view(const Imf::MultiPartInputFile &file, const std::vector
 
 // A channel by its name in the file and as a channel of the picture of one view.
 struct FileChannel {
-    std::string in_file; // empty: R, G or B, which are made of luminance and chroma
+    std::string in_file; // R, G or B where they are made of luminance and chroma
     Channel channel;
 };
 
