@@ -3,10 +3,13 @@
 #include "harness/commands/frames.h"
 #include "harness/examples.h"
 #include "harness/tool.h"
+#include "harness/words.h"
+#include "io/display/shown_picture.h"
 #include "io/exr/exr_flat.h"
 #include "loading/notices.h"
 #include "loading/region_file.h"
 #include "measure/figures_text.h"
+#include "measure/flip.h"
 #include "measure/image_error.h"
 #include "measure/regions.h"
 #include "measure/temporal_error.h"
@@ -26,8 +29,9 @@ namespace {
 using namespace sparselens;
 
 struct Options {
-    std::string image, reference, regions, frames;
+    std::string image, reference, regions, frames, flip_map;
     bool json = false;
+    std::optional<FlipRange> flip;
     LensValues lens;
     DepthOptions depth;
 };
@@ -47,12 +51,26 @@ void add_options(CLI::App &app, Options &options) {
                "Also compare by region: in focus, blurred, silhouettes, as this LDI tells (deep EXR, or flat "
                "with depth)")
             ->type_name("LDI");
+    CLI::Option *flip =
+        app.add_option("--flip", options.flip,
+                       "Also tell what somebody sees who flips between the two: FLIP. ldr: of the values "
+                       "in [0, 1]; hdr: at the worst of several exposures")
+            ->type_name("ldr|hdr")
+            ->transform(
+                words(std::map<std::string, FlipRange>{{"ldr", FlipRange::ldr}, {"hdr", FlipRange::hdr}}));
+    CLI::Option *flip_map =
+        app.add_option("--flip-map", options.flip_map,
+                       "Write FLIP of each pixel, from 0 to 1: EXR, or PNG and others to look at")
+            ->type_name("FILE")
+            ->needs(flip);
     app.add_option("--frames", options.frames,
                    "Compare over time: how steady a sequence is (names hold #### or %04d), and its changes "
                    "with those of "
                    "REF, if that is given. RANGE is e.g. 1-16")
         ->type_name("RANGE")
-        ->excludes(regions);
+        ->excludes(regions)
+        ->excludes(flip)
+        ->excludes(flip_map);
     add_lens_options(app, options.lens);
     add_depth_options(app, options.depth);
     for (CLI::Option *option : app.get_options())
@@ -62,6 +80,8 @@ void add_options(CLI::App &app, Options &options) {
     add_examples(app, {{"Compare a picture with its reference", "dof-compare picture.exr reference.exr"},
                        {"... also in focus, in the blur and at silhouettes, as JSON",
                         "dof-compare picture.exr reference.exr --regions ldi.exr --json"},
+                       {"Write where somebody sees the difference, at any exposure",
+                        "dof-compare picture.exr reference.exr --flip hdr --flip-map flip.exr"},
                        {"Find what sparkles in a pull of focus", "dof-compare pull.####.exr --frames 1-3"}});
 }
 
@@ -74,6 +94,16 @@ Image read_picture(const std::string &path, const Options &options, const ToolCo
 void print(const std::string &text) {
     if (std::fputs(text.c_str(), stdout) == EOF || std::fflush(stdout) != 0)
         throw Error("standard output: cannot write");
+}
+
+// The same value in R, G and B, so that every program shows it as grey.
+void write_flip_map(const std::string &path, std::span<const float> map, const Windows &windows) {
+    Image image(windows, {{"R", PixelType::float32}, {"G", PixelType::float32}, {"B", PixelType::float32}});
+    for (std::size_t c = 0; c < 3; ++c) std::ranges::copy(map, image.plane(c).begin());
+    if (is_shown_picture(path))
+        write_shown_picture(path, image);
+    else
+        write_flat_exr(path, image, {});
 }
 
 void compare_pictures(const Options &options, const ToolContext &tool) {
@@ -90,7 +120,14 @@ void compare_pictures(const Options &options, const ToolContext &tool) {
     std::vector<std::uint8_t> bits;
     if (!options.regions.empty())
         bits = regions_over(windows, options.regions, {options.lens, options.depth}, tool);
-    const auto figures = image_error(image, reference, bits, bits.empty() ? 0 : region_names.size());
+    const std::size_t count = bits.empty() ? 0 : region_names.size();
+    auto figures = image_error(image, reference, bits, count);
+    if (options.flip) {
+        const std::vector<float> map = flip_map(image, reference, *options.flip);
+        const std::vector<double> means = flip_means(map, bits, count);
+        for (std::size_t r = 0; r < figures.size(); ++r) figures[r].flip = means[r];
+        if (!options.flip_map.empty()) write_flip_map(options.flip_map, map, windows);
+    }
 
     std::vector<NamedFigures> regions;
     for (std::size_t r = 1; r < figures.size(); ++r) regions.push_back({region_names[r - 1], figures[r]});

@@ -34,6 +34,7 @@ std::string exact(const Reached &reached) {
 void add_errors(const std::string &prefix, const ErrorFigures &errors, Fields &fields) {
     for (const Figure &figure : figure_table)
         fields.emplace_back(prefix + figure.name, shortest(errors.*figure.value));
+    fields.emplace_back(prefix + "flip", errors.flip ? shortest(*errors.flip) : "");
     fields.emplace_back(prefix + "pixels", fmt::to_string(errors.pixels));
     fields.emplace_back(prefix + "nonfinite_image", fmt::to_string(errors.nonfinite_image));
     fields.emplace_back(prefix + "nonfinite_reference", fmt::to_string(errors.nonfinite_reference));

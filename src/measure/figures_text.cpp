@@ -20,6 +20,7 @@ using Json = nlohmann::ordered_json;
 Json json_of(const ErrorFigures &figures) {
     Json json;
     for (const Figure &figure : figure_table) json[figure.name] = figures.*figure.value;
+    if (figures.flip) json["flip"] = *figures.flip;
     json["pixels"] = figures.pixels;
     json["nonfinite"] = {{"image", figures.nonfinite_image}, {"reference", figures.nonfinite_reference}};
     return json;
@@ -41,6 +42,11 @@ std::string figures_as_table(const ErrorFigures &whole, std::span<const NamedFig
     for (const Figure &figure : figure_table) {
         TextRow &row = rows.emplace_back(TextRow{figure.name});
         for (const NamedFigures &column : columns) row.push_back(six_digits(column.figures.*figure.value));
+    }
+    if (whole.flip) {
+        TextRow &row = rows.emplace_back(TextRow{"flip"});
+        for (const NamedFigures &column : columns)
+            row.push_back(six_digits(column.figures.flip.value_or(NAN)));
     }
     const auto count_row = [&](const char *name, std::size_t ErrorFigures::*count) {
         TextRow &row = rows.emplace_back(TextRow{name});

@@ -10,7 +10,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <numeric>
 
 namespace sparselens {
 
@@ -100,6 +102,24 @@ struct PixelSets {
 
 using RowSums = std::vector<Sums>; // one a pixel set
 
+// What a block of the picture adds to one pixel set, of tone-mapped values.
+struct Block {
+    double squared = 0;
+    std::size_t pixels = 0;
+};
+constexpr std::size_t block_size = 8;
+using Blocks = std::vector<std::vector<Block>>; // of each pixel set
+
+// The mean square of the worst 1 % of the blocks; of none, NaN.
+double worst_mean_square(const std::vector<Block> &blocks) {
+    std::vector<double> means;
+    for (const Block &block : blocks)
+        if (block.pixels > 0) means.push_back(block.squared / double(colours * block.pixels));
+    const std::size_t worst = pieces_of(means.size(), std::size_t(100));
+    std::partial_sort(means.begin(), means.begin() + std::ptrdiff_t(worst), means.end(), std::greater());
+    return std::accumulate(means.begin(), means.begin() + std::ptrdiff_t(worst), 0.0) / double(worst);
+}
+
 // The 99th percentile (nearest rank) of |a - b| over the channel values of a pixel set.
 double percentile_99(const Image &image, const Image &reference, const PixelSets &sets, std::size_t set) {
     const Planes image_planes(image), reference_planes(reference);
@@ -119,11 +139,12 @@ double percentile_99(const Image &image, const Image &reference, const PixelSets
 
 double decibels(double mean_square) { return -10 * std::log10(mean_square); }
 
-ErrorFigures figures_of(const Sums &sums, double p99) {
+ErrorFigures figures_of(const Sums &sums, double worst, double p99) {
     const double values = double(colours * sums.pixels);
     const bool any = sums.pixels > 0;
     return {.psnr = decibels(sums.squared / values),
             .psnr_tonemapped = decibels(sums.squared_tonemapped / values),
+            .psnr_worst = decibels(worst),
             .relmse = sums.relative / values,
             .smape = sums.symmetric / values,
             .ssim = sums.ssim / double(sums.windows),
@@ -140,17 +161,24 @@ struct LumaPlanes {
 };
 
 LumaPlanes add_pixel_errors(const Image &image, const Image &reference, const PixelSets &sets,
-                            std::vector<RowSums> &rows) {
+                            std::vector<RowSums> &rows, Blocks &blocks) {
     const Planes image_planes(image), reference_planes(reference);
     const std::size_t width = std::size_t(image.windows.width());
     LumaPlanes luma{std::vector<float>(image.windows.pixels()), std::vector<float>(image.windows.pixels())};
-    parallel_for(rows.size(), [&](std::size_t y) {
-        for (std::size_t i = y * width; i < (y + 1) * width; ++i) {
+    const std::size_t columns = pieces_of(width, block_size);
+    for (auto &of_set : blocks) of_set.resize(columns * pieces_of(rows.size(), block_size));
+    parallel_ranges(rows.size(), block_size, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin * width; i < end * width; ++i) {
             const PixelError error = error_of(image_planes[i], reference_planes[i]);
             luma.image[i] = error.luma_image;
             luma.reference[i] = error.luma_reference;
-            for (std::size_t set = 0; set < sets.count; ++set)
-                if (sets.holds(set, i)) rows[y][set].add(error.sums);
+            for (std::size_t set = 0; set < sets.count; ++set) {
+                if (!sets.holds(set, i)) continue;
+                rows[i / width][set].add(error.sums);
+                Block &block = blocks[set][begin / block_size * columns + i % width / block_size];
+                block.squared += error.sums.squared_tonemapped;
+                block.pixels += error.sums.pixels;
+            }
         }
     });
     return luma;
@@ -203,13 +231,15 @@ std::vector<ErrorFigures> image_error(const Image &image, const Image &reference
     const PixelSets sets{region_bits, regions + 1};
     const int width = image.windows.width(), height = image.windows.height();
     std::vector<RowSums> rows(std::size_t(height), RowSums(sets.count));
-    const LumaPlanes luma = add_pixel_errors(image, reference, sets, rows);
+    Blocks blocks(sets.count);
+    const LumaPlanes luma = add_pixel_errors(image, reference, sets, rows, blocks);
     add_similarity(ssim_map(luma.image, luma.reference, width, height), Grid(width, height), sets, rows);
     std::vector<ErrorFigures> figures(sets.count);
     parallel_for(sets.count, [&](std::size_t set) {
         Sums sums;
         for (const RowSums &row : rows) sums.add(row[set]);
-        figures[set] = figures_of(sums, percentile_99(image, reference, sets, set));
+        figures[set] =
+            figures_of(sums, worst_mean_square(blocks[set]), percentile_99(image, reference, sets, set));
     });
     return figures;
 }

@@ -3,12 +3,15 @@
 // Let a be the picture and b the reference. Means are taken over the three channels of the compared pixels:
 //   psnr             -10 log10 of the mean of (a - b)^2, dB: peak 1; infinite where a = b
 //   psnr_tonemapped  the same for tone-mapped values (tone_map.h)
+//   psnr_worst       that of the worst places: of the 1 % of blocks of 8 x 8 pixels (counted from the upper left corner, at least
+//                    one) in which it is lowest; in a region a block has the pixels of that region
 //   relmse           mean of (a - b)^2 / (b^2 + 0.01)
 //   smape            mean of |a - b| / (|a| + |b| + 0.01), [0, 1)
 //   ssim             mean structural similarity (ssim.h) of the luma (Rec. 709 weights) of the tone-mapped
 //                    channels; a region counts the windows that are centred in it
 //   p99              the smallest |a - b| that at least 99 % of the channel values do not exceed
 //   max, max_alpha   the largest |a - b| of the colours, and that of A
+//   flip             the mean of flip_map() (flip.h), where somebody measured it
 // A pixel with a channel (R, G, B or A) that is infinite or NaN in either picture is counted and left out, as is every
 // SSIM window that contains it. The figures of an empty set of pixels are NaN.
 #pragma once
@@ -18,6 +21,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -25,9 +29,10 @@
 namespace sparselens {
 
 struct ErrorFigures {
-    double psnr, psnr_tonemapped, relmse, smape, ssim, p99, max, max_alpha;
+    double psnr, psnr_tonemapped, psnr_worst, relmse, smape, ssim, p99, max, max_alpha;
     std::size_t pixels = 0; // compared
     std::size_t nonfinite_image = 0, nonfinite_reference = 0;
+    std::optional<double> flip = {};
 };
 
 struct Figure {
@@ -35,8 +40,9 @@ struct Figure {
     double ErrorFigures::*value;
 };
 
-inline constexpr std::array<Figure, 8> figure_table{{{"psnr", &ErrorFigures::psnr},
+inline constexpr std::array<Figure, 9> figure_table{{{"psnr", &ErrorFigures::psnr},
                                                      {"psnr_tonemapped", &ErrorFigures::psnr_tonemapped},
+                                                     {"psnr_worst", &ErrorFigures::psnr_worst},
                                                      {"relmse", &ErrorFigures::relmse},
                                                      {"smape", &ErrorFigures::smape},
                                                      {"ssim", &ErrorFigures::ssim},

@@ -198,6 +198,7 @@ class _Nonfinite(TypedDict):
 class _Figures(TypedDict):
     psnr: float
     psnr_tonemapped: float
+    psnr_worst: float
     relmse: float
     smape: float
     ssim: float

@@ -292,8 +292,8 @@ inline constexpr const char *compare =
     R"(compare(image, reference, *, regions=None, focal_length=None, sensor_width=None, fstop=None, lens_radius=None, focus_distance=None, scene_unit=None)
 --
 
-How far a picture is from its reference, as a dict of the figures of dof-compare: psnr and psnr_tonemapped (dB), relmse,
-smape, ssim, p99, max, max_alpha, pixels, nonfinite, and with regions the same for each of regions.
+How far a picture is from its reference, as a dict of the figures of dof-compare: psnr, psnr_tonemapped and psnr_worst (dB),
+relmse, smape, ssim, p99, max, max_alpha, pixels, nonfinite, and with regions the same for each of regions.
 
 image, reference: a Picture, a View, or float32 (height, width, 3 or 4).
 regions: an Ldi that tells what is in focus, blurred, or a silhouette, by its lens and these values:

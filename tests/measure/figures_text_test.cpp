@@ -11,16 +11,25 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-const ErrorFigures some{infinity, 40.123456789, 0.25, 1e-7, 0.5, nan, 2, 0, 100, 3, 4};
+const ErrorFigures some{infinity, 40.123456789, 30.5, 0.25, 1e-7, 0.5, nan, 2, 0, 100, 3, 4};
 
 TEST(FiguresText, JsonKeepsAllDigitsAndInfinityIsNull) {
     const auto json = nlohmann::ordered_json::parse(figures_as_json(some, {}));
-    const nlohmann::ordered_json expected{{"psnr", nullptr}, {"psnr_tonemapped", 40.123456789},
-                                          {"relmse", 0.25},  {"smape", 1e-7},
-                                          {"ssim", 0.5},     {"p99", nullptr},
-                                          {"max", 2},        {"max_alpha", 0},
-                                          {"pixels", 100},   {"nonfinite", {{"image", 3}, {"reference", 4}}}};
+    const nlohmann::ordered_json expected{{"psnr", nullptr},
+                                          {"psnr_tonemapped", 40.123456789},
+                                          {"psnr_worst", 30.5},
+                                          {"relmse", 0.25},
+                                          {"smape", 1e-7},
+                                          {"ssim", 0.5},
+                                          {"p99", nullptr},
+                                          {"max", 2},
+                                          {"max_alpha", 0},
+                                          {"pixels", 100},
+                                          {"nonfinite", {{"image", 3}, {"reference", 4}}}};
     EXPECT_EQ(json, expected); // the order of the keys too
+    ErrorFigures with_flip = some;
+    with_flip.flip = 0.125;
+    EXPECT_EQ(nlohmann::json::parse(figures_as_json(with_flip, {})).at("flip"), 0.125);
 }
 
 TEST(FiguresText, JsonNamesRegions) {
@@ -41,6 +50,12 @@ TEST(FiguresText, TableHasAColumnARegion) {
     EXPECT_EQ(table.substr(0, table.find('\n')), "                           all  in_focus");
     EXPECT_NE(table.find("\npsnr_tonemapped        40.1235   40.1235\n"), std::string::npos) << table;
     EXPECT_NE(table.find("\np99                          -         -\n"), std::string::npos) << table;
+    EXPECT_EQ(table.find("flip"), std::string::npos);
+    ErrorFigures with_flip = some;
+    with_flip.flip = 0.125;
+    EXPECT_NE(figures_as_table(with_flip, regions).find("\nflip                     0.125         -\n"),
+              std::string::npos)
+        << figures_as_table(with_flip, regions);
     EXPECT_NE(table.find("\nnonfinite (image)            3         3\n"), std::string::npos) << table;
 }
 

@@ -177,6 +177,31 @@ TEST(ImageError, RegionsCountTheirOwnPixels) {
         EXPECT_TRUE(std::isnan(figures[3].*figure.value)) << figure.name;
 }
 
+// 0 and 1 are 0 and 1/2^(1/2.2) when tone-mapped.
+TEST(ImageError, WorstBlocksAreTheMeanOfOneInAHundred) {
+    const double one = std::pow(std::pow(0.5, 1 / 2.2), 2), third = one / 3; // of one channel
+    const Image black = constant(168, 80, {0, 0, 0, 1}); // 210 blocks: three are the worst
+    Image a = black;
+    a.at(1, 20, 30) = 1;
+    EXPECT_NEAR(whole(a, black).psnr_worst, -10 * std::log10(third / 64 / 3), 1e-6);
+    a.at(0, 23, 31) = 1;                              // the same block
+    a.at(2, 24, 31) = 1;                              // the next
+    a.at(2, 167, 79) = a.at(0, 160, 72) = 1;          // the last
+    for (const int x : {0, 8}) a.at(0, x, 0) = 0.01f; // below those
+    EXPECT_NEAR(whole(a, black).psnr_worst, -10 * std::log10(5 * third / 64 / 3), 1e-6);
+
+    // What is left of a block at the edge is one of its own, and so is what a region has of it.
+    Image narrow = constant(81, 80, {0, 0, 0, 1});
+    const Image reference = narrow;
+    narrow.at(0, 80, 7) = narrow.at(0, 3, 40) = 1;
+    EXPECT_NEAR(whole(narrow, reference).psnr_worst, -10 * std::log10((third / 8 + third / 64) / 2), 1e-6);
+    std::vector<std::uint8_t> bits(narrow.windows.pixels());
+    for (int y = 0; y < 80; ++y) bits[std::size_t(y) * 81 + 3] = 1;
+    const auto figures = image_error(narrow, reference, bits, 2);
+    EXPECT_NEAR(figures[1].psnr_worst, -10 * std::log10(third / 8), 1e-6); // of ten blocks
+    EXPECT_TRUE(std::isnan(figures[2].psnr_worst));
+}
+
 TEST(ImageError, SsimAgreesWithThePlainFormulas) {
     const int width = 33, height = 21;
     const Image b = noise(width, height, 13), a = mixed(b, noise(width, height, 14), 0.3f);
