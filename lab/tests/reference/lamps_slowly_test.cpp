@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <numeric>
 
@@ -88,10 +89,20 @@ TEST_P(LampsSlowly, AreTheLightOfATile) {
     const Case &c = GetParam();
     const ThinLens lens = lens_of(c);
     const Ldi ldi = scene(c, lens);
-    const BlockedSamples samples = make_blocks(ldi, lens, ldi.windows.data);
-    SampleColours colours = make_colours(ldi, samples);
+    GatherScene lit{&ldi,
+                    c.aspect,
+                    std::make_unique<Optics>(ldi, lens, LensLooks{}, 0),
+                    {},
+                    make_blocks(ldi, lens, ldi.windows.data),
+                    {},
+                    {},
+                    {},
+                    {}};
+    const BlockedSamples &samples = lit.samples;
+    lit.colours = make_colours(ldi, samples);
     const LightChannels channels = light_channels(ldi);
-    const Highlights highlights = take_highlights(samples, channels.brightness, channels.all, colours);
+    const Highlights &highlights = lit.highlights =
+        take_highlights(samples, channels.brightness, channels.all, lit.colours);
     ASSERT_EQ(highlights.sample.size(), 3u);
     std::vector<SlowLamp> lamps;
     for (std::size_t h = 0; h < 3; ++h)
@@ -100,10 +111,8 @@ TEST_P(LampsSlowly, AreTheLightOfATile) {
                           double(highlights.light.at(2, h))}});
     const std::vector<SlowlyLit> expected = lamps_slowly(ldi, lens, lamps, places);
 
-    const Aperture aperture;
-    const CatEye cat_eye(aperture, {}, picture_frame(ldi.windows, {}));
     const BlockFootprints footprints(ldi, samples);
-    HighlightTile tile(highlights, samples, footprints, colours.sets, {aperture, cat_eye, c.aspect}, {});
+    HighlightTile tile(lit, footprints);
     std::vector<std::uint32_t> blocks(samples.blocks.size());
     std::iota(blocks.begin(), blocks.end(), 0u);
     tile.spread({0, 0}, blocks);

@@ -17,29 +17,13 @@
 
 namespace sparselens {
 
-struct BlockedSamples;
-struct SampleColours;
-struct FillerSamples;
-struct PlacedFacets;
-class CatEye;
-class Holdout;
+struct GatherScene; // dof/lens/gather_scene.h
 
 // One tile of lens_tile_size pixels, and what it is gathered from.
 struct TileTask {
     Imath::V2i origin;
     std::span<const std::uint32_t> samples, facets, fillers; // blocks of them
     std::span<const LensSample> lens;
-};
-
-struct TileScene {
-    const BlockedSamples &samples;
-    const SampleColours &colours;
-    const FillerSamples &fillers;
-    const PlacedFacets &facets;
-    const CatEye *cat_eye;  // if pixels see through some lens points alone, else null
-    Imath::V2i corner;      // of the data window, EXR coordinates
-    const Holdout *holdout; // that stays sharp, else null
-    double depth_at_1;      // perceptive depth at z = 1, by which it is looked up
 };
 
 // What a tile has gathered: the mean over the lens points of each pixel, row by row.
@@ -70,7 +54,7 @@ public:
     virtual ~TileDevice() = default;
 
     // Gathers those of the tasks that it can: calls done(task, picture) for each of them, by any thread, once.
-    virtual void gather(const TileScene &scene, std::span<const TileTask> tasks,
+    virtual void gather(const GatherScene &scene, std::span<const TileTask> tasks,
                         const std::function<void(std::size_t task, const TilePicture &)> &done) = 0;
     // The same for tiles of the selective gather.
     virtual void gather(const SplatScene &scene, std::span<const SplatTask> tasks,

@@ -12,7 +12,7 @@ namespace sparselens {
 namespace {
 
 template <typename Light>
-void gather_by(const TileScene &scene, const TileTask &tile,
+void gather_by(const GatherScene &scene, const TileTask &tile,
                const std::function<void(const TilePicture &)> &done) {
     See see(scene, tile);
     Weigh<Light> weigh(scene, see.seen());
@@ -29,7 +29,7 @@ bool reaches_in_front(const BlockedSamples &samples, std::span<const std::uint32
 
 } // namespace
 
-void gather_tile(const TileScene &scene, const TileTask &tile,
+void gather_tile(const GatherScene &scene, const TileTask &tile,
                  const std::function<void(const TilePicture &)> &done) {
     const bool rims =
         std::ranges::any_of(tile.lens, [](const LensSample &p) { return p.behind != 1 || p.in_front != 1; });
@@ -39,7 +39,7 @@ void gather_tile(const TileScene &scene, const TileTask &tile,
     if (rims && (reaches_in_front(scene.samples, tile.samples) ||
                  reaches_in_front(scene.fillers.samples, tile.fillers)))
         gather_by<ChannelLight<2>>(scene, tile, done);
-    else if (rims || coloured || scene.cat_eye)
+    else if (rims || coloured || scene.cat_eye())
         gather_by<ChannelLight<1>>(scene, tile, done);
     else
         gather_by<EvenLight>(scene, tile, done);

@@ -9,7 +9,7 @@
 namespace sparselens {
 
 // Calls done(picture) with it.
-void gather_tile(const TileScene &scene, const TileTask &tile,
+void gather_tile(const GatherScene &scene, const TileTask &tile,
                  const std::function<void(const TilePicture &)> &done);
 
 } // namespace sparselens

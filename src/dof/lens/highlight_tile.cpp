@@ -33,13 +33,10 @@ double square_of(const Lamp &lamp) {
 
 } // namespace
 
-HighlightTile::HighlightTile(const Highlights &highlights, const BlockedSamples &samples,
-                             const BlockFootprints &footprints, std::span<const ColourSet> sets,
-                             const HighlightShape &shape, const HeldOut &held_out)
-    : highlights_(highlights), samples_(samples), shadows_(highlights, samples, footprints),
-      sets_(sets.begin(), sets.end()), shape_(shape), held_out_(held_out),
-      half_extent_(shape.aperture.half_extent()), light_(sets.size() * size * size) {
-    half_extent_.y *= shape.pixel_aspect;
+HighlightTile::HighlightTile(const GatherScene &scene, const BlockFootprints &footprints)
+    : scene_(scene), shadows_(scene.highlights, scene.samples, footprints),
+      half_extent_(aperture_.half_extent()), light_(sets_.size() * size * size) {
+    half_extent_.y *= scene.pixel_aspect;
 }
 
 bool HighlightTile::dark(int x, int y) const {
@@ -53,7 +50,7 @@ void HighlightTile::spread(const Imath::V2i &origin, std::span<const std::uint32
     std::ranges::fill(light_, 0.0f);
     for (auto &left : left_by_cat_eye_) left.clear();
     if (highlights_.sample.empty()) return;
-    shadows_.begin(origin, blocks, shape_.pixel_aspect);
+    shadows_.begin(origin, blocks, scene_.pixel_aspect);
     for (const std::uint32_t b : blocks)
         highlights_.groups.for_each(b, [&](std::span<const std::uint32_t> group) { spread_group(group); });
 }
@@ -93,19 +90,19 @@ void HighlightTile::spread_one(std::uint32_t highlight) {
     std::optional<LampLight> light;
     if (shadow) light = cells->shine(lamp, 0, shadow, reached_);
     from.few = light ? &*light : nullptr;
-    shape_.aperture.disc() && !shape_.cat_eye.cuts() ? spread_disc(from) : spread_shape(from);
+    aperture_.disc() && !cat_eye_.cuts() ? spread_disc(from) : spread_shape(from);
 }
 
 const LampCells &HighlightTile::cells_of(const Lamp &lamp) {
     const bool behind = !(lamp.coc < 0);
     std::optional<LampCells> &cells = cells_[behind];
-    if (shape_.cat_eye.cuts()) {
+    if (cat_eye_.cuts()) {
         Lamp in_picture = lamp;
         in_picture.centre += Imath::V2d(held_out_.corner + origin_);
-        const LampCut cut = cut_of(shape_.cat_eye, shape_.aperture, in_picture);
-        cells.emplace(shape_.aperture, behind, &cut);
+        const LampCut cut = cut_of(cat_eye_, aperture_, in_picture);
+        cells.emplace(aperture_, behind, &cut);
     } else if (!cells) {
-        cells.emplace(shape_.aperture, behind);
+        cells.emplace(aperture_, behind);
     }
     return *cells;
 }
@@ -118,12 +115,12 @@ void HighlightTile::spread_few(const LampLight &light, const Spreading &from) {
             const Float4 share = light.lit[light.at(x, y)];
             if (!(share[3] > 0)) continue;
             const std::array<double, 3> colours{double(share[0]), double(share[1]), double(share[2])};
-            add_seen(lit, x, y, double(share[3]), shape_.aperture.coloured() ? &colours : nullptr);
+            add_seen(lit, x, y, double(share[3]), aperture_.coloured() ? &colours : nullptr);
         }
 }
 
 void HighlightTile::spread_disc(const Spreading &from) {
-    const double squeeze = shape_.aperture.shape().squeeze;
+    const double squeeze = aperture_.shape().squeeze;
     const double coc = std::abs(from.lamp.coc);
     const PsfRows rows({from.lamp.centre, coc / squeeze, from.lamp.pixel_aspect * squeeze}, tile);
     const LampDisc disc{from.lamp.centre, {coc / squeeze, coc * from.lamp.pixel_aspect}};
@@ -139,9 +136,9 @@ void HighlightTile::spread_shape(const Spreading &from) {
     const Imath::V2i corner = held_out_.corner + origin_; // a cat-eye depends on the place in the picture
     Lamp lamp = from.lamp;
     lamp.centre += Imath::V2d(corner);
-    const LampCut cut = cut_of(shape_.cat_eye, shape_.aperture, lamp);
-    const LampSpread spread = spread_lamp(shape_.aperture, lamp, {corner, corner + tile.max},
-                                          shape_.cat_eye.cuts() ? &cut : nullptr);
+    const LampCut cut = cut_of(cat_eye_, aperture_, lamp);
+    const LampSpread spread =
+        spread_lamp(aperture_, lamp, {corner, corner + tile.max}, cat_eye_.cuts() ? &cut : nullptr);
     std::size_t i = 0;
     for (int y = spread.box.min.y - corner.y; !spread.box.isEmpty() && y <= spread.box.max.y - corner.y; ++y)
         for (int x = spread.box.min.x - corner.x; x <= spread.box.max.x - corner.x; ++x, ++i)
@@ -152,7 +149,7 @@ void HighlightTile::spread_shape(const Spreading &from) {
 // Past a cat-eye, by the share of the light that it leaves at a pixel. `colours`: null where all have the same weight.
 void HighlightTile::add_seen(const Spreading &from, int x, int y, double weight,
                              const std::array<double, 3> *colours) {
-    const bool cut = shape_.cat_eye.cuts() && !shape_.cat_eye.darkens();
+    const bool cut = cat_eye_.cuts() && !cat_eye_.darkens();
     const double left = cut ? left_by_cat_eye(from.lamp.coc > 0, x, y) : 1;
     if (left < least_share) return;
     if (!colours) return add(from, x, y, all_colours, weight / left);
@@ -167,8 +164,8 @@ double HighlightTile::left_by_cat_eye(bool behind, int x, int y) {
     std::vector<double> &shares = left_by_cat_eye_[behind];
     const Imath::V2i corner = held_out_.corner + origin_;
     if (shares.empty())
-        shares = shape_.cat_eye.shares(behind ? CatEye::Light::behind : CatEye::Light::in_front,
-                                       {corner, corner + tile.max});
+        shares = cat_eye_.shares(behind ? CatEye::Light::behind : CatEye::Light::in_front,
+                                 {corner, corner + tile.max});
     return shares[std::size_t(y) * size + std::size_t(x)];
 }
 
@@ -183,7 +180,8 @@ void HighlightTile::add(const Spreading &from, int x, int y, unsigned of, double
                         const LampDisc *disc) {
     float share = float(weight) * lit(from, x, y, disc);
     if (share <= 0) return;
-    if (held_out_.by) share *= held_out_.passes(origin_ + Imath::V2i(x, y), samples_.depth[from.sample]);
+    if (held_out_.by)
+        share *= held_out_.passes(origin_ + Imath::V2i(x, y), scene_.samples.depth[from.sample]);
     for (std::size_t g = 0; g < sets_.size() / 4; ++g) {
         std::array<float, 4> light; // a copy, which rules out that it overlaps sum
         std::copy_n(&highlights_.light.values[(g * highlights_.light.count + from.highlight) * 4], 4,

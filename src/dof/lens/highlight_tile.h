@@ -6,15 +6,9 @@
 // points see it, so that what is in focus is as it was rendered; in between the square shrinks.
 #pragma once
 
-#include "dof/lens/block_footprints.h"
-#include "dof/lens/held_out.h"
+#include "dof/lens/gather_scene.h"
 #include "dof/lens/highlight_shadows.h"
-#include "dof/lens/highlights.h"
 #include "dof/lens/lens_tiles.h"
-#include "dof/lens/sample_blocks.h"
-#include "dof/lens/sample_colours.h"
-#include "lens/aperture.h"
-#include "lens/cat_eye.h"
 #include "lens/lamp_cells.h"
 #include "lens/lamp_spread.h"
 
@@ -28,18 +22,9 @@
 
 namespace sparselens {
 
-// What shapes their light.
-struct HighlightShape {
-    const Aperture &aperture;
-    const CatEye &cat_eye;
-    double pixel_aspect = 1;
-};
-
 class HighlightTile {
 public:
-    HighlightTile(const Highlights &highlights, const BlockedSamples &samples,
-                  const BlockFootprints &footprints, std::span<const ColourSet> sets,
-                  const HighlightShape &shape, const HeldOut &held_out);
+    HighlightTile(const GatherScene &scene, const BlockFootprints &footprints);
 
     // Of the tile whose first pixel is `origin`, relative to the data window's corner like the samples. `blocks`: those that
     // can reach it.
@@ -74,12 +59,13 @@ private:
     const LampCells &cells_of(const Lamp &lamp);
     double left_by_cat_eye(bool behind, int x, int y);
 
-    const Highlights &highlights_;
-    const BlockedSamples &samples_;
+    const GatherScene &scene_;
+    const Highlights &highlights_ = scene_.highlights;
+    const Aperture &aperture_ = scene_.optics->aperture;
+    const CatEye &cat_eye_ = scene_.optics->cat_eye;
+    const HeldOut &held_out_ = scene_.held_out;
+    const std::vector<ColourSet> &sets_ = scene_.colours.sets;
     HighlightShadows shadows_;
-    std::vector<ColourSet> sets_;
-    HighlightShape shape_;
-    HeldOut held_out_;
     Imath::V2d half_extent_; // of the aperture, for each pixel of CoC
     Imath::V2i origin_;
     Imath::Box2i reached_;                               // pixels of the tile, by the highlights at work

@@ -3,15 +3,10 @@
 #include "base/parallel.h"
 #include "deep/flatten.h"
 #include "dof/device/tile_device.h"
-#include "dof/facets/placed_facets.h"
-#include "dof/lens/fillers.h"
+#include "dof/lens/gather_scene.h"
 #include "dof/lens/gather_tile.h"
 #include "dof/lens/highlight_tile.h"
-#include "dof/lens/highlights.h"
 #include "dof/lens/lens_tiles.h"
-#include "dof/lens/optics.h"
-#include "dof/lens/sample_blocks.h"
-#include "dof/lens/sharpen.h"
 #include "lens/lens_samples.h"
 
 #include <tbb/enumerable_thread_specific.h>
@@ -25,7 +20,6 @@ namespace sparselens {
 
 namespace {
 
-constexpr float in_focus = 0.5f;   // pixels: what has no larger CoC is as it was rendered
 constexpr double sharp_coc = 1e-3; // pixels: of infinity, seen by a lens of radius 0
 
 // The sets of lens points that tiles choose from, each made when it is first asked for.
@@ -84,10 +78,6 @@ private:
     std::array<std::once_flag, 3 * steps> made_;
     std::array<std::vector<LensSample>, 3 * steps> sets_;
 };
-
-float largest_coc_of(const SampleBlock &block) {
-    return std::max(std::abs(block.coc_min), std::abs(block.coc_max));
-}
 
 // Finds the blocks that can reach a tile.
 class BlockFinder {
@@ -184,21 +174,19 @@ struct PreparedTile {
     TileTask task() const { return {origin, samples, facets, fillers, lens}; }
 };
 
-// All that tiles are gathered from, and the picture that they make.
+// The scene, and the picture that its tiles make.
 struct Gathering {
-    const ThinLens &lens;
+    const GatherScene &scene;
     const LensGatherOptions &options;
-    const Optics &optics;
-    const BlockedSamples &samples;
-    const FillerSamples &fillers;
-    const PlacedFacets &facets;
-    const Darkening &darkening;
-    tbb::enumerable_thread_specific<HighlightTile> &lamps;
     Image &out;
-    LensTiles &chosen;
-    BlockFinder finder{samples, optics.aperture, lens.pixel_aspect},
-        filler_finder{fillers.samples, optics.aperture, lens.pixel_aspect};
-    LensSets sets{options, optics.aperture, lens.pixel_aspect};
+    LensTiles chosen = tiles_of(out.windows);
+    const Optics &optics = *scene.optics;
+    Darkening darkening{optics.cat_eye, *scene.ldi, out.windows};
+    BlockFootprints footprints{*scene.ldi, scene.samples};
+    tbb::enumerable_thread_specific<HighlightTile> lamps{[this] { return HighlightTile(scene, footprints); }};
+    BlockFinder finder{scene.samples, optics.aperture, scene.pixel_aspect},
+        filler_finder{scene.fillers.samples, optics.aperture, scene.pixel_aspect};
+    LensSets sets{options, optics.aperture, scene.pixel_aspect};
     std::vector<std::size_t> gathered = averaged_channels(out);
 
     std::size_t tiles() const { return chosen.lens_points.size(); }
@@ -217,14 +205,14 @@ struct Gathering {
         if (largest < in_focus && !optics.moves()) return {};
         const std::vector<LensSample> &points = sets.for_coc(largest, optics.doubled(first, lens_tile_size));
         filler_finder.find(tile.origin, lens_tile_size, steepest, tile.fillers);
-        find_blocks(facets, tile.origin, lens_tile_size, steepest * finder.extent(), tile.facets);
+        find_blocks(scene.facets, tile.origin, lens_tile_size, steepest * finder.extent(), tile.facets);
         tile.lens = points;
         if (!optics.field.flat()) tile.lens = tile.stretched = stretched(points, gradient);
         return tile;
     }
 
     // Sets its pixels to what is gathered, and to what highlights spread there.
-    void finish(const PreparedTile &tile, const TilePicture &picture) const {
+    void finish(const PreparedTile &tile, const TilePicture &picture) {
         chosen.lens_points[tile.number] = int(tile.lens.size());
         HighlightTile &lit = lamps.local();
         lit.spread(tile.origin, tile.samples);
@@ -241,13 +229,14 @@ struct Gathering {
 };
 
 // The numbers of the tiles that the device gathered are marked in `done`.
-void gather_on(TileDevice &device, Gathering &from, const TileScene &scene, std::vector<char> &done) {
+void gather_on(TileDevice &device, Gathering &from, std::vector<char> &done) {
     std::vector<std::optional<PreparedTile>> tiles(from.tiles());
     parallel_for(tiles.size(), [&](std::size_t t) { tiles[t] = from.prepare(t); });
     std::erase(tiles, std::nullopt);
+    if (tiles.empty()) return;
     std::vector<TileTask> tasks;
     for (const auto &tile : tiles) tasks.push_back(tile->task());
-    device.gather(scene, tasks, [&](std::size_t n, const TilePicture &picture) {
+    device.gather(from.scene, tasks, [&](std::size_t n, const TilePicture &picture) {
         from.finish(*tiles[n], picture);
         done[tiles[n]->number] = true;
     });
@@ -255,57 +244,32 @@ void gather_on(TileDevice &device, Gathering &from, const TileScene &scene, std:
 
 Image gather_once(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window,
                   const LensGatherOptions &options, double coc, Progress &progress) {
-    Image out = crop(options.holdout ? flatten_held_out(ldi, *options.holdout) : flatten(ldi), window);
-    const KnownPixels known(options.known.value_or(window), options.unseen);
-    BlockedSamples samples = make_blocks(ldi, lens, known);
-    const Optics optics(ldi, lens, options.looks, coc);
-    const Darkening darkening(optics.cat_eye, ldi, out.windows);
-    darkening.darken(out);
-    optics.bend(samples);
-    const auto sharp = [&](const SampleBlock &block) {
-        return block.begin == block.end || largest_coc_of(block) * optics.widest() < in_focus;
-    };
-    LensTiles chosen = tiles_of(out.windows);
-    if (options.chosen) *options.chosen = chosen;
-    if (!optics.moves() && std::ranges::all_of(samples.blocks, sharp)) return out;
-    const std::vector<Filler> found_fillers =
-        find_fillers(ldi, lens, known); // before there are colours, as it takes memory
-    SampleColours colours = make_colours(ldi, samples);
-    const SharpenLooks looks{optics.aperture, optics.field, coc, options.seen};
-    sharpen_near_focus(ldi, lens, samples, colours, &looks);
-    const LightChannels light = light_channels(ldi);
-    std::optional<Imath::Box2i> seen = options.seen;
-    if (seen) seen = Imath::Box2i(seen->min - ldi.windows.data.min, seen->max - ldi.windows.data.min);
-    const Highlights highlights = take_highlights(samples, light.brightness, light.all, colours, seen);
-    FillerSamples fillers = place_fillers(ldi, lens, found_fillers, samples, colours);
-    optics.bend(fillers.samples);
-    const PlacedFacets facets =
-        place_facets(find_facets(ldi, lens, double(optics.widest())), ldi.samples(),
-                     {samples.x, samples.y, samples.hiding_coc(), samples.key, samples.source});
-    const HeldOut held_out{options.holdout, perceptive_depth(lens, 1), ldi.windows.data.min};
-    const CatEye *cat_eye = optics.cat_eye.cuts() ? &optics.cat_eye : nullptr;
-    const BlockFootprints footprints(ldi, samples);
-    tbb::enumerable_thread_specific<HighlightTile> lamps([&] {
-        return HighlightTile(highlights, samples, footprints, colours.sets,
-                             {optics.aperture, optics.cat_eye, lens.pixel_aspect}, held_out);
-    });
-    Gathering from{lens, options, optics, samples, fillers, facets, darkening, lamps, out, chosen};
-    progress.start("gathering", from.tiles());
-    std::vector<char> done(from.tiles(), false);
-    const TileScene scene{samples, colours,       fillers,     facets,
-                          cat_eye, optics.corner, held_out.by, held_out.depth_at_1};
-    if (options.device) gather_on(*options.device, from, scene, done);
-    parallel_for(from.tiles(), [&](std::size_t t) {
-        progress.advance();
-        const std::optional<PreparedTile> tile = done[t] ? std::nullopt : from.prepare(t);
-        if (!tile) return;
-        gather_tile(scene, tile->task(), [&](const TilePicture &picture) { from.finish(*tile, picture); });
-    });
-    if (options.chosen) *options.chosen = std::move(chosen);
+    Image out = in_focus_everywhere(ldi, window, options);
+    gather_tiles(prepare(ldi, lens, window, options, coc), options, progress, out);
     return out;
 }
 
 } // namespace
+
+Image in_focus_everywhere(const Ldi &ldi, const Imath::Box2i &window, const LensGatherOptions &options) {
+    return crop(options.holdout ? flatten_held_out(ldi, *options.holdout) : flatten(ldi), window);
+}
+
+void gather_tiles(const GatherScene &scene, const LensGatherOptions &options, Progress &progress,
+                  Image &picture) {
+    Gathering from{scene, options, picture};
+    from.darkening.darken(picture);
+    progress.start("gathering", from.tiles());
+    std::vector<char> done(from.tiles(), false);
+    if (options.device) gather_on(*options.device, from, done);
+    parallel_for(from.tiles(), [&](std::size_t t) {
+        progress.advance();
+        const std::optional<PreparedTile> tile = done[t] ? std::nullopt : from.prepare(t);
+        if (!tile) return;
+        gather_tile(scene, tile->task(), [&](const TilePicture &made) { from.finish(*tile, made); });
+    });
+    if (options.chosen) *options.chosen = std::move(from.chosen);
+}
 
 Image lens_gather(const Ldi &ldi, const ThinLens &given, const Imath::Box2i &window,
                   const LensGatherOptions &asked, Progress &progress) {

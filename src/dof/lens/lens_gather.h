@@ -18,7 +18,8 @@
 
 namespace sparselens {
 
-class TileDevice; // dof/device/tile_device.h
+class TileDevice;   // dof/device/tile_device.h
+struct GatherScene; // dof/lens/gather_scene.h
 
 enum class Quality { draft, normal, final };
 
@@ -42,5 +43,12 @@ struct LensGatherOptions {
 // the lens radius above 0, or 0 where the looks magnify.
 Image lens_gather(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window,
                   const LensGatherOptions &options, Progress &progress);
+
+// Its steps, for who gathers again and again (but of R, G and B alike): the flattened LDI, which no lens and no look changes; all that
+// tiles are gathered from, by prepare() (dof/lens/gather_scene.h); and the tiles that are out of focus, in place of those
+// of `picture`. A listener of `progress` that throws ends the work.
+Image in_focus_everywhere(const Ldi &ldi, const Imath::Box2i &window, const LensGatherOptions &options);
+void gather_tiles(const GatherScene &scene, const LensGatherOptions &options, Progress &progress,
+                  Image &picture);
 
 } // namespace sparselens

@@ -26,7 +26,7 @@ std::vector<float> EvenLight::known(std::size_t groups) const {
 }
 
 template <std::size_t sides_>
-ChannelLight<sides_>::ChannelLight(const TileScene &scene)
+ChannelLight<sides_>::ChannelLight(const GatherScene &scene)
     : scene_(scene), steps_(scene.colours.groups * size * (size + 1) * 4),
       lost_(scene.colours.groups * pixels * 4), in_front_(sides > 1 ? lost_.size() : 0) {
     for (auto *of : {&light_, &weight_})
@@ -54,7 +54,7 @@ template <std::size_t sides_>
 void ChannelLight<sides_>::weigh_channels(const LensSample &point) {
     for (std::size_t k = 0; k < light_[0].size(); ++k) {
         const ColourSet set = scene_.colours.sets[k];
-        const bool darkened = kernels::is_darkened(set, scene_.cat_eye && scene_.cat_eye->darkens());
+        const bool darkened = kernels::is_darkened(set, scene_.cat_eye() && scene_.cat_eye()->darkens());
         for (const std::size_t side : {0u, 1u}) {
             light_[side][k] = kernels::light_weight(set, point.weight, point.rgb[0], point.rgb[1],
                                                     point.rgb[2], side == 1 ? point.in_front : point.behind);

@@ -26,7 +26,7 @@ class EvenLight {
 public:
     static constexpr std::size_t sides = 1;
 
-    explicit EvenLight(const TileScene &) : unknown_(tile_cells::pixels) {}
+    explicit EvenLight(const GatherScene &) : unknown_(tile_cells::pixels) {}
 
     // Counts a lens point as known, and behind focus, in all pixels that see through it. What follows is of this one.
     void count(const LensSample &point, const Seen &) { total_ += weight_ = point.weight; }
@@ -55,7 +55,7 @@ class ChannelLight {
 public:
     static constexpr std::size_t sides = sides_;
 
-    explicit ChannelLight(const TileScene &scene);
+    explicit ChannelLight(const GatherScene &scene);
 
     void count(const LensSample &point, const Seen &seen);
     Float4 of(std::size_t group, std::size_t side) const { return load4(&light_[side][group * 4]); }
@@ -71,7 +71,7 @@ public:
 private:
     void weigh_channels(const LensSample &point);
 
-    const TileScene &scene_;
+    const GatherScene &scene_;
     float total_ = 0;
     // Of the lens point, [side][channel]: by what light is multiplied, and how it counts in what the sum is divided by.
     std::array<std::vector<float>, 2> light_, weight_;

@@ -15,8 +15,10 @@
 
 namespace sparselens {
 
+inline constexpr float in_focus = 0.5f; // pixels: what has no larger CoC is as it was rendered
+
 struct Optics {
-    const LensLooks &looks;
+    LensLooks looks;
     double coc;        // is added to that of all samples
     Imath::V2i corner; // of the data window
     Aperture aperture;

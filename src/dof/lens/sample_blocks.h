@@ -8,6 +8,8 @@
 #include "kernels/lens_rules.h"
 #include "lens/thin_lens.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -49,6 +51,10 @@ struct BlockedSamples {
     // By which what hides moves.
     const std::vector<float> &hiding_coc() const { return surface_coc.empty() ? coc : surface_coc; }
 };
+
+inline float largest_coc_of(const SampleBlock &block) {
+    return std::max(std::abs(block.coc_min), std::abs(block.coc_max));
+}
 
 // Sets the bounds of a block of `samples`, which has its samples already.
 void bound(SampleBlock &block, const BlockedSamples &samples);

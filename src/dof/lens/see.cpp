@@ -51,7 +51,7 @@ template <typename Visit>
 
 } // namespace
 
-See::See(const TileScene &scene, const TileTask &tile) : scene_(scene), tile_(tile) {
+See::See(const GatherScene &scene, const TileTask &tile) : scene_(scene), tile_(tile) {
     seen_.origin = tile.origin;
     seen_.columns.fill({0, size});
     seen_.front.resize(count);
@@ -117,10 +117,10 @@ TileProjection See::projection(const LensSample &point) const {
 }
 
 void See::see_columns(const LensSample &point) {
-    if (!scene_.cat_eye) return; // all, as they are
-    const Imath::V2i first = scene_.corner + tile_.origin;
+    if (!scene_.cat_eye()) return; // all, as they are
+    const Imath::V2i first = scene_.held_out.corner + tile_.origin;
     for (int y = 0; y < size; ++y)
-        seen_.columns[std::size_t(y)] = scene_.cat_eye->columns(point, first.x, size, first.y + y);
+        seen_.columns[std::size_t(y)] = scene_.cat_eye()->columns(point, first.x, size, first.y + y);
 }
 
 // The nearest opaque one in each of some cells.

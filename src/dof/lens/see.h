@@ -6,9 +6,8 @@
 #pragma once
 
 #include "dof/device/tile_device.h"
-#include "dof/lens/fillers.h"
+#include "dof/lens/gather_scene.h"
 #include "dof/lens/lens_tiles.h"
-#include "dof/lens/sample_blocks.h"
 #include "dof/lens/tile_projection.h"
 #include "kernels/lens_layout.h"
 #include "lens/cat_eye.h"
@@ -77,7 +76,7 @@ struct Seen {
 class See {
 public:
     // Looks at a tile. Both stay as they are meanwhile.
-    See(const TileScene &scene, const TileTask &tile);
+    See(const GatherScene &scene, const TileTask &tile);
 
     // Before any lens point: the tile, and its partial samples.
     const Seen &seen() const { return seen_; }
@@ -108,7 +107,7 @@ private:
     bool hides(std::size_t cell, float depth) const;
     void close_cracks();
 
-    const TileScene &scene_;
+    const GatherScene &scene_;
     const TileTask &tile_;
     BlockBounds bounds_, filler_bounds_; // of its blocks of samples, of fillers
     // [cell]: the nearest image that lies there, as its sample's index plus one

@@ -18,11 +18,10 @@ std::size_t pixel_of(std::size_t cell) { return std::size_t(row(cell) * size + c
 } // namespace
 
 template <typename Light>
-Weigh<Light>::Weigh(const TileScene &scene, const Seen &tile)
-    : scene_(scene), held_out_{scene.holdout, scene.depth_at_1, scene.corner}, light_(scene),
-      left_(count, 1.0f), over_(Light::sides * scene.colours.groups * count * 4),
-      in_front_(Light::sides > 1 ? count : 0), covered_cells_(count + 1),
-      sums_(scene.colours.groups * pixels * 4), known_(sums_.size() / 4) {
+Weigh<Light>::Weigh(const GatherScene &scene, const Seen &tile)
+    : scene_(scene), held_out_(scene.held_out), light_(scene), left_(count, 1.0f),
+      over_(Light::sides * scene.colours.groups * count * 4), in_front_(Light::sides > 1 ? count : 0),
+      covered_cells_(count + 1), sums_(scene.colours.groups * pixels * 4), known_(sums_.size() / 4) {
     for (std::size_t g = 0; g < scene.colours.groups; ++g)
         for (const std::uint32_t i : tile.partial.sample) {
             const float *colour = &scene.colours.group(g)[std::size_t(i) * 4];

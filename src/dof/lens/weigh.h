@@ -21,7 +21,7 @@ template <typename Light>
 class Weigh {
 public:
     // Of a tile, before any lens point.
-    Weigh(const TileScene &scene, const Seen &tile);
+    Weigh(const GatherScene &scene, const Seen &tile);
 
     // Adds what a lens point sees.
     void add(const Seen &seen, const LensSample &point);
@@ -51,7 +51,7 @@ private:
     void add_covered(const Seen &seen);
     void uncover();
 
-    const TileScene &scene_;
+    const GatherScene &scene_;
     HeldOut held_out_;
     Light light_;
     std::vector<float> partial_; // colours of the partial samples: [group][of each][4]

@@ -14,7 +14,7 @@ public:
     GatherDevice(const DeviceInfo &info, const Watch &watch)
         : device_(info, watch), lens_(device_), selective_(device_) {}
 
-    void gather(const TileScene &scene, std::span<const TileTask> tasks,
+    void gather(const GatherScene &scene, std::span<const TileTask> tasks,
                 const std::function<void(std::size_t, const TilePicture &)> &done) override {
         unless_lost(tasks.size(), [&] { lens_.gather(scene, tasks, done, report_); });
     }

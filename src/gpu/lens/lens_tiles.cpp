@@ -43,7 +43,7 @@ std::uint32_t passes_of(const Stripe &stripe) {
 
 } // namespace
 
-void LensTilesOnDevice::gather(const TileScene &scene, std::span<const TileTask> all,
+void LensTilesOnDevice::gather(const GatherScene &scene, std::span<const TileTask> all,
                                const std::function<void(std::size_t, const TilePicture &)> &done,
                                TileReport &report) {
     std::vector<TileTask> tasks;
@@ -74,7 +74,7 @@ void LensTilesOnDevice::gather(const TileScene &scene, std::span<const TileTask>
     }
 }
 
-void LensTilesOnDevice::gather_stripe(const TileScene &scene,
+void LensTilesOnDevice::gather_stripe(const GatherScene &scene,
                                       const std::function<void(std::size_t, const TilePicture &)> &done) {
     const std::size_t tiles = buffers_.stripe().tiles.size(), groups = scene.colours.groups,
                       all = tiles * tile_pixels * groups;
@@ -83,7 +83,7 @@ void LensTilesOnDevice::gather_stripe(const TileScene &scene,
     const std::uint32_t passes = passes_of(buffers_.stripe());
     const Buffer sums = device_.buffer(passes > 1 ? all * 8 * sizeof(float) : 0);
     for (std::uint32_t pass = 0; pass < passes; ++pass)
-        run(pass, groups, float(scene.depth_at_1), buffers_.bindings(values, known, sums));
+        run(pass, groups, float(scene.held_out.depth_at_1), buffers_.bindings(values, known, sums));
     std::vector<float> value(all * 4), knowns(all);
     device_.download(std::as_writable_bytes(std::span(value)), values);
     device_.download(std::as_writable_bytes(std::span(knowns)), known);

@@ -15,11 +15,11 @@ public:
     explicit LensTilesOnDevice(Device &device) : device_(device) {}
 
     // As TileDevice's. Throws DeviceFailed; what was done before stays done.
-    void gather(const TileScene &scene, std::span<const TileTask> tasks,
+    void gather(const GatherScene &scene, std::span<const TileTask> tasks,
                 const std::function<void(std::size_t, const TilePicture &)> &done, TileReport &report);
 
 private:
-    void gather_stripe(const TileScene &scene,
+    void gather_stripe(const GatherScene &scene,
                        const std::function<void(std::size_t, const TilePicture &)> &done);
     void run(std::uint32_t pass, std::size_t groups, float depth_at_1,
              std::span<const Buffer *const> buffers);

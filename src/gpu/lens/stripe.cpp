@@ -90,8 +90,8 @@ std::uint32_t place_lens(Stripe &stripe, std::span<const LensSample> lens) {
 }
 
 // The tiles, and the lists of what reaches each; the columns and the holdout are not filled in yet.
-void list_tiles(Stripe &stripe, const TileScene &scene, std::span<const TileTask> tasks, const Ranges &ranges,
-                double most_turns) {
+void list_tiles(Stripe &stripe, const GatherScene &scene, std::span<const TileTask> tasks,
+                const Ranges &ranges, double most_turns) {
     const std::size_t fillers = ranges.samples.blocks(), facets = fillers + ranges.fillers.blocks();
     const auto count = [](std::span<const std::uint32_t> list) { return std::uint32_t(list.size()); };
     std::uint32_t lens = 0, columns = 0, holdout = 0, rules = 0;
@@ -141,7 +141,7 @@ void list_partial(Stripe &stripe, const BlockedSamples &samples, std::span<const
 
 } // namespace
 
-std::size_t tasks_that_fit(const TileScene &scene, std::span<const TileTask> tasks, std::size_t bytes) {
+std::size_t tasks_that_fit(const GatherScene &scene, std::span<const TileTask> tasks, std::size_t bytes) {
     const std::size_t groups = scene.colours.groups;
     Ranges ranges;
     std::size_t listed = 0, partial = 0, lens = 0, columns = 0, holdout = 0;
@@ -161,12 +161,12 @@ std::size_t tasks_that_fit(const TileScene &scene, std::span<const TileTask> tas
     return tasks.size();
 }
 
-double turns_of(const TileScene &scene, const TileTask &task) {
+double turns_of(const GatherScene &scene, const TileTask &task) {
     const auto blocks = double(task.samples.size() + task.fillers.size() + 4 * task.facets.size());
     return 100 + blocks + double(partial_count(scene.samples, task)) / 4;
 }
 
-bool fits_whole(const TileScene &scene, std::span<const TileTask> tasks, std::size_t bytes) {
+bool fits_whole(const GatherScene &scene, std::span<const TileTask> tasks, std::size_t bytes) {
     Ranges all, needed;
     all.add_all(scene);
     for (const TileTask &task : tasks) needed.add(scene, task);
@@ -175,7 +175,7 @@ bool fits_whole(const TileScene &scene, std::span<const TileTask> tasks, std::si
            2 * needed.sample_count(scene) >= count;
 }
 
-Stripe make_stripe(const TileScene &scene, std::span<const TileTask> tasks, bool whole, double most_turns) {
+Stripe make_stripe(const GatherScene &scene, std::span<const TileTask> tasks, bool whole, double most_turns) {
     Stripe stripe;
     Ranges ranges;
     if (whole)

@@ -4,8 +4,7 @@
 #pragma once
 
 #include "dof/device/tile_device.h"
-#include "dof/lens/fillers.h"
-#include "dof/lens/sample_blocks.h"
+#include "dof/lens/gather_scene.h"
 #include "kernels/lens_layout.h"
 
 #include <array>
@@ -36,16 +35,16 @@ struct Stripe {
 };
 
 // How many of the tasks, from the first, fit into buffers of that many bytes.
-std::size_t tasks_that_fit(const TileScene &scene, std::span<const TileTask> tasks, std::size_t bytes);
+std::size_t tasks_that_fit(const GatherScene &scene, std::span<const TileTask> tasks, std::size_t bytes);
 
 // Whether all samples of the scene fit, and the tasks need half of them or more. Where they lie does not depend on the tasks
 // then, so that the next frame of a pull of focus finds them where they were.
-bool fits_whole(const TileScene &scene, std::span<const TileTask> tasks, std::size_t bytes);
+bool fits_whole(const GatherScene &scene, std::span<const TileTask> tasks, std::size_t bytes);
 
 // Turns of the program's loops that a lens point of the tile takes; more than it may, rather than less.
-double turns_of(const TileScene &scene, const TileTask &task);
+double turns_of(const GatherScene &scene, const TileTask &task);
 
 // `whole`: of all samples of the scene; else of those that the tasks need. `most_turns`: in a pass, at least turns_of() each.
-Stripe make_stripe(const TileScene &scene, std::span<const TileTask> tasks, bool whole, double most_turns);
+Stripe make_stripe(const GatherScene &scene, std::span<const TileTask> tasks, bool whole, double most_turns);
 
 } // namespace sparselens::gpu

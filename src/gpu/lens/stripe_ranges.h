@@ -2,9 +2,7 @@
 #pragma once
 
 #include "dof/device/tile_device.h"
-#include "dof/facets/placed_facets.h"
-#include "dof/lens/fillers.h"
-#include "dof/lens/sample_blocks.h"
+#include "dof/lens/gather_scene.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -39,24 +37,24 @@ struct Range {
 struct Ranges {
     Range samples, fillers, facets;
 
-    void add(const TileScene &scene, const TileTask &task) {
+    void add(const GatherScene &scene, const TileTask &task) {
         samples.add(task.samples);
         fillers.add(task.fillers);
         facets.add(task.facets);
         for (const std::uint32_t b : task.facets) add_corners(scene, scene.facets.blocks[b]);
     }
-    void add_all(const TileScene &scene) {
+    void add_all(const GatherScene &scene) {
         samples.add_all(scene.samples);
         fillers.add_all(scene.fillers.samples);
         facets.add_all(scene.facets);
     }
-    std::size_t sample_count(const TileScene &scene) const {
+    std::size_t sample_count(const GatherScene &scene) const {
         return samples.count(scene.samples) + fillers.count(scene.fillers.samples);
     }
 
 private:
     // A facet can reach a tile that some of its corners do not.
-    void add_corners(const TileScene &scene, const FacetBlock &block) {
+    void add_corners(const GatherScene &scene, const FacetBlock &block) {
         std::uint32_t least = ~0u, most = 0;
         for (const std::vector<std::uint64_t> &keys : scene.facets.key)
             for (std::uint32_t i = block.begin; i < block.end; ++i) {

@@ -20,50 +20,50 @@ constexpr std::size_t words_a_part = 3;
 
 } // namespace
 
-std::uint32_t rules_of(const TileScene &scene, std::span<const LensSample> lens) {
+std::uint32_t rules_of(const GatherScene &scene, std::span<const LensSample> lens) {
     const auto any = [&](const auto &is) { return std::ranges::any_of(lens, is); };
     std::uint32_t rules = 0;
     if (any([](const LensSample &p) { return p.rgb != std::array<float, 3>{1, 1, 1}; })) rules |= weighted;
     if (any([](const LensSample &p) { return p.behind != 1 || p.in_front != 1; }))
         rules |= weighted | two_sided;
-    if (scene.cat_eye) rules |= weighted | cat_eye;
-    if (scene.cat_eye && scene.cat_eye->darkens()) rules |= darkens;
-    if (scene.holdout) rules |= holdout;
+    if (scene.cat_eye()) rules |= weighted | cat_eye;
+    if (scene.cat_eye() && scene.cat_eye()->darkens()) rules |= darkens;
+    if (scene.held_out.by) rules |= holdout;
     return rules;
 }
 
-std::size_t column_words(const TileScene &scene, const TileTask &task) {
-    return scene.cat_eye ? task.lens.size() * words_a_lens_point : 0;
+std::size_t column_words(const GatherScene &scene, const TileTask &task) {
+    return scene.cat_eye() ? task.lens.size() * words_a_lens_point : 0;
 }
 
-void place_columns(std::span<std::uint32_t> to, const TileScene &scene, const TileTask &task) {
-    const Imath::V2i first = scene.corner + task.origin;
+void place_columns(std::span<std::uint32_t> to, const GatherScene &scene, const TileTask &task) {
+    const Imath::V2i first = scene.held_out.corner + task.origin;
     for (std::size_t word = 0; word < to.size(); ++word) {
         const LensSample &point = task.lens[word / words_a_lens_point];
         to[word] = 0;
         for (int row = 0; row < rows_a_word; ++row) {
             const int y = int(word % words_a_lens_point) * rows_a_word + row;
-            const auto [begin, end] = scene.cat_eye->columns(point, first.x, tile_size, first.y + y);
+            const auto [begin, end] = scene.cat_eye()->columns(point, first.x, tile_size, first.y + y);
             to[word] |= std::uint32_t(begin | end << 8) << 16 * row;
         }
     }
 }
 
-std::size_t holdout_words(const TileScene &scene, const TileTask &task) {
-    if (!scene.holdout) return 0;
-    const Imath::V2i first = scene.corner + task.origin;
+std::size_t holdout_words(const GatherScene &scene, const TileTask &task) {
+    if (!scene.held_out.by) return 0;
+    const Imath::V2i first = scene.held_out.corner + task.origin;
     return tile_pixels + 1 +
-           words_a_part * scene.holdout->parts_in({first, first + Imath::V2i(tile_size - 1)});
+           words_a_part * scene.held_out.by->parts_in({first, first + Imath::V2i(tile_size - 1)});
 }
 
-void place_holdout(std::span<std::uint32_t> to, const TileScene &scene, const TileTask &task) {
-    if (!scene.holdout) return;
-    const Imath::V2i first = scene.corner + task.origin;
+void place_holdout(std::span<std::uint32_t> to, const GatherScene &scene, const TileTask &task) {
+    if (!scene.held_out.by) return;
+    const Imath::V2i first = scene.held_out.corner + task.origin;
     std::vector<Holdout::Part> parts;
     for (int y = 0; y < tile_size; ++y)
         for (int x = 0; x < tile_size; ++x) {
             to[std::size_t(y * tile_size + x)] = std::uint32_t(parts.size());
-            scene.holdout->append_parts(first.x + x, first.y + y, parts);
+            scene.held_out.by->append_parts(first.x + x, first.y + y, parts);
         }
     to[tile_pixels] = std::uint32_t(parts.size());
     std::uint32_t *word = &to[tile_pixels + 1];

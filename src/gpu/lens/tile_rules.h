@@ -3,6 +3,7 @@
 #pragma once
 
 #include "dof/device/tile_device.h"
+#include "dof/lens/gather_scene.h"
 #include "kernels/lens_layout.h"
 
 #include <cstddef>
@@ -14,16 +15,16 @@ namespace sparselens::gpu {
 inline constexpr std::size_t tile_pixels = lens_kernel::tile_size * lens_kernel::tile_size;
 
 // Those of lens_layout.h, all but `images`.
-std::uint32_t rules_of(const TileScene &scene, std::span<const LensSample> lens);
+std::uint32_t rules_of(const GatherScene &scene, std::span<const LensSample> lens);
 
 // [lens point][two rows]: where the pixels of a row begin that see through it, and where they end, 8 bits each. None without
 // a cat-eye.
-std::size_t column_words(const TileScene &scene, const TileTask &task);
-void place_columns(std::span<std::uint32_t> to, const TileScene &scene, const TileTask &task);
+std::size_t column_words(const GatherScene &scene, const TileTask &task);
+void place_columns(std::span<std::uint32_t> to, const GatherScene &scene, const TileTask &task);
 
 // Of each pixel, which of the tile's parts of the holdout is its first, then how many these all are; then of each part front,
 // back and the share that it lets through (bits of float). None without a holdout.
-std::size_t holdout_words(const TileScene &scene, const TileTask &task);
-void place_holdout(std::span<std::uint32_t> to, const TileScene &scene, const TileTask &task);
+std::size_t holdout_words(const GatherScene &scene, const TileTask &task);
+void place_holdout(std::span<std::uint32_t> to, const GatherScene &scene, const TileTask &task);
 
 } // namespace sparselens::gpu

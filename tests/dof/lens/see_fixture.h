@@ -2,12 +2,12 @@
 #pragma once
 
 #include "blocked_fixture.h"
-#include "dof/facets/placed_facets.h"
 #include "dof/lens/see.h"
 #include "support/lens_ldi.h"
 
 #include <algorithm>
 #include <functional>
+#include <memory>
 #include <numeric>
 #include <vector>
 
@@ -34,8 +34,16 @@ struct TileFixture {
         blocked.colours.sets[0] = green;
         blocked.colours.sets[1] = coverage;
     }
-    TileScene scene(const CatEye *cat_eye = nullptr) const {
-        return {blocked.samples, blocked.colours, fillers, facets, cat_eye, {0, 0}, nullptr, 1};
+    GatherScene scene(const LensLooks &looks = {}) const {
+        return {&ldi,
+                1,
+                std::make_unique<Optics>(ldi, lens, looks, 0),
+                {},
+                blocked.samples,
+                blocked.colours,
+                {},
+                fillers,
+                facets};
     }
     TileTask task() const { return {{0, 0}, blocks, {}, {}, points}; }
     // Of the one in its place in a pixel.

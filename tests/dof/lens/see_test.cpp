@@ -24,7 +24,7 @@ int count_empty(const Seen &seen) {
 
 TEST(See, WhatIsInFocusIsSeenWhereItIs) {
     const TileFixture tile([](int, int) { return Samples{opaque_at(0)}; }, {{.75f, -.5f, .4f, -.4f, 1}});
-    const TileScene scene = tile.scene();
+    const GatherScene scene = tile.scene();
     const TileTask task = tile.task();
     See see(scene, task);
     const Seen &seen = see.through(tile.points[0]);
@@ -36,7 +36,7 @@ TEST(See, WhatIsOutOfFocusIsSeenAsFarAwayAsItsCircleIsWide) {
     const TileFixture tile(
         [](int x, int y) { return x == 10 && y == 20 ? Samples{opaque_at(-4)} : Samples{}; },
         {{.75f, -.5f, 0, 0, 1}});
-    const TileScene scene = tile.scene();
+    const GatherScene scene = tile.scene();
     const TileTask task = tile.task();
     See see(scene, task);
     const Seen &seen = see.through(tile.points[0]);
@@ -48,7 +48,7 @@ TEST(See, TheNearerOfTwoSurfacesIsInFront) {
     const auto near = [](int x, int y) { return x == 30 && y == 30; };
     const TileFixture tile([&](int x, int y) { return Samples{near(x, y) ? opaque_at(-6) : opaque_at(0)}; },
                            {{.5f, .5f, 0, 0, 1}});
-    const TileScene scene = tile.scene();
+    const GatherScene scene = tile.scene();
     const TileTask task = tile.task();
     See see(scene, task);
     const Seen &seen = see.through(tile.points[0]);
@@ -62,7 +62,7 @@ TEST(See, TheNearerOfTwoSurfacesIsInFront) {
 TEST(See, ASurfaceShowsThroughTheCracksBetweenItsSamples) {
     const TileFixture tile([](int x, int) { return Samples{opaque_at(x <= 10 ? 6 : 6.4)}; },
                            {{1, 0, .2f, 0, 1}});
-    const TileScene scene = tile.scene();
+    const GatherScene scene = tile.scene();
     const TileTask task = tile.task();
     See see(scene, task);
     const Seen &seen = see.through(tile.points[0]);
@@ -84,7 +84,7 @@ TEST(See, AMirrorShowsWhatItShowsWhereItIs) {
             return Samples{sample};
         },
         {{.5f, 0, 0, 0, 1}});
-    const TileScene scene = tile.scene();
+    const GatherScene scene = tile.scene();
     const TileTask task = tile.task();
     See see(scene, task);
     const Seen &seen = see.through(tile.points[0]);
@@ -102,7 +102,7 @@ TEST(See, PartialSamplesAreFrontToBackWhereverTheyLie) {
                                       : Samples{};
         },
         {{.5f, 0, 0, 0, 1}});
-    const TileScene scene = tile.scene();
+    const GatherScene scene = tile.scene();
     const TileTask task = tile.task();
     See see(scene, task);
     const Seen &seen = see.through(tile.points[0]);

@@ -1,6 +1,5 @@
 // What lens points add to the sums, by closed forms: of what they see, written down by hand.
 #include "dof/lens/weigh.h"
-#include "lens/picture_frame.h"
 #include "see_fixture.h"
 
 #include <gtest/gtest.h>
@@ -55,8 +54,8 @@ struct WeighTest : testing::Test {
     };
     // Of channel Y, of lens points that see that each.
     template <typename Light>
-    Mean mean(const std::vector<std::pair<LensSample, Seen>> &points, const CatEye *cat_eye = nullptr) const {
-        const TileScene scene = tile.scene(cat_eye);
+    Mean mean(const std::vector<std::pair<LensSample, Seen>> &points, const LensLooks &looks = {}) const {
+        const GatherScene scene = tile.scene(looks);
         Weigh<Light> weigh(scene, points.front().second);
         for (const auto &[point, seen] : points) weigh.add(seen, point);
         const TilePicture picture = weigh.picture();
@@ -116,9 +115,7 @@ TEST_F(WeighTest, ACatsEyeLeavesOutOrDarkens) {
         LensLooks looks;
         looks.cat_eye = 1;
         looks.cat_eye_darkening = darkens;
-        const Aperture aperture;
-        const CatEye cat_eye(aperture, looks, picture_frame(tile.ldi.windows, looks));
-        const Mean cut = mean<ChannelLight<1>>({{bright, opaque(behind)}, {point, beside}}, &cat_eye);
+        const Mean cut = mean<ChannelLight<1>>({{bright, opaque(behind)}, {point, beside}}, looks);
         EXPECT_FLOAT_EQ(cut.value, darkens ? 6 : 2);
         EXPECT_FLOAT_EQ(cut.known, darkens ? .5f : 1.5f);
     }

@@ -1,0 +1,60 @@
+#include "dof/lens/gather_scene.h"
+
+#include "dof/lens/sharpen.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+namespace sparselens {
+
+namespace {
+
+bool is_sharp(const BlockedSamples &samples, const Optics &optics) {
+    return !optics.moves() && std::ranges::all_of(samples.blocks, [&](const SampleBlock &block) {
+        return block.begin == block.end || largest_coc_of(block) * optics.widest() < in_focus;
+    });
+}
+
+// The pixels that were seen, relative to the data window's corner.
+std::optional<Imath::Box2i> seen_of(const LensGatherOptions &options, const Imath::V2i &corner) {
+    if (!options.seen) return {};
+    return Imath::Box2i(options.seen->min - corner, options.seen->max - corner);
+}
+
+} // namespace
+
+GatherScene prepare(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window,
+                    const LensGatherOptions &options, double coc) {
+    const KnownPixels known(options.known.value_or(window), options.unseen);
+    const Imath::V2i corner = ldi.windows.data.min;
+    GatherScene scene{&ldi,
+                      lens.pixel_aspect,
+                      std::make_unique<Optics>(ldi, lens, options.looks, coc),
+                      {options.holdout, perceptive_depth(lens, 1), corner},
+                      make_blocks(ldi, lens, known),
+                      {},
+                      {},
+                      {},
+                      {}};
+    const Optics &optics = *scene.optics;
+    BlockedSamples &samples = scene.samples;
+    optics.bend(samples);
+    if (is_sharp(samples, optics)) return scene;
+    const std::vector<Filler> fillers =
+        find_fillers(ldi, lens, known); // before there are colours, as it takes memory
+    scene.colours = make_colours(ldi, samples);
+    const SharpenLooks looks{optics.aperture, optics.field, coc, options.seen};
+    sharpen_near_focus(ldi, lens, samples, scene.colours, &looks);
+    const LightChannels light = light_channels(ldi);
+    scene.highlights =
+        take_highlights(samples, light.brightness, light.all, scene.colours, seen_of(options, corner));
+    scene.fillers = place_fillers(ldi, lens, fillers, samples, scene.colours);
+    optics.bend(scene.fillers.samples);
+    scene.facets = place_facets(find_facets(ldi, lens, double(optics.widest())), ldi.samples(),
+                                {samples.x, samples.y, samples.hiding_coc(), samples.key, samples.source});
+    return scene;
+}
+
+} // namespace sparselens

@@ -1,0 +1,37 @@
+// All that the lens gather makes of an LDI for one lens and its looks before the first tile: what tiles are gathered from,
+// one after the other, on the CPU and on a device.
+#pragma once
+
+#include "dof/facets/placed_facets.h"
+#include "dof/lens/fillers.h"
+#include "dof/lens/held_out.h"
+#include "dof/lens/highlights.h"
+#include "dof/lens/lens_gather.h"
+#include "dof/lens/optics.h"
+#include "dof/lens/sample_blocks.h"
+#include "dof/lens/sample_colours.h"
+
+#include <memory>
+
+namespace sparselens {
+
+struct GatherScene {
+    const Ldi *ldi; // outlives this
+    double pixel_aspect;
+    std::unique_ptr<const Optics> optics; // its parts refer to each other, wherever this is moved
+    HeldOut held_out;                     // what stays sharp
+    BlockedSamples samples;
+    SampleColours colours; // less what highlights spread; none where nothing is out of focus
+    Highlights highlights;
+    FillerSamples fillers;
+    PlacedFacets facets;
+
+    // If pixels see through some lens points alone, else null.
+    const CatEye *cat_eye() const { return optics->cat_eye.cuts() ? &optics->cat_eye : nullptr; }
+};
+
+// `coc` is added to that of all samples. Of the options: the looks, the holdout, and which pixels are known and were seen.
+GatherScene prepare(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window,
+                    const LensGatherOptions &options, double coc = 0);
+
+} // namespace sparselens
