@@ -22,7 +22,8 @@
 #include <algorithm>
 #include <functional>
 #include <memory>
-#include <mutex>
+#include <optional>
+#include <variant>
 
 using namespace sparselens;
 
@@ -37,8 +38,9 @@ Image gathered(const GatherCommand &options, GatherWindows &frame, const ThinLen
         return gather_picture(std::forward<decltype(ldi)>(ldi), lens, frame.gathered, frame.needed,
                               options.picture, *tool.progress);
     };
-    if (const OpenedLdi &in = cache.last(); in.packed)
-        return gather_rows(*in.packed, lens, frame.gathered, frame.needed, options.picture,
+    const OpenedLdi &in = cache.last();
+    if (const auto *packed = std::get_if<PackedRows>(&in.held))
+        return gather_rows(*packed, lens, frame.gathered, frame.needed, options.picture,
                            {memory_to_gather(in.samples_read, in.ldi.windows.pixels())}, *tool.progress);
     if (options.show != Show::picture) return of(frame.ldi(cache.last()));
     if (frame.changed) return of(std::move(*frame.changed));
@@ -51,61 +53,54 @@ ThinLens in_pixels(ThinLens lens, const Subpixels &of) {
     return lens;
 }
 
-// What holds of all rows of a frame: found once, by the first of several threads. A lens may come through a pipe.
-class OfFrame {
+// Those of one frame. A lens may come through a pipe: it is read once.
+class Looks {
 public:
-    bool linear(const std::function<bool()> &find) {
-        std::call_once(linear_found_, [&] { linear_ = find(); });
-        return linear_;
-    }
-    const LensFile &looks(const GatherCommand &options, std::optional<double> fstop) {
-        std::call_once(looks_read_, [&] { looks_ = read_looks(options.looks, fstop); });
-        return looks_;
+    const LensFile &of(const GatherCommand &options, std::optional<double> fstop) {
+        if (!read_) read_ = read_looks(options.looks, fstop);
+        return *read_;
     }
 
 private:
-    std::once_flag linear_found_, looks_read_;
-    bool linear_ = false;
-    LensFile looks_;
+    std::optional<LensFile> read_;
 };
 
-// Empty if the picture needs all samples: only as many are kept as it does, while the file is read.
-ReduceSamples reduce_samples(const GatherCommand &options, const ToolContext &tool, OfFrame &frame) {
-    const bool all = !tool.last_frame || options.show != Show::picture || !options.holdout.empty() ||
-                     !options.depth_output.empty() || options.focus_pixel || options.windows.proxy > 1 ||
-                     options.picture.method != &gather_methods().front();
-    if (all) return {};
-    return [&options, &tool, &frame](const Imf::Header &header, const Camera &camera, Ldi rows) {
-        const bool linear =
-            frame.linear([&] { return is_linear(tool, options.colour, options.input, header); });
-        const LookValues &looks = frame.looks(options, camera.fstop).values;
-        const bool grows = options.windows.overscan == OutputOverscan::grow &&
-                           !(header.dataWindow().intersects(header.displayWindow().min) &&
-                             header.dataWindow().intersects(header.displayWindow().max));
-        if (!linear || grows || highlight_gain(looks).gain != 1 || looks.breathing || camera.looks.breathing)
-            throw NeedsAllSamples();
+// Empty if more than the picture is made of the samples, else by what they are reduced while the file is read.
+ChooseSamples choose_samples(const GatherCommand &options, const ToolContext &tool, Looks &looks) {
+    if (!tool.last_frame || options.show != Show::picture || !options.holdout.empty() ||
+        !options.depth_output.empty() || options.focus_pixel)
+        return {};
+    return [&](const Imf::Header &header, const Camera &camera, const Ldi &rows) -> ReduceSamples {
+        const LookValues &values = looks.of(options, camera.fstop).values;
+        if (!keeps_pixels(options.windows, header) || highlight_gain(values).gain != 1 ||
+            !is_linear(tool, options.colour, options.input, header))
+            return {};
         const ThinLens lens = resolve_lens(camera, rows.windows);
-        if (lens.radius == 0 && std::ranges::any_of(rows.channels, is_in_matte)) throw NeedsAllSamples();
-        return reduced_first(std::move(rows), lens, options.picture);
+        if (!can_reduce_first(options.picture, lens, values.breathing || camera.looks.breathing,
+                              rows.channels))
+            return {};
+        return [&, lens](Ldi some) { return reduced_first(std::move(some), lens, options.picture); };
     };
 }
 
 void run(const GatherCommand &given, const ToolContext &tool, LdiCache &cache, GatherDevice &device) {
     GatherCommand options = given;
     const OpenOptions by{options.lens, options.depth};
-    OfFrame of_frame;
+    Looks looks_given;
     OpenedLdi &in = cache.load(options.input, options.channels, by, options.colour, tool,
-                               reduce_samples(options, tool, of_frame));
-    if (in.reduced && merges_by_rows(in.ldi.channels)) options.picture.layer_tolerance = 0; // they are merged
+                               choose_samples(options, tool, looks_given));
+    if (in.reduced() && merges_by_rows(in.ldi.channels))
+        options.picture.layer_tolerance = 0; // they are merged
     say_camera(tool, options.input, in.camera);
     ThinLens lens = lens_for_ldi(in, options.focus_pixel, subpixels_of(options.windows, in).across, tool);
     const auto holdout = open_holdout(options.holdout, in, options.windows, by);
-    const LensFile &given_looks = of_frame.looks(options, in.camera.fstop);
+    const LensFile &given_looks = looks_given.of(options, in.camera.fstop);
     Imf::Header header = in.header;
     GatherWindows frame = gather_windows(options.windows, in, lens);
     const LensLooks looks = looks_for_ldi(given_looks, in.camera, header, lens, frame.ldi(in).windows,
                                           options.picture.method, tool);
-    say_border_reach(tool, options.input, in.packed ? border_of(*in.packed) : frame.ldi(in), lens,
+    const auto *packed = std::get_if<PackedRows>(&in.held);
+    say_border_reach(tool, options.input, packed ? border_of(*packed) : frame.ldi(in), lens,
                      frame.subpixels.across, looks);
     choose_windows(frame, options.windows, in, lens, looks);
     raise_highlights(frame, in, highlight_gain(given_looks.values));

@@ -93,6 +93,12 @@ Ldi flattened(const Ldi &ldi) {
 
 } // namespace
 
+bool can_reduce_first(const PictureOptions &options, const ThinLens &lens, bool magnifies,
+                      std::span<const Channel> channels) {
+    return options.method == &gather_methods().front() && !options.holdout && !magnifies &&
+           !(lens.radius == 0 && std::ranges::any_of(channels, is_in_matte));
+}
+
 bool merges_by_rows(std::span<const Channel> channels) {
     const std::size_t alpha = find_channel(channels, "A");
     if (alpha == npos || std::ranges::any_of(channels, is_in_matte)) return false;

@@ -31,8 +31,10 @@ Image gather_picture(Ldi &&ldi, const ThinLens &lens, const Imath::Box2i &gather
 
 // What the method lens makes of the samples of `rows` first, which lie alone: with a lens of radius 0 the flattened pixel,
 // else merged layers where those of these channels are merged by rows; the picture of all rows is then that of a
-// layer_tolerance of 0. Not for pictures with a holdout, and with radius 0 neither for those that a look magnifies nor for
-// those with Cryptomattes.
+// layer_tolerance of 0. Not for other methods and pictures with a holdout, and with radius 0 neither for those that a look magnifies
+// nor for those with Cryptomattes.
+bool can_reduce_first(const PictureOptions &options, const ThinLens &lens, bool magnifies,
+                      std::span<const Channel> channels);
 bool merges_by_rows(std::span<const Channel> channels);
 Ldi reduced_first(Ldi rows, const ThinLens &lens, const PictureOptions &options);
 

@@ -89,6 +89,11 @@ Image GatherWindows::picture_of(Image needed_pixels) const {
     return mean_of_subpixels(needed_pixels, subpixels, picture);
 }
 
+bool keeps_pixels(const WindowOptions &options, const Imf::Header &header) {
+    return options.proxy == 1 &&
+           (options.overscan != OutputOverscan::grow || holds(header.dataWindow(), header.displayWindow()));
+}
+
 GatherWindows gather_windows(const WindowOptions &options, const OpenedLdi &in, ThinLens &lens) {
     const Subpixels by = subpixels_of(options, in);
     const int smaller = smaller_by(options, by);

@@ -41,6 +41,9 @@ struct GatherWindows {
     Image picture_of(Image needed_pixels) const;
 };
 
+// Whether the LDI to gather has the pixels of the file, whatever they show.
+bool keeps_pixels(const WindowOptions &options, const Imf::Header &header);
+
 // Those of the file, all of them needed. Scales `lens` and a copy of the LDI down to the proxy.
 GatherWindows gather_windows(const WindowOptions &options, const OpenedLdi &in, ThinLens &lens);
 

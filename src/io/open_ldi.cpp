@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <functional>
 #include <limits>
 #include <mutex>
@@ -57,26 +58,30 @@ namespace {
 // What is read of a picture a few rows at a time, by several threads.
 class RowsReader {
 public:
-    RowsReader(const std::string &path, const OpenOptions &options, const ReduceSamples &reduce)
-        : name_(display_name(path)), options_(options), reduce_(reduce) {}
+    RowsReader(const std::string &path, const OpenOptions &options, const ChooseSamples &choose)
+        : name_(display_name(path)), options_(options), choose_(choose) {}
 
-    Ldi operator()(const Imf::Header &header, Ldi rows) {
+    // None where all rows are needed at once.
+    std::optional<Ldi> operator()(const Imf::Header &header, Ldi rows) {
         const std::array<float, 2> depths = depths_of(rows);
         const Camera camera = camera_with_options(options_.lens, read_camera(header));
         make_planar(rows, options_.depth.meaning, depth_range(options_.depth, header), camera);
-        if (!all_valid(rows)) throw NeedsAllSamples();
+        if (!all_valid(rows)) return none();
         const std::size_t in_file = rows.samples();
         rows = tidy(std::move(rows));
+        std::call_once(chosen_, [&] { reduce_ = choose_(header, camera, rows); });
+        if (!reduce_) return none();
         count(in_file, rows, depths);
-        return reduce_(header, camera, std::move(rows));
+        return reduce_(std::move(rows));
     }
+    bool needs_all() const { return needs_all_; }
 
     // The picture of the rows, which are ready, and what its samples would have said of it. None if no row was read.
     std::optional<OpenedLdi> opened(LdiFile &&file, const std::string &path) const {
         if (in_file_ == 0) return {};
         OpenedLdi opened = with_camera(std::move(file), path, options_);
-        opened.packed = std::move(file.packed);
-        opened.reduced = true;
+        opened.held = FewerSamples{};
+        if (file.packed) opened.held = std::move(*file.packed);
         opened.samples_read = read_;
         opened.invisible = in_file_ - std::min(in_file_, read_);
         opened.coverage_by_colour = coverage_by_colour_;
@@ -86,6 +91,10 @@ public:
     }
 
 private:
+    std::optional<Ldi> none() {
+        needs_all_ = true;
+        return {};
+    }
     // The least and the most.
     static std::array<float, 2> depths_of(const Ldi &rows) {
         const auto [least, most] = std::ranges::minmax_element(rows.z);
@@ -110,7 +119,10 @@ private:
 
     std::string name_;
     const OpenOptions &options_;
-    const ReduceSamples &reduce_;
+    const ChooseSamples &choose_;
+    std::once_flag chosen_;
+    ReduceSamples reduce_;
+    std::atomic<bool> needs_all_ = false;
     std::mutex counting_; // of what follows
     std::size_t in_file_ = 0, read_ = 0;
     bool coverage_by_colour_ = false;
@@ -119,17 +131,14 @@ private:
 
 } // namespace
 
-OpenedLdi open_ldi(const std::string &path, const OpenOptions &options, const ReduceSamples &reduce) {
-    if (!reduce || options.depth.meaning != DepthMeaning::planar || is_standard_stream(path))
+OpenedLdi open_ldi(const std::string &path, const OpenOptions &options, const ChooseSamples &choose) {
+    if (!choose || options.depth.meaning != DepthMeaning::planar || is_standard_stream(path))
         return open_ldi(path, options);
-    RowsReader reader(path, options, reduce);
-    try {
-        LdiFile file = read_ldi(path, options.depth.picture, std::ref(reader));
-        if (std::optional<OpenedLdi> opened = reader.opened(std::move(file), path)) return std::move(*opened);
-        return ready_ldi(std::move(file), path, options);
-    } catch (const NeedsAllSamples &) {
-        return open_ldi(path, options);
-    }
+    RowsReader reader(path, options, choose);
+    LdiFile file = read_ldi(path, options.depth.picture, std::ref(reader));
+    if (reader.needs_all()) return open_ldi(path, options);
+    if (std::optional<OpenedLdi> opened = reader.opened(std::move(file), path)) return std::move(*opened);
+    return ready_ldi(std::move(file), path, options);
 }
 
 namespace {

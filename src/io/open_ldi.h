@@ -13,9 +13,16 @@
 #include <cstddef>
 #include <functional>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace sparselens {
+
+// How the samples of a file are held.
+struct AllSamples {};   // all
+struct FewerSamples {}; // those that a ReduceSamples left
+using SamplesHeld =
+    std::variant<AllSamples, FewerSamples, PackedRows>; // the last: the same, many, in place of the LDI's
 
 struct OpenedLdi {
     std::string name; // of the file, for messages
@@ -25,17 +32,17 @@ struct OpenedLdi {
     InvalidValues bad; // what was repaired
     std::size_t invisible =
         0; // samples of the file that tidy() left out: they show nothing, or are one with another
-    std::size_t samples_read = 0;              // tidy ones; more than `ldi` has where they were reduced
-    bool reduced = false;                      // by a ReduceSamples
+    std::size_t samples_read = 0; // tidy ones; more than `ldi` has where they were reduced
+    SamplesHeld held = AllSamples{};
     bool deep = true;                          // the file; else it is a flat picture with depth
     DepthMeaning depth = DepthMeaning::planar; // what the file's depths were read as
     bool depth_filtered = false;               // of a flat picture: see edge_depths.h
     bool coverage_by_colour = false;           // AR, AG and AB differ in the file (deep/channel_alpha.h)
-    std::optional<PackedRows> packed = {};     // the samples, in place of those of `ldi`, where they are many
     std::vector<std::string> notes, warnings;  // see LdiFile
 
     // UsageError: a value of the lens is unknown (see resolve_lens.h).
     ThinLens lens() const { return resolve_lens(camera, ldi.windows); }
+    bool reduced() const { return !std::holds_alternative<AllSamples>(held); }
 };
 
 // Opens any deep EXR, or a flat one with depth; `-` is standard input.
@@ -43,15 +50,15 @@ struct OpenedLdi {
 // length of the ray, and the focal length is unknown.
 OpenedLdi open_ldi(const std::string &path, const OpenOptions &options = {});
 
-// Fewer samples instead of those of some rows, which are tidy; windows and channels stay. Several threads call it at once. Throws
-// NeedsAllSamples where there may not be fewer.
-using ReduceSamples = std::function<Ldi(const Imf::Header &header, const Camera &camera, Ldi rows)>;
-struct NeedsAllSamples {};
+// Fewer samples instead of those of some rows, which are tidy; windows and channels stay. Several threads call it at once.
+using ReduceSamples = std::function<Ldi(Ldi rows)>;
+// Says, once a file, by what; empty: all are needed. `rows` are some of its rows.
+using ChooseSamples =
+    std::function<ReduceSamples(const Imf::Header &header, const Camera &camera, const Ldi &rows)>;
 
-// The same with less memory, for those who need fewer samples. The picture is read with all of them where `reduce` needs
-// them, where it cannot be read a few rows at a time (see read_ldi()), and where values are invalid, as the pixels around
-// repair them.
-OpenedLdi open_ldi(const std::string &path, const OpenOptions &options, const ReduceSamples &reduce);
+// The same with less memory, for those who need fewer samples. The picture is read with all of them where `choose` says so, where
+// it cannot be read a few rows at a time (see read_ldi()), and where values are invalid, as the pixels around repair them.
+OpenedLdi open_ldi(const std::string &path, const OpenOptions &options, const ChooseSamples &choose);
 
 // The same for a deep picture that is in memory, or was read otherwise; `path` is for messages.
 OpenedLdi ready_ldi(LdiFile file, const std::string &path, const OpenOptions &options = {});

@@ -20,7 +20,7 @@ std::vector<std::string> keep_and_tell(Ldi &ldi, const std::string &channels) {
 } // namespace
 
 OpenedLdi &LdiCache::load(const std::string &path, const std::string &channels, const OpenOptions &options,
-                          const ColourOptions &colour, const ToolContext &tool, const ReduceSamples &reduce) {
+                          const ColourOptions &colour, const ToolContext &tool, const ChooseSamples &choose) {
     const DepthOptions &depth = options.depth;
     const LensValues &lens = options.lens;
     const Key key(path, channels, depth.meaning, depth.near, depth.far, depth.picture.stereo_view,
@@ -30,14 +30,14 @@ OpenedLdi &LdiCache::load(const std::string &path, const std::string &channels, 
     if (read_now_) {
         last_.reset(); // two at a time may be more than fits
         tool.say("reading " + path);
-        OpenedLdi opened = open_ldi(path, options, reduce);
-        taken_ = opened.reduced;
+        OpenedLdi opened = open_ldi(path, options, choose);
+        taken_ = opened.reduced();
         say_samples(tool, opened);
         warn_of_invalid_values(tool, path, opened.bad);
         opened.header = to_linear(tool, colour, path, opened.header, opened.ldi);
         warn_of_flat_picture(tool, opened);
         channels_left_out_ = keep_and_tell(opened.ldi, channels);
-        if (opened.packed) opened.packed->keep_channels(opened.ldi.channels);
+        if (auto *packed = std::get_if<PackedRows>(&opened.held)) packed->keep_channels(opened.ldi.channels);
         key_ = key;
         last_ = std::move(opened);
     }

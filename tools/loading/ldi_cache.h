@@ -17,9 +17,9 @@ class LdiCache {
 public:
     // Calls open_ldi(), to_linear() and keep_channels() if the last file was another or was read by other options, and
     // then warns of invalid values. The camera always follows the options given. Earlier results become invalid.
-    // Where `reduce` is given, the samples are read anew the next time.
+    // Samples that were reduced are read anew the next time.
     OpenedLdi &load(const std::string &path, const std::string &channels, const OpenOptions &options,
-                    const ColourOptions &colour, const ToolContext &tool, const ReduceSamples &reduce = {});
+                    const ColourOptions &colour, const ToolContext &tool, const ChooseSamples &choose = {});
 
     // The samples of the last load(), which are read anew the next time.
     Ldi take_ldi() {

@@ -40,10 +40,10 @@ struct LdiFile {
 LdiFile read_ldi(const std::string &path, const PictureChoice &choice = {});
 
 // The same with less memory, for a picture of which fewer samples are needed: `reduce` is given a few rows of it at a time,
-// by several threads at once, and what it makes of them is kept; it may not change the windows. What would take
-// more than memory_to_gather() is kept packed.
+// by several threads at once, and what it makes of them is kept; it may not change the windows. If that is none, it is asked
+// no more, and there are no samples. What would take more than memory_to_gather() is kept packed.
 // `reduce` is not asked where the picture has several parts, tiles, or is flat: then all samples are there.
-using ReduceFileRows = std::function<Ldi(const Imf::Header &header, Ldi rows)>;
+using ReduceFileRows = std::function<std::optional<Ldi>(const Imf::Header &header, Ldi rows)>;
 LdiFile read_ldi(const std::string &path, const PictureChoice &choice, const ReduceFileRows &reduce);
 
 // Writes a scanline deep EXR file, compressed as compression.h says; deepImageState describes the samples. Keeps all of

@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <numeric>
 
 namespace sparselens {
@@ -186,12 +187,19 @@ void read_reduced(const DeepSource &source, int number, Ldi &ldi, const std::vec
     check_room(ldi, channels.size(), source);
     const Windows windows = ldi.windows;
     KeptRows kept(ldi, ldi.begin.back(), packed);
+    std::atomic<bool> stopped = false;
     for_some_rows(
         windows.data, readers,
-        [&](Imf::DeepScanLineInputPart &part, int first, int last) {
-            return reduce(some_rows(part, source, windows, counts, channels, depth, first, last));
+        [&](Imf::DeepScanLineInputPart &part, int first, int last) -> std::optional<Ldi> {
+            if (stopped) return {};
+            auto rows = reduce(some_rows(part, source, windows, counts, channels, depth, first, last));
+            if (!rows) stopped = true;
+            return rows;
         },
-        [&](Ldi rows) { kept.add(std::move(rows)); });
+        [&](std::optional<Ldi> rows) {
+            if (rows && !stopped) kept.add(std::move(*rows));
+        });
+    if (stopped) kept.drop();
 }
 
 void read_tiles(const DeepSource &source, int number, Ldi &ldi, const Planes &planes) {

@@ -25,14 +25,14 @@ struct DeepSource {
     double held = 0; // bytes of memory that the parts read so far take
 };
 
-// Makes an LDI of the same windows of that of some rows: of fewer samples. Called by several threads at once.
-using ReduceRows = std::function<Ldi(Ldi rows)>;
+// Makes an LDI of the same windows of that of some rows: of fewer samples; or none. Called by several threads at once.
+using ReduceRows = std::function<std::optional<Ldi>(Ldi rows)>;
 
 // Reads `channels` of the part: `depth` and depthBack, those that position samples, and the others as values. If
 // `depth` is empty there is no depth, and z stays empty. Samples are returned as they stand in the file. Throws Error,
 // naming the file, where it is damaged or asks for more memory than it may. With `reduce`, which needs a part of scanlines, a
 // few rows are read at a time, and what it makes of them is kept: in `packed` where it is much, which leaves the LDI
-// without samples.
+// without samples. So it is left where it makes none of some rows; others are not read then.
 Ldi read_deep_part(const DeepSource &source, int number, const std::vector<FileChannel> &channels,
                    const std::string &depth);
 Ldi read_deep_part(const DeepSource &source, int number, const std::vector<FileChannel> &channels,

@@ -44,6 +44,10 @@ bool KeptRows::takes_much() const {
 void KeptRows::pack() {
     packed_.emplace(ldi_.windows);
     packed_->append(ldi_);
+    drop();
+}
+
+void KeptRows::drop() {
     for (std::vector<float> *array : arrays_of(ldi_)) std::vector<float>().swap(*array);
     ldi_.begin.assign(ldi_.windows.pixels() + 1, 0);
 }

@@ -15,6 +15,7 @@ public:
     // `most`: samples of the file.
     KeptRows(Ldi &ldi, std::uint64_t most, std::optional<PackedRows> &packed);
     void add(Ldi rows);
+    void drop(); // all of the LDI's
 
 private:
     bool takes_much() const;
