@@ -70,6 +70,8 @@ std::string cells(const ReportRow &row, const RayTracingCurves &ray_tracing) {
     for (const double seconds : row.seconds) number(seconds > 0 ? significant(seconds, 3) : "");
     number(row.runs > 0 ? fixed(row.peak_mb, 0) : "");
     for (const ErrorFigures &errors : row.errors) number(fixed(errors.psnr_tonemapped, 2));
+    number(fixed(row.errors.front().psnr_worst, 2));
+    number(row.errors.front().flip ? fixed(*row.errors.front().flip, 4) : "");
     number(fixed(row.errors.front().ssim, 4));
     number(row.causes ? fixed(row.causes->sampling, 2) : "");
     number(row.causes ? fixed(row.causes->layers, 2) : "");
@@ -91,9 +93,9 @@ std::string table(std::span<const ReportRow> rows) {
     for (const char *stage : stage_names) html += element("th", stage);
     html += element("th", "peak MB") + element("th", "dB");
     for (const char *region : region_names) html += element("th", region + std::string(" dB"));
-    for (const char *title :
-         {"SSIM", "sampling dB", "layers dB", "pull: flicker", "pull: sparkle", "pull: largest",
-          "equal error: times longer", "equal error: rays", "equal time: dB better", "not finite"})
+    for (const char *title : {"worst dB", "FLIP", "SSIM", "sampling dB", "layers dB", "pull: flicker",
+                              "pull: sparkle", "pull: largest", "equal error: times longer",
+                              "equal error: rays", "equal time: dB better", "not finite"})
         html += element("th", title);
     html += "</tr></thead>\n<tbody>\n";
     const RayTracingCurves ray_tracing = ray_tracing_curves(rows);
@@ -129,7 +131,10 @@ std::string page_as_html(const Page &page) {
         "<p>Seconds are wall time, rendering included; rays are camera samples a pixel, all views together, "
         "since "
         "a production shader costs more than a test scene's. dB is PSNR of tone-mapped pixels against the "
-        "reference. <i>Sampling</i> is the picture against the same layers seen through many lens points, "
+        "reference, <i>worst</i> that of the worst 1 % of blocks of 8 x 8 pixels. FLIP is what somebody sees "
+        "who "
+        "flips between the two at the worst of several exposures, 0 to 1. <i>Sampling</i> is the picture "
+        "against the same layers seen through many lens points, "
         "<i>layers</i> is that picture against the reference: what the layers lack. <i>Equal error</i> is "
         "what "
         "distributed ray tracing takes for a row's error, as a multiple of the row's time and in rays; "

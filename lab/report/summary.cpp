@@ -11,15 +11,17 @@ namespace sparselens::lab {
 namespace {
 
 TextRow titles() {
-    return {"method",  "budget",  "rays",        "seconds", "MB",          "dB",
-            "focus",   "blurred", "silhouettes", "SSIM",    "sampling",    "layers",
-            "flicker", "sparkle", "largest",     "x time",  "rays needed", "dB gained"};
+    return {"method",  "budget",      "rays",    "seconds", "MB",          "dB",       "focus",
+            "blurred", "silhouettes", "worst",   "FLIP",    "SSIM",        "sampling", "layers",
+            "flicker", "sparkle",     "largest", "x time",  "rays needed", "dB gained"};
 }
 
 TextRow cells(const ReportRow &row, const RayTracingCurves &ray_tracing) {
     TextRow text{method_name(row), row.budget, significant(row.rays, 4), significant(total_seconds(row), 3),
                  row.runs > 0 ? fixed(row.peak_mb, 0) : ""};
     for (const ErrorFigures &errors : row.errors) text.push_back(fixed(errors.psnr_tonemapped, 2));
+    text.push_back(fixed(row.errors.front().psnr_worst, 2));
+    text.push_back(row.errors.front().flip ? fixed(*row.errors.front().flip, 4) : "");
     text.push_back(fixed(row.errors.front().ssim, 4));
     text.push_back(row.causes ? fixed(row.causes->sampling, 2) : "");
     text.push_back(row.causes ? fixed(row.causes->layers, 2) : "");

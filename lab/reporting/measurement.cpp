@@ -9,6 +9,7 @@
 #include "lab/report/verdict.h"
 #include "lab/reporting/files.h"
 #include "loading/region_file.h"
+#include "measure/flip.h"
 #include "measure/tone_map.h"
 
 #include <fmt/format.h>
@@ -64,6 +65,9 @@ public:
         if (!planned.partial_views.empty()) add_partial_views(planned, row);
         const Image picture = over_reference(planned.picture);
         std::ranges::copy(image_error(picture, reference_, bits_, region_names.size()), row.errors.begin());
+        const std::vector<double> flip =
+            flip_means(flip_map(picture, reference_, FlipRange::hdr), bits_, region_names.size());
+        for (std::size_t r = 0; r < flip.size(); ++r) row.errors[r].flip = flip[r];
         if (!planned.many_points.empty()) {
             const Image many = over_reference(planned.many_points);
             row.causes = {image_error(picture, many).front().psnr_tonemapped,

@@ -22,15 +22,18 @@ std::string plain_name(const std::string &name) {
     return result;
 }
 
-std::string view_name(std::size_t k) { return fmt::format("view_{}.exr", k); }
+// "-denoised" of "denoised.exr".
+std::string kind_of(const std::string &ending) {
+    return ending == "exr" ? "" : '-' + ending.substr(0, ending.find('.'));
+}
 
-// N of drt_N.exr.
-std::optional<int> rays_of(const std::string &file) {
+// N of drt_N.exr, or with another ending.
+std::optional<int> rays_of(const std::string &file, const std::string &ending) {
     int rays = 0;
     const char *begin = file.data() + 4, *end = file.data() + file.size();
     if (!file.starts_with("drt_")) return {};
     const auto [rest, error] = std::from_chars(begin, end, rays);
-    if (error != std::errc() || std::string(rest, end) != ".exr") return {};
+    if (error != std::errc() || std::string(rest, end) != '.' + ending) return {};
     return rays;
 }
 
@@ -67,10 +70,11 @@ std::vector<int> ReadyScene::samples() const {
     return counts;
 }
 
-std::vector<int> ReadyScene::rays() const {
+std::vector<int> ReadyScene::rays(const std::string &ending) const {
     std::vector<int> counts;
     for (const auto &[file, seconds] : camera_.seconds)
-        if (const auto rays = rays_of(file); rays && fs::exists(folder_ / file)) counts.push_back(*rays);
+        if (const auto rays = rays_of(file, ending); rays && fs::exists(folder_ / file))
+            counts.push_back(*rays);
     std::ranges::sort(counts);
     return counts;
 }
@@ -80,15 +84,18 @@ Rendered ReadyScene::reference(StepList &) const {
 }
 
 // Of N views evenly on the rim every (N / rim)-th is taken.
-std::optional<Rendered> ReadyScene::views(int rim, int samples, StepList &) const {
+std::optional<Rendered> ReadyScene::views(int rim, int samples, const std::string &ending) const {
     const auto found =
         std::ranges::find_if(views_, [&](const ViewFolder &v) { return v.camera.view_samples == samples; });
     const std::vector<Imath::V2d> &points = found->camera.views;
     const auto wanted = std::size_t(rim);
+    const auto view_name = [&](std::size_t k) { return fmt::format("view_{}.{}", k, ending); };
+    const std::string centre = "center." + ending;
     if (wanted > points.size() || (wanted > 0 && points.size() % wanted != 0)) return {};
-    Rendered views{.folder = fmt::format("{}/views-{}x{}", name_, 1 + rim, samples),
-                   .picture = (found->path / "center.exr").string(),
-                   .ready_seconds = found->camera.seconds.at("center.exr"),
+    if (!found->camera.seconds.contains(centre)) return {};
+    Rendered views{.folder = fmt::format("{}/views{}-{}x{}", name_, kind_of(ending), 1 + rim, samples),
+                   .picture = (found->path / centre).string(),
+                   .ready_seconds = found->camera.seconds.at(centre),
                    .views = 1 + rim,
                    .rays = double((1 + rim) * samples)};
     for (std::size_t i = 0; i < wanted; ++i) {
@@ -101,9 +108,9 @@ std::optional<Rendered> ReadyScene::views(int rim, int samples, StepList &) cons
     return views;
 }
 
-std::optional<Rendered> ReadyScene::distributed(int rays, StepList &) const {
-    const std::string file = fmt::format("drt_{}.exr", rays);
-    return Rendered{.folder = fmt::format("{}/traced-{}", name_, rays),
+Rendered ReadyScene::distributed(int rays, const std::string &ending) const {
+    const std::string file = fmt::format("drt_{}.{}", rays, ending);
+    return Rendered{.folder = fmt::format("{}/traced{}-{}", name_, kind_of(ending), rays),
                     .picture = (folder_ / file).string(),
                     .ready_seconds = camera_.seconds.at(file),
                     .rays = double(rays)};

@@ -17,21 +17,37 @@ public:
     LensValues lens() const override;
     double focus_distance() const override { return camera_.focus_distance; }
     std::vector<int> samples() const override;
-    std::vector<int> rays() const override;
+    std::vector<int> rays() const override { return rays("exr"); }
+    std::vector<int> denoised_rays() const override { return rays("denoised.exr"); }
     std::vector<int> lens_views() const override { return {}; }
 
     Rendered reference(StepList &steps) const override;
-    std::optional<Rendered> views(int rim, int samples, StepList &steps) const override;
+    std::optional<Rendered> views(int rim, int samples, StepList &) const override {
+        return views(rim, samples, "exr");
+    }
+    std::optional<Rendered> denoised_views(int rim, int samples, StepList &) const override {
+        return views(rim, samples, "denoised.exr");
+    }
     std::optional<Rendered> planned(int, int, StepList &) const override { return {}; }
     std::optional<Rendered> layers(const std::string &, int, StepList &) const override { return {}; }
     std::optional<Rendered> accumulated(int, StepList &) const override { return {}; }
-    std::optional<Rendered> distributed(int rays, StepList &steps) const override;
+    std::optional<Rendered> distributed(int rays, StepList &) const override {
+        return distributed(rays, "exr");
+    }
+    std::optional<Rendered> denoised(int rays, StepList &) const override {
+        return distributed(rays, "denoised.exr");
+    }
 
 private:
     struct ViewFolder {
         std::filesystem::path path;
         CameraSummary camera;
     };
+
+    // Of the files that end so: as they were rendered, or denoised.
+    std::vector<int> rays(const std::string &ending) const;
+    std::optional<Rendered> views(int rim, int samples, const std::string &ending) const;
+    Rendered distributed(int rays, const std::string &ending) const;
 
     std::filesystem::path folder_;
     std::string name_;

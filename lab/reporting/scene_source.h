@@ -48,6 +48,9 @@ public:
     virtual std::vector<int> samples() const = 0; // budgets of views
     virtual std::vector<int> rays() const = 0;    // budgets of ray tracing over the lens
     virtual std::vector<int> lens_views() const = 0;
+    virtual std::vector<int> denoised_rays() const {
+        return {};
+    } // of denoised(): some ready-made scenes have those
 
     // Each adds the steps that it needs, and returns nothing where the source does not provide such pictures.
     virtual Rendered reference(StepList &steps) const = 0;
@@ -56,14 +59,18 @@ public:
     virtual std::optional<Rendered> layers(const std::string &kind, int samples, StepList &steps) const = 0;
     virtual std::optional<Rendered> accumulated(int views, StepList &steps) const = 0;
     virtual std::optional<Rendered> distributed(int rays, StepList &steps) const = 0;
+
+    // What a denoiser made of the views, and of the rays over the lens; the seconds are those of both.
+    virtual std::optional<Rendered> denoised_views(int, int, StepList &) const { return {}; }
+    virtual std::optional<Rendered> denoised(int, StepList &) const { return {}; }
 };
 
 // Whether the tools of that folder can make a plan and render it.
 bool can_plan(const std::string &tools);
 
 // `scene` is the name of a built-in scene, or a folder with camera.json, reference.exr, center.exr, view_K.exr and
-// optionally drt_N.exr (N rays per pixel over the lens) and further such folders for other sample counts. Throws
-// UsageError where it is neither.
+// optionally drt_N.exr (N rays per pixel over the lens), what a denoiser made of any of these (center.denoised.exr, ...; lab/denoise) and
+// further such folders for other sample counts. Throws UsageError where it is neither.
 std::unique_ptr<SceneSource> open_scene(const std::string &scene, const Budgets &budgets, bool with_plans);
 
 } // namespace sparselens::lab

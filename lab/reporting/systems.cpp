@@ -177,6 +177,11 @@ std::optional<Rendered> planned(const SceneSource &scene, int samples, StepList 
     return scene.planned(Rim, samples, steps);
 }
 
+template <int Rim>
+std::optional<Rendered> denoised_sparse(const SceneSource &scene, int samples, StepList &steps) {
+    return scene.denoised_views(Rim, samples, steps);
+}
+
 std::optional<Rendered> strata(const SceneSource &scene, int samples, StepList &steps) {
     return scene.layers("strata", samples, steps);
 }
@@ -193,6 +198,10 @@ std::optional<Rendered> distributed(const SceneSource &scene, int rays, StepList
     return scene.distributed(rays, steps);
 }
 
+std::optional<Rendered> denoised(const SceneSource &scene, int rays, StepList &steps) {
+    return scene.denoised(rays, steps);
+}
+
 const std::vector<System> &system_table() {
     using S = SceneSource;
     const std::vector<const Processor *> every{&selective_2, &selective_4, &selective_8,
@@ -203,8 +212,10 @@ const std::vector<System> &system_table() {
         {"4 peeled layers", "sample", &S::samples, peeled, {&blended, &lens_normal}, Role::other},
         {"accumulated lens views", "view", &S::lens_views, accumulated, {}, Role::other},
         {"distributed ray tracing", "ray", &S::rays, distributed, {}, Role::ray_tracing},
+        {"denoised ray tracing", "ray", &S::denoised_rays, denoised, {}, Role::other},
         {"centre + 4", "sample", &S::samples, sparse<4>, every, Role::sparse_lens, true},
         {"centre + 8", "sample", &S::samples, sparse<8>, every, Role::sparse_lens},
+        {"centre + 4 denoised", "sample", &S::samples, denoised_sparse<4>, {&lens_normal}, Role::other},
         {"centre + 4 planned",
          "sample",
          &S::samples,

@@ -39,6 +39,26 @@ void shade_by_sun(const Tracer &tracer, std::span<const Hit> hits, std::span<Ima
                      : lit(tracer.material(hits[i])(hits[i].position), std::abs(hits[i].normal ^ to_sun));
 }
 
+void shade_by_albedo(const Tracer &tracer, std::span<const Hit> hits, std::span<Imath::C4f> out) {
+    const Paint sky{tracer.scene().sky, tracer.scene().sky_coverage, true};
+    for (std::size_t i = 0; i < hits.size(); ++i) {
+        const Paint paint = hits[i].sky() ? sky : tracer.material(hits[i])(hits[i].position);
+        out[i] = {std::min(paint.colour.x, 1.f), std::min(paint.colour.y, 1.f), std::min(paint.colour.z, 1.f),
+                  paint.coverage};
+    }
+}
+
+void shade_by_normal(const Tracer &tracer, std::span<const Hit> hits, std::span<Imath::C4f> out) {
+    for (std::size_t i = 0; i < hits.size(); ++i) {
+        if (hits[i].sky()) {
+            out[i] = {0, 0, 0, tracer.scene().sky_coverage};
+            continue;
+        }
+        const Imath::V3f normal(hits[i].normal);
+        out[i] = {normal.x, normal.y, normal.z, tracer.material(hits[i])(hits[i].position).coverage};
+    }
+}
+
 // From just off the surface, on the side of the light, to the light's point at t = 1.
 Ray shadow_ray(const Hit &hit, const Imath::V2d &light_point) {
     const Imath::V3d target =
@@ -83,7 +103,12 @@ void shade_by_area(const Tracer &tracer, std::span<const Hit> hits, std::span<co
 
 void shade_surfaces(const Tracer &tracer, Light light, std::span<const Hit> hits,
                     std::span<const Imath::V2d> light_points, std::span<Imath::C4f> out) {
-    if (light == Light::sun) return shade_by_sun(tracer, hits, out);
+    switch (light) {
+    case Light::sun: return shade_by_sun(tracer, hits, out);
+    case Light::albedo: return shade_by_albedo(tracer, hits, out);
+    case Light::normal: return shade_by_normal(tracer, hits, out);
+    case Light::area: break;
+    }
     for (std::size_t first = 0; first < hits.size(); first += run_size) {
         const std::size_t n = std::min(run_size, hits.size() - first);
         shade_by_area(tracer, hits.subspan(first, n), light_points.subspan(first, n), out.subspan(first, n));
@@ -141,9 +166,12 @@ void add_bounces(const Tracer &tracer, Light light, std::span<const Ray> rays, s
 void trace_through(const Tracer &tracer, Light light, std::span<const Ray> rays,
                    std::span<const Imath::V2d> light_points, std::span<Imath::C4f> out) {
     LayerBuffers buffers;
+    std::vector<Slab> slabs = tracer.scene().slabs;
+    if (light == Light::normal)
+        for (Slab &slab : slabs) slab.colour = {0, 0, 0};
     for (std::size_t i = 0; i < rays.size(); ++i) {
         trace_layers(tracer, light, rays[i], light_points[i], buffers);
-        out[i] = composite(buffers.layers, tracer.scene().slabs);
+        out[i] = composite(buffers.layers, slabs);
     }
 }
 

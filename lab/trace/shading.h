@@ -8,7 +8,9 @@ namespace sparselens::lab {
 
 // sun: albedo (0.9 |n . l| + 0.15), without shadows. area: the first term comes from a square light and is estimated by
 // one random point of the light and a shadow ray to it, which gives soft shadows and the noise of a path tracer.
-enum class Light { sun, area };
+// What denoisers ask for beside the picture, by the same rays, mirrors and layers: albedo, the colour of what is there, at most
+// 1; normal, X, Y and Z of its normal in place of R, G and B, 0 for the sky.
+enum class Light { sun, area, albedo, normal };
 
 // The colour (not premultiplied) and coverage of what each ray hits; mirrors and glass show what one bounce meets, or the
 // ray that leaves the glass. `light_points` are one per hit, spread evenly over the unit square: of the light, and of

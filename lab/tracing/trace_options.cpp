@@ -95,7 +95,8 @@ void add_picture_options(CLI::App &app, TraceOptions &options) {
 
 // How it is rendered: the size, the light, the layers and the type of the channels.
 void add_rendering_options(CLI::App &app, TraceOptions &options) {
-    const std::map<std::string, Light> lights{{"sun", Light::sun}, {"area", Light::area}};
+    const std::map<std::string, Light> lights{
+        {"sun", Light::sun}, {"area", Light::area}, {"albedo", Light::albedo}, {"normal", Light::normal}};
     const std::map<std::string, PixelType> types{{"half", PixelType::half}, {"float", PixelType::float32}};
     app.add_option_function<std::string>(
            "--size",
@@ -124,9 +125,11 @@ void add_rendering_options(CLI::App &app, TraceOptions &options) {
                                options.seed))
         ->type_name("N")
         ->check(CLI::Range(0, largest_seed));
-    app.add_option("--light", options.light,
-                   "sun: parallel light; area: a square light, one shadow ray per sample (default: sun)")
-        ->type_name("sun|area")
+    app.add_option(
+           "--light", options.light,
+           "sun: parallel light; area: a square light, one shadow ray per sample; for denoisers, of the "
+           "same rays: albedo: colours without light; normal: X, Y and Z of normals (default: sun)")
+        ->type_name("sun|area|albedo|normal")
         ->transform(words(lights));
     app.add_option_function<std::vector<std::string>>(
            "--deep",

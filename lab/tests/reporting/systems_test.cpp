@@ -232,6 +232,34 @@ TEST_F(ReadyViews, FourOfEightViewsAreEverySecond) {
                   "-o a-yard/views-5x64/warped.exr");
 }
 
+TEST_F(ReadyViews, WhatADenoiserMadeHasItsOwnRows) {
+    const Planned without = planned(folder_.string());
+    EXPECT_FALSE(without.has("denoised ray tracing"));
+    EXPECT_FALSE(without.has("centre + 4 denoised"));
+    std::string points, seconds = "\"center.exr\": 20, \"drt_16.exr\": 2.5";
+    for (const std::string name : {"center", "view_0", "view_1", "view_2", "view_3", "drt_16"}) {
+        put_contents(folder_ / (name + ".denoised.exr"), "");
+        seconds += ", \"" + name + ".denoised.exr\": 30";
+    }
+    for (int k = 0; k < 4; ++k) {
+        points += (k ? ", [" : "[") + std::to_string(k) + ", 1]";
+        seconds += ", \"view_" + std::to_string(k) + ".exr\": " + std::to_string(k);
+    }
+    put_contents(folder_ / "camera.json", camera(points, 64, seconds));
+    const Planned all = planned(folder_.string());
+    const PlannedRow &views = all.row("centre + 4 denoised, lens normal", "64 samples");
+    EXPECT_EQ(views.row.seconds[0], 5 * 30);
+    EXPECT_EQ(views.row.rays, 320);
+    EXPECT_EQ(views.row.role, Role::other);
+    EXPECT_NE(all.commands(views).find("view_3.denoised.exr"), std::string::npos);
+    EXPECT_NE(all.commands(views).find("-o a-yard/views-denoised-5x64/warped.exr"), std::string::npos);
+    EXPECT_EQ(all.row("centre + 4, lens normal", "64 samples").row.seconds[0], 20 + 0 + 1 + 2 + 3);
+    const PlannedRow &traced = all.row("denoised ray tracing", "16 rays");
+    EXPECT_EQ(traced.row.seconds[0], 30);
+    EXPECT_EQ(traced.row.role, Role::other);
+    EXPECT_EQ(traced.picture, (folder_ / "drt_16.denoised.exr").string());
+}
+
 TEST_F(ReadyViews, WhatIsMissingIsNamed) {
     const auto error = [&] { return what_of<Error>([&] { planned(folder_.string()); }); };
     put_contents(folder_ / "few" / "camera.json", "{\"width\": 64");

@@ -74,9 +74,14 @@ grep -q 'rays a pixel' printed || fail "no crossing is printed: $(cat printed)"
 [ "$(grep -c '^Least error of sparse views' printed)" -eq 3 ] || fail "not a verdict a scene: $(cat printed)"
 
 # The figures are dof-compare's; times of ready-made views are those in camera.json.
-compared() { "$bin/dof-compare" "$1" "$2" --json | sed -n 's/^  "psnr_tonemapped": \(.*\),/\1/p'; }
+compared() { "$bin/dof-compare" "$1" "$2" --json --flip hdr | sed -n "s/^  \"${3:-psnr_tonemapped}\": \(.*\),/\1/p"; }
 is "$(value fence 'centre + 4, lens normal' '4 samples' psnr_tonemapped)" \
     "$(compared out/fence/views-5x4/lens-normal.exr out/fence/reference/reference.exr)" 'PSNR of fence'
+for figure in psnr_worst flip; do
+    is "$(value fence 'centre + 4, lens normal' '4 samples' $figure)" \
+        "$(compared out/fence/views-5x4/lens-normal.exr out/fence/reference/reference.exr $figure)" "$figure of fence" 1e-6
+done
+positive "$(value fence 'centre + 4, lens normal' '4 samples' silhouettes_flip)" 'FLIP of silhouettes'
 is "$(value fence 'centre + 4, lens normal' '4 samples' psnr_layers)" \
     "$(compared out/fence/views-5x4/many-points.exr out/fence/reference/reference.exr)" 'what the layers lack'
 is "$(value fence 'centre + 4, lens normal' '4 samples' psnr_sampling)" \

@@ -48,6 +48,8 @@ changes reference.exr --reference 4
 changes center.exr --size 40x27
 changes center.exr --overscan 3
 changes center.exr --light area
+changes center.exr --light albedo
+changes center.exr --light normal
 changes reference.exr --seed 1
 changes center.exr --dolly 0.1
 changes reference.exr --dolly 0.1

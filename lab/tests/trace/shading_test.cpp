@@ -48,6 +48,46 @@ TEST(Shading, SkyIsOpaqueAndLampsKeepTheirRadiance) {
     EXPECT_EQ(seen(scene, Light::area), Imath::C4f(1, 1, 1, 1));
 }
 
+TEST(Shading, AlbedoIsTheColourWithoutLight) {
+    Scene scene;
+    scene.sky = {3, 2, 0.6f};
+    EXPECT_EQ(seen(scene, Light::albedo), Imath::C4f(1, 1, 0.6f, 1));
+    scene.quads = {facing_wall(5, grey)};
+    EXPECT_EQ(seen(scene, Light::albedo), Imath::C4f(0.5f, 0.5f, 0.5f, 1));
+    scene.quads = {facing_wall(5, white_light)};
+    EXPECT_EQ(seen(scene, Light::albedo), Imath::C4f(1, 1, 1, 1));
+}
+
+// A mirror shows the normal of what it shows.
+TEST(Shading, NormalsAreColours) {
+    Scene scene;
+    EXPECT_EQ(seen(scene, Light::normal), Imath::C4f(0, 0, 0, 1));
+    scene.quads = {{{{{-9, -1, 4}, {9, -1, 4}, {9, 1, 6}, {-9, 1, 6}}}, grey}}; // a slope
+    const Imath::C4f slope = seen(scene, Light::normal);
+    EXPECT_NEAR(std::abs(slope.g), std::sqrt(0.5), 1e-6);
+    EXPECT_NEAR(slope.b, -slope.g, 1e-6);
+    EXPECT_EQ(slope.r, 0);
+    scene.mirrors = true;
+    scene.quads = {{{{{-1, -1, 4}, {1, -1, 6}, {1, 1, 6}, {-1, 1, 4}}}, silver},
+                   {{{{3, -9, -9}, {3, -9, 9}, {3, 9, 9}, {3, 9, -9}}}, grey}};
+    const Imath::C4f wall = seen(scene, Light::normal);
+    EXPECT_NEAR(std::abs(wall.r), 1, 1e-6);
+    EXPECT_NEAR(wall.g, 0, 1e-6);
+}
+
+// Half of a sheet lies over the wall; a slab has no normal.
+TEST(Shading, WhatDenoisersAskForIsCompositedLikeThePicture) {
+    Scene scene;
+    scene.translucent = true;
+    scene.quads = {facing_wall(4, half_red), facing_wall(5, grey)};
+    EXPECT_NEAR(seen(scene, Light::albedo).r, 0.75, 1e-6);
+    EXPECT_NEAR(seen(scene, Light::albedo).g, 0.25, 1e-6);
+    EXPECT_NEAR(std::abs(seen(scene, Light::normal).b), 1, 1e-6);
+    scene.slabs = {{.z_front = 1, .z_back = 2, .density = 1, .colour = {1, 1, 1}}};
+    EXPECT_NEAR(std::abs(seen(scene, Light::normal).b), std::exp(-1), 1e-6);
+    EXPECT_EQ(seen(scene, Light::normal).r, 0);
+}
+
 // A mirror at 45 degrees turns the view to the right; of two mirrors the second shows its own colour.
 TEST(Shading, MirrorsShowOneBounce) {
     Scene scene;
