@@ -176,3 +176,7 @@ The best one was made by
 Go on with another focus, for example on the fence:
   $(printf '%q ' "$bin/dof-gather" "$out/ldi.exr" --focus-distance 2.2 -o "$out/on-the-fence.png")
 END
+[ ! -x "$bin/dof-view" ] || cat >&3 <<END
+Or point at what is to be sharp, in a browser:
+  $(printf '%q ' "$bin/dof-view" "$out/ldi.exr" --reference "$reference")
+END

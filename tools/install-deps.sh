@@ -11,10 +11,10 @@ release=$(sed -n 's/^VERSION_CODENAME=//p' "${SPARSELENS_OS_RELEASE-/etc/os-rele
 blender='blender libgl1-mesa-dri xauth xvfb'
 build='g++ cmake ninja-build pkg-config libcli11-dev libembree-dev libfmt-dev libimath-dev libopencolorio-dev
        libopenexr-dev libopenimageio-dev libtbb-dev nlohmann-json3-dev'
-demo='fonts-dejavu-core openimageio-tools'
+demo='fonts-dejavu-core libcpp-httplib-dev openimageio-tools'
 gpu='glslc libvulkan-dev mesa-vulkan-drivers spirv-tools vulkan-validationlayers'
 lint='clang-14 clang-format-14 clang-tidy-14'
-report='chromium gnuplot-nox'
+report='chromium chromium-driver gnuplot-nox'
 test='dpkg-dev fakeroot file fish gnuplot-nox groff-base libbenchmark-dev libgtest-dev lintian munge mypy
       openexr openimageio-tools pybind11-dev python3-dev python3-jsonschema python3-numpy python3-openimageio
       python3-pytest python3-venv python3-yaml slurm-client slurmctld slurmd time zsh'

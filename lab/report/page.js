@@ -1,5 +1,3 @@
-'use strict';
-
 // One viewer a scene: the left picture lies above the right one and is cut off at the slider.
 function startViewer(viewer) {
     const part = (name) => viewer.querySelector('.' + name);
@@ -15,11 +13,7 @@ function startViewer(viewer) {
             box.style.width = width + 'px';
             box.style.height = height + 'px';
         }
-        stack.classList.toggle('difference', mode === 'difference');
-        // Slide: a border that moves. Flip: all of one or all of the other, by which half the slider is in.
-        const share = Number(slider.value);
-        const left = mode === 'slide' ? share : mode === 'flip' && share < 50 ? 0 : 100;
-        above.style.clipPath = 'inset(0 ' + (100 - left) + '% 0 0)';
+        compare(stack, above, mode, Number(slider.value));
     }
 
     // Pressing or dragging on the picture moves the slider; in flip mode a press flips.

@@ -16,4 +16,8 @@ void Progress::advance(std::size_t steps) {
     if (percent != before) listener_(stage_, percent);
 }
 
+void Progress::may_end() const {
+    if (watch_) watch_();
+}
+
 } // namespace sparselens

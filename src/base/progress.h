@@ -14,14 +14,20 @@ public:
     // it. An empty listener reports nothing.
     using Listener = std::function<void(const std::string &stage, int percent)>;
 
+    // Called between the steps of long work: throws where the work is to end.
+    using Watch = std::function<void()>;
+
     Progress() = default;
-    explicit Progress(Listener listener) : listener_(std::move(listener)) {}
+    explicit Progress(Listener listener, Watch watch = {})
+        : listener_(std::move(listener)), watch_(std::move(watch)) {}
 
     void start(std::string stage, std::size_t steps);
     void advance(std::size_t steps = 1); // from any thread
+    void may_end() const;                // from any thread; where nothing would be left half done
 
 private:
     Listener listener_;
+    Watch watch_;
     std::string stage_;
     std::size_t total_ = 0;
     std::atomic<std::size_t> done_ = 0;

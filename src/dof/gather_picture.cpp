@@ -58,6 +58,7 @@ Image gather_layers(AnyLdi &&ldi, const ThinLens &lens, const Imath::Box2i &gath
 // Once is enough: merged twice, layers would change by more than the tolerance.
 Image gather_merged(Ldi &&ldi, const ThinLens &lens, const Imath::Box2i &gathered,
                     const Imath::Box2i &written, PictureOptions options, Progress &progress) {
+    progress.may_end();
     options.layer_tolerance = 0;
     return gather_layers(std::move(ldi), lens, gathered, written, options, progress);
 }

@@ -26,8 +26,11 @@ struct Cancelled {};
 class Desk {
 public:
     // From any thread of the work.
-    void post(const std::string &stage, int percent) {
+    void may_end() const {
         if (cancelled_) throw Cancelled();
+    }
+    void post(const std::string &stage, int percent) {
+        may_end();
         const std::lock_guard lock(mutex_);
         news_.push_back({stage, percent});
         changed_.notify_one();
@@ -84,7 +87,8 @@ void run_job(const py::object &callback, const std::function<void(Progress &)> &
     if (!callback.is_none() && PyCallable_Check(callback.ptr()) == 0)
         throw py::type_error("progress: must be callable, or None");
     Desk desk;
-    Progress progress([&](const std::string &stage, int percent) { desk.post(stage, percent); });
+    Progress progress([&](const std::string &stage, int percent) { desk.post(stage, percent); },
+                      [&] { desk.may_end(); });
     std::thread worker([&] {
         std::exception_ptr failure;
         try {

@@ -36,5 +36,17 @@ TEST(Progress, ManyStepsAtOnceAndAnotherStage) {
     EXPECT_EQ(said, (std::vector{0, 75, 100, 0, 100}));
 }
 
+TEST(Progress, WorkEndsBetweenItsStepsWhereItsOwnerAsksForThat) {
+    struct Ended {};
+    bool wanted = true;
+    const Progress progress({}, [&] {
+        if (!wanted) throw Ended();
+    });
+    EXPECT_NO_THROW(progress.may_end());
+    EXPECT_NO_THROW(Progress().may_end());
+    wanted = false;
+    EXPECT_THROW(progress.may_end(), Ended);
+}
+
 } // namespace
 } // namespace sparselens

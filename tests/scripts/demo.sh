@@ -25,6 +25,11 @@ for picture in $pictures; do
 done
 grep -E '^  .*/dof-gather ' look >commands || fail "names no command: $(cat stdout)"
 [ "$(wc -l <commands)" -eq 2 ] || fail "not two commands: $(cat commands)"
+if [ -x "$bin/dof-view" ]; then
+    view=$(sed -n '/^Or point at/{n;s/^ *//p}' look) # runs until it is ended
+    timeout 5 bash -c "exec $view" >said || [ $? -eq 124 ] || fail "$view: $(cat said)"
+    grep -q '^http://127.0.0.1:[0-9]*/?key=' said || fail "$view: $(cat said)"
+fi
 cp out/lens.exr best.exr
 rm out/lens.exr
 exits 0 bash -e commands

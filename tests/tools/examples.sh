@@ -16,8 +16,8 @@ dof-gather ldi.exr -o picture.exr
 dof-gather ldi.exr -o pull.####.exr --frames 1-3 --focus-distance 1:2.0,3:5.0
 rm -r traced
 
-# What takes long has a script of its own, which runs it smaller, or needs what is not here.
-elsewhere='^dof-report '
+# What takes long, or does not end, has a script of its own.
+elsewhere='^dof-(report|view) '
 ran=0
 for tool in "$bin"/dof-* "$bin"/ldi-*; do
     name=$(basename "$tool")

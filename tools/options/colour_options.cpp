@@ -139,6 +139,11 @@ Imf::Header to_linear(const ToolContext &tool, const ColourOptions &options, con
     return std::move(to.header);
 }
 
+ColourTransform output_transform(const ColourOptions &options, const Imf::Header &metadata) {
+    const ColourConfig config(options.config);
+    return output_transform(config, options, space_of(config, metadata));
+}
+
 std::size_t write_picture(const ToolContext &tool, const ColourOptions &options, const std::string &path,
                           Image image, const Imf::Header &metadata,
                           std::optional<Imf::Compression> compression) {

@@ -35,6 +35,9 @@ Imf::Header to_linear(const ToolContext &tool, const ColourOptions &options, con
 bool is_linear(const ToolContext &tool, const ColourOptions &options, const std::string &path,
                const Imf::Header &header);
 
+// From linear colours, of the space that `metadata` says, to those of PNG: see write_picture().
+ColourTransform output_transform(const ColourOptions &options, const Imf::Header &metadata);
+
 // Writes a picture of linear colours, in the space of the chromaticities of `metadata`, else scene-linear: as OpenEXR in
 // --output-colorspace (default: in its own space), which chromaticities then say; as PNG, JPEG, TIFF and the like in --output-colorspace, else through --display and --view-transform (default: those of the
 // configuration). `compression` is that of OpenEXR (compression.h). Throws UsageError for a display with an OpenEXR file, and

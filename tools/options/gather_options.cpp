@@ -86,27 +86,18 @@ void add_gather_examples(CLI::App &app) {
 
 } // namespace
 
-void add_gather_options(CLI::App &app, GatherCommand &options) {
+void add_picture_making_options(CLI::App &app, GatherCommand &options) {
     app.add_option("IN", options.input, "LDI, any deep EXR or flat RGBA+Z; - for standard input")
         ->type_name("")
-        ->required();
-    app.add_option("-o,--output", options.output,
-                   "Picture to write (EXR, PNG, JPEG or TIFF); - for standard output")
-        ->type_name("OUT.exr")
         ->required();
     add_method_option(app, options.picture.method);
     add_method_options(app, options);
     add_device_option(app, options.device, "What gathers by the methods lens and selective");
     add_pixel_option(app, "--focus-pixel", options.focus_pixel,
                      "Focus on the front surface in this pixel, in EXR coordinates");
-    app.add_option("--depth-out", options.depth_output, "Also write the depth of the front samples (EXR)")
-        ->type_name("FILE");
     app.add_option("--channels", options.channels,
                    "Channels or layers to gather, comma-separated (default: all)")
         ->type_name("LIST");
-    add_type_option(app, options.type);
-    add_compression_option(app, options.compression, false);
-    add_show_option(app, options.show);
     add_lens_options(app, options.lens);
     add_look_options(app, options.looks);
     add_highlight_options(app, options.looks);
@@ -114,10 +105,23 @@ void add_gather_options(CLI::App &app, GatherCommand &options) {
     add_input_colour_options(app, options.colour);
     add_output_colour_options(app, options.colour);
     add_window_options(app, options.windows);
-    add_history_option(app, options.history);
     app.get_option("--focus-pixel")->excludes("--focus-distance");
-    add_gather_examples(app);
     app.final_callback([&app, &options] { check(app, options); });
+}
+
+void add_gather_options(CLI::App &app, GatherCommand &options) {
+    add_picture_making_options(app, options);
+    app.add_option("-o,--output", options.output,
+                   "Picture to write (EXR, PNG, JPEG or TIFF); - for standard output")
+        ->type_name("OUT.exr")
+        ->required();
+    app.add_option("--depth-out", options.depth_output, "Also write the depth of the front samples (EXR)")
+        ->type_name("FILE");
+    add_type_option(app, options.type);
+    add_compression_option(app, options.compression, false);
+    add_show_option(app, options.show);
+    add_history_option(app, options.history);
+    add_gather_examples(app);
 }
 
 } // namespace sparselens

@@ -35,4 +35,7 @@ struct GatherCommand {
 // `options` must stay where it is until the command line is parsed, which throws where options contradict each other.
 void add_gather_options(CLI::App &app, GatherCommand &options);
 
+// Those of them that say which picture is made of what, and not what is written where: what else shows pictures has these.
+void add_picture_making_options(CLI::App &app, GatherCommand &options);
+
 } // namespace sparselens

@@ -26,7 +26,7 @@ std::optional<Imath::Box2i> seen_of(const LensGatherOptions &options, const Imat
 } // namespace
 
 GatherScene prepare(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window,
-                    const LensGatherOptions &options, double coc) {
+                    const LensGatherOptions &options, double coc, const Progress &progress) {
     const KnownPixels known(options.known.value_or(window), options.unseen);
     const Imath::V2i corner = ldi.windows.data.min;
     GatherScene scene{&ldi,
@@ -42,16 +42,20 @@ GatherScene prepare(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &wi
     BlockedSamples &samples = scene.samples;
     optics.bend(samples);
     if (is_sharp(samples, optics)) return scene;
+    progress.may_end();
     const std::vector<Filler> fillers =
         find_fillers(ldi, lens, known); // before there are colours, as it takes memory
+    progress.may_end();
     scene.colours = make_colours(ldi, samples);
     const SharpenLooks looks{optics.aperture, optics.field, coc, options.seen};
     sharpen_near_focus(ldi, lens, samples, scene.colours, &looks);
+    progress.may_end();
     const LightChannels light = light_channels(ldi);
     scene.highlights =
         take_highlights(samples, light.brightness, light.all, scene.colours, seen_of(options, corner));
     scene.fillers = place_fillers(ldi, lens, fillers, samples, scene.colours);
     optics.bend(scene.fillers.samples);
+    progress.may_end();
     scene.facets = place_facets(find_facets(ldi, lens, double(optics.widest())), ldi.samples(),
                                 {samples.x, samples.y, samples.hiding_coc(), samples.key, samples.source});
     return scene;

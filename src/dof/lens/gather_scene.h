@@ -31,7 +31,8 @@ struct GatherScene {
 };
 
 // `coc` is added to that of all samples. Of the options: the looks, the holdout, and which pixels are known and were seen.
+// The progress may end it between its steps.
 GatherScene prepare(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window,
-                    const LensGatherOptions &options, double coc = 0);
+                    const LensGatherOptions &options, double coc = 0, const Progress &progress = {});
 
 } // namespace sparselens

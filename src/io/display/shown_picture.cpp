@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <vector>
 
 namespace sparselens {
@@ -51,6 +52,33 @@ private:
 
 const float *row_of(void *rows, int y) { return static_cast<DisplayRows *>(rows)->row(y); }
 
+// R, G, B, and A where something shows through.
+std::vector<std::size_t> channels_of(const std::string &name, const Image &image, bool may_have_alpha) {
+    const auto rgb = find_rgb(image.channels);
+    if (!all_found(rgb))
+        throw Error(name + ": needs the channels R, G and B: write other channels to an EXR file");
+    std::vector<std::size_t> channels(rgb.begin(), rgb.end());
+    const std::size_t alpha = find_channel(image.channels, "A");
+    if (alpha != npos && may_have_alpha &&
+        std::ranges::any_of(image.plane(alpha), [](float a) { return a < 1; }))
+        channels.push_back(alpha);
+    return channels;
+}
+
+// A display window may be much larger than the picture in it.
+void check_size(const std::string &name, const Image &image) {
+    const Imath::Box2i &display = image.windows.display; // written as a whole
+    check_memory(
+        name, 3.0 * (double(display.max.x) - display.min.x + 1) * (double(display.max.y) - display.min.y + 1),
+        image.values.size() * sizeof(float));
+}
+
+// As OpenImageIO converts; NaN is 0.
+std::uint8_t in_8_bits(float value) {
+    const float scaled = value * 255 + 0.5f;
+    return scaled >= 0 ? std::uint8_t(std::min(scaled, 255.0f)) : std::uint8_t(0);
+}
+
 } // namespace
 
 bool is_shown_picture(const std::string &path) {
@@ -59,21 +87,26 @@ bool is_shown_picture(const std::string &path) {
     return oiio_module().support(extension.c_str()) != OiioModule::Support::none;
 }
 
+ShownPixels shown_pixels(const std::string &name, const Image &image) {
+    const std::vector<std::size_t> channels = channels_of(name, image, true);
+    check_size(name, image);
+    ShownPixels out{image.windows.display_width(), image.windows.display_height(), int(channels.size()), {}};
+    const std::size_t in_row = std::size_t(out.width) * channels.size();
+    out.values.reserve(in_row * std::size_t(out.height));
+    DisplayRows rows(image, channels, channels.size() > 3);
+    for (int y = 0; y < out.height; ++y) {
+        const float *row = rows.row(y);
+        std::transform(row, row + in_row, std::back_inserter(out.values), in_8_bits);
+    }
+    return out;
+}
+
 std::string shown_picture(const std::string &name, const std::string &format, const Image &image) {
-    const auto rgb = find_rgb(image.channels);
-    if (!all_found(rgb))
-        throw Error(name + ": needs the channels R, G and B: write other channels to an EXR file");
     const OiioModule &oiio = oiio_module();
-    const std::size_t alpha = find_channel(image.channels, "A");
-    const bool with_alpha = alpha != npos && oiio.support(format.c_str()) == OiioModule::Support::alpha &&
-                            std::ranges::any_of(image.plane(alpha), [](float a) { return a < 1; });
-    std::vector<std::size_t> channels(rgb.begin(), rgb.end());
-    if (with_alpha) channels.push_back(alpha);
-    const Imath::Box2i &display = image.windows.display; // written as a whole
-    check_memory(
-        name, 3.0 * (double(display.max.x) - display.min.x + 1) * (double(display.max.y) - display.min.y + 1),
-        image.values.size() * sizeof(float));
-    DisplayRows rows(image, channels, with_alpha);
+    const std::vector<std::size_t> channels =
+        channels_of(name, image, oiio.support(format.c_str()) == OiioModule::Support::alpha);
+    check_size(name, image);
+    DisplayRows rows(image, channels, channels.size() > 3);
     const bool deep_bits = format.starts_with("tif") || format == "dpx";
     const MemoryFile encoded; // OpenImageIO writes all formats to a file but only some of them to a stream
     const char *failed = oiio.write({encoded.path().c_str(), format.c_str(), &rows, row_of,

@@ -3,7 +3,9 @@
 
 #include "../../base/image.h"
 
+#include <cstdint>
 #include <string>
+#include <vector>
 
 namespace sparselens {
 
@@ -15,6 +17,13 @@ bool is_shown_picture(const std::string &path);
 // and the format has alpha, A is written too and the colours are unpremultiplied. Any number of threads may do so at the
 // same time. Throws Error, beginning with `name`, where R, G or B is missing or OpenImageIO fails.
 std::string shown_picture(const std::string &name, const std::string &format, const Image &image);
+
+// The pixels of such a file of 8 bits that may have alpha (PNG), before they are encoded: 3 or 4 values each, by rows.
+struct ShownPixels {
+    int width = 0, height = 0, channels = 3;
+    std::vector<std::uint8_t> values;
+};
+ShownPixels shown_pixels(const std::string &name, const Image &image);
 
 // The same as a file, whose extension is the format. The output is atomic (see OutputFile).
 void write_shown_picture(const std::string &path, const Image &image);

@@ -56,6 +56,32 @@ TEST(ShownPicture, CutsOffWhatIsOutsideOfTheRange) {
     expect_reads_back(image);
 }
 
+TEST(ShownPicture, PixelsAreThoseOfTheFile) {
+    const ScratchFolder scratch;
+    Image image = noise(300, 70);
+    for (std::size_t i = 0; i < 10'000; ++i)
+        image.values[i] = (float(i % 256) + 0.5f) / 255; // where rounding turns
+    image.values[0] = std::numeric_limits<float>::quiet_NaN();
+    image.windows.display.max.x += 3; // black beside the data window
+    write_shown_picture(scratch.file("a.png"), image);
+    const ShownPixels pixels = shown_pixels("a", image);
+    const Png read = read_png(scratch.file("a.png"));
+    EXPECT_EQ(pixels.width, read.width);
+    EXPECT_EQ(pixels.height, read.height);
+    EXPECT_EQ(pixels.channels, 3);
+    EXPECT_EQ(pixels.values, read.rgb);
+}
+
+TEST(ShownPicture, PixelsHaveAlphaWhereSomethingShowsThrough) {
+    Image image(windows_of_size(2, 1), {{"R"}, {"G"}, {"B"}, {"A"}});
+    image.values = {0.25f, 1, 0, 1, 0.125f, 1, 0.5f, 1};
+    const ShownPixels pixels = shown_pixels("a", image);
+    EXPECT_EQ(pixels.channels, 4);
+    EXPECT_EQ(pixels.values, (std::vector<std::uint8_t>{128, 0, 64, 128, 255, 255, 255, 255}));
+    image.values[6] = 1;
+    EXPECT_EQ(shown_pixels("a", image).channels, 3);
+}
+
 // Files of a name that others can foretell are read and overwritten by others.
 TEST(ShownPicture, NoOtherFileIsWritten) {
     const ScratchFolder scratch;

@@ -1,0 +1,17 @@
+# cmake -DTO=FILE.cpp -DHEADER=NAME.h "-DTEXTS=NAME=FILE+FILE:NAME=FILE..." -P Embed.cmake: texts as constants of C++, each of the files
+# it is made of.
+string(REPLACE ":" ";" texts "${TEXTS}")
+set(code "#include \"${HEADER}\"\n\nnamespace sparselens {\n\n")
+foreach(text IN LISTS texts)
+    string(REGEX MATCH "^([^=]+)=(.*)$" pair "${text}")
+    set(name ${CMAKE_MATCH_1})
+    string(REPLACE "+" ";" files "${CMAKE_MATCH_2}")
+    string(APPEND code "const char *const ${name} =")
+    foreach(file IN LISTS files)
+        file(READ ${file} content)
+        string(APPEND code "\n    R\"page(${content})page\"")
+    endforeach()
+    string(APPEND code ";\n\n")
+endforeach()
+string(APPEND code "} // namespace sparselens\n")
+file(WRITE ${TO} "${code}")

@@ -1,0 +1,20 @@
+// Any bytes as what a page asks dof-view for: read, and put into the words of a command line, which name nothing that the page
+// could choose.
+#include "viewing/asked.h"
+
+#include "fuzz/fuzz.h"
+#include "viewing/view_words.h"
+
+using namespace sparselens;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {
+    fuzz::may_fail([&] {
+        const Asked asked = parse_asked(fuzz::text_of(data, size));
+        const GatherCommand command = command_of(words_with({"in.exr"}, asked.settings));
+        if (command.input != "in.exr" || command.output != "picture.png" || !command.holdout.empty() ||
+            !command.looks.lens_file.empty() || !command.looks.aperture_file.empty() ||
+            !command.colour.config.empty())
+            __builtin_trap();
+    });
+    return 0;
+}

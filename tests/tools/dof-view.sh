@@ -1,0 +1,79 @@
+#!/bin/bash
+# dof-view: what its pages are answered and refused, that what they show is what dof-gather writes, whatever the options, and
+# the page in a browser.
+. "$(dirname "$0")/check.sh"
+answers_help dof-view ldi.exr
+exits 0 "$bin/dof-trace" fence --size 160x90 --spp 2 --views 2 --reference 16 -o .
+exits 0 "$bin/ldi-warp" center.exr view_*.exr -o ldi.exr
+helpers=$source_dir/tests/viewing
+export PYTHONDONTWRITEBYTECODE=1
+# says OPTIONS...: what a page is told of the lens with these options.
+says() { exits 0 python3 -c 'import sys; sys.path.insert(0, sys.argv[1]); from served import served
+with served(*sys.argv[2:]) as server: print(server.picture(settings={})[0])' "$helpers" "$bin/dof-view" ldi.exr "$@"; }
+# agree OPTIONS...: its picture is, byte by byte, dof-gather's with the same options, and so is that of the command it copies.
+agree() { exits 0 python3 "$helpers/agree.py" "$bin" ldi.exr "$@"; }
+
+exits 0 python3 "$helpers/protocol.py" "$bin" ldi.exr reference.exr
+
+# Each option is dof-gather's.
+agree
+agree --fstop 0.5 --focus-distance 2.5 --quality final
+agree --lens-radius 0.05 --focus-pixel 80,45 --quality draft --threads 1
+agree --focal-length 50 --sensor-width 40 --scene-unit 0.5 --lens-samples 50 --layer-tolerance 0.5
+agree --method selective --layers 3
+agree --channels R,G,B,A --device cpu
+agree --blades 5 --blade-curvature 0.3 --blade-rotation 20 --squeeze 1.5 --spherical 0.5 --cat-eye 1 --cat-eye-darkening
+agree --axial-chromatic 1 --axial-chromatic-type blue-yellow --field-curvature 0.2 --breathing 1 --tilt -10,5
+agree --lens "$source_dir/share/lenses/hexagon.json" --highlight-gain 3 --highlight-threshold 0.5 --highlight-knee 0.5
+agree --aperture "$source_dir/share/lenses/mirror.exr"
+agree --colorconfig "$source_dir/share/ocio/config.ocio" --colorspace sRGB
+agree --output-colorspace sRGB
+agree --overscan keep --region 20,10,100,70
+agree --proxy 2
+agree --supersample 2 --pixel-filter gaussian
+agree --holdout center.exr --holdout-defocused
+agree --display Rec.1886 --view-transform Raw
+exits 0 "$bin/dof-trace" fence --size 80x45 --spp 1 --views 0 -o flat
+mv ldi.exr deep.exr
+oiiotool flat/center.exr --ch R,G,B,A,Z --mulc 1,1,1,1,0.05 -o ldi.exr
+agree --depth normalized --depth-channel Z --near 0.1 --far 20
+lens=(--focal-length 36 --sensor-width 36 --fstop 0.3 --focus-distance 5)
+for name in fg bg; do
+    oiiotool flat/center.exr --ch R,G,B,A,Z --chnames $name.Combined.R,$name.Combined.G,$name.Combined.B,$name.Combined.A,$name.Depth.Z -o $name.exr
+done
+oiiotool bg.exr fg.exr --chappend -o ldi.exr
+agree "${lens[@]}" --layer fg
+for name in left right; do
+    oiiotool flat/center.exr --ch R,G,B,A,Z --mulc 0.5,1,1,1,$([ $name = left ] && echo 1 || echo 2) \
+        --sattrib oiio:subimagename rgba.$name --sattrib view $name -o $name.exr
+done
+oiiotool left.exr right.exr --siappendall -o ldi.exr
+agree "${lens[@]}" --stereo-view right
+mv deep.exr ldi.exr
+
+# Its own.
+says --port 0 -v
+grep -q "'largest_coc'" stdout || fail "says $(cat stdout)"
+says --reference reference.exr --save . --max-memory 1GB
+mkdir path
+printf '#!/bin/sh\ncat "$1" >opened\nstat -c %%a "$1" >>opened\n' >path/xdg-open
+chmod +x path/xdg-open
+PATH=$PWD/path:$PATH says --open
+grep -qE 'url=http://127.0.0.1:[0-9]+/\?key=[0-9a-f]{32}"' opened && grep -qx 600 opened || fail "--open: $(cat opened)"
+port=$(python3 -c 'import socket; s = socket.socket(); s.bind(("127.0.0.1", 0)); print(s.getsockname()[1])')
+says --port "$port"
+fails_saying 1 'none.exr: cannot open' "$bin/dof-view" ldi.exr --reference none.exr
+fails_saying 1 'is not a folder' "$bin/dof-view" ldi.exr --save ldi.exr
+fails_saying 1 'more than --max-memory allows' "$bin/dof-view" ldi.exr --max-memory 1KB
+fails_saying 2 'port' "$bin/dof-view" ldi.exr --port 70000
+fails_saying 2 'contains|excludes' "$bin/dof-view" ldi.exr --focus-pixel 1,1 --focus-distance 2
+
+# Objects: 2.5e38 at depth 2 on the left, 1.5 at depths from 6 to 9 on the right.
+names=R,G,B,A,Z,things00.R,things00.G,things00.B,things00.A
+oiiotool --pattern constant:color=1,0,0,1,2,2.5e38,1,0,0 12x16 9 --chnames $names -d float -o near.exr
+oiiotool near.exr --pattern fill:left=0,1,0,1,6,1.5,1,0,0:right=0,1,0,1,9,1.5,1,0,0 24x16 9 --chnames $names --paste +0+0 -d float \
+    --attrib cryptomatte/ab12cd3/name things --attrib cryptomatte/ab12cd3/hash MurmurHash3_32 \
+    --attrib cryptomatte/ab12cd3/conversion uint32_to_float32 \
+    --evaloff --attrib cryptomatte/ab12cd3/manifest '{"near":"7f3c1440","far":"3fc00000"}' -o mattes.exr
+python3 "$helpers/browser.py" "$bin" ldi.exr reference.exr mattes.exr ${SPARSELENS_SHOTS:+"$SPARSELENS_SHOTS"} || fail "the page in a browser"
+echo "dof-view: fine"

@@ -1,0 +1,53 @@
+#include "base/error.h"
+#include "viewing/asked.h"
+
+#include <gtest/gtest.h>
+
+namespace sparselens {
+namespace {
+
+TEST(Asked, IsRead) {
+    const Asked asked = parse_asked(
+        R"({"page": "k3J9", "settings": {"fstop": "2.8", "tilt": "-3,4"}, "exposure": -1.5, "pixel": [320, -1]})");
+    EXPECT_EQ(asked.page, "k3J9");
+    EXPECT_EQ(asked.settings, (std::map<std::string, std::string>{{"fstop", "2.8"}, {"tilt", "-3,4"}}));
+    EXPECT_EQ(asked.exposure, -1.5);
+    EXPECT_EQ(asked.pixel, Imath::V2i(320, -1));
+    const Asked least = parse_asked(R"({"page": "a"})");
+    EXPECT_TRUE(least.settings.empty());
+    EXPECT_FALSE(least.pixel);
+}
+
+TEST(Asked, AnythingElseIsRefused) {
+    for (const char *text : {"",
+                             "{",
+                             "[]",
+                             "null",
+                             "{}",
+                             R"({"page": ""})",
+                             R"({"page": 1})",
+                             R"({"page": "../a"})",
+                             R"({"settings": {}})",
+                             R"({"page": "a", "more": 1})",
+                             R"({"page": "a", "settings": []})",
+                             R"({"page": "a", "settings": {"fstop": 2}})",
+                             R"({"page": "a", "settings": {"lens": "/etc/passwd"}})",
+                             R"({"page": "a", "settings": {"fstop": "2 3"}})",
+                             R"({"page": "a", "exposure": "1"})",
+                             R"({"page": "a", "exposure": 21})",
+                             R"({"page": "a", "pixel": [1]})",
+                             R"({"page": "a", "pixel": [1.5, 2]})",
+                             R"({"page": "a", "pixel": [1e300, 2]})",
+                             R"({"page": "a", "pixel": [2147483648, 2]})"})
+        EXPECT_THROW(parse_asked(text), UsageError) << text;
+    const std::string longest(64, '1'), page(32, 'a');
+    EXPECT_NO_THROW(
+        parse_asked(R"({"page": ")" + page + R"(", "settings": {"fstop": ")" + longest + R"("}})"));
+    EXPECT_THROW(parse_asked(R"({"page": ")" + page + R"(a"})"), UsageError);
+    EXPECT_THROW(parse_asked(R"({"page": "a", "settings": {"fstop": ")" + longest + R"(1"}})"), UsageError);
+    EXPECT_THROW(parse_asked(R"({"page": "a"})" + std::string(most_asked, ' ')), UsageError);
+    EXPECT_THROW(parse_asked(std::string(most_asked, '[')), UsageError);
+}
+
+} // namespace
+} // namespace sparselens

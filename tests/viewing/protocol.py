@@ -1,0 +1,162 @@
+"""protocol.py BIN_DIR LDI REFERENCE: what dof-view answers, what it refuses, and what it bears."""
+import concurrent.futures
+import json
+import os
+import signal
+import socket
+import sys
+import tempfile
+import time
+
+from served import apart, served
+
+program, ldi, reference = sys.argv[1] + "/dof-view", sys.argv[2], sys.argv[3]
+
+
+def answers(server):
+    facts = server.said("/facts")
+    assert (facts["width"], facts["height"]) == (160, 90) and facts["reference"], facts
+    said, pixels = server.picture(settings={})
+    assert len(pixels) == said["width"] * said["height"] * said["channels"] == 160 * 90 * said["channels"]
+    near, focus, far = (said["lens"][name] for name in ("near", "focus", "far"))
+    assert near < focus < far and said["lens"]["largest_coc"] > 1, said
+    assert server.picture(settings={"fstop": "16"})[0]["lens"]["largest_coc"] < said["lens"]["largest_coc"]
+    brighter = server.picture(settings={}, exposure=1)[1]
+    assert sum(brighter) > 1.1 * sum(pixels) and server.picture(settings={})[1] == pixels
+    small, few = server.picture(settings={"proxy": "4", "quality": "draft"})
+    assert (small["width"], small["height"]) == (40, 23), small
+    for path in "/reference", "/rendered":
+        other = server.picture(path)[1]
+        assert len(other) >= 160 * 90 * 3 and other != pixels, path
+    assert server.picture("/rendered")[1] == server.picture(settings={"lens-radius": "0"})[1]
+    for overlay in "coc", "focus", "layers", "tiles":
+        assert server.picture(settings={"show": overlay})[1] != pixels, overlay
+    server.picture(settings={})
+    samples = server.said("/samples", settings={}, pixel=[80, 45])
+    assert samples["samples"][0]["z"] > 0 and set(samples["value"]) == set("RGBA"), samples
+    focused = server.picture(settings={"focus-distance": str(samples["samples"][0]["z"])})[0]
+    assert focused["lens"]["focus"] == samples["samples"][0]["z"]
+    command = server.said("/commands", settings={"fstop": "2.5", "tilt": "-3,4", "cat-eye-darkening": "on"})
+    assert "--fstop 2.5" in command["shell"] and "--tilt -3,4" in command["shell"], command
+    assert "fstop=2.5" in command["python"] and "tilt=(-3,4)" in command["python"], command
+
+
+def status(server, body, path="/picture", **headers):
+    headers = {name.replace("_", "-"): value for name, value in headers.items()}
+    return server.send(path, body if isinstance(body, bytes) else json.dumps(body).encode(), headers)[0]
+
+
+def refuses(server):
+    good = {"page": "a", "settings": {}}
+    assert status(server, good) == 200
+    port = server.port
+    wrong_key = ("0" if server.key[0] != "0" else "1") + server.key[1:]
+    for headers in ({"X_Sparselens_Key": ""}, {"X_Sparselens_Key": wrong_key}, {"X_Sparselens_Key": server.key[:-1]},
+                    {"X_Sparselens_Key": server.key + "0"}, {"Host": f"evil.example:{port}"}, {"Host": f"127.0.0.1.evil.example:{port}"},
+                    {"Host": ""}, {"Origin": "http://evil.example"}, {"Origin": "null"}, {"Origin": f"https://127.0.0.1:{port}"},
+                    {"Origin": "http://127.0.0.1:1"}):
+        assert status(server, good, **headers) == 403, headers
+        assert status(server, good, "/none", **headers) == 403, headers
+    for headers in ({"Host": "localhost:9000"}, {"Host": f"[::1]:{port}"}, {"Origin": f"http://127.0.0.1:{port}"}):
+        assert status(server, good, **headers) == 200, headers
+    for body in (b"", b"{", b"[]", b"null", b"\xff\xfe", b"[" * 16000, b'{"page": 1}', b'{"page": "../a"}', b'{"settings": {}}', b'{"page":"a","x":1}',
+                 b'{"page":"a","pixel":[1]}', b'{"page":"a","pixel":[1e99,2]}', b'{"page":"a","exposure":1e9}', b'{"page":"a","settings":[]}'):
+        assert status(server, body) == 400, body
+    # A page names no file, and sets nothing that is not about the picture.
+    for settings in ({"lens": "x"}, {"holdout": "x"}, {"colorconfig": "x"}, {"output": "x"}, {"threads": "9"}, {"aperture": "x"}, {"device": "gpu"},
+                     {"fstop": "/etc/passwd"}, {"fstop": "2 --lens x"}, {"fstop": 2}, {"fstop": "-1"}, {"fstop": "two"}, {"tilt": "1"}, {"show": "all"},
+                     {"blades": "2"}, {"fstop": "2" * 65}):
+        assert status(server, {"page": "a", "settings": settings}) == 400, settings
+    assert status(server, {"page": "a", "pixel": [0, 0], "settings": {"quality": "best"}}, "/samples") == 400
+    assert status(server, good, "/save") == 400
+    assert status(server, b" " * 100_000) in (400, 413)
+    assert status(server, good, "/../../etc/passwd") == 404
+    for line in (b"GET", b"\0\0\0\0\r\n\r\n", b"GET / HTTP/9.9\r\n\r\n", b"POST /picture HTTP/1.1\r\nContent-Length: -5\r\n\r\n", b"A" * 100_000):
+        with socket.create_connection(("127.0.0.1", port)) as raw:
+            try:
+                raw.sendall(line)
+                raw.shutdown(socket.SHUT_WR)
+                answer = raw.recv(64)
+                assert not answer or answer.split()[1] in (b"400", b"403", b"404", b"413", b"414"), (line[:50], answer)
+            except (BrokenPipeError, ConnectionResetError):
+                pass
+    assert status(server, good) == 200
+
+
+def listens_here_alone(server):
+    with open("/proc/net/tcp") as table:
+        at = [line.split()[1] for line in table if f":{server.port:04X} " in line and line.split()[3] == "0A"]
+    assert at == [f"0100007F:{server.port:04X}"], at
+
+
+def bears_many(server):
+    """Connections that say nothing, half a request, and one that does not read: memory stays, and a page is answered after them."""
+    before = server.memory()
+    many = []
+    for i in range(1000):
+        raw = socket.socket()
+        raw.setblocking(False)
+        raw.connect_ex(("127.0.0.1", server.port))
+        many.append(raw)
+        if i % 3 == 0:
+            try:
+                raw.send(b"POST /picture HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Le")
+            except OSError:
+                pass
+    time.sleep(1)
+    assert server.memory() < before + 100, (before, server.memory())
+    for raw in many:
+        raw.close()
+    assert status(server, {"page": "a", "settings": {}}) == 200
+    body = json.dumps({"page": "slow", "settings": {}}).encode()
+    with socket.create_connection(("127.0.0.1", server.port)) as slow:
+        slow.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
+        slow.sendall(b"POST /picture HTTP/1.1\r\nHost: 127.0.0.1\r\nX-Sparselens-Key: %s\r\nContent-Length: %d\r\n\r\n%s" %
+                     (server.key.encode(), len(body), body))
+        slow.recv(10)
+        assert status(server, {"page": "a", "settings": {}}) == 200
+    assert server.memory() < before + 100, (before, server.memory())
+
+
+def newest_wins(server):
+    """Ten moves, each before the last one's picture can be there, leave one picture; other pages keep theirs."""
+    def move(i):
+        return server.send("/picture", json.dumps({"page": "moving", "settings": {"focus-distance": str(2 + i)}}).encode())
+
+    finished = server.said("/progress")["finished"]
+    with concurrent.futures.ThreadPoolExecutor(12) as pool:
+        moves = [pool.submit(move, 0)]
+        while "stage" not in server.said("/progress", page="moving"):
+            pass
+        for i in range(1, 10):
+            moves.append(pool.submit(move, i))
+            moves[i - 1].result() # once the newer one has come
+        other = pool.submit(server.picture, page="other", settings={"focus-distance": "20"})
+        codes = [done.result()[0] for done in moves]
+        assert other.result()[0]["lens"]["focus"] == 20
+    assert codes == [409] * 9 + [200], codes
+    assert apart(moves[9].result()[1])[0]["lens"]["focus"] == 11
+    assert server.said("/progress")["finished"] == finished + 2, "works that nobody wants were finished"
+
+
+def main():
+    with served(program, ldi, "--reference", reference) as server:
+        answers(server)
+        refuses(server)
+        listens_here_alone(server)
+        bears_many(server)
+        with served(program, ldi) as second:
+            assert second.key != server.key and second.port != server.port
+            assert status(server, {"page": "a"}, X_Sparselens_Key=second.key) == 403
+    with served(program, ldi, "--lens-samples", "8000", "--threads", "1") as server:
+        newest_wins(server)
+    with tempfile.TemporaryDirectory() as folder, served(program, ldi, "--save", folder) as server:
+        assert not os.listdir(folder)
+        files = [server.said("/save", settings={})["file"] for _ in range(2)]
+        assert sorted(os.listdir(folder)) == sorted(map(os.path.basename, files)) and len(set(files)) == 2, files
+    with served(program, ldi) as server: # as where its terminal is closed
+        os.kill(server.process.pid, signal.SIGHUP)
+        assert server.process.wait(timeout=20) == -signal.SIGHUP
+
+
+main()

@@ -1,0 +1,41 @@
+// Objects by the Cryptomattes of the file: the one under the pointer is outlined and named, and a lens can be found for it.
+const objects = { list: null, numbers: null, asked: false, shown: 0 };
+
+async function loadObjects() {
+    if (objects.asked || !state.facts.objects) return;
+    objects.asked = true;
+    const bytes = await (await ask('objects', {})).arrayBuffer();
+    const size = new DataView(bytes).getUint32(0, true);
+    objects.list = JSON.parse(new TextDecoder().decode(new Uint8Array(bytes, 4, size))).objects;
+    objects.numbers = new Uint16Array(bytes.slice(4 + size));
+}
+
+// The number of the object that a pixel shows, 0 for none.
+function objectAt([x, y]) {
+    const { width, min } = state.facts;
+    return objects.numbers ? objects.numbers[(y - min[1]) * width + x - min[0]] : 0;
+}
+
+// Marks the pixels of the object that lie beside others.
+function outline(number) {
+    if (number === objects.shown) return;
+    objects.shown = number;
+    const { width, height } = state.facts, data = new ImageData(width, height), of = objects.numbers;
+    for (let y = 0, i = 0; number && y < height; ++y)
+        for (let x = 0; x < width; ++x, ++i)
+            if (of[i] === number && (x > 0 && of[i - 1] !== number || x + 1 < width && of[i + 1] !== number ||
+                y > 0 && of[i - width] !== number || y + 1 < height && of[i + width] !== number))
+                data.data.set([255, 210, 60, 255], 4 * i);
+    draw(part('marks'), data);
+    part('object').textContent = number ? objects.list[number - 1].name : '';
+}
+
+// Focuses so, and stops down so far, that all of the object is sharp; no wider than the lens is now.
+function sharpen(pixel) {
+    const object = objects.list?.[objectAt(pixel) - 1];
+    if (!object) return false;
+    const by = Math.max(1, asNumber(state.lens.hyperfocal) / asNumber(object.hyperfocal));
+    state.settings['focus-distance'] = String(object.focus);
+    set(aperture(), asText(aperture() === 'fstop' ? apertureNow() * by : apertureNow() / by, 4));
+    return true;
+}

@@ -1,0 +1,130 @@
+// What lies beside and over the picture: another picture to compare with, false colours, and what a pixel holds.
+const comparing = { mode: '', share: 50, target: '', kept: null };
+
+function showCompared() {
+    compare(part('stack'), part('above'), comparing.mode, comparing.share);
+    part('border').hidden = comparing.mode !== 'slide';
+    const box = part('above').getBoundingClientRect(), frame = part('frame').getBoundingClientRect();
+    part('border').style.left = box.left - frame.left + box.width * comparing.share / 100 + 'px';
+    for (const name of ['slide', 'flip', 'difference']) part(name).classList.toggle('on', comparing.mode === name);
+}
+
+// Chosen again, a mode ends; flip goes to the other picture first.
+async function setComparing(mode) {
+    if (mode === 'flip' && comparing.mode === 'flip' && comparing.share >= 50) comparing.share = 0;
+    else if (mode === comparing.mode) [comparing.mode, comparing.share] = ['', 50];
+    else [comparing.mode, comparing.share] = [mode, mode === 'flip' ? 0 : 50];
+    await loadTarget();
+    showCompared();
+}
+
+// Draws what is compared with. As rendered is the picture of a lens without aperture.
+async function loadTarget() {
+    if (!comparing.mode) return;
+    comparing.target = part('with').value;
+    try {
+        if (comparing.target === 'kept') {
+            if (comparing.kept) draw(part('below'), comparing.kept);
+            return;
+        }
+        const settings = { 'lens-radius': '0' };
+        const response = comparing.target === 'reference' ? await ask('reference', { exposure: state.exposure })
+            : await ask('rendered', { settings, exposure: state.exposure });
+        if (response) draw(part('below'), (await pictureOf(response)).data);
+    } catch (error) {
+        say(error.message);
+    }
+}
+
+function keep() {
+    const above = part('above');
+    comparing.kept = above.getContext('2d').getImageData(0, 0, above.width, above.height);
+    if (!part('with').querySelector('[value=kept]')) part('with').append(new Option('what was kept', 'kept'));
+    part('with').value = 'kept';
+    loadTarget();
+}
+
+function setOverlay(name) {
+    state.overlay = state.overlay === name ? '' : name;
+    changed();
+}
+
+const listed = { on: false, pixel: null, asking: false, again: null };
+
+// The pixel under the pointer: its value, and the list of its samples where that is shown.
+async function sayPixel(pixel) {
+    if (listed.asking) {
+        listed.again = pixel;
+        return;
+    }
+    listed.asking = true;
+    try {
+        const said = await (await ask('samples', { settings: state.settings, pixel })).json();
+        listed.pixel = pixel;
+        const value = said.value ? ['R', 'G', 'B', 'A'].filter((name) => name in said.value)
+            .map((name) => name + ' ' + asText(asNumber(said.value[name]), 4)).join('  ') : '';
+        const front = said.samples[0];
+        part('pixel').textContent = pixel.join(',') + '  ' + value + (front ? '  z ' + asText(asNumber(front.z), 5) +
+            '  CoC ' + asText(asNumber(front.coc), 3) + ' px  ' + front.objects.join(' ') : '  nothing');
+        sayList(said.samples);
+    } catch (error) {
+        say(error.message);
+    }
+    listed.asking = false;
+    if (listed.again) {
+        const next = listed.again;
+        listed.again = null;
+        sayPixel(next);
+    }
+}
+
+function sayList(samples) {
+    part('samples').hidden = !listed.on;
+    if (!listed.on) return;
+    const table = document.createElement('table'), row = (cells, tag) => {
+        const line = document.createElement('tr');
+        for (const text of cells) {
+            const cell = document.createElement(tag);
+            cell.textContent = text;
+            line.append(cell);
+        }
+        return line;
+    };
+    const head = table.createTHead(), body = table.createTBody();
+    head.append(row(['pixel ' + listed.pixel.join(','), 'depth', 'image at', 'CoC px', 'alpha', 'colour', 'objects'], 'th'));
+    samples.forEach((sample, i) => {
+        const colour = sample.rgb.map((value) => asText(asNumber(value), 3)).join(' ');
+        const line = row([i + 1, asText(asNumber(sample.z), 5), sample.image === undefined ? '' : asText(asNumber(sample.image), 5),
+            asText(asNumber(sample.coc), 3), asText(sample.alpha, 3), colour, sample.objects.join(' ')], 'td');
+        const at = sample.image ?? sample.z;
+        line.title = 'click: focus here';
+        line.classList.toggle('in_focus', asNumber(at) === focusNow());
+        line.addEventListener('click', () => set('focus-distance', at));
+        body.append(line);
+    });
+    part('samples').replaceChildren(table);
+}
+
+function setList(on) {
+    listed.on = on;
+    part('list').classList.toggle('on', on);
+    part('samples').hidden = !on;
+    if (on && listed.pixel) sayPixel(listed.pixel);
+}
+
+function startOverlays() {
+    if (state.facts.reference) part('with').append(new Option('the reference', 'reference'));
+    part('with').append(new Option('the picture as rendered', 'rendered'));
+    part('with').addEventListener('change', () => loadTarget().then(showCompared));
+    part('keep').addEventListener('click', keep);
+    for (const mode of ['slide', 'flip', 'difference']) part(mode).addEventListener('click', () => setComparing(mode));
+    for (const name of ['focus', 'coc', 'layers', 'tiles']) part('show_' + name).addEventListener('click', () => setOverlay(name));
+    part('list').addEventListener('click', () => setList(!listed.on));
+    part('border').addEventListener('pointerdown', (event) => part('border').setPointerCapture(event.pointerId));
+    part('border').addEventListener('pointermove', (event) => {
+        if (!event.buttons) return;
+        const box = part('above').getBoundingClientRect();
+        comparing.share = Math.min(100, Math.max(0, 100 * (event.clientX - box.left) / box.width));
+        showCompared();
+    });
+}

@@ -1,0 +1,95 @@
+// The panel beside the picture: what the lens is, and the controls that set it.
+const aperture = () => state.facts.fstop === undefined ? 'lens-radius' : 'fstop';
+const focusNow = () => asNumber(state.settings['focus-distance'] ?? state.lens?.focus ?? state.facts.focus);
+const apertureNow = () => asNumber(state.settings[aperture()] ?? (aperture() === 'fstop' ? state.facts.fstop : state.lens?.radius));
+
+function set(option, value) {
+    if (value === '') delete state.settings[option];
+    else state.settings[option] = String(value);
+    changed();
+}
+
+// Sliders of what may be any size go by its logarithm.
+function range(id) {
+    const near = asNumber(state.facts.nearest) / 2, far = asNumber(state.facts.farthest);
+    if (id === 'focus') return [near, Math.max(Number.isFinite(far) ? far * 1.2 : near * 1e4, near * 10)];
+    const began = state.began;
+    return aperture() === 'fstop' ? [Math.min(began, 1) / 4, Math.max(began * 32, 32)] : [began / 64, began * 4];
+}
+const toSlider = (value, [low, high]) => 1000 * Math.log(value / low) / Math.log(high / low);
+const fromSlider = (place, [low, high]) => low * (high / low) ** (place / 1000);
+
+function sayLens() {
+    const lens = state.lens, number = (name) => asText(asNumber(lens[name]), 4);
+    part('lens').textContent = 'sharp from ' + number('near') + ' to ' + number('far') + '; hyperfocal distance ' +
+        number('hyperfocal') + '; largest CoC ' + asText(asNumber(lens.largest_coc), 3) + ' px';
+    part('warning').textContent = lens.warnings.join('\n');
+    if (state.began === undefined) state.began = apertureNow();
+    sayControls();
+}
+
+function sayControls() {
+    const fill = (id, value) => {
+        if (document.activeElement !== part(id + '_text')) part(id + '_text').value = asText(value, 5);
+        if (state.began > 0 && value > 0) part(id).value = toSlider(Math.min(value, 1e9), range(id));
+    };
+    fill('focus', focusNow());
+    fill('aperture', apertureNow());
+    part('exposure').value = state.exposure;
+    part('exposure_text').textContent = (state.exposure > 0 ? '+' : '') + state.exposure;
+    for (const name of ['focus', 'coc', 'layers', 'tiles']) part('show_' + name).classList.toggle('on', state.overlay === name);
+}
+
+async function sayCommand() {
+    const said = await (await ask('commands', { settings: withQuality(settingsNow(), fullQuality()) })).json();
+    state.commands = said;
+    part('command').value = said.shell;
+}
+
+async function copyText(text) {
+    part('command').value = text;
+    part('command').select();
+    try {
+        await navigator.clipboard.writeText(text);
+    } catch { // a browser that does not allow it
+        document.execCommand('copy');
+    }
+    part('command').blur();
+}
+
+async function copy(what) {
+    await sayCommand();
+    await copyText(state.commands[what]);
+}
+
+function startPanel() {
+    part('name').textContent = state.facts.file;
+    part('aperture_name').textContent = aperture() === 'fstop' ? 'f-number' : 'radius';
+    for (const [id, option] of [['focus', 'focus-distance'], ['aperture', aperture()]]) {
+        part(id).addEventListener('input', () => set(option, asText(fromSlider(part(id).value, range(id)), 4)));
+        part(id + '_text').addEventListener('change', () => set(option, part(id + '_text').value.trim()));
+    }
+    part('exposure').addEventListener('input', () => setExposure(Number(part('exposure').value)));
+    part('normal').addEventListener('click', () => full('normal'));
+    part('final').addEventListener('click', () => full('final'));
+    part('copy_shell').addEventListener('click', () => copy('shell'));
+    part('copy_python').addEventListener('click', () => copy('python'));
+    part('reset').addEventListener('click', () => {
+        state.settings = {};
+        resetLooks();
+        changed();
+    });
+    part('save').hidden = !state.facts.save;
+    part('save').addEventListener('click', async () => {
+        const response = await ask('save', { settings: withQuality(settingsNow(), 'final') });
+        if (response) say('written: ' + (await response.json()).file);
+    });
+    addLooks();
+}
+
+function setExposure(stops) {
+    state.exposure = stops;
+    sayControls();
+    loadTarget();
+    reshow();
+}

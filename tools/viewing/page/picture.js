@@ -1,0 +1,129 @@
+// The picture: while something moves, drafts of a proxy that is as fine as ten a second allow; then all of it.
+const proxies = [1, 2, 3, 4, 6, 8, 12, 16];
+const state = {
+    facts: null,
+    settings: {},    // options of dof-gather that this page has set
+    exposure: 0,
+    overlay: '',     // what --show shows in place of the picture
+    lens: null,      // what the server says of the lens of the last picture
+};
+const flow = { level: 3, drafting: false, again: false, full: 0, rest: 0, slow: 0, reshow: false, reshowing: false };
+
+// What makes the picture, without what is for drafts.
+function settingsNow() {
+    const settings = { ...state.settings };
+    if (state.overlay) settings.show = state.overlay;
+    return settings;
+}
+
+function withQuality(settings, quality) {
+    return state.facts.lens_method ? { ...settings, quality } : settings;
+}
+
+function exposureNow() {
+    return state.overlay ? 0 : state.exposure;
+}
+
+function draw(canvas, data) {
+    canvas.width = data.width;
+    canvas.height = data.height;
+    canvas.style.width = state.facts.width * state.facts.pixel_aspect + 'px';
+    canvas.style.height = state.facts.height + 'px';
+    canvas.getContext('2d').putImageData(data, 0, 0);
+}
+
+// Shows the answer, where it is one.
+async function show(response, quality) {
+    if (!response) return null;
+    const { said, data } = await pictureOf(response);
+    draw(part('above'), data);
+    state.lens = said.lens;
+    part('quality').textContent = quality;
+    document.body.dataset.quality = quality;
+    sayLens();
+    return said;
+}
+
+// Finer where there is time, coarser where there is none.
+function choose(milliseconds) {
+    const aim = 100, now = proxies[flow.level];
+    if (milliseconds > aim && flow.level + 1 < proxies.length) ++flow.level;
+    else if (flow.level > 0 && milliseconds * (now / proxies[flow.level - 1]) ** 2 < 0.8 * aim) --flow.level;
+}
+
+// Something has changed: drafts of it, then the whole.
+async function changed() {
+    clearTimeout(flow.rest);
+    say('');
+    sayControls();
+    if (flow.drafting) {
+        flow.again = true;
+        return;
+    }
+    flow.drafting = true;
+    try {
+        do {
+            flow.again = false;
+            await draft();
+        } while (flow.again);
+    } catch (error) {
+        say(error.message);
+    }
+    flow.drafting = false;
+    clearTimeout(flow.rest);
+    flow.rest = setTimeout(() => full('normal'), 150);
+}
+
+async function draft() {
+    if (state.overlay) return; // false colours are of the pixels that they are made of
+    const begun = performance.now(), proxy = proxies[flow.level];
+    const settings = withQuality(proxy > 1 ? { ...settingsNow(), proxy: String(proxy) } : settingsNow(), 'draft');
+    const response = await ask('picture', { settings, exposure: exposureNow() });
+    if (!await show(response, 'draft')) return;
+    const taken = performance.now() - begun;
+    part('speed').textContent = 'draft at 1/' + proxy + ': ' + Math.round(taken) + ' ms';
+    choose(taken);
+    await new Promise(requestAnimationFrame); // it is seen before the next begins
+}
+
+// The whole picture. Sends off what a change of settings ends.
+async function full(quality) {
+    const turn = ++flow.full, begun = performance.now();
+    flow.slow = setTimeout(() => watch(turn), 500);
+    try {
+        const said = await show(await ask('picture', { settings: withQuality(settingsNow(), quality), exposure: exposureNow() }), quality);
+        if (said) part('speed').textContent = quality + ': ' + Math.round(performance.now() - begun) + ' ms';
+        if (said) sayCommand();
+    } catch (error) {
+        say(error.message);
+    }
+    if (turn === flow.full) {
+        clearTimeout(flow.slow);
+        part('busy').hidden = true;
+        ++flow.full;
+    }
+}
+
+const fullQuality = () => document.body.dataset.quality === 'final' ? 'final' : 'normal';
+
+// The same picture in another exposure.
+async function reshow() {
+    flow.reshow = true;
+    if (flow.reshowing) return;
+    flow.reshowing = true;
+    while (flow.reshow) {
+        flow.reshow = false;
+        await full(fullQuality());
+    }
+    flow.reshowing = false;
+}
+
+// How far the picture is, while it is made.
+async function watch(turn) {
+    while (turn === flow.full) {
+        const said = await (await ask('progress', {})).json();
+        part('busy').hidden = turn !== flow.full || said.percent === undefined;
+        part('done').style.width = (said.percent || 0) + '%';
+        await new Promise((wake) => setTimeout(wake, 200));
+    }
+}

@@ -1,0 +1,39 @@
+// What the server is asked, and what it answers.
+const key = new URLSearchParams(location.search).get('key');
+const page = Array.from(crypto.getRandomValues(new Uint8Array(12)), (byte) => (byte % 36).toString(36)).join('');
+const part = (id) => document.getElementById(id);
+
+// The response; null where this page has asked for something newer. Throws what the server says is wrong.
+async function ask(path, asked) {
+    const response = await fetch('/' + path, {
+        method: 'POST', headers: { 'X-Sparselens-Key': key }, body: JSON.stringify({ page, ...asked }) });
+    if (response.status === 409) return null;
+    if (!response.ok) throw new Error((await response.text()).trim());
+    return response;
+}
+
+// The JSON and the pixels of an answer, as an ImageData.
+async function pictureOf(response) {
+    const bytes = await response.arrayBuffer();
+    const size = new DataView(bytes).getUint32(0, true);
+    const said = JSON.parse(new TextDecoder().decode(new Uint8Array(bytes, 4, size)));
+    const from = new Uint8Array(bytes, 4 + size), count = said.width * said.height;
+    const data = new Uint8ClampedArray(4 * count);
+    if (said.channels === 4) data.set(from);
+    else for (let i = 0, k = 0, to = 0; i < count; ++i, k += 3, to += 4) {
+        data[to] = from[k];
+        data[to + 1] = from[k + 1];
+        data[to + 2] = from[k + 2];
+        data[to + 3] = 255;
+    }
+    return { said, data: new ImageData(data, said.width, said.height) };
+}
+
+// A message at the foot of the picture, until the next.
+function say(text) {
+    part('said').textContent = text;
+    part('said').hidden = !text;
+}
+
+const asNumber = (value) => value === 'inf' ? Infinity : Number(value);
+const asText = (value, digits = 4) => Number.isFinite(value) ? String(Number(value.toPrecision(digits))) : 'inf';

@@ -1,0 +1,18 @@
+// The viewer on a port of this machine, for browsers. The one place that knows of HTTP.
+//
+// Requests come from the loopback device alone, name this machine, know the key and are small (door.h, asked.h); few are
+// answered at once, and the others wait in the system's queue. Those that are refused get 403, malformed ones 400, and a page
+// that has asked for something newer gets 409.
+#pragma once
+
+#include "viewing/viewer.h"
+
+#include <functional>
+#include <string>
+
+namespace sparselens {
+
+// Serves until the process ends. `ready` is told the port. Throws Error where the port cannot be had.
+void serve(Viewer &viewer, int port, const std::string &key, const std::function<void(int port)> &ready);
+
+} // namespace sparselens

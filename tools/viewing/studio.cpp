@@ -1,0 +1,119 @@
+#include "viewing/studio.h"
+
+#include "base/error.h"
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <utility>
+
+namespace sparselens {
+
+namespace {
+
+// Goes through the work to end it early.
+struct Outdated {};
+
+} // namespace
+
+struct Studio::Job {
+    std::string page;
+    Work work;
+    std::atomic<bool> outdated = false;
+    bool done = false;
+    std::string answer = {};
+    std::exception_ptr failure = {};
+    State state = {};
+};
+
+Studio::Studio() : worker_([this] { run(); }) {}
+
+Studio::~Studio() {
+    {
+        const std::lock_guard lock(mutex_);
+        closing_ = true;
+        if (at_work_) at_work_->outdated = true;
+        for (const auto &job : waiting_) job->outdated = true;
+        changed_.notify_all();
+    }
+    worker_.join();
+}
+
+std::optional<std::string> Studio::make(const std::string &page, Work work) {
+    const auto job = std::make_shared<Job>();
+    job->page = page;
+    job->work = std::move(work);
+    std::unique_lock lock(mutex_);
+    if (at_work_ && at_work_->page == page) at_work_->outdated = true;
+    const auto before = std::ranges::find(waiting_, page, [](const auto &other) { return other->page; });
+    if (before != waiting_.end()) {
+        (*before)->outdated = true;
+        *before = job; // in its turn
+    } else if (waiting_.size() < most_waiting) {
+        waiting_.push_back(job);
+    } else {
+        throw Error("too many pages wait for pictures: close some");
+    }
+    changed_.notify_all();
+    changed_.wait(lock, [&] { return job->done || job->outdated; });
+    if (job->outdated) return {};
+    if (job->failure) std::rethrow_exception(job->failure);
+    return std::move(job->answer);
+}
+
+std::optional<Studio::State> Studio::state(const std::string &page) const {
+    const std::lock_guard lock(mutex_);
+    if (!at_work_ || at_work_->page != page) return {};
+    return at_work_->state;
+}
+
+std::size_t Studio::waiting() const {
+    const std::lock_guard lock(mutex_);
+    return waiting_.size();
+}
+
+std::size_t Studio::finished() const {
+    const std::lock_guard lock(mutex_);
+    return finished_;
+}
+
+void Studio::run() {
+    for (;;) {
+        std::unique_lock lock(mutex_);
+        changed_.wait(lock, [&] { return closing_ || !waiting_.empty(); });
+        if (closing_) return;
+        at_work_ = waiting_.front();
+        waiting_.pop_front();
+        const std::shared_ptr<Job> job = at_work_;
+        lock.unlock();
+        work_on(*job);
+        lock.lock();
+        at_work_.reset();
+        job->done = true;
+        if (!job->outdated) ++finished_;
+        changed_.notify_all();
+    }
+}
+
+// The answer is read by others only once the job is done.
+void Studio::work_on(Job &job) {
+    const auto watch = [&job] {
+        if (job.outdated) throw Outdated();
+    };
+    Progress progress(
+        [&](const std::string &stage, int percent) {
+            watch();
+            const std::lock_guard lock(mutex_);
+            job.state = {stage, percent};
+        },
+        watch);
+    try {
+        job.answer = job.work(progress);
+    } catch (const Outdated &) {
+        return; // nobody waits for it
+    } catch (...) {
+        job.failure = std::current_exception();
+    }
+}
+
+} // namespace sparselens

@@ -1,0 +1,160 @@
+#include "viewing/view_facts.h"
+
+#include "base/matte.h"
+#include "lens/sharp_range.h"
+
+#include <ImfStringAttribute.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdlib>
+
+namespace sparselens {
+
+using Json = nlohmann::json;
+
+namespace {
+
+constexpr double sharp_px = 1; // as --show focus has it
+
+void add_names(ObjectNames &names, const std::string &manifest) {
+    const Json json = Json::parse(manifest, nullptr, false);
+    if (!json.is_object()) return;
+    for (const auto &[name, id] : json.items())
+        if (id.is_string())
+            names[std::uint32_t(std::strtoul(id.get_ref<const std::string &>().c_str(), nullptr, 16))] = name;
+}
+
+// visit(name) for the objects that a sample is of, each matte's by descending coverage.
+template <typename Visit>
+void for_each_object(const Ldi &ldi, std::span<const Matte> mattes, std::uint64_t sample,
+                     const ObjectNames &names, const Visit &visit) {
+    for (const Matte &matte : mattes)
+        for (const Matte::Rank &rank : matte.ranks) {
+            if (!(ldi.values[rank.coverage][sample] > 0)) continue;
+            const auto found = names.find(std::bit_cast<std::uint32_t>(ldi.values[rank.id][sample]));
+            if (found != names.end()) visit(found->second);
+        }
+}
+
+Json objects_of(const Ldi &ldi, std::uint64_t sample, const ObjectNames &names) {
+    Json objects = Json::array();
+    for_each_object(ldi, find_mattes(ldi.channels), sample, names,
+                    [&](const std::string &name) { objects.push_back(name); });
+    return objects;
+}
+
+// The first name; empty where there is none.
+std::string object_of(const Ldi &ldi, std::span<const Matte> mattes, std::uint64_t sample,
+                      const ObjectNames &names) {
+    std::string first;
+    for_each_object(ldi, mattes, sample, names, [&](const std::string &name) {
+        if (first.empty()) first = name;
+    });
+    return first;
+}
+
+} // namespace
+
+Json json_number(double value) { return std::isfinite(value) ? Json(value) : Json("inf"); }
+
+ObjectNames object_names(const Imf::Header &header) {
+    ObjectNames names;
+    for (auto attribute = header.begin(); attribute != header.end(); ++attribute) {
+        const std::string name = attribute.name();
+        const auto *text = dynamic_cast<const Imf::StringAttribute *>(&attribute.attribute());
+        if (text && name.starts_with("cryptomatte/") && name.ends_with("/manifest"))
+            add_names(names, text->value());
+    }
+    return names;
+}
+
+DepthExtent depth_extent(const Ldi &ldi) {
+    const std::vector<float> &depths = ldi.optical.empty() ? ldi.z : ldi.optical;
+    if (depths.empty()) return {};
+    DepthExtent extent{HUGE_VAL, 0};
+    for (const float z : depths) {
+        if (!(z > 0)) continue; // rays would meet behind the camera
+        extent.nearest = std::min(extent.nearest, double(z));
+        extent.farthest = std::max(extent.farthest, double(z));
+    }
+    return extent.farthest > 0 ? extent : DepthExtent{};
+}
+
+Json lens_facts(const TakenPicture &picture, const DepthExtent &depths) {
+    const ThinLens &lens = picture.lens;
+    const SharpRange sharp = sharp_range(lens, sharp_px);
+    const double largest = std::max(std::abs(circle_of_confusion(lens, depths.nearest)),
+                                    std::abs(circle_of_confusion(lens, depths.farthest)));
+    Json facts{{"focus", json_number(lens.focus)},
+               {"radius", lens.radius},
+               {"near", json_number(sharp.near)},
+               {"far", json_number(sharp.far)},
+               {"hyperfocal", json_number(sharp.hyperfocal)},
+               {"largest_coc", json_number(largest)},
+               {"warnings", picture.warnings}};
+    if (picture.camera.fstop) facts["fstop"] = json_number(*picture.camera.fstop);
+    if (picture.camera.metres_per_unit) facts["metres_per_unit"] = *picture.camera.metres_per_unit;
+    return facts;
+}
+
+ObjectMap object_map(const Shot &shot, const ObjectNames &names) {
+    struct Object {
+        std::size_t number;
+        DepthExtent depths;
+    };
+    std::map<std::string, Object> objects;
+    const Ldi &ldi = shot.in().ldi;
+    const std::vector<Matte> mattes = find_mattes(ldi.channels);
+    const Grid picture(reduced(ldi.windows.display, shot.across()));
+    ObjectMap map;
+    map.numbers.resize(2 * picture.size());
+    for (std::size_t i = 0; i < picture.size(); ++i) {
+        const Imath::V2i at = middle_subpixel(picture.pixel(i), shot.across());
+        if (!ldi.windows.data.intersects(at)) continue;
+        const SampleRange samples = ldi.pixel(ldi.windows.index(at.x, at.y));
+        if (samples.empty()) continue;
+        const std::string name = object_of(ldi, mattes, samples.front(), names);
+        if (name.empty()) continue;
+        const double z = double(ldi.z[samples.front()]);
+        Object &object = objects.try_emplace(name, Object{objects.size() + 1, {z, z}}).first->second;
+        object.depths = {std::min(object.depths.nearest, z), std::max(object.depths.farthest, z)};
+        map.numbers[2 * i] = std::uint8_t(object.number & 255);
+        map.numbers[2 * i + 1] = std::uint8_t(object.number >> 8 & 255);
+    }
+    map.said["objects"] = Json::array();
+    for (std::size_t i = 0; i < objects.size(); ++i) map.said["objects"].push_back({});
+    for (const auto &[name, object] : objects) {
+        const FocusFor sharp = focus_for(object.depths.nearest, object.depths.farthest);
+        map.said["objects"][object.number - 1] = {{"name", name},
+                                                  {"focus", json_number(sharp.focus)},
+                                                  {"hyperfocal", json_number(sharp.hyperfocal)}};
+    }
+    return map;
+}
+
+Json sample_facts(const Shot &shot, const ThinLens &lens, const Imath::V2i &pixel, const ObjectNames &names) {
+    const Ldi &ldi = shot.in().ldi;
+    const Imath::V2i at = middle_subpixel(pixel, shot.across());
+    Json samples = Json::array();
+    if (!ldi.windows.data.intersects(at)) return samples;
+    const auto rgb = find_rgb(ldi.channels);
+    const std::size_t alpha = ldi.alpha();
+    for (const std::uint64_t i : ldi.pixel(ldi.windows.index(at.x, at.y))) {
+        const double z = double(ldi.z[i]), seen_at = ldi.optical_z(i);
+        Json colour = Json::array();
+        for (const std::size_t k : rgb) colour.push_back(json_number(double(ldi.values[k][i])));
+        Json sample{{"z", json_number(z)},
+                    {"alpha", alpha == npos ? 1.0 : double(ldi.values[alpha][i])},
+                    {"coc", json_number(circle_of_confusion(lens, seen_at))},
+                    {"rgb", colour},
+                    {"objects", objects_of(ldi, i, names)}};
+        if (seen_at != z) sample["image"] = json_number(seen_at); // of what it shows
+        samples.push_back(sample);
+    }
+    return samples;
+}
+
+} // namespace sparselens
