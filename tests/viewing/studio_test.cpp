@@ -14,14 +14,16 @@ namespace {
 
 using Answer = std::future<std::optional<std::string>>;
 
-// A work that goes on until it is let go or nobody wants it any more.
+// A work that goes on until it is let go or nobody wants it any more; not for ever, where a fault keeps either away.
 class Held {
 public:
     Answer begin(Studio &studio, const std::string &page, const std::string &answer) {
         Answer asked = std::async(std::launch::async, [&studio, page, answer, this] {
             return studio.make(page, [this, answer](Progress &progress) {
                 begun.set_value();
-                for (int percent = 0; !free; percent = std::min(percent + 1, 50)) {
+                const auto latest = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+                for (int percent = 0; !free && std::chrono::steady_clock::now() < latest;
+                     percent = std::min(percent + 1, 50)) {
                     progress.start("holding", 100);
                     progress.advance(std::size_t(percent));
                     progress.may_end();
