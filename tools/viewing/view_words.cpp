@@ -96,7 +96,8 @@ Words picture_words(const Words &all) {
 Words words_with(const Words &given, const std::map<std::string, std::string> &settings,
                  const Presets &presets) {
     Words words = given;
-    for (const auto &[option, value] : settings) {
+    for (const auto &setting : settings) {
+        const std::string &option = setting.first, &value = setting.second;
         const auto preset = option == "lens" ? presets.find(value) : presets.end();
         if (!is_settable(option) && !(option == "lens" && value.empty()) && preset == presets.end())
             throw UsageError("the request: a page may not set " + option + " to " + value);
