@@ -16,7 +16,7 @@ namespace sparselens {
 
 struct LensSample {
     float x, y;             // displacement of a point of CoC 1, pixels, y down: (u.x, -u.y * pixel aspect)
-    float pixel_x, pixel_y; // position in the pixel, [-1/2, 1/2)
+    float pixel_x, pixel_y; // position in the pixel, [-1/2, 1/2), and by how much all that is seen is moved
     float weight;           // > 0
     // By what the weight is multiplied for R, G and B, and for light from behind focus or in front (LensPoint).
     std::array<float, 3> rgb{1, 1, 1};

@@ -38,8 +38,9 @@ bool out_of_reach(const FacetBlock &b, const LensSample &lens, const FacetGrid &
     const auto [x0, x1] = std::minmax({b.coc_min * lens.x, b.coc_max * lens.x});
     const auto [y0, y1] = std::minmax({b.coc_min * lens.y, b.coc_max * lens.y});
     const float size = float(grid.stride - 2);
-    return b.x_max + x1 + 1 < grid.corner_x || b.x_min + x0 - 1 > grid.corner_x + size ||
-           b.y_max + y1 + 1 < grid.corner_y || b.y_min + y0 - 1 > grid.corner_y + size;
+    const float x = grid.corner_x - lens.pixel_x, y = grid.corner_y - lens.pixel_y;
+    return b.x_max + x1 + 1 < x || b.x_min + x0 - 1 > x + size || b.y_max + y1 + 1 < y ||
+           b.y_min + y0 - 1 > y + size;
 }
 
 constexpr std::size_t at_once = 64;

@@ -81,15 +81,16 @@ const Seen &See::through(const LensSample &point) {
 // Those that some lens point brings into the tile, or into a pixel next to it.
 void See::collect_partial() {
     const BlockedSamples &samples = scene_.samples;
-    float reach_x = 0, reach_y = 0; // for each pixel of CoC
+    float reach_x = 0, reach_y = 0, beside = border; // for each pixel of CoC, and of all
     for (const LensSample &p : tile_.lens) {
         reach_x = std::max(reach_x, std::abs(p.x));
         reach_y = std::max(reach_y, std::abs(p.y));
+        beside = std::max({beside, border + std::abs(p.pixel_x), border + std::abs(p.pixel_y)});
     }
     const auto in_reach = [&](std::uint32_t i) {
         const float coc = std::abs(samples.coc[i]), x = samples.x[i] - float(tile_.origin.x),
                     y = samples.y[i] - float(tile_.origin.y);
-        const float across = coc * reach_x + border, down = coc * reach_y + border;
+        const float across = coc * reach_x + beside, down = coc * reach_y + beside;
         return x > -across && x < size + across && y > -down && y < size + down;
     };
     std::vector<std::uint64_t> order;

@@ -7,12 +7,12 @@ namespace sparselens::gpu {
 
 namespace {
 
-constexpr float margin = 2; // pixels: where in a pixel a lens point sees, and rounding
+constexpr float margin = 2; // pixels: the ones next to it, and rounding
 constexpr float size = lens_kernel::size;
 
-// How far lens points move a sample, for each pixel of CoC.
+// How far lens points move a sample, for each pixel of CoC, and all samples.
 struct Reach {
-    float x = 0, y = 0;
+    float x = 0, y = 0, all = 0;
 };
 
 Reach reach_of(const TileTask &task) {
@@ -20,6 +20,7 @@ Reach reach_of(const TileTask &task) {
     for (const LensSample &p : task.lens) {
         reach.x = std::max(reach.x, std::abs(p.x));
         reach.y = std::max(reach.y, std::abs(p.y));
+        reach.all = std::max({reach.all, std::abs(p.pixel_x), std::abs(p.pixel_y)});
     }
     return reach;
 }
@@ -39,8 +40,8 @@ PartialLists partial_lists(const BlockedSamples &samples, const TileTask &task) 
     });
     PartialLists lists;
     for (const std::uint32_t i : sorted) {
-        const float coc = std::abs(samples.hiding_coc()[i]), across = coc * reach.x + margin,
-                    down = coc * reach.y + margin;
+        const float coc = std::abs(samples.hiding_coc()[i]), beside = reach.all + margin,
+                    across = coc * reach.x + beside, down = coc * reach.y + beside;
         for (std::size_t q = 0; q < lens_kernel::quarters; ++q) {
             const float left = float(task.origin.x) + float(q % 2) * size,
                         top = float(task.origin.y) + float(q / 2) * size;

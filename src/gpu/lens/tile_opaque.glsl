@@ -12,7 +12,8 @@ ivec2 seen_at(uint sample_, float coc) {
 
 bool out_of_reach(Block b) {
     const vec2 a = b.coc_min * vec2(lens.x, lens.y), c = b.coc_max * vec2(lens.x, lens.y);
-    const vec2 least = min(a, c), most = max(a, c), begin = first + vec2(corner) - 1, end = begin + side;
+    const vec2 least = min(a, c), most = max(a, c), begin = first + vec2(corner) - 1 - vec2(lens.pixel_x, lens.pixel_y),
+               end = begin + side;
     return b.x_max + most.x + 1 < begin.x || b.x_min + least.x - 1 > end.x || b.y_max + most.y + 1 < begin.y ||
            b.y_min + least.y - 1 > end.y;
 }
