@@ -126,7 +126,9 @@ double LookRays::inverse_focus(const Imath::V2d &p, std::size_t colour) const {
 
 Ray LookRays::ray(const Imath::V2d &u, const Imath::V2d &p, double inverse_focus) const {
     Ray ray = view_ray(settings_, u, without_breathing(p));
-    const Imath::V2d o = settings_.lens.radius * u * inverse_focus;
+    const Imath::V2d o =
+        settings_.lens.radius * u * inverse_focus +
+        skewed(field_.skew(without_breathing(p)), u) / (looks_.magnification * settings_.lens.focal_px);
     ray.direction -= Imath::V3d(o.x, o.y, 0);
     return ray;
 }

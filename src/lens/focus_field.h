@@ -16,7 +16,8 @@ public:
         : looks_(looks), frame_(frame), at_focus_(lens.radius * lens.focal_px / lens.focus),
           focal_px_(lens.focal_px) {}
 
-    bool flat() const { return looks_.field_curvature == 0 && looks_.tilt == Imath::V2d(0, 0); }
+    bool flat() const { return looks_.field_curvature == 0 && looks_.tilt == Imath::V2d(0, 0) && !skews(); }
+    bool skews() const { return false; }
 
     // Of 1/d, at p: 1 on the axis.
     double factor(const Imath::V2d &p) const {
@@ -30,6 +31,10 @@ public:
     }
     Imath::V2d shown_at(const Imath::V2d &p) const { return frame_.magnified(p, looks_.magnification); }
     bool moves() const { return looks_.magnification != 1; }
+
+    // By s, x right and y up: lens point u displaces what is seen at p by s u* more, u* mirrored in x. So the CoC is |s| more
+    // along a line through the axis (in a magnified picture, as much more), and |s| less across it.
+    Imath::V2d skew(const Imath::V2d &) const { return {0, 0}; }
 
     // What is added to the CoC of what the ray through the middle of the lens shows at p, pixels.
     double coc_offset(const Imath::V2d &p) const { return at_focus_ * (factor(p) - 1); }
@@ -46,6 +51,11 @@ private:
     double at_focus_; // R F / d
     double focal_px_;
 };
+
+// Lens point u mirrored in x, turned and scaled by s.
+inline Imath::V2d skewed(const Imath::V2d &s, const Imath::V2d &u) {
+    return {s.x * u.x + s.y * u.y, s.y * u.x - s.x * u.y};
+}
 
 // What is at p in the centre view and has the CoC c there is seen through a lens point, which displaces by u for each pixel
 // of CoC, at x = p + (c + gradient (x - p)) u = p + c stretch(u) u. Beyond 1/10 of a fold nothing is stretched further.

@@ -1,5 +1,6 @@
 #include "lens/lamp_cells.h"
 
+#include "lens/focus_field.h"
 #include "lens/psf.h"
 
 #include <algorithm>
@@ -79,6 +80,7 @@ Imath::V2d LampCells::size(const Lamp &lamp) const {
 
 LampLight LampCells::shine(const Lamp &lamp, double square, const LampShadow *shadow,
                            const Imath::Box2i &box) const {
+    if (lamp.skew != Imath::V2d(0, 0)) return shine_skewed(lamp, square, shadow, box);
     const Imath::V2d cell = size(lamp), first = lamp.centre - cell * middle();
     const Overlaps columns(first.x, cell.x, std::hypot(cell.x, square), box.min.x, box.max.x + 1),
         rows(first.y, cell.y, std::hypot(cell.y, square), box.min.y, box.max.y + 1);
@@ -105,6 +107,48 @@ LampLight LampCells::shine(const Lamp &lamp, double square, const LampShadow *sh
             }
         });
     }
+    return light;
+}
+
+// A cell is as many points as keep them half a pixel apart, each a square.
+LampLight LampCells::shine_skewed(const Lamp &lamp, double square, const LampShadow *shadow,
+                                  const Imath::Box2i &box) const {
+    const double step = 1 / std::abs(scale_), apart = (std::abs(lamp.coc) + lamp.skew.length()) * step;
+    const int n = std::clamp(int(std::ceil(2 * apart * std::max(1.0, lamp.pixel_aspect))), 1, 64);
+    const double side_of_point = std::hypot(apart / n, square), share_of_point = 1.0 / (n * n);
+    const Imath::V2d pixels(Imath::V2d(box.max) + Imath::V2d(1) - Imath::V2d(box.min));
+    const auto count = std::size_t(pixels.x * pixels.y);
+    LampLight light{box, std::vector<Float4>(count, Float4{}), std::vector<Float4>(count, Float4{})};
+    const auto add = [&](const Imath::V2d &at, const Float4 &whole, const Float4 &lit) {
+        const Imath::V2d half = Imath::V2d(side_of_point) / 2, low = at - half, high = at + half;
+        const auto common = [&](int axis, int pixel) {
+            return std::max(0.0, std::min(high[axis], pixel + 1.0) - std::max(low[axis], double(pixel))) /
+                   side_of_point;
+        };
+        const auto first = [&](int axis) {
+            return int(std::max(std::floor(low[axis]), double(box.min[axis])));
+        };
+        const auto last = [&](int axis) {
+            return int(std::min(std::floor(high[axis]), double(box.max[axis])));
+        };
+        for (int y = first(1); y <= last(1); ++y)
+            for (int x = first(0); x <= last(0); ++x) {
+                const auto share = float(share_of_point * common(0, x) * common(1, y));
+                light.whole[light.at(x, y)] += share * whole;
+                light.lit[light.at(x, y)] += share * lit;
+            }
+    };
+    for (int j = 0; j < side; ++j)
+        for (int i = 0; i < side; ++i) {
+            const Float4 share = share_[std::size_t(j) * side + std::size_t(i)];
+            if (!(share[3] > 0)) continue;
+            const Float4 lit = share * (shadow ? shadow->lit(i, j) : 1.0f);
+            for (int k = 0; k < n * n; ++k) {
+                const Imath::V2d cell(i + (k % n + 0.5) / n - side / 2.0, side / 2.0 - j - (k / n + 0.5) / n);
+                const Imath::V2d u = cell / scale_, moved = lamp.coc * u + skewed(lamp.skew, u);
+                add(lamp.centre + Imath::V2d(moved.x, -moved.y * lamp.pixel_aspect), share, lit);
+            }
+        }
     return light;
 }
 

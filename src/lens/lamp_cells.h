@@ -55,6 +55,9 @@ public:
     LampLight shine(const Lamp &lamp, double square, const LampShadow *shadow, const Imath::Box2i &box) const;
 
 private:
+    LampLight shine_skewed(const Lamp &lamp, double square, const LampShadow *shadow,
+                           const Imath::Box2i &box) const;
+
     std::array<Float4, std::size_t(side) * side> share_; // [row][column]
     double scale_; // cells for each unit of the lens, signed as the CoC is
 };

@@ -16,6 +16,7 @@ struct Lamp {
     Imath::V2d centre; // EXR pixel coordinates, y down
     double coc = 0;    // signed, pixels, not 0
     double pixel_aspect = 1;
+    Imath::V2d skew{0, 0}; // FocusField::skew(), which LampCells alone know
 };
 
 // Weights of the pixels of a box that the light reaches.

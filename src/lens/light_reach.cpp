@@ -26,7 +26,8 @@ Imath::V2d LightReach::at(const Imath::V2d &p, double coc) const {
         steepest = stretch(gradient, gradient.normalized() * std::max(extent_.x, extent_.y));
     }
     const double largest = std::max(std::abs(bent + least_chromatic_), std::abs(bent + most_chromatic_));
-    return extent_ * (largest * steepest);
+    const double beside = field_.skew(p).length() / magnification_ * std::max(extent_.x, extent_.y);
+    return (extent_ * largest + Imath::V2d(beside)) * steepest;
 }
 
 Imath::Box2d LightReach::box(const Imath::V2d &p, double coc) const {

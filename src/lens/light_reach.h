@@ -1,7 +1,7 @@
 // How far the lens spreads light: the circle of confusion, with all that the looks make of it.
 //
 // The CoC grows by what a bent or tilted plane of focus and axial chromatic aberration add, is as wide as the aperture is
-// for each pixel of it (1 / S of a lens squeezed by S < 1), is stretched where the plane is steep (focus_field.h), and is
+// for each pixel of it (1 / S of a lens squeezed by S < 1), is skewed by astigmatism, is stretched where the plane is steep (focus_field.h), and is
 // magnified with the picture.
 #pragma once
 

@@ -12,9 +12,10 @@ namespace sparselens {
 namespace {
 
 bool is_sharp(const BlockedSamples &samples, const Optics &optics) {
-    return !optics.moves() && std::ranges::all_of(samples.blocks, [&](const SampleBlock &block) {
-        return block.begin == block.end || largest_coc_of(block) * optics.widest() < in_focus;
-    });
+    return !optics.moves() && !optics.field.skews() &&
+           std::ranges::all_of(samples.blocks, [&](const SampleBlock &block) {
+               return block.begin == block.end || largest_coc_of(block) * optics.widest() < in_focus;
+           });
 }
 
 // The pixels that were seen, relative to the data window's corner.

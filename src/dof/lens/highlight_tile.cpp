@@ -28,7 +28,8 @@ Imath::Box2i pixels_around(const Imath::V2d &place, const Imath::V2d &extent) {
 
 // How wide the square is that a sample's light comes from.
 double square_of(const Lamp &lamp) {
-    return std::clamp((point_from - std::abs(lamp.coc)) / (point_from - square_to), 0.0, 1.0);
+    const double coc = std::abs(lamp.coc) + lamp.skew.length();
+    return std::clamp((point_from - coc) / (point_from - square_to), 0.0, 1.0);
 }
 
 } // namespace
@@ -52,12 +53,22 @@ void HighlightTile::spread(const Imath::V2i &origin, std::span<const std::uint32
     if (highlights_.sample.empty()) return;
     shadows_.begin(origin, blocks, scene_.pixel_aspect);
     for (const std::uint32_t b : blocks)
-        highlights_.groups.for_each(b, [&](std::span<const std::uint32_t> group) { spread_group(group); });
+        highlights_.groups.for_each(b, [&](std::span<const std::uint32_t> group) {
+            if (!scene_.optics->field.skews()) return spread_group(group);
+            for (std::size_t n = 0; n < group.size(); ++n) spread_group(group.subspan(n, 1));
+        });
+}
+
+Lamp HighlightTile::lamp(std::uint32_t highlight) const {
+    Lamp lamp = shadows_.lamp(highlight);
+    lamp.skew = scene_.optics->skew(lamp.centre + Imath::V2d(held_out_.corner + origin_));
+    return lamp;
 }
 
 // The pixels that the light of a highlight may reach.
 Imath::Box2i HighlightTile::reach_of(const Lamp &lamp) {
-    const Imath::V2d disc = std::abs(lamp.coc) * half_extent_;
+    const double skew = lamp.skew.length(), beside = skew * std::max(half_extent_.x, half_extent_.y);
+    const Imath::V2d disc = std::abs(lamp.coc) * half_extent_ + Imath::V2d(beside + (skew > 0 ? 1 : 0));
     const double square = square_of(lamp);
     if (!(square > 0)) return pixels_around(lamp.centre, disc);
     return pixels_around(lamp.centre, disc + (Imath::V2d(square) + cells_of(lamp).size(lamp)) * 0.5);
@@ -66,7 +77,7 @@ Imath::Box2i HighlightTile::reach_of(const Lamp &lamp) {
 void HighlightTile::spread_group(std::span<const std::uint32_t> group) {
     reached_ = {};
     for (const std::uint32_t h : group) {
-        const Imath::Box2i reach = reach_of(shadows_.lamp(h));
+        const Imath::Box2i reach = reach_of(lamp(h));
         if (!reach.isEmpty()) reached_.extendBy(reach);
     }
     if (reached_.isEmpty()) return;
@@ -76,9 +87,9 @@ void HighlightTile::spread_group(std::span<const std::uint32_t> group) {
 }
 
 void HighlightTile::spread_one(std::uint32_t highlight) {
-    const Lamp lamp = shadows_.lamp(highlight);
+    const Lamp lamp = this->lamp(highlight);
     const double square = square_of(lamp);
-    const bool in_cells = std::abs(lamp.coc) < few;
+    const bool skewed = lamp.skew != Imath::V2d(0, 0), in_cells = skewed || std::abs(lamp.coc) < few;
     const LampCells *cells = in_cells ? &cells_of(lamp) : nullptr;
     const ShadowScreen screen =
         in_cells ? ShadowScreen{LampCells::middle(), cells->shadow_scale(lamp.pixel_aspect), LampCells::box(),
@@ -86,7 +97,7 @@ void HighlightTile::spread_one(std::uint32_t highlight) {
                  : ShadowScreen{lamp.centre, Imath::V2d(lamp.coc), reached_};
     Spreading from{highlight, highlights_.sample[highlight], lamp, shadows_.cast(highlight, screen)};
     const LampShadow *shadow = in_cells && from.shadowed ? &shadows_.own() : nullptr;
-    if (square > 0) return spread_few(cells->shine(lamp, square, shadow, reached_), from);
+    if (square > 0 || skewed) return spread_few(cells->shine(lamp, square, shadow, reached_), from);
     std::optional<LampLight> light;
     if (shadow) light = cells->shine(lamp, 0, shadow, reached_);
     from.few = light ? &*light : nullptr;

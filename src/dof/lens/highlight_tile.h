@@ -46,6 +46,7 @@ private:
         bool shadowed = false;
         const LampLight *few = nullptr; // of a disc of few pixels, if anything hides a part of it
     };
+    Lamp lamp(std::uint32_t highlight) const;
     Imath::Box2i reach_of(const Lamp &lamp);
     void spread_group(std::span<const std::uint32_t> group);
     void spread_one(std::uint32_t highlight);

@@ -137,11 +137,12 @@ private:
     std::vector<float> row_reach_;
 };
 
-// visit(x, y) for the pixels of the tile at `corner` (relative to the window) that lie in the window.
+// visit(x, y) for the pixels of a part of the tile at `corner` (relative to the window) that lie in the window.
 template <typename Visit>
-void for_each_pixel(const Imath::V2i &corner, const Windows &windows, const Visit &visit) {
-    for (int y = 0; y < lens_tile_size && corner.y + y < windows.height(); ++y)
-        for (int x = 0; x < lens_tile_size && corner.x + x < windows.width(); ++x) visit(x, y);
+void for_each_pixel(const Imath::V2i &corner, const Imath::Box2i &part, const Windows &windows,
+                    const Visit &visit) {
+    for (int y = part.min.y; y <= part.max.y && corner.y + y < windows.height(); ++y)
+        for (int x = part.min.x; x <= part.max.x && corner.x + x < windows.width(); ++x) visit(x, y);
 }
 
 // None has lens points yet.
@@ -164,12 +165,13 @@ std::vector<std::size_t> averaged_channels(const Image &image) {
 
 // A tile that is out of focus, and what it is gathered from.
 struct PreparedTile {
-    std::size_t number;
+    std::size_t number, tile;
+    Imath::Box2i part; // of the tile, that is made
     Imath::V2i first;  // pixel, EXR coordinates
     Imath::V2i origin; // the same, relative to the data window's corner
     std::vector<std::uint32_t> samples = {}, facets = {}, fillers = {}; // blocks of them
     std::span<const LensSample> lens = {};
-    std::vector<LensSample> stretched = {};
+    std::vector<LensSample> bent = {};
 
     TileTask task() const { return {origin, samples, facets, fillers, lens}; }
 };
@@ -189,34 +191,43 @@ struct Gathering {
     LensSets sets{options, optics.aperture, scene.pixel_aspect};
     std::vector<std::size_t> gathered = averaged_channels(out);
 
-    std::size_t tiles() const { return chosen.lens_points.size(); }
+    // Across and down: where discs are skewed, each part of a tile has lens points of its own.
+    const int parts = optics.field.skews() ? 2 : 1;
+
+    std::size_t tiles() const { return chosen.lens_points.size() * std::size_t(parts * parts); }
 
     // None where nothing is out of focus: the flattened LDI is there already.
-    std::optional<PreparedTile> prepare(std::size_t t) {
+    std::optional<PreparedTile> prepare(std::size_t number) {
+        const std::size_t t = number / std::size_t(parts * parts);
+        const int n = int(number % std::size_t(parts * parts)), part_size = lens_tile_size / parts;
+        const Imath::V2i part(n % parts * part_size, n / parts * part_size);
         const Imath::V2i corner(int(t) % chosen.columns, int(t) / chosen.columns);
         const Imath::V2i first = out.windows.data.min + corner * lens_tile_size;
         const Imath::Box2i pixels(first, first + Imath::V2i(lens_tile_size - 1));
         if (options.region && !options.region->intersects(pixels)) return {};
-        PreparedTile tile{t, first, first - optics.corner};
-        const Imath::V2d gradient = optics.coc_gradient(first, lens_tile_size);
+        PreparedTile tile{number, t, {part, part + Imath::V2i(part_size - 1)}, first, first - optics.corner};
+        const Imath::V2d gradient = optics.coc_gradient(first + part, part_size);
         const float steepest = float(stretch(gradient, gradient.normalized() * double(finder.extent())));
+        const double displaced = optics.displaced(first + part, part_size) * double(steepest);
+        const int beside = int(std::ceil(displaced)), size = lens_tile_size + 2 * beside;
+        const Imath::V2i origin = tile.origin - Imath::V2i(beside);
         const float largest =
-            finder.find(tile.origin, lens_tile_size, steepest, tile.samples) * optics.widest();
+            finder.find(origin, size, steepest, tile.samples) * optics.widest() + float(displaced);
         if (largest < in_focus && !optics.moves()) return {};
         const std::vector<LensSample> &points = sets.for_coc(largest, optics.doubled(first, lens_tile_size));
-        filler_finder.find(tile.origin, lens_tile_size, steepest, tile.fillers);
-        find_blocks(scene.facets, tile.origin, lens_tile_size, steepest * finder.extent(), tile.facets);
+        filler_finder.find(origin, size, steepest, tile.fillers);
+        find_blocks(scene.facets, origin, size, steepest * finder.extent(), tile.facets);
         tile.lens = points;
-        if (!optics.field.flat()) tile.lens = tile.stretched = stretched(points, gradient);
+        if (!optics.field.flat()) tile.lens = tile.bent = optics.bent(points, first + part, part_size);
         return tile;
     }
 
     // Sets its pixels to what is gathered, and to what highlights spread there.
     void finish(const PreparedTile &tile, const TilePicture &picture) {
-        chosen.lens_points[tile.number] = int(tile.lens.size());
+        chosen.lens_points[tile.tile] = int(tile.lens.size());
         HighlightTile &lit = lamps.local();
         lit.spread(tile.origin, tile.samples);
-        for_each_pixel(tile.first - out.windows.data.min, out.windows, [&](int x, int y) {
+        for_each_pixel(tile.first - out.windows.data.min, tile.part, out.windows, [&](int x, int y) {
             const auto pixel = std::size_t(y * lens_tile_size + x);
             // A few lens points may all miss: better sharp than black.
             if (!picture.is_known(pixel) && lit.dark(x, y)) return;

@@ -42,6 +42,31 @@ Imath::V2d Optics::coc_gradient(const Imath::V2i &first, int size) const {
     return field.coc_gradient(frame.magnified(middle, 1 / looks.magnification));
 }
 
+Imath::V2d Optics::skew(const Imath::V2d &p) const {
+    return field.skew(frame.magnified(p, 1 / looks.magnification));
+}
+
+double Optics::displaced(const Imath::V2i &first, int size) const {
+    const Imath::V2d most = aperture.half_extent();
+    return skew(Imath::V2d(first) + Imath::V2d(size / 2)).length() * std::max(most.x, most.y) *
+           std::max(1.0, frame.pixel_aspect);
+}
+
+std::vector<LensSample> Optics::bent(std::span<const LensSample> points, const Imath::V2i &first,
+                                     int size) const {
+    const Imath::V2d gradient = coc_gradient(first, size), s = skew(Imath::V2d(first) + Imath::V2d(size / 2));
+    std::vector<LensSample> moved(points.begin(), points.end());
+    for (LensSample &p : moved) {
+        const Imath::V2d all = skewed(s, {double(p.x), -double(p.y) / frame.pixel_aspect});
+        const auto factor = float(stretch(gradient, {double(p.x), double(p.y)}));
+        p.x *= factor;
+        p.y *= factor;
+        p.pixel_x += factor * float(all.x);
+        p.pixel_y -= factor * float(all.y * frame.pixel_aspect);
+    }
+    return moved;
+}
+
 Darkening::Darkening(const CatEye &cat_eye, const Ldi &ldi, const Windows &windows)
     : windows_(windows), sets_(colour_sets(ldi, ldi.channels.size())) {
     if (!cat_eye.darkens()) return;
@@ -59,16 +84,6 @@ void Darkening::darken(Image &image) const {
     for (std::size_t k = 0; k < sets_.size(); ++k)
         if (is_colour(sets_[k]))
             std::ranges::transform(image.plane(k), left_, image.plane(k).begin(), std::multiplies());
-}
-
-std::vector<LensSample> stretched(std::span<const LensSample> points, const Imath::V2d &coc_gradient) {
-    std::vector<LensSample> moved(points.begin(), points.end());
-    for (LensSample &p : moved) {
-        const auto factor = float(stretch(coc_gradient, {double(p.x), double(p.y)}));
-        p.x *= factor;
-        p.y *= factor;
-    }
-    return moved;
 }
 
 } // namespace sparselens

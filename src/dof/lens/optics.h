@@ -37,8 +37,15 @@ struct Optics {
     // Adds to the CoC of samples, whose places are relative to the corner, and moves them to where the magnified picture
     // shows them.
     void bend(BlockedSamples &samples) const;
-    // How CoC changes across the tile of that size whose first pixel that is (EXR coordinates).
+    // How CoC changes across the tile of that size whose first pixel that is (EXR coordinates); and how far, in pixels, all is
+    // displaced there at most.
     Imath::V2d coc_gradient(const Imath::V2i &first, int size) const;
+    double displaced(const Imath::V2i &first, int size) const;
+    // The lens points of that tile, where the plane of focus is bent: by the field at its middle.
+    std::vector<LensSample> bent(std::span<const LensSample> points, const Imath::V2i &first, int size) const;
+
+    // FocusField::skew() of what the magnified picture shows at p.
+    Imath::V2d skew(const Imath::V2d &p) const;
 };
 
 // How much of its colours a pixel keeps where a cat-eye darkens.
@@ -56,8 +63,5 @@ private:
     std::vector<ColourSet> sets_;
     std::vector<float> left_; // [pixel]; empty: all
 };
-
-// The lens points of a tile where the plane of focus is bent: by the field's change at the tile's middle.
-std::vector<LensSample> stretched(std::span<const LensSample> points, const Imath::V2d &coc_gradient);
 
 } // namespace sparselens

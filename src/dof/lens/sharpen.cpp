@@ -52,8 +52,8 @@ public:
     std::array<Term, 5> terms(const Band &band, std::uint64_t i) const;
 
 private:
-    struct Seen { // through the middle of the lens
-        double coc;
+    struct Seen {          // through the middle of the lens
+        Imath::V2d coc;    // along each axis
         Imath::V2d offset; // off the grid, pixels
     };
     Seen seen(const MergedSample &place, int x, int y) const;
@@ -126,19 +126,24 @@ void Sharpener::measure_noise() {
 Sharpener::Seen Sharpener::seen(const MergedSample &place, int x, int y) const {
     const Imath::V2d offset(double(place.dx), double(place.dy));
     const double coc = circle_of_confusion(lens_, double(place.optical));
-    if (!looks_) return {coc, offset};
+    if (!looks_) return {Imath::V2d(coc), offset};
     const Imath::V2d p = Imath::V2d(ldi_.windows.data.min + Imath::V2i(x, y)) + Imath::V2d(0.5) + offset;
     const double bent = looks_->field.bent(coc + looks_->coc, p);
-    if (!looks_->field.moves()) return {bent, offset};
+    Imath::V2d along(bent);
+    if (looks_->field.skews()) {
+        const Imath::V2d s = looks_->field.skew(p);
+        along = {std::hypot(bent + s.x, s.y), std::hypot(bent - s.x, s.y)};
+    }
+    if (!looks_->field.moves()) return {along, offset};
     const Imath::V2d at = looks_->field.shown_at(p);
-    return {bent, {at.x - std::floor(at.x) - 0.5, at.y - std::floor(at.y) - 0.5}};
+    return {along, {at.x - std::floor(at.x) - 0.5, at.y - std::floor(at.y) - 0.5}};
 }
 
 // `n` are set where a weight is above 0.
 Sharpener::Weights Sharpener::weights(std::uint64_t i, int x, int y, SurfaceNeighbours &n) const {
     const Seen at = seen(sample_at(ldi_, i), x, y);
-    Weights w{float(blur_.horizontal(at.coc, at.offset.x)),
-              float(blur_.vertical(at.coc * lens_.pixel_aspect, at.offset.y)), 1};
+    Weights w{float(blur_.horizontal(at.coc.x, at.offset.x)),
+              float(blur_.vertical(at.coc.y * lens_.pixel_aspect, at.offset.y)), 1};
     if (w.horizontal == 0 && w.vertical == 0) return {0, 0, 0};
     n = surface_neighbours(ldi_, lens_, i, x, y);
     w.horizontal *= n.horizontal;
