@@ -48,5 +48,6 @@ look "cat's eye 1" cat --cat-eye 1
 look "cat's eye 1, darkening" dark --cat-eye 1 --cat-eye-darkening
 look 'axial chromatic 0.1' axial --axial-chromatic 0.1
 look 'field curvature 0.3' curvature --field-curvature 0.3
+look 'astigmatism 0.3' astigmatism --astigmatism 0.3
 look 'tilt 10,5' tilt --tilt 10,5
 look 'breathing 1' breathing --breathing 1

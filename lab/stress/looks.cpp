@@ -12,7 +12,7 @@ namespace {
 
 using namespace stress;
 
-std::array<LensLooks, 8> all_looks() {
+std::array<LensLooks, 9> all_looks() {
     const auto tinted =
         std::make_shared<AperturePicture>(AperturePicture{2, 2, {1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 2, 3}});
     return {LensLooks{.aperture = {.blades = 3}},
@@ -22,6 +22,7 @@ std::array<LensLooks, 8> all_looks() {
             LensLooks{.cat_eye = 1},
             LensLooks{.chromatic_coc = {-1, 0, 1}},
             LensLooks{.field_curvature = 1, .tilt = {1, -1}},
+            LensLooks{.astigmatism = 1},
             LensLooks{.magnification = 1.02}};
 }
 

@@ -17,7 +17,7 @@ public:
           focal_px_(lens.focal_px) {}
 
     bool flat() const { return looks_.field_curvature == 0 && looks_.tilt == Imath::V2d(0, 0) && !skews(); }
-    bool skews() const { return false; }
+    bool skews() const { return looks_.astigmatism != 0; }
 
     // Of 1/d, at p: 1 on the axis.
     double factor(const Imath::V2d &p) const {
@@ -34,7 +34,11 @@ public:
 
     // By s, x right and y up: lens point u displaces what is seen at p by s u* more, u* mirrored in x. So the CoC is |s| more
     // along a line through the axis (in a magnified picture, as much more), and |s| less across it.
-    Imath::V2d skew(const Imath::V2d &) const { return {0, 0}; }
+    Imath::V2d skew(const Imath::V2d &p) const {
+        const Imath::V2d q = frame_.place(p);
+        return looks_.magnification * looks_.astigmatism * at_focus_ *
+               Imath::V2d(q.x * q.x - q.y * q.y, 2 * q.x * q.y);
+    }
 
     // What is added to the CoC of what the ray through the middle of the lens shows at p, pixels.
     double coc_offset(const Imath::V2d &p) const { return at_focus_ * (factor(p) - 1); }

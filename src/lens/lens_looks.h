@@ -21,7 +21,10 @@ struct LensLooks {
     // The plane of focus: 1/d becomes (1/d) (1 + field_curvature rho^2) (1 + tilt.x x/F + tilt.y y/F) at a pixel x right
     // and y up of the axis, rho half diagonals from it, F the focal length in pixels.
     double field_curvature = 0;
-    Imath::V2d tilt{0, 0};    // tangents of its angles
+    Imath::V2d tilt{0, 0}; // tangents of its angles
+    // Sagittal and tangential foci apart: for rays that meet the lens on the line through the axis and the pixel, 1/d becomes
+    // (1/d) (1 + astigmatism rho^2); for those across it, (1/d) (1 - astigmatism rho^2).
+    double astigmatism = 0;
     double magnification = 1; // of the whole picture about the axis, by breathing
     Imath::V2d axis{0, 0};    // the optical axis, from the middle of the display window, pixels, y down
 

@@ -304,6 +304,7 @@ def gather(
     cat_eye: Optional[float] = None,
     axial_chromatic: Optional[float] = None,
     field_curvature: Optional[float] = None,
+    astigmatism: Optional[float] = None,
     breathing: Optional[float] = None,
     cat_eye_darkening: bool = False,
     axial_chromatic_type: Optional[Literal["red-blue", "blue-yellow", "green-magenta"]] = "red-blue",

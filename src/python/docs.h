@@ -217,7 +217,7 @@ Lens values replace those of the LDI:
 Raises UsageError where the lens is unknown, and Error where several LDIs are not of one camera.)";
 
 inline constexpr const char *gather =
-    R"(gather(ldi, *, channels=None, method='lens', quality='normal', lens_samples=0, layer_tolerance=0.25, layers=8, focus_pixel=None, holdout=None, holdout_defocused=False, device='cpu', overscan='grow', proxy=1, supersample=None, pixel_filter=None, region=None, highlight_gain=1, highlight_threshold=1, highlight_knee=1, blades=None, blade_curvature=None, blade_rotation=None, squeeze=None, spherical=None, cat_eye=None, axial_chromatic=None, field_curvature=None, breathing=None, cat_eye_darkening=False, axial_chromatic_type='red-blue', tilt=None, lens=None, aperture=None, progress=None, focal_length=None, sensor_width=None, fstop=None, lens_radius=None, focus_distance=None, scene_unit=None)
+    R"(gather(ldi, *, channels=None, method='lens', quality='normal', lens_samples=0, layer_tolerance=0.25, layers=8, focus_pixel=None, holdout=None, holdout_defocused=False, device='cpu', overscan='grow', proxy=1, supersample=None, pixel_filter=None, region=None, highlight_gain=1, highlight_threshold=1, highlight_knee=1, blades=None, blade_curvature=None, blade_rotation=None, squeeze=None, spherical=None, cat_eye=None, axial_chromatic=None, field_curvature=None, astigmatism=None, breathing=None, cat_eye_darkening=False, axial_chromatic_type='red-blue', tilt=None, lens=None, aperture=None, progress=None, focal_length=None, sensor_width=None, fstop=None, lens_radius=None, focus_distance=None, scene_unit=None)
 --
 
 Makes the picture that a lens takes of an LDI and returns a Picture. As dof-gather.
@@ -239,8 +239,8 @@ highlight_gain: makes lights above highlight_threshold (scene-linear luminance) 
   1000, over a knee of highlight_knee.
 Looks of the lens, of the method lens: blades (a whole number), blade_curvature (0 to 1), blade_rotation (degrees),
   squeeze (0.001 to 1000), spherical (-1 to 1), cat_eye (0 to 100, with cat_eye_darkening), axial_chromatic (mm, with
-  axial_chromatic_type "red-blue", "blue-yellow" or "green-magenta"), field_curvature (-1 to 1), breathing (0 to 2),
-  tilt ((x, y), degrees), lens (a file of share/lenses, which the others beat), aperture (a picture, instead of blades).
+  axial_chromatic_type "red-blue", "blue-yellow" or "green-magenta"), field_curvature (-1 to 1),
+  astigmatism (-1 to 1), breathing (0 to 2), tilt ((x, y), degrees), lens (a file of share/lenses, which the others beat), aperture (a picture, instead of blades).
 progress: called with the name of the stage and a whole percentage.
 Lens values replace those of the LDI:
   focal_length (mm), sensor_width (mm, spans the display window), fstop (a number, or inf),

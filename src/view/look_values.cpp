@@ -52,6 +52,10 @@ constexpr std::array numbers{
         "Bends the plane of focus, from -1 to 1: 1/d grows by K of itself towards the picture's corners "
         "(default: 0)",
         &LookValues::field_curvature, "a number from -1 to 1", is_signed_share},
+    LookNumber{"astigmatism", "A",
+               "Parts the foci of rays along and across a line through the axis, from -1 to 1: 1/d grows and "
+               "shrinks by A of itself towards the corners (default: 0)",
+               &LookValues::astigmatism, "a number from -1 to 1", is_signed_share},
     LookNumber{
         "breathing", "B",
         "Magnification by focusing, from 0 to 2: 1 is that of a thin lens that moves as a whole (default: 0)",

@@ -17,7 +17,7 @@ enum class ChromaticType { red_blue, blue_yellow, green_magenta };
 
 struct LookValues {
     std::optional<double> blades = {}, curvature = {}, rotation = {}, squeeze = {}, spherical = {};
-    std::optional<double> cat_eye = {}, field_curvature = {}, breathing = {};
+    std::optional<double> cat_eye = {}, field_curvature = {}, astigmatism = {}, breathing = {};
     std::optional<double> tilt_x = {}, tilt_y = {}; // degrees
     std::optional<double> axial_chromatic = {};     // mm behind the sensor
     std::optional<ChromaticType> chromatic_type = {};

@@ -58,6 +58,7 @@ LensLooks resolve_looks(const LookValues &values, const Camera &camera, const Th
     looks.cat_eye_darkening = values.cat_eye_darkening.value_or(false);
     looks.chromatic_coc = chromatic_coc(values, camera, lens);
     looks.field_curvature = values.field_curvature.value_or(0);
+    looks.astigmatism = values.astigmatism.value_or(0);
     const auto tangent = [](const std::optional<double> &degrees) {
         return std::tan(degrees.value_or(0) * std::numbers::pi / 180);
     };

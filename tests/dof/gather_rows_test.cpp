@@ -110,6 +110,8 @@ TEST_F(GatherRows, LooksThatKeepThePlaneOfFocusAreTheSame) {
 TEST_F(GatherRows, ABentPlaneOfFocusIsTheSame) {
     options.gather.lens.looks.field_curvature = 0.1;
     expect_same(window);
+    options.gather.lens.looks = {.astigmatism = 0.5};
+    expect_same(window);
 }
 
 TEST_F(GatherRows, PerChannelAlphaIsTheSame) {

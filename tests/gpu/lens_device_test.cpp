@@ -88,6 +88,7 @@ TEST_F(LensDeviceTest, ShapesOfTheLensAreTheCpus) {
         {.aperture = {.squeeze = 2}},
         {.aperture = {.blades = 7, .squeeze = 0.5}},
         {.tilt = {0.3, -0.2}},
+        {.astigmatism = 0.8},
         {.chromatic_coc = {1.5, 0, -1.5}},
     };
     for (const LensLooks &looks : shapes)

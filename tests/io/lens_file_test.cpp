@@ -33,7 +33,7 @@ TEST_F(LensFiles, HoldEveryLook) {
     const LensFile file =
         read(R"({"name": "Test", "blades": 7, "blade-curvature": 0.25, "blade-rotation": -10, "squeeze": 1.5,
         "spherical": -0.5, "cat-eye": 2, "cat-eye-darkening": true, "axial-chromatic": 0.1,
-        "axial-chromatic-type": "green-magenta", "field-curvature": 0.3, "tilt": [10, -20], "breathing": 0.5,
+        "axial-chromatic-type": "green-magenta", "field-curvature": 0.3, "astigmatism": 0.2, "tilt": [10, -20], "breathing": 0.5,
         "highlight-gain": 4, "highlight-threshold": 2, "highlight-knee": 3})");
     EXPECT_EQ(file.name, "Test");
     const LookValues &v = file.values;
@@ -47,6 +47,7 @@ TEST_F(LensFiles, HoldEveryLook) {
     EXPECT_EQ(v.axial_chromatic, 0.1);
     EXPECT_EQ(v.chromatic_type, ChromaticType::green_magenta);
     EXPECT_EQ(v.field_curvature, 0.3);
+    EXPECT_EQ(v.astigmatism, 0.2);
     EXPECT_EQ(v.tilt_x, 10);
     EXPECT_EQ(v.tilt_y, -20);
     EXPECT_EQ(v.breathing, 0.5);

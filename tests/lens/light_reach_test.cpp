@@ -32,6 +32,7 @@ TEST(LightReach, IsTheDiscOfTheLens) {
 TEST(LightReach, FollowsThePlaneOfFocus) {
     const Imath::V2d slope = 8 * 0.5 * 2 / 12500.0 * Imath::V2d(100, 50); // of the CoC, in the corner
     expect_reach({.field_curvature = 0.5}, {200, 0}, 3, Imath::V2d(3 + 8 * 0.5) / (1 - slope.length()));
+    expect_reach({.astigmatism = -0.5}, {200, 0}, 3, Imath::V2d(3 + 8 * 0.5));
     const double tilt = 0.4, gradient = 8 * tilt / 400;
     expect_reach({.tilt = {tilt, 0}}, {150, 50}, 3, Imath::V2d(1, 1) * (3 + 50 * gradient) / (1 - gradient));
 }

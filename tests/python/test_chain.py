@@ -87,7 +87,7 @@ GATHERS = [
     {"focal_length": 30, "sensor_width": 30},
     {"blades": 5, "blade_rotation": 10, "cat_eye": 0.5},
     {"spherical": 0.5, "axial_chromatic": 0.2, "axial_chromatic_type": "blue-yellow"},
-    {"tilt": (10, 0), "field_curvature": 0.1, "breathing": 1},
+    {"tilt": (10, 0), "field_curvature": 0.1, "astigmatism": 0.2, "breathing": 1},
     {"squeeze": 2},
     {"highlight_gain": 4, "highlight_threshold": 0.5, "highlight_knee": 2},
 ]

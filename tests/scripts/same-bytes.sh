@@ -56,6 +56,7 @@ pictures='
 --axial-chromatic .4 --axial-chromatic-type blue-yellow
 --axial-chromatic .4 --axial-chromatic-type green-magenta
 --field-curvature .5
+--astigmatism .5
 --breathing 1
 --tilt 5,3
 --aperture lenses/mirror.exr

@@ -86,6 +86,7 @@ changes --aperture aperture.exr
 changes --cat-eye 1
 changes --axial-chromatic 0.1
 changes --field-curvature 0.5
+changes --astigmatism 0.5
 changes --tilt 20,0
 changes --tilt 0,20
 changes --breathing 1
@@ -123,7 +124,7 @@ exits 0 "$gather" ldi.exr -o key.####.exr --frames 1,3 --tilt '1:0,0;5:40,0' --b
 exits 0 "$gather" ldi.exr -o at-3.exr --tilt 20,0 --blades 5 --blade-rotation 20
 same key.0003.exr at-3.exr "keyed looks"
 for text in '--blades 2' '--blades 4.5' '--blade-curvature 1.5' '--blade-rotation x' '--squeeze 0' '--squeeze inf' \
-    '--spherical 2' '--blades nan' '--cat-eye -1' '--axial-chromatic 6' '--field-curvature 1.1' '--tilt 3' '--tilt 90,0' \
+    '--spherical 2' '--blades nan' '--cat-eye -1' '--axial-chromatic 6' '--field-curvature 1.1' '--astigmatism -2' '--tilt 3' '--tilt 90,0' \
     '--breathing -1' '--axial-chromatic-type pink'; do
     # shellcheck disable=SC2086
     fails_saying 2 "${text%% *}" "$gather" ldi.exr -o x.exr $text
@@ -133,7 +134,7 @@ fails_saying 1 'none.exr' "$gather" ldi.exr -o x.exr --aperture none.exr
 fails_saying 2 '--aperture.*--blades|--blades.*--aperture' "$gather" ldi.exr -o x.exr --aperture aperture.exr --blades 5
 for method in selective $(of_lab scatter); do
     for look in '--blades 5' '--squeeze 2' '--spherical 0.5' '--cat-eye 1' '--axial-chromatic 0.1' '--field-curvature 0.5' \
-        '--tilt 3,0' '--breathing 1' '--aperture aperture.exr' '--lens lens.json'; do
+        '--astigmatism 0.5' '--tilt 3,0' '--breathing 1' '--aperture aperture.exr' '--lens lens.json'; do
         # shellcheck disable=SC2086
         fails_saying 2 "${look%% *}: works with --method lens only" "$gather" ldi.exr -o x.exr --method $method $look
     done

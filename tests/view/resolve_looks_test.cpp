@@ -33,11 +33,14 @@ TEST(ResolveLooks, CarriesTheShapeAndTheCatEye) {
                                       .spherical = -0.3,
                                       .cat_eye = 1.5,
                                       .field_curvature = 0.2,
+                                      .astigmatism = -0.4,
                                       .cat_eye_darkening = true});
     const ApertureShape shape{.blades = 6, .curvature = 0.5, .rotation = 15, .squeeze = 2, .spherical = -0.3};
-    EXPECT_EQ(
-        looks,
-        (LensLooks{.aperture = shape, .cat_eye = 1.5, .cat_eye_darkening = true, .field_curvature = 0.2}));
+    EXPECT_EQ(looks, (LensLooks{.aperture = shape,
+                                .cat_eye = 1.5,
+                                .cat_eye_darkening = true,
+                                .field_curvature = 0.2,
+                                .astigmatism = -0.4}));
 }
 
 // Red that is sharp 0.1 mm behind the sensor has a cone of 0.1 / (2 N) mm there, as what lies in front of focus has.

@@ -65,7 +65,7 @@ changes reference.exr --focus-distance 3
 picture make aperture.exr 4x3 Y=0 fill=4x2 Y=1
 echo '{"squeeze": 2}' >lens.json
 for look in '--blades 5' '--squeeze 2' '--spherical 0.5' '--aperture aperture.exr' '--cat-eye 1' '--axial-chromatic 0.1' \
-    '--field-curvature 0.5' '--tilt 20,0' '--breathing 1' '--lens lens.json'; do
+    '--field-curvature 0.5' '--astigmatism 0.5' '--tilt 20,0' '--breathing 1' '--lens lens.json'; do
     # shellcheck disable=SC2086
     changes reference.exr $look
 done

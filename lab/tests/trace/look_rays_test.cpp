@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 namespace sparselens::lab {
 namespace {
@@ -22,12 +23,13 @@ Imath::V3d at_depth(const Ray &ray, double z) {
 }
 
 // The rays of a pixel at x right, y up of the axis meet on the ray through the middle of the lens at depth z.
-void expect_to_meet(const LensLooks &looks, double x, double y, double z, std::size_t colour = 1) {
+void expect_to_meet(const LensLooks &looks, double x, double y, double z, std::size_t colour = 1,
+                    const std::vector<Imath::V2d> &points = {{1, 0}, {-1, 0}, {0, 1}, {0.6, -0.8}, {0, 0}}) {
     const RenderSettings settings = settings_with(looks);
     const LookRays rays(settings);
     const Imath::V2d p(48 + x, 32 - y);
     const Imath::V3d expected(x / 640 * z, y / 640 * z, z);
-    for (const Imath::V2d &u : {Imath::V2d(1, 0), {-1, 0}, {0, 1}, {0.6, -0.8}, {0, 0}}) {
+    for (const Imath::V2d &u : points) {
         const Ray ray = rays.ray(u, p, rays.inverse_focus(p, colour));
         EXPECT_LT((at_depth(ray, z) - expected).length(), 1e-12) << "x " << x << ", y " << y << ", u " << u;
     }
@@ -50,6 +52,14 @@ TEST(LookRays, MeetOnABentSurface) {
     expect_to_meet({.field_curvature = 0.4}, 48, 32, 5 / 1.4);
     expect_to_meet({.field_curvature = 0.4}, -24, 16, 5 / 1.1);
     expect_to_meet({.field_curvature = -0.4}, 48, -32, 5 / 0.6);
+}
+
+// Rays along the line to the axis, and across it: 1/z = (1 + A rho^2) / d, and (1 - A rho^2) / d.
+TEST(LookRays, MeetTwiceWithAstigmatism) {
+    const Imath::V2d along = Imath::V2d(48, 32).normalized(), across(-along.y, along.x);
+    expect_to_meet({.astigmatism = 0.4}, 48, 32, 5 / 1.4, 1, {along, -along, along / 2});
+    expect_to_meet({.astigmatism = 0.4}, 48, 32, 5 / 0.6, 1, {across, -across});
+    expect_to_meet({.astigmatism = -0.4}, 24, -16, 5 / 0.9, 1, {{along.x, -along.y}});
 }
 
 // c = R F (1/d - 1/z), so what is sharp in a colour whose CoC grows by s has 1/z = 1/d + s / (R F).

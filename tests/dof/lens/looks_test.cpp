@@ -44,6 +44,7 @@ std::vector<LensLooks> all_looks() {
             {.chromatic_coc = {-2, 0, 2}},
             {.field_curvature = 0.3},
             {.tilt = {0.5, -0.3}},
+            {.astigmatism = 0.6},
             {.magnification = 1.03}};
 }
 
@@ -134,6 +135,61 @@ TEST(LensLooks, SpreadALampByTheFocusAtItsPlace) {
                 reached += v > 0.5f * float(1000 / (std::numbers::pi * coc * coc));
             EXPECT_NEAR(reached, std::numbers::pi * coc * coc, 0.05 * std::numbers::pi * coc * coc)
                 << coc << " at " << at;
+        }
+}
+
+// At a place q half diagonals from the axis a lamp becomes an ellipse: R F / d A |q|^2 pixels longer along the line to the axis
+// than the disc, and as much shorter across it. The mean square of an ellipse along its axes is a quarter of theirs.
+TEST(LensLooks, SkewALampAlongTheLineToTheAxis) {
+    const double half_diagonal = std::hypot(64, 32), rf_by_d = 0.06 * 640 / 5;
+    for (const double coc : {7.0, -7.0, 2.5})
+        for (const Imath::V2i &at : {Imath::V2i(104, 32), {24, 32}, {64, 14}, {90, 10}, {40, 50}}) {
+            const Ldi ldi = make_ldi(windows_of_size(128, 64), rgba_channels(), [&](int x, int y) {
+                std::vector<Sample> samples;
+                if (Imath::V2i(x, y) == at) samples.push_back({depth_of(lens, coc), {1000, 1000, 1000, 1}});
+                return samples;
+            });
+            const Image image = gather(ldi, {.astigmatism = 0.8});
+            const Imath::V2d lamp(at.x + 0.5, at.y + 0.5), q = (lamp - Imath::V2d(64, 32)) / half_diagonal,
+                                                           along = q.normalized(), across(-along.y, along.x);
+            const double s = rf_by_d * 0.8 * q.dot(q);
+            double sum = 0, squares_along = 0, squares_across = 0;
+            for (int y = 0; y < 64; ++y)
+                for (int x = 0; x < 128; ++x) {
+                    const Imath::V2d from = Imath::V2d(x + 0.5, y + 0.5) - lamp;
+                    const double v = double(image.at(0, x, y));
+                    sum += v;
+                    squares_along += v * from.dot(along) * from.dot(along);
+                    squares_across += v * from.dot(across) * from.dot(across);
+                }
+            const double in_pixel =
+                0.35; // square pixels: the mean square of pixels, and of what comes from one
+            EXPECT_NEAR(sum, 1000, 5);
+            EXPECT_NEAR(squares_along / sum, (coc + s) * (coc + s) / 4, in_pixel) << coc << " at " << at;
+            EXPECT_NEAR(squares_across / sum, (coc - s) * (coc - s) / 4, in_pixel) << coc << " at " << at;
+        }
+}
+
+// Right of the axis, in the middle of a quarter of a tile, the sagittal focus shows what changes from row to row, and the
+// tangential one what changes from column to column. Two pixels from there the CoC is 0.3 pixels, by which an edge of 0.9 loses
+// less than 0.1.
+TEST(LensLooks, FocusLinesAlongAndAcross) {
+    const double s = 0.06 * 640 / 5 * 48 * 48 / (80 * 80); // half a diagonal is 80 pixels
+    for (const bool rows : {true, false})
+        for (const double coc : {s, -s}) {
+            const Ldi ldi = make_ldi(windows_of_size(128, 96), rgba_channels(), [&](int x, int y) {
+                const float v = (rows ? y : x) / 3 % 2 ? 1.0f : 0.1f;
+                return std::vector<Sample>{{depth_of(lens, coc), {v, v, v, 1}}};
+            });
+            const Image image = gather(ldi, {.astigmatism = 1}), sharp = flatten(ldi);
+            double off = 0;
+            for (int y = 46; y < 50; ++y)
+                for (int x = 110; x < 114; ++x)
+                    off = std::max(off, std::abs(double(image.at(0, x, y)) - double(sharp.at(0, x, y))));
+            if (rows == (coc > 0))
+                EXPECT_LT(off, 0.1) << rows << coc;
+            else
+                EXPECT_GT(off, 0.2) << rows << coc;
         }
 }
 

@@ -103,7 +103,7 @@ constexpr std::array keyed_options{
     "--focus-distance", "--fstop",       "--lens-radius", "--focal-length",    "--sensor-width",
     "--scene-unit",     "--focus-pixel", "--blades",      "--blade-curvature", "--blade-rotation",
     "--squeeze",        "--spherical",   "--cat-eye",     "--axial-chromatic", "--field-curvature",
-    "--tilt",           "--breathing"};
+    "--astigmatism",    "--tilt",        "--breathing"};
 
 } // namespace
 
