@@ -54,7 +54,7 @@ unmount() {
 }
 within() {
     env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C.UTF-8 ${CCACHE_DIR:+CCACHE_DIR=/var/cache/ccache} \
-        ${CCACHE_DIR:+CMAKE_CXX_COMPILER_LAUNCHER=ccache} chroot "$root" bash -euc "cd /root/sparselens && $1"
+        ${CCACHE_DIR:+CMAKE_CXX_COMPILER_LAUNCHER=ccache CCACHE_SLOPPINESS=pch_defines,time_macros} chroot "$root" bash -euc "cd /root/sparselens && $1"
 }
 
 [ -e "$root/etc/debian_version" ] || make_root
@@ -72,6 +72,7 @@ git -C "$root/root/sparselens" checkout -q --detach FETCH_HEAD
 # The first packages are those that installing others and cloning needs.
 within 'export DEBIAN_FRONTEND=noninteractive; apt-get -q update && apt-get -q -y install --no-install-recommends ca-certificates git '"${CCACHE_DIR:+ccache}" \
     >"$root-packages.log" 2>&1 || fail "apt-get: $(grep -m 1 '^E:' "$root-packages.log")"
+cp -L /etc/ssl/certs/ca-certificates.crt "$root/etc/ssl/certs/" 2>/dev/null || true # those of this machine's proxy, for PyPI
 [ -z "${CCACHE_DIR-}" ] || mount_at /var/cache/ccache --bind "$CCACHE_DIR"
 [ ! -d "$source/../shared" ] || mount_at /root/shared --bind "$source/../shared"
 
