@@ -47,7 +47,7 @@ bool is_colour(Kind kind) { return kind == Kind::red || kind == Kind::green || k
 long double weight_of(const LensSample &point, Kind kind, const Met &met) {
     const long double weight = is_colour(kind) ? (long double)point.rgb[std::size_t(kind)] : 1;
     if (kind == Kind::data) return weight;
-    const bool in_front = met.sample->coc < 0 && !met.sample->background;
+    const bool in_front = met.sample->shows().coc < 0 && !met.sample->background;
     return weight * (long double)(in_front ? point.in_front : point.behind);
 }
 

@@ -15,6 +15,9 @@
 // surface lies within one pixel of perceptive depth; else the same in the pixel to the left, to the right, above or below; else
 // its own. Partial ones are displaced by the CoC of their images altogether.
 //
+// Behind a sample of Ldi::solid s lies a solid at 1 / z - s, opaque: a lens point that meets something opaque sees it instead where
+// it covers the point and that lies farther than 1 / z - 2 s. It shows what solid_samples.h says.
+//
 // A lens point that meets nothing opaque in a pixel looks at what it meets in the pixels beside it, to the left and to
 // the right, above and below:
 // - two samples on either side, less than 1.5 pixels apart in x and in y and one_surface_px in depth, are a surface

@@ -63,6 +63,51 @@ std::vector<Placed> place_fillers(const Ldi &ldi, const ThinLens &lens, std::spa
     return placed;
 }
 
+// What shows where a sample is solid: the sample itself, or the opaque one around it that is nearest and not behind the solid.
+const Placed *shown_by(const Ldi &ldi, std::span<const Placed> samples, std::uint64_t own,
+                       const Imath::V2i &pixel) {
+    const auto holds = [&](const Imath::V2i &at, std::uint64_t i) {
+        if (!ldi.windows.data.intersects(at)) return false;
+        const SampleRange range = ldi.pixel(ldi.windows.index(at.x, at.y));
+        return i >= range.from && i < range.to;
+    };
+    const bool is_partial = alpha_of(ldi, own) < opaque;
+    const Placed *nearest = nullptr;
+    long double least = infinity;
+    for (int y = pixel.y - 1; y <= pixel.y + 1; ++y)
+        for (int x = pixel.x - 1; x <= pixel.x + 1; ++x)
+            for (std::uint64_t i = 0; i < ldi.samples(); ++i) {
+                if (!holds({x, y}, i) || (!is_partial && i != own)) continue;
+                const auto placed = std::ranges::find_if(
+                    samples, [&](const Placed &s) { return !s.background && s.source == i; });
+                const long double behind = 1.0L / ldi.z[own] - 1.0L / ldi.z[i];
+                if (placed->alpha < 1 || placed->is_image() || behind > (long double)ldi.solid[own] ||
+                    std::abs(behind) >= least)
+                    continue;
+                nearest = &*placed;
+                least = std::abs(behind);
+            }
+    return nearest;
+}
+
+// What is solid behind samples, by how near what it hides has to be.
+std::vector<Placed> place_solids(const Ldi &ldi, const ThinLens &lens, std::span<const Placed> samples) {
+    std::vector<Placed> placed;
+    for (const Placed &s : samples) {
+        if (s.background || ldi.solid.empty() || !(ldi.solid[s.source] > 0)) continue;
+        const long double solid = ldi.solid[s.source], hides = 1 / s.z - 2 * solid;
+        const std::size_t pixel =
+            std::size_t(std::ranges::upper_bound(ldi.begin, s.source) - ldi.begin.begin() - 1);
+        const Placed *shown =
+            hides > 0 ? shown_by(ldi, samples, s.source, ldi.windows.pixel(pixel)) : nullptr;
+        if (!shown) continue;
+        const long double coc = coc_at(lens, 1 / (1 / s.z - solid));
+        placed.push_back({s.x, s.y, coc, 1 / hides, 1, shown->source, false, nullptr, coc, shown});
+    }
+    std::ranges::stable_sort(placed, {}, &Placed::z);
+    return placed;
+}
+
 // Of one coordinate of a sample's square.
 Margin margin(long double sample, long double displaced, long double looked_at, long double extent) {
     return {0.5L - std::abs(sample + displaced - looked_at), 5e-7L * extent + 1e-6L * std::abs(displaced)};
@@ -70,7 +115,7 @@ Margin margin(long double sample, long double displaced, long double looked_at, 
 
 long double passes(const Placed &s, const Pixel &pixel) {
     const bool held_out = pixel.holdout && !s.background;
-    return held_out ? (long double)pixel.holdout->passes(pixel.x, pixel.y, double(s.z)) : 1;
+    return held_out ? (long double)pixel.holdout->passes(pixel.x, pixel.y, double(s.shows().z)) : 1;
 }
 
 // Whether the lens point sees the sample in its unit square, and whether rounding does not matter.
@@ -119,6 +164,22 @@ Choice front_of(std::span<const Met> met) {
     return front;
 }
 
+// The same with the solids that hide something opaque of it.
+void add_solids(const Scene &scene, const LensSample &point, const Pixel &pixel, std::vector<Met> &met) {
+    if (scene.solids.empty()) return;
+    std::vector<Met> solids;
+    meet(scene.solids, {}, point, pixel, solids);
+    for (const Met &solid : solids) {
+        const auto behind =
+            std::ranges::find_if(met, [&](const Met &m) { return m.sample->z > solid.sample->z; });
+        const auto hidden =
+            std::find_if(behind, met.end(), [](const Met &m) { return m.sample->alpha == 1; });
+        if (hidden == met.end()) continue;
+        if (solid.sure) met.erase(behind, met.end());
+        met.insert(solid.sure ? met.end() : behind, solid);
+    }
+}
+
 template <typename Combine>
 Choice combined(const Choice &a, const Choice &b, const Combine &combine) {
     Choice both{combine(a.is, b.is), {}};
@@ -136,6 +197,7 @@ Around fronts_around(const Scene &scene, const LensSample &point, const Pixel &p
     const auto front_beside = [&](int dx, int dy) {
         std::vector<Met> met;
         meet(scene.samples, scene.facets, point, {pixel.x + dx, pixel.y + dy, pixel.extent, nullptr}, met);
+        add_solids(scene, point, {pixel.x + dx, pixel.y + dy, pixel.extent, nullptr}, met);
         return front_of(met);
     };
     return {front_beside(-1, 0), front_beside(1, 0), front_beside(0, -1), front_beside(0, 1)};
@@ -149,21 +211,30 @@ const Placed *farther(const Placed *first, const Placed *second) {
     if (!first || !second) return first ? first : second;
     return second->z > first->z ? second : first;
 }
+const Placed *shown_farther(const Placed *first, const Placed *second) {
+    if (!first || !second) return first ? first : second;
+    return second->shows().z > first->shows().z ? second : first;
+}
 
 // The sample that a lens point sees through a crack.
 Choice torn_between(const ThinLens &lens, const Around &around) {
     const auto torn = [&](const Placed *a, const Placed *b) -> const Placed * {
         if (!a || !b || a->background || b->background) return nullptr;
-        if (std::abs(a->x - b->x) >= 1.5L || std::abs(a->y - b->y) >= 1.5L) return nullptr;
-        return std::abs(depth_of(lens, a) - depth_of(lens, b)) < one_surface_px ? farther(a, b) : nullptr;
+        const Placed &left = a->shows(), &right = b->shows();
+        if (std::abs(left.x - right.x) >= 1.5L || std::abs(left.y - right.y) >= 1.5L) return nullptr;
+        const long double apart = depth_of(lens, &left) - depth_of(lens, &right);
+        return std::abs(apart) < one_surface_px ? shown_farther(a, b) : nullptr;
     };
-    return combined(combined(around[0], around[1], torn), combined(around[2], around[3], torn), farther);
+    return combined(combined(around[0], around[1], torn), combined(around[2], around[3], torn),
+                    shown_farther);
 }
 
 // The nearest thing such that something as near as it lies on either side of a lens point.
 Choice screen_between(const Around &around) {
     const auto both = [](const Placed *a, const Placed *b) { return a && b ? farther(a, b) : nullptr; };
-    const auto nearer = [](const Placed *a, const Placed *b) { return a && b ? std::min(a, b) : a ? a : b; };
+    const auto nearer = [](const Placed *a, const Placed *b) {
+        return a && b ? (b->z < a->z ? b : a) : a ? a : b;
+    };
     return combined(combined(around[0], around[1], both), combined(around[2], around[3], both), nearer);
 }
 
@@ -211,6 +282,11 @@ Choice image_of(const Placed &mirror, const Scene &scene, const LensSample &poin
     return seen;
 }
 
+// As they are sorted; a solid comes before what is as far.
+bool before(const Placed *a, const Placed *b) {
+    return a->z != b->z ? a->z < b->z : a->shown || (!b->shown && a < b);
+}
+
 // The ways to see what the mirrors that a way meets show.
 std::vector<Way> with_images(const Way &way, const Scene &scene, const LensSample &point,
                              const Pixel &pixel) {
@@ -252,7 +328,8 @@ void add_ways_through(std::vector<Way> &ways, const std::vector<Met> &partial, b
         }
         ways.push_back({partial, is && sample == torn.is});
         std::vector<Met> &seen = ways.back().met;
-        const auto behind = std::ranges::find_if(seen, [&](const Met &m) { return m.sample > sample; });
+        const auto behind =
+            std::ranges::find_if(seen, [&](const Met &m) { return before(sample, m.sample); });
         seen.insert(behind, {sample, true, true, passes(*sample, pixel)});
     }
 }
@@ -265,8 +342,9 @@ long double alpha_of(const Ldi &ldi, std::uint64_t sample) {
 
 Scene place_scene(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window,
                   std::span<const Filler> fillers) {
-    Scene scene{lens, place_samples(ldi, lens, window), place_fillers(ldi, lens, fillers), {}};
+    Scene scene{lens, place_samples(ldi, lens, window), place_fillers(ldi, lens, fillers), {}, {}};
     scene.facets = place_facets_slowly(ldi, lens, scene.samples);
+    scene.solids = place_solids(ldi, lens, scene.samples);
     return scene;
 }
 
@@ -274,10 +352,11 @@ std::vector<Way> ways_to_see(const Scene &scene, const LensSample &point, const 
     std::vector<Met> met, partial;
     meet(scene.samples, scene.facets, point, pixel, met);
     const Choice front = front_of(met);
+    std::ranges::copy_if(met, std::back_inserter(partial), [](const Met &m) { return m.sample->alpha < 1; });
+    add_solids(scene, point, pixel, met);
     if (front.can_be.back()) return with_images({met, true}, scene, point, pixel);
     std::vector<Way> ways;
     if (front.can_be.size() > 1) ways = with_images({met, front.is != nullptr}, scene, point, pixel);
-    std::ranges::copy_if(met, std::back_inserter(partial), [](const Met &m) { return m.sample->alpha < 1; });
     add_ways_through(ways, partial, !front.is, scene, point, pixel);
     return ways;
 }

@@ -20,13 +20,16 @@ struct Placed {
     bool background;
     const Filler *filler = nullptr; // where it is one
     long double image_coc = coc;    // of the image that an opaque sample shows, where it is one of a mirror
+    const Placed *shown = nullptr;  // where it is a solid: the sample that shows there
     bool is_image() const { return image_coc != coc; }
+    const Placed &shows() const { return shown ? *shown : *this; }
 };
 
 // Everything there is to be seen, front to back.
 struct Scene {
     const ThinLens &lens;
-    std::vector<Placed> samples, fillers;
+    std::vector<Placed> samples, fillers,
+        solids; // a solid's z is that from which on it hides what is farther
     std::vector<std::array<std::size_t, 3>> facets; // between samples
 };
 

@@ -42,6 +42,23 @@ void add_horn(Scene &scene, const Imath::V2d &slope, double tip_z, double tip, d
     }
 }
 
+// Trapezia around an upright axis, in a spiral by the golden angle: each leans outwards, over those above it.
+void add_scales(Scene &scene, const Imath::V3d &middle, double half_height, double widest, int count) {
+    const double golden = std::numbers::pi * (3 - std::sqrt(5.0));
+    for (int i = 0; i < count; ++i) {
+        const double up = 2 * (i + 0.5) / count - 1, angle = golden * i;
+        const Imath::V3d outwards(std::cos(angle), 0, std::sin(angle)),
+            along(-std::sin(angle), 0, std::cos(angle));
+        const Imath::V3d base = middle + Imath::V3d(0, half_height * up, 0) +
+                                widest * (std::sqrt(1 - 0.8 * up * up) - 0.3) * outwards;
+        const Imath::V3d tip = base + 0.55 * widest * (0.75 * outwards + Imath::V3d(0, 0.65, 0));
+        const double half_base = 0.3 * widest, half_tip = 0.15 * widest;
+        scene.quads.push_back({{{base - half_base * along, base + half_base * along, tip + half_tip * along,
+                                 tip - half_tip * along}},
+                               skin});
+    }
+}
+
 // Within the picture, seen from the middle of the lens.
 void add_lamps(Scene &scene, int count) {
     for (int i = 0; i < count; ++i) {
@@ -63,6 +80,21 @@ Scene macro_scene() {
     for (const double x : {-0.11, -0.07, 0.07, 0.11})
         for (const double y : {-0.05, 0.05}) add_horn(scene, {x, y + 0.1 * x}, 0.305, 0.007, 0.36, 0.0115);
     add_lamps(scene, 24);
+    scene.quads.push_back({{{{-8, -6, 10}, {8, -6, 10}, {8, 6, 10}, {-8, 6, 10}}}, night});
+    return scene;
+}
+
+Scene scales_scene() {
+    Scene scene;
+    scene.camera = macro_camera();
+    const Imath::V3d middle(0, 0, 0.47);
+    for (int i = -6; i <= 6; ++i) { // the core
+        const double up = i / 6.5;
+        scene.spheres.push_back(
+            {middle + Imath::V3d(0, 0.055 * up, 0), 0.045 * (std::sqrt(1 - 0.8 * up * up) - 0.25), skin});
+    }
+    add_scales(scene, middle, 0.06, 0.05, 110);
+    add_lamps(scene, 60);
     scene.quads.push_back({{{{-8, -6, 10}, {8, -6, 10}, {8, 6, 10}, {-8, 6, 10}}}, night});
     return scene;
 }

@@ -1,5 +1,5 @@
-// The scene "macro": a head of 0.1 m before a lens of 85 mm and f/1, with a steep relief that fills the picture, and
-// small bright lamps behind it.
+// Scenes of 0.1 m before a lens of 85 mm and f/1, with small bright lamps behind them: "macro", a head with a steep relief that
+// fills the picture; "scales", a cone of scales, each of which hides a part of the next ones.
 #pragma once
 
 #include "lab/trace/scene.h"
@@ -7,5 +7,6 @@
 namespace sparselens::lab {
 
 Scene macro_scene();
+Scene scales_scene();
 
 } // namespace sparselens::lab

@@ -228,6 +228,8 @@ constexpr SceneEntry scenes[] = {
     {"element-in-plate", "both in one", element_in_plate},
     {"mist", "sheets of partial coverage and overlapping volumes before a textured wall", mist},
     {"macro", "a head of steep relief, 85 mm and f/1 away, lamps of radiance 200 behind it", macro_scene},
+    {"scales", "a cone of overlapping scales, 85 mm and f/1 away, lamps of radiance 200 behind it",
+     scales_scene},
 };
 
 } // namespace

@@ -5,6 +5,8 @@ namespace sparselens {
 
 // Hides what is behind it: half's last steps below 1 are rounding, not coverage.
 inline bool is_opaque(float alpha) { return alpha >= 0.9995f; }
+// A sample of which that much shows is what its pixel shows; less is in front of it.
+inline constexpr float half_covered = 0.5f;
 // Less than 1/2048 of a pixel left over is rounding too.
 inline bool lets_through(double transmittance) { return transmittance >= 1.0 / 2048; }
 

@@ -1,9 +1,12 @@
 #include "deep/build.h"
 
+#include "base/coverage.h"
 #include "base/matte.h"
 #include "base/parallel.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 namespace sparselens {
@@ -29,6 +32,7 @@ MergedSample sample_at(const Ldi &ldi, std::uint64_t i) {
             or_else(ldi.dy, 0),
             or_else(ldi.weight, 1),
             float(ldi.optical_z(i)),
+            or_else(ldi.solid, 0),
             {}};
 }
 
@@ -39,6 +43,7 @@ void append(Ldi &out, const Ldi &from, const MergedSample &sample) {
     if (!from.dy.empty()) out.dy.push_back(sample.dy);
     if (!from.weight.empty()) out.weight.push_back(sample.weight);
     if (!from.optical.empty()) out.optical.push_back(sample.optical);
+    if (!from.solid.empty()) out.solid.push_back(sample.solid);
     const bool unchanged = sample.terms.size() == 1 && sample.terms[0].coefficient == 1;
     bool mattes = false;
     for (std::size_t k = 0; k < from.values.size(); ++k) {
@@ -60,8 +65,18 @@ void append(Ldi &out, const Ldi &from, std::uint64_t index) {
     append(out, from, sample);
 }
 
+float solid_of(const Ldi &ldi, std::size_t alpha_channel, std::span<const Term> terms) {
+    if (ldi.solid.empty()) return 0;
+    float least = std::numeric_limits<float>::infinity();
+    for (const Term &term : terms)
+        if (alpha_at(ldi, alpha_channel, term.index) >= half_covered)
+            least = std::min(least, ldi.solid[term.index]);
+    return std::isinf(least) ? 0 : least;
+}
+
 Ldi without_channels(const Ldi &ldi) {
-    return {ldi.windows, {}, ldi.begin, ldi.z, ldi.z_back, ldi.dx, ldi.dy, ldi.weight, ldi.optical, {}};
+    return {ldi.windows, {},         ldi.begin,   ldi.z,     ldi.z_back, ldi.dx,
+            ldi.dy,      ldi.weight, ldi.optical, ldi.solid, {}};
 }
 
 Ldi empty_like(const Ldi &like) {
@@ -130,7 +145,7 @@ void list_moves(const Ldi &ldi, const ChangedRow &row, std::size_t first, std::v
     }
 }
 
-constexpr std::size_t arrays_beside_values = 6;
+constexpr std::size_t arrays_beside_values = 7;
 
 template <typename Source> // Ldi or const Ldi
 auto &array_of(Source &ldi, std::size_t k) {
@@ -141,6 +156,7 @@ auto &array_of(Source &ldi, std::size_t k) {
     case 3: return ldi.dy;
     case 4: return ldi.weight;
     case 5: return ldi.optical;
+    case 6: return ldi.solid;
     default: return ldi.values[k - arrays_beside_values];
     }
 }

@@ -17,7 +17,7 @@ struct Term {
 };
 
 struct MergedSample {
-    float z, z_back, dx, dy, weight, optical;
+    float z, z_back, dx, dy, weight, optical, solid;
     std::span<const Term> terms; // never empty
 };
 
@@ -31,7 +31,7 @@ void append(Ldi &out, const Ldi &from, std::uint64_t index); // an unchanged cop
 // The same samples without any channel.
 Ldi without_channels(const Ldi &ldi);
 
-// Channels, windows and the presence of z_back, dx, dy, weight, optical as in `like`; no pixels yet.
+// Channels, windows and the presence of z_back, dx, dy, weight, optical, solid as in `like`; no pixels yet.
 Ldi empty_like(const Ldi &like);
 
 // `fill(pixel, out)` appends the samples of each pixel to `out`; rows run in parallel, each to its own piece.
@@ -49,6 +49,9 @@ void rebuild_pixels(Ldi &ldi, const std::function<bool(std::size_t pixel)> &chan
 
 // Joins pieces that follow each other in pixel order, each with a `begin` that starts at 0. Frees them as it goes.
 Ldi concatenate(const Ldi &like, std::vector<Ldi> pieces);
+
+// Of what becomes one sample: as solid as the least of those that cover half or more.
+float solid_of(const Ldi &ldi, std::size_t alpha_channel, std::span<const Term> terms);
 
 inline float alpha_at(const Ldi &ldi, std::size_t alpha_channel, std::uint64_t index) {
     return alpha_channel == npos ? 1.0f : ldi.values[alpha_channel][index];

@@ -136,6 +136,7 @@ MergedSample merged_placement(const Pixel &p, std::span<const Term> terms) {
     merged.dy = float(dy / shown);
     merged.weight = float(weight);
     merged.optical = float(shown / inverse_optical);
+    merged.solid = solid_of(p.ldi, p.alpha, terms);
     return merged;
 }
 

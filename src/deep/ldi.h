@@ -49,6 +49,9 @@ struct Ldi {
     // Planar depth of the image that a mirror or glass shows there, as z: it gives the CoC, while z goes on saying what
     // hides what. Below 0 if rays would meet behind the camera, never 0. Empty: as z.
     std::vector<float> optical;
+    // By how much 1 / z falls, 1 / scene units, through what is taken to be solid behind a sample of half coverage or
+    // more, as no view saw through there (warp/solids.h). 0 where nothing is known; empty: nowhere is it.
+    std::vector<float> solid;
     std::vector<std::vector<float>> values; // [channel][sample]
 
     std::size_t samples() const { return z.size(); }

@@ -85,7 +85,7 @@ std::vector<std::uint64_t> begin_of(const std::vector<Ldi> &parts, const Windows
 
 bool same_samples(const Ldi &a, const Ldi &b) {
     return a.windows == b.windows && a.begin == b.begin && a.z == b.z && a.z_back == b.z_back &&
-           a.dx == b.dx && a.dy == b.dy && a.optical == b.optical;
+           a.dx == b.dx && a.dy == b.dy && a.optical == b.optical && a.solid == b.solid;
 }
 
 void add_layer(Ldi &ldi, Ldi layer, const std::string &name) {
@@ -124,6 +124,7 @@ Ldi deep_merge(const std::vector<Ldi> &parts) {
     if (some_have(&Ldi::optical))
         fill(out.optical,
              [](const Ldi &part) { return Source{part.optical.empty() ? &part.z : &part.optical}; });
+    if (some_have(&Ldi::solid)) fill(out.solid, [](const Ldi &part) { return array_of(part.solid, 0); });
     out.values.resize(out.channels.size());
     for (std::size_t k = 0; k < out.channels.size(); ++k)
         fill(out.values[k], [&](const Ldi &part) { return source_of(part, out.channels, k); });

@@ -15,7 +15,8 @@ namespace {
 
 template <typename Values, typename Picture>
 std::vector<Values *> list_arrays(Picture &ldi) {
-    std::vector<Values *> arrays{&ldi.z, &ldi.z_back, &ldi.dx, &ldi.dy, &ldi.weight, &ldi.optical};
+    std::vector<Values *> arrays{&ldi.z,      &ldi.z_back,  &ldi.dx,   &ldi.dy,
+                                 &ldi.weight, &ldi.optical, &ldi.solid};
     for (auto &values : ldi.values) arrays.push_back(&values);
     return arrays;
 }

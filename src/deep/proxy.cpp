@@ -78,6 +78,7 @@ void append_surfaces(const Ldi &ldi, std::size_t alpha, const std::vector<Seen> 
         surface.dx = offset(x, end - begin), surface.dy = offset(y, end - begin);
         surface.z_back = surface.z;
         surface.terms = terms;
+        surface.solid = solid_of(ldi, alpha, terms);
         append(out, ldi, surface);
         if (ldi.dx.empty()) out.dx.push_back(surface.dx), out.dy.push_back(surface.dy);
         out.values[alpha].back() = std::min(out.values[alpha].back(), 1.0f); // but for rounding it is

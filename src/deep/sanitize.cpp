@@ -200,8 +200,10 @@ std::size_t repair_places(Ldi &ldi) {
     const auto inside = [](float d) { return std::abs(d) <= 0.5f; };
     const auto clamped = [](float d) { return std::isnan(d) ? 0 : std::clamp(d, -0.5f, 0.5f); };
     const auto is_weight = [](float w) { return w > 0 && std::isfinite(w); };
+    const auto is_thickness = [](float s) { return s >= 0 && std::isfinite(s); };
     std::size_t bad = replace(ldi.dx, inside, clamped) + replace(ldi.dy, inside, clamped) +
-                      replace(ldi.weight, is_weight, [](float) { return 1.0f; });
+                      replace(ldi.weight, is_weight, [](float) { return 1.0f; }) +
+                      replace(ldi.solid, is_thickness, [](float) { return 0.0f; });
     for (std::size_t i = 0; i < ldi.optical.size(); ++i)
         if (!(std::abs(ldi.optical[i]) >= smallest_depth)) ldi.optical[i] = ldi.z[i], ++bad;
     for (std::size_t i = 0; i < ldi.z_back.size(); ++i) {

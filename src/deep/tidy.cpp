@@ -129,6 +129,7 @@ void tidy_pixel(const Ldi &ldi, std::size_t alpha, std::size_t pixel, Ldi &out) 
             merged.weight += sample_at(ldi, p.index).weight;
         }
         merged.terms = terms;
+        merged.solid = solid_of(ldi, alpha, terms);
         append(out, ldi, merged);
     }
 }

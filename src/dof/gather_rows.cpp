@@ -60,6 +60,9 @@ Extremes extremes_of(const Ldi &rows, const ThinLens &lens) {
     for (const float z : rows.z) found.add(lens, double(z));
     for (const float optical : rows.optical)
         found.coc = std::max(found.coc, std::abs(circle_of_confusion(lens, double(optical))));
+    for (std::size_t i = 0; i < rows.solid.size(); ++i)
+        if (const double inverse_z = 1 / double(rows.z[i]) - double(rows.solid[i]); inverse_z > 0)
+            found.coc = std::max(found.coc, std::abs(circle_of_confusion(lens, 1 / inverse_z)));
     if (sees_infinity(rows)) found.add(lens, std::numeric_limits<double>::infinity());
     return found;
 }

@@ -136,6 +136,14 @@ public:
             return float(mean(run, [&](std::uint64_t i) { return double(offset[i]); }));
         });
     }
+    std::vector<float> solids() const {
+        if (ldi_.solid.empty()) return {};
+        return for_runs(ldi_, runs_, [&](const Run &run) {
+            std::vector<Term> terms;
+            for (std::uint64_t i = run.from; i < run.to; ++i) terms.push_back({i, 1});
+            return solid_of(ldi_, alpha_, terms);
+        });
+    }
     std::vector<float> composited_values(const std::vector<float> &values) const {
         return for_runs(ldi_, runs_, [&](const Run &run) {
             double sum = 0;
@@ -199,6 +207,8 @@ Ldi merged(Source &ldi, double scale, double tolerance) {
     used(ldi.z);
     out.optical = merging.depths_of_images();
     used(ldi.optical);
+    out.solid = merging.solids();
+    used(ldi.solid);
     out.dx = merging.offsets(ldi.dx);
     used(ldi.dx);
     out.dy = merging.offsets(ldi.dy);

@@ -49,8 +49,9 @@ struct Tile {
     uint rules;                        // a set of the following
     uint columns;                      // where those begin that say which pixels see through a lens point
     uint holdout;                      // where the tile's parts of the holdout begin
+    uint solids, solid_count;          // among the lists of blocks
 };
-static_assert(sizeof(Tile) == 88 && offsetof(Tile, lens) == 56 && offsetof(Tile, holdout) == 84);
+static_assert(sizeof(Tile) == 96 && offsetof(Tile, lens) == 56 && offsetof(Tile, solid_count) == 92);
 
 inline constexpr uint weighted =
     1; // lens points weigh differently for colours or sides of the focus, or not all see through

@@ -110,6 +110,7 @@ class Ldi(_Windows):
         dy: Optional[_Floats] = None,
         weight: Optional[_Floats] = None,
         optical: Optional[_Floats] = None,
+        solid: Optional[_Floats] = None,
         name: Optional[str] = None,
         data_window: Optional[_Box] = None,
         display_window: Optional[_Box] = None,
@@ -139,6 +140,8 @@ class Ldi(_Windows):
     def weight(self) -> Optional[_Floats]: ...
     @property
     def optical(self) -> Optional[_Floats]: ...
+    @property
+    def solid(self) -> Optional[_Floats]: ...
     @property
     def samples(self) -> int: ...
     @property

@@ -92,7 +92,7 @@ channels: a dict of names and arrays, float32 (samples), or uint32 for ids. With
 
 Keywords:
   size: (width, height)
-  z_back, dx, dy, weight, optical: float32 (samples), see the properties; dx and dy come together
+  z_back, dx, dy, weight, optical, solid: float32 (samples), see the properties; dx and dy come together
   name: for messages (default: "ldi")
   data_window, display_window, pixel_aspect, world_to_camera: as in View
   depth, near, far: what z is, as in open_view
@@ -116,6 +116,8 @@ inline constexpr const char *weight =
     R"(float32 (samples): the number of view samples merged into each; None where all are 1. No copy.)";
 inline constexpr const char *optical =
     R"(float32 (samples): depth of the image that a mirror or glass shows there; None where all are as z. No copy.)";
+inline constexpr const char *solid =
+    R"(float32 (samples): by how much 1/z falls through what is solid behind each; None where all are 0. No copy.)";
 inline constexpr const char *samples_of =
     R"(The channel of that name: float32 (samples), or uint32 for ids. No copy. Raises KeyError.)";
 inline constexpr const char *samples = "The number of samples.";

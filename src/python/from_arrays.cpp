@@ -109,6 +109,7 @@ Ldi samples_from(const py::object &begin, const py::object &z, const py::object 
             .dy = {},
             .weight = {},
             .optical = {},
+            .solid = {},
             .values = {}};
     const std::size_t samples = ldi.samples();
     ldi.begin = begin_from(begin, windows, samples);
@@ -127,6 +128,7 @@ Ldi samples_from(const py::object &begin, const py::object &z, const py::object 
     if (ldi.dx.empty() != ldi.dy.empty()) throw UsageError("dx: must be given with dy, or neither");
     ldi.weight = optional("weight");
     ldi.optical = optional("optical");
+    ldi.solid = optional("solid");
     if (!py::isinstance<py::dict>(channels)) wrong_type("channels", "a dict of names and arrays", channels);
     for (const auto &[key, array] : py::reinterpret_borrow<py::dict>(channels)) {
         const std::string name = py::str(key);

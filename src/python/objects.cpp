@@ -177,6 +177,7 @@ void bind_ldi(py::module_ &module) {
     samples("dy", &Ldi::dy, doc::dy);
     samples("weight", &Ldi::weight, doc::weight);
     samples("optical", &Ldi::optical, doc::optical);
+    samples("solid", &Ldi::solid, doc::solid);
     type.def_property_readonly(
             "channels", [](const LdiObject &in) { return py::tuple(py::cast(names_of(in.ldi.channels))); },
             doc::channels)

@@ -11,6 +11,7 @@
 #include "warp/lamps/lamp_light.h"
 #include "warp/opaque_pixels.h"
 #include "warp/photo_consistency.h"
+#include "warp/solids.h"
 #include "warp/visibility_vote.h"
 #include "warp/warp_device.h"
 
@@ -210,6 +211,7 @@ Ldi Warper::run(Progress &progress) const {
     if (views_.size() < 2 || !(scale_ > 0)) return ldi;
     if (options_.find_images) show_images(placed(), scale_, differ, ldi);
     if (averages()) keep_light_of_lamps(placed(), scale_, options_.surface_px, ldi);
+    find_solids(placed(), scale_, ldi);
     return ldi;
 }
 

@@ -128,6 +128,12 @@ TEST_F(GatherRows, ImagesOfMirrorsAreTheSame) {
     expect_same(window);
 }
 
+TEST_F(GatherRows, WhatIsSolidIsTheSame) {
+    ldi.solid.assign(ldi.samples(), 0);
+    for (std::size_t i = 0; i < ldi.solid.size(); i += 2) ldi.solid[i] = 0.2f / ldi.z[i];
+    expect_same(window);
+}
+
 TEST_F(GatherRows, LayersAreMergedAsTheyAreAtOnce) {
     ldi = tidy(
         random_ldi({.seed = 3, .width = width, .height = height, .most_samples = 8, .opaque_share = 0.2}));

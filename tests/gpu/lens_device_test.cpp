@@ -130,8 +130,30 @@ TEST_F(LensDeviceTest, MirrorsAndGlassAreTheCpus) {
     }
 }
 
+void add_solids(Ldi &ldi) {
+    for (std::size_t i = 0; i < ldi.z.size(); ++i)
+        ldi.solid.push_back(
+            float(std::max(3 * random_unit(int(i), 2, 12) - 1, 0.0) / (lens.radius * lens.focal_px)));
+}
+
+TEST_F(LensDeviceTest, WhatIsSolidIsTheCpus) {
+    for (const bool opaque : {true, false}) {
+        Ldi ldi = surfaces(90, 70, opaque, 17);
+        add_solids(ldi);
+        expect_same(ldi, {.lens_samples = 8});
+        LensLooks looks;
+        looks.aperture.spherical = 0.5;
+        looks.cat_eye = 0.9;
+        expect_same(ldi, {.lens_samples = 8, .looks = looks});
+        ldi.optical = ldi.z;
+        for (std::size_t i = 0; i < ldi.z.size(); i += 3) ldi.optical[i] *= 1.7f;
+        expect_same(ldi, {.lens_samples = 8});
+    }
+}
+
 TEST_F(LensDeviceTest, StripesMakeTheSamePicture) {
-    const Ldi ldi = surfaces(150, 200, false, 4);
+    Ldi ldi = surfaces(150, 200, false, 4);
+    add_solids(ldi);
     Watch small = watch();
     small.largest_buffer = 1 << 21;
     device = open_gather_device(*info, small);

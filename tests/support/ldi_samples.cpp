@@ -48,12 +48,14 @@ Ldi make_ldi(const Windows &windows, const std::vector<Channel> &channels,
     ldi.channels = channels;
     ldi.values.resize(channels.size());
     ldi.begin.push_back(0);
-    bool volumes = false, images = false;
+    bool volumes = false, images = false, solids = false;
     for (int y = windows.data.min.y; y <= windows.data.max.y; ++y)
         for (int x = windows.data.min.x; x <= windows.data.max.x; ++x) {
             for (const Sample &s : samples_at(x, y)) {
                 volumes |= s.z_back != 0;
                 images |= s.optical != 0;
+                solids |= s.solid != 0;
+                ldi.solid.push_back(float(s.solid));
                 ldi.optical.push_back(float(s.optical == 0 ? s.z : s.optical));
                 ldi.z.push_back(float(s.z));
                 ldi.z_back.push_back(s.z_back == 0 ? float(s.z) : s.z_back);
@@ -66,6 +68,7 @@ Ldi make_ldi(const Windows &windows, const std::vector<Channel> &channels,
         }
     if (!volumes) ldi.z_back.clear();
     if (!images) ldi.optical.clear();
+    if (!solids) ldi.solid.clear();
     return ldi;
 }
 

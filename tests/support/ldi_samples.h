@@ -16,10 +16,11 @@ struct Sample {
     float z_back = 0; // 0: z
     float weight = 1;
     double optical = 0; // 0: z
+    double solid = 0;
 };
 
-// samples_at(x, y): what the pixel holds, in EXR coordinates. z_back and optical only where a sample has one; dx, dy and
-// weight always.
+// samples_at(x, y): what the pixel holds, in EXR coordinates. z_back, optical and solid only where a sample has one; dx,
+// dy and weight always.
 Ldi make_ldi(const Windows &windows, const std::vector<Channel> &channels,
              const std::function<std::vector<Sample>(int x, int y)> &samples_at);
 

@@ -24,13 +24,16 @@ TEST_F(DeviceReferenceTest, OfTheLensGather) {
         bool opaque, images;
         std::uint32_t stream;
         LensLooks looks = {};
+        bool solids = false;
     };
     const std::vector<Case> cases{{false, false, 5},
                                   {true, false, 15},
                                   {false, true, 25},
                                   {true, true, 35},
                                   {false, false, 45, {.aperture = {.blades = 5, .squeeze = 1.5}}},
-                                  {false, false, 55, {.aperture = {.spherical = 0.8}, .cat_eye = 0.9}}};
+                                  {false, false, 55, {.aperture = {.spherical = 0.8}, .cat_eye = 0.9}},
+                                  {true, false, 65, {}, true},
+                                  {false, false, 75, {.aperture = {.spherical = 0.8}}, true}};
     Progress silent;
     const std::unique_ptr<TileDevice> device = open_gather_device(*info, watch());
     for (const Case &c : cases) {
@@ -41,6 +44,8 @@ TEST_F(DeviceReferenceTest, OfTheLensGather) {
             if (channel.name != "A") channel.name += "0";
         for (std::size_t i = 0; i < ldi.z.size() && c.images; ++i)
             ldi.optical.push_back(ldi.z[i] * (random_unit(int(i), 1, c.stream) < 0.5 ? 1 : 1.7f));
+        for (std::size_t i = 0; i < ldi.z.size() && c.solids; ++i)
+            ldi.solid.push_back(float(2 * random_unit(int(i), 2, c.stream) / (lens.radius * lens.focal_px)));
         const LensGatherOptions by{.lens_samples = 16, .looks = c.looks, .device = device.get()};
         const Image image = lens_gather(ldi, lens, ldi.windows.data, by, silent);
         EXPECT_TRUE(device->take_report().on_cpu.empty());

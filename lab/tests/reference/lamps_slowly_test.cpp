@@ -112,7 +112,8 @@ TEST_P(LampsSlowly, AreTheLightOfATile) {
     const std::vector<SlowlyLit> expected = lamps_slowly(ldi, lens, lamps, places);
 
     const BlockFootprints footprints(ldi, samples);
-    HighlightTile tile(lit, footprints);
+    const BlockFootprints solid_footprints(ldi, lit.solids);
+    HighlightTile tile(lit, footprints, solid_footprints);
     std::vector<std::uint32_t> blocks(samples.blocks.size());
     std::iota(blocks.begin(), blocks.end(), 0u);
     tile.spread({0, 0}, blocks);

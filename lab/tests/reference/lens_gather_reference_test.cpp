@@ -23,6 +23,7 @@ struct Case {
     double glowing = 0;  // share of samples that give light and cover nothing
     LensLooks looks = {};
     double images = 0; // share of samples that show an image which lies at another depth
+    double solids = 0; // share of samples that are solid, up to two pixels of perceptive depth
 };
 
 // Weights that differ for R, G and B.
@@ -61,6 +62,7 @@ Ldi random_layers(const Case &c, const ThinLens &lens) {
             samples.push_back({depth_of(lens, random(8) < 0.5 ? size : -size), values, float(random(9) - 0.5),
                                float(random(10) - 0.5)});
             if (random(12) < c.images) samples.back().optical = depth_of(lens, 14 * random(13) - 7);
+            if (random(14) < c.solids) samples.back().solid = 2 * random(15) / (lens.radius * lens.focal_px);
         }
         std::sort(samples.begin(), samples.end(), [](const auto &a, const auto &b) { return a.z < b.z; });
         return samples;
@@ -85,9 +87,10 @@ TEST_P(LensGatherReference, IsTheLensGather) {
 
 const Imath::Box2i look_window({0, 0}, {69, 29});
 
-Case looks(const char *name, const LensLooks &of) {
+Case looks(const char *name, const LensLooks &of, double solids = 0) {
     Case c{name, look_window, look_window, 1, 0.4};
     c.looks = of;
+    c.solids = solids;
     return c;
 }
 
@@ -104,10 +107,13 @@ const Case cases[] = {
     {"OneLensPoint", box(0, 0, 70, 30), box(0, 0, 70, 30), 1, 0.5, 3, 0, 1},
     {"Glowing", box(0, 0, 20, 70), box(0, 0, 20, 70), 1, 0.3, 4, 0, 16, false, 0.5},
     {"Images", box(0, 0, 40, 40), box(0, 0, 40, 40), 1, 0.3, 3, 0, 16, false, 0, {}, 0.4},
+    {"Solids", box(0, 0, 40, 40), box(0, 0, 40, 40), 1, 0.2, 2, 0, 16, false, 0, {}, 0, 0.6},
+    {"SolidMirrors", box(0, 0, 40, 40), box(2, 1, 37, 30), 1, 0.5, 3, 0, 16, false, 0, {}, 0.3, 0.6},
     {"ManyLensPoints", box(0, 0, 20, 20), box(0, 0, 20, 20), 1, 0.5, 3, 0, 200},
     looks("Blades", {.aperture = {.blades = 5, .rotation = 10, .squeeze = 1.5}}),
     looks("Rings", {.aperture = {.spherical = 0.8}}),
     looks("RingedBlades", {.aperture = {.blades = 3, .spherical = -1}}),
+    looks("RingedSolids", {.aperture = {.spherical = 0.8}}, 0.6),
     looks("ColouredAperture", {.aperture = {.picture = tinted()}}),
     looks("CatEye", {.cat_eye = 1}),
     looks("CatEyeOfBlades", {.aperture = {.blades = 6, .squeeze = 2, .spherical = 0.5}, .cat_eye = 0.7}),

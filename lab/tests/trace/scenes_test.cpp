@@ -19,7 +19,8 @@ TEST(Scenes, NamesAreUniqueAndLensesComplete) {
     }
     EXPECT_EQ(names, (std::set<std::string>{"brushed-mirror", "curved-mirrors", "element", "element-in-plate",
                                             "fence", "glass-slab", "glossy-floor", "grass", "lamps", "macro",
-                                            "mirror", "mist", "plane-mirror", "planes", "plate", "slant"}));
+                                            "mirror", "mist", "plane-mirror", "planes", "plate", "scales",
+                                            "slant"}));
 }
 
 // Quads are planar, in order around, and convex: what the tracer takes for granted.

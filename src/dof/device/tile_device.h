@@ -24,6 +24,7 @@ struct TileTask {
     Imath::V2i origin;
     std::span<const std::uint32_t> samples, facets, fillers; // blocks of them
     std::span<const LensSample> lens;
+    std::span<const std::uint32_t> solids = {}; // blocks of them, too
 };
 
 // What a tile has gathered: the mean over the lens points of each pixel, row by row.

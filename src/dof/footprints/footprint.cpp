@@ -42,7 +42,7 @@ public:
         float least = torn_px;
         for (std::uint64_t i = ldi_.begin[pixel(x, y)]; i < ldi_.begin[pixel(x, y) + 1]; ++i) {
             const std::uint32_t n = place(y, i);
-            const float apart = std::abs(samples_.depth[n] - samples_.depth[of]);
+            const float apart = n == none ? least : std::abs(samples_.depth[n] - samples_.depth[of]);
             if (apart >= least) continue;
             found = n;
             least = apart;
@@ -115,7 +115,7 @@ std::vector<Footprint> footprints_of(const Ldi &ldi, const SamplesInPicture &sam
             const Imath::V2i at = ldi.windows.data.min + Imath::V2i(x, y);
             for (const std::uint64_t i : ldi.pixel(ldi.windows.index(at.x, at.y))) {
                 const std::uint32_t own = near.place(y, i);
-                footprints[own - run.begin] = footprint(samples, near, x, y, own);
+                if (own != none) footprints[own - run.begin] = footprint(samples, near, x, y, own);
             }
         }
     return footprints;

@@ -25,7 +25,7 @@ struct Footprint {
 };
 
 // Samples of an LDI where a lens sees them: of each its centre, its CoC and its perceptive depth, pixels, and which of the LDI
-// it is; others than the LDI's are beyond its number of samples.
+// it is; others than the LDI's are beyond its number of samples. They may be some of the LDI's alone.
 struct SamplesInPicture {
     std::span<const float> x, y, coc, depth;
     std::span<const std::uint32_t> source;

@@ -1,5 +1,6 @@
 #include "dof/lens/fillers.h"
 
+#include "base/coverage.h"
 #include "base/parallel.h"
 #include "deep/build.h"
 
@@ -13,7 +14,6 @@ namespace sparselens {
 
 namespace {
 
-constexpr float half_covered = 0.5f;
 constexpr float unknown = -1; // depth of a ground
 
 // The last thing that a pixel holds.

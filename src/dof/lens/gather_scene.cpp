@@ -1,6 +1,7 @@
 #include "dof/lens/gather_scene.h"
 
 #include "dof/lens/sharpen.h"
+#include "dof/lens/solid_samples.h"
 
 #include <algorithm>
 #include <cmath>
@@ -59,6 +60,8 @@ GatherScene prepare(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &wi
     progress.may_end();
     scene.facets = place_facets(find_facets(ldi, lens, double(optics.widest())), ldi.samples(),
                                 {samples.x, samples.y, samples.hiding_coc(), samples.key, samples.source});
+    scene.solids = place_solids(ldi, lens, samples);
+    optics.bend(scene.solids);
     return scene;
 }
 

@@ -25,6 +25,7 @@ struct GatherScene {
     Highlights highlights;
     FillerSamples fillers;
     PlacedFacets facets;
+    BlockedSamples solids = {}; // place_solids()
 
     // If pixels see through some lens points alone, else null.
     const CatEye *cat_eye() const { return optics->cat_eye.cuts() ? &optics->cat_eye : nullptr; }

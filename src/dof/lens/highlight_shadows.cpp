@@ -23,28 +23,34 @@ std::uint32_t name_of(std::uint32_t block, int columns) {
 } // namespace
 
 // Whether the shadows of what a block has before a group are nearly the same for all of it.
-bool HighlightShadows::is_shared(const Asked &group, std::uint32_t b) const {
-    const SampleBlock &block = samples_.blocks[b];
-    const std::vector<Footprint> &footprints = footprints_.of(b).footprints;
+bool HighlightShadows::is_shared(const Asked &group, const Block &b) const {
+    const BlockedSamples &samples = casters_[b.set].samples;
+    const SampleBlock &block = samples.blocks[b.number];
+    const std::vector<Footprint> &footprints = casters_[b.set].footprints.of(b.number).footprints;
     const float nearer_than = group.nearer_than(block), most = float(group.lamp.coc / 2);
     for (std::uint32_t i = block.begin; i < block.end; ++i) {
-        if (!(samples_.depth[i] > nearer_than)) continue;
+        if (!(samples.depth[i] > nearer_than)) continue;
         const auto [least_coc, most_coc] = std::ranges::minmax(footprints[i - block.begin].coc);
         if (most > 0 ? most_coc > most : least_coc < most) return false;
     }
     return true;
 }
 
-void HighlightShadows::begin(const Imath::V2i &origin, std::span<const std::uint32_t> blocks,
-                             double pixel_aspect) {
+void HighlightShadows::begin(const Imath::V2i &origin, std::span<const std::uint32_t> samples,
+                             std::span<const std::uint32_t> solids, double pixel_aspect) {
     origin_ = origin;
     pixel_aspect_ = pixel_aspect;
     by_area_.clear();
+    add_blocks(0, samples);
+    add_blocks(1, solids);
+}
+
+void HighlightShadows::add_blocks(std::size_t set, std::span<const std::uint32_t> blocks) {
     std::unordered_map<std::size_t, std::size_t> known;
     for (const std::uint32_t b : blocks) {
-        const std::size_t area = footprints_.areas().of(b);
+        const std::size_t area = casters_[set].footprints.areas().of(b);
         const auto [at, added] = known.try_emplace(area, by_area_.size());
-        if (added) by_area_.push_back({area, {}});
+        if (added) by_area_.push_back({set, area, {}});
         by_area_[at->second].blocks.push_back(b);
     }
 }
@@ -70,14 +76,15 @@ std::uint32_t HighlightShadows::middle_of(std::span<const std::uint32_t> group) 
 // visit(block) for those that may cast a shadow, until it is false.
 template <typename Visit>
 void HighlightShadows::for_each_block(const Asked &lamp, const Visit &visit) const {
-    for (const auto &[area, blocks] : by_area_) {
-        const NearBounds *bounds = footprints_.areas().nearer_than(area, lamp.depth);
+    for (const auto &[set, area, blocks] : by_area_) {
+        const auto &[samples, footprints] = casters_[set];
+        const NearBounds *bounds = footprints.areas().nearer_than(area, lamp.depth);
         if (!bounds || !can_shadow(lamp, *bounds)) continue;
         for (const std::uint32_t b : blocks) {
-            const SampleBlock &block = samples_.blocks[b];
+            const SampleBlock &block = samples.blocks[b];
             if (block.depth_max <= lamp.nearer_than(block) || !can_shadow(lamp, block)) continue;
-            const NearBounds *near = footprints_.of(b).near.nearer_than(lamp.nearer_than(block));
-            if (near && can_shadow(lamp, *near) && !visit(b)) return;
+            const NearBounds *near = footprints.of(b).near.nearer_than(lamp.nearer_than(block));
+            if (near && can_shadow(lamp, *near) && !visit(Block{set, b})) return;
         }
     }
 }
@@ -98,7 +105,7 @@ void HighlightShadows::share(std::span<const std::uint32_t> group, const Imath::
         group_->place.extendBy(place(h));
         group_->spread = std::max(group_->spread, (this->lamp(h).centre - lamp.centre).length());
     }
-    for_each_block(*group_, [&](std::uint32_t b) {
+    for_each_block(*group_, [&](const Block &b) {
         if (!is_shared(*group_, b)) {
             apart_.push_back(b);
             return true;
@@ -116,14 +123,14 @@ bool HighlightShadows::cast(std::uint32_t highlight, const ShadowScreen &screen)
     const Imath::V2f at = place(highlight);
     const Asked asked{sample, lamp(highlight), screen, depth, depth + one_surface_px, {at, at}};
     has_own_ = false;
-    const auto cast_own = [&](std::uint32_t b) {
+    const auto cast_own = [&](const Block &b) {
         if (!has_own_) own_.begin(screen.box, screen.fine);
         has_own_ = true;
         cast_block(asked, b, own_);
         return !own_.dark(); // no other shadow changes that
     };
     if (!group_) for_each_block(asked, cast_own);
-    for (const std::uint32_t b : apart_)
+    for (const Block &b : apart_)
         if (!cast_own(b)) break;
     return shares_ || has_own_;
 }
@@ -132,15 +139,16 @@ float HighlightShadows::lit(int x, int y, const LampDisc *disc) const {
     return has_own_ ? own_.lit(x, y, disc, shares_ ? &shared_ : nullptr) : shared_.lit(x, y, disc);
 }
 
-void HighlightShadows::cast_block(const Asked &lamp, std::uint32_t b, LampShadow &shadow) const {
-    const SampleBlock &block = samples_.blocks[b];
-    const std::vector<Footprint> &footprints = footprints_.of(b).footprints;
-    const std::uint32_t first = name_of(b, samples_.columns);
-    for (std::uint32_t i = block.begin; i < block.end; ++i)
-        if (samples_.depth[i] > lamp.hardly ||
-            (samples_.depth[i] > lamp.depth &&
-             lamp.is_beside({{samples_.x[i], samples_.y[i]}, {samples_.x[i], samples_.y[i]}})))
-            cast_one(lamp, i, footprints[i - block.begin], first + i - block.begin, shadow);
+void HighlightShadows::cast_block(const Asked &lamp, const Block &b, LampShadow &shadow) const {
+    const BlockedSamples &samples = casters_[b.set].samples;
+    const SampleBlock &block = samples.blocks[b.number];
+    const std::vector<Footprint> &footprints = casters_[b.set].footprints.of(b.number).footprints;
+    const std::uint32_t first = name_of(b.number, samples.columns);
+    for (std::uint32_t i = block.begin; i < block.end; ++i) {
+        const Imath::V2f at(samples.x[i], samples.y[i]);
+        if (samples.depth[i] > lamp.hardly || (samples.depth[i] > lamp.depth && lamp.is_beside({at, at})))
+            cast_one(lamp, samples, i, footprints[i - block.begin], first + i - block.begin, shadow);
+    }
 }
 
 // Whether a shadow of one of its samples may reach the screen.
@@ -173,8 +181,8 @@ bool HighlightShadows::are_side_by_side(std::uint32_t lamp_sample, std::uint32_t
            !(same(samples_.x) && same(samples_.y)) && std::ranges::binary_search(highlights_.sample, sample);
 }
 
-void HighlightShadows::cast_one(const Asked &asked, std::uint32_t sample, const Footprint &footprint,
-                                std::uint32_t name, LampShadow &into) const {
+void HighlightShadows::cast_one(const Asked &asked, const BlockedSamples &samples, std::uint32_t sample,
+                                const Footprint &footprint, std::uint32_t name, LampShadow &into) const {
     const Lamp &lamp = asked.lamp;
     const ShadowScreen &screen = asked.screen;
     const auto coc = float(lamp.coc);
@@ -197,9 +205,9 @@ void HighlightShadows::cast_one(const Asked &asked, std::uint32_t sample, const 
     if (!(high[0] > float(screen.box.min.x) && low[0] <= float(screen.box.max.x) + 1 && high[0] > low[0] &&
           high[1] > float(screen.box.min.y) && low[1] <= float(screen.box.max.y) + 1 && high[1] > low[1]))
         return;
-    const bool opaque = is_opaque(samples_.alpha[sample]);
+    const bool opaque = is_opaque(samples.alpha[sample]); // as solids are
     if (!opaque && are_side_by_side(asked.sample, sample)) return;
-    into.hide(shadow, opaque ? 1 : samples_.alpha[sample], name);
+    into.hide(shadow, opaque ? 1 : samples.alpha[sample], name);
 }
 
 } // namespace sparselens

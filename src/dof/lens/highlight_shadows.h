@@ -22,6 +22,7 @@
 #include <Imath/ImathBox.h>
 #include <Imath/ImathVec.h>
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -36,14 +37,21 @@ struct ShadowScreen {
     bool fine = false; // in cells of the lens, not in pixels
 };
 
+// What casts them.
+struct ShadowCasters {
+    const BlockedSamples &samples;
+    const BlockFootprints &footprints;
+};
+
 class HighlightShadows {
 public:
-    HighlightShadows(const Highlights &highlights, const BlockedSamples &samples,
-                     const BlockFootprints &footprints)
-        : highlights_(highlights), samples_(samples), footprints_(footprints) {}
+    // `samples`: those that highlights are named by. `solids` (solid_samples.h) cast shadows as well.
+    HighlightShadows(const Highlights &highlights, const ShadowCasters &samples, const ShadowCasters &solids)
+        : highlights_(highlights), samples_(samples.samples), casters_{samples, solids} {}
 
-    // Of the tile whose first pixel is `origin`, relative to the data window's corner. `blocks`: those that can reach it.
-    void begin(const Imath::V2i &origin, std::span<const std::uint32_t> blocks, double pixel_aspect);
+    // Of the tile whose first pixel is `origin`, relative to the data window's corner. Then the blocks that can reach it.
+    void begin(const Imath::V2i &origin, std::span<const std::uint32_t> samples,
+               std::span<const std::uint32_t> solids, double pixel_aspect);
 
     // Highlights are named by their place in Highlights.
     // For a group: what its members share, in the pixels of a box. Only cast() for each tells the rest.
@@ -85,10 +93,15 @@ private:
     };
     Imath::V2f place(std::uint32_t highlight) const; // relative to the data window's corner
     std::uint32_t middle_of(std::span<const std::uint32_t> group) const;
-    bool is_shared(const Asked &group, std::uint32_t block) const;
-    void cast_block(const Asked &lamp, std::uint32_t block, LampShadow &shadow) const;
-    void cast_one(const Asked &lamp, std::uint32_t sample, const Footprint &footprint, std::uint32_t name,
-                  LampShadow &shadow) const;
+    struct Block { // of casters_[set]
+        std::size_t set;
+        std::uint32_t number;
+    };
+    void add_blocks(std::size_t set, std::span<const std::uint32_t> blocks);
+    bool is_shared(const Asked &group, const Block &block) const;
+    void cast_block(const Asked &lamp, const Block &block, LampShadow &shadow) const;
+    void cast_one(const Asked &lamp, const BlockedSamples &samples, std::uint32_t sample,
+                  const Footprint &footprint, std::uint32_t name, LampShadow &into) const;
     template <typename Visit>
     void for_each_block(const Asked &lamp, const Visit &visit) const;
     template <typename Bounds>
@@ -97,16 +110,16 @@ private:
 
     const Highlights &highlights_;
     const BlockedSamples &samples_;
-    const BlockFootprints &footprints_;
+    std::array<ShadowCasters, 2> casters_;
     Imath::V2i origin_;
     double pixel_aspect_ = 1;
     struct AreaBlocks {
-        std::size_t area;
+        std::size_t set, area;
         std::vector<std::uint32_t> blocks;
     };
-    std::vector<AreaBlocks> by_area_;  // those that can reach the tile
-    std::optional<Asked> group_;       // of several samples
-    std::vector<std::uint32_t> apart_; // blocks that cast other shadows on each of its samples
+    std::vector<AreaBlocks> by_area_; // those that can reach the tile
+    std::optional<Asked> group_;      // of several samples
+    std::vector<Block> apart_;        // blocks that cast other shadows on each of its samples
     LampShadow shared_, own_;
     bool shares_ = false, has_own_ = false;
 };

@@ -34,8 +34,10 @@ double square_of(const Lamp &lamp) {
 
 } // namespace
 
-HighlightTile::HighlightTile(const GatherScene &scene, const BlockFootprints &footprints)
-    : scene_(scene), shadows_(scene.highlights, scene.samples, footprints),
+HighlightTile::HighlightTile(const GatherScene &scene, const BlockFootprints &footprints,
+                             const BlockFootprints &solid_footprints)
+    : scene_(scene),
+      shadows_(scene.highlights, {scene.samples, footprints}, {scene.solids, solid_footprints}),
       half_extent_(aperture_.half_extent()), light_(sets_.size() * size * size) {
     half_extent_.y *= scene.pixel_aspect;
 }
@@ -46,12 +48,13 @@ bool HighlightTile::dark(int x, int y) const {
     return true;
 }
 
-void HighlightTile::spread(const Imath::V2i &origin, std::span<const std::uint32_t> blocks) {
+void HighlightTile::spread(const Imath::V2i &origin, std::span<const std::uint32_t> blocks,
+                           std::span<const std::uint32_t> solids) {
     origin_ = origin;
     std::ranges::fill(light_, 0.0f);
     for (auto &left : left_by_cat_eye_) left.clear();
     if (highlights_.sample.empty()) return;
-    shadows_.begin(origin, blocks, scene_.pixel_aspect);
+    shadows_.begin(origin, blocks, solids, scene_.pixel_aspect);
     for (const std::uint32_t b : blocks)
         highlights_.groups.for_each(b, [&](std::span<const std::uint32_t> group) {
             if (!scene_.optics->field.skews()) return spread_group(group);

@@ -24,11 +24,14 @@ namespace sparselens {
 
 class HighlightTile {
 public:
-    HighlightTile(const GatherScene &scene, const BlockFootprints &footprints);
+    // `footprints`: of the samples, and of the solids.
+    HighlightTile(const GatherScene &scene, const BlockFootprints &footprints,
+                  const BlockFootprints &solid_footprints);
 
     // Of the tile whose first pixel is `origin`, relative to the data window's corner like the samples. `blocks`: those that
-    // can reach it.
-    void spread(const Imath::V2i &origin, std::span<const std::uint32_t> blocks);
+    // can reach it; `solids`, of those.
+    void spread(const Imath::V2i &origin, std::span<const std::uint32_t> blocks,
+                std::span<const std::uint32_t> solids = {});
 
     // At a pixel of the tile. `dark`: none reaches it.
     float value(int x, int y, std::size_t channel) const { return light_[at(x, y, channel)]; }

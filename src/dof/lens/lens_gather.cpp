@@ -169,11 +169,11 @@ struct PreparedTile {
     Imath::Box2i part; // of the tile, that is made
     Imath::V2i first;  // pixel, EXR coordinates
     Imath::V2i origin; // the same, relative to the data window's corner
-    std::vector<std::uint32_t> samples = {}, facets = {}, fillers = {}; // blocks of them
+    std::vector<std::uint32_t> samples = {}, facets = {}, fillers = {}, solids = {}; // blocks of them
     std::span<const LensSample> lens = {};
     std::vector<LensSample> bent = {};
 
-    TileTask task() const { return {origin, samples, facets, fillers, lens}; }
+    TileTask task() const { return {origin, samples, facets, fillers, lens, solids}; }
 };
 
 // The scene, and the picture that its tiles make.
@@ -184,10 +184,12 @@ struct Gathering {
     LensTiles chosen = tiles_of(out.windows);
     const Optics &optics = *scene.optics;
     Darkening darkening{optics.cat_eye, *scene.ldi, out.windows};
-    BlockFootprints footprints{*scene.ldi, scene.samples};
-    tbb::enumerable_thread_specific<HighlightTile> lamps{[this] { return HighlightTile(scene, footprints); }};
+    BlockFootprints footprints{*scene.ldi, scene.samples}, solid_footprints{*scene.ldi, scene.solids};
+    tbb::enumerable_thread_specific<HighlightTile> lamps{
+        [this] { return HighlightTile(scene, footprints, solid_footprints); }};
     BlockFinder finder{scene.samples, optics.aperture, scene.pixel_aspect},
-        filler_finder{scene.fillers.samples, optics.aperture, scene.pixel_aspect};
+        filler_finder{scene.fillers.samples, optics.aperture, scene.pixel_aspect},
+        solid_finder{scene.solids, optics.aperture, scene.pixel_aspect};
     LensSets sets{options, optics.aperture, scene.pixel_aspect};
     std::vector<std::size_t> gathered = averaged_channels(out);
 
@@ -216,6 +218,7 @@ struct Gathering {
         if (largest < in_focus && !optics.moves()) return {};
         const std::vector<LensSample> &points = sets.for_coc(largest, optics.doubled(first, lens_tile_size));
         filler_finder.find(origin, size, steepest, tile.fillers);
+        solid_finder.find(origin, size, steepest, tile.solids);
         find_blocks(scene.facets, origin, size, steepest * finder.extent(), tile.facets);
         tile.lens = points;
         if (!optics.field.flat()) tile.lens = tile.bent = optics.bent(points, first + part, part_size);
@@ -226,7 +229,7 @@ struct Gathering {
     void finish(const PreparedTile &tile, const TilePicture &picture) {
         chosen.lens_points[tile.tile] = int(tile.lens.size());
         HighlightTile &lit = lamps.local();
-        lit.spread(tile.origin, tile.samples);
+        lit.spread(tile.origin, tile.samples, tile.solids);
         for_each_pixel(tile.first - out.windows.data.min, tile.part, out.windows, [&](int x, int y) {
             const auto pixel = std::size_t(y * lens_tile_size + x);
             // A few lens points may all miss: better sharp than black.

@@ -58,15 +58,16 @@ See::See(const GatherScene &scene, const TileTask &tile) : scene_(scene), tile_(
     seen_.filler.resize(count);
     bounds_.set(tile.samples, scene.samples);
     filler_bounds_.set(tile.fillers, scene.fillers.samples);
+    solid_bounds_.set(tile.solids, scene.solids);
     collect_partial();
 }
 
 // The steps. What shows through cracks is seen last: a crack lies between what the lens point meets, and a filler behind it.
 const Seen &See::through(const LensSample &point) {
-    constexpr Cells everywhere{1 - border, 1 - border, size + border - 1, size + border - 1};
     see_columns(point);
     see_opaque(point, scene_.samples, bounds_, everywhere, seen_.front);
     see_facets(point);
+    see_solids(point);
     see_images(point);
     find_empty();
     find_cracks();
@@ -124,15 +125,17 @@ void See::see_columns(const LensSample &point) {
         seen_.columns[std::size_t(y)] = scene_.cat_eye()->columns(point, first.x, size, first.y + y);
 }
 
+BlockBounds::Box See::box_of(const Cells &cells) const {
+    const auto x = float(tile_.origin.x), y = float(tile_.origin.y);
+    return {x + float(cells.left), x + float(cells.right), y + float(cells.top), y + float(cells.bottom)};
+}
+
 // The nearest opaque one in each of some cells.
 void See::see_opaque(const LensSample &point, const BlockedSamples &samples, BlockBounds &bounds,
                      const Cells &seen, std::vector<std::uint64_t> &front) const {
     std::fill(&front[at(-border, seen.top)], &front[at(-border, seen.bottom)], 0);
     const TileProjection to_cells = projection(point);
-    const auto x = float(tile_.origin.x), y = float(tile_.origin.y);
-    const BlockBounds::Box box{x + float(seen.left), x + float(seen.right), y + float(seen.top),
-                               y + float(seen.bottom)};
-    for (const std::uint32_t b : bounds.reached(point, box))
+    for (const std::uint32_t b : bounds.reached(point, box_of(seen)))
         for_opaque(to_cells, samples, samples.hiding_coc(), samples.blocks[b],
                    [&](std::uint32_t begin, std::span<const std::int32_t> cells) {
                        const std::uint64_t *key = &samples.key[begin];
@@ -147,6 +150,22 @@ void See::see_opaque(const LensSample &point, const BlockedSamples &samples, Blo
 void See::see_facets(const LensSample &point) {
     const FacetGrid grid{float(tile_.origin.x) - (border - 1), float(tile_.origin.y) - (border - 1), stride};
     draw_facets(scene_.facets, tile_.facets, point, grid, seen_.front);
+}
+
+// What is solid hides what lies behind it (solid_samples.h).
+void See::see_solids(const LensSample &point) {
+    if (tile_.solids.empty()) return;
+    const BlockedSamples &solids = scene_.solids;
+    const TileProjection to_cells = projection(point);
+    for (const std::uint32_t b : solid_bounds_.reached(point, box_of(everywhere)))
+        for_opaque(to_cells, solids, solids.coc, solids.blocks[b],
+                   [&](std::uint32_t begin, std::span<const std::int32_t> cells) {
+                       const std::uint64_t *key = &solids.key[begin];
+                       for (std::size_t i = 0; i < cells.size(); ++i) {
+                           std::uint64_t &cell = seen_.front[std::size_t(cells[i])];
+                           cell = cell == 0 ? 0 : std::max(cell, key[i]);
+                       }
+                   });
 }
 
 // Of mirrors and glass, the image, in the window that their surface is.

@@ -87,16 +87,21 @@ private:
     struct Cells { // by the pixels of the tile, right and bottom excluded
         int left, top, right, bottom;
     };
+    static constexpr Cells everywhere{1 - tile_cells::border, 1 - tile_cells::border,
+                                      tile_cells::size + tile_cells::border - 1,
+                                      tile_cells::size + tile_cells::border - 1};
     struct Crack {
         std::uint32_t cell;
         std::uint64_t key; // of the sample that shows through it
     };
     void collect_partial();
     TileProjection projection(const LensSample &point) const;
+    BlockBounds::Box box_of(const Cells &cells) const;
     void see_columns(const LensSample &point);
     void see_opaque(const LensSample &point, const BlockedSamples &samples, BlockBounds &bounds,
                     const Cells &seen, std::vector<std::uint64_t> &front) const;
     void see_facets(const LensSample &point);
+    void see_solids(const LensSample &point);
     void see_images(const LensSample &point);
     void find_images(const TileProjection &projection, const SampleBlock &block);
     std::uint64_t image_at(std::size_t cell) const;
@@ -109,7 +114,7 @@ private:
 
     const GatherScene &scene_;
     const TileTask &tile_;
-    BlockBounds bounds_, filler_bounds_; // of its blocks of samples, of fillers
+    BlockBounds bounds_, filler_bounds_, solid_bounds_; // of its blocks
     // [cell]: the nearest image that lies there, as its sample's index plus one
     std::vector<std::uint32_t> image_;
     std::vector<Crack> cracks_;

@@ -56,7 +56,7 @@ void LensTilesOnDevice::gather(const GatherScene &scene, std::span<const TileTas
         tasks.push_back(all[n]);
         numbers.push_back(n);
     }
-    if (!program_) program_.emplace(device_.program(code, 18, sizeof(lens_kernel::Push)));
+    if (!program_) program_.emplace(device_.program(code, 19, sizeof(lens_kernel::Push)));
     const std::size_t bytes = std::min(stripe_bytes, device_.largest_buffer());
     const double turns = std::min(turns_in_pass, device_.most_turns());
     for (std::size_t begin = 0, count = 0; begin < tasks.size(); begin += std::max(count, std::size_t{1})) {
@@ -100,7 +100,7 @@ void LensTilesOnDevice::run(std::uint32_t pass, std::size_t groups, float depth_
         for (double work = 0; end < tiles && (end == first || work < work_at_once); ++end)
             work += work_of(stripe, stripe.tiles[end]);
         const lens_kernel::Push push{
-            first, tiles,     std::uint32_t(stripe.places.size()), std::uint32_t(stripe.first_filler),
+            first, tiles,     std::uint32_t(stripe.alphas.size()), std::uint32_t(stripe.first_filler),
             pass,  depth_at_1};
         device_.run(*program_, buffers, std::as_bytes(std::span(&push, 1)),
                     {lens_kernel::quarters * (end - first), std::uint32_t(groups), 1});

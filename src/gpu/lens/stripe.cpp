@@ -39,7 +39,7 @@ void place_samples(Stripe &stripe, std::size_t groups, const Placed &what) {
             if (!stripe.shown.empty()) stripe.shown[to] = from.coc[i];
             for (std::size_t g = 0; g < groups; ++g)
                 std::copy_n(&what.colours.group(g)[i * std::size_t{4}], 4,
-                            &stripe.colours[(g * stripe.places.size() + to) * 4]);
+                            &stripe.colours[(g * stripe.alphas.size() + to) * 4]);
         }
     });
 }
@@ -62,6 +62,22 @@ std::uint32_t list_blocks(Stripe &stripe, const Range &range, std::size_t first,
     for (const std::uint32_t b : blocks)
         stripe.block_lists.push_back(std::uint32_t(b - range.first_block + first));
     return at;
+}
+
+// Behind all samples; `first_sample`: the scene's number of the stripe's first.
+void place_solids(Stripe &stripe, const BlockedSamples &from, const Range &range,
+                  std::uint32_t first_sample) {
+    const std::uint32_t first = range.first(from);
+    stripe.solids.resize(range.count(from));
+    parallel_ranges(stripe.solids.size(), 4096, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t n = begin; n < end; ++n) {
+            const std::size_t i = first + n, to = stripe.alphas.size() + n;
+            stripe.places[to] = {from.x[i], from.y[i]};
+            stripe.uppers[to] = std::uint32_t(from.key[i] >> 32);
+            stripe.cocs[to] = from.coc[i];
+            stripe.solids[n] = std::uint32_t(from.key[i]) - first_sample;
+        }
+    });
 }
 
 void place_facets(Stripe &stripe, const PlacedFacets &from, const Range &range, std::uint32_t first_sample) {
@@ -92,7 +108,8 @@ std::uint32_t place_lens(Stripe &stripe, std::span<const LensSample> lens) {
 // The tiles, and the lists of what reaches each; the columns and the holdout are not filled in yet.
 void list_tiles(Stripe &stripe, const GatherScene &scene, std::span<const TileTask> tasks,
                 const Ranges &ranges, double most_turns) {
-    const std::size_t fillers = ranges.samples.blocks(), facets = fillers + ranges.fillers.blocks();
+    const std::size_t fillers = ranges.samples.blocks(), solids = fillers + ranges.fillers.blocks(),
+                      facets = solids + ranges.solids.blocks();
     const auto count = [](std::span<const std::uint32_t> list) { return std::uint32_t(list.size()); };
     std::uint32_t lens = 0, columns = 0, holdout = 0, rules = 0;
     const auto shows_images = [&](std::uint32_t block) { return scene.samples.blocks[block].shows_images; };
@@ -117,7 +134,9 @@ void list_tiles(Stripe &stripe, const GatherScene &scene, std::span<const TileTa
              .facet_count = count(task.facets),
              .rules = rules | (mirrors ? lens_kernel::images : 0),
              .columns = columns,
-             .holdout = holdout});
+             .holdout = holdout,
+             .solids = list_blocks(stripe, ranges.solids, solids, task.solids),
+             .solid_count = count(task.solids)});
         columns += std::uint32_t(column_words(scene, task));
         holdout += std::uint32_t(holdout_words(scene, task));
     }
@@ -147,7 +166,8 @@ std::size_t tasks_that_fit(const GatherScene &scene, std::span<const TileTask> t
     std::size_t listed = 0, partial = 0, lens = 0, columns = 0, holdout = 0;
     for (std::size_t t = 0; t < tasks.size(); ++t) {
         ranges.add(scene, tasks[t]);
-        listed += tasks[t].samples.size() + tasks[t].fillers.size() + tasks[t].facets.size();
+        listed += tasks[t].samples.size() + tasks[t].fillers.size() + tasks[t].facets.size() +
+                  tasks[t].solids.size();
         partial += partial_count(scene.samples, tasks[t]);
         if (t == 0 || tasks[t].lens.data() != tasks[t - 1].lens.data()) lens += tasks[t].lens.size();
         columns += column_words(scene, tasks[t]);
@@ -162,7 +182,8 @@ std::size_t tasks_that_fit(const GatherScene &scene, std::span<const TileTask> t
 }
 
 double turns_of(const GatherScene &scene, const TileTask &task) {
-    const auto blocks = double(task.samples.size() + task.fillers.size() + 4 * task.facets.size());
+    const auto blocks =
+        double(task.samples.size() + task.fillers.size() + task.solids.size() + 4 * task.facets.size());
     return 100 + blocks + double(partial_count(scene.samples, task)) / 4;
 }
 
@@ -187,9 +208,10 @@ Stripe make_stripe(const GatherScene &scene, std::span<const TileTask> tasks, bo
         fillers{scene.fillers.samples, scene.fillers.colours, ranges.fillers,
                 ranges.samples.count(scene.samples), ranges.samples.blocks()};
     stripe.sets.assign(scene.colours.sets.begin(), scene.colours.sets.end());
-    stripe.places.resize(count);
-    stripe.uppers.resize(count);
-    for (std::vector<float> *of : {&stripe.cocs, &stripe.alphas}) of->resize(count);
+    stripe.places.resize(count + ranges.solids.count(scene.solids));
+    stripe.uppers.resize(stripe.places.size());
+    stripe.cocs.resize(stripe.places.size());
+    stripe.alphas.resize(count);
     if (!scene.samples.surface_coc.empty() || !scene.fillers.samples.surface_coc.empty())
         stripe.shown.resize(count);
     stripe.first_filler = fillers.sample;
@@ -198,6 +220,8 @@ Stripe make_stripe(const GatherScene &scene, std::span<const TileTask> tasks, bo
         place_samples(stripe, groups, what);
         place_blocks(stripe, what);
     }
+    place_solids(stripe, scene.solids, ranges.solids, ranges.samples.first(scene.samples));
+    place_blocks(stripe, {scene.solids, scene.colours, ranges.solids, count});
     place_facets(stripe, scene.facets, ranges.facets, ranges.samples.first(scene.samples));
     list_tiles(stripe, scene, tasks, ranges, most_turns);
     list_partial(stripe, scene.samples, tasks, ranges.samples.first(scene.samples));

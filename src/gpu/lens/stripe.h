@@ -16,14 +16,15 @@
 namespace sparselens::gpu {
 
 struct Stripe {
-    // Of samples: those of the LDI, then fillers.
+    // Of samples: those of the LDI, then fillers; then, without alphas and colours, solids.
     std::vector<std::array<float, 2>> places;
     std::vector<std::uint32_t> uppers; // halves of keys
     std::vector<float> cocs, alphas;
     std::vector<float> shown;   // CoCs of what they show; empty without mirrors and glass: `cocs`
     std::vector<float> colours; // [group][sample][4]
     std::size_t first_filler = 0;
-    std::vector<lens_kernel::Block> blocks; // of samples, of fillers and of facets
+    std::vector<std::uint32_t> solids;      // the sample that each shows
+    std::vector<lens_kernel::Block> blocks; // of samples, of fillers, of solids and of facets
     std::vector<std::uint32_t> facets;      // three samples each
     std::vector<std::uint32_t> block_lists, partial_lists;
     std::vector<lens_kernel::Lens> lens;

@@ -19,11 +19,12 @@ constexpr std::size_t page = 1024;
 constexpr std::size_t cocs = 12; // among what follows
 
 // In the order of the shader's bindings, without those that it writes.
-std::array<Bytes, 15> parts_of(const Stripe &s) {
+std::array<Bytes, 16> parts_of(const Stripe &s) {
     const auto bytes = [](const auto &values) { return std::as_bytes(std::span(values)); };
-    return {bytes(s.places),        bytes(s.uppers),  bytes(s.colours), bytes(s.blocks), bytes(s.block_lists),
-            bytes(s.partial_lists), bytes(s.lens),    bytes(s.tiles),   bytes(s.facets), bytes(s.sets),
-            bytes(s.columns),       bytes(s.holdout), bytes(s.cocs),    bytes(s.alphas), bytes(s.shown)};
+    return {bytes(s.places),      bytes(s.uppers),        bytes(s.colours), bytes(s.blocks),
+            bytes(s.block_lists), bytes(s.partial_lists), bytes(s.lens),    bytes(s.tiles),
+            bytes(s.facets),      bytes(s.sets),          bytes(s.columns), bytes(s.holdout),
+            bytes(s.cocs),        bytes(s.alphas),        bytes(s.solids),  bytes(s.shown)};
 }
 
 // Where they differ, in whole pages.

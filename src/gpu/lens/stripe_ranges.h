@@ -35,32 +35,37 @@ struct Range {
 
 // What tiles are gathered from, in the scene.
 struct Ranges {
-    Range samples, fillers, facets;
+    Range samples, fillers, facets, solids;
 
     void add(const GatherScene &scene, const TileTask &task) {
         samples.add(task.samples);
         fillers.add(task.fillers);
         facets.add(task.facets);
-        for (const std::uint32_t b : task.facets) add_corners(scene, scene.facets.blocks[b]);
+        solids.add(task.solids);
+        for (const std::uint32_t b : task.facets)
+            for (const std::vector<std::uint64_t> &corners : scene.facets.key)
+                add_named(scene, corners, scene.facets.blocks[b]);
+        for (const std::uint32_t b : task.solids) add_named(scene, scene.solids.key, scene.solids.blocks[b]);
     }
     void add_all(const GatherScene &scene) {
         samples.add_all(scene.samples);
         fillers.add_all(scene.fillers.samples);
         facets.add_all(scene.facets);
+        solids.add_all(scene.solids);
     }
     std::size_t sample_count(const GatherScene &scene) const {
         return samples.count(scene.samples) + fillers.count(scene.fillers.samples);
     }
 
 private:
-    // A facet can reach a tile that some of its corners do not.
-    void add_corners(const GatherScene &scene, const FacetBlock &block) {
+    // The samples that the keys of a block name: a facet can reach a tile that some of its corners do not, and a solid one that
+    // the sample does not that it shows.
+    void add_named(const GatherScene &scene, const std::vector<std::uint64_t> &keys, const auto &block) {
         std::uint32_t least = ~0u, most = 0;
-        for (const std::vector<std::uint64_t> &keys : scene.facets.key)
-            for (std::uint32_t i = block.begin; i < block.end; ++i) {
-                least = std::min(least, std::uint32_t(keys[i]));
-                most = std::max(most, std::uint32_t(keys[i]));
-            }
+        for (std::uint32_t i = block.begin; i < block.end; ++i) {
+            least = std::min(least, std::uint32_t(keys[i]));
+            most = std::max(most, std::uint32_t(keys[i]));
+        }
         if (least <= most) samples.add(block_of(scene.samples, least), block_of(scene.samples, most));
     }
     static std::uint32_t block_of(const BlockedSamples &samples, std::uint32_t sample) {

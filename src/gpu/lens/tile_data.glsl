@@ -18,8 +18,9 @@ layout(binding = 12) readonly buffer Columns { uint columns[]; };
 layout(binding = 13) readonly buffer Holdouts { uint holdouts[]; };
 layout(binding = 14) readonly buffer Cocs { float cocs[]; };   // by which they are seen and hide
 layout(binding = 15) readonly buffer Alphas { float alphas[]; };
-layout(binding = 16) readonly buffer Shown { float shown[]; }; // CoCs of what opaque ones show, be it an image in a mirror
-layout(binding = 17) buffer Sums { vec4 sums[]; }; // from one pass to the next: [group][tile][pixel][light, weight]
+layout(binding = 16) readonly buffer Solids { uint solids[]; }; // which sample each of them shows; they come after all samples
+layout(binding = 17) readonly buffer Shown { float shown[]; }; // CoCs of what opaque ones show, be it an image in a mirror
+layout(binding = 18) buffer Sums { vec4 sums[]; }; // from one pass to the next: [group][tile][pixel][light, weight]
 layout(push_constant) uniform Pushed { Push push; };
 
 shared uint64_t front[2 * cells]; // keys of the nearest samples, then of the nearest images or fillers; 0: none

@@ -21,5 +21,5 @@ float passes(uint j, float depth) {
 float opaque_passes(uint j, uint seen) {
     if ((rules & holdout) == 0 || seen == none) return 1;
     const uint64_t key = front[cell_of(pixel_of(j))];
-    return passes(j, depth_of(key != 0UL ? upper_of(key) : uppers[seen]));
+    return passes(j, depth_of(uppers[key != 0UL ? sample_of(key) : seen]));
 }

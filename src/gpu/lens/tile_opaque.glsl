@@ -1,4 +1,5 @@
-// What a lens point sees of the opaque samples, and of facets between them (dof/facets): the nearest key in each cell.
+// What a lens point sees of the opaque samples, of facets between them (dof/facets) and of what is solid behind them
+// (dof/lens/solid_samples.h): the nearest key in each cell.
 
 // The pixel of the quarter, or next to it, that the lens point sees a sample in; outside: x < -1.
 ivec2 seen_at(uint sample_, float coc) {
@@ -40,6 +41,22 @@ void see_opaque(uint list, uint count, uint offset) {
             for (uint i = b.begin + thread() % 32; i < b.opaque_end; i += 32) {
                 const ivec2 at = seen_at(i, cocs[i]);
                 if (at.x >= -1) atomicMax(front[offset + cell_of(at)], key_of(uppers[i], i));
+            }
+        }
+    }
+    barrier();
+}
+
+// What is solid hides what lies behind it, in cells that show something. Ends with a barrier.
+void see_solids(uint list, uint count) {
+    for (uint begin = 0; begin < count; begin += threads) {
+        find_near(list + begin, count - begin);
+        for (uint n = thread() / 32; n < near_count; n += threads / 32) {
+            const Block b = blocks[near_blocks[n]];
+            for (uint i = b.begin + thread() % 32; i < b.opaque_end; i += 32) {
+                const ivec2 at = seen_at(i, cocs[i]);
+                if (at.x < -1 || front[cell_of(at)] == 0UL) continue;
+                atomicMax(front[cell_of(at)], key_of(uppers[i], solids[i - push.sample_count]));
             }
         }
     }

@@ -8,10 +8,10 @@ uint64_t torn_at(uint cell) {
         const uint64_t one = front[cell - step], other = front[cell + step];
         if (upper_of(one) <= background_upper || upper_of(other) <= background_upper) continue;
         const vec2 apart = places[sample_of(one)] - places[sample_of(other)];
-        const float depth_a = depth_of(upper_of(one)), depth_b = depth_of(upper_of(other));
+        const float depth_a = depth_of(uppers[sample_of(one)]), depth_b = depth_of(uppers[sample_of(other)]);
         if (!is_crack(apart.x, apart.y, depth_a, depth_b)) continue;
         const uint64_t farther = depth_a <= depth_b ? one : other;
-        if (farthest == 0UL || depth_of(upper_of(farther)) < depth_of(upper_of(farthest))) farthest = farther;
+        if (farthest == 0UL || depth_of(uppers[sample_of(farther)]) < depth_of(uppers[sample_of(farthest)])) farthest = farther;
     }
     return farthest;
 }
@@ -29,6 +29,7 @@ uint[own] see_behind(Tile tile) {
     if (thread() == 0) empty_count = 0;
     see_opaque(tile.blocks, tile.block_count, 0);
     see_facets(tile.facets, tile.facet_count);
+    if (tile.solid_count > 0) see_solids(tile.solids, tile.solid_count);
     if ((rules & images) != 0) see_images(tile.blocks, tile.block_count);
     uint seen[own];
     uint64_t torn[own];

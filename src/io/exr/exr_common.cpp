@@ -90,7 +90,8 @@ bool has_depth_channel(const std::vector<Channel> &channels, const std::string &
 }
 
 bool is_position_channel(const std::string &channel) {
-    static constexpr std::array names{"Z", "ZBack", "ldi.dx", "ldi.dy", "ldi.weight", "ldi.optical"};
+    static constexpr std::array names{"Z",          "ZBack",       "ldi.dx",   "ldi.dy",
+                                      "ldi.weight", "ldi.optical", "ldi.solid"};
     return is_among(names, channel);
 }
 

@@ -31,7 +31,7 @@ std::string first_of(const std::vector<std::string> &names);
 bool has_depth_channel(const std::vector<Channel> &channels, const std::string &asked);
 
 // Whether the channel holds the position or weight of a sample in our files: Z, ZBack, ldi.dx, ldi.dy,
-// ldi.weight or ldi.optical.
+// ldi.weight, ldi.optical or ldi.solid.
 // Such a channel is never carried along like a colour.
 bool is_position_channel(const std::string &channel);
 

@@ -37,6 +37,7 @@ std::vector<float> *placement_array(Ldi &ldi, const std::string &name, const std
     if (name == "ldi.dx") return &ldi.dx;
     if (name == "ldi.dy") return &ldi.dy;
     if (name == "ldi.optical") return &ldi.optical;
+    if (name == "ldi.solid") return &ldi.solid;
     return name == "ldi.weight" ? &ldi.weight : nullptr;
 }
 

@@ -38,6 +38,7 @@ std::vector<StoredChannel> stored_channels(const Ldi &ldi) {
     add("ldi.dy", PixelType::half, ldi.dy);
     add("ldi.weight", PixelType::half, ldi.weight);
     add("ldi.optical", PixelType::float32, ldi.optical);
+    add("ldi.solid", PixelType::half, ldi.solid);
     for (std::size_t k = 0; k < ldi.channels.size(); ++k)
         stored.push_back({ldi.channels[k].name, ldi.channels[k].type, &ldi.values[k]});
     return stored;

@@ -3,6 +3,7 @@
 #include "dof/lens/blocked_fixture.h"
 #include "dof/lens/highlight_shadows.h"
 #include "dof/lens/highlights.h"
+#include "dof/lens/solid_samples.h"
 #include "support/lens_ldi.h"
 
 #include <gtest/gtest.h>
@@ -21,10 +22,27 @@ const Imath::Box2i box({0, 0}, {size - 1, size - 1});
 
 // A lamp of eight by eight pixels before a wall, and boards of sixteen pixels before it that lie about a CoC.
 struct LampBehindBoards : BlockedLdi {
-    BlockFootprints footprints;
+    BlockedSamples solids;
+    BlockFootprints footprints, solid_footprints;
     std::vector<std::uint32_t> lamp, blocks;
     Highlights highlights;
 
+    // Of boards that are all as near, and what lies that many pixels of CoC behind them: solid things, or samples.
+    static Ldi solid_boards(double boards, double behind, bool are_solid) {
+        return make_ldi(windows_of_size(size, size), rgba_channels(), [&](int x, int y) {
+            std::vector<Sample> samples;
+            if (random_unit(x / 16, y / 16, 1) < 0.4) {
+                samples.push_back({depth_of(lens, boards), {0, 0, 0, 1}});
+                if (are_solid)
+                    samples.back().solid = behind / (lens.radius * lens.focal_px);
+                else
+                    samples.push_back({depth_of(lens, boards + behind), {0, 0, 0, 1}});
+            }
+            if (is_lamp(x, y)) samples.push_back({depth_of(lens, lamp_coc), {900, 900, 900, 1}});
+            samples.push_back({depth_of(lens, lamp_coc + 9), {1, 1, 1, 1}});
+            return samples;
+        });
+    }
     static Ldi scene(double boards) {
         return make_ldi(windows_of_size(size, size), rgba_channels(), [&](int x, int y) {
             std::vector<Sample> samples;
@@ -38,7 +56,8 @@ struct LampBehindBoards : BlockedLdi {
     static bool is_lamp(int x, int y) { return x >= 24 && x < 32 && y >= 32 && y < 40; }
 
     explicit LampBehindBoards(const Ldi &ldi)
-        : BlockedLdi(ldi, lens), footprints(ldi, samples), blocks(samples.blocks.size()) {
+        : BlockedLdi(ldi, lens), solids(place_solids(ldi, lens, samples)), footprints(ldi, samples),
+          solid_footprints(ldi, solids), blocks(samples.blocks.size()) {
         std::iota(blocks.begin(), blocks.end(), 0u);
         for (std::uint32_t i = 0; i < samples.count(); ++i)
             if (samples.source[i] != BlockedSamples::background && ldi.values[0][samples.source[i]] == 900)
@@ -48,8 +67,8 @@ struct LampBehindBoards : BlockedLdi {
 
     // Of each of the lamp's samples, one after the other, the share that is lit at each pixel.
     std::vector<float> lit(bool together) {
-        HighlightShadows shadows(highlights, samples, footprints);
-        shadows.begin({0, 0}, blocks, 1);
+        HighlightShadows shadows(highlights, {samples, footprints}, {solids, solid_footprints});
+        shadows.begin({0, 0}, blocks, solids.blocks.empty() ? std::span<const std::uint32_t>() : blocks, 1);
         std::vector<float> all;
         std::vector<std::uint32_t> group(lamp.size());
         std::iota(group.begin(), group.end(), 0u);
@@ -154,6 +173,19 @@ TEST(ShadowAreas, BoundAllThatIsNearer) {
             }
         }
     }
+}
+
+// As deep as that, they lie at the same place, and cast the same shadows as things that are seen.
+TEST(HighlightShadows, WhatIsSolidCastsThem) {
+    const auto lit = [](bool are_solid) {
+        const Ldi ldi = LampBehindBoards::solid_boards(40, 30, are_solid);
+        return LampBehindBoards(ldi).lit(true);
+    };
+    const std::vector<float> solid = lit(true), seen = lit(false);
+    EXPECT_LT(mean(solid), 0.9);
+    EXPECT_EQ(solid, seen);
+    const Ldi bare = LampBehindBoards::solid_boards(40, 0, true);
+    EXPECT_LT(mean(solid), mean(LampBehindBoards(bare).lit(true)) - 0.02);
 }
 
 } // namespace

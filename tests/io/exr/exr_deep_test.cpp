@@ -58,6 +58,7 @@ void expect_equal(const Ldi &a, const Ldi &b) {
     EXPECT_EQ(a.dy, b.dy);
     EXPECT_EQ(a.weight, b.weight);
     EXPECT_EQ(a.optical, b.optical);
+    EXPECT_EQ(a.solid, b.solid);
     EXPECT_EQ(a.values, b.values);
 }
 
@@ -109,6 +110,16 @@ TEST_F(ExrDeep, DepthsOfImagesAreFloats) {
     expect_equal(read.ldi, ldi);
     ASSERT_NE(read.header.channels().findChannel("ldi.optical"), nullptr);
     EXPECT_EQ(read.header.channels().findChannel("ldi.optical")->type, Imf::FLOAT);
+}
+
+TEST_F(ExrDeep, WhatIsSolidIsHalves) {
+    Ldi ldi = ldi_of({{{.z = 2}}, {{.z = 2}, {.z = 3}}});
+    EXPECT_EQ(round_trip(ldi).header.channels().findChannel("ldi.solid"), nullptr);
+    ldi.solid = {0.25f, 0, 6e4f};
+    const LdiFile read = round_trip(ldi);
+    expect_equal(read.ldi, ldi);
+    ASSERT_NE(read.header.channels().findChannel("ldi.solid"), nullptr);
+    EXPECT_EQ(read.header.channels().findChannel("ldi.solid")->type, Imf::HALF);
 }
 
 TEST_F(ExrDeep, ChannelsOfEveryTypeAreCarried) {

@@ -1,0 +1,171 @@
+#include "warp/solids.h"
+
+#include "base/coverage.h"
+#include "base/parallel.h"
+#include "deep/build.h"
+#include "lens/perceptive_depth.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace sparselens {
+
+namespace {
+
+constexpr int margin = 1; // pixels of a view around the one that is asked
+constexpr double nearer_px =
+    0.5; // of perceptive depth, pixels: what a view sees nearer, it sees by so much nearer
+constexpr double relief_px = 1; // of what is no farther than that, no gap shows what lies behind
+constexpr int reach =
+    int(solid_px) + margin; // pixels: so far a lens point moves what is solid past what is seen of it
+
+// 1 / z of the farthest thing that a pixel shows; 0: it lets light through to infinity.
+float farthest_in(const Ldi &view, std::size_t alpha, std::size_t pixel) {
+    double left = 1;
+    float farthest = 0;
+    for (const std::uint64_t i : view.pixel(pixel)) {
+        left *= 1 - double(alpha_at(view, alpha, i));
+        farthest = 1 / view.z[i];
+    }
+    return lets_through(left) ? 0 : farthest;
+}
+
+// The least of `count` values, each `step` after the other, and of those up to `radius` before and behind it.
+void least_along(const float *from, std::size_t step, std::size_t count, std::size_t radius, float *to) {
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::size_t begin = i < radius ? 0 : i - radius, end = std::min(i + radius + 1, count);
+        float least = from[begin * step];
+        for (std::size_t n = begin + 1; n < end; ++n) least = std::min(least, from[n * step]);
+        to[i * step] = least;
+    }
+}
+
+// The least in a square around each pixel.
+std::vector<float> least_around(const std::vector<float> &values, const Grid &grid, int radius) {
+    const auto width = std::size_t(grid.width()), height = std::size_t(grid.height()),
+               r = std::size_t(radius);
+    std::vector<float> along_rows(values.size()), least(values.size());
+    parallel_for(
+        height, [&](std::size_t y) { least_along(&values[y * width], 1, width, r, &along_rows[y * width]); });
+    parallel_ranges(width, 64, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t x = begin; x < end; ++x) least_along(&along_rows[x], width, height, r, &least[x]);
+    });
+    return least;
+}
+
+// Of each pixel of a view.
+std::vector<float> farthest_in(const Ldi &view) {
+    std::vector<float> farthest(view.windows.pixels());
+    const std::size_t alpha = view.alpha();
+    parallel_ranges(farthest.size(), 4096, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t p = begin; p < end; ++p) farthest[p] = farthest_in(view, alpha, p);
+    });
+    return farthest;
+}
+
+// What a view knows of places in it.
+class Sight {
+public:
+    Sight(const Ldi &view, std::vector<float> values)
+        : display_(view.windows.display), grid_(view.windows.data), values_(std::move(values)) {}
+
+    // Nothing where the view does not look; 0 where it has no pixel there, as it shows nothing.
+    std::optional<float> at(const Imath::V2d &place) const {
+        if (!(std::abs(place.x) < 1e9 && std::abs(place.y) < 1e9)) return {};
+        const Imath::V2i pixel(int(std::floor(place.x)), int(std::floor(place.y)));
+        if (grid_.contains(pixel.x, pixel.y)) return values_[grid_.index(pixel.x, pixel.y)];
+        return display_.intersects(pixel) ? std::optional(0.0f) : std::nullopt;
+    }
+
+private:
+    Imath::Box2i display_;
+    Grid grid_;
+    std::vector<float> values_;
+};
+
+// 1 / z of the farthest thing in a pixel and in those around it.
+Sight farthest_around(const Ldi &view) {
+    return {view, least_around(farthest_in(view), Grid(view.windows.data), margin)};
+}
+
+// By how much 1 / z differs within reach.
+Sight relief_around(const Ldi &view) {
+    const Grid grid(view.windows.data);
+    std::vector<float> values = farthest_in(view), relief = least_around(values, grid, reach);
+    for (float &v : values) v = -v;
+    std::ranges::transform(least_around(values, grid, reach), relief, relief.begin(),
+                           [](float nearest, float farthest) { return -nearest - farthest; });
+    return {view, std::move(relief)};
+}
+
+// The first sample that covers half of a pixel; where there is none, the first of the next.
+std::uint64_t front_of(const Ldi &ldi, std::size_t alpha, std::size_t pixel) {
+    const SampleRange all = ldi.pixel(pixel);
+    std::uint64_t i = all.from;
+    while (i < all.to && !(alpha_at(ldi, alpha, i) >= half_covered)) ++i;
+    return i;
+}
+
+// Some of the pixels of an LDI.
+class Pixels {
+public:
+    explicit Pixels(const Ldi &ldi) : ldi_(ldi), alpha_(ldi.alpha()), in_(ldi.windows.pixels(), true) {}
+
+    // Keeps those of whose front sample that says so: keeps(sample, its place).
+    template <typename Keeps>
+    void keep(const Keeps &keeps) {
+        parallel_for(std::size_t(ldi_.windows.height()), [&](std::size_t row) {
+            const std::size_t width = std::size_t(ldi_.windows.width());
+            for (std::size_t p = row * width; p < (row + 1) * width; ++p)
+                in_[p] = in_[p] && keeps_front(p, keeps);
+        });
+    }
+    // visit(front sample), in order.
+    template <typename Visit>
+    void for_each(const Visit &visit) const {
+        for (std::size_t p = 0; p < in_.size(); ++p)
+            if (in_[p]) visit(front_of(ldi_, alpha_, p));
+    }
+
+private:
+    template <typename Keeps>
+    bool keeps_front(std::size_t pixel, const Keeps &keeps) const {
+        const std::uint64_t i = front_of(ldi_, alpha_, pixel);
+        if (i == ldi_.pixel(pixel).to) return false;
+        const MergedSample s = sample_at(ldi_, i);
+        return keeps(s, Imath::V2d(ldi_.windows.pixel(pixel)) +
+                            Imath::V2d(0.5 + double(s.dx), 0.5 + double(s.dy)));
+    }
+    const Ldi &ldi_;
+    std::size_t alpha_;
+    std::vector<char> in_;
+};
+
+} // namespace
+
+void find_solids(std::span<const PlacedView> views, double scale, Ldi &ldi) {
+    const double step = inverse_depth_step(scale, 1), thickness = solid_px * step;
+    const auto back = [&](const MergedSample &s) { return 1 / double(s.z) - thickness; };
+    Pixels solid(ldi);
+    {
+        const Sight relief = relief_around(*views[0].samples);
+        solid.keep([&](const MergedSample &s, const Imath::V2d &place) {
+            return s.optical == s.z && back(s) > thickness &&
+                   double(relief.at(place).value_or(0)) > relief_px * step;
+        });
+    }
+    for (const PlacedView &view : views) {
+        const Sight sight = farthest_around(*view.samples);
+        solid.keep([&](const MergedSample &s, const Imath::V2d &place) {
+            const std::optional<float> farthest = sight.at(view.mapping->in_view(place, back(s)));
+            return !farthest || double(*farthest) - back(s) >= nearer_px * step;
+        });
+    }
+    solid.for_each([&](std::uint64_t i) {
+        if (ldi.solid.empty()) ldi.solid.assign(ldi.samples(), 0);
+        ldi.solid[i] = float(thickness);
+    });
+}
+
+} // namespace sparselens

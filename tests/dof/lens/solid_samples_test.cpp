@@ -1,0 +1,103 @@
+// What is solid behind samples, as a lens point sees it: closed forms.
+#include "dof/lens/see_fixture.h"
+#include "dof/lens/solid_samples.h"
+
+#include <gtest/gtest.h>
+
+namespace sparselens {
+namespace {
+
+using Samples = std::vector<Sample>;
+
+const ThinLens &lens = TileFixture::lens;
+
+// So that the solid has a CoC that is greater by so much.
+Sample solid(Sample sample, double coc) {
+    sample.solid = coc / (lens.radius * lens.focal_px);
+    return sample;
+}
+
+// A sample of CoC -4 in a column, solid to -2, before a wall of that CoC or before nothing, all seen through the right rim of
+// the lens.
+struct SeenSolid {
+    TileFixture tile;
+    BlockedSamples solids = place_solids(tile.ldi, lens, tile.blocked.samples);
+
+    explicit SeenSolid(const std::optional<double> &wall, double thickness = 2, int column = 10)
+        : tile(
+              [&](int x, int) {
+                  Samples samples;
+                  if (x == column) samples.push_back(solid(opaque_at(-4), thickness));
+                  if (wall) samples.push_back(opaque_at(*wall));
+                  return samples;
+              },
+              {{1, 0, 0, 0, 1}}) {}
+
+    // In a row.
+    std::uint64_t seen_at(int x) const {
+        GatherScene scene = tile.scene();
+        scene.solids = solids;
+        TileTask task = tile.task();
+        task.solids = tile.blocks;
+        See see(scene, task);
+        return see.through(tile.points[0]).front[tile_cells::at(x, 7)];
+    }
+};
+
+TEST(SolidSamples, HideWhatLiesAsFarBehindThemAsTheyLieBehindTheirSample) {
+    const SeenSolid behind(1);
+    EXPECT_EQ(behind.seen_at(6), behind.tile.key(10, 7));
+    EXPECT_EQ(std::uint32_t(behind.seen_at(8)), std::uint32_t(behind.tile.key(10, 7)));
+    EXPECT_EQ(behind.seen_at(9), behind.tile.key(8, 7));
+    const SeenSolid before(-0.5);
+    EXPECT_EQ(before.seen_at(8), before.tile.key(8, 7)); // of CoC -0.5: from 7.5 on
+}
+
+TEST(SolidSamples, LeaveWhatIsEmptyEmpty) {
+    const SeenSolid left({}, 2, 5); // where no sky comes from, which has CoC 7.7
+    EXPECT_EQ(left.seen_at(1), left.tile.key(5, 7));
+    EXPECT_EQ(left.seen_at(3), 0u);
+    const SeenSolid right({}, 2, 20);
+    EXPECT_EQ(std::uint32_t(right.seen_at(18)), std::uint32_t(right.tile.key(20, 7)));
+}
+
+TEST(SolidSamples, ThatWouldHideNothingAreNone) {
+    EXPECT_EQ(SeenSolid(1).solids.count(), 64u);
+    EXPECT_EQ(SeenSolid(1, 6).solids.count(), 0u); // CoC 8 and more are behind infinity
+    EXPECT_EQ(SeenSolid(1, 0).solids.count(), 0u);
+}
+
+// The key's sample of the only solid; none.
+std::optional<std::uint64_t> shown(const std::function<Samples(int x, int y)> &samples_at) {
+    const TileFixture tile(samples_at, {});
+    const BlockedSamples solids = place_solids(tile.ldi, lens, tile.blocked.samples);
+    EXPECT_LE(solids.count(), 1u);
+    if (solids.count() == 0) return {};
+    return tile.blocked.samples.source[std::uint32_t(solids.key[0])];
+}
+
+TEST(SolidSamples, OfEdgesShowTheNearestOpaqueSampleAround) {
+    const auto edge = [](int x, int y, double beside, double farther) {
+        if (x == 20 && y == 20) return Samples{solid(partial_at(-4, .7f), 2), opaque_at(5)};
+        if (x == 21 && y == 21) return Samples{opaque_at(beside)};
+        if (x == 19 && y == 20) return Samples{opaque_at(farther)};
+        return Samples{};
+    };
+    // The samples in order: 19, 20 and its own opaque one in row 20, then that of row 21.
+    EXPECT_EQ(shown([&](int x, int y) { return edge(x, y, -3.5, -3); }), 3u);
+    EXPECT_EQ(shown([&](int x, int y) { return edge(x, y, -6, -3); }), 0u);
+    EXPECT_EQ(shown([&](int x, int y) { return edge(x, y, -1.5, 0); }), std::nullopt);
+}
+
+TEST(SolidSamples, MirrorsAreNone) {
+    const auto mirror = [](int x, int y) {
+        Sample sample = solid(opaque_at(-4), 2);
+        if (x != 3 || y != 4) return Samples{};
+        sample.optical = depth_of(lens, 3);
+        return Samples{sample};
+    };
+    EXPECT_EQ(shown(mirror), std::nullopt);
+}
+
+} // namespace
+} // namespace sparselens
