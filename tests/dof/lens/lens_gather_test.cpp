@@ -381,7 +381,9 @@ TEST(LensGather, TakesTheSmallestPictures) {
     const Ldi empty =
         make_ldi(windows_of_size(100, 3), rgba_channels(), [](int, int) { return std::vector<Sample>{}; });
     for (const float v : gather(empty, lens).values) EXPECT_EQ(v, 0);
-    const Ldi none{windows_of_size(5, 5), {}, std::vector<std::uint64_t>(26), {}, {}, {}, {}, {}, {}, {}};
+    Ldi none;
+    none.windows = windows_of_size(5, 5);
+    none.begin.resize(26);
     EXPECT_TRUE(gather(none, lens).values.empty());
 }
 
