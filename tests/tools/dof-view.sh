@@ -24,6 +24,7 @@ agree --method selective --layers 3
 agree --channels R,G,B,A --device cpu
 agree --blades 5 --blade-curvature 0.3 --blade-rotation 20 --squeeze 1.5 --spherical 0.5 --cat-eye 1 --cat-eye-darkening
 agree --axial-chromatic 1 --axial-chromatic-type blue-yellow --field-curvature 0.2 --breathing 1 --tilt -10,5
+agree --astigmatism 0.3
 agree --lens "$source_dir/share/lenses/hexagon.json" --highlight-gain 3 --highlight-threshold 0.5 --highlight-knee 0.5
 agree --aperture "$source_dir/share/lenses/mirror.exr"
 agree --colorconfig "$source_dir/share/ocio/config.ocio" --colorspace sRGB

@@ -20,12 +20,12 @@ public:
     Answer begin(Studio &studio, const std::string &page, const std::string &answer) {
         Answer asked = std::async(std::launch::async, [&studio, page, answer, this] {
             return studio.make(page, [this, answer](Progress &progress) {
-                begun.set_value();
                 const auto latest = std::chrono::steady_clock::now() + std::chrono::seconds(10);
                 for (int percent = 0; !free && std::chrono::steady_clock::now() < latest;
                      percent = std::min(percent + 1, 50)) {
                     progress.start("holding", 100);
                     progress.advance(std::size_t(percent));
+                    if (percent == 0) begun.set_value(); // its state is known now
                     progress.may_end();
                     std::this_thread::sleep_for(std::chrono::milliseconds(1));
                 }
