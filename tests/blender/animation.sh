@@ -35,12 +35,13 @@ for kind in keys path track; do
     unlike $kind/truth.0001.exr $kind/truth.0006.exr 30 # it did move
 done
 
-# A transparent film: half of the partly covered pixels have the depth of the sky.
+# A transparent film: half of the partly covered pixels have the depth of the sky. Edges in focus over nothing cost 2 dB against
+# the still (38.4 with Blender 3.4, 39.7 from 4.3 on); at infinity they would cost 7.
 variant still film
 rendered film 1
 film=$(error film 1)
 echo "transparent film: $film dB"
-better "$film" 41 0 "transparent film"
+better "$film" 38 0 "transparent film"
 
 # The recipe of docs/comp.md in place of holdouts: two elements, rendered apart, each held out by the other, add up to the whole.
 for part in ball others; do
