@@ -130,7 +130,7 @@ Seen seen(const std::array<Plane, 3> &rgb, const Grid &grid, const Kernels &kern
     each_row(grid, [&](std::size_t i) {
         const Imath::V3d value = flip_opponent({rgb[0][i], rgb[1][i], rgb[2][i]});
         luma[i] = float((value.x + 16) / 116);
-        for (unsigned c = 0; c < 3; ++c) opponent[c][i] = float(value[c]);
+        for (int c = 0; c < 3; ++c) opponent[std::size_t(c)][i] = float(value[c]);
     });
     const Filter filter(grid);
     opponent[0] = filter(opponent[0], kernels.luma, kernels.luma);
@@ -139,9 +139,9 @@ Seen seen(const std::array<Plane, 3> &rgb, const Grid &grid, const Kernels &kern
     opponent[2] = filter(opponent[2], kernels.blue_yellow, kernels.blue_yellow);
     each_row(grid, [&](std::size_t i) {
         Imath::V3d value = flip_rgb_of_opponent({opponent[0][i], opponent[1][i], opponent[2][i] + wide[i]});
-        for (unsigned c = 0; c < 3; ++c) value[c] = std::clamp(value[c], 0.0, 1.0);
+        for (int c = 0; c < 3; ++c) value[c] = std::clamp(value[c], 0.0, 1.0);
         value = flip_lab(value);
-        for (unsigned c = 0; c < 3; ++c) opponent[c][i] = float(value[c]);
+        for (int c = 0; c < 3; ++c) opponent[std::size_t(c)][i] = float(value[c]);
     });
     const auto length = [&](const Kernel &derivative) {
         Plane x = filter(luma, derivative, kernels.smooth);
