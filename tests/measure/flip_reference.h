@@ -40,12 +40,12 @@ inline Imath::V3d flip_lab_plainly(const PlainRgb &picture, int x, int y) {
             if (channel == 1) return flip_red_green(squared);
             return flip_blue_yellow(squared) + flip_blue_yellow_wide(squared);
         };
-        seen[unsigned(channel)] = flip_filtered_plainly(x, y, flip_filter_reach(), weight, [&](int i, int j) {
-            return flip_opponent(picture.at(i, j))[unsigned(channel)];
+        seen[channel] = flip_filtered_plainly(x, y, flip_filter_reach(), weight, [&](int i, int j) {
+            return flip_opponent(picture.at(i, j))[channel];
         });
     }
     Imath::V3d rgb = flip_rgb_of_opponent(seen);
-    for (unsigned c = 0; c < 3; ++c) rgb[c] = std::clamp(rgb[c], 0.0, 1.0);
+    for (int c = 0; c < 3; ++c) rgb[c] = std::clamp(rgb[c], 0.0, 1.0);
     return flip_lab(rgb);
 }
 

@@ -78,7 +78,7 @@ TEST_F(LuminanceChroma, KeepsTheOtherChannels) {
         by(width * height / 4, half((rgb[2] - luminance) / luminance));
     std::vector<float> z(width * height);
     for (std::size_t i = 0; i < z.size(); ++i) z[i] = float(i + 1);
-    for (const std::size_t parts : {1, 2}) {
+    for (const std::size_t parts : {1u, 2u}) {
         std::vector<Imf::Header> headers(parts, Imf::Header(width, height));
         std::vector<Imf::FrameBuffer> pixels(parts);
         for (std::size_t part = 0; part < parts; ++part) {
