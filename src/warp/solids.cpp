@@ -31,25 +31,26 @@ float farthest_in(const Ldi &view, std::size_t alpha, std::size_t pixel) {
     return lets_through(left) ? 0 : farthest;
 }
 
-// The least of `count` values, each `step` after the other, and of those up to `radius` before and behind it.
-void least_along(const float *from, std::size_t step, std::size_t count, std::size_t radius, float *to) {
-    for (std::size_t i = 0; i < count; ++i) {
-        const std::size_t begin = i < radius ? 0 : i - radius, end = std::min(i + radius + 1, count);
-        float least = from[begin * step];
-        for (std::size_t n = begin + 1; n < end; ++n) least = std::min(least, from[n * step]);
-        to[i * step] = least;
-    }
-}
-
-// The least in a square around each pixel.
+// The least in a square around each pixel: along rows, then across them, a row at a time.
 std::vector<float> least_around(const std::vector<float> &values, const Grid &grid, int radius) {
     const auto width = std::size_t(grid.width()), height = std::size_t(grid.height()),
                r = std::size_t(radius);
-    std::vector<float> along_rows(values.size()), least(values.size());
-    parallel_for(
-        height, [&](std::size_t y) { least_along(&values[y * width], 1, width, r, &along_rows[y * width]); });
-    parallel_ranges(width, 64, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t x = begin; x < end; ++x) least_along(&along_rows[x], width, height, r, &least[x]);
+    std::vector<float> along_rows = values, least(values.size());
+    const auto lower = [](float *to, const float *by, std::size_t count) {
+        for (std::size_t x = 0; x < count; ++x) to[x] = std::min(to[x], by[x]);
+    };
+    parallel_for(height, [&](std::size_t y) {
+        const float *from = &values[y * width];
+        float *to = &along_rows[y * width];
+        for (std::size_t n = 1; n <= std::min(r, width - 1); ++n) {
+            lower(to, from + n, width - n);
+            lower(to + n, from, width - n);
+        }
+    });
+    parallel_for(height, [&](std::size_t y) {
+        std::copy_n(&along_rows[y * width], width, &least[y * width]);
+        for (std::size_t n = y - std::min(r, y); n <= std::min(y + r, height - 1); ++n)
+            lower(&least[y * width], &along_rows[n * width], width);
     });
     return least;
 }
@@ -85,17 +86,17 @@ private:
 };
 
 // 1 / z of the farthest thing in a pixel and in those around it.
-Sight farthest_around(const Ldi &view) {
-    return {view, least_around(farthest_in(view), Grid(view.windows.data), margin)};
+Sight farthest_around(const Ldi &view, const std::vector<float> &farthest) {
+    return {view, least_around(farthest, Grid(view.windows.data), margin)};
 }
 
 // By how much 1 / z differs within reach.
-Sight relief_around(const Ldi &view) {
+Sight relief_around(const Ldi &view, std::vector<float> farthest) {
     const Grid grid(view.windows.data);
-    std::vector<float> values = farthest_in(view), relief = least_around(values, grid, reach);
-    for (float &v : values) v = -v;
-    std::ranges::transform(least_around(values, grid, reach), relief, relief.begin(),
-                           [](float nearest, float farthest) { return -nearest - farthest; });
+    std::vector<float> relief = least_around(farthest, grid, reach);
+    for (float &v : farthest) v = -v;
+    std::ranges::transform(least_around(farthest, grid, reach), relief, relief.begin(),
+                           [](float nearest, float least) { return -nearest - least; });
     return {view, std::move(relief)};
 }
 
@@ -148,15 +149,16 @@ void find_solids(std::span<const PlacedView> views, double scale, Ldi &ldi) {
     const double step = inverse_depth_step(scale, 1), thickness = solid_px * step;
     const auto back = [&](const MergedSample &s) { return 1 / double(s.z) - thickness; };
     Pixels solid(ldi);
-    {
-        const Sight relief = relief_around(*views[0].samples);
-        solid.keep([&](const MergedSample &s, const Imath::V2d &place) {
-            return s.optical == s.z && back(s) > thickness &&
-                   double(relief.at(place).value_or(0)) > relief_px * step;
-        });
-    }
     for (const PlacedView &view : views) {
-        const Sight sight = farthest_around(*view.samples);
+        std::vector<float> farthest_seen = farthest_in(*view.samples);
+        const Sight sight = farthest_around(*view.samples, farthest_seen);
+        if (&view == &views[0]) { // the centre, where few pixels are kept
+            const Sight relief = relief_around(*view.samples, std::move(farthest_seen));
+            solid.keep([&](const MergedSample &s, const Imath::V2d &place) {
+                return s.optical == s.z && back(s) > thickness &&
+                       double(relief.at(place).value_or(0)) > relief_px * step;
+            });
+        }
         solid.keep([&](const MergedSample &s, const Imath::V2d &place) {
             const std::optional<float> farthest = sight.at(view.mapping->in_view(place, back(s)));
             return !farthest || double(*farthest) - back(s) >= nearer_px * step;
