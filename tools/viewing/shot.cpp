@@ -19,10 +19,6 @@ namespace {
 // The first of several is the one that a page uses; the others were tried on the way to it.
 constexpr std::size_t most_small = 2;
 
-const LensFile looks_of(const GatherCommand &options, const Camera &camera) {
-    return read_looks(options.looks, camera.fstop);
-}
-
 // What is shown of it.
 Image rgba_of(const Image &image) {
     std::vector<Channel> channels;
@@ -86,7 +82,7 @@ TakenPicture Shot::taken(const GatherCommand &options, const ToolContext &tool, 
     } else {
         frame = gather_windows(options.windows, in(), lens);
     }
-    const LensFile given_looks = looks_of(options, out.camera);
+    const LensFile given_looks = read_looks(options.looks, out.camera.fstop);
     Imf::Header header = in().header;
     LensLooks looks;
     if (options.picture.method == &gather_methods().front())
