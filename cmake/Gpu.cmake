@@ -11,10 +11,6 @@ else()
 endif()
 sparselens_found_option(SPARSELENS_GPU "Build the kernels for GPUs (needs the headers of Vulkan, glslc and spirv-val)" ${gpu_found}
     "the kernels for GPUs (--device gpu)" "headers of Vulkan, glslc or spirv-val (Debian: libvulkan-dev, glslc, spirv-tools)")
-if(SPARSELENS_GPU AND NOT gpu_found)
-    message(FATAL_ERROR "SPARSELENS_GPU needs the headers of Vulkan, glslc and spirv-val (Debian: libvulkan-dev, glslc, "
-        "spirv-tools), and not all were found. Install them, or configure with -DSPARSELENS_GPU=OFF.")
-endif()
 
 # The headers of src/kernels as GLSL: `#include "kernels/NAME.h"` in shaders.
 function(sparselens_kernel_headers)

@@ -12,10 +12,6 @@ else()
 endif()
 sparselens_found_option(SPARSELENS_PYTHON "Build the Python module (needs pybind11 2.10 and Python 3.9)" ${python_can_be_built}
     "the Python module" "pybind11 2.10 or Python 3.9 (Debian: pybind11-dev, python3-dev)")
-if(SPARSELENS_PYTHON AND NOT python_can_be_built)
-    message(FATAL_ERROR "SPARSELENS_PYTHON needs pybind11 (Debian: pybind11-dev) and Python (Debian: python3-dev), which "
-        "were not found. Install them, or configure with -DSPARSELENS_PYTHON=OFF.")
-endif()
 if(NOT SPARSELENS_PYTHON)
     message(STATUS "The Python module is left out (SPARSELENS_PYTHON)")
     return()
