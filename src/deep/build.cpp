@@ -1,8 +1,8 @@
 #include "deep/build.h"
 
 #include "base/coverage.h"
-#include "base/matte.h"
 #include "base/parallel.h"
+#include "deep/merge_values.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,17 +10,6 @@
 #include <utility>
 
 namespace sparselens {
-
-namespace {
-// Of the last sample of `out`.
-void unite_mattes(Ldi &out, const Ldi &from, std::span<const Term> terms) {
-    const std::vector<Matte> mattes = find_mattes(from.channels);
-    MatteSum sum(mattes);
-    for (const Term &term : terms)
-        sum.add(term.coefficient, [&](std::size_t k) { return from.values[k][term.index]; });
-    sum.take([&](std::size_t k, float value) { out.values[k].back() = value; });
-}
-} // namespace
 
 MergedSample sample_at(const Ldi &ldi, std::uint64_t i) {
     const auto or_else = [i](const std::vector<float> &values, float absent) {
@@ -44,17 +33,8 @@ void append(Ldi &out, const Ldi &from, const MergedSample &sample) {
     if (!from.weight.empty()) out.weight.push_back(sample.weight);
     if (!from.optical.empty()) out.optical.push_back(sample.optical);
     if (!from.solid.empty()) out.solid.push_back(sample.solid);
-    const bool unchanged = sample.terms.size() == 1 && sample.terms[0].coefficient == 1;
-    bool mattes = false;
-    for (std::size_t k = 0; k < from.values.size(); ++k) {
-        const bool copied = unchanged || holds_ids(from.channels[k]);
-        mattes = mattes || (is_in_matte(from.channels[k]) && !unchanged);
-        double sum = 0; // many small coefficients: float would lose the small ones
-        if (!copied)
-            for (const Term &term : sample.terms) sum += term.coefficient * from.values[k][term.index];
-        out.values[k].push_back(copied ? from.values[k][sample.terms[0].index] : float(sum));
-    }
-    if (mattes) unite_mattes(out, from, sample.terms);
+    merge_values(out, from.channels, sample.terms,
+                 [&](std::size_t k, std::uint64_t i) { return from.values[k][i]; });
     ++out.begin.back();
 }
 
@@ -171,29 +151,6 @@ void make_moves(std::vector<float> &array, std::size_t k, const std::vector<Move
 }
 
 } // namespace
-
-Ldi build_changed_pixels(const Ldi &like, const std::function<bool(std::size_t)> &changes,
-                         const std::function<void(std::size_t, Ldi &)> &fill) {
-    const auto width = std::size_t(like.windows.width());
-    std::vector<ChangedRow> rows(std::size_t(like.windows.height()));
-    parallel_for(rows.size(),
-                 [&](std::size_t y) { rows[y] = changed_row(like, y * width, width, changes, fill); });
-    Ldi result = empty_like(like);
-    result.begin.assign(like.begin.size(), 0);
-    std::vector<Move> moves; // one after the other, from the first sample to the last
-    for (std::size_t y = 0; y < rows.size(); ++y) list_moves(like, rows[y], y * width, result.begin, moves);
-    parallel_for(arrays_beside_values + like.values.size(), [&](std::size_t k) {
-        if (array_of(like, k).empty()) return;
-        std::vector<float> &to = array_of(result, k);
-        to.reserve(result.begin.back());
-        for (const Move &move : moves) {
-            const auto from =
-                array_of(move.from_row ? *move.from_row : like, k).begin() + std::ptrdiff_t(move.from);
-            to.insert(to.end(), from, from + std::ptrdiff_t(move.count));
-        }
-    });
-    return result;
-}
 
 void rebuild_pixels(Ldi &ldi, const std::function<bool(std::size_t)> &changes,
                     const std::function<void(std::size_t, Ldi &)> &fill) {

@@ -37,12 +37,7 @@ Ldi empty_like(const Ldi &like);
 // `fill(pixel, out)` appends the samples of each pixel to `out`; rows run in parallel, each to its own piece.
 Ldi build_by_pixels(const Ldi &like, const std::function<void(std::size_t pixel, Ldi &out)> &fill);
 
-// The same where most pixels stay as they are: `fill` is asked for those that `changes(pixel)` says, and the others
-// are copied.
-Ldi build_changed_pixels(const Ldi &like, const std::function<bool(std::size_t pixel)> &changes,
-                         const std::function<void(std::size_t pixel, Ldi &out)> &fill);
-
-// The same in place, of which the memory is that of a few rows: for the pixels that `changes(pixel)` says `fill` gives the
+// The same in place, where most pixels stay as they are, in the memory of a few rows: for the pixels that `changes(pixel)` says `fill` gives the
 // samples, never more than the pixel has; the others keep theirs. Both see the LDI's samples of that pixel as they were.
 void rebuild_pixels(Ldi &ldi, const std::function<bool(std::size_t pixel)> &changes,
                     const std::function<void(std::size_t pixel, Ldi &out)> &fill);

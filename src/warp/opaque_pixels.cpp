@@ -16,7 +16,7 @@ namespace {
 
 // A share of a sample of a view.
 struct Part {
-    const Ldi *view;
+    const ViewSamples *view;
     std::uint64_t sample;
     double share;
 };
@@ -31,7 +31,7 @@ public:
         if (!lets_light_through(ldi_, pixel)) return;
         const auto last = last_sample(pixel);
         const Imath::V2i at = ldi_.windows.pixel(pixel);
-        const Ldi &centre = views_.samples(0);
+        const ViewSamples &centre = views_.samples(0);
         const bool in_frame = centre.windows.data.intersects(at);
         if (!last || (in_frame && lets_light_through(centre, centre.windows.index(at.x, at.y)))) return;
         std::vector<Part> past;
@@ -43,9 +43,10 @@ public:
     }
 
 private:
-    bool lets_light_through(const Ldi &ldi, std::size_t pixel) const {
+    template <typename Samples>
+    bool lets_light_through(const Samples &in, std::size_t pixel) const {
         double left = 1;
-        for (const std::uint64_t i : ldi.pixel(pixel)) left *= 1 - double(alpha_at(ldi, alpha_, i));
+        for (const std::uint64_t i : in.pixel(pixel)) left *= 1 - double(alpha_at(in, alpha_, i));
         return lets_through(left);
     }
 
@@ -63,7 +64,7 @@ private:
                                pixel.y + 0.5 + double(ldi_.dy[sample]));
         const Votes votes =
             votes_on(views_, place, 1 / double(ldi_.z[sample]), tolerance_,
-                     [&](const Ldi &view, std::uint64_t i, double covers) {
+                     [&](const ViewSamples &view, std::uint64_t i, double covers) {
                          past.push_back({&view, i, covers / double(alpha_at(view, alpha_, i))});
                      });
         const double left = 1 - double(ldi_.values[alpha_][sample]);
@@ -76,11 +77,11 @@ private:
         MatteSum pairs(mattes_);
         pairs.add(factor, [&](std::size_t k) { return ldi_.values[k][sample]; });
         for (const Part &part : parts)
-            pairs.add(part.share, [&](std::size_t k) { return part.view->values[k][part.sample]; });
+            pairs.add(part.share, [&](std::size_t k) { return part.view->value(k, part.sample); });
         for (std::size_t k = 0; k < ldi_.channels.size(); ++k) {
             if (holds_ids(ldi_.channels[k])) continue;
             double sum = factor * double(ldi_.values[k][sample]);
-            for (const Part &part : parts) sum += part.share * double(part.view->values[k][part.sample]);
+            for (const Part &part : parts) sum += part.share * double(part.view->value(k, part.sample));
             ldi_.values[k][sample] = float(sum);
         }
         pairs.take([&](std::size_t k, float value) { ldi_.values[k][sample] = value; });

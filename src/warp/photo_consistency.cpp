@@ -10,7 +10,7 @@ namespace {
 
 class CentreColours {
 public:
-    explicit CentreColours(const Ldi &centre) : centre_(centre), grid_(centre.windows.grid()) {
+    explicit CentreColours(const ViewSamples &centre) : centre_(centre), grid_(centre.windows.grid()) {
         for (const std::size_t channel : find_rgb(centre.channels))
             if (channel != npos) channels_.push_back(channel);
     }
@@ -43,10 +43,10 @@ private:
     }
     bool single(std::size_t i) const { return centre_.pixel(i).size() == 1; }
     double value_at(std::size_t i, std::size_t channel) const {
-        return kernels::bounded(double(centre_.values[channel][centre_.pixel(i).front()]));
+        return kernels::bounded(double(centre_.value(channel, centre_.pixel(i).front())));
     }
 
-    const Ldi &centre_;
+    const ViewSamples &centre_;
     Grid grid_;
     std::vector<std::size_t> channels_;
 };

@@ -8,15 +8,15 @@
 
 namespace sparselens {
 
-Reprojection::Reprojection(const Ldi &view, const ViewMapping &mapping)
+Reprojection::Reprojection(const ViewSamples &view, const ViewMapping &mapping)
     : view_(view), mapping_(mapping), reach_(std::size_t(view.windows.height())) {
     const Imath::Box2i &data = view.windows.data;
     parallel_for(reach_.size(), [&](std::size_t row) {
         double nearest = std::numeric_limits<double>::infinity();
         const int row_y = data.min.y + int(row);
-        const SampleRange of_row{view_.pixel(view_.windows.index(data.min.x, row_y)).from,
-                                 view_.pixel(view_.windows.index(data.max.x, row_y)).to};
-        for (const std::uint64_t i : of_row) nearest = std::min(nearest, double(view_.z[i]));
+        for (int x = data.min.x; x <= data.max.x; ++x)
+            for (const std::uint64_t i : view_.pixel(view_.windows.index(x, row_y)))
+                nearest = std::min(nearest, double(view_.z(i)));
         // Places are linear in the column and in 1 / z: the extremes lie at the ends of both.
         const double y = row_y + 0.5;
         for (const double x : {data.min.x + 0.5, data.max.x + 0.5})
@@ -45,7 +45,7 @@ void Reprojection::append_rows(int first_row, int last_row, std::vector<Reprojec
             const Imath::V2d q(from_x + 0.5, from_y + 0.5);
             const Imath::V2d far = mapping_.at_infinity(q), parallax = mapping_.parallax(q);
             for (const std::uint64_t i : view_.pixel(pixel)) {
-                const double inverse_z = 1 / double(view_.z[i]);
+                const double inverse_z = 1 / double(view_.z(i));
                 const double y = far.y + parallax.y * inverse_z, cell_y = std::floor(y);
                 if (!(cell_y >= first_row && cell_y <= last_row)) continue;
                 const double x = far.x + parallax.x * inverse_z, cell_x = std::floor(x);

@@ -1,7 +1,7 @@
 // Where the pixels of a rim view lie in the centre view.
 #pragma once
 
-#include "deep/ldi.h"
+#include "deep/view_samples.h"
 #include "view/view_mapping.h"
 
 #include <cstdint>
@@ -15,13 +15,13 @@ struct ReprojectedSample {
     int x, y;             // the pixel of the centre view, EXR coordinates
     float dx, dy;         // offset from that pixel's centre, [-1/2, 1/2], y down
     float inverse_z;      // 1 / planar depth
-    std::uint32_t source; // index into the view's samples
+    std::uint32_t source; // of the view's samples
 };
 
 class Reprojection {
 public:
     // The samples of the view lie at the pixel centres, at depths above 0. The view must outlive the reprojection.
-    Reprojection(const Ldi &view, const ViewMapping &mapping);
+    Reprojection(const ViewSamples &view, const ViewMapping &mapping);
 
     // A box that contains all pixels into which samples fall.
     Imath::Box2i reach() const;
@@ -31,13 +31,13 @@ public:
         return !(reach_[row].max.y < first_row || reach_[row].min.y >= last_row + 1);
     }
 
-    // Appends every sample that falls into the rows [first_row, last_row], in source order.
+    // Appends every sample that falls into the rows [first_row, last_row], pixel by pixel of the view.
     void append_rows(int first_row, int last_row, std::vector<ReprojectedSample> &out) const;
 
     const ViewMapping &mapping() const { return mapping_; }
 
 private:
-    const Ldi &view_;
+    const ViewSamples &view_;
     ViewMapping mapping_;
     std::vector<Imath::Box2d> reach_; // of each source row: a box around the positions of its samples
 };

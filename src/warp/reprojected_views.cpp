@@ -3,7 +3,6 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "lens/perceptive_depth.h"
-#include "warp/deepen.h"
 #include "warp/lamps/lamp_depths.h"
 #include "warp/silhouettes.h"
 
@@ -56,16 +55,15 @@ ReprojectedViews::ReprojectedViews(std::span<const View> views, double focal_px,
     for (const View *view : ordered)
         mappings.emplace_back(view->position, focal_px, views[0].image.windows, view->framing,
                               views[0].framing.principal_point);
-    std::vector<Ldi> samples(ordered.size());
-    parallel_for(ordered.size(),
-                 [&](std::size_t v) { samples[v] = deepen(*ordered[v], views[0].image.channels); });
+    std::vector<ViewSamples> samples;
+    for (const View *view : ordered) samples.emplace_back(*view, views[0].image.channels);
     const bool separate = jump > 0 && scale > 0;
     if (separate && samples.size() > 1)
         settle_lamp_depths(samples, mappings, inverse_depth_step(scale, jump));
     sources_.resize(ordered.size());
     for (std::size_t v = 0; v < ordered.size();
          ++v) { // one after the other, each by all threads, in less memory
-        if (separate) samples[v] = separate_silhouettes(samples[v], scale, jump);
+        if (separate) separate_silhouettes(samples[v], scale, jump);
         sources_[v] = std::make_unique<Source>(std::move(samples[v]), mappings[v]);
     }
 }
@@ -95,7 +93,7 @@ ReprojectedRows ReprojectedViews::place(const Imath::Box2i &data, int first_row,
         for (; i < end_of_view[v]; ++i) {
             const ReprojectedSample &s = rows.by_view[i];
             rows.samples[next[pixel_of(s)]++] = {
-                s, v, 0, samples(v).weight[s.source] * kernels::nearness(double(s.dx), double(s.dy))};
+                s, v, 0, samples(v).weight(s.source) * kernels::nearness(double(s.dx), double(s.dy))};
         }
     return rows;
 }

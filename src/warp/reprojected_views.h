@@ -38,15 +38,15 @@ public:
     // views[0] is the centre, whose channels every view must have. The order of the others does not matter. `focal_px`
     // is F and `scale` is R F, see WarpOptions. Pixels on silhouettes become two samples where perceptive depth jumps
     // by `jump` pixels (silhouettes.h); with a jump of 0 they stay whole. Throws Error where display windows differ or
-    // a view lacks a channel of the centre.
+    // a view lacks a channel of the centre. The views must outlive this.
     ReprojectedViews(std::span<const View> views, double focal_px, double scale, double jump);
 
     std::size_t size() const { return sources_.size(); }
-    const Ldi &samples(std::size_t view) const { return sources_[view]->ldi; }
+    const ViewSamples &samples(std::size_t view) const { return sources_[view]->samples; }
     const Reprojection &reprojection(std::size_t view) const { return sources_[view]->reprojection; }
 
     float value(const ViewSample &s, std::size_t channel) const {
-        return samples(s.view).values[channel][s.source];
+        return samples(s.view).value(channel, s.source);
     }
 
     // The samples that fall into the rows [first_row, last_row] of the data window. Takes the memory of rows that are no
@@ -56,11 +56,11 @@ public:
 
 private:
     struct Source {
-        Ldi ldi;
-        Reprojection reprojection; // refers to ldi
+        ViewSamples samples;
+        Reprojection reprojection; // refers to the samples
 
-        Source(Ldi samples, const ViewMapping &mapping)
-            : ldi(std::move(samples)), reprojection(ldi, mapping) {}
+        Source(ViewSamples of_view, const ViewMapping &mapping)
+            : samples(std::move(of_view)), reprojection(samples, mapping) {}
     };
     std::vector<std::unique_ptr<Source>> sources_; // the centre, then the rim views in a canonical order
 };

@@ -1,7 +1,6 @@
 #include "warp/silhouettes.h"
 
 #include "base/parallel.h"
-#include "deep/build.h"
 #include "deep/unmixing.h"
 #include "lens/perceptive_depth.h"
 #include "warp/mixed/matte_shares.h"
@@ -33,9 +32,9 @@ struct Estimate {
 
 class Separation {
 public:
-    Separation(const Ldi &view, double scale, double jump);
+    Separation(const ViewSamples &view, double scale, double jump);
     bool may_be_mixed(std::size_t pixel) const;
-    void emit_pixel(std::size_t pixel, Ldi &out) const; // of one that may be mixed
+    void emit_pixel(std::size_t pixel, Ldi &out) const; // of one that may be mixed, if it is
 
 private:
     enum Side : unsigned char { inside = 0, has_nearer = 1, has_farther = 2 };
@@ -62,19 +61,19 @@ private:
         return !(std::abs(depth_of(i) - depth) >= jump_ || (sides_[i] & has_nearer)) && is_opaque(i);
     }
 
-    const Ldi &view_;
+    const ViewSamples &view_;
     SamplesAround samples_;
     double scale_, jump_;
     std::vector<Matte> mattes_;
-    std::vector<unsigned char> sides_; // of the first sample of each pixel
+    std::vector<unsigned char> sides_; // of each pixel
 };
 
-Separation::Separation(const Ldi &view, double scale, double jump)
+Separation::Separation(const ViewSamples &view, double scale, double jump)
     : view_(view), samples_(view, scale), scale_(scale), jump_(jump), mattes_(find_mattes(view.channels)) {
-    sides_.assign(view.samples(), inside);
+    sides_.assign(view.windows.pixels(), inside);
     if (!samples_.have_colours()) return;
     const Grid &grid = samples_.grid();
-    const bool full = view.samples() == grid.size();
+    const bool full = view.count(0, std::size_t(grid.height())) == grid.size();
     parallel_for(std::size_t(grid.height()), [&](std::size_t y) {
         if (full) return find_sides_of_full_row(int(y));
         for (int x = 0; x < grid.width(); ++x)
@@ -206,12 +205,10 @@ std::optional<Mixture> Separation::with_one_pixel(int x, int y, double near_dept
 }
 
 void Separation::emit_mixture(std::uint64_t i, const Mixture &mixture, Ldi &out) const {
-    MergedSample sample = sample_at(view_, i);
+    float weight = 1;
     const auto emit = [&](double depth, std::span<const Term> terms) {
-        sample.z = sample.z_back = float(depth_of_perceptive(scale_, depth));
-        sample.terms = terms;
-        append(out, view_, sample);
-        sample.weight = estimate_weight; // of what follows, behind
+        append(out, view_, float(depth_of_perceptive(scale_, depth)), weight, terms);
+        weight = estimate_weight; // of what follows, behind
     };
     const double share = mixture.share;
     const std::vector<Term> whole{{i, 1}};
@@ -245,17 +242,15 @@ bool Separation::may_be_mixed(std::size_t pixel) const {
 void Separation::emit_pixel(std::size_t pixel, Ldi &out) const {
     const std::uint64_t own = view_.pixel(pixel).front();
     const Imath::V2i at = samples_.grid().pixel(pixel);
-    if (const auto mixture = find(at.x, at.y)) return emit_mixture(own, *mixture, out);
-    append(out, view_, own);
+    if (const auto mixture = find(at.x, at.y)) emit_mixture(own, *mixture, out);
 }
 
 } // namespace
 
-Ldi separate_silhouettes(const Ldi &view, double scale, double jump) {
+void separate_silhouettes(ViewSamples &view, double scale, double jump) {
     const Separation separation(view, scale, jump);
-    return build_changed_pixels(
-        view, [&](std::size_t pixel) { return separation.may_be_mixed(pixel); },
-        [&](std::size_t pixel, Ldi &out) { separation.emit_pixel(pixel, out); });
+    view.replace([&](std::size_t pixel) { return separation.may_be_mixed(pixel); },
+                 [&](std::size_t pixel, Ldi &out) { separation.emit_pixel(pixel, out); });
 }
 
 } // namespace sparselens

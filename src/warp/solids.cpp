@@ -21,12 +21,12 @@ constexpr int reach =
     int(solid_px) + margin; // pixels: so far a lens point moves what is solid past what is seen of it
 
 // 1 / z of the farthest thing that a pixel shows; 0: it lets light through to infinity.
-float farthest_in(const Ldi &view, std::size_t alpha, std::size_t pixel) {
+float farthest_in(const ViewSamples &view, std::size_t alpha, std::size_t pixel) {
     double left = 1;
     float farthest = 0;
     for (const std::uint64_t i : view.pixel(pixel)) {
         left *= 1 - double(alpha_at(view, alpha, i));
-        farthest = 1 / view.z[i];
+        farthest = 1 / view.z(i);
     }
     return lets_through(left) ? 0 : farthest;
 }
@@ -56,7 +56,7 @@ std::vector<float> least_around(const std::vector<float> &values, const Grid &gr
 }
 
 // Of each pixel of a view.
-std::vector<float> farthest_in(const Ldi &view) {
+std::vector<float> farthest_in(const ViewSamples &view) {
     std::vector<float> farthest(view.windows.pixels());
     const std::size_t alpha = view.alpha();
     parallel_ranges(farthest.size(), 4096, [&](std::size_t begin, std::size_t end) {
@@ -68,7 +68,7 @@ std::vector<float> farthest_in(const Ldi &view) {
 // What a view knows of places in it.
 class Sight {
 public:
-    Sight(const Ldi &view, std::vector<float> values)
+    Sight(const ViewSamples &view, std::vector<float> values)
         : display_(view.windows.display), grid_(view.windows.data), values_(std::move(values)) {}
 
     // Nothing where the view does not look; 0 where it has no pixel there, as it shows nothing.
@@ -86,12 +86,12 @@ private:
 };
 
 // 1 / z of the farthest thing in a pixel and in those around it.
-Sight farthest_around(const Ldi &view, const std::vector<float> &farthest) {
+Sight farthest_around(const ViewSamples &view, const std::vector<float> &farthest) {
     return {view, least_around(farthest, Grid(view.windows.data), margin)};
 }
 
 // By how much 1 / z differs within reach.
-Sight relief_around(const Ldi &view, std::vector<float> farthest) {
+Sight relief_around(const ViewSamples &view, std::vector<float> farthest) {
     const Grid grid(view.windows.data);
     std::vector<float> relief = least_around(farthest, grid, reach);
     for (float &v : farthest) v = -v;

@@ -1,6 +1,5 @@
 #include "warp/visibility_vote.h"
 
-#include "deep/build.h"
 #include "kernels/warp_rules.h"
 
 #include <algorithm>
@@ -12,13 +11,13 @@ namespace {
 
 // What one pixel of a view says: each part of it by what it covers, and what it leaves open looks past everything. A
 // pixel that shows nothing at all may just not have been rendered.
-void count_votes(const Ldi &view, std::size_t alpha, std::size_t pixel, double inverse_z, double tolerance,
-                 const SeePast &past, Votes &votes) {
+void count_votes(const ViewSamples &view, std::size_t alpha, std::size_t pixel, double inverse_z,
+                 double tolerance, const SeePast &past, Votes &votes) {
     if (view.pixel(pixel).empty()) return;
     double left = 1;
     for (const std::uint64_t i : view.pixel(pixel)) {
         const double covers = kernels::covers(double(alpha_at(view, alpha, i)), left);
-        const double nearer = 1 / double(view.z[i]) - inverse_z;
+        const double nearer = 1 / double(view.z(i)) - inverse_z;
         if (std::abs(nearer) < tolerance)
             votes.there += covers;
         else if (nearer < 0) {
@@ -35,10 +34,10 @@ void count_votes(const Ldi &view, std::size_t alpha, std::size_t pixel, double i
 
 Votes votes_on(const ReprojectedViews &views, const Imath::V2d &place, double inverse_z, double tolerance,
                const SeePast &past) {
-    const std::size_t alpha = find_channel(views.samples(0).channels, "A");
+    const std::size_t alpha = views.samples(0).alpha();
     Votes votes;
     for (std::size_t v = 1; v < views.size(); ++v) {
-        const Ldi &view = views.samples(v);
+        const ViewSamples &view = views.samples(v);
         const Imath::V2d seen = views.reprojection(v).mapping().in_view(place, inverse_z);
         const Imath::Box2i &data = view.windows.data;
         if (!kernels::lies_in(seen.x, data.min.x, data.max.x)) continue;

@@ -84,7 +84,7 @@ void Warper::grow_window() {
 void Warper::emit_mean(std::span<const ViewSample> samples, Ldi &out) const {
     kernels::Mean mean{}; // double: views may be many, depths near each other
     for (const ViewSample &s : samples)
-        kernels::add_to_mean(mean, s.weight, double(views_.samples(s.view).weight[s.source]), double(s.dx),
+        kernels::add_to_mean(mean, s.weight, double(views_.samples(s.view).weight(s.source)), double(s.dx),
                              double(s.dy), double(s.inverse_z));
     kernels::divide_mean(mean);
     const Imath::V2d place(samples[0].x + 0.5 + mean.dx, samples[0].y + 0.5 + mean.dy);
@@ -92,7 +92,7 @@ void Warper::emit_mean(std::span<const ViewSample> samples, Ldi &out) const {
         samples[0].view == 0 ? 1 : visibility_vote(views_, place, mean.inverse_z, tolerance_);
     if (coverage == 0) return;
     const bool alone = samples.size() == 1;
-    out.z.push_back(alone ? views_.samples(samples[0].view).z[samples[0].source] : float(1 / mean.inverse_z));
+    out.z.push_back(alone ? views_.samples(samples[0].view).z(samples[0].source) : float(1 / mean.inverse_z));
     out.dx.push_back(float(mean.dx));
     out.dy.push_back(float(mean.dy));
     out.weight.push_back(float(mean.merged));
@@ -116,11 +116,11 @@ void Warper::emit_nearest(std::span<const ViewSample> samples, Ldi &out) const {
         return s.view == 0 ? -1.0f : s.dx * s.dx + s.dy * s.dy;
     };
     const ViewSample &best = *std::ranges::min_element(samples, {}, off_centre);
-    const Ldi &view = views_.samples(best.view);
-    out.z.push_back(view.z[best.source]);
+    const ViewSamples &view = views_.samples(best.view);
+    out.z.push_back(view.z(best.source));
     out.dx.push_back(best.dx);
     out.dy.push_back(best.dy);
-    out.weight.push_back(view.weight[best.source]);
+    out.weight.push_back(view.weight(best.source));
     for (std::size_t k = 0; k < out.channels.size(); ++k) out.values[k].push_back(views_.value(best, k));
     ++out.begin.back();
 }

@@ -1,9 +1,9 @@
 #include "base/random.h"
 #include "deep/edge_depths.h"
 #include "deep/flatten.h"
+#include "deep/view_samples.h"
 #include "lens/lens_points.h"
 #include "support/views.h"
-#include "warp/deepen.h"
 #include "warp/warp.h"
 
 #include <gtest/gtest.h>
@@ -98,7 +98,7 @@ TEST(EdgeDepths, LowStepsOfFilteredDepthAreSettledToo) {
 
 TEST(EdgeDepths, AnLdiOfOneSampleAPixelIsAView) {
     View view = row_of({covered(3, 1), covered(inf, 0.4f), covered(8, 0.9f)});
-    Ldi ldi = deepen(view, view.image.channels);
+    Ldi ldi = ViewSamples(view, view.image.channels).as_ldi();
     EXPECT_EQ(settle_edge_depths(ldi).count, 1u);
     EXPECT_EQ(ldi.z, (Depths{3, 3, 8}));
     EXPECT_EQ(ldi.values[3], (std::vector<float>{1, 0.4f, 0.9f}));

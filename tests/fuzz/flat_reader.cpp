@@ -1,10 +1,10 @@
 // Any bytes as a rendered view: header, pixels, depth, made good.
 #include "deep/sanitize.h"
+#include "deep/view_samples.h"
 #include "fuzz/fuzz.h"
 #include "io/exr/exr_flat.h"
 #include "io/files/memory_file.h"
 #include "io/files/memory_limit.h"
-#include "warp/deepen.h"
 
 using namespace sparselens;
 
@@ -17,7 +17,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
         View view{"fuzz", std::move(flat.image), {}};
         view.z = take_depth(view.image, {}, "fuzz");
         sanitize(view);
-        deepen(view, view.image.channels);
+        ViewSamples(view, view.image.channels).as_ldi();
     });
     return 0;
 }

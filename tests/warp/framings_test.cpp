@@ -1,8 +1,8 @@
 // Views whose frusta are shifted, of another focal length, or that stand before or behind the lens, warped.
 #include "checks/pose_check.h"
+#include "deep/view_samples.h"
 #include "support/ldi_samples.h"
 #include "support/views.h"
-#include "warp/deepen.h"
 #include "warp/reproject.h"
 #include "warp/warp.h"
 
@@ -68,9 +68,10 @@ TEST(Framings, APlaneLandsWhereItIs) {
             const Framing &framing = framings[k];
             const View view =
                 make_view(picture, positions[k], [&](int, int) { return ViewPixel{.z = float(z)}; });
-            const Ldi ldi = deepen(view, view.image.channels);
+            const ViewSamples of_view(view, view.image.channels);
             std::vector<ReprojectedSample> samples;
-            Reprojection(ldi, {positions[k], focal_px, picture, framing}).append_rows(-1000, 1000, samples);
+            Reprojection(of_view, {positions[k], focal_px, picture, framing})
+                .append_rows(-1000, 1000, samples);
             ASSERT_EQ(samples.size(), picture.pixels());
             for (const ReprojectedSample &s : samples) {
                 const Imath::V2d q(s.source % width + 0.5, s.source / width + 0.5);
@@ -90,11 +91,11 @@ TEST(Framings, SamplesFallWithinTheReachAndInOneBand) {
     const Windows w = grown({{-5, -3}, {60, 42}}, {0, 0});
     for (std::size_t k = 0; k < positions.size(); ++k) {
         const View view = random_view(w, positions[k], 4);
-        const Ldi ldi = deepen(view, view.image.channels);
-        const Reprojection reprojection(ldi, {positions[k], focal_px, w, any_framings[k], {0.01, 0.02}});
+        const ViewSamples of_view(view, view.image.channels);
+        const Reprojection reprojection(of_view, {positions[k], focal_px, w, any_framings[k], {0.01, 0.02}});
         std::vector<ReprojectedSample> all, band;
         reprojection.append_rows(-10'000, 10'000, all);
-        EXPECT_EQ(all.size(), ldi.samples());
+        EXPECT_EQ(all.size(), of_view.as_ldi().samples());
         for (const ReprojectedSample &s : all)
             EXPECT_TRUE(reprojection.reach().intersects(Imath::V2i(s.x, s.y)));
         for (int row = -100; row < 200; row += 7) reprojection.append_rows(row, row + 6, band);

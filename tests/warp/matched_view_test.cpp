@@ -1,6 +1,5 @@
 #include "base/random.h"
 #include "support/views.h"
-#include "warp/deepen.h"
 #include "warp/images/matched_view.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +14,7 @@ namespace {
 constexpr double scale = 24;
 
 // More than two tiles wide, at odd coordinates. Depths are those of two surfaces; some pixels show nothing.
-Ldi some_view() {
+View some_view() {
     Windows windows = windows_of_size(200, 100);
     windows.data = {{-5, 3}, {140, 93}};
     View view = random_view(windows, {0, 0}, 7);
@@ -23,7 +22,7 @@ Ldi some_view() {
         const Imath::V2i p = windows.pixel(i);
         view.z[i] = ((p.x + 5) / 9 + p.y / 7) % 2 == 0 ? 3.0f : 24.0f;
     }
-    return deepen(view, view.image.channels);
+    return view;
 }
 
 // Slowly and obviously: the mean by 1, 2, 1 along both axes of tone-mapped colours.
@@ -48,9 +47,11 @@ float own_depth(const Ldi &ldi, int x, int y) {
 }
 
 TEST(MatchedView, PixelsAreSmoothedAndTellOneSurface) {
-    const Ldi ldi = some_view();
+    const View picture = some_view();
+    const ViewSamples samples(picture, picture.image.channels);
+    const Ldi ldi = samples.as_ldi();
     const ViewMapping mapping({0, 0}, 100, ldi.windows, {}, {});
-    const MatchedView view({&ldi, &mapping}, scale);
+    const MatchedView view({&samples, &mapping}, scale);
     const Imath::Box2i &data = ldi.windows.data;
     int known = 0;
     for (int y = data.min.y; y <= data.max.y; ++y)
@@ -69,9 +70,11 @@ TEST(MatchedView, PixelsAreSmoothedAndTellOneSurface) {
 
 // Also where tiles meet.
 TEST(MatchedView, BetweenPixelsItIsLinear) {
-    const Ldi ldi = some_view();
+    const View picture = some_view();
+    const ViewSamples samples(picture, picture.image.channels);
+    const Ldi ldi = samples.as_ldi();
     const ViewMapping mapping({0, 0}, 100, ldi.windows, {}, {});
-    const MatchedView view({&ldi, &mapping}, scale);
+    const MatchedView view({&samples, &mapping}, scale);
     const Imath::Box2i &data = ldi.windows.data;
     for (int y = data.min.y; y < data.max.y; ++y)
         for (int x = data.min.x; x < data.max.x; ++x) {

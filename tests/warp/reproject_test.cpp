@@ -1,6 +1,6 @@
+#include "deep/view_samples.h"
 #include "lens/thin_lens.h"
 #include "support/views.h"
-#include "warp/deepen.h"
 #include "warp/reproject.h"
 
 #include <gtest/gtest.h>
@@ -20,8 +20,8 @@ std::vector<ReprojectedSample> reprojected(float z, const Imath::V2d &position, 
     const View view = make_view(
         w, position, [&](int x, int y) { return ViewPixel{.z = z, .a = x == 10 && y == 10 ? 1.0f : 0.0f}; });
     std::vector<ReprojectedSample> samples;
-    const Ldi ldi = deepen(view, view.image.channels);
-    Reprojection(ldi, {position, 100, ldi.windows}).append_rows(-1000, 1000, samples);
+    const ViewSamples of_view(view, view.image.channels);
+    Reprojection(of_view, {position, 100, w}).append_rows(-1000, 1000, samples);
     return samples;
 }
 
@@ -31,7 +31,7 @@ void expect_at(const std::vector<ReprojectedSample> &samples, double x, double y
     EXPECT_NEAR(samples[0].y + 0.5 + double(samples[0].dy), y, 1e-6);
     EXPECT_LE(std::abs(samples[0].dx), 0.5f);
     EXPECT_LE(std::abs(samples[0].dy), 0.5f);
-    EXPECT_EQ(samples[0].source, 0u);
+    EXPECT_EQ(samples[0].source, 10u * 21 + 10);
 }
 
 // What a camera to the right sees straight ahead, lies to the right for the centre; up is up, y counts down.
@@ -73,7 +73,8 @@ TEST(Reprojection, ReachIsWhereSamplesFall) {
         const View view = make_view(windows_of_size(21, 11), position, [&](int x, int) {
             return x < 3 ? ViewPixel{.z = empty_z, .a = 0} : ViewPixel{.z = z};
         });
-        return Reprojection(deepen(view, view.image.channels), {position, 100, view.image.windows}).reach();
+        return Reprojection(ViewSamples(view, view.image.channels), {position, 100, view.image.windows})
+            .reach();
     };
     EXPECT_EQ(reach({0, 0}, 4), Imath::Box2i({0, 0}, {20, 10}));
     EXPECT_EQ(reach({1e6, 1e6}, inf), Imath::Box2i({0, 0}, {20, 10}));
@@ -89,8 +90,8 @@ TEST(Reprojection, NoSampleFallsOutsideTheReach) {
     const Windows w{Imath::Box2i({0, 0}, {63, 47}), Imath::Box2i({-5, -3}, {60, 50})};
     for (const Imath::V2d &position : {Imath::V2d(0.03, 0.05), Imath::V2d(-0.02, -0.07)}) {
         const View view = random_view(w, position, 4);
-        const Ldi ldi = deepen(view, view.image.channels);
-        const Reprojection reprojection(ldi, {position, 100, ldi.windows});
+        const ViewSamples of_view(view, view.image.channels);
+        const Reprojection reprojection(of_view, {position, 100, w});
         std::vector<ReprojectedSample> all;
         reprojection.append_rows(-10'000, 10'000, all);
         for (const ReprojectedSample &s : all)
@@ -103,8 +104,8 @@ TEST(Reprojection, BandsShareTheSamples) {
     const Windows w{Imath::Box2i({0, 0}, {63, 47}), Imath::Box2i({-5, -3}, {60, 50})};
     for (const Imath::V2d &position : {Imath::V2d(0.03, 0.05), Imath::V2d(-0.02, -0.07), Imath::V2d(0, 0)}) {
         const View view = random_view(w, position, 4);
-        const Ldi ldi = deepen(view, view.image.channels);
-        const Reprojection reprojection(ldi, {position, 100, ldi.windows});
+        const ViewSamples of_view(view, view.image.channels);
+        const Reprojection reprojection(of_view, {position, 100, w});
         std::vector<ReprojectedSample> all, band;
         reprojection.append_rows(-10'000, 10'000, all);
         std::size_t shared = 0;
@@ -128,8 +129,8 @@ TEST(Reprojection, WithoutAlphaEverythingIsVisible) {
     View view = random_view(windows_of_size(8, 8), {0, 0}, 1);
     view.image = Image(view.image.windows, {{"Y"}});
     std::vector<ReprojectedSample> samples;
-    const Ldi ldi = deepen(view, view.image.channels);
-    Reprojection(ldi, {view.position, 100, ldi.windows}).append_rows(0, 7, samples);
+    const ViewSamples of_view(view, view.image.channels);
+    Reprojection(of_view, {view.position, 100, of_view.windows}).append_rows(0, 7, samples);
     EXPECT_EQ(samples.size(), 64u);
 }
 

@@ -2,7 +2,6 @@
 #include "deep/order.h"
 #include "support/ldi_samples.h"
 #include "support/views.h"
-#include "warp/deepen.h"
 #include "warp/silhouettes.h"
 
 #include <gtest/gtest.h>
@@ -18,7 +17,9 @@ constexpr float inf = std::numeric_limits<float>::infinity();
 constexpr double scale = 20; // of depths 2 and 10: 8 pixels of CoC apart
 
 Ldi separated(const View &view, double jump = 0.5) {
-    return separate_silhouettes(deepen(view, view.image.channels), scale, jump);
+    ViewSamples samples(view, view.image.channels);
+    separate_silhouettes(samples, scale, jump);
+    return samples.as_ldi();
 }
 
 void expect_flattens_to(const View &view, const Ldi &ldi) {
@@ -214,7 +215,7 @@ TEST(Silhouettes, AnEmptyPixelChangesWhatIsAroundItAlone) {
         const std::size_t alpha = find_channel(view.image.channels, "A");
         for (float &a : view.image.plane(alpha)) a = 1;
         if (with_empty) view.image.plane(alpha)[0] = 0;
-        return separate_silhouettes(deepen(view, view.image.channels), 20, 0.5);
+        return separated(view);
     };
     const Ldi full = views_of(false), other = views_of(true);
     int split = 0;

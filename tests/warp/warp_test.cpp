@@ -1,7 +1,7 @@
 // What a warp makes of views: whose pixels become samples, and where they lie.
 #include "deep/flatten.h"
 #include "deep/order.h"
-#include "warp/deepen.h"
+#include "deep/view_samples.h"
 #include "warp/reproject.h"
 #include "warp/visibility_vote.h"
 #include "warp/warp_fixture.h"
@@ -111,12 +111,13 @@ class Witnesses {
 public:
     explicit Witnesses(const std::vector<View> &views) {
         for (const View &view : views) {
-            const Ldi ldi = deepen(view, view.image.channels);
+            const ViewSamples of_view(view, view.image.channels);
             std::vector<ReprojectedSample> samples;
-            Reprojection(ldi, {view.position, focal_px, ldi.windows}).append_rows(-1000, 1000, samples);
+            Reprojection(of_view, {view.position, focal_px, of_view.windows})
+                .append_rows(-1000, 1000, samples);
             for (const ReprojectedSample &s : samples)
                 landed_[{s.x, s.y}].push_back({focal_px * radius * double(s.inverse_z),
-                                               ldi.values[0][s.source] / ldi.values[3][s.source],
+                                               of_view.value(0, s.source) / of_view.value(3, s.source),
                                                {0.5 + double(s.dx), 0.5 + double(s.dy)}});
         }
     }
@@ -142,8 +143,8 @@ TEST(Warp, NothingIsInvented) {
                 const TestPixel samples = pixel_at(ldi, x, y);
                 for (const TestSample &s : samples) {
                     float least = inf, most = -inf;
-                    const auto may_fill = [&](const Ldi &view, std::uint64_t i, double) {
-                        const float colour = view.values[0][i] / view.values[3][i];
+                    const auto may_fill = [&](const ViewSamples &view, std::uint64_t i, double) {
+                        const float colour = view.value(0, i) / view.value(3, i);
                         least = std::min(least, colour);
                         most = std::max(most, colour);
                     };

@@ -7,7 +7,7 @@
 #include "lab/tests/support/traced.h"
 #include "lab/trace/deep.h"
 #include "measure/image_error.h"
-#include "warp/deepen.h"
+#include "deep/view_samples.h"
 #include "warp/warp.h"
 
 #include <gtest/gtest.h>
@@ -72,7 +72,7 @@ TEST_P(Floors, Hold) {
     const Image reference = reference_of(measured.scene, scene);
     const std::vector<View> views = views_of(scene);
     const Image five = from_five_views(views, scene),
-                one = gather(deepen(views[0], views[0].image.channels), scene);
+                one = gather(ViewSamples(views[0], views[0].image.channels).as_ldi(), scene);
     const MeasuredScene now{measured.scene, decibels(five, reference), decibels(one, reference),
                             double(std::ranges::min(five.plane(3)))};
     std::printf("{\"%s\", {%.2f, %.2f}, {%.2f, %.2f}, %.4f},\n", now.scene, now.five_views.inside,

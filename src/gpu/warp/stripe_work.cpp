@@ -63,8 +63,6 @@ StripeWork::StripeWork(Device &device, WarpKernels &kernels, const WarpScene &sc
     const warp_kernel::Frame constants = frame_of(scene, stripe, most_in_pixel);
     upload(frame, std::as_bytes(std::span(&constants, 1)));
     upload(views, std::as_bytes(std::span(stripe.views)));
-    const std::vector<std::uint32_t> first_samples = begins_of(scene, stripe);
-    upload(begins, std::as_bytes(std::span(first_samples)));
     upload_views();
     std::vector<std::uint32_t> copied;
     for (const Channel &channel : scene.layout.channels) copied.push_back(holds_ids(channel) ? 1 : 0);
@@ -87,26 +85,31 @@ void StripeWork::make(std::size_t binding, std::size_t bytes) {
     buffers_[binding] = device_.buffer(bytes);
 }
 
-// The arrays of all views, one behind the other.
+// The arrays of all views, one behind the other, and where in them the samples of each pixel begin; after those of a view, where
+// its last one ends.
 void StripeWork::upload_views() {
     const std::size_t channels = scene_.layout.channels.size();
     make(depths, stripe_.samples * sizeof(float));
     make(weights, stripe_.samples * sizeof(float));
     make(values, channels * stripe_.samples * sizeof(float));
+    std::vector<std::uint32_t> first_samples;
+    first_samples.reserve(stripe_.begins);
     std::size_t at = 0;
     for (std::size_t v = 0; v < stripe_.slices.size(); ++v) {
         const WarpStripe::Slice &slice = stripe_.slices[v];
-        const Ldi &view = scene_.views.samples(v);
+        const Ldi view = scene_.views.samples(v).rows(slice.first_row, slice.end_row);
+        for (const std::uint64_t begin : view.begin) first_samples.push_back(std::uint32_t(begin + at));
         const auto place = [&](std::size_t binding, const std::vector<float> &array, std::size_t to) {
-            const auto part = std::as_bytes(std::span(array).subspan(slice.from, slice.to - slice.from));
+            const auto part = std::as_bytes(std::span(array));
             device_.upload(*buffers_[binding], part, to * sizeof(float));
             uploaded_ += part.size();
         };
         place(depths, view.z, at);
         place(weights, view.weight, at);
         for (std::size_t k = 0; k < channels; ++k) place(values, view.values[k], k * stripe_.samples + at);
-        at += slice.to - slice.from;
+        at += slice.samples;
     }
+    upload(begins, std::as_bytes(std::span(first_samples)));
 }
 
 std::uint32_t StripeWork::word(std::size_t binding, std::size_t index) {
@@ -124,7 +127,9 @@ void StripeWork::run(const Program &program, std::span<const std::byte> push,
 
 bool StripeWork::land() {
     std::size_t most_pixels = 1;
-    for (const WarpStripe::Slice &slice : stripe_.slices) most_pixels = std::max(most_pixels, slice.pixels);
+    for (const warp_kernel::View &view : stripe_.views)
+        most_pixels =
+            std::max(most_pixels, std::size_t(view.rows) * std::size_t(view.max_x - view.min_x + 1));
     std::array<std::uint32_t, 3> groups = groups_for(most_pixels, threads);
     groups[2] = std::uint32_t(stripe_.slices.size());
     const auto pass = [&](std::uint32_t list) {

@@ -75,10 +75,12 @@ double largest_inverse_z(const ReprojectedViews &views) {
                     normal = std::numeric_limits<float>::min(); // devices may take what is less for 0
     std::vector<float> nearest(views.size(), infinity), farthest(views.size(), 1);
     parallel_for(views.size(), [&](std::size_t v) {
-        for (const float z : views.samples(v).z) {
-            nearest[v] = std::min(nearest[v], z);
-            if (z < infinity) farthest[v] = std::max(farthest[v], z);
-        }
+        const ViewSamples &view = views.samples(v);
+        for (std::size_t p = 0; p < view.windows.pixels(); ++p)
+            for (const std::uint64_t i : view.pixel(p)) {
+                nearest[v] = std::min(nearest[v], view.z(i));
+                if (view.z(i) < infinity) farthest[v] = std::max(farthest[v], view.z(i));
+            }
     });
     const float least = *std::ranges::min_element(nearest), most = *std::ranges::max_element(farthest);
     return least < normal || 1 / double(most) < normal ? std::numeric_limits<double>::infinity()
@@ -89,20 +91,19 @@ WarpStripe make_stripe(const WarpScene &scene, const Imath::Box2i &box, double i
     WarpStripe stripe;
     stripe.box = box;
     for (std::size_t v = 0; v < scene.views.size(); ++v) {
-        const Ldi &ldi = scene.views.samples(v);
-        const auto width = std::size_t(ldi.windows.width());
+        const ViewSamples &samples = scene.views.samples(v);
+        const auto width = std::size_t(samples.windows.width());
         Rows rows = rows_needed(scene, v, box, inverse_z);
         if (rows.first >= rows.end) rows = {0, 0};
         warp_kernel::View view = view_of(scene.views, v);
         view.first_row += int(rows.first);
         view.rows = int(rows.end - rows.first);
         view.begins = std::uint32_t(stripe.begins);
-        const WarpStripe::Slice slice{rows.first * width, (rows.end - rows.first) * width,
-                                      ldi.begin[rows.first * width], ldi.begin[rows.end * width]};
+        const WarpStripe::Slice slice{rows.first, rows.end, samples.count(rows.first, rows.end)};
         stripe.views.push_back(view);
         stripe.slices.push_back(slice);
-        stripe.begins += slice.pixels + 1;
-        stripe.samples += slice.to - slice.from;
+        stripe.begins += (rows.end - rows.first) * width + 1;
+        stripe.samples += slice.samples;
     }
     return stripe;
 }
@@ -138,22 +139,6 @@ warp_kernel::Frame frame_of(const WarpScene &scene, const WarpStripe &stripe, st
     }
     frame.most_in_pixel = most_in_pixel;
     return frame;
-}
-
-std::vector<std::uint32_t> begins_of(const WarpScene &scene, const WarpStripe &stripe) {
-    std::vector<std::uint32_t> begins(stripe.begins);
-    std::uint64_t before = 0; // samples of the views before
-    for (std::size_t v = 0; v < stripe.slices.size(); ++v) {
-        const WarpStripe::Slice &slice = stripe.slices[v];
-        const std::vector<std::uint64_t> &from = scene.views.samples(v).begin;
-        parallel_ranges(slice.pixels + 1, 1 << 16, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i)
-                begins[stripe.views[v].begins + i] =
-                    std::uint32_t(from[slice.first_pixel + i] - slice.from + before);
-        });
-        before += slice.to - slice.from;
-    }
-    return begins;
 }
 
 } // namespace sparselens::gpu

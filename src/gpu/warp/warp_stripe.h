@@ -16,8 +16,8 @@ namespace sparselens::gpu {
 struct WarpStripe {
     // The rows that are needed of a view.
     struct Slice {
-        std::size_t first_pixel, pixels;
-        std::uint64_t from, to; // their samples
+        std::size_t first_row, end_row; // counted from the top
+        std::uint64_t samples;
     };
 
     Imath::Box2i box; // of the result
@@ -36,7 +36,5 @@ WarpStripe make_stripe(const WarpScene &scene, const Imath::Box2i &box, double i
 std::size_t buffer_bytes(const WarpScene &scene, const WarpStripe &stripe);
 
 warp_kernel::Frame frame_of(const WarpScene &scene, const WarpStripe &stripe, std::uint32_t most_in_pixel);
-// Where the samples of each pixel begin; after those of a view, where its last one ends.
-std::vector<std::uint32_t> begins_of(const WarpScene &scene, const WarpStripe &stripe);
 
 } // namespace sparselens::gpu

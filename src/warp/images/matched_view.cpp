@@ -51,18 +51,18 @@ MatchedView::MatchedView(const PlacedView &view, double scale)
 
 float MatchedView::depth(int x, int y) const {
     if (!contains(x, y)) return unknown;
-    const Ldi &ldi = *view_.samples;
-    const SampleRange samples = ldi.pixel(grid_.index(x, y));
-    return samples.size() == 1 ? float(perceptive_depth(scale_, double(ldi.z[samples.front()]))) : unknown;
+    const ViewSamples &view = *view_.samples;
+    const SampleRange samples = view.pixel(grid_.index(x, y));
+    return samples.size() == 1 ? float(perceptive_depth(scale_, double(view.z(samples.front())))) : unknown;
 }
 
 // As the view shows it, and its depth.
 MatchedView::Pixel MatchedView::sharp(int x, int y) const {
-    const Ldi &ldi = *view_.samples;
-    const SampleRange samples = ldi.pixel(grid_.index(x, y));
+    const ViewSamples &view = *view_.samples;
+    const SampleRange samples = view.pixel(grid_.index(x, y));
     Pixel pixel{0, 0, 0, depth(x, y)};
     for (std::size_t k = 0; k < 3 && !samples.empty(); ++k)
-        if (rgb_[k] != npos) pixel[k] = kernels::bounded(ldi.values[rgb_[k]][samples.front()]);
+        if (rgb_[k] != npos) pixel[k] = kernels::bounded(view.value(rgb_[k], samples.front()));
     return pixel;
 }
 

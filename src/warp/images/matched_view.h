@@ -3,7 +3,7 @@
 #pragma once
 
 #include "base/grid.h"
-#include "deep/ldi.h"
+#include "deep/view_samples.h"
 #include "kernels/surface.h"
 #include "view/view_mapping.h"
 
@@ -17,7 +17,7 @@ namespace sparselens {
 
 // A view of one sample a pixel or, on silhouettes, more; the mapping tells where it stands.
 struct PlacedView {
-    const Ldi *samples;
+    const ViewSamples *samples;
     const ViewMapping *mapping;
 };
 
@@ -41,7 +41,7 @@ public:
     float depth(int x, int y) const;
 
     const ViewMapping &mapping() const { return *view_.mapping; }
-    const Ldi &samples() const { return *view_.samples; }
+    const ViewSamples &samples() const { return *view_.samples; }
 
 private:
     static constexpr int tile_side = 64;

@@ -18,7 +18,7 @@ constexpr float least_difference = 2e-4f; // which is not seen
 
 // What a view shows of an image, at its place in the pixel of the centre view.
 struct ImageSample {
-    const Ldi *view;
+    const ViewSamples *view;
     std::uint64_t index;
     double dx, dy, weight;
 };
@@ -41,9 +41,9 @@ public:
 
 private:
     ImageSample centre(const Imath::V2i &pixel) const {
-        const Ldi &ldi = views_[0].samples();
-        const std::uint64_t i = ldi.pixel(ldi.windows.index(pixel.x, pixel.y)).front();
-        return {&ldi, i, 0, 0, double(ldi.weight[i])};
+        const ViewSamples &view = views_[0].samples();
+        const std::uint64_t i = view.pixel(view.windows.index(pixel.x, pixel.y)).front();
+        return {&view, i, 0, 0, double(view.weight(i))};
     }
 
     // The view's pixel that is nearest to where it shows the image, if it shows the same surface.
@@ -60,9 +60,10 @@ private:
         const Imath::V2d off =
             view.mapping().at_infinity(from) + view.mapping().parallax(from) * inverse_z - middle;
         if (!(std::abs(off.x) <= 0.5 && std::abs(off.y) <= 0.5)) return;
-        const Ldi &ldi = view.samples();
-        const std::uint64_t i = ldi.pixel(ldi.windows.index(q.x, q.y)).front();
-        seen.push_back({&ldi, i, off.x, off.y, double(ldi.weight[i]) * kernels::nearness(off.x, off.y)});
+        const ViewSamples &samples = view.samples();
+        const std::uint64_t i = samples.pixel(samples.windows.index(q.x, q.y)).front();
+        seen.push_back(
+            {&samples, i, off.x, off.y, double(samples.weight(i)) * kernels::nearness(off.x, off.y)});
     }
 
     void store(std::uint64_t i, double depth, const std::vector<ImageSample> &seen) const {
@@ -71,18 +72,18 @@ private:
             total += s.weight;
             dx += s.weight * s.dx;
             dy += s.weight * s.dy;
-            count += double(s.view->weight[s.index]);
+            count += double(s.view->weight(s.index));
         }
         ldi_.dx[i] = float(dx / total);
         ldi_.dy[i] = float(dy / total);
         ldi_.weight[i] = float(count);
-        ldi_.z[i] = seen[0].view->z[seen[0].index];
+        ldi_.z[i] = seen[0].view->z(seen[0].index);
         ldi_.optical[i] = float(depth_of_perceptive(scale_, depth));
         for (std::size_t k = 0; k < ldi_.channels.size(); ++k) {
             double sum = 0;
             const bool light = is_light(ldi_.channels[k]) && k != alpha_;
-            for (const ImageSample &s : seen) sum += s.weight * double(s.view->values[k][s.index]);
-            ldi_.values[k][i] = light ? float(sum / total) : seen[0].view->values[k][seen[0].index];
+            for (const ImageSample &s : seen) sum += s.weight * double(s.view->value(k, s.index));
+            ldi_.values[k][i] = light ? float(sum / total) : seen[0].view->value(k, seen[0].index);
         }
     }
 

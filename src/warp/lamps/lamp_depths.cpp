@@ -33,13 +33,13 @@ bool is_small(std::span<const Imath::V2i> pixels) {
     return box.size().x < small && box.size().y < small;
 }
 
-double inverse_z_at(const Ldi &view, const Imath::V2i &p) {
+double inverse_z_at(const ViewSamples &view, const Imath::V2i &p) {
     const SampleRange shown = view.pixel(view.windows.index(p.x, p.y));
-    return shown.empty() ? 0 : 1 / double(view.z[shown.front()]);
+    return shown.empty() ? 0 : 1 / double(view.z(shown.front()));
 }
 
 // 1 / z of the nearest two or three pixels from a lamp; nothing at the border of the view.
-std::optional<double> nearest_around(const Ldi &view, std::span<const Imath::V2i> pixels) {
+std::optional<double> nearest_around(const ViewSamples &view, std::span<const Imath::V2i> pixels) {
     const std::vector<Imath::V2i> edge = grown(pixels, 1);
     double nearest = 0;
     for (const Imath::V2i &p : grown(pixels, lamp_gap)) {
@@ -51,7 +51,7 @@ std::optional<double> nearest_around(const Ldi &view, std::span<const Imath::V2i
 
 class LampsOfView {
 public:
-    LampsOfView(Ldi &view, double tolerance);
+    LampsOfView(ViewSamples &view, double tolerance);
     std::span<const SeenLamp> lamps() const { return lamps_; }
     void settle_by_neighbours();
     // Those whose depth is not known, by rows.
@@ -64,13 +64,14 @@ private:
     double light_at(const Imath::V2i &p) const { return light_.at(view_.windows.index(p.x, p.y)); }
     void move(const Imath::V2i &pixel, double inverse_z);
 
-    Ldi &view_;
-    PixelLight light_;
+    ViewSamples &view_;
+    PixelLight<ViewSamples> light_;
     double tolerance_;
     std::vector<SeenLamp> lamps_;
 };
 
-LampsOfView::LampsOfView(Ldi &view, double tolerance) : view_(view), light_(view), tolerance_(tolerance) {
+LampsOfView::LampsOfView(ViewSamples &view, double tolerance)
+    : view_(view), light_(view), tolerance_(tolerance) {
     if (!light_.is_known()) return;
     for (const CompactLamp &found : find_compact_lamps(view.windows.grid(), light_.picture()))
         if (const auto around = nearest_around(view, found.pixels)) lamps_.push_back(look_at(found, *around));
@@ -104,7 +105,7 @@ SeenLamp LampsOfView::look_at(const CompactLamp &found, double around) const {
 
 void LampsOfView::move(const Imath::V2i &pixel, double inverse_z) {
     const SampleRange shown = view_.pixel(view_.windows.index(pixel.x, pixel.y));
-    if (!shown.empty()) view_.z[shown.front()] = float(1 / inverse_z);
+    if (!shown.empty()) view_.set_z(shown.front(), float(1 / inverse_z));
 }
 
 void LampsOfView::settle_by_neighbours() {
@@ -152,7 +153,8 @@ void LampsOfView::settle_by_others(const ViewMapping &mapping, std::span<const K
 
 } // namespace
 
-void settle_lamp_depths(std::span<Ldi> views, std::span<const ViewMapping> mappings, double tolerance) {
+void settle_lamp_depths(std::span<ViewSamples> views, std::span<const ViewMapping> mappings,
+                        double tolerance) {
     std::vector<std::optional<LampsOfView>> found(views.size());
     parallel_for(views.size(), [&](std::size_t v) { found[v].emplace(views[v], tolerance); });
     std::vector<KnownLamp> known; // in the centre view

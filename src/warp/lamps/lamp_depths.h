@@ -8,7 +8,7 @@
 // pixel beside them shows nothing else than the lamp: silhouettes.h can take those apart.
 #pragma once
 
-#include "deep/ldi.h"
+#include "deep/view_samples.h"
 #include "view/view_mapping.h"
 
 #include <span>
@@ -17,6 +17,7 @@ namespace sparselens {
 
 // Views have at most one sample a pixel; mappings[v] tells where the centre view shows what views[v] shows. Depths whose
 // inverses differ by less than `tolerance`, > 0, are one surface. The result does not depend on the order of the views.
-void settle_lamp_depths(std::span<Ldi> views, std::span<const ViewMapping> mappings, double tolerance);
+void settle_lamp_depths(std::span<ViewSamples> views, std::span<const ViewMapping> mappings,
+                        double tolerance);
 
 } // namespace sparselens

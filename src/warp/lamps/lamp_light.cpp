@@ -52,25 +52,25 @@ private:
     std::span<const PlacedView> views_;
     double tolerance_; // of 1 / z, within one surface
     const Ldi &ldi_;
-    PixelLight light_;               // of the LDI
-    std::vector<PixelLight> lights_; // of the views
+    PixelLight<Ldi> light_;
+    std::vector<PixelLight<ViewSamples>> lights_; // of the views
 };
 
 // Of the brightest sample of its brightest pixel.
 double Calibration::inverse_depth(const CompactLamp &lamp) const {
-    const Ldi &centre = *views_[0].samples;
+    const ViewSamples &centre = *views_[0].samples;
     double most = -1, inverse_z = 0;
     const auto look = [&](std::uint64_t i, double light) {
         if (light <= most) return;
         most = light;
-        inverse_z = 1 / double(centre.z[i]);
+        inverse_z = 1 / double(centre.z(i));
     };
     lights_[0].visit(centre.windows.index(lamp.pixels[0].x, lamp.pixels[0].y), look);
     return inverse_z;
 }
 
 bool Calibration::has_empty(const Pixels &pixels) const {
-    const Ldi &centre = *views_[0].samples;
+    const ViewSamples &centre = *views_[0].samples;
     return std::ranges::any_of(pixels, [&](const Imath::V2i &p) {
         return centre.windows.data.intersects(p) && centre.pixel(centre.windows.index(p.x, p.y)).empty();
     });
@@ -92,14 +92,14 @@ std::optional<Calibration::Pixels> Calibration::moved(std::size_t view, const Pi
 // rendered.
 std::optional<double> Calibration::light_in(std::size_t view, const Pixels &pixels, double inverse_z,
                                             bool may_be_empty) const {
-    const Ldi &samples = *views_[view].samples;
+    const ViewSamples &samples = *views_[view].samples;
     double sum = 0;
     for (const Imath::V2i &p : pixels) {
         if (!samples.windows.data.intersects(p)) return {};
         const std::size_t pixel = samples.windows.index(p.x, p.y);
         const SampleRange shown = samples.pixel(pixel);
         if (shown.empty() && !may_be_empty) return {};
-        if (!shown.empty() && 1 / double(samples.z[shown.front()]) > inverse_z + tolerance_) return {};
+        if (!shown.empty() && 1 / double(samples.z(shown.front())) > inverse_z + tolerance_) return {};
         sum += lights_[view].at(pixel);
     }
     return sum;
@@ -148,7 +148,7 @@ std::optional<Change> Calibration::change_of(const CompactLamp &lamp) const {
 
 void keep_light_of_lamps(std::span<const PlacedView> views, double scale, double surface_px, Ldi &ldi) {
     if (views.size() < 2 || !(scale > 0)) return;
-    const Ldi &centre = *views[0].samples;
+    const ViewSamples &centre = *views[0].samples;
     const PixelLight light(centre);
     if (!light.is_known()) return;
     const std::vector<CompactLamp> lamps = find_compact_lamps(centre.windows.grid(), light.picture());

@@ -1,8 +1,8 @@
 // The light of samples in a picture of layers: R + G + B, less what lies before them hides.
 #pragma once
 
-#include "deep/build.h"
-#include "deep/ldi.h"
+#include "base/parallel.h"
+#include "deep/view_samples.h"
 
 #include <algorithm>
 #include <array>
@@ -10,9 +10,17 @@
 
 namespace sparselens {
 
+inline float value_in(const Ldi &ldi, std::size_t channel, std::uint64_t i) { return ldi.values[channel][i]; }
+inline float value_in(const ViewSamples &view, std::size_t channel, std::uint64_t i) {
+    return view.value(channel, i);
+}
+
+// Of an Ldi or of ViewSamples.
+template <typename Samples>
 class PixelLight {
 public:
-    explicit PixelLight(const Ldi &ldi) : ldi_(ldi), rgb_(find_rgb(ldi.channels)), alpha_(ldi.alpha()) {}
+    explicit PixelLight(const Samples &samples)
+        : samples_(samples), rgb_(find_rgb(samples.channels)), alpha_(samples.alpha()) {}
 
     bool is_known() const { return all_found(rgb_); }
 
@@ -20,11 +28,11 @@ public:
     template <typename Visit>
     void visit(std::size_t pixel, const Visit &visit) const {
         double clear = 1;
-        for (const std::uint64_t i : ldi_.pixel(pixel)) {
+        for (const std::uint64_t i : samples_.pixel(pixel)) {
             double own = 0;
-            for (const std::size_t k : rgb_) own += double(ldi_.values[k][i]);
+            for (const std::size_t k : rgb_) own += double(value_in(samples_, k, i));
             visit(i, clear * own);
-            clear *= 1 - std::clamp(double(alpha_at(ldi_, alpha_, i)), 0.0, 1.0);
+            clear *= 1 - std::clamp(double(alpha_at(samples_, alpha_, i)), 0.0, 1.0);
         }
     }
     double at(std::size_t pixel) const {
@@ -34,10 +42,16 @@ public:
     }
 
     // Of all pixels of the data window.
-    std::vector<float> picture() const;
+    std::vector<float> picture() const {
+        std::vector<float> light(samples_.windows.pixels());
+        parallel_ranges(light.size(), 4096, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) light[i] = float(at(i));
+        });
+        return light;
+    }
 
 private:
-    const Ldi &ldi_;
+    const Samples &samples_;
     std::array<std::size_t, 3> rgb_;
     std::size_t alpha_;
 };

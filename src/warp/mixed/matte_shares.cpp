@@ -13,25 +13,25 @@ using Pair = IdCoverage::Pair;
 bool same_id(float a, float b) { return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b); }
 
 // Of an object in a sample of the view.
-double coverage_in(const Ldi &view, const Matte &matte, float id, std::uint64_t sample) {
+double coverage_in(const ViewSamples &view, const Matte &matte, float id, std::uint64_t sample) {
     double sum = 0;
     for (const Matte::Rank &rank : matte.ranks)
-        if (same_id(view.values[rank.id][sample], id)) sum += double(view.values[rank.coverage][sample]);
+        if (same_id(view.value(rank.id, sample), id)) sum += double(view.value(rank.coverage, sample));
     return sum;
 }
 
 // Of what is no object of the matte.
-double none_in(const Ldi &view, const Matte &matte, std::uint64_t sample) {
+double none_in(const ViewSamples &view, const Matte &matte, std::uint64_t sample) {
     double left = double(alpha_at(view, view.alpha(), sample));
-    for (const Matte::Rank &rank : matte.ranks) left -= double(view.values[rank.coverage][sample]);
+    for (const Matte::Rank &rank : matte.ranks) left -= double(view.value(rank.coverage, sample));
     return left;
 }
 
 // The objects of a sample, each once.
-std::vector<Pair> objects_in(const Ldi &view, const Matte &matte, std::uint64_t sample) {
+std::vector<Pair> objects_in(const ViewSamples &view, const Matte &matte, std::uint64_t sample) {
     IdCoverage objects;
     for (const Matte::Rank &rank : matte.ranks)
-        objects.add(view.values[rank.id][sample], double(view.values[rank.coverage][sample]));
+        objects.add(view.value(rank.id, sample), double(view.value(rank.coverage, sample)));
     const std::span<const Pair> ranked = objects.ranked();
     return {ranked.begin(), ranked.end()};
 }
@@ -54,7 +54,7 @@ std::vector<double> shared_out(std::vector<double> guess, const std::vector<doub
 
 } // namespace
 
-void share_mattes(const Ldi &view, std::uint64_t sample, std::span<const Term> front, double share,
+void share_mattes(const ViewSamples &view, std::uint64_t sample, std::span<const Term> front, double share,
                   std::span<const Matte> mattes, Ldi &out) {
     for (const Matte &matte : mattes) {
         const std::vector<Pair> objects = objects_in(view, matte, sample);

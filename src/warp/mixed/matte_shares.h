@@ -7,13 +7,13 @@
 #pragma once
 
 #include "base/matte.h"
-#include "deep/build.h"
+#include "deep/view_samples.h"
 
 namespace sparselens {
 
 // The last two samples of `out` are the two surfaces of that sample of the view, which is opaque; the one in front is made
 // of these terms, and covers `share`, above 0 and below 1. Sets their pairs.
-void share_mattes(const Ldi &view, std::uint64_t sample, std::span<const Term> front, double share,
+void share_mattes(const ViewSamples &view, std::uint64_t sample, std::span<const Term> front, double share,
                   std::span<const Matte> mattes, Ldi &out);
 
 } // namespace sparselens

@@ -4,7 +4,7 @@
 
 #include "base/coverage.h"
 #include "base/grid.h"
-#include "deep/ldi.h"
+#include "deep/view_samples.h"
 #include "lens/perceptive_depth.h"
 
 #include <algorithm>
@@ -17,11 +17,11 @@ namespace sparselens {
 class SamplesAround {
 public:
     // Refers to the view; scale is R F, pixels times scene units.
-    SamplesAround(const Ldi &view, double scale)
+    SamplesAround(const ViewSamples &view, double scale)
         : view_(view), grid_(view.windows.width(), view.windows.height()), alpha_(view.alpha()),
-          rgb_(find_rgb(view.channels)), depths_(view.samples()) {
-        std::ranges::transform(view.z, depths_.begin(),
-                               [scale](float z) { return perceptive_depth(scale, double(z)); });
+          rgb_(find_rgb(view.channels)), depths_(grid_.size()) {
+        for (std::size_t i = 0; i < depths_.size(); ++i)
+            depths_[i] = perceptive_depth(scale, double(view.z(i)));
     }
 
     bool have_colours() const { return alpha_ != npos && all_found(rgb_); }
@@ -30,10 +30,10 @@ public:
     std::uint64_t own_sample(int x, int y) const { return view_.pixel(grid_.index(x, y)).front(); }
 
     double depth_of(std::uint64_t i) const { return depths_[i]; }
-    std::span<const double> depths() const { return depths_; } // of all samples
+    std::span<const double> depths() const { return depths_; } // of all pixels
     bool is_opaque(std::uint64_t i) const { return sparselens::is_opaque(alpha_at(view_, alpha_, i)); }
     Imath::V3d colour_of(std::uint64_t i) const {
-        const auto value = [&](std::size_t k) { return double(view_.values[rgb_[k]][i]); };
+        const auto value = [&](std::size_t k) { return double(view_.value(rgb_[k], i)); };
         return {value(0), value(1), value(2)};
     }
 
@@ -47,11 +47,11 @@ public:
     }
 
 private:
-    const Ldi &view_;
+    const ViewSamples &view_;
     Grid grid_;
     std::size_t alpha_;
     std::array<std::size_t, 3> rgb_;
-    std::vector<double> depths_; // of each sample
+    std::vector<double> depths_; // of each pixel
 };
 
 } // namespace sparselens

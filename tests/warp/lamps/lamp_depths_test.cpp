@@ -1,5 +1,4 @@
 #include "support/views.h"
-#include "warp/deepen.h"
 #include "warp/lamps/lamp_depths.h"
 
 #include <gtest/gtest.h>
@@ -16,12 +15,11 @@ constexpr double tolerance = 0.05;                // of 1 / z
 constexpr double focal_px = 20;
 
 // A wall of brightness 1; `pixel` says what stands before it, at z 0 nothing.
-Ldi picture(const std::function<ViewPixel(int x, int y)> &pixel) {
-    const View view = make_view(windows_of_size(32, 32), {0, 0}, [&](int x, int y) {
+View picture(const std::function<ViewPixel(int x, int y)> &pixel) {
+    return make_view(windows_of_size(32, 32), {0, 0}, [&](int x, int y) {
         const ViewPixel p = pixel(x, y);
         return p.z > 0 ? p : ViewPixel{.z = wall, .r = 1, .g = 1, .b = 1};
     });
-    return deepen(view, view.image.channels);
 }
 
 ViewPixel shining(float z, float light) { return {.z = z, .r = light, .g = light, .b = light}; }
@@ -29,15 +27,18 @@ constexpr ViewPixel none{.z = 0};
 
 // The pixels that have another depth then.
 using Moved = std::vector<std::pair<Imath::V2i, float>>;
-Moved settled(std::vector<Ldi> views, const std::vector<Imath::V2d> &positions = {{0, 0}}) {
+Moved settled(const std::vector<View> &views, const std::vector<Imath::V2d> &positions = {{0, 0}}) {
     std::vector<ViewMapping> mappings;
-    for (const Imath::V2d &position : positions) mappings.emplace_back(position, focal_px, views[0].windows);
-    const std::vector<Ldi> before = views;
-    settle_lamp_depths(views, mappings, tolerance);
+    std::vector<ViewSamples> samples;
+    for (const View &view : views) samples.emplace_back(view, view.image.channels);
+    for (const Imath::V2d &position : positions)
+        mappings.emplace_back(position, focal_px, samples[0].windows);
+    settle_lamp_depths(samples, mappings, tolerance);
     Moved moved;
     for (std::size_t v = 0; v < views.size(); ++v)
-        for (std::size_t i = 0; i < views[v].samples(); ++i)
-            if (views[v].z[i] != before[v].z[i]) moved.emplace_back(views[v].windows.pixel(i), views[v].z[i]);
+        for (std::size_t i = 0; i < views[v].z.size(); ++i)
+            if (samples[v].z(i) != views[v].z[i])
+                moved.emplace_back(samples[v].windows.pixel(i), samples[v].z(i));
     return moved;
 }
 
@@ -98,7 +99,7 @@ TEST(LampDepths, ThePlacesInAllViewsTell) {
     const std::vector<Imath::V2d> stand{{0, 0}, {5 * step, 0}, {0, 5 * step}, {-5 * step, 0}, {0, -5 * step}};
     const auto seen = [&](double z, int shown,
                           int apart) { // lamps on a grid, if they are `apart`, in the first views
-        std::vector<Ldi> views;
+        std::vector<View> views;
         for (std::size_t v = 0; v < stand.size(); ++v)
             views.push_back(picture([&, v](int x, int y) {
                 const double by = focal_px / z;

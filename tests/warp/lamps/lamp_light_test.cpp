@@ -2,7 +2,6 @@
 #include "base/random.h"
 #include "dof/lens/lens_gather.h"
 #include "support/views.h"
-#include "warp/deepen.h"
 #include "warp/lamps/lamp_light.h"
 #include "warp/warp.h"
 
@@ -116,16 +115,17 @@ TEST(LampLight, IsNeitherLostNorDoubledWhereViewsDoNotTellItsDepth) {
 
 // Five views of a picture at one depth, parallax 0; what comes of an LDI that is the centre view, its lamps twice as dark.
 Ldi kept(const std::function<ViewPixel(std::size_t view, int x, int y)> &pixel) {
-    std::vector<Ldi> views;
+    std::vector<View> views;
     const ViewMapping mapping({0, 0}, focal_px, windows_of_size(32, 32));
     for (std::size_t v = 0; v < 5; ++v) {
-        const View view =
-            make_view(windows_of_size(32, 32), {0, 0}, [&](int x, int y) { return pixel(v, x, y); });
-        views.push_back(deepen(view, view.image.channels));
+        views.push_back(
+            make_view(windows_of_size(32, 32), {0, 0}, [&](int x, int y) { return pixel(v, x, y); }));
     }
+    std::vector<ViewSamples> samples;
+    for (const View &view : views) samples.emplace_back(view, view.image.channels);
     std::vector<PlacedView> placed;
-    for (const Ldi &view : views) placed.push_back({&view, &mapping});
-    Ldi ldi = views[0];
+    for (const ViewSamples &view : samples) placed.push_back({&view, &mapping});
+    Ldi ldi = samples[0].as_ldi();
     for (std::size_t k = 0; k < 3; ++k)
         for (float &value : ldi.values[k]) value *= value > 4 ? 0.75f : 1;
     keep_light_of_lamps(placed, radius * focal_px, 0.5, ldi);

@@ -2,7 +2,6 @@
 #include "deep/flatten.h"
 #include "dof/lens_mattes.h"
 #include "support/mattes.h"
-#include "warp/deepen.h"
 #include "warp/silhouettes.h"
 #include "warp/warp_fixture.h"
 
@@ -59,7 +58,9 @@ Ldi edge(const Pairs &mixed) {
     const View matted = with_mattes(view, [&](int x, int) {
         return x == 8 ? mixed : Pairs{{hashed(x < 8 ? 1 : 2), 1}};
     });
-    return separate_silhouettes(deepen(matted, matted.image.channels), scale, 0.5);
+    ViewSamples samples(matted, matted.image.channels);
+    separate_silhouettes(samples, scale, 0.5);
+    return samples.as_ldi();
 }
 
 double coverage_in(const Ldi &ldi, float id, std::uint64_t sample) {

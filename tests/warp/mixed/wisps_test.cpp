@@ -1,6 +1,5 @@
 #include "deep/flatten.h"
 #include "support/views.h"
-#include "warp/deepen.h"
 #include "warp/mixed/wisps.h"
 #include "warp/silhouettes.h"
 
@@ -33,12 +32,16 @@ struct Strands {
         });
     }
     float behind(int x, int y) const { return x >= 18 && x < 22 && y >= 18 && y < 22 ? lamp : wall; }
-    Ldi separated() const { return separate_silhouettes(deepen(view, view.image.channels), scale, 0.5); }
+    Ldi separated() const {
+        ViewSamples samples(view, view.image.channels);
+        separate_silhouettes(samples, scale, 0.5);
+        return samples.as_ldi();
+    }
 };
 
 bool among(const View &view, int x, int y) {
-    const Ldi ldi = deepen(view, view.image.channels);
-    return among_strands(SamplesAround(ldi, scale), x, y);
+    const ViewSamples samples(view, view.image.channels);
+    return among_strands(SamplesAround(samples, scale), x, y);
 }
 
 TEST(Wisps, StrandsAreKnownByDepthsThatJump) {

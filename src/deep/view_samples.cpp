@@ -1,0 +1,108 @@
+#include "deep/view_samples.h"
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "deep/merge_values.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace sparselens {
+
+ViewSamples::ViewSamples(const View &view, std::span<const Channel> of_channels)
+    : windows(view.image.windows), channels(of_channels.begin(), of_channels.end()),
+      pixels_(windows.pixels()), z_(view.z), words_(pieces_of(pixels_, std::size_t{64})) {
+    for (const Channel &channel : channels) {
+        const std::size_t from = find_channel(view.image.channels, channel.name);
+        if (from == npos)
+            throw Error(
+                fmt::format("{}: has no channel {}, which the centre view has", view.name, channel.name));
+        planes_.push_back(view.image.plane(from));
+    }
+    const std::size_t alpha = find_channel(view.image.channels, "A");
+    const std::span<const float> covers = alpha == npos ? std::span<const float>() : view.image.plane(alpha);
+    parallel_ranges(words_.size(), 256, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = 64 * begin; i < std::min(64 * end, pixels_); ++i)
+            if (z_[i] > 0 && (covers.empty() || covers[i] != 0))
+                words_[i / 64].shown |= std::uint64_t{1} << (i % 64);
+    });
+    replaced_ = empty();
+    replaced_.begin.assign(1, 0);
+}
+
+// An LDI of these channels without pixels.
+Ldi ViewSamples::empty() const {
+    Ldi ldi;
+    ldi.windows = windows;
+    ldi.channels = channels;
+    ldi.values.resize(channels.size());
+    return ldi;
+}
+
+std::uint64_t ViewSamples::count(std::size_t first_row, std::size_t end_row) const {
+    const auto width = std::size_t(windows.width());
+    std::uint64_t count = 0;
+    for (std::size_t p = first_row * width; p < end_row * width; ++p) count += pixel(p).size();
+    return count;
+}
+
+void ViewSamples::set_z(std::uint64_t i, float z) {
+    if (moved_.empty()) moved_.assign(z_.begin(), z_.end());
+    z_ = moved_;
+    moved_[i] = z;
+}
+
+void ViewSamples::replace(const std::function<bool(std::size_t pixel)> &changes,
+                          const std::function<void(std::size_t pixel, Ldi &out)> &fill) {
+    const Ldi like = empty();
+    const auto width = std::size_t(windows.width());
+    std::vector<Ldi> rows(std::size_t(windows.height()));
+    std::vector<std::vector<std::size_t>> replaced(rows.size()); // pixels
+    parallel_for(rows.size(), [&](std::size_t y) {
+        Ldi &row = rows[y] = like;
+        row.begin.assign(2, 0);
+        for (std::size_t i = y * width; i < (y + 1) * width; ++i) {
+            if (!changes(i)) continue;
+            fill(i, row);
+            if (row.begin.back() == row.begin.rbegin()[1]) continue;
+            replaced[y].push_back(i);
+            row.begin.push_back(row.begin.back());
+        }
+        row.begin.pop_back();
+    });
+    for (const std::vector<std::size_t> &row : replaced)
+        for (const std::size_t i : row) words_[i / 64].replaced |= std::uint64_t{1} << (i % 64);
+    std::uint32_t before = 0;
+    for (Word &word : words_) {
+        word.replaced_before = before;
+        before += std::uint32_t(std::popcount(word.replaced));
+    }
+    replaced_ = concatenate(like, std::move(rows));
+}
+
+Ldi ViewSamples::rows(std::size_t first, std::size_t end) const {
+    Ldi ldi = empty();
+    ldi.windows.data.min.y += int(first);
+    ldi.windows.data.max.y = windows.data.min.y + int(end) - 1;
+    ldi.begin.assign(1, 0);
+    const auto width = std::size_t(windows.width());
+    for (std::size_t p = first * width; p < end * width; ++p) {
+        for (const std::uint64_t i : pixel(p)) {
+            ldi.z.push_back(z(i));
+            ldi.weight.push_back(weight(i));
+            for (std::size_t k = 0; k < channels.size(); ++k) ldi.values[k].push_back(value(k, i));
+        }
+        ldi.begin.push_back(ldi.z.size());
+    }
+    return ldi;
+}
+
+void append(Ldi &out, const ViewSamples &from, float z, float weight, std::span<const Term> terms) {
+    out.z.push_back(z);
+    out.weight.push_back(weight);
+    merge_values(out, from.channels, terms, [&](std::size_t k, std::uint64_t i) { return from.value(k, i); });
+    ++out.begin.back();
+}
+
+} // namespace sparselens

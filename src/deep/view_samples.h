@@ -1,0 +1,82 @@
+// The samples of a view: one in each pixel that shows something (A is not 0, depth is above 0), in whose place others may be put.
+// What is not changed is read from the view itself, which must outlive this: five views are most of what the warp holds.
+#pragma once
+
+#include "deep/build.h"
+#include "view/view.h"
+
+#include <bit>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+namespace sparselens {
+
+class ViewSamples {
+public:
+    // Has the channels of these names, in this order. Throws Error, naming the view, where it lacks one.
+    ViewSamples(const View &view, std::span<const Channel> channels);
+    ViewSamples(ViewSamples &&) = default;
+    ViewSamples &operator=(ViewSamples &&) = default;
+
+    Windows windows;
+    std::vector<Channel> channels;
+
+    std::size_t alpha() const { return find_channel(channels, "A"); } // npos: all samples opaque
+
+    // The samples of a pixel, front to back. Numbers say nothing of the order of pixels.
+    SampleRange pixel(std::size_t i) const {
+        const Word &word = words_[i / 64];
+        const std::uint64_t bit = std::uint64_t{1} << (i % 64);
+        if (!(word.shown & bit)) return {i, i};
+        if (!(word.replaced & bit)) return {i, i + 1};
+        const SampleRange range =
+            replaced_.pixel(word.replaced_before + std::size_t(std::popcount(word.replaced & (bit - 1))));
+        return {pixels_ + range.from, pixels_ + range.to};
+    }
+
+    float z(std::uint64_t i) const { return i < pixels_ ? z_[i] : replaced_.z[i - pixels_]; }
+    float weight(std::uint64_t i) const { return i < pixels_ ? 1 : replaced_.weight[i - pixels_]; }
+    float value(std::size_t channel, std::uint64_t i) const {
+        return i < pixels_ ? planes_[channel][i] : replaced_.values[channel][i - pixels_];
+    }
+
+    // Moves a sample that is none of those put in the place of others.
+    void set_z(std::uint64_t i, float z);
+
+    // Once: the samples that fill(pixel, out) appends to the last pixel of `out` take the place of the pixel's own, if there
+    // are any. It is asked for the pixels that changes(pixel) says, row by row in parallel.
+    void replace(const std::function<bool(std::size_t pixel)> &changes,
+                 const std::function<void(std::size_t pixel, Ldi &out)> &fill);
+
+    // In rows [first, end), counted from the top.
+    std::uint64_t count(std::size_t first, std::size_t end) const;
+    // The same rows as an LDI.
+    Ldi rows(std::size_t first, std::size_t end) const;
+    Ldi as_ldi() const { return rows(0, std::size_t(windows.height())); }
+
+private:
+    Ldi empty() const;
+
+    struct Word { // of 64 pixels, from the lowest bit on
+        std::uint64_t shown = 0, replaced = 0;
+        std::uint32_t replaced_before = 0; // pixels
+    };
+
+    std::size_t pixels_;
+    std::vector<std::span<const float>> planes_; // [channel]
+    std::span<const float> z_;                   // of the view, or `moved_`
+    std::vector<float> moved_;
+    std::vector<Word> words_;
+    Ldi replaced_; // its pixels are those that are replaced
+};
+
+inline float alpha_at(const ViewSamples &view, std::size_t alpha_channel, std::uint64_t index) {
+    return alpha_channel == npos ? 1.0f : view.value(alpha_channel, index);
+}
+
+// Appends a weighted sum of samples of the view to the last pixel of `out`.
+void append(Ldi &out, const ViewSamples &from, float z, float weight, std::span<const Term> terms);
+
+} // namespace sparselens
