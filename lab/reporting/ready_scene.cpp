@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "lab/report/numbers.h"
+#include "lab/reporting/files.h"
 
 #include <fmt/format.h>
 
@@ -37,6 +38,11 @@ std::optional<int> rays_of(const std::string &file, const std::string &ending) {
     return rays;
 }
 
+// Frames of a pull of focus lie beside the picture NAME.exr as NAME.pull.0001.exr and so on.
+std::vector<std::string> pull_of(const fs::path &folder, const std::string &file) {
+    return matching_files(folder / (fs::path(file).replace_extension().string() + ".pull.*.exr"));
+}
+
 } // namespace
 
 ReadyScene::ReadyScene(const fs::path &folder)
@@ -46,13 +52,17 @@ ReadyScene::ReadyScene(const fs::path &folder)
     if (!fs::exists(folder_ / "reference.exr"))
         throw Error((folder_ / "reference.exr").string() + ": no such file");
     views_.push_back({folder_, camera_});
-    for (const fs::directory_entry &entry : fs::directory_iterator(folder_))
-        if (entry.is_directory() && fs::exists(entry.path() / "camera.json"))
-            views_.push_back({entry.path(), read_camera_summary(entry.path())});
-    const auto samples = [](const ViewFolder &v) { return v.camera.view_samples; };
-    std::ranges::sort(views_, {}, [&](const ViewFolder &v) { return std::pair(samples(v), v.path); });
-    const auto same = [&](const ViewFolder &a, const ViewFolder &b) { return samples(a) == samples(b); };
-    views_.erase(std::unique(views_.begin(), views_.end(), same), views_.end());
+    for (const fs::directory_entry &entry : fs::directory_iterator(folder_)) {
+        if (!entry.is_directory() || !fs::exists(entry.path() / "camera.json")) continue;
+        const CameraSummary camera = read_camera_summary(entry.path());
+        (camera.supersample > 1 ? fine_ : views_).push_back({entry.path(), camera});
+    }
+    for (ViewFolders *folders : {&views_, &fine_}) {
+        const auto samples = [](const ViewFolder &v) { return v.camera.view_samples; };
+        std::ranges::sort(*folders, {}, [&](const ViewFolder &v) { return std::pair(samples(v), v.path); });
+        const auto same = [&](const ViewFolder &a, const ViewFolder &b) { return samples(a) == samples(b); };
+        folders->erase(std::unique(folders->begin(), folders->end(), same), folders->end());
+    }
 }
 
 LensValues ReadyScene::lens() const {
@@ -70,6 +80,12 @@ std::vector<int> ReadyScene::samples() const {
     return counts;
 }
 
+std::vector<int> ReadyScene::fine_samples() const {
+    std::vector<int> counts;
+    for (const ViewFolder &folder : fine_) counts.push_back(folder.camera.view_samples);
+    return counts;
+}
+
 std::vector<int> ReadyScene::rays(const std::string &ending) const {
     std::vector<int> counts;
     for (const auto &[file, seconds] : camera_.seconds)
@@ -84,20 +100,23 @@ Rendered ReadyScene::reference(StepList &) const {
 }
 
 // Of N views evenly on the rim every (N / rim)-th is taken.
-std::optional<Rendered> ReadyScene::views(int rim, int samples, const std::string &ending) const {
+std::optional<Rendered> ReadyScene::views(const ViewFolders &folders, int rim, int samples,
+                                          const std::string &ending) const {
     const auto found =
-        std::ranges::find_if(views_, [&](const ViewFolder &v) { return v.camera.view_samples == samples; });
+        std::ranges::find_if(folders, [&](const ViewFolder &v) { return v.camera.view_samples == samples; });
     const std::vector<Imath::V2d> &points = found->camera.views;
     const auto wanted = std::size_t(rim);
     const auto view_name = [&](std::size_t k) { return fmt::format("view_{}.{}", k, ending); };
     const std::string centre = "center." + ending;
     if (wanted > points.size() || (wanted > 0 && points.size() % wanted != 0)) return {};
     if (!found->camera.seconds.contains(centre)) return {};
-    Rendered views{.folder = fmt::format("{}/views{}-{}x{}", name_, kind_of(ending), 1 + rim, samples),
+    Rendered views{.folder = fmt::format("{}/{}{}-{}x{}", name_, found->camera.supersample == 1 ? "views" : "fine",
+                                          kind_of(ending), 1 + rim, samples),
                    .picture = (found->path / centre).string(),
                    .ready_seconds = found->camera.seconds.at(centre),
                    .views = 1 + rim,
-                   .rays = double((1 + rim) * samples)};
+                   .rays = double((1 + rim) * samples),
+                   .supersample = found->camera.supersample};
     for (std::size_t i = 0; i < wanted; ++i) {
         const std::size_t k = i * (points.size() / wanted);
         const Imath::V2d position = found->camera.lens_radius * points[k];
@@ -113,7 +132,26 @@ Rendered ReadyScene::distributed(int rays, const std::string &ending) const {
     return Rendered{.folder = fmt::format("{}/traced{}-{}", name_, kind_of(ending), rays),
                     .picture = (folder_ / file).string(),
                     .ready_seconds = camera_.seconds.at(file),
-                    .rays = double(rays)};
+                    .rays = double(rays),
+                    .pull = pull_of(folder_, file)};
+}
+
+std::vector<Finished> ReadyScene::finished() const {
+    std::vector<Finished> pictures;
+    for (const OtherPicture &other : camera_.others) {
+        const auto seconds = camera_.seconds.find(other.file);
+        if (seconds == camera_.seconds.end())
+            throw Error((folder_ / "camera.json").string() + ": no seconds of " + other.file);
+        pictures.push_back({other.renderer,
+                            other.processor,
+                            other.budget,
+                            {.folder = name_ + '/' + plain_name(other.file),
+                             .picture = (folder_ / other.file).string(),
+                             .ready_seconds = seconds->second,
+                             .rays = other.rays,
+                             .pull = pull_of(folder_, other.file)}});
+    }
+    return pictures;
 }
 
 } // namespace sparselens::lab

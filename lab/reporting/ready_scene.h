@@ -21,12 +21,21 @@ public:
     std::vector<int> denoised_rays() const override { return rays("denoised.exr"); }
     std::vector<int> lens_views() const override { return {}; }
 
+    std::vector<int> fine_samples() const override;
+    std::vector<Finished> finished() const override;
+
     Rendered reference(StepList &steps) const override;
     std::optional<Rendered> views(int rim, int samples, StepList &) const override {
-        return views(rim, samples, "exr");
+        return views(views_, rim, samples, "exr");
     }
     std::optional<Rendered> denoised_views(int rim, int samples, StepList &) const override {
-        return views(rim, samples, "denoised.exr");
+        return views(views_, rim, samples, "denoised.exr");
+    }
+    std::optional<Rendered> fine_views(int rim, int samples, StepList &) const override {
+        return views(fine_, rim, samples, "exr");
+    }
+    std::optional<Rendered> denoised_fine_views(int rim, int samples, StepList &) const override {
+        return views(fine_, rim, samples, "denoised.exr");
     }
     std::optional<Rendered> planned(int, int, StepList &) const override { return {}; }
     std::optional<Rendered> layers(const std::string &, int, StepList &) const override { return {}; }
@@ -43,15 +52,17 @@ private:
         std::filesystem::path path;
         CameraSummary camera;
     };
+    using ViewFolders = std::vector<ViewFolder>;
 
     // Of the files that end so: as they were rendered, or denoised.
     std::vector<int> rays(const std::string &ending) const;
-    std::optional<Rendered> views(int rim, int samples, const std::string &ending) const;
+    std::optional<Rendered> views(const ViewFolders &folders, int rim, int samples,
+                                  const std::string &ending) const;
     Rendered distributed(int rays, const std::string &ending) const;
 
     std::filesystem::path folder_;
     std::string name_;
-    std::vector<ViewFolder> views_; // by samples per pixel; each number once
+    ViewFolders views_, fine_; // by samples per pixel, each number once; fine: larger than the picture
     CameraSummary camera_;          // of the folder itself
 };
 

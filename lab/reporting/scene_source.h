@@ -36,6 +36,14 @@ struct Rendered {
     int views = 1;
     double rays = 0;         // camera samples per pixel, all views together
     int planned_samples = 0; // above 0: rim views are partial, with so many samples in each covered pixel
+    int supersample = 1;     // views are so many times as wide as the picture
+    std::vector<std::string> pull{}; // frames of a pull of focus that were rendered the same way; may be empty
+};
+
+// A picture that another way made.
+struct Finished {
+    std::string renderer, processor, budget;
+    Rendered rendered;
 };
 
 class SceneSource {
@@ -60,6 +68,12 @@ public:
     virtual std::optional<Rendered> accumulated(int views, StepList &steps) const = 0;
     virtual std::optional<Rendered> distributed(int rays, StepList &steps) const = 0;
 
+    // Views of more pixels with as many rays: `samples` are those of a pixel of the picture.
+    virtual std::vector<int> fine_samples() const { return {}; }
+    virtual std::optional<Rendered> fine_views(int, int, StepList &) const { return {}; }
+    virtual std::optional<Rendered> denoised_fine_views(int, int, StepList &) const { return {}; }
+    virtual std::vector<Finished> finished() const { return {}; }
+
     // What a denoiser made of the views, and of the rays over the lens; the seconds are those of both.
     virtual std::optional<Rendered> denoised_views(int, int, StepList &) const { return {}; }
     virtual std::optional<Rendered> denoised(int, StepList &) const { return {}; }
@@ -69,8 +83,9 @@ public:
 bool can_plan(const std::string &tools);
 
 // `scene` is the name of a built-in scene, or a folder with camera.json, reference.exr, center.exr, view_K.exr and
-// optionally drt_N.exr (N rays per pixel over the lens), what a denoiser made of any of these (center.denoised.exr, ...; lab/denoise) and
-// further such folders for other sample counts. Throws UsageError where it is neither.
+// optionally drt_N.exr (N rays per pixel over the lens), what a denoiser made of any of these (center.denoised.exr, ...; lab/denoise),
+// pictures that camera.json lists as "others", frames of a pull of focus (drt_N.pull.0001.exr, ...) and
+// further such folders for other sample counts, or with finer views. Throws UsageError where it is neither.
 std::unique_ptr<SceneSource> open_scene(const std::string &scene, const Budgets &budgets, bool with_plans);
 
 } // namespace sparselens::lab

@@ -65,7 +65,7 @@ public:
     }
 
     Layers gathered(const Layers &from, const std::string &name, const Words &words, double weight = 1.2) {
-        return then(from, Stage::process, name, {"dof-gather", from.file}, words + lens_, weight);
+        return then(from, Stage::process, name, {"dof-gather", from.file}, words + size() + lens_, weight);
     }
 
     // Not part of anybody's time.
@@ -73,7 +73,7 @@ public:
         const Layers from = warp();
         const Words words{"--method", "lens", "--lens-samples", fmt::to_string(budgets_.many_points)};
         const Layers made =
-            then(from, Stage::process, "many-points", {"dof-gather", from.file}, words + lens_, 4, false);
+            then(from, Stage::process, "many-points", {"dof-gather", from.file}, words + size() + lens_, 4, false);
         return made.file;
     }
 
@@ -83,7 +83,7 @@ public:
         const std::string name = rendered_.folder + "/pull-" + quality;
         const std::string keys = fmt::format("1:{},{}:{}", focus, pull_frames, pull_to * focus);
         Words words{"dof-gather", from.file, "--quality", quality, "-o", name + ".####.exr"};
-        words = std::move(words) + lens_;
+        words = std::move(words) + size() + lens_;
         if (const auto own = std::ranges::find(words, "--focus-distance"); own != words.end())
             own[1] = keys;
         else
@@ -101,6 +101,12 @@ public:
     }
 
 private:
+    // The picture has the size of the reference, whatever that of the views.
+    Words size() const {
+        return rendered_.supersample == 1 ? Words{}
+                                          : Words{"--supersample", fmt::to_string(rendered_.supersample)};
+    }
+
     Layers then(const Layers &from, Stage stage, const std::string &name, const Words &program_and_inputs,
                 const Words &options, double weight = 1.2, bool timed = true) {
         const std::string file = rendered_.folder + '/' + name + ".exr";
@@ -178,6 +184,16 @@ std::optional<Rendered> planned(const SceneSource &scene, int samples, StepList 
 }
 
 template <int Rim>
+std::optional<Rendered> fine(const SceneSource &scene, int samples, StepList &steps) {
+    return scene.fine_views(Rim, samples, steps);
+}
+
+template <int Rim>
+std::optional<Rendered> denoised_fine(const SceneSource &scene, int samples, StepList &steps) {
+    return scene.denoised_fine_views(Rim, samples, steps);
+}
+
+template <int Rim>
 std::optional<Rendered> denoised_sparse(const SceneSource &scene, int samples, StepList &steps) {
     return scene.denoised_views(Rim, samples, steps);
 }
@@ -216,6 +232,8 @@ const std::vector<System> &system_table() {
         {"centre + 4", "sample", &S::samples, sparse<4>, every, Role::sparse_lens, true},
         {"centre + 8", "sample", &S::samples, sparse<8>, every, Role::sparse_lens},
         {"centre + 4 denoised", "sample", &S::samples, denoised_sparse<4>, {&lens_normal}, Role::other},
+        {"centre + 4 fine", "sample", &S::fine_samples, fine<4>, {&lens_normal}, Role::sparse_lens},
+        {"centre + 4 fine denoised", "sample", &S::fine_samples, denoised_fine<4>, {&lens_normal}, Role::other},
         {"centre + 4 planned",
          "sample",
          &S::samples,
@@ -234,7 +252,8 @@ PlannedRow row_of(const SceneSource &scene, const System &system, int budget, co
     row.views = rendered.views;
     row.rays = rendered.rays;
     row.seconds[std::size_t(Stage::render)] = rendered.ready_seconds;
-    PlannedRow planned_row{.row = std::move(row), .steps = rendered.steps, .picture = rendered.picture};
+    PlannedRow planned_row{
+        .row = std::move(row), .steps = rendered.steps, .picture = rendered.picture, .pull = rendered.pull};
     if (rendered.planned_samples > 0) {
         planned_row.partial_views = rendered.rim.front().path;
         planned_row.partial_samples = rendered.planned_samples;
@@ -275,6 +294,13 @@ ScenePlan plan_scene(const SceneSource &scene, const Budgets &budgets, Detail de
         for (const int budget : (scene.*system.budgets)())
             if (const auto rendered = system.render(scene, budget, steps))
                 add_rows(scene, system, budget, *rendered, budgets, detail, steps, plan.rows);
+    for (const Finished &other : scene.finished()) {
+        const System made{other.renderer.c_str(), "", nullptr, nullptr, {}, Role::other};
+        PlannedRow planned_row = row_of(scene, made, 0, other.rendered);
+        planned_row.row.processor = other.processor;
+        planned_row.row.budget = other.budget;
+        plan.rows.push_back(std::move(planned_row));
+    }
     return plan;
 }
 

@@ -28,7 +28,12 @@ CameraSummary summary_of(const nlohmann::json &json) {
     for (const auto &point : json.at("views"))
         camera.views.emplace_back(double(point.at(0)), double(point.at(1)));
     camera.view_samples = json.at("view_spp");
+    camera.supersample = json.value("supersample", 1);
     camera.seconds = json.at("seconds").get<std::map<std::string, double>>();
+    if (json.contains("others"))
+        for (const auto &other : json.at("others"))
+            camera.others.push_back({other.at("file"), other.at("renderer"), other.at("processor"),
+                                     other.at("budget"), other.at("rays")});
     return camera;
 }
 

@@ -232,6 +232,49 @@ TEST_F(ReadyViews, FourOfEightViewsAreEverySecond) {
                   "-o a-yard/views-5x64/warped.exr");
 }
 
+TEST_F(ReadyViews, FinerViewsAreGatheredIntoTheSizeOfThePicture) {
+    EXPECT_FALSE(planned(folder_.string()).has("centre + 4 fine"));
+    fs::create_directories(folder_ / "fine");
+    std::string json = camera("[1, 0], [0, 1], [-1, 0], [0, -1]", 16,
+                              "\"center.exr\": 9, \"view_0.exr\": 1, \"view_1.exr\": 1, \"view_2.exr\": 1, "
+                              "\"view_3.exr\": 1");
+    json.insert(1, "\"supersample\": 2, ");
+    put_contents(folder_ / "fine" / "camera.json", json);
+    const Planned all = planned(folder_.string());
+    const PlannedRow &row = all.row("centre + 4 fine, lens normal", "16 samples");
+    EXPECT_EQ(row.row.rays, 80);
+    EXPECT_EQ(row.row.seconds[0], 13);
+    EXPECT_EQ(row.row.role, Role::sparse_lens);
+    EXPECT_NE(all.commands(row).find("/fine-5x16/warped.exr --method lens --quality normal --supersample 2 "),
+              std::string::npos);
+    EXPECT_EQ(all.commands(row).find("--supersample"), all.commands(row).rfind("--supersample"));
+    EXPECT_EQ(all.commands(all.row("centre + 4, lens normal", "64 samples")).find("--supersample"),
+              std::string::npos);
+}
+
+TEST_F(ReadyViews, PicturesOfOtherWaysAreRowsWithTheirPulls) {
+    const auto write = [&](const std::string &seconds) {
+        std::string json = camera("[1, 0]", 64, seconds);
+        json.insert(1, "\"others\": [{\"file\": \"by_them.exr\", \"renderer\": \"one view\", "
+                       "\"processor\": \"theirs\", \"budget\": \"64 samples\", \"rays\": 64}], ");
+        put_contents(folder_ / "camera.json", json);
+    };
+    write("\"center.exr\": 20, \"view_0.exr\": 1, \"drt_16.exr\": 2.5, \"by_them.exr\": 21");
+    for (const char *frame : {"drt_16.pull.0001.exr", "drt_16.pull.0002.exr", "by_them.pull.0001.exr"})
+        put_contents(folder_ / frame, "");
+    const Planned all = planned(folder_.string());
+    const PlannedRow &row = all.row("one view, theirs", "64 samples");
+    EXPECT_EQ(row.row.seconds[0], 21);
+    EXPECT_EQ(row.row.rays, 64);
+    EXPECT_EQ(row.row.role, Role::other);
+    EXPECT_EQ(row.picture, (folder_ / "by_them.exr").string());
+    EXPECT_EQ(row.pull, std::vector<std::string>{(folder_ / "by_them.pull.0001.exr").string()});
+    EXPECT_EQ(all.row("distributed ray tracing", "16 rays").pull.size(), 2u);
+    EXPECT_TRUE(all.row("one view, gather", "64 samples").pull.empty());
+    write("\"center.exr\": 20, \"view_0.exr\": 1");
+    EXPECT_THROW(planned(folder_.string()), Error);
+}
+
 TEST_F(ReadyViews, WhatADenoiserMadeHasItsOwnRows) {
     const Planned without = planned(folder_.string());
     EXPECT_FALSE(without.has("denoised ray tracing"));
