@@ -1,5 +1,6 @@
 #include "lab/report/page.h"
 
+#include "lab/report/answers.h"
 #include "lab/report/base64.h"
 #include "lab/report/numbers.h"
 #include "lab/report/page_assets.h"
@@ -108,14 +109,49 @@ std::string table(std::span<const ReportRow> rows) {
     return html + "</tbody></table></div>\n";
 }
 
+std::string answers_table(std::span<const PageScene> scenes) {
+    std::vector<std::span<const ReportRow>> rows;
+    for (const PageScene &scene : scenes) rows.push_back(scene.rows);
+    const std::vector<Answer> all = answers(rows);
+    if (all.empty()) return "";
+    std::string html = "<table class=\"answers\">\n<thead><tr>\n" + element("th", "the question") +
+                       element("th", "where that is better than five views") + element("th", "where five views are") +
+                       "</tr></thead>\n<tbody>\n";
+    for (const Answer &answer : all)
+        html += "<tr>\n" + element("td", answer.question) + element("td", answer.losses) +
+                element("td", answer.gains) + "</tr>\n";
+    return html + "</tbody></table>\n";
+}
+
+std::string plots_of(const std::vector<std::string> &plots) {
+    std::string html;
+    for (const std::string &plot : plots)
+        html += "<img class=\"plot\" alt=\"error against cost\" src=\"" + data_url("image/svg+xml", plot) +
+                "\">\n";
+    return html;
+}
+
+std::string on_demand(const std::string &title, const std::string &html) {
+    return html.empty() ? "" : "<details>\n" + element("summary", title) + html + "</details>\n";
+}
+
+std::string worst_blocks(const std::vector<PagePicture> &blocks) {
+    if (blocks.empty()) return "";
+    std::string html = "<div class=\"blocks\">\n";
+    for (const PagePicture &block : blocks)
+        html += "<figure><img alt=\"worst block\" src=\"" + data_url("image/png", block.png) + "\">\n" +
+                element("figcaption", block.title) + "</figure>\n";
+    return html + "</div>\n";
+}
+
 std::string section(const PageScene &scene) {
     const std::string name = scene.rows.empty() ? "" : scene.rows.front().scene;
     std::string html = "<section>\n" + element("h2", name) + "<ul class=\"verdict\">\n";
     for (const std::string &sentence : scene.sentences) html += element("li", sentence);
     html += "</ul>\n" + viewer(scene.pictures);
-    for (const std::string &plot : scene.plots)
-        html += "<img class=\"plot\" alt=\"error against cost\" src=\"" + data_url("image/svg+xml", plot) +
-                "\">\n";
+    html += plots_of(scene.plots) + on_demand("Plots of every way that was measured", plots_of(scene.more_plots));
+    html += on_demand("The worst place of each row: the row on the left, the reference on the right",
+                      worst_blocks(scene.worst));
     return html + table(scene.rows) + "</section>\n";
 }
 
@@ -127,6 +163,7 @@ std::string page_as_html(const Page &page) {
     html +=
         page_style + std::string("</style>\n</head>\n<body>\n<h1>Depth of field: error against time</h1>\n");
     for (const std::string &fact : page.facts) html += element("p class=\"fact\"", fact);
+    html += answers_table(page.scenes);
     html +=
         "<p>Seconds are wall time, rendering included; rays are camera samples a pixel, all views together, "
         "since "

@@ -16,10 +16,13 @@ struct PagePicture {
 
 struct PageScene {
     std::span<const ReportRow> rows;
-    std::vector<std::string> sentences; // the verdict
-    std::vector<std::string> plots;     // SVG files
+    std::vector<std::string> sentences;  // the verdict
+    std::vector<std::string> plots;      // SVG files: the ways that are used
+    std::vector<std::string> more_plots; // and all that were measured, on demand
     // All of the same size; the first is the reference, the second is shown beside it.
     std::vector<PagePicture> pictures;
+    // The worst 8 x 8 pixels of each row amid what surrounds them, and the reference's beside them.
+    std::vector<PagePicture> worst;
 };
 
 struct Page {

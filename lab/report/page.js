@@ -29,10 +29,17 @@ function startViewer(viewer) {
         show();
     }
 
+    // As large as the page is wide, in whole pixels.
+    function fill() {
+        const zoom = part('zoom');
+        for (const option of zoom.options)
+            if (pictures[0].naturalWidth * Number(option.value) <= viewer.clientWidth) zoom.value = option.value;
+    }
+
     for (const name of ['left', 'right', 'mode', 'zoom', 'slider']) part(name).addEventListener('input', show);
     stack.addEventListener('pointerdown', drag);
     stack.addEventListener('pointermove', drag);
-    Promise.all(Array.from(pictures, (picture) => picture.decode())).then(show);
+    Promise.all(Array.from(pictures, (picture) => picture.decode())).then(fill).then(show);
 }
 
 document.querySelectorAll('.viewer').forEach(startViewer);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 namespace sparselens::lab {
@@ -85,6 +86,22 @@ std::string plot_command(const std::vector<Line> &lines, const char *columns) {
 }
 
 } // namespace
+
+std::vector<ReportRow> rows_in_use(std::span<const ReportRow> rows) {
+    constexpr std::size_t most = 6;
+    std::vector<std::string> used;
+    for (const char *name : {"distributed ray tracing", "denoised ray tracing", "centre + 4, lens normal",
+                             "accumulated lens views", "one view, lens normal", "centre + 4 denoised, lens normal",
+                             "centre + 4 planned, lens normal", "centre + 8, lens normal"})
+        if (used.size() < most &&
+            std::ranges::any_of(rows, [&](const ReportRow &row) { return method_name(row) == name; }))
+            used.push_back(name);
+    std::vector<ReportRow> kept;
+    std::ranges::copy_if(rows, std::back_inserter(kept), [&](const ReportRow &row) {
+        return std::ranges::find(used, method_name(row)) != used.end();
+    });
+    return kept;
+}
 
 std::string plot_script(std::span<const ReportRow> rows, const std::string &name) {
     const std::vector<Line> lines = lines_of(rows);

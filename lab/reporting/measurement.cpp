@@ -48,6 +48,48 @@ void write_png(const std::string &path, const Image &image) {
     write_shown_picture(path, rgb);
 }
 
+// The block of 8 x 8 pixels that is farthest from the reference; both are tone-mapped.
+Imath::V2i worst_block(const Image &picture, const Image &reference) {
+    const int width = picture.windows.width(), height = picture.windows.height();
+    Imath::V2i worst{0, 0};
+    double most = -1;
+    for (int top = 0; top < height; top += 8)
+        for (int left = 0; left < width; left += 8) {
+            double sum = 0;
+            int pixels = 0;
+            for (int y = top; y < std::min(top + 8, height); ++y)
+                for (int x = left; x < std::min(left + 8, width); ++x, ++pixels)
+                    for (std::size_t c = 0; c < 3; ++c) {
+                        const std::size_t i = std::size_t(y) * std::size_t(width) + std::size_t(x);
+                        const double d = double(picture.plane(c)[i]) - double(reference.plane(c)[i]);
+                        sum += std::isfinite(d) ? d * d : 1;
+                    }
+            if (sum / pixels > most) most = sum / pixels, worst = {left, top};
+        }
+    return worst;
+}
+
+// 32 pixels of each amid which the block lies, side by side with a line of white between them.
+Image worst_place_picture(const Image &picture, const Image &reference) {
+    constexpr int side = 32, gap = 2;
+    const Imath::V2i block = worst_block(picture, reference);
+    const int width = picture.windows.width(), height = picture.windows.height();
+    const auto start = [](int at, int length) { return std::clamp(at + 4 - side / 2, 0, std::max(0, length - side)); };
+    const int left = start(block.x, width), top = start(block.y, height);
+    Image pair(windows_of_size(2 * side + gap, side), {{"R"}, {"G"}, {"B"}});
+    for (std::size_t c = 0; c < 3; ++c) {
+        std::ranges::fill(pair.plane(c), 1.f);
+        for (int y = 0; y < std::min(side, height - top); ++y)
+            for (int x = 0; x < std::min(side, width - left); ++x) {
+                const std::size_t from = std::size_t(top + y) * std::size_t(width) + std::size_t(left + x);
+                const std::size_t to = std::size_t(y) * (2 * side + gap) + std::size_t(x);
+                pair.plane(c)[to] = picture.plane(c)[from];
+                pair.plane(c)[to + side + gap] = reference.plane(c)[from];
+            }
+    }
+    return pair;
+}
+
 class SceneMeasurement {
 public:
     SceneMeasurement(const ScenePlan &plan, std::span<const StepTimes> times, std::string folder,
@@ -78,6 +120,8 @@ public:
         row.picture = pictures_of(planned) + ".png";
         row.difference = pictures_of(planned) + "-difference.png";
         write_png(path(row.picture), mapped);
+        row.worst = pictures_of(planned) + "-worst.png";
+        write_png(path(row.worst), worst_place_picture(mapped, mapped_reference_));
         write_png(path(row.difference), difference_picture(mapped, mapped_reference_));
         return row;
     }
@@ -173,6 +217,15 @@ std::vector<PagePicture> page_pictures(const ScenePlan &plan, std::span<const Re
         show(**std::ranges::max_element(of_method, {}, [](const ReportRow *row) { return quality(*row); }));
     }
     return pictures;
+}
+
+std::vector<PagePicture> worst_places(std::span<const ReportRow> rows, const std::string &folder) {
+    std::vector<PagePicture> places;
+    for (const ReportRow &row : rows)
+        places.push_back({fmt::format("{}, {}: {} dB", method_name(row), row.budget,
+                                      fixed(row.errors.front().psnr_worst, 1)),
+                          read_text_file((fs::path(folder) / row.worst).string())});
+    return places;
 }
 
 } // namespace sparselens::lab

@@ -12,12 +12,15 @@
 namespace sparselens::lab {
 
 // Measures every row against the reference of the scene; `times` are one per step. Writes PNG files of the picture of
-// each row and of its difference, tone-mapped like the figures, the difference multiplied by 8.
+// each row, of its difference and of its worst place, tone-mapped like the figures, the difference multiplied by 8.
 std::vector<ReportRow> measure_rows(const ScenePlan &plan, std::span<const StepTimes> times,
                                     const std::string &folder, const ToolContext &tool);
 
 // The pictures of the page: the reference, the best of the sparse views, then the fastest and best of each method.
 std::vector<PagePicture> page_pictures(const ScenePlan &plan, std::span<const ReportRow> rows,
                                        const std::string &folder);
+
+// The worst place of each row beside the reference's.
+std::vector<PagePicture> worst_places(std::span<const ReportRow> rows, const std::string &folder);
 
 } // namespace sparselens::lab

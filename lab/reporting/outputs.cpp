@@ -35,13 +35,14 @@ bool is_installed(const std::string &program) {
 }
 
 // SVG files for the page.
-std::vector<std::string> draw_plots(const fs::path &folder, const MeasuredScene &scene) {
-    const std::string script = scene.plan.name + ".gnuplot";
-    write_file(folder / script, plot_script(scene.rows, scene.plan.name));
+std::vector<std::string> draw_plots(const fs::path &folder, std::span<const ReportRow> rows,
+                                    const std::string &name) {
+    const std::string script = name + ".gnuplot";
+    write_file(folder / script, plot_script(rows, name));
     run_process({"gnuplot", script}, folder.string());
     std::vector<std::string> plots;
     for (const char *kind : {"-seconds.svg", "-rays.svg"})
-        plots.push_back(read_text_file((folder / (scene.plan.name + kind)).string()));
+        plots.push_back(read_text_file((folder / (name + kind)).string()));
     return plots;
 }
 
@@ -78,11 +79,16 @@ void write_report(const std::string &folder, std::span<const MeasuredScene> scen
     Page page{std::move(facts), {}};
     for (const MeasuredScene &scene : scenes) {
         all.insert(all.end(), scene.rows.begin(), scene.rows.end());
-        page.scenes.push_back({scene.rows,
-                               verdict_sentences(scene.rows, scene_verdict(scene.rows)),
-                               {},
-                               page_pictures(scene.plan, scene.rows, folder)});
-        if (plots) page.scenes.back().plots = draw_plots(fs::path(folder) / "plots", scene);
+        page.scenes.push_back({.rows = scene.rows,
+                               .sentences = verdict_sentences(scene.rows, scene_verdict(scene.rows)),
+                               .plots = {},
+                               .more_plots = {},
+                               .pictures = page_pictures(scene.plan, scene.rows, folder),
+                               .worst = worst_places(scene.rows, folder)});
+        if (!plots) continue;
+        const fs::path drawn = fs::path(folder) / "plots";
+        page.scenes.back().plots = draw_plots(drawn, rows_in_use(scene.rows), scene.plan.name);
+        page.scenes.back().more_plots = draw_plots(drawn, scene.rows, scene.plan.name + "-all");
     }
     write_file(fs::path(folder) / "report.csv", report_as_csv(all));
     write_file(fs::path(folder) / "index.html", page_as_html(page));

@@ -34,13 +34,16 @@ TEST(Page, HoldsAllOfItself) {
     rows.push_back(report_row(Role::sparse_lens, "<sparse> & \"co\"", 2, 5, 39));
     rows.back().errors.front().nonfinite_image = 12345;
     const std::string html = page_as_html(
-        {{"a < machine"}, {{rows, {"1 < 2"}, {"<svg/>"}, {{"reference", "foo"}, {"best", "bar"}}}}});
+        {{"a < machine"}, {{rows, {"1 < 2"}, {"<svg/>"}, {"<svg2/>"}, {{"reference", "foo"}, {"best", "bar"}}, {{"a > block", "foob"}}}}});
     EXPECT_TRUE(html.starts_with("<!DOCTYPE html>"));
     EXPECT_TRUE(holds(html, "a &lt; machine"));
     EXPECT_TRUE(holds(html, "1 &lt; 2"));
     EXPECT_TRUE(holds(html, "&lt;sparse&gt; &amp; &quot;co&quot;"));
     EXPECT_TRUE(holds(html, "data:image/png;base64,Zm9v\""));
     EXPECT_TRUE(holds(html, "data:image/svg+xml;base64,PHN2Zy8+\""));
+    EXPECT_TRUE(holds(html, "data:image/svg+xml;base64,PHN2ZzIvPg==\"")); // on demand
+    EXPECT_TRUE(holds(html, "a &gt; block"));
+    EXPECT_TRUE(holds(html, "data:image/png;base64,Zm9vYg==\""));
     EXPECT_TRUE(holds(html, ">12345</td>")); // what is not finite is told
     EXPECT_EQ(count(html, "<tr"), 1 + rows.size());
     EXPECT_TRUE(holds(html, "startViewer"));
@@ -50,7 +53,7 @@ TEST(Page, HoldsAllOfItself) {
 
 TEST(Page, RowsHaveAsManyCellsAsTitles) {
     const auto rows = ray_tracing_rows();
-    const std::string html = page_as_html({{}, {{rows, {}, {}, {}}}});
+    const std::string html = page_as_html({{}, {{rows, {}, {}, {}, {}, {}}}});
     EXPECT_EQ(count(html, "</td>"), rows.size() * count(html, "</th>"));
 }
 
