@@ -1,0 +1,7 @@
+# Ray tracing, denoised, averages, five views, other programs, notes, pulls: lab/rivals on eight scenes and one of Mitsuba, 320x180.
+# 40 CPU minutes from nothing; needs PyPI, and crates.io for OpenDefocus. With --keep FOLDER only what takes seconds is measured again.
+. "$(dirname "$0")/common.inc" "$1"
+"$(dirname "$0")/../rivals" --bin "$bin" . >&2
+cat table.md
+echo
+cat notes.md

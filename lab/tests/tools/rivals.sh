@@ -1,0 +1,22 @@
+#!/bin/bash
+# lab/rivals over one small scene: rows at equal rays of each way, pulls of each way, what a note costs, and what is left out.
+. "$(dirname "$0")/../../../tests/tools/check.sh"
+python3 -c 'import ensurepip' 2>/dev/null || skip "needs python3-venv"
+exits 0 "$source_dir/lab/rivals" --bin "$bin" --scenes 'fence meadow' --size 96x54 --reference 128 --without 'opendefocus blender' all
+grep -q 'left out: meadow' stderr || fail "a scene that is not there is not told: $(cat stderr)"
+grep -q '^- left out: OpenDefocus, as asked' all/table.md || fail "what is left out is not in the table: $(cat all/table.md)"
+if grep -q 'left out: Open Image Denoise' all/left-out; then
+    grep -q fence all/report.txt || fail "nothing is measured without PyPI"
+    skip "Open Image Denoise: PyPI cannot be reached, or has no wheel for this Python"
+fi
+# A cell for each way at 5 rays and more, but finer views, which begin at 20.
+awk -F '|' '/^\| fence, / { for (i = 3; i <= 9; ++i) if ($i !~ /dB|[0-9], [0-9]/ && !($2 ~ / 5 / && i > 7)) exit 1; ++rows } END { exit rows != 4 }' \
+    all/table.md || fail "a cell is missing: $(cat all/table.md)"
+for way in 'distributed ray tracing, 80 rays' 'denoised ray tracing, 80 rays' 'accumulated lens views, 80 rays' 'centre + 4, lens normal, 64 samples'; do
+    grep -qF "| fence | $way | " all/table.md || fail "no pull of $way: $(cat all/table.md)"
+done
+[ "$(grep -cE '^\| (focus|two stops|six blades|matte).* s, 0 rays \|$' all/notes.md)" -eq 4 ] || fail "not four notes: $(cat all/notes.md)"
+grep -q 'Denoised ray tracing, of as many rays?' all/report/index.html || fail 'the page does not answer about the denoiser'
+stamp=$(stat -c %Y all/fence/denoise.said)
+exits 0 "$source_dir/lab/rivals" --bin "$bin" --scenes fence --size 96x54 --reference 128 --without 'opendefocus blender' all
+[ "$(stat -c %Y all/fence/denoise.said)" = "$stamp" ] || fail 'what is there is made again'
