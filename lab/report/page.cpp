@@ -137,7 +137,8 @@ std::string on_demand(const std::string &title, const std::string &html) {
 
 std::string worst_blocks(const std::vector<PagePicture> &blocks) {
     if (blocks.empty()) return "";
-    std::string html = "<div class=\"blocks\">\n";
+    std::string html = element("h3", "The worst places: the row on the left, the reference on the right") +
+                       "<div class=\"blocks\">\n";
     for (const PagePicture &block : blocks)
         html += "<figure><img alt=\"worst block\" src=\"" + data_url("image/png", block.png) + "\">\n" +
                 element("figcaption", block.title) + "</figure>\n";
@@ -150,8 +151,7 @@ std::string section(const PageScene &scene) {
     for (const std::string &sentence : scene.sentences) html += element("li", sentence);
     html += "</ul>\n" + viewer(scene.pictures);
     html += plots_of(scene.plots) + on_demand("Plots of every way that was measured", plots_of(scene.more_plots));
-    html += on_demand("The worst place of each row: the row on the left, the reference on the right",
-                      worst_blocks(scene.worst));
+    html += worst_blocks(scene.worst);
     return html + table(scene.rows) + "</section>\n";
 }
 

@@ -84,7 +84,7 @@ void write_report(const std::string &folder, std::span<const MeasuredScene> scen
                                .plots = {},
                                .more_plots = {},
                                .pictures = page_pictures(scene.plan, scene.rows, folder),
-                               .worst = worst_places(scene.rows, folder)});
+                               .worst = worst_places(rows_in_use(scene.rows), folder)});
         if (!plots) continue;
         const fs::path drawn = fs::path(folder) / "plots";
         page.scenes.back().plots = draw_plots(drawn, rows_in_use(scene.rows), scene.plan.name);
