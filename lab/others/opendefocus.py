@@ -18,4 +18,4 @@ def tried(rings, larger):
     return f"{rings} rings, radii x {larger}", made[..., :3], seconds
 
 
-keep_best("OpenDefocus", (tried(*way) for way in ((20, 1), (20, 1.1), (20, 1.2))))
+keep_best("OpenDefocus", (tried(*way) for way in ((20, 1), (20, 1.15))))
