@@ -8,13 +8,15 @@ namespace {
 
 TEST(Asked, IsRead) {
     const Asked asked = parse_asked(
-        R"({"page": "k3J9", "settings": {"fstop": "2.8", "tilt": "-3,4"}, "exposure": -1.5, "pixel": [320, -1]})");
+        R"({"page": "k3J9", "settings": {"fstop": "2.8", "tilt": "-3,4"}, "exposure": -1.5, "frame": -3, "pixel": [320, -1]})");
     EXPECT_EQ(asked.page, "k3J9");
     EXPECT_EQ(asked.settings, (std::map<std::string, std::string>{{"fstop", "2.8"}, {"tilt", "-3,4"}}));
     EXPECT_EQ(asked.exposure, -1.5);
+    EXPECT_EQ(asked.frame, -3);
     EXPECT_EQ(asked.pixel, Imath::V2i(320, -1));
     const Asked least = parse_asked(R"({"page": "a"})");
     EXPECT_TRUE(least.settings.empty());
+    EXPECT_FALSE(least.frame);
     EXPECT_FALSE(least.pixel);
 }
 
@@ -35,6 +37,8 @@ TEST(Asked, AnythingElseIsRefused) {
                              R"({"page": "a", "settings": {"fstop": "2 3"}})",
                              R"({"page": "a", "exposure": "1"})",
                              R"({"page": "a", "exposure": 21})",
+                             R"({"page": "a", "frame": 1.5})",
+                             R"({"page": "a", "frame": 3000000000})",
                              R"({"page": "a", "pixel": [1]})",
                              R"({"page": "a", "pixel": [1.5, 2]})",
                              R"({"page": "a", "pixel": [1e300, 2]})",

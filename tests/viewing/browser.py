@@ -196,6 +196,45 @@ def has_keys(page):
         browser.until(f"part('command').value.includes({expected!r})")
 
 
+def has_frames(browser):
+    """A sequence: its timeline, its frames, and the command that makes them with keys."""
+    other = "other.ldi.exr"
+    subprocess.run([folder + "/dof-trace", "grass", "--size", "160x90", "--spp", "1", "--views", "0", "-o", "grass"], check=True)
+    subprocess.run([folder + "/ldi-warp", "grass/center.exr", "-o", other], check=True)
+    for number, source in ((1, ldi), (2, other), (4, ldi)):
+        os.symlink(os.path.abspath(source), f"shot.{number:04}.ldi.exr")
+    with served(folder + "/dof-view", "shot.####.ldi.exr") as server:
+        page = Page(browser, server)
+        assert browser.run("return [part('time').open, time.frame, part('first').value, part('last').value]") == [True, 1, "1", "4"]
+        first = page.pixels()[2]
+        page.does(browser.press, ".")
+        browser.until("part('name').textContent.includes('shot.0002') && part('command').value.includes('shot.0002')")
+        assert page.pixels()[2] != first
+        page.shot("sequence")
+        page.does(browser.press, ".")
+        browser.until("time.frame === 4 && part('name').textContent.includes('shot.0004')")
+        assert page.pixels()[2] == first
+        page.does(browser.run, "set('focus-distance', 8)")
+        browser.press("k")
+        page.does(browser.run, "goTo(1)")
+        page.does(browser.run, "set('focus-distance', 5)")
+        browser.press("k")
+        page.does(browser.press, ".")
+        assert browser.run("return [time.frame, focusNow()]") == [2, 6]
+        shown = bytes(int(value) for value in page.pixels()[2].split(","))
+        browser.run("part('form').value = 'command of all frames'; part('command').value = ''; part('copy_time').click()")
+        command = browser.until("part('command').value.includes('--frames') && part('command').value")
+        assert "--frames 1,2,4" in command and "shot.####.ldi.exr" in command and "1:5,4:8" in command, command
+        subprocess.run(command.replace("dof-gather", folder + "/dof-gather", 1), shell=True, check=True)
+        _, _, channels, pixels = read_png("shot.0002.png")
+        assert pixels == (shown if channels == 4 else bytes(value for i, value in enumerate(shown) if i % 4 < 3))
+        browser.run("window.seen = new Set(); const before = goTo; goTo = (frame) => (seen.add(frame), before(frame)); play()")
+        browser.until("seen.size === 3")
+        browser.press(" ")
+        browser.until("!time.playing")
+        page.rests()
+
+
 def knows_objects(browser):
     lens = ["--focal-length", "50", "--sensor-width", "36", "--fstop", "0.005", "--focus-distance", "3"]
     with served(folder + "/dof-view", mattes, *lens) as server:
@@ -236,6 +275,7 @@ def main():
             assert said["lens"]["focus"] == 2.5
             page.does(page.click, 100, 20)
             assert browser.run("return focusNow()") != 2.5
+            has_frames(browser)
             knows_objects(browser)
         finally:
             browser.end()

@@ -139,6 +139,36 @@ def newest_wins(server):
     assert server.said("/progress")["finished"] == finished + 2, "works that nobody wants were finished"
 
 
+def knows_frames(folder):
+    """Each frame is that of dof-gather, keyed values are those of the frame, and what comes next is there ahead."""
+    sequence = os.path.join(folder, "shot.####.ldi.exr")
+    for number, source in ((3, ldi), (4, reference), (5, ldi), (7, ldi)):
+        os.symlink(os.path.abspath(source), sequence.replace("####", f"{number:04}"))
+    with served(program, sequence, "--fstop", "3:2,7:6") as server:
+        facts = server.said("/facts", frame=5)
+        assert facts["frames"] == [3, 4, 5, 7] and facts["file"].endswith("shot.0005.ldi.exr"), facts
+        assert [server.picture(settings={}, frame=n)[0]["lens"]["fstop"] for n in (3, 5, 7)] == [2, 4, 6]
+        assert status(server, {"page": "a", "frame": 4, "settings": {}}) == 500 # it has no depth
+        for path in "/picture", "/facts", "/objects", "/samples", "/commands", "/rendered":
+            assert status(server, {"page": "a", "frame": 6, "settings": {}, "pixel": [1, 1]}, path) == 400, path
+        commands = server.said("/commands", settings={}, frame=7)
+        assert "shot.0007.ldi.exr" in commands["shell"] and "--fstop 6" in commands["shell"], commands
+        assert "shot.####.ldi.exr" in commands["range"] and "--fstop 3:2,7:6" in commands["range"], commands
+        assert "shot.0007.ldi.exr" in commands["python"], commands
+        assert "--fstop 8" in server.said("/commands", settings={"fstop": "8"}, frame=7)["range"]
+    size = os.path.getsize(ldi)
+    for limit, held in ((None, 3), ("1400000B", 1)):
+        with served(program, sequence, "--frames", "3,5,7", *(["--max-memory", limit] if limit else [])) as server:
+            end = time.monotonic() + 20
+            while server.said("/progress", page="any")["held"] < held:
+                assert time.monotonic() < end, "no frame is read ahead"
+                time.sleep(.01)
+            time.sleep(.2 if limit else 0)
+            assert server.said("/progress", page="any")["held"] == held, (limit, size)
+    with served(program, ldi) as server:
+        assert status(server, {"page": "a", "frame": 1, "settings": {}}) == 400
+
+
 def main():
     with served(program, ldi, "--reference", reference) as server:
         answers(server)
@@ -154,6 +184,8 @@ def main():
         assert not os.listdir(folder)
         files = [server.said("/save", settings={})["file"] for _ in range(2)]
         assert sorted(os.listdir(folder)) == sorted(map(os.path.basename, files)) and len(set(files)) == 2, files
+    with tempfile.TemporaryDirectory() as folder:
+        knows_frames(folder)
     with served(program, ldi) as server: # as where its terminal is closed
         os.kill(server.process.pid, signal.SIGHUP)
         assert server.process.wait(timeout=20) == -signal.SIGHUP

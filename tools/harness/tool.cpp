@@ -27,17 +27,21 @@ void warn_once(const ToolContext &tool, const std::string &kind, const std::stri
 }
 
 int run_tool(CLI::App &app, int argc, char **argv, const Job &job, Reads reads) {
+    return run_tool(app, {argv + 1, argv + argc}, job, reads);
+}
+
+int run_tool(CLI::App &app, const std::vector<std::string> &words, const Job &job, Reads reads) {
     ProcessOptions options;
     add_process_options(app, options);
     if (reads == Reads::files) add_memory_option(app, options);
     const std::string prefix = error_prefix(ProgressFormat::terminal, app.get_name());
-    if (const auto code = parse_words(app, {argv + 1, argv + argc}, prefix)) return *code;
+    if (const auto code = parse_words(app, words, prefix)) return *code;
     ToolContext tool;
     tool.tool_name = app.get_name();
     tool.verbose = options.verbose;
     tool.threads = options.threads;
     tool.max_memory = options.max_memory;
-    tool.command_line = command_line(tool.tool_name, {argv + 1, argv + argc});
+    tool.command_line = command_line(tool.tool_name, words);
     const Process process(options, tool);
     tool.progress = progress_of(ProgressFormat::terminal, tool.tool_name, {});
     return exit_code_of(prefix, [&] {

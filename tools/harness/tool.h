@@ -10,6 +10,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <vector>
 
 namespace sparselens {
 
@@ -43,6 +44,8 @@ enum class Reads { files, nothing };
 // Adds --version, -v and --threads to `app`, parses the command line, runs `job` and returns the exit code: 0 done,
 // 1 failed (Error, memory, any exception), 2 usage error (the errors of CLI11, UsageError).
 int run_tool(CLI::App &app, int argc, char **argv, const Job &job, Reads reads = Reads::files);
+int run_tool(CLI::App &app, const std::vector<std::string> &words, const Job &job,
+             Reads reads = Reads::files); // without the program
 
 // The same for each frame of a range (frames.h), with --frames, --skip-bad-frames, -u, --progress and --stats.
 // `prepare` adds the options of the tool to an app and returns the job that they describe; it is called again for every

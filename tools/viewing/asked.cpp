@@ -56,12 +56,18 @@ double exposure_of(const Json &value) {
     return value.get<double>();
 }
 
-Imath::V2i pixel_of(const Json &value) {
+bool is_whole(const Json &n) {
     constexpr std::int64_t most = 1 << 30;
-    const auto is_coordinate = [](const Json &n) {
-        return n.is_number_integer() && n.get<std::int64_t>() >= -most && n.get<std::int64_t>() <= most;
-    };
-    if (!value.is_array() || value.size() != 2 || !std::ranges::all_of(value, is_coordinate))
+    return n.is_number_integer() && n.get<std::int64_t>() >= -most && n.get<std::int64_t>() <= most;
+}
+
+int frame_of(const Json &value) {
+    if (!is_whole(value)) refuse("frame is not a whole number");
+    return value.get<int>();
+}
+
+Imath::V2i pixel_of(const Json &value) {
+    if (!value.is_array() || value.size() != 2 || !std::ranges::all_of(value, is_whole))
         refuse("pixel is not two whole numbers");
     return {value[0].get<int>(), value[1].get<int>()};
 }
@@ -78,6 +84,8 @@ Asked parse_asked(std::string_view text) {
             asked.page = page_of(value);
         else if (name == "settings")
             asked.settings = settings_of(value);
+        else if (name == "frame")
+            asked.frame = frame_of(value);
         else if (name == "exposure")
             asked.exposure = exposure_of(value);
         else if (name == "pixel")

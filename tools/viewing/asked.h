@@ -1,5 +1,5 @@
 // What a page asks for, as it sends it: one object of JSON,
-// {"page": "k3j9", "settings": {"fstop": "2.8", "quality": "draft"}, "exposure": 0.5, "pixel": [320, 180]}.
+// {"page": "k3j9", "settings": {"fstop": "2.8", "quality": "draft"}, "frame": 12, "exposure": 0.5, "pixel": [320, 180]}.
 #pragma once
 
 #include <Imath/ImathVec.h>
@@ -16,6 +16,7 @@ struct Asked {
     // Options of dof-gather without their dashes, and their values; an empty one puts the option back to what the command
     // line of the server says.
     std::map<std::string, std::string> settings;
+    std::optional<int> frame;        // its number, where there are frames; else the first
     double exposure = 0;             // stops, [-20, 20]
     std::optional<Imath::V2i> pixel; // of the picture, EXR coordinates
 };

@@ -110,11 +110,11 @@ void serve(Viewer &viewer, int port, const std::string &key, const std::function
     });
     server.Get("/", [](const httplib::Request &, httplib::Response &response) { send_page(response); });
     constexpr const char *json = "application/json", *bytes = "application/octet-stream";
-    answer_at(server, "/facts", json, [&](const Asked &) { return viewer.facts(); });
+    answer_at(server, "/facts", json, [&](const Asked &asked) { return viewer.facts(asked); });
     answer_at(server, "/picture", bytes, [&](const Asked &asked) { return viewer.picture(asked); });
     answer_at(server, "/reference", bytes, [&](const Asked &asked) { return viewer.reference(asked); });
     answer_at(server, "/rendered", bytes, [&](const Asked &asked) { return viewer.rendered(asked); });
-    answer_at(server, "/objects", bytes, [&](const Asked &) { return viewer.objects(); });
+    answer_at(server, "/objects", bytes, [&](const Asked &asked) { return viewer.objects(asked); });
     answer_at(server, "/samples", json, [&](const Asked &asked) { return viewer.samples(asked); });
     answer_at(server, "/progress", json, [&](const Asked &asked) { return viewer.progress(asked); });
     answer_at(server, "/commands", json, [&](const Asked &asked) { return viewer.commands(asked); });

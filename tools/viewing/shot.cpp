@@ -1,14 +1,14 @@
 #include "viewing/shot.h"
 
 #include "base/error.h"
-#include "deep/front_depth.h"
-#include "io/camera/camera_read.h"
 #include "io/channels.h"
 #include "io/picture_looks.h"
 #include "loading/holdout_file.h"
+#include "loading/ldi_cache.h"
 
-#include <fmt/format.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -31,87 +31,127 @@ Image rgba_of(const Image &image) {
     return out;
 }
 
+// For the frames that are held beside each other: --max-memory, else a quarter of the machine's.
+std::uint64_t memory_for_frames(const ToolContext &tool) {
+    if (tool.max_memory) return *tool.max_memory;
+    return std::uint64_t(sysconf(_SC_PHYS_PAGES)) * std::uint64_t(sysconf(_SC_PAGESIZE)) / 4;
+}
+
+std::vector<std::string> paths_of(const std::vector<GatherCommand> &frames) {
+    std::vector<std::string> paths;
+    for (const GatherCommand &frame : frames) paths.push_back(frame.input);
+    return paths;
+}
+
+// By the options of its frame, of which the focal length may depend.
+Reel::Read reader_of(const std::vector<GatherCommand> &frames, const ToolContext &tool) {
+    return [frames, &tool](const std::string &path) {
+        const GatherCommand &options = *std::ranges::find(frames, path, &GatherCommand::input);
+        LdiCache cache;
+        OpenedLdi &in =
+            cache.load(path, options.channels, {options.lens, options.depth}, options.colour, tool);
+        return shot_frame(std::move(in), options.windows);
+    };
+}
+
+// The last one that is alike, else the result of `make`, which takes the place of the oldest of a few.
+template <typename Kept, typename Alike, typename Make>
+const Kept &last_few(std::deque<Kept> &kept, const Alike &alike, const Make &make) {
+    if (const auto found = std::ranges::find_if(kept, alike); found != kept.end()) return *found;
+    if (kept.size() >= most_small) kept.pop_front();
+    return kept.emplace_back(make());
+}
+
 } // namespace
 
-Shot::Shot(const GatherCommand &options, const ToolContext &tool)
-    : device_([](const gpu::DeviceInfo &info) { return gpu::open_gather_device(info); },
-              {"gathers", "tiles gathered"}) {
-    const OpenedLdi &opened =
-        cache_.load(options.input, options.channels, {options.lens, options.depth}, options.colour, tool);
-    if (!all_found(find_rgb(opened.ldi.channels)))
-        throw Error(opened.name + ": needs the channels R, G and B, which are what is shown");
-    across_ = subpixels_of(options.windows, opened).across;
-    to_display_ = output_transform(options.colour, opened.header);
+Shot::Shot(const std::vector<GatherCommand> &frames, const ToolContext &tool)
+    : name_(frames.front().input), reel_(paths_of(frames), memory_for_frames(tool), reader_of(frames, tool)),
+      device_([](const gpu::DeviceInfo &info) { return gpu::open_gather_device(info); },
+              {"gathers", "tiles gathered"}),
+      to_display_(output_transform(frames.front().colour, frame(frames.front())->in.header)) {}
+
+const Shot::Small &Shot::small(const Reel::Held &frame, const WindowOptions &options) {
+    return last_few(
+        small_, [&](const Small &other) { return other.of == frame && other.proxy == options.proxy; },
+        [&] {
+            ThinLens any;
+            GatherWindows windows = gather_windows(options, frame->in, any);
+            Small made{frame, options.proxy, {}, windows.gathered};
+            made.in.name = frame->in.name;
+            made.in.ldi = std::move(*windows.changed);
+            return made;
+        });
 }
 
-Camera Shot::camera(const GatherCommand &options) const {
-    Camera camera = camera_with_options(options.lens, read_camera(in().header));
-    if (options.focus_pixel) {
-        const float z = front_depth(in().ldi, middle_subpixel(*options.focus_pixel, across_));
-        if (!(z > 0)) throw UsageError("--focus-pixel: " + in().name + " has no sample there");
-        camera.focus_distance = double(z);
-    }
-    return camera;
+LensFile Shot::looks_of(const GivenLooks &given, std::optional<double> fstop) {
+    if (!looks_ || looks_->lens != given.lens_file || looks_->aperture != given.aperture_file ||
+        looks_->fstop != fstop)
+        looks_ = ReadLooks{given.lens_file, given.aperture_file, fstop,
+                           read_looks({{}, given.lens_file, given.aperture_file}, fstop)};
+    LensFile looks = looks_->said;
+    looks.values = look_values_over(given.values, looks.values);
+    return looks;
 }
 
-ThinLens Shot::lens(const Camera &camera) const {
-    ThinLens lens = resolve_lens(camera, in().ldi.windows);
-    lens.focal_px /= across_;
-    return lens;
-}
-
-const GatherWindows &Shot::small_windows(const WindowOptions &options, int proxy) {
-    if (const auto found = small_.find(proxy); found != small_.end()) return found->second;
-    if (small_.size() >= most_small) small_.erase(small_.begin());
-    ThinLens any;
-    WindowOptions by = options;
-    by.proxy = proxy;
-    return small_.emplace(proxy, gather_windows(by, in(), any)).first->second;
+const Ldi *Shot::holdout(const GatherCommand &options, const Reel::Held &frame) {
+    if (options.holdout.empty()) return nullptr;
+    const auto alike = [&](const ReadHoldout &other) {
+        return other.path == options.holdout && other.of == frame && other.proxy == options.windows.proxy;
+    };
+    return &last_few(holdouts_, alike, [&] {
+                return ReadHoldout{options.holdout, frame, options.windows.proxy,
+                                   *open_holdout(options.holdout, frame->in, options.windows,
+                                                 {options.lens, options.depth})};
+            }).ldi;
 }
 
 TakenPicture Shot::taken(const GatherCommand &options, const ToolContext &tool, Progress &progress) {
-    TakenPicture out{{}, camera(options), {}};
-    ThinLens lens = resolve_lens(out.camera, in().ldi.windows);
-    out.lens = this->lens(out.camera);
+    const Reel::Held of = frame(options);
+    TakenPicture out{{}, of->camera(options), {}, of->depths};
+    ThinLens lens = resolve_lens(out.camera, of->in.ldi.windows);
+    out.lens = of->lens(out.camera);
     if (const auto warning = warning_of_wide_lens(out.camera, lens)) out.warnings.push_back(*warning);
-    const auto holdout = open_holdout(options.holdout, in(), options.windows, {options.lens, options.depth});
-    GatherWindows frame;
+    const OpenedLdi *in = &of->in;
+    GatherWindows windows;
     if (options.windows.proxy > 1) {
-        frame = small_windows(options.windows, options.windows.proxy);
-        lens.focal_px /= options.windows.proxy * across_;
+        const Small &made = small(of, options.windows);
+        in = &made.in;
+        windows.gathered = made.gathered;
+        lens.focal_px /= options.windows.proxy * of->across;
     } else {
-        frame = gather_windows(options.windows, in(), lens);
+        windows = gather_windows(options.windows, *in, lens);
     }
-    const LensFile given_looks = read_looks(options.looks, out.camera.fstop);
-    Imf::Header header = in().header;
+    const LensFile given_looks = looks_of(options.looks, out.camera.fstop);
+    Imf::Header header = of->in.header;
     LensLooks looks;
     if (options.picture.method == &gather_methods().front())
-        looks = picture_looks(given_looks, out.camera, header, lens, frame.ldi(in()).windows);
+        looks = picture_looks(given_looks, out.camera, header, lens, windows.ldi(*in).windows);
     else if (const auto warning = warning_of_round_aperture(out.camera.looks, options.picture.method->name))
         out.warnings.push_back(*warning);
-    choose_windows(frame, options.windows, in(), lens, looks);
-    raise_highlights(frame, in(), highlight_gain(given_looks.values));
+    choose_windows(windows, options.windows, *in, lens, looks);
+    raise_highlights(windows, *in, highlight_gain(given_looks.values));
     progress.may_end();
     LensTiles tiles;
     PictureOptions by = options.picture;
-    by.holdout = holdout ? &*holdout : nullptr;
+    by.holdout = holdout(options, of);
     by.gather.lens.chosen = &tiles;
     by.gather.lens.device = device_.open(options.device, tool);
     by.gather.lens.looks = looks;
-    by.gather.lens.across = frame.subpixels.across;
+    by.gather.lens.across = windows.subpixels.across;
     Image made;
     if (needs_gather(options.show))
-        made =
-            frame.changed && options.show == Show::picture
-                ? gather_picture(std::move(*frame.changed), lens, frame.gathered, frame.needed, by, progress)
-                : gather_picture(frame.ldi(in()), lens, frame.gathered, frame.needed, by, progress);
+        made = windows.changed && options.show == Show::picture
+                   ? gather_picture(std::move(*windows.changed), lens, windows.gathered, windows.needed, by,
+                                    progress)
+                   : gather_picture(windows.ldi(*in), lens, windows.gathered, windows.needed, by, progress);
     device_.report(tool);
     if (options.show != Show::picture) {
         ThinLens of_picture = lens;
-        of_picture.focal_px /= frame.subpixels.across;
-        made = crop(shown(options.show, frame.ldi(in()), of_picture, frame.gathered, tiles), frame.needed);
+        of_picture.focal_px /= windows.subpixels.across;
+        made =
+            crop(shown(options.show, windows.ldi(*in), of_picture, windows.gathered, tiles), windows.needed);
     }
-    out.image = frame.picture_of(rgba_of(made));
+    out.image = windows.picture_of(rgba_of(made));
     return out;
 }
 
@@ -123,7 +163,7 @@ ShownPixels Shot::displayed(Image image, double exposure) const {
             if (image.channels[k].name != "A")
                 for (float &value : image.plane(k)) value *= gain;
     transform_colours(to_display_, image);
-    return shown_pixels(in().name, image);
+    return shown_pixels(name_, image);
 }
 
 } // namespace sparselens

@@ -1,4 +1,4 @@
-// The LDI that is looked at: loaded once, gathered as often as somebody asks.
+// The LDIs that are looked at: loaded once, gathered as often as somebody asks.
 #pragma once
 
 #include "gpu/gather/gather_device.h"
@@ -7,12 +7,11 @@
 #include "io/display/shown_picture.h"
 #include "io/gather_windows.h"
 #include "loading/chosen_device.h"
-#include "loading/ldi_cache.h"
 #include "options/gather_options.h"
+#include "viewing/reel.h"
 
-#include <map>
+#include <deque>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,35 +23,57 @@ struct TakenPicture {
     Image image;
     Camera camera; // with its focus
     ThinLens lens; // for pixels of the full-size picture
+    DepthExtent depths;
     std::vector<std::string> warnings = {};
 };
 
 class Shot {
 public:
-    // Reads the file. Throws as dof-gather does.
-    Shot(const GatherCommand &options, const ToolContext &tool);
+    // Reads the file of the first of these frames, one at least. Throws as dof-gather does.
+    Shot(const std::vector<GatherCommand> &frames, const ToolContext &tool);
 
-    const OpenedLdi &in() const { return cache_.last(); }
-    int across() const { return across_; } // sub-pixels of the LDI that become one pixel
+    // The frame of which a picture is made; by any number of threads. Throws as dof-gather does.
+    Reel::Held frame(const GatherCommand &options) { return reel_.at(options.input); }
+    const Reel &reel() const { return reel_; }
 
     // What dof-gather would write; by one thread at a time. Throws as that does, and what `progress` throws.
     TakenPicture taken(const GatherCommand &options, const ToolContext &tool, Progress &progress);
-
-    // The camera and the lens of such a picture; by any number of threads.
-    Camera camera(const GatherCommand &options) const;
-    ThinLens lens(const Camera &camera) const; // for pixels of the picture
 
     // As PNG shows linear colours of the file's space, after `exposure` stops.
     ShownPixels displayed(Image image, double exposure) const;
 
 private:
-    const GatherWindows &small_windows(const WindowOptions &options, int proxy);
+    // A frame as small as a proxy of it is: what is gathered from.
+    struct Small {
+        Reel::Held of;
+        int proxy;
+        OpenedLdi in; // its name and its samples
+        Imath::Box2i gathered;
+    };
+    const Small &small(const Reel::Held &frame, const WindowOptions &options);
+    LensFile looks_of(const GivenLooks &given, std::optional<double> fstop);
+    const Ldi *holdout(const GatherCommand &options, const Reel::Held &frame);
 
-    LdiCache cache_;
+    // The files beside the LDI, as they were last read.
+    struct ReadLooks {
+        std::string lens, aperture;
+        std::optional<double> fstop;
+        LensFile said;
+    };
+    struct ReadHoldout {
+        std::string path;
+        Reel::Held of;
+        int proxy;
+        Ldi ldi;
+    };
+
+    std::string name_;
+    Reel reel_;
     ChosenDevice<TileDevice> device_;
     ColourTransform to_display_;
-    int across_ = 1;
-    std::map<int, GatherWindows> small_; // by their proxy, the last few
+    std::deque<Small> small_; // the last few
+    std::optional<ReadLooks> looks_;
+    std::deque<ReadHoldout> holdouts_; // the last few
 };
 
 } // namespace sparselens

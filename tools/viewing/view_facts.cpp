@@ -3,13 +3,13 @@
 #include "base/matte.h"
 #include "lens/sharp_range.h"
 
-#include <ImfStringAttribute.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstdlib>
+#include <map>
+#include <string>
 
 namespace sparselens {
 
@@ -18,14 +18,6 @@ using Json = nlohmann::json;
 namespace {
 
 constexpr double sharp_px = 1; // as --show focus has it
-
-void add_names(ObjectNames &names, const std::string &manifest) {
-    const Json json = Json::parse(manifest, nullptr, false);
-    if (!json.is_object()) return;
-    for (const auto &[name, id] : json.items())
-        if (id.is_string())
-            names[std::uint32_t(std::strtoul(id.get_ref<const std::string &>().c_str(), nullptr, 16))] = name;
-}
 
 // visit(name) for the objects that a sample is of, each matte's by descending coverage.
 template <typename Visit>
@@ -60,34 +52,11 @@ std::string object_of(const Ldi &ldi, std::span<const Matte> mattes, std::uint64
 
 Json json_number(double value) { return std::isfinite(value) ? Json(value) : Json("inf"); }
 
-ObjectNames object_names(const Imf::Header &header) {
-    ObjectNames names;
-    for (auto attribute = header.begin(); attribute != header.end(); ++attribute) {
-        const std::string name = attribute.name();
-        const auto *text = dynamic_cast<const Imf::StringAttribute *>(&attribute.attribute());
-        if (text && name.starts_with("cryptomatte/") && name.ends_with("/manifest"))
-            add_names(names, text->value());
-    }
-    return names;
-}
-
-DepthExtent depth_extent(const Ldi &ldi) {
-    const std::vector<float> &depths = ldi.optical.empty() ? ldi.z : ldi.optical;
-    if (depths.empty()) return {};
-    DepthExtent extent{HUGE_VAL, 0};
-    for (const float z : depths) {
-        if (!(z > 0)) continue; // rays would meet behind the camera
-        extent.nearest = std::min(extent.nearest, double(z));
-        extent.farthest = std::max(extent.farthest, double(z));
-    }
-    return extent.farthest > 0 ? extent : DepthExtent{};
-}
-
-Json lens_facts(const TakenPicture &picture, const DepthExtent &depths) {
+Json lens_facts(const TakenPicture &picture) {
     const ThinLens &lens = picture.lens;
     const SharpRange sharp = sharp_range(lens, sharp_px);
-    const double largest = std::max(std::abs(circle_of_confusion(lens, depths.nearest)),
-                                    std::abs(circle_of_confusion(lens, depths.farthest)));
+    const double largest = std::max(std::abs(circle_of_confusion(lens, picture.depths.nearest)),
+                                    std::abs(circle_of_confusion(lens, picture.depths.farthest)));
     Json facts{{"focus", json_number(lens.focus)},
                {"radius", lens.radius},
                {"near", json_number(sharp.near)},
@@ -100,23 +69,23 @@ Json lens_facts(const TakenPicture &picture, const DepthExtent &depths) {
     return facts;
 }
 
-ObjectMap object_map(const Shot &shot, const ObjectNames &names) {
+ObjectMap object_map(const ShotFrame &frame) {
     struct Object {
         std::size_t number;
         DepthExtent depths;
     };
     std::map<std::string, Object> objects;
-    const Ldi &ldi = shot.in().ldi;
+    const Ldi &ldi = frame.in.ldi;
     const std::vector<Matte> mattes = find_mattes(ldi.channels);
-    const Grid picture(reduced(ldi.windows.display, shot.across()));
+    const Grid picture(reduced(ldi.windows.display, frame.across));
     ObjectMap map;
     map.numbers.resize(2 * picture.size());
     for (std::size_t i = 0; i < picture.size(); ++i) {
-        const Imath::V2i at = middle_subpixel(picture.pixel(i), shot.across());
+        const Imath::V2i at = middle_subpixel(picture.pixel(i), frame.across);
         if (!ldi.windows.data.intersects(at)) continue;
         const SampleRange samples = ldi.pixel(ldi.windows.index(at.x, at.y));
         if (samples.empty()) continue;
-        const std::string name = object_of(ldi, mattes, samples.front(), names);
+        const std::string name = object_of(ldi, mattes, samples.front(), frame.names);
         if (name.empty()) continue;
         const double z = double(ldi.z[samples.front()]);
         Object &object = objects.try_emplace(name, Object{objects.size() + 1, {z, z}}).first->second;
@@ -135,9 +104,9 @@ ObjectMap object_map(const Shot &shot, const ObjectNames &names) {
     return map;
 }
 
-Json sample_facts(const Shot &shot, const ThinLens &lens, const Imath::V2i &pixel, const ObjectNames &names) {
-    const Ldi &ldi = shot.in().ldi;
-    const Imath::V2i at = middle_subpixel(pixel, shot.across());
+Json sample_facts(const ShotFrame &frame, const ThinLens &lens, const Imath::V2i &pixel) {
+    const Ldi &ldi = frame.in.ldi;
+    const Imath::V2i at = middle_subpixel(pixel, frame.across);
     Json samples = Json::array();
     if (!ldi.windows.data.intersects(at)) return samples;
     const auto rgb = find_rgb(ldi.channels);
@@ -150,7 +119,7 @@ Json sample_facts(const Shot &shot, const ThinLens &lens, const Imath::V2i &pixe
                     {"alpha", alpha == npos ? 1.0 : double(ldi.values[alpha][i])},
                     {"coc", json_number(circle_of_confusion(lens, seen_at))},
                     {"rgb", colour},
-                    {"objects", objects_of(ldi, i, names)}};
+                    {"objects", objects_of(ldi, i, frame.names)}};
         if (seen_at != z) sample["image"] = json_number(seen_at); // of what it shows
         samples.push_back(sample);
     }

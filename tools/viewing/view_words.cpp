@@ -18,7 +18,7 @@ namespace sparselens {
 namespace {
 
 // Of dof-view alone; the flags take no value.
-constexpr std::array own_options{"--reference", "--port", "--save", "--threads", "--max-memory"};
+constexpr std::array own_options{"--reference", "--port", "--save", "--frames", "--threads", "--max-memory"};
 constexpr std::array own_flags{"--open", "-v", "--verbose"};
 // Of dof-gather: those of pictures that take no value.
 constexpr std::array picture_flags{"--cat-eye-darkening", "--holdout-defocused"};

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
@@ -37,6 +38,13 @@ std::string stem_of(const std::string &path) {
     return path == "-" ? "picture" : std::filesystem::path(path).stem().stem().string();
 }
 
+std::vector<GatherCommand> commands_of(const FrameCommands &frames) {
+    std::vector<GatherCommand> commands;
+    for (std::size_t i = 0; i < frames.size(); ++i)
+        commands.push_back(command_of(picture_words(frames.words(i))));
+    return commands;
+}
+
 Json look_table() {
     Json all = Json::array();
     for (const auto table : {look_numbers(), highlight_numbers()})
@@ -50,36 +58,54 @@ Json look_table() {
 
 } // namespace
 
-Viewer::Viewer(const ViewOptions &options, const Words &words, const ToolContext &tool)
-    : options_(options), words_(picture_words(words)), tool_(tool), shot_(options.picture, tool),
-      depths_(depth_extent(shot_.in().ldi)), names_(object_names(shot_.in().header)) {
-    shot_.lens(shot_.camera(options.picture)); // what is unknown is a matter of the command line
-    if (!options.reference.empty()) reference_ = read_flat_exr(options.reference).image;
+Viewer::Viewer(const ViewOptions &options, const Words &words, const FrameCommands &frames,
+               const ToolContext &tool)
+    : options_(options), words_(picture_words(words)), frames_(frames), tool_(tool),
+      shot_(commands_of(frames), tool) {
+    const Reel::Held first = shot_.frame(options.picture);
+    first->lens(first->camera(options.picture)); // what is unknown is a matter of the command line
+    if (!options.reference.empty()) reference_of(options.reference);
     if (!options.save.empty() && !std::filesystem::is_directory(options.save))
         throw Error(options.save + ": is not a folder, where --save could write");
 }
 
-Words Viewer::words_of(const Asked &asked) const {
-    return words_with(words_, asked.settings, options_.presets);
+std::size_t Viewer::frame_of(const Asked &asked) const {
+    if (!asked.frame) return 0;
+    for (std::size_t i = 0; frames_.is_range() && i < frames_.size(); ++i)
+        if (frames_.number(i) == *asked.frame) return i;
+    throw UsageError(fmt::format("the request: there is no frame {}", *asked.frame));
 }
 
-std::string Viewer::facts() const {
-    const Imath::Box2i display = reduced(shot_.in().ldi.windows.display, shot_.across());
-    const Camera camera = shot_.camera(options_.picture);
-    Json facts{{"name", stem_of(options_.picture.input)},
-               {"file", shot_.in().name},
+Words Viewer::words_of(const Asked &asked) const {
+    return words_with(picture_words(frames_.words(frame_of(asked))), asked.settings, options_.presets);
+}
+
+GatherCommand Viewer::command_of_frame(const Asked &asked) const {
+    return command_of(picture_words(frames_.words(frame_of(asked))));
+}
+
+std::string Viewer::facts(const Asked &asked) {
+    const GatherCommand command = command_of_frame(asked);
+    const Reel::Held frame = shot_.frame(command);
+    const Windows &windows = frame->in.ldi.windows;
+    const Imath::Box2i display = reduced(windows.display, frame->across);
+    const Camera camera = frame->camera(command);
+    Json facts{{"name", stem_of(command.input)},
+               {"file", frame->in.name},
                {"min", {display.min.x, display.min.y}},
                {"width", display.max.x - display.min.x + 1},
                {"height", display.max.y - display.min.y + 1},
-               {"pixel_aspect", shot_.in().ldi.windows.pixel_aspect},
-               {"samples", shot_.in().ldi.samples()},
-               {"lens_method", options_.picture.picture.method == &gather_methods().front()},
+               {"pixel_aspect", windows.pixel_aspect},
+               {"samples", frame->in.ldi.samples()},
+               {"lens_method", command.picture.method == &gather_methods().front()},
                {"looks", look_table()},
-               {"reference", reference_.has_value()},
+               {"reference", !options_.reference.empty()},
                {"save", !options_.save.empty()},
-               {"objects", !names_.empty()},
-               {"nearest", json_number(depths_.nearest)},
-               {"farthest", json_number(depths_.farthest)}};
+               {"objects", !frame->names.empty()},
+               {"nearest", json_number(frame->depths.nearest)},
+               {"farthest", json_number(frame->depths.farthest)}};
+    for (std::size_t i = 0; frames_.is_range() && i < frames_.size(); ++i)
+        facts["frames"].push_back(frames_.number(i));
     for (const auto &preset : options_.presets) facts["lenses"].push_back(preset.first);
     for (const auto &type : chromatic_types()) facts["chromatic_types"].push_back(type.first);
     if (camera.fstop) facts["fstop"] = json_number(*camera.fstop);
@@ -110,7 +136,7 @@ std::string Viewer::answer(const Words &words, const Asked &asked, Progress &pro
     progress.may_end();
     const ShownPixels pixels = shot_.displayed(picture->image, asked.exposure);
     Json said = size_of(pixels);
-    said["lens"] = lens_facts(*picture, depths_);
+    said["lens"] = lens_facts(*picture);
     said["milliseconds"] =
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begun).count();
     return with_bytes(said, pixels.values);
@@ -124,13 +150,22 @@ std::optional<std::string> Viewer::picture(const Asked &asked) {
 }
 
 std::optional<std::string> Viewer::reference(const Asked &asked) {
-    if (!reference_) throw UsageError("there is no reference: start dof-view with --reference");
-    const ShownPixels pixels = shot_.displayed(*reference_, asked.exposure);
+    const std::string path = value_of("--reference", frames_.words(frame_of(asked)));
+    if (path.empty()) throw UsageError("there is no reference: start dof-view with --reference");
+    const ShownPixels pixels = shot_.displayed(reference_of(path), asked.exposure);
     return with_bytes(size_of(pixels), pixels.values);
 }
 
+Image Viewer::reference_of(const std::string &path) {
+    const std::lock_guard lock(reference_mutex_);
+    if (!reference_ || reference_->path != path) reference_ = Reference{path, read_flat_exr(path).image};
+    return reference_->image;
+}
+
 std::optional<std::string> Viewer::rendered(const Asked &asked) {
-    const GatherCommand command = command_of(words_with(words_, {{"lens-radius", "0"}}));
+    Asked sharp = asked;
+    sharp.settings = {{"lens-radius", "0"}};
+    const GatherCommand command = command_of(words_of(sharp));
     return studio_.make(asked.page + "/rendered", [this, command, asked](Progress &progress) {
         const ShownPixels pixels =
             shot_.displayed(shot_.taken(command, tool_, progress).image, asked.exposure);
@@ -138,16 +173,16 @@ std::optional<std::string> Viewer::rendered(const Asked &asked) {
     });
 }
 
-std::string Viewer::objects() const {
-    const ObjectMap map = object_map(shot_, names_);
+std::string Viewer::objects(const Asked &asked) {
+    const ObjectMap map = object_map(*shot_.frame(command_of_frame(asked)));
     return with_bytes(map.said, map.numbers);
 }
 
-std::string Viewer::samples(const Asked &asked) const {
+std::string Viewer::samples(const Asked &asked) {
     if (!asked.pixel) throw UsageError("the request: it says no pixel");
     const GatherCommand command = command_of(words_of(asked));
-    const ThinLens lens = shot_.lens(shot_.camera(command));
-    Json said{{"samples", sample_facts(shot_, lens, *asked.pixel, names_)}};
+    const Reel::Held frame = shot_.frame(command);
+    Json said{{"samples", sample_facts(*frame, frame->lens(frame->camera(command)), *asked.pixel)}};
     const std::lock_guard lock(last_mutex_);
     if (last_) {
         const Image &image = last_->picture->image;
@@ -160,7 +195,7 @@ std::string Viewer::samples(const Asked &asked) const {
 }
 
 std::string Viewer::progress(const Asked &asked) const {
-    Json said{{"finished", studio_.finished()}};
+    Json said{{"finished", studio_.finished()}, {"held", shot_.reel().held()}};
     if (const auto state = studio_.state(asked.page))
         said.update({{"stage", state->stage}, {"percent", state->percent}});
     return said.dump();
@@ -168,10 +203,16 @@ std::string Viewer::progress(const Asked &asked) const {
 
 std::string Viewer::commands(const Asked &asked) const {
     const Words words = words_of(asked);
-    command_of(words);
-    const std::string output = stem_of(options_.picture.input) + ".png";
-    return Json{{"shell", shell_command(words, output)},
-                {"python", python_script(words, options_.picture.input, output)}}
+    const std::string input = command_of(words).input, output = stem_of(input) + ".png";
+    // The name of the files of all frames stands where that of the first does.
+    const Words first = picture_words(frames_.words(0));
+    std::string range =
+        stem_of(words_[std::size_t(std::ranges::find(first, options_.picture.input) - first.begin())]);
+    if (file_at(range, 1) == range) range += ".####";
+    return Json{
+        {"shell", shell_command(words, output)},
+        {"range", shell_command(words_with(words_, asked.settings, options_.presets), range + ".png")},
+        {"python", python_script(words, input, output)}}
         .dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
@@ -180,13 +221,15 @@ std::optional<std::string> Viewer::save(const Asked &asked) {
     const Words words = words_of(asked);
     command_of(words);
     return studio_.make(asked.page + "/save", [this, words](Progress &progress) {
-        Image image = taken(words, command_of(words), progress)->image;
+        const GatherCommand command = command_of(words);
+        Image image = taken(words, command, progress)->image;
         std::filesystem::path path;
         do
             path = std::filesystem::path(options_.save) /
-                   fmt::format("{}.{:04}.png", stem_of(options_.picture.input), ++saved_);
+                   fmt::format("{}.{:04}.png", stem_of(command.input), ++saved_);
         while (std::filesystem::exists(path));
-        write_picture(tool_, options_.picture.colour, path.string(), std::move(image), shot_.in().header);
+        write_picture(tool_, command.colour, path.string(), std::move(image),
+                      shot_.frame(command)->in.header);
         return Json{{"file", path.string()}}.dump(-1, ' ', false, Json::error_handler_t::replace);
     });
 }

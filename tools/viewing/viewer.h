@@ -1,6 +1,7 @@
 // What dof-view answers to what its pages ask. Knows nothing of HTTP.
 #pragma once
 
+#include "harness/commands/frames.h"
 #include "viewing/asked.h"
 #include "viewing/shot.h"
 #include "viewing/studio.h"
@@ -17,6 +18,7 @@ namespace sparselens {
 struct ViewOptions {
     GatherCommand picture;
     std::string reference, save; // a file; a folder; empty: none
+    std::string frames;          // read by FrameCommands
     Presets presets = {};
     int port = 0;      // 0: any that is free
     bool open = false; // a browser
@@ -24,11 +26,13 @@ struct ViewOptions {
 
 class Viewer {
 public:
-    // Reads the files. `words` are those of the command line, without the program. Throws as dof-gather does.
-    Viewer(const ViewOptions &options, const Words &words, const ToolContext &tool);
+    // Reads the files of the first frame. `words` are those of the command line, without the program, and `frames` the same
+    // for each frame; `options` are of the first. Throws as dof-gather does.
+    Viewer(const ViewOptions &options, const Words &words, const FrameCommands &frames,
+           const ToolContext &tool);
 
-    // JSON: what does not change: size, looks, options.
-    std::string facts() const;
+    // JSON: what does not change with the lens: size, looks, options, frames.
+    std::string facts(const Asked &asked);
 
     // Each is the length of some JSON (4 bytes, the lowest first), that JSON, and 8-bit pixels by rows; empty where the page
     // has asked for something newer. Throws UsageError where there is no such picture.
@@ -37,28 +41,35 @@ public:
     std::optional<std::string> rendered(const Asked &asked); // without depth of field
 
     // In that form too, with the two bytes of ObjectMap for each pixel.
-    std::string objects() const;
+    std::string objects(const Asked &asked);
 
     // JSON: the samples of a pixel, and its value in the last picture; how far the picture of the page is; the commands that
     // make it elsewhere; the name of the PNG that was written (--save).
-    std::string samples(const Asked &asked) const;
+    std::string samples(const Asked &asked);
     std::string progress(const Asked &asked) const;
     std::string commands(const Asked &asked) const;
     std::optional<std::string> save(const Asked &asked);
 
 private:
+    std::size_t frame_of(const Asked &asked) const;
     Words words_of(const Asked &asked) const;
+    GatherCommand command_of_frame(const Asked &asked) const;
+    Image reference_of(const std::string &path);
     std::shared_ptr<const TakenPicture> taken(const Words &words, const GatherCommand &command,
                                               Progress &progress);
     std::string answer(const Words &words, const Asked &asked, Progress &progress);
 
     ViewOptions options_;
-    Words words_; // those that make the picture
+    Words words_; // those that make the pictures, of all frames
+    FrameCommands frames_;
     const ToolContext &tool_;
     Shot shot_;
-    DepthExtent depths_;
-    ObjectNames names_;
-    std::optional<Image> reference_;
+    struct Reference {
+        std::string path;
+        Image image;
+    };
+    std::mutex reference_mutex_;
+    std::optional<Reference> reference_; // the last one that was asked for
     // The last picture and what made it, which may be shown in another exposure.
     struct Last {
         Words words;

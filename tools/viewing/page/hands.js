@@ -112,8 +112,9 @@ const keys = {
     t: ['tiles: lens points', () => setOverlay('tiles')],
     x: ['the samples of the pixel', () => setList(!listed.on)],
     k: ['set a key at this frame', setKey],
-    ',': ['the frame before', () => goTo(time.frame - 1)],
-    '.': ['the next frame', () => goTo(time.frame + 1)],
+    ',': ['the frame before', () => step(-1)],
+    '.': ['the next frame', () => step(1)],
+    ' ': ['plays the frames', play],
     y: ['copy the command line', () => copy('shell')],
     Enter: ['final quality', () => full('final')],
     ArrowUp: ['focus farther', () => moveFocus(1)],
@@ -141,7 +142,7 @@ function startKeys() {
     });
     const hands = [['click', 'focus there'], ['Alt and click', 'the samples there; click one to focus on it'],
         ['Shift and click', 'stops down until all of the object is sharp'], ['drag sideways', 'f-number'], ['wheel', 'focus'], ['Ctrl and wheel', 'zoom'], ['Shift and drag', 'move the picture'],
-        ...Object.entries(keys).map(([key, [what]]) => [key.length === 1 ? key.toUpperCase() : key, what])];
+        ...Object.entries(keys).map(([key, [what]]) => [key === ' ' ? 'Space' : key.length === 1 ? key.toUpperCase() : key, what])];
     for (const line of hands) {
         const row = part('help').insertRow();
         for (const text of line) row.insertCell().textContent = text;

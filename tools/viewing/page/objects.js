@@ -10,6 +10,11 @@ async function loadObjects() {
     objects.numbers = new Uint16Array(bytes.slice(4 + size));
 }
 
+function forgetObjects() {
+    outline(0);
+    [objects.list, objects.numbers, objects.asked] = [null, null, false];
+}
+
 // The number of the object that a pixel shows, 0 for none.
 function objectAt([x, y]) {
     const { width, min } = state.facts;

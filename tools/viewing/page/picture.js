@@ -94,6 +94,7 @@ async function full(quality) {
         const said = await show(await ask('picture', { settings: withQuality(settingsNow(), quality), exposure: exposureNow() }), quality);
         if (said) part('speed').textContent = quality + ': ' + Math.round(performance.now() - begun) + ' ms';
         if (said) sayCommand();
+        if (said) knowFrame().catch((error) => say(error.message));
     } catch (error) {
         say(error.message);
     }

@@ -6,7 +6,7 @@ const part = (id) => document.getElementById(id);
 // The response; null where this page has asked for something newer. Throws what the server says is wrong.
 async function ask(path, asked) {
     const response = await fetch('/' + path, {
-        method: 'POST', headers: { 'X-Sparselens-Key': key }, body: JSON.stringify({ page, ...asked }) });
+        method: 'POST', headers: { 'X-Sparselens-Key': key }, body: JSON.stringify({ page, ...(state.facts?.frames && { frame: time.frame }), ...asked }) });
     if (response.status === 409) return null;
     if (!response.ok) throw new Error((await response.text()).trim());
     return response;

@@ -1,7 +1,21 @@
-// Time: keys of the lens over frames. Between two keys values are linear, or smooth: slow at both; beyond the first and the last
+// Time: the frames of a sequence, and keys of the lens over frames. Between two keys values are linear, or smooth: slow at both; beyond the first and the last
 // they stay, as the keys of dof-gather do.
-const time = { frame: 1, keys: {} }; // keys: { option: { frame: value } }
+const time = { frame: 1, keys: {}, known: null, playing: false }; // keys: { option: { frame: value } }; known: the frame of state.facts
 const timeRange = () => [Number(part('first').value), Number(part('last').value)];
+
+// The numbers of the frames: those of the sequence, else all of the range.
+function frameNumbers() {
+    const [first, last] = timeRange();
+    if (!state.facts.frames) return Array.from({ length: Math.max(1, last - first + 1) }, (_, i) => first + i);
+    const within = state.facts.frames.filter((frame) => frame >= first && frame <= last);
+    return within.length ? within : state.facts.frames;
+}
+
+// As --frames takes them.
+function frameText() {
+    const frames = frameNumbers(), [first, last] = [frames[0], frames.at(-1)];
+    return frames.length > 1 && last - first + 1 === frames.length ? first + '-' + last : frames.join(',');
+}
 
 // What a key is of: focus and f-number, and the looks that were set or have keys.
 function keyedNow() {
@@ -33,25 +47,52 @@ function valueAt(keys, frame) {
     return keys[before] + (keys[after] - keys[before]) * moved;
 }
 
-function goTo(frame) {
-    const [first, last] = timeRange();
-    time.frame = Math.min(last, Math.max(first, Math.round(frame)));
+// To the nearest frame there is.
+async function goTo(frame) {
+    time.frame = frameNumbers().reduce((best, each) => Math.abs(each - frame) < Math.abs(best - frame) ? each : best);
     for (const [option, keys] of Object.entries(time.keys)) state.settings[option] = asText(valueAt(keys, time.frame), 9);
     sayTime();
-    changed();
+    await changed();
+}
+
+function step(by) {
+    const frames = frameNumbers();
+    return goTo(frames[Math.min(frames.length - 1, Math.max(0, frames.indexOf(time.frame) + by))]);
+}
+
+// Frame after frame, each as soon as the one before is seen, and round again.
+async function play() {
+    time.playing = !time.playing;
+    part('play').classList.toggle('on', time.playing);
+    while (time.playing) {
+        const frames = frameNumbers();
+        await goTo(frames[(frames.indexOf(time.frame) + 1) % frames.length]);
+        if (state.overlay) await full('normal'); // which has no drafts
+        await new Promise(requestAnimationFrame);
+    }
+}
+
+// What a sequence has in each frame, once the page rests there.
+async function knowFrame() {
+    if (!state.facts.frames || time.known === time.frame || time.playing) return;
+    time.known = time.frame;
+    state.facts = await (await ask('facts', {})).json();
+    part('name').textContent = state.facts.file;
+    forgetObjects();
+    await Promise.all([loadObjects(), loadTarget()]);
 }
 
 // Frames and values of an option: its keys, or where they are smooth every frame.
 function baked(option) {
-    const keys = time.keys[option] ?? {}, [first, last] = timeRange();
-    const frames = part('smooth').checked ? Array.from({ length: last - first + 1 }, (_, i) => first + i) : Object.keys(keys).map(Number);
+    const keys = time.keys[option] ?? {}, frames = part('smooth').checked ? frameNumbers() : Object.keys(keys).map(Number);
     return frames.map((frame) => [frame, asText(valueAt(keys, frame), 9)]);
 }
 
 // The command for all frames: that of one, with keys for values.
 async function rangeCommand() {
     await sayCommand();
-    let command = state.commands.shell.replace(/ -o ('?)(.*?)\.png('?)$/, ` --frames ${timeRange().join('-')} -o $1$2.####.png$3`);
+    const range = state.commands.range, output = range.lastIndexOf(' -o ');
+    let command = range.slice(0, output) + ' --frames ' + frameText() + range.slice(output);
     for (const option of Object.keys(time.keys)) {
         const keys = ` --${option} ` + baked(option).map((pair) => pair.join(':')).join(',');
         command = command.replace(new RegExp(` --${option}[ =]\\S+`), '').replace(' --frames', keys + ' --frames');
@@ -61,7 +102,7 @@ async function rangeCommand() {
 
 const forms = {
     'command of all frames': rangeCommand,
-    'job for Slurm': async () => `sbatch --array=${timeRange().join('-')} --wrap "` +
+    'job for Slurm': async () => `sbatch --array=${frameText()} --wrap "` +
         (await rangeCommand()).replace(/--frames \S+/, '--frames \\$SLURM_ARRAY_TASK_ID') + '"',
     'focus, for --focus-distance @file': () => baked('focus-distance').map((pair) => pair.join(':')).join('\n') + '\n',
     'f-number, for --fstop @file': () => baked(aperture()).map((pair) => pair.join(':')).join('\n') + '\n',
@@ -70,17 +111,23 @@ const forms = {
 };
 
 function sayTime() {
-    const [first, last] = timeRange(), frames = new Set(Object.values(time.keys).flatMap((keys) => Object.keys(keys)));
+    const [first, last] = [frameNumbers()[0], frameNumbers().at(-1)], frames = new Set(Object.values(time.keys).flatMap((keys) => Object.keys(keys)));
     part('frame_number').min = first;
     part('frame_number').max = last;
     part('frame_number').value = time.frame;
     part('frame_text').textContent = time.frame;
     part('key').classList.toggle('on', frames.has(String(time.frame)));
     part('keyed').textContent = frames.size ? 'keys at ' + [...frames].sort((a, b) => a - b).join(', ') : 'no keys';
-    part('copy_time').disabled = frames.size === 0;
+    part('copy_time').disabled = frames.size === 0 && !state.facts.frames;
 }
 
 function startTime() {
+    if (state.facts.frames) {
+        [part('first').value, part('last').value] = [Math.min(...state.facts.frames), Math.max(...state.facts.frames)];
+        time.frame = time.known = state.facts.frames[0];
+        part('time').open = true;
+    }
+    part('play').addEventListener('click', play);
     for (const name of Object.keys(forms)) part('form').append(new Option(name, name));
     for (const id of ['first', 'last', 'smooth']) part(id).addEventListener('change', () => goTo(time.frame));
     part('frame_number').addEventListener('input', () => goTo(Number(part('frame_number').value)));

@@ -1,0 +1,105 @@
+#include "base/error.h"
+#include "viewing/reel.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <mutex>
+#include <thread>
+
+namespace sparselens {
+namespace {
+
+const std::vector<std::string> five{"a", "b", "c", "d", "e"};
+
+ShotFrame frame_called(const std::string &path) {
+    ShotFrame frame;
+    frame.in.name = path;
+    frame.in.ldi.z.resize(250); // 1000 bytes
+    return frame;
+}
+
+// What was read, in its order.
+class Files {
+public:
+    Reel::Read reader(const std::string &bad = "") {
+        return [this, bad](const std::string &path) {
+            const std::lock_guard lock(mutex_);
+            read_ += path;
+            if (path == bad) throw Error(path + ": cannot be read");
+            return frame_called(path);
+        };
+    }
+    // Waits for it; not for ever, where a fault keeps it away.
+    std::string once(std::size_t count) const {
+        for (int i = 0; i < 2000 && read().size() < count; ++i)
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        return read();
+    }
+    std::string read() const {
+        const std::lock_guard lock(mutex_);
+        return read_;
+    }
+
+private:
+    mutable std::mutex mutex_;
+    std::string read_;
+};
+
+TEST(Reel, ReadsAheadAndRoundTheEnd) {
+    Files files;
+    Reel reel(five, 1'000'000, files.reader());
+    EXPECT_EQ(files.read(), "");
+    EXPECT_EQ(reel.at("c")->in.name, "c");
+    EXPECT_EQ(files.once(5), "cdeab");
+    const Reel::Held held = reel.at("a");
+    EXPECT_EQ(reel.at("a"), held);
+    EXPECT_EQ(files.read(), "cdeab"); // each once
+    EXPECT_EQ(reel.held(), 5u);
+}
+
+TEST(Reel, GoesBackwardsWhereItIsAskedTo) {
+    Files files;
+    Reel reel(five, 2000, files.reader());
+    reel.at("c");
+    EXPECT_EQ(files.once(2), "cd");
+    reel.at("b");
+    EXPECT_EQ(files.once(4), "cdba");
+}
+
+TEST(Reel, HoldsNoMoreThanFits) {
+    Files files;
+    Reel reel(five, 3500, files.reader());
+    reel.at("a");
+    EXPECT_EQ(files.once(3), "abc");
+    reel.at("b");
+    EXPECT_EQ(files.once(4), "abcd");
+    std::this_thread::sleep_for(std::chrono::milliseconds(20)); // more would be read now
+    EXPECT_EQ(files.read(), "abcd");
+    EXPECT_EQ(reel.held(), 3u);
+    EXPECT_FALSE(reel.holds("a"));
+}
+
+TEST(Reel, HoldsOneHoweverLarge) {
+    Files files;
+    Reel reel(five, 10, files.reader());
+    reel.at("a");
+    reel.at("b");
+    EXPECT_EQ(reel.held(), 1u);
+    EXPECT_TRUE(reel.holds("b"));
+    reel.at("b");
+    EXPECT_EQ(files.read(), "ab");
+}
+
+TEST(Reel, WhoAsksForABadFrameIsToldAndOthersAreReadAhead) {
+    Files files;
+    Reel reel({"a", "b", "a", "c"}, 1'000'000, files.reader("b"));
+    reel.at("a");
+    EXPECT_EQ(files.once(3), "abc");
+    EXPECT_THROW(reel.at("b"), Error);
+    EXPECT_EQ(reel.at("c")->in.name, "c");
+    EXPECT_EQ(files.read(), "abcb");
+}
+
+} // namespace
+} // namespace sparselens

@@ -1,0 +1,90 @@
+#include "viewing/shot_frame.h"
+
+#include "base/error.h"
+#include "deep/front_depth.h"
+#include "io/camera/camera_read.h"
+#include "io/channels.h"
+
+#include <ImfStringAttribute.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <utility>
+
+namespace sparselens {
+
+namespace {
+
+using Json = nlohmann::json;
+
+void add_names(ObjectNames &names, const std::string &manifest) {
+    const Json json = Json::parse(manifest, nullptr, false);
+    if (!json.is_object()) return;
+    for (const auto &[name, id] : json.items())
+        if (id.is_string())
+            names[std::uint32_t(std::strtoul(id.get_ref<const std::string &>().c_str(), nullptr, 16))] = name;
+}
+
+} // namespace
+
+ObjectNames object_names(const Imf::Header &header) {
+    ObjectNames names;
+    for (auto attribute = header.begin(); attribute != header.end(); ++attribute) {
+        const std::string name = attribute.name();
+        const auto *text = dynamic_cast<const Imf::StringAttribute *>(&attribute.attribute());
+        if (text && name.starts_with("cryptomatte/") && name.ends_with("/manifest"))
+            add_names(names, text->value());
+    }
+    return names;
+}
+
+DepthExtent depth_extent(const Ldi &ldi) {
+    const std::vector<float> &depths = ldi.optical.empty() ? ldi.z : ldi.optical;
+    if (depths.empty()) return {};
+    DepthExtent extent{HUGE_VAL, 0};
+    for (const float z : depths) {
+        if (!(z > 0)) continue; // rays would meet behind the camera
+        extent.nearest = std::min(extent.nearest, double(z));
+        extent.farthest = std::max(extent.farthest, double(z));
+    }
+    return extent.farthest > 0 ? extent : DepthExtent{};
+}
+
+std::uint64_t ShotFrame::bytes() const {
+    const Ldi &ldi = in.ldi;
+    std::size_t floats = 0;
+    for (const auto *each : {&ldi.z, &ldi.z_back, &ldi.dx, &ldi.dy, &ldi.weight, &ldi.optical, &ldi.solid})
+        floats += each->size();
+    for (const auto &values : ldi.values) floats += values.size();
+    return floats * sizeof(float) + ldi.begin.size() * sizeof(ldi.begin[0]);
+}
+
+Camera ShotFrame::camera(const GatherCommand &options) const {
+    Camera camera = camera_with_options(options.lens, read_camera(in.header));
+    if (options.focus_pixel) {
+        const float z = front_depth(in.ldi, middle_subpixel(*options.focus_pixel, across));
+        if (!(z > 0)) throw UsageError("--focus-pixel: " + in.name + " has no sample there");
+        camera.focus_distance = double(z);
+    }
+    return camera;
+}
+
+ThinLens ShotFrame::lens(const Camera &camera) const {
+    ThinLens lens = resolve_lens(camera, in.ldi.windows);
+    lens.focal_px /= across;
+    return lens;
+}
+
+ShotFrame shot_frame(OpenedLdi in, const WindowOptions &windows) {
+    if (!all_found(find_rgb(in.ldi.channels)))
+        throw Error(in.name + ": needs the channels R, G and B, which are what is shown");
+    ShotFrame frame{std::move(in)};
+    frame.across = subpixels_of(windows, frame.in).across;
+    frame.depths = depth_extent(frame.in.ldi);
+    frame.names = object_names(frame.in.header);
+    return frame;
+}
+
+} // namespace sparselens

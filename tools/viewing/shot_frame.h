@@ -1,0 +1,39 @@
+// One LDI that is looked at, and what a page is told of it whatever its lens.
+#pragma once
+
+#include "io/open_ldi.h"
+#include "options/gather_options.h"
+
+#include <cstdint>
+#include <map>
+#include <string>
+
+namespace sparselens {
+
+// The names of objects by their ids, as the manifests of Cryptomattes in the header have them.
+using ObjectNames = std::map<std::uint32_t, std::string>;
+ObjectNames object_names(const Imf::Header &header);
+
+// The depths that the picture has, in (0, inf]; 1 and 1 where it has no samples. What images show counts too.
+struct DepthExtent {
+    double nearest = 1, farthest = 1;
+};
+DepthExtent depth_extent(const Ldi &ldi);
+
+struct ShotFrame {
+    OpenedLdi in;
+    int across = 1; // sub-pixels of the LDI that become one pixel
+    DepthExtent depths = {};
+    ObjectNames names = {};
+
+    std::uint64_t bytes() const; // that the samples take
+
+    // The camera and the lens of its picture. Throws as dof-gather does.
+    Camera camera(const GatherCommand &options) const;
+    ThinLens lens(const Camera &camera) const; // for pixels of the picture
+};
+
+// Throws Error where it has no R, G and B, which are what is shown.
+ShotFrame shot_frame(OpenedLdi in, const WindowOptions &windows);
+
+} // namespace sparselens
