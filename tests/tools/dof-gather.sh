@@ -194,6 +194,13 @@ fails_saying 2 "'depth'" "$gather" ldi.exr -o x.exr --channels R,depth
 picture edit out.exr a.exr channels=R=copy.R,G=copy.G
 picture same a.exr out.exr R,G || fail "a copy of red is not gathered as red is"
 
+# --lens-point: what one point of the lens sees. To the right of the middle, what is before focus moves to the left.
+exits 0 "$gather" ldi.exr -o right.exr --lens-point 1,0
+exits 0 "$gather" ldi.exr -o left.exr --lens-point -1,0
+differ right.exr left.exr "--lens-point"
+fails_saying 2 'lens-point.*at most 1' "$gather" ldi.exr -o y.exr --lens-point 1,1
+fails_saying 2 'lens-point.*method lens' "$gather" ldi.exr -o y.exr --lens-point 0,1 --method selective
+
 # --show: what the tool understood, in colours; the picture is not gathered.
 pixel() { picture pixel "$1" "$2,$3" R,G,B,A; }
 for what in coc focus layers tiles; do

@@ -129,6 +129,17 @@ def shows(page):
         page.shot(name)
         page.does(browser.press, key)
         assert page.pixels()[2] == plain, name
+    page.does(browser.press, "e")
+    middle, (x, y) = page.pixels()[2], page.at(80, 45)
+    assert middle != plain
+    page.does(browser.pointer, ("move", x, y), ("down",), ("move", x + 60, y + 30), ("wait", 50), ("move", x + 80, y + 60), ("up",))
+    browser.until("part('command').value.includes('--lens-point 0.800,-0.600')")
+    assert page.pixels()[2] != middle
+    assert browser.run("const disc = part('lens_disc').getBoundingClientRect(), eye = part('eye_at').getBoundingClientRect();"
+                       "return eye.left > disc.left + disc.width / 2 && eye.top > disc.top + disc.height / 2")
+    page.shot("eye")
+    page.does(browser.press, "e")
+    assert page.pixels()[2] == plain
     browser.press("x")
     browser.pointer(("move", *page.at(80, 45)))
     browser.until("part('samples').querySelectorAll('tbody tr').length > 0 && part('pixel').textContent.startsWith('80,45')")

@@ -28,6 +28,8 @@ void check(const CLI::App &parsed, const GatherCommand &options) {
     if (options.device != "cpu" && options.device != "auto" && !options.picture.method->on_devices)
         throw CLI::ValidationError("--device " + options.device,
                                    "works with --method lens and --method selective only");
+    if (options.picture.gather.lens.point && options.picture.method != &gather_methods().front())
+        throw CLI::ValidationError("--lens-point", "works with --method lens only");
     if (options.show == Show::tiles && options.picture.method != &gather_methods().front())
         throw CLI::ValidationError("--show tiles", "works with --method lens only");
 }
@@ -69,6 +71,22 @@ void add_method_options(CLI::App &app, GatherCommand &options) {
                  "The holdout is part of the scene and out of focus like the rest, rather than sharp")
         ->group(lens_group)
         ->needs("--holdout");
+}
+
+void add_point_option(CLI::App &app, std::optional<Imath::V2d> &point) {
+    const auto read = [&point](const std::string &text) {
+        point = parse_pair(text);
+        if (!point || point->length() > 1)
+            throw CLI::ValidationError(
+                "--lens-point",
+                fmt::format("must be X,Y at most 1 from the middle (e.g. 0.5,-0.5), not '{}'", text));
+    };
+    app.add_option_function<std::string>(
+           "--lens-point", read,
+           "See through this point of the lens alone, X right and Y up of its middle, 1 at the rim; what no "
+           "view saw is half magenta, and what is unknown black")
+        ->type_name("X,Y")
+        ->group("Method lens");
 }
 
 void add_gather_examples(CLI::App &app) {
@@ -120,6 +138,7 @@ void add_gather_options(CLI::App &app, GatherCommand &options) {
     add_type_option(app, options.type);
     add_compression_option(app, options.compression, false);
     add_show_option(app, options.show);
+    add_point_option(app, options.picture.gather.lens.point);
     add_history_option(app, options.history);
     add_gather_examples(app);
 }

@@ -24,8 +24,9 @@ constexpr std::array own_flags{"--open", "-v", "--verbose"};
 constexpr std::array picture_flags{"--cat-eye-darkening", "--holdout-defocused"};
 
 // What a page may set beside the looks that are numbers.
-constexpr std::array settable{"fstop", "lens-radius", "focus-distance",       "quality",          "proxy",
-                              "show",  "tilt",        "axial-chromatic-type", "cat-eye-darkening"};
+constexpr std::array settable{
+    "fstop",      "lens-radius", "focus-distance",       "quality",          "proxy", "show",
+    "lens-point", "tilt",        "axial-chromatic-type", "cat-eye-darkening"};
 
 // What goes where an option is set that says the same in another way.
 struct InPlaceOf {
@@ -137,7 +138,7 @@ std::string shell_command(const Words &words, const std::string &output) {
 std::string python_script(const Words &words, const std::string &input, const std::string &output) {
     constexpr std::array of_file{"--depth", "--near", "--far", "--depth-channel", "--stereo-view", "--layer"};
     constexpr std::array of_output{"--colorconfig", "--display", "--view-transform"};
-    constexpr std::array of_tools{"--colorspace", "--output-colorspace", "--show"};
+    constexpr std::array of_tools{"--colorspace", "--output-colorspace", "--show", "--lens-point"};
     std::string opened, gathered, written, missing;
     for (std::size_t i = 0; i < words.size(); ++i) {
         if (!words[i].starts_with("--")) continue;

@@ -25,6 +25,16 @@ std::optional<Imath::Box2i> seen_of(const LensGatherOptions &options, const Imat
     return Imath::Box2i(options.seen->min - corner, options.seen->max - corner);
 }
 
+// Half of it magenta, by its coverage.
+void paint(SampleColours &colours, std::size_t alpha) {
+    for (std::size_t k = 0; k < colours.sets.size(); ++k) {
+        if (!is_colour(colours.sets[k])) continue;
+        const float mark = (colours.sets[k] & green) != 0 ? 0 : 0.5f;
+        for (std::size_t i = 0; i < colours.count; ++i)
+            colours.at(k, i) = colours.at(k, i) / 2 + mark * (alpha == npos ? 1 : colours.at(alpha, i));
+    }
+}
+
 } // namespace
 
 GatherScene prepare(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window,
@@ -49,13 +59,16 @@ GatherScene prepare(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &wi
         find_fillers(ldi, lens, known); // before there are colours, as it takes memory
     progress.may_end();
     scene.colours = make_colours(ldi, samples);
-    const SharpenLooks looks{optics.aperture, optics.field, coc, options.seen};
-    sharpen_near_focus(ldi, lens, samples, scene.colours, &looks);
-    progress.may_end();
-    const LightChannels light = light_channels(ldi);
-    scene.highlights =
-        take_highlights(samples, light.brightness, light.all, scene.colours, seen_of(options, corner));
+    if (!options.point) {
+        const SharpenLooks looks{optics.aperture, optics.field, coc, options.seen};
+        sharpen_near_focus(ldi, lens, samples, scene.colours, &looks);
+        progress.may_end();
+        const LightChannels light = light_channels(ldi);
+        scene.highlights =
+            take_highlights(samples, light.brightness, light.all, scene.colours, seen_of(options, corner));
+    }
     scene.fillers = place_fillers(ldi, lens, fillers, samples, scene.colours);
+    if (options.point) paint(scene.fillers.colours, ldi.alpha());
     optics.bend(scene.fillers.samples);
     progress.may_end();
     scene.facets = place_facets(find_facets(ldi, lens, double(optics.widest())), ldi.samples(),

@@ -30,10 +30,11 @@ public:
 
     // `doubled` up to two times.
     const std::vector<LensSample> &for_coc(float largest, std::size_t doubled) {
-        if (options_.lens_samples > 0) largest = 0, doubled = 0;
+        if (options_.lens_samples > 0 || options_.point) largest = 0, doubled = 0;
         const std::size_t step = step_for(largest / float(options_.across)), set = doubled * steps + step;
         std::call_once(made_[set], [&] {
-            sets_[set] = lens_samples(aperture_, points_of(step) << doubled, pixel_aspect_);
+            sets_[set] = options_.point ? std::vector{through(*options_.point)}
+                                        : lens_samples(aperture_, points_of(step) << doubled, pixel_aspect_);
             if (options_.across > 1) look_from_the_middle(sets_[set]);
         });
         return sets_[set];
@@ -48,6 +49,9 @@ private:
     static constexpr std::array<std::size_t, 6> normal_points{96, 128, 160, 192, 224, 256},
         final_points{288, 384, 480, 576, 896, 1024}; // up to 576 by steps of their own (lens_samples.h)
 
+    LensSample through(const Imath::V2d &point) const {
+        return {float(point.x), float(-point.y * pixel_aspect_), 0, 0, 1};
+    }
     // Sub-pixels beside each other already look from different places: within each, half as far from its middle brings more than all
     // of it, .5 dB on fence and grass at normal quality (at final .0).
     static void look_from_the_middle(std::vector<LensSample> &points) {
@@ -233,7 +237,7 @@ struct Gathering {
         for_each_pixel(tile.first - out.windows.data.min, tile.part, out.windows, [&](int x, int y) {
             const auto pixel = std::size_t(y * lens_tile_size + x);
             // A few lens points may all miss: better sharp than black.
-            if (!picture.is_known(pixel) && lit.dark(x, y)) return;
+            if (!picture.is_known(pixel) && lit.dark(x, y) && !options.point) return;
             const Imath::V2i at = tile.first + Imath::V2i(x, y);
             for (const std::size_t k : gathered)
                 out.at(k, at.x, at.y) =

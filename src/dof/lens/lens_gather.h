@@ -26,7 +26,10 @@ enum class Quality { draft, normal, final };
 struct LensGatherOptions {
     Quality quality = Quality::normal;
     int lens_samples = 0; // points in every tile; 0: by the quality and what the tile needs
-    int across = 1;       // pixels, across and down, that become one of the picture (base/subpixels.h)
+    // Where given: this point of the lens alone, x right, y up, [-1, 1]. It sees lamps as they are, nothing is sharpened, what no
+    // view saw is half magenta (what fillers are), and what nothing is known of stays black.
+    std::optional<Imath::V2d> point = {};
+    int across = 1; // pixels, across and down, that become one of the picture (base/subpixels.h)
     LensLooks looks = {};
     LensTiles *chosen = nullptr;             // where given: is told what was chosen
     std::optional<Imath::Box2i> region = {}; // tiles beside it stay as they were rendered

@@ -8,6 +8,7 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -93,6 +94,35 @@ TEST(LensGather, PlanesAreConvolvedWithTheirDiscs) {
             EXPECT_LT(error, 0.02) << c;
             EXPECT_LT(finer, 0.7 * error) << c;
         }
+}
+
+// Through one point of the lens, a plane is moved by its CoC, as it is.
+TEST(LensGatherThroughAPoint, PlanesAreMoved) {
+    Plane plane(5, 1);
+    const Image seen = gather(plane.ldi, plane.by, {.point = Imath::V2d(0.6, -0.8)});
+    for (int y = 10; y < 40; ++y)
+        for (int x = 10; x < 70; ++x) EXPECT_EQ(seen.at(0, x + 3, y + 4), float(texture(x, y)));
+}
+
+// To the right of a near half, the lens looks past its edge: what goes on behind it is marked, all else as it is.
+TEST(LensGatherThroughAPoint, WhatNoViewSawIsMarked) {
+    const Ldi ldi = make_ldi(windows_of_size(64, 16), rgba_channels(), [](int x, int) {
+        return x < 32 ? std::vector<Sample>{{depth_of(lens, -4), {0.1f, 0.2f, 0.3f, 1}}}
+                      : std::vector<Sample>{{depth_of(lens, 4), {0.4f, 0.6f, 0.8f, 1}}};
+    });
+    const auto row = [&](double u) { return gather(ldi, lens, {.point = Imath::V2d(u, 0)}); };
+    const auto colour = [](const Image &image, int x) {
+        return std::array{image.at(0, x, 8), image.at(1, x, 8), image.at(2, x, 8), image.at(3, x, 8)};
+    };
+    const std::array<float, 4> near{0.1f, 0.2f, 0.3f, 1}, far{0.4f, 0.6f, 0.8f, 1},
+        marked{0.4f / 2 + 0.5f, 0.6f / 2, 0.8f / 2 + 0.5f, 1};
+    const Image past = row(1); // the near half moves to the left, the far one to the right
+    for (const int x : {20, 27}) EXPECT_EQ(colour(past, x), near) << x;
+    for (const int x : {28, 31, 35}) EXPECT_EQ(colour(past, x), marked) << x;
+    for (const int x : {36, 50}) EXPECT_EQ(colour(past, x), far) << x;
+    const Image behind = row(-1);
+    for (const int x : {20, 35}) EXPECT_EQ(colour(behind, x), near) << x;
+    for (const int x : {36, 50}) EXPECT_EQ(colour(behind, x), far) << x;
 }
 
 TEST(LensGather, ConstantStaysConstantAndOpaque) {

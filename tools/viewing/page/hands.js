@@ -62,7 +62,10 @@ function startPointer() {
         if (event.target.closest('#samples, #border')) return;
         frame.setPointerCapture(event.pointerId);
         frame.focus();
-        pressed = { x: event.clientX, y: event.clientY, lastX: event.clientX, lastY: event.clientY, moved: false, from: apertureNow() };
+        pressed = {
+            x: event.clientX, y: event.clientY, lastX: event.clientX, lastY: event.clientY, moved: false,
+            from: apertureNow(), eye: state.eye,
+        };
     });
     frame.addEventListener('pointermove', (event) => {
         const pixel = pixelAt(event);
@@ -74,6 +77,7 @@ function startPointer() {
         if (Math.hypot(event.clientX - pressed.x, event.clientY - pressed.y) > 3) pressed.moved = true;
         if (!pressed.moved) return;
         if (event.shiftKey || event.buttons & 4) pan(event.clientX - pressed.lastX, event.clientY - pressed.lastY);
+        else if (pressed.eye) setEye([pressed.eye[0] + (event.clientX - pressed.x) / 100, pressed.eye[1] - (event.clientY - pressed.y) / 100]);
         else {
             const stops = (event.clientX - pressed.x) / 60, by = 2 ** (stops / 2);
             set(aperture(), asText(aperture() === 'fstop' ? pressed.from * by : pressed.from / by, 3));
@@ -110,6 +114,7 @@ const keys = {
     c: ['circle of confusion: blue in front of focus, red behind', () => setOverlay('coc')],
     l: ['layers: samples a pixel', () => setOverlay('layers')],
     t: ['tiles: lens points', () => setOverlay('tiles')],
+    e: ['the eye at one point of the lens: drag moves it', () => part('eye').click()],
     x: ['the samples of the pixel', () => setList(!listed.on)],
     k: ['set a key at this frame', setKey],
     ',': ['the frame before', () => step(-1)],

@@ -49,6 +49,19 @@ function setOverlay(name) {
     changed();
 }
 
+// The eye in the lens: seen through one point of it, of which the disc beside the picture says where it is.
+function setEye(eye) {
+    const far = eye ? Math.max(1.001, Math.hypot(...eye)) : 1; // rounded, it is still in the lens
+    state.eye = eye && (Math.hypot(...eye) > 1 ? eye.map((part) => part / far) : eye);
+    part('eye').classList.toggle('on', Boolean(state.eye));
+    part('lens_disc').hidden = !state.eye;
+    if (state.eye) {
+        part('eye_at').style.left = 50 + 50 * state.eye[0] + '%';
+        part('eye_at').style.top = 50 - 50 * state.eye[1] + '%';
+    }
+    changed();
+}
+
 const listed = { on: false, pixel: null, asking: false, again: null };
 
 // The pixel under the pointer: its value, and the list of its samples where that is shown.
@@ -119,6 +132,8 @@ function startOverlays() {
     part('keep').addEventListener('click', keep);
     for (const mode of ['slide', 'flip', 'difference']) part(mode).addEventListener('click', () => setComparing(mode));
     for (const name of ['focus', 'coc', 'layers', 'tiles']) part('show_' + name).addEventListener('click', () => setOverlay(name));
+    part('eye').hidden = !state.facts.lens_method;
+    part('eye').addEventListener('click', () => setEye(state.eye ? null : [0, 0]));
     part('list').addEventListener('click', () => setList(!listed.on));
     part('border').addEventListener('pointerdown', (event) => part('border').setPointerCapture(event.pointerId));
     part('border').addEventListener('pointermove', (event) => {

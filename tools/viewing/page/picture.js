@@ -4,6 +4,7 @@ const state = {
     facts: null,
     settings: {},    // options of dof-gather that this page has set
     exposure: 0,
+    eye: null,       // the point of the lens that is looked through: [right, up] of its middle, 1 at the rim; null: all
     overlay: '',     // what --show shows in place of the picture
     lens: null,      // what the server says of the lens of the last picture
 };
@@ -13,6 +14,7 @@ const flow = { level: 3, drafting: false, again: false, full: 0, rest: 0, slow: 
 function settingsNow() {
     const settings = { ...state.settings };
     if (state.overlay) settings.show = state.overlay;
+    else if (state.eye) settings['lens-point'] = state.eye.map((part) => part.toFixed(3)).join(',');
     return settings;
 }
 
