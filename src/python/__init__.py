@@ -1,4 +1,4 @@
-"""The package sparselens: everything in it is in the compiled module."""
+"""The package sparselens: all but view() is in the compiled module."""
 try:
     from ._sparselens import *  # noqa: F403: all of it
 except ImportError as error:
@@ -7,6 +7,7 @@ except ImportError as error:
     raise ImportError(f"{error}: sparselens needs the OpenEXR, OpenColorIO, oneTBB and fmt that it was built with; "
                       "install them (docs/python.md), or build it again") from None
 from ._sparselens import __doc__, __version__
+from ._viewing import Viewing, view
 
 __all__ = [name for name in dir() if not name.startswith("_")]
 for _name in __all__:  # help() and messages name the package, not the file
