@@ -88,6 +88,7 @@ std::vector<Channel> matte_channels(const Ldi &ldi) {
 Image gather_mattes(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window,
                     const LensGatherOptions &options, Progress &progress) {
     LensGatherOptions by = options;
+    by.watch = nullptr;
     by.chosen = nullptr;
     Windows windows = ldi.windows;
     windows.data = window;

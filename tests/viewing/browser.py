@@ -207,6 +207,13 @@ def has_keys(page):
         browser.until(f"part('command').value.includes({expected!r})")
 
 
+def has_pieces(browser):
+    """Tiles of the picture come before all of it."""
+    with served(folder + "/dof-view", ldi, "--lens-samples", "20000", "--threads", "1") as server:
+        browser.open(server.address)
+        browser.until("flow.pieces > 0 && flow.full % 2 === 1 && part('above').width === 160")
+
+
 def has_frames(browser):
     """A sequence: its timeline, its frames, and the command that makes them with keys."""
     other = "other.ldi.exr"
@@ -287,6 +294,7 @@ def main():
             page.does(page.click, 100, 20)
             assert browser.run("return focusNow()") != 2.5
             has_frames(browser)
+            has_pieces(browser)
             knows_objects(browser)
         finally:
             browser.end()

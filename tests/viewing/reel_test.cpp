@@ -13,10 +13,19 @@ namespace {
 const std::vector<std::string> five{"a", "b", "c", "d", "e"};
 
 ShotFrame frame_called(const std::string &path) {
-    ShotFrame frame;
+    ShotFrame frame{{}, PackedRows(windows_of_size(250, 1))};
     frame.in.name = path;
-    frame.in.ldi.z.resize(250); // 1000 bytes
+    Ldi ldi;
+    ldi.windows = windows_of_size(250, 1);
+    ldi.begin.assign(251, 1);
+    ldi.begin[0] = 0;
+    ldi.z = {1};
+    frame.packed.append(ldi);
     return frame;
+}
+// So many fit.
+std::uint64_t memory_of(double frames) {
+    return std::uint64_t(frames * double(frame_called("any").packed.bytes()));
 }
 
 // What was read, in its order.
@@ -48,7 +57,7 @@ private:
 
 TEST(Reel, ReadsAheadAndRoundTheEnd) {
     Files files;
-    Reel reel(five, 1'000'000, files.reader());
+    Reel reel(five, memory_of(10), files.reader());
     EXPECT_EQ(files.read(), "");
     EXPECT_EQ(reel.at("c")->in.name, "c");
     EXPECT_EQ(files.once(5), "cdeab");
@@ -60,7 +69,7 @@ TEST(Reel, ReadsAheadAndRoundTheEnd) {
 
 TEST(Reel, GoesBackwardsWhereItIsAskedTo) {
     Files files;
-    Reel reel(five, 2000, files.reader());
+    Reel reel(five, memory_of(2), files.reader());
     reel.at("c");
     EXPECT_EQ(files.once(2), "cd");
     reel.at("b");
@@ -69,7 +78,7 @@ TEST(Reel, GoesBackwardsWhereItIsAskedTo) {
 
 TEST(Reel, HoldsNoMoreThanFits) {
     Files files;
-    Reel reel(five, 3500, files.reader());
+    Reel reel(five, memory_of(3.5), files.reader());
     reel.at("a");
     EXPECT_EQ(files.once(3), "abc");
     reel.at("b");
@@ -93,7 +102,7 @@ TEST(Reel, HoldsOneHoweverLarge) {
 
 TEST(Reel, WhoAsksForABadFrameIsToldAndOthersAreReadAhead) {
     Files files;
-    Reel reel({"a", "b", "a", "c"}, 1'000'000, files.reader("b"));
+    Reel reel({"a", "b", "a", "c"}, memory_of(10), files.reader("b"));
     reel.at("a");
     EXPECT_EQ(files.once(3), "abc");
     EXPECT_THROW(reel.at("b"), Error);

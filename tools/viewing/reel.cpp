@@ -63,7 +63,7 @@ void Reel::make_room(std::uint64_t bytes) {
         const auto farthest =
             std::ranges::max_element(held_, {}, [this](const auto &frame) { return ahead(frame.first); });
         if (farthest == held_.end() || farthest->first == last_asked_) return;
-        held_bytes_ -= farthest->second->bytes();
+        held_bytes_ -= farthest->second->packed.bytes();
         held_.erase(farthest);
     }
 }
@@ -86,8 +86,8 @@ Reel::Held Reel::read(std::unique_lock<std::mutex> &lock, std::size_t number) {
     if (failure) std::rethrow_exception(failure);
     bad_.erase(number);
     held_[number] = frame;
-    held_bytes_ += frame->bytes();
-    largest_ = std::max(largest_, frame->bytes());
+    held_bytes_ += frame->packed.bytes();
+    largest_ = std::max(largest_, frame->packed.bytes());
     make_room(0);
     return frame;
 }
@@ -100,7 +100,7 @@ std::optional<std::size_t> Reel::next_ahead() const {
                           number = (forwards_ ? last_asked_ + step : last_asked_ + count - step) % count;
         const auto found = held_.find(number);
         if (found != held_.end())
-            nearer += found->second->bytes();
+            nearer += found->second->packed.bytes();
         else if (step == 0)
             return {}; // who asked reads it
         else if (!bad_.contains(number))

@@ -112,6 +112,7 @@ void serve(Viewer &viewer, int port, const std::string &key, const std::function
     constexpr const char *json = "application/json", *bytes = "application/octet-stream";
     answer_at(server, "/facts", json, [&](const Asked &asked) { return viewer.facts(asked); });
     answer_at(server, "/picture", bytes, [&](const Asked &asked) { return viewer.picture(asked); });
+    answer_at(server, "/pieces", bytes, [&](const Asked &asked) { return viewer.pieces(asked); });
     answer_at(server, "/reference", bytes, [&](const Asked &asked) { return viewer.reference(asked); });
     answer_at(server, "/rendered", bytes, [&](const Asked &asked) { return viewer.rendered(asked); });
     answer_at(server, "/objects", bytes, [&](const Asked &asked) { return viewer.objects(asked); });

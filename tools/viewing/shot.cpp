@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 namespace sparselens {
@@ -20,11 +21,13 @@ namespace {
 constexpr std::size_t most_small = 2;
 
 // What is shown of it.
-Image rgba_of(const Image &image) {
+bool is_rgba(const Channel &channel) {
+    return channel.name == "R" || channel.name == "G" || channel.name == "B" || channel.name == "A";
+}
+Image rgba_of(Image image) {
+    if (std::ranges::all_of(image.channels, is_rgba)) return image;
     std::vector<Channel> channels;
-    for (const Channel &channel : image.channels)
-        if (channel.name == "R" || channel.name == "G" || channel.name == "B" || channel.name == "A")
-            channels.push_back(channel);
+    std::ranges::copy_if(image.channels, std::back_inserter(channels), is_rgba);
     Image out(image.windows, channels);
     for (std::size_t k = 0; k < channels.size(); ++k)
         std::ranges::copy(image.plane(find_channel(image.channels, channels[k].name)), out.plane(k).begin());
@@ -75,7 +78,7 @@ const Shot::Small &Shot::small(const Reel::Held &frame, const WindowOptions &opt
         small_, [&](const Small &other) { return other.of == frame && other.proxy == options.proxy; },
         [&] {
             ThinLens any;
-            GatherWindows windows = gather_windows(options, frame->in, any);
+            GatherWindows windows = gather_windows(options, frame->unpacked(), any);
             Small made{frame, options.proxy, {}, windows.gathered};
             made.in.name = frame->in.name;
             made.in.ldi = std::move(*windows.changed);
@@ -105,13 +108,15 @@ const Ldi *Shot::holdout(const GatherCommand &options, const Reel::Held &frame) 
             }).ldi;
 }
 
-TakenPicture Shot::taken(const GatherCommand &options, const ToolContext &tool, Progress &progress) {
+TakenPicture Shot::taken(const GatherCommand &options, const ToolContext &tool, Progress &progress,
+                         const TileWatch *watch) {
     const Reel::Held of = frame(options);
     TakenPicture out{{}, of->camera(options), {}, of->depths};
     ThinLens lens = resolve_lens(out.camera, of->in.ldi.windows);
     out.lens = of->lens(out.camera);
     if (const auto warning = warning_of_wide_lens(out.camera, lens)) out.warnings.push_back(*warning);
-    const OpenedLdi *in = &of->in;
+    OpenedLdi whole;
+    const OpenedLdi *in = &whole;
     GatherWindows windows;
     if (options.windows.proxy > 1) {
         const Small &made = small(of, options.windows);
@@ -119,7 +124,8 @@ TakenPicture Shot::taken(const GatherCommand &options, const ToolContext &tool, 
         windows.gathered = made.gathered;
         lens.focal_px /= options.windows.proxy * of->across;
     } else {
-        windows = gather_windows(options.windows, *in, lens);
+        whole = of->unpacked();
+        windows = gather_windows(options.windows, whole, lens);
     }
     const LensFile given_looks = looks_of(options.looks, out.camera.fstop);
     Imf::Header header = of->in.header;
@@ -138,12 +144,18 @@ TakenPicture Shot::taken(const GatherCommand &options, const ToolContext &tool, 
     by.gather.lens.device = device_.open(options.device, tool);
     by.gather.lens.looks = looks;
     by.gather.lens.across = windows.subpixels.across;
+    if (in == &whole && of->across == 1 && options.show == Show::picture) by.gather.lens.watch = watch;
+    const auto gather = [&](auto &&ldi) {
+        return gather_picture(std::forward<decltype(ldi)>(ldi), lens, windows.gathered, windows.needed, by,
+                              progress);
+    };
     Image made;
-    if (needs_gather(options.show))
-        made = windows.changed && options.show == Show::picture
-                   ? gather_picture(std::move(*windows.changed), lens, windows.gathered, windows.needed, by,
-                                    progress)
-                   : gather_picture(windows.ldi(*in), lens, windows.gathered, windows.needed, by, progress);
+    if (options.show == Show::picture) // the samples are used up where they are of this picture alone
+        made = windows.changed ? gather(std::move(*windows.changed))
+               : in == &whole  ? gather(std::move(whole.ldi))
+                               : gather(in->ldi);
+    else if (needs_gather(options.show))
+        made = gather(windows.ldi(*in));
     device_.report(tool);
     if (options.show != Show::picture) {
         ThinLens of_picture = lens;
@@ -151,12 +163,12 @@ TakenPicture Shot::taken(const GatherCommand &options, const ToolContext &tool, 
         made =
             crop(shown(options.show, windows.ldi(*in), of_picture, windows.gathered, tiles), windows.needed);
     }
-    out.image = windows.picture_of(rgba_of(made));
+    out.image = windows.picture_of(rgba_of(std::move(made)));
     return out;
 }
 
 ShownPixels Shot::displayed(Image image, double exposure) const {
-    image = rgba_of(image);
+    image = rgba_of(std::move(image));
     const auto gain = float(std::exp2(exposure));
     if (exposure != 0)
         for (std::size_t k = 0; k < image.channels.size(); ++k)

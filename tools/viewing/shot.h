@@ -36,8 +36,10 @@ public:
     Reel::Held frame(const GatherCommand &options) { return reel_.at(options.input); }
     const Reel &reel() const { return reel_; }
 
-    // What dof-gather would write; by one thread at a time. Throws as that does, and what `progress` throws.
-    TakenPicture taken(const GatherCommand &options, const ToolContext &tool, Progress &progress);
+    // What dof-gather would write; by one thread at a time. Throws as that does, and what `progress` throws. Who watches is told of
+    // pixels of the picture, where those are what is gathered.
+    TakenPicture taken(const GatherCommand &options, const ToolContext &tool, Progress &progress,
+                       const TileWatch *watch = nullptr);
 
     // As PNG shows linear colours of the file's space, after `exposure` stops.
     ShownPixels displayed(Image image, double exposure) const;

@@ -52,19 +52,20 @@ DepthExtent depth_extent(const Ldi &ldi) {
     return extent.farthest > 0 ? extent : DepthExtent{};
 }
 
-std::uint64_t ShotFrame::bytes() const {
-    const Ldi &ldi = in.ldi;
-    std::size_t floats = 0;
-    for (const auto *each : {&ldi.z, &ldi.z_back, &ldi.dx, &ldi.dy, &ldi.weight, &ldi.optical, &ldi.solid})
-        floats += each->size();
-    for (const auto &values : ldi.values) floats += values.size();
-    return floats * sizeof(float) + ldi.begin.size() * sizeof(ldi.begin[0]);
+Ldi ShotFrame::row(int y) const { return packed.rows(y, y); }
+
+OpenedLdi ShotFrame::unpacked() const {
+    OpenedLdi all = in;
+    const Imath::Box2i &data = packed.windows().data;
+    all.ldi = packed.rows(data.min.y, data.max.y);
+    return all;
 }
 
 Camera ShotFrame::camera(const GatherCommand &options) const {
     Camera camera = camera_with_options(options.lens, read_camera(in.header));
     if (options.focus_pixel) {
-        const float z = front_depth(in.ldi, middle_subpixel(*options.focus_pixel, across));
+        const Imath::V2i at = middle_subpixel(*options.focus_pixel, across);
+        const float z = in.ldi.windows.data.intersects(at) ? front_depth(row(at.y), at) : 0;
         if (!(z > 0)) throw UsageError("--focus-pixel: " + in.name + " has no sample there");
         camera.focus_distance = double(z);
     }
@@ -80,11 +81,16 @@ ThinLens ShotFrame::lens(const Camera &camera) const {
 ShotFrame shot_frame(OpenedLdi in, const WindowOptions &windows) {
     if (!all_found(find_rgb(in.ldi.channels)))
         throw Error(in.name + ": needs the channels R, G and B, which are what is shown");
-    ShotFrame frame{std::move(in)};
-    frame.across = subpixels_of(windows, frame.in).across;
-    frame.depths = depth_extent(frame.in.ldi);
-    frame.names = object_names(frame.in.header);
-    return frame;
+    PackedRows packed(in.ldi.windows);
+    packed.append(in.ldi);
+    const DepthExtent depths = depth_extent(in.ldi);
+    Ldi bare;
+    bare.windows = in.ldi.windows;
+    bare.channels = in.ldi.channels;
+    in.ldi = std::move(bare);
+    const int across = subpixels_of(windows, in).across;
+    ObjectNames names = object_names(in.header);
+    return {std::move(in), std::move(packed), across, depths, std::move(names)};
 }
 
 } // namespace sparselens

@@ -1,6 +1,7 @@
-// One LDI that is looked at, and what a page is told of it whatever its lens.
+// One LDI that is looked at, in half the memory, and what a page is told of it whatever its lens.
 #pragma once
 
+#include "deep/packed_rows.h"
 #include "io/open_ldi.h"
 #include "options/gather_options.h"
 
@@ -21,12 +22,14 @@ struct DepthExtent {
 DepthExtent depth_extent(const Ldi &ldi);
 
 struct ShotFrame {
-    OpenedLdi in;
-    int across = 1; // sub-pixels of the LDI that become one pixel
+    OpenedLdi in;      // without its samples,
+    PackedRows packed; // which are here
+    int across = 1;    // sub-pixels of the LDI that become one pixel
     DepthExtent depths = {};
     ObjectNames names = {};
 
-    std::uint64_t bytes() const; // that the samples take
+    Ldi row(int y) const; // of the data window
+    OpenedLdi unpacked() const;
 
     // The camera and the lens of its picture. Throws as dof-gather does.
     Camera camera(const GatherCommand &options) const;

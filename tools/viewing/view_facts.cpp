@@ -9,6 +9,7 @@
 #include <bit>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <string>
 
 namespace sparselens {
@@ -75,23 +76,29 @@ ObjectMap object_map(const ShotFrame &frame) {
         DepthExtent depths;
     };
     std::map<std::string, Object> objects;
-    const Ldi &ldi = frame.in.ldi;
-    const std::vector<Matte> mattes = find_mattes(ldi.channels);
-    const Grid picture(reduced(ldi.windows.display, frame.across));
+    const std::vector<Matte> mattes = find_mattes(frame.in.ldi.channels);
+    const Windows &windows = frame.in.ldi.windows;
+    const Imath::Box2i box = reduced(windows.display, frame.across);
     ObjectMap map;
-    map.numbers.resize(2 * picture.size());
-    for (std::size_t i = 0; i < picture.size(); ++i) {
-        const Imath::V2i at = middle_subpixel(picture.pixel(i), frame.across);
-        if (!ldi.windows.data.intersects(at)) continue;
+    const auto add = [&](const Ldi &ldi, const Imath::V2i &at) {
         const SampleRange samples = ldi.pixel(ldi.windows.index(at.x, at.y));
-        if (samples.empty()) continue;
-        const std::string name = object_of(ldi, mattes, samples.front(), frame.names);
-        if (name.empty()) continue;
+        const std::string name = samples.empty() ? "" : object_of(ldi, mattes, samples.front(), frame.names);
+        if (name.empty()) return std::size_t{0};
         const double z = double(ldi.z[samples.front()]);
         Object &object = objects.try_emplace(name, Object{objects.size() + 1, {z, z}}).first->second;
         object.depths = {std::min(object.depths.nearest, z), std::max(object.depths.farthest, z)};
-        map.numbers[2 * i] = std::uint8_t(object.number & 255);
-        map.numbers[2 * i + 1] = std::uint8_t(object.number >> 8 & 255);
+        return object.number;
+    };
+    for (int y = box.min.y; y <= box.max.y; ++y) {
+        std::optional<Ldi> row;
+        for (int x = box.min.x; x <= box.max.x; ++x) {
+            const Imath::V2i at = middle_subpixel({x, y}, frame.across);
+            const bool there = windows.data.intersects(at);
+            if (there && !row) row = frame.row(at.y);
+            const std::size_t number = there ? add(*row, at) : 0;
+            map.numbers.push_back(std::uint8_t(number & 255));
+            map.numbers.push_back(std::uint8_t(number >> 8 & 255));
+        }
     }
     map.said["objects"] = Json::array();
     for (std::size_t i = 0; i < objects.size(); ++i) map.said["objects"].push_back({});
@@ -105,10 +112,10 @@ ObjectMap object_map(const ShotFrame &frame) {
 }
 
 Json sample_facts(const ShotFrame &frame, const ThinLens &lens, const Imath::V2i &pixel) {
-    const Ldi &ldi = frame.in.ldi;
     const Imath::V2i at = middle_subpixel(pixel, frame.across);
     Json samples = Json::array();
-    if (!ldi.windows.data.intersects(at)) return samples;
+    if (!frame.in.ldi.windows.data.intersects(at)) return samples;
+    const Ldi ldi = frame.row(at.y);
     const auto rgb = find_rgb(ldi.channels);
     const std::size_t alpha = ldi.alpha();
     for (const std::uint64_t i : ldi.pixel(ldi.windows.index(at.x, at.y))) {

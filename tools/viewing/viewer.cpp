@@ -96,7 +96,7 @@ std::string Viewer::facts(const Asked &asked) {
                {"width", display.max.x - display.min.x + 1},
                {"height", display.max.y - display.min.y + 1},
                {"pixel_aspect", windows.pixel_aspect},
-               {"samples", frame->in.ldi.samples()},
+               {"samples", frame->packed.samples()},
                {"lens_method", command.picture.method == &gather_methods().front()},
                {"looks", look_table()},
                {"reference", !options_.reference.empty()},
@@ -114,7 +114,7 @@ std::string Viewer::facts(const Asked &asked) {
 }
 
 std::shared_ptr<const TakenPicture> Viewer::taken(const Words &words, const GatherCommand &command,
-                                                  Progress &progress) {
+                                                  Progress &progress, const TileWatch *watch) {
     {
         const std::lock_guard lock(last_mutex_);
         if (last_ && last_->words == words) return last_->picture;
@@ -123,7 +123,7 @@ std::shared_ptr<const TakenPicture> Viewer::taken(const Words &words, const Gath
         const std::lock_guard lock(last_mutex_);
         last_.reset();
     }
-    const auto picture = std::make_shared<const TakenPicture>(shot_.taken(command, tool_, progress));
+    const auto picture = std::make_shared<const TakenPicture>(shot_.taken(command, tool_, progress, watch));
     const std::lock_guard lock(last_mutex_);
     last_ = Last{words, command.windows.proxy, picture};
     return picture;
@@ -132,7 +132,11 @@ std::shared_ptr<const TakenPicture> Viewer::taken(const Words &words, const Gath
 std::string Viewer::answer(const Words &words, const Asked &asked, Progress &progress) {
     const auto begun = std::chrono::steady_clock::now();
     const GatherCommand command = command_of(words);
-    const auto picture = taken(words, command, progress);
+    const TileWatch watch{
+        asked.pixel.value_or(Imath::V2i(0)),
+        [&](const Image &picture, const Imath::Box2i &tile) { add_piece(asked, picture, tile); }};
+    const Pieces::AtWork at_work(pieces_, asked.page);
+    const auto picture = taken(words, command, progress, asked.pixel ? &watch : nullptr);
     progress.may_end();
     const ShownPixels pixels = shot_.displayed(picture->image, asked.exposure);
     Json said = size_of(pixels);
@@ -140,6 +144,29 @@ std::string Viewer::answer(const Words &words, const Asked &asked, Progress &pro
     said["milliseconds"] =
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begun).count();
     return with_bytes(said, pixels.values);
+}
+
+// Those of its pixels that are shown.
+void Viewer::add_piece(const Asked &asked, const Image &picture, const Imath::Box2i &tile) {
+    const Imath::Box2i &display = picture.windows.display;
+    const Imath::Box2i box({std::max(tile.min.x, display.min.x), std::max(tile.min.y, display.min.y)},
+                           {std::min(tile.max.x, display.max.x), std::min(tile.max.y, display.max.y)});
+    if (box.isEmpty()) return;
+    Image piece = crop(picture, box);
+    piece.windows.display = box;
+    pieces_.add({box.min, shot_.displayed(std::move(piece), asked.exposure)});
+}
+
+std::string Viewer::pieces(const Asked &asked) {
+    Json said{{"pieces", Json::array()}};
+    std::vector<std::uint8_t> bytes;
+    for (const Piece &piece : pieces_.take(asked.page)) {
+        Json place = size_of(piece.pixels);
+        place.update({{"x", piece.first.x}, {"y", piece.first.y}});
+        said["pieces"].push_back(place);
+        bytes.insert(bytes.end(), piece.pixels.values.begin(), piece.pixels.values.end());
+    }
+    return with_bytes(said, bytes);
 }
 
 std::optional<std::string> Viewer::picture(const Asked &asked) {

@@ -3,6 +3,7 @@
 
 #include "harness/commands/frames.h"
 #include "viewing/asked.h"
+#include "viewing/pieces.h"
 #include "viewing/shot.h"
 #include "viewing/studio.h"
 #include "viewing/view_facts.h"
@@ -36,7 +37,10 @@ public:
 
     // Each is the length of some JSON (4 bytes, the lowest first), that JSON, and 8-bit pixels by rows; empty where the page
     // has asked for something newer. Throws UsageError where there is no such picture.
+    // Of a picture that is asked for with a pixel, tiles are made from there outwards, and may be asked for before it is there.
     std::optional<std::string> picture(const Asked &asked);
+    std::string
+    pieces(const Asked &asked); // of which the JSON says the places, and the pixels follow each other
     std::optional<std::string> reference(const Asked &asked);
     std::optional<std::string> rendered(const Asked &asked); // without depth of field
 
@@ -56,7 +60,8 @@ private:
     GatherCommand command_of_frame(const Asked &asked) const;
     Image reference_of(const std::string &path);
     std::shared_ptr<const TakenPicture> taken(const Words &words, const GatherCommand &command,
-                                              Progress &progress);
+                                              Progress &progress, const TileWatch *watch = nullptr);
+    void add_piece(const Asked &asked, const Image &picture, const Imath::Box2i &tile);
     std::string answer(const Words &words, const Asked &asked, Progress &progress);
 
     ViewOptions options_;
@@ -78,6 +83,7 @@ private:
     };
     mutable std::mutex last_mutex_;
     std::optional<Last> last_;
+    Pieces pieces_;
     int saved_ = 0;
     Studio studio_; // last: it works with the others
 };

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <utility>
 
 namespace sparselens {
@@ -26,10 +27,10 @@ std::optional<Imath::Box2i> seen_of(const LensGatherOptions &options, const Imat
 }
 
 // Half of it magenta, by its coverage.
-void paint(SampleColours &colours, std::size_t alpha) {
-    for (std::size_t k = 0; k < colours.sets.size(); ++k) {
-        if (!is_colour(colours.sets[k])) continue;
-        const float mark = (colours.sets[k] & green) != 0 ? 0 : 0.5f;
+void paint(SampleColours &colours, std::span<const ColourSet> sets, std::size_t alpha) {
+    for (std::size_t k = 0; k < sets.size(); ++k) {
+        if (!is_colour(sets[k])) continue;
+        const float mark = (sets[k] & green) != 0 ? 0 : 0.5f;
         for (std::size_t i = 0; i < colours.count; ++i)
             colours.at(k, i) = colours.at(k, i) / 2 + mark * (alpha == npos ? 1 : colours.at(alpha, i));
     }
@@ -68,7 +69,7 @@ GatherScene prepare(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &wi
             take_highlights(samples, light.brightness, light.all, scene.colours, seen_of(options, corner));
     }
     scene.fillers = place_fillers(ldi, lens, fillers, samples, scene.colours);
-    if (options.point) paint(scene.fillers.colours, ldi.alpha());
+    if (options.point) paint(scene.fillers.colours, scene.colours.sets, ldi.alpha());
     optics.bend(scene.fillers.samples);
     progress.may_end();
     scene.facets = place_facets(find_facets(ldi, lens, double(optics.widest())), ldi.samples(),

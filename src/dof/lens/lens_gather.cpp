@@ -13,8 +13,10 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <mutex>
+#include <numeric>
 
 namespace sparselens {
 
@@ -202,6 +204,27 @@ struct Gathering {
 
     std::size_t tiles() const { return chosen.lens_points.size() * std::size_t(parts * parts); }
 
+    // Their numbers, from the place outwards that is looked at.
+    std::vector<std::size_t> in_order() const {
+        std::vector<std::size_t> order(tiles());
+        std::iota(order.begin(), order.end(), std::size_t{0});
+        if (!options.watch) return order;
+        const auto distance = [this](std::size_t number) {
+            const int t = int(number / std::size_t(parts * parts)), half = lens_tile_size / 2;
+            const Imath::V2i corner(t % chosen.columns, t / chosen.columns);
+            const Imath::V2i middle = out.windows.data.min + corner * lens_tile_size + Imath::V2i(half);
+            return (Imath::V2d(middle) - Imath::V2d(options.watch->from)).length2();
+        };
+        std::ranges::stable_sort(order, {}, distance);
+        return order;
+    }
+    // EXR coordinates.
+    Imath::Box2i pixels_of(const PreparedTile &tile) const {
+        const Imath::Box2i &all = out.windows.data;
+        const Imath::V2i last = tile.first + tile.part.max;
+        return {tile.first + tile.part.min, {std::min(last.x, all.max.x), std::min(last.y, all.max.y)}};
+    }
+
     // None where nothing is out of focus: the flattened LDI is there already.
     std::optional<PreparedTile> prepare(std::size_t number) {
         const std::size_t t = number / std::size_t(parts * parts);
@@ -280,11 +303,15 @@ void gather_tiles(const GatherScene &scene, const LensGatherOptions &options, Pr
     progress.start("gathering", from.tiles());
     std::vector<char> done(from.tiles(), false);
     if (options.device) gather_on(*options.device, from, done);
-    parallel_for(from.tiles(), [&](std::size_t t) {
+    const std::vector<std::size_t> order = from.in_order();
+    std::atomic<std::size_t> next = 0; // whichever thread: one after the other
+    parallel_for(from.tiles(), [&](std::size_t) {
         progress.advance();
+        const std::size_t t = order[next++];
         const std::optional<PreparedTile> tile = done[t] ? std::nullopt : from.prepare(t);
         if (!tile) return;
         gather_tile(scene, tile->task(), [&](const TilePicture &made) { from.finish(*tile, made); });
+        if (options.watch) options.watch->made(picture, from.pixels_of(*tile));
     });
     if (options.chosen) *options.chosen = std::move(from.chosen);
 }
@@ -301,6 +328,7 @@ Image lens_gather(const Ldi &ldi, const ThinLens &given, const Imath::Box2i &win
     Image out = gather_once(ldi, lens, window, options, 0, progress);
     const std::vector<ColourSet> sets = colour_sets(ldi, ldi.channels.size());
     const std::array<double, 3> &cocs = options.looks.chromatic_coc;
+    options.watch = nullptr; // of these, some colours are not those of the picture
     for (std::size_t colour = 0; colour < 3; ++colour) {
         if (cocs[colour] == 0) continue;
         const Image other = gather_once(ldi, lens, window, options, cocs[colour], progress);

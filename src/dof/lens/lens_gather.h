@@ -13,6 +13,7 @@
 #include "../../lens/thin_lens.h"
 #include "lens_tiles.h"
 
+#include <functional>
 #include <optional>
 #include <span>
 
@@ -22,6 +23,14 @@ class TileDevice;   // dof/device/tile_device.h
 struct GatherScene; // dof/lens/gather_scene.h
 
 enum class Quality { draft, normal, final };
+
+// Who looks on: tiles are made from this pixel (EXR coordinates) outwards, and told of when they are made, by several threads at once;
+// those that are in focus and those of a device are not.
+struct TileWatch {
+    Imath::V2i from;
+    std::function<void(const Image &picture, const Imath::Box2i &tile)>
+        made; // other pixels of the picture may change
+};
 
 struct LensGatherOptions {
     Quality quality = Quality::normal;
@@ -38,6 +47,7 @@ struct LensGatherOptions {
     std::span<const char> unseen = {};     // [pixel of the data window] but for these
     std::optional<Imath::Box2i> seen = {}; // pixels that were seen, not made up beyond the frame; else all
     const Holdout *holdout = nullptr;      // holds the picture out
+    const TileWatch *watch = nullptr;      // where given
     TileDevice *device = nullptr;          // where given: gathers the tiles that it can
 };
 

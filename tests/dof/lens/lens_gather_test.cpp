@@ -125,6 +125,30 @@ TEST(LensGatherThroughAPoint, WhatNoViewSawIsMarked) {
     for (const int x : {36, 50}) EXPECT_EQ(colour(behind, x), far) << x;
 }
 
+// Tiles are told of from the place outwards, each once, and as the picture then has them.
+TEST(LensGather, IsWatchedFromAPlaceOutwards) {
+    const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+    const Ldi ldi = make_ldi(windows_of_size(300, 140), grey, [](int x, int y) {
+        return std::vector<Sample>{{depth_of(lens, 3), {float(texture(x, y))}}};
+    });
+    std::vector<Imath::V2i> corners;
+    Image told(ldi.windows, grey);
+    const TileWatch watch{{150, 70}, [&](const Image &picture, const Imath::Box2i &tile) {
+                              corners.push_back(tile.min);
+                              for (int y = tile.min.y; y <= tile.max.y; ++y)
+                                  for (int x = tile.min.x; x <= tile.max.x; ++x)
+                                      told.at(0, x, y) = picture.at(0, x, y);
+                          }};
+    const Image picture = gather(ldi, lens, {.lens_samples = 8, .watch = &watch});
+    EXPECT_EQ(told.values, picture.values);
+    EXPECT_EQ(corners.front(), Imath::V2i(128, 64));
+    ASSERT_EQ(corners.size(), 15u);
+    EXPECT_EQ(picture.values, gather(ldi, lens, 8).values);
+    for (std::size_t i = 1; i < corners.size(); ++i)
+        EXPECT_LE((corners[i - 1] - Imath::V2i(118, 38)).length2(),
+                  (corners[i] - Imath::V2i(118, 38)).length2());
+}
+
 TEST(LensGather, ConstantStaysConstantAndOpaque) {
     std::vector<Channel> channels = rgba_channels();
     channels.push_back({"extra.Y"});

@@ -68,7 +68,7 @@ function startPointer() {
         };
     });
     frame.addEventListener('pointermove', (event) => {
-        const pixel = pixelAt(event);
+        const pixel = flow.pointer = pixelAt(event);
         if (!pressed) {
             if (pixel && !event.target.closest('#samples')) sayPixel(pixel);
             if (objects.list) outline(pixel ? objectAt(pixel) : 0);

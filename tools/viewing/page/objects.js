@@ -4,10 +4,9 @@ const objects = { list: null, numbers: null, asked: false, shown: 0 };
 async function loadObjects() {
     if (objects.asked || !state.facts.objects) return;
     objects.asked = true;
-    const bytes = await (await ask('objects', {})).arrayBuffer();
-    const size = new DataView(bytes).getUint32(0, true);
-    objects.list = JSON.parse(new TextDecoder().decode(new Uint8Array(bytes, 4, size))).objects;
-    objects.numbers = new Uint16Array(bytes.slice(4 + size));
+    const { said, bytes } = await apart(await ask('objects', {}));
+    objects.list = said.objects;
+    objects.numbers = new Uint16Array(bytes.slice().buffer);
 }
 
 function forgetObjects() {

@@ -8,7 +8,7 @@ const state = {
     overlay: '',     // what --show shows in place of the picture
     lens: null,      // what the server says of the lens of the last picture
 };
-const flow = { level: 3, drafting: false, again: false, full: 0, rest: 0, slow: 0, reshow: false, reshowing: false };
+const flow = { level: 3, drafting: false, again: false, full: 0, rest: 0, slow: 0, reshow: false, reshowing: false, pointer: null, pieces: 0 };
 
 // What makes the picture, without what is for drafts.
 function settingsNow() {
@@ -92,8 +92,10 @@ async function draft() {
 async function full(quality) {
     const turn = ++flow.full, begun = performance.now();
     flow.slow = setTimeout(() => watch(turn), 500);
+    showPieces(turn).catch(() => {}); // what is wrong, the picture says
     try {
-        const said = await show(await ask('picture', { settings: withQuality(settingsNow(), quality), exposure: exposureNow() }), quality);
+        const asked = { settings: withQuality(settingsNow(), quality), exposure: exposureNow(), pixel: flow.pointer ?? middle() };
+        const said = await show(await ask('picture', asked), quality);
         if (said) part('speed').textContent = quality + ': ' + Math.round(performance.now() - begun) + ' ms';
         if (said) sayCommand();
         if (said) knowFrame().catch((error) => say(error.message));
@@ -105,6 +107,38 @@ async function full(quality) {
         part('busy').hidden = true;
         ++flow.full;
     }
+}
+
+function middle() {
+    const { min, width, height } = state.facts;
+    return [min[0] + (width >> 1), min[1] + (height >> 1)];
+}
+
+// Tiles of the picture as they are made, over the draft.
+async function showPieces(turn) {
+    const canvas = part('above'), { min, width, height } = state.facts;
+    for (;;) {
+        await new Promise((wake) => setTimeout(wake, 100));
+        if (turn !== flow.full) return;
+        const { said, bytes } = await apart(await ask('pieces', {}));
+        if (turn !== flow.full || flow.drafting) return;
+        let from = 0;
+        for (const piece of said.pieces) {
+            if (canvas.width !== width || canvas.height !== height) enlarge(canvas, width, height);
+            const size = piece.width * piece.height * piece.channels;
+            canvas.getContext('2d').putImageData(imageOf(piece, bytes.subarray(from, from + size)), piece.x - min[0], piece.y - min[1]);
+            from += size;
+            ++flow.pieces;
+        }
+    }
+}
+
+function enlarge(canvas, width, height) {
+    const before = document.createElement('canvas');
+    [before.width, before.height] = [canvas.width, canvas.height];
+    before.getContext('2d').drawImage(canvas, 0, 0);
+    [canvas.width, canvas.height] = [width, height];
+    canvas.getContext('2d').drawImage(before, 0, 0, width, height);
 }
 
 const fullQuality = () => document.body.dataset.quality === 'final' ? 'final' : 'normal';

@@ -12,21 +12,29 @@ async function ask(path, asked) {
     return response;
 }
 
-// The JSON and the pixels of an answer, as an ImageData.
-async function pictureOf(response) {
+// The JSON of an answer, and the bytes after it.
+async function apart(response) {
     const bytes = await response.arrayBuffer();
     const size = new DataView(bytes).getUint32(0, true);
-    const said = JSON.parse(new TextDecoder().decode(new Uint8Array(bytes, 4, size)));
-    const from = new Uint8Array(bytes, 4 + size), count = said.width * said.height;
-    const data = new Uint8ClampedArray(4 * count);
-    if (said.channels === 4) data.set(from);
+    return { said: JSON.parse(new TextDecoder().decode(new Uint8Array(bytes, 4, size))), bytes: new Uint8Array(bytes, 4 + size) };
+}
+
+// Those of them that are the pixels of a picture, as an ImageData.
+function imageOf({ width, height, channels }, from) {
+    const count = width * height, data = new Uint8ClampedArray(4 * count);
+    if (channels === 4) data.set(from);
     else for (let i = 0, k = 0, to = 0; i < count; ++i, k += 3, to += 4) {
         data[to] = from[k];
         data[to + 1] = from[k + 1];
         data[to + 2] = from[k + 2];
         data[to + 3] = 255;
     }
-    return { said, data: new ImageData(data, said.width, said.height) };
+    return new ImageData(data, width, height);
+}
+
+async function pictureOf(response) {
+    const { said, bytes } = await apart(response);
+    return { said, data: imageOf(said, bytes) };
 }
 
 // A message at the foot of the picture, until the next.

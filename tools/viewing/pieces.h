@@ -1,0 +1,58 @@
+// What is there of the picture at work before all of it is: 8-bit pixels, told to its page once.
+#pragma once
+
+#include "io/display/shown_picture.h"
+
+#include <Imath/ImathVec.h>
+
+#include <mutex>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace sparselens {
+
+struct Piece {
+    Imath::V2i first; // pixel, EXR coordinates
+    ShownPixels pixels;
+};
+
+// Of one picture at a time; by any number of threads.
+class Pieces {
+public:
+    // While it lives, a picture of the page is at work, which has no pieces yet.
+    class AtWork {
+    public:
+        AtWork(Pieces &pieces, const std::string &page) : pieces_(pieces) { pieces_.begin(page); }
+        ~AtWork() { pieces_.begin(""); }
+        AtWork(const AtWork &) = delete;
+        AtWork &operator=(const AtWork &) = delete;
+
+    private:
+        Pieces &pieces_;
+    };
+
+    void add(Piece piece) {
+        const std::lock_guard lock(mutex_);
+        pieces_.push_back(std::move(piece));
+    }
+    // Those that are new, in their order; none where another page's picture is at work.
+    std::vector<Piece> take(const std::string &page) {
+        const std::lock_guard lock(mutex_);
+        if (page != page_) return {};
+        return std::exchange(pieces_, {});
+    }
+
+private:
+    void begin(const std::string &page) {
+        const std::lock_guard lock(mutex_);
+        page_ = page;
+        pieces_ = {};
+    }
+
+    std::mutex mutex_;
+    std::string page_;
+    std::vector<Piece> pieces_;
+};
+
+} // namespace sparselens
