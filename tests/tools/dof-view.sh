@@ -55,6 +55,8 @@ mv deep.exr ldi.exr
 # Its own.
 says --port 0 -v
 grep -q "'largest_coc'" stdout || fail "says $(cat stdout)"
+says --frames 1-3 --fstop 1:2,3:4
+grep -q "'fstop': 2.0" stdout || fail "--frames says $(cat stdout)"
 says --reference reference.exr --save . --max-memory 1GB
 mkdir path
 printf '#!/bin/sh\ncat "$1" >opened\nstat -c %%a "$1" >>opened\n' >path/xdg-open
