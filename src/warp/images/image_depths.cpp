@@ -53,61 +53,78 @@ private:
     double n_ = 0, x_ = 0, y_ = 0, xx_ = 0, xy_ = 0, yy_ = 0, v_ = 0, vx_ = 0, vy_ = 0;
 };
 
+// Of the blocks that are searched alone: most pictures show few mirrors.
 class ImageDepths {
 public:
     ImageDepths(const ImageSweep &sweep, const Imath::Box2i &data)
-        : sweep_(sweep), grid_(data), tiles_(data, image_block), searched_(tiles_.count()),
-          matches_(grid_.size()), depths_(grid_.size(), unknown) {}
+        : sweep_(sweep), box_(data), tiles_(data, image_block), blocks_(tiles_.count(), not_searched) {}
 
     void search(std::vector<std::size_t> next);
     void agree_with_neighbours();
     void refine();
     void go_on();
-    std::vector<float> take() { return std::move(depths_); }
+    // By pixel of the data window, row by row.
+    std::vector<float> all() const;
 
 private:
+    struct Place {
+        Imath::V2i pixel;
+        std::size_t index; // of the arrays by pixel
+    };
+    static constexpr std::uint32_t not_searched = ~0u;
+    static constexpr std::size_t block_pixels = std::size_t(image_block) * image_block;
+
+    // npos: not searched.
+    std::size_t index_of(const Imath::V2i &pixel) const {
+        const auto x = unsigned(pixel.x - box_.min.x), y = unsigned(pixel.y - box_.min.y);
+        constexpr auto side = unsigned(image_block);
+        const std::uint32_t block = blocks_[std::size_t(y / side) * std::size_t(tiles_.columns()) + x / side];
+        return block == not_searched ? npos : block * block_pixels + (y % side) * side + x % side;
+    }
+    void add_block(std::size_t tile) { blocks_[tile] = count_++; }
     bool search_tile(std::size_t tile);
     bool one_surface_with(const ImageMatch &a, const ImageMatch &b) const {
         return a.surface && b.surface && kernels::is_one_surface(a.own_depth, b.own_depth, one_mirror_px);
     }
-    // visit(index, scratch) for the pixels of the tiles that were searched.
+    // visit(place, scratch) for the pixels of the tiles that were searched.
     template <typename Visit>
     void for_each_searched(const Visit &visit) const;
-    // visit(index) for the pixels of the same surface around one, itself among them.
+    // visit(place) for the pixels of the same surface around one, itself among them.
     template <typename Visit>
-    void for_each_around(std::size_t i, int distance, const Visit &visit) const;
-    float depth_by_neighbours(std::size_t i, std::vector<float> &around) const;
-    float continued(std::size_t i, std::vector<float> &around) const;
+    void for_each_around(const Place &at, int distance, const Visit &visit) const;
+    float depth_by_neighbours(const Place &at, std::vector<float> &around) const;
+    float continued(const Place &at, std::vector<float> &around) const;
 
     const ImageSweep &sweep_;
-    Grid grid_;
+    Imath::Box2i box_;
     Tiles tiles_;
-    std::vector<std::uint8_t> searched_; // by tile
-    std::vector<ImageMatch> matches_;    // by pixel
+    std::vector<std::uint32_t> blocks_; // by tile: which block of the arrays it is
+    std::uint32_t count_ = 0;           // of blocks
+    std::vector<ImageMatch> matches_;   // by pixel, block by block
     std::vector<float> depths_;
 };
 
 template <typename Visit>
 void ImageDepths::for_each_searched(const Visit &visit) const {
     parallel_for(tiles_.count(), [&](std::size_t tile) {
-        if (!searched_[tile]) return;
+        if (blocks_[tile] == not_searched) return;
         std::vector<float> scratch;
         const Grid pixels(tiles_.box(tile));
         for (std::size_t n = 0; n < pixels.size(); ++n) {
-            const Imath::V2i p = pixels.pixel(n);
-            visit(grid_.index(p.x, p.y), scratch);
+            const Imath::V2i pixel = pixels.pixel(n);
+            visit(Place{pixel, index_of(pixel)}, scratch);
         }
     });
 }
 
 template <typename Visit>
-void ImageDepths::for_each_around(std::size_t i, int distance, const Visit &visit) const {
-    const Imath::V2i p = grid_.pixel(i);
-    const Imath::Box2i box = grid_.box();
-    for (int y = std::max(p.y - distance, box.min.y); y <= std::min(p.y + distance, box.max.y); ++y)
-        for (int x = std::max(p.x - distance, box.min.x); x <= std::min(p.x + distance, box.max.x); ++x) {
-            const std::size_t other = grid_.index(x, y);
-            if (one_surface_with(matches_[i], matches_[other])) visit(other);
+void ImageDepths::for_each_around(const Place &at, int distance, const Visit &visit) const {
+    const Imath::V2i p = at.pixel;
+    for (int y = std::max(p.y - distance, box_.min.y); y <= std::min(p.y + distance, box_.max.y); ++y)
+        for (int x = std::max(p.x - distance, box_.min.x); x <= std::min(p.x + distance, box_.max.x); ++x) {
+            const std::size_t other = index_of({x, y});
+            if (other != npos && one_surface_with(matches_[at.index], matches_[other]))
+                visit(Place{{x, y}, other});
         }
 }
 
@@ -118,44 +135,45 @@ bool ImageDepths::search_tile(std::size_t tile) {
     const Grid pixels(block);
     std::size_t count = 0;
     for (std::size_t i = 0; i < found.size(); ++i) {
-        const Imath::V2i p = pixels.pixel(i);
-        matches_[grid_.index(p.x, p.y)] = found[i];
+        matches_[index_of(pixels.pixel(i))] = found[i];
         count += found[i].found;
     }
     return double(count) >= enough_found * double(found.size());
 }
 
 void ImageDepths::search(std::vector<std::size_t> next) {
-    for (const std::size_t tile : next) searched_[tile] = true;
+    for (const std::size_t tile : next) add_block(tile);
     while (!next.empty()) {
+        matches_.resize(count_ * block_pixels);
         std::vector<std::uint8_t> much(next.size());
         parallel_for(next.size(), [&](std::size_t n) { much[n] = search_tile(next[n]); });
         std::vector<std::size_t> beside;
         for (std::size_t n = 0; n < next.size(); ++n)
             if (much[n])
                 for_each_beside(tiles_, next[n], [&](std::size_t other) {
-                    if (!searched_[other]) beside.push_back(other), searched_[other] = true;
+                    if (blocks_[other] == not_searched) beside.push_back(other), add_block(other);
                 });
         next = std::move(beside);
     }
+    depths_.assign(matches_.size(), unknown);
 }
 
 // On the plane that fits the depths around as near to the pixel's own, else to their median, as those of one image are;
 // unknown if those are too few.
-float ImageDepths::depth_by_neighbours(std::size_t i, std::vector<float> &around) const {
+float ImageDepths::depth_by_neighbours(const Place &at, std::vector<float> &around) const {
     around.clear();
     std::size_t pixels = 0;
-    for_each_around(i, near_by, [&](std::size_t other) {
+    for_each_around(at, near_by, [&](const Place &other) {
         ++pixels;
-        if (matches_[other].found) around.push_back(matches_[other].depth);
+        if (matches_[other.index].found) around.push_back(matches_[other.index].depth);
     });
     if (double(around.size()) < agreement * double(pixels)) return unknown;
-    for (const float depth : {matches_[i].depth, median(around)}) {
+    for (const float depth : {matches_[at.index].depth, median(around)}) {
         LinearFit fit;
-        for_each_around(i, near_by, [&](std::size_t other) {
-            const ImageMatch &match = matches_[other];
+        for_each_around(at, near_by, [&](const Place &other) {
+            const ImageMatch &match = matches_[other.index];
             if (match.found && std::abs(match.depth - depth) <= one_image)
-                fit.add(Imath::V2d(grid_.pixel(other) - grid_.pixel(i)), double(match.depth));
+                fit.add(Imath::V2d(other.pixel - at.pixel), double(match.depth));
         });
         if (fit.count() >= agreement * double(around.size())) return float(fit.at_origin());
     }
@@ -163,26 +181,24 @@ float ImageDepths::depth_by_neighbours(std::size_t i, std::vector<float> &around
 }
 
 void ImageDepths::agree_with_neighbours() {
-    for_each_searched([&](std::size_t i, std::vector<float> &around) {
-        if (matches_[i].found) depths_[i] = depth_by_neighbours(i, around);
+    for_each_searched([&](const Place &at, std::vector<float> &around) {
+        if (matches_[at.index].found) depths_[at.index] = depth_by_neighbours(at, around);
     });
 }
 
 // A patch need not lie at one depth.
 void ImageDepths::refine() {
     const auto depth_at = [&](const Imath::V2i &p) {
-        return grid_.contains(p.x, p.y) ? depths_[grid_.index(p.x, p.y)] : unknown;
+        const std::size_t index = box_.intersects(p) ? index_of(p) : npos;
+        return index == npos ? unknown : depths_[index];
     };
     std::vector<float> next(depths_.size(), unknown);
     parallel_for(tiles_.count(), [&](std::size_t tile) {
-        if (!searched_[tile]) return;
+        if (blocks_[tile] == not_searched) return;
         const Imath::Box2i block = tiles_.box(tile);
         const std::vector<float> refined = sweep_.refined(block, depth_at);
         const Grid pixels(block);
-        for (std::size_t n = 0; n < pixels.size(); ++n) {
-            const Imath::V2i p = pixels.pixel(n);
-            next[grid_.index(p.x, p.y)] = refined[n];
-        }
+        for (std::size_t n = 0; n < pixels.size(); ++n) next[index_of(pixels.pixel(n))] = refined[n];
     });
     for (std::size_t i = 0; i < matches_.size(); ++i) {
         matches_[i].found = !std::isnan(next[i]);
@@ -191,24 +207,34 @@ void ImageDepths::refine() {
 }
 
 // The median of the depths around, if the views agree about as well there as on the surface.
-float ImageDepths::continued(std::size_t i, std::vector<float> &around) const {
+float ImageDepths::continued(const Place &at, std::vector<float> &around) const {
     around.clear();
-    for_each_around(i, farther, [&](std::size_t other) {
-        if (!std::isnan(depths_[other])) around.push_back(depths_[other]);
+    for_each_around(at, farther, [&](const Place &other) {
+        if (!std::isnan(depths_[other.index])) around.push_back(depths_[other.index]);
     });
     if (around.size() < least_sources) return unknown;
     const float depth = median(around);
-    std::vector<float> differences = sweep_.differences(grid_.pixel(i), double(depth));
+    std::vector<float> differences = sweep_.differences(at.pixel, double(depth));
     const float there = robust_mean(differences);
-    return there <= no_worse * matches_[i].at_surface + least_difference ? depth : unknown;
+    return there <= no_worse * matches_[at.index].at_surface + least_difference ? depth : unknown;
 }
 
 void ImageDepths::go_on() {
     std::vector<float> next = depths_;
-    for_each_searched([&](std::size_t i, std::vector<float> &around) {
-        if (matches_[i].surface && std::isnan(depths_[i])) next[i] = continued(i, around);
+    for_each_searched([&](const Place &at, std::vector<float> &around) {
+        if (matches_[at.index].surface && std::isnan(depths_[at.index]))
+            next[at.index] = continued(at, around);
     });
     depths_ = std::move(next);
+}
+
+std::vector<float> ImageDepths::all() const {
+    const Grid grid(box_);
+    std::vector<float> depths(grid.size(), unknown);
+    for_each_searched([&](const Place &at, std::vector<float> &) {
+        depths[grid.index(at.pixel.x, at.pixel.y)] = depths_[at.index];
+    });
+    return depths;
 }
 
 } // namespace
@@ -234,7 +260,7 @@ std::vector<float> find_image_depths(const ImageSweep &sweep, const Imath::Box2i
     depths.refine();
     depths.agree_with_neighbours();
     for (int n = 0; n < continuations; ++n) depths.go_on();
-    return depths.take();
+    return depths.all();
 }
 
 } // namespace sparselens
