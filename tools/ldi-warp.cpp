@@ -12,6 +12,7 @@
 #include "options/colour_options.h"
 #include "options/warp_options.h"
 #include "view/view_mapping.h"
+#include "warp/reprojected_views.h"
 #include "warp/warp.h"
 
 #include <fmt/format.h>
@@ -19,6 +20,9 @@
 
 #include <cstdio>
 #include <span>
+#include <string>
+#include <utility>
+#include <vector>
 
 using namespace sparselens;
 
@@ -66,14 +70,17 @@ void run(const WarpCommand &options, const ToolContext &tool, ChosenWarpDevice &
     write_camera(in.header, in.camera);
     append_history(in.header, tool, options.history);
     write_picture_window(in.header, in.views[0].image.windows.data);
-    Ldi ldi = warp(in.views, warp_by, *tool.progress);
+    check_views(in.views);
+    const std::vector<std::string> warnings = view_warnings(in.views, facts); // while the pixels are there
+    const GivenViews given = given_views(in.views);
+    Ldi ldi = warp(std::move(in.views), warp_by, *tool.progress);
     device.report(tool);
-    warn_of(tool, view_warnings(in.views, facts));
-    tool.say(fmt::format("{} views, {} samples in {} pixels", in.views.size(), ldi.samples(),
-                         ldi.windows.pixels()));
+    warn_of(tool, warnings);
+    tool.say(
+        fmt::format("{} views, {} samples in {} pixels", given.views, ldi.samples(), ldi.windows.pixels()));
     if (facts.lens)
         say_border_reach(tool, options.output, ldi, *facts.lens, in.camera.supersample.value_or(1));
-    *tool.last_step = [&tool, stats = warp_stats(in.views, ldi), ldi = std::move(ldi), header = in.header,
+    *tool.last_step = [&tool, stats = warp_stats(given, ldi), ldi = std::move(ldi), header = in.header,
                        output = options.output, compression = options.compression] {
         warn_of_clamped(tool, output, write_ldi(output, ldi, header, compression));
         write_stats(tool, stats);

@@ -1,11 +1,9 @@
 #include "deep/packed_rows.h"
 
+#include "base/half_bits.h"
 #include "base/parallel.h"
 
-#include <half.h>
-
 #include <algorithm>
-#include <bit>
 #include <cassert>
 #include <limits>
 
@@ -19,14 +17,6 @@ std::vector<Values *> list_arrays(Picture &ldi) {
                                  &ldi.weight, &ldi.optical, &ldi.solid};
     for (auto &values : ldi.values) arrays.push_back(&values);
     return arrays;
-}
-
-std::uint16_t bits_of_half(float value) { return Imath::half(value).bits(); }
-
-float of_half(std::uint16_t bits) { return float(Imath::half(Imath::half::FromBits, bits)); }
-
-bool is_half(float value) {
-    return std::bit_cast<std::uint32_t>(of_half(bits_of_half(value))) == std::bit_cast<std::uint32_t>(value);
 }
 
 } // namespace

@@ -11,15 +11,23 @@
 namespace sparselens {
 
 ViewSamples::ViewSamples(const View &view, std::span<const Channel> of_channels)
+    : ViewSamples(view, of_channels, Plane::of) {}
+
+ViewSamples::ViewSamples(View &&view, std::span<const Channel> of_channels)
+    : ViewSamples(view, of_channels, Plane::packed) {
+    moved_ = std::move(view.z);
+    z_ = moved_;
+    view.image.values = {};
+    view.image.values.shrink_to_fit();
+}
+
+ViewSamples::ViewSamples(const View &view, std::span<const Channel> of_channels, MakePlane plane_of)
     : windows(view.image.windows), channels(of_channels.begin(), of_channels.end()),
       pixels_(windows.pixels()), z_(view.z), words_(pieces_of(pixels_, std::size_t{64})) {
-    for (const Channel &channel : channels) {
-        const std::size_t from = find_channel(view.image.channels, channel.name);
-        if (from == npos)
-            throw Error(
-                fmt::format("{}: has no channel {}, which the centre view has", view.name, channel.name));
-        planes_.push_back(view.image.plane(from));
-    }
+    std::vector<std::span<const float>> planes;
+    for (const Channel &channel : channels) planes.push_back(view.image.plane(channel_of(view, channel)));
+    planes_.resize(planes.size());
+    parallel_for(planes.size(), [&](std::size_t k) { planes_[k] = plane_of(planes[k]); });
     const std::size_t alpha = find_channel(view.image.channels, "A");
     const std::span<const float> covers = alpha == npos ? std::span<const float>() : view.image.plane(alpha);
     parallel_ranges(words_.size(), 256, [&](std::size_t begin, std::size_t end) {
@@ -96,6 +104,13 @@ Ldi ViewSamples::rows(std::size_t first, std::size_t end) const {
         ldi.begin.push_back(ldi.z.size());
     }
     return ldi;
+}
+
+std::size_t channel_of(const View &view, const Channel &channel) {
+    const std::size_t found = find_channel(view.image.channels, channel.name);
+    if (found == npos)
+        throw Error(fmt::format("{}: has no channel {}, which the centre view has", view.name, channel.name));
+    return found;
 }
 
 void append(Ldi &out, const ViewSamples &from, float z, float weight, std::span<const Term> terms) {

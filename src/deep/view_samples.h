@@ -1,7 +1,8 @@
 // The samples of a view: one in each pixel that shows something (A is not 0, depth is above 0), in whose place others may be put.
-// What is not changed is read from the view itself, which must outlive this: five views are most of what the warp holds.
+// What is not changed is that of the view: five views are most of what the warp holds.
 #pragma once
 
+#include "base/plane.h"
 #include "deep/build.h"
 #include "view/view.h"
 
@@ -15,8 +16,11 @@ namespace sparselens {
 
 class ViewSamples {
 public:
-    // Has the channels of these names, in this order. Throws Error, naming the view, where it lacks one.
+    // Has the channels of these names, in this order. Refers to the view, which must outlive this. Throws Error, naming the
+    // view, where it lacks one.
     ViewSamples(const View &view, std::span<const Channel> channels);
+    // Takes the pixels of the view, and packs them.
+    ViewSamples(View &&view, std::span<const Channel> channels);
     ViewSamples(ViewSamples &&) = default;
     ViewSamples &operator=(ViewSamples &&) = default;
 
@@ -57,6 +61,8 @@ public:
     Ldi as_ldi() const { return rows(0, std::size_t(windows.height())); }
 
 private:
+    using MakePlane = Plane (*)(std::span<const float>);
+    ViewSamples(const View &view, std::span<const Channel> channels, MakePlane plane_of);
     Ldi empty() const;
 
     struct Word { // of 64 pixels, from the lowest bit on
@@ -65,12 +71,15 @@ private:
     };
 
     std::size_t pixels_;
-    std::vector<std::span<const float>> planes_; // [channel]
-    std::span<const float> z_;                   // of the view, or `moved_`
+    std::vector<Plane> planes_; // [channel]
+    std::span<const float> z_;  // of the view, or `moved_`
     std::vector<float> moved_;
     std::vector<Word> words_;
     Ldi replaced_; // its pixels are those that are replaced
 };
+
+// The view's channel of that name. Throws Error, naming the view, where it lacks it.
+std::size_t channel_of(const View &view, const Channel &channel);
 
 inline float alpha_at(const ViewSamples &view, std::size_t alpha_channel, std::uint64_t index) {
     return alpha_channel == npos ? 1.0f : view.value(alpha_channel, index);

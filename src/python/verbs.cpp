@@ -17,6 +17,7 @@
 #include "python/objects.h"
 #include "python/write.h"
 #include "view/place_views.h"
+#include "warp/reprojected_views.h"
 #include "warp/warp.h"
 
 #include <pybind11/stl.h>
@@ -114,11 +115,14 @@ LdiObject warp(const py::object &views, const py::kwargs &given) {
         const Windows &windows = placed[0].image.windows;
         facts.focal_px = focal_length_px(out.camera, windows.display_width()).value_or(0);
         if (knows_lens(out.camera, windows)) facts.lens = resolve_lens(out.camera, windows);
+        check_views(placed);
+        std::vector<std::string> of_views = view_warnings(placed, facts); // while their pixels are there
         with_warp_device(given_device.empty() ? "cpu" : given_device, warnings, [&](WarpDevice *device) {
             options.device = device;
-            out.ldi = warp(placed, with_lens(options, out.camera, placed), said);
+            const WarpOptions by = with_lens(options, out.camera, placed);
+            out.ldi = warp(std::move(placed), by, said);
         });
-        for (std::string &warning : view_warnings(placed, facts)) warnings.push_back(std::move(warning));
+        for (std::string &warning : of_views) warnings.push_back(std::move(warning));
         return out;
     });
     for (const std::string &warning : warnings) warn(warning);

@@ -18,12 +18,6 @@ namespace sparselens {
 
 namespace {
 
-void check(const View &centre, const View &view) {
-    if (view.image.windows.display != centre.image.windows.display)
-        throw Error(fmt::format("{}: its display window differs from that of the centre view ({})", view.name,
-                                centre.name));
-}
-
 // By their cameras; where those are one, by what they show: the order they were given in must not matter.
 bool canonically_before(const View *a, const View *b) {
     const auto camera = [](const View &v) {
@@ -44,24 +38,44 @@ bool canonically_before(const View *a, const View *b) {
 
 } // namespace
 
-ReprojectedViews::ReprojectedViews(std::span<const View> views, double focal_px, double scale, double jump) {
-    std::vector<const View *> ordered;
+void check_views(std::span<const View> views) {
+    const View &centre = views[0];
     for (const View &view : views) {
-        check(views[0], view);
-        ordered.push_back(&view);
+        if (view.image.windows.display != centre.image.windows.display)
+            throw Error(fmt::format("{}: its display window differs from that of the centre view ({})",
+                                    view.name, centre.name));
+        for (const Channel &channel : centre.image.channels) channel_of(view, channel);
     }
+}
+
+ReprojectedViews::ReprojectedViews(std::span<const View> views, double focal_px, double scale, double jump)
+    : ReprojectedViews(
+          views, [&](std::size_t v) { return ViewSamples(views[v], views[0].image.channels); }, focal_px,
+          scale, jump) {}
+
+ReprojectedViews::ReprojectedViews(std::vector<View> &&views, double focal_px, double scale, double jump)
+    : ReprojectedViews(
+          views, [&](std::size_t v) { return ViewSamples(std::move(views[v]), views[0].image.channels); },
+          focal_px, scale, jump) {}
+
+ReprojectedViews::ReprojectedViews(std::span<const View> views, const SamplesOf &samples_of, double focal_px,
+                                   double scale, double jump) {
+    std::vector<const View *> ordered;
+    check_views(views);
+    for (const View &view : views) ordered.push_back(&view);
     std::sort(ordered.begin() + 1, ordered.end(), canonically_before);
     std::vector<ViewMapping> mappings;
-    for (const View *view : ordered)
+    std::vector<ViewSamples> samples;
+    for (const View *view : ordered) {
         mappings.emplace_back(view->position, focal_px, views[0].image.windows, view->framing,
                               views[0].framing.principal_point);
-    std::vector<ViewSamples> samples;
-    for (const View *view : ordered) samples.emplace_back(*view, views[0].image.channels);
+        samples.push_back(samples_of(std::size_t(view - views.data())));
+    }
     const bool separate = jump > 0 && scale > 0;
     if (separate && samples.size() > 1)
         settle_lamp_depths(samples, mappings, inverse_depth_step(scale, jump));
-    sources_.resize(ordered.size());
-    for (std::size_t v = 0; v < ordered.size();
+    sources_.resize(samples.size());
+    for (std::size_t v = 0; v < samples.size();
          ++v) { // one after the other, each by all threads, in less memory
         if (separate) separate_silhouettes(samples[v], scale, jump);
         sources_[v] = std::make_unique<Source>(std::move(samples[v]), mappings[v]);

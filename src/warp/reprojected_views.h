@@ -5,6 +5,7 @@
 #include "view/view.h"
 #include "warp/reproject.h"
 
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -33,13 +34,18 @@ struct ReprojectedRows {
     }
 };
 
+// Throws Error where display windows differ or a view lacks a channel of the centre, views[0].
+void check_views(std::span<const View> views);
+
 class ReprojectedViews {
 public:
     // views[0] is the centre, whose channels every view must have. The order of the others does not matter. `focal_px`
     // is F and `scale` is R F, see WarpOptions. Pixels on silhouettes become two samples where perceptive depth jumps
-    // by `jump` pixels (silhouettes.h); with a jump of 0 they stay whole. Throws Error where display windows differ or
-    // a view lacks a channel of the centre. The views must outlive this.
+    // by `jump` pixels (silhouettes.h); with a jump of 0 they stay whole. Throws as check_views(). The views must
+    // outlive this.
     ReprojectedViews(std::span<const View> views, double focal_px, double scale, double jump);
+    // The same, in less memory: takes the pixels of the views.
+    ReprojectedViews(std::vector<View> &&views, double focal_px, double scale, double jump);
 
     std::size_t size() const { return sources_.size(); }
     const ViewSamples &samples(std::size_t view) const { return sources_[view]->samples; }
@@ -55,6 +61,10 @@ public:
                           ReprojectedRows no_longer_needed = {}) const;
 
 private:
+    using SamplesOf = std::function<ViewSamples(std::size_t view)>;
+    ReprojectedViews(std::span<const View> views, const SamplesOf &samples_of, double focal_px, double scale,
+                     double jump);
+
     struct Source {
         ViewSamples samples;
         Reprojection reprojection; // refers to the samples

@@ -20,6 +20,7 @@
 #include <algorithm>
 #include <limits>
 #include <optional>
+#include <utility>
 
 namespace sparselens {
 
@@ -29,7 +30,9 @@ constexpr int most_overscan = 1024; // pixels an LDI grows beyond the centre vie
 
 class Warper {
 public:
-    Warper(std::span<const View> views, const WarpOptions &options);
+    // Of a span or a vector, as ReprojectedViews.
+    template <typename Views>
+    Warper(Views &&views, const WarpOptions &options);
     Ldi run(Progress &progress) const;
 
 private:
@@ -55,11 +58,12 @@ private:
     std::vector<bool> ids_; // whether a channel holds_ids()
 };
 
-Warper::Warper(std::span<const View> views, const WarpOptions &options)
+template <typename Views>
+Warper::Warper(Views &&views, const WarpOptions &options)
     : options_(options), scale_(perceptive_scale(options.radius, options.focal_px)),
       tolerance_(scale_ > 0 ? inverse_depth_step(scale_, options.surface_px)
                             : std::numeric_limits<double>::infinity()),
-      views_(views, options.focal_px, scale_,
+      views_(std::forward<Views>(views), options.focal_px, scale_,
              averages() && options.split_silhouettes ? options.surface_px : 0) {
     if (options.focus)
         focused_ = ThinLens{.radius = options.radius, .focal_px = options.focal_px, .focus = *options.focus};
@@ -228,6 +232,10 @@ WarpOptions with_lens(WarpOptions options, const Camera &camera, std::span<const
 
 Ldi warp(std::span<const View> views, const WarpOptions &options, Progress &progress) {
     return Warper(views, options).run(progress);
+}
+
+Ldi warp(std::vector<View> &&views, const WarpOptions &options, Progress &progress) {
+    return Warper(std::move(views), options).run(progress);
 }
 
 } // namespace sparselens

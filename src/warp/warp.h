@@ -13,6 +13,7 @@
 
 #include <optional>
 #include <span>
+#include <vector>
 
 namespace sparselens {
 
@@ -49,5 +50,7 @@ WarpOptions with_lens(WarpOptions options, const Camera &camera, std::span<const
 // others. Channels of rim views are matched by name. Throws Error where display windows differ or a rim view lacks a
 // channel of the centre view.
 Ldi warp(std::span<const View> views, const WarpOptions &options, Progress &progress);
+// The same in less memory: takes the pixels of the views.
+Ldi warp(std::vector<View> &&views, const WarpOptions &options, Progress &progress);
 
 } // namespace sparselens

@@ -6,6 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <utility>
+
 namespace sparselens {
 namespace {
 
@@ -39,6 +42,18 @@ TEST(ViewSamples, WithoutAlphaEverythingIsVisible) {
     View view = random_view(windows_of_size(8, 8), {0, 0}, 1);
     view.image = Image(view.image.windows, {{"Y"}});
     EXPECT_EQ(ViewSamples(view, view.image.channels).as_ldi().samples(), 64u);
+}
+
+TEST(ViewSamples, PixelsThatAreTakenAreTheSame) {
+    View view = random_view({Imath::Box2i({0, 0}, {29, 19}), Imath::Box2i({-3, 2}, {71, 30})}, {1, 2}, 5);
+    for (float &red : view.image.plane(0)) red = std::round(red * 64) / 64; // a half
+    const Ldi seen = ViewSamples(view, view.image.channels).as_ldi();
+    const std::vector<Channel> channels = view.image.channels;
+    const Ldi taken = ViewSamples(std::move(view), channels).as_ldi();
+    EXPECT_EQ(view.image.values.capacity() + view.z.capacity(), 0u);
+    EXPECT_EQ(taken.begin, seen.begin);
+    EXPECT_EQ(taken.z, seen.z);
+    EXPECT_EQ(taken.values, seen.values);
 }
 
 // Slowly and obviously: each pixel's samples in a list of its own.

@@ -100,6 +100,16 @@ TEST(Warp, SamplesAreTidy) {
     }
 }
 
+TEST(Warp, ViewsThatAreTakenGiveTheSameLdi) {
+    const Windows w = windows_of_size(40, 30);
+    for (const WarpOptions &options : {averaging, keeping}) {
+        std::vector<View> views = random_views(w, 6);
+        const Ldi seen = warped(views, options);
+        Progress silent;
+        expect_same_bits(warp(std::move(views), options, silent), seen);
+    }
+}
+
 struct Witness {
     double depth;     // perceptive
     float colour;     // not premultiplied

@@ -26,17 +26,21 @@ Stats plan_stats(const Plan &plan, int views_allowed, const Windows &centre) {
             {"pixels_left_out", std::size_t(views_allowed) * centre.pixels() - asked}};
 }
 
-Stats warp_stats(std::span<const View> views, const Ldi &ldi) {
-    std::size_t given = 0, empty = 0;
+GivenViews given_views(std::span<const View> views) {
+    GivenViews given{views.size(), 0, 0, views.size() * views[0].image.windows.pixels()};
     for (const View &view : views) {
         const std::size_t pixels = pixels_given(view);
-        given += pixels;
-        empty += pixels == 0 ? 1 : 0;
+        given.pixels += pixels;
+        given.empty += pixels == 0 ? 1 : 0;
     }
-    const std::size_t all = views.size() * views[0].image.windows.pixels();
-    return {{"views", views.size()},    {"views_empty", empty},
-            {"pixels_given", given},    {"pixels_not_given", all - std::min(all, given)},
-            {"samples", ldi.samples()}, {"samples_merged", given - std::min(given, ldi.samples())}};
+    return given;
+}
+
+Stats warp_stats(const GivenViews &given, const Ldi &ldi) {
+    const auto [views, empty, pixels, all] = given;
+    return {{"views", views},           {"views_empty", empty},
+            {"pixels_given", pixels},   {"pixels_not_given", all - std::min(all, pixels)},
+            {"samples", ldi.samples()}, {"samples_merged", pixels - std::min(pixels, ldi.samples())}};
 }
 
 Stats cluster_stats(const OpenedLdi &in, const Clustered &out) {

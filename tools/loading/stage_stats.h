@@ -13,7 +13,12 @@
 namespace sparselens {
 
 Stats plan_stats(const Plan &plan, int views_allowed, const Windows &centre);
-Stats warp_stats(std::span<const View> views, const Ldi &ldi);
+// What views give to a warp, which takes their pixels.
+struct GivenViews {
+    std::size_t views, empty, pixels, all_pixels;
+};
+GivenViews given_views(std::span<const View> views);
+Stats warp_stats(const GivenViews &given, const Ldi &ldi);
 Stats cluster_stats(const OpenedLdi &in, const Clustered &out);
 Stats gather_stats(const LdiCache &cache, std::size_t samples,
                    const LensTiles &tiles); // no tiles: not gathered by tiles

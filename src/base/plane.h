@@ -1,0 +1,34 @@
+// The values of one channel of a picture, bit by bit in little memory: one value where all are the same, as the coverage of an
+// opaque picture; halves where those hold them, as most files have colours; else floats.
+#pragma once
+
+#include "base/half_bits.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace sparselens {
+
+class Plane {
+public:
+    // Holds them itself.
+    static Plane packed(std::span<const float> values);
+    // Refers to them: they must outlive it.
+    static Plane of(std::span<const float> values);
+
+    float operator[](std::size_t i) const { return floats_ ? floats_[i & mask_] : of_half(halves_[i]); }
+
+    std::size_t bytes() const {
+        return halves_.size() * sizeof(halves_[0]) + own_.size() * sizeof(float);
+    } // held
+
+private:
+    std::vector<std::uint16_t> halves_;
+    std::vector<float> own_;
+    const float *floats_ = nullptr;      // `own_`, or others'; null: halves
+    std::size_t mask_ = ~std::size_t{0}; // 0: one value
+};
+
+} // namespace sparselens
