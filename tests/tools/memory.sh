@@ -56,3 +56,23 @@ check tinted 96 54 1 136
 check volume 96 54 1 136
 quality=normal
 check dense 192 108 1 24
+
+# warped WIDTH HEIGHT: sets `peak`, of ldi-warp of five views of that size, a board before a wall; colours are halves.
+warped() {
+    picture make view.exr $1x$2 R=0..1 G=0.5 B=0.25 A=1 Z=8 fill=$(($1 / 2))x$(($2 / 2)) G=1 Z=2 half=R,G,B,A
+    peak=$(python3 peak.py "$bin/ldi-warp" view.exr --view 0.01,0 view.exr --view -0.01,0 view.exr --view 0,0.01 view.exr \
+        --view 0,-0.01 view.exr -o out.exr --lens-radius 0.01 --focal-length 50 --sensor-width 36 --threads 2 2>/dev/null)
+}
+
+# As they are read, five views take 24 bytes a pixel each; as they are warped, 11, and the LDI takes 50.
+small=999999999999 large=999999999999
+for run in 1 2 3; do
+    warped 640 360
+    small=$((peak < small ? peak : small))
+    warped 1280 720
+    large=$((peak < large ? peak : large))
+    grown=$((large - small)) allowed=$((170 * 3 * 640 * 360))
+    printf 'five views %15d bytes more (at most %d)\n' $grown $allowed
+    [ $grown -gt $allowed ] || break
+done
+[ $grown -le $allowed ] || fail "ldi-warp: $small bytes at 640x360, $large at 1280x720"
