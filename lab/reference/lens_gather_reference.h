@@ -19,12 +19,15 @@
 // it covers the point and that lies farther than 1 / z - 2 s. It shows what solid_samples.h says.
 //
 // A lens point that meets nothing opaque in a pixel looks at what it meets in the pixels beside it, to the left and to
-// the right, above and below:
-// - two samples on either side, less than 1.5 pixels apart in x and in y and one_surface_px in depth, are a surface
-//   torn by parallax: it sees the farther of them (of two such pairs, the farthest; where they are as far, the first);
+// the right, above and below, and in the corners:
+// - two samples on opposite sides, less than 1.5 pixels apart in x and in y and one_surface_px in depth, are a surface
+//   torn by parallax: it sees the farther of them (of several such pairs, the farthest; where they are as far, the first);
 // - else it sees the nearest filler (fillers.h), unless what lies on either side is nearer than that by more than
 //   one_surface_px: a gap so narrow may as well be a crack;
 // - else it does not know what lies there: it counts by what it does know, which is the coverage that it met.
+//
+// A lens point that meets something opaque sees such a torn surface instead, where both samples are more than a pixel in depth
+// nearer.
 //
 // What it meets, light and coverage, counts by the weight that the lens point has for the channel (R, G and B, by the last
 // part of the name) and, but for data, for what lies behind focus or in front; backgrounds lie behind. Past a cat-eye a pixel sees by the lens

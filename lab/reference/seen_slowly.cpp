@@ -190,8 +190,9 @@ Choice combined(const Choice &a, const Choice &b, const Combine &combine) {
     return both;
 }
 
-// What a lens point meets first in the pixels around one: left, right, above, below.
-using Around = std::array<Choice, 4>;
+// What a lens point meets first in the pixels around one: left, right, above, below, and in the corners: above to the right, below to
+// the left, above to the left, below to the right.
+using Around = std::array<Choice, 8>;
 
 Around fronts_around(const Scene &scene, const LensSample &point, const Pixel &pixel) {
     const auto front_beside = [&](int dx, int dy) {
@@ -200,7 +201,8 @@ Around fronts_around(const Scene &scene, const LensSample &point, const Pixel &p
         add_solids(scene, point, {pixel.x + dx, pixel.y + dy, pixel.extent, nullptr}, met);
         return front_of(met);
     };
-    return {front_beside(-1, 0), front_beside(1, 0), front_beside(0, -1), front_beside(0, 1)};
+    return {front_beside(-1, 0), front_beside(1, 0),  front_beside(0, -1),  front_beside(0, 1),
+            front_beside(1, -1), front_beside(-1, 1), front_beside(-1, -1), front_beside(1, 1)};
 }
 
 long double depth_of(const ThinLens &lens, const Placed *sample) {
@@ -216,17 +218,23 @@ const Placed *shown_farther(const Placed *first, const Placed *second) {
     return second->shows().z > first->shows().z ? second : first;
 }
 
-// The sample that a lens point sees through a crack.
-Choice torn_between(const ThinLens &lens, const Around &around) {
+// The sample that a lens point sees through a crack, in front of what it meets else; null: nothing.
+Choice torn_between(const ThinLens &lens, const Around &around, const Placed *behind) {
+    const auto may_be_before = [&](const Placed *s) {
+        if (!s || s->background) return false;
+        return !behind || depth_of(lens, s) > depth_of(lens, behind) + 1;
+    };
     const auto torn = [&](const Placed *a, const Placed *b) -> const Placed * {
-        if (!a || !b || a->background || b->background) return nullptr;
+        if (!may_be_before(a) || !may_be_before(b)) return nullptr;
         const Placed &left = a->shows(), &right = b->shows();
         if (std::abs(left.x - right.x) >= 1.5L || std::abs(left.y - right.y) >= 1.5L) return nullptr;
         const long double apart = depth_of(lens, &left) - depth_of(lens, &right);
         return std::abs(apart) < one_surface_px ? shown_farther(a, b) : nullptr;
     };
-    return combined(combined(around[0], around[1], torn), combined(around[2], around[3], torn),
-                    shown_farther);
+    Choice farthest = combined(around[0], around[1], torn);
+    for (std::size_t k = 2; k < around.size(); k += 2)
+        farthest = combined(farthest, combined(around[k], around[k + 1], torn), shown_farther);
+    return farthest;
 }
 
 // The nearest thing such that something as near as it lies on either side of a lens point.
@@ -306,11 +314,26 @@ std::vector<Way> with_images(const Way &way, const Scene &scene, const LensSampl
     return ways;
 }
 
+// A lens point sees partial samples before what shows through a crack.
+Way through_crack(const std::vector<Met> &partial, const Placed *torn, bool is, const Pixel &pixel) {
+    Way way{partial, is};
+    const auto behind =
+        std::ranges::find_if(way.met, [&](const Met &m) { return before(torn, m.sample); });
+    way.met.insert(behind, {torn, true, true, passes(*torn, pixel)});
+    return way;
+}
+
+// What it sees through cracks in front of what it meets.
+void add_ways_before(std::vector<Way> &ways, const std::vector<Met> &partial, const Choice &torn,
+                     const Pixel &pixel) {
+    for (const Placed *sample : torn.can_be)
+        if (sample) ways.push_back(through_crack(partial, sample, sample == torn.is, pixel));
+}
+
 // A lens point that meets partial samples alone sees them before what it sees through a crack, or before a filler.
 void add_ways_through(std::vector<Way> &ways, const std::vector<Met> &partial, bool is, const Scene &scene,
-                      const LensSample &point, const Pixel &pixel) {
-    const Around around = fronts_around(scene, point, pixel);
-    const Choice torn = torn_between(scene.lens, around), screen = screen_between(around);
+                      const Around &around, const LensSample &point, const Pixel &pixel) {
+    const Choice torn = torn_between(scene.lens, around, nullptr), screen = screen_between(around);
     std::vector<Met> met;
     meet(scene.fillers, {}, point, pixel, met);
     const Choice filler = front_of(met);
@@ -321,17 +344,27 @@ void add_ways_through(std::vector<Way> &ways, const std::vector<Met> &partial, b
         if (f && !hidden) ways.back().met.push_back({f, true, true, passes(*f, pixel)});
     };
     for (const Placed *sample : torn.can_be) {
-        if (!sample) {
-            for (const Placed *f : filler.can_be)
-                for (const Placed *before : screen.can_be) add_filler(f, before);
+        if (sample) {
+            ways.push_back(through_crack(partial, sample, is && sample == torn.is, pixel));
             continue;
         }
-        ways.push_back({partial, is && sample == torn.is});
-        std::vector<Met> &seen = ways.back().met;
-        const auto behind =
-            std::ranges::find_if(seen, [&](const Met &m) { return before(sample, m.sample); });
-        seen.insert(behind, {sample, true, true, passes(*sample, pixel)});
+        for (const Placed *f : filler.can_be)
+            for (const Placed *before : screen.can_be) add_filler(f, before);
     }
+}
+
+// The samples that it sees through cracks in front of any of what it may meet; null: what it meets.
+Choice torn_before(const ThinLens &lens, const Around &around, const Choice &front) {
+    Choice torn;
+    for (const Placed *met : front.can_be) {
+        if (!met) continue;
+        const Choice here = torn_between(lens, around, met);
+        if (met == front.is) torn.is = here.is;
+        torn.can_be.insert(torn.can_be.end(), here.can_be.begin(), here.can_be.end());
+    }
+    std::ranges::sort(torn.can_be);
+    torn.can_be.erase(std::unique(torn.can_be.begin(), torn.can_be.end()), torn.can_be.end());
+    return torn;
 }
 
 } // namespace
@@ -354,10 +387,13 @@ std::vector<Way> ways_to_see(const Scene &scene, const LensSample &point, const 
     const Choice front = front_of(met);
     std::ranges::copy_if(met, std::back_inserter(partial), [](const Met &m) { return m.sample->alpha < 1; });
     add_solids(scene, point, pixel, met);
-    if (front.can_be.back()) return with_images({met, true}, scene, point, pixel);
+    const Around around = fronts_around(scene, point, pixel);
+    const Choice torn = torn_before(scene.lens, around, front_of(met));
     std::vector<Way> ways;
-    if (front.can_be.size() > 1) ways = with_images({met, front.is != nullptr}, scene, point, pixel);
-    add_ways_through(ways, partial, !front.is, scene, point, pixel);
+    if (std::ranges::find(torn.can_be, nullptr) != torn.can_be.end())
+        ways = with_images({met, front.is && !torn.is}, scene, point, pixel);
+    add_ways_before(ways, partial, torn, pixel);
+    if (!front.can_be.back()) add_ways_through(ways, partial, !front.is, scene, around, point, pixel);
     return ways;
 }
 

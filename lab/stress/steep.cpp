@@ -14,14 +14,14 @@ constexpr double rounding = 1e-5; // of sums over lens points, in float (docs/to
 // CoC up to 80 pixels behind focus.
 ThinLens near_lens() { return {.radius = 0.625, .focal_px = 640, .focus = 5}; }
 
-// A dark plane of so many tenths of a pixel of CoC a pixel before a ground of radiance 1: what of it is seen through the
-// plane in the middle, where every lens point looks at the plane.
-template <int Gradient>
+// A dark plane of so many hundredths of a pixel of CoC a pixel, across and down, before a ground of radiance 1: what of it is
+// seen through the plane in the middle, where every lens point looks at the plane.
+template <int Across, int Down = 0>
 StressResult tilted_plane() {
     StressResult result;
     const ThinLens lens = near_lens();
-    const Ldi ldi = grey_ldi(window(136, 96), [&](int x, int) {
-        const double coc = std::clamp(Gradient / 10.0 * (x - 64), -70.0, 70.0);
+    const Ldi ldi = grey_ldi(window(136, 96), [&](int x, int y) {
+        const double coc = std::clamp(Across / 100.0 * (x - 64) + Down / 100.0 * (y - 48), -70.0, 70.0);
         return Pixel{{depth_of(lens, coc), 0}, {depth_of(lens, 79), 1}};
     });
     const Image image = gather(ldi, lens, result, 256);
@@ -51,10 +51,16 @@ constexpr const char *reorders =
     "the kernel only reorders the reference's sums: docs/tolerances.md, section 4";
 
 constexpr std::array cases{
-    StressCase{"plane_0.5", "a ground of 1 behind a dark plane of 0.5 px of CoC a pixel", rounding, closed,
+    StressCase{"plane_0.05", "a ground of 1 behind a dark plane of 0.05 px of CoC a pixel", rounding, closed,
                tilted_plane<5>},
+    StressCase{"plane_0.24", "a ground of 1 behind a dark plane of 0.24 px of CoC a pixel", rounding, closed,
+               tilted_plane<24>},
+    StressCase{"plane_askew", "a ground of 1 behind a dark plane of 0.12 px of CoC a pixel and -0.11 down", rounding,
+               closed, tilted_plane<12, -11>},
+    StressCase{"plane_0.5", "a ground of 1 behind a dark plane of 0.5 px of CoC a pixel", rounding, closed,
+               tilted_plane<50>},
     StressCase{"plane_0.9", "a ground of 1 behind a dark plane of 0.9 px of CoC a pixel", rounding, closed,
-               tilted_plane<9>},
+               tilted_plane<90>},
     StressCase{"bumps", "bumps of up to 1 px of CoC a pixel before a bright ground, against the reference",
                rounding, reorders, bumps},
 };

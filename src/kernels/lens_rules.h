@@ -10,7 +10,9 @@ namespace sparselens::kernels {
 // half is the sample's index. 0 is none.
 inline constexpr uint background_upper = 1;
 inline uint upper_of_depth(float depth) { return floatBitsToUint(depth) + 2; }
-inline float depth_of(uint upper) { return upper <= background_upper ? 0 : uintBitsToFloat(upper - 2); }
+inline float depth_of(uint upper) {
+    return uintBitsToFloat(max(upper, 2u) - 2);
+} // 0 of a background, and of none
 inline uint64_t key_of(uint upper, uint index) { return (uint64_t(upper) << 32) | uint64_t(index); }
 inline uint upper_of(uint64_t key) { return uint(key >> 32); }
 inline uint sample_of(uint64_t key) { return uint(key & 0xffffffffUL); }
@@ -56,6 +58,15 @@ inline constexpr float side_by_side_px = 1.5f;
 inline bool is_crack(float x, float y, float depth_a, float depth_b) {
     return abs(x) < side_by_side_px && abs(y) < side_by_side_px &&
            is_one_surface(depth_a, depth_b, one_surface_px);
+}
+
+// A crack lies between two samples, in front of what is farther than both by more than this, in pixels of perceptive depth: as
+// much as what their own unevenness never reaches. What a cell shows has a key; samples that may have a crack in front of it
+// between them have greater ones.
+inline constexpr float behind_crack_px = 1;
+inline uint64_t behind_crack(uint64_t shown) {
+    const float depth = depth_of(upper_of(shown)) + behind_crack_px;
+    return key_of(shown == 0 ? background_upper : upper_of_depth(depth), 0xffffffffu);
 }
 
 // What hides a filler of that depth has a greater key.

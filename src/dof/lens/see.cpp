@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 
 namespace sparselens {
 
@@ -36,6 +37,23 @@ std::uint64_t zeros_of(const std::uint64_t *keys) {
     return std::uint64_t{zeros_of_half(keys + half)} << half | zeros_of_half(keys);
 }
 
+// Which cells of a row show what is farther than on either side of them, so that a crack may lie there, bit by bit.
+std::uint32_t far_behind_of_half(const float *depths) {
+    std::uint32_t far = 0;
+    for (std::ptrdiff_t n = 0; n < std::ptrdiff_t(half); ++n) {
+        const float *depth = depths + n;
+        const float sides = std::max(std::min(depth[-1], depth[1]), std::min(depth[-stride], depth[stride])),
+                    corners = std::max(std::min(depth[-stride - 1], depth[stride + 1]),
+                                       std::min(depth[-stride + 1], depth[stride - 1]));
+        far |= (0 - std::uint32_t(std::max(sides, corners) > depth[0] + kernels::behind_crack_px)) &
+               one_bit[std::size_t(n)];
+    }
+    return far;
+}
+std::uint64_t far_behind(const float *depths) {
+    return std::uint64_t{far_behind_of_half(depths + half)} << half | far_behind_of_half(depths);
+}
+
 // Calls visit(begin, cells) with where a lens point sees the opaque samples of a block, from the one `begin` on, a few at once.
 template <typename Visit>
 [[gnu::always_inline]] inline void for_opaque(const TileProjection &projection, const BlockedSamples &samples,
@@ -56,13 +74,16 @@ See::See(const GatherScene &scene, const TileTask &tile) : scene_(scene), tile_(
     seen_.columns.fill({0, size});
     seen_.front.resize(count);
     seen_.filler.resize(count);
+    depths_.resize(count);
+    is_deep_ = is_deep();
     bounds_.set(tile.samples, scene.samples);
     filler_bounds_.set(tile.fillers, scene.fillers.samples);
     solid_bounds_.set(tile.solids, scene.solids);
     collect_partial();
 }
 
-// The steps. What shows through cracks is seen last: a crack lies between what the lens point meets, and a filler behind it.
+// The steps. What shows through cracks is seen last: a crack lies between what the lens point meets, and others and fillers
+// behind it.
 const Seen &See::through(const LensSample &point) {
     see_columns(point);
     see_opaque(point, scene_.samples, bounds_, everywhere, seen_.front);
@@ -72,11 +93,26 @@ const Seen &See::through(const LensSample &point) {
     find_empty();
     find_cracks();
     see_fillers(point);
+    find_cracks_before_others();
     close_cracks();
     project_to_cells(projection(point), seen_.partial.x.data(), seen_.partial.y.data(),
                      seen_.partial.coc.data(), std::uint32_t(seen_.partial.count()),
                      seen_.partial_cells.data());
     return seen_;
+}
+
+// Whether a lens point may see something so far behind another that a crack can lie between them.
+bool See::is_deep() const {
+    if (!tile_.facets.empty() || !tile_.solids.empty()) return true;
+    float nearest = 0, farthest = std::numeric_limits<float>::infinity();
+    for (const std::uint32_t b : tile_.samples) {
+        const SampleBlock &block = scene_.samples.blocks[b];
+        for (std::uint32_t i = block.begin; i < block.opaque_end; ++i) {
+            nearest = std::max(nearest, scene_.samples.depth[i]);
+            farthest = std::min(farthest, scene_.samples.depth[i]);
+        }
+    }
+    return nearest > farthest + kernels::behind_crack_px;
 }
 
 // Those that some lens point brings into the tile, or into a pixel next to it.
@@ -228,14 +264,33 @@ void See::find_cracks() {
     });
 }
 
-// The sample that shows through a crack at an empty cell, as a key; 0: there is no crack.
+// Cracks of surfaces so even that cells seldom stay empty between their samples, and others show what is far behind.
+void See::find_cracks_before_others() {
+    if (!is_deep_) return;
+    std::ranges::transform(seen_.front, depths_.begin(),
+                           [](std::uint64_t key) { return kernels::depth_of(kernels::upper_of(key)); });
+    for (int y = 0; y < size; ++y) {
+        const auto [begin, end] = seen_.columns[std::size_t(y)];
+        for (std::uint64_t row = far_behind(&depths_[at(0, y)]); row != 0; row &= row - 1) {
+            const int x = std::countr_zero(row);
+            const std::size_t cell = at(x, y);
+            if (seen_.front[cell] == 0 || x < begin || x >= end) continue;
+            const std::uint64_t key = torn_at(cell);
+            if (key != 0) cracks_.push_back({std::uint32_t(cell), key});
+        }
+    }
+}
+
+// The sample that shows through a crack at a cell, as a key; 0: there is no crack.
 std::uint64_t See::torn_at(std::size_t cell) const {
+    const std::uint64_t behind = kernels::behind_crack(seen_.front[cell]);
     const BlockedSamples &samples = scene_.samples;
     const auto depth = [&](std::uint64_t key) { return samples.depth[std::uint32_t(key)]; };
     std::uint64_t farthest = 0;
-    for (const std::size_t step : {std::size_t{1}, std::size_t(stride)}) {
+    for (const std::size_t step :
+         {std::size_t{1}, std::size_t(stride), std::size_t(stride - 1), std::size_t(stride + 1)}) {
         const std::uint64_t one = seen_.front[cell - step], other = seen_.front[cell + step];
-        if (is_background(one) || is_background(other)) continue;
+        if (one <= behind || other <= behind) continue;
         const std::uint32_t a = std::uint32_t(one), b = std::uint32_t(other);
         if (!kernels::is_crack(samples.x[a] - samples.x[b], samples.y[a] - samples.y[b], depth(one),
                                depth(other)))

@@ -94,6 +94,7 @@ private:
         std::uint32_t cell;
         std::uint64_t key; // of the sample that shows through it
     };
+    bool is_deep() const;
     void collect_partial();
     TileProjection projection(const LensSample &point) const;
     BlockBounds::Box box_of(const Cells &cells) const;
@@ -107,6 +108,7 @@ private:
     std::uint64_t image_at(std::size_t cell) const;
     void find_empty();
     void find_cracks();
+    void find_cracks_before_others();
     std::uint64_t torn_at(std::size_t cell) const;
     void see_fillers(const LensSample &point);
     bool hides(std::size_t cell, float depth) const;
@@ -118,6 +120,8 @@ private:
     // [cell]: the nearest image that lies there, as its sample's index plus one
     std::vector<std::uint32_t> image_;
     std::vector<Crack> cracks_;
+    bool is_deep_ = true;
+    std::vector<float> depths_; // [cell]: of what is in front there
     Seen seen_;
 };
 

@@ -1,12 +1,15 @@
-// What a lens point sees where it meets no opaque sample: a surface through the cracks between its samples; elsewhere,
-// fillers.
+// What a lens point sees where it meets no opaque sample, or one far behind: a surface through the cracks between its samples;
+// elsewhere, fillers.
 
-// The sample that shows through a crack at an empty cell, as a key; 0: there is no crack.
+// The sample that shows through a crack at a cell, as a key; 0: there is no crack.
 uint64_t torn_at(uint cell) {
+    const uint64_t behind = behind_crack(front[cell]);
     uint64_t farthest = 0UL;
-    for (uint step = 1; step <= side; step += side - 1) {
+    const uint steps[4] = {1, side, side - 1, side + 1};
+    for (uint s = 0; s < 4; ++s) {
+        const uint step = steps[s];
         const uint64_t one = front[cell - step], other = front[cell + step];
-        if (upper_of(one) <= background_upper || upper_of(other) <= background_upper) continue;
+        if (one <= behind || other <= behind) continue;
         const vec2 apart = places[sample_of(one)] - places[sample_of(other)];
         const float depth_a = depth_of(uppers[sample_of(one)]), depth_b = depth_of(uppers[sample_of(other)]);
         if (!is_crack(apart.x, apart.y, depth_a, depth_b)) continue;
@@ -38,19 +41,18 @@ uint[own] see_behind(Tile tile) {
         const uint cell = cell_of(pixel_of(j));
         const uint64_t key = front[cell];
         seen[j] = key == 0UL ? none : (rules & images) != 0 ? image_at(cell) : sample_of(key);
-        torn[j] = key != 0UL ? 0UL : torn_at(cell);
+        torn[j] = torn_at(cell);
         any_empty = any_empty || key == 0UL;
     }
     if (any_empty) atomicAdd(empty_count, 1);
     barrier();
-    if (empty_count == 0) return seen;
-    see_opaque(tile.fillers, tile.filler_count, cells);
+    if (empty_count != 0) see_opaque(tile.fillers, tile.filler_count, cells);
     for (uint j = 0; j < own; ++j) {
-        if (seen[j] != none) continue;
         const uint cell = cell_of(pixel_of(j));
-        const uint64_t filler = front[cells + cell];
         if (torn[j] != 0UL) seen[j] = sample_of(torn[j]);
-        else if (filler != 0UL && !hides(cell, depth_of(upper_of(filler)))) seen[j] = sample_of(filler);
+        if (seen[j] != none) continue;
+        const uint64_t filler = front[cells + cell];
+        if (filler != 0UL && !hides(cell, depth_of(upper_of(filler)))) seen[j] = sample_of(filler);
     }
     barrier();
     for (uint j = 0; j < own; ++j)

@@ -75,6 +75,35 @@ TEST(See, ASurfaceShowsThroughTheCracksBetweenItsSamples) {
     }
 }
 
+// The same columns before a ground, which every pixel has behind them: it is not seen between them where it is far behind.
+TEST(See, ASurfaceShowsThroughItsCracksBeforeWhatIsFarBehind) {
+    for (const double behind : {0.9, 1.1, 6.0}) {
+        const TileFixture tile(
+            [&](int x, int) {
+                return Samples{opaque_at(x <= 10 ? 1 : 1.4), opaque_at(1.4 + behind)};
+            },
+            {{1, 0, .2f, 0, 1}});
+        const GatherScene scene = tile.scene();
+        const TileTask task = tile.task();
+        See see(scene, task);
+        const Seen &seen = see.through(tile.points[0]);
+        EXPECT_EQ(seen.front[tile_cells::at(11, 31)], tile.key(10, 31));
+        EXPECT_EQ(seen.front[tile_cells::at(12, 31)] == tile.key(11, 31), behind > 1) << behind;
+        EXPECT_EQ(seen.front[tile_cells::at(13, 31)], tile.key(11, 31));
+    }
+}
+
+// A gap that the picture shows is none: the posts on either side of it are not side by side.
+TEST(See, NothingClosesAGapThatThePictureShows) {
+    const TileFixture tile([](int x, int) { return x % 2 ? Samples{opaque_at(-6)} : Samples{opaque_at(6)}; },
+                           {{0, 0, 0, 0, 1}});
+    const GatherScene scene = tile.scene();
+    const TileTask task = tile.task();
+    See see(scene, task);
+    const Seen &seen = see.through(tile.points[0]);
+    EXPECT_EQ(count_shown(seen, [&](int x, int y) { return tile.key(x, y); }), 64 * 64);
+}
+
 // A mirror in focus: the window stays where it is, and what it shows, of CoC 6, moves in it by 3 pixels.
 TEST(See, AMirrorShowsWhatItShowsWhereItIs) {
     const TileFixture tile(
