@@ -13,6 +13,10 @@ namespace sparselens {
 
 class Plane {
 public:
+    Plane() = default;
+    Plane(Plane &&) = default; // a copy would refer to what this one holds
+    Plane &operator=(Plane &&) = default;
+
     // Holds them itself.
     static Plane packed(std::span<const float> values);
     // Refers to them: they must outlive it.
