@@ -87,7 +87,8 @@ TEST(Solids, NoLightComesThroughAGapThatNoViewSaw) {
     const double solid = green_along_the_edge(plates, ldi);
     ldi.solid.clear();
     const double open = green_along_the_edge(plates, ldi);
-    EXPECT_GT(open, 0.5); // half of what one pixel of the wall gives; the rest is closed as cracks of the board
+    EXPECT_GT(open,
+              0.5); // half of what one pixel of the wall gives; the rest is closed as cracks of the board
     EXPECT_LT(solid, 0.1 * open);
 }
 
