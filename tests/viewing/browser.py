@@ -42,9 +42,31 @@ class Page:
         return self.browser.run("const c = part(arguments[0]); return [c.width, c.height,"
                                 "Array.from(c.getContext('2d').getImageData(0, 0, c.width, c.height).data).join()]", canvas)
 
+    def set_keys(self, keys):
+        """Of the focus distance: its values by frames."""
+        for frame, focus in keys.items():
+            self.does(self.browser.run, f"goTo({frame})")
+            self.does(self.browser.run, f"set('focus-distance', {focus})")
+            self.browser.press("k")
+
+    def copies(self, form, expected):
+        """What the timeline copies in that form, of which that is a part."""
+        self.browser.run("part('form').value = arguments[0]; part('command').value = ''; part('copy_time').click()", form)
+        return self.browser.until(f"part('command').value.includes({expected!r}) && part('command').value")
+
+    def is_picture(self, path):
+        """Whether the page shows the pixels of that PNG."""
+        shown = bytes(int(value) for value in self.pixels()[2].split(","))
+        _, _, channels, pixels = read_png(path)
+        return pixels == (shown if channels == 4 else bytes(value for i, value in enumerate(shown) if i % 4 < 3))
+
     def shot(self, name):
         if shots:
             self.browser.screenshot(os.path.join(shots, name + ".png"))
+
+
+def runs(command):
+    subprocess.run(command.replace("dof-gather", folder + "/dof-gather", 1), shell=True, check=True)
 
 
 def focuses(page):
@@ -79,14 +101,10 @@ def is_exact(page):
     """Final is what dof-gather writes, and the command that the page copies makes it."""
     page.browser.press(ENTER)
     page.rests("final")
-    width, height, shown = page.pixels()
     page.browser.until("part('command').value.includes('final')")
     command = page.browser.run("return part('command').value")
-    subprocess.run(command.replace("dof-gather", folder + "/dof-gather", 1), shell=True, check=True)
-    png_width, png_height, channels, pixels = read_png(command.split()[-1])
-    shown = bytes(int(value) for value in shown.split(","))
-    alike = shown if channels == 4 else bytes(value for i, value in enumerate(shown) if i % 4 < 3)
-    assert (png_width, png_height) == (width, height) and alike == pixels, command
+    runs(command)
+    assert tuple(page.pixels()[:2]) == read_png(command.split()[-1])[:2] and page.is_picture(command.split()[-1]), command
     page.shot("final")
 
 
@@ -179,32 +197,23 @@ def has_keys(page):
     """Frames between two keys, and the command that makes them all."""
     browser = page.browser
     browser.run("part('last').value = 3; part('time').open = true")
-    page.does(browser.run, "set('focus-distance', 2)")
-    browser.press("k")
-    page.does(browser.run, "goTo(3)")
-    page.does(browser.run, "set('focus-distance', 5)")
-    browser.press("k")
+    page.set_keys({1: 2, 3: 5})
     page.does(browser.press, ",")
     assert browser.run("return [time.frame, focusNow()]") == [2, 3.5]
     page.shot("keys")
-    form = "part('form').value = arguments[0]; part('command').value = ''; part('copy_time').click()"
-    browser.run(form, "command of all frames")
-    command = browser.until("part('command').value.includes('--frames') && part('command').value")
-    assert "--focus-distance 1:2,3:5" in command and "--frames 1-3" in command, command
-    subprocess.run(command.replace("dof-gather", folder + "/dof-gather", 1), shell=True, check=True)
-    shown = bytes(int(value) for value in page.pixels()[2].split(","))
-    _, _, channels, pixels = read_png(command.split()[-1].replace("####", "0002"))
-    assert pixels == (shown if channels == 4 else bytes(value for i, value in enumerate(shown) if i % 4 < 3))
-    browser.run(form, "focus, for --focus-distance @file")
+    command = page.copies("command of all frames", "--frames 1-3")
+    assert "--focus-distance 1:2,3:5" in command, command
+    runs(command)
+    made = command.split()[-1].replace("####", "0002")
+    assert page.is_picture(made)
     with open("keys.txt", "w") as file:
-        file.write(browser.until("part('command').value"))
+        file.write(page.copies("focus, for --focus-distance @file", "1:2\n3:5\n"))
     subprocess.run([folder + "/dof-gather", ldi, "--frames", "2", "--focus-distance", "@keys.txt", "--quality", "normal", "-o", "keyed.#.png"], check=True)
-    assert read_png("keyed.0002.png")[3] == pixels
+    assert read_png("keyed.0002.png") == read_png(made)
     browser.run("part('smooth').checked = true")
     for name, expected in (("focus as a curve of Nuke", "{curve L x1 2 x2 3.5 x3 5}"), ("job for Slurm", "sbatch --array=1-3 --wrap"),
                            ("all keys as JSON", '"focus-distance"'), ("f-number, for --fstop @file", "1:0.3")):
-        browser.run(form, name)
-        browser.until(f"part('command').value.includes({expected!r})")
+        page.copies(name, expected)
 
 
 def has_pieces(browser):
@@ -232,20 +241,13 @@ def has_frames(browser):
         page.does(browser.press, ".")
         browser.until("time.frame === 4 && part('name').textContent.includes('shot.0004')")
         assert page.pixels()[2] == first
-        page.does(browser.run, "set('focus-distance', 8)")
-        browser.press("k")
-        page.does(browser.run, "goTo(1)")
-        page.does(browser.run, "set('focus-distance', 5)")
-        browser.press("k")
+        page.set_keys({4: 8, 1: 5})
         page.does(browser.press, ".")
         assert browser.run("return [time.frame, focusNow()]") == [2, 6]
-        shown = bytes(int(value) for value in page.pixels()[2].split(","))
-        browser.run("part('form').value = 'command of all frames'; part('command').value = ''; part('copy_time').click()")
-        command = browser.until("part('command').value.includes('--frames') && part('command').value")
-        assert "--frames 1,2,4" in command and "shot.####.ldi.exr" in command and "1:5,4:8" in command, command
-        subprocess.run(command.replace("dof-gather", folder + "/dof-gather", 1), shell=True, check=True)
-        _, _, channels, pixels = read_png("shot.0002.png")
-        assert pixels == (shown if channels == 4 else bytes(value for i, value in enumerate(shown) if i % 4 < 3))
+        command = page.copies("command of all frames", "--frames 1,2,4")
+        assert "shot.####.ldi.exr" in command and "1:5,4:8" in command, command
+        runs(command)
+        assert page.is_picture("shot.0002.png")
         browser.run("window.seen = new Set(); const before = goTo; goTo = (frame) => (seen.add(frame), before(frame)); play()")
         browser.until("seen.size === 3")
         browser.press(" ")
