@@ -15,7 +15,6 @@ namespace {
 
 // A small pixel at an edge is covered in part, which takes a channel to say so.
 Ldi with_coverage(Ldi ldi) {
-    if (ldi.alpha() != npos) return ldi;
     ldi.channels.push_back({"A", PixelType::half});
     ldi.values.emplace_back(ldi.samples(), 1.0f);
     return ldi;
@@ -88,9 +87,9 @@ void append_surfaces(const Ldi &ldi, std::size_t alpha, const std::vector<Seen> 
 
 } // namespace
 
-Ldi proxy(const Ldi &large, int factor) {
-    if (factor == 1) return large;
-    const Ldi ldi = with_coverage(large);
+Ldi proxy(const Ldi &ldi, int factor) {
+    if (factor == 1) return ldi;
+    if (ldi.alpha() == npos) return proxy(with_coverage(ldi), factor);
     Ldi like = empty_like(ldi);
     Windows &windows = like.windows;
     windows.display = reduced(windows.display, factor);

@@ -182,8 +182,12 @@ private:
 };
 
 // Frees an array of an LDI that is not needed again, and leaves one of an LDI that is.
-void used(std::vector<float> &values) { std::vector<float>().swap(values); }
-void used(const std::vector<float> &) {}
+template <typename T>
+void used(std::vector<T> &values) {
+    std::vector<T>().swap(values);
+}
+template <typename T>
+void used(const std::vector<T> &) {}
 
 Ldi without_extents(Ldi ldi) {
     used(ldi.z_back);
@@ -221,6 +225,7 @@ Ldi merged(Source &ldi, double scale, double tolerance) {
         if (k != alpha) used(ldi.values[k]);
     }
     used(ldi.values[alpha]);
+    used(ldi.begin);
     out.begin = std::move(runs.begin);
     return out;
 }
