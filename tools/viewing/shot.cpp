@@ -65,6 +65,33 @@ const Kept &last_few(std::deque<Kept> &kept, const Alike &alike, const Make &mak
     return kept.emplace_back(make());
 }
 
+// Of the method that knows any; what another leaves out is warned of.
+LensLooks looks_through(const LensFile &given, const GatherMethod &method, Subject &from, TakenPicture &out) {
+    if (&method == &gather_methods().front())
+        return picture_looks(given, out.camera, from.in.header, from.lens, from.ldi().windows);
+    if (const auto warning = warning_of_round_aperture(out.camera.looks, method.name))
+        out.warnings.push_back(*warning);
+    return {};
+}
+
+// The samples are used up.
+Image gathered(Subject &from, const PictureOptions &by, Progress &progress) {
+    return gather_picture(std::move(from.ldi()), from.lens, from.windows.gathered, from.windows.needed, by,
+                          progress);
+}
+
+Image false_colours(Show show, Subject &from, PictureOptions by, Progress &progress) {
+    const Ldi &ldi = from.ldi();
+    const GatherWindows &windows = from.windows;
+    LensTiles tiles;
+    by.gather.lens.chosen = &tiles;
+    by.gather.lens.watch = nullptr; // what it would be told of is not what is shown
+    if (needs_gather(show)) gather_picture(ldi, from.lens, windows.gathered, windows.needed, by, progress);
+    ThinLens of_picture = from.lens;
+    of_picture.focal_px /= windows.subpixels.across;
+    return crop(shown(show, ldi, of_picture, windows.gathered, std::move(tiles)), windows.needed);
+}
+
 } // namespace
 
 Shot::Shot(const std::vector<GatherCommand> &frames, const ToolContext &tool)
@@ -78,12 +105,23 @@ const Shot::Small &Shot::small(const Reel::Held &frame, const WindowOptions &opt
         small_, [&](const Small &other) { return other.of == frame && other.proxy == options.proxy; },
         [&] {
             ThinLens any;
-            GatherWindows windows = gather_windows(options, frame->unpacked(), any);
-            Small made{frame, options.proxy, {}, windows.gathered};
-            made.in.name = frame->in.name;
-            made.in.ldi = std::move(*windows.changed);
-            return made;
+            OpenedLdi in = frame->unpacked();
+            GatherWindows windows = gather_windows(options, in, any);
+            in.ldi = std::move(*std::exchange(windows.changed, {}));
+            return Small{frame, options.proxy, pack(std::move(in)), std::move(windows)};
         });
+}
+
+Subject Shot::subject(const GatherCommand &options, const Reel::Held &frame, const Camera &camera) {
+    ThinLens lens = resolve_lens(camera, frame->in.ldi.windows);
+    if (options.windows.proxy > 1) {
+        const Small &made = small(frame, options.windows);
+        lens.focal_px /= options.windows.proxy * frame->across;
+        return {made.ldi.unpacked(), made.windows, lens};
+    }
+    OpenedLdi in = frame->unpacked();
+    GatherWindows windows = gather_windows(options.windows, in, lens);
+    return {std::move(in), std::move(windows), lens};
 }
 
 LensFile Shot::looks_of(const GivenLooks &given, std::optional<double> fstop) {
@@ -112,58 +150,23 @@ TakenPicture Shot::taken(const GatherCommand &options, const ToolContext &tool, 
                          const TileWatch *watch) {
     const Reel::Held of = frame(options);
     TakenPicture out{{}, of->camera(options), {}, of->depths};
-    ThinLens lens = resolve_lens(out.camera, of->in.ldi.windows);
     out.lens = of->lens(out.camera);
-    if (const auto warning = warning_of_wide_lens(out.camera, lens)) out.warnings.push_back(*warning);
-    OpenedLdi whole;
-    const OpenedLdi *in = &whole;
-    GatherWindows windows;
-    if (options.windows.proxy > 1) {
-        const Small &made = small(of, options.windows);
-        in = &made.in;
-        windows.gathered = made.gathered;
-        lens.focal_px /= options.windows.proxy * of->across;
-    } else {
-        whole = of->unpacked();
-        windows = gather_windows(options.windows, whole, lens);
-    }
-    const LensFile given_looks = looks_of(options.looks, out.camera.fstop);
-    Imf::Header header = of->in.header;
-    LensLooks looks;
-    if (options.picture.method == &gather_methods().front())
-        looks = picture_looks(given_looks, out.camera, header, lens, windows.ldi(*in).windows);
-    else if (const auto warning = warning_of_round_aperture(out.camera.looks, options.picture.method->name))
-        out.warnings.push_back(*warning);
-    choose_windows(windows, options.windows, *in, lens, looks);
-    raise_highlights(windows, *in, highlight_gain(given_looks.values));
-    progress.may_end();
-    LensTiles tiles;
+    if (const auto warning = warning_of_wide_lens(out.camera, out.lens)) out.warnings.push_back(*warning);
+    Subject from = subject(options, of, out.camera);
+    const LensFile given = looks_of(options.looks, out.camera.fstop);
     PictureOptions by = options.picture;
+    by.gather.lens.looks = looks_through(given, *by.method, from, out);
+    choose_windows(from.windows, options.windows, from.in, from.lens, by.gather.lens.looks);
+    raise_highlights(from.windows, from.in, highlight_gain(given.values));
+    progress.may_end();
     by.holdout = holdout(options, of);
-    by.gather.lens.chosen = &tiles;
     by.gather.lens.device = device_.open(options.device, tool);
-    by.gather.lens.looks = looks;
-    by.gather.lens.across = windows.subpixels.across;
-    if (in == &whole && of->across == 1 && options.show == Show::picture) by.gather.lens.watch = watch;
-    const auto gather = [&](auto &&ldi) {
-        return gather_picture(std::forward<decltype(ldi)>(ldi), lens, windows.gathered, windows.needed, by,
-                              progress);
-    };
-    Image made;
-    if (options.show == Show::picture) // the samples are used up where they are of this picture alone
-        made = windows.changed ? gather(std::move(*windows.changed))
-               : in == &whole  ? gather(std::move(whole.ldi))
-                               : gather(in->ldi);
-    else if (needs_gather(options.show))
-        made = gather(windows.ldi(*in));
+    by.gather.lens.across = from.windows.subpixels.across;
+    if (options.windows.proxy == 1 && of->across == 1) by.gather.lens.watch = watch;
+    Image made = options.show == Show::picture ? gathered(from, by, progress)
+                                               : false_colours(options.show, from, by, progress);
     device_.report(tool);
-    if (options.show != Show::picture) {
-        ThinLens of_picture = lens;
-        of_picture.focal_px /= windows.subpixels.across;
-        made =
-            crop(shown(options.show, windows.ldi(*in), of_picture, windows.gathered, tiles), windows.needed);
-    }
-    out.image = windows.picture_of(rgba_of(std::move(made)));
+    out.image = from.windows.picture_of(rgba_of(std::move(made)));
     return out;
 }
 

@@ -27,6 +27,15 @@ struct TakenPicture {
     std::vector<std::string> warnings = {};
 };
 
+// What it is gathered from: samples of its own, which pixels, and the lens in them.
+struct Subject {
+    OpenedLdi in;
+    GatherWindows windows;
+    ThinLens lens;
+
+    Ldi &ldi() { return windows.changed ? *windows.changed : in.ldi; }
+};
+
 class Shot {
 public:
     // Reads the file of the first of these frames, one at least. Throws as dof-gather does.
@@ -45,12 +54,13 @@ public:
     ShownPixels displayed(Image image, double exposure) const;
 
 private:
-    // A frame as small as a proxy of it is: what is gathered from.
+    Subject subject(const GatherCommand &options, const Reel::Held &frame, const Camera &camera);
+    // A frame as small as a proxy of it is.
     struct Small {
         Reel::Held of;
         int proxy;
-        OpenedLdi in; // its name and its samples
-        Imath::Box2i gathered;
+        PackedLdi ldi;
+        GatherWindows windows;
     };
     const Small &small(const Reel::Held &frame, const WindowOptions &options);
     LensFile looks_of(const GivenLooks &given, std::optional<double> fstop);

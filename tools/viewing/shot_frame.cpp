@@ -52,13 +52,23 @@ DepthExtent depth_extent(const Ldi &ldi) {
     return extent.farthest > 0 ? extent : DepthExtent{};
 }
 
-Ldi ShotFrame::row(int y) const { return packed.rows(y, y); }
+Ldi PackedLdi::row(int y) const { return packed.rows(y, y); }
 
-OpenedLdi ShotFrame::unpacked() const {
+OpenedLdi PackedLdi::unpacked() const {
     OpenedLdi all = in;
     const Imath::Box2i &data = packed.windows().data;
     all.ldi = packed.rows(data.min.y, data.max.y);
     return all;
+}
+
+PackedLdi pack(OpenedLdi in) {
+    PackedRows rows(in.ldi.windows);
+    rows.append(in.ldi);
+    Ldi bare;
+    bare.windows = in.ldi.windows;
+    bare.channels = in.ldi.channels;
+    in.ldi = std::move(bare);
+    return {std::move(in), std::move(rows)};
 }
 
 Camera ShotFrame::camera(const GatherCommand &options) const {
@@ -81,16 +91,10 @@ ThinLens ShotFrame::lens(const Camera &camera) const {
 ShotFrame shot_frame(OpenedLdi in, const WindowOptions &windows) {
     if (!all_found(find_rgb(in.ldi.channels)))
         throw Error(in.name + ": needs the channels R, G and B, which are what is shown");
-    PackedRows packed(in.ldi.windows);
-    packed.append(in.ldi);
     const DepthExtent depths = depth_extent(in.ldi);
-    Ldi bare;
-    bare.windows = in.ldi.windows;
-    bare.channels = in.ldi.channels;
-    in.ldi = std::move(bare);
     const int across = subpixels_of(windows, in).across;
     ObjectNames names = object_names(in.header);
-    return {std::move(in), std::move(packed), across, depths, std::move(names)};
+    return {pack(std::move(in)), across, depths, std::move(names)};
 }
 
 } // namespace sparselens

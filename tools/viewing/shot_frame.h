@@ -1,4 +1,4 @@
-// One LDI that is looked at, in half the memory, and what a page is told of it whatever its lens.
+// One LDI that is looked at, and what a page is told of it whatever its lens.
 #pragma once
 
 #include "deep/packed_rows.h"
@@ -21,15 +21,20 @@ struct DepthExtent {
 };
 DepthExtent depth_extent(const Ldi &ldi);
 
-struct ShotFrame {
+// An LDI in half the memory.
+struct PackedLdi {
     OpenedLdi in;      // without its samples,
     PackedRows packed; // which are here
-    int across = 1;    // sub-pixels of the LDI that become one pixel
-    DepthExtent depths = {};
-    ObjectNames names = {};
 
     Ldi row(int y) const; // of the data window
     OpenedLdi unpacked() const;
+};
+PackedLdi pack(OpenedLdi in);
+
+struct ShotFrame : PackedLdi {
+    int across = 1; // sub-pixels of the LDI that become one pixel
+    DepthExtent depths = {};
+    ObjectNames names = {};
 
     // The camera and the lens of its picture. Throws as dof-gather does.
     Camera camera(const GatherCommand &options) const;
