@@ -1,6 +1,7 @@
 """browser.py BIN_DIR LDI REFERENCE MATTES [FOLDER]: the page of dof-view in a browser, by hand and by keys. MATTES has two
 objects, near on the left and far on the right. Screenshots go to FOLDER."""
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -69,6 +70,20 @@ def runs(command):
     subprocess.run(command.replace("dof-gather", folder + "/dof-gather", 1), shell=True, check=True)
 
 
+def is_documented(page):
+    """docs/view.md names the page's buttons and keys, and no others."""
+    with open(os.path.join(os.path.dirname(__file__), "../../docs/view.md")) as document:
+        rows = [line.split("|")[1:3] for line in document if line.startswith("| ") and not line.startswith("| hand ")]
+    named = {name: keys.split() for hand, keys in rows for name in re.findall(r'"([^"]+)"', hand)}
+    shown = page.browser.run("return Array.from(document.querySelectorAll('button, .row > span'), (part) => [part.textContent, part.dataset.key])")
+    assert set(named) <= {name for name, _ in shown}, named
+    for name, key in shown:
+        assert not key or key in named[name], (name, key)
+    spelt = {"ArrowUp": "up", "ArrowDown": "down", "ArrowLeft": "left", "ArrowRight": "right", " ": "Space"}
+    keys = page.browser.run("return Object.keys(keys)")
+    assert {spelt.get(key, key if len(key) > 1 else key.upper()) for key in keys} == {key for _, keys in rows for key in keys.split()}
+
+
 def focuses(page):
     """A click states the distance of --focus-pixel."""
     for x, y in ((60, 50), (100, 20), (30, 60)):
@@ -111,6 +126,7 @@ def is_exact(page):
 def compares(page):
     browser = page.browser
     clip = "return part('above').style.clipPath.replace('0px', '0')"
+    browser.run("part('slide').focus()") # keys are for the page, whichever button was pressed last
     browser.press("w")
     browser.until("part('below').width > 1 && !part('border').hidden")
     assert "50%" in browser.run(clip), browser.run(clip)
@@ -279,6 +295,7 @@ def main():
             assert browser.run("return [innerWidth, innerHeight]") == [1280, 720]
             assert browser.run("return document.documentElement.scrollWidth <= 1280 && document.documentElement.scrollHeight <= 720")
             page.shot("begin")
+            is_documented(page)
             focuses(page)
             moves(page)
             is_exact(page)

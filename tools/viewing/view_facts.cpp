@@ -3,6 +3,7 @@
 #include "base/matte.h"
 #include "lens/sharp_range.h"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -47,6 +48,11 @@ std::string object_of(const Ldi &ldi, std::span<const Matte> mattes, std::uint64
         if (first.empty()) first = name;
     });
     return first;
+}
+
+// The shortest number that is this float, as people write it: 2.2, not 2.2000000476837158.
+Json short_number(float value) {
+    return std::isfinite(value) ? Json::parse(fmt::format("{}", value)) : Json("inf");
 }
 
 } // namespace
@@ -119,15 +125,15 @@ Json sample_facts(const ShotFrame &frame, const ThinLens &lens, const Imath::V2i
     const auto rgb = find_rgb(ldi.channels);
     const std::size_t alpha = ldi.alpha();
     for (const std::uint64_t i : ldi.pixel(ldi.windows.index(at.x, at.y))) {
-        const double z = double(ldi.z[i]), seen_at = ldi.optical_z(i);
+        const float z = ldi.z[i], seen_at = float(ldi.optical_z(i));
         Json colour = Json::array();
         for (const std::size_t k : rgb) colour.push_back(json_number(double(ldi.values[k][i])));
-        Json sample{{"z", json_number(z)},
+        Json sample{{"z", short_number(z)},
                     {"alpha", alpha == npos ? 1.0 : double(ldi.values[alpha][i])},
-                    {"coc", json_number(circle_of_confusion(lens, seen_at))},
+                    {"coc", json_number(circle_of_confusion(lens, double(seen_at)))},
                     {"rgb", colour},
                     {"objects", objects_of(ldi, i, frame.names)}};
-        if (seen_at != z) sample["image"] = json_number(seen_at); // of what it shows
+        if (seen_at != z) sample["image"] = short_number(seen_at); // of what it shows
         samples.push_back(sample);
     }
     return samples;

@@ -55,11 +55,20 @@ const moveAperture = (stops) => {
     set(aperture(), asText(Math.min(apertureNow(), 1e4) * by, 4));
 };
 
+// What is out of focus may be too blurred to be seen: beside the pointer stands how far away it is.
+function moveDepth(event, shown) {
+    const frame = part('frame').getBoundingClientRect();
+    part('depth').hidden = !shown;
+    part('depth').style.left = event.clientX - frame.left + 'px';
+    part('depth').style.top = event.clientY - frame.top + 'px';
+}
+
 function startPointer() {
     const frame = part('frame');
     let pressed = null;
     frame.addEventListener('pointerdown', (event) => {
         if (event.target.closest('#samples, #border')) return;
+        part('hint').hidden = true;
         frame.setPointerCapture(event.pointerId);
         frame.focus();
         pressed = {
@@ -69,6 +78,7 @@ function startPointer() {
     });
     frame.addEventListener('pointermove', (event) => {
         const pixel = flow.pointer = pixelAt(event);
+        moveDepth(event, pixel && !pressed);
         if (!pressed) {
             if (pixel && !event.target.closest('#samples')) sayPixel(pixel);
             if (objects.list) outline(pixel ? objectAt(pixel) : 0);
@@ -94,6 +104,7 @@ function startPointer() {
         } else if (event.shiftKey && sharpen(pixel)) return;
         else focusAt(pixel).catch((error) => say(error.message));
     });
+    frame.addEventListener('pointerleave', () => part('depth').hidden = true);
     frame.addEventListener('pointercancel', () => pressed = null);
     frame.addEventListener('wheel', (event) => {
         if (event.target.closest('#samples')) return;
@@ -136,9 +147,10 @@ const keys = {
 
 function startKeys() {
     addEventListener('keydown', (event) => {
-        const typing = event.target.matches('input:not([type=range]), select, textarea, summary, button');
-        const moving = event.target.matches('input[type=range]') && event.key.startsWith('Arrow');
-        if (event.ctrlKey || event.metaKey || event.altKey || moving || (typing && event.key !== 'Escape')) return;
+        const typing = event.target.matches('input:not([type=range], [type=checkbox]), select, textarea') && event.key !== 'Escape';
+        const pressing = event.target.matches('button, summary, [type=checkbox]') && [' ', 'Enter'].includes(event.key);
+        const moving = event.target.matches('[type=range]') && event.key.startsWith('Arrow');
+        if (event.ctrlKey || event.metaKey || event.altKey || typing || pressing || moving) return;
         if (event.key === 'Escape') part('frame').focus();
         const found = keys[event.key.length === 1 ? event.key.toLowerCase() : event.key];
         if (!found) return;

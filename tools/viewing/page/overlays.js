@@ -76,8 +76,9 @@ async function sayPixel(pixel) {
         listed.pixel = pixel;
         const value = said.value ? ['R', 'G', 'B', 'A'].filter((name) => name in said.value)
             .map((name) => name + ' ' + asText(asNumber(said.value[name]), 4)).join('  ') : '';
-        const front = said.samples[0];
-        part('pixel').textContent = pixel.join(',') + '  ' + value + (front ? '  z ' + asText(asNumber(front.z), 5) +
+        const front = said.samples[0], depth = front && asText(asNumber(front.z), 5);
+        part('depth').textContent = depth ? 'depth ' + depth : 'nothing';
+        part('pixel').textContent = pixel.join(',') + '  ' + value + (front ? '  z ' + depth +
             '  CoC ' + asText(asNumber(front.coc), 3) + ' px  ' + front.objects.join(' ') : '  nothing');
         sayList(said.samples);
     } catch (error) {

@@ -40,26 +40,31 @@ function sayControls() {
     for (const name of ['focus', 'coc', 'layers', 'tiles']) part('show_' + name).classList.toggle('on', state.overlay === name);
 }
 
+// By their language.
+async function commandsNow() {
+    return (await ask('commands', { settings: withQuality(settingsNow(), state.quality) })).json();
+}
+
 async function sayCommand() {
-    const said = await (await ask('commands', { settings: withQuality(settingsNow(), fullQuality()) })).json();
-    state.commands = said;
-    part('command').value = said.shell;
+    part('command').value = (await commandsNow()).shell;
 }
 
 async function copyText(text) {
     part('command').value = text;
     part('command').select();
+    let copied = true;
     try {
         await navigator.clipboard.writeText(text);
     } catch { // a browser that does not allow it
-        document.execCommand('copy');
+        copied = document.execCommand('copy');
     }
     part('command').blur();
+    part('copied').textContent = copied ? 'is copied' : 'cannot be copied by this browser: mark it';
+    setTimeout(() => part('copied').textContent = '', 3000);
 }
 
-async function copy(what) {
-    await sayCommand();
-    await copyText(state.commands[what]);
+async function copy(language) {
+    await copyText((await commandsNow())[language]);
 }
 
 function startPanel() {

@@ -3,6 +3,7 @@ const proxies = [1, 2, 3, 4, 6, 8, 12, 16];
 const state = {
     facts: null,
     settings: {},    // options of dof-gather that this page has set
+    quality: 'normal', // of the last whole picture that was asked for
     exposure: 0,
     eye: null,       // the point of the lens that is looked through: [right, up] of its middle, 1 at the rim; null: all
     overlay: '',     // what --show shows in place of the picture
@@ -40,7 +41,8 @@ async function show(response, quality) {
     const { said, data } = await pictureOf(response);
     draw(part('above'), data);
     state.lens = said.lens;
-    part('quality').textContent = quality;
+    for (const each of ['normal', 'final']) part(each).classList.toggle('on', quality === each);
+    part('quality').textContent = quality === 'draft' ? 'a draft' : '';
     document.body.dataset.quality = quality;
     sayLens();
     return said;
@@ -91,13 +93,14 @@ async function draft() {
 // The whole picture. Sends off what a change of settings ends.
 async function full(quality) {
     const turn = ++flow.full, begun = performance.now();
+    state.quality = quality;
+    sayCommand().catch(() => {}); // what is wrong, the picture says
     flow.slow = setTimeout(() => watch(turn), 500);
-    showPieces(turn).catch(() => {}); // what is wrong, the picture says
+    showPieces(turn).catch(() => {});
     try {
         const asked = { settings: withQuality(settingsNow(), quality), exposure: exposureNow(), pixel: flow.pointer ?? middle() };
         const said = await show(await ask('picture', asked), quality);
         if (said) part('speed').textContent = quality + ': ' + Math.round(performance.now() - begun) + ' ms';
-        if (said) sayCommand();
         if (said) knowFrame().catch((error) => say(error.message));
     } catch (error) {
         say(error.message);
@@ -141,8 +144,6 @@ function enlarge(canvas, width, height) {
     canvas.getContext('2d').drawImage(before, 0, 0, width, height);
 }
 
-const fullQuality = () => document.body.dataset.quality === 'final' ? 'final' : 'normal';
-
 // The same picture in another exposure.
 async function reshow() {
     flow.reshow = true;
@@ -150,7 +151,7 @@ async function reshow() {
     flow.reshowing = true;
     while (flow.reshow) {
         flow.reshow = false;
-        await full(fullQuality());
+        await full(state.quality);
     }
     flow.reshowing = false;
 }

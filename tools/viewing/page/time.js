@@ -90,8 +90,7 @@ function baked(option) {
 
 // The command for all frames: that of one, with keys for values.
 async function rangeCommand() {
-    await sayCommand();
-    const range = state.commands.range, output = range.lastIndexOf(' -o ');
+    const { range } = await commandsNow(), output = range.lastIndexOf(' -o ');
     let command = range.slice(0, output) + ' --frames ' + frameText() + range.slice(output);
     for (const option of Object.keys(time.keys)) {
         const keys = ` --${option} ` + baked(option).map((pair) => pair.join(':')).join(',');
