@@ -3,6 +3,7 @@
 #include "base/grid.h"
 #include "base/median.h"
 #include "base/parallel.h"
+#include "warp/images/robust_mean.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +20,7 @@ constexpr int near_by = 6;            // pixels, for the plane
 constexpr double agreement =
     0.4; // of the pixels around that found a depth are as near to it as the next says
 constexpr float one_image = 0.8f; // pixels of perceptive depth
-constexpr int farther = 8;        // pixels from which a depth may be continued
+constexpr int farther = 8;        // pixels from which a depth may be continued: Neighbours::reach
 constexpr std::size_t least_sources = 8;
 constexpr int continuations = 2;
 constexpr float no_worse = 1.25f; // than at the surface may the views agree at a continued depth
@@ -33,25 +34,6 @@ void for_each_beside(const Tiles &tiles, std::size_t tile, const Visit &visit) {
         for (int c = std::max(column - 1, 0); c <= std::min(column + 1, tiles.columns() - 1); ++c)
             if (c != column || r != row) visit(std::size_t(r * tiles.columns() + c));
 }
-
-// The value at the origin of the plane that fits values at places best; their mean where they lie on a line.
-class LinearFit {
-public:
-    void add(const Imath::V2d &p, double value) {
-        n_ += 1, x_ += p.x, y_ += p.y, xx_ += p.x * p.x, xy_ += p.x * p.y, yy_ += p.y * p.y;
-        v_ += value, vx_ += value * p.x, vy_ += value * p.y;
-    }
-    double count() const { return n_; }
-    double at_origin() const {
-        const double xx = xx_ - x_ * x_ / n_, xy = xy_ - x_ * y_ / n_, yy = yy_ - y_ * y_ / n_;
-        const double vx = vx_ - v_ * x_ / n_, vy = vy_ - v_ * y_ / n_, det = xx * yy - xy * xy;
-        if (!(det > 1e-6 * xx * yy)) return v_ / n_;
-        return (v_ - x_ * (vx * yy - vy * xy) / det - y_ * (vy * xx - vx * xy) / det) / n_;
-    }
-
-private:
-    double n_ = 0, x_ = 0, y_ = 0, xx_ = 0, xy_ = 0, yy_ = 0, v_ = 0, vx_ = 0, vy_ = 0;
-};
 
 // Of the blocks that are searched alone: most pictures show few mirrors.
 class ImageDepths {
@@ -67,10 +49,6 @@ public:
     std::vector<float> all() const;
 
 private:
-    struct Place {
-        Imath::V2i pixel;
-        std::size_t index; // of the arrays by pixel
-    };
     static constexpr std::uint32_t not_searched = ~0u;
     static constexpr std::size_t block_pixels = std::size_t(image_block) * image_block;
 
@@ -83,17 +61,14 @@ private:
     }
     void add_block(std::size_t tile) { blocks_[tile] = count_++; }
     bool search_tile(std::size_t tile);
-    bool one_surface_with(const ImageMatch &a, const ImageMatch &b) const {
-        return a.surface && b.surface && kernels::is_one_surface(a.own_depth, b.own_depth, one_mirror_px);
-    }
-    // visit(place, scratch) for the pixels of the tiles that were searched.
+    // visit(tile) for those that were searched.
     template <typename Visit>
     void for_each_searched(const Visit &visit) const;
-    // visit(place) for the pixels of the same surface around one, itself among them.
-    template <typename Visit>
-    void for_each_around(const Place &at, int distance, const Visit &visit) const;
-    float depth_by_neighbours(const Place &at, std::vector<float> &around) const;
-    float continued(const Place &at, std::vector<float> &around) const;
+    // What is known of the pixels of a tile and around; depth_at(index) says it of images.
+    template <typename DepthAt>
+    Neighbours neighbours(const Imath::Box2i &tile, const DepthAt &depth_at) const;
+    float continued(const Neighbours &neighbours, const Imath::V2i &place, const Imath::V2i &pixel,
+                    const ImageMatch &match, std::vector<float> &around) const;
 
     const ImageSweep &sweep_;
     Imath::Box2i box_;
@@ -107,25 +82,18 @@ private:
 template <typename Visit>
 void ImageDepths::for_each_searched(const Visit &visit) const {
     parallel_for(tiles_.count(), [&](std::size_t tile) {
-        if (blocks_[tile] == not_searched) return;
-        std::vector<float> scratch;
-        const Grid pixels(tiles_.box(tile));
-        for (std::size_t n = 0; n < pixels.size(); ++n) {
-            const Imath::V2i pixel = pixels.pixel(n);
-            visit(Place{pixel, index_of(pixel)}, scratch);
-        }
+        if (blocks_[tile] != not_searched) visit(tiles_.box(tile));
     });
 }
 
-template <typename Visit>
-void ImageDepths::for_each_around(const Place &at, int distance, const Visit &visit) const {
-    const Imath::V2i p = at.pixel;
-    for (int y = std::max(p.y - distance, box_.min.y); y <= std::min(p.y + distance, box_.max.y); ++y)
-        for (int x = std::max(p.x - distance, box_.min.x); x <= std::min(p.x + distance, box_.max.x); ++x) {
-            const std::size_t other = index_of({x, y});
-            if (other != npos && one_surface_with(matches_[at.index], matches_[other]))
-                visit(Place{{x, y}, other});
-        }
+template <typename DepthAt>
+Neighbours ImageDepths::neighbours(const Imath::Box2i &tile, const DepthAt &depth_at) const {
+    return Neighbours([&](const Imath::V2i &place) -> Neighbours::Pixel {
+        const Imath::V2i pixel = tile.min + place;
+        const std::size_t index = box_.intersects(pixel) ? index_of(pixel) : npos;
+        if (index == npos || !matches_[index].surface) return {unknown, unknown};
+        return {matches_[index].own_depth, depth_at(index)};
+    });
 }
 
 // Whether much was found.
@@ -158,31 +126,40 @@ void ImageDepths::search(std::vector<std::size_t> next) {
     depths_.assign(matches_.size(), unknown);
 }
 
-// On the plane that fits the depths around as near to the pixel's own, else to their median, as those of one image are;
-// unknown if those are too few.
-float ImageDepths::depth_by_neighbours(const Place &at, std::vector<float> &around) const {
+// On the plane that fits the depths around which are as near to that one as those of one image are; unknown if those are too few.
+float depth_on_plane(const Neighbours &neighbours, const Imath::V2i &place, float depth, std::size_t around) {
+    LinearFit fit;
+    neighbours.for_each_around(place, near_by, [&](const Imath::V2i &offset, float other) {
+        if (std::abs(other - depth) <= one_image) fit.add(Imath::V2d(offset), double(other));
+    });
+    return fit.count() >= agreement * double(around) ? float(fit.at_origin()) : unknown;
+}
+
+// By the pixel's own depth, else by the median of those around; unknown if those are too few.
+float depth_by_neighbours(const Neighbours &neighbours, const Imath::V2i &place, std::vector<float> &around) {
     around.clear();
     std::size_t pixels = 0;
-    for_each_around(at, near_by, [&](const Place &other) {
+    neighbours.for_each_around(place, near_by, [&](const Imath::V2i &, float depth) {
         ++pixels;
-        if (matches_[other.index].found) around.push_back(matches_[other.index].depth);
+        if (!std::isnan(depth)) around.push_back(depth);
     });
     if (double(around.size()) < agreement * double(pixels)) return unknown;
-    for (const float depth : {matches_[at.index].depth, median(around)}) {
-        LinearFit fit;
-        for_each_around(at, near_by, [&](const Place &other) {
-            const ImageMatch &match = matches_[other.index];
-            if (match.found && std::abs(match.depth - depth) <= one_image)
-                fit.add(Imath::V2d(other.pixel - at.pixel), double(match.depth));
-        });
-        if (fit.count() >= agreement * double(around.size())) return float(fit.at_origin());
-    }
-    return unknown;
+    const float own = depth_on_plane(neighbours, place, neighbours.depth(place), around.size());
+    return std::isnan(own) ? depth_on_plane(neighbours, place, median(around), around.size()) : own;
 }
 
 void ImageDepths::agree_with_neighbours() {
-    for_each_searched([&](const Place &at, std::vector<float> &around) {
-        if (matches_[at.index].found) depths_[at.index] = depth_by_neighbours(at, around);
+    for_each_searched([&](const Imath::Box2i &tile) {
+        const Neighbours around_tile = neighbours(
+            tile, [&](std::size_t index) { return matches_[index].found ? matches_[index].depth : unknown; });
+        std::vector<float> around;
+        const Grid pixels(tile);
+        for (std::size_t n = 0; n < pixels.size(); ++n) {
+            const Imath::V2i pixel = pixels.pixel(n);
+            const std::size_t index = index_of(pixel);
+            if (matches_[index].found)
+                depths_[index] = depth_by_neighbours(around_tile, pixel - tile.min, around);
+        }
     });
 }
 
@@ -193,9 +170,7 @@ void ImageDepths::refine() {
         return index == npos ? unknown : depths_[index];
     };
     std::vector<float> next(depths_.size(), unknown);
-    parallel_for(tiles_.count(), [&](std::size_t tile) {
-        if (blocks_[tile] == not_searched) return;
-        const Imath::Box2i block = tiles_.box(tile);
+    for_each_searched([&](const Imath::Box2i &block) {
         const std::vector<float> refined = sweep_.refined(block, depth_at);
         const Grid pixels(block);
         for (std::size_t n = 0; n < pixels.size(); ++n) next[index_of(pixels.pixel(n))] = refined[n];
@@ -207,23 +182,30 @@ void ImageDepths::refine() {
 }
 
 // The median of the depths around, if the views agree about as well there as on the surface.
-float ImageDepths::continued(const Place &at, std::vector<float> &around) const {
+float ImageDepths::continued(const Neighbours &neighbours, const Imath::V2i &place, const Imath::V2i &pixel,
+                             const ImageMatch &match, std::vector<float> &around) const {
     around.clear();
-    for_each_around(at, farther, [&](const Place &other) {
-        if (!std::isnan(depths_[other.index])) around.push_back(depths_[other.index]);
+    neighbours.for_each_around(place, farther, [&](const Imath::V2i &, float depth) {
+        if (!std::isnan(depth)) around.push_back(depth);
     });
     if (around.size() < least_sources) return unknown;
     const float depth = median(around);
-    std::vector<float> differences = sweep_.differences(at.pixel, double(depth));
-    const float there = robust_mean(differences);
-    return there <= no_worse * matches_[at.index].at_surface + least_difference ? depth : unknown;
+    const float there = robust_mean(sweep_.differences(pixel, double(depth)));
+    return there <= no_worse * match.at_surface + least_difference ? depth : unknown;
 }
 
 void ImageDepths::go_on() {
     std::vector<float> next = depths_;
-    for_each_searched([&](const Place &at, std::vector<float> &around) {
-        if (matches_[at.index].surface && std::isnan(depths_[at.index]))
-            next[at.index] = continued(at, around);
+    for_each_searched([&](const Imath::Box2i &tile) {
+        const Neighbours around_tile = neighbours(tile, [&](std::size_t index) { return depths_[index]; });
+        std::vector<float> around;
+        const Grid pixels(tile);
+        for (std::size_t n = 0; n < pixels.size(); ++n) {
+            const Imath::V2i pixel = pixels.pixel(n);
+            const std::size_t index = index_of(pixel);
+            if (matches_[index].surface && std::isnan(depths_[index]))
+                next[index] = continued(around_tile, pixel - tile.min, pixel, matches_[index], around);
+        }
     });
     depths_ = std::move(next);
 }
@@ -231,8 +213,12 @@ void ImageDepths::go_on() {
 std::vector<float> ImageDepths::all() const {
     const Grid grid(box_);
     std::vector<float> depths(grid.size(), unknown);
-    for_each_searched([&](const Place &at, std::vector<float> &) {
-        depths[grid.index(at.pixel.x, at.pixel.y)] = depths_[at.index];
+    for_each_searched([&](const Imath::Box2i &tile) {
+        const Grid pixels(tile);
+        for (std::size_t n = 0; n < pixels.size(); ++n) {
+            const Imath::V2i pixel = pixels.pixel(n);
+            depths[grid.index(pixel.x, pixel.y)] = depths_[index_of(pixel)];
+        }
     });
     return depths;
 }

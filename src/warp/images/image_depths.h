@@ -4,14 +4,13 @@
 
 #include "warp/images/disagreement.h"
 #include "warp/images/image_sweep.h"
+#include "warp/images/neighbours.h"
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
 namespace sparselens {
-
-inline constexpr int image_block = 8; // pixels wide and high
 
 // The blocks of `data` that are worth a search because they differ: not those that stand alone, as noise chooses such ones;
 // and where they differ slightly not those that have fewer than two beside them.

@@ -2,12 +2,12 @@
 
 #include "base/median.h"
 #include "warp/images/patch_comparison.h"
+#include "warp/images/robust_mean.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <optional>
 
 namespace sparselens {
@@ -67,24 +67,21 @@ double least_of_parabola(double before, double middle, double after) {
 }
 
 // The difference of each pixel of a block at steps of depth, the robust mean over the rim views.
-// compare(comparison, k, out) compares the block with one view at step k.
+// compare(k, view, out) compares the block with one view at step k.
 template <class Compare>
-Curves mean_curves(std::span<const MatchedView> views, double scale, const Imath::Box2i &block, float surface,
-                   std::size_t steps, const Compare &compare) {
-    const std::size_t pixels = Grid(block).size(), rims = views.size() - 1;
-    std::vector<Curves> by_view(rims, Curves(steps, pixels));
-    for (std::size_t v = 0; v < rims; ++v) {
-        PatchComparison comparison(views[0], views[v + 1], scale, block, surface);
-        for (std::size_t k = 0; k < steps; ++k) compare(comparison, k, by_view[v].step_of(k));
-    }
-    Curves mean(steps, pixels);
-    std::vector<float> of_views(rims);
-    for (std::size_t k = 0; k < steps; ++k)
-        for (std::size_t i = 0; i < pixels; ++i) {
-            for (std::size_t v = 0; v < rims; ++v) of_views[v] = by_view[v].at(k, i);
-            mean.at(k, i) = robust_mean(of_views);
+Curves mean_curves(std::span<const MatchedView> views, std::size_t steps, std::size_t pixels,
+                   const Compare &compare) {
+    Curves curves(steps, pixels);
+    RobustMeans means(views.size() - 1, pixels);
+    std::vector<float> differences(pixels);
+    for (std::size_t k = 0; k < steps; ++k) {
+        for (const MatchedView &view : views.subspan(1)) {
+            compare(k, view, std::span(differences));
+            means.add(differences);
         }
-    return mean;
+        means.take(curves.step_of(k));
+    }
+    return curves;
 }
 
 // Whether the curve has one clear valley; then its step.
@@ -108,26 +105,16 @@ std::optional<double> valley_of(const Curves &curve, std::size_t count, std::siz
 
 } // namespace
 
-float robust_mean(std::span<float> differences) {
-    const auto unknowns = // ranges::partition() returns what clang 14 cannot compile
-        std::partition(differences.begin(), differences.end(), [](float d) { return !std::isnan(d); });
-    const auto known = std::size_t(unknowns - differences.begin());
-    if (known == 0 || 2 * known < differences.size()) return unknown;
-    const auto best = differences.first(known).first((3 * known + 3) / 4);
-    std::ranges::sort(differences.first(known));
-    return std::reduce(best.begin(), best.end()) / float(best.size());
-}
-
 std::vector<ImageMatch> ImageSweep::search(const Imath::Box2i &block) const {
     const MatchedView &centre = views_[0];
     const Grid grid(block);
     std::vector<ImageMatch> matches(grid.size());
     const float surface = surface_of(centre, block);
     if (std::isnan(surface)) return matches;
-    const Curves at_surface = mean_curves( // one step
-        views_, scale_, block, surface, 1,
-        [&](PatchComparison &comparison, std::size_t, std::span<float> out) {
-            comparison.at_depths([&](const Imath::V2i &p) { return double(centre.depth(p.x, p.y)); }, out);
+    PatchComparison comparison(centre, scale_, block, surface);
+    const Curves at_surface =
+        mean_curves(views_, 1, grid.size(), [&](std::size_t, const MatchedView &view, std::span<float> out) {
+            comparison.at_depths(view, comparison.own_depths(), 0, out);
         });
     for (std::size_t i = 0; i < grid.size(); ++i) {
         const Imath::V2i p = grid.pixel(i);
@@ -141,14 +128,14 @@ std::vector<ImageMatch> ImageSweep::search(const Imath::Box2i &block) const {
     const auto worth_it = [](const ImageMatch &m) { return m.surface && m.at_surface >= least_difference; };
     if (std::ranges::none_of(matches, worth_it)) return matches; // most edges of texture, once smoothed
     const Depths depths(surface);
-    const Curves curve = mean_curves(views_, scale_, block, surface, depths.count,
-                                     [&](PatchComparison &comparison, std::size_t k, std::span<float> out) {
-                                         comparison.at_depth(depths.at(double(k)), out);
-                                     });
+    const Curves curves = mean_curves(views_, depths.count, grid.size(),
+                                      [&](std::size_t k, const MatchedView &view, std::span<float> out) {
+                                          comparison.at_depth(view, depths.at(double(k)), out);
+                                      });
     for (std::size_t i = 0; i < grid.size(); ++i) {
         ImageMatch &match = matches[i];
         if (!worth_it(match)) continue;
-        if (const auto k = valley_of(curve, depths.count, i, match.at_surface)) {
+        if (const auto k = valley_of(curves, depths.count, i, match.at_surface)) {
             match.depth = float(depths.at(*k));
             match.found = std::abs(match.depth - match.own_depth) >= least_distance;
         }
@@ -162,18 +149,21 @@ std::vector<float> ImageSweep::refined(const Imath::Box2i &block,
     constexpr double by = 0.25;
     const MatchedView &centre = views_[0];
     const Grid grid(block);
-    std::vector<float> refined(grid.size(), unknown);
-    bool known = false;
-    for (std::size_t i = 0; i < grid.size() && !known; ++i) known = !std::isnan(depth_at(grid.pixel(i)));
+    std::vector<float> refined(grid.size());
+    for (std::size_t i = 0; i < grid.size(); ++i) refined[i] = depth_at(grid.pixel(i));
+    const bool known = std::ranges::any_of(refined, [](float depth) { return !std::isnan(depth); });
     const float surface = known ? surface_of(centre, block) : unknown;
-    if (std::isnan(surface)) return refined;
+    if (std::isnan(surface)) return std::vector<float>(grid.size(), unknown);
+    PatchComparison comparison(centre, scale_, block, surface);
+    PatchComparison::Field depths;
+    for (int y = 0; y < comparison.height(); ++y)
+        for (int x = 0; x < comparison.width(); ++x)
+            depths[PatchComparison::at(x, y)] = depth_at(comparison.corner() + Imath::V2i(x, y));
     constexpr std::size_t steps = 2 * side + 1;
-    const Curves curves = mean_curves(
-        views_, scale_, block, surface, steps,
-        [&](PatchComparison &comparison, std::size_t k, std::span<float> out) {
-            comparison.at_depths(
-                [&](const Imath::V2i &p) { return double(depth_at(p)) + by * (double(k) - side); }, out);
-        });
+    const Curves curves = mean_curves(views_, steps, grid.size(),
+                                      [&](std::size_t k, const MatchedView &view, std::span<float> out) {
+                                          comparison.at_depths(view, depths, by * (double(k) - side), out);
+                                      });
     std::array<float, steps> curve;
     for (std::size_t i = 0; i < grid.size(); ++i) {
         for (std::size_t k = 0; k < steps; ++k) curve[k] = curves.at(k, i);
@@ -183,7 +173,7 @@ std::vector<float> ImageSweep::refined(const Imath::Box2i &block,
         const double moved = inside ? by * (double(best) - side +
                                             least_of_parabola(curve[best - 1], curve[best], curve[best + 1]))
                                     : 0;
-        refined[i] = float(double(depth_at(grid.pixel(i))) + moved);
+        refined[i] = float(double(refined[i]) + moved);
     }
     return refined;
 }
@@ -191,14 +181,11 @@ std::vector<float> ImageSweep::refined(const Imath::Box2i &block,
 std::vector<float> ImageSweep::differences(const Imath::V2i &pixel, double depth) const {
     const Imath::Box2i block(pixel, pixel);
     const float surface = surface_of(views_[0], block);
-    std::vector<float> differences;
-    for (const MatchedView &view : views_.subspan(1)) {
-        float difference = unknown;
-        if (!std::isnan(surface))
-            PatchComparison(views_[0], view, scale_, block, surface)
-                .at_depth(depth, std::span(&difference, 1));
-        differences.push_back(difference);
-    }
+    std::vector<float> differences(views_.size() - 1, unknown);
+    if (std::isnan(surface)) return differences;
+    PatchComparison comparison(views_[0], scale_, block, surface);
+    for (std::size_t v = 1; v < views_.size(); ++v)
+        comparison.at_depth(views_[v], depth, std::span(differences).subspan(v - 1, 1));
     return differences;
 }
 

@@ -44,7 +44,4 @@ private:
     double scale_;
 };
 
-// The mean of the best three quarters of those that are not NaN; NaN if fewer than half are numbers. Reorders them.
-float robust_mean(std::span<float> differences);
-
 } // namespace sparselens

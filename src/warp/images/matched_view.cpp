@@ -13,40 +13,49 @@ namespace {
 
 constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
 
-// Pixels by (1, 2, 1) / 4 along both axes: what lies between pixels is then about as noisy as what lies on them, and a step
-// of half a pixel follows the texture. at(x, y) is a pixel; those beyond `frame` are as those on its border.
-template <typename At>
-MatchedView::Pixel smoothed(const Imath::Box2i &frame, int x, int y, const At &at) {
-    const int above = std::max(y - 1, frame.min.y), below = std::min(y + 1, frame.max.y);
-    const auto along_y = [&](int column, std::size_t k) {
-        return 0.25f * (at(column, above)[k] + 2 * at(column, y)[k] + at(column, below)[k]);
-    };
-    const int left = std::max(x - 1, frame.min.x), right = std::min(x + 1, frame.max.x);
-    MatchedView::Pixel result{};
-    for (std::size_t k = 0; k < 3; ++k)
-        result[k] = 0.25f * (along_y(left, k) + 2 * along_y(x, k) + along_y(right, k));
-    return result;
-}
+float smoothed(float before, float middle, float after) { return 0.25f * (before + 2 * middle + after); }
 
-// The depth of a pixel if it and all those around show one surface.
-template <typename At>
-float depth_of_one_surface(const Imath::Box2i &frame, int x, int y, const At &at) {
-    if (x <= frame.min.x || x >= frame.max.x || y <= frame.min.y || y >= frame.max.y) return unknown;
-    const float own = at(x, y)[3];
-    for (int v = y - 1; v <= y + 1; ++v)
-        for (int u = x - 1; u <= x + 1; ++u)
-            if (!kernels::is_one_surface(at(u, v)[3], own, one_mirror_px)) return unknown;
-    return own;
-}
+// A square of pixels, row by row, and one with a pixel more on every side.
+struct Square {
+    int side;
+    int wide() const { return side + 2; }
+    std::size_t at(int x, int y) const { return std::size_t(y * side + x); }
+    std::size_t around(int x, int y) const { return std::size_t((y + 1) * wide() + x + 1); }
+
+    // By (1, 2, 1) / 4 along both axes: what lies between pixels is then about as noisy as what lies on them, and a step
+    // of half a pixel follows the texture.
+    void smooth(const float *from, float *to) const {
+        std::vector<float> lines(std::size_t(side * wide()));
+        for (int y = -1; y <= side; ++y) {
+            const float *line = from + around(0, y);
+            for (int x = 0; x < side; ++x) lines[at(x, y + 1)] = smoothed(line[x - 1], line[x], line[x + 1]);
+        }
+        for (int y = 0; y < side; ++y)
+            for (int x = 0; x < side; ++x)
+                to[at(x, y)] = smoothed(lines[at(x, y)], lines[at(x, y + 1)], lines[at(x, y + 2)]);
+    }
+
+    // The depth of a pixel if it and all those around show one surface.
+    void keep_one_surface(const float *from, float *to) const {
+        for (int y = 0; y < side; ++y)
+            for (int x = 0; x < side; ++x) {
+                const float own = from[around(x, y)];
+                bool one = true;
+                for (int v = y - 1; v <= y + 1; ++v)
+                    for (int u = x - 1; u <= x + 1; ++u)
+                        one &= kernels::is_one_surface(from[around(u, v)], own, one_mirror_px);
+                to[at(x, y)] = one ? own : unknown;
+            }
+    }
+};
 
 } // namespace
 
 MatchedView::MatchedView(const PlacedView &view, double scale)
     : view_(view), scale_(scale), rgb_(find_rgb(view.samples->channels)), grid_(view.samples->windows.grid()),
       corner_(grid_.box().min) {
-    const Tiles tiles(grid_.box(), tile_side);
-    columns_ = std::size_t(tiles.columns());
-    tiles_ = std::make_unique<Tile[]>(tiles.count());
+    columns_ = std::size_t(pieces_of(grid_.width() + cutout, tile_side));
+    tiles_ = std::make_unique<Tile[]>(columns_ * std::size_t(pieces_of(grid_.height() + cutout, tile_side)));
 }
 
 float MatchedView::depth(int x, int y) const {
@@ -56,53 +65,59 @@ float MatchedView::depth(int x, int y) const {
     return samples.size() == 1 ? float(perceptive_depth(scale_, double(view.z(samples.front())))) : unknown;
 }
 
-// As the view shows it, and its depth.
-MatchedView::Pixel MatchedView::sharp(int x, int y) const {
-    const ViewSamples &view = *view_.samples;
-    const SampleRange samples = view.pixel(grid_.index(x, y));
-    Pixel pixel{0, 0, 0, depth(x, y)};
-    for (std::size_t k = 0; k < 3 && !samples.empty(); ++k)
-        if (rgb_[k] != npos) pixel[k] = kernels::bounded(view.value(rgb_[k], samples.front()));
-    return pixel;
-}
-
+// What lies outside has the colours of the border, and no depth.
 void MatchedView::make(std::size_t tile) const {
     std::call_once(tiles_[tile].making, [&] {
+        constexpr Square square{row};
+        const Imath::V2i at(int(tile % columns_), int(tile / columns_));
+        const Imath::V2i first = corner_ + at * tile_side - Imath::V2i(cutout);
         const Imath::Box2i frame = grid_.box();
-        Imath::Box2i box = Tiles(frame, tile_side).box(tile);
-        box.max = {std::min(box.max.x + 1, frame.max.x), std::min(box.max.y + 1, frame.max.y)};
-        const Grid around(
-            Imath::Box2i({std::max(box.min.x - 1, frame.min.x), std::max(box.min.y - 1, frame.min.y)},
-                         {std::min(box.max.x + 1, frame.max.x), std::min(box.max.y + 1, frame.max.y)}));
-        std::vector<Pixel> pixels(around.size());
-        for (std::size_t i = 0; i < pixels.size(); ++i)
-            pixels[i] = sharp(around.pixel(i).x, around.pixel(i).y);
-        const auto at = [&](int x, int y) -> const Pixel & { return pixels[around.index(x, y)]; };
-        std::vector<Pixel> &out = tiles_[tile].pixels;
-        out.resize(std::size_t(stride) * std::size_t(stride));
-        for (int y = box.min.y; y <= box.max.y; ++y)
-            for (int x = box.min.x; x <= box.max.x; ++x) {
-                Pixel &pixel =
-                    out[std::size_t(y - box.min.y) * std::size_t(stride) + std::size_t(x - box.min.x)];
-                pixel = smoothed(frame, x, y, at);
-                pixel[3] = depth_of_one_surface(frame, x, y, at);
+        const ViewSamples &view = *view_.samples;
+        constexpr auto size = std::size_t((row + 2) * (row + 2)), out_size = std::size_t(plane);
+        std::vector<float> sharp(4 * size);
+        for (int y = -1; y <= row; ++y)
+            for (int x = -1; x <= row; ++x) {
+                const Imath::V2i p = first + Imath::V2i(x, y);
+                const SampleRange samples = view.pixel(grid_.index(
+                    std::clamp(p.x, frame.min.x, frame.max.x), std::clamp(p.y, frame.min.y, frame.max.y)));
+                const std::size_t i = square.around(x, y);
+                for (std::size_t k = 0; k < 3 && !samples.empty(); ++k)
+                    if (rgb_[k] != npos)
+                        sharp[k * size + i] = kernels::bounded(view.value(rgb_[k], samples.front()));
+                sharp[3 * size + i] = depth(p.x, p.y);
             }
+        std::vector<float> &planes = tiles_[tile].planes;
+        planes.resize(4 * out_size);
+        for (std::size_t k = 0; k < 3; ++k) square.smooth(&sharp[k * size], &planes[k * out_size]);
+        square.keep_one_surface(&sharp[3 * size], &planes[3 * out_size]);
         tiles_[tile].is_made.store(true, std::memory_order_release);
     });
+}
+
+MatchedView::Pixel MatchedView::at(int x, int y) const {
+    const float *p = from_corner(x - corner_.x, y - corner_.y);
+    return {p[0], p[plane], p[2 * plane], p[3 * plane]};
 }
 
 bool MatchedView::at(const Imath::V2d &place, Pixel &out) const {
     const double x = place.x - 0.5 - corner_.x, y = place.y - 0.5 - corner_.y;
     if (!(x >= 0 && y >= 0 && x < grid_.width() - 1 && y < grid_.height() - 1)) return false;
-    const int column = int(x), row = int(y);
-    const float u = float(x - column), v = float(y - row);
-    const Pixel *p = from_corner(column, row), *q = p + stride;
-    for (std::size_t k = 0; k < 3; ++k) {
-        const float upper = p[0][k] + u * (p[1][k] - p[0][k]), lower = q[0][k] + u * (q[1][k] - q[0][k]);
+    const int column = int(x), line = int(y);
+    const float u = float(x - column), v = float(y - line);
+    const float *p = from_corner(column, line);
+    out[3] = p[3 * plane + (v < 0.5f ? 0 : row) + (u < 0.5f ? 0 : 1)];
+    for (std::size_t k = 0; k < 3; ++k, p += plane) {
+        const float upper = p[0] + u * (p[1] - p[0]), lower = p[row] + u * (p[row + 1] - p[row]);
         out[k] = upper + v * (lower - upper);
     }
-    out[3] = (v < 0.5f ? p : q)[u < 0.5f ? 0 : 1][3];
     return true;
+}
+
+MatchedView::Cutout MatchedView::cut(const Imath::V2d &place) const {
+    const double x = place.x - 0.5 - corner_.x, y = place.y - 0.5 - corner_.y;
+    if (!(x > -cutout && y > -cutout && x < grid_.width() && y < grid_.height())) return {nullptr, 0, 0};
+    const double column = std::floor(x), line = std::floor(y);
+    return {from_corner(int(column), int(line)), float(x - column), float(y - line)};
 }
 
 } // namespace sparselens

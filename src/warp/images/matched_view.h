@@ -32,10 +32,19 @@ public:
     MatchedView(const PlacedView &view, double scale);
 
     bool contains(int x, int y) const { return grid_.contains(x, y); }
-    const Pixel &at(int x, int y) const { return *from_corner(x - corner_.x, y - corner_.y); }
+    Pixel at(int x, int y) const;
     // Between the middles of pixels, which lie at halves; the depth is that of the pixel which holds the place. False
     // outside of them.
     bool at(const Imath::V2d &place, Pixel &out) const;
+
+    // A place and what lies to the right of it and below, for `cutout` pixels, in planes: R, G, B and depth.
+    static constexpr int cutout = 16, row = 64 + cutout, plane = row * row; // pixels from one to the next
+    struct Cutout {
+        const float
+            *first; // the pixel above and to the left of the place; null if all lies outside of the view
+        float right, down; // from there to the place, [0, 1)
+    };
+    Cutout cut(const Imath::V2d &place) const;
 
     // Of the surface, if the pixel shows just one; else NaN.
     float depth(int x, int y) const;
@@ -44,27 +53,23 @@ public:
     const ViewSamples &samples() const { return *view_.samples; }
 
 private:
-    static constexpr int tile_side = 64;
-    static constexpr int stride =
-        tile_side + 1; // a tile holds one more row and column, to look between pixels
+    static constexpr int tile_side = row - cutout; // a tile holds what may be cut out from its pixels, too
 
     struct Tile {
         std::atomic<bool> is_made = false;
         std::once_flag making;
-        std::vector<Pixel> pixels;
+        std::vector<float> planes;
     };
 
-    // The pixel of that column and row, counted from the window's corner. What follows it in memory is the one to the
-    // right; that below is `stride` further.
-    const Pixel *from_corner(int column, int row) const {
-        const auto x = unsigned(column), y = unsigned(row);
+    // The pixel of that column and line, counted from the window's corner; both may be as low as -cutout.
+    const float *from_corner(int column, int line) const {
+        const auto x = unsigned(column + cutout), y = unsigned(line + cutout);
         constexpr auto side = unsigned(tile_side);
         const std::size_t tile = std::size_t(y / side) * columns_ + x / side;
         if (!tiles_[tile].is_made.load(std::memory_order_acquire)) make(tile);
-        return &tiles_[tile].pixels[std::size_t(y % side) * std::size_t(stride) + x % side];
+        return &tiles_[tile].planes[std::size_t(y % side) * std::size_t(row) + x % side];
     }
     void make(std::size_t tile) const;
-    Pixel sharp(int x, int y) const;
 
     PlacedView view_;
     double scale_;

@@ -4,6 +4,7 @@
 #include "base/parallel.h"
 #include "lens/perceptive_depth.h"
 #include "warp/images/image_depths.h"
+#include "warp/images/robust_mean.h"
 
 #include <algorithm>
 #include <cmath>
@@ -32,8 +33,7 @@ public:
     void show(const Imath::V2i &pixel, double depth) const {
         std::vector<ImageSample> seen{centre(pixel)};
         const std::vector<float> differences = sweep_.differences(pixel, depth);
-        std::vector<float> sorted = differences;
-        const float usual = robust_mean(sorted);
+        const float usual = robust_mean(differences);
         for (std::size_t v = 1; v < views_.size(); ++v)
             if (differences[v - 1] <= no_worse * usual + least_difference) add(views_[v], pixel, depth, seen);
         store(ldi_.pixel(ldi_.windows.index(pixel.x, pixel.y)).front(), depth, seen);

@@ -1,0 +1,72 @@
+// The mean of how far views differ from the centre view, over the best three quarters of those that can be compared: one view
+// may see something else there. Not a number where fewer than half can be compared.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <vector>
+
+namespace sparselens {
+
+// Of several pixels at once. What the views say is kept in order, so that the order of the views does not matter.
+class RobustMeans {
+public:
+    RobustMeans(std::size_t views, std::size_t pixels)
+        : views_(views), pixels_(pixels), ranks_(views * pixels), known_(pixels), worse_(pixels) {}
+
+    // Of the next view, by pixel; NaN where it cannot be compared. After the last view, take() makes room for the first one.
+    void add(std::span<const float> differences) {
+        constexpr float last = std::numeric_limits<float>::infinity();
+        for (std::size_t i = 0; i < pixels_; ++i) {
+            const bool is_known = differences[i] == differences[i];
+            worse_[i] = is_known ? differences[i] : last;
+            known_[i] += is_known ? 1 : 0;
+        }
+        for (std::size_t r = 0; r < added_; ++r) {
+            float *rank = &ranks_[r * pixels_];
+            for (std::size_t i = 0; i < pixels_; ++i) {
+                const float better = std::min(rank[i], worse_[i]);
+                worse_[i] = std::max(rank[i], worse_[i]);
+                rank[i] = better;
+            }
+        }
+        std::copy(worse_.begin(), worse_.end(), ranks_.begin() + std::ptrdiff_t(added_ * pixels_));
+        ++added_;
+    }
+
+    void take(std::span<float> means) {
+        std::fill_n(means.begin(), pixels_, 0.0f);
+        for (std::size_t r = 0; r < views_; ++r) {
+            const float *rank = &ranks_[r * pixels_];
+            for (std::size_t i = 0; i < pixels_; ++i) means[i] += int(r) < best(known_[i]) ? rank[i] : 0;
+        }
+        for (std::size_t i = 0; i < pixels_; ++i) {
+            const bool enough = known_[i] > 0 && 2 * known_[i] >= int(views_);
+            means[i] = enough ? means[i] / float(best(known_[i])) : std::numeric_limits<float>::quiet_NaN();
+            known_[i] = 0;
+        }
+        added_ = 0;
+    }
+
+private:
+    static int best(int known) { return (3 * known + 3) / 4; }
+
+    std::size_t views_, pixels_, added_ = 0;
+    std::vector<float> ranks_; // by rank, then pixel
+    std::vector<int> known_;   // views
+    std::vector<float> worse_;
+};
+
+// Of one pixel.
+inline float robust_mean(std::span<const float> differences) {
+    RobustMeans means(differences.size(), 1);
+    for (const float &difference : differences) means.add(std::span(&difference, 1));
+    float mean;
+    means.take(std::span(&mean, 1));
+    return mean;
+}
+
+} // namespace sparselens
