@@ -16,7 +16,8 @@ namespace {
 
 constexpr double step = 0.5;            // pixels of perceptive depth
 constexpr double behind_camera = 6;     // pixels of perceptive depth below 0 that are searched
-constexpr std::size_t most_steps = 160; // the surface is nearer than any that matters: larger steps
+constexpr std::size_t most_steps = 320; // the surface is nearer than any that matters: larger steps
+constexpr std::size_t coarse = 2;       // steps; a valley is wider
 constexpr float least_distance = 0.25f; // from the surface: less is not worth it
 constexpr float margin = 0.5f; // of the difference at the surface: what explains the views leaves less
 constexpr float least_difference = 3e-5f; // at the surface, R, G and B together: less is not seen
@@ -37,7 +38,7 @@ float surface_of(const MatchedView &centre, const Imath::Box2i &block) {
 // By step and pixel of a block.
 class Curves {
 public:
-    Curves(std::size_t steps, std::size_t pixels) : pixels_(pixels), values_(steps * pixels) {}
+    Curves(std::size_t steps, std::size_t pixels) : pixels_(pixels), values_(steps * pixels, unknown) {}
     float &at(std::size_t k, std::size_t pixel) { return values_[k * pixels_ + pixel]; }
     float at(std::size_t k, std::size_t pixel) const { return values_[k * pixels_ + pixel]; }
     std::span<float> step_of(std::size_t k) { return std::span(values_).subspan(k * pixels_, pixels_); }
@@ -66,41 +67,61 @@ double least_of_parabola(double before, double middle, double after) {
     return bend > 0 ? std::clamp(0.5 * (before - after) / bend, -0.5, 0.5) : 0;
 }
 
-// The difference of each pixel of a block at steps of depth, the robust mean over the rim views.
-// compare(k, view, out) compares the block with one view at step k.
-template <class Compare>
-Curves mean_curves(std::span<const MatchedView> views, std::size_t steps, std::size_t pixels,
-                   const Compare &compare) {
-    Curves curves(steps, pixels);
-    RobustMeans means(views.size() - 1, pixels);
-    std::vector<float> differences(pixels);
-    for (std::size_t k = 0; k < steps; ++k) {
-        for (const MatchedView &view : views.subspan(1)) {
-            compare(k, view, std::span(differences));
-            means.add(differences);
-        }
-        means.take(curves.step_of(k));
+// The difference of each pixel of a block at steps of depth, the robust mean over the rim views; unknown at first.
+class MeanCurves : public Curves {
+public:
+    MeanCurves(std::span<const MatchedView> views, std::size_t steps, std::size_t pixels)
+        : Curves(steps, pixels), rims_(views.subspan(1)), means_(rims_.size(), pixels), differences_(pixels) {
     }
-    return curves;
+
+    // compare(view, out) compares the block with one view at step k.
+    template <class Compare>
+    void find(std::size_t k, const Compare &compare) {
+        for (const MatchedView &view : rims_) {
+            compare(view, std::span(differences_));
+            means_.add(differences_);
+        }
+        means_.take(step_of(k));
+    }
+
+private:
+    std::span<const MatchedView> rims_;
+    RobustMeans means_;
+    std::vector<float> differences_;
+};
+
+// The least one of every `every` steps; npos where none is known.
+std::size_t least_of(const Curves &curve, std::size_t count, std::size_t pixel, std::size_t every) {
+    std::size_t best = npos;
+    for (std::size_t k = 0; k < count; k += every)
+        if (!std::isnan(curve.at(k, pixel)) && (best == npos || curve.at(k, pixel) < curve.at(best, pixel)))
+            best = k;
+    return best;
 }
 
-// Whether the curve has one clear valley; then its step.
+// Whether the curve has one clear valley; then its step. Of steps that are not coarse those beside the least are known.
 std::optional<double> valley_of(const Curves &curve, std::size_t count, std::size_t pixel, float at_surface) {
     const auto value = [&](std::size_t k) { return curve.at(k, pixel); };
-    std::size_t best = npos;
-    for (std::size_t k = 0; k < count; ++k)
-        if (!std::isnan(value(k)) && (best == npos || value(k) < value(best))) best = k;
+    const std::size_t best = least_of(curve, count, pixel, 1);
     if (best == npos || best < 3 || best + 3 >= count || !(value(best) <= margin * at_surface)) return {};
     constexpr float rounding = 1e-7f;
     const float high = valley * value(best) + rounding;
     if (!(value(best - 3) > high && value(best + 3) > high)) return {};
-    for (std::size_t k = 1; k + 1 < count; ++k) {
+    for (std::size_t k = coarse; k + coarse < count; k += coarse) {
         const bool beside = k + 4 > best && k < best + 4;
-        if (!beside && value(k) <= value(k - 1) && value(k) <= value(k + 1) &&
+        if (!beside && value(k) <= value(k - coarse) && value(k) <= value(k + coarse) &&
             value(k) < rival * value(best) + rounding)
             return {};
     }
     return double(best) + least_of_parabola(value(best - 1), value(best), value(best + 1));
+}
+
+// The steps between coarse ones at which valley_of() looks where that is the least of these: one and three from it.
+void mark_beside(std::size_t best, std::vector<bool> &marks) {
+    for (const std::size_t off : {std::size_t{1}, std::size_t{3}}) {
+        if (best >= off) marks[best - off] = true;
+        if (best + off < marks.size()) marks[best + off] = true;
+    }
 }
 
 } // namespace
@@ -112,10 +133,10 @@ std::vector<ImageMatch> ImageSweep::search(const Imath::Box2i &block) const {
     const float surface = surface_of(centre, block);
     if (std::isnan(surface)) return matches;
     PatchComparison comparison(centre, scale_, block, surface);
-    const Curves at_surface =
-        mean_curves(views_, 1, grid.size(), [&](std::size_t, const MatchedView &view, std::span<float> out) {
-            comparison.at_depths(view, comparison.own_depths(), 0, out);
-        });
+    MeanCurves at_surface(views_, 1, grid.size());
+    at_surface.find(0, [&](const MatchedView &view, std::span<float> out) {
+        comparison.at_depths(view, comparison.own_depths(), 0, out);
+    });
     for (std::size_t i = 0; i < grid.size(); ++i) {
         const Imath::V2i p = grid.pixel(i);
         const float own = centre.depth(p.x, p.y);
@@ -128,10 +149,21 @@ std::vector<ImageMatch> ImageSweep::search(const Imath::Box2i &block) const {
     const auto worth_it = [](const ImageMatch &m) { return m.surface && m.at_surface >= least_difference; };
     if (std::ranges::none_of(matches, worth_it)) return matches; // most edges of texture, once smoothed
     const Depths depths(surface);
-    const Curves curves = mean_curves(views_, depths.count, grid.size(),
-                                      [&](std::size_t k, const MatchedView &view, std::span<float> out) {
-                                          comparison.at_depth(view, depths.at(double(k)), out);
-                                      });
+    MeanCurves curves(views_, depths.count, grid.size());
+    const auto find = [&](std::size_t k) {
+        curves.find(k, [&](const MatchedView &view, std::span<float> out) {
+            comparison.at_depth(view, depths.at(double(k)), out);
+        });
+    };
+    for (std::size_t k = 0; k < depths.count; k += coarse) find(k);
+    std::vector<bool> between(depths.count);
+    for (std::size_t i = 0; i < grid.size(); ++i) {
+        if (!worth_it(matches[i])) continue;
+        const std::size_t best = least_of(curves, depths.count, i, coarse);
+        if (best != npos) mark_beside(best, between);
+    }
+    for (std::size_t k = 0; k < depths.count; ++k)
+        if (between[k]) find(k);
     for (std::size_t i = 0; i < grid.size(); ++i) {
         ImageMatch &match = matches[i];
         if (!worth_it(match)) continue;
@@ -160,10 +192,11 @@ std::vector<float> ImageSweep::refined(const Imath::Box2i &block,
         for (int x = 0; x < comparison.width(); ++x)
             depths[PatchComparison::at(x, y)] = depth_at(comparison.corner() + Imath::V2i(x, y));
     constexpr std::size_t steps = 2 * side + 1;
-    const Curves curves = mean_curves(views_, steps, grid.size(),
-                                      [&](std::size_t k, const MatchedView &view, std::span<float> out) {
-                                          comparison.at_depths(view, depths, by * (double(k) - side), out);
-                                      });
+    MeanCurves curves(views_, steps, grid.size());
+    for (std::size_t k = 0; k < steps; ++k)
+        curves.find(k, [&](const MatchedView &view, std::span<float> out) {
+            comparison.at_depths(view, depths, by * (double(k) - side), out);
+        });
     std::array<float, steps> curve;
     for (std::size_t i = 0; i < grid.size(); ++i) {
         for (std::size_t k = 0; k < steps; ++k) curve[k] = curves.at(k, i);
