@@ -63,16 +63,21 @@ std::vector<const std::vector<float> *> arrays_of(const Ldi &ldi) {
 
 void PackedRows::append(const Ldi &rows) {
     const std::vector<const std::vector<float> *> arrays = arrays_of(rows);
-    if (begin_.size() == 1) {
+    if (rows_.size() == 1) {
         channels_ = rows.channels;
-        begin_.reserve(windows_.pixels() + 1);
+        in_row_.reserve(windows_.pixels());
         present_.resize(arrays.size());
     }
     assert(rows.channels == channels_);
     for (std::size_t k = 0; k < arrays.size(); ++k) present_[k] = present_[k] || !arrays[k]->empty();
-    const std::uint64_t before = begin_.back();
-    for (std::size_t i = 1; i < rows.begin.size(); ++i) begin_.push_back(before + rows.begin[i]);
-    Piece piece{before, begin_.back(), std::vector<PackedFloats>(arrays.size())};
+    const std::uint64_t before = rows_.back();
+    const auto width = std::size_t(windows_.width());
+    for (std::size_t row = 0; row + 1 < rows.begin.size(); row += width) {
+        for (std::size_t x = 0; x < width; ++x)
+            in_row_.push_back(std::uint32_t(rows.begin[row + x] - rows.begin[row]));
+        rows_.push_back(before + rows.begin[row + width]);
+    }
+    Piece piece{before, rows_.back(), std::vector<PackedFloats>(arrays.size())};
     parallel_for(arrays.size(), [&](std::size_t k) { piece.arrays[k] = PackedFloats(*arrays[k]); });
     pieces_.push_back(std::move(piece));
 }
@@ -93,9 +98,7 @@ void PackedRows::keep_channels(std::span<const Channel> channels) {
     channels_.assign(channels.begin(), channels.end());
 }
 
-std::uint64_t PackedRows::begin_of_row(int y) const {
-    return begin_[std::size_t(y - windows_.data.min.y) * std::size_t(windows_.width())];
-}
+std::uint64_t PackedRows::begin_of_row(int y) const { return rows_[std::size_t(y - windows_.data.min.y)]; }
 
 std::uint64_t PackedRows::samples(int first, int last) const {
     return begin_of_row(last + 1) - begin_of_row(first);
@@ -109,9 +112,11 @@ Ldi PackedRows::rows(int first, int last) const {
     ldi.channels = channels_;
     ldi.values.resize(channels_.size());
     const std::uint64_t from = begin_of_row(first), to = begin_of_row(last + 1);
-    const auto first_pixel = begin_.begin() + std::ptrdiff_t(windows_.index(windows_.data.min.x, first));
-    ldi.begin.assign(first_pixel, first_pixel + std::ptrdiff_t(ldi.windows.pixels() + 1));
-    for (std::uint64_t &of_pixel : ldi.begin) of_pixel -= from;
+    ldi.begin.reserve(ldi.windows.pixels() + 1);
+    for (int y = first; y <= last; ++y)
+        for (int x = windows_.data.min.x; x <= windows_.data.max.x; ++x)
+            ldi.begin.push_back(begin_of_row(y) - from + in_row_[windows_.index(x, y)]);
+    ldi.begin.push_back(to - from);
     const std::vector<std::vector<float> *> arrays = arrays_of(ldi);
     parallel_for(arrays.size(), [&](std::size_t k) {
         if (present_[k]) arrays[k]->resize(to - from);
@@ -127,7 +132,7 @@ Ldi PackedRows::rows(int first, int last) const {
 }
 
 std::size_t PackedRows::bytes() const {
-    std::size_t sum = begin_.capacity() * sizeof(begin_[0]);
+    std::size_t sum = rows_.capacity() * sizeof(rows_[0]) + in_row_.capacity() * sizeof(in_row_[0]);
     for (const Piece &piece : pieces_)
         for (const PackedFloats &values : piece.arrays) sum += values.bytes();
     return sum;

@@ -30,7 +30,7 @@ private:
 class PackedRows {
 public:
     // Of a picture of these windows, of which no row is there yet.
-    explicit PackedRows(const Windows &windows) : windows_(windows), begin_{0} {}
+    explicit PackedRows(const Windows &windows) : windows_(windows), rows_{0} {}
 
     // The rows below those that are there, of the same channels.
     void append(const Ldi &rows);
@@ -43,7 +43,7 @@ public:
 
     const Windows &windows() const { return windows_; }
     const std::vector<Channel> &channels() const { return channels_; }
-    std::uint64_t samples() const { return begin_.back(); }
+    std::uint64_t samples() const { return rows_.back(); }
     // Of rows [first, last].
     std::uint64_t samples(int first, int last) const;
     std::size_t bytes() const; // of all that is held
@@ -57,8 +57,9 @@ private:
 
     Windows windows_;
     std::vector<Channel> channels_;
-    std::vector<std::uint64_t> begin_; // as Ldi::begin, so far
-    std::vector<bool> present_;        // of the arrays
+    std::vector<std::uint64_t> rows_; // where the samples of each row begin, so far; at last, where they end
+    std::vector<std::uint32_t> in_row_; // ... those of each pixel, after those of the row's first
+    std::vector<bool> present_;         // of the arrays
     std::vector<Piece> pieces_;
 };
 

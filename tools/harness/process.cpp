@@ -146,6 +146,12 @@ void keep_freed_memory() {
 
 } // namespace
 
+void give_back_memory() {
+#ifdef __GLIBC__
+    malloc_trim(0);
+#endif
+}
+
 class Process::ThreadLimit {
 public:
     explicit ThreadLimit(int threads)

@@ -36,6 +36,9 @@ private:
     std::unique_ptr<ThreadLimit> threads_;
 };
 
+// What was freed and is kept for what comes next goes back to the system: before something that takes much.
+void give_back_memory();
+
 // Runs `work`, reports what it throws in one line that begins with `prefix`, and returns the exit code.
 int exit_code_of(const std::string &prefix, const std::function<void()> &work);
 

@@ -1,6 +1,7 @@
 #include "viewing/shot.h"
 
 #include "base/error.h"
+#include "harness/process.h"
 #include "io/channels.h"
 #include "io/picture_looks.h"
 #include "loading/holdout_file.h"
@@ -119,6 +120,7 @@ Subject Shot::subject(const GatherCommand &options, const Reel::Held &frame, con
         lens.focal_px /= options.windows.proxy * frame->across;
         return {made.ldi.unpacked(), made.windows, lens};
     }
+    give_back_memory(); // of drafts
     OpenedLdi in = frame->unpacked();
     GatherWindows windows = gather_windows(options.windows, in, lens);
     return {std::move(in), std::move(windows), lens};
