@@ -4,6 +4,7 @@
 #include "base/parallel.h"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <limits>
 
@@ -19,24 +20,46 @@ std::vector<Values *> list_arrays(Picture &ldi) {
     return arrays;
 }
 
+bool same_bits(float a, float b) {
+    return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b);
+}
+
+// That of more than half of the values, if there is one; else any.
+float majority(std::span<const float> values) {
+    float found = 0;
+    std::size_t lead = 0;
+    for (const float value : values)
+        if (lead == 0)
+            found = value, lead = 1;
+        else if (same_bits(value, found))
+            ++lead;
+        else
+            --lead;
+    return found;
+}
+
 } // namespace
 
-PackedFloats::PackedFloats(std::span<const float> values) {
+PackedFloats::PackedFloats(std::span<const float> values) : most_(majority(values)) {
     assert(values.size() <= std::numeric_limits<std::uint32_t>::max());
     const std::size_t most = values.size() / 4; // of others: each takes as much as four halves
-    halves_.resize(values.size());
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        halves_[i] = bits_of_half(values[i]);
-        if (is_half(values[i])) continue;
-        if (others_.size() == most) {
-            floats_.assign(values.begin(), values.end());
-            std::vector<std::uint16_t>().swap(halves_);
-            std::vector<std::pair<std::uint32_t, float>>().swap(others_);
-            return;
+    // Sets those that are not `as_they_are`, unless there are too many.
+    const auto find_others = [&](const auto &as_they_are) {
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            if (as_they_are(values[i])) continue;
+            if (others_.size() == most) return std::vector<Other>().swap(others_), false;
+            others_.emplace_back(std::uint32_t(i), values[i]);
         }
-        others_.emplace_back(std::uint32_t(i), values[i]);
+        others_.shrink_to_fit();
+        return true;
+    };
+    if (find_others([&](float value) { return same_bits(value, most_); })) return;
+    if (find_others(is_half)) {
+        halves_.resize(values.size());
+        std::ranges::transform(values, halves_.begin(), bits_of_half);
+    } else {
+        floats_.assign(values.begin(), values.end());
     }
-    others_.shrink_to_fit();
 }
 
 void PackedFloats::unpack(std::size_t from, std::span<float> to) const {
@@ -44,8 +67,11 @@ void PackedFloats::unpack(std::size_t from, std::span<float> to) const {
         std::copy_n(floats_.begin() + std::ptrdiff_t(from), to.size(), to.begin());
         return;
     }
-    for (std::size_t i = 0; i < to.size(); ++i) to[i] = of_half(halves_[from + i]);
-    auto other = std::ranges::lower_bound(others_, from, {}, &std::pair<std::uint32_t, float>::first);
+    if (halves_.empty())
+        std::ranges::fill(to, most_);
+    else
+        std::ranges::transform(std::span(halves_).subspan(from, to.size()), to.begin(), of_half);
+    auto other = std::ranges::lower_bound(others_, from, {}, &Other::first);
     for (; other != others_.end() && other->first < from + to.size(); ++other)
         to[other->first - from] = other->second;
 }

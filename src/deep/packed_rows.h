@@ -1,5 +1,6 @@
-// The samples of an LDI in less memory: values that halves hold take two bytes, as they do in most files, and come back as
-// they were, bit by bit. For pictures that are worked on a few rows at a time.
+// The samples of an LDI in less memory: values that halves hold take two bytes, as they do in most files, and next to none
+// where most of them are one and the same, as coverage often is. They come back as they were, bit by bit. For pictures that are
+// worked on a few rows at a time.
 #pragma once
 
 #include "ldi.h"
@@ -22,9 +23,12 @@ public:
     std::size_t bytes() const;
 
 private:
+    using Other = std::pair<std::uint32_t, float>;
+
+    float most_ = 0; // what most values are, where there are neither of the next
     std::vector<std::uint16_t> halves_;
-    std::vector<std::pair<std::uint32_t, float>> others_; // values that are no halves, by their number
-    std::vector<float> floats_;                           // in place of both where too many are none
+    std::vector<float> floats_; // in place of halves where too many values are none
+    std::vector<Other> others_; // values that are not those, by their number
 };
 
 class PackedRows {

@@ -70,6 +70,17 @@ TEST(PackedFloats, SpecialValuesComeBackAsTheyWere) {
     EXPECT_EQ(PackedFloats(std::vector<float>{}).bytes(), 0u);
 }
 
+TEST(PackedFloats, ValuesThatAreOneButForAFewTakeNextToNothing) {
+    for (const float most : {1.0f, 0.1f}) { // a half, and none
+        std::vector<float> values(1000, most);
+        for (const std::size_t i : {0u, 1u, 2u, 500u, 999u}) values[i] = float(i) + 0.3f;
+        const PackedFloats packed(values);
+        EXPECT_EQ(packed.bytes(), 5 * 8u);
+        expect_same_bits(unpacked(packed, 0, 1000), values);
+        expect_same_bits(unpacked(packed, 400, 200), {values.begin() + 400, values.begin() + 600});
+    }
+}
+
 TEST(PackedFloats, HalvesTakeTwoBytesAndNothingTakesMoreThanFour) {
     EXPECT_EQ(PackedFloats(values_with_others(1000, 100'000)).bytes(), 2000u + 8);
     for (const std::size_t step : {100u, 5u, 4u, 3u, 2u})
