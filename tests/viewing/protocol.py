@@ -182,7 +182,7 @@ def knows_frames(folder):
         assert "shot.####.ldi.exr" in commands["range"] and "--fstop 3:2,7:6" in commands["range"], commands
         assert "shot.0007.ldi.exr" in commands["python"], commands
         assert "--fstop 8" in server.said("/commands", settings={"fstop": "8"}, frame=7)["range"]
-    for limit, held in ((None, 3), ("700KB", 1)):
+    for limit, held in ((None, 3), ("700KB", 2)):
         with served(program, sequence, "--frames", "3,5,7", *(["--max-memory", limit] if limit else [])) as server:
             end = time.monotonic() + 20
             while server.said("/progress", page="any")["held"] < held:
