@@ -68,7 +68,7 @@ private:
     template <typename DepthAt>
     Neighbours neighbours(const Imath::Box2i &tile, const DepthAt &depth_at) const;
     float continued(const Neighbours &neighbours, const Imath::V2i &place, const Imath::V2i &pixel,
-                    const ImageMatch &match, std::vector<float> &around) const;
+                    const ImageMatch &match, std::vector<float> &around, float &tried) const;
 
     const ImageSweep &sweep_;
     Imath::Box2i box_;
@@ -77,6 +77,7 @@ private:
     std::uint32_t count_ = 0;           // of blocks
     std::vector<ImageMatch> matches_;   // by pixel, block by block
     std::vector<float> depths_;
+    std::vector<float> tried_; // the last depth at which the views did not agree
 };
 
 template <typename Visit>
@@ -124,6 +125,7 @@ void ImageDepths::search(std::vector<std::size_t> next) {
         next = std::move(beside);
     }
     depths_.assign(matches_.size(), unknown);
+    tried_ = depths_;
 }
 
 // On the plane that fits the depths around which are as near to that one as those of one image are; unknown if those are too few.
@@ -183,13 +185,15 @@ void ImageDepths::refine() {
 
 // The median of the depths around, if the views agree about as well there as on the surface.
 float ImageDepths::continued(const Neighbours &neighbours, const Imath::V2i &place, const Imath::V2i &pixel,
-                             const ImageMatch &match, std::vector<float> &around) const {
+                             const ImageMatch &match, std::vector<float> &around, float &tried) const {
     around.clear();
     neighbours.for_each_around(place, farther, [&](const Imath::V2i &, float depth) {
         if (!std::isnan(depth)) around.push_back(depth);
     });
     if (around.size() < least_sources) return unknown;
     const float depth = median(around);
+    if (depth == tried) return unknown;
+    tried = depth;
     const float there = robust_mean(sweep_.differences(pixel, double(depth)));
     return there <= no_worse * match.at_surface + least_difference ? depth : unknown;
 }
@@ -204,7 +208,8 @@ void ImageDepths::go_on() {
             const Imath::V2i pixel = pixels.pixel(n);
             const std::size_t index = index_of(pixel);
             if (matches_[index].surface && std::isnan(depths_[index]))
-                next[index] = continued(around_tile, pixel - tile.min, pixel, matches_[index], around);
+                next[index] =
+                    continued(around_tile, pixel - tile.min, pixel, matches_[index], around, tried_[index]);
         }
     });
     depths_ = std::move(next);

@@ -14,20 +14,34 @@ constexpr double alike = 1e-6;      // steps of a pixel in both views
 
 using Field = PatchComparison::Field;
 
+// A sum of seven, of which pairs are known.
+float sum_of(const float *pairs, int step, float last) {
+    return (pairs[0] + pairs[2 * step]) + (pairs[4 * step] + last);
+}
+
 // Afterwards a pixel holds the sum over the patch whose upper left corner it is.
 template <int columns>
 void sum_patches(Field &field, int rows) {
-    constexpr int patch = PatchComparison::patch, row = PatchComparison::row, sums = columns - patch + 1;
+    constexpr int row = PatchComparison::row, sums = columns - PatchComparison::patch + 1;
+    constexpr int most = PatchComparison::most_side - 1; // pairs of rows
+    static_assert(PatchComparison::patch == 7);
+    float *v = field.data();
+    float pairs[most * columns];
+    for (int y = 0; y < rows + 5; ++y)
+        for (int x = 0; x < columns; ++x) pairs[y * columns + x] = v[y * row + x] + v[(y + 1) * row + x];
     for (int y = 0; y < rows; ++y) {
-        float *to = &field[PatchComparison::at(0, y)];
-        float down[columns];
-        for (int x = 0; x < columns; ++x) down[x] = to[x];
-        for (int i = 1; i < patch; ++i)
-            for (int x = 0; x < columns; ++x) down[x] += to[i * row + x];
-        for (int x = 0; x < sums; ++x) to[x] = down[x];
-        for (int i = 1; i < patch; ++i)
-            for (int x = 0; x < sums; ++x) to[x] += down[x + i];
+        float down[columns], beside[columns - 1];
+        for (int x = 0; x < columns; ++x)
+            down[x] = sum_of(&pairs[y * columns + x], columns, v[(y + 6) * row + x]);
+        for (int x = 0; x < columns - 1; ++x) beside[x] = down[x] + down[x + 1];
+        for (int x = 0; x < sums; ++x) v[y * row + x] = sum_of(&beside[x], 1, down[x + 6]);
     }
+}
+void sum_patches(Field &field, int width, int rows) {
+    if (width <= 8)
+        sum_patches<8>(field, rows);
+    else
+        sum_patches<16>(field, rows);
 }
 
 } // namespace
@@ -39,6 +53,7 @@ PatchComparison::PatchComparison(const MatchedView &centre, double scale, const 
     const float *from = centre.cut(Imath::V2d(corner_) + Imath::V2d(0.5)).first;
     counts_.fill(0);
     depths_.fill(unknown);
+    sums_of_counts_.fill(0);
     if (!from) return;
     for (int y = 0; y < height_; ++y)
         for (int x = 0; x < row; ++x) {
@@ -50,26 +65,33 @@ PatchComparison::PatchComparison(const MatchedView &centre, double scale, const 
             counts_[i] = counts ? 1 : 0;
             depths_[i] = counts ? depth : unknown;
         }
+    sums_of_counts_ = counts_;
+    sum_patches(sums_of_counts_, width_, height_ - 2 * reach);
 }
 
 // Where both views are framed alike, the block is moved as a whole: no pixel needs a place of its own.
 template <int columns>
 void PatchComparison::compare_shifted(const MatchedView::Cutout &seen) {
+    const bool moves_right = seen.right != 0, moves_down = seen.down != 0;
     const auto between = [&](const float *line, float *out) {
+        if (!moves_right) return void(std::copy_n(line, columns, out));
         for (int x = 0; x < columns; ++x) out[x] = line[x] + seen.right * (line[x + 1] - line[x]);
     };
     float above[3][columns]; // local copies: the compiler need not fear that what is written is read
     for (int k = 0; k < 3; ++k) between(seen.first + k * MatchedView::plane, above[k]);
     const float *nearest = seen.first + 3 * MatchedView::plane + (seen.down < 0.5f ? 0 : MatchedView::row) +
                            (seen.right < 0.5f ? 0 : 1);
+    float missing[columns]{};
     for (int y = 0; y < height_; ++y, nearest += MatchedView::row) {
         float squares[columns]{}, compared[columns];
         for (int k = 0; k < 3; ++k) {
             const float *own = &own_[std::size_t(k)][at(0, y)];
             float below[columns];
             between(seen.first + k * MatchedView::plane + (y + 1) * MatchedView::row, below);
+            if (moves_down)
+                for (int x = 0; x < columns; ++x) above[k][x] += seen.down * (below[x] - above[k][x]);
             for (int x = 0; x < columns; ++x) {
-                const float differs = own[x] - (above[k][x] + seen.down * (below[x] - above[k][x]));
+                const float differs = own[x] - above[k][x];
                 squares[x] += differs * differs;
                 above[k][x] = below[x];
             }
@@ -78,15 +100,18 @@ void PatchComparison::compare_shifted(const MatchedView::Cutout &seen) {
         for (int x = 0; x < columns; ++x) {
             compared[x] = kernels::is_one_surface(nearest[x], surface_, one_mirror_px) ? counts[x] : 0;
             squares[x] = compared[x] != 0 ? squares[x] : 0;
+            missing[x] += counts[x] - compared[x];
         }
         std::copy_n(squares, columns, &squares_[at(0, y)]);
         std::copy_n(compared, columns, &compared_[at(0, y)]);
     }
+    all_compared_ = std::ranges::all_of(missing, [](float m) { return m == 0; });
 }
 
 template <typename PlaceAt>
 void PatchComparison::compare_each(const MatchedView &view, const PlaceAt &place_at) {
     squares_.fill(0), compared_.fill(0);
+    all_compared_ = false;
     for (int y = 0; y < height_; ++y)
         for (int x = 0; x < width_; ++x) {
             const std::size_t i = at(x, y);
@@ -104,14 +129,12 @@ void PatchComparison::compare_each(const MatchedView &view, const PlaceAt &place
 
 void PatchComparison::take(std::span<float> out) {
     const int columns = width_ - 2 * reach, rows = height_ - 2 * reach;
-    for (Field *field : {&squares_, &compared_})
-        if (width_ <= 8)
-            sum_patches<8>(*field, rows);
-        else
-            sum_patches<16>(*field, rows);
+    sum_patches(squares_, width_, rows);
+    if (!all_compared_) sum_patches(compared_, width_, rows);
+    const Field &counts = all_compared_ ? sums_of_counts_ : compared_;
     for (int y = 0; y < rows; ++y)
         for (int x = 0; x < columns; ++x) {
-            const float count = compared_[at(x, y)];
+            const float count = counts[at(x, y)];
             out[std::size_t(y * columns + x)] =
                 count >= least_share * patch * patch ? squares_[at(x, y)] / count : unknown;
         }

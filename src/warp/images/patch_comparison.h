@@ -47,8 +47,10 @@ private:
     int width_, height_;
     std::array<Field, 3> own_; // colours
     Field counts_;             // 1: shows the surface; else 0
+    Field sums_of_counts_;     // over patches
     Field depths_;
     Field squares_, compared_;
+    bool all_compared_ = false; // all that count
 };
 
 } // namespace sparselens
