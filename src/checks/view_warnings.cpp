@@ -1,5 +1,6 @@
 #include "checks/view_warnings.h"
 
+#include "base/parallel.h"
 #include "checks/blur_check.h"
 #include "checks/depth_check.h"
 #include "checks/encoding_check.h"
@@ -10,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace sparselens {
 
@@ -104,15 +106,19 @@ Warnings picture_warnings(const View &view, const ViewFacts &facts) {
 }
 
 Warnings view_warnings(std::span<const View> views, const ViewFacts &facts) {
-    Warnings said = picture_warnings(views[0], facts);
-    say_of_first(views, facts.lens_radius, said);
-    say_of_distances(views, facts.lens_radius, said);
     double reach = 0;
     for (const View &view : views) reach = std::max(reach, view.position.length());
-    for (std::size_t i = 1; i < views.size(); ++i)
-        if (std::string pose = said_of_pose(views, i, facts.focal_px, reach > 0 ? reach : facts.lens_radius);
-            !pose.empty())
-            said.push_back(std::move(pose));
+    Warnings said;
+    std::vector<std::string> poses(views.size());
+    parallel_for(views.size(), [&](std::size_t i) {
+        if (i == 0)
+            said = picture_warnings(views[0], facts);
+        else
+            poses[i] = said_of_pose(views, i, facts.focal_px, reach > 0 ? reach : facts.lens_radius);
+    });
+    say_of_first(views, facts.lens_radius, said);
+    say_of_distances(views, facts.lens_radius, said);
+    std::ranges::copy_if(poses, std::back_inserter(said), [](const std::string &s) { return !s.empty(); });
     return said;
 }
 

@@ -1,5 +1,6 @@
 #include "io/open_view.h"
 
+#include "base/parallel.h"
 #include "deep/edge_depths.h"
 #include "io/camera/camera_read.h"
 #include "io/depth_range.h"
@@ -48,7 +49,9 @@ OpenedView ready_view(FlatFile file, const std::string &path, const OpenOptions 
     if (const auto warning = normalized_warning(options.depth, view.z)) opened.warnings.push_back(*warning);
     const DepthReader read(view.image.windows, options.depth.meaning,
                            depth_range(options.depth, opened.header), frustum);
-    for (std::size_t i = 0; i < view.z.size(); ++i) view.z[i] = read.planar(view.z[i], i);
+    parallel_ranges(view.z.size(), 4096, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) view.z[i] = read.planar(view.z[i], i);
+    });
     opened.bad = sanitize(view);
     if (const std::size_t speckles = settle_speckles(view))
         opened.warnings.push_back(speckle_warning(speckles));

@@ -1,5 +1,6 @@
 #include "loading/views.h"
 
+#include "base/in_order.h"
 #include "options/picture_options.h"
 #include "view/place_views.h"
 
@@ -26,17 +27,20 @@ OpenedViews open_views(const ViewList &list, const OpenOptions &options) {
         positions.push_back(view_offset(offset));
         paths.push_back(path);
     }
+    OpenedView centre = open_view(paths[0], options);
+    const Camera camera = centre.camera;
     OpenedViews opened;
-    std::vector<StatedView> stated;
-    for (std::size_t i = 0; i < paths.size(); ++i) {
-        OpenedView next = open_view(paths[i], options, i > 0 ? stated[0].camera : Camera{});
-        stated.push_back({paths[i], next.camera, positions[i]});
-        if (i == 0) {
-            opened.header = std::move(next.header);
-            opened.depth_filtered = next.depth_filtered;
-        }
-        add(opened, next);
-    }
+    opened.header = std::move(centre.header);
+    opened.depth_filtered = centre.depth_filtered;
+    std::vector<StatedView> stated{{paths[0], camera, positions[0]}};
+    add(opened, centre);
+    in_order(
+        paths.size() - 1, // the rim views: while one is decompressed, the depths of another are settled
+        [&](std::size_t n) { return open_view(paths[n + 1], options, camera); },
+        [&](std::size_t n, OpenedView next) {
+            stated.push_back({paths[n + 1], next.camera, positions[n + 1]});
+            add(opened, next);
+        });
     opened.camera = place_views(opened.views, stated);
     return opened;
 }

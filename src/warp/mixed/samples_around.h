@@ -4,6 +4,7 @@
 
 #include "base/coverage.h"
 #include "base/grid.h"
+#include "base/parallel.h"
 #include "deep/view_samples.h"
 #include "lens/perceptive_depth.h"
 
@@ -20,8 +21,9 @@ public:
     SamplesAround(const ViewSamples &view, double scale)
         : view_(view), grid_(view.windows.width(), view.windows.height()), alpha_(view.alpha()),
           rgb_(find_rgb(view.channels)), depths_(grid_.size()) {
-        for (std::size_t i = 0; i < depths_.size(); ++i)
-            depths_[i] = perceptive_depth(scale, double(view.z(i)));
+        parallel_ranges(depths_.size(), 4096, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) depths_[i] = perceptive_depth(scale, double(view.z(i)));
+        });
     }
 
     bool have_colours() const { return alpha_ != npos && all_found(rgb_); }
