@@ -178,10 +178,11 @@ void rebuild_pixels(Ldi &ldi, const std::function<bool(std::size_t)> &changes,
 
 Ldi concatenate(const Ldi &like, std::vector<Ldi> pieces) {
     Ldi whole = empty_like(like);
-    std::vector<std::uint64_t> first_sample(pieces.size() + 1, 0), first_pixel(pieces.size() + 1, 0);
+    std::vector<std::uint64_t> first_sample(pieces.size() + 1, 0);
+    std::size_t pixels = 0;
     for (std::size_t i = 0; i < pieces.size(); ++i) {
         first_sample[i + 1] = first_sample[i] + pieces[i].samples();
-        first_pixel[i + 1] = first_pixel[i] + pieces[i].begin.size() - 1;
+        pixels += pieces[i].begin.size() - 1;
     }
     for (std::size_t k = 0; k < arrays_beside_values + like.channels.size(); ++k) {
         if (std::ranges::all_of(pieces, [k](const Ldi &piece) { return array_of(piece, k).empty(); }))
@@ -194,12 +195,13 @@ Ldi concatenate(const Ldi &like, std::vector<Ldi> pieces) {
             from = {};
         });
     }
-    whole.begin.resize(first_pixel.back() + 1);
-    parallel_for(pieces.size(), [&](std::size_t i) {
+    whole.begin.reserve(pixels + 1); // touched no sooner than what it takes the place of is freed
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
         for (std::size_t j = 0; j + 1 < pieces[i].begin.size(); ++j)
-            whole.begin[first_pixel[i] + j] = first_sample[i] + pieces[i].begin[j];
-    });
-    whole.begin.back() = first_sample.back();
+            whole.begin.push_back(first_sample[i] + pieces[i].begin[j]);
+        pieces[i].begin = {};
+    }
+    whole.begin.push_back(first_sample.back());
     return whole;
 }
 

@@ -54,6 +54,9 @@ public:
     void replace(const std::function<bool(std::size_t pixel)> &changes,
                  const std::function<void(std::size_t pixel, Ldi &out)> &fill);
 
+    // Of all channels only coverage can be asked afterwards.
+    void forget_colours();
+
     // In rows [first, end), counted from the top.
     std::uint64_t count(std::size_t first, std::size_t end) const;
     // The same rows as an LDI.

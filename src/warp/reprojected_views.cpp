@@ -82,6 +82,10 @@ ReprojectedViews::ReprojectedViews(std::span<const View> views, const SamplesOf 
     }
 }
 
+void ReprojectedViews::forget_colours() {
+    for (const auto &source : sources_) source->samples.forget_colours();
+}
+
 ReprojectedRows ReprojectedViews::place(const Imath::Box2i &data, int first_row, int last_row,
                                         ReprojectedRows rows) const {
     const Grid grid(Imath::Box2i({data.min.x, first_row}, {data.max.x, last_row}));

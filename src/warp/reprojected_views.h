@@ -55,6 +55,9 @@ public:
         return samples(s.view).value(channel, s.source);
     }
 
+    // Where they are no longer needed: see ViewSamples.
+    void forget_colours();
+
     // The samples that fall into the rows [first_row, last_row] of the data window. Takes the memory of rows that are no
     // longer needed.
     ReprojectedRows place(const Imath::Box2i &data, int first_row, int last_row,

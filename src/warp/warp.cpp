@@ -33,7 +33,7 @@ public:
     // Of a span or a vector, as ReprojectedViews.
     template <typename Views>
     Warper(Views &&views, const WarpOptions &options);
-    Ldi run(Progress &progress) const;
+    Ldi run(Progress &progress); // once
 
 private:
     void grow_window();
@@ -196,7 +196,7 @@ std::vector<PlacedView> Warper::placed() const {
     return views;
 }
 
-Ldi Warper::run(Progress &progress) const {
+Ldi Warper::run(Progress &progress) {
     const Tiles bands(layout_.windows.data, layout_.windows.width(), warp_band_rows);
     std::vector<Ldi> pieces(bands.count());
     Marks differ(Tiles(layout_.windows.data, image_block).count());
@@ -215,6 +215,7 @@ Ldi Warper::run(Progress &progress) const {
     if (views_.size() < 2 || !(scale_ > 0)) return ldi;
     if (options_.find_images) show_images(placed(), scale_, differ, ldi);
     if (averages()) keep_light_of_lamps(placed(), scale_, options_.surface_px, ldi);
+    views_.forget_colours();
     find_solids(placed(), scale_, ldi);
     return ldi;
 }
