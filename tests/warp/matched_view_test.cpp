@@ -15,8 +15,8 @@ constexpr double scale = 24;
 
 // More than two tiles wide, at odd coordinates. Depths are those of two surfaces; some pixels show nothing.
 View some_view() {
-    Windows windows = windows_of_size(200, 100);
-    windows.data = {{-5, 3}, {140, 93}};
+    Windows windows = windows_of_size(300, 250);
+    windows.data = {{-5, 3}, {240, 193}};
     View view = random_view(windows, {0, 0}, 7);
     for (std::size_t i = 0; i < view.z.size(); ++i) {
         const Imath::V2i p = windows.pixel(i);

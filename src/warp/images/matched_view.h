@@ -38,7 +38,7 @@ public:
     bool at(const Imath::V2d &place, Pixel &out) const;
 
     // A place and what lies to the right of it and below, for `cutout` pixels, in planes: R, G, B and depth.
-    static constexpr int cutout = 16, row = 64 + cutout, plane = row * row; // pixels from one to the next
+    static constexpr int cutout = 16, row = 104 + cutout, plane = row * row; // pixels from one to the next
     struct Cutout {
         const float
             *first; // the pixel above and to the left of the place; null if all lies outside of the view
