@@ -3,11 +3,12 @@
 #include "base/parallel.h"
 #include "deep/flatten.h"
 #include "dof/device/tile_device.h"
+#include "dof/lens/block_finder.h"
 #include "dof/lens/gather_scene.h"
 #include "dof/lens/gather_tile.h"
 #include "dof/lens/highlight_tile.h"
+#include "dof/lens/lens_sets.h"
 #include "dof/lens/lens_tiles.h"
-#include "lens/lens_samples.h"
 
 #include <tbb/enumerable_thread_specific.h>
 
@@ -15,7 +16,6 @@
 #include <array>
 #include <atomic>
 #include <cmath>
-#include <mutex>
 #include <numeric>
 
 namespace sparselens {
@@ -23,125 +23,6 @@ namespace sparselens {
 namespace {
 
 constexpr double sharp_coc = 1e-3; // pixels: of infinity, seen by a lens of radius 0
-
-// The sets of lens points that tiles choose from, each made when it is first asked for.
-class LensSets {
-public:
-    LensSets(const LensGatherOptions &options, const Aperture &aperture, double pixel_aspect)
-        : options_(options), aperture_(aperture), pixel_aspect_(pixel_aspect) {}
-
-    // `doubled` up to two times.
-    const std::vector<LensSample> &for_coc(float largest, std::size_t doubled) {
-        if (options_.lens_samples > 0 || options_.point) largest = 0, doubled = 0;
-        const std::size_t step = step_for(largest / float(options_.across)), set = doubled * steps + step;
-        std::call_once(made_[set], [&] {
-            sets_[set] = options_.point ? std::vector{through(*options_.point)}
-                                        : lens_samples(aperture_, points_of(step) << doubled, pixel_aspect_);
-            if (options_.across > 1) look_from_the_middle(sets_[set]);
-        });
-        return sets_[set];
-    }
-
-private:
-    // The error of a set falls with the number of points and grows with the blur. Measured on fence at 1920x1080
-    // against 4096 points: 96 points at 4 pixels of CoC leave 50 dB, 256 points at 64 pixels 46 dB.
-    // Of sub-pixels, each takes 3/4 of the points that the CoC asks for in pixels of the picture: fence and grass at 2 x 640x360 then
-    // have 51.6 and 48.6 dB, with points by the CoC in sub-pixels 51.8 and 48.8, with half of the pixel's points 51.0 and 48.3.
-    static constexpr std::array<float, 6> largest_coc{6, 12, 20, 32, 48, INFINITY};
-    static constexpr std::array<std::size_t, 6> normal_points{96, 128, 160, 192, 224, 256},
-        final_points{288, 384, 480, 576, 896, 1024}; // up to 576 by steps of their own (lens_samples.h)
-
-    LensSample through(const Imath::V2d &point) const {
-        return {float(point.x), float(-point.y * pixel_aspect_), 0, 0, 1};
-    }
-    // Sub-pixels beside each other already look from different places: within each, half as far from its middle brings more than all
-    // of it, .5 dB on fence and grass at normal quality (at final .0).
-    static void look_from_the_middle(std::vector<LensSample> &points) {
-        for (LensSample &point : points) point.pixel_x /= 2, point.pixel_y /= 2;
-    }
-    static std::size_t step_for(float coc) {
-        return std::size_t(std::find_if(largest_coc.begin(), largest_coc.end() - 1,
-                                        [&](float most) { return coc <= most; }) -
-                           largest_coc.begin());
-    }
-    std::size_t points_of(std::size_t step) const {
-        if (options_.lens_samples > 0) return std::size_t(options_.lens_samples);
-        return options_.across == 1 ? of_pixel(step) : of_pixel(step) * 3 / 4;
-    }
-    std::size_t of_pixel(std::size_t step) const {
-        switch (options_.quality) {
-        case Quality::draft: return normal_points[step] / 3;
-        case Quality::final: return final_points[step];
-        case Quality::normal: break;
-        }
-        return normal_points[step];
-    }
-
-    LensGatherOptions options_;
-    const Aperture &aperture_;
-    double pixel_aspect_;
-    static constexpr std::size_t steps = largest_coc.size();
-    std::array<std::once_flag, 3 * steps> made_;
-    std::array<std::vector<LensSample>, 3 * steps> sets_;
-};
-
-// Finds the blocks that can reach a tile.
-class BlockFinder {
-public:
-    BlockFinder(const BlockedSamples &samples, const Aperture &aperture, double pixel_aspect)
-        : samples_(samples),
-          extent_(float(std::max(aperture.half_extent().x, aperture.half_extent().y * pixel_aspect))),
-          row_reach_(std::size_t(samples.rows), 0) {
-        for (std::size_t b = 0; b < samples.blocks.size(); ++b) {
-            float &reach = row_reach_[b / std::size_t(samples.columns)];
-            const SampleBlock &block = samples.blocks[b];
-            const auto top = float(b / std::size_t(samples.columns) * BlockedSamples::size);
-            const float moved =
-                block.begin == block.end
-                    ? 0
-                    : std::max({0.0f, top - block.y_min, block.y_max - top - float(BlockedSamples::size)});
-            reach = std::max(reach, reach_of(block) + moved);
-        }
-    }
-
-    // Or the pixels next to it. `stretched`: by how much lens points are at most. Returns the largest CoC that shows: that
-    // of backgrounds does where something opaque hides them.
-    float find(const Imath::V2i &origin, int size, float stretched, std::vector<std::uint32_t> &found) const {
-        found.clear();
-        float largest = 0, largest_shown = 0;
-        bool shows_opaque = false;
-        const float left = float(origin.x - 1), top = float(origin.y - 1), right = float(origin.x + size + 1),
-                    bottom = float(origin.y + size + 1);
-        for (int row = 0; row < samples_.rows; ++row) {
-            const float reach = row_reach_[std::size_t(row)] * stretched + 1;
-            if (float((row + 1) * BlockedSamples::size) + reach < top ||
-                float(row * BlockedSamples::size) - reach > bottom)
-                continue;
-            for (int column = 0; column < samples_.columns; ++column) {
-                const auto b = std::uint32_t(row * samples_.columns + column);
-                const SampleBlock &block = samples_.blocks[b];
-                const float r = reach_of(block) * stretched + 1;
-                if (block.begin == block.end || block.x_max + r < left || block.x_min - r > right ||
-                    block.y_max + r < top || block.y_min - r > bottom)
-                    continue;
-                found.push_back(b);
-                largest = std::max(largest, largest_coc_of(block));
-                largest_shown = std::max(largest_shown, block.coc_shown);
-                shows_opaque = shows_opaque || block.shows_opaque;
-            }
-        }
-        return shows_opaque ? largest : largest_shown;
-    }
-    float extent() const { return extent_; }
-
-private:
-    float reach_of(const SampleBlock &block) const {
-        return block.begin == block.end ? 0 : largest_coc_of(block) * extent_;
-    }
-    const BlockedSamples &samples_;
-    float extent_; // of the aperture, for each pixel of CoC
-    std::vector<float> row_reach_;
-};
 
 // visit(x, y) for the pixels of a part of the tile at `corner` (relative to the window) that lie in the window.
 template <typename Visit>
