@@ -26,16 +26,7 @@ MergedSample sample_at(const Ldi &ldi, std::uint64_t i) {
 }
 
 void append(Ldi &out, const Ldi &from, const MergedSample &sample) {
-    out.z.push_back(sample.z);
-    if (!from.z_back.empty()) out.z_back.push_back(sample.z_back);
-    if (!from.dx.empty()) out.dx.push_back(sample.dx);
-    if (!from.dy.empty()) out.dy.push_back(sample.dy);
-    if (!from.weight.empty()) out.weight.push_back(sample.weight);
-    if (!from.optical.empty()) out.optical.push_back(sample.optical);
-    if (!from.solid.empty()) out.solid.push_back(sample.solid);
-    merge_values(out, from.channels, sample.terms,
-                 [&](std::size_t k, std::uint64_t i) { return from.values[k][i]; });
-    ++out.begin.back();
+    append(out, from, sample, [&](std::size_t k, std::uint64_t i) { return from.values[k][i]; });
 }
 
 void append(Ldi &out, const Ldi &from, std::uint64_t index) {

@@ -28,4 +28,18 @@ void merge_values(Ldi &out, std::span<const Channel> channels, std::span<const T
     pairs.take([&](std::size_t k, float value) { out.values[k].back() = value; });
 }
 
+// Appends a sample to the last pixel of `out`, whose values are made of those.
+template <typename ValueAt>
+void append(Ldi &out, const Ldi &from, const MergedSample &sample, const ValueAt &value_at) {
+    out.z.push_back(sample.z);
+    if (!from.z_back.empty()) out.z_back.push_back(sample.z_back);
+    if (!from.dx.empty()) out.dx.push_back(sample.dx);
+    if (!from.dy.empty()) out.dy.push_back(sample.dy);
+    if (!from.weight.empty()) out.weight.push_back(sample.weight);
+    if (!from.optical.empty()) out.optical.push_back(sample.optical);
+    if (!from.solid.empty()) out.solid.push_back(sample.solid);
+    merge_values(out, from.channels, sample.terms, value_at);
+    ++out.begin.back();
+}
+
 } // namespace sparselens

@@ -3,10 +3,12 @@
 #include "base/subpixels.h"
 #include "deep/build.h"
 #include "deep/channel_alpha.h"
+#include "deep/merge_values.h"
 #include "deep/tidy.h"
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace sparselens {
@@ -28,8 +30,10 @@ struct Seen {
     double x, y;  // place, in small pixels from the middle of the small one
 };
 
-std::vector<Seen> samples_in(const Ldi &ldi, std::size_t alpha, const Imath::V2i &small, int factor) {
-    std::vector<Seen> seen;
+// Front to back.
+void find_samples(const Ldi &ldi, std::size_t alpha, const Imath::V2i &small, int factor,
+                  std::vector<Seen> &seen) {
+    seen.clear();
     for (int y = small.y * factor; y < (small.y + 1) * factor; ++y)
         for (int x = small.x * factor; x < (small.x + 1) * factor; ++x) {
             if (!ldi.windows.data.intersects(Imath::V2i(x, y))) continue;
@@ -42,13 +46,14 @@ std::vector<Seen> samples_in(const Ldi &ldi, std::size_t alpha, const Imath::V2i
                 shown *= 1 - double(alpha_at(ldi, alpha, i));
             }
         }
-    std::ranges::stable_sort(seen, {}, &Seen::z);
-    return seen;
+    std::ranges::sort(seen, {}, [](const Seen &s) { return std::pair(s.z, s.index); });
 }
 
-// Whether both belong to one surface and show images of about one depth. The limits are ratios, not pixels, as the lens is
-// not known here.
-bool alike(const Seen &first, const Seen &s) {
+// Whether both belong to one surface and show images of about one depth. `by.tolerance`, or where no lens is known ratios.
+bool alike(const Seen &first, const Seen &s, const ProxyFor &by) {
+    if (by.scale > 0)
+        return by.scale / first.z - by.scale / s.z <= by.tolerance &&
+               std::abs(by.scale / first.optical - by.scale / s.optical) <= by.tolerance;
     constexpr double surface_depth_ratio = 1.01, largest_image_difference = 0.05;
     const bool one_image =
         s.optical == first.optical || std::abs(first.optical / s.optical - 1) <= largest_image_difference;
@@ -57,49 +62,93 @@ bool alike(const Seen &first, const Seen &s) {
 
 float offset(double sum, std::size_t count) { return float(std::clamp(sum / double(count), -0.5, 0.5)); }
 
-// Appends the surfaces of one small pixel.
-void append_surfaces(const Ldi &ldi, std::size_t alpha, const std::vector<Seen> &seen, double pixels,
-                     Ldi &out) {
-    // Of the light; less is what rounding leaves behind surfaces that hide everything.
-    constexpr double nothing_left = 1e-4;
-    double left = 1; // of the light, behind the surfaces so far
-    std::vector<Term> terms;
-    for (std::size_t begin = 0, end = 0; begin < seen.size(); begin = end) {
-        MergedSample surface = sample_at(ldi, seen[begin].index);
-        double x = 0, y = 0, shown = 0;
-        terms.clear();
-        for (; end < seen.size() && alike(seen[begin], seen[end]); ++end) {
-            const Seen &s = seen[end];
-            x += s.x, y += s.y;
-            shown += s.shown * alpha_at(ldi, alpha, s.index) / pixels;
-            terms.push_back({s.index, (left > nothing_left ? s.shown / left : 1) / pixels});
-        }
-        surface.dx = offset(x, end - begin), surface.dy = offset(y, end - begin);
-        surface.z_back = surface.z;
-        surface.terms = terms;
-        surface.solid = solid_of(ldi, alpha, terms);
-        append(out, ldi, surface);
-        if (ldi.dx.empty()) out.dx.push_back(surface.dx), out.dy.push_back(surface.dy);
-        out.values[alpha].back() = std::min(out.values[alpha].back(), 1.0f); // but for rounding it is
-        left = std::max(0.0, left - shown);
+// Of some samples, the mean of what is depth: that of depths is harmonic.
+struct PlaceSum {
+    double x = 0, y = 0, inverse_z = 0, inverse_optical = 0;
+    std::size_t count = 0;
+
+    void add(const Seen &s) {
+        x += s.x, y += s.y;
+        inverse_z += 1 / s.z, inverse_optical += 1 / s.optical;
+        ++count;
     }
+    void set(MergedSample &surface) const {
+        surface.dx = offset(x, count), surface.dy = offset(y, count);
+        surface.z = surface.z_back = float(double(count) / inverse_z);
+        surface.optical = float(double(count) / inverse_optical);
+    }
+};
+
+// By what light is multiplied is known of samples; all other channels stay.
+std::vector<char> dimmed_channels(const Ldi &ldi, const ProxyFor &by) {
+    std::vector<char> dimmed(ldi.channels.size(), false);
+    if (by.left.empty()) return dimmed;
+    for (std::size_t k = 0; k < dimmed.size(); ++k) dimmed[k] = is_light(ldi.channels[k]) && k != ldi.alpha();
+    return dimmed;
 }
+
+// The surfaces of small pixels, one after the other.
+class SurfacesOf {
+public:
+    SurfacesOf(const Ldi &ldi, std::size_t alpha, int factor, const ProxyFor &by)
+        : ldi_(ldi), alpha_(alpha), factor_(factor), by_(by), dimmed_(dimmed_channels(ldi, by)) {}
+
+    void append_to(Ldi &out, const Imath::V2i &small) const {
+        // Of the light; less is what rounding leaves behind surfaces that hide everything.
+        constexpr double nothing_left = 1e-4;
+        thread_local std::vector<Seen> seen; // kept, as there are many pixels
+        thread_local std::vector<Term> terms;
+        find_samples(ldi_, alpha_, small, factor_, seen);
+        const double pixels = double(factor_) * factor_;
+        double left = 1; // of the light, behind the surfaces so far
+        for (std::size_t begin = 0, end = 0; begin < seen.size(); begin = end) {
+            double shown = 0;
+            PlaceSum place;
+            terms.clear();
+            for (; end < seen.size() && alike(seen[begin], seen[end], by_); ++end) {
+                const Seen &s = seen[end];
+                place.add(s);
+                shown += s.shown * alpha_at(ldi_, alpha_, s.index) / pixels;
+                terms.push_back({s.index, (left > nothing_left ? s.shown / left : 1) / pixels});
+            }
+            MergedSample surface = sample_at(ldi_, seen[begin].index);
+            place.set(surface);
+            surface.terms = terms;
+            surface.solid = solid_of(ldi_, alpha_, terms);
+            append(out, surface);
+            left = std::max(0.0, left - shown);
+        }
+    }
+
+private:
+    void append(Ldi &out, const MergedSample &surface) const {
+        sparselens::append(out, ldi_, surface, [this](std::size_t k, std::uint64_t i) {
+            return dimmed_[k] ? ldi_.values[k][i] * by_.left[i] : ldi_.values[k][i];
+        });
+        if (ldi_.dx.empty()) out.dx.push_back(surface.dx), out.dy.push_back(surface.dy);
+        out.values[alpha_].back() = std::min(out.values[alpha_].back(), 1.0f); // but for rounding it is
+    }
+
+    const Ldi &ldi_;
+    std::size_t alpha_;
+    int factor_;
+    const ProxyFor &by_;
+    std::vector<char> dimmed_; // [channel]
+};
 
 } // namespace
 
-Ldi proxy(const Ldi &ldi, int factor) {
+Ldi proxy(const Ldi &ldi, int factor, const ProxyFor &by) {
     if (factor == 1) return ldi;
-    if (ldi.alpha() == npos) return proxy(with_coverage(ldi), factor);
+    if (ldi.alpha() == npos) return proxy(with_coverage(ldi), factor, by);
     Ldi like = empty_like(ldi);
     Windows &windows = like.windows;
     windows.display = reduced(windows.display, factor);
     windows.data = reduced(windows.data, factor);
-    const double pixels = double(factor) * factor;
     Ldi out = with_each_coverage(ldi, [&](std::size_t coverage) {
-        return build_by_pixels(like, [&](std::size_t pixel, Ldi &row) {
-            append_surfaces(ldi, coverage, samples_in(ldi, coverage, windows.pixel(pixel), factor), pixels,
-                            row);
-        });
+        const SurfacesOf surfaces(ldi, coverage, factor, by);
+        return build_by_pixels(
+            like, [&](std::size_t pixel, Ldi &row) { surfaces.append_to(row, windows.pixel(pixel)); });
     });
     return tidy(std::move(out));
 }

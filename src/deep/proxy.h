@@ -3,14 +3,23 @@
 
 #include "ldi.h"
 
+#include <span>
+
 namespace sparselens {
 
-// The LDI at 1 / factor of its size, factor >= 1. Samples of a pixel whose depths differ by at most a hundredth are one
-// surface. Its coverage and colours are its share of the mean of the flattened pixels, so that the flattened small LDI
+// What a small LDI is made for.
+struct ProxyFor {
+    // A lens: samples whose perceptive depths, scale / z in pixels of the large LDI, differ by at most `tolerance` pixels are one
+    // surface. 0: none; then those are whose depths differ by at most a hundredth.
+    double scale = 0, tolerance = 0;
+    std::span<const float> left = {}; // [sample]: by what its light is multiplied; empty: 1
+};
+
+// The LDI at 1 / factor of its size, factor >= 1. Its depth is the harmonic mean of those of its samples. Its coverage and colours are its share of the mean of the flattened pixels, so that the flattened small LDI
 // is the mean (box filter) of the flattened large one; its position is their mean. Samples that they hide completely
 // are kept behind it. Ids are those of the first sample of a surface. Data windows whose size is not a multiple of
 // `factor` are filled up with empty pixels. The result has a channel A even if `ldi` has none.
-Ldi proxy(const Ldi &ldi, int factor);
+Ldi proxy(const Ldi &ldi, int factor, const ProxyFor &by = {});
 
 // The LDI at `factor` times its size: each pixel as often, across and down. Where in a pixel its samples lie is forgotten.
 Ldi enlarged(const Ldi &ldi, int factor);

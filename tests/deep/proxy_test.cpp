@@ -75,6 +75,26 @@ TEST(Proxy, KeepsWhatIsHidden) {
     EXPECT_NEAR(out.dx[0], 0, 1e-6);
 }
 
+// By a lens, what it moves apart by the tolerance at most is one surface, as far as the mean of their inverse depths says; and
+// the light of a sample may be dimmed, but not its coverage.
+TEST(Proxy, IsMadeForALens) {
+    const double scale = lens.radius * lens.focal_px;
+    const auto made = [&](double apart) {
+        const Ldi ldi = make_ldi(windows_of_size(2, 2), rgba_channels(), [&](int x, int) {
+            return std::vector<Sample>{{scale / (8 - apart * x), {1, 1, 1, 1}}};
+        });
+        const std::vector<float> left{1, 0.5f, 1, 0.5f};
+        return proxy(ldi, 2, {.scale = scale, .tolerance = 1, .left = left});
+    };
+    const Ldi one = made(0.9), two = made(1.1);
+    ASSERT_EQ(one.samples(), 1u);
+    EXPECT_NEAR(scale / double(one.z[0]), 8 - 0.45, 1e-5);
+    EXPECT_NEAR(one.values[0][0], 0.75f, 1e-6);
+    EXPECT_EQ(one.values[3][0], 1);
+    ASSERT_EQ(two.samples(), 2u);
+    EXPECT_NEAR(two.values[0][0] + (1 - two.values[3][0]) * two.values[0][1], 0.75f, 1e-6);
+}
+
 // A pixel of CoC -3.5 and 2, one of CoC 0.9 and one that is sharp, 20 pixels apart: each spreads by its own.
 TEST(ReachedDisplay, IsWhatEachSampleIsSpreadOver) {
     Windows windows = moved(30, 10, 41, 1);
