@@ -25,25 +25,26 @@ Ldi surfaces(int width, int height, bool opaque, std::uint32_t stream) {
     return ldi;
 }
 
-Image gather(const Ldi &ldi, const LensGatherOptions &options) {
+Image gather(const Ldi &ldi, const LensGatherOptions &options, const ThinLens &by = lens) {
     Progress silent;
-    return lens_gather(ldi, lens, ldi.windows.data, options, silent);
+    return lens_gather(ldi, by, ldi.windows.data, options, silent);
 }
 
 class LensDeviceTest : public GpuTest {
 protected:
     // Both pictures; all tiles are the device's.
-    void expect_same(const Ldi &ldi, LensGatherOptions options, double tolerance = 1e-6) {
-        const Image expected = gather(ldi, options);
+    void expect_same(const Ldi &ldi, LensGatherOptions options, double tolerance = 1e-6,
+                     const ThinLens &by = lens) {
+        const Image expected = gather(ldi, options, by);
         if (!device) device = open_gather_device(*info, watch());
         options.device = device.get();
-        const Image image = gather(ldi, options);
+        const Image image = gather(ldi, options, by);
         const TileReport did = device->take_report();
         EXPECT_GT(did.on_device, 0u);
         EXPECT_EQ(did.on_cpu, Tiles());
         EXPECT_EQ(did.failure, "");
         EXPECT_LE(largest_difference(image, expected), tolerance); // sums in the same order: rounding at most
-        EXPECT_EQ(gather(ldi, options).values, image.values);
+        EXPECT_EQ(gather(ldi, options, by).values, image.values);
         device->take_report();
     }
 
@@ -62,6 +63,19 @@ TEST_F(LensDeviceTest, OpaqueSamplesAreTheCpus) {
 
 TEST_F(LensDeviceTest, PartialSamplesAreTheCpus) {
     expect_same(surfaces(150, 90, false, 2), {.lens_samples = 8});
+}
+
+// Far out of focus on both sides of it, but for a corner.
+TEST_F(LensDeviceTest, CellsAreTheCpus) {
+    const ThinLens wide{.radius = 0.6, .focal_px = 640, .focus = 5};
+    const Ldi ldi = make_ldi(windows_of_size(250, 130), rgba_channels(), [&](int x, int y) {
+        const auto random = [&](std::uint32_t n) { return float(random_unit(x / 2, y / 2, n)); };
+        std::vector<Sample> samples;
+        if (x + y < 100) samples.push_back({depth_of(wide, -45), {random(1), random(2), random(3), 1}});
+        samples.push_back({depth_of(wide, x > 240 ? 0 : 60), {random(4), random(5), random(6), 1}});
+        return samples;
+    });
+    expect_same(ldi, {.quality = Quality::draft}, 1e-6, wide);
 }
 
 TEST_F(LensDeviceTest, HighlightsAreAddedToIt) {

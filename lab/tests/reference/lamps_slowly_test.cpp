@@ -90,7 +90,8 @@ TEST_P(LampsSlowly, AreTheLightOfATile) {
     const ThinLens lens = lens_of(c);
     const Ldi ldi = scene(c, lens);
     GatherScene lit{&ldi,
-                    c.aspect,
+                    ldi.windows.data,
+                    lens,
                     std::make_unique<Optics>(ldi, lens, LensLooks{}, 0),
                     {},
                     make_blocks(ldi, lens, ldi.windows.data),

@@ -5,6 +5,7 @@
 
 #include "base/device_report.h"
 #include "dof/device/splat_tiles.h"
+#include "kernels/lens_layout.h"
 #include "lens/lens_samples.h"
 
 #include <Imath/ImathVec.h>
@@ -25,6 +26,8 @@ struct TileTask {
     std::span<const std::uint32_t> samples, facets, fillers; // blocks of them
     std::span<const LensSample> lens;
     std::span<const std::uint32_t> solids = {}; // blocks of them, too
+    // Pixels across and down that are asked for, from its corner; a device may gather all.
+    int size = lens_kernel::tile_size;
 };
 
 // What a tile has gathered: the mean over the lens points of each pixel, row by row.

@@ -1,7 +1,10 @@
 #include "dof/lens/gather_scene.h"
 
+#include "base/subpixels.h"
+#include "deep/proxy.h"
 #include "dof/lens/sharpen.h"
 #include "dof/lens/solid_samples.h"
+#include "lens/perceptive_depth.h"
 
 #include <algorithm>
 #include <cmath>
@@ -36,47 +39,121 @@ void paint(SampleColours &colours, std::span<const ColourSet> sets, std::size_t 
     }
 }
 
-} // namespace
-
-GatherScene prepare(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window,
-                    const LensGatherOptions &options, double coc, const Progress &progress) {
-    const KnownPixels known(options.known.value_or(window), options.unseen);
+// All that looks move, before there are colours.
+GatherScene placed(const Ldi &ldi, const ThinLens &lens, const LensLooks &looks, double coc,
+                   const KnownPixels &known) {
     const Imath::V2i corner = ldi.windows.data.min;
     GatherScene scene{&ldi,
-                      lens.pixel_aspect,
-                      std::make_unique<Optics>(ldi, lens, options.looks, coc),
-                      {options.holdout, perceptive_depth(lens, 1), corner},
+                      known,
+                      lens,
+                      std::make_unique<Optics>(ldi, lens, looks, coc),
+                      {nullptr, perceptive_depth(lens, 1), corner},
                       make_blocks(ldi, lens, known),
                       {},
                       {},
                       {},
                       {}};
+    scene.optics->bend(scene.samples);
+    return scene;
+}
+
+// What is not in the samples themselves. `treat` changes the colours before others take some of them.
+template <typename Treat>
+void complete(GatherScene &scene, const Treat &treat, const Progress &progress) {
+    const Ldi &ldi = *scene.ldi;
     const Optics &optics = *scene.optics;
     BlockedSamples &samples = scene.samples;
-    optics.bend(samples);
-    if (is_sharp(samples, optics)) return scene;
-    progress.may_end();
     const std::vector<Filler> fillers =
-        find_fillers(ldi, lens, known); // before there are colours, as it takes memory
+        find_fillers(ldi, scene.lens, scene.known); // before there are colours, as it takes memory
     progress.may_end();
     scene.colours = make_colours(ldi, samples);
-    if (!options.point) {
-        const SharpenLooks looks{optics.aperture, optics.field, coc, options.seen};
-        sharpen_near_focus(ldi, lens, samples, scene.colours, &looks);
-        progress.may_end();
-        const LightChannels light = light_channels(ldi);
-        scene.highlights =
-            take_highlights(samples, light.brightness, light.all, scene.colours, seen_of(options, corner));
-    }
-    scene.fillers = place_fillers(ldi, lens, fillers, samples, scene.colours);
-    if (options.point) paint(scene.fillers.colours, scene.colours.sets, ldi.alpha());
+    treat();
+    scene.fillers = place_fillers(ldi, scene.lens, fillers, samples, scene.colours);
     optics.bend(scene.fillers.samples);
     progress.may_end();
-    scene.facets = place_facets(find_facets(ldi, lens, double(optics.widest())), ldi.samples(),
+    scene.facets = place_facets(find_facets(ldi, scene.lens, double(optics.widest())), ldi.samples(),
                                 {samples.x, samples.y, samples.hiding_coc(), samples.key, samples.source});
-    scene.solids = place_solids(ldi, lens, samples);
+    scene.solids = place_solids(ldi, scene.lens, samples);
     optics.bend(scene.solids);
+}
+
+// Of the LDI's samples, how much of their light stays; empty: all.
+std::vector<float> left_by_highlights(const GatherScene &scene) {
+    const std::vector<std::uint32_t> &from = scene.highlights.sample;
+    if (from.empty()) return {};
+    std::vector<float> left(scene.ldi->samples(), 1.0f);
+    for (std::size_t n = 0; n < from.size(); ++n)
+        left[scene.samples.source[from[n]]] -= scene.highlights.share[n];
+    return left;
+}
+
+// Of looks, what is counted in pixels. The middle of the small display window may lie elsewhere.
+LensLooks smaller(LensLooks looks, const Windows &large, const Windows &small, int across) {
+    const auto middle = [](const Windows &windows) {
+        return Imath::V2d(windows.display.min + windows.display.max + Imath::V2i(1)) / 2;
+    };
+    looks.axis = (middle(large) + looks.axis) / double(across) - middle(small);
+    return looks;
+}
+
+// The cells of `small` that have pixels of which it is not known what they show, or that the large window has not.
+std::vector<char> unseen_cells(const GatherScene &scene, const Windows &small, int across) {
+    const Windows &large = scene.ldi->windows;
+    std::vector<int> known(small.pixels(), 0);
+    for (std::size_t pixel = 0; pixel < large.pixels(); ++pixel) {
+        const Imath::V2i at = large.pixel(pixel), cell = reduced({at, at}, across).min;
+        known[small.index(cell.x, cell.y)] += scene.known.has(large, pixel);
+    }
+    std::vector<char> unseen(small.pixels());
+    std::ranges::transform(known, unseen.begin(), [&](int pixels) { return pixels < across * across; });
+    return unseen;
+}
+
+} // namespace
+
+GatherScene prepare(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window,
+                    const LensGatherOptions &options, double coc, const Progress &progress) {
+    GatherScene scene =
+        placed(ldi, lens, options.looks, coc, {options.known.value_or(window), options.unseen});
+    scene.held_out.by = options.holdout;
+    const Optics &optics = *scene.optics;
+    if (is_sharp(scene.samples, optics)) return scene;
+    progress.may_end();
+    const auto treat = [&] {
+        if (options.point) return;
+        const SharpenLooks looks{optics.aperture, optics.field, coc, options.seen};
+        sharpen_near_focus(ldi, lens, scene.samples, scene.colours, &looks);
+        progress.may_end();
+        const LightChannels light = light_channels(ldi);
+        scene.highlights = take_highlights(scene.samples, light.brightness, light.all, scene.colours,
+                                           seen_of(options, scene.held_out.corner));
+    };
+    complete(scene, treat, progress);
+    if (options.point) paint(scene.fillers.colours, scene.colours.sets, ldi.alpha());
     return scene;
+}
+
+GatherScene coarse_scene(const GatherScene &scene, int across) {
+    // Surfaces that a lens point moves apart by half a cell at most are one: what stays apart covers a part of its cell, which
+    // costs more.
+    const double tolerance = 0.5 * across;
+    const Ldi &large = *scene.ldi;
+    const std::vector<float> left = left_by_highlights(scene);
+    auto small = std::make_unique<Ldi>(
+        proxy(large, across, {perceptive_scale(scene.lens.radius, scene.lens.focal_px), tolerance, left}));
+    // What covers a part of a cell is spread over it: moved, it would lie before its neighbours, and light would be lost.
+    small->dx.clear(), small->dy.clear();
+    ThinLens lens = scene.lens;
+    lens.focal_px /= across;
+    const std::vector<char> unseen = unseen_cells(scene, small->windows, across);
+    const LensLooks looks = smaller(scene.optics->looks, large.windows, small->windows, across);
+    GatherScene coarse =
+        placed(*small, lens, looks, scene.optics->coc / across, {small->windows.data, unseen});
+    complete(coarse, [] {}, {});
+    coarse.known.unseen = {};
+    small->values.clear();
+    coarse.coarse = std::move(small);
+    return coarse;
 }
 
 } // namespace sparselens

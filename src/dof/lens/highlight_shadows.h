@@ -11,6 +11,9 @@
 // less than w, if the thing is out of focus on the other side or half as much as the lamp at most. The members of a group
 // (highlight_groups.h) take that shadow from the one in their middle, and it is off by a fiftieth of the disc's radius at most.
 // What stands nearer to the lamp is cast for each of them.
+//
+// In a tile that is gathered in cells (cells.h) the shadows of what stands far before the lamp are those of the coarse scene's samples:
+// that of a cell is no wider than a sixteenth of the disc's radius.
 #pragma once
 
 #include "dof/lens/block_footprints.h"
@@ -37,10 +40,20 @@ struct ShadowScreen {
     bool fine = false; // in cells of the lens, not in pixels
 };
 
-// What casts them.
+// What casts them: samples of the scene of the highlights, or of a coarse one.
 struct ShadowCasters {
     const BlockedSamples &samples;
     const BlockFootprints &footprints;
+    float across = 1; // pixels that a cell of theirs is wide and high,
+    Imath::V2f corner = {0,
+                         0}; // and where their places begin, as pixels of the highlights' scene are counted
+    bool is_coarse() const { return across > 1; }
+};
+
+// Of a coarse scene, those that can reach a tile.
+struct CoarseCasters {
+    ShadowCasters samples, solids;
+    std::span<const std::uint32_t> blocks, solid_blocks;
 };
 
 class HighlightShadows {
@@ -50,8 +63,10 @@ public:
         : highlights_(highlights), samples_(samples.samples), casters_{samples, solids} {}
 
     // Of the tile whose first pixel is `origin`, relative to the data window's corner. Then the blocks that can reach it.
+    // `extent`: of the lens, for each pixel of CoC. `coarse`: for a tile that is gathered in cells.
     void begin(const Imath::V2i &origin, std::span<const std::uint32_t> samples,
-               std::span<const std::uint32_t> solids, double pixel_aspect);
+               std::span<const std::uint32_t> solids, double pixel_aspect, const Imath::V2d &extent,
+               const CoarseCasters *coarse = nullptr);
 
     // Highlights are named by their place in Highlights.
     // For a group: what its members share, in the pixels of a box. Only cast() for each tells the rest.
@@ -79,6 +94,7 @@ private:
         ShadowScreen screen;
         // What is hardly nearer moves hardly, and hides the lamp only if it lies right before it.
         float depth, hardly;
+        float far; // perceptive depth, pixels: from which on coarse casters cast; infinite: there are none
         Imath::Box2f place; // of all
         double spread = 0;  // pixels: of the group around it
 
@@ -92,7 +108,13 @@ private:
         }
     };
     Imath::V2f place(std::uint32_t highlight) const; // relative to the data window's corner
+    float far_before(float depth) const;
     std::uint32_t middle_of(std::span<const std::uint32_t> group) const;
+    // Which of a set of casters cast the shadows: those whose perceptive depth, as they count it, lies between these.
+    struct Range {
+        float farthest, nearest;
+    };
+    Range range_of(const Asked &lamp, const ShadowCasters &casters) const;
     struct Block { // of casters_[set]
         std::size_t set;
         std::uint32_t number;
@@ -100,19 +122,23 @@ private:
     void add_blocks(std::size_t set, std::span<const std::uint32_t> blocks);
     bool is_shared(const Asked &group, const Block &block) const;
     void cast_block(const Asked &lamp, const Block &block, LampShadow &shadow) const;
-    void cast_one(const Asked &lamp, const BlockedSamples &samples, std::uint32_t sample,
+    void cast_one(const Asked &lamp, const ShadowCasters &casters, std::uint32_t sample,
                   const Footprint &footprint, std::uint32_t name, LampShadow &into) const;
     template <typename Visit>
     void for_each_block(const Asked &lamp, const Visit &visit) const;
     template <typename Bounds>
-    bool can_shadow(const Asked &lamp, const Bounds &bounds) const;
+    bool is_before(const Asked &lamp, const ShadowCasters &casters, const Bounds &bounds) const;
+    template <typename Bounds>
+    bool can_shadow(const Asked &lamp, const ShadowCasters &casters, const Bounds &bounds) const;
     bool are_side_by_side(std::uint32_t lamp_sample, std::uint32_t sample) const;
 
     const Highlights &highlights_;
     const BlockedSamples &samples_;
-    std::array<ShadowCasters, 2> casters_;
+    std::vector<ShadowCasters> casters_; // samples, solids; and those of the tile's coarse scene
     Imath::V2i origin_;
     double pixel_aspect_ = 1;
+    Imath::V2d extent_{1, 1};
+    float cell_px_ = 0; // of the tile's coarse scene; 0: there is none
     struct AreaBlocks {
         std::size_t set, area;
         std::vector<std::uint32_t> blocks;

@@ -39,7 +39,7 @@ HighlightTile::HighlightTile(const GatherScene &scene, const BlockFootprints &fo
     : scene_(scene),
       shadows_(scene.highlights, {scene.samples, footprints}, {scene.solids, solid_footprints}),
       half_extent_(aperture_.half_extent()), light_(sets_.size() * size * size) {
-    half_extent_.y *= scene.pixel_aspect;
+    half_extent_.y *= scene.pixel_aspect();
 }
 
 bool HighlightTile::dark(int x, int y) const {
@@ -49,12 +49,12 @@ bool HighlightTile::dark(int x, int y) const {
 }
 
 void HighlightTile::spread(const Imath::V2i &origin, std::span<const std::uint32_t> blocks,
-                           std::span<const std::uint32_t> solids) {
+                           std::span<const std::uint32_t> solids, const CoarseCasters *coarse) {
     origin_ = origin;
     std::ranges::fill(light_, 0.0f);
     for (auto &left : left_by_cat_eye_) left.clear();
     if (highlights_.sample.empty()) return;
-    shadows_.begin(origin, blocks, solids, scene_.pixel_aspect);
+    shadows_.begin(origin, blocks, solids, scene_.pixel_aspect(), half_extent_, coarse);
     for (const std::uint32_t b : blocks)
         highlights_.groups.for_each(b, [&](std::span<const std::uint32_t> group) {
             if (!scene_.optics->field.skews()) return spread_group(group);

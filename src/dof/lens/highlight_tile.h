@@ -29,9 +29,9 @@ public:
                   const BlockFootprints &solid_footprints);
 
     // Of the tile whose first pixel is `origin`, relative to the data window's corner like the samples. `blocks`: those that
-    // can reach it; `solids`, of those.
+    // can reach it; `solids`, of those; `coarse`: of a tile that is gathered in cells.
     void spread(const Imath::V2i &origin, std::span<const std::uint32_t> blocks,
-                std::span<const std::uint32_t> solids = {});
+                std::span<const std::uint32_t> solids = {}, const CoarseCasters *coarse = nullptr);
 
     // At a pixel of the tile. `dark`: none reaches it.
     float value(int x, int y, std::size_t channel) const { return light_[at(x, y, channel)]; }

@@ -149,13 +149,14 @@ Highlights take_highlights(const BlockedSamples &samples, std::span<const std::s
                            const std::optional<Imath::Box2i> &seen) {
     const std::vector<Found> all = HighlightFinder(samples, brightness, colours, seen).find();
     Highlights highlights{
-        {}, {colours.groups, all.size(), std::vector<float>(colours.groups * all.size() * 4)}, {}};
+        {}, {}, {colours.groups, all.size(), std::vector<float>(colours.groups * all.size() * 4)}, {}};
     for (const Found &f : all) {
         for (const std::size_t k : colour_channels) {
             highlights.light.at(k, highlights.sample.size()) = f.share * colours.at(k, f.sample);
             colours.at(k, f.sample) *= 1 - f.share;
         }
         highlights.sample.push_back(f.sample);
+        highlights.share.push_back(f.share);
     }
     highlights.groups = HighlightGroups(samples, highlights.sample);
     return highlights;

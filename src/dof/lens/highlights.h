@@ -21,6 +21,7 @@ namespace sparselens {
 
 struct Highlights {
     std::vector<std::uint32_t> sample; // of the BlockedSamples, ascending
+    std::vector<float> share;          // of its light that each spreads, (0, 1]
     SampleColours light;               // what each spreads; none in A
     HighlightGroups groups;            // of those samples
 };

@@ -36,6 +36,10 @@ void Optics::bend(BlockedSamples &samples) const {
     });
 }
 
+float Optics::narrowest() const {
+    return float(std::min(aperture.half_extent().x, aperture.half_extent().y * frame.pixel_aspect));
+}
+
 Imath::V2d Optics::coc_gradient(const Imath::V2i &first, int size) const {
     if (field.flat()) return {0, 0};
     const Imath::V2d middle = Imath::V2d(first) + Imath::V2d(size / 2);

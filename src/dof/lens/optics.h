@@ -32,7 +32,7 @@ struct Optics {
     // lens. `first`, `size`: as of coc_gradient().
     std::size_t doubled(const Imath::V2i &first, int size) const;
     bool moves() const { return field.moves(); }
-    float widest() const; // of the aperture, for each pixel of CoC
+    float widest() const, narrowest() const; // of the aperture, for each pixel of CoC
 
     // Adds to the CoC of samples, whose places are relative to the corner, and moves them to where the magnified picture
     // shows them.

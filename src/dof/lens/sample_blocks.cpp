@@ -106,10 +106,10 @@ void store(BlockedSamples &samples, std::size_t at, const PlacedSample &f) {
 
 void bound(SampleBlock &block, const BlockedSamples &samples) {
     constexpr float most = std::numeric_limits<float>::max();
-    block.x_min = block.y_min = block.coc_min = most;
+    block.x_min = block.y_min = block.coc_min = block.coc_least = block.depth_min = most;
     block.x_max = block.y_max = block.coc_max = -most;
     block.coc_shown = block.depth_max = 0;
-    block.shows_opaque = block.shows_images = false;
+    block.shows_opaque = block.shows_images = block.has_background = false;
     for (std::uint32_t i = block.begin; i < block.end; ++i) {
         block.x_min = std::min(block.x_min, samples.x[i]);
         block.x_max = std::max(block.x_max, samples.x[i]);
@@ -117,14 +117,20 @@ void bound(SampleBlock &block, const BlockedSamples &samples) {
         block.y_max = std::max(block.y_max, samples.y[i]);
         block.coc_min = std::min(block.coc_min, samples.coc[i]);
         block.coc_max = std::max(block.coc_max, samples.coc[i]);
+        block.coc_least = std::min(block.coc_least, std::abs(samples.coc[i]));
+        block.depth_min = std::min(block.depth_min, samples.depth[i]);
         block.depth_max = std::max(block.depth_max, samples.depth[i]);
-        if (samples.source[i] == BlockedSamples::background) continue;
+        if (samples.source[i] == BlockedSamples::background) {
+            block.has_background = true;
+            continue;
+        }
         block.coc_shown = std::max(block.coc_shown, std::abs(samples.coc[i]));
         if (samples.is_image(i)) {
             const float surface = samples.surface_coc[i];
             block.shows_images = true;
             block.coc_min = std::min(block.coc_min, surface);
             block.coc_max = std::max(block.coc_max, surface);
+            block.coc_least = std::min(block.coc_least, std::abs(surface));
             block.coc_shown = std::max(block.coc_shown, std::abs(surface));
         }
         block.shows_opaque = block.shows_opaque || i < block.opaque_end;

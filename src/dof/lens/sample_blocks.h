@@ -22,9 +22,11 @@ struct SampleBlock {
     float x_min, x_max, y_min, y_max;     // of the samples' centres, pixels
     float coc_min, coc_max;               // pixels, signed
     float coc_shown;                      // the largest, without its sign, of what is no background
+    float coc_least;                      // the smallest, without its sign
     bool shows_opaque;                    // whether anything opaque is no background
     bool shows_images;                    // whether any sample is_image()
-    float depth_max;                      // perceptive, pixels: of the nearest sample
+    bool has_background;                  // whether any sample is one
+    float depth_min, depth_max;           // perceptive, pixels: of the farthest sample and the nearest
 };
 
 struct BlockedSamples {

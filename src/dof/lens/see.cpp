@@ -71,7 +71,9 @@ template <typename Visit>
 
 See::See(const GatherScene &scene, const TileTask &tile) : scene_(scene), tile_(tile) {
     seen_.origin = tile.origin;
-    seen_.columns.fill({0, size});
+    seen_.rows = tile.size;
+    seen_.columns.fill({0, 0});
+    std::fill_n(seen_.columns.begin(), tile.size, CatEye::Columns{0, tile.size});
     seen_.front.resize(count);
     seen_.filler.resize(count);
     depths_.resize(count);
@@ -86,7 +88,7 @@ See::See(const GatherScene &scene, const TileTask &tile) : scene_(scene), tile_(
 // behind it.
 const Seen &See::through(const LensSample &point) {
     see_columns(point);
-    see_opaque(point, scene_.samples, bounds_, everywhere, seen_.front);
+    see_opaque(point, scene_.samples, bounds_, everywhere(), seen_.front);
     see_facets(point);
     see_solids(point);
     see_images(point);
@@ -128,7 +130,7 @@ void See::collect_partial() {
         const float coc = std::abs(samples.coc[i]), x = samples.x[i] - float(tile_.origin.x),
                     y = samples.y[i] - float(tile_.origin.y);
         const float across = coc * reach_x + beside, down = coc * reach_y + beside;
-        return x > -across && x < size + across && y > -down && y < size + down;
+        return x > -across && x < float(tile_.size) + across && y > -down && y < float(tile_.size) + down;
     };
     std::vector<std::uint64_t> order;
     for (const std::uint32_t b : tile_.samples)
@@ -157,8 +159,8 @@ TileProjection See::projection(const LensSample &point) const {
 void See::see_columns(const LensSample &point) {
     if (!scene_.cat_eye()) return; // all, as they are
     const Imath::V2i first = scene_.held_out.corner + tile_.origin;
-    for (int y = 0; y < size; ++y)
-        seen_.columns[std::size_t(y)] = scene_.cat_eye()->columns(point, first.x, size, first.y + y);
+    for (int y = 0; y < tile_.size; ++y)
+        seen_.columns[std::size_t(y)] = scene_.cat_eye()->columns(point, first.x, tile_.size, first.y + y);
 }
 
 BlockBounds::Box See::box_of(const Cells &cells) const {
@@ -193,7 +195,7 @@ void See::see_solids(const LensSample &point) {
     if (tile_.solids.empty()) return;
     const BlockedSamples &solids = scene_.solids;
     const TileProjection to_cells = projection(point);
-    for (const std::uint32_t b : solid_bounds_.reached(point, box_of(everywhere)))
+    for (const std::uint32_t b : solid_bounds_.reached(point, box_of(everywhere())))
         for_opaque(to_cells, solids, solids.coc, solids.blocks[b],
                    [&](std::uint32_t begin, std::span<const std::int32_t> cells) {
                        const std::uint64_t *key = &solids.key[begin];
@@ -214,8 +216,8 @@ void See::see_images(const LensSample &point) {
     for (const std::uint32_t b : tile_.samples)
         if (shows_images(b)) find_images(to_cells, scene_.samples.blocks[b]);
     seen_.images = seen_.front;
-    for (int y = 0; y < size; ++y)
-        for (int x = 0; x < size; ++x) seen_.images[at(x, y)] = image_at(at(x, y));
+    for (int y = 0; y < tile_.size; ++y)
+        for (int x = 0; x < tile_.size; ++x) seen_.images[at(x, y)] = image_at(at(x, y));
 }
 
 void See::find_images(const TileProjection &projection, const SampleBlock &block) {
@@ -246,7 +248,7 @@ std::uint64_t See::image_at(std::size_t cell) const {
 }
 
 void See::find_empty() {
-    for (int y = 0; y < size; ++y) {
+    for (int y = 0; y < tile_.size; ++y) {
         const auto [begin, end] = seen_.columns[std::size_t(y)];
         const std::uint64_t within = begin < end ? ~std::uint64_t{} >> (size - (end - begin)) << begin : 0;
         seen_.empty[std::size_t(y)] = zeros_of(&seen_.front[at(0, y)]) & within;
@@ -267,9 +269,10 @@ void See::find_cracks() {
 // Cracks of surfaces so even that cells seldom stay empty between their samples, and others show what is far behind.
 void See::find_cracks_before_others() {
     if (!is_deep_) return;
-    std::ranges::transform(seen_.front, depths_.begin(),
-                           [](std::uint64_t key) { return kernels::depth_of(kernels::upper_of(key)); });
-    for (int y = 0; y < size; ++y) {
+    std::transform(seen_.front.begin(), seen_.front.begin() + std::ptrdiff_t(at(-border, tile_.size + 1)),
+                   depths_.begin(),
+                   [](std::uint64_t key) { return kernels::depth_of(kernels::upper_of(key)); });
+    for (int y = 0; y < tile_.size; ++y) {
         const auto [begin, end] = seen_.columns[std::size_t(y)];
         for (std::uint64_t row = far_behind(&depths_[at(0, y)]); row != 0; row &= row - 1) {
             const int x = std::countr_zero(row);
@@ -304,8 +307,8 @@ std::uint64_t See::torn_at(std::size_t cell) const {
 // The fillers of empty cells, and of them those that show.
 void See::see_fillers(const LensSample &point) {
     std::uint64_t columns = 0;
-    Cells box{0, size, 0, 0};
-    for (int y = 0; y < size; ++y) {
+    Cells box{0, tile_.size, 0, 0};
+    for (int y = 0; y < tile_.size; ++y) {
         if (seen_.empty[std::size_t(y)] == 0) continue;
         columns |= seen_.empty[std::size_t(y)];
         box.top = std::min(box.top, y);

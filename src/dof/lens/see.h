@@ -46,7 +46,8 @@ struct PartialSamples {
 
 // Keys name samples by their lower half: those of the picture, or the fillers.
 struct Seen {
-    Imath::V2i origin; // the tile's first pixel, relative to the data window's corner
+    Imath::V2i origin;           // the tile's first pixel, relative to the data window's corner
+    int rows = tile_cells::size; // of pixels that are asked for, from there
     PartialSamples partial;
     // Of one lens point:
     std::array<CatEye::Columns, tile_cells::size> columns; // [row]: the pixels that see through it
@@ -64,7 +65,7 @@ struct Seen {
     // visit(cell); it may fill that.
     template <typename Visit>
     void for_each_empty(const Visit &visit) const {
-        for (int y = 0; y < tile_cells::size; ++y)
+        for (int y = 0; y < rows; ++y)
             for (std::uint64_t row = empty[std::size_t(y)]; row != 0; row &= row - 1)
                 visit(tile_cells::at(std::countr_zero(row), y));
     }
@@ -87,9 +88,10 @@ private:
     struct Cells { // by the pixels of the tile, right and bottom excluded
         int left, top, right, bottom;
     };
-    static constexpr Cells everywhere{1 - tile_cells::border, 1 - tile_cells::border,
-                                      tile_cells::size + tile_cells::border - 1,
-                                      tile_cells::size + tile_cells::border - 1};
+    Cells everywhere() const {
+        constexpr int beside = tile_cells::border - 1;
+        return {-beside, -beside, tile_.size + beside, tile_.size + beside};
+    }
     struct Crack {
         std::uint32_t cell;
         std::uint64_t key; // of the sample that shows through it

@@ -17,11 +17,37 @@ constexpr float of_edges =
 
 ShadowAreas::ShadowAreas(const BlockedSamples &samples)
     : samples_(samples), columns_(pieces_of(samples.columns, size)),
-      made_(std::size_t(columns_) * std::size_t(pieces_of(samples.rows, size))), steps_(made_.size()) {}
+      depths_(std::size_t(columns_) * std::size_t(pieces_of(samples.rows, size))), made_(depths_.size()),
+      steps_(depths_.size()), block_depths_(samples.blocks.size()) {
+    for (std::uint32_t b = 0; b < samples.blocks.size(); ++b) {
+        Depths &depths = depths_[of(b)];
+        depths.farthest = std::min(depths.farthest, samples.blocks[b].depth_min);
+        depths.nearest = std::max(depths.nearest, samples.blocks[b].depth_max);
+    }
+}
 
 const NearBounds *ShadowAreas::nearer_than(std::size_t area, float depth) const {
     std::call_once(made_[area], [&] { steps_[area] = steps_of(area); });
     return steps_[area].nearer_than(depth);
+}
+
+// The step that a depth lies in, and all before it; none before the first.
+std::uint64_t ShadowAreas::BlockDepths::up_to(float depth) const {
+    const float step = (depth - farthest) * in_px;
+    if (!(step >= 0)) return 0;
+    return step < 63 ? ~std::uint64_t{} >> (63 - int(step)) : ~std::uint64_t{};
+}
+
+void ShadowAreas::find_depths(std::uint32_t b) const {
+    const SampleBlock &block = samples_.blocks[b];
+    BlockDepths &depths = block_depths_[b];
+    depths.farthest = block.depth_min;
+    constexpr float least_range = 1e-3f; // pixels
+    depths.in_px = 63 / std::max(block.depth_max - block.depth_min, least_range);
+    for (std::uint32_t i = block.begin; i < block.end; ++i) {
+        const std::uint64_t up_to = depths.up_to(samples_.depth[i]);
+        depths.steps |= up_to & ~(up_to >> 1);
+    }
 }
 
 NearSteps ShadowAreas::steps_of(std::size_t area) const {
@@ -30,7 +56,9 @@ NearSteps ShadowAreas::steps_of(std::size_t area) const {
     const int left = int(area) % columns_ * size, top = int(area) / columns_ * size;
     for (int row = top; row < std::min(top + size, samples_.rows); ++row)
         for (int column = left; column < std::min(left + size, samples_.columns); ++column) {
-            const SampleBlock &block = samples_.blocks[std::size_t(row * samples_.columns + column)];
+            const auto b = std::uint32_t(row * samples_.columns + column);
+            const SampleBlock &block = samples_.blocks[b];
+            find_depths(b);
             for (std::uint32_t i = block.begin; i < block.end; ++i)
                 samples.push_back({samples_.depth[i], samples_.x[i], samples_.x[i], samples_.y[i],
                                    samples_.y[i], coc[i] - of_edges, coc[i] + of_edges});

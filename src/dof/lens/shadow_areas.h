@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <mutex>
 #include <vector>
 
@@ -27,14 +28,39 @@ public:
     // Of the samples of an area that are nearer than a perceptive depth; null: there are none. Their centres, and the CoCs of their
     // footprints (dof/footprints/footprint.h), whose edges lie less than a pixel from the centres. For any thread.
     const NearBounds *nearer_than(std::size_t area, float depth) const;
+    // Whether any of it may lie between two perceptive depths.
+    bool lies_between(std::size_t area, float farthest, float nearest) const {
+        return depths_[area].nearest > farthest && depths_[area].farthest <= nearest;
+    }
+
+    // Whether any sample of a block may lie between two perceptive depths; of an area that nearer_than() was asked of.
+    bool block_lies_between(std::uint32_t block, float farthest, float nearest) const {
+        return block_depths_[block].lies_between(farthest, nearest);
+    }
 
 private:
+    // At which depths, of 64 from its farthest to its nearest, a block has samples, bit by bit.
+    struct BlockDepths {
+        float farthest = 0, in_px = 0; // steps in a pixel
+        std::uint64_t steps = 0;
+
+        std::uint64_t up_to(float depth) const;
+        bool lies_between(float from, float to) const {
+            return (steps & up_to(to) & ~(up_to(from) >> 1)) != 0;
+        }
+    };
+    void find_depths(std::uint32_t block) const;
     NearSteps steps_of(std::size_t area) const;
 
     const BlockedSamples &samples_;
     int columns_;
+    struct Depths { // perceptive
+        float farthest = std::numeric_limits<float>::max(), nearest = 0;
+    };
+    std::vector<Depths> depths_; // [area]
     mutable std::vector<std::once_flag> made_;
     mutable std::vector<NearSteps> steps_; // [area]
+    mutable std::vector<BlockDepths> block_depths_;
 };
 
 } // namespace sparselens

@@ -45,7 +45,7 @@ void Weigh<Light>::add_opaque(const Seen &seen) {
     for (std::size_t g = 0; g < scene_.colours.groups; ++g) {
         const float *colours = scene_.colours.group(g).data();
         const Float4 behind = light_.of(g, 0), in_front = light_.of(g, Light::sides - 1);
-        for (int y = 0; y < size; ++y) {
+        for (int y = 0; y < seen.rows; ++y) {
             const auto [begin, end] = seen.columns[std::size_t(y)];
             const std::uint64_t *row_keys = &seen.shown()[at(0, y)];
             float *row_sums = &sums_[(g * pixels + std::size_t(y * size)) * 4];

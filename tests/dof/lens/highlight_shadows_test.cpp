@@ -68,7 +68,8 @@ struct LampBehindBoards : BlockedLdi {
     // Of each of the lamp's samples, one after the other, the share that is lit at each pixel.
     std::vector<float> lit(bool together) {
         HighlightShadows shadows(highlights, {samples, footprints}, {solids, solid_footprints});
-        shadows.begin({0, 0}, blocks, solids.blocks.empty() ? std::span<const std::uint32_t>() : blocks, 1);
+        shadows.begin({0, 0}, blocks, solids.blocks.empty() ? std::span<const std::uint32_t>() : blocks, 1,
+                      {1, 1});
         std::vector<float> all;
         std::vector<std::uint32_t> group(lamp.size());
         std::iota(group.begin(), group.end(), 0u);

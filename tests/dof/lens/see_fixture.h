@@ -36,7 +36,8 @@ struct TileFixture {
     }
     GatherScene scene(const LensLooks &looks = {}) const {
         return {&ldi,
-                1,
+                ldi.windows.data,
+                lens,
                 std::make_unique<Optics>(ldi, lens, looks, 0),
                 {},
                 blocked.samples,

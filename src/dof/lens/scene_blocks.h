@@ -1,0 +1,28 @@
+// Which blocks of all that a scene is made of can reach a tile.
+#pragma once
+
+#include "dof/lens/block_finder.h"
+#include "dof/lens/gather_scene.h"
+
+namespace sparselens {
+
+struct TileBlocks {
+    std::vector<std::uint32_t> samples, facets, fillers, solids;
+};
+
+class SceneBlocks {
+public:
+    // The scene outlives this.
+    explicit SceneBlocks(const GatherScene &scene);
+
+    // Those of the tile [origin, origin + size), relative to the data window's corner like the samples. `stretched`: by how much lens
+    // points are at most.
+    ReachingCocs find(const Imath::V2i &origin, int size, float stretched, TileBlocks &found) const;
+    float extent() const { return samples_.extent(); } // of the aperture, for each pixel of CoC
+
+private:
+    const GatherScene &scene_;
+    BlockFinder samples_, fillers_, solids_;
+};
+
+} // namespace sparselens

@@ -1,0 +1,136 @@
+#include "dof/lens/tile_plan.h"
+
+#include "base/parallel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace sparselens {
+
+namespace {
+
+LensTiles tiles_of(const Windows &windows) {
+    LensTiles tiles{lens_tile_size,
+                    pieces_of(windows.width(), lens_tile_size),
+                    pieces_of(windows.height(), lens_tile_size),
+                    {}};
+    tiles.lens_points.resize(std::size_t(tiles.columns) * std::size_t(tiles.rows), 0);
+    return tiles;
+}
+
+// Cells are for who asks for a lens, not for some of its points; a holdout has pixels of its own.
+bool has_cells(const LensGatherOptions &options, const Optics &optics) {
+    return !options.point && options.lens_samples == 0 && !options.holdout && !optics.field.skews();
+}
+
+} // namespace
+
+TileTask PlannedTile::task() const {
+    const TileBlocks &from = cells ? cell_blocks : blocks;
+    const Imath::V2i origin = (cells ? cells->first : first) - scene->optics->corner;
+    return {origin,
+            from.samples,
+            from.facets,
+            from.fillers,
+            lens,
+            from.solids,
+            cells ? cells->count() : lens_tile_size};
+}
+
+TilePlan::Level::Level(const GatherScene &full, int cells)
+    : across(cells), coarse(cells > 1 ? std::optional(coarse_scene(full, cells)) : std::nullopt),
+      scene(coarse ? *coarse : full) {}
+
+TilePlan::TilePlan(const GatherScene &scene, const LensGatherOptions &options, const Windows &picture)
+    : scene_(scene), options_(options), picture_(picture), tiles_(tiles_of(picture)),
+      sets_(options, optics_.aperture, scene.pixel_aspect()) {
+    levels_.emplace_back(scene, 1);
+    for (const int cells : cells_asked_for()) levels_.emplace_back(scene, cells);
+}
+
+std::size_t TilePlan::count() const { return tiles_.lens_points.size() * std::size_t(parts_ * parts_); }
+
+std::vector<const GatherScene *> TilePlan::scenes() const {
+    std::vector<const GatherScene *> scenes;
+    for (const Level &level : levels_) scenes.push_back(&level.scene);
+    return scenes;
+}
+
+std::vector<std::size_t> TilePlan::in_order() const {
+    std::vector<std::size_t> order(count());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    if (!options_.watch) return order;
+    const auto distance = [this](std::size_t number) {
+        const Imath::V2i middle = place_of(number).first + Imath::V2i(lens_tile_size / 2);
+        return (Imath::V2d(middle) - Imath::V2d(options_.watch->from)).length2();
+    };
+    std::ranges::stable_sort(order, {}, distance);
+    return order;
+}
+
+std::optional<PlannedTile> TilePlan::tile(std::size_t number) {
+    PlannedTile tile = place_of(number);
+    const std::optional<Blur> blur = blur_of(tile);
+    if (!blur) return {};
+    gather_from(*std::ranges::find(levels_, blur->cells, &Level::across), *blur, tile);
+    return tile;
+}
+
+PlannedTile TilePlan::place_of(std::size_t number) const {
+    const std::size_t t = number / std::size_t(parts_ * parts_);
+    const int n = int(number % std::size_t(parts_ * parts_)), part_size = lens_tile_size / parts_;
+    const Imath::V2i part(n % parts_ * part_size, n / parts_ * part_size);
+    const Imath::V2i corner(int(t) % tiles_.columns, int(t) / tiles_.columns);
+    return {number, t, {part, part + Imath::V2i(part_size - 1)}, picture_.data.min + corner * lens_tile_size};
+}
+
+// Finds its blocks, too. None where nothing is out of focus, or not asked for.
+std::optional<TilePlan::Blur> TilePlan::blur_of(PlannedTile &tile) const {
+    const Imath::Box2i pixels(tile.first, tile.first + Imath::V2i(lens_tile_size - 1));
+    if (options_.region && !options_.region->intersects(pixels)) return {};
+    const SceneBlocks &blocks = levels_.front().blocks;
+    const Imath::V2i first = tile.first + tile.part.min;
+    const int size = lens_tile_size / parts_;
+    const Imath::V2d gradient = optics_.coc_gradient(first, size);
+    const float steepest = float(stretch(gradient, gradient.normalized() * double(blocks.extent())));
+    const double displaced = optics_.displaced(first, size) * double(steepest);
+    const int beside = int(std::ceil(displaced));
+    const ReachingCocs cocs = blocks.find(tile.first - optics_.corner - Imath::V2i(beside),
+                                          lens_tile_size + 2 * beside, steepest, tile.blocks);
+    const float largest = cocs.largest * optics_.widest() + float(displaced);
+    if (largest < in_focus && !optics_.moves()) return {};
+    // The edge of what is transparent would be as coarse as the cells.
+    const bool cells = has_cells(options_, optics_) && !cocs.with_background;
+    return Blur{largest, steepest,
+                cells ? cell_size_for(cocs.least * optics_.narrowest(), options_.quality) : 1};
+}
+
+std::vector<int> TilePlan::cells_asked_for() const {
+    if (!has_cells(options_, optics_)) return {};
+    std::vector<int> asked(count(), 1);
+    parallel_for(asked.size(), [&](std::size_t number) {
+        PlannedTile tile = place_of(number);
+        if (const std::optional<Blur> blur = blur_of(tile)) asked[number] = blur->cells;
+    });
+    std::vector<int> sizes;
+    for (const int across : cell_sizes)
+        if (std::ranges::find(asked, across) != asked.end()) sizes.push_back(across);
+    return sizes;
+}
+
+void TilePlan::gather_from(const Level &level, const Blur &blur, PlannedTile &tile) {
+    tile.scene = &level.scene;
+    Imath::V2i first = tile.first + tile.part.min;
+    int size = lens_tile_size / parts_;
+    if (level.across > 1) {
+        tile.cells = cells_of_tile(tile.first, level.across);
+        first = tile.cells->first;
+        size = tile.cells->count();
+        level.blocks.find(first - level.scene.optics->corner, size, blur.stretched, tile.cell_blocks);
+    }
+    tile.lens = sets_.for_coc(blur.largest, optics_.doubled(tile.first, lens_tile_size));
+    if (!optics_.field.flat()) tile.lens = tile.bent = level.scene.optics->bent(tile.lens, first, size);
+}
+
+} // namespace sparselens

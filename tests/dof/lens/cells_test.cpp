@@ -1,0 +1,186 @@
+// Tiles that are gathered in cells: the interpolation by closed forms, pictures against those of lens points at every pixel.
+#include "base/random.h"
+#include "dof/gather_rows.h"
+#include "dof/lens/cells.h"
+#include "dof/lens/tile_plan.h"
+#include "support/lens_ldi.h"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace sparselens {
+namespace {
+
+constexpr int size = lens_tile_size;
+
+// A tile of cells, each the mean of its pixels, of which a function gives the values.
+struct CellPicture {
+    std::vector<float> values = std::vector<float>(size * size * 4),
+                       known = std::vector<float>(size * size, 1.0f);
+    TileCells cells;
+
+    // at(x, y): of the middle of a pixel.
+    CellPicture(const TileCells &of, const std::function<double(double x, double y)> &at) : cells(of) {
+        for (int y = 0; y < of.count() * of.across; ++y)
+            for (int x = 0; x < of.count() * of.across; ++x) {
+                const Imath::V2i pixel = of.first * of.across + Imath::V2i(x, y);
+                values[std::size_t(y / of.across * size + x / of.across) * 4] +=
+                    float(at(pixel.x + 0.5, pixel.y + 0.5) / (of.across * of.across));
+            }
+    }
+    PixelsOfCells pixels() const {
+        return interpolated({values.data(), known.data(), 1, size * size * 4}, cells);
+    }
+    float at(int x, int y) const { return pixels().picture().value(std::size_t(y * size + x), 0); }
+};
+
+TEST(Cells, AParabolaIsKeptWhereverTheTileLies) {
+    const auto parabola = [](double x, double y) {
+        return 3 + 0.2 * x - 0.3 * y + 1e-4 * (x * x + y * y) + 2e-4 * x * y;
+    };
+    for (const int across : cell_sizes)
+        for (const Imath::V2i &corner : {Imath::V2i(0, 0), Imath::V2i(-37, 5), Imath::V2i(129, -66)}) {
+            const CellPicture cells(cells_of_tile(corner, across), parabola);
+            const PixelsOfCells pixels = cells.pixels();
+            for (int y = 0; y < size; ++y)
+                for (int x = 0; x < size; ++x)
+                    ASSERT_NEAR(double(pixels.picture().value(std::size_t(y * size + x), 0)),
+                                parabola(corner.x + x + 0.5, corner.y + y + 0.5), 2e-4)
+                        << across << " " << corner << " " << x << "," << y;
+        }
+}
+
+TEST(Cells, WhatIsOneStaysOneAndNothingIsBelowNothing) {
+    for (const int across : cell_sizes) {
+        const TileCells cells = cells_of_tile({13, 7}, across);
+        const PixelsOfCells one = CellPicture(cells, [](double, double) { return 1; }).pixels(),
+                            step =
+                                CellPicture(cells, [](double x, double) { return x > 40 ? 1 : 0; }).pixels();
+        for (std::size_t pixel = 0; pixel < size * size; ++pixel) {
+            ASSERT_EQ(one.picture().value(pixel, 0), 1);
+            ASSERT_GE(step.picture().value(pixel, 0), 0);
+            ASSERT_LE(step.picture().value(pixel, 0), 1);
+        }
+    }
+}
+
+TEST(Cells, WhatIsNotKnownSpoilsNothingBesideIt) {
+    CellPicture cells(cells_of_tile({0, 0}, 4), [](double x, double) { return x < 32 ? 2 : 0; });
+    for (int y = 0; y < cells.cells.count(); ++y)
+        for (int x = 0; x < cells.cells.count(); ++x)
+            if ((cells.cells.first.x + x) * 4 >= 32) cells.known[std::size_t(y * size + x)] = 0;
+    const PixelsOfCells pixels = cells.pixels();
+    for (int x = 0; x < size; ++x) {
+        ASSERT_EQ(pixels.picture().is_known(std::size_t(x)), x < 32) << x;
+        ASSERT_EQ(pixels.picture().value(std::size_t(x), 0), x < 32 ? 2 : 0) << x;
+    }
+}
+
+// A wall behind a card with an edge through the middle; both far out of focus.
+constexpr int side = 256;
+const ThinLens lens{.radius = 0.6, .focal_px = 640, .focus = 5}; // CoC of infinity: 76.8 pixels
+
+struct Scene {
+    Ldi ldi;
+    Progress silent;
+
+    explicit Scene(double wall = 70, double card = -66, double light = 1)
+        : ldi(make_ldi(windows_of_size(side, side), rgba_channels(), [=](int x, int y) {
+              const auto texture = [&](std::uint32_t n) { return float(random_unit(x / 3, y / 3, n)); };
+              std::vector<Sample> samples;
+              if (x + y < side) samples.push_back({depth_of(lens, card), {texture(1), texture(2), 0.5f, 1}});
+              const float lamp = x == 200 && y == 190 ? float(light) : 0;
+              samples.push_back(
+                  {depth_of(lens, wall), {texture(3) + lamp, texture(4) + lamp, 0.25f + lamp, 1}});
+              return samples;
+          })) {}
+    Image gather(const LensGatherOptions &options) {
+        return lens_gather(ldi, lens, ldi.windows.data, options, silent);
+    }
+    // The cells of its first tile.
+    int cell_size(const LensGatherOptions &options) {
+        const GatherScene scene = prepare(ldi, lens, ldi.windows.data, options);
+        TilePlan plan(scene, options, ldi.windows);
+        const std::optional<PlannedTile> tile = plan.tile(0);
+        return tile->cells ? tile->cells->across : 1;
+    }
+};
+
+double rms(const Image &a, const Image &b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < a.values.size(); ++i)
+        sum += std::pow(double(a.values[i]) - double(b.values[i]), 2);
+    return std::sqrt(sum / double(a.values.size()));
+}
+
+// Of any size: of the last row and column of cells only some pixels are known.
+TEST(Cells, AWallIsEvenUpToTheBorder) {
+    for (const int across : {256, 250, 257}) {
+        const Ldi wall = make_ldi(windows_of_size(across, across), rgba_channels(), [](int, int) {
+            return std::vector<Sample>{{depth_of(lens, 70), {0.5f, 0.25f, 0.125f, 1}}};
+        });
+        Progress silent;
+        const Image image = lens_gather(wall, lens, wall.windows.data, {}, silent);
+        for (const float red : image.plane(0)) ASSERT_NEAR(red, 0.5f, 1e-5) << across;
+        for (const float alpha : image.plane(3)) ASSERT_NEAR(alpha, 1, 1e-5) << across;
+    }
+}
+
+TEST(Cells, AreAsLargeAsTheBlurAllows) {
+    EXPECT_EQ(Scene(70, -65).cell_size({}), 8);
+    EXPECT_EQ(Scene(60, -35).cell_size({.quality = Quality::draft}), 4);
+    EXPECT_EQ(Scene(70, -65).cell_size({.quality = Quality::final}), 4);
+    EXPECT_EQ(Scene(60, -3).cell_size({}), 1);
+    EXPECT_EQ(Scene(70, -65).cell_size({.lens_samples = 64}), 1);
+}
+
+// 4096 lens points at every pixel are the truth.
+TEST(Cells, ThePictureIsThatOfManyLensPoints) {
+    for (const auto &[wall, card] :
+         {std::pair(70.0, -65.0), std::pair(70.0, 40.0), std::pair(-40.0, -60.0)}) {
+        Scene scene(wall, card);
+        const Image truth = scene.gather({.lens_samples = 4096});
+        const Image cells = scene.gather({}), pixels = scene.gather({.lens_samples = 256});
+        EXPECT_LT(rms(cells, truth), rms(pixels, truth)) << wall << " " << card;
+        for (const float a : cells.plane(3)) ASSERT_NEAR(a, 1, 1e-6);
+    }
+}
+
+// Its disc has sharp edges, and is cut by the card before it.
+TEST(Cells, ALampKeepsItsDisc) {
+    for (const double card : {-66.0, 40.0}) {
+        Scene scene(70, card, 4000), without(70, card, 0);
+        const auto disc = [&](const LensGatherOptions &by) {
+            Image lit = scene.gather(by), dark = without.gather(by);
+            std::ranges::transform(lit.values, dark.values, lit.values.begin(), std::minus());
+            return lit;
+        };
+        const Image truth = disc({.lens_samples = 4096}), cells = disc({});
+        double light = 0, all = 0;
+        for (const float v : cells.plane(0)) light += double(v);
+        for (const float v : truth.plane(0)) all += double(v);
+        EXPECT_NEAR(light / all, 1, 0.01) << card;
+        const double peak = double(std::ranges::max(truth.plane(0)));
+        EXPECT_LT(rms(cells, truth), 0.03 * peak) << card;
+    }
+}
+
+TEST(Cells, AreTheSameBitsInBandsAndByAnyThreads) {
+    Scene scene;
+    const Imath::Box2i window = scene.ldi.windows.data;
+    PictureOptions options;
+    const Image whole = gather_picture(scene.ldi, lens, window, window, options, scene.silent);
+    PackedRows rows(scene.ldi.windows);
+    rows.append(scene.ldi);
+    const Image banded = gather_rows(rows, lens, window, window, options, {0, true}, scene.silent);
+    EXPECT_EQ(banded.values, whole.values);
+    const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+    EXPECT_EQ(gather_picture(scene.ldi, lens, window, window, options, scene.silent).values, whole.values);
+}
+
+} // namespace
+} // namespace sparselens
