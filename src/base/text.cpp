@@ -46,6 +46,22 @@ std::string nearest_word(std::string_view given, std::span<const std::string> wo
     return nearest;
 }
 
+std::string spelled(std::string_view message, const Spelling &spelling) {
+    std::string text;
+    for (std::size_t begin = message.find('`'); begin != message.npos; begin = message.find('`')) {
+        const std::string_view rest = message.substr(begin + 1), inside = rest.substr(0, rest.find('`')),
+                               name = inside.substr(0, inside.find('='));
+        const bool is_parameter = inside.size() < rest.size() && !name.empty() &&
+                                  name.find_first_not_of("abcdefghijklmnopqrstuvwxyz_") == name.npos;
+        text += message.substr(0, begin);
+        text += is_parameter ? spelling(std::string(name),
+                                        std::string(inside.substr(std::min(name.size() + 1, inside.size()))))
+                             : "`";
+        message = rest.substr(is_parameter ? inside.size() + 1 : 0);
+    }
+    return text += message;
+}
+
 std::string lower_case(std::string text) {
     for (char &c : text)
         if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <functional>
 #include <iterator>
 #include <span>
 #include <string>
@@ -19,6 +20,10 @@ std::string single_quoted(std::string_view text);
 // or exchange; of all else, and of capitals, nothing counts (--f-stop is --fstop). Empty where that is more than a third of
 // them, or there is no letter or digit.
 std::string nearest_word(std::string_view given, std::span<const std::string> words);
+
+// A message with each parameter in it (error.h) as `spelling` makes it of its name and value, which may be empty.
+using Spelling = std::function<std::string(const std::string &name, const std::string &value)>;
+std::string spelled(std::string_view message, const Spelling &spelling);
 
 // Whether `word` is one of `words`, a range of strings.
 bool is_among(const auto &words, std::string_view word) {

@@ -17,7 +17,7 @@ namespace sparselens {
 
 namespace {
 
-// As --view takes it; as exact as pixels tell it.
+// As `view` takes it; as exact as pixels tell it.
 std::string text(const Imath::V2d &p) {
     const double rounding = 1e-6 * p.length();
     const auto clean = [rounding](double v) { return std::abs(v) > rounding ? v : 0; };
@@ -31,7 +31,7 @@ void say_of_lens(const View &view, const ThinLens &lens, Warnings &said) {
     if (blurs_nothing(largest, lens))
         said.push_back(fmt::format(
             "{}: the largest circle of confusion is {:.2g} pixels, so that the lens blurs nothing: check the "
-            "unit of the scene (--scene-unit 0.01 where it is a centimetre), the aperture and the focus",
+            "unit of the scene (`scene_unit=0.01` where it is a centimetre), the aperture and the focus",
             view.name, largest));
     if (looks_defocused(sharpness_of_edges(view, lens)))
         said.push_back(view.name +
@@ -54,8 +54,8 @@ void say_of_distances(std::span<const View> views, double lens_radius, Warnings 
     const View &view = views[beyond.front()];
     said.push_back(fmt::format(
         "{}{}: stands {:.3g} from the centre, {:.3g} times the radius of the lens, {:.3g}: positions "
-        "(--view), the "
-        "radius and the unit of the scene (--scene-unit) do not go together; positions are in scene units",
+        "(`view`), the radius and the unit of the scene (`scene_unit`) do not go together; positions are in "
+        "scene units",
         view.name, beyond.size() > 1 ? fmt::format(" and {} more", beyond.size() - 1) : "",
         view.position.length(), view.position.length() / lens_radius, lens_radius));
 }
@@ -80,7 +80,7 @@ std::string said_of_pose(std::span<const View> views, std::size_t i, double foca
     if (const auto better = better_position(views[0], view, focal_px, reach))
         return fmt::format(
             "{}: disagrees with the centre view at its stated position {}; it would agree at {} "
-            "(--view {} {})",
+            "(`view={} {}`)",
             view.name, text(view.position), text(*better), text(*better), view.name);
     return {};
 }
@@ -92,15 +92,15 @@ Warnings picture_warnings(const View &view, const ViewFacts &facts) {
     if (looks_encoded(mixing_at_edges(view)))
         said.push_back(view.name +
                        ": its colours mix at edges as sRGB codes do, not as light does: if they are encoded "
-                       "for a display, give --colorspace sRGB, or render scene-linear");
+                       "for a display, give `colorspace=sRGB`, or render scene-linear");
     if (facts.depth_filtered)
         said.push_back(view.name +
                        ": its depth is averaged over edges; what could be was repaired: render depth "
                        "without a filter, as the closest or the first sample of each pixel");
     if (facts.depth == DepthMeaning::planar && looks_inverse(slopes_of_depth(view)))
         said.push_back(view.name +
-                       ": its depths are linear in 1 / z, as planes show: give --depth inverse where what is "
-                       "near has the larger values, else --depth hyperbolic with --near and --far");
+                       ": its depths are linear in 1 / z, as planes show: give `depth=inverse` where what is "
+                       "near has the larger values, else `depth=hyperbolic` with `near` and `far`");
     if (facts.lens) say_of_lens(view, *facts.lens, said);
     return said;
 }

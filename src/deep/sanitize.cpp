@@ -160,9 +160,9 @@ void Repair::repair_depths() {
     if (bad > 0 && 2 * bad >= covered) {
         const Imath::V2i p = s_.windows.pixel(first_bad);
         throw Error(
-            fmt::format("{}: depth {:g} in pixel {},{} is not a number above 0: --depth says what the "
+            fmt::format("{}: depth {:g} in pixel {},{} is not a number above 0: `depth` says what the "
                         "channel holds (negative: "
-                        "the z of a camera that looks along -z), --depth-channel which channel is read",
+                        "the z of a camera that looks along -z), `depth_channel` which channel is read",
                         name_, first_depth, p.x, p.y));
     }
     apply(changes, s_.z);

@@ -63,15 +63,15 @@ std::optional<DeviceInfo> choose_device(std::string_view word, std::span<const D
     if (word == "auto" || word == "gpu") {
         const std::optional<DeviceInfo> best = best_gpu(there);
         if (!best && word == "gpu")
-            throw Error("--device gpu: no GPU can be used; " + all_of(there) + ". Use --device cpu");
+            throw Error("`device=gpu`: no GPU can be used; " + all_of(there) + ". Use `device=cpu`");
         return best;
     }
     const std::string part = lower(word);
     const auto named = std::ranges::find_if(
         there, [&](const DeviceInfo &device) { return lower(device.name).find(part) != std::string::npos; });
-    const std::string asked = "--device " + std::string(word) + ": ";
+    const std::string asked = "`device=" + std::string(word) + "`: ";
     if (named == there.end()) throw Error(asked + "no device has that name; " + all_of(there));
-    if (!named->lacks.empty()) throw Error(asked + description(*named) + ". Use --device cpu");
+    if (!named->lacks.empty()) throw Error(asked + description(*named) + ". Use `device=cpu`");
     return *named;
 }
 

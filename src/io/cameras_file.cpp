@@ -82,7 +82,7 @@ void write_cameras(const std::string &path, const PlannedCameras &cameras, const
     else if (path.ends_with(".csv"))
         write_text_file(path, csv_text(cameras));
     else
-        throw UsageError("--cameras " + path + ": the name must end in .json or .csv");
+        throw UsageError("`cameras=" + path + "`: the name must end in .json or .csv");
 }
 
 } // namespace sparselens

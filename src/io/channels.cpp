@@ -39,7 +39,7 @@ std::vector<bool> chosen(const std::vector<Channel> &channels, const std::string
         for (std::size_t k = 0; k < channels.size(); ++k)
             if (names(item, channels[k])) found = result[k] = true;
         if (!found)
-            throw UsageError(fmt::format("--channels: no channel or layer '{}'; the file has {}", item,
+            throw UsageError(fmt::format("`channels`: no channel or layer '{}'; the file has {}", item,
                                          fmt::join(names_of(channels), ", ")));
     }
     return result;

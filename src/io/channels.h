@@ -1,4 +1,4 @@
-// The option --channels: which channels are carried.
+// Which channels are carried.
 #pragma once
 
 #include "deep/ldi.h"

@@ -26,18 +26,18 @@ DepthRange depth_range(const DepthOptions &options, const Imf::Header &header) {
     const bool hyperbolic = options.meaning == DepthMeaning::hyperbolic;
     if (options.meaning != DepthMeaning::normalized && !hyperbolic) {
         if (options.near)
-            throw UsageError("--near works with --depth normalized and --depth hyperbolic only");
+            throw UsageError("`near` works with `depth=normalized` and `depth=hyperbolic` only");
         return {0, options.far.value_or(DepthRange().far)};
     }
     const char *word = hyperbolic ? "hyperbolic" : "normalized";
     const auto near = options.near ? options.near : number_in(header, {"near", "nearClip", "clipNear"});
     const auto far = options.far ? options.far : number_in(header, {"far", "farClip", "clipFar"});
     if (!near || !far)
-        throw UsageError(fmt::format("--depth {}: which depth is {} is unknown: give {}", word,
+        throw UsageError(fmt::format("`depth={}`: which depth is {} is unknown: give {}", word,
                                      near ? "1" : (far ? "0" : "0 and which is 1"),
-                                     near ? "--far" : (far ? "--near" : "--near and --far")));
+                                     near ? "`far`" : (far ? "`near`" : "`near` and `far`")));
     if (!(*near > 0 && *near < *far))
-        throw UsageError(fmt::format("--depth {}: --near must be above 0 and less than --far: they are "
+        throw UsageError(fmt::format("`depth={}`: `near` must be above 0 and less than `far`: they are "
                                      "{:g} and {:g}",
                                      word, *near, *far));
     return {*near, *far};
@@ -47,9 +47,8 @@ std::optional<std::string> normalized_warning(const DepthOptions &options, std::
     if (options.meaning != DepthMeaning::planar || depths.empty()) return {};
     const auto [least, most] = std::ranges::minmax(depths);
     if (!(least >= 0 && least < 1 && most == 1)) return {};
-    return "its depths end at exactly 1, as normalised ones do: if they are, give --depth normalized with "
-           "--near "
-           "and --far, or --depth hyperbolic if they are those of a depth buffer";
+    return "its depths end at exactly 1, as normalised ones do: if they are, give `depth=normalized` with "
+           "`near` and `far`, or `depth=hyperbolic` if they are those of a depth buffer";
 }
 
 } // namespace sparselens

@@ -1,4 +1,4 @@
-// Which planes the depths of a file refer to: --near and --far, else what its header says.
+// Which planes the depths of a file refer to: `near` and `far`, else what its header says.
 #pragma once
 
 #include "../view/depth.h"

@@ -35,7 +35,7 @@ void check_growth(const OpenedLdi &in, const Ldi &ldi, const Imath::Box2i &windo
         check_memory(in.name, pixels * double(channels + offset),
                      ldi.samples() * channels + ldi.windows.pixels() * offset);
     } catch (const Error &e) {
-        throw Error(fmt::format("{}; --overscan=keep cuts the blur off at the data window", e.what()));
+        throw Error(fmt::format("{}; `overscan=keep` cuts the blur off at the data window", e.what()));
     }
 }
 
@@ -79,7 +79,7 @@ Subpixels subpixels_of(const WindowOptions &options, const OpenedLdi &in) {
     const Imath::Box2i &display = in.ldi.windows.display;
     if (subpixels_in(reduced(display, by.across), by.across) != display)
         throw UsageError(fmt::format(
-            "{}: its display window cannot be divided into pixels of {} x {}: give another --supersample",
+            "{}: its display window cannot be divided into pixels of {} x {}: give another `supersample`",
             in.name, by.across, by.across));
     return by;
 }
@@ -115,9 +115,9 @@ void choose_windows(GatherWindows &frame, const WindowOptions &options, const Op
     need_all(frame);
     if (options.overscan == OutputOverscan::crop)
         frame.picture = common(frame.picture, reduced(frame.ldi(in).windows.display, frame.subpixels.across),
-                               "--overscan crop: the display window");
+                               "`overscan=crop`: the display window");
     if (options.region)
-        frame.picture = common(frame.picture, reduced(*options.region, options.proxy), "--region");
+        frame.picture = common(frame.picture, reduced(*options.region, options.proxy), "`region`");
     const Imath::Box2i under = subpixels_under(frame.picture, frame.subpixels);
     frame.needed = common(frame.gathered, under, "the picture");
 }

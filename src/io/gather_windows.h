@@ -48,7 +48,7 @@ bool keeps_pixels(const WindowOptions &options, const Imf::Header &header);
 GatherWindows gather_windows(const WindowOptions &options, const OpenedLdi &in, ThinLens &lens);
 
 // Pads a copy of the LDI where the blur of a lens of these looks reaches beyond the picture into the display window, if
-// --overscan=grow, and chooses the pixels of the picture.
+// OutputOverscan::grow, and chooses the pixels of the picture.
 // Throws UsageError where a region or a display window contains no pixel of the picture, and Error where the padded
 // picture needs more memory than the LDI justifies (memory_limit.h).
 void choose_windows(GatherWindows &frame, const WindowOptions &options, const OpenedLdi &in,

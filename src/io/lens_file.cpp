@@ -102,7 +102,7 @@ private:
         if (by_stops.empty()) refuse(key, value, range);
         if (!fstop_)
             throw UsageError(
-                fmt::format("{}: '{}' depends on the f-number, which is unknown: give --fstop", path_, key));
+                fmt::format("{}: '{}' depends on the f-number, which is unknown: give `fstop`", path_, key));
         const double at = std::log2(*fstop_);
         const auto after = by_stops.lower_bound(at);
         if (after == by_stops.end()) return by_stops.rbegin()->second;

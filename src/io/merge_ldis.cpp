@@ -22,7 +22,7 @@ void require_one_camera(const OpenedLdi &first, const OpenedLdi &other) {
     if (focal && others && std::abs(*others / *focal - 1) > rounding)
         throw Error(
             fmt::format("{}: its focal length is {:g} pixels, that of {} is {:g}; merge pictures of one "
-                        "camera, or give --focal-length and --sensor-width",
+                        "camera, or give `focal_length` and `sensor_width`",
                         other.name, *others, first.name, *focal));
 }
 

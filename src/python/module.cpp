@@ -10,7 +10,6 @@
 #include <tbb/info.h>
 
 #include <algorithm>
-#include <cctype>
 #include <memory>
 
 namespace sparselens::python {
@@ -19,33 +18,13 @@ namespace {
 
 PyObject *error_type = nullptr, *usage_error_type = nullptr;
 
-// The library names the options of the tools: --lens-radius is lens_radius here, and --view is position.
-std::string in_python(const std::string &text) {
-    std::string result;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        const bool begins =
-            text.compare(i, 2, "--") == 0 && (i == 0 || std::string(" (").find(text[i - 1]) < 2);
-        if (!begins || i + 2 >= text.size() || std::islower(static_cast<unsigned char>(text[i + 2])) == 0) {
-            result += text[i];
-            continue;
-        }
-        std::string option;
-        for (i += 2; i < text.size() && (text[i] == '-' || std::isalpha(static_cast<unsigned char>(text[i])));
-             ++i)
-            option += text[i] == '-' ? '_' : text[i];
-        result += option == "view" ? "position" : option;
-        --i;
-    }
-    return result;
-}
-
 void translate(std::exception_ptr thrown) {
     try {
         if (thrown) std::rethrow_exception(thrown);
     } catch (const UsageError &error) {
-        PyErr_SetString(usage_error_type, in_python(error.what()).c_str());
+        PyErr_SetString(usage_error_type, with_keywords(error.what()).c_str());
     } catch (const Error &error) {
-        PyErr_SetString(error_type, in_python(error.what()).c_str());
+        PyErr_SetString(error_type, with_keywords(error.what()).c_str());
     }
 }
 

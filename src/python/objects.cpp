@@ -1,5 +1,6 @@
 #include "python/objects.h"
 
+#include "base/text.h"
 #include "plan/rectangles.h"
 #include "python/arrays.h"
 #include "python/docs.h"
@@ -270,8 +271,17 @@ void bind_plan(py::module_ &module) {
 
 } // namespace
 
+std::string with_keywords(const std::string &message) {
+    return spelled(message, [](const std::string &name, const std::string &value) {
+        if (name == "view") // whose value the name of a file may follow
+            return value.empty() ? "position" : "position=(" + value.substr(0, value.find(' ')) + ")";
+        const bool is_number = value.find_first_not_of("0123456789.") == value.npos;
+        return name + (value.empty() ? "" : is_number ? "=" + value : "='" + value + "'");
+    });
+}
+
 void warn(const std::string &text) {
-    if (PyErr_WarnEx(PyExc_UserWarning, text.c_str(), 1) != 0) throw py::error_already_set();
+    if (PyErr_WarnEx(PyExc_UserWarning, with_keywords(text).c_str(), 1) != 0) throw py::error_already_set();
 }
 
 void warn_of(const std::string &name, const std::vector<std::string> &warnings, const InvalidValues &bad) {

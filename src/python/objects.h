@@ -40,6 +40,9 @@ struct PlannedViewObject {
 template <typename Object>
 const Object &argument(const py::object &object, const char *name, const char *wanted);
 
+// A message with its parameters (error.h) as keywords: depth='inverse'.
+std::string with_keywords(const std::string &message);
+
 // Python warnings (UserWarning) of what was repaired in a file and what is hardly meant.
 void warn(const std::string &text);
 void warn_of(const std::string &name, const std::vector<std::string> &warnings, const InvalidValues &bad);

@@ -13,9 +13,9 @@ void complete_field(Camera &camera) {
     auto &focal = camera.focal_length_mm, &width = camera.sensor_width_mm;
     if (focal && width)
         camera.field = *width / *focal;
-    else if (focal && camera.field && !camera.unsure.contains("--sensor-width"))
+    else if (focal && camera.field && !camera.unsure.contains("sensor_width"))
         width = *focal * *camera.field;
-    else if (width && camera.field && !camera.unsure.contains("--focal-length"))
+    else if (width && camera.field && !camera.unsure.contains("focal_length"))
         focal = *width / *camera.field;
 }
 
@@ -51,7 +51,7 @@ Framing framing_relative_to(const Camera &centre, const Camera &view, const std:
     if (!(framing.zoom >= 0.5 && framing.zoom <= 2))
         throw Error(
             fmt::format("{}: its focal length is too far from that of the centre view, {:g} times as long: "
-                        "give --focal-length and --sensor-width to set both",
+                        "give `focal_length` and `sensor_width` to set both",
                         what, framing.zoom));
     if (std::abs(framing.zoom - 1) < rounding) framing.zoom = 1;
     if ((framing.principal_point - axis).length() < rounding) framing.principal_point = axis;

@@ -38,7 +38,7 @@ struct Camera {
 
     std::vector<std::string> found; // what was read, and from which attribute, for messages
     // Why a value is unknown although the file has attributes for it (they are invalid or contradict each other). The
-    // key is the option that gives the value, e.g. "--focal-length".
+    // key is the parameter that gives the value, e.g. "focal_length".
     std::map<std::string, std::string> unsure;
 };
 

@@ -30,7 +30,7 @@ double rounding(const Camera &camera) {
 
 std::string why_not_placed(const Camera &origin, const Camera &view) {
     const Camera &culprit = view.world_to_camera ? origin : view;
-    const auto reason = culprit.unsure.find("--view");
+    const auto reason = culprit.unsure.find("view");
     const std::string text = reason == culprit.unsure.end() ? "no worldToCamera" : reason->second;
     return view.world_to_camera ? "that of the centre: " + text : text;
 }
@@ -47,7 +47,7 @@ LensViews seen_from(const Camera &origin, std::span<const Camera> views, std::sp
     for (std::size_t i = 0; i < views.size(); ++i) {
         const auto position = position_relative_to(origin, views[i], names[i]);
         if (!position)
-            throw UsageError(fmt::format("{0}: its camera is unknown ({1}): give --view X,Y {0}", names[i],
+            throw UsageError(fmt::format("{0}: its camera is unknown ({1}): give `view=X,Y {0}`", names[i],
                                          why_not_placed(origin, views[i])));
         placed.positions.emplace_back(position->x, position->y);
         placed.framings.push_back(framing_relative_to(origin, views[i], names[i]));

@@ -11,23 +11,23 @@ namespace sparselens {
 
 namespace {
 
-// Collects the values that are unknown, why, and the options to give.
+// Collects the values that are unknown, why, and the parameters to give.
 class Missing {
 public:
     explicit Missing(const Camera &camera) : camera_(camera) {}
 
-    void add(const std::string &what, const char *option, const std::string &advice) {
-        const auto reason = camera_.unsure.find(option);
+    void add(const std::string &what, const std::string &parameter, const char *or_else = "") {
+        const auto reason = camera_.unsure.find(parameter);
         const std::string why = reason == camera_.unsure.end() ? "" : " (" + reason->second + ")";
-        const std::string text = what + " is unknown" + why + ": give " + advice;
+        const std::string text = what + " is unknown" + why + ": give `" + parameter + "`" + or_else;
         if (text_.find(text) == std::string::npos) text_ += (text_.empty() ? "" : "; ") + text;
     }
-    void add_focal_length() { add("the focal length", "--focal-length", "--focal-length"); }
+    void add_focal_length() { add("the focal length", "focal_length"); }
 
     // Adds the values that the radius of the aperture needs.
     void add_radius() {
         if (!camera_.fstop)
-            add("the aperture", "--fstop", "--fstop or --lens-radius");
+            add("the aperture", "fstop", " or `lens_radius`");
         else
             add_focal_length();
     }
@@ -35,7 +35,7 @@ public:
     // Adds the values that the focal length in pixels needs.
     void add_focal_px() {
         if (!camera_.focal_length_mm) add_focal_length();
-        if (!camera_.sensor_width_mm) add("the sensor width", "--sensor-width", "--sensor-width");
+        if (!camera_.sensor_width_mm) add("the sensor width", "sensor_width");
     }
 
     void refuse() const {
@@ -113,7 +113,7 @@ ThinLens resolve_lens(const Camera &camera, const Windows &windows) {
     Missing missing(camera);
     if (!radius) missing.add_radius();
     if (!focal_px) missing.add_focal_px();
-    if (!camera.focus_distance) missing.add("the focus distance", "--focus-distance", "--focus-distance");
+    if (!camera.focus_distance) missing.add("the focus distance", "focus_distance");
     missing.refuse();
     return {.radius = *radius,
             .focal_px = *focal_px,

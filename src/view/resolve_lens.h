@@ -1,5 +1,5 @@
 // Makes a lens from the camera values of a file and of its user. A value that is in neither is a UsageError, which
-// names the option to give.
+// names the parameter to give.
 #pragma once
 
 #include "../base/image.h"

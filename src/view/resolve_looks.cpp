@@ -4,24 +4,25 @@
 #include "lens/f_number.h"
 #include "view/view_mapping.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <numbers>
-#include <string>
 
 namespace sparselens {
 
 namespace {
 
 // The focal length in mm that a look cannot do without.
-double focal_length_for(const char *option, const Camera &camera) {
+double focal_length_for(const char *look, const Camera &camera) {
     if (camera.focal_length_mm) return *camera.focal_length_mm;
-    throw UsageError(std::string(option) + " needs the focal length: give --focal-length");
+    throw UsageError(fmt::format("`{}` needs the focal length: give `focal_length`", look));
 }
 
 std::array<double, 3> chromatic_coc(const LookValues &values, const Camera &camera, const ThinLens &lens) {
     const double mm = values.axial_chromatic.value_or(0);
     if (mm == 0 || lens.radius == 0) return {0, 0, 0};
-    const double focal_mm = focal_length_for("--axial-chromatic", camera);
+    const double focal_mm = focal_length_for("axial_chromatic", camera);
     const double coc = defocus_coc(mm, fstop_of(lens.radius, focal_mm, camera.metres_per_unit.value_or(1)),
                                    lens.focal_px / focal_mm);
     switch (values.chromatic_type.value_or(ChromaticType::red_blue)) {
@@ -35,10 +36,10 @@ std::array<double, 3> chromatic_coc(const LookValues &values, const Camera &came
 double magnification(const LookValues &values, const Camera &camera, const ThinLens &lens) {
     const double breathing = values.breathing.value_or(0);
     if (breathing == 0) return 1;
-    const double focal = focal_length_for("--breathing", camera) / 1000 / camera.metres_per_unit.value_or(1);
+    const double focal = focal_length_for("breathing", camera) / 1000 / camera.metres_per_unit.value_or(1);
     if (!(lens.focus > focal))
         throw UsageError(
-            "--breathing: the focus distance must exceed the focal length: no lens focuses nearer");
+            "`breathing`: the focus distance must exceed the focal length: no lens focuses nearer");
     return std::pow(unit_focusing_magnification(focal, lens.focus), breathing);
 }
 

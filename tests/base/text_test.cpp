@@ -20,6 +20,20 @@ TEST(Text, SingleQuotesAreReadBackByAShell) {
     EXPECT_EQ(single_quoted("it's"), "'it'\\''s'");
 }
 
+TEST(Text, ParametersAreSpelledAndAllElseIsLeft) {
+    const auto said = [](std::string_view message) {
+        return spelled(message, [](const std::string &name, const std::string &value) {
+            return "<" + name + "|" + value + ">";
+        });
+    };
+    EXPECT_EQ(said("give `fstop` or `lens_radius`"), "give <fstop|> or <lens_radius|>");
+    EXPECT_EQ(said("`depth=a=b`: `view=X,Y rim.exr`"), "<depth|a=b>: <view|X,Y rim.exr>");
+    EXPECT_EQ(said("`fstop`"), "<fstop|>");
+    for (const char *text : {"", "`", "a`b", "``", "`a b`", "`=1`", "--fstop", "`Fstop`"})
+        EXPECT_EQ(said(text), text);
+    EXPECT_EQ(said("it`s: give `fstop`"), "it`s: give <fstop|>");
+}
+
 TEST(Text, AWordIsAmongOthersOnlyWhenItIsEqual) {
     const std::vector<std::string> words{"one", "two"};
     EXPECT_TRUE(is_among(words, "two"));

@@ -142,13 +142,13 @@ TEST(ViewWarnings, EachSaysWhatToDo) {
     const ThinLens tiny{.radius = 0.004, .focal_px = 100, .focus = 10};
     EXPECT_EQ(said_of(card_of(1), {.lens = lens}), "");
     EXPECT_NE(said_of(card_of(1), {.lens = tiny}).find("0.06 pixels"), std::string::npos);
-    EXPECT_NE(said_of(card_of(1), {.lens = tiny}).find("--scene-unit"), std::string::npos);
+    EXPECT_NE(said_of(card_of(1), {.lens = tiny}).find("`scene_unit`"), std::string::npos);
     EXPECT_NE(said_of(card_of(12), {.lens = lens}).find("switch depth of field off"), std::string::npos);
-    EXPECT_NE(said_of(stripes(srgb), {}).find("--colorspace sRGB"), std::string::npos);
+    EXPECT_NE(said_of(stripes(srgb), {}).find("`colorspace=sRGB`"), std::string::npos);
     EXPECT_NE(said_of(stripes([](float v) { return v; }), {.depth_filtered = true}).find("without a filter"),
               std::string::npos);
     const View inverse = floor_and_wall([](double z) { return 1 / z; });
-    EXPECT_NE(said_of(inverse, {}).find("--depth hyperbolic"), std::string::npos);
+    EXPECT_NE(said_of(inverse, {}).find("`depth=hyperbolic`"), std::string::npos);
     EXPECT_EQ(said_of(inverse, {.depth = DepthMeaning::distance}), "") << "as asked for";
     const std::vector<View> views{at({0, 0}), at({400, 0}), at({-400, 0})};
     const auto said = view_warnings(views, {.lens = lens, .focal_px = 100, .lens_radius = 0.4});

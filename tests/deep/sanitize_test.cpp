@@ -102,8 +102,8 @@ TEST(InvalidValues, MostDepthsBadIsAnotherConvention) {
     view.name = "x.exr";
     const std::string what = what_of<Error>([&] { sanitize(view); });
     EXPECT_EQ(what,
-              "x.exr: depth -3 in pixel 0,0 is not a number above 0: --depth says what the channel holds "
-              "(negative: the z of a camera that looks along -z), --depth-channel which channel is read");
+              "x.exr: depth -3 in pixel 0,0 is not a number above 0: `depth` says what the channel holds "
+              "(negative: the z of a camera that looks along -z), `depth_channel` which channel is read");
 }
 
 TEST(InvalidValues, InDeepPicturesTheNeighbourNearestInDepthFills) {

@@ -32,20 +32,20 @@ TEST(DeviceList, AutoTakesTheBestGpuAndNoneInSoftware) {
 
 TEST(DeviceList, GpuTakesTheSameOrSaysWhatThereIs) {
     EXPECT_EQ(chosen("gpu", {software, integrated, discrete}), "NVIDIA RTX");
-    EXPECT_EQ(refusal("gpu", {software, weak}), "--device gpu: no GPU can be used; there is llvmpipe (LLVM "
+    EXPECT_EQ(refusal("gpu", {software, weak}), "`device=gpu`: no GPU can be used; there is llvmpipe (LLVM "
                                                 "15) (in software), Old GPU (discrete GPU, lacks "
-                                                "64-bit integers). Use --device cpu");
+                                                "64-bit integers). Use `device=cpu`");
     EXPECT_EQ(refusal("gpu", {}),
-              "--device gpu: no GPU can be used; Vulkan gives access to no device here. Use --device cpu");
+              "`device=gpu`: no GPU can be used; Vulkan gives access to no device here. Use `device=cpu`");
 }
 
 TEST(DeviceList, ANameIsAPartOfADevicesName) {
     EXPECT_EQ(chosen("LLVM", {discrete, software}), "llvmpipe (LLVM 15)");
     EXPECT_EQ(chosen("grid", {discrete, shared}), "NVIDIA GRID");
     EXPECT_EQ(refusal("radeon", {integrated}),
-              "--device radeon: no device has that name; there is Intel Iris (integrated GPU)");
+              "`device=radeon`: no device has that name; there is Intel Iris (integrated GPU)");
     EXPECT_EQ(refusal("old", {weak}),
-              "--device old: Old GPU (discrete GPU, lacks 64-bit integers). Use --device cpu");
+              "`device=old`: Old GPU (discrete GPU, lacks 64-bit integers). Use `device=cpu`");
 }
 
 } // namespace

@@ -76,7 +76,7 @@ TEST_F(LensFiles, AskForTheFNumberOnlyWhereAValueDependsOnIt) {
     EXPECT_EQ(read(R"({"squeeze": 2})").values.squeeze, 2);
     const auto message = what_of<UsageError>([&] { read(R"({"squeeze": {"2": 2}})"); });
     EXPECT_NE(message.find("lens.json: 'squeeze'"), std::string::npos) << message;
-    EXPECT_NE(message.find("--fstop"), std::string::npos) << message;
+    EXPECT_NE(message.find("`fstop`"), std::string::npos) << message;
 }
 
 TEST_F(LensFiles, ThatAreWrongAreNamedWithTheKey) {

@@ -239,9 +239,9 @@ TEST_F(Opened, WithoutALensTheLensIsAnErrorAndTheSamplesAreNot) {
     const OpenedLdi in = open_ldi(path);
     EXPECT_EQ(in.ldi.samples(), 2u);
     EXPECT_EQ(what_of<UsageError>([&] { in.lens(); }),
-              "the aperture is unknown: give --fstop or --lens-radius; the focal length is unknown: give "
-              "--focal-length; the sensor width is unknown: give --sensor-width; the focus distance is "
-              "unknown: give --focus-distance");
+              "the aperture is unknown: give `fstop` or `lens_radius`; the focal length is unknown: give "
+              "`focal_length`; the sensor width is unknown: give `sensor_width`; the focus distance is "
+              "unknown: give `focus_distance`");
     const OpenedView view = open_view(path);
     EXPECT_THROW(view.lens(), UsageError);
 }

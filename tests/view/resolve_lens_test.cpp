@@ -99,15 +99,15 @@ TEST(ResolveLens, WhatIsMissingNamesItsOption) {
         (camera.*unknown).reset();
         return what_of<UsageError>([&] { resolve_lens(camera, hundred); });
     };
-    EXPECT_EQ(message(&Camera::focal_length_mm), "the focal length is unknown: give --focal-length");
-    EXPECT_EQ(message(&Camera::sensor_width_mm), "the sensor width is unknown: give --sensor-width");
-    EXPECT_EQ(message(&Camera::fstop), "the aperture is unknown: give --fstop or --lens-radius");
-    EXPECT_EQ(message(&Camera::focus_distance), "the focus distance is unknown: give --focus-distance");
+    EXPECT_EQ(message(&Camera::focal_length_mm), "the focal length is unknown: give `focal_length`");
+    EXPECT_EQ(message(&Camera::sensor_width_mm), "the sensor width is unknown: give `sensor_width`");
+    EXPECT_EQ(message(&Camera::fstop), "the aperture is unknown: give `fstop` or `lens_radius`");
+    EXPECT_EQ(message(&Camera::focus_distance), "the focus distance is unknown: give `focus_distance`");
     EXPECT_EQ(
         what_of<UsageError>([&] { resolve_lens({}, hundred); }),
-        "the aperture is unknown: give --fstop or --lens-radius; the focal length is unknown: give "
-        "--focal-length; the sensor width is unknown: give --sensor-width; the focus distance is unknown: "
-        "give --focus-distance");
+        "the aperture is unknown: give `fstop` or `lens_radius`; the focal length is unknown: give "
+        "`focal_length`; the sensor width is unknown: give `sensor_width`; the focus distance is unknown: "
+        "give `focus_distance`");
 }
 
 TEST(ResolveLens, APinholeNeedsNothingElse) {

@@ -88,12 +88,12 @@ TEST(ResolveLooks, LooksFromWhereTheOpticalAxisIs) {
 
 TEST(ResolveLooks, NamesWhatIsMissing) {
     Camera unknown;
-    for (const auto &[values, option] : {std::pair(LookValues{.breathing = 1}, "--breathing"),
-                                         std::pair(LookValues{.axial_chromatic = 1}, "--axial")}) {
+    for (const auto &[values, option] : {std::pair(LookValues{.breathing = 1}, "breathing"),
+                                         std::pair(LookValues{.axial_chromatic = 1}, "axial")}) {
         const auto message =
             what_of<UsageError>([&, &values = values] { resolve_looks(values, unknown, lens, windows); });
         EXPECT_NE(message.find(option), std::string::npos) << message;
-        EXPECT_NE(message.find("--focal-length"), std::string::npos) << message;
+        EXPECT_NE(message.find("`focal_length`"), std::string::npos) << message;
     }
     const ThinLens near{.radius = 0.0125, .focal_px = 200, .focus = 0.05};
     EXPECT_NE(what_of<UsageError>([&] {

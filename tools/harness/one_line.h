@@ -1,8 +1,12 @@
-// Text from other programs or files that is printed to a terminal.
+// What is printed to a terminal: messages, and text from other programs or files.
 #pragma once
 
+#include "base/text.h"
+
+#include <algorithm>
 #include <cctype>
 #include <string>
+#include <string_view>
 
 namespace sparselens {
 
@@ -12,6 +16,15 @@ inline std::string one_line(std::string text) {
         if (std::iscntrl(static_cast<unsigned char>(c))) c = ' ';
     while (!text.empty() && text.back() == ' ') text.pop_back();
     return text;
+}
+
+// A message with its parameters (error.h) as options: --depth inverse.
+inline std::string with_options(std::string_view message) {
+    return spelled(message, [](const std::string &name, const std::string &value) {
+        std::string option = "--" + name;
+        std::ranges::replace(option, '_', '-');
+        return value.empty() ? option : option + " " + value;
+    });
 }
 
 } // namespace sparselens

@@ -27,7 +27,7 @@ namespace sparselens {
 namespace {
 
 int fail(const std::string &prefix, const std::string &text, int code) {
-    fmt::print(stderr, "{}{}\n", prefix, one_line(text));
+    fmt::print(stderr, "{}{}\n", prefix, one_line(with_options(text)));
     return code;
 }
 

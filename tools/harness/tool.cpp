@@ -12,11 +12,11 @@
 namespace sparselens {
 
 void ToolContext::say(const std::string &line) const {
-    if (verbose) fmt::print(stderr, "{}: {}\n", tool_name, line);
+    if (verbose) fmt::print(stderr, "{}: {}\n", tool_name, with_options(line));
 }
 
 void warn(const ToolContext &tool, const std::string &text) {
-    fmt::print(stderr, "{}: warning: {}\n", tool.tool_name, one_line(text));
+    fmt::print(stderr, "{}: warning: {}\n", tool.tool_name, one_line(with_options(text)));
 }
 
 void warn_once(const ToolContext &tool, const std::string &kind, const std::string &text) {

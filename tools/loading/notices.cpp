@@ -53,8 +53,8 @@ void say_border_reach(const ToolContext &tool, const std::string &path, const Ld
 
 void say_camera(const ToolContext &tool, const std::string &path, const Camera &camera) {
     for (const std::string &found : camera.found) tool.say(display_name(path) + ": " + found);
-    for (const auto &[option, reason] : camera.unsure)
-        tool.say(display_name(path) + ": " + reason + "; " + option + " settles it");
+    for (const auto &[parameter, reason] : camera.unsure)
+        tool.say(display_name(path) + ": " + reason + "; `" + parameter + "` settles it");
 }
 
 void warn_of_clamped(const ToolContext &tool, const std::string &path, std::size_t clamped) {

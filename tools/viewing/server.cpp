@@ -1,6 +1,7 @@
 #include "viewing/server.h"
 
 #include "base/error.h"
+#include "harness/one_line.h"
 #include "viewing/crew.h"
 #include "viewing/door.h"
 #include "viewing/page_assets.h"
@@ -72,9 +73,9 @@ void answer_at(httplib::Server &server, const char *path, const char *type, cons
             else
                 refuse(response, 409, "the page has asked for something newer");
         } catch (const UsageError &error) {
-            refuse(response, 400, error.what());
+            refuse(response, 400, with_options(error.what()));
         } catch (const std::exception &error) {
-            refuse(response, 500, error.what());
+            refuse(response, 500, with_options(error.what()));
         }
     });
 }

@@ -38,14 +38,13 @@ void read_subpixels(const Imf::Header &header, Camera &camera) {
         if (across->value() >= 1 && across->value() <= most_across)
             camera.supersample = across->value();
         else
-            camera.unsure["--supersample"] =
+            camera.unsure["supersample"] =
                 fmt::format("{} is {}, not from 1 to {}", supersample_name, across->value(), most_across);
     }
     if (const auto *filter = header.findTypedAttribute<Imf::StringAttribute>(pixel_filter_name)) {
         camera.pixel_filter = pixel_filter_of(filter->value());
         if (!camera.pixel_filter)
-            camera.unsure["--pixel-filter"] =
-                std::string(pixel_filter_name) + " is not a filter that is known";
+            camera.unsure["pixel_filter"] = std::string(pixel_filter_name) + " is not a filter that is known";
     }
     if (camera.supersample && *camera.supersample > 1)
         camera.found.push_back(fmt::format("{0} x {0} pixels are one of the picture ({1})",
@@ -58,10 +57,10 @@ public:
     explicit Reader(const CameraAttributes &attributes) : has_(attributes) {}
 
     Camera read() {
-        camera_.metres_per_unit = pick({Quantity::metres_per_unit}, "metres per unit", "--scene-unit");
-        camera_.fstop = pick({Quantity::fstop}, "f-number", "--fstop", true);
+        camera_.metres_per_unit = pick({Quantity::metres_per_unit}, "metres per unit", "scene_unit");
+        camera_.fstop = pick({Quantity::fstop}, "f-number", "fstop", true);
         camera_.focus_distance =
-            pick({Quantity::focus_units, Quantity::focus_metres}, "focus distance", "--focus-distance", true);
+            pick({Quantity::focus_units, Quantity::focus_metres}, "focus distance", "focus_distance", true);
         read_placement();
         read_film();
         read_aperture();
@@ -71,7 +70,7 @@ public:
 private:
     // The value that the attributes of these quantities agree on. Hints are used only if there is nothing else.
     std::optional<double> pick(std::initializer_list<Quantity> quantities, const char *what,
-                               const char *option, bool may_be_infinite = false);
+                               const char *parameter, bool may_be_infinite = false);
     double in_unit(const NamedNumber &number) const {
         return number.quantity == Quantity::focus_metres ? number.value / camera_.metres_per_unit.value_or(1)
                                                          : number.value;
@@ -87,7 +86,7 @@ private:
 };
 
 std::optional<double> Reader::pick(std::initializer_list<Quantity> quantities, const char *what,
-                                   const char *option, bool may_be_infinite) {
+                                   const char *parameter, bool may_be_infinite) {
     const NamedNumber *chosen = nullptr;
     for (const bool exact : {true, false})
         for (const NamedNumber &number : has_.numbers) {
@@ -96,12 +95,12 @@ std::optional<double> Reader::pick(std::initializer_list<Quantity> quantities, c
                 continue;
             const double value = in_unit(number);
             if (!(value > 0) || (std::isinf(value) && !may_be_infinite)) {
-                camera_.unsure[option] = number.name + " is not a valid " + what;
+                camera_.unsure[parameter] = number.name + " is not a valid " + what;
                 return {};
             }
             if (chosen && !agree(value, in_unit(*chosen))) {
-                camera_.unsure[option] = chosen->name + " says " + text_of(in_unit(*chosen)) + ", " +
-                                         number.name + " says " + text_of(value);
+                camera_.unsure[parameter] = chosen->name + " says " + text_of(in_unit(*chosen)) + ", " +
+                                            number.name + " says " + text_of(value);
                 return {};
             }
             if (!chosen) chosen = &number;
@@ -113,19 +112,19 @@ std::optional<double> Reader::pick(std::initializer_list<Quantity> quantities, c
 
 // A renderer crops its film back to the shape of the picture. The field tells how much of it is seen.
 void Reader::read_film() {
-    camera_.focal_length_mm = pick({Quantity::focal_length}, "focal length", "--focal-length");
-    camera_.sensor_width_mm = pick({Quantity::sensor_width}, "sensor width", "--sensor-width");
-    camera_.field = pick({Quantity::field}, "width of the picture over the focal length", "--sensor-width");
-    const bool field_unsure = !camera_.field && camera_.unsure.contains("--sensor-width");
+    camera_.focal_length_mm = pick({Quantity::focal_length}, "focal length", "focal_length");
+    camera_.sensor_width_mm = pick({Quantity::sensor_width}, "sensor width", "sensor_width");
+    camera_.field = pick({Quantity::field}, "width of the picture over the focal length", "sensor_width");
+    const bool field_unsure = !camera_.field && camera_.unsure.contains("sensor_width");
     read_projections();
     read_principal_point();
     if (!camera_.sensor_width_mm && !(camera_.focal_length_mm && camera_.field) && !field_unsure)
-        camera_.sensor_width_mm = pick({Quantity::film_back}, "film back", "--sensor-width");
+        camera_.sensor_width_mm = pick({Quantity::film_back}, "film back", "sensor_width");
     if (camera_.focal_length_mm && camera_.sensor_width_mm && camera_.field &&
         !agree(*camera_.sensor_width_mm, *camera_.focal_length_mm * *camera_.field)) {
-        camera_.unsure["--sensor-width"] = "it is said to be " + text_of(*camera_.sensor_width_mm) +
-                                           " mm, but focal length and field of view make it " +
-                                           text_of(*camera_.focal_length_mm * *camera_.field);
+        camera_.unsure["sensor_width"] = "it is said to be " + text_of(*camera_.sensor_width_mm) +
+                                         " mm, but focal length and field of view make it " +
+                                         text_of(*camera_.focal_length_mm * *camera_.field);
         camera_.sensor_width_mm.reset();
         camera_.field.reset();
     }
@@ -157,12 +156,12 @@ void Reader::read_placement() {
     for (const NamedMatrix &matrix : has_.matrices) {
         if (matrix.kind != NamedMatrix::Kind::world_to_camera) continue;
         if (!matrix.matrix) {
-            camera_.unsure["--view"] = matrix.name + " is not a valid camera position";
+            camera_.unsure["view"] = matrix.name + " is not a valid camera position";
             return;
         }
         const auto place = [](const NamedMatrix &m) { return m.matrix->inverse().translation(); };
         if (chosen && (place(matrix) - place(*chosen)).length() > 1e-3 * place(matrix).length()) {
-            camera_.unsure["--view"] = chosen->name + " and " + matrix.name + " give different positions";
+            camera_.unsure["view"] = chosen->name + " and " + matrix.name + " give different positions";
             return;
         }
         if (!chosen) chosen = &matrix;
@@ -187,7 +186,7 @@ void Reader::read_projections() {
         const auto projection =
             read_projection(*matrix.matrix, *camera_.world_to_camera, {matrix.certain, field});
         if (!projection || (field && !agree(*field, projection->field))) {
-            camera_.unsure["--sensor-width"] =
+            camera_.unsure["sensor_width"] =
                 projection ? matrix.name + " makes the picture " + text_of(projection->field) +
                                  " focal lengths wide, other attributes " + text_of(*field)
                            : matrix.name + " is not a projection of the camera at that position";

@@ -158,7 +158,7 @@ ColourConfig::ColourConfig(const std::string &file) {
     const std::string path = !file.empty() ? file : variable ? variable : "";
     const std::string name = path.empty()   ? "the built-in colour configuration"
                              : file.empty() ? path + " ($OCIO)"
-                                            : path + " (--colorconfig)";
+                                            : path + " (`colorconfig`)";
     const bool is_file = !path.empty() && !path.starts_with("ocio://"); // else OpenColorIO's own
     if (is_file && !std::filesystem::is_regular_file(path)) throw Error(name + ": no such file");
     impl_ = with_config_name(name, [&] { return std::make_shared<const Impl>(Impl{name, config_of(path)}); });

@@ -60,13 +60,13 @@ Imf::Compression output_compression(bool deep, std::optional<Imf::Compression> a
                                     const Imf::Header &metadata, std::span<const Channel> channels) {
     const auto allowed = [deep](const NamedCompression *method) { return method && (method->deep || !deep); };
     if (asked && !allowed(method_of(*asked)))
-        throw UsageError("--compression: deep files may have " + compression_names(true, ", ") + " only");
+        throw UsageError("`compression`: deep files may have " + compression_names(true, ", ") + " only");
     const auto is_float_id = [](const Channel &c) { return holds_ids(c) && c.type != PixelType::uint32; };
     const auto ids = std::ranges::find_if(channels, is_float_id);
     const auto keeps = [&](const NamedCompression *method) { return method->exact || ids == channels.end(); };
     if (asked && !keeps(method_of(*asked)))
-        throw UsageError(fmt::format("--compression: {} would destroy the ids in channel {}; use one of {}, "
-                                     "or leave it out with --channels",
+        throw UsageError(fmt::format("`compression`: {} would destroy the ids in channel {}; use one of {}, "
+                                     "or leave it out with `channels`",
                                      method_of(*asked)->name, ids->name, names_of(&NamedCompression::exact)));
     if (asked) return *asked;
     if (to_pipe) return Imf::NO_COMPRESSION;

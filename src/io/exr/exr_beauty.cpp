@@ -130,7 +130,7 @@ std::vector<std::string> beauty_warnings(const std::vector<Channel> &channels) {
     if (layers.empty()) return {};
     return {fmt::format(
         "no layer is named as the beauty ({}), so that the picture has no R, G and B; its layers are {}: "
-        "give --layer with the one that is the picture",
+        "give `layer` with the one that is the picture",
         beauty_names(), first_of(layers))};
 }
 
@@ -148,7 +148,7 @@ std::optional<PictureLayer> chosen_picture(const std::vector<Channel> &channels,
     if (asked.empty()) {
         const std::vector<PictureLayer> pictures = pictures_in(channels);
         if (pictures.size() > 1)
-            throw UsageError(fmt::format("{}: holds several pictures, {}: give --layer with one of {}",
+            throw UsageError(fmt::format("{}: holds several pictures, {}: give `layer` with one of {}",
                                          display_name(path),
                                          fmt::join(names_of(pictures, &PictureLayer::beauty), " and "),
                                          fmt::join(names_of(pictures, &PictureLayer::name), ", ")));
@@ -157,7 +157,7 @@ std::optional<PictureLayer> chosen_picture(const std::vector<Channel> &channels,
     if (auto picture = picture_named(asked, channels)) return picture;
     std::vector<std::string> names = names_of(with_beauty(channels), &PictureLayer::name);
     if (names.empty()) names = colour_layers(channels);
-    throw Error(fmt::format("{}: has no layer '{}' with R, G and B (--layer): {}", display_name(path), asked,
+    throw Error(fmt::format("{}: has no layer '{}' with R, G and B (`layer`): {}", display_name(path), asked,
                             names.empty() ? "it has one picture, outside of all layers"
                                           : "its layers are " + first_of(names)));
 }

@@ -43,7 +43,7 @@ std::vector<std::string> beauty_warnings(const std::vector<Channel> &channels);
 // A file may hold several pictures, each with a beauty, a depth and passes of its own: fg.Combined.R, fg.Depth.Z,
 // fg.CryptoObject00.r, ... and bg.Combined.R, bg.Depth.Z, ..., as Blender writes view layers.
 struct PictureLayer {
-    std::string name;   // "fg": what --layer takes; "rgba" where the beauty lies in no layer
+    std::string name;   // "fg": what `layer` takes; "rgba" where the beauty lies in no layer
     std::string beauty; // "fg.Combined"
     std::string prefix; // of its channels: "fg."; empty: the beauty lies in no layer
 };

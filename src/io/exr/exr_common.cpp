@@ -67,9 +67,9 @@ std::string find_depth_channel(const std::vector<Channel> &channels, const std::
     if (k == npos)
         throw Error(
             asked.empty()
-                ? fmt::format("{}: has no depth channel (Z, depth.Z or *.Depth.Z): give --depth-channel; {}",
+                ? fmt::format("{}: has no depth channel (Z, depth.Z or *.Depth.Z): give `depth_channel`; {}",
                               display_name(path), what_there_is(channels))
-                : fmt::format("{}: has no channel {} (--depth-channel); {}", display_name(path), asked,
+                : fmt::format("{}: has no channel {} (`depth_channel`); {}", display_name(path), asked,
                               what_there_is(channels)));
     if (channels[k].type == PixelType::uint32)
         throw Error(fmt::format("{}: the depth channel {} holds integers, not depths", display_name(path),

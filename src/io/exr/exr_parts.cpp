@@ -82,7 +82,7 @@ PartsOfView parts_of_view(const Imf::MultiPartInputFile &file, const std::vector
     }
     if (!asked.empty() && parts.numbers.empty()) {
         const std::vector<std::string> all = all_views(file, numbers);
-        throw Error(fmt::format("{}: has no stereo view '{}' (--stereo-view): {}", display_name(path), asked,
+        throw Error(fmt::format("{}: has no stereo view '{}' (`stereo_view`): {}", display_name(path), asked,
                                 all.empty() ? std::string("it names no views")
                                             : fmt::format("its views are {}", fmt::join(all, ", "))));
     }

@@ -28,8 +28,8 @@ void check_memory(const std::string &path, double bytes, std::uint64_t file_size
     const double allowed = set == by_size ? base_bytes + bytes_per_byte * double(file_size) : double(set);
     if (bytes <= allowed) return;
     throw Error(fmt::format("{}: asks for {} of memory, more than {}", display_name(path), megabytes(bytes),
-                            set == by_size ? "is usual for a file of its size: give --max-memory to allow it"
-                                           : "--max-memory allows"));
+                            set == by_size ? "is usual for a file of its size: give `max_memory` to allow it"
+                                           : "`max_memory` allows"));
 }
 
 } // namespace sparselens

@@ -42,19 +42,19 @@ Write spoilt(const char *renderer, const char *attribute, std::optional<double> 
 
 TEST(CameraErrors, NameTheOptionThatIsMissing) {
     EXPECT_EQ(complaint(spoilt("standard", "focus", {})),
-              "the focus distance is unknown: give --focus-distance");
+              "the focus distance is unknown: give `focus_distance`");
     EXPECT_EQ(complaint(spoilt("standard", "aperture", {})),
-              "the aperture is unknown: give --fstop or --lens-radius");
+              "the aperture is unknown: give `fstop` or `lens_radius`");
     EXPECT_EQ(complaint(spoilt("standard", "pinholeFocalLength", {})),
-              "the focal length is unknown: give --focal-length");
+              "the focal length is unknown: give `focal_length`");
     EXPECT_EQ(complaint(spoilt("standard", "worldToNDC", {})),
-              "the sensor width is unknown: give --sensor-width");
+              "the sensor width is unknown: give `sensor_width`");
     LensValues with_focus;
     with_focus.focus_distance = focus;
     EXPECT_EQ(complaint(spoilt("V-Ray", "cameraFov", {}), with_focus), ""); // the film back is there
     EXPECT_EQ(complaint(spoilt("V-Ray", "cameraTransform", {}), with_focus), "");
     EXPECT_EQ(complaint(spoilt("Redshift", "rs/camera/aperture", {})),
-              "the focal length is unknown: give --focal-length");
+              "the focal length is unknown: give `focal_length`");
 }
 
 TEST(CameraErrors, NameTheAttributeThatIsWrong) {
@@ -65,14 +65,14 @@ TEST(CameraErrors, NameTheAttributeThatIsWrong) {
         EXPECT_NE(text.find(attribute), text.npos) << attribute << ": " << text;
         EXPECT_NE(text.find(std::string("give ") + option), text.npos) << attribute << ": " << text;
     };
-    expect("standard", "focus", -1, "--focus-distance");
-    expect("standard", "aperture", 0, "--fstop");
-    expect("standard", "pinholeFocalLength", std::nan(""), "--focal-length");
-    expect("V-Ray", "cameraFov", 190, "--sensor-width");
-    expect("V-Ray", "cameraFocalLength", -35, "--focal-length");
-    expect("Redshift", "rs/camera/DOFFocusDistance", 0, "--focus-distance");
-    expect("Unreal", "unreal/camera/FinalImage/fstop", -2, "--fstop");
-    expect("RenderMan", "Exif:FocalLength", 0, "--focal-length");
+    expect("standard", "focus", -1, "`focus_distance`");
+    expect("standard", "aperture", 0, "`fstop`");
+    expect("standard", "pinholeFocalLength", std::nan(""), "`focal_length`");
+    expect("V-Ray", "cameraFov", 190, "`sensor_width`");
+    expect("V-Ray", "cameraFocalLength", -35, "`focal_length`");
+    expect("Redshift", "rs/camera/DOFFocusDistance", 0, "`focus_distance`");
+    expect("Unreal", "unreal/camera/FinalImage/fstop", -2, "`fstop`");
+    expect("RenderMan", "Exif:FocalLength", 0, "`focal_length`");
 }
 
 TEST(CameraErrors, NameWhatContradicts) {
@@ -85,12 +85,12 @@ TEST(CameraErrors, NameWhatContradicts) {
     LensValues options;
     std::string text = complaint(both("cameraFocalLength", 50));
     EXPECT_NE(text.find("pinholeFocalLength says 35, cameraFocalLength says 50"), text.npos) << text;
-    EXPECT_NE(text.find("give --focal-length"), text.npos);
+    EXPECT_NE(text.find("give `focal_length`"), text.npos);
     EXPECT_EQ(complaint(both("cameraFocalLength", 35.1)), ""); // rounded
     options.focal_length_mm = 50;
     EXPECT_EQ(complaint(both("cameraFocalLength", 50), options), ""); // the option settles it
     text = complaint(both("sparselens:sensorWidth", 36));
-    EXPECT_NE(text.find("give --sensor-width"), text.npos) << text;
+    EXPECT_NE(text.find("give `sensor_width`"), text.npos) << text;
     options = {};
     options.sensor_width_mm = 36;
     EXPECT_EQ(complaint(both("sparselens:sensorWidth", 36), options), "");
@@ -98,7 +98,7 @@ TEST(CameraErrors, NameWhatContradicts) {
     EXPECT_NE(text.find("worldToNDC"), text.npos) << text;
     text = complaint(both("rs/camera/DOFFocusDistance", 7));
     EXPECT_NE(text.find("focus says 6.5"), text.npos) << text;
-    EXPECT_NE(text.find("give --focus-distance"), text.npos) << text;
+    EXPECT_NE(text.find("give `focus_distance`"), text.npos) << text;
 }
 
 TEST(CameraErrors, OfPlacesNameView) {
@@ -123,18 +123,16 @@ TEST(CameraErrors, OfPlacesNameView) {
     const auto nothing = [](Imf::Header &, const Pose &) {};
     EXPECT_EQ(why(nothing), "");
     EXPECT_EQ(why([](Imf::Header &h, const Pose &) { h.erase("worldToCamera"); }),
-              "rim.exr: its camera is unknown (no worldToCamera): give --view X,Y rim.exr");
-    EXPECT_EQ(
-        why([](Imf::Header &h, const Pose &) { put(h, "worldToCamera", Imath::M44d(0.0)); }),
-        "rim.exr: its camera is unknown (worldToCamera is not a valid camera position): give --view X,Y "
-        "rim.exr");
+              "rim.exr: its camera is unknown (no worldToCamera): give `view=X,Y rim.exr`");
+    EXPECT_EQ(why([](Imf::Header &h, const Pose &) { put(h, "worldToCamera", Imath::M44d(0.0)); }),
+              "rim.exr: its camera is unknown (worldToCamera is not a valid camera position): give "
+              "`view=X,Y rim.exr`");
     EXPECT_EQ(
         why([](Imf::Header &h, const Pose &) {
             put(h, "cameraTransform", standard_camera(Pose({5, 0})).inverse());
         }),
         "rim.exr: its camera is unknown (worldToCamera and cameraTransform give different positions): give "
-        "--view "
-        "X,Y rim.exr");
+        "`view=X,Y rim.exr`");
 }
 
 // What we write is what we read: attributes of the renderer that have come along do not speak against it.

@@ -71,7 +71,7 @@ TEST(CameraMetadata, SubpixelsThatCannotBeAreNotRead) {
         header.insert("ldi.pixelFilter", Imf::StringAttribute("sinc"));
         const Camera read = read_camera(header);
         EXPECT_FALSE(read.supersample || read.pixel_filter);
-        EXPECT_TRUE(read.unsure.contains("--supersample") && read.unsure.contains("--pixel-filter"));
+        EXPECT_TRUE(read.unsure.contains("supersample") && read.unsure.contains("pixel_filter"));
     }
 }
 

@@ -123,7 +123,7 @@ TEST(Colour, WhatIsNotThereIsNamed) {
               std::string::npos);
     EXPECT_NE(message([&] { config.to_display("", "inverted"); }).find("no view of sRGB 'inverted'"),
               std::string::npos);
-    EXPECT_NE(message([] { ColourConfig("missing.ocio"); }).find("missing.ocio (--colorconfig)"),
+    EXPECT_NE(message([] { ColourConfig("missing.ocio"); }).find("missing.ocio (`colorconfig`)"),
               std::string::npos);
     const ScratchFolder folder;
     std::ofstream(folder.file("broken.ocio")) << "ocio_profile_version: 99\n";

@@ -75,9 +75,9 @@ std::vector<Channel> two_pictures() {
 
 TEST(Beauty, SeveralPicturesNeedAChoice) {
     EXPECT_EQ(what_of<UsageError>([] { chosen_picture(two_pictures(), "", "x.exr"); }),
-              "x.exr: holds several pictures, bg.Combined and fg.Combined: give --layer with one of bg, fg");
+              "x.exr: holds several pictures, bg.Combined and fg.Combined: give `layer` with one of bg, fg");
     EXPECT_EQ(what_of<Error>([] { chosen_picture(two_pictures(), "hero", "x.exr"); }),
-              "x.exr: has no layer 'hero' with R, G and B (--layer): its layers are bg, fg");
+              "x.exr: has no layer 'hero' with R, G and B (`layer`): its layers are bg, fg");
     EXPECT_EQ(what_of<Error>([] {
                   chosen_picture(layer("R"), "hero", "x.exr");
               }).find("x.exr: has no layer 'hero'"),

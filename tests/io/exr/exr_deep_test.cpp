@@ -310,7 +310,7 @@ TEST_F(ExrDeep, TheDepthChannelIsFoundOrAskedFor) {
     EXPECT_EQ(find_channel(other.channels, "Z"), npos); // two depths would be written under one name
     EXPECT_TRUE(what_of<Error>([&] {
                     read_ldi(path, {.depth = "N"});
-                }).starts_with(path + ": has no channel N (--depth-channel); its channels are "));
+                }).starts_with(path + ": has no channel N (`depth_channel`); its channels are "));
     expect_equal(round_trip(other).ldi, rounded(other));
 }
 

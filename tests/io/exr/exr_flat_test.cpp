@@ -276,10 +276,10 @@ TEST(TakeDepth, TakesTheOneThatIsAskedFor) {
     Image image = with_depths({{"P.z", PixelType::float32}, {"R"}});
     EXPECT_EQ(take_depth(image, "P.z", "f"), (std::vector<float>{0, 1}));
     EXPECT_EQ(what_of<Error>([&] { take_depth(image, "P.z", "f.exr"); }),
-              "f.exr: has no channel P.z (--depth-channel); its channels are R");
+              "f.exr: has no channel P.z (`depth_channel`); its channels are R");
     EXPECT_EQ(
         what_of<Error>([&] { take_depth(image, "", "f.exr"); }),
-        "f.exr: has no depth channel (Z, depth.Z or *.Depth.Z): give --depth-channel; its channels are R");
+        "f.exr: has no depth channel (Z, depth.Z or *.Depth.Z): give `depth_channel`; its channels are R");
 }
 
 // Another Z would be mistaken for the depth by whoever reads what we write.

@@ -180,7 +180,7 @@ TEST_F(ExrParts, DeepViewsAreChosen) {
     EXPECT_EQ(read_ldi(path, {"right"}).ldi.z[0], 2);
     EXPECT_EQ(read_ldi(path, {"right"}).header.view(), "right");
     EXPECT_EQ(what_of<Error>([&] { read_ldi(path, {"middle"}); }),
-              path + ": has no stereo view 'middle' (--stereo-view): its views are left, right");
+              path + ": has no stereo view 'middle' (`stereo_view`): its views are left, right");
 }
 
 TEST_F(ExrParts, ViewsOfOnePartAreToldByTheirChannels) {
@@ -227,7 +227,7 @@ TEST_F(ExrParts, AFileWithoutViewsHasNone) {
     write_flat({{"R", 1}, {"right.R", 4}}, {});
     EXPECT_EQ(names_in(""), (Names{"R", "right.R"}));
     EXPECT_EQ(what_of<Error>([&] { read_flat_exr(path, {"right"}); }),
-              path + ": has no stereo view 'right' (--stereo-view): it names no views");
+              path + ": has no stereo view 'right' (`stereo_view`): it names no views");
     EXPECT_THROW(read_flat_header(path, {"right"}), Error);
 }
 

@@ -37,7 +37,7 @@ TEST_F(MemoryLimit, SaysWhichFileAsksForHowMuch) {
         FAIL();
     } catch (const Error &error) {
         EXPECT_STREQ(error.what(), "x.exr: asks for 100 MB of memory, more than is usual for a file of its "
-                                   "size: give --max-memory to allow it");
+                                   "size: give `max_memory` to allow it");
     }
 }
 
