@@ -1,4 +1,17 @@
-"""Depth of field from a few pinhole renders. See help(sparselens)."""
+"""Depth of field from a few pinhole renders: numpy in, numpy out.
+
+    views = [sparselens.open_view(name) for name in names]  # the centre view first
+    ldi = sparselens.cluster(sparselens.warp(views))
+    picture = sparselens.gather(ldi, focus_distance=3.4)
+    picture.pixels                                          # float32 (height, width, channels)
+    sparselens.write("focus-at-3.4.exr", picture)
+
+Keyword arguments are named as the options of the tools. Pixels are scene-linear, premultiplied by A, in the pixel
+geometry of OpenEXR: windows are (left, top, right, bottom), the last ones included, y down. Depth z is planar, in scene
+units, above 0, inf where nothing was hit. A value of the lens that no argument gives is taken from the file.
+
+Every function that takes long releases the interpreter's lock and ends on Ctrl-C. progress is called with the name of the
+stage and a whole percentage; where it raises, the work ends and the exception is passed on."""
 import os
 from typing import Any, Callable, Literal, Mapping, Optional, Sequence, TypedDict, Union
 
@@ -19,45 +32,103 @@ _Layout = Literal["hwc", "chw"]
 _Depth = Literal["z", "distance", "inverse", "negative", "normalized", "hyperbolic"]
 _Progress = Callable[[str, int], object]
 
-class Error(RuntimeError): ...
-class UsageError(ValueError): ...
+class Error(RuntimeError):
+    """A failure of input, output or memory; the message names the file, channel or argument."""
+class UsageError(ValueError):
+    """An argument has a value that it cannot have, or a value that is needed is missing; the message names the argument."""
 
 class Camera:
+    """What a file or the arguments say of the camera and its lens. A value that is unknown is None."""
+
     @property
-    def focal_length(self) -> Optional[float]: ...
+    def focal_length(self) -> Optional[float]:
+        """Millimetres."""
     @property
-    def sensor_width(self) -> Optional[float]: ...
+    def sensor_width(self) -> Optional[float]:
+        """Millimetres; it spans the display window."""
     @property
-    def fstop(self) -> Optional[float]: ...
+    def fstop(self) -> Optional[float]:
+        """The f-number, or inf."""
     @property
-    def lens_radius(self) -> Optional[float]: ...
+    def lens_radius(self) -> Optional[float]:
+        """Radius of the aperture, scene units."""
     @property
-    def focus_distance(self) -> Optional[float]: ...
+    def focus_distance(self) -> Optional[float]:
+        """Scene units, or inf."""
     @property
-    def scene_unit(self) -> Optional[float]: ...
+    def scene_unit(self) -> Optional[float]:
+        """Length of a scene unit, metres."""
     @property
-    def world_to_camera(self) -> Optional[list[list[float]]]: ...
+    def world_to_camera(self) -> Optional[list[list[float]]]:
+        """4 rows of 4 numbers that act on row vectors, as in OpenEXR. Camera space: x right, y up, z forward."""
     @property
-    def supersample(self) -> Optional[int]: ...
+    def supersample(self) -> Optional[int]:
+        """Of an LDI and its views: so many pixels, across and down, are one of the picture."""
     @property
-    def lens_points(self) -> list[_Pair]: ...
+    def lens_points(self) -> list[_Pair]:
+        """Of an LDI: where its views stood, (x, y) in scene units, x right, y up."""
 
 class _Windows:
     @property
-    def width(self) -> int: ...
+    def width(self) -> int:
+        """Pixels across the data window."""
     @property
-    def height(self) -> int: ...
+    def height(self) -> int:
+        """Pixels down the data window."""
     @property
-    def data_window(self) -> _Box: ...
+    def data_window(self) -> _Box:
+        """The pixels that are stored: (left, top, right, bottom), the last ones included, y down."""
     @property
-    def display_window(self) -> _Box: ...
+    def display_window(self) -> _Box:
+        """The frame of the camera, as data_window is written."""
     @property
-    def pixel_aspect(self) -> float: ...
+    def pixel_aspect(self) -> float:
+        """Width over height of a pixel."""
     @property
-    def channels(self) -> tuple[str, ...]: ...
-    def __getitem__(self, channel: str) -> Any: ...
+    def channels(self) -> tuple[str, ...]:
+        """The names of the channels, in the order of their planes."""
 
-class View(_Windows):
+class _Image(_Windows):
+    @property
+    def planes(self) -> _Floats:
+        """float32 (channels, height, width). No copy: it looks into the memory of this object."""
+    @property
+    def pixels(self) -> _Floats:
+        """float32 (height, width, channels). No copy: the same memory as planes, with other strides."""
+    def __getitem__(self, channel: str) -> Any:
+        """The channel of that name: float32 (height, width), or uint32 for ids. No copy. Raises KeyError."""
+
+class _Opened:
+    @property
+    def name(self) -> str:
+        """The name of the file, or the one given: for messages."""
+    @property
+    def camera(self) -> Camera:
+        """What is known of the camera and the lens."""
+    @property
+    def notes(self) -> list[str]:
+        """What was taken for what in the file."""
+
+class View(_Image, _Opened):
+    """A rendered picture with depth. Its arrays are read-only.
+
+    image: float32 (height, width, channels), as OpenImageIO's ImageBuf.get_pixels() gives it, or (channels, height, width)
+      with layout="chw"; any strides. It is copied once.
+    z: float32 (height, width), in the meaning that depth= says. Without it, the depth is one of the channels.
+
+    Keywords:
+      channels: the names of the channels (default: R, G, B and, if there are four, A)
+      layout: "hwc" (default) or "chw"
+      position: (x, y), where the camera stood relative to the centre view: scene units, x right, y up
+      world_to_camera: 4 x 4 numbers, instead of position; see Camera
+      name: for messages (default: "view")
+      data_window, display_window, pixel_aspect (default: (0, 0, width - 1, height - 1) for both, and 1)
+      depth, near, far, depth_channel: what the depths are, as in open_view
+      focal_length (mm), sensor_width (mm, spans the display window), fstop (a number, or inf),
+      lens_radius (scene units, instead of fstop), focus_distance (scene units, or inf), scene_unit (metres)
+
+    Raises TypeError and UsageError (a ValueError), which name the argument, and Error where most depths are invalid."""
+
     def __init__(
         self,
         image: _Floats,
@@ -81,23 +152,35 @@ class View(_Windows):
         lens_radius: Optional[float] = None,
         focus_distance: Optional[float] = None,
         scene_unit: Optional[float] = None,
-    ) -> None: ...
+    ) -> None:
+        """See help(sparselens.View)."""
     @property
-    def planes(self) -> _Floats: ...
+    def z(self) -> _Floats:
+        """Planar depth: float32 (height, width), scene units, inf where nothing was hit. No copy."""
     @property
-    def pixels(self) -> _Floats: ...
-    @property
-    def z(self) -> _Floats: ...
-    @property
-    def name(self) -> str: ...
-    @property
-    def position(self) -> Optional[_Pair]: ...
-    @property
-    def camera(self) -> Camera: ...
-    @property
-    def notes(self) -> list[str]: ...
+    def position(self) -> Optional[_Pair]:
+        """Where the camera stood, as it was given: (x, y), scene units, x right, y up; or None."""
 
-class Ldi(_Windows):
+class Ldi(_Windows, _Opened):
+    """A layered depth image: any number of samples in each pixel, sorted by depth. Its arrays are read-only.
+
+    Pixel i, counted row by row, has the samples begin[i] to begin[i + 1] - 1 of every array.
+
+    begin: uint64 (height * width + 1), from 0 to the number of samples, not descending.
+    z: float32 (samples), depth of the front of each sample.
+    channels: a dict of names and arrays, float32 (samples), or uint32 for ids. Without A all samples are opaque.
+
+    Keywords:
+      size: (width, height)
+      z_back, dx, dy, weight, optical, solid: float32 (samples), see the properties; dx and dy come together
+      name: for messages (default: "ldi")
+      data_window, display_window, pixel_aspect, world_to_camera: as in View
+      depth, near, far: what z is, as in open_view
+      focal_length (mm), sensor_width (mm, spans the display window), fstop (a number, or inf),
+      lens_radius (scene units, instead of fstop), focus_distance (scene units, or inf), scene_unit (metres)
+
+    Samples are sorted, and overlaps resolved. Raises TypeError and UsageError (a ValueError), which name the argument."""
+
     def __init__(
         self,
         begin: _Offsets,
@@ -125,33 +208,44 @@ class Ldi(_Windows):
         lens_radius: Optional[float] = None,
         focus_distance: Optional[float] = None,
         scene_unit: Optional[float] = None,
-    ) -> None: ...
+    ) -> None:
+        """See help(sparselens.Ldi)."""
     @property
-    def begin(self) -> _Offsets: ...
+    def begin(self) -> _Offsets:
+        """uint64 (height * width + 1): where the samples of each pixel begin. No copy."""
     @property
-    def z(self) -> _Floats: ...
+    def z(self) -> _Floats:
+        """float32 (samples): depth of the front of each sample, scene units. No copy."""
     @property
-    def z_back(self) -> Optional[_Floats]: ...
+    def z_back(self) -> Optional[_Floats]:
+        """float32 (samples): depth of the back, at least z; None where all samples are points. No copy."""
     @property
-    def dx(self) -> Optional[_Floats]: ...
+    def dx(self) -> Optional[_Floats]:
+        """float32 (samples): offset from the pixel centre, -1/2 to 1/2, x right; None where all are 0. No copy."""
     @property
-    def dy(self) -> Optional[_Floats]: ...
+    def dy(self) -> Optional[_Floats]:
+        """float32 (samples): offset from the pixel centre, -1/2 to 1/2, y down; None where all are 0. No copy."""
     @property
-    def weight(self) -> Optional[_Floats]: ...
+    def weight(self) -> Optional[_Floats]:
+        """float32 (samples): the number of view samples merged into each; None where all are 1. No copy."""
     @property
-    def optical(self) -> Optional[_Floats]: ...
+    def optical(self) -> Optional[_Floats]:
+        """float32 (samples): depth of the image that a mirror or glass shows there; None where all are as z. No copy."""
     @property
-    def solid(self) -> Optional[_Floats]: ...
+    def solid(self) -> Optional[_Floats]:
+        """float32 (samples): by how much 1/z falls through what is solid behind each; None where all are 0. No copy."""
     @property
-    def samples(self) -> int: ...
-    @property
-    def name(self) -> str: ...
-    @property
-    def camera(self) -> Camera: ...
-    @property
-    def notes(self) -> list[str]: ...
+    def samples(self) -> int:
+        """The number of samples."""
+    def __getitem__(self, channel: str) -> Any:
+        """The channel of that name: float32 (samples), or uint32 for ids. No copy. Raises KeyError."""
 
-class Picture(_Windows):
+class Picture(_Image):
+    """A flat picture. Its arrays can be written to.
+
+    image: float32 (height, width, channels), (height, width), or (channels, height, width) with layout="chw". It is
+    copied once. Raises TypeError and UsageError (a ValueError), which name the argument."""
+
     def __init__(
         self,
         image: _Floats,
@@ -161,38 +255,51 @@ class Picture(_Windows):
         data_window: Optional[_Box] = None,
         display_window: Optional[_Box] = None,
         pixel_aspect: float = 1,
-    ) -> None: ...
-    @property
-    def planes(self) -> _Floats: ...
-    @property
-    def pixels(self) -> _Floats: ...
-    def _repr_png_(self) -> Optional[bytes]: ...
+    ) -> None:
+        """See help(sparselens.Picture)."""
+    def _repr_png_(self) -> Optional[bytes]:
+        """The picture as PNG, through the default display and view; None without R, G and B. Notebooks call it."""
 
 class PlannedView:
+    """A view that is worth rendering."""
+
     @property
-    def lens_point(self) -> _Pair: ...
+    def lens_point(self) -> _Pair:
+        """Where it stands in the unit disc of the lens: (x, y), x right, y up."""
     @property
-    def position(self) -> _Pair: ...
+    def position(self) -> _Pair:
+        """Where its camera stands relative to the centre view: (x, y), scene units, x right, y up."""
     @property
-    def share(self) -> float: ...
+    def share(self) -> float:
+        """What is to be rendered, as a share of one full view."""
     @property
-    def uncovered(self) -> int: ...
+    def uncovered(self) -> int:
+        """The number of pixels that something nearer hides from the centre view, without the margin."""
     @property
-    def mask(self) -> _Mask: ...
+    def mask(self) -> _Mask:
+        """bool (height, width): the pixels to render. No copy."""
     @property
-    def rectangles(self) -> list[_Box]: ...
+    def rectangles(self) -> list[_Box]:
+        """A few rectangles that contain the mask: (left, top, right, bottom), the last ones included."""
 
 class Plan:
+    """What is worth rendering in addition to the centre view."""
+
     @property
-    def views(self) -> list[PlannedView]: ...
+    def views(self) -> list[PlannedView]:
+        """The views, of which there are none where the centre view is enough."""
     @property
-    def share(self) -> float: ...
+    def share(self) -> float:
+        """What is to be rendered, as a share of one full view."""
     @property
-    def full_views(self) -> bool: ...
+    def full_views(self) -> bool:
+        """Whether noise is the larger error, so that whole views pay as further samples."""
     @property
-    def noise_db(self) -> float: ...
+    def noise_db(self) -> float:
+        """The noise left in the lens picture of the centre view alone, dB, tone-mapped; inf where there is none."""
     @property
-    def overscan(self) -> _Box: ...
+    def overscan(self) -> _Box:
+        """Pixels beyond the borders from which the lens brings light inside: (left, top, right, bottom)."""
 
 class _Nonfinite(TypedDict):
     image: int
@@ -231,7 +338,22 @@ def open_view(
     lens_radius: Optional[float] = None,
     focus_distance: Optional[float] = None,
     scene_unit: Optional[float] = None,
-) -> View: ...
+) -> View:
+    """Opens a rendered view, a flat EXR with depth, and returns a View. Invalid values are repaired, with a warning.
+
+    position: (x, y), where the camera stood relative to the centre view, scene units; default: as the file says.
+    center: the centre view, which gives what this file does not say of its frustum.
+    depth: what depth channels hold: "z" planar, "distance" along the ray, "inverse" 1 / z, "negative" -z,
+      "normalized" 0 at near to 1 at far, "hyperbolic" the same, linear in 1 / z. Depths beyond far (default: 1e10) are sky.
+    depth_channel: default: the first of Z, depth.Z and *.Depth.Z.
+    stereo_view: the view of a stereo file, such as "right".
+    layer: the picture of a file that holds several, such as a view layer of Blender.
+    Lens values replace those of the file:
+      focal_length (mm), sensor_width (mm, spans the display window), fstop (a number, or inf),
+      lens_radius (scene units, instead of fstop), focus_distance (scene units, or inf), scene_unit (metres)
+
+    Raises Error where the file cannot be read, and UsageError where a value is missing."""
+
 def open_ldi(
     path: _Path,
     *,
@@ -247,8 +369,12 @@ def open_ldi(
     lens_radius: Optional[float] = None,
     focus_distance: Optional[float] = None,
     scene_unit: Optional[float] = None,
-) -> Ldi: ...
-def open_picture(path: _Path, *, stereo_view: Optional[str] = None, layer: Optional[str] = None) -> Picture: ...
+) -> Ldi:
+    """Opens any deep EXR, or a flat one with depth, and returns an Ldi. Keywords and errors are those of open_view."""
+
+def open_picture(path: _Path, *, stereo_view: Optional[str] = None, layer: Optional[str] = None) -> Picture:
+    """Opens a flat EXR and returns a Picture of all its channels. Raises Error where the file cannot be read."""
+
 def warp(
     views: Union[View, Sequence[View]],
     *,
@@ -264,7 +390,22 @@ def warp(
     lens_radius: Optional[float] = None,
     focus_distance: Optional[float] = None,
     scene_unit: Optional[float] = None,
-) -> Ldi: ...
+) -> Ldi:
+    """Warps views into one layered depth image and returns an Ldi. As ldi-warp.
+
+    views: a sequence of View, the centre view first. Each stands where its position or its camera says.
+    merge: "average" the views of a surface, or "keep" one sample per surface and the centre view unchanged.
+    silhouettes: "split" pixels that mix two surfaces into two samples, or leave them "whole".
+    agreement: "test" whether views agree out of focus before they are averaged, or "assume" it.
+    optical: "on" finds the depth of what mirrors and glass show, which then is blurred and averaged by it, or "off".
+    device: what warps: "cpu", "auto" (a GPU if there is one), "gpu" (a GPU, or Error), or a part of a device's name.
+    progress: called with the name of the stage and a whole percentage.
+    Lens values replace those of the centre view:
+      focal_length (mm), sensor_width (mm, spans the display window), fstop (a number, or inf),
+      lens_radius (scene units, instead of fstop), focus_distance (scene units, or inf), scene_unit (metres)
+
+    Raises UsageError where the position of a view or the focal length is unknown, and Error where views do not match."""
+
 def cluster(
     ldi: Union[Ldi, Sequence[Ldi]],
     *,
@@ -277,7 +418,19 @@ def cluster(
     lens_radius: Optional[float] = None,
     focus_distance: Optional[float] = None,
     scene_unit: Optional[float] = None,
-) -> Ldi: ...
+) -> Ldi:
+    """Merges samples that no lens tells apart and returns an Ldi. As ldi-cluster.
+
+    ldi: an Ldi, or a sequence of them, which are merged by depth first.
+    tolerance: samples are merged whose circles of confusion differ by less, pixels.
+    layers: at most so many samples per pixel; 0: no limit.
+    progress: called with the name of the stage and a whole percentage.
+    Lens values replace those of the LDI:
+      focal_length (mm), sensor_width (mm, spans the display window), fstop (a number, or inf),
+      lens_radius (scene units, instead of fstop), focus_distance (scene units, or inf), scene_unit (metres)
+
+    Raises UsageError where the lens is unknown, and Error where several LDIs are not of one camera."""
+
 def gather(
     ldi: Ldi,
     *,
@@ -321,9 +474,42 @@ def gather(
     lens_radius: Optional[float] = None,
     focus_distance: Optional[float] = None,
     scene_unit: Optional[float] = None,
-) -> Picture: ...
-def flatten(ldi: Ldi) -> Picture: ...
-def front_depth(ldi: Ldi) -> Picture: ...
+) -> Picture:
+    """Makes the picture that a lens takes of an LDI and returns a Picture. As dof-gather.
+
+    channels: names of channels, layers or Cryptomattes, or "rgba", as a sequence or separated by commas; default: all.
+    method: "lens" or "selective".
+    quality: "draft", "normal" or "final"; lens_samples: points of the lens in every tile, 0: as many as the quality needs.
+    layer_tolerance: layers of a pixel whose circles of confusion differ by less are merged first, pixels; 0: none.
+      Both belong to the method lens; layers, the layers kept apart in a pixel, belongs to selective.
+    focus_pixel: (x, y), focuses on the front surface in this pixel, instead of focus_distance.
+    holdout: an Ldi that hides what is behind it and is not shown itself; it stays sharp unless holdout_defocused.
+    device: what gathers, by the methods lens and selective: "cpu", "auto" (a GPU if there is one), "gpu" (a GPU, or Error),
+      or a part of a device's name, also of one in software.
+    overscan: "grow" the picture as far as the blur reaches, "keep" the pixels of the LDI, "crop" to the display window.
+    proxy: makes a picture of 1 / proxy the size. supersample: so many pixels of the LDI, across and down, are one of the
+      picture (default: as its file says, else 1); pixel_filter: that of the picture, "box", "blackman-harris" or "gaussian", the
+      latter two with ":WIDTH" if wanted (default: as the file says, else "box"). focus_pixel and region count its pixels. region: (left, top, right, bottom), makes only these pixels.
+    highlight_gain: makes lights above highlight_threshold (scene-linear luminance) up to so many times as bright, 1 to
+      1000, over a knee of highlight_knee.
+    Looks of the lens, of the method lens: blades (a whole number), blade_curvature (0 to 1), blade_rotation (degrees),
+      squeeze (0.001 to 1000), spherical (-1 to 1), cat_eye (0 to 100, with cat_eye_darkening), axial_chromatic (mm, with
+      axial_chromatic_type "red-blue", "blue-yellow" or "green-magenta"), field_curvature (-1 to 1),
+      astigmatism (-1 to 1), breathing (0 to 2), tilt ((x, y), degrees), lens (a file of share/lenses, which the others beat), aperture (a picture, instead of blades).
+    progress: called with the name of the stage and a whole percentage.
+    Lens values replace those of the LDI:
+      focal_length (mm), sensor_width (mm, spans the display window), fstop (a number, or inf),
+      lens_radius (scene units, instead of fstop), focus_distance (scene units, or inf), scene_unit (metres)
+
+    Raises UsageError where the lens is unknown, or keywords contradict each other."""
+
+def flatten(ldi: Ldi) -> Picture:
+    """Composites the samples of an Ldi front to back and returns the Picture seen without a lens."""
+
+def front_depth(ldi: Ldi) -> Picture:
+    """The planar depth of the front sample of each pixel of an Ldi, inf where there is none: a Picture of the channel Z.
+    As dof-gather's depth output."""
+
 def show(
     ldi: Ldi,
     what: Literal["coc", "focus", "layers"],
@@ -334,7 +520,17 @@ def show(
     lens_radius: Optional[float] = None,
     focus_distance: Optional[float] = None,
     scene_unit: Optional[float] = None,
-) -> Picture: ...
+) -> Picture:
+    """False colours of what an Ldi and a lens are, as a Picture of display values. As dof-gather shows them.
+
+    what: "coc", the circle of confusion of the front sample: white in focus, blue in front, red behind;
+      "focus", green where that sample is in focus; "layers", the number of samples per pixel.
+    Lens values replace those of the LDI:
+      focal_length (mm), sensor_width (mm, spans the display window), fstop (a number, or inf),
+      lens_radius (scene units, instead of fstop), focus_distance (scene units, or inf), scene_unit (metres)
+
+    Raises UsageError where the lens is unknown; layers needs none."""
+
 def plan(
     view: View,
     *,
@@ -348,7 +544,18 @@ def plan(
     lens_radius: Optional[float] = None,
     focus_distance: Optional[float] = None,
     scene_unit: Optional[float] = None,
-) -> Plan: ...
+) -> Plan:
+    """Plans which views from the rim of the lens, and which of their pixels, are worth rendering; returns a Plan. As ldi-plan.
+
+    view: the centre View. views: the largest number of views. margin: pixels added around what it does not see.
+    noise: standard deviation of the noise of a tone-mapped pixel (default: measured).
+    progress: called with the name of the stage and a whole percentage.
+    Lens values replace those of the view:
+      focal_length (mm), sensor_width (mm, spans the display window), fstop (a number, or inf),
+      lens_radius (scene units, instead of fstop), focus_distance (scene units, or inf), scene_unit (metres)
+
+    Raises UsageError where the lens is unknown."""
+
 def compare(
     image: Union[Picture, View, _Floats],
     reference: Union[Picture, View, _Floats],
@@ -360,7 +567,17 @@ def compare(
     lens_radius: Optional[float] = None,
     focus_distance: Optional[float] = None,
     scene_unit: Optional[float] = None,
-) -> _Comparison: ...
+) -> _Comparison:
+    """How far a picture is from its reference, as a dict of the figures of dof-compare: psnr, psnr_tonemapped and psnr_worst (dB),
+    relmse, smape, ssim, p99, max, max_alpha, pixels, nonfinite, and with regions the same for each of regions.
+
+    image, reference: a Picture, a View, or float32 (height, width, 3 or 4).
+    regions: an Ldi that tells what is in focus, blurred, or a silhouette, by its lens and these values:
+      focal_length (mm), sensor_width (mm, spans the display window), fstop (a number, or inf),
+      lens_radius (scene units, instead of fstop), focus_distance (scene units, or inf), scene_unit (metres)
+
+    Raises Error where R, G or B is missing or the display windows differ in size."""
+
 def write(
     path: _Path,
     what: Union[Picture, Ldi, Plan, _Floats],
@@ -371,7 +588,17 @@ def write(
     display: Optional[str] = None,
     view_transform: Optional[str] = None,
     masks: Optional[_Path] = None,
-) -> None: ...
+) -> None:
+    """Writes a file; an interrupted or failed write leaves no partial file.
+
+    what: a Picture or a numpy array (EXR, or PNG, JPEG, TIFF and the like by the extension), an Ldi (deep EXR) or a Plan (JSON).
+    compression: of EXR, such as "zip"; default: that of the file that it came from.
+    type: "half" or "float", of the channels of a picture (default: their own; float where they came from numpy).
+    colorconfig, display, view_transform: of OpenColorIO, for PNG and the like (default: $OCIO and its display).
+    masks: with a Plan, a folder for one mask per view.
+
+    Raises Error where the file cannot be written, and UsageError for a keyword that does not apply."""
+
 class Viewing:
     @property
     def address(self) -> str: ...
@@ -381,4 +608,7 @@ class Viewing:
     def _repr_html_(self) -> str: ...
 
 def view(ldi: Union[Ldi, _Path], *, open: bool = False, **options: Any) -> Viewing: ...
-def set_limits(*, threads: Optional[int] = None, max_memory: Optional[float] = None) -> None: ...
+def set_limits(*, threads: Optional[int] = None, max_memory: Optional[float] = None) -> None:
+    """Sets the limits of the process. threads: 0 stands for all cores. max_memory: bytes that reading a file may take;
+    0: 64 MB plus 1100 times the size of the file."""
+

@@ -2,10 +2,10 @@
 #include "base/error.h"
 #include "io/files/memory_limit.h"
 #include "python/device.h"
-#include "python/docs.h"
 #include "python/objects.h"
 
 #include <ImfThreading.h>
+#include <sparselens_docs.h>
 #include <tbb/global_control.h>
 #include <tbb/info.h>
 
@@ -76,11 +76,11 @@ PYBIND11_MODULE(_sparselens, module) {
     using namespace sparselens::python;
     refuse_unknown_numpy();
     py::options options;
-    options.disable_function_signatures(); // the texts of docs.h begin with them, as Python writes them
+    options.disable_function_signatures(); // the texts of help() begin with them, as Python writes them
     module.doc() = doc::module;
     module.attr("__version__") = SPARSELENS_VERSION;
-    error_type = exception_type(module, "Error", PyExc_RuntimeError, doc::error);
-    usage_error_type = exception_type(module, "UsageError", PyExc_ValueError, doc::usage_error);
+    error_type = exception_type(module, "Error", PyExc_RuntimeError, doc::Error::text);
+    usage_error_type = exception_type(module, "UsageError", PyExc_ValueError, doc::UsageError::text);
     py::register_exception_translator(&translate);
     bind_objects(module);
     bind_verbs(module);

@@ -3,12 +3,12 @@
 #include "base/text.h"
 #include "plan/rectangles.h"
 #include "python/arrays.h"
-#include "python/docs.h"
 #include "python/from_arrays.h"
 #include "python/write.h"
 
 #include <fmt/format.h>
 #include <pybind11/stl.h>
+#include <sparselens_docs.h>
 
 #include <array>
 #include <cmath>
@@ -49,18 +49,19 @@ py::array samples_of(const py::object &self, const std::string &channel) {
 template <typename Object, typename Get>
 void bind_windows(py::class_<Object> &type, const Get &windows_of) {
     type.def_property_readonly(
-            "width", [=](const Object &o) { return windows_of(o).width(); }, doc::width)
+            "width", [=](const Object &o) { return windows_of(o).width(); }, doc::Windows::width)
         .def_property_readonly(
-            "height", [=](const Object &o) { return windows_of(o).height(); }, doc::height)
+            "height", [=](const Object &o) { return windows_of(o).height(); }, doc::Windows::height)
         .def_property_readonly(
             "data_window", [=](const Object &o) { return py::tuple(py::cast(box_of(windows_of(o).data))); },
-            doc::data_window)
+            doc::Windows::data_window)
         .def_property_readonly(
             "display_window",
             [=](const Object &o) { return py::tuple(py::cast(box_of(windows_of(o).display))); },
-            doc::display_window)
+            doc::Windows::display_window)
         .def_property_readonly(
-            "pixel_aspect", [=](const Object &o) { return windows_of(o).pixel_aspect; }, doc::pixel_aspect);
+            "pixel_aspect", [=](const Object &o) { return windows_of(o).pixel_aspect; },
+            doc::Windows::pixel_aspect);
 }
 
 // The channels of what has an image.
@@ -69,37 +70,37 @@ void bind_image(py::class_<Object> &type, const Get &image_of, Access access) {
     bind_windows(type, [=](const Object &o) -> const Windows & { return image_of(o).windows; });
     type.def_property_readonly(
             "channels", [=](const Object &o) { return py::tuple(py::cast(names_of(image_of(o).channels))); },
-            doc::channels)
+            doc::Windows::channels)
         .def_property_readonly(
             "planes",
             [=](const py::object &self) {
                 return planes_of(image_of(self.cast<const Object &>()), self, access);
             },
-            doc::planes)
+            doc::Image::planes)
         .def_property_readonly(
             "pixels",
             [=](const py::object &self) {
                 return planes_of(image_of(self.cast<const Object &>()), self, access)
                     .attr("transpose")(1, 2, 0);
             },
-            doc::pixels)
+            doc::Image::pixels)
         .def(
             "__getitem__",
             [=](const py::object &self, const std::string &channel) {
                 return plane_of(image_of(self.cast<const Object &>()), channel, self, access);
             },
-            py::arg("channel"), doc::plane);
+            py::arg("channel"), doc::Image::getitem);
 }
 
 void bind_camera(py::module_ &module) {
-    py::class_<Camera> type(module, "Camera", doc::camera);
-    type.def_readonly("focal_length", &Camera::focal_length_mm, doc::focal_length)
-        .def_readonly("sensor_width", &Camera::sensor_width_mm, doc::sensor_width)
-        .def_readonly("fstop", &Camera::fstop, doc::fstop)
-        .def_property_readonly("lens_radius", &lens_radius_of, doc::lens_radius)
-        .def_readonly("supersample", &Camera::supersample, doc::supersample)
-        .def_readonly("focus_distance", &Camera::focus_distance, doc::focus_distance)
-        .def_readonly("scene_unit", &Camera::metres_per_unit, doc::scene_unit)
+    py::class_<Camera> type(module, "Camera", doc::Camera::text);
+    type.def_readonly("focal_length", &Camera::focal_length_mm, doc::Camera::focal_length)
+        .def_readonly("sensor_width", &Camera::sensor_width_mm, doc::Camera::sensor_width)
+        .def_readonly("fstop", &Camera::fstop, doc::Camera::fstop)
+        .def_property_readonly("lens_radius", &lens_radius_of, doc::Camera::lens_radius)
+        .def_readonly("supersample", &Camera::supersample, doc::Camera::supersample)
+        .def_readonly("focus_distance", &Camera::focus_distance, doc::Camera::focus_distance)
+        .def_readonly("scene_unit", &Camera::metres_per_unit, doc::Camera::scene_unit)
         .def_property_readonly(
             "world_to_camera",
             [](const Camera &camera) -> std::optional<Matrix> {
@@ -110,7 +111,7 @@ void bind_camera(py::module_ &module) {
                         m[std::size_t(i)][std::size_t(k)] = (*camera.world_to_camera)[i][k];
                 return m;
             },
-            doc::world_to_camera)
+            doc::Camera::world_to_camera)
         .def_property_readonly(
             "lens_points",
             [](const Camera &camera) {
@@ -118,12 +119,12 @@ void bind_camera(py::module_ &module) {
                 for (const Imath::V2d &p : camera.lens_points) points.append(py::make_tuple(p.x, p.y));
                 return points;
             },
-            doc::lens_points);
+            doc::Camera::lens_points);
 }
 
 void bind_view(py::module_ &module) {
-    py::class_<ViewObject> type(module, "View", doc::view);
-    type.def(py::init(&view_from), py::arg("image"), py::arg("z") = py::none(), doc::view_init);
+    py::class_<ViewObject> type(module, "View", doc::View::text);
+    type.def(py::init(&view_from), py::arg("image"), py::arg("z") = py::none(), doc::View::init);
     bind_image(
         type, [](const ViewObject &view) -> const Image & { return view.in.view.image; }, Access::read_only);
     type.def_property_readonly(
@@ -133,20 +134,20 @@ void bind_view(py::module_ &module) {
                 const Windows &w = view.image.windows;
                 return shared(view.z, self, {std::size_t(w.height()), std::size_t(w.width())});
             },
-            doc::view_z)
+            doc::View::z)
         .def_property_readonly(
-            "name", [](const ViewObject &view) { return view.in.view.name; }, doc::name)
+            "name", [](const ViewObject &view) { return view.in.view.name; }, doc::Opened::name)
         .def_property_readonly(
             "position",
             [](const ViewObject &view) -> py::object {
                 if (!view.position) return py::none();
                 return py::make_tuple(view.position->x, view.position->y);
             },
-            doc::position)
+            doc::View::position)
         .def_property_readonly(
-            "camera", [](const ViewObject &view) { return view.in.camera; }, doc::camera_of)
+            "camera", [](const ViewObject &view) { return view.in.camera; }, doc::Opened::camera)
         .def_property_readonly(
-            "notes", [](const ViewObject &view) { return view.in.notes; }, doc::notes)
+            "notes", [](const ViewObject &view) { return view.in.notes; }, doc::Opened::notes)
         .def("__repr__", [](const ViewObject &view) {
             const Image &image = view.in.view.image;
             return text_of("View", view.in.view.name, image.windows,
@@ -155,8 +156,8 @@ void bind_view(py::module_ &module) {
 }
 
 void bind_ldi(py::module_ &module) {
-    py::class_<LdiObject> type(module, "Ldi", doc::ldi);
-    type.def(py::init(&ldi_from), py::arg("begin"), py::arg("z"), py::arg("channels"), doc::ldi_init);
+    py::class_<LdiObject> type(module, "Ldi", doc::Ldi::text);
+    type.def(py::init(&ldi_from), py::arg("begin"), py::arg("z"), py::arg("channels"), doc::Ldi::init);
     bind_windows(type, [](const LdiObject &in) -> const Windows & { return in.ldi.windows; });
     const auto samples = [&](const char *name, std::vector<float> Ldi::*member, const char *text) {
         type.def_property_readonly(
@@ -169,33 +170,33 @@ void bind_ldi(py::module_ &module) {
     type.def_property_readonly(
         "begin",
         [](const py::object &self) { return shared(self.cast<const LdiObject &>().ldi.begin, self); },
-        doc::begin);
+        doc::Ldi::begin);
     type.def_property_readonly(
         "z", [](const py::object &self) { return shared(self.cast<const LdiObject &>().ldi.z, self); },
-        doc::ldi_z);
-    samples("z_back", &Ldi::z_back, doc::z_back);
-    samples("dx", &Ldi::dx, doc::dx);
-    samples("dy", &Ldi::dy, doc::dy);
-    samples("weight", &Ldi::weight, doc::weight);
-    samples("optical", &Ldi::optical, doc::optical);
-    samples("solid", &Ldi::solid, doc::solid);
+        doc::Ldi::z);
+    samples("z_back", &Ldi::z_back, doc::Ldi::z_back);
+    samples("dx", &Ldi::dx, doc::Ldi::dx);
+    samples("dy", &Ldi::dy, doc::Ldi::dy);
+    samples("weight", &Ldi::weight, doc::Ldi::weight);
+    samples("optical", &Ldi::optical, doc::Ldi::optical);
+    samples("solid", &Ldi::solid, doc::Ldi::solid);
     type.def_property_readonly(
             "channels", [](const LdiObject &in) { return py::tuple(py::cast(names_of(in.ldi.channels))); },
-            doc::channels)
-        .def("__getitem__", &samples_of, py::arg("channel"), doc::samples_of)
+            doc::Windows::channels)
+        .def("__getitem__", &samples_of, py::arg("channel"), doc::Ldi::getitem)
         .def_property_readonly(
-            "samples", [](const LdiObject &in) { return in.ldi.samples(); }, doc::samples)
-        .def_readonly("name", &LdiObject::name, doc::name)
-        .def_readonly("camera", &LdiObject::camera, doc::camera_of)
-        .def_readonly("notes", &LdiObject::notes, doc::notes)
+            "samples", [](const LdiObject &in) { return in.ldi.samples(); }, doc::Ldi::samples)
+        .def_readonly("name", &LdiObject::name, doc::Opened::name)
+        .def_readonly("camera", &LdiObject::camera, doc::Opened::camera)
+        .def_readonly("notes", &LdiObject::notes, doc::Opened::notes)
         .def("__repr__", [](const LdiObject &in) {
             return text_of("Ldi", in.name, in.ldi.windows, fmt::format("{} samples", in.ldi.samples()));
         });
 }
 
 void bind_picture(py::module_ &module) {
-    py::class_<PictureObject> type(module, "Picture", doc::picture);
-    type.def(py::init(&picture_from), py::arg("image"), doc::picture_init);
+    py::class_<PictureObject> type(module, "Picture", doc::Picture::text);
+    type.def(py::init(&picture_from), py::arg("image"), doc::Picture::init);
     bind_image(
         type, [](const PictureObject &picture) -> const Image & { return picture.image; }, Access::writable);
     type.def("__repr__",
@@ -203,35 +204,36 @@ void bind_picture(py::module_ &module) {
                  return text_of("Picture", {}, picture.image.windows,
                                 fmt::format("{} channels", picture.image.channels.size()));
              })
-        .def("_repr_png_", &png_of, doc::repr_png);
+        .def("_repr_png_", &png_of, doc::Picture::repr_png);
 }
 
 void bind_planned_view(py::module_ &module) {
-    py::class_<PlannedViewObject> type(module, "PlannedView", doc::planned_view);
+    py::class_<PlannedViewObject> type(module, "PlannedView", doc::PlannedView::text);
     type.def_property_readonly(
             "lens_point", [](const PlannedViewObject &o) { return py::make_tuple(o.view.u.x, o.view.u.y); },
-            doc::lens_point)
+            doc::PlannedView::lens_point)
         .def_property_readonly(
             "position",
             [](const PlannedViewObject &o) {
                 return py::make_tuple(o.lens.radius * o.view.u.x, o.lens.radius * o.view.u.y);
             },
-            doc::planned_position)
+            doc::PlannedView::position)
         .def_property_readonly(
             "share",
             [](const PlannedViewObject &o) {
                 return double(o.view.mask.count()) / double(o.view.mask.set.size());
             },
-            doc::share)
+            doc::PlannedView::share)
         .def_property_readonly(
-            "uncovered", [](const PlannedViewObject &o) { return o.view.uncovered; }, doc::uncovered)
+            "uncovered", [](const PlannedViewObject &o) { return o.view.uncovered; },
+            doc::PlannedView::uncovered)
         .def_property_readonly(
             "mask",
             [](const py::object &self) {
                 const PixelMask &mask = self.cast<const PlannedViewObject &>().view.mask;
                 return shared(mask.set, self, std::size_t(mask.width()));
             },
-            doc::mask)
+            doc::PlannedView::mask)
         .def_property_readonly(
             "rectangles",
             [](const PlannedViewObject &o) {
@@ -240,12 +242,12 @@ void bind_planned_view(py::module_ &module) {
                     boxes.append(py::tuple(py::cast(box_of(box))));
                 return boxes;
             },
-            doc::rectangles);
+            doc::PlannedView::rectangles);
 }
 
 void bind_plan(py::module_ &module) {
     bind_planned_view(module);
-    py::class_<PlanObject> type(module, "Plan", doc::plan_object);
+    py::class_<PlanObject> type(module, "Plan", doc::Plan::text);
     type.def_property_readonly(
             "views",
             [](const PlanObject &o) {
@@ -253,20 +255,21 @@ void bind_plan(py::module_ &module) {
                 for (const PlannedView &view : o.plan.views) views.push_back({view, o.setting.lens});
                 return views;
             },
-            doc::planned_views)
+            doc::Plan::views)
         .def_property_readonly(
-            "share", [](const PlanObject &o) { return o.plan.share(); }, doc::share)
+            "share", [](const PlanObject &o) { return o.plan.share(); }, doc::Plan::share)
         .def_property_readonly(
-            "full_views", [](const PlanObject &o) { return o.plan.full_views; }, doc::full_views)
+            "full_views", [](const PlanObject &o) { return o.plan.full_views; }, doc::Plan::full_views)
         .def_property_readonly(
-            "noise_db", [](const PlanObject &o) { return -10 * std::log10(o.plan.noise); }, doc::noise_db)
+            "noise_db", [](const PlanObject &o) { return -10 * std::log10(o.plan.noise); },
+            doc::Plan::noise_db)
         .def_property_readonly(
             "overscan",
             [](const PlanObject &o) {
                 const OverscanNeed &need = o.plan.overscan;
                 return py::make_tuple(need.left, need.top, need.right, need.bottom);
             },
-            doc::overscan);
+            doc::Plan::overscan);
 }
 
 } // namespace

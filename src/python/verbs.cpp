@@ -11,7 +11,6 @@
 #include "measure/regions.h"
 #include "python/arrays.h"
 #include "python/device.h"
-#include "python/docs.h"
 #include "python/gather.h"
 #include "python/job.h"
 #include "python/objects.h"
@@ -21,6 +20,7 @@
 #include "warp/warp.h"
 
 #include <pybind11/stl.h>
+#include <sparselens_docs.h>
 
 namespace sparselens::python {
 

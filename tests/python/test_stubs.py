@@ -5,6 +5,7 @@ import pathlib
 import subprocess
 import sys
 
+import numpy
 import pytest
 import sparselens
 
@@ -62,6 +63,23 @@ def test_help(name):
     named = list(inspect.signature(function).parameters)
     assert named == stub_of(name)
     assert len(function.__doc__) > 60
+
+
+LDI = sparselens.Ldi(numpy.array([0, 1], numpy.uint64), numpy.ones(1, numpy.float32), {}, size=(1, 1))
+VIEW = sparselens.View(numpy.ones((1, 1, 4), numpy.float32), numpy.ones((1, 1), numpy.float32))
+FIRST = {"open_view": ["x"], "open_ldi": ["x"], "open_picture": ["x"], "warp": [[VIEW]], "show": [LDI, "coc"], "plan": [VIEW],
+         "compare": [VIEW, VIEW], "write": ["x.exr", VIEW.pixels], "set_limits": []}
+
+
+@pytest.mark.parametrize("name", [n for n in sparselens.__all__ if inspect.isbuiltin(getattr(sparselens, n))])
+def test_keywords(name):
+    """A function takes the keywords that its stub has."""
+    first = FIRST.get(name, [LDI])
+    for keyword in stub_of(name)[len(first):]:
+        if keyword == "masks":  # which a Plan alone has
+            continue
+        with pytest.raises(TypeError, match=f"^{keyword}: must be "):
+            getattr(sparselens, name)(*first, **{keyword: object()})
 
 
 def test_help_of_members():

@@ -1,0 +1,39 @@
+"""Makes C++ constants of the docstrings of the stubs: docs.py STUBS HEADER.
+
+That of the function gather is doc::gather, of the class View doc::View::text, and of its member z doc::View::z; of the stubs
+themselves doc::module. Functions, and classes that can be called, begin with their signature in the form that inspect reads."""
+import ast
+import sys
+
+
+def signature(name, function):
+    arguments = function.args
+    arguments.args = [argument for argument in arguments.args if argument.arg != "self"]
+    for argument in arguments.args + arguments.kwonlyargs:
+        argument.annotation = None
+    return f"{name}({ast.unparse(arguments)})\n--\n\n"
+
+
+def constant(name, text):
+    return f'inline constexpr const char *{name} = R"doc({text})doc";\n'
+
+
+def constants(nodes):
+    for node in nodes:
+        text, name = ast.get_docstring(node), node.name
+        if isinstance(node, ast.ClassDef):
+            members = [member for member in node.body if isinstance(member, ast.FunctionDef)]
+            call = "".join(signature(name, member) for member in members if member.name == "__init__")
+            yield f"namespace {name.strip('_')} {{\n{constant('text', call + text) if text else ''}"
+            yield from (constant(member.name.strip("_"), ast.get_docstring(member)) for member in members if ast.get_docstring(member))
+            yield "}\n"
+        elif text:
+            yield constant(name, signature(name, node) + text)
+
+
+with open(sys.argv[1], encoding="utf-8") as stubs:
+    tree = ast.parse(stubs.read())
+with open(sys.argv[2], "w", encoding="utf-8") as header:
+    header.write("#pragma once\nnamespace sparselens::python::doc {\n" + constant("module", ast.get_docstring(tree)))
+    header.writelines(constants(node for node in tree.body if isinstance(node, (ast.ClassDef, ast.FunctionDef))))
+    header.write("} // namespace sparselens::python::doc\n")
