@@ -65,6 +65,13 @@ std::string where(const std::string &scene, const std::vector<Difference> &all, 
     return rays.empty() ? "" : fmt::format("{} at {} rays (up to {} dB)", scene, rays, fixed(most, 1));
 }
 
+void add_if_any(Answer answer, std::vector<Answer> &answers) {
+    if (answer.losses.empty() && answer.gains.empty()) return;
+    for (std::string *text : {&answer.losses, &answer.gains})
+        if (text->empty()) *text = "nowhere";
+    answers.push_back(std::move(answer));
+}
+
 void add_comparison(std::span<const Rows> scenes, const std::string &question, const Is &others,
                     const Is &ours, std::vector<Answer> &answers) {
     Answer answer{question, "", ""};
@@ -77,10 +84,7 @@ void add_comparison(std::span<const Rows> scenes, const std::string &question, c
                 list = list_of(list, text);
             }
     }
-    if (answer.losses.empty() && answer.gains.empty()) return;
-    for (std::string *text : {&answer.losses, &answer.gains})
-        if (text->empty()) *text = "nowhere";
-    answers.push_back(std::move(answer));
+    add_if_any(std::move(answer), answers);
 }
 
 const ReportRow *best(Rows rows, const Is &is) {
@@ -117,10 +121,7 @@ void add_programs(std::span<const Rows> scenes, std::vector<Answer> &answers) {
         list = list_of(list, fmt::format("{}: {} has {} dB, this one {}", ours->scene, theirs->processor,
                                          fixed(quality(*theirs), 1), fixed(quality(*ours), 1)));
     }
-    if (answer.losses.empty() && answer.gains.empty()) return;
-    for (std::string *text : {&answer.losses, &answer.gains})
-        if (text->empty()) *text = "nowhere";
-    answers.push_back(std::move(answer));
+    add_if_any(std::move(answer), answers);
 }
 
 } // namespace

@@ -48,33 +48,13 @@ void write_png(const std::string &path, const Image &image) {
     write_shown_picture(path, rgb);
 }
 
-// The block of 8 x 8 pixels that is farthest from the reference; both are tone-mapped.
-Imath::V2i worst_block(const Image &picture, const Image &reference) {
-    const int width = picture.windows.width(), height = picture.windows.height();
-    Imath::V2i worst{0, 0};
-    double most = -1;
-    for (int top = 0; top < height; top += 8)
-        for (int left = 0; left < width; left += 8) {
-            double sum = 0;
-            int pixels = 0;
-            for (int y = top; y < std::min(top + 8, height); ++y)
-                for (int x = left; x < std::min(left + 8, width); ++x, ++pixels)
-                    for (std::size_t c = 0; c < 3; ++c) {
-                        const std::size_t i = std::size_t(y) * std::size_t(width) + std::size_t(x);
-                        const double d = double(picture.plane(c)[i]) - double(reference.plane(c)[i]);
-                        sum += std::isfinite(d) ? d * d : 1;
-                    }
-            if (sum / pixels > most) most = sum / pixels, worst = {left, top};
-        }
-    return worst;
-}
-
-// 32 pixels of each amid which the block lies, side by side with a line of white between them.
-Image worst_place_picture(const Image &picture, const Image &reference) {
+// 32 pixels of each amid which a block of 8 x 8 lies, side by side with a line of white between them.
+Image worst_place_picture(const Image &picture, const Image &reference, const Imath::V2i &block) {
     constexpr int side = 32, gap = 2;
-    const Imath::V2i block = worst_block(picture, reference);
     const int width = picture.windows.width(), height = picture.windows.height();
-    const auto start = [](int at, int length) { return std::clamp(at + 4 - side / 2, 0, std::max(0, length - side)); };
+    const auto start = [](int at, int length) {
+        return std::clamp(at + 4 - side / 2, 0, std::max(0, length - side));
+    };
     const int left = start(block.x, width), top = start(block.y, height);
     Image pair(windows_of_size(2 * side + gap, side), {{"R"}, {"G"}, {"B"}});
     for (std::size_t c = 0; c < 3; ++c) {
@@ -121,7 +101,8 @@ public:
         row.difference = pictures_of(planned) + "-difference.png";
         write_png(path(row.picture), mapped);
         row.worst = pictures_of(planned) + "-worst.png";
-        write_png(path(row.worst), worst_place_picture(mapped, mapped_reference_));
+        write_png(path(row.worst),
+                  worst_place_picture(mapped, mapped_reference_, row.errors.front().worst_block));
         write_png(path(row.difference), difference_picture(mapped, mapped_reference_));
         return row;
     }

@@ -12,7 +12,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <numeric>
+#include <utility>
 
 namespace sparselens {
 
@@ -110,14 +110,23 @@ struct Block {
 constexpr std::size_t block_size = 8;
 using Blocks = std::vector<std::vector<Block>>; // of each pixel set
 
-// The mean square of the worst 1 % of the blocks; of none, NaN.
-double worst_mean_square(const std::vector<Block> &blocks) {
-    std::vector<double> means;
+// The worst 1 % of the blocks; of none, NaN.
+struct Worst {
+    double mean_square;
+    std::size_t block; // the worst of them
+};
+
+Worst worst_of(const std::vector<Block> &blocks) {
+    std::vector<std::pair<double, std::size_t>> means;
     for (const Block &block : blocks)
-        if (block.pixels > 0) means.push_back(block.squared / double(colours * block.pixels));
+        if (block.pixels > 0)
+            means.emplace_back(block.squared / double(colours * block.pixels),
+                               std::size_t(&block - blocks.data()));
     const std::size_t worst = pieces_of(means.size(), std::size_t(100));
     std::partial_sort(means.begin(), means.begin() + std::ptrdiff_t(worst), means.end(), std::greater());
-    return std::accumulate(means.begin(), means.begin() + std::ptrdiff_t(worst), 0.0) / double(worst);
+    double sum = 0;
+    for (std::size_t i = 0; i < worst; ++i) sum += means[i].first;
+    return {sum / double(worst), means.empty() ? 0 : means.front().second};
 }
 
 // The 99th percentile (nearest rank) of |a - b| over the channel values of a pixel set.
@@ -139,12 +148,12 @@ double percentile_99(const Image &image, const Image &reference, const PixelSets
 
 double decibels(double mean_square) { return -10 * std::log10(mean_square); }
 
-ErrorFigures figures_of(const Sums &sums, double worst, double p99) {
+ErrorFigures figures_of(const Sums &sums, const Worst &worst, std::size_t columns, double p99) {
     const double values = double(colours * sums.pixels);
     const bool any = sums.pixels > 0;
     return {.psnr = decibels(sums.squared / values),
             .psnr_tonemapped = decibels(sums.squared_tonemapped / values),
-            .psnr_worst = decibels(worst),
+            .psnr_worst = decibels(worst.mean_square),
             .relmse = sums.relative / values,
             .smape = sums.symmetric / values,
             .ssim = sums.ssim / double(sums.windows),
@@ -153,7 +162,9 @@ ErrorFigures figures_of(const Sums &sums, double worst, double p99) {
             .max_alpha = any ? sums.max_alpha : not_a_number,
             .pixels = sums.pixels,
             .nonfinite_image = sums.nonfinite_image,
-            .nonfinite_reference = sums.nonfinite_reference};
+            .nonfinite_reference = sums.nonfinite_reference,
+            .worst_block =
+                int(block_size) * Imath::V2i(int(worst.block % columns), int(worst.block / columns))};
 }
 
 struct LumaPlanes {
@@ -238,8 +249,8 @@ std::vector<ErrorFigures> image_error(const Image &image, const Image &reference
     parallel_for(sets.count, [&](std::size_t set) {
         Sums sums;
         for (const RowSums &row : rows) sums.add(row[set]);
-        figures[set] =
-            figures_of(sums, worst_mean_square(blocks[set]), percentile_99(image, reference, sets, set));
+        figures[set] = figures_of(sums, worst_of(blocks[set]), pieces_of(std::size_t(width), block_size),
+                                  percentile_99(image, reference, sets, set));
     });
     return figures;
 }
