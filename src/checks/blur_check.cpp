@@ -2,11 +2,9 @@
 
 #include "base/median.h"
 #include "checks/picture_lines.h"
-
-#include <Imath/ImathVec.h>
+#include "view/flat_pixels.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 #include <vector>
@@ -20,22 +18,18 @@ constexpr double defocused = 0.64;                // 0.48 at a CoC of 4, and 1 t
 constexpr std::size_t side = 3;                   // pixels of a surface on either side of an edge
 constexpr std::size_t length = 29;                // pixels from the end of one side to that of the other
 constexpr double least_coc = 4, largest_coc = 10; // of the nearer surface: the blur lies between the sides
-constexpr double one_surface = 0.5;               // pixels, of CoC
 constexpr double apart = 2;                       // pixels, of CoC
 constexpr double contrast = 0.2;                  // of the sides, relative to their sum
 constexpr double even = 0.15;                     // change within a side, of the contrast
 
 // The pixels of a view along a line.
 struct Along {
-    const std::array<std::span<const float>, 3> &planes;
+    const FlatPixels &picture;
     const std::vector<float> &coc;
     PictureLine line;
     std::size_t from;
 
-    Imath::V3d colour(std::size_t i) const {
-        const std::size_t at = line[from + i];
-        return {double(planes[0][at]), double(planes[1][at]), double(planes[2][at])};
-    }
+    Imath::V3d colour(std::size_t i) const { return picture.colour(line[from + i]); }
     double c(std::size_t i) const { return double(coc[line[from + i]]); }
 };
 
@@ -54,7 +48,7 @@ std::optional<Side> side_of(const Along &pixels, std::size_t first) {
         most = std::max(most, pixels.c(i));
         sum += pixels.colour(i);
     }
-    if (!(most - least < one_surface)) return {};
+    if (!(most - least < one_surface_px)) return {};
     Side found{(least + most) / 2, sum / double(side), 0};
     for (std::size_t i = first; i < first + side; ++i)
         found.uneven = std::max(found.uneven, (pixels.colour(i) - found.colour).length());
@@ -80,16 +74,15 @@ std::optional<double> steepest_of(const Along &pixels) {
 } // namespace
 
 EdgeSharpness sharpness_of_edges(const View &view, const ThinLens &lens) {
-    const std::array rgb = find_rgb(view.image.channels);
-    if (!all_found(rgb) || !(lens.radius > 0)) return {};
-    const std::array planes{view.image.plane(rgb[0]), view.image.plane(rgb[1]), view.image.plane(rgb[2])};
+    const FlatPixels pixels = flat_pixels(view);
+    if (!pixels.have_colours() || !(lens.radius > 0)) return {};
     std::vector<float> coc(view.z.size());
     for (std::size_t i = 0; i < coc.size(); ++i)
         coc[i] = view.z[i] > 0 ? float(circle_of_confusion(lens, double(view.z[i]))) : 0;
     std::vector<double> found;
-    visit_lines(view.image.windows.grid(), [&](const PictureLine &line) {
+    visit_lines(pixels.grid, [&](const PictureLine &line) {
         for (std::size_t i = 0; i + length <= line.length; ++i)
-            if (const auto steepest = steepest_of({planes, coc, line, i})) found.push_back(*steepest);
+            if (const auto steepest = steepest_of({pixels, coc, line, i})) found.push_back(*steepest);
     });
     if (found.empty()) return {};
     return {found.size(), median(found)};

@@ -2,14 +2,11 @@
 
 #include "base/median.h"
 #include "checks/picture_lines.h"
-
-#include <Imath/ImathVec.h>
+#include "view/flat_pixels.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
-#include <span>
 #include <vector>
 
 namespace sparselens {
@@ -66,14 +63,11 @@ bool is_displayable(const Imath::V3d &v) {
 } // namespace
 
 EdgeMixing mixing_at_edges(const View &view) {
-    const std::array rgb = find_rgb(view.image.channels);
-    if (!all_found(rgb)) return {};
-    const std::array planes{view.image.plane(rgb[0]), view.image.plane(rgb[1]), view.image.plane(rgb[2])};
-    const auto colour = [&](std::size_t i) {
-        return Imath::V3d(double(planes[0][i]), double(planes[1][i]), double(planes[2][i]));
-    };
+    const FlatPixels pixels = flat_pixels(view);
+    if (!pixels.have_colours()) return {};
+    const auto colour = [&](std::size_t i) { return pixels.colour(i); };
     std::vector<double> places;
-    visit_lines(view.image.windows.grid(), [&](const PictureLine &line) {
+    visit_lines(pixels.grid, [&](const PictureLine &line) {
         for (std::size_t i = 2; i + 2 < line.length; ++i) {
             const Imath::V3d a = colour(line[i - 1]), b = colour(line[i + 1]);
             const double apart = (b - a).length();

@@ -19,16 +19,6 @@ bool holds(const Imath::Box2i &data, const Imath::V2d &p) {
     return p.x >= data.min.x && p.x < data.max.x + 1.0 && p.y >= data.min.y && p.y < data.max.y + 1.0;
 }
 
-// [0, 1] of light that is not negative.
-double relative_difference(const std::array<double, 3> &a, const std::array<double, 3> &b) {
-    double off = 0, light = 1e-6; // both dark: no difference
-    for (std::size_t k = 0; k < a.size(); ++k) {
-        off += std::abs(a[k] - b[k]);
-        light += std::abs(a[k]) + std::abs(b[k]);
-    }
-    return off / light;
-}
-
 // Whether the pixel differs from one of those to the right and below.
 bool stands_out(const PosedPicture &picture, const Imath::V2i &p) {
     for (const Imath::V2i &q : {p + Imath::V2i(beside, 0), p + Imath::V2i(0, beside)}) {
@@ -41,20 +31,6 @@ bool stands_out(const PosedPicture &picture, const Imath::V2i &p) {
 }
 
 } // namespace
-
-PosedPicture::PosedPicture(const View &picture)
-    : view(picture), alpha(find_channel(view.image.channels, "A")), rgb(find_rgb(view.image.channels)) {}
-
-bool PosedPicture::shows_something(const Imath::V2i &p) const {
-    return depth(p) > 0 && (alpha == npos || view.image.at(alpha, p.x, p.y) > 0);
-}
-
-std::array<double, 3> PosedPicture::colour(const Imath::V2i &p) const {
-    const auto value = [&](std::size_t k) {
-        return rgb[k] == npos ? 0 : double(view.image.at(rgb[k], p.x, p.y));
-    };
-    return {value(0), value(1), value(2)};
-}
 
 PoseEvidence::PoseEvidence(const View &centre, const View &view, double focal_px)
     : centre_(centre), view_(view), focal_px_(focal_px) {
@@ -92,7 +68,7 @@ PoseVerdict PoseEvidence::at(const Imath::V2d &position, const Imath::V2d &axis,
 
 // A place is known to a pixel: of the four pixels around it, any may show the same surface, or one that hides it.
 std::optional<double> PoseEvidence::contradiction(const Imath::V2d &landed, const Pixel &pixel) const {
-    std::array<double, 3> least{}, most{};
+    Imath::V3d least(0), most(0);
     bool seen = false, hidden = false;
     for (const double dx : {-0.5, 0.5})
         for (const double dy : {-0.5, 0.5}) {
@@ -101,17 +77,16 @@ std::optional<double> PoseEvidence::contradiction(const Imath::V2d &landed, cons
             const double z = centre_.depth(p);
             hidden = hidden || pixel.z > same_depth * z;
             if (pixel.z > same_depth * z || z > same_depth * pixel.z) continue;
-            const std::array<double, 3> there = centre_.colour(p);
-            for (std::size_t k = 0; k < there.size(); ++k) {
+            const Imath::V3d there = centre_.colour(p);
+            for (int k = 0; k < 3; ++k) {
                 least[k] = seen ? std::min(least[k], there[k]) : there[k];
                 most[k] = seen ? std::max(most[k], there[k]) : there[k];
             }
             seen = true;
         }
     if (!seen) return hidden ? std::optional<double>() : 1;
-    std::array<double, 3> nearest{};
-    for (std::size_t k = 0; k < nearest.size(); ++k)
-        nearest[k] = std::clamp(pixel.colour[k], least[k], most[k]);
+    Imath::V3d nearest;
+    for (int k = 0; k < 3; ++k) nearest[k] = std::clamp(pixel.colour[k], least[k], most[k]);
     return relative_difference(nearest, pixel.colour);
 }
 

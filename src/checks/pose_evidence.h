@@ -3,9 +3,8 @@
 // view shows.
 #pragma once
 
-#include "view/view.h"
+#include "view/flat_pixels.h"
 
-#include <array>
 #include <optional>
 #include <vector>
 
@@ -13,16 +12,15 @@ namespace sparselens {
 
 // A view with its channels found.
 struct PosedPicture {
-    explicit PosedPicture(const View &view);
+    explicit PosedPicture(const View &picture) : view(picture), pixels(flat_pixels(picture)) {}
 
-    bool shows_something(const Imath::V2i &p) const;
-    double depth(const Imath::V2i &p) const { return view.z[view.image.windows.index(p.x, p.y)]; }
-    // R, G and B; 0 where there is no such channel.
-    std::array<double, 3> colour(const Imath::V2i &p) const;
+    std::size_t index(const Imath::V2i &p) const { return view.image.windows.index(p.x, p.y); }
+    bool shows_something(const Imath::V2i &p) const { return depth(p) > 0 && pixels.coverage(index(p)) > 0; }
+    double depth(const Imath::V2i &p) const { return pixels.z[index(p)]; }
+    Imath::V3d colour(const Imath::V2i &p) const { return pixels.colour(index(p)); }
 
     const View &view;
-    std::size_t alpha;
-    std::array<std::size_t, 3> rgb;
+    FlatPixels pixels;
 };
 
 struct PoseVerdict {
@@ -51,7 +49,7 @@ private:
     struct Pixel {
         Imath::V2d place; // of its middle
         double z;
-        std::array<double, 3> colour;
+        Imath::V3d colour;
     };
 
     // Of one that lands there; empty if it may be hidden from the centre.

@@ -2,6 +2,7 @@
 
 #include "base/parallel.h"
 #include "deep/unmixing.h"
+#include "view/flat_pixels.h"
 
 #include <fmt/format.h>
 
@@ -16,7 +17,6 @@ namespace sparselens {
 
 namespace {
 
-constexpr float far_beyond = 16;          // times the depth of what is beside
 constexpr double sky = 1e10;              // what renderers write of it, which a filter mixes in
 constexpr double same_depth = 0.02;       // relative
 constexpr int strand_steps = 4;           // of two pixels: how far a strand may go on without a depth
@@ -29,31 +29,14 @@ constexpr double largest_mix_residual =
     0.15;                            // distance of the colour from the line between the two, see unmix()
 constexpr double least_mixed = 0.08; // of edges: filtered depth has 0.18 and more, other has up to 0.04
 
-// A picture of one sample in each pixel.
-struct Pixels {
-    Grid grid; // from its corner
-    std::array<std::span<const float>, 3> rgb;
-    std::span<const float> alpha; // empty: opaque
-    std::span<const float> z;
+bool shows_surface(const FlatPixels &pixels, std::size_t i) {
+    return pixels.coverage(i) > 0 && std::isfinite(pixels.z[i]);
+}
 
-    float coverage(std::size_t i) const { return alpha.empty() ? 1 : alpha[i]; }
-    bool shows_surface(std::size_t i) const { return coverage(i) > 0 && std::isfinite(z[i]); }
-    Imath::V3d colour(std::size_t i) const {
-        const auto value = [&](std::size_t k) { return rgb[k].empty() ? 0 : double(rgb[k][i]); };
-        return {value(0), value(1), value(2)};
-    }
-};
-
-// Without coverage, relative to their size: [0, 1] of light that is not negative.
-double colour_difference(const Pixels &pixels, std::size_t a, std::size_t b) {
-    const Imath::V3d of_a = pixels.colour(a) / double(pixels.coverage(a)),
-                     of_b = pixels.colour(b) / double(pixels.coverage(b));
-    double off = 0, light = 1e-6; // both dark: no difference
-    for (int k = 0; k < 3; ++k) {
-        off += std::abs(of_a[k] - of_b[k]);
-        light += std::abs(of_a[k]) + std::abs(of_b[k]);
-    }
-    return off / light;
+// Of colours without coverage.
+double colour_difference(const FlatPixels &pixels, std::size_t a, std::size_t b) {
+    return relative_difference(pixels.colour(a) / double(pixels.coverage(a)),
+                               pixels.colour(b) / double(pixels.coverage(b)));
 }
 
 // What the pixels around a partly covered one say of its depth.
@@ -63,17 +46,17 @@ struct Surroundings {
     bool nothing = false; // whether one of them shows nothing
 };
 
-Surroundings look_around(const Pixels &pixels, int x, int y, int reach) {
+Surroundings look_around(const FlatPixels &pixels, int x, int y, int reach) {
     const Grid &grid = pixels.grid;
     const std::size_t own = grid.index(x, y);
-    const bool own_shows = pixels.shows_surface(own);
+    const bool own_shows = shows_surface(pixels, own);
     Surroundings found;
     double least = std::numeric_limits<double>::infinity();
     for (int v = std::max(y - reach, 0); v <= std::min(y + reach, grid.height() - 1); ++v)
         for (int u = std::max(x - reach, 0); u <= std::min(x + reach, grid.width() - 1); ++u) {
             const std::size_t other = grid.index(u, v);
             found.nothing = found.nothing || pixels.coverage(other) <= 0;
-            if (other == own || !pixels.shows_surface(other)) continue;
+            if (other == own || !shows_surface(pixels, other)) continue;
             if (own_shows && !(pixels.coverage(other) > pixels.coverage(own))) continue;
             found.farthest = std::max(found.farthest, pixels.z[other]);
             const double cost = colour_difference(pixels, own, other) +
@@ -85,7 +68,7 @@ Surroundings look_around(const Pixels &pixels, int x, int y, int reach) {
     return found;
 }
 
-std::optional<float> depth_of_partly_covered(const Pixels &pixels, int x, int y) {
+std::optional<float> depth_of_partly_covered(const FlatPixels &pixels, int x, int y) {
     const std::size_t own = pixels.grid.index(x, y);
     const float z = pixels.z[own];
     for (const int reach : {1, 2}) {
@@ -110,7 +93,7 @@ struct Sides {
 
 // Whether the depth between the two sides, which differ by `width`, is a step and not part of a slope: twice as far out
 // they differ by hardly more. On a slope of one surface they differ by twice as much there.
-bool is_step(const Pixels &pixels, int x, int y, const Imath::V2i &step, double width) {
+bool is_step(const FlatPixels &pixels, int x, int y, const Imath::V2i &step, double width) {
     const Imath::V2i a = Imath::V2i(x, y) - step * 2, b = Imath::V2i(x, y) + step * 2;
     if (!pixels.grid.contains(a.x, a.y) || !pixels.grid.contains(b.x, b.y)) return false;
     const auto depth = [&](const Imath::V2i &at) {
@@ -119,21 +102,21 @@ bool is_step(const Pixels &pixels, int x, int y, const Imath::V2i &step, double 
     return width > least_of_step * std::abs(depth(a) - depth(b));
 }
 
-std::optional<Sides> sides_of(const Pixels &pixels, int x, int y, const Imath::V2i &step) {
+std::optional<Sides> sides_of(const FlatPixels &pixels, int x, int y, const Imath::V2i &step) {
     const Grid &grid = pixels.grid;
     if (!grid.contains(x - step.x, y - step.y) || !grid.contains(x + step.x, y + step.y)) return {};
     Sides sides{grid.index(x - step.x, y - step.y), grid.index(x + step.x, y + step.y), 0};
     if (pixels.z[sides.near] > pixels.z[sides.far]) std::swap(sides.near, sides.far);
     const double near = pixels.z[sides.near], far = std::min(double(pixels.z[sides.far]), sky);
     if (!(far > apart * near)) return {};
-    if (pixels.coverage(sides.near) < 1 || pixels.coverage(sides.far) < 1) return {};
+    if (!pixels.opaque(sides.near) || !pixels.opaque(sides.far)) return {};
     if (!is_step(pixels, x, y, step, far - near)) return {};
     sides.share = (far - double(pixels.z[grid.index(x, y)])) / (far - near);
     return sides;
 }
 
 // Whether the colour is mixed as the depth is.
-bool is_mixed(const Pixels &pixels, std::size_t own, const Sides &sides) {
+bool is_mixed(const FlatPixels &pixels, std::size_t own, const Sides &sides) {
     if (!(sides.share > clearly_mixed && sides.share < 1 - clearly_mixed)) return false;
     const auto mix = unmix(pixels.colour(own), pixels.colour(sides.near), pixels.colour(sides.far),
                            sides.share < 0.5 ? mostly_b : mostly_f, largest_mix_residual);
@@ -148,7 +131,7 @@ struct Edge {
     std::optional<float> depth;
 };
 
-Edge edge_at(const Pixels &pixels, int x, int y) {
+Edge edge_at(const FlatPixels &pixels, int x, int y) {
     constexpr std::array directions{Imath::V2i(1, 0), Imath::V2i(0, 1), Imath::V2i(1, 1), Imath::V2i(1, -1)};
     const std::size_t own = pixels.grid.index(x, y);
     Edge edge;
@@ -172,7 +155,7 @@ Edge edge_at(const Pixels &pixels, int x, int y) {
 constexpr int reach = 2;
 
 // By the pixels of a row: whether those around them show surfaces that are apart. Most do not, and are no edge.
-std::vector<std::uint8_t> parted_around(const Pixels &pixels, int y) {
+std::vector<std::uint8_t> parted_around(const FlatPixels &pixels, int y) {
     constexpr float nearly_apart = 1.09f; // below `apart`, whatever is rounded
     const Grid &grid = pixels.grid;
     const auto width = std::size_t(grid.width());
@@ -202,7 +185,7 @@ std::vector<std::uint8_t> parted_around(const Pixels &pixels, int y) {
 
 // A thin strand shows its depth in few of its pixels. Those beside nothing that are left take theirs from one another, two
 // pixels farther at a time. Returns how many did.
-std::size_t settle_strands(const Pixels &pixels, std::vector<std::size_t> lost, std::span<float> z) {
+std::size_t settle_strands(const FlatPixels &pixels, std::vector<std::size_t> lost, std::span<float> z) {
     std::size_t count = 0;
     for (int farther = 0; farther < strand_steps && !lost.empty(); ++farther) {
         std::vector<std::size_t> left;
@@ -229,14 +212,13 @@ struct Row {
     std::size_t parted = 0, mixed = 0;
 };
 
-Row row_at(const Pixels &pixels, int y) {
+Row row_at(const FlatPixels &pixels, int y) {
     Row row;
     const std::vector<std::uint8_t> parted = parted_around(pixels, y);
     for (int x = 0; x < pixels.grid.width(); ++x) {
         const std::size_t own = pixels.grid.index(x, y);
-        const float coverage = pixels.coverage(own);
-        if (coverage <= 0) continue;
-        if (coverage < 1) {
+        if (pixels.coverage(own) <= 0) continue;
+        if (!pixels.opaque(own)) {
             if (const auto depth = depth_of_partly_covered(pixels, x, y))
                 row.partly_covered.emplace_back(own, *depth);
             else if (!std::isfinite(pixels.z[own]))
@@ -253,7 +235,7 @@ Row row_at(const Pixels &pixels, int y) {
 }
 
 // Replaces them all at once: none is taken from a depth that was replaced before it.
-SettledEdges settle(const Pixels &pixels, std::span<float> z) {
+SettledEdges settle(const FlatPixels &pixels, std::span<float> z) {
     std::vector<Row> rows(std::size_t(pixels.grid.height()));
     parallel_for(rows.size(), [&](std::size_t y) { rows[y] = row_at(pixels, int(y)); });
     std::size_t count = 0, parted = 0, mixed = 0;
@@ -275,32 +257,13 @@ SettledEdges settle(const Pixels &pixels, std::span<float> z) {
     return {count, filtered};
 }
 
-// plane(k) is that of channel k.
-template <typename Plane>
-Pixels pixels_of(const Windows &windows, std::span<const Channel> channels, std::span<const float> z,
-                 const Plane &plane) {
-    const std::array rgb = find_rgb(channels);
-    const std::size_t alpha = find_channel(channels, "A");
-    Pixels pixels{Grid(windows.width(), windows.height()), {}, {}, z};
-    for (std::size_t k = 0; k < rgb.size(); ++k)
-        if (rgb[k] != npos) pixels.rgb[k] = plane(rgb[k]);
-    if (alpha != npos) pixels.alpha = plane(alpha);
-    return pixels;
-}
-
 } // namespace
 
-SettledEdges settle_edge_depths(View &view) {
-    const Image &image = view.image;
-    return settle(
-        pixels_of(image.windows, image.channels, view.z, [&](std::size_t k) { return image.plane(k); }),
-        view.z);
-}
+SettledEdges settle_edge_depths(View &view) { return settle(flat_pixels(view), view.z); }
 
 SettledEdges settle_edge_depths(Ldi &ldi) {
-    return settle(pixels_of(ldi.windows, ldi.channels, ldi.z,
-                            [&](std::size_t k) { return std::span<const float>(ldi.values[k]); }),
-                  ldi.z);
+    const auto plane = [&](std::size_t k) { return std::span<const float>(ldi.values[k]); };
+    return settle(flat_pixels(ldi.windows, ldi.channels, ldi.z, plane), ldi.z);
 }
 
 std::string edge_note(std::size_t settled) {

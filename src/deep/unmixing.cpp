@@ -7,7 +7,6 @@ namespace sparselens {
 
 namespace {
 constexpr double least_contrast = 0.1; // between F and B, as a share of their own size
-constexpr double least_share = 0.02;   // less than this of a pixel is not worth a sample
 } // namespace
 
 std::optional<Mix> unmix(const Imath::V3d &c, const Imath::V3d &f, const Imath::V3d &b, const MixPrior &prior,
@@ -23,7 +22,8 @@ std::optional<Mix> unmix(const Imath::V3d &c, const Imath::V3d &f, const Imath::
     if (residual > largest_residual) return {};
     for (int k = 0; k < 3; ++k)
         if ((1 - share) * b[k] > c[k]) share = 1 - std::max(c[k], 0.0) / b[k];
-    if (!(share >= least_share && share <= 1 - least_share)) return {}; // nor where a colour is no number
+    if (!(share >= least_mixed_share && share <= 1 - least_mixed_share))
+        return {}; // nor where a colour is no number
     return Mix{share, residual};
 }
 

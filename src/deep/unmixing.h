@@ -12,6 +12,9 @@ struct Mix {
     double residual; // distance of c from the line through F and B, as a share of their contrast |F - B|
 };
 
+// Less than this of a pixel is not worth a sample.
+inline constexpr double least_mixed_share = 0.02;
+
 // What is expected of a: `share`, by that weight against the colours as a share of their size; and its bounds.
 struct MixPrior {
     double weight, share, least, most;

@@ -9,8 +9,6 @@ namespace sparselens {
 
 namespace {
 
-constexpr double unbroken = 1; // pixels that neighbours move apart: by more, and a gap opens between them
-
 // The centre view's pixels at their places in the rim view.
 class Mover {
 public:
@@ -62,7 +60,7 @@ private:
     std::optional<double> step(int column, int row, int dx, int dy) const {
         if (!in_frame(column + dx, row + dy)) return {};
         const double difference = depth(column + dx, row + dy) - depth(column, row);
-        return std::abs(difference) <= unbroken ? std::optional(difference) : std::nullopt;
+        return std::abs(difference) <= torn_px ? std::optional(difference) : std::nullopt;
     }
 
     // How far the pixel reaches towards its neighbour (dx, dy), along that axis, from its own moved centre: halfway to

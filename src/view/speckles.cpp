@@ -1,10 +1,8 @@
 #include "view/speckles.h"
 
-#include "base/channel_kind.h"
-#include "base/grid.h"
 #include "base/parallel.h"
+#include "view/flat_pixels.h"
 
-#include <Imath/ImathVec.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,25 +16,11 @@ namespace sparselens {
 
 namespace {
 
-constexpr float far_beyond = 16;                 // times the depth of what is beside
 constexpr std::size_t most_around = 5, lone = 7; // of eight
 constexpr double same_colour = 0.25;             // relative
 constexpr float one_depth = 1.02f; // the ratio of depths, at most; hair in front of the sky has 1.03 and more
 constexpr std::size_t least_lone = 16; // pixels: a picture with fewer has no speckles
 constexpr std::size_t one_of = 4;      // that stand alone, has to be one
-
-struct Picture {
-    Grid grid; // from its corner
-    std::array<std::span<const float>, 3> rgb;
-    std::span<const float> alpha; // empty: opaque
-    std::span<float> z;
-
-    bool opaque(std::size_t i) const { return alpha.empty() || alpha[i] >= 1; }
-    Imath::V3d colour(std::size_t i) const {
-        const auto value = [&](std::size_t k) { return rgb[k].empty() ? 0 : double(rgb[k][i]); };
-        return {value(0), value(1), value(2)};
-    }
-};
 
 double size_of(const Imath::V3d &c) { return std::abs(c.x) + std::abs(c.y) + std::abs(c.z); }
 
@@ -48,7 +32,7 @@ struct Nearer {
     std::span<const std::size_t> all() const { return std::span(pixel).first(count); }
 };
 
-Nearer nearer_around(const Picture &picture, int x, int y) {
+Nearer nearer_around(const FlatPixels &picture, int x, int y) {
     Nearer nearer;
     const float limit = picture.z[picture.grid.index(x, y)] / far_beyond;
     for (int v = std::max(y - 1, 0); v <= std::min(y + 1, picture.grid.height() - 1); ++v)
@@ -58,7 +42,7 @@ Nearer nearer_around(const Picture &picture, int x, int y) {
     return nearer;
 }
 
-bool has_colour_of(const Picture &picture, std::size_t own, const Nearer &nearer) {
+bool has_colour_of(const FlatPixels &picture, std::size_t own, const Nearer &nearer) {
     Imath::V3d mean(0);
     for (const std::size_t i : nearer.all()) mean += picture.colour(i);
     mean /= double(nearer.count);
@@ -67,7 +51,7 @@ bool has_colour_of(const Picture &picture, std::size_t own, const Nearer &nearer
     return size_of(picture.colour(own) - mean) <= same_colour * size_of(mean) + spread / double(nearer.count);
 }
 
-float middle_depth(const Picture &picture, const Nearer &nearer) {
+float middle_depth(const FlatPixels &picture, const Nearer &nearer) {
     std::array<float, 8> depths;
     std::ranges::transform(nearer.all(), depths.begin(), [&](std::size_t i) { return picture.z[i]; });
     const auto middle = depths.begin() + std::ptrdiff_t((nearer.count - 1) / 2);
@@ -77,7 +61,7 @@ float middle_depth(const Picture &picture, const Nearer &nearer) {
 
 // visit(x, y, nearer) for the opaque pixels of a row beside which at least so many are nearer.
 template <typename Visit>
-void for_each_far(const Picture &picture, int y, std::size_t least, const Visit &visit) {
+void for_each_far(const FlatPixels &picture, int y, std::size_t least, const Visit &visit) {
     const std::size_t first = picture.grid.index(0, y);
     const auto width = std::size_t(picture.grid.width());
     const auto nearer_than = [&](std::size_t x, float limit) { return picture.z[first + x] < limit; };
@@ -94,13 +78,13 @@ void for_each_far(const Picture &picture, int y, std::size_t least, const Visit 
     }
 }
 
-bool are_at_one_depth(const Picture &picture, const Nearer &nearer) {
+bool are_at_one_depth(const FlatPixels &picture, const Nearer &nearer) {
     const auto depth = [&](std::size_t i) { return picture.z[i]; };
     const auto [least, most] = std::ranges::minmax(nearer.all(), {}, depth);
     return depth(most) <= one_depth * depth(least);
 }
 
-bool has_speckles(const Picture &picture) {
+bool has_speckles(const FlatPixels &picture) {
     std::vector<std::array<std::size_t, 2>> rows(std::size_t(picture.grid.height()),
                                                  {0, 0}); // others, speckles
     parallel_for(rows.size(), [&](std::size_t row) {
@@ -118,7 +102,7 @@ bool has_speckles(const Picture &picture) {
 }
 
 // Once. All at once: none is taken from a depth that was replaced before it.
-std::size_t settle_once(const Picture &picture) {
+std::size_t settle_once(const FlatPixels &picture, std::span<float> z) {
     std::vector<std::vector<std::pair<std::size_t, float>>> rows(std::size_t(picture.grid.height()));
     parallel_for(rows.size(), [&](std::size_t row) {
         for_each_far(picture, int(row), most_around, [&](int x, int y, const Nearer &nearer) {
@@ -129,7 +113,7 @@ std::size_t settle_once(const Picture &picture) {
     });
     std::size_t count = 0;
     for (const auto &row : rows) {
-        for (const auto &[i, depth] : row) picture.z[i] = depth;
+        for (const auto &[i, depth] : row) z[i] = depth;
         count += row.size();
     }
     return count;
@@ -139,15 +123,10 @@ std::size_t settle_once(const Picture &picture) {
 
 std::size_t settle_speckles(const Windows &windows, std::span<const Channel> channels,
                             std::span<const std::span<const float>> planes, std::span<float> z) {
-    const std::array rgb = find_rgb(channels);
-    const std::size_t alpha = find_channel(channels, "A");
-    Picture picture{Grid(windows.width(), windows.height()), {}, {}, z};
-    for (std::size_t k = 0; k < rgb.size(); ++k)
-        if (rgb[k] != npos) picture.rgb[k] = planes[rgb[k]];
-    if (alpha != npos) picture.alpha = planes[alpha];
+    const FlatPixels picture = flat_pixels(windows, channels, z, [&](std::size_t k) { return planes[k]; });
     if (!has_speckles(picture)) return 0;
     std::size_t count = 0;
-    while (const std::size_t more = settle_once(picture)) count += more;
+    while (const std::size_t more = settle_once(picture, z)) count += more;
     return count;
 }
 

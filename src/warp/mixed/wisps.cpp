@@ -17,7 +17,6 @@ constexpr int reach_of_light = 4; // pixels: a lamp of a few pixels, all of them
 constexpr double bright = 4;      // times as bright as the strands
 constexpr double dim_strand =
     0.3; // so many of the strands around are dimmer than what they are taken to show
-constexpr double least_share = 0.02;     // less than this of a pixel is not worth a sample
 constexpr double largest_residual = 0.1; // of a colour that is explained, as a share of it
 
 double brightness(const SamplesAround &samples, std::uint64_t i) { return samples.colour_of(i).length(); }
@@ -101,7 +100,7 @@ std::optional<Mixture> light_between_strands(const SamplesAround &samples, int x
     if (!is_strand)
         return Mixture{near_depth, std::abs(own_depth - lamp_depth) < apart ? own_depth : lamp_depth, 0, {}};
     const double share = b > c ? (b - c) / (b - f) : 0;
-    return Mixture{near_depth, lamp_depth, share < least_share ? 0 : share, {}, strand};
+    return Mixture{near_depth, lamp_depth, share < least_mixed_share ? 0 : share, {}, strand};
 }
 
 std::optional<Mixture> strands_before(const SamplesAround &samples, int x, int y) {

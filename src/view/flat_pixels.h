@@ -1,0 +1,62 @@
+// The pixels of a flat picture with depth, of which each is one sample.
+#pragma once
+
+#include "../base/channel_kind.h"
+#include "../base/coverage.h"
+#include "view.h"
+
+#include <Imath/ImathVec.h>
+
+#include <array>
+#include <cmath>
+#include <span>
+
+namespace sparselens {
+
+// Refers to the picture.
+struct FlatPixels {
+    Grid grid;                                      // from its corner
+    std::array<std::span<const float>, 3> rgb = {}; // empty: no such channel
+    std::span<const float> alpha = {};              // empty: all are covered
+    std::span<const float> z = {};
+
+    float coverage(std::size_t i) const { return alpha.empty() ? 1 : alpha[i]; }
+    bool opaque(std::size_t i) const { return is_opaque(coverage(i)); }
+    bool have_colours() const { return !rgb[0].empty() && !rgb[1].empty() && !rgb[2].empty(); }
+    Imath::V3d colour(std::size_t i) const {
+        const auto value = [&](std::size_t k) { return rgb[k].empty() ? 0 : double(rgb[k][i]); };
+        return {value(0), value(1), value(2)};
+    }
+};
+
+// plane(k): the values of channel k.
+template <typename Plane>
+FlatPixels flat_pixels(const Windows &windows, std::span<const Channel> channels, std::span<const float> z,
+                       const Plane &plane) {
+    const std::array rgb = find_rgb(channels);
+    const std::size_t alpha = find_channel(channels, "A");
+    FlatPixels pixels{.grid = Grid(windows.width(), windows.height()), .z = z};
+    for (std::size_t k = 0; k < rgb.size(); ++k)
+        if (rgb[k] != npos) pixels.rgb[k] = plane(rgb[k]);
+    if (alpha != npos) pixels.alpha = plane(alpha);
+    return pixels;
+}
+inline FlatPixels flat_pixels(const View &view) {
+    const Image &image = view.image;
+    return flat_pixels(image.windows, image.channels, view.z, [&](std::size_t k) { return image.plane(k); });
+}
+
+// Of two colours, relative to their size: [0, 1] of light that is not negative.
+inline double relative_difference(const Imath::V3d &a, const Imath::V3d &b) {
+    double off = 0, light = 1e-6; // both dark: no difference
+    for (int k = 0; k < 3; ++k) {
+        off += std::abs(a[k] - b[k]);
+        light += std::abs(a[k]) + std::abs(b[k]);
+    }
+    return off / light;
+}
+
+// A depth that is so many times that of what is beside it is that of nothing.
+inline constexpr float far_beyond = 16;
+
+} // namespace sparselens
