@@ -1,5 +1,5 @@
 // dof-gather: makes the picture that a lens takes from a layered depth image.
-#include "deep/front_depth.h"
+#include "deep/front_samples.h"
 #include "dof/border_reach.h"
 #include "dof/gather_rows.h"
 #include "gpu/gather/gather_device.h"

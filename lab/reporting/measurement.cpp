@@ -10,7 +10,7 @@
 #include "lab/reporting/files.h"
 #include "loading/region_file.h"
 #include "measure/flip.h"
-#include "measure/tone_map.h"
+#include "base/tone_map.h"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 #include "dof/false_colour.h"
 
 #include "deep/flatten.h"
-#include "deep/front_depth.h"
+#include "deep/front_samples.h"
 
 #include <Imath/ImathVec.h>
 
@@ -29,13 +29,6 @@ Image paint(const Windows &windows, const Colour &colour) {
     return image;
 }
 
-// CoC of what each pixel shows first.
-auto front_coc(const Ldi &ldi, const ThinLens &lens) {
-    return [depth = front_depth(ldi), lens](std::size_t i) {
-        return float(circle_of_confusion(lens, depth.plane(0)[i]));
-    };
-}
-
 // Mean of the colours of each pixel that there are, tone-mapped.
 std::vector<float> brightness(const Ldi &ldi) {
     const Image flat = flatten(ldi);
@@ -52,17 +45,18 @@ std::vector<float> brightness(const Ldi &ldi) {
 
 Image coc_colours(const Ldi &ldi, const ThinLens &lens) {
     const V3f white(1, 1, 1), front(0, 0, 1), behind(1, 0, 0);
-    return paint(ldi.windows, [&, coc = front_coc(ldi, lens)](std::size_t i) {
-        const float c = coc(i), size = std::abs(c);
+    return paint(ldi.windows, [&, coc = front_circles_of_confusion(ldi, lens)](std::size_t i) {
+        const float c = coc[i], size = std::abs(c);
         return mix(white, c < 0 ? front : behind, std::isinf(size) ? 1 : size / (size + 8));
     });
 }
 
 Image focus_colours(const Ldi &ldi, const ThinLens &lens) {
-    return paint(ldi.windows, [coc = front_coc(ldi, lens), grey = brightness(ldi)](std::size_t i) {
-        const float dark = grey[i] / 2;
-        return std::abs(coc(i)) < 1 ? V3f(dark, dark + 0.5f, dark) : V3f(dark, dark, dark);
-    });
+    return paint(ldi.windows,
+                 [coc = front_circles_of_confusion(ldi, lens), grey = brightness(ldi)](std::size_t i) {
+                     const float dark = grey[i] / 2;
+                     return std::abs(coc[i]) < 1 ? V3f(dark, dark + 0.5f, dark) : V3f(dark, dark, dark);
+                 });
 }
 
 Image layer_colours(const Ldi &ldi) {

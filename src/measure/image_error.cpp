@@ -3,8 +3,8 @@
 #include "base/error.h"
 #include "base/luminance.h"
 #include "base/parallel.h"
+#include "base/tone_map.h"
 #include "measure/ssim.h"
-#include "measure/tone_map.h"
 
 #include <fmt/format.h>
 

@@ -92,15 +92,6 @@ std::vector<double> grown_jumps(std::span<const float> c, const Grid &grid, doub
 
 } // namespace
 
-std::vector<float> front_circles_of_confusion(const Ldi &ldi, const ThinLens &lens) {
-    std::vector<float> c(ldi.windows.pixels());
-    for (std::size_t i = 0; i < c.size(); ++i) {
-        const SampleRange samples = ldi.pixel(i);
-        c[i] = float(circle_of_confusion(lens, samples.empty() ? infinity : ldi.optical_z(samples.front())));
-    }
-    return c;
-}
-
 std::vector<std::uint8_t> region_bits(std::span<const float> c, int width, int height, double pixel_aspect) {
     const std::vector<double> silhouettes = grown_jumps(c, Grid(width, height), pixel_aspect);
     std::vector<std::uint8_t> bits(c.size());

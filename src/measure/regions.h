@@ -1,6 +1,6 @@
 // The three regions of a picture for which errors are given separately: docs/design.md section 6.
 //
-// Each is a set of pixels, given by the signed CoC radius c (pixels) of the front sample of every pixel:
+// Each is a set of pixels, given by the signed CoC radius c (pixels) of the front sample of every pixel (deep/front_samples.h):
 //   in_focus     |c| < 1
 //   blurred      |c| > 8
 //   silhouettes  within the local |c| of a jump of c larger than 1 between two of the four neighbours, where the local
@@ -10,8 +10,6 @@
 #pragma once
 
 #include "../base/image.h"
-#include "../deep/ldi.h"
-#include "../lens/thin_lens.h"
 
 #include <array>
 #include <cstdint>
@@ -22,9 +20,6 @@ namespace sparselens {
 
 inline constexpr std::array<const char *, 3> region_names{"in_focus", "blurred", "silhouettes"};
 enum RegionBit : std::uint8_t { in_focus_bit = 1, blurred_bit = 2, silhouettes_bit = 4 };
-
-// The signed CoC radius of the front sample of each pixel of a tidy LDI. An empty pixel is background at infinity.
-std::vector<float> front_circles_of_confusion(const Ldi &ldi, const ThinLens &lens);
 
 // The RegionBits of each pixel; `c` holds width * height values, row by row. The run time does not depend on the
 // values of c.

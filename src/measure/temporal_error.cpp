@@ -1,7 +1,7 @@
 #include "measure/temporal_error.h"
 
 #include "base/parallel.h"
-#include "measure/tone_map.h"
+#include "base/tone_map.h"
 
 #include <algorithm>
 #include <cmath>

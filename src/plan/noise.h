@@ -15,7 +15,7 @@
 
 namespace sparselens {
 
-// Mean square, tone-mapped (measure/tone_map.h), of the noise that is left of each pixel in the lens picture of a view:
+// Mean square, tone-mapped (base/tone_map.h), of the noise that is left of each pixel in the lens picture of a view:
 // where the CoC has radius c > 1 it is averaged over its disc of pi c^2 pixels. Measured by blocks of 8 x 8 pixels and
 // those around them. R, G, B of the image; z: planar depth a pixel. `deviation`: of the noise, tone-mapped, where it is
 // known instead of measured.

@@ -1,7 +1,7 @@
 #include "python/gather.h"
 
 #include "base/error.h"
-#include "deep/front_depth.h"
+#include "deep/front_samples.h"
 #include "dof/gather_picture.h"
 #include "io/camera/camera_write.h"
 #include "io/channels.h"

@@ -2,7 +2,7 @@
 #include "checks/view_warnings.h"
 #include "deep/cluster.h"
 #include "deep/flatten.h"
-#include "deep/front_depth.h"
+#include "deep/front_samples.h"
 #include "dof/false_colour.h"
 #include "io/camera/camera_read.h"
 #include "io/camera/camera_write.h"

@@ -1,7 +1,7 @@
 // Any bytes as an LDI: read, made good, tidied, clustered, flattened.
 #include "deep/cluster.h"
 #include "deep/flatten.h"
-#include "deep/front_depth.h"
+#include "deep/front_samples.h"
 #include "deep/order.h"
 #include "deep/sanitize.h"
 #include "deep/tidy.h"

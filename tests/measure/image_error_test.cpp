@@ -1,7 +1,7 @@
 #include "base/error.h"
+#include "base/tone_map.h"
 #include "measure/image_error.h"
 #include "measure/ssim_reference.h"
-#include "measure/tone_map.h"
 
 #include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/imagebufalgo.h>

@@ -1,3 +1,4 @@
+#include "deep/front_samples.h"
 #include "measure/regions.h"
 
 #include <gtest/gtest.h>

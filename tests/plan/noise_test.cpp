@@ -1,4 +1,4 @@
-#include "measure/tone_map.h"
+#include "base/tone_map.h"
 #include "plan/noise.h"
 
 #include <gtest/gtest.h>

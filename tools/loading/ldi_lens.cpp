@@ -2,7 +2,7 @@
 
 #include "base/error.h"
 #include "base/subpixels.h"
-#include "deep/front_depth.h"
+#include "deep/front_samples.h"
 #include "io/picture_looks.h"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 #include "loading/notices.h"
 
-#include "checks/front_view.h"
 #include "checks/view_warnings.h"
+#include "deep/front_samples.h"
 #include "dof/border_reach.h"
 #include "io/files/file_stream.h"
 #include "io/layer_notes.h"

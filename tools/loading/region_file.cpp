@@ -1,6 +1,7 @@
 #include "loading/region_file.h"
 
 #include "base/error.h"
+#include "deep/front_samples.h"
 #include "deep/proxy.h"
 #include "io/open_ldi.h"
 #include "loading/notices.h"

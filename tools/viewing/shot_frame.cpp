@@ -1,7 +1,7 @@
 #include "viewing/shot_frame.h"
 
 #include "base/error.h"
-#include "deep/front_depth.h"
+#include "deep/front_samples.h"
 #include "io/camera/camera_read.h"
 #include "io/channels.h"
 
