@@ -41,7 +41,7 @@ void add_options(CLI::App &app, Options &options) {
     app.add_option("--tolerance", options.tolerance,
                    "Merge samples whose circles of confusion differ by less, in pixels (default: 0.25)")
         ->type_name("PX")
-        ->check(number("a number of at least 0", {.zero_allowed = true}));
+        ->check(number(at_least_0));
     app.add_option("--layers", options.layers, "Keep at most K samples per pixel; 0: no limit (default: 0)")
         ->type_name("K")
         ->check(CLI::Range(0, 1 << 20));

@@ -48,7 +48,7 @@ private:
 
     void read_key(LensFile &file, const std::string &key, const Json &value) {
         if (const LookNumber *number = number_called(key)) {
-            file.values.*(number->value) = number_at(key, value, number->range, number->valid);
+            file.values.*(number->value) = number_at(key, value, number->range.words, number->range.holds);
         } else if (key == "name") {
             if (!value.is_string()) refuse(key, value, "a text");
             file.name = value.get<std::string>();

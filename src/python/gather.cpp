@@ -53,7 +53,7 @@ void set_method(Asked &asked, Keywords &keywords) {
     };
     if (quality && !lens) refuse("quality", "lens");
     if (points && !lens) refuse("lens_samples", "lens");
-    const auto tolerance = keywords.number("layer_tolerance", {.zero_allowed = true});
+    const auto tolerance = keywords.number("layer_tolerance", at_least_0);
     if (tolerance && !lens) refuse("layer_tolerance", "lens");
     asked.picture.layer_tolerance = tolerance.value_or(asked.picture.layer_tolerance);
     if (asked.holdout && !lens) refuse("holdout", "lens");
@@ -67,16 +67,9 @@ void set_method(Asked &asked, Keywords &keywords) {
 }
 
 void take_highlights(Keywords &keywords, LookValues &values) {
-    const auto gain = keywords.any_number("highlight_gain");
-    const auto threshold = keywords.number("highlight_threshold", {.zero_allowed = true});
-    const auto knee = keywords.number("highlight_knee");
-    if (!gain && (threshold || knee))
+    const std::string first = keywords.numbers_of(highlight_numbers(), values);
+    if (!first.empty() && !values.highlight_gain)
         throw UsageError("highlight_gain: is needed by highlight_threshold and highlight_knee");
-    if (gain && !(*gain >= 1 && *gain <= 1000))
-        Keywords::refuse("highlight_gain", "a number from 1 to 1000", fmt::format("{:g}", *gain));
-    values.highlight_gain = gain;
-    values.highlight_threshold = threshold;
-    values.highlight_knee = knee;
 }
 
 Asked asked_by(const py::kwargs &given) {

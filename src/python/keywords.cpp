@@ -60,24 +60,17 @@ bool Keywords::flag(const char *name) {
     return value.ptr() == Py_True;
 }
 
-std::optional<double> Keywords::any_number(const char *name) {
+std::optional<double> Keywords::number(const char *name, NumberRange range) {
     const py::object object = take(name);
     if (object.is_none()) return {};
     if (is_bool(object)) wrong_type(name, "a number", object);
     const double value = PyFloat_AsDouble(object.ptr());
-    if (PyErr_Occurred() == nullptr) return value;
-    PyErr_Clear();
-    wrong_type(name, "a number", object);
-}
-
-std::optional<double> Keywords::number(const char *name, NumberRange range) {
-    const auto value = any_number(name);
-    const bool in_range = !value || *value > 0 || (range.zero_allowed && *value == 0);
-    if (!value || (in_range && (range.infinity_allowed || std::isfinite(*value)))) return value;
-    refuse(name,
-           std::string(range.zero_allowed ? "a number of at least 0" : "a number above 0") +
-               (range.infinity_allowed ? ", or inf" : ""),
-           fmt::format("{:g}", *value));
+    if (PyErr_Occurred() != nullptr) {
+        PyErr_Clear();
+        wrong_type(name, "a number", object);
+    }
+    if (range.holds(value)) return value;
+    refuse(name, range.words, fmt::format("{:g}", value));
 }
 
 std::optional<int> Keywords::whole(const char *name, int least, int most) {
@@ -152,12 +145,8 @@ void Keywords::done() const {
 }
 
 LensValues lens_values(Keywords &keywords) {
-    LensValues lens{.focal_length_mm = keywords.number("focal_length"),
-                    .sensor_width_mm = keywords.number("sensor_width"),
-                    .fstop = keywords.number("fstop", {.infinity_allowed = true}),
-                    .lens_radius = keywords.number("lens_radius", {.zero_allowed = true}),
-                    .focus_distance = keywords.number("focus_distance", {.infinity_allowed = true}),
-                    .scene_unit = keywords.number("scene_unit")};
+    LensValues lens;
+    keywords.numbers_of(lens_numbers(), lens);
     if (lens.fstop && lens.lens_radius)
         throw UsageError("lens_radius: is given with fstop; give one of the two");
     return lens;
@@ -179,7 +168,7 @@ DepthOptions depth_options(Keywords &keywords) {
     return {.meaning = meaning.value_or(DepthMeaning::planar),
             .picture = std::move(picture),
             .near = keywords.number("near"),
-            .far = keywords.number("far", {.infinity_allowed = true})};
+            .far = keywords.number("far", above_0_or_inf)};
 }
 
 std::string path_of(const py::object &path, const char *name) {

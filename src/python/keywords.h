@@ -9,6 +9,7 @@
 #include <Imath/ImathBox.h>
 #include <pybind11/pybind11.h>
 
+#include <algorithm>
 #include <initializer_list>
 #include <optional>
 #include <span>
@@ -20,18 +21,25 @@ namespace sparselens::python {
 
 namespace py = pybind11;
 
-struct NumberRange {
-    bool zero_allowed = false, infinity_allowed = false;
-};
-
 class Keywords {
 public:
     Keywords(const char *function, const py::kwargs &given); // the function is for messages
 
     py::object take(const char *name); // None where it is not given
     bool flag(const char *name);       // False where it is not given
-    std::optional<double> number(const char *name, NumberRange range = {});
-    std::optional<double> any_number(const char *name);
+    std::optional<double> number(const char *name, NumberRange range = above_0);
+    // Those of a table. Returns the name of the first that is given; empty: none is.
+    template <typename Values>
+    std::string numbers_of(std::span<const NumberParameter<Values>> table, Values &values) {
+        std::string first;
+        for (const NumberParameter<Values> &of : table) {
+            std::string name = of.name;
+            std::ranges::replace(name, '-', '_');
+            values.*of.value = number(name.c_str(), of.range);
+            if (values.*of.value && first.empty()) first = name;
+        }
+        return first;
+    }
     std::optional<int> whole(const char *name, int least, int most);
     std::string text(const char *name); // empty where it is not given
     std::string path(const char *name);

@@ -4,8 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 namespace sparselens::python {
 
 AskedLooks look_keywords(Keywords &keywords) {
@@ -15,15 +13,7 @@ AskedLooks look_keywords(Keywords &keywords) {
     const auto note = [&](bool is_given, const std::string &name) {
         if (is_given && asked.first.empty()) asked.first = name;
     };
-    for (const LookNumber &number : look_numbers()) {
-        std::string name = number.name;
-        std::ranges::replace(name, '-', '_');
-        const auto value = keywords.any_number(name.c_str());
-        if (value && !number.valid(*value))
-            Keywords::refuse(name.c_str(), number.range, fmt::format("{:g}", *value));
-        values.*number.value = value;
-        note(value.has_value(), name);
-    }
+    asked.first = keywords.numbers_of(look_numbers(), values);
     if (keywords.flag("cat_eye_darkening")) values.cat_eye_darkening = true;
     note(values.cat_eye_darkening.has_value(), "cat_eye_darkening");
     values.chromatic_type = keywords.word("axial_chromatic_type", chromatic_types());

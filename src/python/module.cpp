@@ -41,7 +41,8 @@ void set_limits(const py::kwargs &given) {
     static std::unique_ptr<tbb::global_control> limit;
     Keywords keywords("set_limits", given);
     const auto threads = keywords.whole("threads", 0, 1 << 16);
-    const auto bytes = keywords.number("max_memory", {.zero_allowed = true, .infinity_allowed = true});
+    const auto bytes =
+        keywords.number("max_memory", {"a number of at least 0, or inf", [](double v) { return v >= 0; }});
     keywords.done();
     if (threads) {
         const int count = *threads > 0 ? *threads : tbb::info::default_concurrency();

@@ -152,7 +152,7 @@ ClusterOptions cluster_options(const Camera &camera, const Windows &windows, std
 LdiObject cluster(const py::object &ldi, const py::kwargs &given) {
     Keywords keywords("cluster", given);
     const auto from = several<LdiObject>(ldi, "ldi", "an Ldi, or a sequence of them");
-    const auto tolerance = keywords.number("tolerance", {.zero_allowed = true});
+    const auto tolerance = keywords.number("tolerance", at_least_0);
     const int layers = keywords.whole("layers", 0, 1 << 20).value_or(0);
     const LensValues lens = lens_values(keywords);
     const py::object progress = keywords.take("progress");
@@ -216,7 +216,7 @@ PlanObject plan(const py::object &view, const py::kwargs &given) {
     PlanOptions options;
     options.views = keywords.whole("views", 0, 64).value_or(options.views);
     options.margin = keywords.whole("margin", 0, 1024).value_or(options.margin);
-    options.noise = keywords.number("noise", {.zero_allowed = true});
+    options.noise = keywords.number("noise", at_least_0);
     const LensValues values = lens_values(keywords);
     const py::object progress = keywords.take("progress");
     keywords.done();

@@ -7,70 +7,70 @@ namespace sparselens {
 
 namespace {
 
-bool is_blades(double v) { return v == 0 || (v >= 3 && v <= 16 && std::trunc(v) == v); }
-bool is_share(double v) { return v >= 0 && v <= 1; }
-bool is_signed_share(double v) { return std::abs(v) <= 1; }
-bool is_angle(double v) { return std::abs(v) <= 1e6; }
-bool is_cat_eye(double v) { return v >= 0 && v <= 100; }
-bool is_chromatic(double v) { return std::abs(v) <= 5; }
-bool is_breathing(double v) { return v >= 0 && v <= 2; }
-bool is_squeeze(double v) { return v >= 1e-3 && v <= 1e3; }
-bool is_gain(double v) { return v >= 1 && v <= 1000; }
-bool is_luminance(double v) { return v >= 0 && std::isfinite(v); }
-bool is_positive(double v) { return v > 0 && std::isfinite(v); }
+constexpr NumberRange blade_count{"0 or a whole number from 3 to 16", [](double v) {
+                                      return v == 0 || (v >= 3 && v <= 16 && std::trunc(v) == v);
+                                  }};
+constexpr NumberRange share{"a number from 0 to 1", [](double v) { return v >= 0 && v <= 1; }};
+constexpr NumberRange signed_share{"a number from -1 to 1", [](double v) { return std::abs(v) <= 1; }};
+constexpr NumberRange angle{"a number of degrees", [](double v) { return std::abs(v) <= 1e6; }};
+constexpr NumberRange to_100{"a number from 0 to 100", [](double v) { return v >= 0 && v <= 100; }};
+constexpr NumberRange within_5{"a number from -5 to 5", [](double v) { return std::abs(v) <= 5; }};
+constexpr NumberRange to_2{"a number from 0 to 2", [](double v) { return v >= 0 && v <= 2; }};
+constexpr NumberRange stretch{"a number from 0.001 to 1000", [](double v) { return v >= 1e-3 && v <= 1e3; }};
+constexpr NumberRange gain{"a number from 1 to 1000", [](double v) { return v >= 1 && v <= 1000; }};
 
 constexpr std::array numbers{
     LookNumber{"blades", "N", "Number of blades: the corners of the aperture; 0: round (default: 0)",
-               &LookValues::blades, "0 or a whole number from 3 to 16", is_blades},
+               &LookValues::blades, blade_count},
     LookNumber{"blade-curvature", "C", "Curvature of the blades, from 0, straight, to 1, round (default: 0)",
-               &LookValues::curvature, "a number from 0 to 1", is_share},
+               &LookValues::curvature, share},
     LookNumber{
         "blade-rotation", "DEG",
         "Rotation of the blades, degrees counter-clockwise as a lamp behind focus shows it; 0: a side's "
         "middle is to the right (default: 0)",
-        &LookValues::rotation, "a number of degrees", is_angle},
+        &LookValues::rotation, angle},
     LookNumber{"squeeze", "S",
                "How many times higher than wide the aperture is, e.g. 2 for an anamorphic lens (default: 1)",
-               &LookValues::squeeze, "a number from 0.001 to 1000", is_squeeze},
+               &LookValues::squeeze, stretch},
     LookNumber{
         "spherical", "S",
         "Spherical aberration from -1 to 1: above 0, discs behind focus have bright rims and those in front "
         "bright cores (default: 0)",
-        &LookValues::spherical, "a number from -1 to 1", is_signed_share},
+        &LookValues::spherical, signed_share},
     LookNumber{"cat-eye", "A",
                "Cat's eye: how many radii a second circle that cuts the aperture is displaced at the "
                "picture's corner "
                "(default: 0)",
-               &LookValues::cat_eye, "a number from 0 to 100", is_cat_eye},
+               &LookValues::cat_eye, to_100},
     LookNumber{"axial-chromatic", "MM",
                "How far behind the sensor red comes to focus where green is sharp, from -5 to 5 mm; blue as "
                "far before "
                "it (default: 0)",
-               &LookValues::axial_chromatic, "a number from -5 to 5", is_chromatic},
+               &LookValues::axial_chromatic, within_5},
     LookNumber{
         "field-curvature", "K",
         "Bends the plane of focus, from -1 to 1: 1/d grows by K of itself towards the picture's corners "
         "(default: 0)",
-        &LookValues::field_curvature, "a number from -1 to 1", is_signed_share},
+        &LookValues::field_curvature, signed_share},
     LookNumber{"astigmatism", "A",
                "Parts the foci of rays along and across a line through the axis, from -1 to 1: 1/d grows and "
                "shrinks by A of itself towards the corners (default: 0)",
-               &LookValues::astigmatism, "a number from -1 to 1", is_signed_share},
+               &LookValues::astigmatism, signed_share},
     LookNumber{
         "breathing", "B",
         "Magnification by focusing, from 0 to 2: 1 is that of a thin lens that moves as a whole (default: 0)",
-        &LookValues::breathing, "a number from 0 to 2", is_breathing},
+        &LookValues::breathing, to_2},
 };
 
 constexpr std::array highlights{
     LookNumber{"highlight-gain", "G",
                "Make lights above the threshold up to G times as bright before the lens sees them, 1 to 1000 "
                "(default: 1)",
-               &LookValues::highlight_gain, "a number from 1 to 1000", is_gain},
+               &LookValues::highlight_gain, gain},
     LookNumber{"highlight-threshold", "Y", "Scene-linear luminance above which lights grow (default: 1)",
-               &LookValues::highlight_threshold, "a number of at least 0", is_luminance},
+               &LookValues::highlight_threshold, at_least_0},
     LookNumber{"highlight-knee", "Y", "Luminance over which the gain sets in softly (default: 1)",
-               &LookValues::highlight_knee, "a number above 0", is_positive},
+               &LookValues::highlight_knee, above_0},
 };
 
 constexpr std::array<std::pair<const char *, ChromaticType>, 3> chromatics{

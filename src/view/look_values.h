@@ -3,6 +3,7 @@
 #pragma once
 
 #include "../lens/aperture_shape.h"
+#include "number_parameter.h"
 
 #include <memory>
 #include <optional>
@@ -27,15 +28,7 @@ struct LookValues {
     std::shared_ptr<const AperturePicture> picture = {};
 };
 
-// One that is a number.
-struct LookNumber {
-    const char *name; // of the option, and in a lens file, without dashes
-    const char *unit, *help;
-    std::optional<double> LookValues::*value;
-    const char *range; // in words
-    bool (*valid)(double);
-};
-
+using LookNumber = NumberParameter<LookValues>;
 std::span<const LookNumber> look_numbers();      // what the lens does
 std::span<const LookNumber> highlight_numbers(); // what makes lights brighter before it, whichever lens it is
 

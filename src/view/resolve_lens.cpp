@@ -4,12 +4,27 @@
 #include "lens/f_number.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 
 namespace sparselens {
 
 namespace {
+
+using LensNumber = NumberParameter<LensValues>;
+constexpr std::array numbers{
+    LensNumber{"focal-length", "MM", "Focal length", &LensValues::focal_length_mm, above_0},
+    LensNumber{"sensor-width", "MM", "Width of the film back; it spans the display window",
+               &LensValues::sensor_width_mm, above_0},
+    LensNumber{"fstop", "N", "F-number, or inf", &LensValues::fstop, above_0_or_inf},
+    LensNumber{"lens-radius", "R", "Radius of the aperture, in scene units; instead of `fstop`",
+               &LensValues::lens_radius, at_least_0},
+    LensNumber{"focus-distance", "D", "Focus distance, in scene units, or inf", &LensValues::focus_distance,
+               above_0_or_inf},
+    LensNumber{"scene-unit", "METRES", "Length of a scene unit (default: 1)", &LensValues::scene_unit,
+               above_0},
+};
 
 // Collects the values that are unknown, why, and the parameters to give.
 class Missing {
@@ -48,6 +63,8 @@ private:
 };
 
 } // namespace
+
+std::span<const LensNumber> lens_numbers() { return numbers; }
 
 Camera camera_with_options(const LensValues &values, Camera camera) {
     const auto put = [](std::optional<double> &value, const std::optional<double> &given) {

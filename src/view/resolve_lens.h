@@ -5,8 +5,10 @@
 #include "../base/image.h"
 #include "../lens/thin_lens.h"
 #include "camera.h"
+#include "number_parameter.h"
 
 #include <optional>
+#include <span>
 #include <string>
 
 namespace sparselens {
@@ -20,6 +22,8 @@ struct LensValues {
     std::optional<double> focus_distance = {};  // scene units, (0, inf]
     std::optional<double> scene_unit = {};      // its length in metres, (0, inf)
 };
+
+std::span<const NumberParameter<LensValues>> lens_numbers();
 
 // The camera of the file, with the values of the user in place of its own. If a radius is given and the focal length is
 // known, the f-number follows. Another scene unit does not change the focus distance of the file in metres.

@@ -56,7 +56,7 @@ void add_method_options(CLI::App &app, GatherCommand &options) {
                        options.picture.layer_tolerance))
         ->type_name("PX")
         ->group(lens_group)
-        ->check(number("a number of at least 0", {.zero_allowed = true}));
+        ->check(number(at_least_0));
     app.add_option(
            "--layers", options.picture.gather.layers,
            fmt::format("Layers kept apart in each pixel (default: {})", options.picture.gather.layers))

@@ -4,41 +4,23 @@
 
 #include <CLI/CLI.hpp>
 
-#include <cmath>
 #include <map>
 
 namespace sparselens {
 
-CLI::Validator number(const std::string &what, NumberRange range) {
-    const auto check = [=](const std::string &text) -> std::string {
+CLI::Validator number(NumberRange range) {
+    const auto check = [range](const std::string &text) -> std::string {
         double value = 0;
-        const bool is_number = CLI::detail::lexical_cast(text, value) && !std::isnan(value);
-        const bool in_range = value > 0 || (range.zero_allowed && value == 0);
-        if (is_number && in_range && (range.infinity_allowed || std::isfinite(value))) return {};
-        return "'" + text + "' is not " + what;
+        if (CLI::detail::lexical_cast(text, value) && range.holds(value)) return {};
+        return "'" + text + "' is not " + range.words;
     };
     return CLI::Validator(check, "");
 }
 
 void add_lens_options(CLI::App &app, LensValues &options) {
-    const auto positive = number("a number above 0");
-    const auto positive_or_inf = number("a number above 0, or inf", {.infinity_allowed = true});
-    const auto not_negative = number("a number of at least 0", {.zero_allowed = true});
-    const auto add = [&](const char *name, std::optional<double> &value, const char *unit, const char *help) {
-        return app.add_option(name, value, help)->type_name(unit)->group("Lens");
-    };
-    add("--focal-length", options.focal_length_mm, "MM", "Focal length")->check(positive);
-    add("--sensor-width", options.sensor_width_mm, "MM",
-        "Width of the film back; it spans the display window")
-        ->check(positive);
-    CLI::Option *fstop = add("--fstop", options.fstop, "N", "F-number, or inf")->check(positive_or_inf);
-    add("--lens-radius", options.lens_radius, "R",
-        "Radius of the aperture, in scene units; instead of --fstop")
-        ->check(not_negative)
-        ->excludes(fstop);
-    add("--focus-distance", options.focus_distance, "D", "Focus distance, in scene units, or inf")
-        ->check(positive_or_inf);
-    add("--scene-unit", options.scene_unit, "METRES", "Length of a scene unit (default: 1)")->check(positive);
+    for (const NumberParameter<LensValues> &number : lens_numbers())
+        add_number(app, number, options)->group("Lens");
+    app.get_option("--lens-radius")->excludes("--fstop");
 }
 
 void add_depth_options(CLI::App &app, DepthOptions &options) {
@@ -61,13 +43,13 @@ void add_depth_options(CLI::App &app, DepthOptions &options) {
            "--near", options.near,
            "With --depth normalized and hyperbolic, the depth of 0 (default: the near attribute of the file)")
         ->type_name("D")
-        ->check(number("a number above 0"))
+        ->check(number(above_0))
         ->group("Lens");
     app.add_option("--far", options.far,
                    "Depths beyond this are sky; with --depth normalized and hyperbolic, the depth of 1 "
                    "(default: 1e10)")
         ->type_name("D")
-        ->check(number("a number above 0", {.infinity_allowed = true}))
+        ->check(number(above_0_or_inf))
         ->group("Lens");
     app.add_option("--depth-channel", options.picture.depth,
                    "Depth channel (default: the first of Z, depth.Z and *.Depth.Z)")

@@ -1,10 +1,11 @@
 // The lens options that every tool shares.
 #pragma once
 
-#include "harness/commands/cli.h"
+#include "harness/one_line.h"
 #include "io/open_options.h"
 
-#include <string>
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 namespace sparselens {
 
@@ -12,11 +13,14 @@ void add_lens_options(CLI::App &app, LensValues &values);
 void add_depth_options(CLI::App &app, DepthOptions &options); // the choice of the picture among them
 void add_picture_choice(CLI::App &app, PictureChoice &picture);
 
-// What is neither 0 nor below (nor infinite, unless allowed). CLI11 reads "inf" and "nan" as numbers; the second is
-// never meant.
-struct NumberRange {
-    bool zero_allowed = false, infinity_allowed = false;
-};
-CLI::Validator number(const std::string &what, NumberRange range = {});
+CLI::Validator number(NumberRange range);
+
+// Of a table.
+template <typename Values>
+CLI::Option *add_number(CLI::App &app, const NumberParameter<Values> &of, Values &values) {
+    return app.add_option(fmt::format("--{}", of.name), values.*of.value, with_options(of.help))
+        ->type_name(of.unit)
+        ->check(number(of.range));
+}
 
 } // namespace sparselens

@@ -1,6 +1,7 @@
 #include "options/look_options.h"
 
 #include "harness/words.h"
+#include "options/lens_options.h"
 
 #include <CLI/CLI.hpp>
 #include <Imath/ImathVec.h>
@@ -14,21 +15,6 @@ namespace sparselens {
 namespace {
 
 constexpr const char *group = "Lens looks";
-
-CLI::Validator look_validator(const LookNumber &number) {
-    const auto check = [number](const std::string &text) -> std::string {
-        double value = 0;
-        if (CLI::detail::lexical_cast(text, value) && number.valid(value)) return {};
-        return fmt::format("'{}' is not {}", text, number.range);
-    };
-    return CLI::Validator(check, "");
-}
-
-CLI::Option *add_number(CLI::App &app, const LookNumber &number, GivenLooks &given) {
-    return app.add_option(fmt::format("--{}", number.name), given.values.*number.value, number.help)
-        ->type_name(number.unit)
-        ->check(look_validator(number));
-}
 
 std::optional<Imath::V2d> parse_degrees(const std::string &text) {
     const std::size_t comma = text.find(',');
@@ -47,7 +33,7 @@ void add_look_options(CLI::App &app, GivenLooks &given) {
                    "Looks of a lens by name (JSON, see share/lenses); options beat them")
         ->type_name("FILE")
         ->group(group);
-    for (const LookNumber &number : look_numbers()) add_number(app, number, given)->group(group);
+    for (const LookNumber &number : look_numbers()) add_number(app, number, given.values)->group(group);
     app.add_flag_callback(
            "--cat-eye-darkening", [&given] { given.values.cat_eye_darkening = true; },
            "Darken where the cat's eye blocks light (default: keep the exposure)")
@@ -87,7 +73,7 @@ void add_look_options(CLI::App &app, GivenLooks &given) {
 void add_highlight_options(CLI::App &app, GivenLooks &given) {
     CLI::Option *gain = nullptr;
     for (const LookNumber &number : highlight_numbers()) {
-        CLI::Option *option = add_number(app, number, given)->group("Highlights");
+        CLI::Option *option = add_number(app, number, given.values)->group("Highlights");
         if (gain)
             option->needs(gain);
         else

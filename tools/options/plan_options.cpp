@@ -48,7 +48,7 @@ void add_plan_options(CLI::App &app, PlanCommand &options) {
     app.add_option("--noise", options.plan.noise,
                    "Standard deviation of the noise of a tone-mapped pixel (default: measured)")
         ->type_name("SIGMA")
-        ->check(number("a number of at least 0", {.zero_allowed = true}));
+        ->check(number(at_least_0));
     add_lens_options(app, options.lens);
     add_depth_options(app, options.depth);
     add_examples(app, {{"Plan at most four views, and write a mask for each",

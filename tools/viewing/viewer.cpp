@@ -52,7 +52,7 @@ Json look_table() {
             all.push_back({{"name", number.name},
                            {"unit", number.unit},
                            {"help", number.help},
-                           {"range", number.range}});
+                           {"range", number.range.words}});
     return all;
 }
 

@@ -144,7 +144,7 @@ void Reader::read_aperture() {
     looks.rotation = pick_look(Quantity::blade_rotation);
     looks.squeeze = pick_look(Quantity::squeeze);
     for (const LookNumber &number : look_numbers())
-        if (auto &value = looks.*number.value; value && !number.valid(*value)) value.reset();
+        if (auto &value = looks.*number.value; value && !number.range.holds(*value)) value.reset();
     if (looks.blades && *looks.blades > 0)
         camera_.found.push_back(text_of(*looks.blades) + " blades (aperture_blades)");
     if (looks.squeeze && *looks.squeeze != 1)

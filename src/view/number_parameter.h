@@ -1,0 +1,25 @@
+// Numbers that a user may give: options, keywords, and of looks keys of a lens file. One table makes them all.
+#pragma once
+
+#include <cmath>
+#include <optional>
+
+namespace sparselens {
+
+struct NumberRange {
+    const char *words;
+    bool (*holds)(double);
+};
+inline constexpr NumberRange above_0{"a number above 0", [](double v) { return v > 0 && std::isfinite(v); }},
+    above_0_or_inf{"a number above 0, or inf", [](double v) { return v > 0; }},
+    at_least_0{"a number of at least 0", [](double v) { return v >= 0 && std::isfinite(v); }};
+
+template <typename Values>
+struct NumberParameter {
+    const char *name; // "lens-radius": of an option, without its dashes
+    const char *unit, *help;
+    std::optional<double> Values::*value;
+    NumberRange range;
+};
+
+} // namespace sparselens
