@@ -43,7 +43,7 @@ void run(const PlanCommand &options, const ToolContext &tool) {
     warn_of_invalid_values(tool, options.centre, centre.bad);
     const Windows &windows = centre.view.image.windows;
     const ThinLens lens = centre.lens();
-    warn_of(tool, picture_warnings(centre.view, {centre.depth, centre.depth_filtered, lens}));
+    warn_of(tool, picture_warnings(centre.view, {centre.depth, centre.depth_filtered, centre.camera}));
     const Plan plan = make_plan(centre.view, lens, options.plan, *tool.progress);
     write_plan(options.output, plan, {options.centre, windows, lens, options.plan.margin}, options.masks);
     if (!options.cameras.empty())

@@ -61,25 +61,20 @@ void run(const WarpCommand &options, const ToolContext &tool, ChosenWarpDevice &
                                            .find_images = options.find_images,
                                            .device = device.open(options.device, tool)},
                                           in.camera, in.views);
-    ViewFacts facts{.depth = options.depth.meaning,
-                    .depth_filtered = in.depth_filtered,
-                    .focal_px = warp_by.focal_px,
-                    .lens_radius = lens_radius_of(in.camera).value_or(0)};
-    if (knows_lens(in.camera, in.views[0].image.windows))
-        facts.lens = resolve_lens(in.camera, in.views[0].image.windows);
     write_camera(in.header, in.camera);
     append_history(in.header, tool, options.history);
     write_picture_window(in.header, in.views[0].image.windows.data);
     check_views(in.views);
-    const std::vector<std::string> warnings = view_warnings(in.views, facts); // while the pixels are there
+    const std::vector<std::string> warnings = view_warnings(
+        in.views, {options.depth.meaning, in.depth_filtered, in.camera}); // while the pixels are there
     const GivenViews given = given_views(in.views);
     Ldi ldi = warp(std::move(in.views), warp_by, *tool.progress);
     device.report(tool);
     warn_of(tool, warnings);
     tool.say(
         fmt::format("{} views, {} samples in {} pixels", given.views, ldi.samples(), ldi.windows.pixels()));
-    if (facts.lens)
-        say_border_reach(tool, options.output, ldi, *facts.lens, in.camera.supersample.value_or(1));
+    if (const auto lens = known_lens(in.camera, ldi.windows))
+        say_border_reach(tool, options.output, ldi, *lens, in.camera.supersample.value_or(1));
     *tool.last_step = [&tool, stats = warp_stats(given, ldi), ldi = std::move(ldi), header = in.header,
                        output = options.output, compression = options.compression] {
         warn_of_clamped(tool, output, write_ldi(output, ldi, header, compression));

@@ -6,6 +6,7 @@
 #include "checks/encoding_check.h"
 #include "checks/lens_check.h"
 #include "checks/pose_check.h"
+#include "view/resolve_lens.h"
 
 #include <fmt/format.h>
 
@@ -101,11 +102,13 @@ Warnings picture_warnings(const View &view, const ViewFacts &facts) {
         said.push_back(view.name +
                        ": its depths are linear in 1 / z, as planes show: give `depth=inverse` where what is "
                        "near has the larger values, else `depth=hyperbolic` with `near` and `far`");
-    if (facts.lens) say_of_lens(view, *facts.lens, said);
+    if (const auto lens = known_lens(facts.camera, view.image.windows)) say_of_lens(view, *lens, said);
     return said;
 }
 
 Warnings view_warnings(std::span<const View> views, const ViewFacts &facts) {
+    const double radius = lens_radius_of(facts.camera).value_or(0); // 0: unknown
+    const double focal_px = focal_length_px(facts.camera, views[0].image.windows.display_width()).value_or(0);
     double reach = 0;
     for (const View &view : views) reach = std::max(reach, view.position.length());
     Warnings said;
@@ -114,10 +117,10 @@ Warnings view_warnings(std::span<const View> views, const ViewFacts &facts) {
         if (i == 0)
             said = picture_warnings(views[0], facts);
         else
-            poses[i] = said_of_pose(views, i, facts.focal_px, reach > 0 ? reach : facts.lens_radius);
+            poses[i] = said_of_pose(views, i, focal_px, reach > 0 ? reach : radius);
     });
-    say_of_first(views, facts.lens_radius, said);
-    say_of_distances(views, facts.lens_radius, said);
+    say_of_first(views, radius, said);
+    say_of_distances(views, radius, said);
     std::ranges::copy_if(poses, std::back_inserter(said), [](const std::string &s) { return !s.empty(); });
     return said;
 }

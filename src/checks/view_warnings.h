@@ -2,11 +2,10 @@
 // stands beside this file; a warning needs a clear finding over many pixels, for a false one is worse than none.
 #pragma once
 
-#include "../lens/thin_lens.h"
+#include "../view/camera.h"
 #include "../view/depth.h"
 #include "../view/view.h"
 
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -17,9 +16,7 @@ namespace sparselens {
 struct ViewFacts {
     DepthMeaning depth = DepthMeaning::planar; // as what they were read
     bool depth_filtered = false;               // of the first view: see edge_depths.h
-    std::optional<ThinLens> lens = {};         // none: some value of it is unknown
-    double focal_px = 0;                       // focal length, pixels; 0: unknown
-    double lens_radius = 0;                    // scene units; 0: unknown
+    Camera camera = {};                        // of the first view
 };
 
 // Of the first view, which is the centre or the only one: its colours, its depths, and what the lens makes of them. Colours

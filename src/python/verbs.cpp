@@ -110,13 +110,10 @@ LdiObject warp(const py::object &views, const py::kwargs &given) {
         out.camera = place_views(placed, stated);
         write_camera(out.header, out.camera);
         write_picture_window(out.header, placed[0].image.windows.data);
-        ViewFacts facts{.depth = from[0]->in.depth, .depth_filtered = from[0]->in.depth_filtered};
-        facts.lens_radius = lens_radius_of(out.camera).value_or(0);
-        const Windows &windows = placed[0].image.windows;
-        facts.focal_px = focal_length_px(out.camera, windows.display_width()).value_or(0);
-        if (knows_lens(out.camera, windows)) facts.lens = resolve_lens(out.camera, windows);
         check_views(placed);
-        std::vector<std::string> of_views = view_warnings(placed, facts); // while their pixels are there
+        // While their pixels are there.
+        std::vector<std::string> of_views =
+            view_warnings(placed, {from[0]->in.depth, from[0]->in.depth_filtered, out.camera});
         with_warp_device(given_device.empty() ? "cpu" : given_device, warnings, [&](WarpDevice *device) {
             options.device = device;
             const WarpOptions by = with_lens(options, out.camera, placed);

@@ -117,12 +117,6 @@ std::optional<double> perceptive_scale(const Camera &camera, const Windows &wind
     return radius > 0 ? radius * resolve_focal_px(camera, windows) : 0;
 }
 
-bool knows_lens(const Camera &camera, const Windows &windows) {
-    const std::optional<double> radius = lens_radius_of(camera);
-    return radius == 0.0 ||
-           (radius && focal_length_px(camera, windows.display_width()) && camera.focus_distance);
-}
-
 ThinLens resolve_lens(const Camera &camera, const Windows &windows) {
     const std::optional<double> radius = lens_radius_of(camera);
     if (radius == 0.0) return {.radius = 0, .pixel_aspect = windows.pixel_aspect};
@@ -136,6 +130,12 @@ ThinLens resolve_lens(const Camera &camera, const Windows &windows) {
             .focal_px = *focal_px,
             .focus = *camera.focus_distance,
             .pixel_aspect = windows.pixel_aspect};
+}
+
+std::optional<ThinLens> known_lens(const Camera &camera, const Windows &windows) {
+    const std::optional<double> radius = lens_radius_of(camera);
+    const bool known = radius && focal_length_px(camera, windows.display_width()) && camera.focus_distance;
+    return known || radius == 0.0 ? std::optional(resolve_lens(camera, windows)) : std::nullopt;
 }
 
 std::optional<std::string> warning_of_wide_lens(const Camera &camera, const ThinLens &lens) {

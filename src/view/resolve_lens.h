@@ -43,12 +43,12 @@ double resolve_focal_px(const Camera &camera, const Windows &windows);
 // is unknown: throws UsageError if `required`, else empty.
 std::optional<double> perceptive_scale(const Camera &camera, const Windows &windows, bool required);
 
-// Whether resolve_lens() knows all that it needs.
-bool knows_lens(const Camera &camera, const Windows &windows);
-
 // The lens; throws UsageError, which names all missing values. A lens of radius 0 (or f-number inf) needs no other
 // value. `windows` gives the display width and the pixel aspect.
 ThinLens resolve_lens(const Camera &camera, const Windows &windows);
+
+// The same, but empty where a value is missing.
+std::optional<ThinLens> known_lens(const Camera &camera, const Windows &windows);
 
 // What to warn of where the lens sees past the views that its LDI was made of; empty if it does not, or if the camera does
 // not say where they stood.

@@ -138,12 +138,25 @@ std::string said_of(const View &view, const ViewFacts &facts) {
     return all;
 }
 
+Camera camera_with(const ThinLens &of, const View &view) {
+    Camera camera;
+    camera.focal_length_mm = of.focal_px;
+    camera.sensor_width_mm = view.image.windows.display_width();
+    camera.lens_radius = of.radius;
+    camera.focus_distance = of.focus;
+    return camera;
+}
+
 TEST(ViewWarnings, EachSaysWhatToDo) {
     const ThinLens tiny{.radius = 0.004, .focal_px = 100, .focus = 10};
-    EXPECT_EQ(said_of(card_of(1), {.lens = lens}), "");
-    EXPECT_NE(said_of(card_of(1), {.lens = tiny}).find("0.06 pixels"), std::string::npos);
-    EXPECT_NE(said_of(card_of(1), {.lens = tiny}).find("`scene_unit`"), std::string::npos);
-    EXPECT_NE(said_of(card_of(12), {.lens = lens}).find("switch depth of field off"), std::string::npos);
+    EXPECT_EQ(said_of(card_of(1), {.camera = camera_with(lens, card_of(1))}), "");
+    EXPECT_NE(said_of(card_of(1), {.camera = camera_with(tiny, card_of(1))}).find("0.06 pixels"),
+              std::string::npos);
+    EXPECT_NE(said_of(card_of(1), {.camera = camera_with(tiny, card_of(1))}).find("`scene_unit=0.01`"),
+              std::string::npos);
+    EXPECT_NE(
+        said_of(card_of(12), {.camera = camera_with(lens, card_of(12))}).find("switch depth of field off"),
+        std::string::npos);
     EXPECT_NE(said_of(stripes(srgb), {}).find("`colorspace=sRGB`"), std::string::npos);
     EXPECT_NE(said_of(stripes([](float v) { return v; }), {.depth_filtered = true}).find("without a filter"),
               std::string::npos);
@@ -151,7 +164,8 @@ TEST(ViewWarnings, EachSaysWhatToDo) {
     EXPECT_NE(said_of(inverse, {}).find("`depth=hyperbolic`"), std::string::npos);
     EXPECT_EQ(said_of(inverse, {.depth = DepthMeaning::distance}), "") << "as asked for";
     const std::vector<View> views{at({0, 0}), at({400, 0}), at({-400, 0})};
-    const auto said = view_warnings(views, {.lens = lens, .focal_px = 100, .lens_radius = 0.4});
+    const auto said = view_warnings(
+        views, {.camera = camera_with({.radius = 0.4, .focal_px = 100, .focus = lens.focus}, views[0])});
     ASSERT_FALSE(said.empty());
     EXPECT_EQ(said[0].find("view and 1 more: stands 400 from the centre, 1e+03 times the radius"), 0u)
         << said[0];

@@ -32,9 +32,7 @@ void warn_of(const ToolContext &tool, const std::vector<std::string> &warnings) 
 
 void warn_of_flat_picture(const ToolContext &tool, const OpenedLdi &in) {
     if (in.deep) return;
-    ViewFacts facts{.depth = in.depth, .depth_filtered = in.depth_filtered};
-    if (knows_lens(in.camera, in.ldi.windows)) facts.lens = in.lens();
-    warn_of(tool, picture_warnings(front_view(in.ldi, in.name), facts));
+    warn_of(tool, picture_warnings(front_view(in.ldi, in.name), {in.depth, in.depth_filtered, in.camera}));
 }
 
 void say_border_reach(const ToolContext &tool, const std::string &path, const Ldi &ldi, const ThinLens &lens,
