@@ -6,7 +6,7 @@
 #include "harness/tool.h"
 #include "io/camera/camera_write.h"
 #include "io/exr/exr_deep.h"
-#include "loading/merged_ldi.h"
+#include "io/merge_ldis.h"
 #include "loading/notices.h"
 #include "loading/stage_stats.h"
 #include "options/lens_options.h"
@@ -54,8 +54,18 @@ void add_options(CLI::App &app, Options &options) {
                         "ldi-cluster front.exr back.exr -o shot.exr --tolerance 0"}});
 }
 
+OpenedLdi open_merged(const Options &options, const ToolContext &tool) {
+    std::vector<OpenedLdi> parts;
+    for (const std::string &path : options.inputs) {
+        parts.push_back(open_ldi(path, {options.lens, options.depth}));
+        say_samples(tool, parts.back());
+        warn_of_invalid_values(tool, path, parts.back().bad);
+    }
+    return merge_ldis(std::move(parts));
+}
+
 void run(const Options &options, const ToolContext &tool) {
-    OpenedLdi in = open_merged(options.inputs, {options.lens, options.depth}, tool);
+    OpenedLdi in = open_merged(options, tool);
     ClusterOptions by{.layers = options.layers};
     // --layers alone does not need the lens: inverse depths are compared without a scale.
     const auto scale =

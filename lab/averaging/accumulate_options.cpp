@@ -12,7 +12,16 @@ namespace sparselens {
 
 void add_accumulate_options(CLI::App &app, AccumulateOptions &options) {
     const std::map<std::string, bool> outside{{"unknown", false}, {"transparent", true}};
-    add_lens_view_options(app, options.views);
+    app.add_option("VIEW", options.views.files, "Views whose cameras are in their metadata (EXR)");
+    app.add_option("--view", options.views.placed,
+                   "A view moved X right and Y up of the lens centre, scene units")
+        ->type_name("X,Y VIEW")
+        ->allow_extra_args(false);
+    app.add_option(
+           "--center", options.views.centre,
+           "EXR file whose camera stands at the lens centre (else the lens point in the views' metadata, "
+           "else the mean of their positions)")
+        ->type_name("FILE");
     app.add_option("-o,--output", options.output, "Average to write (EXR); - for standard output")
         ->required()
         ->type_name("OUT.exr");

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "harness/tool.h"
-#include "loading/lens_view_files.h"
+#include "lab/averaging/lens_view_files.h"
 #include "view/resolve_lens.h"
 
 namespace sparselens {

@@ -9,7 +9,7 @@
 #include "io/picture_looks.h"
 #include "python/device.h"
 #include "python/job.h"
-#include "python/looks.h"
+#include "python/keywords.h"
 
 #include <fmt/format.h>
 
@@ -18,6 +18,11 @@
 namespace sparselens::python {
 
 namespace {
+
+struct AskedLooks {
+    GivenLooks given;
+    std::string first; // the first of the keywords that is given; empty: none is
+};
 
 // What the keywords ask for.
 struct Asked {
@@ -64,6 +69,36 @@ void set_method(Asked &asked, Keywords &keywords) {
     asked.picture.gather.lens.quality = quality.value_or(asked.picture.gather.lens.quality);
     asked.picture.gather.lens.lens_samples = points.value_or(0);
     asked.picture.gather.layers = layers.value_or(asked.picture.gather.layers);
+}
+
+AskedLooks look_keywords(Keywords &keywords) {
+    AskedLooks asked;
+    GivenLooks &given = asked.given;
+    LookValues &values = given.values;
+    const auto note = [&](bool is_given, const std::string &name) {
+        if (is_given && asked.first.empty()) asked.first = name;
+    };
+    asked.first = keywords.numbers_of(look_numbers(), values);
+    if (keywords.flag("cat_eye_darkening")) values.cat_eye_darkening = true;
+    note(values.cat_eye_darkening.has_value(), "cat_eye_darkening");
+    values.chromatic_type = keywords.word("axial_chromatic_type", chromatic_types());
+    note(values.chromatic_type.has_value(), "axial_chromatic_type");
+    if (const auto tilt = keywords.pair("tilt")) {
+        if (!is_tilt(tilt->x) || !is_tilt(tilt->y))
+            Keywords::refuse("tilt", "two numbers between -89 and 89",
+                             fmt::format("({:g}, {:g})", tilt->x, tilt->y));
+        values.tilt_x = tilt->x;
+        values.tilt_y = tilt->y;
+        note(true, "tilt");
+    }
+    given.lens_file = keywords.path("lens");
+    note(!given.lens_file.empty(), "lens");
+    given.aperture_file = keywords.path("aperture");
+    note(!given.aperture_file.empty(), "aperture");
+    const bool shaped = values.blades || values.curvature || values.rotation;
+    if (shaped && !given.aperture_file.empty())
+        throw UsageError("aperture: is given with blades; give one of the two");
+    return asked;
 }
 
 void take_highlights(Keywords &keywords, LookValues &values) {

@@ -3,7 +3,6 @@
 #include "harness/examples.h"
 #include "harness/words.h"
 #include "options/device_option.h"
-#include "options/only_with.h"
 #include "options/picture_options.h"
 
 #include <CLI/CLI.hpp>
@@ -12,6 +11,19 @@
 namespace sparselens {
 
 namespace {
+
+// Given with any other value, the option would have no effect, so it is refused.
+struct OnlyWith {
+    const char *option, *needs, *value; // `option` works with `needs` `value` only
+};
+
+// Throws CLI::ValidationError where a given option of the table does not go with the chosen value of `needs`.
+void refuse_ignored(const CLI::App &parsed, std::span<const OnlyWith> table, std::string_view needs,
+                    std::string_view chosen) {
+    for (const auto &[option, needed, value] : table)
+        if (needs == needed && chosen != value && parsed.get_option(option)->count() > 0)
+            throw CLI::ValidationError(option, fmt::format("works with {} {} only", needed, value));
+}
 
 constexpr OnlyWith method_options[] = {{"--quality", "--method", "lens"},
                                        {"--lens-samples", "--method", "lens"},

@@ -1,4 +1,4 @@
-#include "loading/lens_view_files.h"
+#include "lab/averaging/lens_view_files.h"
 
 #include "base/error.h"
 #include "io/camera/camera_read.h"

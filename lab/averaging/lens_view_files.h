@@ -1,15 +1,23 @@
-// The views of a lens that are named on a command line, and where each lies on the lens.
+// The views of a lens that are named on a command line: VIEW.exr, whose camera is in its metadata, and --view X,Y VIEW.exr, moved X
+// right and Y up of the lens centre (scene units). And where each lies on the lens.
 #pragma once
 
 #include "io/exr/exr_flat.h"
-#include "options/lens_view_options.h"
 #include "view/lens_views.h"
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace sparselens {
+
+struct LensViewOptions {
+    std::vector<std::string> files;
+    std::vector<std::pair<std::string, std::string>> placed; // "X,Y" and file
+    std::string centre;                                      // a file whose camera stands at the lens centre
+    PictureChoice picture;                                   // of each file
+};
 
 struct LensViewFile {
     std::string path;
