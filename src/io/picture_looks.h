@@ -9,8 +9,10 @@
 
 #include <ImfHeader.h>
 
+#include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace sparselens {
 
@@ -21,5 +23,9 @@ LensLooks picture_looks(const LensFile &given, Camera &camera, Imf::Header &head
 
 // What to warn of where the method `name` takes the aperture for round; empty if the looks say nothing else.
 std::optional<std::string> warning_of_round_aperture(const LookValues &looks, const std::string &name);
+
+// Throws UsageError where a parameter is given that belongs to another gather method, and would have no effect.
+void refuse_ignored(std::string_view method,
+                    const std::function<bool(const std::string &parameter)> &is_given);
 
 } // namespace sparselens

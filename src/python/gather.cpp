@@ -19,11 +19,6 @@ namespace sparselens::python {
 
 namespace {
 
-struct AskedLooks {
-    GivenLooks given;
-    std::string first; // the first of the keywords that is given; empty: none is
-};
-
 // What the keywords ask for.
 struct Asked {
     PictureOptions picture; // without the holdout
@@ -34,7 +29,7 @@ struct Asked {
     const OpenedLdi *holdout = nullptr; // kept alive by `keep_holdout`
     py::object keep_holdout, progress;
     LensValues lens;
-    AskedLooks looks;
+    GivenLooks looks;
 };
 
 bool knows_looks(const Asked &asked) { return asked.picture.method == &gather_methods().front(); }
@@ -48,62 +43,45 @@ void set_method(Asked &asked, Keywords &keywords) {
         if (found == methods.end()) throw UsageError("method: must be lens or selective, not " + name);
         asked.picture.method = &*found;
     }
-    const auto quality = keywords.word<Quality>(
-        "quality", {{"draft", Quality::draft}, {"normal", Quality::normal}, {"final", Quality::final}});
-    const auto points = keywords.whole("lens_samples", 0, 1 << 20),
-               layers = keywords.whole("layers", 1, 4096);
-    const bool lens = knows_looks(asked);
-    const auto refuse = [](const char *keyword, const char *method) {
-        throw UsageError(fmt::format("{}: works with method='{}' only", keyword, method));
-    };
-    if (quality && !lens) refuse("quality", "lens");
-    if (points && !lens) refuse("lens_samples", "lens");
-    const auto tolerance = keywords.number("layer_tolerance", at_least_0);
-    if (tolerance && !lens) refuse("layer_tolerance", "lens");
-    asked.picture.layer_tolerance = tolerance.value_or(asked.picture.layer_tolerance);
-    if (asked.holdout && !lens) refuse("holdout", "lens");
-    if (!asked.looks.first.empty() && !lens) refuse(asked.looks.first.c_str(), "lens");
-    if (layers && asked.picture.method->name != std::string("selective")) refuse("layers", "selective");
+    asked.picture.gather.lens.quality = keywords
+                                            .word<Quality>("quality", {{"draft", Quality::draft},
+                                                                       {"normal", Quality::normal},
+                                                                       {"final", Quality::final}})
+                                            .value_or(asked.picture.gather.lens.quality);
+    asked.picture.gather.lens.lens_samples = keywords.whole("lens_samples", 0, 1 << 20).value_or(0);
+    asked.picture.gather.layers = keywords.whole("layers", 1, 4096).value_or(asked.picture.gather.layers);
+    asked.picture.layer_tolerance =
+        keywords.number("layer_tolerance", at_least_0).value_or(asked.picture.layer_tolerance);
+    refuse_ignored(asked.picture.method->name,
+                   [&](const std::string &parameter) { return keywords.is_given(parameter); });
     asked.device = keywords.text("device");
     if (asked.device.empty()) asked.device = "cpu";
-    asked.picture.gather.lens.quality = quality.value_or(asked.picture.gather.lens.quality);
-    asked.picture.gather.lens.lens_samples = points.value_or(0);
-    asked.picture.gather.layers = layers.value_or(asked.picture.gather.layers);
 }
 
-AskedLooks look_keywords(Keywords &keywords) {
-    AskedLooks asked;
-    GivenLooks &given = asked.given;
+GivenLooks look_keywords(Keywords &keywords) {
+    GivenLooks given;
     LookValues &values = given.values;
-    const auto note = [&](bool is_given, const std::string &name) {
-        if (is_given && asked.first.empty()) asked.first = name;
-    };
-    asked.first = keywords.numbers_of(look_numbers(), values);
+    keywords.numbers_of(look_numbers(), values);
     if (keywords.flag("cat_eye_darkening")) values.cat_eye_darkening = true;
-    note(values.cat_eye_darkening.has_value(), "cat_eye_darkening");
     values.chromatic_type = keywords.word("axial_chromatic_type", chromatic_types());
-    note(values.chromatic_type.has_value(), "axial_chromatic_type");
     if (const auto tilt = keywords.pair("tilt")) {
         if (!is_tilt(tilt->x) || !is_tilt(tilt->y))
             Keywords::refuse("tilt", "two numbers between -89 and 89",
                              fmt::format("({:g}, {:g})", tilt->x, tilt->y));
         values.tilt_x = tilt->x;
         values.tilt_y = tilt->y;
-        note(true, "tilt");
     }
     given.lens_file = keywords.path("lens");
-    note(!given.lens_file.empty(), "lens");
     given.aperture_file = keywords.path("aperture");
-    note(!given.aperture_file.empty(), "aperture");
     const bool shaped = values.blades || values.curvature || values.rotation;
     if (shaped && !given.aperture_file.empty())
         throw UsageError("aperture: is given with blades; give one of the two");
-    return asked;
+    return given;
 }
 
 void take_highlights(Keywords &keywords, LookValues &values) {
-    const std::string first = keywords.numbers_of(highlight_numbers(), values);
-    if (!first.empty() && !values.highlight_gain)
+    keywords.numbers_of(highlight_numbers(), values);
+    if ((values.highlight_threshold || values.highlight_knee) && !values.highlight_gain)
         throw UsageError("highlight_gain: is needed by highlight_threshold and highlight_knee");
 }
 
@@ -117,7 +95,7 @@ Asked asked_by(const py::kwargs &given) {
     if (asked.picture.holdout_defocused && !asked.holdout)
         throw UsageError("holdout_defocused: needs a holdout");
     asked.looks = look_keywords(keywords);
-    take_highlights(keywords, asked.looks.given.values);
+    take_highlights(keywords, asked.looks.values);
     set_method(asked, keywords);
     const auto overscan = keywords.word<OutputOverscan>(
         "overscan",
@@ -160,7 +138,7 @@ PictureObject gathered_all(const Asked &asked, const OpenedLdi &in, Camera camer
     std::optional<Ldi> holdout;
     if (asked.holdout) holdout = holdout_for(in, asked.windows, asked.holdout->ldi, "holdout");
     GatherWindows frame = gather_windows(asked.windows, in, lens);
-    const LensFile looks = read_looks(asked.looks.given, camera.fstop);
+    const LensFile looks = read_looks(asked.looks, camera.fstop);
     PictureOptions options = asked.picture;
     if (knows_looks(asked))
         options.gather.lens.looks = picture_looks(looks, camera, out.header, lens, frame.ldi(in).windows);

@@ -49,6 +49,7 @@ py::object Keywords::take(const char *name) {
     known_.emplace_back(name);
     if (!left_.contains(name)) return py::none();
     py::object value = left_[name];
+    if (!value.is_none()) given_.emplace_back(name);
     PyDict_DelItemString(left_.ptr(), name);
     return value;
 }
@@ -135,6 +136,8 @@ std::optional<Imath::Box2i> Keywords::box(const char *name) {
 void Keywords::refuse(const char *name, const std::string &wanted, const std::string &found) {
     throw UsageError(fmt::format("{}: must be {}, not {}", name, wanted, found));
 }
+
+bool Keywords::is_given(const std::string &name) const { return is_among(given_, name); }
 
 void Keywords::done() const {
     for (const auto &item : left_) {

@@ -28,17 +28,14 @@ public:
     py::object take(const char *name); // None where it is not given
     bool flag(const char *name);       // False where it is not given
     std::optional<double> number(const char *name, NumberRange range = above_0);
-    // Those of a table. Returns the name of the first that is given; empty: none is.
+    // Those of a table.
     template <typename Values>
-    std::string numbers_of(std::span<const NumberParameter<Values>> table, Values &values) {
-        std::string first;
+    void numbers_of(std::span<const NumberParameter<Values>> table, Values &values) {
         for (const NumberParameter<Values> &of : table) {
             std::string name = of.name;
             std::ranges::replace(name, '-', '_');
             values.*of.value = number(name.c_str(), of.range);
-            if (values.*of.value && first.empty()) first = name;
         }
-        return first;
     }
     std::optional<int> whole(const char *name, int least, int most);
     std::string text(const char *name); // empty where it is not given
@@ -66,14 +63,15 @@ public:
         refuse(name, "one of " + all, given);
     }
 
-    void done() const; // throws where a keyword is left that nobody took
+    bool is_given(const std::string &name) const; // of those that were asked for
+    void done() const;                            // throws where a keyword is left that nobody took
 
     [[noreturn]] static void refuse(const char *name, const std::string &wanted, const std::string &found);
 
 private:
     std::string function_;
     py::dict left_;
-    std::vector<std::string> known_; // all that were asked for
+    std::vector<std::string> known_, given_; // all that were asked for, and those that are there
 };
 
 // focal_length, sensor_width, fstop, lens_radius, focus_distance, scene_unit.

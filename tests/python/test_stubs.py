@@ -65,8 +65,9 @@ def test_help(name):
     assert len(function.__doc__) > 60
 
 
-LDI = sparselens.Ldi(numpy.array([0, 1], numpy.uint64), numpy.ones(1, numpy.float32), {}, size=(1, 1))
-VIEW = sparselens.View(numpy.ones((1, 1, 4), numpy.float32), numpy.ones((1, 1), numpy.float32))
+LENS = dict(focal_length=36, sensor_width=36, lens_radius=0.1, focus_distance=3)
+LDI = sparselens.Ldi(numpy.array([0, 1], numpy.uint64), numpy.ones(1, numpy.float32), {}, size=(1, 1), **LENS)
+VIEW = sparselens.View(numpy.ones((1, 1, 4), numpy.float32), numpy.ones((1, 1), numpy.float32), **LENS)
 FIRST = {"open_view": ["x"], "open_ldi": ["x"], "open_picture": ["x"], "warp": [[VIEW]], "show": [LDI, "coc"], "plan": [VIEW],
          "compare": [VIEW, VIEW], "write": ["x.exr", VIEW.pixels], "set_limits": []}
 

@@ -1,47 +1,37 @@
 #include "options/gather_options.h"
 
+#include "base/error.h"
 #include "harness/examples.h"
+#include "harness/one_line.h"
 #include "harness/words.h"
+#include "io/picture_looks.h"
 #include "options/device_option.h"
 #include "options/picture_options.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace sparselens {
 
 namespace {
 
-// Given with any other value, the option would have no effect, so it is refused.
-struct OnlyWith {
-    const char *option, *needs, *value; // `option` works with `needs` `value` only
-};
-
-// Throws CLI::ValidationError where a given option of the table does not go with the chosen value of `needs`.
-void refuse_ignored(const CLI::App &parsed, std::span<const OnlyWith> table, std::string_view needs,
-                    std::string_view chosen) {
-    for (const auto &[option, needed, value] : table)
-        if (needs == needed && chosen != value && parsed.get_option(option)->count() > 0)
-            throw CLI::ValidationError(option, fmt::format("works with {} {} only", needed, value));
-}
-
-constexpr OnlyWith method_options[] = {{"--quality", "--method", "lens"},
-                                       {"--lens-samples", "--method", "lens"},
-                                       {"--layer-tolerance", "--method", "lens"},
-                                       {"--holdout", "--method", "lens"},
-                                       {"--layers", "--method", "selective"}};
-
 // Throws where options contradict each other.
 void check(const CLI::App &parsed, const GatherCommand &options) {
-    refuse_ignored(parsed, method_options, "--method", options.picture.method->name);
-    const std::string look = first_look_option(parsed);
-    if (!look.empty() && options.picture.method != &gather_methods().front())
-        throw CLI::ValidationError(look, "works with --method lens only");
+    const auto is_given = [&](std::string name) {
+        std::ranges::replace(name, '_', '-');
+        const CLI::Option *option = parsed.get_option_no_throw("--" + name);
+        return option && option->count() > 0;
+    };
+    try {
+        refuse_ignored(options.picture.method->name, is_given);
+    } catch (const UsageError &error) {
+        throw CLI::ValidationError(with_options(error.what()));
+    }
     if (options.device != "cpu" && options.device != "auto" && !options.picture.method->on_devices)
         throw CLI::ValidationError("--device " + options.device,
                                    "works with --method lens and --method selective only");
-    if (options.picture.gather.lens.point && options.picture.method != &gather_methods().front())
-        throw CLI::ValidationError("--lens-point", "works with --method lens only");
     if (options.show == Show::tiles && options.picture.method != &gather_methods().front())
         throw CLI::ValidationError("--show tiles", "works with --method lens only");
 }

@@ -81,10 +81,4 @@ void add_highlight_options(CLI::App &app, GivenLooks &given) {
     }
 }
 
-std::string first_look_option(const CLI::App &parsed) {
-    for (const CLI::Option *option : parsed.get_options())
-        if (option->get_group() == group && option->count() > 0) return option->get_name();
-    return {};
-}
-
 } // namespace sparselens

@@ -4,8 +4,6 @@
 #include "harness/commands/cli.h"
 #include "io/lens_file.h"
 
-#include <string>
-
 namespace sparselens {
 
 // `given` must stay where it is until the command line is parsed.
@@ -13,8 +11,5 @@ void add_look_options(CLI::App &app, GivenLooks &given);
 
 // --highlight-gain and what goes with it.
 void add_highlight_options(CLI::App &app, GivenLooks &given);
-
-// The name of the first look option that was given, but for those of highlights; empty if none was.
-std::string first_look_option(const CLI::App &parsed);
 
 } // namespace sparselens
