@@ -130,5 +130,5 @@ picture make vast.exr 16x16 frame=60000x60000 R=0.5 G=0.5 B=0.5 A=1 Z=4
 vast() { "$bin/dof-gather" vast.exr --focal-length 50 --sensor-width 36 --focus-distance 2 "$@"; }
 exits 0 vast --lens-radius 0.1 --overscan keep -o x.exr
 exits 0 vast --lens-radius 0.001 -o x.exr
-fails_saying 1 'vast.exr.*memory.*--max-memory.*--overscan=keep' vast --lens-radius 0.1 -o grown.exr
+fails_saying 1 'vast.exr.*memory.*--max-memory.*--overscan keep' vast --lens-radius 0.1 -o grown.exr
 fails_saying 1 'x.png.*memory.*--max-memory' vast --lens-radius 0.1 --overscan keep -o x.png
