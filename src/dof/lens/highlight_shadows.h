@@ -44,9 +44,9 @@ struct ShadowScreen {
 struct ShadowCasters {
     const BlockedSamples &samples;
     const BlockFootprints &footprints;
-    float across = 1; // pixels that a cell of theirs is wide and high,
-    Imath::V2f corner = {0,
-                         0}; // and where their places begin, as pixels of the highlights' scene are counted
+    // Pixels that a cell of theirs is wide and high; and where their places begin, as pixels of the highlights' scene are counted.
+    float across = 1;
+    Imath::V2f corner = {0, 0};
     bool is_coarse() const { return across > 1; }
 };
 
