@@ -2,6 +2,7 @@
 
 #include "base/subpixels.h"
 #include "deep/proxy.h"
+#include "dof/lens/cells.h"
 #include "dof/lens/sharpen.h"
 #include "dof/lens/solid_samples.h"
 #include "lens/perceptive_depth.h"
@@ -134,9 +135,7 @@ GatherScene prepare(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &wi
 }
 
 GatherScene coarse_scene(const GatherScene &scene, int across) {
-    // Surfaces that a lens point moves apart by half a cell at most are one: what stays apart covers a part of its cell, which
-    // costs more.
-    const double tolerance = 0.5 * across;
+    const double tolerance = double(one_cell) * across;
     const Ldi &large = *scene.ldi;
     const std::vector<float> left = left_by_highlights(scene);
     auto small = std::make_unique<Ldi>(

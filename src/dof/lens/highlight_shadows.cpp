@@ -1,5 +1,6 @@
 #include "dof/lens/highlight_shadows.h"
 
+#include "dof/lens/cells.h"
 #include "dof/lens/lens_tiles.h"
 
 #include <algorithm>
@@ -14,8 +15,6 @@ namespace {
 constexpr float one_lamp = 1.1f; // times as near: parts of one, at any aperture
 // Cells of perceptive depth: so far before a lamp, a cell's shadow is a sixteenth of the disc's radius wide or less.
 constexpr float far_cells = 16;
-// Cells: samples of a surface that becomes one in a cell lie no farther from it in depth (gather_scene.cpp).
-constexpr float one_cell = 0.5f;
 
 // Of the first sample of a block: the same wherever the tile lies, and in all frames.
 std::uint32_t name_of(std::uint32_t block, int columns) {
@@ -32,17 +31,22 @@ HighlightShadows::Range HighlightShadows::range_of(const Asked &lamp, const Shad
     return {lamp.depth, lamp.far + one_cell * cell_px_};
 }
 
+HighlightShadows::Range HighlightShadows::range_of(const Asked &lamp, const ShadowCasters &casters,
+                                                   const SampleBlock &block) const {
+    const Range range = range_of(lamp, casters);
+    return casters.is_coarse() ? range : Range{lamp.nearer_than(block), range.nearest};
+}
+
 // Whether the shadows of what a block has before a group are nearly the same for all of it.
 bool HighlightShadows::is_shared(const Asked &group, const Block &b) const {
     const ShadowCasters &casters = casters_[b.set];
     const BlockedSamples &samples = casters.samples;
     const SampleBlock &block = samples.blocks[b.number];
     const std::vector<Footprint> &footprints = casters.footprints.of(b.number).footprints;
-    const Range range = range_of(group, casters);
-    const float farthest = casters.is_coarse() ? range.farthest : group.nearer_than(block),
-                most = float(group.lamp.coc / 2) / casters.across;
+    const auto [farthest, nearest] = range_of(group, casters, block);
+    const float most = float(group.lamp.coc / 2) / casters.across;
     for (std::uint32_t i = block.begin; i < block.end; ++i) {
-        if (!(samples.depth[i] > farthest) || samples.depth[i] > range.nearest) continue;
+        if (!(samples.depth[i] > farthest) || samples.depth[i] > nearest) continue;
         const auto [least_coc, most_coc] = std::ranges::minmax(footprints[i - block.begin].coc);
         if (most > 0 ? most_coc > most : least_coc < most) return false;
     }
@@ -112,8 +116,8 @@ void HighlightShadows::for_each_block(const Asked &lamp, const Visit &visit) con
         if (!bounds || !can_shadow(lamp, casters, *bounds)) continue;
         for (const std::uint32_t b : blocks) {
             const SampleBlock &block = samples.blocks[b];
-            const float farthest = casters.is_coarse() ? range.farthest : lamp.nearer_than(block);
-            if (!areas.block_lies_between(b, farthest, range.nearest) || !can_shadow(lamp, casters, block))
+            const auto [farthest, nearest] = range_of(lamp, casters, block);
+            if (!areas.block_lies_between(b, farthest, nearest) || !can_shadow(lamp, casters, block))
                 continue;
             if (block.depth_min <= farthest) { // some of it lies behind the lamp
                 const NearBounds *near = footprints.of(b).near.nearer_than(farthest);

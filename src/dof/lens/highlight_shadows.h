@@ -115,6 +115,7 @@ private:
         float farthest, nearest;
     };
     Range range_of(const Asked &lamp, const ShadowCasters &casters) const;
+    Range range_of(const Asked &lamp, const ShadowCasters &casters, const SampleBlock &block) const;
     struct Block { // of casters_[set]
         std::size_t set;
         std::uint32_t number;
