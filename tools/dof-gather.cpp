@@ -22,7 +22,9 @@
 #include <algorithm>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <optional>
+#include <string>
 #include <variant>
 
 using namespace sparselens;
@@ -44,7 +46,7 @@ Image gathered(const GatherCommand &options, GatherWindows &frame, const ThinLen
                            {memory_to_gather(in.samples_read, in.ldi.windows.pixels())}, *tool.progress);
     if (options.show != Show::picture) return of(frame.ldi(cache.last()));
     if (frame.changed) return of(std::move(*frame.changed));
-    return tool.last_frame ? of(cache.take_ldi()) : of(cache.last().ldi);
+    return tool.keeps ? of(cache.last().ldi) : of(cache.take_ldi());
 }
 
 // Whose circles of confusion are in pixels of the picture.
@@ -67,7 +69,7 @@ private:
 
 // Empty if more than the picture is made of the samples, else by what they are reduced while the file is read.
 ChooseSamples choose_samples(const GatherCommand &options, const ToolContext &tool, Looks &looks) {
-    if (!tool.last_frame || options.show != Show::picture || !options.holdout.empty() ||
+    if (tool.keeps || options.show != Show::picture || !options.holdout.empty() ||
         !options.depth_output.empty() || options.focus_pixel)
         return {};
     return [&](const Imf::Header &header, const Camera &camera, const Ldi &rows) -> ReduceSamples {
@@ -136,18 +138,40 @@ void run(const GatherCommand &given, const ToolContext &tool, LdiCache &cache, G
     };
 }
 
+// What frames of one file share, so that a pull of focus over it reads it once.
+class Caches {
+public:
+    std::shared_ptr<LdiCache> of(const std::string &input) {
+        const std::lock_guard lock(guard_);
+        if (!last_ || input_ != input) last_ = std::make_shared<LdiCache>();
+        input_ = input;
+        return last_;
+    }
+
+private:
+    std::mutex guard_; // of what follows
+    std::string input_;
+    std::shared_ptr<LdiCache> last_;
+};
+
 } // namespace
 
 int main(int argc, char **argv) {
-    LdiCache cache; // for a focus pull over one file, which is read once
+    Caches caches;
     GatherDevice device([](const gpu::DeviceInfo &info) { return gpu::open_gather_device(info); },
                         {"gathers", "tiles gathered"});
     return run_frames("dof-gather", "Gathers the picture that a lens takes from a layered depth image (LDI)",
                       argc, argv, [&](CLI::App &app) {
                           const auto options = std::make_shared<GatherCommand>();
                           add_gather_options(app, *options);
-                          return [&cache, &device, options](const ToolContext &tool) {
-                              run(*options, tool, cache, device);
-                          };
+                          return Job{.work =
+                                         [&caches, &device, options](const ToolContext &tool) {
+                                             run(*options, tool, *caches.of(options->input), device);
+                                         },
+                                     .keeps =
+                                         [options] {
+                                             const std::string kept = kept_device(options->device);
+                                             return kept.empty() ? options->input : kept;
+                                         }};
                       });
 }

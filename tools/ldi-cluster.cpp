@@ -89,6 +89,6 @@ int main(int argc, char **argv) {
                       [&](CLI::App &app) {
                           const auto options = std::make_shared<Options>();
                           add_options(app, *options);
-                          return [options](const ToolContext &tool) { run(*options, tool); };
+                          return Job{[options](const ToolContext &tool) { run(*options, tool); }};
                       });
 }

@@ -62,6 +62,6 @@ int main(int argc, char **argv) {
         argv, [&](CLI::App &app) {
             const auto options = std::make_shared<PlanCommand>();
             add_plan_options(app, *options);
-            return [options](const ToolContext &tool) { run(*options, tool); };
+            return Job{[options](const ToolContext &tool) { run(*options, tool); }};
         });
 }

@@ -100,6 +100,7 @@ int main(int argc, char **argv) {
         argv, [&](CLI::App &app) {
             const auto options = std::make_shared<WarpCommand>();
             add_warp_options(app, *options);
-            return [options, &device](const ToolContext &tool) { run(*options, tool, device); };
+            return Job{.work = [options, &device](const ToolContext &tool) { run(*options, tool, device); },
+                       .keeps = [options] { return kept_device(options->device); }};
         });
 }

@@ -45,9 +45,38 @@ if [ "$(nproc)" -gt 1 ]; then
     same_pixels first.exr one.exr "a frame written aside"
     exits 0 "$gather" ldi.exr -o one.exr --focus-distance 2
     same aside.0003.exr one.exr "the last frame after one written aside"
+
+    # Frames of files of their own are worked on beside each other: who writes the third input waits until it is read, and writes the
+    # second only then. What they say comes in their order all the same, and the pictures are those of one thread.
+    for n in 1 2 3 4; do
+        exits 0 "$bin/ldi-cluster" ldi.exr -o own.000$n.exr --tolerance $((n * n))
+        [ $n -eq 2 ] || [ $n -eq 3 ] || ln own.000$n.exr in.000$n.exr
+    done
+    mkfifo in.0002.exr in.0003.exr
+    "$gather" in.####.exr -o beside.####.exr --frames 1-4 -v 2>tool.err &
+    process=$!
+    timeout 300 cat own.0003.exr >in.0003.exr || fail "frames are not worked on beside each other: $(cat tool.err)"
+    cat own.0002.exr >in.0002.exr
+    wait $process || fail "frames beside each other: $(cat tool.err)"
+    exits 0 "$gather" own.####.exr -o single.####.exr --frames 1-4 -v --threads 1
+    for n in 1 2 3 4; do same beside.000$n.exr single.000$n.exr "frame $n, worked on beside others"; done
+    differ beside.0001.exr beside.0004.exr "frames of files of their own"
+    sed 's/own\./in./; s/single/beside/; s/threads: 1/threads: '"$(nproc)"'/' stderr | diff tool.err - || fail "what frames beside each other say"
 else
     echo "skipped: frames written aside: there is one core"
 fi
+# So are those of a warp; a frame that fails ends the range, or is left out, and nothing of later ones is written.
+for n in 1 2 3 4 5; do cp views/center.exr c.000$n.exr; done
+: >c.0003.exr
+for threads in 0 1; do
+    fails_saying 1 '^ldi-warp: frame 3: .*c.0003.exr' "$bin/ldi-warp" c.####.exr "${rim[@]}" -o w.####.exr --frames 1-5 --threads $threads
+    [ "$(count 'w.????.exr')" -eq 2 ] || fail "frames after one that failed: $(ls)"
+    fails_saying 1 '^ldi-warp: frame 3: .*c.0003.exr' "$bin/ldi-warp" c.####.exr "${rim[@]}" -o w.####.exr --frames 1-5 --threads $threads --skip-bad-frames
+    [ "$(count 'w.????.exr')" -eq 4 ] || fail "--skip-bad-frames of ldi-warp: $(ls)"
+    same w.0001.exr ldi.exr "ldi-warp of frames"
+    same w.0005.exr ldi.exr "ldi-warp of frames"
+    rm w.????.exr
+done
 # A frame that cannot be written ends the range before anything of the next is written; --skip-bad-frames goes on.
 mkdir unwritten.0002.exr
 for threads in 0 1; do

@@ -14,6 +14,7 @@
 #include <malloc.h>
 #include <tbb/global_control.h>
 #include <tbb/info.h>
+#include <unistd.h>
 
 #include <csignal>
 #include <cstdio>
@@ -113,9 +114,9 @@ void add_process_options(CLI::App &app, ProcessOptions &options) {
 }
 
 void add_memory_option(CLI::App &app, ProcessOptions &options) {
-    app.add_option(
-           "--max-memory", options.max_memory,
-           "Memory limit for reading a file, e.g. 4GB (default: 64 MB plus 1100 times the size of the file)")
+    app.add_option("--max-memory", options.max_memory,
+                   "Memory limit for reading a file, and for frames at once, e.g. 4GB (default: 64 MB plus "
+                   "1100 times the size of the file; a quarter of the machine's)")
         ->type_name("SIZE")
         ->transform(CLI::AsSizeValue(false));
 }
@@ -150,6 +151,11 @@ void give_back_memory() {
 #ifdef __GLIBC__
     malloc_trim(0);
 #endif
+}
+
+std::uint64_t memory_for_frames(const std::optional<std::uint64_t> &max_memory) {
+    return max_memory.value_or(std::uint64_t(sysconf(_SC_PHYS_PAGES)) * std::uint64_t(sysconf(_SC_PAGESIZE)) /
+                               4);
 }
 
 class Process::ThreadLimit {

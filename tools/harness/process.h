@@ -39,6 +39,9 @@ private:
 // What was freed and is kept for what comes next goes back to the system: before something that takes much.
 void give_back_memory();
 
+// For what frames hold beside each other: --max-memory, else a quarter of the machine's.
+std::uint64_t memory_for_frames(const std::optional<std::uint64_t> &max_memory);
+
 // Runs `work`, reports what it throws in one line that begins with `prefix`, and returns the exit code.
 int exit_code_of(const std::string &prefix, const std::function<void()> &work);
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/progress.h"
+#include "harness/in_turn.h"
 
 #include <cstddef>
 #include <memory>
@@ -36,8 +37,9 @@ std::string status_line(const std::string &tool_name, const FrameCount &frames, 
 // What the line of an error begins with: "dof-gather: ", for Open Job Description "openjd_fail: dof-gather: ".
 std::string error_prefix(ProgressFormat format, const std::string &tool_name);
 
-// Prints to stderr, because standard output may be the picture and farms read both. For a farm, the percentages refer
+// Prints to stderr, in its turn, because standard output may be the picture and farms read both. For a farm, the percentages refer
 // to all frames and never decrease.
-std::unique_ptr<Progress> progress_of(ProgressFormat format, const std::string &tool_name, FrameCount frames);
+std::unique_ptr<Progress> progress_of(ProgressFormat format, const std::string &tool_name, FrameCount frames,
+                                      const std::shared_ptr<InTurn> &turn, Progress::Watch watch = {});
 
 } // namespace sparselens

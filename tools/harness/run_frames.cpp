@@ -4,6 +4,7 @@
 #include "harness/commands/named_files.h"
 #include "harness/frame_run.h"
 #include "harness/history.h"
+#include "harness/neighbours.h"
 #include "harness/process.h"
 #include "harness/progress_lines.h"
 #include "harness/tool.h"
@@ -13,6 +14,7 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <sys/resource.h>
 #include <tbb/global_control.h>
 
 #include <algorithm>
@@ -129,6 +131,13 @@ bool has_threads() {
     return tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism) > 1;
 }
 
+// The most memory that the process has held.
+std::uint64_t peak_memory() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return std::uint64_t(usage.ru_maxrss) * 1024;
+}
+
 Tool context_of(const std::string &name, const FrameCommand &command) {
     const auto tool = std::make_shared<ToolContext>();
     tool->tool_name = name;
@@ -152,41 +161,60 @@ int run_words(const std::string &name, const std::string &description, const std
         return parse_words(command->app, commands->words(i), prefix + frame_name(*commands, i));
     };
     // Usage errors of any frame are reported before the first frame is worked on.
-    CommandPtr first, command;
+    CommandPtr first, other;
     std::vector<NamedFiles> files;
+    std::vector<std::optional<std::string>> keeps;
     for (std::size_t i = 0; i < count; ++i) {
-        CommandPtr &parsed = i == 0 ? first : command;
+        CommandPtr &parsed = i == 0 ? first : other;
         if (const auto answered = parse(i, parsed)) return *answered;
         files.push_back(named_files(parsed->app));
+        keeps.push_back(parsed->job.keeps ? std::optional(parsed->job.keeps()) : std::nullopt);
     }
     code = exit_code_of(prefix, [&] { refuse_overwriting(files); });
     if (code != 0) return code;
 
     const ProgressFormat format = first->frames.progress;
     const Process process(first->process, *context_of(name, *first));
+    const Neighbours neighbours(std::move(keeps));
+    const std::uint64_t memory = memory_for_frames(first->process.max_memory);
+    bool two_fit = false; // two frames, each as large as the first, which is worked on alone
     FrameRun run(first->frames.skip_bad_frames);
     const auto warned = std::make_shared<std::set<std::string>>();
     bool go_on = true;
     for (std::size_t i = 0; i < count && go_on; ++i) {
-        parse(i, command);
+        CommandPtr parsed;
+        parse(i, parsed);
+        const std::shared_ptr<FrameCommand> command = std::move(parsed);
         const Tool tool = context_of(name, *command);
         if (commands->is_range()) tool->frame = commands->number(i);
-        tool->last_frame = i + 1 == count;
+        tool->keeps = neighbours.keeps_for_next(i);
+        if (i == 2) two_fit = 2 * peak_memory() <= memory;
         tool->warned = warned;
+        tool->turn = std::make_shared<InTurn>(false);
         tool->command_line = command_line(name, commands->words(i));
-        tool->progress = progress_of(format, name, {i, count, tool->frame});
-        const std::string frame_prefix = prefix + frame_name(*commands, i);
-        const bool aside = !tool->last_frame && has_threads();
-        const auto job = [&] {
-            if (!command->frames.update || !is_up_to_date(command->app, *tool)) command->job(*tool);
+        tool->progress = progress_of(format, name, {i, count, tool->frame}, tool->turn, [&run] {
+            if (run.stopped()) throw Error("a frame before it failed");
+        });
+        const bool aside = i + 1 < count && has_threads();
+        const auto work = [=] {
+            if (!command->frames.update || !is_up_to_date(command->app, *tool)) command->job.work(*tool);
             if (aside) say_stage(format, *tool, *tool->last_step ? "writing" : "done");
         };
-        const auto finish = [=] {
-            if (const auto last_step = std::exchange(*tool->last_step, {})) last_step();
+        const auto last_step = [=] {
+            if (const auto step = std::exchange(*tool->last_step, {})) step();
             if (!aside) say_stage(format, *tool, "done");
         };
-        go_on = run.go_on([&] { return exit_code_of(frame_prefix, job); },
-                          [=] { return exit_code_of(frame_prefix, finish); }, aside);
+        const auto end = [=, frame_prefix = prefix + frame_name(*commands, i)](std::exception_ptr failure) {
+            return exit_code_of(frame_prefix, [&] {
+                if (failure) std::rethrow_exception(failure);
+                last_step();
+            });
+        };
+        go_on = run.go_on({.work = work,
+                           .take_turn = [tool] { tool->turn->come(); },
+                           .end = end,
+                           .beside = two_fit && neighbours.are_apart(i),
+                           .aside = aside});
     }
     return run.worst();
 }

@@ -12,25 +12,36 @@
 namespace sparselens {
 
 void ToolContext::say(const std::string &line) const {
-    if (verbose) fmt::print(stderr, "{}: {}\n", tool_name, with_options(line));
+    if (!verbose) return;
+    turn->say(
+        [text = fmt::format("{}: {}\n", tool_name, with_options(line))] { fmt::print(stderr, "{}", text); });
 }
 
+namespace {
+
+std::string warning(const ToolContext &tool, const std::string &text) {
+    return fmt::format("{}: warning: {}\n", tool.tool_name, one_line(with_options(text)));
+}
+
+} // namespace
+
 void warn(const ToolContext &tool, const std::string &text) {
-    fmt::print(stderr, "{}: warning: {}\n", tool.tool_name, one_line(with_options(text)));
+    tool.turn->say([line = warning(tool, text)] { fmt::print(stderr, "{}", line); });
 }
 
 void warn_once(const ToolContext &tool, const std::string &kind, const std::string &text) {
-    if (tool.warned->insert(kind).second)
-        warn(tool, text);
-    else
-        tool.say(one_line(text));
+    const std::string later =
+        tool.verbose ? fmt::format("{}: {}\n", tool.tool_name, with_options(one_line(text))) : "";
+    tool.turn->say([warned = tool.warned, kind, first = warning(tool, text), later] {
+        fmt::print(stderr, "{}", warned->insert(kind).second ? first : later);
+    });
 }
 
-int run_tool(CLI::App &app, int argc, char **argv, const Job &job, Reads reads) {
-    return run_tool(app, {argv + 1, argv + argc}, job, reads);
+int run_tool(CLI::App &app, int argc, char **argv, const Work &work, Reads reads) {
+    return run_tool(app, {argv + 1, argv + argc}, work, reads);
 }
 
-int run_tool(CLI::App &app, const std::vector<std::string> &words, const Job &job, Reads reads) {
+int run_tool(CLI::App &app, const std::vector<std::string> &words, const Work &work, Reads reads) {
     ProcessOptions options;
     add_process_options(app, options);
     if (reads == Reads::files) add_memory_option(app, options);
@@ -43,11 +54,11 @@ int run_tool(CLI::App &app, const std::vector<std::string> &words, const Job &jo
     tool.max_memory = options.max_memory;
     tool.command_line = command_line(tool.tool_name, words);
     const Process process(options, tool);
-    tool.progress = progress_of(ProgressFormat::terminal, tool.tool_name, {});
+    tool.progress = progress_of(ProgressFormat::terminal, tool.tool_name, {}, tool.turn);
     return exit_code_of(prefix, [&] {
         const NamedFiles files = named_files(app);
         refuse_overwriting({&files, 1});
-        job(tool);
+        work(tool);
         if (*tool.last_step) (*tool.last_step)();
     });
 }

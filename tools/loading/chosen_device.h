@@ -6,6 +6,7 @@
 #include "harness/tool.h"
 
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 
@@ -19,6 +20,8 @@ struct DeviceWork {
 // None: the CPU. Throws Error where the word means a device that is not there. With --verbose, says why Vulkan has none: a
 // driver that does not work is none, too.
 std::optional<gpu::DeviceInfo> find_device(const std::string &word, const ToolContext &tool);
+// As Job::keeps has it: a device, unless the word means none.
+inline std::string kept_device(const std::string &word) { return word == "cpu" ? "" : "a device"; }
 // With --verbose: what the device did, and what it left to the CPU, and why. A warning if it failed.
 void say_report(const ToolContext &tool, const DeviceReport &did, const DeviceWork &work);
 
@@ -31,6 +34,7 @@ public:
     // Null: the CPU. Throws Error where the word means a device that is not there. One that cannot be used is warned of,
     // and the CPU takes its place. With --verbose, says which it is.
     Device *open(const std::string &word, const ToolContext &tool) {
+        const std::lock_guard lock(opening_);
         if (looked_for_ != word) look_for(word, tool);
         looked_for_ = word;
         tool.say("device: " + name_);
@@ -57,6 +61,7 @@ private:
 
     Open open_;
     DeviceWork work_;
+    std::mutex opening_;                    // of what follows
     std::optional<std::string> looked_for_; // the word
     std::string name_ = {};
     std::unique_ptr<Device> device_;

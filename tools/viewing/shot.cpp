@@ -7,8 +7,6 @@
 #include "loading/holdout_file.h"
 #include "loading/ldi_cache.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -33,12 +31,6 @@ Image rgba_of(Image image) {
     for (std::size_t k = 0; k < channels.size(); ++k)
         std::ranges::copy(image.plane(find_channel(image.channels, channels[k].name)), out.plane(k).begin());
     return out;
-}
-
-// For the frames that are held beside each other: --max-memory, else a quarter of the machine's.
-std::uint64_t memory_for_frames(const ToolContext &tool) {
-    if (tool.max_memory) return *tool.max_memory;
-    return std::uint64_t(sysconf(_SC_PHYS_PAGES)) * std::uint64_t(sysconf(_SC_PAGESIZE)) / 4;
 }
 
 std::vector<std::string> paths_of(const std::vector<GatherCommand> &frames) {
@@ -96,7 +88,8 @@ Image false_colours(Show show, Subject &from, PictureOptions by, Progress &progr
 } // namespace
 
 Shot::Shot(const std::vector<GatherCommand> &frames, const ToolContext &tool)
-    : name_(frames.front().input), reel_(paths_of(frames), memory_for_frames(tool), reader_of(frames, tool)),
+    : name_(frames.front().input),
+      reel_(paths_of(frames), memory_for_frames(tool.max_memory), reader_of(frames, tool)),
       device_([](const gpu::DeviceInfo &info) { return gpu::open_gather_device(info); },
               {"gathers", "tiles gathered"}),
       to_display_(output_transform(frames.front().colour, frame(frames.front())->in.header)) {}

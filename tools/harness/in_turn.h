@@ -1,0 +1,36 @@
+// What a frame has to say, in its turn: what it says before is kept until then.
+#pragma once
+
+#include <functional>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+namespace sparselens {
+
+class InTurn {
+public:
+    explicit InTurn(bool come) : come_(come) {}
+
+    // Calls `line` now or when the turn comes, one at a time. It says nothing in turn itself.
+    void say(std::function<void()> line) {
+        const std::lock_guard lock(guard_);
+        if (come_)
+            line();
+        else
+            kept_.push_back(std::move(line));
+    }
+
+    void come() {
+        const std::lock_guard lock(guard_);
+        come_ = true;
+        for (const auto &line : std::exchange(kept_, {})) line();
+    }
+
+private:
+    std::mutex guard_; // of what follows, and of what is said
+    bool come_;
+    std::vector<std::function<void()>> kept_;
+};
+
+} // namespace sparselens
