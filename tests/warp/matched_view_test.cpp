@@ -68,6 +68,20 @@ TEST(MatchedView, PixelsAreSmoothedAndTellOneSurface) {
     EXPECT_GT(known, 500);
 }
 
+TEST(MatchedView, WhatIsForgottenIsMadeAgain) {
+    const View picture = some_view();
+    const ViewSamples samples(picture, picture.image.channels);
+    const ViewMapping mapping({0, 0}, 100, samples.windows, {}, {});
+    MatchedView view({&samples, &mapping}, scale);
+    const Imath::V2i at = samples.windows.data.min + Imath::V2i(1);
+    EXPECT_EQ(view.bytes(), 0u);
+    const MatchedView::Pixel before = view.at(at.x, at.y);
+    EXPECT_GT(view.bytes(), 0u);
+    view.forget();
+    EXPECT_EQ(view.bytes(), 0u);
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(view.at(at.x, at.y)[k], before[k]);
+}
+
 // Also where tiles meet.
 TEST(MatchedView, BetweenPixelsItIsLinear) {
     const View picture = some_view();

@@ -23,7 +23,8 @@ constexpr float one_image = 0.8f; // pixels of perceptive depth
 constexpr int farther = 8;        // pixels from which a depth may be continued: Neighbours::reach
 constexpr std::size_t least_sources = 8;
 constexpr int continuations = 2;
-constexpr float no_worse = 1.25f; // than at the surface may the views agree at a continued depth
+constexpr std::size_t rows_at_once = 8; // of blocks
+constexpr float no_worse = 1.25f;       // than at the surface may the views agree at a continued depth
 constexpr float least_difference = 1e-5f;
 
 // visit(column, row) for the tiles around one.
@@ -59,6 +60,7 @@ private:
         const std::uint32_t block = blocks_[std::size_t(y / side) * std::size_t(tiles_.columns()) + x / side];
         return block == not_searched ? npos : block * block_pixels + (y % side) * side + x % side;
     }
+    std::size_t blocks_at_once() const { return std::size_t(tiles_.columns()) * rows_at_once; }
     void add_block(std::size_t tile) { blocks_[tile] = count_++; }
     bool search_tile(std::size_t tile);
     // visit(tile) for those that were searched.
@@ -82,7 +84,7 @@ private:
 
 template <typename Visit>
 void ImageDepths::for_each_searched(const Visit &visit) const {
-    parallel_for(tiles_.count(), [&](std::size_t tile) {
+    sweep_.go_through(tiles_.count(), blocks_at_once(), [&](std::size_t tile) {
         if (blocks_[tile] != not_searched) visit(tiles_.box(tile));
     });
 }
@@ -115,7 +117,8 @@ void ImageDepths::search(std::vector<std::size_t> next) {
     while (!next.empty()) {
         matches_.resize(count_ * block_pixels);
         std::vector<std::uint8_t> much(next.size());
-        parallel_for(next.size(), [&](std::size_t n) { much[n] = search_tile(next[n]); });
+        sweep_.go_through(next.size(), blocks_at_once(),
+                          [&](std::size_t n) { much[n] = search_tile(next[n]); });
         std::vector<std::size_t> beside;
         for (std::size_t n = 0; n < next.size(); ++n)
             if (much[n])

@@ -126,6 +126,14 @@ void mark_beside(std::size_t best, std::vector<bool> &marks) {
 
 } // namespace
 
+void ImageSweep::make_room() const {
+    constexpr std::size_t much = 64 << 20; // bytes
+    std::size_t held = 0;
+    for (const MatchedView &view : views_) held += view.bytes();
+    if (held > much)
+        for (MatchedView &view : views_) view.forget();
+}
+
 std::vector<ImageMatch> ImageSweep::search(const Imath::Box2i &block) const {
     const MatchedView &centre = views_[0];
     const Grid grid(block);

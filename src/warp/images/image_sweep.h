@@ -4,8 +4,10 @@
 // true multi-image matching", 1996).
 #pragma once
 
+#include "base/parallel.h"
 #include "warp/images/matched_view.h"
 
+#include <algorithm>
 #include <functional>
 #include <span>
 #include <vector>
@@ -25,7 +27,17 @@ struct ImageMatch {
 class ImageSweep {
 public:
     // The first view is the centre.
-    ImageSweep(std::span<const MatchedView> views, double scale) : views_(views), scale_(scale) {}
+    ImageSweep(std::span<MatchedView> views, double scale) : views_(views), scale_(scale) {}
+
+    // work(i) for i in [0, count), in parallel, some after the others: between these the views forget what was made of them if
+    // it is much. So what follows in the picture should follow in count.
+    template <typename Work>
+    void go_through(std::size_t count, std::size_t at_once, const Work &work) const {
+        for (std::size_t first = 0; first < count; first += at_once) {
+            parallel_for(std::min(at_once, count - first), [&](std::size_t n) { work(first + n); });
+            make_room();
+        }
+    }
 
     // Of the pixels of a block of the centre view, at most 8 x 8, row by row.
     std::vector<ImageMatch> search(const Imath::Box2i &block) const;
@@ -40,7 +52,9 @@ public:
     std::vector<float> differences(const Imath::V2i &pixel, double depth) const;
 
 private:
-    std::span<const MatchedView> views_;
+    void make_room() const;
+
+    std::span<MatchedView> views_;
     double scale_;
 };
 

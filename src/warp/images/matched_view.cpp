@@ -55,7 +55,16 @@ MatchedView::MatchedView(const PlacedView &view, double scale)
     : view_(view), scale_(scale), rgb_(find_rgb(view.samples->channels)), grid_(view.samples->windows.grid()),
       corner_(grid_.box().min) {
     columns_ = std::size_t(pieces_of(grid_.width() + cutout, tile_side));
-    tiles_ = std::make_unique<Tile[]>(columns_ * std::size_t(pieces_of(grid_.height() + cutout, tile_side)));
+    count_ = columns_ * std::size_t(pieces_of(grid_.height() + cutout, tile_side));
+    forget();
+}
+
+void MatchedView::forget() { tiles_ = std::make_unique<Tile[]>(count_); }
+
+std::size_t MatchedView::bytes() const {
+    const std::span<const Tile> tiles(tiles_.get(), count_);
+    const auto made = std::ranges::count_if(tiles, [](const Tile &tile) { return tile.is_made.load(); });
+    return std::size_t(made) * 4 * std::size_t(plane) * sizeof(float);
 }
 
 float MatchedView::depth(int x, int y) const {

@@ -46,6 +46,10 @@ public:
     };
     Cutout cut(const Imath::V2d &place) const;
 
+    // What was made of it so far; it is made again where it is looked at again. Nobody may look meanwhile.
+    std::size_t bytes() const;
+    void forget();
+
     // Of the surface, if the pixel shows just one; else NaN.
     float depth(int x, int y) const;
 
@@ -76,7 +80,7 @@ private:
     std::array<std::size_t, 3> rgb_;
     Grid grid_;
     Imath::V2i corner_;
-    std::size_t columns_; // of tiles
+    std::size_t columns_, count_; // of tiles
     std::unique_ptr<Tile[]> tiles_;
 };
 

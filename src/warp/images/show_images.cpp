@@ -110,7 +110,8 @@ void show_images(std::span<const PlacedView> views, double scale, std::span<cons
     ldi.optical = ldi.z;
     const Shower shower(matched, sweep, scale, ldi);
     const std::size_t width = std::size_t(ldi.windows.width());
-    parallel_for(depths.size() / width, [&](std::size_t row) {
+    constexpr std::size_t rows_at_once = 64;
+    sweep.go_through(depths.size() / width, rows_at_once, [&](std::size_t row) {
         for (std::size_t i = row * width; i < (row + 1) * width; ++i)
             if (known(depths[i])) shower.show(ldi.windows.pixel(i), double(depths[i]));
     });
