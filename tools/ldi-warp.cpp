@@ -31,12 +31,12 @@ namespace {
 using ChosenWarpDevice = ChosenDevice<WarpDevice>;
 
 // Reports views whose framing differs from that of the centre view: a frustum that is misread makes ghosts, too.
-void say_framings(const ToolContext &tool, std::span<const View> views) {
-    for (const View &view : views.subspan(1)) {
+void say_framings(const ToolContext &tool, std::span<const PackedView> views) {
+    for (const PackedView &view : views.subspan(1)) {
         const Framing &centre = views[0].framing, &own = view.framing;
         if (own == Framing{.principal_point = centre.principal_point}) continue;
-        const Imath::V2d axis = in_pixels(own.principal_point, view.image.windows) -
-                                in_pixels(centre.principal_point, view.image.windows);
+        const Imath::V2d axis = in_pixels(own.principal_point, view.samples.windows) -
+                                in_pixels(centre.principal_point, view.samples.windows);
         tool.say(fmt::format(
             "{}: optical axis {:g},{:g} pixels from that of the centre view, focal length {:g} times "
             "that of the centre view, {:g} scene units in front of it",
@@ -52,9 +52,9 @@ void run(const WarpCommand &options, const ToolContext &tool, ChosenWarpDevice &
         say_reading(tool, in.views[i].name, in.notes[i], in.warnings[i]);
         warn_of_invalid_values(tool, in.views[i].name, in.bad[i]);
     }
-    say_layers(tool, in.views[0].name, in.views[0].image.channels);
+    say_layers(tool, in.views[0].name, in.views[0].samples.channels);
     const Imf::Header as_read = in.header;
-    for (View &view : in.views) in.header = to_linear(tool, options.colour, view.name, as_read, view);
+    for (PackedView &view : in.views) in.header = to_linear(tool, options.colour, view.name, as_read, view);
     const WarpOptions warp_by = with_lens({.merge = options.merge,
                                            .split_silhouettes = options.split_silhouettes,
                                            .test_photo_consistency = options.test_photo_consistency,
@@ -63,7 +63,7 @@ void run(const WarpCommand &options, const ToolContext &tool, ChosenWarpDevice &
                                           in.camera, in.views);
     write_camera(in.header, in.camera);
     append_history(in.header, tool, options.history);
-    write_picture_window(in.header, in.views[0].image.windows.data);
+    write_picture_window(in.header, in.views[0].samples.windows.data);
     check_views(in.views);
     const std::vector<std::string> warnings = view_warnings(
         in.views, {options.depth.meaning, in.depth_filtered, in.camera}); // while the pixels are there

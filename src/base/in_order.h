@@ -8,6 +8,7 @@
 
 #include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <atomic>
 #include <condition_variable>
 #include <cstddef>
@@ -21,8 +22,10 @@ namespace sparselens {
 
 // Calls take(i, make(i)) for every i in [0, count). make() is called by any thread; take() for 0, 1, 2 ..., by one thread at a
 // time. Of what is thrown, that of the least i reaches the caller, whatever the number of threads; nothing is taken after it.
+// `most_at_once`, > 0: pieces that are made side by side, however many threads there are.
 template <typename Make, typename Take>
-void in_order(std::size_t count, const Make &make, const Take &take) {
+void in_order(std::size_t count, const Make &make, const Take &take,
+              std::size_t most_at_once = ~std::size_t{0}) {
     using Piece = decltype(make(std::size_t{0}));
     struct Made {
         std::optional<Piece> piece;
@@ -48,7 +51,7 @@ void in_order(std::size_t count, const Make &make, const Take &take) {
             }
         moved.notify_all();
     };
-    const auto threads = std::size_t(tbb::this_task_arena::max_concurrency());
+    const std::size_t threads = std::min(std::size_t(tbb::this_task_arena::max_concurrency()), most_at_once);
     // A loop in make() or take() would else begin to make other pieces while it waits for its own: both are isolated.
     // The piece that all wait for is being made, as pieces are begun in their order.
     const auto wait_for_turn = [&](std::size_t i) {

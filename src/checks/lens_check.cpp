@@ -16,7 +16,7 @@ bool blurs_nothing(double largest_coc, const ThinLens &lens) {
     return lens.radius > 0 && largest_coc > 0 && largest_coc < 0.5;
 }
 
-std::vector<std::size_t> views_beyond_lens(std::span<const View> views, double lens_radius) {
+std::vector<std::size_t> views_beyond_lens(std::span<const PackedView> views, double lens_radius) {
     constexpr double too_far = 3; // radii
     std::vector<std::size_t> beyond;
     for (std::size_t i = 0; i < views.size(); ++i)

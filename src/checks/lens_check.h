@@ -2,7 +2,7 @@
 #pragma once
 
 #include "../lens/thin_lens.h"
-#include "../view/view.h"
+#include "deep/packed_view.h"
 
 #include <span>
 #include <vector>
@@ -18,6 +18,6 @@ bool blurs_nothing(double largest_coc, const ThinLens &lens);
 
 // The views that stand farther from the centre than three radii of the lens. Nothing that such a lens sees is seen from there,
 // and units that are mixed up differ by ten and more.
-std::vector<std::size_t> views_beyond_lens(std::span<const View> views, double lens_radius);
+std::vector<std::size_t> views_beyond_lens(std::span<const PackedView> views, double lens_radius);
 
 } // namespace sparselens

@@ -86,7 +86,7 @@ void search_around(const Imath::V2d &at, Search &search) {
 
 } // namespace
 
-std::optional<Imath::V2d> better_position(const View &centre, const View &view, double focal_px,
+std::optional<Imath::V2d> better_position(const PackedView &centre, const PackedView &view, double focal_px,
                                           double reach) {
     const PoseEvidence evidence(centre, view, focal_px);
     const double motion = evidence.motion(), stated = view.position.length();
@@ -103,11 +103,11 @@ std::optional<Imath::V2d> better_position(const View &centre, const View &view, 
     return search.best();
 }
 
-std::optional<Imath::V2d> turned_by(const View &centre, const View &view, double focal_px) {
+std::optional<Imath::V2d> turned_by(const PackedView &centre, const PackedView &view, double focal_px) {
     const PoseEvidence evidence(centre, view, focal_px);
     const PoseVerdict stated = evidence.at(view.position);
     if (stated.told < enough || stated.contradiction < worth_turning) return {};
-    const double width = view.image.windows.display_width();
+    const double width = view.samples.windows.display_width();
     Imath::V2d best(0, 0); // pixels, right and down
     double least = 1;
     const auto attempt = [&](const Imath::V2d &axis, std::size_t every) {
@@ -143,10 +143,10 @@ std::optional<Imath::V2d> turned_by(const View &centre, const View &view, double
     return Imath::V2d(-std::atan2(best.x, focal_px), std::atan2(best.y, focal_px)) * degrees;
 }
 
-std::optional<std::size_t> same_picture(std::span<const View> views, std::size_t i, double focal_px) {
-    const View &view = views[i];
+std::optional<std::size_t> same_picture(std::span<const PackedView> views, std::size_t i, double focal_px) {
+    const PackedView &view = views[i];
     for (std::size_t other = 0; other < i; ++other) {
-        if (views[other].z != view.z || views[other].image.values != view.image.values) continue;
+        if ((views[other].samples <=> view.samples) != 0) continue;
         const PoseEvidence evidence(views[other], view, focal_px);
         const double moved = (view.position - views[other].position).length() * evidence.motion();
         if (evidence.size() >= enough && moved >= least_motion) return other;
@@ -154,21 +154,20 @@ std::optional<std::size_t> same_picture(std::span<const View> views, std::size_t
     return {};
 }
 
-std::optional<std::size_t> same_picture_and_place(std::span<const View> views, std::size_t i) {
-    const View &view = views[i];
+std::optional<std::size_t> same_picture_and_place(std::span<const PackedView> views, std::size_t i) {
+    const PackedView &view = views[i];
     const auto shows_something = [](float z) { return z > 0; };
-    if (std::ranges::none_of(view.z, shows_something))
+    if (std::ranges::none_of(view.samples.depths(), shows_something))
         return {}; // a view of which no pixel was worth rendering
     for (std::size_t other = 0; other < i; ++other)
-        if (views[other].position == view.position && views[other].z == view.z &&
-            views[other].image.values == view.image.values)
+        if (views[other].position == view.position && (views[other].samples <=> view.samples) == 0)
             return other;
     return {};
 }
 
-bool first_is_at_the_edge(std::span<const View> views, double lens_radius) {
+bool first_is_at_the_edge(std::span<const PackedView> views, double lens_radius) {
     std::vector<double> directions, distances;
-    for (const View &view : views.subspan(1)) {
+    for (const PackedView &view : views.subspan(1)) {
         if (view.position == Imath::V2d(0, 0)) continue;
         directions.push_back(std::atan2(view.position.y, view.position.x) * 180 / std::numbers::pi);
         distances.push_back(view.position.length());
@@ -183,10 +182,10 @@ bool first_is_at_the_edge(std::span<const View> views, double lens_radius) {
     return 360 - widest_gap < one_side && (farthest > equally_far * nearest || beyond_lens);
 }
 
-std::optional<std::size_t> view_in_the_middle(std::span<const View> views) {
+std::optional<std::size_t> view_in_the_middle(std::span<const PackedView> views) {
     Imath::V2d middle(0, 0);
-    for (const View &view : views) middle += view.position / double(views.size());
-    const auto off = [&](const View &view) { return (view.position - middle).length(); };
+    for (const PackedView &view : views) middle += view.position / double(views.size());
+    const auto off = [&](const PackedView &view) { return (view.position - middle).length(); };
     const auto nearest = std::ranges::min_element(views, {}, off);
     const double farthest = off(*std::ranges::max_element(views, {}, off));
     if (off(*nearest) > 0.25 * farthest) return {};

@@ -1,5 +1,6 @@
 #include "checks/pose_evidence.h"
 
+#include "view/flat_pixels.h"
 #include "view/view_mapping.h"
 
 #include <algorithm>
@@ -22,7 +23,7 @@ bool holds(const Imath::Box2i &data, const Imath::V2d &p) {
 // Whether the pixel differs from one of those to the right and below.
 bool stands_out(const PosedPicture &picture, const Imath::V2i &p) {
     for (const Imath::V2i &q : {p + Imath::V2i(beside, 0), p + Imath::V2i(0, beside)}) {
-        if (!picture.view.image.windows.data.intersects(q) || !picture.shows_something(q)) continue;
+        if (!picture.samples.windows.data.intersects(q) || !picture.shows_something(q)) continue;
         const double z = picture.depth(p), other = picture.depth(q);
         if (z > jump * other || other > jump * z) return true;
         if (relative_difference(picture.colour(p), picture.colour(q)) > contrast) return true;
@@ -32,9 +33,9 @@ bool stands_out(const PosedPicture &picture, const Imath::V2i &p) {
 
 } // namespace
 
-PoseEvidence::PoseEvidence(const View &centre, const View &view, double focal_px)
+PoseEvidence::PoseEvidence(const PackedView &centre, const PackedView &view, double focal_px)
     : centre_(centre), view_(view), focal_px_(focal_px) {
-    const Windows &w = view.image.windows;
+    const Windows &w = view.samples.windows;
     const Imath::V2i step(int(std::ceil(w.width() / samples_a_side)),
                           int(std::ceil(w.height() / samples_a_side)));
     for (int y = w.data.min.y; y <= w.data.max.y; y += step.y)
@@ -48,7 +49,7 @@ PoseEvidence::PoseEvidence(const View &centre, const View &view, double focal_px
 PoseVerdict PoseEvidence::at(const Imath::V2d &position, const Imath::V2d &axis, std::size_t every) const {
     Framing framing = view_.view.framing;
     framing.principal_point += axis;
-    const ViewMapping mapping(position, focal_px_, view_.view.image.windows, framing,
+    const ViewMapping mapping(position, focal_px_, view_.samples.windows, framing,
                               centre_.view.framing.principal_point);
     double sum = 0;
     PoseVerdict verdict;
@@ -56,7 +57,7 @@ PoseVerdict PoseEvidence::at(const Imath::V2d &position, const Imath::V2d &axis,
         const Pixel &pixel = pixels_[i];
         const Imath::V2d landed =
             mapping.at_infinity(pixel.place) + mapping.parallax(pixel.place) * (1 / pixel.z);
-        if (!holds(centre_.view.image.windows.data, landed)) continue;
+        if (!holds(centre_.samples.windows.data, landed)) continue;
         const auto off = contradiction(landed, pixel);
         if (!off) continue;
         sum += *off;
@@ -73,7 +74,7 @@ std::optional<double> PoseEvidence::contradiction(const Imath::V2d &landed, cons
     for (const double dx : {-0.5, 0.5})
         for (const double dy : {-0.5, 0.5}) {
             const Imath::V2i p(int(std::floor(landed.x + dx)), int(std::floor(landed.y + dy)));
-            if (!centre_.view.image.windows.data.intersects(p) || !centre_.shows_something(p)) continue;
+            if (!centre_.samples.windows.data.intersects(p) || !centre_.shows_something(p)) continue;
             const double z = centre_.depth(p);
             hidden = hidden || pixel.z > same_depth * z;
             if (pixel.z > same_depth * z || z > same_depth * pixel.z) continue;

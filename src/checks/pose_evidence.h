@@ -3,8 +3,9 @@
 // view shows.
 #pragma once
 
-#include "view/flat_pixels.h"
+#include "deep/packed_view.h"
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -12,15 +13,20 @@ namespace sparselens {
 
 // A view with its channels found.
 struct PosedPicture {
-    explicit PosedPicture(const View &picture) : view(picture), pixels(flat_pixels(picture)) {}
+    explicit PosedPicture(const PackedView &picture)
+        : view(picture), samples(picture.samples), rgb(find_rgb(samples.channels)) {}
 
-    std::size_t index(const Imath::V2i &p) const { return view.image.windows.index(p.x, p.y); }
-    bool shows_something(const Imath::V2i &p) const { return depth(p) > 0 && pixels.coverage(index(p)) > 0; }
-    double depth(const Imath::V2i &p) const { return pixels.z[index(p)]; }
-    Imath::V3d colour(const Imath::V2i &p) const { return pixels.colour(index(p)); }
+    std::size_t index(const Imath::V2i &p) const { return samples.windows.index(p.x, p.y); }
+    bool shows_something(const Imath::V2i &p) const { return !samples.pixel(index(p)).empty(); }
+    double depth(const Imath::V2i &p) const { return samples.z(index(p)); }
+    Imath::V3d colour(const Imath::V2i &p) const {
+        const auto value = [&](std::size_t k) { return k == npos ? 0 : double(samples.value(k, index(p))); };
+        return {value(rgb[0]), value(rgb[1]), value(rgb[2])};
+    }
 
-    const View &view;
-    FlatPixels pixels;
+    const PackedView &view;
+    const ViewSamples &samples;
+    std::array<std::size_t, 3> rgb;
 };
 
 struct PoseVerdict {
@@ -33,7 +39,7 @@ public:
     // Chooses some ten thousand pixels of the view at most: those whose colour or depth differs from that of pixels
     // beside them, for a surface without texture looks the same from everywhere. Both views must outlive the evidence.
     // `focal_px` is the focal length in pixels.
-    PoseEvidence(const View &centre, const View &view, double focal_px);
+    PoseEvidence(const PackedView &centre, const PackedView &view, double focal_px);
 
     // What they say if the view stands at `position`, and its optical axis meets the picture farther right and down by `axis`
     // display widths than its framing says. A pixel in front of what the centre view shows contradicts by 1,

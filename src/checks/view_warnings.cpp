@@ -40,7 +40,7 @@ void say_of_lens(const View &view, const ThinLens &lens, Warnings &said) {
                        "blurs them again: switch depth of field off in the render");
 }
 
-void say_of_first(std::span<const View> views, double lens_radius, Warnings &said) {
+void say_of_first(std::span<const PackedView> views, double lens_radius, Warnings &said) {
     if (!first_is_at_the_edge(views, lens_radius)) return;
     const auto middle = view_in_the_middle(views);
     said.push_back(
@@ -49,10 +49,10 @@ void say_of_first(std::span<const View> views, double lens_radius, Warnings &sai
                     views[0].name, middle ? ", " + views[*middle].name : std::string()));
 }
 
-void say_of_distances(std::span<const View> views, double lens_radius, Warnings &said) {
+void say_of_distances(std::span<const PackedView> views, double lens_radius, Warnings &said) {
     const std::vector<std::size_t> beyond = views_beyond_lens(views, lens_radius);
     if (beyond.empty()) return;
-    const View &view = views[beyond.front()];
+    const PackedView &view = views[beyond.front()];
     said.push_back(fmt::format(
         "{}{}: stands {:.3g} from the centre, {:.3g} times the radius of the lens, {:.3g}: positions "
         "(`view`), the radius and the unit of the scene (`scene_unit`) do not go together; positions are in "
@@ -62,8 +62,8 @@ void say_of_distances(std::span<const View> views, double lens_radius, Warnings 
 }
 
 // Of one view; empty where it is where it should be.
-std::string said_of_pose(std::span<const View> views, std::size_t i, double focal_px, double reach) {
-    const View &view = views[i];
+std::string said_of_pose(std::span<const PackedView> views, std::size_t i, double focal_px, double reach) {
+    const PackedView &view = views[i];
     if (const auto other = same_picture_and_place(views, i))
         return fmt::format(
             "{}: is the same picture as {}, from the same place, and counts twice; leave it out", view.name,
@@ -107,15 +107,20 @@ Warnings picture_warnings(const View &view, const ViewFacts &facts) {
 }
 
 Warnings view_warnings(std::span<const View> views, const ViewFacts &facts) {
+    return view_warnings(referring_to(views), facts);
+}
+
+Warnings view_warnings(const std::vector<PackedView> &views, const ViewFacts &facts) {
     const double radius = lens_radius_of(facts.camera).value_or(0); // 0: unknown
-    const double focal_px = focal_length_px(facts.camera, views[0].image.windows.display_width()).value_or(0);
+    const double focal_px =
+        focal_length_px(facts.camera, views[0].samples.windows.display_width()).value_or(0);
     double reach = 0;
-    for (const View &view : views) reach = std::max(reach, view.position.length());
+    for (const PackedView &view : views) reach = std::max(reach, view.position.length());
     Warnings said;
     std::vector<std::string> poses(views.size());
     parallel_for(views.size(), [&](std::size_t i) {
         if (i == 0)
-            said = picture_warnings(views[0], facts);
+            said = picture_warnings(unpacked(views[0]), facts);
         else
             poses[i] = said_of_pose(views, i, focal_px, reach > 0 ? reach : radius);
     });

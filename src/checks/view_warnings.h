@@ -12,6 +12,8 @@
 
 namespace sparselens {
 
+struct PackedView; // deep/packed_view.h
+
 // What is known of views beside their pixels.
 struct ViewFacts {
     DepthMeaning depth = DepthMeaning::planar; // as what they were read
@@ -25,5 +27,6 @@ std::vector<std::string> picture_warnings(const View &view, const ViewFacts &fac
 
 // That, and whether the views stand where they are said to.
 std::vector<std::string> view_warnings(std::span<const View> views, const ViewFacts &facts);
+std::vector<std::string> view_warnings(const std::vector<PackedView> &views, const ViewFacts &facts);
 
 } // namespace sparselens

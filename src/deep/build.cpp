@@ -196,4 +196,13 @@ Ldi concatenate(const Ldi &like, std::vector<Ldi> pieces) {
     return whole;
 }
 
+void append_pixels(Ldi &whole, const Ldi &piece) {
+    const std::uint64_t before = whole.samples();
+    for (std::size_t k = 0; k < arrays_beside_values + whole.values.size(); ++k) {
+        const std::vector<float> &from = array_of(piece, k);
+        array_of(whole, k).insert(array_of(whole, k).end(), from.begin(), from.end());
+    }
+    for (std::size_t i = 1; i < piece.begin.size(); ++i) whole.begin.push_back(before + piece.begin[i]);
+}
+
 } // namespace sparselens

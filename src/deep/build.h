@@ -45,6 +45,10 @@ void rebuild_pixels(Ldi &ldi, const std::function<bool(std::size_t pixel)> &chan
 // Joins pieces that follow each other in pixel order, each with a `begin` that starts at 0. Frees them as it goes.
 Ldi concatenate(const Ldi &like, std::vector<Ldi> pieces);
 
+// Appends the pixels of a piece that follows, as in concatenate(); `whole` begins as a piece without pixels, with a `begin` of
+// 0. Of what comes one by one no two whole copies are held.
+void append_pixels(Ldi &whole, const Ldi &piece);
+
 // Of what becomes one sample: as solid as the least of those that cover half or more.
 float solid_of(const Ldi &ldi, std::size_t alpha_channel, std::span<const Term> terms);
 

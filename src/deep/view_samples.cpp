@@ -25,16 +25,60 @@ ViewSamples::ViewSamples(const View &view, std::span<const Channel> of_channels,
     : windows(view.image.windows), channels(of_channels.begin(), of_channels.end()),
       pixels_(windows.pixels()), z_(view.z), words_(pieces_of(pixels_, std::size_t{64})) {
     std::vector<std::span<const float>> planes;
-    for (const Channel &channel : channels) planes.push_back(view.image.plane(channel_of(view, channel)));
+    for (const Channel &channel : channels)
+        planes.push_back(view.image.plane(channel_of(view.name, view.image.channels, channel)));
     planes_.resize(planes.size());
     parallel_for(planes.size(), [&](std::size_t k) { planes_[k] = plane_of(planes[k]); });
     const std::size_t alpha = find_channel(view.image.channels, "A");
-    const std::span<const float> covers = alpha == npos ? std::span<const float>() : view.image.plane(alpha);
+    find_shown(alpha == npos ? std::span<const float>() : view.image.plane(alpha));
+    replaced_ = empty();
+    replaced_.begin.assign(1, 0);
+}
+
+// `covers`: of each pixel; empty: all are covered.
+void ViewSamples::find_shown(std::span<const float> covers) {
     parallel_ranges(words_.size(), 256, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = 64 * begin; i < std::min(64 * end, pixels_); ++i)
             if (z_[i] > 0 && (covers.empty() || covers[i] != 0))
                 words_[i / 64].shown |= std::uint64_t{1} << (i % 64);
     });
+}
+
+Image ViewSamples::image() const {
+    Image image(windows, channels);
+    for (std::size_t k = 0; k < planes_.size(); ++k)
+        for (std::size_t i = 0; i < pixels_; ++i) image.plane(k)[i] = planes_[k][i];
+    return image;
+}
+
+std::strong_ordering ViewSamples::operator<=>(const ViewSamples &other) const {
+    const auto by_bits = [](float a, float b) {
+        return std::bit_cast<std::uint32_t>(a) <=> std::bit_cast<std::uint32_t>(b);
+    };
+    const auto by_depth = std::lexicographical_compare_three_way(z_.begin(), z_.end(), other.z_.begin(),
+                                                                 other.z_.end(), by_bits);
+    if (by_depth != 0) return by_depth;
+    for (std::size_t k = 0; k < std::min(planes_.size(), other.planes_.size()); ++k)
+        for (std::size_t i = 0; i < pixels_; ++i)
+            if (const auto by_value = by_bits(planes_[k][i], other.planes_[k][i]); by_value != 0)
+                return by_value;
+    return planes_.size() <=> other.planes_.size();
+}
+
+void ViewSamples::move_back(double by) {
+    if (moved_.empty()) moved_.assign(z_.begin(), z_.end());
+    z_ = moved_;
+    for (float &z : moved_) z = float(double(z) + by);
+    for (std::size_t i = 0; i < pixels_; ++i) // what lies behind the camera now shows nothing
+        if (!(z_[i] > 0)) words_[i / 64].shown &= ~(std::uint64_t{1} << (i % 64));
+}
+
+void ViewSamples::keep_channels(std::span<const Channel> kept) {
+    std::vector<Plane> planes;
+    for (const Channel &channel : kept)
+        planes.push_back(std::move(planes_[find_channel(channels, channel.name)]));
+    planes_ = std::move(planes);
+    channels.assign(kept.begin(), kept.end());
     replaced_ = empty();
     replaced_.begin.assign(1, 0);
 }
@@ -115,10 +159,10 @@ Ldi ViewSamples::rows(std::size_t first, std::size_t end) const {
     return ldi;
 }
 
-std::size_t channel_of(const View &view, const Channel &channel) {
-    const std::size_t found = find_channel(view.image.channels, channel.name);
+std::size_t channel_of(const std::string &view, std::span<const Channel> channels, const Channel &channel) {
+    const std::size_t found = find_channel(channels, channel.name);
     if (found == npos)
-        throw Error(fmt::format("{}: has no channel {}, which the centre view has", view.name, channel.name));
+        throw Error(fmt::format("{}: has no channel {}, which the centre view has", view, channel.name));
     return found;
 }
 

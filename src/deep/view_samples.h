@@ -7,9 +7,11 @@
 #include "view/view.h"
 
 #include <bit>
+#include <compare>
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace sparselens {
@@ -46,6 +48,16 @@ public:
         return i < pixels_ ? planes_[channel][i] : replaced_.values[channel][i - pixels_];
     }
 
+    // Of all pixels, whether they show something or not. As made, see PackedView.
+    std::span<const float> depths() const { return z_; }
+    Image image() const;
+    // By the bits of depths, then of values.
+    std::strong_ordering operator<=>(const ViewSamples &other) const;
+
+    // Before samples are replaced: adds to all depths. Keeps the channels of these names, in this order.
+    void move_back(double by);
+    void keep_channels(std::span<const Channel> kept);
+
     // Moves a sample that is none of those put in the place of others.
     void set_z(std::uint64_t i, float z);
 
@@ -67,6 +79,7 @@ private:
     using MakePlane = Plane (*)(std::span<const float>);
     ViewSamples(const View &view, std::span<const Channel> channels, MakePlane plane_of);
     Ldi empty() const;
+    void find_shown(std::span<const float> covers);
 
     struct Word { // of 64 pixels, from the lowest bit on
         std::uint64_t shown = 0, replaced = 0;
@@ -81,8 +94,8 @@ private:
     Ldi replaced_; // its pixels are those that are replaced
 };
 
-// The view's channel of that name. Throws Error, naming the view, where it lacks it.
-std::size_t channel_of(const View &view, const Channel &channel);
+// Which of the view's channels has that name. Throws Error, naming the view, where it lacks it.
+std::size_t channel_of(const std::string &view, std::span<const Channel> channels, const Channel &channel);
 
 inline float alpha_at(const ViewSamples &view, std::size_t alpha_channel, std::uint64_t index) {
     return alpha_channel == npos ? 1.0f : view.value(alpha_channel, index);

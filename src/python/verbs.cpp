@@ -97,10 +97,10 @@ LdiObject warp(const py::object &views, const py::kwargs &given) {
     keywords.done();
     std::vector<std::string> warnings;
     OpenedLdi made = job<OpenedLdi>(progress, [&](Progress &said) {
-        std::vector<View> placed;
+        std::vector<PackedView> placed;
         std::vector<StatedView> stated;
         for (const ViewObject *view : from) {
-            placed.push_back(view->in.view);
+            placed.emplace_back(View(view->in.view)); // a copy
             stated.push_back(
                 {view->in.view.name, camera_with_options(lens, view->in.camera), view->position});
         }
@@ -109,7 +109,7 @@ LdiObject warp(const py::object &views, const py::kwargs &given) {
         out.header = from[0]->in.header;
         out.camera = place_views(placed, stated);
         write_camera(out.header, out.camera);
-        write_picture_window(out.header, placed[0].image.windows.data);
+        write_picture_window(out.header, placed[0].samples.windows.data);
         check_views(placed);
         // While their pixels are there.
         std::vector<std::string> of_views =

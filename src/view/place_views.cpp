@@ -1,26 +1,18 @@
 #include "view/place_views.h"
 
+#include <utility>
+
 namespace sparselens {
 
-namespace {
-
-void put(View &view, const Imath::V2d &position, const Framing &framing) {
-    view.position = position;
-    view.framing = framing;
-    if (framing.forward == 0) return;
-    for (float &z : view.z) z = float(double(z) + framing.forward);
-}
-
-} // namespace
-
-Camera place_views(std::span<View> views, std::span<const StatedView> stated) {
+PlacedCameras place_cameras(std::span<const StatedView> stated) {
     Camera centre = stated[0].camera;
+    std::vector<ViewPlace> places(stated.size());
     std::vector<std::size_t> unplaced; // views that only their cameras place
     std::vector<Camera> cameras;
     std::vector<std::string> names;
-    for (std::size_t i = 1; i < views.size(); ++i) {
+    for (std::size_t i = 1; i < stated.size(); ++i) {
         if (stated[i].position) {
-            put(views[i], *stated[i].position, framing_relative_to(centre, stated[i].camera, stated[i].name));
+            places[i] = {*stated[i].position, framing_relative_to(centre, stated[i].camera, stated[i].name)};
             continue;
         }
         unplaced.push_back(i);
@@ -29,11 +21,23 @@ Camera place_views(std::span<View> views, std::span<const StatedView> stated) {
     }
     const LensViews placed = position_on_lens(cameras, names, centre);
     for (std::size_t i = 0; i < unplaced.size(); ++i)
-        put(views[unplaced[i]], placed.positions[i], placed.framings[i]);
-    views[0].framing.principal_point = centre.principal_point.value_or(Imath::V2d(0, 0));
+        places[unplaced[i]] = {placed.positions[i], placed.framings[i]};
+    places[0].framing.principal_point = centre.principal_point.value_or(Imath::V2d(0, 0));
     centre.lens_points.clear();
-    for (const View &view : views) centre.lens_points.push_back(view.position);
-    return centre;
+    for (const ViewPlace &place : places) centre.lens_points.push_back(place.position);
+    return {std::move(centre), std::move(places)};
+}
+
+Camera place_views(std::span<View> views, std::span<const StatedView> stated) {
+    PlacedCameras placed = place_cameras(stated);
+    for (std::size_t i = 0; i < views.size(); ++i) {
+        const auto &[position, framing] = placed.places[i];
+        views[i].position = position;
+        views[i].framing = framing;
+        if (framing.forward == 0) continue;
+        for (float &z : views[i].z) z = float(double(z) + framing.forward);
+    }
+    return std::move(placed.centre);
 }
 
 } // namespace sparselens

@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace sparselens {
 
@@ -16,9 +17,23 @@ struct StatedView {
     std::optional<Imath::V2d> position = {}; // where the user says that it stands: scene units, x right, y up
 };
 
-// Sets position, framing and depth of views[1] and all after it, relative to views[0], which is the centre. The position
-// is the one stated, else that of worldToCamera (see position_on_lens, whose errors are thrown). `stated` says it of
-// each view, the centre among them. Returns the camera of the centre, with the lens points of all views.
+// Where a view stands.
+struct ViewPlace {
+    Imath::V2d position{0, 0}; // as in View
+    Framing framing = {};
+};
+
+struct PlacedCameras {
+    Camera centre; // with the lens points of all views
+    std::vector<ViewPlace> places;
+};
+
+// Of views, the first of which is the centre. The position is the one stated, else that of worldToCamera (see position_on_lens,
+// whose errors are thrown).
+PlacedCameras place_cameras(std::span<const StatedView> stated);
+
+// Sets position, framing and depth of views[1] and all after it, relative to views[0], which is the centre, by
+// place_cameras(). Returns the camera of the centre, with the lens points of all views.
 Camera place_views(std::span<View> views, std::span<const StatedView> stated);
 
 } // namespace sparselens

@@ -10,8 +10,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
-#include <compare>
 #include <numeric>
 
 namespace sparselens {
@@ -19,57 +17,41 @@ namespace sparselens {
 namespace {
 
 // By their cameras; where those are one, by what they show: the order they were given in must not matter.
-bool canonically_before(const View *a, const View *b) {
-    const auto camera = [](const View &v) {
+bool canonically_before(const PackedView &a, const PackedView &b) {
+    const auto camera = [](const PackedView &v) {
         const Framing &f = v.framing;
         return std::array{v.position.x, v.position.y,        f.forward,
                           f.zoom,       f.principal_point.x, f.principal_point.y};
     };
-    if (camera(*a) != camera(*b)) return camera(*a) < camera(*b);
-    const auto by_bits = [](const std::vector<float> &left, const std::vector<float> &right) {
-        return std::lexicographical_compare_three_way(
-            left.begin(), left.end(), right.begin(), right.end(), [](float l, float r) {
-                return std::bit_cast<std::uint32_t>(l) <=> std::bit_cast<std::uint32_t>(r);
-            });
-    };
-    const auto by_depth = by_bits(a->z, b->z);
-    return by_depth != 0 ? by_depth < 0 : by_bits(a->image.values, b->image.values) < 0;
+    return camera(a) != camera(b) ? camera(a) < camera(b) : a.samples < b.samples;
 }
 
 } // namespace
 
-void check_views(std::span<const View> views) {
-    const View &centre = views[0];
-    for (const View &view : views) {
-        if (view.image.windows.display != centre.image.windows.display)
+void check_views(std::span<const PackedView> views) {
+    const PackedView &centre = views[0];
+    for (const PackedView &view : views) {
+        if (view.samples.windows.display != centre.samples.windows.display)
             throw Error(fmt::format("{}: its display window differs from that of the centre view ({})",
                                     view.name, centre.name));
-        for (const Channel &channel : centre.image.channels) channel_of(view, channel);
+        for (const Channel &channel : centre.samples.channels)
+            channel_of(view.name, view.samples.channels, channel);
     }
 }
 
-ReprojectedViews::ReprojectedViews(std::span<const View> views, double focal_px, double scale, double jump)
-    : ReprojectedViews(
-          views, [&](std::size_t v) { return ViewSamples(views[v], views[0].image.channels); }, focal_px,
-          scale, jump) {}
-
-ReprojectedViews::ReprojectedViews(std::vector<View> &&views, double focal_px, double scale, double jump)
-    : ReprojectedViews(
-          views, [&](std::size_t v) { return ViewSamples(std::move(views[v]), views[0].image.channels); },
-          focal_px, scale, jump) {}
-
-ReprojectedViews::ReprojectedViews(std::span<const View> views, const SamplesOf &samples_of, double focal_px,
-                                   double scale, double jump) {
-    std::vector<const View *> ordered;
+ReprojectedViews::ReprojectedViews(std::vector<PackedView> views, double focal_px, double scale,
+                                   double jump) {
     check_views(views);
-    for (const View &view : views) ordered.push_back(&view);
-    std::sort(ordered.begin() + 1, ordered.end(), canonically_before);
+    std::sort(views.begin() + 1, views.end(), canonically_before);
+    const PackedView &centre = views[0];
+    const std::vector<Channel> channels = centre.samples.channels;
     std::vector<ViewMapping> mappings;
     std::vector<ViewSamples> samples;
-    for (const View *view : ordered) {
-        mappings.emplace_back(view->position, focal_px, views[0].image.windows, view->framing,
-                              views[0].framing.principal_point);
-        samples.push_back(samples_of(std::size_t(view - views.data())));
+    for (PackedView &view : views) {
+        mappings.emplace_back(view.position, focal_px, centre.samples.windows, view.framing,
+                              centre.framing.principal_point);
+        samples.push_back(std::move(view.samples));
+        samples.back().keep_channels(channels);
     }
     const bool separate = jump > 0 && scale > 0;
     if (separate && samples.size() > 1)

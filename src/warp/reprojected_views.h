@@ -2,10 +2,9 @@
 // falls.
 #pragma once
 
-#include "view/view.h"
+#include "deep/packed_view.h"
 #include "warp/reproject.h"
 
-#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -35,17 +34,17 @@ struct ReprojectedRows {
 };
 
 // Throws Error where display windows differ or a view lacks a channel of the centre, views[0].
-void check_views(std::span<const View> views);
+void check_views(std::span<const PackedView> views);
 
 class ReprojectedViews {
 public:
     // views[0] is the centre, whose channels every view must have. The order of the others does not matter. `focal_px`
     // is F and `scale` is R F, see WarpOptions. Pixels on silhouettes become two samples where perceptive depth jumps
-    // by `jump` pixels (silhouettes.h); with a jump of 0 they stay whole. Throws as check_views(). The views must
-    // outlive this.
-    ReprojectedViews(std::span<const View> views, double focal_px, double scale, double jump);
-    // The same, in less memory: takes the pixels of the views.
-    ReprojectedViews(std::vector<View> &&views, double focal_px, double scale, double jump);
+    // by `jump` pixels (silhouettes.h); with a jump of 0 they stay whole. Throws as check_views().
+    ReprojectedViews(std::vector<PackedView> views, double focal_px, double scale, double jump);
+    // Refers to the views, which must outlive this.
+    ReprojectedViews(std::span<const View> views, double focal_px, double scale, double jump)
+        : ReprojectedViews(referring_to(views), focal_px, scale, jump) {}
 
     std::size_t size() const { return sources_.size(); }
     const ViewSamples &samples(std::size_t view) const { return sources_[view]->samples; }
@@ -64,10 +63,6 @@ public:
                           ReprojectedRows no_longer_needed = {}) const;
 
 private:
-    using SamplesOf = std::function<ViewSamples(std::size_t view)>;
-    ReprojectedViews(std::span<const View> views, const SamplesOf &samples_of, double focal_px, double scale,
-                     double jump);
-
     struct Source {
         ViewSamples samples;
         Reprojection reprojection; // refers to the samples

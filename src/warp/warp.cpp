@@ -1,5 +1,6 @@
 #include "warp/warp.h"
 
+#include "base/in_order.h"
 #include "base/matte.h"
 #include "base/parallel.h"
 #include "deep/build.h"
@@ -30,9 +31,7 @@ constexpr int most_overscan = 1024; // pixels an LDI grows beyond the centre vie
 
 class Warper {
 public:
-    // Of a span or a vector, as ReprojectedViews.
-    template <typename Views>
-    Warper(Views &&views, const WarpOptions &options);
+    Warper(std::vector<PackedView> views, const WarpOptions &options);
     Ldi run(Progress &progress); // once
 
 private:
@@ -58,17 +57,16 @@ private:
     std::vector<bool> ids_; // whether a channel holds_ids()
 };
 
-template <typename Views>
-Warper::Warper(Views &&views, const WarpOptions &options)
+Warper::Warper(std::vector<PackedView> views, const WarpOptions &options)
     : options_(options), scale_(perceptive_scale(options.radius, options.focal_px)),
       tolerance_(scale_ > 0 ? inverse_depth_step(scale_, options.surface_px)
                             : std::numeric_limits<double>::infinity()),
-      views_(std::forward<Views>(views), options.focal_px, scale_,
+      views_(std::move(views), options.focal_px, scale_,
              averages() && options.split_silhouettes ? options.surface_px : 0) {
     if (options.focus)
         focused_ = ThinLens{.radius = options.radius, .focal_px = options.focal_px, .focus = *options.focus};
-    layout_.windows = views[0].image.windows;
-    layout_.channels = views[0].image.channels;
+    layout_.windows = views_.samples(0).windows;
+    layout_.channels = views_.samples(0).channels;
     layout_.values.resize(layout_.channels.size());
     mattes_ = find_mattes(layout_.channels);
     for (const Channel &channel : layout_.channels) ids_.push_back(holds_ids(channel));
@@ -189,6 +187,17 @@ void Warper::warp_on_device(std::span<Ldi> pieces, Marks &differ) const {
     });
 }
 
+// Nearly always all samples fit in what it reserves, which is no memory before it is written to.
+Ldi without_pixels(const Ldi &layout) {
+    const std::size_t pixels = layout.windows.pixels(), samples = pixels + pixels / 4;
+    Ldi ldi = empty_like(layout);
+    ldi.begin.reserve(pixels + 1);
+    ldi.begin.push_back(0);
+    for (std::vector<float> *array : {&ldi.z, &ldi.dx, &ldi.dy, &ldi.weight}) array->reserve(samples);
+    for (std::vector<float> &values : ldi.values) values.reserve(samples);
+    return ldi;
+}
+
 std::vector<PlacedView> Warper::placed() const {
     std::vector<PlacedView> views;
     for (std::size_t v = 0; v < views_.size(); ++v)
@@ -203,14 +212,19 @@ Ldi Warper::run(Progress &progress) {
     progress.start("warping", bands.count());
     if (options_.device) warp_on_device(pieces, differ);
     tbb::enumerable_thread_specific<ReprojectedRows> memory;
-    parallel_for(bands.count(), [&](std::size_t band) {
-        const Imath::Box2i rows = bands.box(band);
-        if (pieces[band].begin.empty())
-            pieces[band] = warp_band(rows.min.y, rows.max.y, differ, memory.local());
-        progress.advance();
-    });
+    Ldi ldi = without_pixels(layout_);
+    in_order(
+        bands.count(),
+        [&](std::size_t band) {
+            const Imath::Box2i rows = bands.box(band);
+            if (!pieces[band].begin.empty()) return std::move(pieces[band]);
+            return warp_band(rows.min.y, rows.max.y, differ, memory.local());
+        },
+        [&](std::size_t, const Ldi &band) {
+            append_pixels(ldi, band);
+            progress.advance();
+        });
     memory.clear();
-    Ldi ldi = concatenate(layout_, std::move(pieces));
     keep_opaque(views_, tolerance_, ldi);
     if (views_.size() < 2 || !(scale_ > 0)) return ldi;
     if (options_.find_images) show_images(placed(), scale_, differ, ldi);
@@ -222,20 +236,37 @@ Ldi Warper::run(Progress &progress) {
 
 } // namespace
 
-WarpOptions with_lens(WarpOptions options, const Camera &camera, std::span<const View> views) {
+namespace {
+
+template <typename Views>
+WarpOptions with_lens(WarpOptions options, const Camera &camera, const Views &views, const Windows &windows) {
     options.focus = camera.focus_distance;
     if (views.size() == 1) return options;
-    options.focal_px = resolve_focal_px(camera, views[0].image.windows);
+    options.focal_px = resolve_focal_px(camera, windows);
     options.radius = lens_radius_of(camera).value_or(0);
-    for (const View &view : views) options.radius = std::max(options.radius, view.position.length());
+    for (const auto &view : views) options.radius = std::max(options.radius, view.position.length());
     return options;
 }
 
+} // namespace
+
+WarpOptions with_lens(WarpOptions options, const Camera &camera, std::span<const View> views) {
+    return with_lens(options, camera, views, views[0].image.windows);
+}
+
+WarpOptions with_lens(WarpOptions options, const Camera &camera, const std::vector<PackedView> &views) {
+    return with_lens(options, camera, views, views[0].samples.windows);
+}
+
 Ldi warp(std::span<const View> views, const WarpOptions &options, Progress &progress) {
-    return Warper(views, options).run(progress);
+    return warp(referring_to(views), options, progress);
 }
 
 Ldi warp(std::vector<View> &&views, const WarpOptions &options, Progress &progress) {
+    return warp(packed(std::move(views)), options, progress);
+}
+
+Ldi warp(std::vector<PackedView> &&views, const WarpOptions &options, Progress &progress) {
     return Warper(std::move(views), options).run(progress);
 }
 

@@ -17,7 +17,8 @@
 
 namespace sparselens {
 
-class WarpDevice; // device/warp_device.h
+class WarpDevice;  // device/warp_device.h
+struct PackedView; // deep/packed_view.h
 
 enum class Merge {
     // Rim samples are averaged, by weight, with the centre sample of the same surface; the others are averaged with
@@ -45,6 +46,7 @@ struct WarpOptions {
 // known, else to the distance of the outermost view. A single view needs no lens. Throws UsageError if the focal length
 // is unknown.
 WarpOptions with_lens(WarpOptions options, const Camera &camera, std::span<const View> views);
+WarpOptions with_lens(WarpOptions options, const Camera &camera, const std::vector<PackedView> &views);
 
 // views[0] is the centre, whose windows and channels the LDI has. The result does not depend on the order of the
 // others. Channels of rim views are matched by name. Throws Error where display windows differ or a rim view lacks a
@@ -52,5 +54,6 @@ WarpOptions with_lens(WarpOptions options, const Camera &camera, std::span<const
 Ldi warp(std::span<const View> views, const WarpOptions &options, Progress &progress);
 // The same in less memory: takes the pixels of the views.
 Ldi warp(std::vector<View> &&views, const WarpOptions &options, Progress &progress);
+Ldi warp(std::vector<PackedView> &&views, const WarpOptions &options, Progress &progress);
 
 } // namespace sparselens

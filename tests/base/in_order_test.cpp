@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include <atomic>
+#include <chrono>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <vector>
 
 namespace sparselens {
@@ -45,6 +48,24 @@ TEST(InOrder, TheFirstFailureReachesTheCallerAndNothingIsTakenAfterIt) {
         }
         EXPECT_EQ(taken, 30u);
     }
+}
+
+TEST(InOrder, NoMoreAreMadeSideBySideThanAllowed) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 8);
+    std::atomic<int> making = 0, most = 0;
+    std::size_t taken = 0;
+    const auto make = [&](std::size_t i) {
+        const int now = ++making;
+        for (int before = most; before < now && !most.compare_exchange_weak(before, now);) {
+        }
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        --making;
+        return i;
+    };
+    in_order(
+        40, make, [&](std::size_t i, std::size_t) { EXPECT_EQ(i, taken++); }, 2);
+    EXPECT_EQ(taken, 40u);
+    EXPECT_LE(most, 2);
 }
 
 TEST(InOrder, WhatTakingThrowsReachesTheCaller) {

@@ -128,8 +128,8 @@ View at(const Imath::V2d &position) {
 
 TEST(LensCheck, AViewBeyondThreeRadii) {
     const std::vector<View> views{at({0, 0}), at({0.4, 0}), at({1.19, 0}), at({0, -1.21}), at({400, 0})};
-    EXPECT_EQ(views_beyond_lens(views, 0.4), (std::vector<std::size_t>{3, 4}));
-    EXPECT_TRUE(views_beyond_lens(views, 0).empty()) << "unknown";
+    EXPECT_EQ(views_beyond_lens(referring_to(views), 0.4), (std::vector<std::size_t>{3, 4}));
+    EXPECT_TRUE(views_beyond_lens(referring_to(views), 0).empty()) << "unknown";
 }
 
 std::string said_of(const View &view, const ViewFacts &facts) {

@@ -91,18 +91,18 @@ TEST(PoseCheck, WithoutTextureNothingIsSaid) {
     EXPECT_FALSE(better_position(grey(), said_to_stand_at(grey(), {0.1, 0}), focal_px));
     EXPECT_FALSE(better_position(grey(), grey(), focal_px, 0.1));
     const std::vector<View> views{grey(), said_to_stand_at(grey(), {0.1, 0})};
-    EXPECT_FALSE(same_picture(views, 1, focal_px));
+    EXPECT_FALSE(same_picture(referring_to(views), 1, focal_px));
 }
 
 TEST(PoseCheck, TheSamePictureFromTwoPlacesIsFound) {
     const View view = card_before_wall({0.1, 0});
     std::vector<View> views{card_before_wall({0, 0}), view, card_before_wall({-0.1, 0}),
                             said_to_stand_at(view, {0, 0.1})};
-    EXPECT_EQ(same_picture(views, 3, focal_px), std::optional<std::size_t>(1));
-    EXPECT_FALSE(same_picture(views, 1, focal_px));
-    EXPECT_FALSE(same_picture(views, 2, focal_px));
+    EXPECT_EQ(same_picture(referring_to(views), 3, focal_px), std::optional<std::size_t>(1));
+    EXPECT_FALSE(same_picture(referring_to(views), 1, focal_px));
+    EXPECT_FALSE(same_picture(referring_to(views), 2, focal_px));
     views[3].position = {0.1, 0.005}; // a twentieth of a pixel away at the wall, a quarter at the card
-    EXPECT_FALSE(same_picture(views, 3, focal_px));
+    EXPECT_FALSE(same_picture(referring_to(views), 3, focal_px));
 }
 
 // The picture moved by so many pixels, right and down: turned, or nearly so.
@@ -138,18 +138,21 @@ TEST(PoseCheck, TheSamePictureFromTheSamePlaceIsFound) {
     const View view = card_before_wall({0.1, 0});
     const std::vector<View> views{card_before_wall({0, 0}), view, card_before_wall({-0.1, 0}), view,
                                   said_to_stand_at(view, {0, 0.1})};
-    EXPECT_EQ(same_picture_and_place(views, 3), std::optional<std::size_t>(1));
-    for (const std::size_t i : {1u, 2u, 4u}) EXPECT_FALSE(same_picture_and_place(views, i)) << i;
+    EXPECT_EQ(same_picture_and_place(referring_to(views), 3), std::optional<std::size_t>(1));
+    for (const std::size_t i : {1u, 2u, 4u})
+        EXPECT_FALSE(same_picture_and_place(referring_to(views), i)) << i;
     View empty = view;
     std::ranges::fill(empty.z, 0.0f);
-    EXPECT_FALSE(same_picture_and_place(std::vector<View>{empty, empty}, 1))
+    EXPECT_FALSE(same_picture_and_place(referring_to(std::vector<View>{empty, empty}), 1))
         << "nothing of them was worth rendering";
 }
 
 // Views of which only the places count; the first of them is that of the first view.
-std::vector<View> standing_at(const std::vector<Imath::V2d> &places) {
-    std::vector<View> views;
-    for (const Imath::V2d &place : places) views.push_back(said_to_stand_at(View{}, place - places[0]));
+std::vector<PackedView> standing_at(const std::vector<Imath::V2d> &places) {
+    std::vector<PackedView> views;
+    for (const Imath::V2d &place : places)
+        views.emplace_back(
+            make_view(windows_of_size(1, 1), place - places[0], [](int, int) { return ViewPixel{}; }));
     return views;
 }
 

@@ -167,6 +167,12 @@ fails_saying 1 'center.exr: cannot create the folder' "$warp" $center -o views/c
 fails_saying 1 'views: is a folder' "$warp" views -o x.exr
 head -c 3000 $center >cut.exr
 fails_saying 1 'cut.exr' "$warp" cut.exr -o x.exr
+# Views are read side by side: of two that fail, the first is named, though the other fails sooner.
+head -c -1000 "${rim[0]}" >late.exr
+for threads in 1 2 4; do
+    fails_saying 1 'late.exr' "$warp" $center --view 0.06,0 late.exr --view 0,0.06 missing.exr -o x.exr --threads $threads
+    fails_saying 1 'missing.exr' "$warp" $center --view 0,0.06 missing.exr --view 0.06,0 late.exr -o x.exr --threads $threads
+done
 picture edit $center narrow.exr frame=90x54
 fails_saying 1 'narrow.exr: its display window differs' "$warp" $center --view 0.06,0 narrow.exr -o x.exr
 picture edit $center poor.exr channels=R,G,A,Z

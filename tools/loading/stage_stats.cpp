@@ -9,10 +9,11 @@ namespace sparselens {
 namespace {
 
 // Cropped and masked views do not give them all.
-std::size_t pixels_given(const View &view) {
-    const std::size_t alpha = find_channel(view.image.channels, "A");
-    if (alpha == npos) return view.image.windows.pixels();
-    return std::size_t(std::ranges::count_if(view.image.plane(alpha), [](float a) { return a > 0; }));
+std::size_t pixels_given(const ViewSamples &view) {
+    std::size_t count = 0;
+    const std::size_t alpha = view.alpha();
+    for (std::size_t i = 0; i < view.windows.pixels(); ++i) count += alpha_at(view, alpha, i) > 0;
+    return count;
 }
 
 } // namespace
@@ -26,10 +27,10 @@ Stats plan_stats(const Plan &plan, int views_allowed, const Windows &centre) {
             {"pixels_left_out", std::size_t(views_allowed) * centre.pixels() - asked}};
 }
 
-GivenViews given_views(std::span<const View> views) {
-    GivenViews given{views.size(), 0, 0, views.size() * views[0].image.windows.pixels()};
-    for (const View &view : views) {
-        const std::size_t pixels = pixels_given(view);
+GivenViews given_views(std::span<const PackedView> views) {
+    GivenViews given{views.size(), 0, 0, views.size() * views[0].samples.windows.pixels()};
+    for (const PackedView &view : views) {
+        const std::size_t pixels = pixels_given(view.samples);
         given.pixels += pixels;
         given.empty += pixels == 0 ? 1 : 0;
     }

@@ -2,11 +2,11 @@
 #pragma once
 
 #include "deep/cluster.h"
+#include "deep/packed_view.h"
 #include "dof/lens/lens_tiles.h"
 #include "harness/stats.h"
 #include "loading/ldi_cache.h"
 #include "plan/plan.h"
-#include "view/view.h"
 
 #include <span>
 
@@ -17,7 +17,7 @@ Stats plan_stats(const Plan &plan, int views_allowed, const Windows &centre);
 struct GivenViews {
     std::size_t views, empty, pixels, all_pixels;
 };
-GivenViews given_views(std::span<const View> views);
+GivenViews given_views(std::span<const PackedView> views);
 Stats warp_stats(const GivenViews &given, const Ldi &ldi);
 Stats cluster_stats(const OpenedLdi &in, const Clustered &out);
 Stats gather_stats(const LdiCache &cache, std::size_t samples,

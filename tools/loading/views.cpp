@@ -2,7 +2,6 @@
 
 #include "base/in_order.h"
 #include "options/picture_options.h"
-#include "view/place_views.h"
 
 #include <optional>
 
@@ -10,12 +9,23 @@ namespace sparselens {
 
 namespace {
 
-void add(OpenedViews &to, OpenedView &opened) {
-    to.views.push_back(std::move(opened.view));
+// What is known of a view, with its pixels packed.
+struct PackedFile {
+    OpenedView opened; // without pixels
+    PackedView view;
+
+    explicit PackedFile(OpenedView file) : opened(std::move(file)), view(std::move(opened.view)) {}
+};
+
+void add(OpenedViews &to, PackedFile &file) {
+    OpenedView &opened = file.opened;
+    to.views.push_back(std::move(file.view));
     to.bad.push_back(opened.bad);
     to.notes.push_back(std::move(opened.notes));
     to.warnings.push_back(std::move(opened.warnings));
 }
+
+constexpr std::size_t not_packed_yet = 2; // views in memory: packed they take half
 
 } // namespace
 
@@ -27,20 +37,21 @@ OpenedViews open_views(const ViewList &list, const OpenOptions &options) {
         positions.push_back(view_offset(offset));
         paths.push_back(path);
     }
-    OpenedView centre = open_view(paths[0], options);
-    const Camera camera = centre.camera;
+    PackedFile centre(open_view(paths[0], options));
+    const Camera camera = centre.opened.camera;
     OpenedViews opened;
-    opened.header = std::move(centre.header);
-    opened.depth_filtered = centre.depth_filtered;
+    opened.header = std::move(centre.opened.header);
+    opened.depth_filtered = centre.opened.depth_filtered;
     std::vector<StatedView> stated{{paths[0], camera, positions[0]}};
     add(opened, centre);
     in_order(
         paths.size() - 1, // the rim views: while one is decompressed, the depths of another are settled
-        [&](std::size_t n) { return open_view(paths[n + 1], options, camera); },
-        [&](std::size_t n, OpenedView next) {
-            stated.push_back({paths[n + 1], next.camera, positions[n + 1]});
+        [&](std::size_t n) { return PackedFile(open_view(paths[n + 1], options, camera)); },
+        [&](std::size_t n, PackedFile next) {
+            stated.push_back({paths[n + 1], next.opened.camera, positions[n + 1]});
             add(opened, next);
-        });
+        },
+        not_packed_yet);
     opened.camera = place_views(opened.views, stated);
     return opened;
 }

@@ -1,6 +1,7 @@
 // Opens the views of a command line and positions each on the lens.
 #pragma once
 
+#include "deep/packed_view.h"
 #include "io/open_view.h"
 #include "options/view_list.h"
 
@@ -9,8 +10,8 @@
 namespace sparselens {
 
 struct OpenedViews {
-    std::vector<View> views;     // the centre view first
-    Imf::Header header;          // of the centre view
+    std::vector<PackedView> views; // the centre view first
+    Imf::Header header;            // of the centre view
     Camera camera;               // of the centre view, with the options over it; the lens points of all views
     bool depth_filtered = false; // of the centre view, see SettledEdges
     std::vector<InvalidValues> bad;                        // of each view

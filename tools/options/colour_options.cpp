@@ -133,9 +133,12 @@ bool is_linear(const ToolContext &tool, const ColourOptions &options, const std:
 }
 
 Imf::Header to_linear(const ToolContext &tool, const ColourOptions &options, const std::string &path,
-                      const Imf::Header &header, View &view) {
+                      const Imf::Header &header, PackedView &view) {
     LinearColours to = linear_colours(tool, options, path, header);
-    if (to.transform) transform_colours(*to.transform, view.image);
+    if (!to.transform) return std::move(to.header);
+    View whole = unpacked(view);
+    transform_colours(*to.transform, whole.image);
+    view = PackedView(std::move(whole));
     return std::move(to.header);
 }
 

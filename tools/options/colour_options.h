@@ -2,10 +2,10 @@
 #pragma once
 
 #include "deep/ldi.h"
+#include "deep/packed_view.h"
 #include "harness/commands/cli.h"
 #include "harness/tool.h"
 #include "io/display/colour.h"
-#include "view/view.h"
 
 #include <ImfHeader.h>
 
@@ -29,7 +29,7 @@ void add_output_colour_options(CLI::App &app, ColourOptions &options); // of the
 Imf::Header to_linear(const ToolContext &tool, const ColourOptions &options, const std::string &path,
                       const Imf::Header &header, Ldi &ldi);
 Imf::Header to_linear(const ToolContext &tool, const ColourOptions &options, const std::string &path,
-                      const Imf::Header &header, View &view);
+                      const Imf::Header &header, PackedView &view);
 
 // Whether to_linear() leaves the colours of such a file as they are.
 bool is_linear(const ToolContext &tool, const ColourOptions &options, const std::string &path,
