@@ -82,9 +82,9 @@ void run(const WarpCommand &options, const ToolContext &tool, ChosenWarpDevice &
     };
 }
 
-// What one step frees the next one takes: without this, the kernel clears most pages several times.
+// What one step frees the next one takes, of whatever size: without this, the kernel clears most pages several times.
 void keep_freed_memory() {
-    mallopt(M_MMAP_THRESHOLD, 1 << 25);
+    mallopt(M_MMAP_MAX, 0);
     mallopt(M_TRIM_THRESHOLD, 1 << 28);
 }
 
