@@ -10,7 +10,7 @@ std::span<const StressFamily> stress_families() {
         StressFamily{"steep", steep_stress()}, StressFamily{"light", light_stress()},
         StressFamily{"lamps", lamp_stress()},  StressFamily{"shape", shape_stress()},
         StressFamily{"looks", look_stress()},  StressFamily{"views", view_stress()},
-        StressFamily{"scale", scale_stress()}};
+        StressFamily{"scale", scale_stress()}, StressFamily{"cost", cost_stress()}};
     return families;
 }
 

@@ -37,6 +37,7 @@ std::span<const StressCase> shape_stress();
 std::span<const StressCase> look_stress();
 std::span<const StressCase> view_stress();
 std::span<const StressCase> scale_stress();
+std::span<const StressCase> cost_stress();
 
 std::span<const StressFamily> stress_families();
 
