@@ -1,27 +1,27 @@
 # What five views of 4 samples cost at the sizes that people work in, with a blur as wide in the picture at each: CPU seconds,
-# seconds by the clock and peak MB, the best of three runs, beside oiiotool --flatten of the same LDI. 15 minutes.
+# seconds by the clock and peak MB of one run each, beside oiiotool --flatten of the same LDI in the same run. $sizes may name
+# others. 8 minutes, and 3 to trace.
 . "$(dirname "$0")/common.inc" "$1"
 
-echo "| scene, size, step | CPU seconds | by the clock | peak MB | times flatten's CPU seconds |"
-echo "|---|---|---|---|---|"
-row() { # LABEL COMMAND...
-    local figures
-    figures=$(cost "${@:2}")
-    [ "${2##*/}" != oiiotool ] || flatten=${figures%% *}
-    echo "| $1 | $figures | $(awk -v a="${figures%% *}" -v b="$flatten" 'BEGIN { printf "%.2f", a / b }') |"
+runs=1
+row() { # STEP FIGURES
+    local cpu clock
+    IFS=' |' read -r cpu clock _ <<<"$2"
+    awk -v row="| $size | $scene | $1 | $2 |" -v a="$cpu" -v b="$flat_cpu" -v c="$clock" -v d="$flat_clock" \
+        'BEGIN { printf "%s %.2f | %.2f |\n", row, a / b, c / d }'
 }
-for size in 1920x1080 3840x2160; do
-    for scene in fence grass macro mirror mist; do
-        [[ $size = 1920x1080 || $scene = fence ]] || continue
+echo "| size | scene | step | CPU seconds | by the clock | peak MB | times flatten's CPU seconds | ... by the clock |"
+echo "|---|---|---|---|---|---|---|---|"
+for size in ${sizes-1920x1080 3840x2160}; do
+    for scene in fence grass mirror mist macro; do
         trace "$scene.$size" $scene --size $size --spp 4
         # shellcheck disable=SC2046
-        ldi-warp $(five_views "$scene.$size") -o ldi.exr 2>/dev/null
-        row "$scene, $size, \`oiiotool --flatten\`" oiiotool ldi.exr --flatten -o flat.exr
-        # shellcheck disable=SC2046
-        row "\`ldi-warp\`" ldi-warp $(five_views "$scene.$size") -o ldi.exr
-        row "\`dof-gather --lens-radius 0\`" dof-gather ldi.exr --lens-radius 0 -o picture.exr
-        for quality in draft normal final; do
-            row "\`dof-gather --quality $quality\`" dof-gather ldi.exr --quality $quality -o picture.exr
-        done
+        warp=$(cost ldi-warp $(five_views "$scene.$size") -o ldi.exr)
+        flatten=$(cost oiiotool ldi.exr --flatten -o flat.exr)
+        IFS=' |' read -r flat_cpu flat_clock _ <<<"$flatten"
+        row "\`oiiotool --flatten\`" "$flatten"
+        row "\`ldi-warp\`" "$warp"
+        row "\`dof-gather\`" "$(cost dof-gather ldi.exr -o picture.exr)"
+        [ $scene != fence ] || row "\`dof-gather --quality final\`" "$(cost dof-gather ldi.exr --quality final -o picture.exr)"
     done
 done

@@ -45,6 +45,7 @@ Fields fields_of(const ReportRow &row, const RayTracingCurves &ray_tracing) {
                   {"renderer", row.renderer},
                   {"processor", row.processor},
                   {"budget", row.budget},
+                  {"size", row.size},
                   {"views", fmt::to_string(row.views)},
                   {"rays", shortest(row.rays)},
                   {"seconds", shortest(total_seconds(row))}};

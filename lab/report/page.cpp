@@ -146,7 +146,7 @@ std::string worst_blocks(const std::vector<PagePicture> &blocks) {
 }
 
 std::string section(const PageScene &scene) {
-    const std::string name = scene.rows.empty() ? "" : scene.rows.front().scene;
+    const std::string name = scene.rows.empty() ? "" : scene_title(scene.rows.front());
     std::string html = "<section>\n" + element("h2", name) + "<ul class=\"verdict\">\n";
     for (const std::string &sentence : scene.sentences) html += element("li", sentence);
     html += "</ul>\n" + viewer(scene.pictures);

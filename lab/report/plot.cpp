@@ -114,7 +114,7 @@ std::string plot_script(std::span<const ReportRow> rows, const std::string &name
     for (std::size_t i = 0; i < lines.size(); ++i) text += data_block(lines[i], i);
     const auto pictures = [&](const std::string &kind, const char *label, const char *columns) {
         text += "set xlabel \"" + std::string(label) + "\"\nset title " +
-                quoted(rows.empty() ? name : rows.front().scene + ": error against " + kind) +
+                quoted(rows.empty() ? name : scene_title(rows.front()) + ": error against " + kind) +
                 " noenhanced\n";
         for (const char *terminal : {"svg", "pngcairo"}) {
             const std::string suffix = terminal == std::string("svg") ? ".svg" : ".png";

@@ -10,6 +10,10 @@ double total_seconds(const ReportRow &row) {
 
 double quality(const ReportRow &row) { return row.errors.front().psnr_tonemapped; }
 
+std::string scene_title(const ReportRow &row) {
+    return row.size.empty() ? row.scene : row.scene + ", " + row.size;
+}
+
 std::string method_name(const ReportRow &row) {
     return row.processor.empty() ? row.renderer : row.renderer + ", " + row.processor;
 }

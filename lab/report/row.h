@@ -34,6 +34,7 @@ struct ErrorCauses {
 struct ReportRow {
     std::string scene, renderer, processor;
     std::string budget; // that of the renderer: "16 samples"
+    std::string size{}; // of the picture, pixels: "640x360"
     Role role = Role::other;
     int views = 1;
     double rays = 0;                 // camera samples per pixel, all views together
@@ -49,6 +50,7 @@ struct ReportRow {
 
 double total_seconds(const ReportRow &row);
 double quality(const ReportRow &row);          // tone-mapped PSNR of the whole picture, dB
+std::string scene_title(const ReportRow &row); // with the picture's size, which times mean nothing without
 std::string method_name(const ReportRow &row); // renderer and processor: one line in the plots
 
 } // namespace sparselens::lab

@@ -43,7 +43,7 @@ std::string summary_text(std::span<const ReportRow> rows) {
     const RayTracingCurves ray_tracing = ray_tracing_curves(rows);
     std::vector<TextRow> table{titles()};
     for (const ReportRow &row : rows) table.push_back(cells(row, ray_tracing));
-    std::string text = rows.front().scene + '\n' + text_table(table, 2);
+    std::string text = scene_title(rows.front()) + '\n' + text_table(table, 2);
     for (const std::string &sentence : verdict_sentences(rows, scene_verdict(rows))) text += sentence + '\n';
     return text;
 }

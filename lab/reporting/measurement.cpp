@@ -83,6 +83,7 @@ public:
 
     ReportRow measured(const PlannedRow &planned) const {
         ReportRow row = planned.row;
+        row.size = fmt::format("{}x{}", windows_.width(), windows_.height());
         add_times(planned, row);
         if (!planned.partial_views.empty()) add_partial_views(planned, row);
         const Image picture = over_reference(planned.picture);

@@ -65,6 +65,8 @@ done
 for region in in_focus silhouettes; do
     positive "$(value fence 'centre + 4, lens normal' '16 samples' ${region}_psnr_tonemapped)" "quality of $region"
 done
+grep -qx 'fence, 96x54' printed || fail "the table of times does not say the size: $(head -n 3 printed)"
+[ "$(value fence 'centre + 4, lens normal' '16 samples' size)" = 96x54 ] || fail 'the size in report.csv'
 is "$(value fence 'centre + 4, lens normal' '16 samples' rays)" 80 'rays of five views'
 is "$(value fence 'centre + 8, lens normal' '4 samples' nonfinite_image)" 0 'count of what is not finite'
 total=$(for stage in render plan warp cluster process; do value grass 'centre + 8, lens normal' '4 samples' seconds_$stage; done |
