@@ -46,9 +46,10 @@ void Reprojection::append_rows(int first_row, int last_row, std::vector<Reprojec
             const Imath::V2d far = mapping_.at_infinity(q), parallax = mapping_.parallax(q);
             for (const std::uint64_t i : view_.pixel(pixel)) {
                 const double inverse_z = 1 / double(view_.z(i));
-                const double y = far.y + parallax.y * inverse_z, cell_y = std::floor(y);
-                if (!(cell_y >= first_row && cell_y <= last_row)) continue;
-                const double x = far.x + parallax.x * inverse_z, cell_x = std::floor(x);
+                const double y = far.y + parallax.y * inverse_z;
+                if (!(y >= first_row && y < last_row + 1)) continue; // most, of views from above or below
+                const double x = far.x + parallax.x * inverse_z, cell_x = std::floor(x),
+                             cell_y = std::floor(y);
                 if (!(std::abs(cell_x) < 1e9)) continue; // nearer than any picture is wide: not in it
                 out.push_back({int(cell_x), int(cell_y), float(x - cell_x - 0.5), float(y - cell_y - 0.5),
                                float(inverse_z), std::uint32_t(i)});

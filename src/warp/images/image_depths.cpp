@@ -60,7 +60,6 @@ private:
         const std::uint32_t block = blocks_[std::size_t(y / side) * std::size_t(tiles_.columns()) + x / side];
         return block == not_searched ? npos : block * block_pixels + (y % side) * side + x % side;
     }
-    std::size_t blocks_at_once() const { return std::size_t(tiles_.columns()) * rows_at_once; }
     void add_block(std::size_t tile) { blocks_[tile] = count_++; }
     bool search_tile(std::size_t tile);
     // visit(tile) for those that were searched.
@@ -84,7 +83,7 @@ private:
 
 template <typename Visit>
 void ImageDepths::for_each_searched(const Visit &visit) const {
-    sweep_.go_through(tiles_.count(), blocks_at_once(), [&](std::size_t tile) {
+    sweep_.go_through(tiles_.count(), rows_at_once * std::size_t(tiles_.columns()), [&](std::size_t tile) {
         if (blocks_[tile] != not_searched) visit(tiles_.box(tile));
     });
 }
@@ -117,7 +116,7 @@ void ImageDepths::search(std::vector<std::size_t> next) {
     while (!next.empty()) {
         matches_.resize(count_ * block_pixels);
         std::vector<std::uint8_t> much(next.size());
-        sweep_.go_through(next.size(), blocks_at_once(),
+        sweep_.go_through(next.size(), std::size_t(tiles_.columns()),
                           [&](std::size_t n) { much[n] = search_tile(next[n]); });
         std::vector<std::size_t> beside;
         for (std::size_t n = 0; n < next.size(); ++n)

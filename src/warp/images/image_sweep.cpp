@@ -127,9 +127,12 @@ void mark_beside(std::size_t best, std::vector<bool> &marks) {
 } // namespace
 
 void ImageSweep::make_room() const {
-    constexpr std::size_t much = 64 << 20; // bytes
-    std::size_t held = 0;
-    for (const MatchedView &view : views_) held += view.bytes();
+    constexpr std::size_t rows = 3; // of tiles: so far apart may a view show what is looked for at one place
+    std::size_t held = 0, much = 0;
+    for (const MatchedView &view : views_) {
+        held += view.bytes();
+        much += rows * view.bytes_of_row();
+    }
     if (held > much)
         for (MatchedView &view : views_) view.forget();
 }

@@ -64,7 +64,7 @@ void MatchedView::forget() { tiles_ = std::make_unique<Tile[]>(count_); }
 std::size_t MatchedView::bytes() const {
     const std::span<const Tile> tiles(tiles_.get(), count_);
     const auto made = std::ranges::count_if(tiles, [](const Tile &tile) { return tile.is_made.load(); });
-    return std::size_t(made) * 4 * std::size_t(plane) * sizeof(float);
+    return std::size_t(made) * tile_bytes;
 }
 
 float MatchedView::depth(int x, int y) const {

@@ -48,6 +48,7 @@ public:
 
     // What was made of it so far; it is made again where it is looked at again. Nobody may look meanwhile.
     std::size_t bytes() const;
+    std::size_t bytes_of_row() const { return columns_ * tile_bytes; } // of tiles
     void forget();
 
     // Of the surface, if the pixel shows just one; else NaN.
@@ -58,6 +59,8 @@ public:
 
 private:
     static constexpr int tile_side = row - cutout; // a tile holds what may be cut out from its pixels, too
+
+    static constexpr std::size_t tile_bytes = 4 * std::size_t(plane) * sizeof(float);
 
     struct Tile {
         std::atomic<bool> is_made = false;
