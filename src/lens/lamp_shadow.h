@@ -50,6 +50,12 @@ public:
     // Whether all of the box is hidden.
     bool dark() const { return lit_pixels_ == 0; }
 
+    // Whether some of a pixel's points are hidden, and some are not.
+    bool is_crossed(int x, int y) const {
+        const std::uint64_t hidden = hidden_[at(x, y)];
+        return hidden != 0 && ~hidden != 0;
+    }
+
     // The share of a pixel of the box that is not hidden: of all of it, or of the part of it that lies in a disc. What `other`
     // hides is hidden, too; it has the same box.
     float lit(int x, int y, const LampDisc *disc = nullptr, const LampShadow *other = nullptr) const;

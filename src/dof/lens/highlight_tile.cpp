@@ -38,7 +38,7 @@ HighlightTile::HighlightTile(const GatherScene &scene, const BlockFootprints &fo
                              const BlockFootprints &solid_footprints)
     : scene_(scene),
       shadows_(scene.highlights, {scene.samples, footprints}, {scene.solids, solid_footprints}),
-      half_extent_(aperture_.half_extent()), light_(sets_.size() * size * size) {
+      half_extent_(aperture_.half_extent()), light_(sets_.size() * size * size), together_(light_.size()) {
     half_extent_.y *= scene.pixel_aspect();
 }
 
@@ -49,12 +49,13 @@ bool HighlightTile::dark(int x, int y) const {
 }
 
 void HighlightTile::spread(const Imath::V2i &origin, std::span<const std::uint32_t> blocks,
-                           std::span<const std::uint32_t> solids, const CoarseCasters *coarse) {
+                           std::span<const std::uint32_t> solids, const CoarseCasters *coarse,
+                           const ShadowLists *lists) {
     origin_ = origin;
     std::ranges::fill(light_, 0.0f);
     for (auto &left : left_by_cat_eye_) left.clear();
     if (highlights_.sample.empty()) return;
-    shadows_.begin(origin, blocks, solids, scene_.pixel_aspect(), half_extent_, coarse);
+    shadows_.begin(origin, blocks, solids, scene_.pixel_aspect(), half_extent_, coarse, lists);
     for (const std::uint32_t b : blocks)
         highlights_.groups.for_each(b, [&](std::span<const std::uint32_t> group) {
             if (!scene_.optics->field.skews()) return spread_group(group);
@@ -87,6 +88,20 @@ void HighlightTile::spread_group(std::span<const std::uint32_t> group) {
     shadows_.share(group, reached_);
     if (shadows_.dark()) return;
     for (const std::uint32_t h : group) spread_one(h);
+    if (any_together_) add_group();
+}
+
+// Of all that are shadowed together, once for each pixel.
+void HighlightTile::add_group() {
+    for (std::size_t g = 0; g < sets_.size() / 4; ++g)
+        for (int y = reached_.min.y; y <= reached_.max.y; ++y)
+            for (int x = reached_.min.x; x <= reached_.max.x; ++x) {
+                const std::size_t pixel = at(x, y, g * 4);
+                store4(&light_[pixel],
+                       load4(&light_[pixel]) + shadows_.shared_lit(x, y) * load4(&together_[pixel]));
+                store4(&together_[pixel], Float4{});
+            }
+    any_together_ = false;
 }
 
 void HighlightTile::spread_one(std::uint32_t highlight) {
@@ -99,6 +114,8 @@ void HighlightTile::spread_one(std::uint32_t highlight) {
                                 true}
                  : ShadowScreen{lamp.centre, Imath::V2d(lamp.coc), reached_};
     Spreading from{highlight, highlights_.sample[highlight], lamp, shadows_.cast(highlight, screen)};
+    from.together = shadows_.only_shares();
+    any_together_ = any_together_ || from.together;
     const LampShadow *shadow = in_cells && from.shadowed ? &shadows_.own() : nullptr;
     if (square > 0 || skewed) return spread_few(cells->shine(lamp, square, shadow, reached_), from);
     std::optional<LampLight> light;
@@ -138,11 +155,17 @@ void HighlightTile::spread_disc(const Spreading &from) {
     const double coc = std::abs(from.lamp.coc);
     const PsfRows rows({from.lamp.centre, coc / squeeze, from.lamp.pixel_aspect * squeeze}, tile);
     const LampDisc disc{from.lamp.centre, {coc / squeeze, coc * from.lamp.pixel_aspect}};
+    const bool in_rows = !held_out_.by && (from.together || !from.shadowed);
     std::array<double, PsfRows::max_size + 1> weights;
     for (int y = rows.begin_row(); y < rows.end_row(); ++y) {
         const PsfRows::Span span = rows.row(y, weights.data());
-        for (int x = span.begin; x < span.end; ++x)
-            add(from, x, y, all_colours, weights[std::size_t(x)], &disc);
+        for (int x = span.begin; x < span.end; ++x) {
+            double &weight = weights[std::size_t(x)];
+            if (in_rows && !(from.together && is_crossed_rim(x, y, disc))) continue;
+            add(from, x, y, all_colours, weight, &disc);
+            weight = 0;
+        }
+        if (in_rows) add_row(from, y, span.begin, span.end, weights.data());
     }
 }
 
@@ -183,6 +206,22 @@ double HighlightTile::left_by_cat_eye(bool behind, int x, int y) {
     return shares[std::size_t(y) * size + std::size_t(x)];
 }
 
+// Whether a shadow that all of the group share crosses a pixel at the rim of a disc: the share that is lit is its own there.
+bool HighlightTile::is_crossed_rim(int x, int y, const LampDisc &disc) const {
+    return shadows_.is_shared_crossed(x, y) && !disc.contains_pixel(x, y);
+}
+
+// As add() of each pixel, where nothing hides the lamp, or not before add_group() does.
+void HighlightTile::add_row(const Spreading &from, int y, int begin, int end, const double *weights) {
+    std::vector<float> &sums = from.together ? together_ : light_;
+    for (std::size_t g = 0; g < sets_.size() / 4; ++g) {
+        const Float4 light =
+            load4(&highlights_.light.values[(g * highlights_.light.count + from.highlight) * 4]);
+        float *sum = &sums[at(begin, y, g * 4)];
+        for (int x = begin; x < end; ++x, sum += 4) store4(sum, load4(sum) + float(weights[x]) * light);
+    }
+}
+
 // The share of a pixel's light that nothing hides.
 float HighlightTile::lit(const Spreading &from, int x, int y, const LampDisc *disc) const {
     if (!from.shadowed || !reached_.intersects(Imath::V2i(x, y))) return 1;
@@ -192,7 +231,9 @@ float HighlightTile::lit(const Spreading &from, int x, int y, const LampDisc *di
 
 void HighlightTile::add(const Spreading &from, int x, int y, unsigned of, double weight,
                         const LampDisc *disc) {
-    float share = float(weight) * lit(from, x, y, disc);
+    const bool waits =
+        from.together && reached_.intersects(Imath::V2i(x, y)) && !(disc && is_crossed_rim(x, y, *disc));
+    float share = waits ? float(weight) : float(weight) * lit(from, x, y, disc);
     if (share <= 0) return;
     if (held_out_.by)
         share *= held_out_.passes(origin_ + Imath::V2i(x, y), scene_.samples.depth[from.sample]);
@@ -202,7 +243,7 @@ void HighlightTile::add(const Spreading &from, int x, int y, unsigned of, double
                     light.begin());
         for (std::size_t k = 0; k < 4 && of != all_colours; ++k)
             if (!(of & sets_[g * 4 + k])) light[k] = 0;
-        float *sum = &light_[at(x, y, g * 4)];
+        float *sum = &(waits ? together_ : light_)[at(x, y, g * 4)];
         for (std::size_t k = 0; k < 4; ++k) sum[k] += share * light[k];
     }
 }

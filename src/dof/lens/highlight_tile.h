@@ -31,7 +31,8 @@ public:
     // Of the tile whose first pixel is `origin`, relative to the data window's corner like the samples. `blocks`: those that
     // can reach it; `solids`, of those; `coarse`: of a tile that is gathered in cells.
     void spread(const Imath::V2i &origin, std::span<const std::uint32_t> blocks,
-                std::span<const std::uint32_t> solids = {}, const CoarseCasters *coarse = nullptr);
+                std::span<const std::uint32_t> solids = {}, const CoarseCasters *coarse = nullptr,
+                const ShadowLists *lists = nullptr);
 
     // At a pixel of the tile. `dark`: none reaches it.
     float value(int x, int y, std::size_t channel) const { return light_[at(x, y, channel)]; }
@@ -47,6 +48,7 @@ private:
         std::uint32_t highlight, sample;
         Lamp lamp; // relative to the tile
         bool shadowed = false;
+        bool together = false;          // with others of its group, whose shadow is all the same
         const LampLight *few = nullptr; // of a disc of few pixels, if anything hides a part of it
     };
     Lamp lamp(std::uint32_t highlight) const;
@@ -59,7 +61,10 @@ private:
     void add_seen(const Spreading &from, int x, int y, double weight, const std::array<double, 3> *colours);
     // `disc`: where the light of one lies; of a pixel that its edge crosses, only what lies in it is lit.
     void add(const Spreading &from, int x, int y, unsigned of, double weight, const LampDisc *disc = nullptr);
+    bool is_crossed_rim(int x, int y, const LampDisc &disc) const;
+    void add_row(const Spreading &from, int y, int begin, int end, const double *weights);
     float lit(const Spreading &from, int x, int y, const LampDisc *disc) const;
+    void add_group();
     const LampCells &cells_of(const Lamp &lamp);
     double left_by_cat_eye(bool behind, int x, int y);
 
@@ -76,6 +81,9 @@ private:
     std::array<std::optional<LampCells>, 2> cells_;      // [behind], made when first asked for
     std::array<std::vector<double>, 2> left_by_cat_eye_; // [behind][pixel], computed when first asked for
     std::vector<float> light_;                           // [group][row][column][4]
+    // The same, of the highlights at work that are shadowed together: as if nothing hid it.
+    std::vector<float> together_;
+    bool any_together_ = false;
 };
 
 } // namespace sparselens

@@ -38,11 +38,13 @@ std::vector<std::size_t> averaged_channels(const Image &image) {
     return averaged;
 }
 
-// What all that a scene is made of covers.
+// What all that a scene is made of covers, and what casts shadows on the highlights in tiles that are gathered from it.
 struct SceneFootprints {
     BlockFootprints samples, solids;
-    explicit SceneFootprints(const GatherScene &scene)
-        : samples(*scene.ldi, scene.samples), solids(*scene.ldi, scene.solids) {}
+    ShadowLists shadows;
+    SceneFootprints(const GatherScene &scene, const GatherScene &of_highlights)
+        : samples(*scene.ldi, scene.samples), solids(*scene.ldi, scene.solids),
+          shadows(of_highlights.highlights, of_highlights.samples) {}
 };
 
 // The picture that the tiles of a plan make.
@@ -62,13 +64,13 @@ struct Gathering {
 
     std::map<const GatherScene *, SceneFootprints> footprints_of_all() const {
         std::map<const GatherScene *, SceneFootprints> all;
-        for (const GatherScene *one : plan.scenes()) all.try_emplace(one, *one);
+        for (const GatherScene *one : plan.scenes()) all.try_emplace(one, *one, scene);
         return all;
     }
     // Of a tile that is gathered in cells.
     std::optional<CoarseCasters> coarse_casters(const PlannedTile &tile) const {
         if (!tile.cells) return {};
-        const auto &[samples, solids] = footprints.at(tile.scene);
+        const auto &[samples, solids, shadows] = footprints.at(tile.scene);
         const int across = tile.cells->across;
         const Imath::V2f corner(tile.scene->optics->corner * across - scene.optics->corner);
         return CoarseCasters{{tile.scene->samples, samples, float(across), corner},
@@ -94,7 +96,7 @@ struct Gathering {
         HighlightTile &lit = lamps.local();
         const std::optional<CoarseCasters> coarse = coarse_casters(tile);
         lit.spread(tile.first - scene.optics->corner, tile.blocks.samples, tile.blocks.solids,
-                   coarse ? &*coarse : nullptr);
+                   coarse ? &*coarse : nullptr, &footprints.at(tile.scene).shadows);
         for_each_pixel(tile.first - out.windows.data.min, tile.part, out.windows, [&](int x, int y) {
             const auto pixel = std::size_t(y * lens_tile_size + x);
             // A few lens points may all miss: better sharp than black.

@@ -50,19 +50,25 @@ void ShadowAreas::find_depths(std::uint32_t b) const {
     }
 }
 
+std::vector<std::uint32_t> ShadowAreas::blocks_of(std::size_t area) const {
+    std::vector<std::uint32_t> blocks;
+    const int left = int(area) % columns_ * size, top = int(area) / columns_ * size;
+    for (int row = top; row < std::min(top + size, samples_.rows); ++row)
+        for (int column = left; column < std::min(left + size, samples_.columns); ++column)
+            blocks.push_back(std::uint32_t(row * samples_.columns + column));
+    return blocks;
+}
+
 NearSteps ShadowAreas::steps_of(std::size_t area) const {
     std::vector<NearBounds> samples;
     const std::vector<float> &coc = samples_.hiding_coc();
-    const int left = int(area) % columns_ * size, top = int(area) / columns_ * size;
-    for (int row = top; row < std::min(top + size, samples_.rows); ++row)
-        for (int column = left; column < std::min(left + size, samples_.columns); ++column) {
-            const auto b = std::uint32_t(row * samples_.columns + column);
-            const SampleBlock &block = samples_.blocks[b];
-            find_depths(b);
-            for (std::uint32_t i = block.begin; i < block.end; ++i)
-                samples.push_back({samples_.depth[i], samples_.x[i], samples_.x[i], samples_.y[i],
-                                   samples_.y[i], coc[i] - of_edges, coc[i] + of_edges});
-        }
+    for (const std::uint32_t b : blocks_of(area)) {
+        const SampleBlock &block = samples_.blocks[b];
+        find_depths(b);
+        for (std::uint32_t i = block.begin; i < block.end; ++i)
+            samples.push_back({samples_.depth[i], samples_.x[i], samples_.x[i], samples_.y[i], samples_.y[i],
+                               coc[i] - of_edges, coc[i] + of_edges});
+    }
     const std::size_t in_step = std::max(pieces_of(samples.size(), most_steps), std::size_t(1));
     return {std::move(samples), in_step};
 }

@@ -19,11 +19,15 @@ public:
 
     explicit ShadowAreas(const BlockedSamples &samples);
 
+    std::size_t count() const { return depths_.size(); }
     // The area that a block lies in.
     std::size_t of(std::uint32_t block) const {
         const int column = int(block) % samples_.columns, row = int(block) / samples_.columns;
         return std::size_t(row / size) * std::size_t(columns_) + std::size_t(column / size);
     }
+
+    // Those of an area, ascending.
+    std::vector<std::uint32_t> blocks_of(std::size_t area) const;
 
     // Of the samples of an area that are nearer than a perceptive depth; null: there are none. Their centres, and the CoCs of their
     // footprints (dof/footprints/footprint.h), whose edges lie less than a pixel from the centres. For any thread.

@@ -1,0 +1,29 @@
+#include "dof/lens/shadow_lists.h"
+
+#include "dof/lens/lens_tiles.h"
+
+#include <span>
+
+namespace sparselens {
+
+namespace {
+
+constexpr float wide = lens_tile_size / 2;   // pixels of CoC, from which on a disc reaches several tiles
+constexpr std::size_t all_blocks = 2u << 20; // of all lists: 64 MB
+constexpr std::size_t longest_of_many = 64;  // blocks
+
+} // namespace
+
+ShadowLists::ShadowLists(const Highlights &highlights, const BlockedSamples &samples)
+    : number_(highlights.sample.size(), none) {
+    std::uint32_t lists = 0;
+    for (std::uint32_t b = 0; b < samples.blocks.size() && !highlights.sample.empty(); ++b)
+        highlights.groups.for_each(b, [&](std::span<const std::uint32_t> group) {
+            const std::uint32_t first = group.front();
+            if (std::abs(samples.coc[highlights.sample[first]]) >= wide) number_[first] = lists++;
+        });
+    lists_ = std::vector<List>(lists);
+    longest_ = std::max(longest_of_many, all_blocks / std::max<std::size_t>(lists, 1));
+}
+
+} // namespace sparselens

@@ -1,0 +1,51 @@
+// What may cast shadows on wide discs, found once for all tiles of a picture: a disc reaches many of them, and little of what stands
+// before it is near enough to its light's path.
+#pragma once
+
+#include "dof/lens/highlights.h"
+#include "dof/lens/sample_blocks.h"
+#include "dof/lens/shadow_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <mutex>
+#include <vector>
+
+namespace sparselens {
+
+class ShadowLists {
+public:
+    // Of groups of highlights among these samples.
+    ShadowLists(const Highlights &highlights, const BlockedSamples &samples);
+
+    // The list of the group with that first member: what find() says when it is first asked for, by any thread. Null: its disc is small,
+    // or the list too long to be kept.
+    template <typename Find>
+    const std::vector<CastingBlock> *of(std::uint32_t first_member, const Find &find) const;
+
+private:
+    struct List {
+        std::once_flag found;
+        std::vector<CastingBlock> blocks;
+        bool kept = false;
+    };
+    static constexpr std::uint32_t none = 0xffffffffu;
+    std::vector<std::uint32_t> number_; // [highlight] that is the first of a group: of its list; or none
+    std::size_t longest_ = 0;
+    mutable std::vector<List> lists_;
+};
+
+template <typename Find>
+const std::vector<CastingBlock> *ShadowLists::of(std::uint32_t first_member, const Find &find) const {
+    if (number_[first_member] == none) return nullptr;
+    List &list = lists_[number_[first_member]];
+    std::call_once(list.found, [&] {
+        std::vector<CastingBlock> blocks = find();
+        list.kept = blocks.size() <= longest_;
+        if (list.kept) list.blocks = {blocks.begin(), blocks.end()}; // no longer than it is
+    });
+    return list.kept ? &list.blocks : nullptr;
+}
+
+} // namespace sparselens

@@ -1,0 +1,202 @@
+// Which blocks of samples may cast a shadow on a lamp (highlight_shadows.h).
+//
+// They are found by bounds: of areas of blocks (shadow_areas.h), of blocks, and of what each of these has nearer than the lamp.
+#pragma once
+
+#include "dof/lens/block_footprints.h"
+#include "dof/lens/sample_blocks.h"
+#include "lens/lamp_shadow.h"
+#include "lens/lamp_spread.h"
+
+#include <Imath/ImathBox.h>
+#include <Imath/ImathVec.h>
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace sparselens {
+
+// Where shadows are cast: a thing at x' of CoC c' lies there at middle + scale (x' - x) / (c - c').
+struct ShadowScreen {
+    Imath::V2d middle, scale;
+    Imath::Box2i box;
+    bool fine = false; // in cells of the lens, not in pixels
+};
+
+// What casts them: samples of the scene of the highlights, or of a coarse one.
+struct ShadowCasters {
+    const BlockedSamples &samples;
+    const BlockFootprints &footprints;
+    // Pixels that a cell of theirs is wide and high; and where their places begin, as pixels of the highlights' scene are counted.
+    float across = 1;
+    Imath::V2f corner = {0, 0};
+    bool is_coarse() const { return across > 1; }
+};
+
+// Of a coarse scene, those that can reach a tile.
+struct CoarseCasters {
+    ShadowCasters samples, solids;
+    std::span<const std::uint32_t> blocks, solid_blocks;
+};
+
+// A lamp, or the middle one of a group.
+struct ShadowedLamp {
+    std::uint32_t sample;
+    Lamp lamp;
+    Imath::V2i origin; // that its place and its screen are counted from, relative to the data window's corner
+    ShadowScreen screen;
+    // What is hardly nearer moves hardly, and hides the lamp only if it lies right before it.
+    float depth, hardly;
+    float far; // perceptive depth, pixels: from which on coarse casters cast; infinite: there are none
+    Imath::Box2f place; // of all
+    double spread = 0;  // pixels: of the group around it
+
+    bool is_beside(const Imath::Box2f &box) const {
+        constexpr float beside = 2; // pixels
+        return box.min.x < place.max.x + beside && box.max.x > place.min.x - beside &&
+               box.min.y < place.max.y + beside && box.max.y > place.min.y - beside;
+    }
+    float nearer_than(const SampleBlock &block) const {
+        return is_beside({{block.x_min, block.y_min}, {block.x_max, block.y_max}}) ? depth : hardly;
+    }
+};
+
+struct CastingBlock {
+    std::uint32_t number, set; // of the casters with that number
+    Imath::Box2f shadow;       // where it may lie on the lamp's screen
+    bool apart = false;        // whether each lamp of a group has another shadow of it
+};
+
+class ShadowSearch {
+public:
+    ShadowSearch(const ShadowCasters &samples, const ShadowCasters &solids) : casters_{samples, solids} {}
+
+    // Of a tile, with the blocks that can reach it. `extent`: of the lens, for each pixel of CoC.
+    void begin(std::span<const std::uint32_t> samples, std::span<const std::uint32_t> solids,
+               const Imath::V2d &extent, const CoarseCasters *coarse);
+
+    const ShadowCasters &casters(std::size_t set) const { return casters_[set]; }
+    // Which of a set of casters cast the shadows: those whose perceptive depth, as they count it, lies between these.
+    struct Range {
+        float farthest, nearest;
+    };
+    Range range_of(const ShadowedLamp &lamp, const ShadowCasters &casters) const;
+    Range range_of(const ShadowedLamp &lamp, const ShadowCasters &casters, const SampleBlock &block) const;
+    // From which depth on coarse casters cast the shadows on what lies at `depth`.
+    float far_before(float depth) const;
+
+    // visit(block) for those that may cast a shadow on the lamp's screen, until it is false: of those that can reach the tile, or
+    // of all. In the same order, set by set.
+    template <typename Visit>
+    void in_tile(const ShadowedLamp &lamp, const Visit &visit) const;
+    template <typename Visit>
+    void in_picture(const ShadowedLamp &lamp, const Visit &visit) const;
+
+private:
+    void add_blocks(std::size_t set, std::span<const std::uint32_t> blocks);
+    bool may_cast(const ShadowedLamp &lamp, std::size_t set, std::size_t area) const;
+    template <typename Visit>
+    bool in_blocks(const ShadowedLamp &lamp, std::size_t set, std::span<const std::uint32_t> blocks,
+                   const Visit &visit) const;
+    template <typename Bounds>
+    bool is_before(const ShadowedLamp &lamp, const ShadowCasters &casters, const Bounds &bounds) const;
+    template <typename Bounds>
+    Imath::Box2f shadow_of(const ShadowedLamp &lamp, const ShadowCasters &casters,
+                           const Bounds &bounds) const;
+
+    std::vector<ShadowCasters> casters_; // samples, solids; and those of the tile's coarse scene
+    Imath::V2d extent_{1, 1};
+    float cell_px_ = 0; // of the tile's coarse scene; 0: there is none
+    struct AreaBlocks {
+        std::size_t set, area;
+        std::vector<std::uint32_t> blocks;
+    };
+    std::vector<AreaBlocks> by_area_; // those that can reach the tile
+};
+
+template <typename Visit>
+bool ShadowSearch::in_blocks(const ShadowedLamp &lamp, std::size_t set, std::span<const std::uint32_t> blocks,
+                             const Visit &visit) const {
+    const ShadowCasters &casters = casters_[set];
+    const auto &[samples, footprints, across, corner] = casters;
+    for (const std::uint32_t b : blocks) {
+        const SampleBlock &block = samples.blocks[b];
+        const auto [farthest, nearest] = range_of(lamp, casters, block);
+        if (!footprints.areas().block_lies_between(b, farthest, nearest)) continue;
+        Imath::Box2f shadow = shadow_of(lamp, casters, block);
+        if (shadow.isEmpty()) continue;
+        if (block.depth_min <= farthest) { // some of it lies behind the lamp
+            const NearBounds *near = footprints.of(b).near.nearer_than(farthest);
+            if (!near) continue;
+            shadow = shadow_of(lamp, casters, *near);
+            if (shadow.isEmpty()) continue;
+        }
+        if (!visit(CastingBlock{b, std::uint32_t(set), shadow})) return false;
+    }
+    return true;
+}
+
+template <typename Visit>
+void ShadowSearch::in_tile(const ShadowedLamp &lamp, const Visit &visit) const {
+    for (const auto &[set, area, blocks] : by_area_)
+        if (may_cast(lamp, set, area) && !in_blocks(lamp, set, blocks, visit)) return;
+}
+
+template <typename Visit>
+void ShadowSearch::in_picture(const ShadowedLamp &lamp, const Visit &visit) const {
+    for (std::size_t set = 0; set < casters_.size(); ++set) {
+        const ShadowAreas &areas = casters_[set].footprints.areas();
+        for (std::size_t area = 0; area < areas.count(); ++area)
+            if (may_cast(lamp, set, area) && !in_blocks(lamp, set, areas.blocks_of(area), visit)) return;
+    }
+}
+
+// Whether some lens point may bring one of its samples before the lamp: they come nearer by the difference of their CoCs at most.
+// For what is as blurred as the lamp, whose shadow may be of any size.
+template <typename Bounds>
+bool ShadowSearch::is_before(const ShadowedLamp &lamp, const ShadowCasters &casters,
+                             const Bounds &block) const {
+    constexpr double of_edge =
+        1; // cells, by which a footprint's edge lies beside its sample, and pixels of their CoCs
+    const double cell = double(casters.across), coc = lamp.lamp.coc,
+                 apart = std::max(coc - cell * double(block.coc_min), cell * double(block.coc_max) - coc);
+    const auto reaches = [&](int axis, float from, float to) {
+        const double by = (apart + cell * of_edge) * extent_[axis] + cell * of_edge + lamp.spread;
+        const double at = lamp.origin[axis] + lamp.lamp.centre[axis] - double(casters.corner[axis]);
+        return cell * double(from) - by <= at && cell * double(to) + by >= at;
+    };
+    return reaches(0, block.x_min, block.x_max) && reaches(1, block.y_min, block.y_max);
+}
+
+// Where on the screen a shadow of one of its samples may lie; empty: nowhere.
+template <typename Bounds>
+Imath::Box2f ShadowSearch::shadow_of(const ShadowedLamp &asked, const ShadowCasters &casters,
+                                     const Bounds &block) const {
+    const Lamp &lamp = asked.lamp;
+    const ShadowScreen &screen = asked.screen;
+    const double cell = double(casters.across), least_coc = cell * double(block.coc_min),
+                 most_coc = cell * double(block.coc_max);
+    const Imath::Box2f all(Imath::V2f(screen.box.min), Imath::V2f(screen.box.max + Imath::V2i(1)));
+    if (least_coc <= lamp.coc && most_coc >= lamp.coc)
+        return is_before(asked, casters, block) ? all : Imath::Box2f();
+    Imath::Box2f shadow;
+    const auto reach = [&](int axis, float from, float to) {
+        const double a = shadow_magnification(lamp.coc, least_coc, screen.scale[axis]),
+                     b = shadow_magnification(lamp.coc, most_coc, screen.scale[axis]);
+        // A footprint reaches less than a cell from its sample.
+        const double half = std::max(std::abs(a), std::abs(b)) * (cell + asked.spread) + asked.spread;
+        const double lamp_at = asked.origin[axis] + lamp.centre[axis] - double(casters.corner[axis]);
+        const double low = cell * double(from) - lamp_at, high = cell * double(to) - lamp_at;
+        const auto [least, most] = std::minmax({a * low, a * high, b * low, b * high});
+        const double begin = screen.middle[axis] + least - half, end = screen.middle[axis] + most + half;
+        shadow.min[axis] = float(std::max(begin, double(all.min[axis])));
+        shadow.max[axis] = float(std::min(end, double(all.max[axis])));
+        return !(end < double(all.min[axis]) || begin > double(all.max[axis]));
+    };
+    return reach(0, block.x_min, block.x_max) && reach(1, block.y_min, block.y_max) ? shadow : Imath::Box2f();
+}
+
+} // namespace sparselens
