@@ -37,7 +37,7 @@ void widen(FacetBlock &block, const PlacedFacets &facets, std::size_t i) {
 bool out_of_reach(const FacetBlock &b, const LensSample &lens, const FacetGrid &grid) {
     const auto [x0, x1] = std::minmax({b.coc_min * lens.x, b.coc_max * lens.x});
     const auto [y0, y1] = std::minmax({b.coc_min * lens.y, b.coc_max * lens.y});
-    const float size = float(grid.stride - 2);
+    const float size = float(grid.last);
     const float x = grid.corner_x - lens.pixel_x, y = grid.corner_y - lens.pixel_y;
     return b.x_max + x1 + 1 < x || b.x_min + x0 - 1 > x + size || b.y_max + y1 + 1 < y ||
            b.y_min + y0 - 1 > y + size;
@@ -89,8 +89,8 @@ void project(const Corners &corners, const LensSample &lens, const FacetGrid &gr
             seen.y.at[k][i] =
                 kernels::seen_along(corners.y[k][i], corner_y, corners.coc[k][i], lens_y, shift_y);
         }
-    measure(seen.x, count, float(grid.stride - 2));
-    measure(seen.y, count, float(grid.stride - 2));
+    measure(seen.x, count, float(grid.last));
+    measure(seen.y, count, float(grid.last));
     for (std::size_t i = 0; i < count; ++i) {
         const int parted = int(seen.x.most[i] - seen.x.least[i] > kernels::parted_px) |
                            int(seen.y.most[i] - seen.y.least[i] > kernels::parted_px);

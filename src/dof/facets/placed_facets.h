@@ -35,13 +35,14 @@ PlacedFacets place_facets(const FacetBlocks &found, std::size_t ldi_samples, con
 void find_blocks(const PlacedFacets &facets, const Imath::V2i &origin, int size, float widest,
                  std::vector<std::uint32_t> &found);
 
-// A square grid of cells, that begins with one of border: cell (1, 1) shows the pixel at `corner`.
+// A square grid of cells, that begins with one of border: cell (1, 1) shows the pixel at `corner`, and (last, last) is the last one
+// that anything is drawn into.
 struct FacetGrid {
     float corner_x, corner_y;
-    int stride;
+    int stride, last;
 };
 
-// Draws what the lens point sees of some blocks; nothing into the border.
+// Draws what the lens point sees of some blocks.
 void draw_facets(const PlacedFacets &facets, std::span<const std::uint32_t> blocks, const LensSample &lens,
                  const FacetGrid &grid, std::span<std::uint64_t> cells);
 

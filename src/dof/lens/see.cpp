@@ -186,7 +186,8 @@ void See::see_opaque(const LensSample &point, const BlockedSamples &samples, Blo
 
 // What lies between the samples of steep surfaces.
 void See::see_facets(const LensSample &point) {
-    const FacetGrid grid{float(tile_.origin.x) - (border - 1), float(tile_.origin.y) - (border - 1), stride};
+    const FacetGrid grid{float(tile_.origin.x) - (border - 1), float(tile_.origin.y) - (border - 1), stride,
+                         tile_.size + 2 * (border - 1)};
     draw_facets(scene_.facets, tile_.facets, point, grid, seen_.front);
 }
 
