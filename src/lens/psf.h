@@ -44,6 +44,9 @@ public:
     int begin_row() const { return rows_.begin; }
     int end_row() const { return rows_.end; }
 
+    // The weight of a pixel that lies in the disc as a whole.
+    double whole_weight() const { return area_to_weight_ / psf_.pixel_aspect; }
+
     struct Span {
         int begin = 0, end = 0; // columns
     };

@@ -12,6 +12,14 @@ namespace {
 
 constexpr float one_lamp = 1.1f; // times as near: parts of one, at any aperture
 
+// Up to which CoC, as a share of the lamp's, the shadow on one of a group is off from that on its middle by a fiftieth of the disc's
+// radius at most: by |1 - m| times their distance.
+double shared_to(const ShadowedLamp &group) {
+    constexpr double least = 1, of_radius = 0.02; // a group is so small that a twice as large thing's is
+    const double most = std::max(least, of_radius * std::abs(group.lamp.coc) / std::max(group.spread, 1e-3));
+    return most / (1 + most);
+}
+
 // Of the first sample of a block: the same wherever the tile lies, and in all frames.
 std::uint32_t name_of(std::uint32_t block, int columns) {
     constexpr int blocks = lens_tile_size / BlockedSamples::size;
@@ -28,7 +36,7 @@ bool HighlightShadows::is_apart(const ShadowedLamp &group, const CastingBlock &b
     const SampleBlock &block = samples.blocks[b.number];
     const std::vector<Footprint> &footprints = casters.footprints.of(b.number).footprints;
     const auto [farthest, nearest] = search_.range_of(group, casters, block);
-    const float most = float(group.lamp.coc / 2) / casters.across;
+    const float most = float(group.lamp.coc * shared_to(group)) / casters.across;
     for (std::uint32_t i = block.begin; i < block.end; ++i) {
         if (!(samples.depth[i] > farthest) || samples.depth[i] > nearest) continue;
         const auto [least_coc, most_coc] = std::ranges::minmax(footprints[i - block.begin].coc);

@@ -155,13 +155,14 @@ void HighlightTile::spread_disc(const Spreading &from) {
     const double coc = std::abs(from.lamp.coc);
     const PsfRows rows({from.lamp.centre, coc / squeeze, from.lamp.pixel_aspect * squeeze}, tile);
     const LampDisc disc{from.lamp.centre, {coc / squeeze, coc * from.lamp.pixel_aspect}};
+    const double inside = rows.whole_weight() * (1 - 1e-6);
     const bool in_rows = !held_out_.by && (from.together || !from.shadowed);
     std::array<double, PsfRows::max_size + 1> weights;
     for (int y = rows.begin_row(); y < rows.end_row(); ++y) {
         const PsfRows::Span span = rows.row(y, weights.data());
         for (int x = span.begin; x < span.end; ++x) {
             double &weight = weights[std::size_t(x)];
-            if (in_rows && !(from.together && is_crossed_rim(x, y, disc))) continue;
+            if (in_rows && !(from.together && weight < inside && is_crossed_rim(x, y, disc))) continue;
             add(from, x, y, all_colours, weight, &disc);
             weight = 0;
         }

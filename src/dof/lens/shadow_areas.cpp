@@ -18,7 +18,7 @@ constexpr float of_edges =
 ShadowAreas::ShadowAreas(const BlockedSamples &samples)
     : samples_(samples), columns_(pieces_of(samples.columns, size)),
       depths_(std::size_t(columns_) * std::size_t(pieces_of(samples.rows, size))), made_(depths_.size()),
-      steps_(depths_.size()), block_depths_(samples.blocks.size()) {
+      steps_(depths_.size()), least_focus_(depths_.size()), block_depths_(samples.blocks.size()) {
     for (std::uint32_t b = 0; b < samples.blocks.size(); ++b) {
         Depths &depths = depths_[of(b)];
         depths.farthest = std::min(depths.farthest, samples.blocks[b].depth_min);
@@ -27,7 +27,10 @@ ShadowAreas::ShadowAreas(const BlockedSamples &samples)
 }
 
 const NearBounds *ShadowAreas::nearer_than(std::size_t area, float depth) const {
-    std::call_once(made_[area], [&] { steps_[area] = steps_of(area); });
+    std::call_once(made_[area], [&] {
+        steps_[area] = steps_of(area);
+        least_focus_[area] = least_focus_of(area);
+    });
     return steps_[area].nearer_than(depth);
 }
 
@@ -57,6 +60,16 @@ std::vector<std::uint32_t> ShadowAreas::blocks_of(std::size_t area) const {
         for (int column = left; column < std::min(left + size, samples_.columns); ++column)
             blocks.push_back(std::uint32_t(row * samples_.columns + column));
     return blocks;
+}
+
+float ShadowAreas::least_focus_of(std::size_t area) const {
+    constexpr float rounding = 0.01f; // pixels
+    const std::vector<float> &coc = samples_.hiding_coc();
+    float least = std::numeric_limits<float>::infinity();
+    for (const std::uint32_t b : blocks_of(area))
+        for (std::uint32_t i = samples_.blocks[b].begin; i < samples_.blocks[b].end; ++i)
+            least = std::min(least, samples_.depth[i] + coc[i]);
+    return least - of_edges - rounding;
 }
 
 NearSteps ShadowAreas::steps_of(std::size_t area) const {

@@ -37,6 +37,10 @@ public:
         return depths_[area].nearest > farthest && depths_[area].farthest <= nearest;
     }
 
+    // The least CoC that the footprint of a sample of an area may have which is no nearer than a perceptive depth; of an area that
+    // nearer_than() was asked of. Of two samples the nearer one has the lesser CoC, by what their depths differ: but for a bent field.
+    float least_coc(std::size_t area, float nearest) const { return least_focus_[area] - nearest; }
+
     // Whether any sample of a block may lie between two perceptive depths; of an area that nearer_than() was asked of.
     bool block_lies_between(std::uint32_t block, float farthest, float nearest) const {
         return block_depths_[block].lies_between(farthest, nearest);
@@ -55,6 +59,7 @@ private:
     };
     void find_depths(std::uint32_t block) const;
     NearSteps steps_of(std::size_t area) const;
+    float least_focus_of(std::size_t area) const;
 
     const BlockedSamples &samples_;
     int columns_;
@@ -64,6 +69,8 @@ private:
     std::vector<Depths> depths_; // [area]
     mutable std::vector<std::once_flag> made_;
     mutable std::vector<NearSteps> steps_; // [area]
+    mutable std::vector<float>
+        least_focus_; // [area]: perceptive depth where a CoC would be 0, the least of its samples
     mutable std::vector<BlockDepths> block_depths_;
 };
 

@@ -3,6 +3,7 @@
 #include "dof/lens/cells.h"
 
 #include <algorithm>
+#include <cmath>
 #include <unordered_map>
 
 namespace sparselens {
@@ -58,14 +59,82 @@ ShadowSearch::Range ShadowSearch::range_of(const ShadowedLamp &lamp, const Shado
     return casters.is_coarse() ? range : Range{lamp.nearer_than(block), range.nearest};
 }
 
-// Whether any of an area may; asked before its blocks are.
-bool ShadowSearch::may_cast(const ShadowedLamp &lamp, std::size_t set, std::size_t area) const {
+// Whether some lens point may bring one of its samples before the lamp: they come nearer by the difference of their CoCs at most.
+// For what is as blurred as the lamp, whose shadow may be of any size.
+bool ShadowSearch::is_before(const ShadowedLamp &lamp, const ShadowCasters &casters,
+                             const NearBounds &block) const {
+    constexpr double of_edge =
+        1; // cells, by which a footprint's edge lies beside its sample, and pixels of their CoCs
+    const double cell = double(casters.across), coc = lamp.lamp.coc,
+                 apart = std::max(coc - cell * double(block.coc_min), cell * double(block.coc_max) - coc);
+    const auto reaches = [&](int axis, float from, float to) {
+        const double by = (apart + cell * of_edge) * extent_[axis] + cell * of_edge + lamp.spread;
+        const double at = lamp.origin[axis] + lamp.lamp.centre[axis] - double(casters.corner[axis]);
+        return cell * double(from) - by <= at && cell * double(to) + by >= at;
+    };
+    return reaches(0, block.x_min, block.x_max) && reaches(1, block.y_min, block.y_max);
+}
+
+// Where on the screen a shadow may lie of one of its samples, of those that have such a CoC; empty: nowhere.
+template <typename Bounds>
+Imath::Box2f ShadowSearch::shadow_of(const ShadowedLamp &asked, const ShadowCasters &casters,
+                                     const Bounds &of, float least) const {
+    const NearBounds block{0,         of.x_min, of.x_max, of.y_min, of.y_max, std::max(of.coc_min, least),
+                           of.coc_max};
+    if (block.coc_min > block.coc_max) return {};
+    const Lamp &lamp = asked.lamp;
+    const ShadowScreen &screen = asked.screen;
+    const double cell = double(casters.across), least_coc = cell * double(block.coc_min),
+                 most_coc = cell * double(block.coc_max);
+    const Imath::Box2f all(Imath::V2f(screen.box.min), Imath::V2f(screen.box.max + Imath::V2i(1)));
+    if (least_coc <= lamp.coc && most_coc >= lamp.coc)
+        return is_before(asked, casters, block) ? all : Imath::Box2f();
+    Imath::Box2f shadow;
+    const auto reach = [&](int axis, float from, float to) {
+        const double a = shadow_magnification(lamp.coc, least_coc, screen.scale[axis]),
+                     b = shadow_magnification(lamp.coc, most_coc, screen.scale[axis]);
+        // A footprint reaches less than a cell from its sample.
+        const double half = std::max(std::abs(a), std::abs(b)) * (cell + asked.spread) + asked.spread;
+        const double lamp_at = asked.origin[axis] + lamp.centre[axis] - double(casters.corner[axis]);
+        const double low = cell * double(from) - lamp_at, high = cell * double(to) - lamp_at;
+        const auto [begins, ends] = std::minmax({a * low, a * high, b * low, b * high});
+        const double begin = screen.middle[axis] + begins - half, end = screen.middle[axis] + ends + half;
+        shadow.min[axis] = float(std::max(begin, double(all.min[axis])));
+        shadow.max[axis] = float(std::min(end, double(all.max[axis])));
+        return !(end < double(all.min[axis]) || begin > double(all.max[axis]));
+    };
+    return reach(0, block.x_min, block.x_max) && reach(1, block.y_min, block.y_max) ? shadow : Imath::Box2f();
+}
+
+// The least CoC of those of an area that may cast a shadow; none: none does. Asked before its blocks are.
+std::optional<float> ShadowSearch::least_coc_of(const ShadowedLamp &lamp, std::size_t set,
+                                                std::size_t area) const {
     const ShadowCasters &casters = casters_[set];
     const ShadowAreas &areas = casters.footprints.areas();
     const Range range = range_of(lamp, casters);
-    if (!areas.lies_between(area, range.farthest, range.nearest)) return false;
+    if (!areas.lies_between(area, range.farthest, range.nearest)) return {};
     const NearBounds *bounds = areas.nearer_than(area, range.farthest);
-    return bounds && !shadow_of(lamp, casters, *bounds).isEmpty();
+    if (!bounds) return {};
+    const float least = areas.least_coc(area, range.nearest);
+    return shadow_of(lamp, casters, *bounds, least).isEmpty() ? std::nullopt : std::optional(least);
+}
+
+std::optional<CastingBlock> ShadowSearch::casting(const ShadowedLamp &lamp, std::size_t set, std::uint32_t b,
+                                                  float least_coc) const {
+    const ShadowCasters &casters = casters_[set];
+    const auto &[samples, footprints, across, corner] = casters;
+    const SampleBlock &block = samples.blocks[b];
+    const auto [farthest, nearest] = range_of(lamp, casters, block);
+    if (!footprints.areas().block_lies_between(b, farthest, nearest)) return {};
+    Imath::Box2f shadow = shadow_of(lamp, casters, block, least_coc);
+    if (shadow.isEmpty()) return {};
+    if (block.depth_min <= farthest) { // some of it lies behind the lamp
+        const NearBounds *near = footprints.of(b).near.nearer_than(farthest);
+        if (!near) return {};
+        shadow = shadow_of(lamp, casters, *near, least_coc);
+        if (shadow.isEmpty()) return {};
+    }
+    return CastingBlock{b, std::uint32_t(set), shadow};
 }
 
 } // namespace sparselens

@@ -11,9 +11,9 @@
 #include <Imath/ImathBox.h>
 #include <Imath/ImathVec.h>
 
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -97,15 +97,16 @@ public:
 
 private:
     void add_blocks(std::size_t set, std::span<const std::uint32_t> blocks);
-    bool may_cast(const ShadowedLamp &lamp, std::size_t set, std::size_t area) const;
+    std::optional<float> least_coc_of(const ShadowedLamp &lamp, std::size_t set, std::size_t area) const;
     template <typename Visit>
     bool in_blocks(const ShadowedLamp &lamp, std::size_t set, std::span<const std::uint32_t> blocks,
-                   const Visit &visit) const;
+                   float least_coc, const Visit &visit) const;
+    std::optional<CastingBlock> casting(const ShadowedLamp &lamp, std::size_t set, std::uint32_t block,
+                                        float least_coc) const;
+    bool is_before(const ShadowedLamp &lamp, const ShadowCasters &casters, const NearBounds &bounds) const;
     template <typename Bounds>
-    bool is_before(const ShadowedLamp &lamp, const ShadowCasters &casters, const Bounds &bounds) const;
-    template <typename Bounds>
-    Imath::Box2f shadow_of(const ShadowedLamp &lamp, const ShadowCasters &casters,
-                           const Bounds &bounds) const;
+    Imath::Box2f shadow_of(const ShadowedLamp &lamp, const ShadowCasters &casters, const Bounds &bounds,
+                           float least_coc) const;
 
     std::vector<ShadowCasters> casters_; // samples, solids; and those of the tile's coarse scene
     Imath::V2d extent_{1, 1};
@@ -119,22 +120,10 @@ private:
 
 template <typename Visit>
 bool ShadowSearch::in_blocks(const ShadowedLamp &lamp, std::size_t set, std::span<const std::uint32_t> blocks,
-                             const Visit &visit) const {
-    const ShadowCasters &casters = casters_[set];
-    const auto &[samples, footprints, across, corner] = casters;
+                             float least_coc, const Visit &visit) const {
     for (const std::uint32_t b : blocks) {
-        const SampleBlock &block = samples.blocks[b];
-        const auto [farthest, nearest] = range_of(lamp, casters, block);
-        if (!footprints.areas().block_lies_between(b, farthest, nearest)) continue;
-        Imath::Box2f shadow = shadow_of(lamp, casters, block);
-        if (shadow.isEmpty()) continue;
-        if (block.depth_min <= farthest) { // some of it lies behind the lamp
-            const NearBounds *near = footprints.of(b).near.nearer_than(farthest);
-            if (!near) continue;
-            shadow = shadow_of(lamp, casters, *near);
-            if (shadow.isEmpty()) continue;
-        }
-        if (!visit(CastingBlock{b, std::uint32_t(set), shadow})) return false;
+        const std::optional<CastingBlock> block = casting(lamp, set, b, least_coc);
+        if (block && !visit(*block)) return false;
     }
     return true;
 }
@@ -142,7 +131,8 @@ bool ShadowSearch::in_blocks(const ShadowedLamp &lamp, std::size_t set, std::spa
 template <typename Visit>
 void ShadowSearch::in_tile(const ShadowedLamp &lamp, const Visit &visit) const {
     for (const auto &[set, area, blocks] : by_area_)
-        if (may_cast(lamp, set, area) && !in_blocks(lamp, set, blocks, visit)) return;
+        if (const auto coc = least_coc_of(lamp, set, area); coc && !in_blocks(lamp, set, blocks, *coc, visit))
+            return;
 }
 
 template <typename Visit>
@@ -150,53 +140,10 @@ void ShadowSearch::in_picture(const ShadowedLamp &lamp, const Visit &visit) cons
     for (std::size_t set = 0; set < casters_.size(); ++set) {
         const ShadowAreas &areas = casters_[set].footprints.areas();
         for (std::size_t area = 0; area < areas.count(); ++area)
-            if (may_cast(lamp, set, area) && !in_blocks(lamp, set, areas.blocks_of(area), visit)) return;
+            if (const auto coc = least_coc_of(lamp, set, area);
+                coc && !in_blocks(lamp, set, areas.blocks_of(area), *coc, visit))
+                return;
     }
-}
-
-// Whether some lens point may bring one of its samples before the lamp: they come nearer by the difference of their CoCs at most.
-// For what is as blurred as the lamp, whose shadow may be of any size.
-template <typename Bounds>
-bool ShadowSearch::is_before(const ShadowedLamp &lamp, const ShadowCasters &casters,
-                             const Bounds &block) const {
-    constexpr double of_edge =
-        1; // cells, by which a footprint's edge lies beside its sample, and pixels of their CoCs
-    const double cell = double(casters.across), coc = lamp.lamp.coc,
-                 apart = std::max(coc - cell * double(block.coc_min), cell * double(block.coc_max) - coc);
-    const auto reaches = [&](int axis, float from, float to) {
-        const double by = (apart + cell * of_edge) * extent_[axis] + cell * of_edge + lamp.spread;
-        const double at = lamp.origin[axis] + lamp.lamp.centre[axis] - double(casters.corner[axis]);
-        return cell * double(from) - by <= at && cell * double(to) + by >= at;
-    };
-    return reaches(0, block.x_min, block.x_max) && reaches(1, block.y_min, block.y_max);
-}
-
-// Where on the screen a shadow of one of its samples may lie; empty: nowhere.
-template <typename Bounds>
-Imath::Box2f ShadowSearch::shadow_of(const ShadowedLamp &asked, const ShadowCasters &casters,
-                                     const Bounds &block) const {
-    const Lamp &lamp = asked.lamp;
-    const ShadowScreen &screen = asked.screen;
-    const double cell = double(casters.across), least_coc = cell * double(block.coc_min),
-                 most_coc = cell * double(block.coc_max);
-    const Imath::Box2f all(Imath::V2f(screen.box.min), Imath::V2f(screen.box.max + Imath::V2i(1)));
-    if (least_coc <= lamp.coc && most_coc >= lamp.coc)
-        return is_before(asked, casters, block) ? all : Imath::Box2f();
-    Imath::Box2f shadow;
-    const auto reach = [&](int axis, float from, float to) {
-        const double a = shadow_magnification(lamp.coc, least_coc, screen.scale[axis]),
-                     b = shadow_magnification(lamp.coc, most_coc, screen.scale[axis]);
-        // A footprint reaches less than a cell from its sample.
-        const double half = std::max(std::abs(a), std::abs(b)) * (cell + asked.spread) + asked.spread;
-        const double lamp_at = asked.origin[axis] + lamp.centre[axis] - double(casters.corner[axis]);
-        const double low = cell * double(from) - lamp_at, high = cell * double(to) - lamp_at;
-        const auto [least, most] = std::minmax({a * low, a * high, b * low, b * high});
-        const double begin = screen.middle[axis] + least - half, end = screen.middle[axis] + most + half;
-        shadow.min[axis] = float(std::max(begin, double(all.min[axis])));
-        shadow.max[axis] = float(std::min(end, double(all.max[axis])));
-        return !(end < double(all.min[axis]) || begin > double(all.max[axis]));
-    };
-    return reach(0, block.x_min, block.x_max) && reach(1, block.y_min, block.y_max) ? shadow : Imath::Box2f();
 }
 
 } // namespace sparselens
