@@ -18,7 +18,7 @@ constexpr float of_edges =
 ShadowAreas::ShadowAreas(const BlockedSamples &samples)
     : samples_(samples), columns_(pieces_of(samples.columns, size)),
       depths_(std::size_t(columns_) * std::size_t(pieces_of(samples.rows, size))), made_(depths_.size()),
-      steps_(depths_.size()), least_focus_(depths_.size()), block_depths_(samples.blocks.size()) {
+      steps_(depths_.size()), focus_(depths_.size()), block_depths_(samples.blocks.size()) {
     for (std::uint32_t b = 0; b < samples.blocks.size(); ++b) {
         Depths &depths = depths_[of(b)];
         depths.farthest = std::min(depths.farthest, samples.blocks[b].depth_min);
@@ -29,7 +29,7 @@ ShadowAreas::ShadowAreas(const BlockedSamples &samples)
 const NearBounds *ShadowAreas::nearer_than(std::size_t area, float depth) const {
     std::call_once(made_[area], [&] {
         steps_[area] = steps_of(area);
-        least_focus_[area] = least_focus_of(area);
+        focus_[area] = focus_of(area);
     });
     return steps_[area].nearer_than(depth);
 }
@@ -62,14 +62,17 @@ std::vector<std::uint32_t> ShadowAreas::blocks_of(std::size_t area) const {
     return blocks;
 }
 
-float ShadowAreas::least_focus_of(std::size_t area) const {
-    constexpr float rounding = 0.01f; // pixels
+CocRange ShadowAreas::focus_of(std::size_t area) const {
+    constexpr float infinity = std::numeric_limits<float>::infinity(),
+                    rounding = 0.01f; // pixels
     const std::vector<float> &coc = samples_.hiding_coc();
-    float least = std::numeric_limits<float>::infinity();
+    CocRange focus{infinity, -infinity};
     for (const std::uint32_t b : blocks_of(area))
-        for (std::uint32_t i = samples_.blocks[b].begin; i < samples_.blocks[b].end; ++i)
-            least = std::min(least, samples_.depth[i] + coc[i]);
-    return least - of_edges - rounding;
+        for (std::uint32_t i = samples_.blocks[b].begin; i < samples_.blocks[b].end; ++i) {
+            focus.least = std::min(focus.least, samples_.depth[i] + coc[i]);
+            focus.most = std::max(focus.most, samples_.depth[i] + coc[i]);
+        }
+    return {focus.least - of_edges - rounding, focus.most + of_edges + rounding};
 }
 
 NearSteps ShadowAreas::steps_of(std::size_t area) const {

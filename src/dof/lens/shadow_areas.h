@@ -13,6 +13,10 @@
 
 namespace sparselens {
 
+struct CocRange {
+    float least, most; // pixels, signed
+};
+
 class ShadowAreas {
 public:
     static constexpr int size = 8; // blocks an area is wide and high
@@ -37,9 +41,11 @@ public:
         return depths_[area].nearest > farthest && depths_[area].farthest <= nearest;
     }
 
-    // The least CoC that the footprint of a sample of an area may have which is no nearer than a perceptive depth; of an area that
-    // nearer_than() was asked of. Of two samples the nearer one has the lesser CoC, by what their depths differ: but for a bent field.
-    float least_coc(std::size_t area, float nearest) const { return least_focus_[area] - nearest; }
+    // The CoCs that footprints of the samples of an area may have which lie between two perceptive depths; of an area that nearer_than()
+    // was asked of. Of two samples the nearer one has the lesser CoC, by what their depths differ: but for a bent field.
+    CocRange cocs_between(std::size_t area, float farthest, float nearest) const {
+        return {focus_[area].least - nearest, focus_[area].most - farthest};
+    }
 
     // Whether any sample of a block may lie between two perceptive depths; of an area that nearer_than() was asked of.
     bool block_lies_between(std::uint32_t block, float farthest, float nearest) const {
@@ -59,7 +65,7 @@ private:
     };
     void find_depths(std::uint32_t block) const;
     NearSteps steps_of(std::size_t area) const;
-    float least_focus_of(std::size_t area) const;
+    CocRange focus_of(std::size_t area) const;
 
     const BlockedSamples &samples_;
     int columns_;
@@ -69,8 +75,8 @@ private:
     std::vector<Depths> depths_; // [area]
     mutable std::vector<std::once_flag> made_;
     mutable std::vector<NearSteps> steps_; // [area]
-    mutable std::vector<float>
-        least_focus_; // [area]: perceptive depth where a CoC would be 0, the least of its samples
+    mutable std::vector<CocRange>
+        focus_; // [area]: of CoC and perceptive depth together, which is that of the focus
     mutable std::vector<BlockDepths> block_depths_;
 };
 

@@ -78,9 +78,14 @@ bool ShadowSearch::is_before(const ShadowedLamp &lamp, const ShadowCasters &cast
 // Where on the screen a shadow may lie of one of its samples, of those that have such a CoC; empty: nowhere.
 template <typename Bounds>
 Imath::Box2f ShadowSearch::shadow_of(const ShadowedLamp &asked, const ShadowCasters &casters,
-                                     const Bounds &of, float least) const {
-    const NearBounds block{0,         of.x_min, of.x_max, of.y_min, of.y_max, std::max(of.coc_min, least),
-                           of.coc_max};
+                                     const Bounds &of, const CocRange &cocs) const {
+    const NearBounds block{0,
+                           of.x_min,
+                           of.x_max,
+                           of.y_min,
+                           of.y_max,
+                           std::max(of.coc_min, cocs.least),
+                           std::min(of.coc_max, cocs.most)};
     if (block.coc_min > block.coc_max) return {};
     const Lamp &lamp = asked.lamp;
     const ShadowScreen &screen = asked.screen;
@@ -106,32 +111,32 @@ Imath::Box2f ShadowSearch::shadow_of(const ShadowedLamp &asked, const ShadowCast
     return reach(0, block.x_min, block.x_max) && reach(1, block.y_min, block.y_max) ? shadow : Imath::Box2f();
 }
 
-// The least CoC of those of an area that may cast a shadow; none: none does. Asked before its blocks are.
-std::optional<float> ShadowSearch::least_coc_of(const ShadowedLamp &lamp, std::size_t set,
-                                                std::size_t area) const {
+// The CoCs of those of an area that may cast a shadow; none: none does. Asked before its blocks are.
+std::optional<CocRange> ShadowSearch::cocs_of(const ShadowedLamp &lamp, std::size_t set,
+                                              std::size_t area) const {
     const ShadowCasters &casters = casters_[set];
     const ShadowAreas &areas = casters.footprints.areas();
     const Range range = range_of(lamp, casters);
     if (!areas.lies_between(area, range.farthest, range.nearest)) return {};
     const NearBounds *bounds = areas.nearer_than(area, range.farthest);
     if (!bounds) return {};
-    const float least = areas.least_coc(area, range.nearest);
-    return shadow_of(lamp, casters, *bounds, least).isEmpty() ? std::nullopt : std::optional(least);
+    const CocRange cocs = areas.cocs_between(area, range.farthest, range.nearest);
+    return shadow_of(lamp, casters, *bounds, cocs).isEmpty() ? std::nullopt : std::optional(cocs);
 }
 
 std::optional<CastingBlock> ShadowSearch::casting(const ShadowedLamp &lamp, std::size_t set, std::uint32_t b,
-                                                  float least_coc) const {
+                                                  const CocRange &cocs) const {
     const ShadowCasters &casters = casters_[set];
     const auto &[samples, footprints, across, corner] = casters;
     const SampleBlock &block = samples.blocks[b];
     const auto [farthest, nearest] = range_of(lamp, casters, block);
     if (!footprints.areas().block_lies_between(b, farthest, nearest)) return {};
-    Imath::Box2f shadow = shadow_of(lamp, casters, block, least_coc);
+    Imath::Box2f shadow = shadow_of(lamp, casters, block, cocs);
     if (shadow.isEmpty()) return {};
     if (block.depth_min <= farthest) { // some of it lies behind the lamp
         const NearBounds *near = footprints.of(b).near.nearer_than(farthest);
         if (!near) return {};
-        shadow = shadow_of(lamp, casters, *near, least_coc);
+        shadow = shadow_of(lamp, casters, *near, cocs);
         if (shadow.isEmpty()) return {};
     }
     return CastingBlock{b, std::uint32_t(set), shadow};

@@ -97,16 +97,16 @@ public:
 
 private:
     void add_blocks(std::size_t set, std::span<const std::uint32_t> blocks);
-    std::optional<float> least_coc_of(const ShadowedLamp &lamp, std::size_t set, std::size_t area) const;
+    std::optional<CocRange> cocs_of(const ShadowedLamp &lamp, std::size_t set, std::size_t area) const;
     template <typename Visit>
     bool in_blocks(const ShadowedLamp &lamp, std::size_t set, std::span<const std::uint32_t> blocks,
-                   float least_coc, const Visit &visit) const;
+                   const CocRange &cocs, const Visit &visit) const;
     std::optional<CastingBlock> casting(const ShadowedLamp &lamp, std::size_t set, std::uint32_t block,
-                                        float least_coc) const;
+                                        const CocRange &cocs) const;
     bool is_before(const ShadowedLamp &lamp, const ShadowCasters &casters, const NearBounds &bounds) const;
     template <typename Bounds>
     Imath::Box2f shadow_of(const ShadowedLamp &lamp, const ShadowCasters &casters, const Bounds &bounds,
-                           float least_coc) const;
+                           const CocRange &cocs) const;
 
     std::vector<ShadowCasters> casters_; // samples, solids; and those of the tile's coarse scene
     Imath::V2d extent_{1, 1};
@@ -120,9 +120,9 @@ private:
 
 template <typename Visit>
 bool ShadowSearch::in_blocks(const ShadowedLamp &lamp, std::size_t set, std::span<const std::uint32_t> blocks,
-                             float least_coc, const Visit &visit) const {
+                             const CocRange &cocs, const Visit &visit) const {
     for (const std::uint32_t b : blocks) {
-        const std::optional<CastingBlock> block = casting(lamp, set, b, least_coc);
+        const std::optional<CastingBlock> block = casting(lamp, set, b, cocs);
         if (block && !visit(*block)) return false;
     }
     return true;
@@ -131,7 +131,7 @@ bool ShadowSearch::in_blocks(const ShadowedLamp &lamp, std::size_t set, std::spa
 template <typename Visit>
 void ShadowSearch::in_tile(const ShadowedLamp &lamp, const Visit &visit) const {
     for (const auto &[set, area, blocks] : by_area_)
-        if (const auto coc = least_coc_of(lamp, set, area); coc && !in_blocks(lamp, set, blocks, *coc, visit))
+        if (const auto cocs = cocs_of(lamp, set, area); cocs && !in_blocks(lamp, set, blocks, *cocs, visit))
             return;
 }
 
@@ -140,8 +140,8 @@ void ShadowSearch::in_picture(const ShadowedLamp &lamp, const Visit &visit) cons
     for (std::size_t set = 0; set < casters_.size(); ++set) {
         const ShadowAreas &areas = casters_[set].footprints.areas();
         for (std::size_t area = 0; area < areas.count(); ++area)
-            if (const auto coc = least_coc_of(lamp, set, area);
-                coc && !in_blocks(lamp, set, areas.blocks_of(area), *coc, visit))
+            if (const auto cocs = cocs_of(lamp, set, area);
+                cocs && !in_blocks(lamp, set, areas.blocks_of(area), *cocs, visit))
                 return;
     }
 }
