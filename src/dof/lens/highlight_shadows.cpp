@@ -196,33 +196,32 @@ bool HighlightShadows::are_side_by_side(std::uint32_t lamp_sample, std::uint32_t
 
 void HighlightShadows::cast_one(const ShadowedLamp &asked, const ShadowCasters &casters, std::uint32_t sample,
                                 const Footprint &footprint, std::uint32_t name, Shadow &into) const {
-    const Lamp &lamp = asked.lamp;
-    const ShadowScreen &screen = asked.screen;
-    const auto coc = float(lamp.coc);
-    // Along each axis from where to where. Past an edge that is more blurred than the lamp it is the other way round.
-    std::array<float, 2> low{-INFINITY, -INFINITY}, high{INFINITY, INFINITY};
-    for (std::size_t k = 0; k < 4; ++k) {
-        const std::size_t axis = k / 2;
-        const float m =
-            shadow_magnification(coc, casters.across * footprint.coc[k], float(screen.scale[int(axis)]));
-        const float place = casters.across * footprint.place[k] + casters.corner[int(axis)];
-        const float edge = float(screen.middle[int(axis)]) +
-                           m * (place - float(origin_[int(axis)]) - float(lamp.centre[int(axis)]));
-        const bool from_edge_on = (k % 2 == 0) == (m > 0);
-        if (from_edge_on)
-            low[axis] = std::max(low[axis], edge);
-        else
-            high[axis] = std::min(high[axis], edge);
-        if (std::isnan(edge)) return; // as blurred as the lamp, and right before it
+    const auto coc = float(asked.lamp.coc);
+    Imath::Box2f shadow;
+    for (const int axis : {0, 1}) {
+        // From where to where. Past an edge that is more blurred than the lamp it is the other way round.
+        float low = -INFINITY, high = INFINITY;
+        const auto scale = float(asked.screen.scale[axis]), middle = float(asked.screen.middle[axis]),
+                   lamp = float(asked.lamp.centre[axis]), first = float(asked.origin[axis]);
+        for (const bool ends : {false, true}) {
+            const std::size_t k = std::size_t(2 * axis + ends);
+            const float m = shadow_magnification(coc, casters.across * footprint.coc[k], scale);
+            const float place = casters.across * footprint.place[k] + casters.corner[axis];
+            const float edge = middle + m * (place - first - lamp);
+            if (std::isnan(edge)) return; // as blurred as the lamp, and right before it
+            if (ends != (m > 0))
+                low = std::max(low, edge);
+            else
+                high = std::min(high, edge);
+        }
+        const auto begin = float(asked.screen.box.min[axis]), end = float(asked.screen.box.max[axis]) + 1;
+        if (!(high > begin && low <= end && high > low)) return;
+        shadow.min[axis] = low, shadow.max[axis] = high;
     }
-    const Imath::Box2f shadow({low[0], low[1]}, {high[0], high[1]});
-    if (!(high[0] > float(screen.box.min.x) && low[0] <= float(screen.box.max.x) + 1 && high[0] > low[0] &&
-          high[1] > float(screen.box.min.y) && low[1] <= float(screen.box.max.y) + 1 && high[1] > low[1]))
-        return;
     const float alpha = casters.samples.alpha[sample];
     const bool opaque = is_opaque(alpha); // as solids are
     if (!opaque && !casters.is_coarse() && are_side_by_side(asked.sample, sample)) return;
-    into.hide(shadow, opaque ? 1 : alpha, name, screen);
+    into.hide(shadow, opaque ? 1 : alpha, name, asked.screen);
 }
 
 } // namespace sparselens
