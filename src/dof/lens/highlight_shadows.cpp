@@ -12,12 +12,12 @@ namespace {
 
 constexpr float one_lamp = 1.1f; // times as near: parts of one, at any aperture
 
-// Up to which CoC, as a share of the lamp's, the shadow on one of a group is off from that on its middle by a fiftieth of the disc's
-// radius at most: by |1 - m| times their distance.
-double shared_to(const ShadowedLamp &group) {
-    constexpr double least = 1, of_radius = 0.02; // a group is so small that a twice as large thing's is
-    const double most = std::max(least, of_radius * std::abs(group.lamp.coc) / std::max(group.spread, 1e-3));
-    return most / (1 + most);
+// The CoCs, as shares of the lamp's, of things whose shadows on one of a group are off from those on its middle one by a fiftieth of the
+// disc's radius at most: by |1 - m| times their distance, with m as in lamp_shadow.h.
+CocRange shared_cocs(const ShadowedLamp &group) {
+    constexpr double of_radius = 0.02;
+    const double most = of_radius * std::abs(group.lamp.coc) / std::max(group.spread, 1e-3); // |1 - m|
+    return {most < 1 ? float(-most / (1 - most)) : -INFINITY, float(most / (1 + most))};
 }
 
 // Of the first sample of a block: the same wherever the tile lies, and in all frames.
@@ -36,11 +36,12 @@ bool HighlightShadows::is_apart(const ShadowedLamp &group, const CastingBlock &b
     const SampleBlock &block = samples.blocks[b.number];
     const std::vector<Footprint> &footprints = casters.footprints.of(b.number).footprints;
     const auto [farthest, nearest] = search_.range_of(group, casters, block);
-    const float most = float(group.lamp.coc * shared_to(group)) / casters.across;
+    const CocRange shared = shared_cocs(group);
+    const float to_share = casters.across / float(group.lamp.coc);
     for (std::uint32_t i = block.begin; i < block.end; ++i) {
         if (!(samples.depth[i] > farthest) || samples.depth[i] > nearest) continue;
-        const auto [least_coc, most_coc] = std::ranges::minmax(footprints[i - block.begin].coc);
-        if (most > 0 ? most_coc > most : least_coc < most) return true;
+        for (const float coc : footprints[i - block.begin].coc)
+            if (!(coc * to_share >= shared.least && coc * to_share <= shared.most)) return true;
     }
     return false;
 }

@@ -162,7 +162,7 @@ void HighlightTile::spread_disc(const Spreading &from) {
         const PsfRows::Span span = rows.row(y, weights.data());
         for (int x = span.begin; x < span.end; ++x) {
             double &weight = weights[std::size_t(x)];
-            if (in_rows && !(from.together && weight < inside && is_crossed_rim(x, y, disc))) continue;
+            if (in_rows && (weight >= inside || !from.together || waits(from, x, y, &disc))) continue;
             add(from, x, y, all_colours, weight, &disc);
             weight = 0;
         }
@@ -207,9 +207,11 @@ double HighlightTile::left_by_cat_eye(bool behind, int x, int y) {
     return shares[std::size_t(y) * size + std::size_t(x)];
 }
 
-// Whether a shadow that all of the group share crosses a pixel at the rim of a disc: the share that is lit is its own there.
-bool HighlightTile::is_crossed_rim(int x, int y, const LampDisc &disc) const {
-    return shadows_.is_shared_crossed(x, y) && !disc.contains_pixel(x, y);
+// Whether its light in a pixel waits for that of its group, to be shadowed with it. At the rim of a disc that a shadow crosses it does
+// not: the share that is lit is its own there.
+bool HighlightTile::waits(const Spreading &from, int x, int y, const LampDisc *disc) const {
+    return from.together && reached_.intersects(Imath::V2i(x, y)) &&
+           !(disc && shadows_.is_shared_crossed(x, y) && !disc->contains_pixel(x, y));
 }
 
 // As add() of each pixel, where nothing hides the lamp, or not before add_group() does.
@@ -232,9 +234,8 @@ float HighlightTile::lit(const Spreading &from, int x, int y, const LampDisc *di
 
 void HighlightTile::add(const Spreading &from, int x, int y, unsigned of, double weight,
                         const LampDisc *disc) {
-    const bool waits =
-        from.together && reached_.intersects(Imath::V2i(x, y)) && !(disc && is_crossed_rim(x, y, *disc));
-    float share = waits ? float(weight) : float(weight) * lit(from, x, y, disc);
+    const bool later = waits(from, x, y, disc);
+    float share = later ? float(weight) : float(weight) * lit(from, x, y, disc);
     if (share <= 0) return;
     if (held_out_.by)
         share *= held_out_.passes(origin_ + Imath::V2i(x, y), scene_.samples.depth[from.sample]);
@@ -244,7 +245,7 @@ void HighlightTile::add(const Spreading &from, int x, int y, unsigned of, double
                     light.begin());
         for (std::size_t k = 0; k < 4 && of != all_colours; ++k)
             if (!(of & sets_[g * 4 + k])) light[k] = 0;
-        float *sum = &(waits ? together_ : light_)[at(x, y, g * 4)];
+        float *sum = &(later ? together_ : light_)[at(x, y, g * 4)];
         for (std::size_t k = 0; k < 4; ++k) sum[k] += share * light[k];
     }
 }

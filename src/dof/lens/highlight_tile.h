@@ -61,7 +61,7 @@ private:
     void add_seen(const Spreading &from, int x, int y, double weight, const std::array<double, 3> *colours);
     // `disc`: where the light of one lies; of a pixel that its edge crosses, only what lies in it is lit.
     void add(const Spreading &from, int x, int y, unsigned of, double weight, const LampDisc *disc = nullptr);
-    bool is_crossed_rim(int x, int y, const LampDisc &disc) const;
+    bool waits(const Spreading &from, int x, int y, const LampDisc *disc) const;
     void add_row(const Spreading &from, int y, int begin, int end, const double *weights);
     float lit(const Spreading &from, int x, int y, const LampDisc *disc) const;
     void add_group();
