@@ -28,7 +28,7 @@ done <<<"$faults"
 [ "${1-}" != --check ] || exit 0
 
 for name; do
-    cut -d '|' -f 1 <<<"$faults" | grep -qxF -e "$name" || { echo "mutations.sh: no fault is named $name" >&2; exit 2; }
+    cut -d '|' -f 1 <<<"$faults" | grep -xF -e "$name" >/dev/null || { echo "mutations.sh: no fault is named $name" >&2; exit 2; }
 done
 [ $# -eq 0 ] || faults=$(while IFS= read -r fault; do [[ " $* " != *" ${fault%%|*} "* ]] || echo "$fault"; done <<<"$faults")
 
