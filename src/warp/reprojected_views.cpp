@@ -43,13 +43,13 @@ ReprojectedViews::ReprojectedViews(std::vector<PackedView> views, double focal_p
                                    double jump) {
     check_views(views);
     std::sort(views.begin() + 1, views.end(), canonically_before);
-    const PackedView &centre = views[0];
-    const std::vector<Channel> channels = centre.samples.channels;
+    const Windows windows = views[0].samples.windows; // the samples are taken one by one
+    const std::vector<Channel> channels = views[0].samples.channels;
+    const Imath::V2d centre = views[0].framing.principal_point;
     std::vector<ViewMapping> mappings;
     std::vector<ViewSamples> samples;
     for (PackedView &view : views) {
-        mappings.emplace_back(view.position, focal_px, centre.samples.windows, view.framing,
-                              centre.framing.principal_point);
+        mappings.emplace_back(view.position, focal_px, windows, view.framing, centre);
         samples.push_back(std::move(view.samples));
         samples.back().keep_channels(channels);
     }

@@ -7,10 +7,9 @@
 // side.
 //
 // The pixels of one lamp share the shadows that are nearly the same for all of them, so that a lamp costs no more where it has
-// more pixels. Of two places of a lamp, w pixels apart, the shadows of one thing lie (1 - m) w apart, m as in lamp_shadow.h:
-// less than w, if the thing is out of focus on the other side or half as much as the lamp at most. The members of a group
-// (highlight_groups.h) take that shadow from the one in their middle, and it is off by a fiftieth of the disc's radius at most.
-// What stands nearer to the lamp is cast for each of them.
+// more pixels. Of two places of a lamp, w pixels apart, the shadows of one thing lie (1 - m) w apart, m as in lamp_shadow.h.
+// Where that is a fiftieth of the disc's radius at most, the members of a group (highlight_groups.h) take the shadow from the one in
+// their middle. What stands nearer to the lamp is cast for each of them.
 //
 // In a tile that is gathered in cells (cells.h) the shadows of what stands far before the lamp are those of the coarse scene's samples:
 // that of a cell is no wider than a sixteenth of the disc's radius.
