@@ -135,7 +135,7 @@ PlacedFacets place_facets(const FacetBlocks &found, std::size_t ldi_samples, con
                 placed.x[k].push_back(corners.x[i]);
                 placed.y[k].push_back(corners.y[i]);
                 placed.coc[k].push_back(corners.coc[i]);
-                placed.key[k].push_back(corners.key[i]);
+                placed.key[k].push_back(kernels::key_of(corners.upper[i], i));
             }
             widen(placed.blocks.back(), placed, placed.key[0].size() - 1);
         }

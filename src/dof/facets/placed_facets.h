@@ -24,7 +24,7 @@ struct PlacedFacets {
 // What holds the samples that facets are placed by.
 struct FacetCorners {
     std::span<const float> x, y, coc;
-    std::span<const std::uint64_t> key;
+    std::span<const std::uint32_t> upper;  // of their keys, whose lower half is their place here
     std::span<const std::uint32_t> source; // of the LDI's samples, or none of them
 };
 

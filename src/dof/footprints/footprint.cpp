@@ -42,7 +42,7 @@ public:
         float least = torn_px;
         for (std::uint64_t i = ldi_.begin[pixel(x, y)]; i < ldi_.begin[pixel(x, y) + 1]; ++i) {
             const std::uint32_t n = place(y, i);
-            const float apart = n == none ? least : std::abs(samples_.depth[n] - samples_.depth[of]);
+            const float apart = n == none ? least : std::abs(samples_.depth(n) - samples_.depth(of));
             if (apart >= least) continue;
             found = n;
             least = apart;
@@ -84,7 +84,7 @@ Footprint footprint(const SamplesInPicture &samples, const Neighbourhood &near, 
         const std::uint32_t n = near.neighbour(x + beside[k].x, y + beside[k].y, own);
         if (n == none) continue;
         const std::span<const float> place = k < 2 ? samples.x : samples.y;
-        const float apart = std::abs(samples.depth[own] - samples.depth[n]);
+        const float apart = std::abs(samples.depth(own) - samples.depth(n));
         const float joined = std::min((torn_px - apart) / (torn_px - whole), 1.0f);
         // By whole 1024ths, so that nothing is rounded otherwise elsewhere in the picture.
         const auto shared = [&](float alone, float a, float b) {

@@ -8,6 +8,7 @@
 #pragma once
 
 #include "deep/ldi.h"
+#include "kernels/lens_rules.h"
 
 #include <Imath/ImathBox.h>
 
@@ -27,8 +28,10 @@ struct Footprint {
 // Samples of an LDI where a lens sees them: of each its centre, its CoC and its perceptive depth, pixels, and which of the LDI
 // it is; others than the LDI's are beyond its number of samples. They may be some of the LDI's alone.
 struct SamplesInPicture {
-    std::span<const float> x, y, coc, depth;
+    std::span<const float> x, y, coc;
+    std::span<const std::uint32_t> upper; // of its key (kernels/lens_rules.h), which says the depth
     std::span<const std::uint32_t> source;
+    float depth(std::size_t i) const { return kernels::depth_of(upper[i]); }
 };
 
 struct SampleRun {

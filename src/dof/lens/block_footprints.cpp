@@ -26,7 +26,7 @@ NearSteps BlockFootprints::steps_of(const SampleBlock &block, std::span<const Fo
         const auto &[place, coc] = footprints[i];
         const auto [least, most] = std::ranges::minmax(coc);
         samples.push_back(
-            {samples_.depth[block.begin + i], place[0], place[1], place[2], place[3], least, most});
+            {samples_.depth(block.begin + i), place[0], place[1], place[2], place[3], least, most});
     }
     return {std::move(samples), in_step};
 }
@@ -43,7 +43,7 @@ std::vector<Footprint> BlockFootprints::compute(std::uint32_t block) const {
     const SampleBlock &own = samples_.blocks[block];
     const Imath::V2i first = Imath::V2i(column, row) * size;
     return footprints_of(ldi_,
-                         {samples_.x, samples_.y, samples_.hiding_coc(), samples_.depth, samples_.source},
+                         {samples_.x, samples_.y, samples_.hiding_coc(), samples_.upper, samples_.source},
                          {first, first + Imath::V2i(size - 1)}, {own.begin, own.end}, around);
 }
 

@@ -73,7 +73,7 @@ void complete(GatherScene &scene, const Treat &treat, const Progress &progress) 
     optics.bend(scene.fillers.samples);
     progress.may_end();
     scene.facets = place_facets(find_facets(ldi, scene.lens, double(optics.widest())), ldi.samples(),
-                                {samples.x, samples.y, samples.hiding_coc(), samples.key, samples.source});
+                                {samples.x, samples.y, samples.hiding_coc(), samples.upper, samples.source});
     scene.solids = place_solids(ldi, scene.lens, samples);
     optics.bend(scene.solids);
 }

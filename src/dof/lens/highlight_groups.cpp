@@ -22,7 +22,7 @@ auto group_of(const BlockedSamples &samples, std::uint32_t i) {
     const int size = group_size(samples.coc[i]);
     const auto cell = [&](float v, double step) { return std::int64_t(std::floor(double(v) / step)); };
     return std::tuple(size, cell(samples.x[i], size), cell(samples.y[i], size),
-                      cell(samples.depth[i], one_surface_px), size > 1 ? 0 : i);
+                      cell(samples.depth(i), one_surface_px), size > 1 ? 0 : i);
 }
 
 } // namespace

@@ -39,7 +39,7 @@ bool HighlightShadows::is_apart(const ShadowedLamp &group, const CastingBlock &b
     const CocRange shared = shared_cocs(group);
     const float to_share = casters.across / float(group.lamp.coc);
     for (std::uint32_t i = block.begin; i < block.end; ++i) {
-        if (!(samples.depth[i] > farthest) || samples.depth[i] > nearest) continue;
+        if (!(samples.depth(i) > farthest) || samples.depth(i) > nearest) continue;
         for (const float coc : footprints[i - block.begin].coc)
             if (!(coc * to_share >= shared.least && coc * to_share <= shared.most)) return true;
     }
@@ -121,7 +121,7 @@ void HighlightShadows::share(std::span<const std::uint32_t> group, const Imath::
     apart_.clear();
     if (group.size() == 1) return;
     const std::uint32_t middle = middle_of(group);
-    const auto depth = [&](std::uint32_t h) { return samples_.depth[highlights_.sample[h]]; };
+    const auto depth = [&](std::uint32_t h) { return samples_.depth(highlights_.sample[h]); };
     const auto [farthest, nearest] = std::ranges::minmax(group, {}, depth);
     const Lamp lamp = this->lamp(middle);
     group_ = ShadowedLamp{highlights_.sample[middle],
@@ -148,7 +148,7 @@ void HighlightShadows::share(std::span<const std::uint32_t> group, const Imath::
 
 bool HighlightShadows::cast(std::uint32_t highlight, const ShadowScreen &screen) {
     const std::uint32_t sample = highlights_.sample[highlight];
-    const float depth = samples_.depth[sample];
+    const float depth = samples_.depth(sample);
     const Imath::V2f at = place(highlight);
     const ShadowedLamp asked{
         sample,  lamp(highlight), origin_, screen, depth, depth + one_surface_px, search_.far_before(depth),
@@ -178,7 +178,7 @@ void HighlightShadows::cast_block(const ShadowedLamp &lamp, const CastingBlock &
     const ShadowSearch::Range range = search_.range_of(lamp, casters);
     const float farthest = casters.is_coarse() ? range.farthest : lamp.hardly;
     for (std::uint32_t i = block.begin; i < block.end; ++i) {
-        const float depth = samples.depth[i];
+        const float depth = samples.depth(i);
         const Imath::V2f at(samples.x[i], samples.y[i]);
         const bool right_before = !casters.is_coarse() && depth > lamp.depth && lamp.is_beside({at, at});
         if ((depth > farthest || right_before) && depth <= range.nearest)
@@ -191,7 +191,7 @@ bool HighlightShadows::are_side_by_side(std::uint32_t lamp_sample, std::uint32_t
     const auto same = [&](const std::vector<float> &along) {
         return std::floor(along[lamp_sample]) == std::floor(along[sample]);
     };
-    return samples_.depth[sample] <= one_lamp * samples_.depth[lamp_sample] &&
+    return samples_.depth(sample) <= one_lamp * samples_.depth(lamp_sample) &&
            !(same(samples_.x) && same(samples_.y)) && std::ranges::binary_search(highlights_.sample, sample);
 }
 

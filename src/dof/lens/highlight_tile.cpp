@@ -238,7 +238,7 @@ void HighlightTile::add(const Spreading &from, int x, int y, unsigned of, double
     float share = later ? float(weight) : float(weight) * lit(from, x, y, disc);
     if (share <= 0) return;
     if (held_out_.by)
-        share *= held_out_.passes(origin_ + Imath::V2i(x, y), scene_.samples.depth[from.sample]);
+        share *= held_out_.passes(origin_ + Imath::V2i(x, y), scene_.samples.depth(from.sample));
     for (std::size_t g = 0; g < sets_.size() / 4; ++g) {
         std::array<float, 4> light; // a copy, which rules out that it overlaps sum
         std::copy_n(&highlights_.light.values[(g * highlights_.light.count + from.highlight) * 4], 4,

@@ -83,10 +83,9 @@ void for_each_pixel(const BlockedSamples &samples, const Windows &windows, std::
 
 void resize(BlockedSamples &samples, std::size_t count, bool images) {
     if (images) samples.surface_coc.resize(count);
-    for (auto *array : {&samples.x, &samples.y, &samples.coc, &samples.depth, &samples.alpha})
-        array->resize(count);
+    for (auto *array : {&samples.x, &samples.y, &samples.coc, &samples.alpha}) array->resize(count);
     samples.source.resize(count);
-    samples.key.resize(count);
+    samples.upper.resize(count);
 }
 
 void store(BlockedSamples &samples, std::size_t at, const PlacedSample &f) {
@@ -94,12 +93,10 @@ void store(BlockedSamples &samples, std::size_t at, const PlacedSample &f) {
     samples.y[at] = f.y;
     samples.coc[at] = f.coc;
     if (!samples.surface_coc.empty()) samples.surface_coc[at] = f.surface_coc.value_or(f.coc);
-    samples.depth[at] = f.depth;
     samples.alpha[at] = f.alpha;
     samples.source[at] = f.source;
-    const std::uint32_t index = std::uint32_t(at);
-    samples.key[at] =
-        f.source == BlockedSamples::background ? background_key(index) : depth_key(f.depth, index);
+    const bool is_background = f.source == BlockedSamples::background;
+    samples.upper[at] = is_background ? kernels::background_upper : kernels::upper_of_depth(f.depth);
 }
 
 } // namespace
@@ -118,8 +115,8 @@ void bound(SampleBlock &block, const BlockedSamples &samples) {
         block.coc_min = std::min(block.coc_min, samples.coc[i]);
         block.coc_max = std::max(block.coc_max, samples.coc[i]);
         block.coc_least = std::min(block.coc_least, std::abs(samples.coc[i]));
-        block.depth_min = std::min(block.depth_min, samples.depth[i]);
-        block.depth_max = std::max(block.depth_max, samples.depth[i]);
+        block.depth_min = std::min(block.depth_min, samples.depth(i));
+        block.depth_max = std::max(block.depth_max, samples.depth(i));
         if (samples.source[i] == BlockedSamples::background) {
             block.has_background = true;
             continue;

@@ -38,9 +38,11 @@ struct BlockedSamples {
     // Where an opaque sample shows an image (Ldi::optical), coc is that of the image, by which its colour moves. This is the
     // one of the surface, by which it is decided where the mirror is seen at all. Empty where there are no images.
     std::vector<float> surface_coc;
-    std::vector<float> depth;          // perceptive depth, pixels: larger is nearer
-    std::vector<float> alpha;          // coverage, (0, 1]
-    std::vector<std::uint64_t> key;    // nearer is greater, no two are equal
+    std::vector<float> alpha; // coverage, (0, 1]
+    std::vector<std::uint32_t>
+        upper; // the upper half of the key (kernels/lens_rules.h), which says the depth
+    std::vector<std::uint32_t>
+        named; // of solids (solid_samples.h): what the lower half of the key names; empty: the sample itself
     std::vector<std::uint32_t> source; // index into the LDI's samples; `background` for the background
     static constexpr std::uint32_t background = 0xffffffffu;
 
@@ -49,6 +51,12 @@ struct BlockedSamples {
     static constexpr int size = 8;   // pixels a block is wide and high
 
     std::size_t count() const { return x.size(); }
+    // Perceptive, pixels: larger is nearer.
+    float depth(std::size_t i) const { return kernels::depth_of(upper[i]); }
+    // Nearer is greater, no two are equal. Never 0.
+    std::uint64_t key(std::size_t i) const {
+        return kernels::key_of(upper[i], named.empty() ? std::uint32_t(i) : named[i]);
+    }
     bool is_image(std::size_t i) const { return !surface_coc.empty() && surface_coc[i] != coc[i]; }
     // By which what hides moves.
     const std::vector<float> &hiding_coc() const { return surface_coc.empty() ? coc : surface_coc; }
@@ -61,14 +69,7 @@ inline float largest_coc_of(const SampleBlock &block) {
 // Sets the bounds of a block of `samples`, which has its samples already.
 void bound(SampleBlock &block, const BlockedSamples &samples);
 
-// Orders samples by depth (perceptive, at least 0), then by index; never 0. The index is its lower half.
-inline std::uint64_t depth_key(float depth, std::uint32_t sample) {
-    return kernels::key_of(kernels::upper_of_depth(depth), sample);
-}
 // A background lies behind what the LDI has at infinity.
-inline std::uint64_t background_key(std::uint32_t sample) {
-    return kernels::key_of(kernels::background_upper, sample);
-}
 inline bool is_background(std::uint64_t key) { return kernels::upper_of(key) <= kernels::background_upper; }
 
 // `known`: what an empty pixel is. Throws Error where the LDI has more samples than 32 bits count.

@@ -1,6 +1,7 @@
 #include "dof/lens/see.h"
 
 #include "dof/facets/placed_facets.h"
+#include "dof/lens/cell_rows.h"
 #include "kernels/lens_rules.h"
 
 #include <algorithm>
@@ -14,44 +15,11 @@ using namespace tile_cells;
 
 namespace {
 
+static_assert(size == 64); // cell_rows.h
+
 // Sorts by depth, the nearest first, then by index.
 std::uint64_t order_key(float depth, std::uint32_t sample) {
     return (std::uint64_t(~std::bit_cast<std::uint32_t>(depth)) << 32) | sample;
-}
-
-// Which of a row's keys are 0, bit by bit: by their upper halves, several at once.
-constexpr int half = size / 2;
-constexpr std::array<std::uint32_t, half> one_bit = [] {
-    std::array<std::uint32_t, half> bits{};
-    for (std::size_t n = 0; n < half; ++n) bits[n] = std::uint32_t{1} << n;
-    return bits;
-}();
-std::uint32_t zeros_of_half(const std::uint64_t *keys) {
-    std::uint32_t zeros = 0;
-    for (std::size_t n = 0; n < half; ++n)
-        zeros |= (0 - std::uint32_t(std::uint32_t(keys[n] >> 32) == 0)) & one_bit[n]; // no branch
-    return zeros;
-}
-std::uint64_t zeros_of(const std::uint64_t *keys) {
-    static_assert(size == 64);
-    return std::uint64_t{zeros_of_half(keys + half)} << half | zeros_of_half(keys);
-}
-
-// Which cells of a row show what is farther than on either side of them, so that a crack may lie there, bit by bit.
-std::uint32_t far_behind_of_half(const float *depths) {
-    std::uint32_t far = 0;
-    for (std::ptrdiff_t n = 0; n < std::ptrdiff_t(half); ++n) {
-        const float *depth = depths + n;
-        const float sides = std::max(std::min(depth[-1], depth[1]), std::min(depth[-stride], depth[stride])),
-                    corners = std::max(std::min(depth[-stride - 1], depth[stride + 1]),
-                                       std::min(depth[-stride + 1], depth[stride - 1]));
-        far |= (0 - std::uint32_t(std::max(sides, corners) > depth[0] + kernels::behind_crack_px)) &
-               one_bit[std::size_t(n)];
-    }
-    return far;
-}
-std::uint64_t far_behind(const float *depths) {
-    return std::uint64_t{far_behind_of_half(depths + half)} << half | far_behind_of_half(depths);
 }
 
 // Calls visit(begin, cells) with where a lens point sees the opaque samples of a block, from the one `begin` on, a few at once.
@@ -110,8 +78,8 @@ bool See::is_deep() const {
     for (const std::uint32_t b : tile_.samples) {
         const SampleBlock &block = scene_.samples.blocks[b];
         for (std::uint32_t i = block.begin; i < block.opaque_end; ++i) {
-            nearest = std::max(nearest, scene_.samples.depth[i]);
-            farthest = std::min(farthest, scene_.samples.depth[i]);
+            nearest = std::max(nearest, scene_.samples.depth(i));
+            farthest = std::min(farthest, scene_.samples.depth(i));
         }
     }
     return nearest > farthest + kernels::behind_crack_px;
@@ -135,7 +103,7 @@ void See::collect_partial() {
     std::vector<std::uint64_t> order;
     for (const std::uint32_t b : tile_.samples)
         for (std::uint32_t i = samples.blocks[b].opaque_end; i < samples.blocks[b].end; ++i)
-            if (in_reach(i)) order.push_back(order_key(samples.depth[i], i));
+            if (in_reach(i)) order.push_back(order_key(samples.depth(i), i));
     std::sort(order.begin(), order.end());
     PartialSamples &partial = seen_.partial;
     partial.sample.assign(order.begin(), order.end()); // the lower half
@@ -146,9 +114,9 @@ void See::collect_partial() {
     in_order(partial.x, [&](std::uint32_t i) { return samples.x[i]; });
     in_order(partial.y, [&](std::uint32_t i) { return samples.y[i]; });
     in_order(partial.coc, [&](std::uint32_t i) { return samples.coc[i]; });
-    in_order(partial.depth, [&](std::uint32_t i) { return samples.depth[i]; });
+    in_order(partial.depth, [&](std::uint32_t i) { return samples.depth(i); });
     in_order(partial.left, [&](std::uint32_t i) { return 1 - samples.alpha[i]; });
-    in_order(partial.key, [&](std::uint32_t i) { return samples.key[i]; });
+    in_order(partial.key, [&](std::uint32_t i) { return samples.key(i); });
     seen_.partial_cells.resize(order.size());
 }
 
@@ -176,10 +144,10 @@ void See::see_opaque(const LensSample &point, const BlockedSamples &samples, Blo
     for (const std::uint32_t b : bounds.reached(point, box_of(seen)))
         for_opaque(to_cells, samples, samples.hiding_coc(), samples.blocks[b],
                    [&](std::uint32_t begin, std::span<const std::int32_t> cells) {
-                       const std::uint64_t *key = &samples.key[begin];
-                       for (std::size_t i = 0; i < cells.size(); ++i) {
+                       const std::uint32_t *upper = &samples.upper[begin];
+                       for (std::uint32_t i = 0; i < cells.size(); ++i) {
                            std::uint64_t &cell = front[std::size_t(cells[i])];
-                           cell = std::max(cell, key[i]);
+                           cell = std::max(cell, kernels::key_of(upper[i], begin + i));
                        }
                    });
 }
@@ -199,10 +167,9 @@ void See::see_solids(const LensSample &point) {
     for (const std::uint32_t b : solid_bounds_.reached(point, box_of(everywhere())))
         for_opaque(to_cells, solids, solids.coc, solids.blocks[b],
                    [&](std::uint32_t begin, std::span<const std::int32_t> cells) {
-                       const std::uint64_t *key = &solids.key[begin];
                        for (std::size_t i = 0; i < cells.size(); ++i) {
                            std::uint64_t &cell = seen_.front[std::size_t(cells[i])];
-                           cell = cell == 0 ? 0 : std::max(cell, key[i]);
+                           cell = cell == 0 ? 0 : std::max(cell, solids.key(begin + i));
                        }
                    });
 }
@@ -239,11 +206,11 @@ std::uint64_t See::image_at(std::size_t cell) const {
     const BlockedSamples &samples = scene_.samples;
     const std::uint64_t front = seen_.front[cell];
     if (front == 0 || !samples.is_image(std::uint32_t(front))) return front;
-    const float depth = samples.depth[std::uint32_t(front)];
+    const float depth = samples.depth(std::uint32_t(front));
     for (const std::size_t near : {cell, cell - 1, cell + 1, cell - stride, cell + stride}) {
         const std::uint32_t image = image_[near];
-        if (image != 0 && kernels::is_in_mirror(samples.depth[image - 1], depth))
-            return samples.key[image - 1];
+        if (image != 0 && kernels::is_in_mirror(samples.depth(image - 1), depth))
+            return samples.key(image - 1);
     }
     return front;
 }
@@ -270,12 +237,10 @@ void See::find_cracks() {
 // Cracks of surfaces so even that cells seldom stay empty between their samples, and others show what is far behind.
 void See::find_cracks_before_others() {
     if (!is_deep_) return;
-    std::transform(seen_.front.begin(), seen_.front.begin() + std::ptrdiff_t(at(-border, tile_.size + 1)),
-                   depths_.begin(),
-                   [](std::uint64_t key) { return kernels::depth_of(kernels::upper_of(key)); });
+    depths_of(std::span(seen_.front).first(at(-border, tile_.size + 1)), depths_.data());
     for (int y = 0; y < tile_.size; ++y) {
         const auto [begin, end] = seen_.columns[std::size_t(y)];
-        for (std::uint64_t row = far_behind(&depths_[at(0, y)]); row != 0; row &= row - 1) {
+        for (std::uint64_t row = far_behind(&depths_[at(0, y)], stride); row != 0; row &= row - 1) {
             const int x = std::countr_zero(row);
             const std::size_t cell = at(x, y);
             if (seen_.front[cell] == 0 || x < begin || x >= end) continue;
@@ -289,7 +254,7 @@ void See::find_cracks_before_others() {
 std::uint64_t See::torn_at(std::size_t cell) const {
     const std::uint64_t behind = kernels::behind_crack(seen_.front[cell]);
     const BlockedSamples &samples = scene_.samples;
-    const auto depth = [&](std::uint64_t key) { return samples.depth[std::uint32_t(key)]; };
+    const auto depth = [&](std::uint64_t key) { return samples.depth(std::uint32_t(key)); };
     std::uint64_t farthest = 0;
     for (const std::size_t step :
          {std::size_t{1}, std::size_t(stride), std::size_t(stride - 1), std::size_t(stride + 1)}) {
@@ -322,7 +287,7 @@ void See::see_fillers(const LensSample &point) {
     see_opaque(point, fillers, filler_bounds_, box, seen_.filler);
     seen_.for_each_empty([&](std::size_t cell) {
         std::uint64_t &filler = seen_.filler[cell];
-        if (filler != 0 && hides(cell, fillers.depth[std::uint32_t(filler)])) filler = 0;
+        if (filler != 0 && hides(cell, fillers.depth(std::uint32_t(filler)))) filler = 0;
     });
 }
 

@@ -48,7 +48,7 @@ void ShadowAreas::find_depths(std::uint32_t b) const {
     constexpr float least_range = 1e-3f; // pixels
     depths.in_px = 63 / std::max(block.depth_max - block.depth_min, least_range);
     for (std::uint32_t i = block.begin; i < block.end; ++i) {
-        const std::uint64_t up_to = depths.up_to(samples_.depth[i]);
+        const std::uint64_t up_to = depths.up_to(samples_.depth(i));
         depths.steps |= up_to & ~(up_to >> 1);
     }
 }
@@ -69,8 +69,8 @@ CocRange ShadowAreas::focus_of(std::size_t area) const {
     CocRange focus{infinity, -infinity};
     for (const std::uint32_t b : blocks_of(area))
         for (std::uint32_t i = samples_.blocks[b].begin; i < samples_.blocks[b].end; ++i) {
-            focus.least = std::min(focus.least, samples_.depth[i] + coc[i]);
-            focus.most = std::max(focus.most, samples_.depth[i] + coc[i]);
+            focus.least = std::min(focus.least, samples_.depth(i) + coc[i]);
+            focus.most = std::max(focus.most, samples_.depth(i) + coc[i]);
         }
     return {focus.least - of_edges - rounding, focus.most + of_edges + rounding};
 }
@@ -82,7 +82,7 @@ NearSteps ShadowAreas::steps_of(std::size_t area) const {
         const SampleBlock &block = samples_.blocks[b];
         find_depths(b);
         for (std::uint32_t i = block.begin; i < block.end; ++i)
-            samples.push_back({samples_.depth[i], samples_.x[i], samples_.x[i], samples_.y[i], samples_.y[i],
+            samples.push_back({samples_.depth(i), samples_.x[i], samples_.x[i], samples_.y[i], samples_.y[i],
                                coc[i] - of_edges, coc[i] + of_edges});
     }
     const std::size_t in_step = std::max(pieces_of(samples.size(), most_steps), std::size_t(1));

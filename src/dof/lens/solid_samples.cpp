@@ -96,10 +96,11 @@ BlockedSamples place_solids(const Ldi &ldi, const ThinLens &lens, const BlockedS
         in_pixel(x, y, [&](std::uint64_t i, const Shown &) { placed.push_back(solids.placed(x, y, i)); });
     };
     BlockedSamples placed = make_blocks(ldi.windows, count, place);
+    placed.named.resize(placed.count());
     parallel_ranges(placed.count(), 4096, [&](std::size_t begin, std::size_t end) {
         for (std::size_t n = begin; n < end; ++n) {
             const Shown shown = solids.shown_by(placed.source[n]);
-            placed.key[n] = depth_key(placed.depth[n], place_of(samples, ldi, shown.pixel, shown.sample));
+            placed.named[n] = place_of(samples, ldi, shown.pixel, shown.sample);
         }
     });
     return placed;

@@ -192,8 +192,8 @@ float Weigh<Light>::opaque_passes(const Seen &seen, std::size_t cell) const {
     if (!held_out_.by) return 1;
     const std::uint64_t front = seen.front[cell];
     return passes(seen, cell,
-                  front != 0 ? scene_.samples.depth[std::uint32_t(front)]
-                             : scene_.fillers.samples.depth[std::uint32_t(seen.filler[cell])]);
+                  front != 0 ? scene_.samples.depth(std::uint32_t(front))
+                             : scene_.fillers.samples.depth(std::uint32_t(seen.filler[cell])));
 }
 
 template class Weigh<EvenLight>;

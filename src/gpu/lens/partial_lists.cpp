@@ -36,7 +36,7 @@ PartialLists partial_lists(const BlockedSamples &samples, const TileTask &task) 
         for (std::uint32_t i = samples.blocks[b].opaque_end; i < samples.blocks[b].end; ++i)
             sorted.push_back(i);
     std::ranges::sort(sorted, [&](std::uint32_t a, std::uint32_t b) {
-        return samples.depth[a] != samples.depth[b] ? samples.depth[a] > samples.depth[b] : a < b;
+        return samples.depth(a) != samples.depth(b) ? samples.depth(a) > samples.depth(b) : a < b;
     });
     PartialLists lists;
     for (const std::uint32_t i : sorted) {

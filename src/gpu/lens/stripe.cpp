@@ -33,7 +33,7 @@ void place_samples(Stripe &stripe, std::size_t groups, const Placed &what) {
         for (std::uint32_t i = block.begin; i < block.end; ++i) {
             const std::size_t to = i - what.range.first(from) + what.sample;
             stripe.places[to] = {from.x[i], from.y[i]};
-            stripe.uppers[to] = std::uint32_t(from.key[i] >> 32);
+            stripe.uppers[to] = from.upper[i];
             stripe.cocs[to] = from.hiding_coc()[i];
             stripe.alphas[to] = from.alpha[i];
             if (!stripe.shown.empty()) stripe.shown[to] = from.coc[i];
@@ -73,9 +73,9 @@ void place_solids(Stripe &stripe, const BlockedSamples &from, const Range &range
         for (std::size_t n = begin; n < end; ++n) {
             const std::size_t i = first + n, to = stripe.alphas.size() + n;
             stripe.places[to] = {from.x[i], from.y[i]};
-            stripe.uppers[to] = std::uint32_t(from.key[i] >> 32);
+            stripe.uppers[to] = from.upper[i];
             stripe.cocs[to] = from.coc[i];
-            stripe.solids[n] = std::uint32_t(from.key[i]) - first_sample;
+            stripe.solids[n] = from.named[i] - first_sample;
         }
     });
 }

@@ -45,7 +45,8 @@ struct Ranges {
         for (const std::uint32_t b : task.facets)
             for (const std::vector<std::uint64_t> &corners : scene.facets.key)
                 add_named(scene, corners, scene.facets.blocks[b]);
-        for (const std::uint32_t b : task.solids) add_named(scene, scene.solids.key, scene.solids.blocks[b]);
+        for (const std::uint32_t b : task.solids)
+            add_named(scene, scene.solids.named, scene.solids.blocks[b]);
     }
     void add_all(const GatherScene &scene) {
         samples.add_all(scene.samples);
@@ -58,9 +59,9 @@ struct Ranges {
     }
 
 private:
-    // The samples that the keys of a block name: a facet can reach a tile that some of its corners do not, and a solid one that
+    // The samples that the keys of a block name, by these or their lower halves: a facet can reach a tile that some of its corners do not, and a solid one that
     // the sample does not that it shows.
-    void add_named(const GatherScene &scene, const std::vector<std::uint64_t> &keys, const auto &block) {
+    void add_named(const GatherScene &scene, const auto &keys, const auto &block) {
         std::uint32_t least = ~0u, most = 0;
         for (std::uint32_t i = block.begin; i < block.end; ++i) {
             least = std::min(least, std::uint32_t(keys[i]));

@@ -30,7 +30,7 @@ TEST(Footprint, SharesItsEdgesWithItsSurfaceAndEndsWhereThatEnds) {
     const std::uint32_t count = std::uint32_t(blocked.count());
     const SampleRun all{0, count};
     const std::vector<Footprint> footprints =
-        footprints_of(ldi, {blocked.x, blocked.y, blocked.coc, blocked.depth, blocked.source},
+        footprints_of(ldi, {blocked.x, blocked.y, blocked.coc, blocked.upper, blocked.source},
                       {{0, 0}, {size - 1, size - 1}}, all, std::span(&all, 1));
     std::vector<std::uint32_t> places(count);
     for (std::uint32_t i = 0; i < count; ++i) places[blocked.source[i]] = i;

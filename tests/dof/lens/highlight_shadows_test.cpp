@@ -188,7 +188,7 @@ TEST(HighlightGroups, HoldEachSampleOnceAndAreSmall) {
                 const float reach = std::abs(samples.coc[group[0]]) / 32;
                 EXPECT_TRUE(i == group[0] || std::abs(samples.x[i] - samples.x[group[0]]) <= reach);
                 EXPECT_TRUE(i == group[0] || std::abs(samples.y[i] - samples.y[group[0]]) <= reach);
-                EXPECT_LE(std::abs(samples.depth[i] - samples.depth[group[0]]), one_surface_px);
+                EXPECT_LE(std::abs(samples.depth(i) - samples.depth(group[0])), one_surface_px);
             }
         });
         std::ranges::sort(found);
@@ -213,7 +213,7 @@ TEST(ShadowAreas, BoundAllThatIsNearer) {
         for (std::uint32_t b = 0; b < samples.blocks.size(); ++b) {
             const NearBounds *bounds = areas.nearer_than(areas.of(b), depth);
             for (std::uint32_t i = samples.blocks[b].begin; i < samples.blocks[b].end; ++i) {
-                if (!(samples.depth[i] > depth)) continue;
+                if (!(samples.depth(i) > depth)) continue;
                 ASSERT_TRUE(bounds);
                 EXPECT_TRUE(bounds->x_min <= samples.x[i] && samples.x[i] <= bounds->x_max);
                 EXPECT_TRUE(bounds->y_min <= samples.y[i] && samples.y[i] <= bounds->y_max);

@@ -51,7 +51,7 @@ struct TileFixture {
     std::uint64_t key(int x, int y, std::size_t place = 0) const {
         const std::size_t source = ldi.begin[std::size_t(y * 64 + x)] + place;
         const auto &sources = blocked.samples.source;
-        return blocked.samples.key[std::size_t(std::ranges::find(sources, source) - sources.begin())];
+        return blocked.samples.key(std::size_t(std::ranges::find(sources, source) - sources.begin()));
     }
 };
 

@@ -73,7 +73,7 @@ std::optional<std::uint64_t> shown(const std::function<Samples(int x, int y)> &s
     const BlockedSamples solids = place_solids(tile.ldi, lens, tile.blocked.samples);
     EXPECT_LE(solids.count(), 1u);
     if (solids.count() == 0) return {};
-    return tile.blocked.samples.source[std::uint32_t(solids.key[0])];
+    return tile.blocked.samples.source[std::uint32_t(solids.key(0))];
 }
 
 TEST(SolidSamples, OfEdgesShowTheNearestOpaqueSampleAround) {

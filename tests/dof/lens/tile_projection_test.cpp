@@ -66,7 +66,7 @@ BlockedSamples random_blocks(std::uint32_t count) {
             samples.x.push_back(x + nearby(random));
             samples.y.push_back(y + nearby(random));
             samples.coc.push_back(c + nearby(random) / 8);
-            samples.depth.push_back(1);
+            samples.upper.push_back(kernels::upper_of_depth(1));
             samples.source.push_back(0);
         }
         bound(block, samples);

@@ -32,7 +32,7 @@ struct WeighTest : testing::Test {
         seen.empty.fill(~std::uint64_t{});
         seen.front.resize(tile_cells::count);
         seen.filler.resize(tile_cells::count);
-        seen.partial = {{i},    {samples.x[i]}, {samples.y[i]}, {samples.coc[i]}, {samples.depth[i]},
+        seen.partial = {{i},    {samples.x[i]}, {samples.y[i]}, {samples.coc[i]}, {samples.depth(i)},
                         {.75f}, {partial}};
         seen.partial_cells = {0};
         return seen;
