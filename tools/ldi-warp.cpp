@@ -1,6 +1,7 @@
 // ldi-warp: warps a centre view and views from the rim of the lens into one layered depth image.
 #include "base/error.h"
 #include "checks/view_warnings.h"
+#include "deep/rounded.h"
 #include "gpu/warp/warp_device.h"
 #include "harness/tool.h"
 #include "io/camera/camera_write.h"
@@ -69,6 +70,7 @@ void run(const WarpCommand &options, const ToolContext &tool, ChosenWarpDevice &
         in.views, {options.depth.meaning, in.depth_filtered, in.camera}); // while the pixels are there
     const GivenViews given = given_views(in.views);
     Ldi ldi = warp(std::move(in.views), warp_by, *tool.progress);
+    if (options.round_for_lens) round_for_lens(ldi, scale_in_picture(warp_by, in.camera));
     device.report(tool);
     warn_of(tool, warnings);
     tool.say(

@@ -382,6 +382,7 @@ def warp(
     silhouettes: Literal["split", "whole"] = "split",
     agreement: Literal["test", "assume"] = "test",
     optical: Literal["on", "off"] = "on",
+    precision: Literal["exact", "lens"] = "exact",
     device: Optional[str] = "cpu",
     progress: Optional[_Progress] = None,
     focal_length: Optional[float] = None,
@@ -398,6 +399,7 @@ def warp(
     silhouettes: "split" pixels that mix two surfaces into two samples, or leave them "whole".
     agreement: "test" whether views agree out of focus before they are averaged, or "assume" it.
     optical: "on" finds the depth of what mirrors and glass show, which then is blurred and averaged by it, or "off".
+    precision: "exact", or rounded as finely as a "lens" picture needs, for smaller files.
     device: what warps: "cpu", "auto" (a GPU if there is one), "gpu" (a GPU, or Error), or a part of a device's name.
     progress: called with the name of the stage and a whole percentage.
     Lens values replace those of the centre view:

@@ -3,6 +3,7 @@
 #include "deep/cluster.h"
 #include "deep/flatten.h"
 #include "deep/front_samples.h"
+#include "deep/rounded.h"
 #include "dof/false_colour.h"
 #include "io/camera/camera_read.h"
 #include "io/camera/camera_write.h"
@@ -91,6 +92,7 @@ LdiObject warp(const py::object &views, const py::kwargs &given) {
     Keywords keywords("warp", given);
     const auto from = several<ViewObject>(views, "views", "a sequence of View");
     WarpOptions options = warp_options(keywords);
+    const bool rounds = keywords.word<bool>("precision", {{"exact", false}, {"lens", true}}).value_or(false);
     const LensValues lens = lens_values(keywords);
     const std::string given_device = keywords.text("device");
     const py::object progress = keywords.take("progress");
@@ -118,6 +120,7 @@ LdiObject warp(const py::object &views, const py::kwargs &given) {
             options.device = device;
             const WarpOptions by = with_lens(options, out.camera, placed);
             out.ldi = warp(std::move(placed), by, said);
+            if (rounds) round_for_lens(out.ldi, scale_in_picture(by, out.camera));
         });
         for (std::string &warning : of_views) warnings.push_back(std::move(warning));
         return out;

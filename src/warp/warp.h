@@ -48,6 +48,9 @@ struct WarpOptions {
 WarpOptions with_lens(WarpOptions options, const Camera &camera, std::span<const View> views);
 WarpOptions with_lens(WarpOptions options, const Camera &camera, const std::vector<PackedView> &views);
 
+// Perceptive depth times z in pixels of the picture, of which a view may have several to a side.
+double scale_in_picture(const WarpOptions &with_lens, const Camera &camera);
+
 // views[0] is the centre, whose windows and channels the LDI has. The result does not depend on the order of the
 // others. Channels of rim views are matched by name. Throws Error where display windows differ or a rim view lacks a
 // channel of the centre view.

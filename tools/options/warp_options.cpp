@@ -44,6 +44,12 @@ void add_warp_options(CLI::App &app, WarpCommand &options) {
                    "off: blur them by that of the surface (default: on)")
         ->type_name("on|off")
         ->transform(words(optical));
+    const std::map<std::string, bool> precisions{{"exact", false}, {"lens", true}};
+    app.add_option("--precision", options.round_for_lens,
+                   "lens: round depths and offsets to 1/64 pixel of blur and colours to 1/512 of themselves, "
+                   "which makes files a quarter smaller; exact: keep all digits (default: exact)")
+        ->type_name("exact|lens")
+        ->transform(words(precisions));
     add_device_option(app, options.device, "What warps");
     add_compression_option(app, options.compression, true);
     add_lens_options(app, options.lens);

@@ -20,7 +20,7 @@ struct WarpCommand {
     HistoryOptions history;
     ViewList views;
     Merge merge = Merge::average;
-    bool split_silhouettes = true, test_photo_consistency = true, find_images = true;
+    bool split_silhouettes = true, test_photo_consistency = true, find_images = true, round_for_lens = false;
     std::string output;
     std::string device = "cpu"; // as choose_device() has it
     AskedCompression compression;
