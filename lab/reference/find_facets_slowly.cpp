@@ -50,6 +50,26 @@ public:
         if (!closed) add(b, c);
     }
 
+    // What it is linked to in the pixel one step on.
+    Found linked(const Opaque &a, const Imath::V2i &step) const {
+        const Found b = nearest(a.pixel + step, double(a.depth));
+        if (!b) return {};
+        const double d = double(b->depth) - double(a.depth);
+        if (std::abs(d) < double(steep_px)) return b;
+        // Five steps in a line, the middle one from a to b; those before it as they are met on the way back, which is down where
+        // the way on is up.
+        const auto after = next_steps(*b, step, d), before = next_steps(a, Imath::V2i(0) - step, -d);
+        const double line[] = {-before[1], -before[0], d, after[0], after[1]};
+        double s = 0;
+        for (int first = 0; first <= 2; ++first) {
+            double smaller = INFINITY; // of the other two of these three
+            for (int k = first; k < first + 3; ++k)
+                if (k != 2) smaller = std::min(smaller, std::abs(line[k]));
+            s = std::max(s, smaller);
+        }
+        return std::abs(d) < double(steep_px) + 2 * s ? b : Found();
+    }
+
 private:
     Found nearest(const Imath::V2i &pixel, double depth) const {
         Found nearest;
@@ -73,25 +93,6 @@ private:
         return steps;
     }
 
-    Found linked(const Opaque &a, const Imath::V2i &step) const {
-        const Found b = nearest(a.pixel + step, double(a.depth));
-        if (!b) return {};
-        const double d = double(b->depth) - double(a.depth);
-        if (std::abs(d) < double(steep_px)) return b;
-        // Five steps in a line, the middle one from a to b; those before it as they are met on the way back, which is down where
-        // the way on is up.
-        const auto after = next_steps(*b, step, d), before = next_steps(a, Imath::V2i(0) - step, -d);
-        const double line[] = {-before[1], -before[0], d, after[0], after[1]};
-        double s = 0;
-        for (int first = 0; first <= 2; ++first) {
-            double smaller = INFINITY; // of the other two of these three
-            for (int k = first; k < first + 3; ++k)
-                if (k != 2) smaller = std::min(smaller, std::abs(line[k]));
-            s = std::max(s, smaller);
-        }
-        return std::abs(d) < double(steep_px) + 2 * s ? b : Found();
-    }
-
     const Ldi &ldi_;
     const ThinLens &lens_;
     double steep_;
@@ -108,6 +109,15 @@ std::vector<std::array<std::uint64_t, 3>> find_facets_slowly(const Ldi &ldi, con
         for (int x = data.min.x; x < data.max.x; ++x)
             for (const Opaque &a : slow.opaque_in({x, y})) slow.add_facets(a, facets);
     return facets;
+}
+
+std::optional<std::uint64_t> linked_slowly(const Ldi &ldi, const ThinLens &lens, std::uint64_t sample,
+                                           const Imath::V2i &pixel, const Imath::V2i &step) {
+    const SlowFacets slow(ldi, lens, 0);
+    for (const Opaque &own : slow.opaque_in(pixel))
+        if (own.sample == sample)
+            if (const Found found = slow.linked(own, step)) return found->sample;
+    return {};
 }
 
 } // namespace sparselens

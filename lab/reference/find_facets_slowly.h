@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace sparselens {
@@ -14,5 +15,9 @@ namespace sparselens {
 // Samples of the LDI, three for each facet, in no particular order.
 std::vector<std::array<std::uint64_t, 3>> find_facets_slowly(const Ldi &ldi, const ThinLens &lens,
                                                              double widest);
+
+// The sample that an opaque one of `pixel` (EXR coordinates) is linked to in the pixel one step on.
+std::optional<std::uint64_t> linked_slowly(const Ldi &ldi, const ThinLens &lens, std::uint64_t sample,
+                                           const Imath::V2i &pixel, const Imath::V2i &step);
 
 } // namespace sparselens

@@ -3,6 +3,7 @@
 #include "base/coverage.h"
 #include "base/parallel.h"
 #include "deep/build.h"
+#include "lab/reference/find_facets_slowly.h"
 
 #include <algorithm>
 #include <cmath>
@@ -69,14 +70,15 @@ const Seen *neighbour(const Samples &samples, const Seen &own, const Imath::V2i 
     return found;
 }
 
-void find_edges(const Samples &samples, Seen &own) {
+void find_edges(const Ldi &ldi, const ThinLens &lens, const Samples &samples, std::size_t i, Seen &own) {
     const auto edge = [&](const Imath::V2i &beside) {
         const int axis = beside.x != 0 ? 0 : 1;
-        const Seen *other = neighbour(samples, own, own.pixel + beside);
+        const auto linked = linked_slowly(ldi, lens, i, own.pixel, beside);
+        const Seen *other = linked ? &samples[*linked] : neighbour(samples, own, own.pixel + beside);
         const Edge alone{own.place[axis] + 0.5 * (beside.x + beside.y), own.coc};
         if (!other) return alone;
         const Edge shared{(own.place[axis] + other->place[axis]) / 2, (own.coc + other->coc) / 2};
-        const double loose = std::max(0.0, (std::abs(other->depth - own.depth) - 0.75) / 0.25);
+        const double loose = linked ? 0 : std::max(0.0, (std::abs(other->depth - own.depth) - 0.75) / 0.25);
         return Edge{std::lerp(shared.place, alone.place, loose), std::lerp(shared.coc, alone.coc, loose)};
     };
     own.left = edge({-1, 0});
@@ -98,7 +100,7 @@ public:
         for (const SlowLamp &lamp : lamps) shining_.insert(lamp.sample);
         parallel_for(samples_.size(), [&](std::size_t i) {
             Seen own = samples_[i];
-            find_edges(samples_, own);
+            find_edges(ldi, lens, samples_, i, own);
             samples_[i].left = own.left, samples_[i].right = own.right;
             samples_[i].above = own.above, samples_[i].below = own.below;
         });

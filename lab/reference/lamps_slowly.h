@@ -6,7 +6,7 @@
 // the lamp hides it there by its coverage, if it covers q as seen through u. What it
 // covers is its unit square displaced by its CoC; beside a sample of a neighbouring pixel, of those the nearest in depth, less than
 // three quarters of a pixel away in that, it ends half-way to it, at the mean of both places and CoCs, and up to a pixel in between
-// (dof/footprints/footprint.h). Lamps of partial coverage hide none of each other
+// (dof/footprints/footprint.h); beside one that it is linked to (dof/facets/facets.h) it ends half-way however far that is. Lamps of partial coverage hide none of each other
 // in other pixels that are less than a tenth farther away. The light of a lamp whose CoC is below two
 // pixels comes from a square around its place, of a pixel up to one and narrower in between: there every place in the lens sends
 // it to the pixels that the square lies in.

@@ -112,7 +112,7 @@ TEST_P(LampsSlowly, AreTheLightOfATile) {
                           double(highlights.light.at(2, h))}});
     const std::vector<SlowlyLit> expected = lamps_slowly(ldi, lens, lamps, places);
 
-    const BlockFootprints footprints(ldi, samples);
+    const BlockFootprints footprints(ldi, samples, Links(ldi, lens));
     const BlockFootprints solid_footprints(ldi, lit.solids);
     HighlightTile tile(lit, footprints, solid_footprints);
     std::vector<std::uint32_t> blocks(samples.blocks.size());
@@ -156,6 +156,7 @@ const Case cases[] = {
     {"AllInFrontOfFocus", -5.3, -8},
     {"BehindThinBoards", 8.3, 3, 0.7},
     {"BehindALeaningSurface", 8.3, 1, 0, 0.12},
+    {"BehindASteepSurface", 8.3, -16, 0, 1.6},
     {"OfPartialCoverage", 8.3, 3, 0.3, 0, 1, true},
     {"OfPixelsTwiceAsHigh", 6.3, 2, 0.2, 0, 2},
     {"OfAFewPixels", 2.6, -4},

@@ -33,6 +33,12 @@ public:
                 visit(LinkedSample{std::uint32_t(i), depth_at_1_ / ldi_.z[i]});
     }
 
+    // One of the LDI's samples; none where it is not opaque.
+    LinkedSample opaque(std::uint32_t sample) const {
+        if (!is_opaque(alpha_at(ldi_, alpha_, sample))) return {};
+        return {sample, depth_at_1_ / ldi_.z[sample]};
+    }
+
     // What a sample of that pixel is linked to in the pixel one step on; none if it is none.
     LinkedSample linked(const LinkedSample &a, const Imath::V2i &pixel, const Imath::V2i &step) const;
 

@@ -13,6 +13,7 @@ namespace {
 // Pixels of perceptive depth: surfaces are one altogether if they are no farther apart, and two from torn_px on.
 constexpr float whole = 0.75f;
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+const std::array<Imath::V2i, 4> beside{{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
 
 // Where the samples of a box of pixels are.
 class Neighbourhood {
@@ -33,6 +34,14 @@ public:
     std::uint32_t place(int y, std::uint64_t i) const {
         const Row &row = rows_[std::size_t(y - box_.min.y)];
         return row.place[i - row.first];
+    }
+
+    // The sample in the pixel one step on that is linked to one of pixel `at`, by their places.
+    std::uint32_t linked(const Imath::V2i &at, const Imath::V2i &step, std::uint32_t of) const {
+        const std::uint32_t source = samples_.source[of];
+        if (!samples_.links || source >= ldi_.samples()) return none;
+        const LinkedSample found = samples_.links->linked(samples_.links->opaque(source), at, step);
+        return found.found() && box_.intersects(at + step) ? place(at.y + step.y, found.sample) : none;
     }
 
     // The sample in a pixel that is one surface with another, by their places.
@@ -79,13 +88,17 @@ Footprint unit_square(const SamplesInPicture &samples, std::uint32_t at) {
 Footprint footprint(const SamplesInPicture &samples, const Neighbourhood &near, int x, int y,
                     std::uint32_t own) {
     Footprint f = unit_square(samples, own);
-    const std::array<Imath::V2i, 4> beside{{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
     for (std::size_t k = 0; k < 4; ++k) {
-        const std::uint32_t n = near.neighbour(x + beside[k].x, y + beside[k].y, own);
+        std::uint32_t n = near.neighbour(x + beside[k].x, y + beside[k].y, own);
+        const float apart = n == none ? torn_px : std::abs(samples.depth(own) - samples.depth(n));
+        float joined = std::min((torn_px - apart) / (torn_px - whole), 1.0f);
+        if (joined < 1)
+            if (const std::uint32_t steep = near.linked({x, y}, beside[k], own); steep != none) {
+                n = steep;
+                joined = 1;
+            }
         if (n == none) continue;
         const std::span<const float> place = k < 2 ? samples.x : samples.y;
-        const float apart = std::abs(samples.depth(own) - samples.depth(n));
-        const float joined = std::min((torn_px - apart) / (torn_px - whole), 1.0f);
         // By whole 1024ths, so that nothing is rounded otherwise elsewhere in the picture.
         const auto shared = [&](float alone, float a, float b) {
             const float middle = (a + b) / 2;
@@ -119,6 +132,29 @@ std::vector<Footprint> footprints_of(const Ldi &ldi, const SamplesInPicture &sam
             }
         }
     return footprints;
+}
+
+float coc_to_edges(const Links *links, const Imath::Box2i &pixels) {
+    float largest = torn_px / 2;
+    if (!links) return largest;
+    float least = INFINITY, most = -INFINITY;
+    const auto for_all = [&](int around, const auto &visit) {
+        for (int y = pixels.min.y - around; y <= pixels.max.y + around; ++y)
+            for (int x = pixels.min.x - around; x <= pixels.max.x + around; ++x)
+                links->for_each_opaque({x, y}, [&](const LinkedSample &s) { visit(Imath::V2i(x, y), s); });
+    };
+    for_all(1, [&](const Imath::V2i &, const LinkedSample &s) {
+        least = std::min(least, s.depth);
+        most = std::max(most, s.depth);
+    });
+    if (!(most - least > torn_px)) return largest;
+    for_all(0, [&](const Imath::V2i &at, const LinkedSample &s) {
+        for (const Imath::V2i &step : beside) {
+            const LinkedSample next = links->linked(s, at, step);
+            if (next.found()) largest = std::max(largest, std::abs(next.depth - s.depth) / 2);
+        }
+    });
+    return largest;
 }
 
 } // namespace sparselens

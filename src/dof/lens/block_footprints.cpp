@@ -5,9 +5,9 @@
 
 namespace sparselens {
 
-BlockFootprints::BlockFootprints(const Ldi &ldi, const BlockedSamples &samples)
-    : ldi_(ldi), samples_(samples), areas_(samples), made_(samples.blocks.size()),
-      computed_(samples.blocks.size()) {}
+BlockFootprints::BlockFootprints(const Ldi &ldi, const BlockedSamples &samples, std::optional<Links> links)
+    : ldi_(ldi), samples_(samples), links_(std::move(links)), areas_(samples, links_ ? &*links_ : nullptr),
+      made_(samples.blocks.size()), computed_(samples.blocks.size()) {}
 
 const BlockFootprints::Block &BlockFootprints::of(std::uint32_t block) const {
     std::call_once(made_[block], [&] {
@@ -43,7 +43,8 @@ std::vector<Footprint> BlockFootprints::compute(std::uint32_t block) const {
     const SampleBlock &own = samples_.blocks[block];
     const Imath::V2i first = Imath::V2i(column, row) * size;
     return footprints_of(ldi_,
-                         {samples_.x, samples_.y, samples_.hiding_coc(), samples_.upper, samples_.source},
+                         {samples_.x, samples_.y, samples_.hiding_coc(), samples_.upper, samples_.source,
+                          links_ ? &*links_ : nullptr},
                          {first, first + Imath::V2i(size - 1)}, {own.begin, own.end}, around);
 }
 

@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -16,7 +17,9 @@ namespace sparselens {
 // The footprints of the samples of a picture, by blocks.
 class BlockFootprints {
 public:
-    BlockFootprints(const Ldi &ldi, const BlockedSamples &samples);
+    // `links`: of the LDI, whose samples these are; none: samples that part are not joined.
+    BlockFootprints(const Ldi &ldi, const BlockedSamples &samples, std::optional<Links> links = {});
+    BlockFootprints(const BlockFootprints &) = delete; // its parts refer to each other
 
     struct Block {
         std::vector<Footprint> footprints; // of its samples
@@ -33,6 +36,7 @@ private:
 
     const Ldi &ldi_;
     const BlockedSamples &samples_;
+    std::optional<Links> links_;
     ShadowAreas areas_;
     mutable std::vector<std::once_flag> made_;
     mutable std::vector<Block> computed_;

@@ -150,7 +150,8 @@ GatherScene coarse_scene(const GatherScene &scene, int across) {
         placed(*small, lens, looks, scene.optics->coc / across, {small->windows.data, unseen});
     complete(coarse, [] {}, {});
     coarse.known.unseen = {};
-    small->values.clear();
+    for (std::size_t k = 0; k < small->values.size(); ++k)
+        if (k != small->alpha()) small->values[k] = {};
     coarse.coarse = std::move(small);
     return coarse;
 }

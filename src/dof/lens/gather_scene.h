@@ -28,7 +28,7 @@ struct GatherScene {
     FillerSamples fillers;
     PlacedFacets facets;
     BlockedSamples solids = {};             // place_solids()
-    std::unique_ptr<const Ldi> coarse = {}; // of a coarse scene, its LDI, without values
+    std::unique_ptr<const Ldi> coarse = {}; // of a coarse scene, its LDI, with no value but A
 
     // If pixels see through some lens points alone, else null.
     const CatEye *cat_eye() const { return optics->cat_eye.cuts() ? &optics->cat_eye : nullptr; }

@@ -43,7 +43,7 @@ struct SceneFootprints {
     BlockFootprints samples, solids;
     ShadowLists shadows;
     SceneFootprints(const GatherScene &scene, const GatherScene &of_highlights)
-        : samples(*scene.ldi, scene.samples), solids(*scene.ldi, scene.solids),
+        : samples(*scene.ldi, scene.samples, Links(*scene.ldi, scene.lens)), solids(*scene.ldi, scene.solids),
           shadows(of_highlights.highlights, of_highlights.samples) {}
 };
 

@@ -10,15 +10,14 @@ namespace sparselens {
 namespace {
 
 constexpr std::size_t most_steps = 16;
-constexpr float of_edges =
-    0.5f; // pixels: by how much the CoC of an edge differs from that of its sample, at most
 
 } // namespace
 
-ShadowAreas::ShadowAreas(const BlockedSamples &samples)
-    : samples_(samples), columns_(pieces_of(samples.columns, size)),
+ShadowAreas::ShadowAreas(const BlockedSamples &samples, const Links *links)
+    : samples_(samples), links_(links), columns_(pieces_of(samples.columns, size)),
       depths_(std::size_t(columns_) * std::size_t(pieces_of(samples.rows, size))), made_(depths_.size()),
-      steps_(depths_.size()), focus_(depths_.size()), block_depths_(samples.blocks.size()) {
+      steps_(depths_.size()), focus_(depths_.size()), block_depths_(samples.blocks.size()),
+      to_edges_(samples.blocks.size()) {
     for (std::uint32_t b = 0; b < samples.blocks.size(); ++b) {
         Depths &depths = depths_[of(b)];
         depths.farthest = std::min(depths.farthest, samples.blocks[b].depth_min);
@@ -28,6 +27,7 @@ ShadowAreas::ShadowAreas(const BlockedSamples &samples)
 
 const NearBounds *ShadowAreas::nearer_than(std::size_t area, float depth) const {
     std::call_once(made_[area], [&] {
+        find_edges(area);
         steps_[area] = steps_of(area);
         focus_[area] = focus_of(area);
     });
@@ -62,6 +62,14 @@ std::vector<std::uint32_t> ShadowAreas::blocks_of(std::size_t area) const {
     return blocks;
 }
 
+void ShadowAreas::find_edges(std::size_t area) const {
+    constexpr int pixels = BlockedSamples::size;
+    for (const std::uint32_t b : blocks_of(area)) {
+        const Imath::V2i first = Imath::V2i(int(b) % samples_.columns, int(b) / samples_.columns) * pixels;
+        to_edges_[b] = coc_to_edges(links_, {first, first + Imath::V2i(pixels - 1)});
+    }
+}
+
 CocRange ShadowAreas::focus_of(std::size_t area) const {
     constexpr float infinity = std::numeric_limits<float>::infinity(),
                     rounding = 0.01f; // pixels
@@ -69,10 +77,10 @@ CocRange ShadowAreas::focus_of(std::size_t area) const {
     CocRange focus{infinity, -infinity};
     for (const std::uint32_t b : blocks_of(area))
         for (std::uint32_t i = samples_.blocks[b].begin; i < samples_.blocks[b].end; ++i) {
-            focus.least = std::min(focus.least, samples_.depth(i) + coc[i]);
-            focus.most = std::max(focus.most, samples_.depth(i) + coc[i]);
+            focus.least = std::min(focus.least, samples_.depth(i) + coc[i] - to_edges_[b]);
+            focus.most = std::max(focus.most, samples_.depth(i) + coc[i] + to_edges_[b]);
         }
-    return {focus.least - of_edges - rounding, focus.most + of_edges + rounding};
+    return {focus.least - rounding, focus.most + rounding};
 }
 
 NearSteps ShadowAreas::steps_of(std::size_t area) const {
@@ -83,7 +91,7 @@ NearSteps ShadowAreas::steps_of(std::size_t area) const {
         find_depths(b);
         for (std::uint32_t i = block.begin; i < block.end; ++i)
             samples.push_back({samples_.depth(i), samples_.x[i], samples_.x[i], samples_.y[i], samples_.y[i],
-                               coc[i] - of_edges, coc[i] + of_edges});
+                               coc[i] - to_edges_[b], coc[i] + to_edges_[b]});
     }
     const std::size_t in_step = std::max(pieces_of(samples.size(), most_steps), std::size_t(1));
     return {std::move(samples), in_step};

@@ -2,6 +2,7 @@
 // of their blocks need be asked.
 #pragma once
 
+#include "dof/footprints/footprint.h"
 #include "dof/lens/near_bounds.h"
 #include "dof/lens/sample_blocks.h"
 
@@ -21,7 +22,8 @@ class ShadowAreas {
 public:
     static constexpr int size = 8; // blocks an area is wide and high
 
-    explicit ShadowAreas(const BlockedSamples &samples);
+    // `links`: what joins samples that part (dof/footprints/footprint.h), or null. Both outlive this.
+    ShadowAreas(const BlockedSamples &samples, const Links *links);
 
     std::size_t count() const { return depths_.size(); }
     // The area that a block lies in.
@@ -47,6 +49,9 @@ public:
         return {focus_[area].least - nearest, focus_[area].most - farthest};
     }
 
+    // By how much the CoC of an edge may differ from that of its sample in a block, pixels; of an area that nearer_than() was asked of.
+    float to_edges(std::uint32_t block) const { return to_edges_[block]; }
+
     // Whether any sample of a block may lie between two perceptive depths; of an area that nearer_than() was asked of.
     bool block_lies_between(std::uint32_t block, float farthest, float nearest) const {
         return block_depths_[block].lies_between(farthest, nearest);
@@ -64,10 +69,12 @@ private:
         }
     };
     void find_depths(std::uint32_t block) const;
+    void find_edges(std::size_t area) const;
     NearSteps steps_of(std::size_t area) const;
     CocRange focus_of(std::size_t area) const;
 
     const BlockedSamples &samples_;
+    const Links *links_;
     int columns_;
     struct Depths { // perceptive
         float farthest = std::numeric_limits<float>::max(), nearest = 0;
@@ -78,6 +85,7 @@ private:
     mutable std::vector<CocRange>
         focus_; // [area]: of CoC and perceptive depth together, which is that of the focus
     mutable std::vector<BlockDepths> block_depths_;
+    mutable std::vector<float> to_edges_; // [block]
 };
 
 } // namespace sparselens

@@ -76,9 +76,8 @@ bool ShadowSearch::is_before(const ShadowedLamp &lamp, const ShadowCasters &cast
 }
 
 // Where on the screen a shadow may lie of one of its samples, of those that have such a CoC; empty: nowhere.
-template <typename Bounds>
 Imath::Box2f ShadowSearch::shadow_of(const ShadowedLamp &asked, const ShadowCasters &casters,
-                                     const Bounds &of, const CocRange &cocs) const {
+                                     const NearBounds &of, const CocRange &cocs) const {
     const NearBounds block{0,
                            of.x_min,
                            of.x_max,
@@ -131,7 +130,11 @@ std::optional<CastingBlock> ShadowSearch::casting(const ShadowedLamp &lamp, std:
     const SampleBlock &block = samples.blocks[b];
     const auto [farthest, nearest] = range_of(lamp, casters, block);
     if (!footprints.areas().block_lies_between(b, farthest, nearest)) return {};
-    Imath::Box2f shadow = shadow_of(lamp, casters, block, cocs);
+    // shadow_of() knows of what lies half a pixel beside a sample: more is of steep surfaces.
+    const float steep = footprints.areas().to_edges(b) - torn_px / 2;
+    const NearBounds all{0,           block.x_min,           block.x_max,          block.y_min,
+                         block.y_max, block.coc_min - steep, block.coc_max + steep};
+    Imath::Box2f shadow = shadow_of(lamp, casters, all, cocs);
     if (shadow.isEmpty()) return {};
     if (block.depth_min <= farthest) { // some of it lies behind the lamp
         const NearBounds *near = footprints.of(b).near.nearer_than(farthest);

@@ -104,8 +104,7 @@ private:
     std::optional<CastingBlock> casting(const ShadowedLamp &lamp, std::size_t set, std::uint32_t block,
                                         const CocRange &cocs) const;
     bool is_before(const ShadowedLamp &lamp, const ShadowCasters &casters, const NearBounds &bounds) const;
-    template <typename Bounds>
-    Imath::Box2f shadow_of(const ShadowedLamp &lamp, const ShadowCasters &casters, const Bounds &bounds,
+    Imath::Box2f shadow_of(const ShadowedLamp &lamp, const ShadowCasters &casters, const NearBounds &bounds,
                            const CocRange &cocs) const;
 
     std::vector<ShadowCasters> casters_; // samples, solids; and those of the tile's coarse scene

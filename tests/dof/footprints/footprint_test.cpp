@@ -54,5 +54,31 @@ TEST(Footprint, SharesItsEdgesWithItsSurfaceAndEndsWhereThatEnds) {
         }
 }
 
+// Of columns 0 to 5 that lean by more than a pixel of CoC from one to the next, which ends before a wall.
+TEST(Footprint, OfASteepSurfaceSharesItsEdgesWhereThatGoesOn) {
+    const Ldi ldi = make_ldi(windows_of_size(size, size), rgba_channels(), [&](int x, int) {
+        return std::vector<Sample>{{depth_of(lens, x < 6 ? -20 + 3 * x : 30), {1, 1, 1, 1}}};
+    });
+    const Links links(ldi, lens);
+    const BlockedSamples blocked = BlockedLdi(ldi, lens).samples;
+    const SampleRun all{0, std::uint32_t(blocked.count())};
+    const Imath::Box2i pixels({0, 0}, {size - 1, size - 1});
+    const SamplesInPicture alone{blocked.x, blocked.y, blocked.coc, blocked.upper, blocked.source};
+    SamplesInPicture joined = alone;
+    joined.links = &links;
+    const auto footprints = footprints_of(ldi, joined, pixels, all, std::span(&all, 1));
+    const auto parted = footprints_of(ldi, alone, pixels, all, std::span(&all, 1));
+    for (std::uint32_t i = 0; i < blocked.count(); ++i) {
+        const bool goes_on = blocked.x[i]<5, goes_back = blocked.x[i]> 1 && blocked.x[i] < 6;
+        EXPECT_NEAR(footprints[i].coc[1], blocked.coc[i] + (goes_on ? 1.5f : 0.0f), 1e-4) << blocked.x[i];
+        EXPECT_NEAR(footprints[i].coc[0], blocked.coc[i] - (goes_back ? 1.5f : 0.0f), 1e-4) << blocked.x[i];
+        EXPECT_EQ(parted[i].coc[1], blocked.coc[i]);
+        EXPECT_EQ(footprints[i].place, parted[i].place);
+    }
+    EXPECT_NEAR(coc_to_edges(&links, pixels), 1.5, 1e-5);
+    EXPECT_EQ(coc_to_edges(&links, {{8, 0}, {size - 1, size - 1}}), 0.5f);
+    EXPECT_EQ(coc_to_edges(nullptr, pixels), 0.5f);
+}
+
 } // namespace
 } // namespace sparselens

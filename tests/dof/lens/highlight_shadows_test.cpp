@@ -57,8 +57,9 @@ struct LampBehindBoards : BlockedLdi {
     static bool is_lamp(int x, int y) { return x >= 24 && x < 32 && y >= 32 && y < 40; }
 
     explicit LampBehindBoards(const Ldi &ldi)
-        : BlockedLdi(ldi, lens), solids(place_solids(ldi, lens, samples)), footprints(ldi, samples),
-          solid_footprints(ldi, solids), blocks(samples.blocks.size()) {
+        : BlockedLdi(ldi, lens), solids(place_solids(ldi, lens, samples)),
+          footprints(ldi, samples, Links(ldi, lens)), solid_footprints(ldi, solids),
+          blocks(samples.blocks.size()) {
         std::iota(blocks.begin(), blocks.end(), 0u);
         for (std::uint32_t i = 0; i < samples.count(); ++i)
             if (samples.source[i] != BlockedSamples::background && ldi.values[0][samples.source[i]] == 900)
@@ -207,7 +208,7 @@ TEST(ShadowAreas, BoundAllThatIsNearer) {
     });
     const BlockedLdi blocked(ldi, lens);
     const BlockedSamples &samples = blocked.samples;
-    const ShadowAreas areas(samples);
+    const ShadowAreas areas(samples, nullptr);
     for (const double z : {1.0, 2.5, 4.0, 11.0, 24.0, 45.0, 1e6}) {
         const auto depth = float(perceptive_depth(lens, z));
         for (std::uint32_t b = 0; b < samples.blocks.size(); ++b) {
