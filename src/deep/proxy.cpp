@@ -25,14 +25,43 @@ Ldi with_coverage(Ldi ldi) {
 // A sample of a large pixel, and what of it the flattened picture shows.
 struct Seen {
     std::uint64_t index;
-    double z, optical;
-    double shown; // the transmittance in front of it
-    double x, y;  // place, in small pixels from the middle of the small one
+    double z, optical; // of what is joined, the means
+    double shown;      // the transmittance in front of it
+    double x, y;       // place, in small pixels from the middle of the small one
 };
+
+// Of what is joined with it, the means.
+void take_means(std::span<const std::uint32_t> joined, std::vector<Seen> &seen) {
+    struct Surface {
+        std::uint32_t first;
+        double inverse_z = 0, inverse_optical = 0;
+        int samples = 0;
+    };
+    thread_local std::vector<Surface> surfaces; // few: most samples are alone, and not here
+    surfaces.clear();
+    const auto surface_of = [&](const Seen &s) {
+        return std::ranges::find(surfaces, joined[s.index], &Surface::first);
+    };
+    for (const Seen &s : seen)
+        if (joined[s.index] != s.index && surface_of(s) == surfaces.end())
+            surfaces.push_back({joined[s.index]});
+    if (surfaces.empty()) return;
+    for (const Seen &s : seen)
+        if (const auto surface = surface_of(s); surface != surfaces.end()) {
+            surface->inverse_z += 1 / s.z;
+            surface->inverse_optical += 1 / s.optical;
+            ++surface->samples;
+        }
+    for (Seen &s : seen)
+        if (const auto surface = surface_of(s); surface != surfaces.end()) {
+            s.z = surface->samples / surface->inverse_z;
+            s.optical = surface->samples / surface->inverse_optical;
+        }
+}
 
 // Front to back.
 void find_samples(const Ldi &ldi, std::size_t alpha, const Imath::V2i &small, int factor,
-                  std::vector<Seen> &seen) {
+                  std::span<const std::uint32_t> joined, std::vector<Seen> &seen) {
     seen.clear();
     for (int y = small.y * factor; y < (small.y + 1) * factor; ++y)
         for (int x = small.x * factor; x < (small.x + 1) * factor; ++x) {
@@ -46,6 +75,7 @@ void find_samples(const Ldi &ldi, std::size_t alpha, const Imath::V2i &small, in
                 shown *= 1 - double(alpha_at(ldi, alpha, i));
             }
         }
+    if (!joined.empty()) take_means(joined, seen);
     std::ranges::sort(seen, {}, [](const Seen &s) { return std::pair(s.z, s.index); });
 }
 
@@ -98,7 +128,7 @@ public:
         constexpr double nothing_left = 1e-4;
         thread_local std::vector<Seen> seen; // kept, as there are many pixels
         thread_local std::vector<Term> terms;
-        find_samples(ldi_, alpha_, small, factor_, seen);
+        find_samples(ldi_, alpha_, small, factor_, by_.joined, seen);
         const double pixels = double(factor_) * factor_;
         double left = 1; // of the light, behind the surfaces so far
         for (std::size_t begin = 0, end = 0; begin < seen.size(); begin = end) {

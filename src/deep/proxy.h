@@ -13,6 +13,9 @@ struct ProxyFor {
     // surface. 0: none; then those are whose depths differ by at most a hundredth.
     double scale = 0, tolerance = 0;
     std::span<const float> left = {}; // [sample]: by what its light is multiplied; empty: 1
+    // [sample]: the first one of its small pixel that shows the same surface, however far its depth is from that one's; empty: as by
+    // the tolerance alone. They lie at the mean of their depths.
+    std::span<const std::uint32_t> joined = {};
 };
 
 // The LDI at 1 / factor of its size, factor >= 1. Its depth is the harmonic mean of those of its samples. Its coverage and colours are its share of the mean of the flattened pixels, so that the flattened small LDI

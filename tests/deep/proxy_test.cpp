@@ -95,6 +95,23 @@ TEST(Proxy, IsMadeForALens) {
     EXPECT_NEAR(two.values[0][0] + (1 - two.values[3][0]) * two.values[0][1], 0.75f, 1e-6);
 }
 
+// What is joined is one surface, at the mean of its inverse depths, also before and behind another one between its samples; and the
+// picture stays the mean of the large one.
+TEST(Proxy, KeepsTogetherWhatIsJoined) {
+    const double scale = lens.radius * lens.focal_px;
+    const Ldi ldi = make_ldi(windows_of_size(2, 2), rgba_channels(), [&](int x, int y) {
+        return std::vector<Sample>{
+            {scale / (2 * y + x == 3 ? 16.0 : 20 - 6.0 * (2 * y + x)), {float(y), 1, 1, 1}}};
+    });
+    const std::vector<std::uint32_t> joined{0, 0, 0, 3};
+    const Ldi out = proxy(ldi, 2, {.scale = scale, .tolerance = 1, .joined = joined});
+    ASSERT_EQ(out.samples(), 2u);
+    EXPECT_NEAR(scale / double(out.z[0]), 16, 1e-5);
+    EXPECT_NEAR(scale / double(out.z[1]), 14, 1e-5);
+    EXPECT_NEAR(out.values[3][1], 1, 1e-6);
+    EXPECT_NEAR(flatten(out).at(0, 0, 0), 0.5, 1e-3);
+}
+
 // A pixel of CoC -3.5 and 2, one of CoC 0.9 and one that is sharp, 20 pixels apart: each spreads by its own.
 TEST(ReachedDisplay, IsWhatEachSampleIsSpreadOver) {
     Windows windows = moved(30, 10, 41, 1);

@@ -2,6 +2,7 @@
 
 #include "base/subpixels.h"
 #include "deep/proxy.h"
+#include "dof/facets/joined.h"
 #include "dof/lens/cells.h"
 #include "dof/lens/sharpen.h"
 #include "dof/lens/solid_samples.h"
@@ -138,8 +139,9 @@ GatherScene coarse_scene(const GatherScene &scene, int across) {
     const double tolerance = double(one_cell) * across;
     const Ldi &large = *scene.ldi;
     const std::vector<float> left = left_by_highlights(scene);
-    auto small = std::make_unique<Ldi>(
-        proxy(large, across, {perceptive_scale(scene.lens.radius, scene.lens.focal_px), tolerance, left}));
+    const auto joined = joined_in_cells(large, Links(large, scene.lens), across, float(tolerance));
+    auto small = std::make_unique<Ldi>(proxy(
+        large, across, {perceptive_scale(scene.lens.radius, scene.lens.focal_px), tolerance, left, joined}));
     // What covers a part of a cell is spread over it: moved, it would lie before its neighbours, and light would be lost.
     small->dx.clear(), small->dy.clear();
     ThinLens lens = scene.lens;
