@@ -1,5 +1,7 @@
 #include "plan/disocclusion.h"
 
+#include "plan/tuning.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -39,9 +41,8 @@ public:
 private:
     // Something as near as what lies along the frame's edge hereabouts may stand beyond it and come into view.
     double nearest_along(int column, int row, int dx, int dy) const {
-        constexpr int hereabouts = 12; // pixels
         double nearest = 0;
-        for (int i = -hereabouts; i <= hereabouts; ++i)
+        for (int i = -PlanTuning::edge_hereabouts; i <= PlanTuning::edge_hereabouts; ++i)
             if (in_frame(column + i * dx, row + i * dy) &&
                 std::isfinite(depth(column + i * dx, row + i * dy)))
                 nearest = std::max(nearest, depth(column + i * dx, row + i * dy));

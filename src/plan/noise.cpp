@@ -2,6 +2,7 @@
 
 #include "base/parallel.h"
 #include "base/tone_map.h"
+#include "plan/tuning.h"
 
 #include <algorithm>
 #include <array>
@@ -14,12 +15,6 @@ namespace sparselens {
 namespace {
 
 constexpr int block_size = 8;
-
-// Blocks around that tell whether it is noise, and how many of them are Gaussian then: of white noise it is four in
-// five, of path-traced pictures (64 samples a pixel) half to two thirds, of a fine checker in a picture of 160x90 one
-// in seven.
-constexpr int surroundings = 2;
-constexpr double least_gaussian = 0.4;
 
 // Tone-mapped mean of the colours that the image has.
 std::vector<double> brightness(const Image &image) {
@@ -104,11 +99,11 @@ private:
     // Noise is everywhere, but aliased texture looks like it here and there.
     bool noise_around(const std::vector<double> &own, const Imath::V2i &block) const {
         int gaussian = 0, count = 0;
-        around(own, block, surroundings, [&](double variance) {
+        around(own, block, PlanTuning::noise_surroundings, [&](double variance) {
             gaussian += variance > 0;
             ++count;
         });
-        return gaussian >= least_gaussian * count;
+        return gaussian >= PlanTuning::least_gaussian * count;
     }
 
     double mean_around(const std::vector<double> &own, const Imath::V2i &block) const {

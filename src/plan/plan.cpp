@@ -3,6 +3,7 @@
 #include "base/parallel.h"
 #include "lens/lens_points.h"
 #include "plan/noise.h"
+#include "plan/tuning.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,29 +13,6 @@
 namespace sparselens {
 
 namespace {
-
-// What the layers leave of error on scenes without noise is about this, mean square (42 dB): where the noise of a
-// single view is more, it is noise that further samples have to fight.
-constexpr double noise_that_pays = 6.3e-5;
-
-// Where a pixel's noise is more, it is asked for again from every view: it would make what the layers leave of error on
-// today's scenes (2e-5, 47 dB) worse by a dB and a half.
-constexpr double noise_of_a_pixel_that_pays = 8e-6;
-
-// Of all pixels: where fewer are noisy, no view is rendered for them alone.
-constexpr double few = 0.01;
-
-constexpr int least_candidates = 8;
-
-// Pixels around an opening of one pixel: more around so many of them costs more than it brings (grass: 1.43 instead
-// of about one view, for 0.02 dB).
-constexpr int slit_margin = 1;
-
-// Pixels: less is rounding of where surfaces land.
-constexpr std::size_t least_gain = 8;
-
-// A ring is kept unless others uncover so much more for each pixel rendered, and about as much in all.
-constexpr double noticeably_more = 1.1, about_as_much = 0.95;
 
 struct Candidate {
     Imath::V2d u{0, 0};
@@ -77,7 +55,7 @@ void unite(PixelMask &mask, const PixelMask &other) {
 
 PixelMask with_margins(const PixelMask &openings, int margin) {
     PixelMask wanted = grown(without_slits(openings), margin);
-    unite(wanted, grown(openings, std::min(margin, slit_margin)));
+    unite(wanted, grown(openings, std::min(margin, PlanTuning::slit_margin)));
     return wanted;
 }
 
@@ -157,8 +135,9 @@ Choice ring(std::size_t candidates, std::size_t count) {
 Choice choose(std::span<const Candidate> candidates, std::size_t count, std::size_t pixels) {
     const Choice even = ring(candidates.size(), count), best = greedy(candidates, count, pixels);
     const Worth of_even = worth_of(even, candidates, pixels), of_best = worth_of(best, candidates, pixels);
-    const bool more = of_best.uncovered * of_even.cost > noticeably_more * of_even.uncovered * of_best.cost;
-    return more && of_best.uncovered > about_as_much * of_even.uncovered ? best : even;
+    const bool more =
+        of_best.uncovered * of_even.cost > PlanTuning::noticeably_more * of_even.uncovered * of_best.cost;
+    return more && of_best.uncovered > PlanTuning::about_as_much * of_even.uncovered ? best : even;
 }
 
 OverscanNeed overscan_of(const View &centre, const ThinLens &lens) {
@@ -199,10 +178,10 @@ namespace {
 PixelMask find_noise(const View &centre, const ThinLens &lens, const PlanOptions &options, Plan &plan) {
     const std::vector<double> noise = noise_in_lens_picture(centre.image, centre.z, lens, options.noise);
     plan.noise = std::accumulate(noise.begin(), noise.end(), 0.0) / double(noise.size());
-    plan.full_views = plan.noise > noise_that_pays;
+    plan.full_views = plan.noise > PlanTuning::noise_that_pays;
     PixelMask noisy(centre.image.windows.data);
     std::ranges::transform(noise, noisy.set.begin(), [&](double value) {
-        return plan.full_views || value > noise_of_a_pixel_that_pays;
+        return plan.full_views || value > PlanTuning::noise_of_a_pixel_that_pays;
     });
     plan.noisy = noisy.count();
     return noisy;
@@ -227,7 +206,7 @@ Plan make_plan(const View &centre, const ThinLens &lens, const PlanOptions &opti
     plan.overscan = overscan_of(centre, lens);
     const PixelMask noisy = find_noise(centre, lens, options, plan);
 
-    const int around = options.views * pieces_of(least_candidates, options.views);
+    const int around = options.views * pieces_of(PlanTuning::least_candidates, options.views);
     const std::vector<Imath::V2d> points = rim_lens_points(around);
     std::vector<Candidate> candidates(points.size());
     progress.start("planning", points.size());
@@ -240,8 +219,8 @@ Plan make_plan(const View &centre, const ThinLens &lens, const PlanOptions &opti
     Uncovered uncovered(pixels);
     for (const std::size_t i : choose(candidates, count, pixels)) {
         const Candidate &candidate = candidates[i];
-        const bool adds =
-            uncovered.gain(candidate) >= least_gain || double(plan.noisy) > few * double(pixels);
+        const bool adds = uncovered.gain(candidate) >= PlanTuning::least_gain ||
+                          double(plan.noisy) > PlanTuning::few_noisy * double(pixels);
         uncovered.add(candidate);
         if (adds)
             plan.views.push_back(

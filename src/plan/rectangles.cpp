@@ -1,5 +1,7 @@
 #include "plan/rectangles.h"
 
+#include "plan/tuning.h"
+
 #include <algorithm>
 #include <limits>
 
@@ -23,12 +25,11 @@ double waste(const Imath::Box2i &a, const Imath::Box2i &b) {
 
 // The set pixels of a band of rows as tight boxes, a new one where columns stay empty for a while.
 std::vector<Imath::Box2i> boxes_of_band(const PixelMask &mask, int first_row, int last_row) {
-    constexpr int gap = 16; // pixels
     std::vector<Imath::Box2i> boxes;
     for (int x = mask.data.min.x; x <= mask.data.max.x; ++x)
         for (int y = first_row; y <= last_row; ++y) {
             if (!mask.at(x, y)) continue;
-            if (boxes.empty() || x - boxes.back().max.x > gap) boxes.emplace_back();
+            if (boxes.empty() || x - boxes.back().max.x > PlanTuning::rectangle_gap) boxes.emplace_back();
             boxes.back().extendBy(Imath::V2i(x, y));
         }
     return boxes;
@@ -39,9 +40,10 @@ void join_band(const std::vector<Imath::Box2i> &band, int first_row, std::vector
     const std::size_t above = boxes.size();
     for (const Imath::Box2i &box : band) {
         Imath::Box2i *best = nullptr;
-        double least = rectangle_overhead;
+        double least = PlanTuning::rectangle_overhead;
         for (std::size_t i = 0; i < above; ++i) {
-            if (boxes[i].max.y < first_row - 16 || waste(boxes[i], box) >= least) continue;
+            if (boxes[i].max.y < first_row - PlanTuning::rectangle_gap || waste(boxes[i], box) >= least)
+                continue;
             least = waste(boxes[i], box);
             best = &boxes[i];
         }
@@ -78,7 +80,7 @@ std::vector<Imath::Box2i> rectangles_over(const PixelMask &mask, std::size_t mos
         join_band(boxes_of_band(mask, row, std::min(row + band_rows - 1, mask.data.max.y)), row, boxes);
     while (boxes.size() > most && join_cheapest(boxes, std::numeric_limits<double>::infinity())) {
     }
-    while (join_cheapest(boxes, rectangle_overhead)) {
+    while (join_cheapest(boxes, PlanTuning::rectangle_overhead)) {
     }
     return boxes;
 }

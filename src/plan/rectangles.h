@@ -5,9 +5,6 @@
 
 namespace sparselens {
 
-// The cost of a rectangle besides its pixels, in pixels: two are joined where that wastes less.
-inline constexpr double rectangle_overhead = 256;
-
 // At most `most` rectangles, which may overlap; none for an empty mask. EXR coordinates, corners included.
 std::vector<Imath::Box2i> rectangles_over(const PixelMask &mask, std::size_t most = 64);
 

@@ -1,11 +1,11 @@
-# Includes run one way, down the floors that docs/code.md lists: a file includes what lies in its own folder or on a
-# lower floor, and nothing that the same document says may never be. Public headers, which are installed, include public headers alone, by relative paths, so that one include
+# Includes run one way, down the floors that docs/code.md lists, of folders and of single files: a file includes what lies in its
+# own folder or on a lower floor, and nothing that the same document says may never be. Public headers, which are installed, include public headers alone, by relative paths, so that one include
 # root is enough.
 #   bash includes.sh
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
-# What there is, a word and what it is said of: `floor FOLDER...`, the lowest first; `never FOLDER...: FOLDER...`; `public HEADER`, by its path in src/;
+# What there is, a word and what it is said of: `floor FOLDER_OR_FILE...`, the lowest first; `never FOLDER...: FOLDER...`; `public HEADER`, by its path in src/;
 # `folder PATH`; `file PATH`; `include FILE NAME`.
 facts() {
     sed -n '/^```floors$/,/^```$/{/^```/d;s/#.*//;s/^/floor /;p}' docs/code.md
@@ -44,11 +44,13 @@ function included(file, name,    path) {
     path = normal("src/" name)
     return path in is_file ? path : normal(name)
 }
+# What of the floors a file is on: itself or its folder.
+function room_of(path) { return path in floor ? path : folder_of(path) }
 function check_floors(file, name,    from, to) {
-    from = folder_of(file)
-    to = folder_of(included(file, name))
+    from = room_of(file)
+    to = room_of(included(file, name))
     if (from == to) return
-    if (!(from in floor)) fault(file ": its folder " from " is on no floor of docs/code.md")
+    if (!(from in floor)) fault(file ": " from " is on no floor of docs/code.md")
     else if (!(to in floor)) fault(file " includes " name ": " to " is on no floor of docs/code.md")
     else if (floor[to] >= floor[from]) fault(file " includes " name ": " to " is not on a lower floor than " from)
 }
@@ -93,7 +95,7 @@ END {
     if (nevers == 0) fault("docs/code.md does not say what may never be")
     if (publics == 0) fault("src/CMakeLists.txt names no public headers")
     if (includes <= 100) fault("the includes were not found")
-    for (path in floor) if (!(path in is_folder)) fault("docs/code.md names the folder " path ", which is not there")
+    for (path in floor) if (!(path in is_folder || path in is_file)) fault("docs/code.md names " path ", which is not there")
     for (path in is_public) if (!(path in is_file)) fault("src/CMakeLists.txt names the header " path ", which is not there")
     exit faults > 0
 }'

@@ -1,0 +1,51 @@
+# Each threshold of a stage stands in its tuning.h, under a name of its own, and is used; rules that shaders share stand in
+# src/kernels. What else has a number for a value is named here, with what it is.
+#   bash tuning.sh
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/../.."
+
+stages='plan'
+
+# FILE NAME...: sizes of what is stored or worked on at once, sentinels, bounds of arithmetic and its constants.
+allowed='
+plan/disocclusion.h nothing
+plan/noise.cpp block_size spread least_of_four
+'
+
+faults=0
+fault() {
+    echo "FAIL: $1" >&2
+    faults=1
+}
+
+# FILE NAME for each constant of these stages outside of tuning.h whose value begins with a number.
+constants() {
+    local file
+    find $(sed 's|\<|src/|g' <<<"$stages") -name '*.h' -o -name '*.cpp' | grep -v '/tuning\.h$' | sort | while read -r file; do
+        # A declaration in one line, without comments, without what is in brackets; a name and its value in one line.
+        sed -E 's|//.*||' "$file" | sed -E ':next; /(=|,) *$/{N; s/\n */ /; b next}' |
+            grep -E '\bconst(expr)? (float|double|int|(std::)?u?int[0-9]+_t|std::size_t|unsigned|auto) [a-z_0-9]+ = |\bconstexpr std::array\b' |
+            grep -vE '\bfor \(' | sed -E 's/.*\bconst(expr)? (std::array(<[^>]*>)?|[a-z:_0-9]+) //; s/\([^()]*\)/(x)/g' |
+            tr ',;' '\n\n' | sed -nE 's/^ *([a-z_0-9]+)(\[[^]]*\])?( = |\{) *-?(0x|std::size_t\{)?[0-9.]+[a-z0-9.]*(-[0-9]+f?)?[^a-zA-Z_]*$/\1/p' |
+            sed "s|^|${file#src/} |" || true
+    done
+}
+found=$(constants)
+exempt=$(awk '{ for (i = 2; i <= NF; ++i) print $1, $i }' <<<"$allowed" | sort -u)
+if left=$(sort -u <<<"$found" | comm -23 - <(echo "$exempt") | grep .); then fault "thresholds outside of tuning.h, or constants that this script does not name:
+$left"; fi
+if gone=$(sort -u <<<"$found" | comm -13 - <(echo "$exempt") | grep .); then fault "this script names constants that are not there:
+$gone"; fi
+
+# NAME and the struct's name, for all members.
+members=$(for stage in $stages; do
+    struct=$(sed -nE 's/^struct ([A-Za-z]+) \{/\1/p' "src/$stage/tuning.h")
+    sed -nE "s/^ +static constexpr [a-z:_0-9<>, ]+ ([a-z_0-9]+)( = |\{).*/\1 $struct/p" "src/$stage/tuning.h"
+done)
+[ "$(wc -l <<<"$members")" -ge 10 ] || fault "the members of tuning.h were not found"
+if twice=$(cut -d ' ' -f 1 <<<"$members" | sort | uniq -d | grep .); then fault "several members of one name: $twice"; fi
+used=$(grep -rohE '\b[A-Za-z]+Tuning::[a-z_0-9]+' src | sort -u)
+while read -r name struct; do
+    grep -qx "$struct::$name" <<<"$used" || fault "$struct::$name is not used"
+done <<<"$members"
+exit $faults
