@@ -5,6 +5,7 @@
 #include "lens/perceptive_depth.h"
 #include "warp/mixed/matte_shares.h"
 #include "warp/mixed/wisps.h"
+#include "warp/tuning.h"
 
 #include <algorithm>
 #include <array>
@@ -15,13 +16,6 @@
 namespace sparselens {
 
 namespace {
-
-constexpr int radius = 2;                // pixels around that tell what a surface shows
-constexpr double edge_share = 0.1;       // how much a pixel that may be mixed itself tells of its surface
-constexpr double least_support = 0.01;   // below this nothing is known of a surface
-constexpr double largest_residual = 0.2; // distance of c from the line, as a share of the contrast
-constexpr double largest_residual_of_one = 0.1; // where B is one pixel, not a mean
-constexpr double least_share_of_one = 0.1;      // and less of either may as well be texture
 
 // What a surface shows around a pixel: a mean over samples.
 struct Estimate {
@@ -116,7 +110,7 @@ unsigned char Separation::side_of(int x, int y) const {
 
 // By the square of the distance in pixels.
 const auto nearness = [] {
-    std::array<double, 2 * radius * radius + 1> table{};
+    std::array<double, 2 * WarpTuning::silhouette_radius * WarpTuning::silhouette_radius + 1> table{};
     for (std::size_t d2 = 0; d2 < table.size(); ++d2) table[d2] = std::exp(-0.5 * double(d2));
     return table;
 }();
@@ -125,17 +119,17 @@ const auto nearness = [] {
 // something farther may be mixed into count less: a lamp behind it would shine at its depth.
 std::optional<Estimate> Separation::estimate(int x, int y, double depth) const {
     Estimate result;
-    result.terms.reserve((2 * radius + 1) * (2 * radius + 1));
+    result.terms.reserve((2 * WarpTuning::silhouette_radius + 1) * (2 * WarpTuning::silhouette_radius + 1));
     double sum = 0;
-    around(x, y, radius, [&](std::uint64_t i, int dx, int dy) {
+    around(x, y, WarpTuning::silhouette_radius, [&](std::uint64_t i, int dx, int dy) {
         if (!tells_of(depth, i)) return;
-        const double weight =
-            nearness[std::size_t(dx * dx + dy * dy)] * (sides_[i] & has_farther ? edge_share : 1);
+        const double weight = nearness[std::size_t(dx * dx + dy * dy)] *
+                              (sides_[i] & has_farther ? WarpTuning::silhouette_edge_share : 1);
         result.terms.push_back({i, weight});
         result.pure = result.pure || !(sides_[i] & has_farther);
         sum += weight;
     });
-    if (sum < least_support) return {};
+    if (sum < WarpTuning::silhouette_least_support) return {};
     for (Term &term : result.terms) {
         term.coefficient /= sum;
         result.colour += term.coefficient * colour_of(term.index);
@@ -162,8 +156,8 @@ std::optional<Mixture> Separation::mixture_of(int x, int y) const {
     if (!behind) return with_one_pixel(x, y, mixture.near_depth, front->colour);
     const Imath::V3d f =
         front->pure ? front->colour : purest(x, y, mixture.near_depth, front->colour, behind->colour);
-    const auto mix =
-        unmix(colour_of(own), f, behind->colour, own_is_far ? mostly_b : mostly_f, largest_residual);
+    const auto mix = unmix(colour_of(own), f, behind->colour, own_is_far ? mostly_b : mostly_f,
+                           WarpTuning::silhouette_residual);
     if (!mix) return with_one_pixel(x, y, mixture.near_depth, f);
     mixture.share = mix->share;
     mixture.behind = behind->terms;
@@ -194,10 +188,10 @@ std::optional<Mixture> Separation::with_one_pixel(int x, int y, double near_dept
     around(x, y, 1, [&](std::uint64_t i, int, int) {
         if (i == own || depth_of(i) >= near_depth - jump_ || !is_opaque(i)) return;
         const Imath::V3d b = colour_of(i);
-        const auto mix =
-            unmix(colour_of(own), front, b, own_is_far ? mostly_b : mostly_f, largest_residual_of_one);
+        const auto mix = unmix(colour_of(own), front, b, own_is_far ? mostly_b : mostly_f,
+                               WarpTuning::silhouette_residual_of_one);
         if (!mix || mix->residual >= least) return;
-        if (std::min(mix->share, 1 - mix->share) < least_share_of_one) return;
+        if (std::min(mix->share, 1 - mix->share) < WarpTuning::silhouette_least_share_of_one) return;
         least = mix->residual;
         best = {near_depth, depth_of(i), mix->share, {{i, 1}}};
     });
@@ -208,7 +202,7 @@ void Separation::emit_mixture(std::uint64_t i, const Mixture &mixture, Ldi &out)
     float weight = 1;
     const auto emit = [&](double depth, std::span<const Term> terms) {
         append(out, view_, float(depth_of_perceptive(scale_, depth)), weight, terms);
-        weight = estimate_weight; // of what follows, behind
+        weight = WarpTuning::estimate_weight; // of what follows, behind
     };
     const double share = mixture.share;
     const std::vector<Term> whole{{i, 1}};

@@ -13,9 +13,6 @@
 
 namespace sparselens {
 
-// How much B counts against what is seen directly: it is taken from the pixels around.
-inline constexpr float estimate_weight = 0.0625f;
-
 // `view` has at most one sample a pixel; scale is R F, pixels times scene units. jump, > 0: pixels of
 // perceptive depth that part two surfaces. The same as where samples are averaged: what is mixed of two surfaces
 // which are averaged apart would be left to one of them whole.

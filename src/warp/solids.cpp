@@ -4,6 +4,7 @@
 #include "base/parallel.h"
 #include "deep/build.h"
 #include "lens/perceptive_depth.h"
+#include "warp/tuning.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,12 +14,8 @@ namespace sparselens {
 
 namespace {
 
-constexpr int margin = 1; // pixels of a view around the one that is asked
-constexpr double nearer_px =
-    0.5; // of perceptive depth, pixels: what a view sees nearer, it sees by so much nearer
-constexpr double relief_px = 1; // of what is no farther than that, no gap shows what lies behind
-constexpr int reach =
-    int(solid_px) + margin; // pixels: so far a lens point moves what is solid past what is seen of it
+// Pixels: so far a lens point moves what is solid past what is seen of it.
+constexpr int reach = int(WarpTuning::solid_px) + WarpTuning::solid_margin;
 
 // 1 / z of the farthest thing that a pixel shows; 0: it lets light through to infinity.
 float farthest_in(const ViewSamples &view, std::size_t alpha, std::size_t pixel) {
@@ -87,7 +84,7 @@ private:
 
 // 1 / z of the farthest thing in a pixel and in those around it.
 Sight farthest_around(const ViewSamples &view, const std::vector<float> &farthest) {
-    return {view, least_around(farthest, Grid(view.windows.data), margin)};
+    return {view, least_around(farthest, Grid(view.windows.data), WarpTuning::solid_margin)};
 }
 
 // By how much 1 / z differs within reach.
@@ -146,7 +143,7 @@ private:
 } // namespace
 
 void find_solids(std::span<const PlacedView> views, double scale, Ldi &ldi) {
-    const double step = inverse_depth_step(scale, 1), thickness = solid_px * step;
+    const double step = inverse_depth_step(scale, 1), thickness = WarpTuning::solid_px * step;
     const auto back = [&](const MergedSample &s) { return 1 / double(s.z) - thickness; };
     Pixels solid(ldi);
     for (const PlacedView &view : views) {
@@ -156,12 +153,12 @@ void find_solids(std::span<const PlacedView> views, double scale, Ldi &ldi) {
             const Sight relief = relief_around(*view.samples, std::move(farthest_seen));
             solid.keep([&](const MergedSample &s, const Imath::V2d &place) {
                 return s.optical == s.z && back(s) > thickness &&
-                       double(relief.at(place).value_or(0)) > relief_px * step;
+                       double(relief.at(place).value_or(0)) > WarpTuning::solid_relief_px * step;
             });
         }
         solid.keep([&](const MergedSample &s, const Imath::V2d &place) {
             const std::optional<float> farthest = sight.at(view.mapping->in_view(place, back(s)));
-            return !farthest || double(*farthest) - back(s) >= nearer_px * step;
+            return !farthest || double(*farthest) - back(s) >= WarpTuning::solid_nearer_px * step;
         });
     }
     solid.for_each([&](std::uint64_t i) {

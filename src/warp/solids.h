@@ -1,10 +1,10 @@
 // Which opaque surfaces are taken to be solid some way behind what is seen of them (Ldi::solid), so that a lens point between
 // those of the views does not look through a gap between two of them that no view saw open.
 //
-// The first sample of a pixel that covers half of it or more is solid_px thick where no view saw through that thickness: every view that looks at the place which
-// lies so much farther away has something nearer there, and in the pixels around. Where the surface is smooth within reach, no
-// lens point could look past it, and nothing is said. A pixel of a view that shows nothing was seen through. Mirrors and glass,
-// whose depth is that of images, are not solid.
+// The first sample of a pixel that covers half of it or more is WarpTuning::solid_px thick where no view saw through that
+// thickness: every view that looks at the place which lies so much farther away has something nearer there, and in the pixels
+// around. Where the surface is smooth within reach, no lens point could look past it, and nothing is said. A pixel of a view that
+// shows nothing was seen through. Mirrors and glass, whose depth is that of images, are not solid.
 #pragma once
 
 #include "deep/ldi.h"
@@ -13,8 +13,6 @@
 #include <span>
 
 namespace sparselens {
-
-inline constexpr double solid_px = 4; // of perceptive depth, pixels
 
 // Sets Ldi::solid, which stays empty where nothing is solid. The LDI is made of the views, the first of which is the centre;
 // `scale` is R F, above 0.

@@ -13,6 +13,7 @@
 #include "warp/opaque_pixels.h"
 #include "warp/photo_consistency.h"
 #include "warp/solids.h"
+#include "warp/tuning.h"
 #include "warp/visibility_vote.h"
 #include "warp/warp_device.h"
 
@@ -26,8 +27,6 @@
 namespace sparselens {
 
 namespace {
-
-constexpr int most_overscan = 1024; // pixels an LDI grows beyond the centre view on a side
 
 class Warper {
 public:
@@ -78,8 +77,8 @@ void Warper::grow_window() {
     Imath::Box2i &data = layout_.windows.data;
     for (std::size_t v = 0; v < views_.size(); ++v) data.extendBy(views_.reprojection(v).reach());
     for (int axis = 0; axis < 2; ++axis) {
-        data.min[axis] = std::max(data.min[axis], centre.min[axis] - most_overscan);
-        data.max[axis] = std::min(data.max[axis], centre.max[axis] + most_overscan);
+        data.min[axis] = std::max(data.min[axis], centre.min[axis] - WarpTuning::most_overscan);
+        data.max[axis] = std::min(data.max[axis], centre.max[axis] + WarpTuning::most_overscan);
     }
 }
 

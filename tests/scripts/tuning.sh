@@ -4,12 +4,17 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
-stages='plan'
+stages='plan warp'
 
 # FILE NAME...: sizes of what is stored or worked on at once, sentinels, bounds of arithmetic and its constants.
 allowed='
 plan/disocclusion.h nothing
 plan/noise.cpp block_size spread least_of_four
+warp/lamps/lamp_light.cpp farthest_move
+warp/mixed/wisps.cpp bright
+warp/reproject.cpp far_off
+warp/surfaces.cpp few
+warp/warp_device.h warp_band_rows
 '
 
 faults=0
@@ -21,7 +26,7 @@ fault() {
 # FILE NAME for each constant of these stages outside of tuning.h whose value begins with a number.
 constants() {
     local file
-    find $(sed 's|\<|src/|g' <<<"$stages") -name '*.h' -o -name '*.cpp' | grep -v '/tuning\.h$' | sort | while read -r file; do
+    find $(sed 's|\<|src/|g' <<<"$stages") -name '*.h' -o -name '*.cpp' | grep -vE '/tuning\.h$|/warp/images/' | sort | while read -r file; do
         # A declaration in one line, without comments, without what is in brackets; a name and its value in one line.
         sed -E 's|//.*||' "$file" | sed -E ':next; /(=|,) *$/{N; s/\n */ /; b next}' |
             grep -E '\bconst(expr)? (float|double|int|(std::)?u?int[0-9]+_t|std::size_t|unsigned|auto) [a-z_0-9]+ = |\bconstexpr std::array\b' |

@@ -2,6 +2,7 @@
 
 #include "base/median.h"
 #include "base/parallel.h"
+#include "warp/tuning.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -11,12 +12,6 @@ namespace sparselens {
 
 namespace {
 
-constexpr int block = 16;                     // pixels, wide and high, that tell what surrounds a lamp
-constexpr float stands_out = 8;               // times the surroundings: the brightest pixel of a lamp
-constexpr float belongs = 4;                  // times the surroundings: all its pixels,
-constexpr float belongs_to_brightest = 0.02f; // and at least this part of the brightest
-constexpr int largest = 12;                   // pixels, wide and high
-
 struct Seed {
     std::size_t pixel;
     float brightness, surroundings;
@@ -25,19 +20,20 @@ struct Seed {
 // Most blocks are told to have none without a median.
 std::vector<Seed> seeds_of(const Grid &grid, std::span<const float> brightness, const Imath::Box2i &box) {
     std::vector<float> values;
-    values.reserve(std::size_t(block * block));
+    values.reserve(std::size_t(WarpTuning::lamp_block * WarpTuning::lamp_block));
     for (int y = box.min.y; y <= box.max.y; ++y) {
         const auto row = brightness.subspan(grid.index(box.min.x, y), std::size_t(box.size().x) + 1);
         values.insert(values.end(), row.begin(), row.end());
     }
     const auto [least, most] = std::ranges::minmax(values);
-    if (!(most > stands_out * least)) return {};
+    if (!(most > WarpTuning::lamp_stands_out * least)) return {};
     const float middle = median(values);
     std::vector<Seed> seeds;
     for (int y = box.min.y; y <= box.max.y; ++y)
         for (int x = box.min.x; x <= box.max.x; ++x) {
             const std::size_t i = grid.index(x, y);
-            if (brightness[i] > stands_out * middle) seeds.push_back({i, brightness[i], middle});
+            if (brightness[i] > WarpTuning::lamp_stands_out * middle)
+                seeds.push_back({i, brightness[i], middle});
         }
     return seeds;
 }
@@ -51,7 +47,8 @@ public:
     std::optional<CompactLamp> grow(const Seed &seed) {
         if (group_[seed.pixel] != 0) return {};
         CompactLamp lamp{{},
-                         std::max(belongs * seed.surroundings, belongs_to_brightest * seed.brightness),
+                         std::max(WarpTuning::lamp_belongs * seed.surroundings,
+                                  WarpTuning::lamp_belongs_to_brightest * seed.brightness),
                          seed.surroundings};
         ++number_;
         box_ = {};
@@ -69,15 +66,15 @@ private:
     }
 
     bool take_around(Imath::V2i at, CompactLamp &lamp) {
-        for (int y = at.y - lamp_gap; y <= at.y + lamp_gap; ++y)
-            for (int x = at.x - lamp_gap; x <= at.x + lamp_gap; ++x) {
+        for (int y = at.y - WarpTuning::lamp_gap; y <= at.y + WarpTuning::lamp_gap; ++y)
+            for (int x = at.x - WarpTuning::lamp_gap; x <= at.x + WarpTuning::lamp_gap; ++x) {
                 if (!grid_.contains(x, y)) continue;
                 const std::size_t i = grid_.index(x, y);
                 if (!(brightness_[i] > lamp.limit) || group_[i] == number_) continue;
                 if (group_[i] != 0) return false;
                 take(i, lamp);
             }
-        return box_.size().x < largest && box_.size().y < largest;
+        return box_.size().x < WarpTuning::largest_lamp && box_.size().y < WarpTuning::largest_lamp;
     }
 
     const Grid &grid_;
@@ -90,7 +87,7 @@ private:
 } // namespace
 
 std::vector<CompactLamp> find_compact_lamps(const Grid &grid, std::span<const float> brightness) {
-    const Tiles blocks(grid.box(), block);
+    const Tiles blocks(grid.box(), WarpTuning::lamp_block);
     std::vector<std::vector<Seed>> found(blocks.count());
     parallel_for(blocks.count(),
                  [&](std::size_t i) { found[i] = seeds_of(grid, brightness, blocks.box(i)); });

@@ -12,8 +12,6 @@
 
 namespace sparselens {
 
-inline constexpr int lamp_gap = 3; // pixels: what is bright and lies no farther apart is one lamp
-
 struct CompactLamp {
     std::vector<Imath::V2i> pixels; // the brightest first
     float limit;                    // all of them are brighter

@@ -4,6 +4,7 @@
 #include "warp/lamps/compact_lamps.h"
 #include "warp/lamps/lamp_parallax.h"
 #include "warp/lamps/pixel_light.h"
+#include "warp/tuning.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,10 +14,6 @@
 namespace sparselens {
 
 namespace {
-
-constexpr int small = 3; // pixels, wide and high: no pixel need show the lamp alone
-constexpr double most_of_edge =
-    0.3; // of the brightest pixel's light: with less, a pixel of a larger lamp is an edge
 
 // A lamp of a view.
 struct SeenLamp {
@@ -30,7 +27,7 @@ struct SeenLamp {
 bool is_small(std::span<const Imath::V2i> pixels) {
     Imath::Box2i box;
     for (const Imath::V2i &p : pixels) box.extendBy(p);
-    return box.size().x < small && box.size().y < small;
+    return box.size().x < WarpTuning::small_lamp && box.size().y < WarpTuning::small_lamp;
 }
 
 double inverse_z_at(const ViewSamples &view, const Imath::V2i &p) {
@@ -42,7 +39,7 @@ double inverse_z_at(const ViewSamples &view, const Imath::V2i &p) {
 std::optional<double> nearest_around(const ViewSamples &view, std::span<const Imath::V2i> pixels) {
     const std::vector<Imath::V2i> edge = grown(pixels, 1);
     double nearest = 0;
-    for (const Imath::V2i &p : grown(pixels, lamp_gap)) {
+    for (const Imath::V2i &p : grown(pixels, WarpTuning::lamp_gap)) {
         if (!view.windows.data.intersects(p)) return {};
         if (!is_among(edge, p)) nearest = std::max(nearest, inverse_z_at(view, p));
     }
@@ -80,7 +77,8 @@ LampsOfView::LampsOfView(ViewSamples &view, double tolerance)
 SeenLamp LampsOfView::look_at(const CompactLamp &found, double around) const {
     SeenLamp seen{{}, around, {}, {}, false};
     KnownLamp &lamp = seen.lamp;
-    const double enough = is_small(found.pixels) ? 0 : most_of_edge * light_at(found.pixels[0]);
+    const double enough =
+        is_small(found.pixels) ? 0 : WarpTuning::lamp_edge_share * light_at(found.pixels[0]);
     double nearest = 0;
     for (const Imath::V2i &p : found.pixels) {
         const double light = light_at(p);
@@ -137,9 +135,10 @@ void LampsOfView::settle_by_others(const ViewMapping &mapping, std::span<const K
     for (SeenLamp &seen : lamps_) {
         const KnownLamp &own = seen.lamp;
         if (seen.settled || own.inverse_z != 0 || !is_small(seen.pixels)) continue;
-        double nearest = same_place, inverse_z = 0;
-        auto other = std::ranges::lower_bound(expected, own.place.y - same_place, {}, row);
-        for (; other != expected.end() && other->place.y <= own.place.y + same_place; ++other) {
+        double nearest = WarpTuning::lamp_same_place, inverse_z = 0;
+        auto other = std::ranges::lower_bound(expected, own.place.y - WarpTuning::lamp_same_place, {}, row);
+        for (; other != expected.end() && other->place.y <= own.place.y + WarpTuning::lamp_same_place;
+             ++other) {
             const double off = (other->place - own.place).length();
             if (!(off < nearest) || !is_same_light(*other, own)) continue;
             nearest = off;

@@ -6,6 +6,7 @@
 #include "lens/perceptive_depth.h"
 #include "warp/lamps/compact_lamps.h"
 #include "warp/lamps/pixel_light.h"
+#include "warp/tuning.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,12 +17,6 @@ namespace sparselens {
 
 namespace {
 
-constexpr int margin = 2; // pixels around a lamp that may hold a part of its light
-constexpr double most_of_surroundings =
-    0.25;                             // of the light of the lamp and its margin: what is not the lamp's
-constexpr double most_noise = 0.33;   // of the lamp's light: views that differ by more show different things,
-constexpr double noise_of_pixels = 1; // and so do those that differ by more than this divided by its pixels
-constexpr double largest_change = 0.5;    // of the lamp's light
 constexpr double farthest_move = 1 << 20; // pixels, between two views
 
 // The samples of a lamp, and what their light is to be multiplied by.
@@ -117,7 +112,8 @@ std::optional<double> Calibration::light_of_views(const CompactLamp &lamp, const
         if (v == 0 && !light) return {};
     }
     const double middle = median(std::vector(lights)); // they keep their order
-    const double tolerance = middle * std::min(most_noise, noise_of_pixels / double(lamp.pixels.size()));
+    const double tolerance = middle * std::min(WarpTuning::lamp_most_noise,
+                                               WarpTuning::lamp_noise_of_pixels / double(lamp.pixels.size()));
     const auto differs = [&](double light) { return std::abs(light - middle) > tolerance; };
     if (differs(lights[0])) return {};
     std::erase_if(lights, differs);
@@ -126,10 +122,11 @@ std::optional<double> Calibration::light_of_views(const CompactLamp &lamp, const
 }
 
 std::optional<Change> Calibration::change_of(const CompactLamp &lamp) const {
-    const Pixels pixels = grown(lamp.pixels, margin), own = grown(lamp.pixels, 1);
+    const Pixels pixels = grown(lamp.pixels, WarpTuning::lamp_margin), own = grown(lamp.pixels, 1);
     const auto wanted = light_of_views(lamp, pixels);
     if (!wanted) return {};
-    if (double(lamp.surroundings) * double(pixels.size()) > most_of_surroundings * *wanted) return {};
+    if (double(lamp.surroundings) * double(pixels.size()) > WarpTuning::lamp_most_of_surroundings * *wanted)
+        return {};
     double all = 0, of_lamp = 0;
     Change change;
     for (const Imath::V2i &p : pixels)
@@ -139,7 +136,7 @@ std::optional<Change> Calibration::change_of(const CompactLamp &lamp) const {
             of_lamp += light;
             change.samples.push_back(i);
         });
-    if (!(std::abs(*wanted - all) <= largest_change * of_lamp)) return {};
+    if (!(std::abs(*wanted - all) <= WarpTuning::lamp_largest_change * of_lamp)) return {};
     if (of_lamp > 0) change.factor = 1 + (*wanted - all) / of_lamp;
     return change;
 }

@@ -1,5 +1,7 @@
 #include "warp/lamps/lamp_parallax.h"
 
+#include "warp/tuning.h"
+
 #include <algorithm>
 #include <limits>
 #include <numeric>
@@ -9,10 +11,6 @@
 namespace sparselens {
 
 namespace {
-
-constexpr double farthest = 64;        // pixels between where two views show one lamp
-constexpr std::size_t most = 1000;     // lamps of a view
-constexpr std::size_t least_views = 3; // two show a lamp at some depth by chance
 
 class LampParallax {
 public:
@@ -27,15 +25,16 @@ public:
         double least = std::numeric_limits<double>::infinity();
         for (std::size_t w = 0; w < lamps_.size(); ++w) {
             if (w == v) continue;
-            for_each_near(w, seen.lamp.place.y, farthest, [&](const KnownLamp &other) {
+            for_each_near(w, seen.lamp.place.y, WarpTuning::lamp_farthest, [&](const KnownLamp &other) {
                 if (!is_same_light(seen.lamp, other)) return;
                 const Imath::V2d apart = mappings_[w].at_infinity(other.place) -
                                          mappings_[v].at_infinity(seen.lamp.place),
                                  step = mappings_[v].parallax(seen.lamp.place) -
                                         mappings_[w].parallax(other.place);
                 const double inverse_z = apart.dot(step) / step.length2();
-                if (!(inverse_z > seen.around + tolerance_) || apart.length() > farthest) return;
-                if ((apart - step * inverse_z).length() >= same_place) return;
+                if (!(inverse_z > seen.around + tolerance_) || apart.length() > WarpTuning::lamp_farthest)
+                    return;
+                if ((apart - step * inverse_z).length() >= WarpTuning::lamp_same_place) return;
                 const Shown all = shown(in_centre(v, seen.lamp, inverse_z));
                 if (all.parallax.size() < lamps_.size()) return;
                 const auto [lamp, off] = best(seen.lamp, all);
@@ -69,9 +68,9 @@ private:
         Shown found;
         for (std::size_t v = 0; v < lamps_.size(); ++v) {
             const Imath::V2d at = mappings_[v].in_view(lamp.place, lamp.inverse_z);
-            double nearest = same_place;
+            double nearest = WarpTuning::lamp_same_place;
             const KnownLamp *seen = nullptr;
-            for_each_near(v, at.y, same_place, [&](const KnownLamp &other) {
+            for_each_near(v, at.y, WarpTuning::lamp_same_place, [&](const KnownLamp &other) {
                 const double off = (other.place - at).length();
                 if (!(off < nearest) || !is_same_light(lamp, other)) return;
                 nearest = off;
@@ -112,8 +111,10 @@ private:
 std::vector<KnownLamp> depths_by_parallax(std::span<const std::vector<LampBeforeWall>> lamps,
                                           std::span<const ViewMapping> mappings, double tolerance) {
     std::vector<KnownLamp> known;
-    if (lamps.size() < least_views) return known;
-    if (std::ranges::any_of(lamps, [](const auto &of_view) { return of_view.size() > most; })) return known;
+    if (lamps.size() < WarpTuning::lamp_least_views) return known;
+    if (std::ranges::any_of(lamps,
+                            [](const auto &of_view) { return of_view.size() > WarpTuning::most_lamps; }))
+        return known;
     const LampParallax parallax(lamps, mappings, tolerance);
     for (std::size_t v = 0; v < lamps.size(); ++v)
         for (const LampBeforeWall &seen : lamps[v])

@@ -12,8 +12,6 @@
 
 namespace sparselens {
 
-inline constexpr double same_place = 0.75; // pixels between where two views show one lamp
-
 // A lamp that stands before all that is around it.
 struct KnownLamp {
     Imath::V2d place{0, 0}; // its middle

@@ -1,6 +1,7 @@
 #include "warp/mixed/wisps.h"
 
 #include "deep/unmixing.h"
+#include "warp/tuning.h"
 
 #include <cmath>
 #include <utility>
@@ -9,15 +10,7 @@ namespace sparselens {
 
 namespace {
 
-constexpr int reach = 2;          // pixels around
-constexpr int many_jumps = 5;     // of 20 pairs: half of them are expected among strands that cover half
-constexpr double apart = 2;       // pixels of perceptive depth between strands and what is behind them
-constexpr double far_away = 0.1;  // nearer than this is no sky, which has no lamps
-constexpr int reach_of_light = 4; // pixels: a lamp of a few pixels, all of them behind strands
-constexpr double bright = 4;      // times as bright as the strands
-constexpr double dim_strand =
-    0.3; // so many of the strands around are dimmer than what they are taken to show
-constexpr double largest_residual = 0.1; // of a colour that is explained, as a share of it
+constexpr double bright = 4; // times as bright as the strands
 
 double brightness(const SamplesAround &samples, std::uint64_t i) { return samples.colour_of(i).length(); }
 
@@ -31,12 +24,12 @@ double nearest_beside(const SamplesAround &samples, int x, int y) {
 // The colour of unlit strands at that depth: a low percentile of those around.
 std::optional<std::uint64_t> dim_one(const SamplesAround &samples, int x, int y, double depth) {
     std::vector<std::pair<double, std::uint64_t>> strands;
-    samples.around(x, y, reach_of_light, [&](std::uint64_t i, int, int) {
-        if (std::abs(samples.depth_of(i) - depth) <= apart && samples.is_opaque(i))
+    samples.around(x, y, WarpTuning::strand_light_reach, [&](std::uint64_t i, int, int) {
+        if (std::abs(samples.depth_of(i) - depth) <= WarpTuning::strand_apart_px && samples.is_opaque(i))
             strands.push_back({brightness(samples, i), i});
     });
     if (strands.size() < 3) return {};
-    const auto middle = strands.begin() + std::ptrdiff_t(dim_strand * double(strands.size()));
+    const auto middle = strands.begin() + std::ptrdiff_t(WarpTuning::dim_strand * double(strands.size()));
     std::nth_element(strands.begin(), middle, strands.end());
     return middle->second;
 }
@@ -45,9 +38,11 @@ std::optional<std::uint64_t> dim_one(const SamplesAround &samples, int x, int y,
 std::optional<std::uint64_t> lamp_behind(const SamplesAround &samples, int x, int y, double depth,
                                          double least) {
     std::optional<std::uint64_t> lamp;
-    samples.around(x, y, reach_of_light, [&](std::uint64_t i, int dx, int dy) {
+    samples.around(x, y, WarpTuning::strand_light_reach, [&](std::uint64_t i, int dx, int dy) {
         const double own = samples.depth_of(i);
-        if ((dx == 0 && dy == 0) || own > depth - apart || own < far_away) return;
+        if ((dx == 0 && dy == 0) || own > depth - WarpTuning::strand_apart_px ||
+            own < WarpTuning::least_lamp_px)
+            return;
         if (const double value = brightness(samples, i); value > least) {
             least = value;
             lamp = i;
@@ -59,8 +54,9 @@ std::optional<std::uint64_t> lamp_behind(const SamplesAround &samples, int x, in
 // The one of the strands at that depth that differs most from a colour.
 Imath::V3d most_different(const SamplesAround &samples, int x, int y, double depth, const Imath::V3d &from) {
     Imath::V3d result = from;
-    samples.around(x, y, reach, [&](std::uint64_t i, int, int) {
-        if (std::abs(samples.depth_of(i) - depth) > apart || !samples.is_opaque(i)) return;
+    samples.around(x, y, WarpTuning::strand_reach, [&](std::uint64_t i, int, int) {
+        if (std::abs(samples.depth_of(i) - depth) > WarpTuning::strand_apart_px || !samples.is_opaque(i))
+            return;
         if (const Imath::V3d c = samples.colour_of(i); (c - from).length2() > (result - from).length2())
             result = c;
     });
@@ -72,22 +68,24 @@ Imath::V3d most_different(const SamplesAround &samples, int x, int y, double dep
 bool among_strands(const SamplesAround &samples, int x, int y) {
     const Grid &grid = samples.grid();
     const auto jumps = [&](std::uint64_t i, int dx, int dy) {
-        if (dx > reach || dy > reach || !grid.contains(x + dx, y + dy)) return false;
+        if (dx > WarpTuning::strand_reach || dy > WarpTuning::strand_reach || !grid.contains(x + dx, y + dy))
+            return false;
         if (samples.is_empty(grid.index(x + dx, y + dy))) return false;
-        return std::abs(samples.depth_of(samples.own_sample(x + dx, y + dy)) - samples.depth_of(i)) > apart;
+        return std::abs(samples.depth_of(samples.own_sample(x + dx, y + dy)) - samples.depth_of(i)) >
+               WarpTuning::strand_apart_px;
     };
     int along = 0, down = 0;
-    samples.around(x, y, reach, [&](std::uint64_t i, int dx, int dy) {
+    samples.around(x, y, WarpTuning::strand_reach, [&](std::uint64_t i, int dx, int dy) {
         along += jumps(i, dx + 1, dy);
         down += jumps(i, dx, dy + 1);
     });
-    return std::min(along, down) >= many_jumps;
+    return std::min(along, down) >= WarpTuning::strand_jumps;
 }
 
 std::optional<Mixture> light_between_strands(const SamplesAround &samples, int x, int y) {
     const std::uint64_t own = samples.own_sample(x, y);
     const double own_depth = samples.depth_of(own), nearest = nearest_beside(samples, x, y);
-    const bool is_strand = own_depth > nearest - apart;
+    const bool is_strand = own_depth > nearest - WarpTuning::strand_apart_px;
     const double near_depth = is_strand ? own_depth : nearest;
     const auto strand = dim_one(samples, x, y, near_depth);
     if (!strand) return {};
@@ -97,8 +95,10 @@ std::optional<Mixture> light_between_strands(const SamplesAround &samples, int x
     if (!lamp) return {};
     const double b = brightness(samples, *lamp), lamp_depth = samples.depth_of(*lamp);
     // A lamp's own pixel stays at its depth, and one of what is beside the lamp takes it.
-    if (!is_strand)
-        return Mixture{near_depth, std::abs(own_depth - lamp_depth) < apart ? own_depth : lamp_depth, 0, {}};
+    if (!is_strand) {
+        const bool is_lamp = std::abs(own_depth - lamp_depth) < WarpTuning::strand_apart_px;
+        return Mixture{near_depth, is_lamp ? own_depth : lamp_depth, 0, {}};
+    }
     const double share = b > c ? (b - c) / (b - f) : 0;
     return Mixture{near_depth, lamp_depth, share < least_mixed_share ? 0 : share, {}, strand};
 }
@@ -106,13 +106,14 @@ std::optional<Mixture> light_between_strands(const SamplesAround &samples, int x
 std::optional<Mixture> strands_before(const SamplesAround &samples, int x, int y) {
     const std::uint64_t own = samples.own_sample(x, y);
     const double own_depth = samples.depth_of(own), nearest = nearest_beside(samples, x, y);
-    const double near_depth = own_depth > nearest - apart ? own_depth : nearest;
+    const double near_depth = own_depth > nearest - WarpTuning::strand_apart_px ? own_depth : nearest;
     std::optional<Mixture> best;
-    samples.around(x, y, reach, [&](std::uint64_t i, int, int) {
-        if (samples.depth_of(i) > near_depth - apart || !samples.is_opaque(i)) return;
+    samples.around(x, y, WarpTuning::strand_reach, [&](std::uint64_t i, int, int) {
+        if (samples.depth_of(i) > near_depth - WarpTuning::strand_apart_px || !samples.is_opaque(i)) return;
         const Imath::V3d b = samples.colour_of(i);
         const Imath::V3d c = samples.colour_of(own), f = most_different(samples, x, y, near_depth, b);
-        const auto mix = unmix(c, f, b, no_prior, largest_residual * c.length() / (f - b).length());
+        const auto mix =
+            unmix(c, f, b, no_prior, WarpTuning::strand_residual * c.length() / (f - b).length());
         if (mix && (!best || mix->share > best->share))
             best = {near_depth, samples.depth_of(i), mix->share, {{i, 1}}};
     });
