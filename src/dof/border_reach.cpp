@@ -2,6 +2,7 @@
 
 #include "deep/build.h"
 #include "dof/lens/beyond/border_pixels.h"
+#include "dof/tuning.h"
 #include "lens/light_reach.h"
 
 #include <algorithm>
@@ -12,10 +13,7 @@ namespace sparselens {
 
 namespace {
 
-constexpr float counts = 0.5f;    // of coverage: fainter samples blur unseen
-constexpr float stands_out = 4;   // times what is around it
-constexpr float smallest_coc = 2; // pixels: a lamp of less is no disc
-constexpr std::size_t faint = 32; // all but one of so many
+constexpr float stands_out = 4; // times what is around it
 
 // What one side of the frame needs and has, in pixels. Light reaches farther down than across where pixels are not square.
 struct Side {
@@ -33,7 +31,7 @@ bool has_less(const Side &a, const Side &b) {
 
 bool has_light_that_stands_out(std::vector<float> &all, const std::vector<float> &blurred) {
     if (all.empty() || blurred.empty()) return false;
-    const auto limit = all.begin() + std::ptrdiff_t(all.size() - 1 - all.size() / faint);
+    const auto limit = all.begin() + std::ptrdiff_t(all.size() - 1 - all.size() / GatherTuning::border_faint);
     std::nth_element(all.begin(), limit, all.end());
     return std::ranges::any_of(blurred, [&](float light) { return light > stands_out * *limit; });
 }
@@ -76,7 +74,7 @@ BorderReach border_reach(const Ldi &ldi, const ThinLens &lens, const LensLooks &
     for_each_border_pixel(display, [&](int x, int y) {
         const Imath::V2d at(x + 0.5, y + 0.5), shown = light.shown_at(at);
         for (const std::uint64_t i : ldi.pixel(ldi.windows.index(x, y))) {
-            if (alpha != npos && ldi.values[alpha][i] < counts) continue;
+            if (alpha != npos && ldi.values[alpha][i] < GatherTuning::border_counts) continue;
             const double coc = circle_of_confusion(lens, ldi.optical_z(i));
             const Imath::V2d spread = light.at(at, coc);
             if (x == display.min.x) left.see(spread.x + at.x - shown.x);
@@ -87,7 +85,7 @@ BorderReach border_reach(const Ldi &ldi, const ThinLens &lens, const LensLooks &
             for (const std::size_t k : rgb)
                 if (k != npos) brightness = std::max(brightness, ldi.values[k][i]);
             all.push_back(brightness);
-            if (std::max(spread.x, spread.y) >= smallest_coc) blurred.push_back(brightness);
+            if (std::max(spread.x, spread.y) >= GatherTuning::border_least_px) blurred.push_back(brightness);
         }
     });
     const Side worst = std::max({left, right, top, bottom}, has_less);

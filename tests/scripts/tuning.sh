@@ -4,10 +4,34 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
-stages='plan warp'
+stages='plan warp dof'
 
-# FILE NAME...: sizes of what is stored or worked on at once, sentinels, bounds of arithmetic and its constants.
+# FILE NAME...: sizes of what is stored or worked on at once, sentinels, bounds of arithmetic and its constants, defaults and tables
+# of options.
 allowed='
+dof/facets/facets.h size
+dof/facets/placed_facets.cpp at_once
+dof/footprints/interpolation_blur.cpp cocs n offsets
+dof/footprints/interpolation_blur.h largest_weight
+dof/gather_rows.cpp beside highlight_rows most rows_at_once
+dof/border_reach.cpp rows_at_once stands_out
+dof/lens/beyond/beyond_frame.cpp cell
+dof/lens/beyond/border.cpp stands_out
+dof/lens/fillers.cpp directions pixels_at_once unknown
+dof/lens/fillers.h nothing
+dof/lens/lens_sets.h final_points largest_coc normal_points
+dof/lens/lens_tiles.h lens_tile_size
+dof/lens/lights.h sides
+dof/lens/sample_blocks.h background size
+dof/lens/sharpen.cpp noise_block
+dof/lens/tile_projection.cpp rounding
+dof/lens_mattes.cpp ids_at_once
+dof/merge_layers.cpp pixels_at_once
+dof/merge_layers.h layer_tolerance_px
+dof/selective/blend.h sums_before_colours
+dof/selective/selective.cpp at_once
+dof/selective/splat_blocks.cpp square_size
+dof/selective/splats.h too_little
 plan/disocclusion.h nothing
 plan/noise.cpp block_size spread least_of_four
 warp/lamps/lamp_light.cpp farthest_move
@@ -26,7 +50,7 @@ fault() {
 # FILE NAME for each constant of these stages outside of tuning.h whose value begins with a number.
 constants() {
     local file
-    find $(sed 's|\<|src/|g' <<<"$stages") -name '*.h' -o -name '*.cpp' | grep -vE '/tuning\.h$|/warp/images/' | sort | while read -r file; do
+    find $(sed 's|\<|src/|g' <<<"$stages") -name '*.h' -o -name '*.cpp' | grep -vE '/tuning\.h$|/warp/images/|/dof/(footprints/[fs]|lens/(block|bright|cells|highlight|lamp|shadow))' | sort | while read -r file; do
         # A declaration in one line, without comments, without what is in brackets; a name and its value in one line.
         sed -E 's|//.*||' "$file" | sed -E ':next; /(=|,) *$/{N; s/\n */ /; b next}' |
             grep -E '\bconst(expr)? (float|double|int|(std::)?u?int[0-9]+_t|std::size_t|unsigned|auto) [a-z_0-9]+ = |\bconstexpr std::array\b' |

@@ -1,5 +1,7 @@
 #include "dof/footprints/interpolation_blur.h"
 
+#include "dof/tuning.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,8 +9,6 @@
 namespace sparselens {
 
 namespace {
-
-constexpr double largest_coc = 4; // pixels: beyond, the blur of interpolation does not show
 
 // How much light passes the lens in columns, side by side from -1 to 1; in rows, along the other axis.
 using LensColumns = std::array<double, 64>;
@@ -53,18 +53,19 @@ public:
     // Half of the mean, which is the weight of the second difference; fades out towards the largest CoC.
     double weight(double coc, double offset) const {
         coc = std::abs(coc);
-        if (!(coc < largest_coc)) return 0;
+        if (!(coc < GatherTuning::interpolated_px)) return 0;
         // Between entries: what lies in focus on the grid has to come out as exactly 0.
-        const double u = coc / largest_coc * (cocs - 1),
+        const double u = coc / GatherTuning::interpolated_px * (cocs - 1),
                      v = std::min(std::abs(offset) * 2, 1.0) * (offsets - 1);
         const int c = std::min(int(u), cocs - 2), o = std::min(int(v), offsets - 2);
         const auto along = [&](int row) { return std::lerp(entry(row, o), entry(row, o + 1), v - o); };
-        return 0.5 * std::lerp(along(c), along(c + 1), u - c) * std::min(1.0, 2 * (1 - coc / largest_coc));
+        return 0.5 * std::lerp(along(c), along(c + 1), u - c) *
+               std::min(1.0, 2 * (1 - coc / GatherTuning::interpolated_px));
     }
 
 private:
     static constexpr int cocs = 128, offsets = 16;
-    static double coc_at(int c) { return c * largest_coc / (cocs - 1); }
+    static double coc_at(int c) { return c * GatherTuning::interpolated_px / (cocs - 1); }
     static double offset_at(int o) { return o * 0.5 / (offsets - 1); }
     double entry(int c, int o) const { return table_[std::size_t(c * offsets + o)]; }
     static double mean(const LensColumns &columns, double coc, double offset) {
@@ -94,7 +95,8 @@ InterpolationBlur::~InterpolationBlur() = default;
 
 bool InterpolationBlur::any(double least, double most, double pixel_aspect) const {
     const double smallest = least <= 0 && most >= 0 ? 0 : std::min(std::abs(least), std::abs(most));
-    return smallest * std::min(1 / squeeze_, pixel_aspect) < largest_coc + 1e-3; // CoCs are rounded
+    return smallest * std::min(1 / squeeze_, pixel_aspect) <
+           GatherTuning::interpolated_px + 1e-3; // CoCs are rounded
 }
 
 double InterpolationBlur::horizontal(double coc, double offset) const {

@@ -6,6 +6,7 @@
 #include "dof/lens/cells.h"
 #include "dof/lens/sharpen.h"
 #include "dof/lens/solid_samples.h"
+#include "dof/tuning.h"
 #include "lens/perceptive_depth.h"
 
 #include <algorithm>
@@ -21,7 +22,8 @@ namespace {
 bool is_sharp(const BlockedSamples &samples, const Optics &optics) {
     return !optics.moves() && !optics.field.skews() &&
            std::ranges::all_of(samples.blocks, [&](const SampleBlock &block) {
-               return block.begin == block.end || largest_coc_of(block) * optics.widest() < in_focus;
+               return block.begin == block.end ||
+                      largest_coc_of(block) * optics.widest() < GatherTuning::in_focus_px;
            });
 }
 

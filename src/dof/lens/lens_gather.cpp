@@ -8,6 +8,7 @@
 #include "dof/lens/highlight_tile.h"
 #include "dof/lens/lens_tiles.h"
 #include "dof/lens/tile_plan.h"
+#include "dof/tuning.h"
 
 #include <tbb/enumerable_thread_specific.h>
 
@@ -19,8 +20,6 @@
 namespace sparselens {
 
 namespace {
-
-constexpr double sharp_coc = 1e-3; // pixels: of infinity, seen by a lens of radius 0
 
 // visit(x, y) for the pixels of a part of the tile at `corner` (relative to the window) that lie in the window.
 template <typename Visit>
@@ -168,7 +167,7 @@ Image lens_gather(const Ldi &ldi, const ThinLens &given, const Imath::Box2i &win
     LensGatherOptions options = asked;
     // Only breathing shows then, which asks for a finite focus distance: all is sharp, and still ordered by depth.
     if (lens.radius == 0) {
-        lens.radius = sharp_coc * lens.focus / lens.focal_px;
+        lens.radius = GatherTuning::sharp_px * lens.focus / lens.focal_px;
         options.looks.cat_eye = 0; // there is nothing to cut
     }
     Image out = gather_once(ldi, lens, window, options, 0, progress);

@@ -15,8 +15,6 @@
 
 namespace sparselens {
 
-inline constexpr float in_focus = 0.5f; // pixels: what has no larger CoC is as it was rendered
-
 struct Optics {
     LensLooks looks;
     double coc;        // is added to that of all samples

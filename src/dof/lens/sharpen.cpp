@@ -4,6 +4,7 @@
 #include "deep/build.h"
 #include "dof/footprints/interpolation_blur.h"
 #include "dof/footprints/surface_neighbours.h"
+#include "dof/tuning.h"
 
 #include <algorithm>
 #include <array>
@@ -13,8 +14,7 @@ namespace sparselens {
 
 namespace {
 
-constexpr int noise_block = 32;        // pixels
-constexpr double noise_quantile = 0.3; // the calmer part of a block shows its noise, not its detail
+constexpr int noise_block = 32; // pixels, wide and high, whose noise is one
 
 class Sharpener {
 public:
@@ -117,7 +117,8 @@ void Sharpener::measure_noise() {
                 if (n.horizontal > 0 && n.vertical > 0) details.push_back(detail(samples.front(), n));
             }
         if (details.empty()) return;
-        const auto at = details.begin() + std::ptrdiff_t(double(details.size() - 1) * noise_quantile);
+        const auto at =
+            details.begin() + std::ptrdiff_t(double(details.size() - 1) * GatherTuning::noise_quantile);
         std::nth_element(details.begin(), at, details.end());
         noise_[block] = *at;
     });
@@ -149,7 +150,8 @@ Sharpener::Weights Sharpener::weights(std::uint64_t i, int x, int y, SurfaceNeig
     w.horizontal *= n.horizontal;
     w.vertical *= n.vertical;
     const int columns = (ldi_.windows.width() + noise_block - 1) / noise_block;
-    const double noise = 5 * noise_[std::size_t(y / noise_block * columns + x / noise_block)],
+    const double noise = GatherTuning::noise_times *
+                         noise_[std::size_t(y / noise_block * columns + x / noise_block)],
                  d = detail(i, n);
     const double strength = noise > 0 ? (d > 0 ? 1 / (1 + std::pow(noise / d, 4)) : 0) : 1;
     w.horizontal *= float(strength);

@@ -1,6 +1,7 @@
 #include "dof/lens/tile_plan.h"
 
 #include "base/parallel.h"
+#include "dof/tuning.h"
 
 #include <algorithm>
 #include <cmath>
@@ -99,7 +100,7 @@ std::optional<TilePlan::Blur> TilePlan::blur_of(PlannedTile &tile) const {
     const ReachingCocs cocs = blocks.find(tile.first - optics_.corner - Imath::V2i(beside),
                                           lens_tile_size + 2 * beside, steepest, tile.blocks);
     const float largest = cocs.largest * optics_.widest() + float(displaced);
-    if (largest < in_focus && !optics_.moves()) return {};
+    if (largest < GatherTuning::in_focus_px && !optics_.moves()) return {};
     // The edge of what is transparent would be as coarse as the cells.
     const bool cells = has_cells(options_, optics_) && !cocs.with_background;
     return Blur{largest, steepest,

@@ -1,5 +1,6 @@
 #include "dof/selective/blend.h"
 
+#include "dof/tuning.h"
 #include "kernels/layer_rules.h"
 
 #include <algorithm>
@@ -7,17 +8,11 @@
 
 namespace sparselens {
 
-namespace {
-
-constexpr double bin_width = 0.5; // pixels of CoC; 0.25 gains nothing, 1 loses 0.5 dB on thin blades of grass
-constexpr double linear_to = 32.0; // pixels of CoC; beyond, bins widen: 1/64 of the CoC
-
-} // namespace
-
 int depth_bin(double coc) {
     const double size = std::abs(coc);
+    constexpr double linear_to = GatherTuning::bins_linear_to_px;
     const double bent = size < linear_to ? size : linear_to * (1 + std::log(size / linear_to));
-    return int(std::floor(std::copysign(bent / bin_width, coc)));
+    return int(std::floor(std::copysign(bent / GatherTuning::bin_px, coc)));
 }
 
 double window_share(const Imath::Box2i &data, double pixel_aspect, int x, int y, double radius) {

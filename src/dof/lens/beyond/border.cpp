@@ -3,6 +3,7 @@
 #include "base/coverage.h"
 #include "deep/build.h"
 #include "dof/lens/sample_colours.h"
+#include "dof/tuning.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,9 +13,7 @@ namespace sparselens {
 
 namespace {
 
-constexpr int along = 32;       // pixels on either side: what is around
 constexpr float stands_out = 4; // times what four of five samples there stay below
-constexpr int inwards = 96;     // pixels: no farther than bands of rows reach (gather_rows.cpp)
 constexpr double sky = std::numeric_limits<double>::infinity();
 
 // How far a disc reaches beyond a line that cuts it that wide, if it is as wide as `inner` so far within.
@@ -27,7 +26,8 @@ float disc_beyond(double width, double inner, double within) {
 
 float level_around(const std::vector<float> &bright, int at) {
     std::vector<float> around;
-    for (int i = std::max(at - along, 0); i <= std::min(at + along, int(bright.size()) - 1); ++i)
+    for (int i = std::max(at - GatherTuning::border_along, 0);
+         i <= std::min(at + GatherTuning::border_along, int(bright.size()) - 1); ++i)
         if (bright[std::size_t(i)] >= 0) around.push_back(bright[std::size_t(i)]);
     if (around.empty()) return 0;
     const auto level = around.end() - 1 - std::ptrdiff_t(around.size() / 5);
@@ -108,10 +108,10 @@ double Border::front(const Imath::V2i &at) const {
 void Border::find_end(BorderPixel &of, const Line &line, int i) const {
     const double cut = front(line.pixel(i, 0));
     if (cut < 0) return;
-    int width = 0, least = inwards;
+    int width = 0, least = GatherTuning::border_inwards;
     double last = cut;
     bool nearer = true; // the surface at hand, than what is before it
-    for (int from = 0, n = 1; n < inwards; ++n) {
+    for (int from = 0, n = 1; n < GatherTuning::border_inwards; ++n) {
         const double here = front(line.pixel(i, -n));
         if (!is_one_surface(here, last)) {
             const bool ends = nearer && here < last;
@@ -125,7 +125,7 @@ void Border::find_end(BorderPixel &of, const Line &line, int i) const {
         }
         last = here;
     }
-    if (least == inwards) return;
+    if (least == GatherTuning::border_inwards) return;
     of.ends = std::max(least - width, 0);
     of.behind = width;
 }
@@ -160,8 +160,8 @@ float Border::extent(const Line &line, int at, int n, std::uint64_t sample, floa
         return value > level ? value : 0;
     };
     int first = at, last = at;
-    while (first > at - along && light(first - 1, n) > 0) --first;
-    while (last < at + along && light(last + 1, n) > 0) ++last;
+    while (first > at - GatherTuning::border_along && light(first - 1, n) > 0) --first;
+    while (last < at + GatherTuning::border_along && light(last + 1, n) > 0) ++last;
     float most = 0;
     for (int i = first; i <= last; ++i) most = std::max(most, light(i, n));
     const auto width = [&](int row) { // as if all of it were as bright
