@@ -3,6 +3,7 @@
 #include "deep/build.h"
 #include "dof/lens/beyond/border_pixels.h"
 #include "dof/tuning.h"
+#include "lens/lamp.h"
 #include "lens/light_reach.h"
 
 #include <algorithm>
@@ -12,8 +13,6 @@
 namespace sparselens {
 
 namespace {
-
-constexpr float stands_out = 4; // times what is around it
 
 // What one side of the frame needs and has, in pixels. Light reaches farther down than across where pixels are not square.
 struct Side {
@@ -31,9 +30,8 @@ bool has_less(const Side &a, const Side &b) {
 
 bool has_light_that_stands_out(std::vector<float> &all, const std::vector<float> &blurred) {
     if (all.empty() || blurred.empty()) return false;
-    const auto limit = all.begin() + std::ptrdiff_t(all.size() - 1 - all.size() / GatherTuning::border_faint);
-    std::nth_element(all.begin(), limit, all.end());
-    return std::ranges::any_of(blurred, [&](float light) { return light > stands_out * *limit; });
+    const float around = surroundings_of(all, LampTuning::one_in_border);
+    return std::ranges::any_of(blurred, [&](float light) { return stands_out(light, around); });
 }
 
 } // namespace

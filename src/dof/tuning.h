@@ -3,8 +3,6 @@
 // device shares are in src/kernels. "Perceptive" is of perceptive depth, in pixels.
 #pragma once
 
-#include <cstddef>
-
 namespace sparselens {
 
 struct GatherTuning {
@@ -34,8 +32,6 @@ struct GatherTuning {
     static constexpr float border_counts = 0.5f;
     // Pixels of CoC: a lamp of less is no disc.
     static constexpr float border_least_px = 2;
-    // Samples of a border of which all but one are what lamps stand out of.
-    static constexpr std::size_t border_faint = 32;
 };
 
 } // namespace sparselens

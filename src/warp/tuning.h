@@ -52,11 +52,7 @@ struct WarpTuning {
 
     // Small lamps (lamps/compact_lamps.h). Pixels, wide and high, that tell what surrounds a lamp.
     static constexpr int lamp_block = 16;
-    // Times the surroundings: the brightest pixel of a lamp, ...
-    static constexpr float lamp_stands_out = 8;
-    // ... all its pixels, ...
-    static constexpr float lamp_belongs = 4;
-    // ... which are at least this part of the brightest.
+    // Part of the brightest pixel that others of a lamp have at least.
     static constexpr float lamp_belongs_to_brightest = 0.02f;
     // Pixels: what is bright and lies no farther apart is one lamp.
     static constexpr int lamp_gap = 3;

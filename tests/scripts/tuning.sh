@@ -1,5 +1,5 @@
-# Each threshold of a stage stands in its tuning.h, under a name of its own, and is used; rules that shaders share stand in
-# src/kernels. What else has a number for a value is named here, with what it is.
+# Each threshold of a stage stands in its tuning.h, and what a lamp is in lens/lamp.h, under a name of its own, and is used; rules
+# that shaders share stand in src/kernels. What else has a number for a value is named here, with what it is.
 #   bash tuning.sh
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
@@ -14,9 +14,8 @@ dof/facets/placed_facets.cpp at_once
 dof/footprints/interpolation_blur.cpp cocs n offsets
 dof/footprints/interpolation_blur.h largest_weight
 dof/gather_rows.cpp beside highlight_rows most rows_at_once
-dof/border_reach.cpp rows_at_once stands_out
+dof/border_reach.cpp rows_at_once
 dof/lens/beyond/beyond_frame.cpp cell
-dof/lens/beyond/border.cpp stands_out
 dof/lens/fillers.cpp directions pixels_at_once unknown
 dof/lens/fillers.h nothing
 dof/lens/lens_sets.h final_points largest_coc normal_points
@@ -35,7 +34,6 @@ dof/selective/splats.h too_little
 plan/disocclusion.h nothing
 plan/noise.cpp block_size spread least_of_four
 warp/lamps/lamp_light.cpp farthest_move
-warp/mixed/wisps.cpp bright
 warp/reproject.cpp far_off
 warp/surfaces.cpp few
 warp/warp_device.h warp_band_rows
@@ -67,9 +65,9 @@ if gone=$(sort -u <<<"$found" | comm -13 - <(echo "$exempt") | grep .); then fau
 $gone"; fi
 
 # NAME and the struct's name, for all members.
-members=$(for stage in $stages; do
-    struct=$(sed -nE 's/^struct ([A-Za-z]+) \{/\1/p' "src/$stage/tuning.h")
-    sed -nE "s/^ +static constexpr [a-z:_0-9<>, ]+ ([a-z_0-9]+)( = |\{).*/\1 $struct/p" "src/$stage/tuning.h"
+members=$(for file in src/lens/lamp.h $(sed -E 's|([a-z]+)|src/\1/tuning.h|g' <<<"$stages"); do
+    struct=$(sed -nE 's/^struct ([A-Za-z]+) \{/\1/p' "$file")
+    sed -nE "s/^ +static constexpr [a-z:_0-9<>, ]+ ([a-z_0-9]+)( = |\{).*/\1 $struct/p" "$file"
 done)
 [ "$(wc -l <<<"$members")" -ge 10 ] || fault "the members of tuning.h were not found"
 if twice=$(cut -d ' ' -f 1 <<<"$members" | sort | uniq -d | grep .); then fault "several members of one name: $twice"; fi

@@ -3,6 +3,7 @@
 #include "base/grid.h"
 #include "base/parallel.h"
 #include "dof/lens/bright_share.h"
+#include "lens/lamp.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,8 +13,6 @@ namespace sparselens {
 namespace {
 
 constexpr int cell = BrightShare::cell;
-constexpr std::size_t brightest = 5;        // one sample of a window in so many may be a highlight
-constexpr float stands_out = 4;             // times what is around
 constexpr float near_focus = 2;             // pixels of CoC
 constexpr float wholly = 6;                 // times that, from which all that stands out is spread
 constexpr double rare = 0.15, common = 0.3; // shares of what is around: a lamp, and none
@@ -102,10 +101,7 @@ float HighlightFinder::level_of(const Imath::Box2i &cells, Of of, Besides &besid
             (of == Of::all || seen ? levels : all).push_back(brightness_of(i));
     });
     if (levels.empty()) levels = std::move(all);
-    if (levels.empty()) return 0;
-    const auto limit = levels.end() - 1 - std::ptrdiff_t(levels.size() / brightest);
-    std::nth_element(levels.begin(), limit, levels.end());
-    return *limit;
+    return surroundings_of(levels, LampTuning::one_in);
 }
 
 std::vector<Found> HighlightFinder::find_in(const Imath::V2i &at) const {
@@ -120,14 +116,15 @@ std::vector<Found> HighlightFinder::find_in(const Imath::V2i &at) const {
         const float brightness = brightness_of(i);
         float level = std::abs(samples_.coc[i]) < near_focus ? covered_level : any_level;
         if (!is_seen(i)) level = std::max(level, made_up_level); // so that few of them are highlights, too
-        if (!(brightness > stands_out * level)) return;
+        if (!stands_out(brightness, level)) return;
         // What stands out of nothing alone is few samples, and exact discs are better than lens points.
         const double rarity =
             covered_level > any_level
                 ? 1
                 : std::clamp((common - as_bright_.around(i, brightness)) / (common - rare), 0.0, 1.0);
         if (!(rarity > 0)) return;
-        const float wholeness = std::min((brightness / level - stands_out) / (wholly - stands_out), 1.0f);
+        constexpr float least = LampTuning::stands_out;
+        const float wholeness = std::min((brightness / level - least) / (wholly - least), 1.0f);
         found.push_back({i, float(rarity) * wholeness * (1 - level / brightness)});
     });
     return found;

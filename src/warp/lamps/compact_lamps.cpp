@@ -2,6 +2,7 @@
 
 #include "base/median.h"
 #include "base/parallel.h"
+#include "lens/lamp.h"
 #include "warp/tuning.h"
 
 #include <algorithm>
@@ -26,13 +27,13 @@ std::vector<Seed> seeds_of(const Grid &grid, std::span<const float> brightness, 
         values.insert(values.end(), row.begin(), row.end());
     }
     const auto [least, most] = std::ranges::minmax(values);
-    if (!(most > WarpTuning::lamp_stands_out * least)) return {};
+    if (!stands_out(most, least, LampTuning::stands_out_of_view)) return {};
     const float middle = median(values);
     std::vector<Seed> seeds;
     for (int y = box.min.y; y <= box.max.y; ++y)
         for (int x = box.min.x; x <= box.max.x; ++x) {
             const std::size_t i = grid.index(x, y);
-            if (brightness[i] > WarpTuning::lamp_stands_out * middle)
+            if (stands_out(brightness[i], middle, LampTuning::stands_out_of_view))
                 seeds.push_back({i, brightness[i], middle});
         }
     return seeds;
@@ -47,7 +48,7 @@ public:
     std::optional<CompactLamp> grow(const Seed &seed) {
         if (group_[seed.pixel] != 0) return {};
         CompactLamp lamp{{},
-                         std::max(WarpTuning::lamp_belongs * seed.surroundings,
+                         std::max(LampTuning::stands_out * seed.surroundings,
                                   WarpTuning::lamp_belongs_to_brightest * seed.brightness),
                          seed.surroundings};
         ++number_;

@@ -1,6 +1,7 @@
 #include "warp/mixed/wisps.h"
 
 #include "deep/unmixing.h"
+#include "lens/lamp.h"
 #include "warp/tuning.h"
 
 #include <cmath>
@@ -9,8 +10,6 @@
 namespace sparselens {
 
 namespace {
-
-constexpr double bright = 4; // times as bright as the strands
 
 double brightness(const SamplesAround &samples, std::uint64_t i) { return samples.colour_of(i).length(); }
 
@@ -90,8 +89,8 @@ std::optional<Mixture> light_between_strands(const SamplesAround &samples, int x
     const auto strand = dim_one(samples, x, y, near_depth);
     if (!strand) return {};
     const double c = brightness(samples, own), f = brightness(samples, *strand);
-    if (!(c > bright * f)) return {};
-    const auto lamp = lamp_behind(samples, x, y, near_depth, c / bright);
+    if (!stands_out(c, f)) return {};
+    const auto lamp = lamp_behind(samples, x, y, near_depth, c / LampTuning::stands_out);
     if (!lamp) return {};
     const double b = brightness(samples, *lamp), lamp_depth = samples.depth_of(*lamp);
     // A lamp's own pixel stays at its depth, and one of what is beside the lamp takes it.

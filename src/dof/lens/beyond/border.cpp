@@ -4,6 +4,7 @@
 #include "deep/build.h"
 #include "dof/lens/sample_colours.h"
 #include "dof/tuning.h"
+#include "lens/lamp.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +14,6 @@ namespace sparselens {
 
 namespace {
 
-constexpr float stands_out = 4; // times what four of five samples there stay below
 constexpr double sky = std::numeric_limits<double>::infinity();
 
 // How far a disc reaches beyond a line that cuts it that wide, if it is as wide as `inner` so far within.
@@ -29,10 +29,7 @@ float level_around(const std::vector<float> &bright, int at) {
     for (int i = std::max(at - GatherTuning::border_along, 0);
          i <= std::min(at + GatherTuning::border_along, int(bright.size()) - 1); ++i)
         if (bright[std::size_t(i)] >= 0) around.push_back(bright[std::size_t(i)]);
-    if (around.empty()) return 0;
-    const auto level = around.end() - 1 - std::ptrdiff_t(around.size() / 5);
-    std::nth_element(around.begin(), level, around.end());
-    return *level;
+    return surroundings_of(around, LampTuning::one_in);
 }
 
 } // namespace
@@ -72,7 +69,7 @@ std::vector<BorderPixel> Border::side(const Imath::V2i &first, const Imath::V2i 
     found.resize(std::size_t(count));
     for (int i = 0; i < count; ++i) {
         BorderPixel &pixel = found[std::size_t(i)];
-        pixel.leaving = leaving(line, i, stands_out * level_around(bright, i), looked);
+        pixel.leaving = leaving(line, i, LampTuning::stands_out * level_around(bright, i), looked);
         pixel.open = !closed(samples(line.pixel(i, 0)));
         if (!looked) find_end(pixel, line, i);
     }
