@@ -82,6 +82,57 @@ struct WarpTuning {
     static constexpr double lamp_noise_of_pixels = 1;
     // Of the lamp's light: what is changed of it at most.
     static constexpr double lamp_largest_change = 0.5;
+
+    // At which depth mirrors and glass show what they show (images/image_sweep.h). Perceptive: between depths that are tried.
+    static constexpr double image_step_px = 0.5;
+    // Perceptive, below 0: how far behind the camera is searched.
+    static constexpr double image_behind_camera_px = 6;
+    // Depths that are tried: where the surface is nearer than any that matters, the steps are larger.
+    static constexpr std::size_t image_most_steps = 320;
+    // Steps at once, first: a valley is wider.
+    static constexpr std::size_t image_coarse_steps = 2;
+    // Perceptive, from the surface: less is not worth it.
+    static constexpr float image_least_px = 0.25f;
+    // Of the difference of the views at the surface: what explains them leaves less.
+    static constexpr float image_left = 0.5f;
+    // The difference at the surface, mean square, R, G and B together: less is not seen.
+    static constexpr float image_least_difference = 3e-5f;
+    // Times the least difference: it is more one step and a half away, ...
+    static constexpr float image_valley = 1.25f;
+    // ... and in any other valley.
+    static constexpr float image_rival = 1.4f;
+    // Steps on either side by which a depth is refined, ...
+    static constexpr int image_fine_steps = 3;
+    // ... and perceptive, how far apart they are.
+    static constexpr double image_fine_px = 0.25;
+    // Of a patch that both views show, to be compared.
+    static constexpr float image_least_patch = 0.4f;
+
+    // Which of them belong together (images/image_depths.h). Of the pixels of a block that found a depth, to search those beside it.
+    static constexpr double image_enough_found = 0.25;
+    // Of the eight blocks beside one: more than a line ends with.
+    static constexpr int image_enough_beside = 2;
+    // Pixels around, whose depths lie on a plane.
+    static constexpr int image_plane_reach = 6;
+    // Of those pixels that found a depth: so many are as near to it as the next says.
+    static constexpr double image_agreement = 0.4;
+    // Perceptive: depths no farther apart are those of one image.
+    static constexpr float image_one_px = 0.8f;
+    // Pixels from which a depth may be continued: Neighbours::reach at most, ...
+    static constexpr int image_continued_reach = 8;
+    // ... how many of them there must be, ...
+    static constexpr std::size_t image_least_sources = 8;
+    // ... how often, ...
+    static constexpr int image_continuations = 2;
+    // ... and times the difference at the surface that the views may have there, ...
+    static constexpr float image_continued_difference = 1.25f;
+    // ... or at all, mean square.
+    static constexpr float image_continued_least_difference = 1e-5f;
+
+    // What views show there (images/show_images.h). Times the mean of the best views: one that differs more sees something else, ...
+    static constexpr float image_shown_difference = 4;
+    // ... unless it differs by less than is seen, mean square.
+    static constexpr float image_shown_least_difference = 2e-4f;
 };
 
 } // namespace sparselens

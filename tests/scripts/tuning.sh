@@ -33,6 +33,13 @@ dof/selective/splat_blocks.cpp square_size
 dof/selective/splats.h too_little
 plan/disocclusion.h nothing
 plan/noise.cpp block_size spread least_of_four
+warp/images/matched_view.h cutout
+warp/images/neighbours.h image_block reach
+warp/images/patch_comparison.cpp alike
+warp/images/patch_comparison.h reach row
+warp/images/image_sweep.cpp rounding rows
+warp/images/image_depths.cpp rows_at_once
+warp/images/show_images.cpp rows_at_once
 warp/lamps/lamp_light.cpp farthest_move
 warp/reproject.cpp far_off
 warp/surfaces.cpp few
@@ -48,7 +55,7 @@ fault() {
 # FILE NAME for each constant of these stages outside of tuning.h whose value begins with a number.
 constants() {
     local file
-    find $(sed 's|\<|src/|g' <<<"$stages") -name '*.h' -o -name '*.cpp' | grep -vE '/tuning\.h$|/warp/images/|/dof/(footprints/[fs]|lens/(block|bright|cells|highlight|lamp|shadow))' | sort | while read -r file; do
+    find $(sed 's|\<|src/|g' <<<"$stages") -name '*.h' -o -name '*.cpp' | grep -vE '/tuning\.h$|/dof/(footprints/[fs]|lens/(block|bright|cells|highlight|lamp|shadow))' | sort | while read -r file; do
         # A declaration in one line, without comments, without what is in brackets; a name and its value in one line.
         sed -E 's|//.*||' "$file" | sed -E ':next; /(=|,) *$/{N; s/\n */ /; b next}' |
             grep -E '\bconst(expr)? (float|double|int|(std::)?u?int[0-9]+_t|std::size_t|unsigned|auto) [a-z_0-9]+ = |\bconstexpr std::array\b' |

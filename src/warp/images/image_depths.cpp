@@ -4,6 +4,7 @@
 #include "base/median.h"
 #include "base/parallel.h"
 #include "warp/images/robust_mean.h"
+#include "warp/tuning.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,18 +15,8 @@ namespace sparselens {
 namespace {
 
 constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
-constexpr double enough_found = 0.25; // of the pixels of a block, to search those beside it
-constexpr int enough_beside = 2;      // of the eight blocks beside one: more than a line ends with
-constexpr int near_by = 6;            // pixels, for the plane
-constexpr double agreement =
-    0.4; // of the pixels around that found a depth are as near to it as the next says
-constexpr float one_image = 0.8f; // pixels of perceptive depth
-constexpr int farther = 8;        // pixels from which a depth may be continued: Neighbours::reach
-constexpr std::size_t least_sources = 8;
-constexpr int continuations = 2;
+constexpr int near_by = WarpTuning::image_plane_reach, farther = WarpTuning::image_continued_reach;
 constexpr std::size_t rows_at_once = 8; // of blocks
-constexpr float no_worse = 1.25f;       // than at the surface may the views agree at a continued depth
-constexpr float least_difference = 1e-5f;
 
 // visit(column, row) for the tiles around one.
 template <typename Visit>
@@ -108,7 +99,7 @@ bool ImageDepths::search_tile(std::size_t tile) {
         matches_[index_of(pixels.pixel(i))] = found[i];
         count += found[i].found;
     }
-    return double(count) >= enough_found * double(found.size());
+    return double(count) >= WarpTuning::image_enough_found * double(found.size());
 }
 
 void ImageDepths::search(std::vector<std::size_t> next) {
@@ -134,9 +125,9 @@ void ImageDepths::search(std::vector<std::size_t> next) {
 float depth_on_plane(const Neighbours &neighbours, const Imath::V2i &place, float depth, std::size_t around) {
     LinearFit fit;
     neighbours.for_each_around(place, near_by, [&](const Imath::V2i &offset, float other) {
-        if (std::abs(other - depth) <= one_image) fit.add(Imath::V2d(offset), double(other));
+        if (std::abs(other - depth) <= WarpTuning::image_one_px) fit.add(Imath::V2d(offset), double(other));
     });
-    return fit.count() >= agreement * double(around) ? float(fit.at_origin()) : unknown;
+    return fit.count() >= WarpTuning::image_agreement * double(around) ? float(fit.at_origin()) : unknown;
 }
 
 // By the pixel's own depth, else by the median of those around; unknown if those are too few.
@@ -147,7 +138,7 @@ float depth_by_neighbours(const Neighbours &neighbours, const Imath::V2i &place,
         ++pixels;
         if (!std::isnan(depth)) around.push_back(depth);
     });
-    if (double(around.size()) < agreement * double(pixels)) return unknown;
+    if (double(around.size()) < WarpTuning::image_agreement * double(pixels)) return unknown;
     const float own = depth_on_plane(neighbours, place, neighbours.depth(place), around.size());
     return std::isnan(own) ? depth_on_plane(neighbours, place, median(around), around.size()) : own;
 }
@@ -192,12 +183,15 @@ float ImageDepths::continued(const Neighbours &neighbours, const Imath::V2i &pla
     neighbours.for_each_around(place, farther, [&](const Imath::V2i &, float depth) {
         if (!std::isnan(depth)) around.push_back(depth);
     });
-    if (around.size() < least_sources) return unknown;
+    if (around.size() < WarpTuning::image_least_sources) return unknown;
     const float depth = median(around);
     if (depth == tried) return unknown;
     tried = depth;
     const float there = robust_mean(sweep_.differences(pixel, double(depth)));
-    return there <= no_worse * match.at_surface + least_difference ? depth : unknown;
+    return there <= WarpTuning::image_continued_difference * match.at_surface +
+                        WarpTuning::image_continued_least_difference
+               ? depth
+               : unknown;
 }
 
 void ImageDepths::go_on() {
@@ -240,7 +234,8 @@ std::vector<std::size_t> blocks_to_search(const Imath::Box2i &data, std::span<co
         for_each_beside(tiles, tile,
                         [&](std::size_t other) { beside += differ[other] != Disagreement::none; });
         const bool clear = differ[tile] == Disagreement::clear, slight = differ[tile] == Disagreement::slight;
-        if ((clear && beside > 0) || (slight && beside >= enough_beside)) blocks.push_back(tile);
+        if ((clear && beside > 0) || (slight && beside >= WarpTuning::image_enough_beside))
+            blocks.push_back(tile);
     }
     return blocks;
 }
@@ -252,7 +247,7 @@ std::vector<float> find_image_depths(const ImageSweep &sweep, const Imath::Box2i
     depths.agree_with_neighbours();
     depths.refine();
     depths.agree_with_neighbours();
-    for (int n = 0; n < continuations; ++n) depths.go_on();
+    for (int n = 0; n < WarpTuning::image_continuations; ++n) depths.go_on();
     return depths.all();
 }
 

@@ -3,6 +3,7 @@
 #include "base/median.h"
 #include "warp/images/patch_comparison.h"
 #include "warp/images/robust_mean.h"
+#include "warp/tuning.h"
 
 #include <algorithm>
 #include <array>
@@ -14,15 +15,7 @@ namespace sparselens {
 
 namespace {
 
-constexpr double step = 0.5;            // pixels of perceptive depth
-constexpr double behind_camera = 6;     // pixels of perceptive depth below 0 that are searched
-constexpr std::size_t most_steps = 320; // the surface is nearer than any that matters: larger steps
-constexpr std::size_t coarse = 2;       // steps; a valley is wider
-constexpr float least_distance = 0.25f; // from the surface: less is not worth it
-constexpr float margin = 0.5f; // of the difference at the surface: what explains the views leaves less
-constexpr float least_difference = 3e-5f; // at the surface, R, G and B together: less is not seen
-constexpr float valley = 1.25f;           // one step and a half away the difference is so much larger
-constexpr float rival = 1.4f;             // another valley is so much less deep
+constexpr std::size_t coarse = WarpTuning::image_coarse_steps;
 constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
 
 // The surface that most pixels of the block show, at the middle one of their depths; NaN if there is none.
@@ -53,9 +46,9 @@ struct Depths {
     double first, by;
     std::size_t count;
 
-    explicit Depths(float surface) : first(-behind_camera) {
-        const double last = 1.5 * double(surface) + behind_camera;
-        by = std::max(step, (last - first) / double(most_steps - 1));
+    explicit Depths(float surface) : first(-WarpTuning::image_behind_camera_px) {
+        const double last = 1.5 * double(surface) + WarpTuning::image_behind_camera_px;
+        by = std::max(WarpTuning::image_step_px, (last - first) / double(WarpTuning::image_most_steps - 1));
         count = std::size_t((last - first) / by) + 1;
     }
     double at(double k) const { return first + by * k; }
@@ -103,14 +96,16 @@ std::size_t least_of(const Curves &curve, std::size_t count, std::size_t pixel, 
 std::optional<double> valley_of(const Curves &curve, std::size_t count, std::size_t pixel, float at_surface) {
     const auto value = [&](std::size_t k) { return curve.at(k, pixel); };
     const std::size_t best = least_of(curve, count, pixel, 1);
-    if (best == npos || best < 3 || best + 3 >= count || !(value(best) <= margin * at_surface)) return {};
+    if (best == npos || best < 3 || best + 3 >= count ||
+        !(value(best) <= WarpTuning::image_left * at_surface))
+        return {};
     constexpr float rounding = 1e-7f;
-    const float high = valley * value(best) + rounding;
+    const float high = WarpTuning::image_valley * value(best) + rounding;
     if (!(value(best - 3) > high && value(best + 3) > high)) return {};
     for (std::size_t k = coarse; k + coarse < count; k += coarse) {
         const bool beside = k + 4 > best && k < best + 4;
         if (!beside && value(k) <= value(k - coarse) && value(k) <= value(k + coarse) &&
-            value(k) < rival * value(best) + rounding)
+            value(k) < WarpTuning::image_rival * value(best) + rounding)
             return {};
     }
     return double(best) + least_of_parabola(value(best - 1), value(best), value(best + 1));
@@ -157,7 +152,9 @@ std::vector<ImageMatch> ImageSweep::search(const Imath::Box2i &block) const {
         match.at_surface = at_surface.at(0, i);
         match.surface = !std::isnan(match.at_surface);
     }
-    const auto worth_it = [](const ImageMatch &m) { return m.surface && m.at_surface >= least_difference; };
+    const auto worth_it = [](const ImageMatch &m) {
+        return m.surface && m.at_surface >= WarpTuning::image_least_difference;
+    };
     if (std::ranges::none_of(matches, worth_it)) return matches; // most edges of texture, once smoothed
     const Depths depths(surface);
     MeanCurves curves(views_, depths.count, grid.size());
@@ -180,7 +177,7 @@ std::vector<ImageMatch> ImageSweep::search(const Imath::Box2i &block) const {
         if (!worth_it(match)) continue;
         if (const auto k = valley_of(curves, depths.count, i, match.at_surface)) {
             match.depth = float(depths.at(*k));
-            match.found = std::abs(match.depth - match.own_depth) >= least_distance;
+            match.found = std::abs(match.depth - match.own_depth) >= WarpTuning::image_least_px;
         }
     }
     return matches;
@@ -188,8 +185,8 @@ std::vector<ImageMatch> ImageSweep::search(const Imath::Box2i &block) const {
 
 std::vector<float> ImageSweep::refined(const Imath::Box2i &block,
                                        const std::function<float(const Imath::V2i &)> &depth_at) const {
-    constexpr int side = 3; // steps on either side
-    constexpr double by = 0.25;
+    constexpr int side = WarpTuning::image_fine_steps;
+    constexpr double by = WarpTuning::image_fine_px;
     const MatchedView &centre = views_[0];
     const Grid grid(block);
     std::vector<float> refined(grid.size());

@@ -1,5 +1,7 @@
 #include "warp/images/patch_comparison.h"
 
+#include "warp/tuning.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,8 +11,7 @@ namespace sparselens {
 namespace {
 
 constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
-constexpr float least_share = 0.4f; // of a patch, to be compared
-constexpr double alike = 1e-6;      // steps of a pixel in both views
+constexpr double alike = 1e-6; // steps of a pixel in both views
 
 using Field = PatchComparison::Field;
 
@@ -136,7 +137,7 @@ void PatchComparison::take(std::span<float> out) {
         for (int x = 0; x < columns; ++x) {
             const float count = counts[at(x, y)];
             out[std::size_t(y * columns + x)] =
-                count >= least_share * patch * patch ? squares_[at(x, y)] / count : unknown;
+                count >= WarpTuning::image_least_patch * patch * patch ? squares_[at(x, y)] / count : unknown;
         }
 }
 

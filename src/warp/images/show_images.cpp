@@ -5,6 +5,7 @@
 #include "lens/perceptive_depth.h"
 #include "warp/images/image_depths.h"
 #include "warp/images/robust_mean.h"
+#include "warp/tuning.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,10 +13,6 @@
 namespace sparselens {
 
 namespace {
-
-constexpr float no_worse =
-    4; // times the mean of the best views: a view that differs more sees something else
-constexpr float least_difference = 2e-4f; // which is not seen
 
 // What a view shows of an image, at its place in the pixel of the centre view.
 struct ImageSample {
@@ -35,7 +32,9 @@ public:
         const std::vector<float> differences = sweep_.differences(pixel, depth);
         const float usual = robust_mean(differences);
         for (std::size_t v = 1; v < views_.size(); ++v)
-            if (differences[v - 1] <= no_worse * usual + least_difference) add(views_[v], pixel, depth, seen);
+            if (differences[v - 1] <=
+                WarpTuning::image_shown_difference * usual + WarpTuning::image_shown_least_difference)
+                add(views_[v], pixel, depth, seen);
         store(ldi_.pixel(ldi_.windows.index(pixel.x, pixel.y)).front(), depth, seen);
     }
 
