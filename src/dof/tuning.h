@@ -11,6 +11,48 @@ struct GatherTuning {
     // Pixels of CoC that infinity has, seen by a lens of radius 0.
     static constexpr double sharp_px = 1e-3;
 
+    // Highlights (lens/highlights.h). Pixels of CoC: of less, lamps stand out of what covers something, not of nothing.
+    static constexpr float lamp_near_focus_px = 2;
+    // Times the surroundings (LampTuning), from which on all that stands out is spread.
+    static constexpr float lamp_wholly = 6;
+    // Shares of what is around that is as bright: of a lamp, ...
+    static constexpr double lamp_rare = 0.15;
+    // ... and of none.
+    static constexpr double lamp_common = 0.3;
+    // Octaves below a sample's brightness, to which others count as bright as half.
+    static constexpr double lamp_octave = 1;
+    // The size of a group of highlights, of the CoC.
+    static constexpr float lamp_group_of_coc = 1.0f / 32;
+    // Pixels of CoC: discs that are smaller are shadowed in cells.
+    static constexpr double lamp_in_cells_px = 3;
+    // Pixels of CoC: up to this, light comes from a sample's square, ...
+    static constexpr double lamp_square_to_px = 1;
+    // ... and from this on, from its place.
+    static constexpr double lamp_point_from_px = 2;
+    // Of the aperture: what a cat-eye leaves less of is dark.
+    static constexpr double cat_eye_least = 1e-4;
+
+    // Shadows of what is before lamps (lens/highlight_shadows.h). Times as near: parts of one lamp, at any aperture.
+    static constexpr float one_lamp = 1.1f;
+    // Of the disc's radius: how far off the shadow may be that the lamps of a group share.
+    static constexpr double shared_shadow_of_radius = 0.02;
+    // Cells of perceptive depth: so far before a lamp, a cell's shadow is a sixteenth of the disc's radius wide or less.
+    static constexpr float shadow_far_cells = 16;
+    // Perceptive: surfaces no farther apart are one altogether for a footprint; from torn_px on they are two.
+    static constexpr float footprint_whole_px = 0.75f;
+    // Of one_surface_px: what is no farther away shows the surface altogether.
+    static constexpr double neighbours_whole = 0.75;
+
+    // Far out of focus (lens/cells.h). Cells of CoC from which on pixels are gathered in cells. Against 4096 lens points, fence at
+    // 1920x1080 has 55.0 dB without cells, at normal quality; with cells of 2 x 2 as well and from 8 cells of CoC on 54.0, from 4
+    // on 51.8. What a disc leaves of a chequered wall is as fine as that.
+    static constexpr float normal_cells = 8;
+    // The same at final quality.
+    static constexpr float final_cells = 12;
+    // Cells of perceptive depth: what some lens point moves apart by no more is one surface in a cell. What stayed apart would cover
+    // a part of its cell, which costs more.
+    static constexpr float one_cell = 0.5f;
+
     // What leaves the frame (lens/beyond/border.h). Pixels on either side along the border that are around one.
     static constexpr int border_along = 32;
     // Pixels inwards that tell how far something goes on: no farther than bands of rows reach (gather_rows.cpp).

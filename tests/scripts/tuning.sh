@@ -16,6 +16,18 @@ dof/footprints/interpolation_blur.h largest_weight
 dof/gather_rows.cpp beside highlight_rows most rows_at_once
 dof/border_reach.cpp rows_at_once
 dof/lens/beyond/beyond_frame.cpp cell
+dof/lens/block_finder.cpp blocks_in_run
+dof/lens/block_footprints.cpp in_step
+dof/lens/bright_share.h cell octaves
+dof/lens/cells.cpp beside
+dof/lens/cells.h cell_sizes
+dof/lens/highlight_shadows.cpp rounding
+dof/lens/shadow_areas.cpp least_range most_steps of_edges rounding
+dof/lens/shadow_areas.h size
+dof/lens/shadow_lists.cpp all_blocks longest_of_many
+dof/lens/shadow_lists.h none
+dof/lens/shadow_search.cpp of_edge
+dof/lens/shadow_search.h beside
 dof/lens/fillers.cpp directions pixels_at_once unknown
 dof/lens/fillers.h nothing
 dof/lens/lens_sets.h final_points largest_coc normal_points
@@ -55,7 +67,7 @@ fault() {
 # FILE NAME for each constant of these stages outside of tuning.h whose value begins with a number.
 constants() {
     local file
-    find $(sed 's|\<|src/|g' <<<"$stages") -name '*.h' -o -name '*.cpp' | grep -vE '/tuning\.h$|/dof/(footprints/[fs]|lens/(block|bright|cells|highlight|lamp|shadow))' | sort | while read -r file; do
+    find $(sed 's|\<|src/|g' <<<"$stages") -name '*.h' -o -name '*.cpp' | grep -v '/tuning\.h$' | sort | while read -r file; do
         # A declaration in one line, without comments, without what is in brackets; a name and its value in one line.
         sed -E 's|//.*||' "$file" | sed -E ':next; /(=|,) *$/{N; s/\n */ /; b next}' |
             grep -E '\bconst(expr)? (float|double|int|(std::)?u?int[0-9]+_t|std::size_t|unsigned|auto) [a-z_0-9]+ = |\bconstexpr std::array\b' |

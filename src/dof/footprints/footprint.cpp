@@ -1,5 +1,6 @@
 #include "dof/footprints/footprint.h"
 
+#include "dof/tuning.h"
 #include "kernels/surface.h"
 
 #include <algorithm>
@@ -10,8 +11,7 @@ namespace sparselens {
 
 namespace {
 
-// Pixels of perceptive depth: surfaces are one altogether if they are no farther apart, and two from torn_px on.
-constexpr float whole = 0.75f;
+constexpr float whole = GatherTuning::footprint_whole_px;
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 const std::array<Imath::V2i, 4> beside{{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
 

@@ -1,5 +1,7 @@
 #include "dof/footprints/surface_neighbours.h"
 
+#include "dof/tuning.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -7,7 +9,7 @@ namespace sparselens {
 
 namespace {
 
-constexpr double whole = 0.75 * one_surface_px; // what is no farther away shows the surface altogether
+constexpr double whole = GatherTuning::neighbours_whole * one_surface_px;
 
 // The sample of a pixel nearest to that depth, planar and perceptive: of a stack of mist and sheets not just any within reach.
 std::uint64_t surface_in(const Ldi &ldi, const ThinLens &lens, int x, int y, float z, double depth) {

@@ -1,6 +1,7 @@
 #include "dof/lens/bright_share.h"
 
 #include "base/parallel.h"
+#include "dof/tuning.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +12,7 @@ namespace {
 
 constexpr double cell_px = BrightShare::cell * BlockedSamples::size;
 constexpr double reach = cell_px; // as far as bands of rows let highlights look (gather_rows.cpp)
-constexpr double half = 1;        // octave
+constexpr double half = GatherTuning::lamp_octave;
 
 } // namespace
 

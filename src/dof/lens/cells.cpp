@@ -2,6 +2,7 @@
 
 #include "base/float4.h"
 #include "dof/lens/lens_tiles.h"
+#include "dof/tuning.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -117,10 +118,9 @@ void take_nearest(const Interpolation &from, PixelsOfCells &made) {
 
 } // namespace
 
-// Against 4096 lens points, fence at 1920x1080 has 55.0 dB without cells, at normal quality; with cells of 2 x 2 as well and from 8
-// cells of CoC on 54.0, from 4 on 51.8. What a disc leaves of a chequered wall is as fine as that.
 int cell_size_for(float least_coc, Quality quality) {
-    const float least_cells = quality == Quality::final ? 12 : 8;
+    const float least_cells =
+        quality == Quality::final ? GatherTuning::final_cells : GatherTuning::normal_cells;
     for (const int across : cell_sizes)
         if (least_coc >= least_cells * float(across)) return across;
     return 1;

@@ -17,9 +17,6 @@
 namespace sparselens {
 
 inline constexpr std::array cell_sizes{8, 4}; // pixels, across and down
-// Cells of perceptive depth: what some lens point moves apart by no more is one surface in a cell. What stayed apart would cover a
-// part of its cell, which costs more.
-inline constexpr float one_cell = 0.5f;
 
 // The size of the cells of a tile that nothing reaches which has a smaller CoC (pixels, without its sign); 1 where it has none.
 int cell_size_for(float least_coc, Quality quality);

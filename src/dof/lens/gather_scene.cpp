@@ -138,7 +138,7 @@ GatherScene prepare(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &wi
 }
 
 GatherScene coarse_scene(const GatherScene &scene, int across) {
-    const double tolerance = double(one_cell) * across;
+    const double tolerance = double(GatherTuning::one_cell) * across;
     const Ldi &large = *scene.ldi;
     const std::vector<float> left = left_by_highlights(scene);
     const auto joined = joined_in_cells(large, Links(large, scene.lens), across, float(tolerance));

@@ -1,5 +1,7 @@
 #include "dof/lens/highlight_groups.h"
 
+#include "dof/tuning.h"
+
 #include <algorithm>
 #include <cmath>
 #include <tuple>
@@ -8,7 +10,7 @@ namespace sparselens {
 
 namespace {
 
-constexpr float group_of_coc = 1.0f / 32; // the size of a group, of the CoC
+constexpr float group_of_coc = GatherTuning::lamp_group_of_coc;
 
 // The largest power of two, so that groups do not change with every change of the focus; a block at most.
 int group_size(float coc) {

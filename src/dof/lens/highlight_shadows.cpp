@@ -1,6 +1,7 @@
 #include "dof/lens/highlight_shadows.h"
 
 #include "dof/lens/lens_tiles.h"
+#include "dof/tuning.h"
 
 #include <algorithm>
 #include <array>
@@ -10,12 +11,12 @@ namespace sparselens {
 
 namespace {
 
-constexpr float one_lamp = 1.1f; // times as near: parts of one, at any aperture
+constexpr float one_lamp = GatherTuning::one_lamp;
 
 // The CoCs, as shares of the lamp's, of things whose shadows on one of a group are off from those on its middle one by a fiftieth of the
 // disc's radius at most: by |1 - m| times their distance, with m as in lamp_shadow.h.
 CocRange shared_cocs(const ShadowedLamp &group) {
-    constexpr double of_radius = 0.02;
+    constexpr double of_radius = GatherTuning::shared_shadow_of_radius;
     const double most = of_radius * std::abs(group.lamp.coc) / std::max(group.spread, 1e-3); // |1 - m|
     return {most < 1 ? float(-most / (1 - most)) : -INFINITY, float(most / (1 + most))};
 }

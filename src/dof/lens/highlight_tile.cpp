@@ -1,5 +1,6 @@
 #include "dof/lens/highlight_tile.h"
 
+#include "dof/tuning.h"
 #include "lens/psf.h"
 
 #include <algorithm>
@@ -9,11 +10,8 @@ namespace sparselens {
 
 namespace {
 
-constexpr double least_share = 1e-4; // what a cat-eye leaves less of is dark
-constexpr double few = 3;            // pixels of CoC: discs that are smaller are shadowed in cells
-constexpr double square_to = 1,
-                 point_from =
-                     2; // pixels of CoC: where light comes from a sample's square, and from its place
+constexpr double least_share = GatherTuning::cat_eye_least, few = GatherTuning::lamp_in_cells_px,
+                 square_to = GatherTuning::lamp_square_to_px, point_from = GatherTuning::lamp_point_from_px;
 constexpr std::size_t last = lens_tile_size - 1;
 
 const Imath::Box2i tile({0, 0}, {int(last), int(last)});

@@ -3,6 +3,7 @@
 #include "base/grid.h"
 #include "base/parallel.h"
 #include "dof/lens/bright_share.h"
+#include "dof/tuning.h"
 #include "lens/lamp.h"
 
 #include <algorithm>
@@ -13,9 +14,8 @@ namespace sparselens {
 namespace {
 
 constexpr int cell = BrightShare::cell;
-constexpr float near_focus = 2;             // pixels of CoC
-constexpr float wholly = 6;                 // times that, from which all that stands out is spread
-constexpr double rare = 0.15, common = 0.3; // shares of what is around: a lamp, and none
+constexpr float near_focus = GatherTuning::lamp_near_focus_px, wholly = GatherTuning::lamp_wholly;
+constexpr double rare = GatherTuning::lamp_rare, common = GatherTuning::lamp_common;
 
 struct Found {
     std::uint32_t sample;

@@ -1,6 +1,7 @@
 #include "dof/lens/shadow_search.h"
 
 #include "dof/lens/cells.h"
+#include "dof/tuning.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,8 +11,7 @@ namespace sparselens {
 
 namespace {
 
-// Cells of perceptive depth: so far before a lamp, a cell's shadow is a sixteenth of the disc's radius wide or less.
-constexpr float far_cells = 16;
+constexpr float far_cells = GatherTuning::shadow_far_cells;
 
 } // namespace
 
@@ -50,7 +50,7 @@ float ShadowSearch::far_before(float depth) const {
 ShadowSearch::Range ShadowSearch::range_of(const ShadowedLamp &lamp, const ShadowCasters &casters) const {
     if (casters.is_coarse()) return {lamp.far / casters.across, INFINITY};
     // A surface may lie on both sides of that depth: what is one in a cell casts its shadow at least once.
-    return {lamp.depth, lamp.far + one_cell * cell_px_};
+    return {lamp.depth, lamp.far + GatherTuning::one_cell * cell_px_};
 }
 
 ShadowSearch::Range ShadowSearch::range_of(const ShadowedLamp &lamp, const ShadowCasters &casters,
