@@ -1,5 +1,5 @@
 // ldi-plan: plans which views from the rim of the lens, and which of their pixels, are worth rendering.
-#include "checks/view_warnings.h"
+#include "deep/checks/view_warnings.h"
 #include "harness/tool.h"
 #include "io/cameras_file.h"
 #include "io/open_view.h"

@@ -1,6 +1,6 @@
 // ldi-warp: warps a centre view and views from the rim of the lens into one layered depth image.
 #include "base/error.h"
-#include "checks/view_warnings.h"
+#include "deep/checks/view_warnings.h"
 #include "deep/rounded.h"
 #include "gpu/warp/warp_device.h"
 #include "harness/tool.h"

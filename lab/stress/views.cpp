@@ -1,6 +1,6 @@
 #include "base/error.h"
 #include "base/random.h"
-#include "checks/pose_check.h"
+#include "deep/checks/pose_check.h"
 #include "deep/flatten.h"
 #include "lab/methods/accumulate.h"
 #include "lab/stress/scenes.h"

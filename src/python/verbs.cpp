@@ -1,5 +1,5 @@
 #include "base/error.h"
-#include "checks/view_warnings.h"
+#include "deep/checks/view_warnings.h"
 #include "deep/cluster.h"
 #include "deep/flatten.h"
 #include "deep/front_samples.h"

@@ -1,5 +1,5 @@
 // Views whose frusta are shifted, of another focal length, or that stand before or behind the lens, warped.
-#include "checks/pose_check.h"
+#include "deep/checks/pose_check.h"
 #include "deep/view_samples.h"
 #include "support/ldi_samples.h"
 #include "support/views.h"

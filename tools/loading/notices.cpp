@@ -1,6 +1,6 @@
 #include "loading/notices.h"
 
-#include "checks/view_warnings.h"
+#include "deep/checks/view_warnings.h"
 #include "deep/front_samples.h"
 #include "dof/border_reach.h"
 #include "io/files/file_stream.h"

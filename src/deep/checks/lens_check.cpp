@@ -1,4 +1,4 @@
-#include "checks/lens_check.h"
+#include "deep/checks/lens_check.h"
 
 #include <algorithm>
 #include <cmath>

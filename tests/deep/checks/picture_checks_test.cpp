@@ -1,9 +1,9 @@
 // What pictures show of mistakes, on pictures of which each pixel is a formula.
-#include "checks/blur_check.h"
-#include "checks/depth_check.h"
-#include "checks/encoding_check.h"
-#include "checks/lens_check.h"
-#include "checks/view_warnings.h"
+#include "deep/checks/blur_check.h"
+#include "deep/checks/depth_check.h"
+#include "deep/checks/encoding_check.h"
+#include "deep/checks/lens_check.h"
+#include "deep/checks/view_warnings.h"
 #include "support/views.h"
 #include "view/depth.h"
 

@@ -5,7 +5,7 @@
 // that curve, off the line, is 0 for light and 1 for sRGB; noise takes it to either side.
 #pragma once
 
-#include "../view/view.h"
+#include "../../view/view.h"
 
 #include <cstddef>
 

@@ -4,7 +4,7 @@
 // of theirs, and a depth that is linear in 1 / z is the plain mean.
 #pragma once
 
-#include "../view/view.h"
+#include "../../view/view.h"
 
 #include <cstddef>
 

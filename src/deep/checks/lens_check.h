@@ -1,7 +1,7 @@
 // What lenses and the places of views say of units that were mixed up: millimetres for scene units, centimetres for metres.
 #pragma once
 
-#include "../lens/thin_lens.h"
+#include "../../lens/thin_lens.h"
 #include "deep/packed_view.h"
 
 #include <span>

@@ -2,8 +2,8 @@
 // already, and are blurred again.
 #pragma once
 
-#include "../lens/thin_lens.h"
-#include "../view/view.h"
+#include "../../lens/thin_lens.h"
+#include "../../view/view.h"
 
 #include <cstddef>
 

@@ -1,6 +1,6 @@
-#include "checks/pose_check.h"
+#include "deep/checks/pose_check.h"
 
-#include "checks/pose_evidence.h"
+#include "deep/checks/pose_evidence.h"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
-#include "checks/depth_check.h"
+#include "deep/checks/depth_check.h"
 
-#include "checks/picture_lines.h"
+#include "deep/checks/picture_lines.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,9 +2,9 @@
 // stands beside this file; a warning needs a clear finding over many pixels, for a false one is worse than none.
 #pragma once
 
-#include "../view/camera.h"
-#include "../view/depth.h"
-#include "../view/view.h"
+#include "../../view/camera.h"
+#include "../../view/depth.h"
+#include "../../view/view.h"
 
 #include <span>
 #include <string>

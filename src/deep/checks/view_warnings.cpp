@@ -1,11 +1,11 @@
-#include "checks/view_warnings.h"
+#include "deep/checks/view_warnings.h"
 
 #include "base/parallel.h"
-#include "checks/blur_check.h"
-#include "checks/depth_check.h"
-#include "checks/encoding_check.h"
-#include "checks/lens_check.h"
-#include "checks/pose_check.h"
+#include "deep/checks/blur_check.h"
+#include "deep/checks/depth_check.h"
+#include "deep/checks/encoding_check.h"
+#include "deep/checks/lens_check.h"
+#include "deep/checks/pose_check.h"
 #include "view/resolve_lens.h"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 #include "base/random.h"
-#include "checks/pose_check.h"
+#include "deep/checks/pose_check.h"
 #include "support/views.h"
 
 #include <gtest/gtest.h>

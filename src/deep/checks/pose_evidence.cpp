@@ -1,4 +1,4 @@
-#include "checks/pose_evidence.h"
+#include "deep/checks/pose_evidence.h"
 
 #include "view/flat_pixels.h"
 #include "view/view_mapping.h"

@@ -1,7 +1,7 @@
-#include "checks/encoding_check.h"
+#include "deep/checks/encoding_check.h"
 
 #include "base/median.h"
-#include "checks/picture_lines.h"
+#include "deep/checks/picture_lines.h"
 #include "view/flat_pixels.h"
 
 #include <algorithm>
