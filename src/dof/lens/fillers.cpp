@@ -3,6 +3,7 @@
 #include "base/coverage.h"
 #include "base/parallel.h"
 #include "deep/build.h"
+#include "deep/unmixing.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,6 +16,8 @@ namespace sparselens {
 namespace {
 
 constexpr float unknown = -1; // depth of a ground
+constexpr double largest_mix_residual =
+    0.1; // distance of a mixed colour from the line between two, see unmix()
 
 // The last thing that a pixel holds.
 struct Ground {
@@ -110,10 +113,49 @@ Distances find_distances(std::span<const Ground> grounds, const Windows &windows
     return distances;
 }
 
+// What a ground shows where it goes on.
+struct Shown {
+    std::uint32_t sample; // of the LDI; Filler::nothing
+    std::size_t pixel;    // that has it
+};
+
+// Where no view unmixed a silhouette, the last pixel of a ground shows a part of what hides the ground.
+class ShownByGrounds {
+public:
+    ShownByGrounds(const Ldi &ldi, std::span<const Ground> grounds)
+        : ldi_(ldi), grounds_(grounds), alpha_(ldi.alpha()), rgb_(find_rgb(ldi.channels)) {}
+
+    // Of the ground whose last pixel is `end`, with another before it along a row or column, and one that hides it behind it.
+    Shown at_end(std::size_t end, std::size_t before, std::size_t behind) const {
+        return is_mixed(end, before, behind) ? Shown{grounds_[before].sample, before}
+                                             : Shown{grounds_[end].sample, end};
+    }
+    Shown at_end(std::size_t end) const { return {grounds_[end].sample, end}; }
+
+private:
+    bool is_mixed(std::size_t end, std::size_t before, std::size_t behind) const {
+        if (ldi_.pixel(end).size() != 1 || std::ranges::find(rgb_, npos) != rgb_.end()) return false;
+        for (const std::size_t pixel : {end, before, behind})
+            if (grounds_[pixel].sample == Filler::nothing) return false;
+        return kernels::is_one_surface(grounds_[before].depth, grounds_[end].depth, one_surface_px) &&
+               unmix(colour(end), colour(behind), colour(before), mostly_b, largest_mix_residual).has_value();
+    }
+    Imath::V3d colour(std::size_t pixel) const {
+        const std::uint32_t i = grounds_[pixel].sample;
+        const auto value = [&](std::size_t k) { return double(ldi_.values[rgb_[k]][i]); };
+        return Imath::V3d(value(0), value(1), value(2)) / double(alpha_at(ldi_, alpha_, i));
+    }
+
+    const Ldi &ldi_;
+    std::span<const Ground> grounds_;
+    std::size_t alpha_;
+    std::array<std::size_t, 3> rgb_;
+};
+
 // A side from which a ground goes on.
 struct Side {
     Ground ground;
-    std::size_t pixel; // of the ground
+    Shown shown;
     int distance;
     auto order() const { return std::tuple(distance, ground.depth, ground.sample == Filler::nothing); }
 };
@@ -124,12 +166,12 @@ Filler mean_of(const Ldi &ldi, std::size_t alpha_channel, std::size_t pixel, std
     Filler filler{std::uint32_t(pixel), std::numeric_limits<float>::infinity(), 0, {}};
     if (!nothing) filler.z = ldi.z[nearest.ground.sample];
     float sum = 0;
-    for (const auto &[ground, from, distance] : sides) {
+    for (const auto &[ground, shown, distance] : sides) {
         if ((ground.sample == Filler::nothing) != nothing) continue;
         if (!kernels::is_one_surface(ground.depth, nearest.ground.depth, one_surface_px)) continue;
         const float weight = 1 / float(distance);
-        const float coverage = nothing ? 1 : alpha_at(ldi, alpha_channel, ground.sample);
-        filler.part[filler.count++] = {ground.sample, std::uint32_t(from), weight / coverage};
+        const float coverage = nothing ? 1 : alpha_at(ldi, alpha_channel, shown.sample);
+        filler.part[filler.count++] = {shown.sample, std::uint32_t(shown.pixel), weight / coverage};
         sum += weight;
     }
     for (Filler::Part &part : filler.part) part.share /= sum;
@@ -144,6 +186,7 @@ std::vector<Filler> find_fillers(const Ldi &ldi, const ThinLens &lens, const Kno
     const std::size_t alpha = ldi.alpha();
     const std::size_t width = std::size_t(ldi.windows.width());
     const std::array<std::size_t, directions> step{1, 0 - std::size_t{1}, width, 0 - width};
+    const ShownByGrounds shown(ldi, grounds);
     std::vector<std::vector<Filler>> rows(std::size_t(ldi.windows.height()));
     parallel_for(rows.size(), [&](std::size_t row) {
         for (std::size_t pixel = row * width; pixel < (row + 1) * width; ++pixel) {
@@ -151,8 +194,11 @@ std::vector<Filler> find_fillers(const Ldi &ldi, const ThinLens &lens, const Kno
             std::size_t count = 0;
             for (std::size_t k = 0; k < directions; ++k)
                 if (const int n = distances[pixel][k]; n > 0) {
-                    const std::size_t from = pixel - std::size_t(n) * step[k];
-                    sides[count++] = {grounds[from], from, n};
+                    const std::size_t end = pixel - std::size_t(n) * step[k], before = end - step[k];
+                    const bool has_before = before < grounds.size() && (k > 1 || before / width == row);
+                    sides[count++] = {
+                        grounds[end],
+                        has_before ? shown.at_end(end, before, end + step[k]) : shown.at_end(end), n};
                 }
             if (count > 0) rows[row].push_back(mean_of(ldi, alpha, pixel, std::span(sides).first(count)));
         }

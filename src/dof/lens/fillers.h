@@ -8,6 +8,10 @@
 // Where grounds go on from several sides, the nearest side fills, of sides as near the farthest ground: the mean of
 // those that are one surface with it, each weighted by 1 / n.
 //
+// It shows what the last pixel of the ground shows; where that holds one sample whose colour is a mixture (deep/unmixing.h) of the
+// pixel before it, of the same surface, and of the one that hides it, what the pixel before shows: silhouettes that no view
+// unmixed.
+//
 // A filler lies behind all samples, at the depth of the ground that it continues: a lens point sees it only where it
 // meets no opaque sample.
 #pragma once

@@ -127,6 +127,33 @@ TEST(Fillers, AreWhatTheRuleSays) {
     }
 }
 
+// A red post at CoC -4 before a grey wall at CoC 4; `edge` is the wall's last pixel. Returns red and green of what fills the next.
+std::array<float, 2> filled_beside(const std::vector<Sample> &edge) {
+    const Ldi ldi = make_ldi(windows_of_size(6, 1), rgba_channels(), [&](int x, int) {
+        if (x == 2) return edge;
+        return x < 2 ? std::vector<Sample>{{depth_of(lens, 4), {0.5f, 0.5f, 0.5f, 1}}}
+                     : std::vector<Sample>{{depth_of(lens, -4), {0.8f, 0, 0, 1}}};
+    });
+    std::array<float, 2> colour{0, 0};
+    for (const Filler &filler : find_fillers(ldi, lens, ldi.windows.data))
+        for (const Filler::Part &part : filler.parts())
+            for (std::size_t k = 0; k < 2 && filler.pixel == 3; ++k)
+                colour[k] += part.share * ldi.values[k][part.sample];
+    return colour;
+}
+
+TEST(Fillers, ShowNothingOfWhatHidesThem) {
+    using Colour = std::array<float, 2>;
+    const double wall = depth_of(lens, 4), post = depth_of(lens, -4);
+    // A third of the edge shows the post; something green is no mixture.
+    EXPECT_EQ(filled_beside({{wall, {0.6f, 1 / 3.0f, 1 / 3.0f, 1}}}), (Colour{0.5f, 0.5f}));
+    EXPECT_EQ(filled_beside({{wall, {0.4f, 0.6f, 0.4f, 1}}}), (Colour{0.4f, 0.6f}));
+    // What was unmixed, or is another surface, is left as it is.
+    EXPECT_EQ(filled_beside({{post, {0.27f, 0, 0, 0.333f}}, {wall, {0.55f, 0.45f, 0.45f, 1}}}),
+              (Colour{0.55f, 0.45f}));
+    EXPECT_EQ(filled_beside({{depth_of(lens, 2), {0.6f, 1 / 3.0f, 1 / 3.0f, 1}}}), (Colour{0.6f, 1 / 3.0f}));
+}
+
 using Inside = std::function<bool(double, double)>;
 
 // A shape of value 0.8 at CoC c before nothing, antialiased.
