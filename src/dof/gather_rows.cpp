@@ -7,6 +7,7 @@
 #include "dof/lens/beyond/beyond_frame.h"
 #include "dof/lens/lens_tiles.h"
 #include "dof/lens/optics.h"
+#include "dof/tuning.h"
 
 #include <algorithm>
 #include <cmath>
@@ -86,12 +87,20 @@ struct Band {
     int first, last;
 };
 
+// Of the picture, from its first or last row on, that tell what goes on beyond it (beyond/border.h).
+int border_rows(const PictureOptions &options) {
+    return GatherTuning::border_inwards * options.gather.lens.across;
+}
+
 // Where the samples are that rows of the picture depend on, of which blocks of samples and cells stay whole.
-Band needed(const Band &band, const RowReach &reach, const Imath::Box2i &data) {
+// `border`: the rows there are all needed where any of them is.
+Band needed(const Band &band, const RowReach &reach, const Imath::Box2i &data, int border) {
     const int first = band.first - reach.seen - data.min.y, last = band.last + reach.seen - data.min.y;
     const int whole = pieces_of(last + 1, highlight_rows) * highlight_rows;
     const int from = (first < 0 ? 0 : first / highlight_rows * highlight_rows) - reach.prepared;
-    return {data.min.y + std::max(from, 0), std::min(data.min.y + whole - 1 + reach.prepared, data.max.y)};
+    const int top = data.min.y + std::max(from, 0), bottom = data.min.y + whole - 1 + reach.prepared;
+    return {bottom >= data.max.y ? std::min(top, std::max(data.max.y - border, data.min.y)) : top,
+            std::min(from <= 0 ? std::max(bottom, data.min.y + border) : bottom, data.max.y)};
 }
 
 class Bands {
@@ -99,7 +108,7 @@ public:
     Bands(const PackedRows &rows, const ThinLens &lens, const Imath::Box2i &gathered,
           const PictureOptions &options)
         : rows_(rows), lens_(lens), gathered_(gathered), options_(options),
-          reach_(reach_of(rows, lens, options.gather.lens.looks)) {}
+          reach_(reach_of(rows, lens, options.gather.lens.looks, options.gather.lens.across)) {}
 
     // In rows.
     int height(const BandLimits &limits) const {
@@ -119,7 +128,7 @@ public:
     }
     Image gather(const Band &band, const Imath::Box2i &written, Progress &progress) const {
         const Imath::Box2i &data = rows_.windows().data;
-        const Band from = needed(band, reach_, data);
+        const Band from = needed(band, reach_, data, border_rows(options_));
         PictureOptions by = options_;
         by.gather.lens.known = gathered_;
         by.gather.lens.known->min.y = std::max(gathered_.min.y, from.first);
@@ -134,7 +143,7 @@ private:
     double most_bytes(int height) const {
         std::uint64_t most = 0;
         for_each(height, [&](const Band &band) {
-            const Band from = needed(band, reach_, rows_.windows().data);
+            const Band from = needed(band, reach_, rows_.windows().data, border_rows(options_));
             most = std::max(most, rows_.samples(from.first, from.last));
         });
         return bytes_to_gather(most, rows_.channels()) + double(rows_.bytes());
@@ -179,7 +188,7 @@ void add_tiles(LensTiles &all, const LensTiles &some) {
 
 } // namespace
 
-RowReach reach_of(const PackedRows &rows, const ThinLens &lens, const LensLooks &looks) {
+RowReach reach_of(const PackedRows &rows, const ThinLens &lens, const LensLooks &looks, int across) {
     Extremes found = extremes_of(rows, lens);
     for (const double coc : looks.chromatic_coc) found.coc += std::abs(coc);
     const Aperture aperture(looks.aperture);
@@ -191,9 +200,9 @@ RowReach reach_of(const PackedRows &rows, const ThinLens &lens, const LensLooks 
     constexpr double most = 1 << 20; // rows: no picture has more
     constexpr int beside = 16; // rows: a block of samples, and neighbours whose links or edges they share
     // Highlights look at the cells beside, sharpening at the noise blocks beside those, and at the row beside them; and what
-    // leaves the frame at the left or the right (beyond_frame.h), at as many rows as a cell has.
+    // leaves the frame at the left or the right (beyond_frame.h), at as many rows of the picture as a cell has.
     return {int(std::min(std::ceil(spread + goes_on), most)) + beside,
-            3 * highlight_rows + BlockedSamples::size};
+            (2 + across) * highlight_rows + BlockedSamples::size};
 }
 
 Image gather_rows(const PackedRows &rows, const ThinLens &lens, const Imath::Box2i &gathered,

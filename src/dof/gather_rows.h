@@ -30,6 +30,7 @@ struct RowReach {
     int seen = 0;     // from where samples, and what is taken to lie between and behind them, reach a pixel
     int prepared = 0; // from where those get their colours
 };
-RowReach reach_of(const PackedRows &rows, const ThinLens &lens, const LensLooks &looks);
+// `across`: pixels, across and down, that become one of the picture.
+RowReach reach_of(const PackedRows &rows, const ThinLens &lens, const LensLooks &looks, int across = 1);
 
 } // namespace sparselens

@@ -53,9 +53,9 @@ struct GatherTuning {
     // a part of its cell, which costs more.
     static constexpr float one_cell = 0.5f;
 
-    // What leaves the frame (lens/beyond/border.h). Pixels on either side along the border that are around one.
+    // What leaves the frame (lens/beyond/border.h). Pixels of the picture on either side along the border that are around one.
     static constexpr int border_along = 32;
-    // Pixels inwards that tell how far something goes on: no farther than bands of rows reach (gather_rows.cpp).
+    // Pixels of the picture inwards that tell how far something goes on; bands of rows have as many beside them (gather_rows.cpp).
     static constexpr int border_inwards = 96;
 
     // Sharpening (lens/sharpen.h). This quantile of the detail of a block is its noise: the calmer part shows that alone.

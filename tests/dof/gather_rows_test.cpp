@@ -96,6 +96,19 @@ TEST_F(GatherRows, APartOfThePictureIsThatOfTheWhole) {
     expect_same({{4, 180}, {width - 5, 300}});
 }
 
+// A bar that the frame cuts off ends as another does, 92 rows of the picture away, and 276 of the LDI.
+TEST_F(GatherRows, SubPixelsKnowAsManyRowsOfThePictureAtTheFrame) {
+    ldi = make_ldi(windows_of_size(width, height), rgba_channels(), [](int x, int y) {
+        const int from_frame = x < width / 2 ? y : height - 1 - y;
+        const bool bar = from_frame / 6 == 0 || from_frame / 6 == 46;
+        return std::vector<Sample>{{.z = bar ? 4.0 : 8.0, .values = {bar ? 0.1f : 0.8f, 0.4f, 0.3f, 1}}};
+    });
+    options.gather.lens.across = 3;
+    const RowReach reach = reach_of(packed(ldi), lens, {}, 3);
+    EXPECT_LT(64 + reach.seen + reach.prepared, 276);
+    expect_same(window);
+}
+
 TEST_F(GatherRows, SharpenedRowsAreTheSame) {
     lens.focus = 8; // near the far wall
     expect_same(window);

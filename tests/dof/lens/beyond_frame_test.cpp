@@ -110,6 +110,23 @@ TEST(BeyondFrame, WhatIsCutOffEndsAsOthersAsNearAndWideDo) {
     EXPECT_EQ(bars(2, {}, -2.9), (std::vector<float>{0, 0, 0, 0, 0}));
 }
 
+// Of pixels of the picture, 3 x 3 of which are one of it, the bars are as wide, and as far apart, as those above.
+TEST(BeyondFrame, WidthsAreCountedInPixelsOfThePicture) {
+    const auto ends = [](int cut, int width, int apart) {
+        std::vector<double> cocs(std::size_t(cut), -2.9);
+        cocs.insert(cocs.end(), std::size_t(apart), 5);
+        cocs.insert(cocs.end(), std::size_t(width), -2.9);
+        cocs.insert(cocs.end(), 500, 5);
+        const Ldi ldi = row_of(cocs);
+        const Imath::Box2i frame = ldi.windows.data;
+        return values(go_on_beyond(ldi, lens, {}, frame, frame, {12, 1}, 3), -1, 0)[0] > 0;
+    };
+    EXPECT_TRUE(ends(9, 6, 12)); // one pixel narrower
+    EXPECT_FALSE(ends(9, 5, 12));
+    EXPECT_TRUE(ends(9, 9, 3 * 96 - 9 - 9 - 1));
+    EXPECT_FALSE(ends(9, 9, 3 * 96));
+}
+
 TEST(BeyondFrame, KeepsCoverageAndWhatIsBehind) {
     const Ldi ldi = make_ldi(windows_of_size(20, 1), grey_alpha, [](int x, int) {
         return x < 19

@@ -21,8 +21,8 @@ constexpr double sky = std::numeric_limits<double>::infinity();
 class Continuation {
 public:
     Continuation(const Ldi &ldi, const ThinLens &lens, const LensLooks &looks, const Imath::Box2i &frame,
-                 const Imath::Box2i &known, const Imath::V2i &reach)
-        : ldi_(ldi), frame_(frame), known_(known), border_(ldi, lens, looks) {
+                 const Imath::Box2i &known, const Imath::V2i &reach, int across)
+        : ldi_(ldi), frame_(frame), known_(known), border_(ldi, lens, looks, across) {
         grown_ = known;
         grown_.min.x -= reach.x;
         grown_.max.x += reach.x;
@@ -142,7 +142,7 @@ private:
 
 Imath::V2i look_beyond(const Ldi &ldi, const ThinLens &lens, const LensLooks &looks,
                        const Imath::Box2i &frame) {
-    const Border border(ldi, lens, looks);
+    const Border border(ldi, lens, looks, 1);
     Imath::V2d reach(0, 0);
     for_each_border_pixel(frame, [&](int x, int y) {
         const Imath::V2i at(x, y);
@@ -158,16 +158,17 @@ Imath::V2i look_beyond(const Ldi &ldi, const ThinLens &lens, const LensLooks &lo
 }
 
 BeyondFrame go_on_beyond(const Ldi &ldi, const ThinLens &lens, const LensLooks &looks,
-                         const Imath::Box2i &frame, const Imath::Box2i &known, const Imath::V2i &reach) {
+                         const Imath::Box2i &frame, const Imath::Box2i &known, const Imath::V2i &reach,
+                         int across) {
     BeyondFrame made;
-    Continuation(ldi, lens, looks, frame, known, reach).run(made.ldi, made);
+    Continuation(ldi, lens, looks, frame, known, reach, across).run(made.ldi, made);
     return made;
 }
 
 BeyondFrame go_on_beyond(Ldi &&ldi, const ThinLens &lens, const LensLooks &looks, const Imath::Box2i &frame,
-                         const Imath::Box2i &known, const Imath::V2i &reach) {
+                         const Imath::Box2i &known, const Imath::V2i &reach, int across) {
     BeyondFrame made;
-    Continuation(ldi, lens, looks, frame, known, reach).run(ldi, made);
+    Continuation(ldi, lens, looks, frame, known, reach, across).run(ldi, made);
     made.ldi = std::move(ldi);
     return made;
 }

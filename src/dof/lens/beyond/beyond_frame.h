@@ -9,7 +9,7 @@
 // ends, and what only they saw goes on too. Past corners lies what goes on both above or below the frame and beside it. Where
 // that leaves out what ends the frame's pixel, it is unknown what lies there.
 //
-// Across other sides, an opaque surface in front ends where others do: those that the row shows whole within 64 pixels, nearer
+// Across other sides, an opaque surface in front ends where others do: those that the row shows whole within 96 pixels, nearer
 // than what is on either side of them, as near as it (one_surface_px) and at most one pixel narrower. It becomes as wide as the
 // narrowest of them; past that goes on what lies beside it in the frame. If there are none, it goes on.
 //
@@ -37,10 +37,12 @@ struct BeyondFrame {
 Imath::V2i look_beyond(const Ldi &ldi, const ThinLens &lens, const LensLooks &looks,
                        const Imath::Box2i &frame);
 
-// `known`: the part of the frame whose samples the LDI has, rows of it; beyond those at its border, it goes on.
+// `across`: pixels, across and down, that become one of the picture: distances above are counted in those, but for what rim
+// views saw. `known`: the part of the frame whose samples the LDI has, rows of it; beyond those at its border, it goes on.
 BeyondFrame go_on_beyond(const Ldi &ldi, const ThinLens &lens, const LensLooks &looks,
-                         const Imath::Box2i &frame, const Imath::Box2i &known, const Imath::V2i &reach);
+                         const Imath::Box2i &frame, const Imath::Box2i &known, const Imath::V2i &reach,
+                         int across = 1);
 BeyondFrame go_on_beyond(Ldi &&ldi, const ThinLens &lens, const LensLooks &looks, const Imath::Box2i &frame,
-                         const Imath::Box2i &known, const Imath::V2i &reach);
+                         const Imath::Box2i &known, const Imath::V2i &reach, int across = 1);
 
 } // namespace sparselens

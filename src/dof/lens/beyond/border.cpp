@@ -24,18 +24,17 @@ float disc_beyond(double width, double inner, double within) {
     return float(std::clamp(std::hypot(half, y) - y, 0.0, 2 * width));
 }
 
-float level_around(const std::vector<float> &bright, int at) {
+float level_around(const std::vector<float> &bright, int at, int along_px) {
     std::vector<float> around;
-    for (int i = std::max(at - GatherTuning::border_along, 0);
-         i <= std::min(at + GatherTuning::border_along, int(bright.size()) - 1); ++i)
+    for (int i = std::max(at - along_px, 0); i <= std::min(at + along_px, int(bright.size()) - 1); ++i)
         if (bright[std::size_t(i)] >= 0) around.push_back(bright[std::size_t(i)]);
     return surroundings_of(around, LampTuning::one_in);
 }
 
 } // namespace
 
-Border::Border(const Ldi &ldi, const ThinLens &lens, const LensLooks &looks)
-    : ldi_(ldi), lens_(lens), light_(lens, looks, ldi.windows), alpha_(ldi.alpha()),
+Border::Border(const Ldi &ldi, const ThinLens &lens, const LensLooks &looks, int across)
+    : ldi_(ldi), lens_(lens), across_(across), light_(lens, looks, ldi.windows), alpha_(ldi.alpha()),
       brightness_(light_channels(ldi).brightness) {}
 
 Imath::V2d Border::reach(const Imath::V2i &at) const {
@@ -69,7 +68,9 @@ std::vector<BorderPixel> Border::side(const Imath::V2i &first, const Imath::V2i 
     found.resize(std::size_t(count));
     for (int i = 0; i < count; ++i) {
         BorderPixel &pixel = found[std::size_t(i)];
-        pixel.leaving = leaving(line, i, LampTuning::stands_out * level_around(bright, i), looked);
+        pixel.leaving = leaving(
+            line, i, LampTuning::stands_out * level_around(bright, i, GatherTuning::border_along * across_),
+            looked);
         pixel.open = !closed(samples(line.pixel(i, 0)));
         if (!looked) find_end(pixel, line, i);
     }
@@ -105,24 +106,25 @@ double Border::front(const Imath::V2i &at) const {
 void Border::find_end(BorderPixel &of, const Line &line, int i) const {
     const double cut = front(line.pixel(i, 0));
     if (cut < 0) return;
-    int width = 0, least = GatherTuning::border_inwards;
+    const int inwards = GatherTuning::border_inwards * across_;
+    int width = 0, least = inwards;
     double last = cut;
     bool nearer = true; // the surface at hand, than what is before it
-    for (int from = 0, n = 1; n < GatherTuning::border_inwards; ++n) {
+    for (int from = 0, n = 1; n < inwards; ++n) {
         const double here = front(line.pixel(i, -n));
         if (!is_one_surface(here, last)) {
             const bool ends = nearer && here < last;
             if (from == 0 && !ends) return;
             if (from == 0)
                 width = n;
-            else if (ends && is_one_surface(last, cut) && n - from >= width - 1)
+            else if (ends && is_one_surface(last, cut) && n - from >= width - across_)
                 least = std::min(least, n - from);
             nearer = here > last;
             from = n;
         }
         last = here;
     }
-    if (least == GatherTuning::border_inwards) return;
+    if (least == inwards) return;
     of.ends = std::max(least - width, 0);
     of.behind = width;
 }
@@ -157,8 +159,9 @@ float Border::extent(const Line &line, int at, int n, std::uint64_t sample, floa
         return value > level ? value : 0;
     };
     int first = at, last = at;
-    while (first > at - GatherTuning::border_along && light(first - 1, n) > 0) --first;
-    while (last < at + GatherTuning::border_along && light(last + 1, n) > 0) ++last;
+    const int along = GatherTuning::border_along * across_;
+    while (first > at - along && light(first - 1, n) > 0) --first;
+    while (last < at + along && light(last + 1, n) > 0) ++last;
     float most = 0;
     for (int i = first; i <= last; ++i) most = std::max(most, light(i, n));
     const auto width = [&](int row) { // as if all of it were as bright
@@ -168,9 +171,9 @@ float Border::extent(const Line &line, int at, int n, std::uint64_t sample, floa
         return sum;
     };
     const double here = width(n);
-    for (const int within : {2, 1})
+    for (const int within : {2 * across_, across_})
         if (const double inner = width(n - within); inner > 0) return disc_beyond(here, inner, within);
-    return disc_beyond(here, 0, 0.5);
+    return disc_beyond(here, 0, 0.5 * across_);
 }
 
 // The brightest sample of each pixel; -1: none.

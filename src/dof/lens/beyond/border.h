@@ -44,7 +44,8 @@ struct BorderPixel {
 
 class Border {
 public:
-    Border(const Ldi &ldi, const ThinLens &lens, const LensLooks &looks);
+    // `across`: pixels, across and down, that become one of the picture, which distances are counted in.
+    Border(const Ldi &ldi, const ThinLens &lens, const LensLooks &looks, int across);
 
     // How far its light reaches.
     Imath::V2d reach(const Imath::V2i &at) const;
@@ -75,6 +76,7 @@ private:
 
     const Ldi &ldi_;
     const ThinLens &lens_;
+    int across_;
     LightReach light_;
     std::size_t alpha_;
     std::vector<std::size_t> brightness_;
