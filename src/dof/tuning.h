@@ -53,6 +53,9 @@ struct GatherTuning {
     // a part of its cell, which costs more.
     static constexpr float one_cell = 0.5f;
 
+    // What no view saw (lens/fillers.h). Of a colour that is a mixture, how far it lies beside the line between two (unmix()).
+    static constexpr double filler_mixed = 0.1;
+
     // What leaves the frame (lens/beyond/border.h). Pixels of the picture on either side along the border that are around one.
     static constexpr int border_along = 32;
     // Pixels of the picture inwards that tell how far something goes on; bands of rows have as many beside them (gather_rows.cpp).

@@ -19,10 +19,11 @@ dof/lens/beyond/beyond_frame.cpp cell
 dof/lens/block_finder.cpp blocks_in_run
 dof/lens/block_footprints.cpp in_step
 dof/lens/bright_share.h cell octaves
+dof/lens/cell_rows.cpp half
 dof/lens/cells.cpp beside
 dof/lens/cells.h cell_sizes
 dof/lens/highlight_shadows.cpp rounding
-dof/lens/shadow_areas.cpp least_range most_steps of_edges rounding
+dof/lens/shadow_areas.cpp least_range most_steps rounding
 dof/lens/shadow_areas.h size
 dof/lens/shadow_lists.cpp all_blocks longest_of_many
 dof/lens/shadow_lists.h none

@@ -4,6 +4,7 @@
 #include "base/parallel.h"
 #include "deep/build.h"
 #include "deep/unmixing.h"
+#include "dof/tuning.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,8 +17,6 @@ namespace sparselens {
 namespace {
 
 constexpr float unknown = -1; // depth of a ground
-constexpr double largest_mix_residual =
-    0.1; // distance of a mixed colour from the line between two, see unmix()
 
 // The last thing that a pixel holds.
 struct Ground {
@@ -138,7 +137,8 @@ private:
         for (const std::size_t pixel : {end, before, behind})
             if (grounds_[pixel].sample == Filler::nothing) return false;
         return kernels::is_one_surface(grounds_[before].depth, grounds_[end].depth, one_surface_px) &&
-               unmix(colour(end), colour(behind), colour(before), mostly_b, largest_mix_residual).has_value();
+               unmix(colour(end), colour(behind), colour(before), mostly_b, GatherTuning::filler_mixed)
+                   .has_value();
     }
     Imath::V3d colour(std::size_t pixel) const {
         const std::uint32_t i = grounds_[pixel].sample;
