@@ -70,7 +70,7 @@ void run(const WarpCommand &options, const ToolContext &tool, ChosenWarpDevice &
         in.views, {options.depth.meaning, in.depth_filtered, in.camera}); // while the pixels are there
     const GivenViews given = given_views(in.views);
     Ldi ldi = warp(std::move(in.views), warp_by, *tool.progress);
-    if (options.round_for_lens) round_for_lens(ldi, scale_in_picture(warp_by, in.camera));
+    if (options.round_for_lens) round_for_lens(ldi, scale_in_picture(warp_by));
     device.report(tool);
     warn_of(tool, warnings);
     tool.say(

@@ -57,11 +57,15 @@ inline double explaining_motion(PhotoBlock block) {
     return explained >= least_explained * block.difference2 ? abs(moved) : 0.0;
 }
 
+// What motions of images are counted in, pixels of perceptive depth, where `across` pixels, across and down, become one of the
+// picture. A quarter of it is the least that an image is worth: between opposite views, a quarter of a pixel of the picture.
+inline double motion_unit(int across) { return across > 2 ? 0.5 * double(across) : 1.0; }
+
 // A set of these.
 inline constexpr uint may_average = 1, differs_slightly = 2, differs_clearly = 4;
-inline uint photo_verdict(PhotoBlock block) {
-    const double least_motion = 0.3; // pixels of perceptive depth
-    const double clear_motion = 0.5; // the same; sharp edges seem to move by less
+inline uint photo_verdict(PhotoBlock block, double unit) { // motion_unit()
+    const double least_motion = 0.3 * unit;                // pixels of perceptive depth
+    const double clear_motion = 0.5 * unit;                // the same; sharp edges seem to move by less
     const bool differ = views_differ(block), in_focus = block.coc <= focus_px * block.pixels;
     const double moved = explaining_motion(block);
     const uint averages = !differ || in_focus ? may_average : 0u;

@@ -26,13 +26,14 @@ static_assert(sizeof(View) == 80 && offsetof(View, min_x) == 48 && offsetof(View
 
 struct Frame {
     double tolerance, inverse_scale, focus_scale, focus; // focus_scale: R F of the lens
+    double motion_unit, unused;                          // of photo_verdict()
     int first_x, first_y, width, height;                 // of the rows
     uint views, samples, channels, alpha;                // alpha: the channel, or `none`
     uint colours[4];           // red, green and blue, those that are there; their number
     uint rules, most_in_pixel; // rules: a set of the following
 };
-static_assert(sizeof(Frame) == 88 && offsetof(Frame, first_x) == 32 && offsetof(Frame, colours) == 64 &&
-              offsetof(Frame, rules) == 80);
+static_assert(sizeof(Frame) == 104 && offsetof(Frame, first_x) == 48 && offsetof(Frame, colours) == 80 &&
+              offsetof(Frame, rules) == 96);
 
 inline constexpr uint averages = 1;          // Merge::average
 inline constexpr uint focus_known = 2;       // so there is a CoC

@@ -120,7 +120,7 @@ LdiObject warp(const py::object &views, const py::kwargs &given) {
             options.device = device;
             const WarpOptions by = with_lens(options, out.camera, placed);
             out.ldi = warp(std::move(placed), by, said);
-            if (rounds) round_for_lens(out.ldi, scale_in_picture(by, out.camera));
+            if (rounds) round_for_lens(out.ldi, scale_in_picture(by));
         });
         for (std::string &warning : of_views) warnings.push_back(std::move(warning));
         return out;

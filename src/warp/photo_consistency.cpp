@@ -101,7 +101,9 @@ PhotoConsistency find_photo_consistency(const ReprojectedViews &views, const Pho
                 centre.plain(surface.samples[0].x, surface.samples[0].y))
                 compare(views, centre, options, surface, blocks[block_of(pixel)]);
     std::vector<std::uint32_t> verdicts(blocks.size());
-    std::ranges::transform(blocks, verdicts.begin(), kernels::photo_verdict);
+    std::ranges::transform(blocks, verdicts.begin(), [&](const kernels::PhotoBlock &block) {
+        return kernels::photo_verdict(block, kernels::motion_unit(options.across));
+    });
     PhotoConsistency found{std::vector<bool>(surfaces.pixels()),
                            std::vector<Disagreement>(surfaces.pixels())};
     for (std::size_t pixel = 0; pixel < surfaces.pixels(); ++pixel) {

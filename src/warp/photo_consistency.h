@@ -20,6 +20,7 @@ struct PhotoConsistencyOptions {
     // counts as in focus.
     std::optional<ThinLens> lens = {};
     double scale = 1; // R F, pixels times scene units
+    int across = 1;   // pixels, across and down, that become one of the picture
 };
 
 // By pixel of some rows.

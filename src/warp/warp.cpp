@@ -142,8 +142,8 @@ Ldi Warper::warp_band(int first_row, int last_row, Marks &differ, ReprojectedRow
     const Surfaces surfaces = find_surfaces(views_, tolerance_, rows);
     std::vector<bool> agree(rows.pixels(), true);
     if (averages() && options_.test_photo_consistency) {
-        PhotoConsistency found =
-            find_photo_consistency(views_, {focused_, scale_}, layout_.windows.data, surfaces);
+        PhotoConsistency found = find_photo_consistency(views_, {focused_, scale_, options_.across},
+                                                        layout_.windows.data, surfaces);
         agree = std::move(found.averages);
         const Tiles blocks(layout_.windows.data, image_block);
         const Grid pixels(
@@ -173,7 +173,8 @@ void Warper::warp_on_device(std::span<Ldi> pieces, Marks &differ) const {
                           .tests_photo_consistency = averages() && options_.test_photo_consistency,
                           .tolerance = tolerance_,
                           .scale = scale_,
-                          .focus = focused_};
+                          .focus = focused_,
+                          .across = options_.across};
     const std::size_t columns = std::size_t(Tiles(layout_.windows.data, image_block).columns());
     options_.device->warp(scene, [&](WarpedBands bands) {
         for (std::size_t b = bands.first; b < bands.first + bands.count; ++b) {
@@ -226,7 +227,7 @@ Ldi Warper::run(Progress &progress) {
     memory.clear();
     keep_opaque(views_, tolerance_, ldi);
     if (views_.size() < 2 || !(scale_ > 0)) return ldi;
-    if (options_.find_images) show_images(placed(), scale_, differ, ldi);
+    if (options_.find_images) show_images(placed(), scale_, options_.across, differ, ldi);
     if (averages()) keep_light_of_lamps(placed(), scale_, options_.surface_px, ldi);
     views_.forget_colours();
     find_solids(placed(), scale_, ldi);
@@ -240,6 +241,7 @@ namespace {
 template <typename Views>
 WarpOptions with_lens(WarpOptions options, const Camera &camera, const Views &views, const Windows &windows) {
     options.focus = camera.focus_distance;
+    options.across = camera.supersample.value_or(1);
     if (views.size() == 1) return options;
     options.focal_px = resolve_focal_px(camera, windows);
     options.radius = lens_radius_of(camera).value_or(0);
@@ -257,8 +259,8 @@ WarpOptions with_lens(WarpOptions options, const Camera &camera, const std::vect
     return with_lens(options, camera, views, views[0].samples.windows);
 }
 
-double scale_in_picture(const WarpOptions &with_lens, const Camera &camera) {
-    return perceptive_scale(with_lens.radius, with_lens.focal_px) / camera.supersample.value_or(1);
+double scale_in_picture(const WarpOptions &with_lens) {
+    return perceptive_scale(with_lens.radius, with_lens.focal_px) / with_lens.across;
 }
 
 Ldi warp(std::span<const View> views, const WarpOptions &options, Progress &progress) {

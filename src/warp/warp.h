@@ -39,17 +39,18 @@ struct WarpOptions {
     // With the test of photo-consistency: what mirrors and glass show gets a depth of its own (images/show_images.h).
     bool find_images = true;
     std::optional<double> focus = {}; // of the lens, if known, scene units
-    WarpDevice *device = nullptr;     // where given: works on the rows that it can
+    int across = 1; // pixels, across and down, that become one of the picture (base/subpixels.h)
+    WarpDevice *device = nullptr; // where given: works on the rows that it can
 };
 
-// Takes the lens from the camera of the centre view, views[0]. Perceptive depth refers to the lens radius if that is
+// Takes the lens, and `across`, from the camera of the centre view, views[0]. Perceptive depth refers to the lens radius if that is
 // known, else to the distance of the outermost view. A single view needs no lens. Throws UsageError if the focal length
 // is unknown.
 WarpOptions with_lens(WarpOptions options, const Camera &camera, std::span<const View> views);
 WarpOptions with_lens(WarpOptions options, const Camera &camera, const std::vector<PackedView> &views);
 
 // Perceptive depth times z in pixels of the picture, of which a view may have several to a side.
-double scale_in_picture(const WarpOptions &with_lens, const Camera &camera);
+double scale_in_picture(const WarpOptions &with_lens);
 
 // views[0] is the centre, whose windows and channels the LDI has. The result does not depend on the order of the
 // others. Channels of rim views are matched by name. Throws Error where display windows differ or a rim view lacks a

@@ -27,6 +27,7 @@ struct WarpScene {
     double tolerance;              // of 1 / z, within one surface
     double scale;                  // R F
     std::optional<ThinLens> focus; // where the focus is known
+    int across;                    // WarpOptions::across
 };
 
 // Bands of the result, one below the other.

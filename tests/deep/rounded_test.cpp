@@ -96,10 +96,9 @@ TEST(RoundForLens, CountsPixelsOfThePicture) {
     WarpOptions lens;
     lens.radius = 0.06;
     lens.focal_px = 1280;
-    Camera camera;
-    EXPECT_DOUBLE_EQ(scale_in_picture(lens, camera), 0.06 * 1280);
-    camera.supersample = 2;
-    EXPECT_DOUBLE_EQ(scale_in_picture(lens, camera), 0.06 * 640);
+    EXPECT_DOUBLE_EQ(scale_in_picture(lens), 0.06 * 1280);
+    lens.across = 2;
+    EXPECT_DOUBLE_EQ(scale_in_picture(lens), 0.06 * 640);
 }
 
 TEST(RoundForLens, LeavesDataAndIdsAndWithoutALensDepths) {

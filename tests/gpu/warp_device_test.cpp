@@ -66,6 +66,8 @@ TEST_F(WarpDeviceTest, PlanesAreTheCpus) {
             focused.focus = focus;
             expect_same(views, focused);
         }
+        focused.across = 4; // by it, blocks are looked at for images
+        expect_same(views, focused);
         expect_same(views, keeping);
     }
 }

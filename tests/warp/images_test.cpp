@@ -45,9 +45,10 @@ std::vector<View> mirror(double image_z, const Texture &texture = waves, float n
     return views;
 }
 
-Ldi warped(const std::vector<View> &views, bool find_images = true) {
+Ldi warped(const std::vector<View> &views, bool find_images = true, int across = 1) {
     Progress silent;
-    return warp(views, {.focal_px = focal_px, .radius = radius, .find_images = find_images}, silent);
+    return warp(views, {.focal_px = focal_px, .radius = radius, .find_images = find_images, .across = across},
+                silent);
 }
 
 // Of the centre view's pixels but for the outermost, the shares whose front sample has an image, and one that lies within
@@ -104,6 +105,20 @@ TEST(Images, SurfacesHaveNone) {
     EXPECT_TRUE(warped(mirror(wall_z, waves, 0.2f)).optical.empty());
     EXPECT_TRUE(warped(mirror(wall_z, grey, 0.3f)).optical.empty());
     EXPECT_TRUE(warped(mirror(6), false).optical.empty());
+}
+
+// An image 0.4 pixels of perceptive depth behind the mirror is worth it where two of them are a pixel of the picture, not four.
+TEST(Images, ThatMoveByLessThanAQuarterOfThePicturesPixelAreNotLookedFor) {
+    const auto found = [](double moves, int across) {
+        const double image_z = scale / (scale / wall_z - moves);
+        const Ldi ldi = warped(mirror(image_z), true, across);
+        return shares(ldi, image_z, 0.05).right;
+    };
+    EXPECT_GT(found(0.4, 1), 0.9);
+    EXPECT_EQ(found(0.4, 2), found(0.4, 1));
+    EXPECT_EQ(found(0.4, 4), 0);
+    EXPECT_GT(found(0.6, 4), 0.9);
+    EXPECT_EQ(found(0.6, 8), 0);
 }
 
 TEST(Images, NoiseMakesDepthsCoarserNotFalse) {

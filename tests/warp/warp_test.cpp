@@ -37,6 +37,14 @@ TEST(Warp, OneViewIsItsOwnLdi) {
     }
 }
 
+TEST(Warp, TheCameraSaysHowManyPixelsBecomeOne) {
+    const std::vector<View> views{random_view(windows_of_size(8, 4), {0, 0}, 1)};
+    Camera camera;
+    EXPECT_EQ(with_lens({}, camera, views).across, 1);
+    camera.supersample = 4;
+    EXPECT_EQ(with_lens({}, camera, views).across, 4);
+}
+
 TEST(Warp, OnePixel) {
     const auto samples_at = [](float z, const WarpOptions &options) {
         TwoPlanes scene;

@@ -82,5 +82,5 @@ void main() {
     shown = PhotoBlock(0, 0, 0, 0, 0, 0, 0, 0);
     for (int y = top; y < min(top + photo_block, frame.height); ++y)
         for (int x = left; x < min(left + photo_block, frame.width); ++x) look_at(uint(y * frame.width + x));
-    verdicts[block] = photo_verdict(shown);
+    verdicts[block] = photo_verdict(shown, frame.motion_unit);
 }

@@ -1,6 +1,7 @@
 #include "gpu/warp/warp_stripe.h"
 
 #include "base/parallel.h"
+#include "kernels/photo_rules.h"
 #include "warp/reprojected_views.h"
 
 #include <algorithm>
@@ -118,6 +119,7 @@ warp_kernel::Frame frame_of(const WarpScene &scene, const WarpStripe &stripe, st
     warp_kernel::Frame frame{};
     frame.tolerance = scene.tolerance;
     frame.inverse_scale = 1 / scene.scale;
+    frame.motion_unit = kernels::motion_unit(scene.across);
     frame.first_x = stripe.box.min.x;
     frame.first_y = stripe.box.min.y;
     frame.width = Grid(stripe.box).width();

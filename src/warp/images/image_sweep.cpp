@@ -177,7 +177,8 @@ std::vector<ImageMatch> ImageSweep::search(const Imath::Box2i &block) const {
         if (!worth_it(match)) continue;
         if (const auto k = valley_of(curves, depths.count, i, match.at_surface)) {
             match.depth = float(depths.at(*k));
-            match.found = std::abs(match.depth - match.own_depth) >= WarpTuning::image_least_px;
+            match.found =
+                std::abs(match.depth - match.own_depth) >= WarpTuning::image_least_px * float(unit_);
         }
     }
     return matches;

@@ -26,8 +26,9 @@ struct ImageMatch {
 
 class ImageSweep {
 public:
-    // The first view is the centre.
-    ImageSweep(std::span<MatchedView> views, double scale) : views_(views), scale_(scale) {}
+    // The first view is the centre. `unit`: motion_unit() (kernels/photo_rules.h).
+    ImageSweep(std::span<MatchedView> views, double scale, double unit)
+        : views_(views), scale_(scale), unit_(unit) {}
 
     // work(i) for i in [0, count), in parallel, some after the others: between these the views forget what was made of them if
     // it is much. So what follows in the picture should follow in count.
@@ -55,7 +56,7 @@ private:
     void make_room() const;
 
     std::span<MatchedView> views_;
-    double scale_;
+    double scale_, unit_;
 };
 
 } // namespace sparselens

@@ -2,6 +2,7 @@
 
 #include "base/channel_kind.h"
 #include "base/parallel.h"
+#include "kernels/photo_rules.h"
 #include "lens/perceptive_depth.h"
 #include "warp/images/image_depths.h"
 #include "warp/images/robust_mean.h"
@@ -95,14 +96,14 @@ private:
 
 } // namespace
 
-void show_images(std::span<const PlacedView> views, double scale, std::span<const Disagreement> differ,
-                 Ldi &ldi) {
+void show_images(std::span<const PlacedView> views, double scale, int across,
+                 std::span<const Disagreement> differ, Ldi &ldi) {
     const std::vector<std::size_t> blocks = blocks_to_search(ldi.windows.data, differ);
     if (blocks.empty()) return;
     std::vector<MatchedView> matched;
     matched.reserve(views.size());
     for (const PlacedView &view : views) matched.emplace_back(view, scale);
-    const ImageSweep sweep(matched, scale);
+    const ImageSweep sweep(matched, scale, kernels::motion_unit(across));
     const std::vector<float> depths = find_image_depths(sweep, ldi.windows.data, blocks);
     const auto known = [](float depth) { return !std::isnan(depth); };
     if (std::ranges::none_of(depths, known)) return;

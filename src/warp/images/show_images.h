@@ -10,9 +10,10 @@
 namespace sparselens {
 
 // The LDI is made of the views, the first of which is the centre; where that shows one sample, it is the front one of the
-// LDI's pixel. `scale` is R F. `differ`, by blocks of image_depths.h of the LDI's data window: where views differ by
+// LDI's pixel. `scale` is R F; `across` pixels, across and down, become
+// one of the picture. `differ`, by blocks of image_depths.h of the LDI's data window: where views differ by
 // more than noise if the picture lies on the surface. Ldi::optical stays empty if no image is found.
-void show_images(std::span<const PlacedView> views, double scale, std::span<const Disagreement> differ,
-                 Ldi &ldi);
+void show_images(std::span<const PlacedView> views, double scale, int across,
+                 std::span<const Disagreement> differ, Ldi &ldi);
 
 } // namespace sparselens
