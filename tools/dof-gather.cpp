@@ -2,17 +2,16 @@
 #include "deep/front_samples.h"
 #include "dof/border_reach.h"
 #include "dof/gather_rows.h"
-#include "gpu/gather/gather_device.h"
 #include "harness/tool.h"
 #include "io/camera/camera_write.h"
 #include "io/channels.h"
 #include "io/exr/exr_flat.h"
 #include "io/gather_windows.h"
-#include "loading/chosen_device.h"
 #include "loading/holdout_file.h"
 #include "loading/ldi_lens.h"
 #include "loading/notices.h"
 #include "loading/stage_stats.h"
+#include "options/chosen_device.h"
 #include "options/colour_options.h"
 #include "options/gather_options.h"
 #include "options/picture_options.h"
@@ -30,8 +29,6 @@
 using namespace sparselens;
 
 namespace {
-
-using GatherDevice = ChosenDevice<TileDevice>;
 
 // The samples are used up where nothing else needs them.
 Image gathered(const GatherCommand &options, GatherWindows &frame, const ThinLens &lens, LdiCache &cache,
@@ -85,7 +82,7 @@ ChooseSamples choose_samples(const GatherCommand &options, const ToolContext &to
     };
 }
 
-void run(const GatherCommand &given, const ToolContext &tool, LdiCache &cache, GatherDevice &device) {
+void run(const GatherCommand &given, const ToolContext &tool, LdiCache &cache, ChosenGatherDevice &device) {
     GatherCommand options = given;
     const OpenOptions by{options.lens, options.depth};
     Looks looks_given;
@@ -158,8 +155,7 @@ private:
 
 int main(int argc, char **argv) {
     Caches caches;
-    GatherDevice device([](const gpu::DeviceInfo &info) { return gpu::open_gather_device(info); },
-                        {"gathers", "tiles gathered"});
+    ChosenGatherDevice device;
     return run_frames("dof-gather", "Gathers the picture that a lens takes from a layered depth image (LDI)",
                       argc, argv, [&](CLI::App &app) {
                           const auto options = std::make_shared<GatherCommand>();

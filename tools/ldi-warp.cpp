@@ -2,14 +2,13 @@
 #include "base/error.h"
 #include "deep/checks/view_warnings.h"
 #include "deep/rounded.h"
-#include "gpu/warp/warp_device.h"
 #include "harness/tool.h"
 #include "io/camera/camera_write.h"
 #include "io/exr/exr_deep.h"
-#include "loading/chosen_device.h"
 #include "loading/notices.h"
 #include "loading/stage_stats.h"
 #include "loading/views.h"
+#include "options/chosen_device.h"
 #include "options/colour_options.h"
 #include "options/warp_options.h"
 #include "view/view_mapping.h"
@@ -28,8 +27,6 @@
 using namespace sparselens;
 
 namespace {
-
-using ChosenWarpDevice = ChosenDevice<WarpDevice>;
 
 // Reports views whose framing differs from that of the centre view: a frustum that is misread makes ghosts, too.
 void say_framings(const ToolContext &tool, std::span<const PackedView> views) {
@@ -94,8 +91,7 @@ void keep_freed_memory() {
 
 int main(int argc, char **argv) {
     keep_freed_memory();
-    ChosenWarpDevice device([](const gpu::DeviceInfo &info) { return gpu::open_warp_device(info); },
-                            {"warps", "rows warped"});
+    ChosenWarpDevice device;
     return run_frames(
         "ldi-warp",
         "Warps a centre view and views from the rim of the lens into one layered depth image (LDI)", argc,

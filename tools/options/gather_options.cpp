@@ -5,7 +5,7 @@
 #include "harness/one_line.h"
 #include "harness/words.h"
 #include "io/picture_looks.h"
-#include "options/device_option.h"
+#include "options/chosen_device.h"
 #include "options/picture_options.h"
 
 #include <CLI/CLI.hpp>

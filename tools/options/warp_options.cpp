@@ -2,7 +2,7 @@
 
 #include "harness/examples.h"
 #include "harness/words.h"
-#include "options/device_option.h"
+#include "options/chosen_device.h"
 #include "options/picture_options.h"
 
 #include <CLI/CLI.hpp>

@@ -90,8 +90,6 @@ Image false_colours(Show show, Subject &from, PictureOptions by, Progress &progr
 Shot::Shot(const std::vector<GatherCommand> &frames, const ToolContext &tool)
     : name_(frames.front().input),
       reel_(paths_of(frames), memory_for_frames(tool.max_memory), reader_of(frames, tool)),
-      device_([](const gpu::DeviceInfo &info) { return gpu::open_gather_device(info); },
-              {"gathers", "tiles gathered"}),
       to_display_(output_transform(frames.front().colour, frame(frames.front())->in.header)) {}
 
 const Shot::Small &Shot::small(const Reel::Held &frame, const WindowOptions &options) {

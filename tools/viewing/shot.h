@@ -1,12 +1,11 @@
 // The LDIs that are looked at: loaded once, gathered as often as somebody asks.
 #pragma once
 
-#include "gpu/gather/gather_device.h"
 #include "harness/tool.h"
 #include "io/display/colour.h"
 #include "io/display/shown_picture.h"
 #include "io/gather_windows.h"
-#include "loading/chosen_device.h"
+#include "options/chosen_device.h"
 #include "options/gather_options.h"
 #include "viewing/reel.h"
 
@@ -81,7 +80,7 @@ private:
 
     std::string name_;
     Reel reel_;
-    ChosenDevice<TileDevice> device_;
+    ChosenGatherDevice device_;
     ColourTransform to_display_;
     std::deque<Small> small_; // the last few
     std::optional<ReadLooks> looks_;

@@ -1,8 +1,11 @@
-// The device that --device means: looked for when it is first needed, and kept for all frames.
+// --device: which device works. It is looked for when it is first needed, and kept for all frames.
 #pragma once
 
 #include "base/device_report.h"
 #include "gpu/device.h"
+#include "gpu/gather/gather_device.h"
+#include "gpu/warp/warp_device.h"
+#include "harness/commands/cli.h"
 #include "harness/tool.h"
 
 #include <memory>
@@ -11,6 +14,9 @@
 #include <string>
 
 namespace sparselens {
+
+// `device`: a word as choose_device() has it; `list` is answered as --help is. `what_works`, for the help: "What warps".
+void add_device_option(CLI::App &app, std::string &device, const std::string &what_works);
 
 // In messages: "the CPU gathers", "tiles gathered by the device".
 struct DeviceWork {
@@ -65,6 +71,17 @@ private:
     std::optional<std::string> looked_for_; // the word
     std::string name_ = {};
     std::unique_ptr<Device> device_;
+};
+
+struct ChosenGatherDevice : ChosenDevice<TileDevice> {
+    ChosenGatherDevice()
+        : ChosenDevice([](const gpu::DeviceInfo &info) { return gpu::open_gather_device(info); },
+                       {"gathers", "tiles gathered"}) {}
+};
+struct ChosenWarpDevice : ChosenDevice<WarpDevice> {
+    ChosenWarpDevice()
+        : ChosenDevice([](const gpu::DeviceInfo &info) { return gpu::open_warp_device(info); },
+                       {"warps", "rows warped"}) {}
 };
 
 } // namespace sparselens
