@@ -32,6 +32,12 @@ void summarise(const Plan &plan, const View &centre, std::FILE *out) {
             -10 * std::log10(plan.noise),
             plan.full_views ? "everywhere: full views"
                             : fmt::format("in {:.1f} % of it", 100 * double(plan.noisy) / pixels));
+    if (plan.supersample > 1)
+        fmt::print(
+            out,
+            "edges of depth in {:.1f} % of it: render views {} times as large with 1/{} of the samples "
+            "(--supersample)\n",
+            100 * plan.edges, plan.supersample, plan.supersample * plan.supersample);
     const OverscanNeed &o = plan.overscan;
     fmt::print(out, "overscan that the lens needs, in pixels: left {}, top {}, right {}, bottom {}\n", o.left,
                o.top, o.right, o.bottom);
@@ -44,7 +50,9 @@ void run(const PlanCommand &options, const ToolContext &tool) {
     const Windows &windows = centre.view.image.windows;
     const ThinLens lens = centre.lens();
     warn_of(tool, picture_warnings(centre.view, {centre.depth, centre.depth_filtered, centre.camera}));
-    const Plan plan = make_plan(centre.view, lens, options.plan, *tool.progress);
+    PlanOptions by = options.plan;
+    by.across = centre.camera.supersample.value_or(1);
+    const Plan plan = make_plan(centre.view, lens, by, *tool.progress);
     write_plan(options.output, plan, {options.centre, windows, lens, options.plan.margin}, options.masks);
     if (!options.cameras.empty())
         write_cameras(options.cameras, cameras_of(plan, centre.camera, lens, windows.display_width()),

@@ -119,6 +119,8 @@ void write_plan(const std::string &path, const Plan &plan, const PlanSetting &se
         {"share", plan.share()},
         {"advice", advice},
         {"noise_db", json_of(-10 * std::log10(plan.noise))},
+        {"edges", plan.edges},
+        {"supersample", plan.supersample},
         {"overscan",
          {{"left", plan.overscan.left},
           {"top", plan.overscan.top},

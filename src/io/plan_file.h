@@ -3,11 +3,13 @@
 //   {"version": 1, "center": FILE, "display_window": [x0, y0, x1, y1], "data_window": [...],
 //    "lens": {"radius": R, "focal_px": F, "focus_distance": D or null for infinity},
 //    "margin": PX, "share": S, "advice": "none" | "planned" | "full", "noise_db": N or null,
+//    "edges": S, "supersample": 1 | 2,
 //    "overscan": {"left": PX, "top": PX, "right": PX, "bottom": PX},
 //    "views": [{"name": "view_0", "lens_point": [ux, uy], "position": [X, Y], "share": S, "uncovered": PIXELS,
 //               "data_window": [...], "rectangles": [[x0, y0, x1, y1], ...], "mask": FILE}, ...]}
 //
-// Windows and rectangles are in EXR pixel coordinates, corners included; shares are shares of one full view. The name
+// Windows and rectangles are in EXR pixel coordinates, corners included; shares are shares of one full view, but
+// `edges`, of the centre view's pixels: where they are many, views of `supersample` times the size are worth it. The name
 // of a mask (channel A, half, 1 in the pixels to render) is relative to the folder of the plan. Throws Error, naming
 // the file and the problem.
 #pragma once

@@ -14,6 +14,7 @@ struct PlanOptions {
     int views = 4;  // the largest number of views
     int margin = 2; // pixels around what the centre view does not see: edges are told apart from both sides
     std::optional<double> noise = {}; // standard deviation of a pixel's noise, tone-mapped; empty: measured
+    int across = 1; // pixels of the centre view, across and down, that become one of the picture
 };
 
 struct PlannedView {
@@ -33,6 +34,10 @@ struct Plan {
     double noise = 0;      // mean square, tone-mapped, in the lens picture of the centre view alone (noise.h)
     std::size_t noisy = 0; // pixels of the centre view that are asked for again, as further samples
     bool full_views = false; // noise is the larger error: whole views pay as further samples
+    double edges =
+        0; // share of the centre view's pixels beside which depth jumps: surfaces are torn (kernels/surface.h)
+    int supersample =
+        1; // times the size at which views with the same rays are worth it; 1 where the centre view is a fine one
 
     double share() const; // of one full view, all views together
 };

@@ -15,6 +15,8 @@ struct PlanTuning {
     static constexpr double noise_of_a_pixel_that_pays = 8e-6;
     // Share of all pixels: where fewer are noisy, no view is rendered for them alone.
     static constexpr double few_noisy = 0.01;
+    // Share of pixels at edges from which views of twice the size, with a quarter of the samples, are worth the larger files.
+    static constexpr double many_edges = 0.03;
     // Views on the rim that are candidates at least.
     static constexpr int least_candidates = 8;
     // Pixels around an opening of one pixel: more around so many of them costs more than it brings (grass: 1.43 instead of

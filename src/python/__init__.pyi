@@ -295,6 +295,9 @@ class Plan:
     def full_views(self) -> bool:
         """Whether noise is the larger error, so that whole views pay as further samples."""
     @property
+    def supersample(self) -> int:
+        """How many times as large views with as many rays are worth it: 2 where depth has many edges, else 1."""
+    @property
     def noise_db(self) -> float:
         """The noise left in the lens picture of the centre view alone, dB, tone-mapped; inf where there is none."""
     @property

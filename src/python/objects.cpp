@@ -261,6 +261,8 @@ void bind_plan(py::module_ &module) {
         .def_property_readonly(
             "full_views", [](const PlanObject &o) { return o.plan.full_views; }, doc::Plan::full_views)
         .def_property_readonly(
+            "supersample", [](const PlanObject &o) { return o.plan.supersample; }, doc::Plan::supersample)
+        .def_property_readonly(
             "noise_db", [](const PlanObject &o) { return -10 * std::log10(o.plan.noise); },
             doc::Plan::noise_db)
         .def_property_readonly(

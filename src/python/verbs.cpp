@@ -217,6 +217,7 @@ PlanObject plan(const py::object &view, const py::kwargs &given) {
     options.views = keywords.whole("views", 0, 64).value_or(options.views);
     options.margin = keywords.whole("margin", 0, 1024).value_or(options.margin);
     options.noise = keywords.number("noise", at_least_0);
+    options.across = centre.camera.supersample.value_or(1);
     const LensValues values = lens_values(keywords);
     const py::object progress = keywords.take("progress");
     keywords.done();

@@ -191,6 +191,7 @@ def test_plan(views, names, tool, tmp_path):
     by_tool = json.loads((tmp_path / "tool.json").read_text())
     by_python = json.loads((tmp_path / "python.json").read_text().replace("python/", "tool/"))
     assert by_python == by_tool
+    assert plan.supersample == by_tool["supersample"]
     for k, view in enumerate(plan.views):
         mask = f"view_{k}.exr"
         assert (tmp_path / "python" / mask).read_bytes() == (tmp_path / "tool" / mask).read_bytes()

@@ -18,6 +18,11 @@ grep -q 'of a full view' stdout || fail "no summary: $(cat stdout)"
 [ "$(json plan.json 'all(v["rectangles"] for v in p["views"])')" = True ] || fail "no rectangles"
 [ "$(json plan.json 'p["overscan"]["left"] > 0')" = True ] || fail "no overscan"
 [ "$(ls masks | wc -l)" -eq "$(json plan.json 'len(p["views"])')" ] || fail "masks: $(ls masks)"
+[ "$(json plan.json 'p["supersample"], p["edges"] > 0.03')" = "2 True" ] || fail "fine views: $(json plan.json 'p["supersample"], p["edges"]')"
+grep -q 'render views 2 times as large with 1/4 of the samples' stdout || fail "no advice of fine views: $(cat stdout)"
+"$bin/dof-trace" fence --size 120x68 --views 0 --supersample 2 -o fine
+exits 0 "$plan" fine/center.exr -o fine.json
+[ "$(json fine.json 'p["supersample"]')" = 1 ] || fail "finer views than fine ones"
 exits 0 "$plan" full/center.exr -o -
 grep -q '"views"' stdout || fail "no plan on standard output"
 
@@ -101,7 +106,7 @@ exits 0 "$plan" named.exr -o named.json --depth-channel far.away
 fails_saying 1 'named.exr' "$plan" named.exr -o x.json
 "$bin/dof-trace" slant --spp 16 --views 0 -o slant
 exits 0 "$plan" slant/center.exr -o slant.json
-[ "$(json slant.json 'p["advice"]')" = none ] || fail "one plane needs no views"
+[ "$(json slant.json 'p["advice"], p["supersample"]')" = "none 1" ] || fail "one plane needs no views"
 fails_saying 2 '--views' "$plan" full/center.exr -o x.json --views -1
 fails_saying 2 '--margin' "$plan" full/center.exr -o x.json --margin far
 fails_saying 2 '--noise' "$plan" full/center.exr -o x.json --noise -1
