@@ -6,8 +6,8 @@ rows = list(csv.DictReader(open(sys.argv[1])))
 scenes = list(dict.fromkeys(row["scene"] for row in rows))
 ways = [("ray tracing", "distributed ray tracing", ""), ("denoised", "denoised ray tracing", ""),
         ("averages", "accumulated lens views", ""), ("five views", "centre + 4", "lens normal"),
-        ("five views, denoised", "centre + 4 denoised", "lens normal"), ("five fine views", "centre + 4 fine", "lens normal"),
-        ("five fine views, denoised", "centre + 4 fine denoised", "lens normal")]
+        ("five views, denoised", "centre + 4 denoised", "lens normal"), ("five fine views", "centre + 4 at 2x", "lens normal"),
+        ("five fine views, denoised", "centre + 4 denoised at 2x", "lens normal")]
 
 
 def figures(row):

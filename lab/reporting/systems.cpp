@@ -230,10 +230,10 @@ const std::vector<System> &system_table() {
         {"distributed ray tracing", "ray", &S::rays, distributed, {}, Role::ray_tracing},
         {"denoised ray tracing", "ray", &S::denoised_rays, denoised, {}, Role::other},
         {"centre + 4", "sample", &S::samples, sparse<4>, every, Role::sparse_lens, true},
+        {"centre + 4", "sample", &S::fine_samples, fine<4>, {&lens_normal, &lens_final}, Role::sparse_lens},
         {"centre + 8", "sample", &S::samples, sparse<8>, every, Role::sparse_lens},
         {"centre + 4 denoised", "sample", &S::samples, denoised_sparse<4>, {&lens_normal}, Role::other},
-        {"centre + 4 fine", "sample", &S::fine_samples, fine<4>, {&lens_normal}, Role::sparse_lens},
-        {"centre + 4 fine denoised", "sample", &S::fine_samples, denoised_fine<4>, {&lens_normal}, Role::other},
+        {"centre + 4 denoised", "sample", &S::fine_samples, denoised_fine<4>, {&lens_normal}, Role::other},
         {"centre + 4 planned",
          "sample",
          &S::samples,
@@ -248,6 +248,7 @@ PlannedRow row_of(const SceneSource &scene, const System &system, int budget, co
     ReportRow row;
     row.scene = scene.name();
     row.renderer = system.renderer;
+    if (rendered.supersample > 1) row.renderer += fmt::format(" at {}x", rendered.supersample);
     row.budget = fmt::format("{} {}{}", budget, system.unit, budget == 1 ? "" : "s");
     row.views = rendered.views;
     row.rays = rendered.rays;

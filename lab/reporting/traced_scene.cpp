@@ -12,6 +12,7 @@ namespace sparselens::lab {
 namespace {
 
 constexpr int layer_count = 4;       // of depth peeling and strata
+constexpr int fine = 2;        // times the size of the picture, of fine views
 constexpr int lens_view_samples = 4; // a pixel: with fewer, moving the views by parts of a pixel costs much
 
 std::vector<std::string> view_files(const std::string &folder, int rim) {
@@ -64,13 +65,32 @@ Rendered TracedScene::reference(StepList &steps) const {
 }
 
 std::optional<Rendered> TracedScene::views(int rim, int samples, StepList &steps) const {
-    const std::string folder = fmt::format("{}/views-{}x{}", name_, 1 + rim, samples);
+    return views(rim, samples, 1, steps);
+}
+
+// Those of which each pixel of a fine view has a whole number.
+std::vector<int> TracedScene::fine_samples() const {
+    std::vector<int> samples = budgets_.samples;
+    std::erase_if(samples, [](int count) { return count % (fine * fine) != 0; });
+    return samples;
+}
+
+std::optional<Rendered> TracedScene::fine_views(int rim, int samples, StepList &steps) const {
+    return views(rim, samples, fine, steps);
+}
+
+Rendered TracedScene::views(int rim, int samples, int supersample, StepList &steps) const {
+    const std::string folder =
+        fmt::format("{}/{}-{}x{}", name_, supersample == 1 ? "views" : "fine", 1 + rim, samples);
+    std::vector<std::string> more;
+    if (supersample > 1) more = {"--supersample", fmt::to_string(supersample)};
     const std::size_t made = steps.add({.name = folder,
-                                        .commands = {trace(folder, samples, rim)},
+                                        .commands = {trace(folder, samples, rim, std::move(more))},
                                         .outputs = view_files(folder, rim),
                                         .weight = weight((1 + rim) * samples)});
     Rendered views = views_in(folder, rim, {made});
     views.rays = (1 + rim) * samples;
+    views.supersample = supersample;
     return views;
 }
 

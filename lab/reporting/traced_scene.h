@@ -19,6 +19,8 @@ public:
 
     Rendered reference(StepList &steps) const override;
     std::optional<Rendered> views(int rim, int samples, StepList &steps) const override;
+    std::vector<int> fine_samples() const override;
+    std::optional<Rendered> fine_views(int rim, int samples, StepList &steps) const override;
     std::optional<Rendered> planned(int rim, int samples, StepList &steps) const override;
     std::optional<Rendered> layers(const std::string &kind, int samples, StepList &steps) const override;
     std::optional<Rendered> accumulated(int views, StepList &steps) const override;
@@ -28,6 +30,7 @@ private:
     StepCommand trace(const std::string &folder, int samples, int rim,
                       std::vector<std::string> more = {}) const;
     double weight(double rays) const;
+    Rendered views(int rim, int samples, int supersample, StepList &steps) const;
 
     std::string name_;
     Budgets budgets_;

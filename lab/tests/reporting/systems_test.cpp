@@ -65,6 +65,8 @@ TEST(Systems, TheWholeTaxonomyIsThere) {
                                          "centre + 4, lens draft",
                                          "centre + 4, lens normal",
                                          "centre + 4, lens final",
+                                         "centre + 4 at 2x, lens normal",
+                                         "centre + 4 at 2x, lens final",
                                          "centre + 8, selective K=2",
                                          "centre + 8, selective K=4",
                                          "centre + 8, selective K=8",
@@ -73,9 +75,9 @@ TEST(Systems, TheWholeTaxonomyIsThere) {
                                          "centre + 8, lens final"};
     EXPECT_EQ(methods, expected);
     EXPECT_EQ(all.plan.rows.size(),
-              4u * 7 + 5 + 5 + 4 * 12); // four sample counts, five of rays and lens views
+              4u * 7 + 5 + 5 + 4 * 12 + 3 * 2); // four sample counts, five of rays and lens views; three of fine views
     EXPECT_TRUE(std::ranges::includes(methods, quick_methods));
-    EXPECT_EQ(quick_methods.size(), 13u);
+    EXPECT_EQ(quick_methods.size(), 14u);
 }
 
 TEST(Systems, StepsComeAfterWhatTheyRead) {
@@ -104,6 +106,14 @@ TEST(Systems, ARowTakesTheTimeOfItsWholeChain) {
               "fence/views-5x16/lens-final.exr\n");
     EXPECT_EQ(all.commands(all.row("centre + 8, selective K=2", "1 sample")).substr(0, 73),
               "dof-trace fence --size 640x360 --spp 1 --views 8 -o fence/views-9x1\nldi-w");
+    // As many rays, in pixels a quarter as large.
+    EXPECT_EQ(all.commands(all.row("centre + 4 at 2x, lens final", "16 samples")),
+              "dof-trace fence --size 640x360 --spp 16 --views 4 -o fence/fine-5x16 --supersample 2\n"
+              "ldi-warp fence/fine-5x16/center.exr fence/fine-5x16/view_0.exr fence/fine-5x16/view_1.exr "
+              "fence/fine-5x16/view_2.exr fence/fine-5x16/view_3.exr -o fence/fine-5x16/warped.exr\n"
+              "dof-gather fence/fine-5x16/warped.exr --method lens --quality final --supersample 2 -o "
+              "fence/fine-5x16/lens-final.exr\n");
+    EXPECT_EQ(all.row("centre + 4 at 2x, lens final", "16 samples").row.rays, 80);
     EXPECT_EQ(all.commands(all.row("4 peeled layers, layered blend", "4 samples")),
               "dof-trace fence --size 640x360 --spp 4 --views 0 -o fence/peel-4x4 --deep peel:4\n"
               "dof-gather fence/peel-4x4/deep_peel.exr --method selective --layers 8 -o "
@@ -233,7 +243,7 @@ TEST_F(ReadyViews, FourOfEightViewsAreEverySecond) {
 }
 
 TEST_F(ReadyViews, FinerViewsAreGatheredIntoTheSizeOfThePicture) {
-    EXPECT_FALSE(planned(folder_.string()).has("centre + 4 fine"));
+    EXPECT_FALSE(planned(folder_.string()).has("centre + 4 at 2x"));
     fs::create_directories(folder_ / "fine");
     std::string json = camera("[1, 0], [0, 1], [-1, 0], [0, -1]", 16,
                               "\"center.exr\": 9, \"view_0.exr\": 1, \"view_1.exr\": 1, \"view_2.exr\": 1, "
@@ -241,7 +251,7 @@ TEST_F(ReadyViews, FinerViewsAreGatheredIntoTheSizeOfThePicture) {
     json.insert(1, "\"supersample\": 2, ");
     put_contents(folder_ / "fine" / "camera.json", json);
     const Planned all = planned(folder_.string());
-    const PlannedRow &row = all.row("centre + 4 fine, lens normal", "16 samples");
+    const PlannedRow &row = all.row("centre + 4 at 2x, lens normal", "16 samples");
     EXPECT_EQ(row.row.rays, 80);
     EXPECT_EQ(row.row.seconds[0], 13);
     EXPECT_EQ(row.row.role, Role::sparse_lens);
