@@ -2,21 +2,25 @@
 #include "deep/front_samples.h"
 #include "dof/border_reach.h"
 #include "dof/gather_rows.h"
+#include "dof/lens/lens_tiles.h"
+#include "harness/stats.h"
 #include "harness/tool.h"
 #include "io/camera/camera_write.h"
 #include "io/channels.h"
 #include "io/exr/exr_flat.h"
 #include "io/gather_windows.h"
 #include "loading/holdout_file.h"
+#include "loading/ldi_cache.h"
 #include "loading/ldi_lens.h"
 #include "loading/notices.h"
-#include "loading/stage_stats.h"
 #include "options/chosen_device.h"
 #include "options/colour_options.h"
 #include "options/gather_options.h"
 #include "options/picture_options.h"
 #include "options/show.h"
 #include "options/window_options.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <functional>
@@ -80,6 +84,25 @@ ChooseSamples choose_samples(const GatherCommand &options, const ToolContext &to
             return {};
         return [&, lens](Ldi some) { return reduced_first(std::move(some), lens, options.picture); };
     };
+}
+
+// No tiles: not gathered by tiles.
+Stats gather_stats(const LdiCache &cache, std::size_t samples, const LensTiles &tiles) {
+    Stats points = Stats::object();
+    std::size_t copied = 0;
+    for (const auto &[number, count] : histogram(tiles)) {
+        if (number == 0)
+            copied = std::size_t(count);
+        else
+            points[fmt::to_string(number)] = count;
+    }
+    return {{"input_read", cache.read_now()},
+            {"samples_invisible", cache.last().invisible},
+            {"samples", samples},
+            {"channels_left_out", cache.channels_left_out()},
+            {"tiles", tiles.lens_points.size()},
+            {"tiles_copied", copied},
+            {"lens_points", points}};
 }
 
 void run(const GatherCommand &given, const ToolContext &tool, LdiCache &cache, ChosenGatherDevice &device) {

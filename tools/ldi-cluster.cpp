@@ -1,14 +1,13 @@
 // ldi-cluster: merges deep pictures, and the samples of each pixel to fewer.
-#include "base/error.h"
 #include "deep/cluster.h"
 #include "harness/examples.h"
 #include "harness/history.h"
+#include "harness/stats.h"
 #include "harness/tool.h"
 #include "io/camera/camera_write.h"
 #include "io/exr/exr_deep.h"
 #include "io/merge_ldis.h"
 #include "loading/notices.h"
-#include "loading/stage_stats.h"
 #include "options/lens_options.h"
 #include "options/picture_options.h"
 
@@ -62,6 +61,14 @@ OpenedLdi open_merged(const Options &options, const ToolContext &tool) {
         warn_of_invalid_values(tool, path, parts.back().bad);
     }
     return merge_ldis(std::move(parts));
+}
+
+Stats cluster_stats(const OpenedLdi &in, const Clustered &out) {
+    return {{"samples_invisible", in.invisible},
+            {"samples_read", in.ldi.samples()},
+            {"samples", out.ldi.samples()},
+            {"samples_merged", in.ldi.samples() - out.ldi.samples()},
+            {"largest_coc_change", out.largest_error}};
 }
 
 void run(const Options &options, const ToolContext &tool) {

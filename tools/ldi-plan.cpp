@@ -1,11 +1,11 @@
 // ldi-plan: plans which views from the rim of the lens, and which of their pixels, are worth rendering.
 #include "deep/checks/view_warnings.h"
+#include "harness/stats.h"
 #include "harness/tool.h"
 #include "io/cameras_file.h"
 #include "io/open_view.h"
 #include "io/plan_file.h"
 #include "loading/notices.h"
-#include "loading/stage_stats.h"
 #include "options/plan_options.h"
 
 #include <fmt/format.h>
@@ -41,6 +41,15 @@ void summarise(const Plan &plan, const View &centre, std::FILE *out) {
     const OverscanNeed &o = plan.overscan;
     fmt::print(out, "overscan that the lens needs, in pixels: left {}, top {}, right {}, bottom {}\n", o.left,
                o.top, o.right, o.bottom);
+}
+
+Stats plan_stats(const Plan &plan, int views_allowed, const Windows &centre) {
+    std::size_t asked = 0;
+    for (const PlannedView &view : plan.views) asked += view.mask.count();
+    return {{"views", plan.views.size()},
+            {"views_left_out", std::size_t(views_allowed) - plan.views.size()},
+            {"pixels", asked},
+            {"pixels_left_out", std::size_t(views_allowed) * centre.pixels() - asked}};
 }
 
 void run(const PlanCommand &options, const ToolContext &tool) {

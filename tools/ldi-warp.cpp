@@ -1,12 +1,11 @@
 // ldi-warp: warps a centre view and views from the rim of the lens into one layered depth image.
-#include "base/error.h"
 #include "deep/checks/view_warnings.h"
 #include "deep/rounded.h"
+#include "harness/stats.h"
 #include "harness/tool.h"
 #include "io/camera/camera_write.h"
 #include "io/exr/exr_deep.h"
 #include "loading/notices.h"
-#include "loading/stage_stats.h"
 #include "loading/views.h"
 #include "options/chosen_device.h"
 #include "options/colour_options.h"
@@ -18,6 +17,7 @@
 #include <fmt/format.h>
 #include <malloc.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <span>
 #include <string>
@@ -40,6 +40,36 @@ void say_framings(const ToolContext &tool, std::span<const PackedView> views) {
             "that of the centre view, {:g} scene units in front of it",
             view.name, axis.x, axis.y, own.zoom, own.forward));
     }
+}
+
+// What views give to a warp, which takes their pixels.
+struct GivenViews {
+    std::size_t views, empty, pixels, all_pixels;
+};
+
+// Cropped and masked views do not give them all.
+std::size_t pixels_given(const ViewSamples &view) {
+    std::size_t count = 0;
+    const std::size_t alpha = view.alpha();
+    for (std::size_t i = 0; i < view.windows.pixels(); ++i) count += alpha_at(view, alpha, i) > 0;
+    return count;
+}
+
+GivenViews given_views(std::span<const PackedView> views) {
+    GivenViews given{views.size(), 0, 0, views.size() * views[0].samples.windows.pixels()};
+    for (const PackedView &view : views) {
+        const std::size_t pixels = pixels_given(view.samples);
+        given.pixels += pixels;
+        given.empty += pixels == 0 ? 1 : 0;
+    }
+    return given;
+}
+
+Stats warp_stats(const GivenViews &given, const Ldi &ldi) {
+    const auto [views, empty, pixels, all] = given;
+    return {{"views", views},           {"views_empty", empty},
+            {"pixels_given", pixels},   {"pixels_not_given", all - std::min(all, pixels)},
+            {"samples", ldi.samples()}, {"samples_merged", pixels - std::min(pixels, ldi.samples())}};
 }
 
 void run(const WarpCommand &options, const ToolContext &tool, ChosenWarpDevice &device) {
