@@ -103,7 +103,7 @@ void run(const WarpCommand &options, const ToolContext &tool, ChosenWarpDevice &
     tool.say(
         fmt::format("{} views, {} samples in {} pixels", given.views, ldi.samples(), ldi.windows.pixels()));
     if (const auto lens = known_lens(in.camera, ldi.windows))
-        say_border_reach(tool, options.output, ldi, *lens, in.camera.supersample.value_or(1));
+        say_border_reach(tool, options.output, ldi, *lens, in.camera.supersample.value_or(1), {});
     *tool.last_step = [&tool, stats = warp_stats(given, ldi), ldi = std::move(ldi), header = in.header,
                        output = options.output, compression = options.compression] {
         warn_of_clamped(tool, output, write_ldi(output, ldi, header, compression));

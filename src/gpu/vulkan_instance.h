@@ -1,15 +1,22 @@
-// The connection to Vulkan, and what it says of its devices.
+// Vulkan as src/gpu uses it: the loader is opened at run time, and every object ends with its C++ owner. The connection to it, and
+// what it says of its devices.
 #pragma once
 
 #include "gpu/device_list.h"
-#include "gpu/vulkan.h"
 
+#define VK_NO_PROTOTYPES
+#define VULKAN_HPP_DISPATCH_LOADER_DYNAMIC 1
+#include <vulkan/vulkan_raii.hpp>
+
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 
 namespace sparselens::gpu {
+
+inline constexpr std::uint32_t vulkan_version = VK_API_VERSION_1_2; // shared 64-bit atomics belong to it
 
 struct VulkanInstance {
     vk::raii::Context loader;

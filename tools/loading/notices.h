@@ -3,12 +3,13 @@
 
 #include "harness/tool.h"
 #include "io/open_ldi.h"
-#include "lens/lens_looks.h"
 
 #include <span>
 #include <string>
 
 namespace sparselens {
+
+struct LensLooks;
 
 // Prints the notes of the reader of a file with --verbose, and its warnings always.
 void say_reading(const ToolContext &tool, const std::string &path, const std::vector<std::string> &notes,
@@ -29,7 +30,7 @@ void warn_of_flat_picture(const ToolContext &tool, const OpenedLdi &in);
 // With --verbose: how much overscan the blur needs, and how much there is, in pixels of `across` sub-pixels; a warning if there is
 // too little, and light stands at the border whose disc would be cut.
 void say_border_reach(const ToolContext &tool, const std::string &path, const Ldi &ldi, const ThinLens &lens,
-                      int across, const LensLooks &looks = {});
+                      int across, const LensLooks &looks);
 
 // With --verbose: what the file says about its camera, and which attribute says so.
 void say_camera(const ToolContext &tool, const std::string &path, const Camera &camera);

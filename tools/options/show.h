@@ -5,9 +5,10 @@
 #include "deep/ldi.h"
 #include "dof/lens/lens_tiles.h"
 #include "harness/commands/cli.h"
-#include "lens/thin_lens.h"
 
 namespace sparselens {
+
+struct ThinLens;
 
 enum class Show { picture, coc, focus, layers, tiles };
 

@@ -11,7 +11,9 @@
 #include <array>
 #include <cctype>
 #include <cstdlib>
+#include <filesystem>
 #include <string_view>
+#include <system_error>
 
 namespace sparselens {
 
@@ -87,6 +89,17 @@ std::string python_value(const std::string &option, const std::string &value) {
 }
 
 } // namespace
+
+Presets lens_presets() {
+    Presets presets;
+    std::error_code unknown;
+    const auto folder = std::filesystem::read_symlink("/proc/self/exe", unknown).parent_path().parent_path();
+    for (const auto &lenses : {folder / "share/sparselens/lenses", folder.parent_path() / "share/lenses"})
+        for (const auto &file : std::filesystem::directory_iterator(lenses, unknown))
+            if (file.path().extension() == ".json")
+                presets.emplace(file.path().stem().string(), file.path().string());
+    return presets;
+}
 
 Words picture_words(const Words &all) {
     return without(all, [](const std::string &name) {

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "options/gather_options.h"
-#include "viewing/presets.h"
 
 #include <map>
 #include <string>
@@ -12,6 +11,11 @@
 namespace sparselens {
 
 using Words = std::vector<std::string>;
+
+// Lenses that the page offers by name: the files of share/lenses by their names (petzval), where the program was installed or
+// built; empty where there are none.
+using Presets = std::map<std::string, std::string>;
+Presets lens_presets();
 
 // The words of a command line of dof-view that dof-gather has too: IN, and how its picture is made.
 Words picture_words(const Words &all);

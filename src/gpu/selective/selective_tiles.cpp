@@ -2,10 +2,10 @@
 
 #include "base/parallel.h"
 #include "gpu/selective/splat_stripe.h"
-#include "gpu/uploaded.h"
 
 #include <algorithm>
 #include <array>
+#include <span>
 #include <vector>
 
 namespace sparselens::gpu {
@@ -21,6 +21,14 @@ constexpr std::size_t stripe_bytes = std::size_t{512} << 20; // of a buffer, als
 // Turns of its loops that a work group takes in a pass, and all that are submitted at once: what takes seconds, operating
 // systems end.
 constexpr double steps_in_pass = 2e5, steps_at_once = 2e6;
+
+template <typename Values>
+Buffer uploaded(Device &device, const Values &values) {
+    const auto bytes = std::as_bytes(std::span(values));
+    Buffer buffer = device.buffer(bytes.size());
+    device.upload(buffer, bytes);
+    return buffer;
+}
 
 // A stripe on the device.
 struct Placed {
