@@ -67,15 +67,29 @@ fault() {
 
 # FILE NAME for each constant of these stages outside of tuning.h whose value begins with a number.
 constants() {
-    local file
-    find $(sed 's|\<|src/|g' <<<"$stages") -name '*.h' -o -name '*.cpp' | grep -v '/tuning\.h$' | sort | while read -r file; do
-        # A declaration in one line, without comments, without what is in brackets; a name and its value in one line.
-        sed -E 's|//.*||' "$file" | sed -E ':next; /(=|,) *$/{N; s/\n */ /; b next}' |
-            grep -E '\bconst(expr)? (float|double|int|(std::)?u?int[0-9]+_t|std::size_t|unsigned|auto) [a-z_0-9]+ = |\bconstexpr std::array\b' |
-            grep -vE '\bfor \(' | sed -E 's/.*\bconst(expr)? (std::array(<[^>]*>)?|[a-z:_0-9]+) //; s/\([^()]*\)/(x)/g' |
-            tr ',;' '\n\n' | sed -nE 's/^ *([a-z_0-9]+)(\[[^]]*\])?( = |\{) *-?(0x|std::size_t\{)?[0-9.]+[a-z0-9.]*(-[0-9]+f?)?[^a-zA-Z_]*$/\1/p' |
-            sed "s|^|${file#src/} |" || true
-    done
+    find $(sed -E 's|([a-z]+)|src/\1|g' <<<"$stages") '(' -name '*.h' -o -name '*.cpp' ')' ! -name tuning.h | sort | xargs awk '
+FNR == 1 { whole = "" }
+{
+    # A declaration in one line, without comments and what is in brackets.
+    sub(/\/\/.*/, "")
+    whole = whole " " $0
+    if (whole ~ /[=,] *$/) next
+    line = whole
+    whole = ""
+    if (line !~ /[^a-z_]const(expr)? (float|double|int|(std::)?u?int[0-9]+_t|std::size_t|unsigned|auto) [a-z_0-9]+ = / &&
+        line !~ /[^a-z_]constexpr std::array/) next
+    if (line ~ /[^a-z_]for \(/) next
+    sub(/.*[^a-z_]const(expr)? (std::array(<[^>]*>)?|[a-z:_0-9]+) /, "", line)
+    gsub(/\([^()]*\)/, "(x)", line)
+    n = split(line, parts, /[,;]/)
+    for (i = 1; i <= n; ++i) {
+        part = parts[i]
+        if (part !~ /^ *[a-z_0-9]+(\[[^]]*\])?( = |\{) *-?(0x|std::size_t\{)?[0-9.]+[a-z0-9.]*(-[0-9]+f?)?[^a-zA-Z_]*$/) continue
+        sub(/^ */, "", part)
+        match(part, /^[a-z_0-9]+/)
+        print substr(FILENAME, 5), substr(part, 1, RLENGTH)
+    }
+}'
 }
 found=$(constants)
 exempt=$(awk '{ for (i = 2; i <= NF; ++i) print $1, $i }' <<<"$allowed" | sort -u)
