@@ -122,8 +122,9 @@ void run(const GatherCommand &given, const ToolContext &tool, LdiCache &cache, C
     const LensLooks looks = looks_for_ldi(given_looks, in.camera, header, lens, frame.ldi(in).windows,
                                           options.picture.method, tool);
     const auto *packed = std::get_if<PackedRows>(&in.held);
-    say_border_reach(tool, options.input, packed ? border_of(*packed) : frame.ldi(in), lens,
-                     frame.subpixels.across, looks);
+    const auto border = packed ? std::optional(border_of(*packed)) : std::nullopt;
+    say_border_reach(tool, options.input, border ? *border : frame.ldi(in), lens, frame.subpixels.across,
+                     looks);
     choose_windows(frame, options.windows, in, lens, looks);
     raise_highlights(frame, in, highlight_gain(given_looks.values));
     const Ldi &ldi = frame.ldi(in);

@@ -1,10 +1,13 @@
 #include "base/image.h"
 
 #include "base/error.h"
+#include "base/parallel.h"
 
 #include <fmt/format.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace sparselens {
 
@@ -24,7 +27,15 @@ std::size_t count_of(const Windows &w, std::size_t channels) {
 } // namespace
 
 Image::Image(const Windows &windows_, std::vector<Channel> channels_)
-    : windows(windows_), channels(std::move(channels_)), values(count_of(windows_, channels.size())) {}
+    : windows(windows_), channels(std::move(channels_)), values(count_of(windows_, channels.size())) {
+    constexpr std::size_t at_once = 1 << 16;
+    // Isolated: who asks for a picture may hold what other work waits for.
+    tbb::this_task_arena::isolate([this] {
+        parallel_ranges(values.size(), at_once, [this](std::size_t begin, std::size_t end) {
+            std::fill_n(values.begin() + std::ptrdiff_t(begin), end - begin, 0.0f);
+        });
+    });
+}
 
 std::span<float> Image::plane(std::size_t channel) {
     return std::span(values).subspan(channel * windows.pixels(), windows.pixels());
@@ -54,6 +65,10 @@ Image crop(const Image &image, const Imath::Box2i &data) {
             std::copy_n(&image.values[index_of(image, k, data.min.x, y)], windows.width(),
                         &result.values[index_of(result, k, data.min.x, y)]);
     return result;
+}
+
+Image crop(Image &&image, const Imath::Box2i &data) {
+    return data == image.windows.data ? std::move(image) : crop(std::as_const(image), data);
 }
 
 std::size_t find_channel(std::span<const Channel> channels, std::string_view name) {

@@ -7,6 +7,7 @@
 
 #include "channel_kind.h"
 #include "grid.h"
+#include "large_array.h"
 
 #include <array>
 #include <cstddef>
@@ -52,7 +53,7 @@ Windows windows_of_size(int width, int height);
 struct Image {
     Windows windows;
     std::vector<Channel> channels;
-    std::vector<float> values;
+    LargeArray<float> values;
 
     Image() = default;
     Image(const Windows &windows, std::vector<Channel> channels); // all values 0
@@ -65,6 +66,7 @@ struct Image {
 
 // The pixels of `data`, which must lie within the data window of the image.
 Image crop(const Image &image, const Imath::Box2i &data);
+Image crop(Image &&image, const Imath::Box2i &data); // the image itself, where nothing is cut off
 
 // The index of the channel of that name, or npos.
 inline constexpr std::size_t npos = std::size_t(-1);

@@ -18,12 +18,6 @@ bool merges_layers(const ThinLens &lens, const PictureOptions &options) {
            options.method == &gather_methods().front();
 }
 
-// Moved where nothing is cut off.
-Image cropped(Image picture, const Imath::Box2i &window) {
-    if (picture.windows.data == window) return picture;
-    return crop(picture, window);
-}
-
 // `ldi` is an Ldi&&, if it may be used up, or a const Ldi&. Where colours have coverages of their own, what goes on beyond the
 // frame is found for each (methods.cpp).
 template <typename AnyLdi>
@@ -46,13 +40,13 @@ Image gather_layers(AnyLdi &&ldi, const ThinLens &lens, const Imath::Box2i &gath
                     const Imath::Box2i &written, const PictureOptions &options, Progress &progress) {
     const auto sharp = options.holdout ? std::optional<Holdout>(*options.holdout) : std::nullopt;
     if (lens.radius == 0 && options.gather.lens.looks.magnification == 1)
-        return cropped(sharp ? flatten_held_out(ldi, *sharp) : flatten(ldi), written);
+        return crop(sharp ? flatten_held_out(ldi, *sharp) : flatten(ldi), written);
     GatherOptions by = options.gather;
     by.lens.region = written;
     by.lens.holdout = sharp ? &*sharp : nullptr;
     by.layer_tolerance = merges_layers(lens, options) ? options.layer_tolerance : 0;
-    return cropped(gather_frame(std::forward<AnyLdi>(ldi), lens, gathered, *options.method, by, progress),
-                   written);
+    return crop(gather_frame(std::forward<AnyLdi>(ldi), lens, gathered, *options.method, by, progress),
+                written);
 }
 
 // Once is enough: merged twice, layers would change by more than the tolerance.

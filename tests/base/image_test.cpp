@@ -31,7 +31,7 @@ TEST(Windows, DisplaySizeIsNotTheDataSize) {
 
 TEST(Image, StartsBlackAndPlanesFollowEachOther) {
     Image image(windows_of_size(3, 2), two);
-    EXPECT_EQ(image.values, std::vector<float>(12));
+    EXPECT_EQ(image.values, LargeArray<float>(12, 0.0f));
     image.plane(1)[4] = 7;
     EXPECT_EQ(image.values[6 + 4], 7);
     EXPECT_EQ(image.plane(0).size(), 6u);

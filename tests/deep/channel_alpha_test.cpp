@@ -79,7 +79,7 @@ TEST(ColouredAlpha, AIsTheMeanWhereItIsMissing) {
     image.values = {7, 8, 0, 1, 0.5f, 1, 1, 1};
     add_mean_coverage(image);
     EXPECT_EQ(image.channels, named({"G", "A", "AB", "AG", "AR"}));
-    EXPECT_EQ(image.values, (std::vector<float>{7, 8, 0.5f, 1, 0, 1, 0.5f, 1, 1, 1}));
+    EXPECT_EQ(image.values, (LargeArray<float>{7, 8, 0.5f, 1, 0, 1, 0.5f, 1, 1, 1}));
 }
 
 // Red glass before a white wall: what is behind it comes through by colour.
@@ -88,7 +88,7 @@ TEST(ColouredAlpha, FlattenAttenuatesEachColourByItsOwn) {
     ldi.channels = named({"R", "G", "B", "A", "AB", "AG", "AR"});
     ldi.values = {{0.125f, 1}, {0, 1}, {0, 1}, {0.5f, 1}, {1, 1}, {0.5f, 1}, {0, 1}};
     const Image picture = flatten(ldi);
-    EXPECT_EQ(picture.values, (std::vector<float>{1.125f, 0.5f, 0, 1, 1, 1, 1}));
+    EXPECT_EQ(picture.values, (LargeArray<float>{1.125f, 0.5f, 0, 1, 1, 1, 1}));
 }
 
 TEST(ColouredAlpha, EqualToAItIsNone) {

@@ -108,7 +108,7 @@ TEST(Invariants, OrderOfViewsDoesNotMatter) {
         const Ldi ldi = warp(views, {.focal_px = 640, .radius = 0.06}, silent);
         return gather(tidy(ldi)).values;
     };
-    const std::vector<float> first = picture();
+    const auto first = picture();
     std::rotate(views.begin() + 1, views.begin() + 3, views.end());
     EXPECT_EQ(picture(), first);
     std::swap(views[1], views[2]);
@@ -121,7 +121,7 @@ TEST(Invariants, ThreadsDoNotMatter) {
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
         return gather(ldi).values;
     };
-    const std::vector<float> one = with(1);
+    const auto one = with(1);
     for (const std::size_t threads : {2u, 3u, 7u}) EXPECT_EQ(with(threads), one) << threads;
 }
 

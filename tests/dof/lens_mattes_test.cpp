@@ -128,7 +128,7 @@ TEST(LensMattes, SeventeenIdsStaySeventeen) {
     std::set<std::uint32_t> expected;
     for (std::uint32_t id = 0; id < 17; ++id) expected.insert(std::bit_cast<std::uint32_t>(hashed(id)));
     for (View &view : views) {
-        const std::vector<float> before = view.image.values;
+        const auto before = view.image.values;
         EXPECT_FALSE(sanitize(view).any()); // hashes above 1e34 are no errors
         EXPECT_TRUE(std::ranges::equal(before, view.image.values, {}, std::bit_cast<std::uint32_t, float>,
                                        std::bit_cast<std::uint32_t, float>));

@@ -257,7 +257,7 @@ FillerSamples place_fillers(const Ldi &ldi, const ThinLens &lens, std::span<cons
     };
     FillerSamples result{make_blocks(ldi.windows, is_there, place), {}};
     const std::size_t count = result.samples.count();
-    result.colours = {colours.groups, count, std::vector<float>(colours.groups * count * 4)};
+    result.colours = {colours.groups, count, LargeArray<float>(colours.groups * count * 4, 0.0f)};
     parallel_ranges(count, 4096, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             if (result.samples.source[i] == BlockedSamples::background) continue;

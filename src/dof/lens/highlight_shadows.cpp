@@ -189,7 +189,7 @@ void HighlightShadows::cast_block(const ShadowedLamp &lamp, const CastingBlock &
 
 // Whether it is another highlight's, of other pixels and no nearer than a part of the same lamp would be.
 bool HighlightShadows::are_side_by_side(std::uint32_t lamp_sample, std::uint32_t sample) const {
-    const auto same = [&](const std::vector<float> &along) {
+    const auto same = [&](std::span<const float> along) {
         return std::floor(along[lamp_sample]) == std::floor(along[sample]);
     };
     return samples_.depth(sample) <= one_lamp * samples_.depth(lamp_sample) &&

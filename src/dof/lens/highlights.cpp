@@ -146,7 +146,7 @@ Highlights take_highlights(const BlockedSamples &samples, std::span<const std::s
                            const std::optional<Imath::Box2i> &seen) {
     const std::vector<Found> all = HighlightFinder(samples, brightness, colours, seen).find();
     Highlights highlights{
-        {}, {}, {colours.groups, all.size(), std::vector<float>(colours.groups * all.size() * 4)}, {}};
+        {}, {}, {colours.groups, all.size(), LargeArray<float>(colours.groups * all.size() * 4, 0.0f)}, {}};
     for (const Found &f : all) {
         for (const std::size_t k : colour_channels) {
             highlights.light.at(k, highlights.sample.size()) = f.share * colours.at(k, f.sample);

@@ -149,10 +149,12 @@ void gather_tiles(const GatherScene &scene, const LensGatherOptions &options, Pr
     std::vector<char> done(from.plan.count(), false);
     if (options.device) gather_on(*options.device, from, done);
     const std::vector<std::size_t> order = from.plan.in_order();
-    std::atomic<std::size_t> next = 0; // whichever thread: one after the other
-    parallel_for(order.size(), [&](std::size_t) {
+    std::atomic<std::size_t> next = 0;
+    parallel_for(order.size(), [&](std::size_t i) {
         progress.advance();
-        const std::size_t t = order[next++];
+        // Who watches is shown them one after the other, whichever thread makes them. Else threads work apart: tiles side by side wait
+        // for what shadows their lamps.
+        const std::size_t t = order[options.watch ? next++ : i];
         const std::optional<PlannedTile> tile = done[t] ? std::nullopt : from.plan.tile(t);
         if (!tile) return;
         gather_tile(*tile->scene, tile->task(), [&](const TilePicture &made) { from.finish(*tile, made); });

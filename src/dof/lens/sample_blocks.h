@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/coverage.h"
+#include "base/large_array.h"
 #include "deep/ldi.h"
 #include "dof/facets/known_pixels.h"
 #include "kernels/lens_rules.h"
@@ -33,17 +34,16 @@ struct BlockedSamples {
     // One entry a sample, and the backgrounds, opaque, with no colour and no alpha. A pixel that lets light through
     // to infinity has one there; and if it has samples, one at its last sample's place (though behind all else):
     // whoever sees that sample sees through it, also where what lies at infinity behind it is not known.
-    std::vector<float> x, y; // centre, pixels, relative to the data window's corner, y down
-    std::vector<float> coc;  // signed radius, pixels
+    LargeArray<float> x, y; // centre, pixels, relative to the data window's corner, y down
+    LargeArray<float> coc;  // signed radius, pixels
     // Where an opaque sample shows an image (Ldi::optical), coc is that of the image, by which its colour moves. This is the
     // one of the surface, by which it is decided where the mirror is seen at all. Empty where there are no images.
-    std::vector<float> surface_coc;
-    std::vector<float> alpha; // coverage, (0, 1]
-    std::vector<std::uint32_t>
-        upper; // the upper half of the key (kernels/lens_rules.h), which says the depth
-    std::vector<std::uint32_t>
+    LargeArray<float> surface_coc;
+    LargeArray<float> alpha;         // coverage, (0, 1]
+    LargeArray<std::uint32_t> upper; // the upper half of the key (kernels/lens_rules.h), which says the depth
+    LargeArray<std::uint32_t>
         named; // of solids (solid_samples.h): what the lower half of the key names; empty: the sample itself
-    std::vector<std::uint32_t> source; // index into the LDI's samples; `background` for the background
+    LargeArray<std::uint32_t> source; // index into the LDI's samples; `background` for the background
     static constexpr std::uint32_t background = 0xffffffffu;
 
     std::vector<SampleBlock> blocks; // row by row
@@ -59,7 +59,7 @@ struct BlockedSamples {
     }
     bool is_image(std::size_t i) const { return !surface_coc.empty() && surface_coc[i] != coc[i]; }
     // By which what hides moves.
-    const std::vector<float> &hiding_coc() const { return surface_coc.empty() ? coc : surface_coc; }
+    const LargeArray<float> &hiding_coc() const { return surface_coc.empty() ? coc : surface_coc; }
 };
 
 inline float largest_coc_of(const SampleBlock &block) {

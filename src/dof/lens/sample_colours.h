@@ -29,7 +29,7 @@ inline bool is_colour(ColourSet set) { return (set & (red | green | blue)) != 0;
 
 struct SampleColours {
     std::size_t groups = 0, count = 0; // of channels / 4, of samples
-    std::vector<float> values;
+    LargeArray<float> values;
     std::vector<ColourSet> sets = {}; // [channel], of all groups; the channels that fill up the last are data
 
     std::span<const float> group(std::size_t g) const {
@@ -54,12 +54,13 @@ inline std::vector<ColourSet> colour_sets(const Ldi &ldi, std::size_t count) {
 
 inline SampleColours make_colours(const Ldi &ldi, const BlockedSamples &samples) {
     const std::size_t channels = ldi.channels.size(), groups = (channels + 3) / 4, count = samples.count();
-    SampleColours colours{groups, count, std::vector<float>(groups * count * 4),
-                          colour_sets(ldi, groups * 4)};
+    SampleColours colours{groups, count, LargeArray<float>(groups * count * 4), colour_sets(ldi, groups * 4)};
     parallel_ranges(count, 4096, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i)
-            for (std::size_t k = 0; k < channels && samples.source[i] != BlockedSamples::background; ++k)
-                colours.at(k, i) = ldi.values[k][samples.source[i]];
+            for (std::size_t k = 0; k < groups * 4; ++k) {
+                const bool has_value = k < channels && samples.source[i] != BlockedSamples::background;
+                colours.at(k, i) = has_value ? ldi.values[k][samples.source[i]] : 0;
+            }
     });
     return colours;
 }

@@ -25,7 +25,7 @@ std::uint64_t order_key(float depth, std::uint32_t sample) {
 // Calls visit(begin, cells) with where a lens point sees the opaque samples of a block, from the one `begin` on, a few at once.
 template <typename Visit>
 [[gnu::always_inline]] inline void for_opaque(const TileProjection &projection, const BlockedSamples &samples,
-                                              const std::vector<float> &coc, const SampleBlock &block,
+                                              std::span<const float> coc, const SampleBlock &block,
                                               const Visit &visit) {
     std::array<std::int32_t, 256> cells;
     for (std::uint32_t begin = block.begin; begin < block.opaque_end; begin += std::uint32_t(cells.size())) {

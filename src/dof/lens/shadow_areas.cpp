@@ -73,7 +73,7 @@ void ShadowAreas::find_edges(std::size_t area) const {
 CocRange ShadowAreas::focus_of(std::size_t area) const {
     constexpr float infinity = std::numeric_limits<float>::infinity(),
                     rounding = 0.01f; // pixels
-    const std::vector<float> &coc = samples_.hiding_coc();
+    const std::span<const float> coc = samples_.hiding_coc();
     CocRange focus{infinity, -infinity};
     for (const std::uint32_t b : blocks_of(area))
         for (std::uint32_t i = samples_.blocks[b].begin; i < samples_.blocks[b].end; ++i) {
@@ -85,7 +85,7 @@ CocRange ShadowAreas::focus_of(std::size_t area) const {
 
 NearSteps ShadowAreas::steps_of(std::size_t area) const {
     std::vector<NearBounds> samples;
-    const std::vector<float> &coc = samples_.hiding_coc();
+    const std::span<const float> coc = samples_.hiding_coc();
     for (const std::uint32_t b : blocks_of(area)) {
         const SampleBlock &block = samples_.blocks[b];
         find_depths(b);

@@ -13,7 +13,7 @@ struct BlockedLdi {
     BlockedLdi(const Ldi &ldi, const ThinLens &lens) : samples(make_blocks(ldi, lens, ldi.windows.data)) {
         const std::size_t channels = ldi.channels.size();
         colours = {(channels + 3) / 4, samples.count(), {}};
-        colours.values.resize(colours.groups * colours.count * 4);
+        colours.values.resize(colours.groups * colours.count * 4, 0.0f);
         for (std::size_t i = 0; i < samples.count(); ++i)
             for (std::size_t k = 0; k < channels && samples.source[i] != BlockedSamples::background; ++k)
                 colours.at(k, i) = ldi.values[k][samples.source[i]];

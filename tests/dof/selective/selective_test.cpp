@@ -290,7 +290,7 @@ TEST(Selective, SameBitsWithAnyNumberOfThreads) {
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
         return gather(ldi, lens).values;
     };
-    const std::vector<float> one = with_threads(1);
+    const auto one = with_threads(1);
     EXPECT_EQ(one, with_threads(2));
     EXPECT_EQ(one, with_threads(7));
 }

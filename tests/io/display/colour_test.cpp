@@ -12,9 +12,9 @@ namespace sparselens {
 namespace {
 
 // One pixel of these values.
-Image pixel(std::vector<Channel> channels, std::vector<float> values) {
+Image pixel(std::vector<Channel> channels, const std::vector<float> &values) {
     Image image(windows_of_size(1, 1), std::move(channels));
-    image.values = std::move(values);
+    image.values = LargeArray<float>(values.begin(), values.end());
     return image;
 }
 

@@ -265,7 +265,7 @@ TEST(TakeDepth, TakesTheUsualNamesAndLeavesTheRest) {
     Image image = with_depths({{"R"}, {"Z", PixelType::float32}, {"id", PixelType::uint32}});
     EXPECT_EQ(take_depth(image, "", "f"), (std::vector<float>{2, 3}));
     EXPECT_EQ(image.channels, (std::vector<Channel>{{"R"}, {"id", PixelType::uint32}}));
-    EXPECT_EQ(image.values, (std::vector<float>{0, 1, 4, 5}));
+    EXPECT_EQ(image.values, (LargeArray<float>{0, 1, 4, 5}));
     for (const char *name : {"Z", "depth.Z", "ViewLayer.Depth.Z"}) {
         Image named = with_depths({{"R"}, {name, PixelType::float32}});
         EXPECT_EQ(take_depth(named, "", "f"), (std::vector<float>{2, 3})) << name;
@@ -287,7 +287,7 @@ TEST(TakeDepth, AnotherZIsNotCarried) {
     Image image = with_depths({{"R"}, {"Z", PixelType::float32}, {"depth.Z", PixelType::float32}});
     EXPECT_EQ(take_depth(image, "depth.Z", "f"), (std::vector<float>{4, 5}));
     EXPECT_EQ(image.channels, (std::vector<Channel>{{"R"}}));
-    EXPECT_EQ(image.values, (std::vector<float>{0, 1}));
+    EXPECT_EQ(image.values, (LargeArray<float>{0, 1}));
 }
 
 TEST(TakeDepth, IdsAreNoDepth) {

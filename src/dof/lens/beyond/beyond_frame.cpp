@@ -43,11 +43,7 @@ public:
         };
         picked_.from.reserve(std::size_t(double(ldi_.samples()) * area(grown_) / area(known_))); // about
         picked_.begin.reserve(windows_.pixels() + 1);
-        for (int y = windows_.data.min.y; y <= windows_.data.max.y; ++y)
-            for (int x = windows_.data.min.x; x <= windows_.data.max.x; ++x) {
-                add(Imath::V2i(x, y), made);
-                picked_.end_pixel();
-            }
+        for (int y = windows_.data.min.y; y <= windows_.data.max.y; ++y) add_row(y, made);
         pick(ldi_, std::move(picked_), to);
         to.windows = windows_;
     }
@@ -71,6 +67,20 @@ private:
     // Samples, and how much of their light is left.
     using Pixel = std::vector<std::pair<std::uint32_t, float>>;
 
+    void add_row(int y, BeyondFrame &made) {
+        const Imath::Box2i &data = ldi_.windows.data;
+        const int from = std::max(frame_.min.x, data.min.x), to = std::min(frame_.max.x, data.max.x);
+        const bool in_frame =
+            from <= to && y >= std::max(frame_.min.y, data.min.y) && y <= std::min(frame_.max.y, data.max.y);
+        for (int x = windows_.data.min.x; x <= windows_.data.max.x; ++x)
+            if (in_frame && x == from) {
+                picked_.keep_pixels(ldi_, ldi_.windows.index(x, y), std::size_t(to - from + 1));
+                x = to;
+            } else {
+                add(Imath::V2i(x, y), made);
+                picked_.end_pixel();
+            }
+    }
     void add(const Imath::V2i &at, BeyondFrame &made) {
         Pixel pixel;
         if (frame_.intersects(at) || !grown_.intersects(at)) {

@@ -19,6 +19,8 @@ struct Picked {
         from.push_back(sample);
     }
     void end_pixel() { begin.push_back(from.size()); }
+    // All that pixels in a row have.
+    void keep_pixels(const Ldi &of, std::size_t first, std::size_t count);
 };
 
 // The windows of `to`, which may be the same LDI, stay as they are.
