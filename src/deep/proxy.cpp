@@ -59,6 +59,15 @@ void take_means(std::span<const std::uint32_t> joined, std::vector<Seen> &seen) 
         }
 }
 
+// A cell that is solid in part is solid. Otherwise the light of lamps would pass at the limbs of what hides them, through gaps as wide
+// as a cell.
+float most_solid_of(const Ldi &ldi, std::span<const Term> terms) {
+    float most = 0;
+    for (const Term &term : terms)
+        if (!ldi.solid.empty()) most = std::max(most, ldi.solid[term.index]);
+    return most;
+}
+
 // Front to back.
 void find_samples(const Ldi &ldi, std::size_t alpha, const Imath::V2i &small, int factor,
                   std::span<const std::uint32_t> joined, std::vector<Seen> &seen) {
@@ -144,7 +153,7 @@ public:
             MergedSample surface = sample_at(ldi_, seen[begin].index);
             place.set(surface);
             surface.terms = terms;
-            surface.solid = solid_of(ldi_, alpha_, terms);
+            surface.solid = by_.scale > 0 ? most_solid_of(ldi_, terms) : solid_of(ldi_, alpha_, terms);
             append(out, surface);
             left = std::max(0.0, left - shown);
         }

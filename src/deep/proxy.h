@@ -18,10 +18,11 @@ struct ProxyFor {
     std::span<const std::uint32_t> joined = {};
 };
 
-// The LDI at 1 / factor of its size, factor >= 1. Its depth is the harmonic mean of those of its samples. Its coverage and colours are its share of the mean of the flattened pixels, so that the flattened small LDI
-// is the mean (box filter) of the flattened large one; its position is their mean. Samples that they hide completely
-// are kept behind it. Ids are those of the first sample of a surface. Data windows whose size is not a multiple of
-// `factor` are filled up with empty pixels. The result has a channel A even if `ldi` has none.
+// The LDI at 1 / factor of its size, factor >= 1. The depth of a surface is the harmonic mean of those of its samples. Its coverage and
+// colours are its share of the mean of the flattened pixels, so that the flattened small LDI is the mean (box filter) of the flattened
+// large one; its position is their mean. Samples that they hide completely are kept behind it. Ids are those of the first sample of a
+// surface. What is solid behind a surface (Ldi::solid) is the least of its samples', but for a lens the most. Data windows whose size is
+// not a multiple of `factor` are filled up with empty pixels. The result has a channel A even if `ldi` has none.
 Ldi proxy(const Ldi &ldi, int factor, const ProxyFor &by = {});
 
 // The LDI at `factor` times its size: each pixel as often, across and down. Where in a pixel its samples lie is forgotten.

@@ -66,6 +66,12 @@ TEST(Solid, IsTheLeastOfWhatIsMerged) {
     EXPECT_EQ(proxy(solid(four, {.4f, .3f, .2f, 0}), 2).solid, (Floats{.3f, 0}));
 }
 
+TEST(Solid, IsTheMostOfWhatIsOneInACellOfALens) {
+    const Ldi four = ldi_of({{{.z = 2}}, {{.z = 2}}, {{.z = 2}}, {{.z = 2}}});
+    EXPECT_EQ(proxy(solid(four, {.4f, .3f, .2f, 0}), 2, {.scale = 1, .tolerance = .25}).solid,
+              (Floats{.4f, .2f}));
+}
+
 TEST(Solid, OfLayersThatBecomeOneIsTheLeastToo) {
     const Ldi layers = ldi_of({{{.z = 2, .alpha = .5f}, {.z = 2.001f}}, {{.z = 2, .alpha = .4f}}});
     EXPECT_EQ(merge_layers(solid(layers, {.2f, .3f, 0}), 1, .25).solid, (Floats{.2f, 0}));
