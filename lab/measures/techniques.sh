@@ -28,11 +28,12 @@ done
 figures() { # WARP_OPTIONS GATHER_OPTIONS: of each scene, one a line; of the fine ones, too
     local scene quality
     for scene in "${scenes[@]}" "${fine[@]}"; do
-        quality=final
-        [[ $scene != *.?x ]] || quality=normal
+        quality="--quality final"
+        [[ $2 != --method* && $scene != *.?x ]] || quality= # other methods have none
         # shellcheck disable=SC2046,SC2086
-        ldi-warp $1 $(five_views "$scene") -o - 2>/dev/null | dof-gather - --quality $quality $2 -o picture.exr 2>/dev/null
-        db picture.exr "$scene.exr"
+        ldi-warp $1 $(five_views "$scene") -o - 2>log | dof-gather - $quality $2 -o picture.exr 2>>log ||
+            { cat log >&2 && return 1; }
+        db picture.exr "$scene.exr" || return 1
         echo
     done
 }
@@ -54,14 +55,19 @@ head_of "${scenes[@]}"
 head_of "${fine[@]}" >fine.md
 all=$(figures "" "")
 row "everything on, dB" "$all"
-row "all averaging (\`--merge keep\`)" "$(figures "--merge keep" "")" "$all"
-row "unmixing (\`--silhouettes whole\`)" "$(figures "--silhouettes whole" "")" "$all"
-row "the test of photo-consistency (\`--agreement assume\`)" "$(figures "--agreement assume" "")" "$all"
-row "the depth of images (\`--optical off\`)" "$(figures "--optical off" "")" "$all"
-row "visibility at every lens point (\`--method selective\`)" "$(figures "" "--method selective")" "$all"
+without() { # LABEL COMMAND...
+    local now
+    now=$("${@:2}")
+    row "$1" "$now" "$all"
+}
+without "all averaging (\`--merge keep\`)" figures "--merge keep" ""
+without "unmixing (\`--silhouettes whole\`)" figures "--silhouettes whole" ""
+without "the test of photo-consistency (\`--agreement assume\`)" figures "--agreement assume" ""
+without "the depth of images (\`--optical off\`)" figures "--optical off" ""
+without "visibility at every lens point (\`--method selective\`)" figures "" "--method selective"
 copy_source
 while IFS='|' read -r label file what instead; do
-    row "$label (\`$file\`)" "$(variant "$file" "$what" "$instead" figures "" "")" "$all"
+    without "$label (\`$file\`)" variant "$file" "$what" "$instead" figures "" ""
 done < <(grep -v '^#' "$(dirname "$0")/techniques.txt")
 printf '\nOf 320x180 at normal quality, with the same rays in views of once, twice and four times the size:\n\n'
 cat fine.md
