@@ -1,6 +1,7 @@
 #include "lab/reference/facets_slowly.h"
 
 #include "dof/facets/facets.h"
+#include "kernels/lens_rules.h"
 #include "lab/reference/find_facets_slowly.h"
 
 #include <algorithm>

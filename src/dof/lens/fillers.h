@@ -18,8 +18,6 @@
 
 #include "deep/ldi.h"
 #include "dof/facets/known_pixels.h"
-#include "dof/lens/sample_blocks.h"
-#include "dof/lens/sample_colours.h"
 #include "lens/thin_lens.h"
 
 #include <array>
@@ -48,16 +46,5 @@ struct Filler {
 
 // At most one a pixel, in the order of the pixels. The LDI has less than 2^32 samples and pixels.
 std::vector<Filler> find_fillers(const Ldi &ldi, const ThinLens &lens, const KnownPixels &known);
-
-// As the lens gather wants them: in blocks, with their colours.
-struct FillerSamples {
-    BlockedSamples samples; // `source` is the number of the filler; `background` where it is nothing
-    SampleColours colours;
-};
-
-// `samples`, `colours`: of the LDI that the fillers belong to; what highlights spread is no longer in the colours, so
-// that no lamp goes on behind anything.
-FillerSamples place_fillers(const Ldi &ldi, const ThinLens &lens, std::span<const Filler> fillers,
-                            const BlockedSamples &samples, const SampleColours &colours);
 
 } // namespace sparselens

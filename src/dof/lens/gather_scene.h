@@ -4,7 +4,7 @@
 
 #include "dof/facets/known_pixels.h"
 #include "dof/facets/placed_facets.h"
-#include "dof/lens/fillers.h"
+#include "dof/lens/filler_samples.h"
 #include "dof/lens/held_out.h"
 #include "dof/lens/highlights.h"
 #include "dof/lens/lens_gather.h"

@@ -17,11 +17,6 @@ namespace {
 
 static_assert(size == 64); // cell_rows.h
 
-// Sorts by depth, the nearest first, then by index.
-std::uint64_t order_key(float depth, std::uint32_t sample) {
-    return (std::uint64_t(~std::bit_cast<std::uint32_t>(depth)) << 32) | sample;
-}
-
 // Calls visit(begin, cells) with where a lens point sees the opaque samples of a block, from the one `begin` on, a few at once.
 template <typename Visit>
 [[gnu::always_inline]] inline void for_opaque(const TileProjection &projection, const BlockedSamples &samples,
@@ -49,7 +44,8 @@ See::See(const GatherScene &scene, const TileTask &tile) : scene_(scene), tile_(
     bounds_.set(tile.samples, scene.samples);
     filler_bounds_.set(tile.fillers, scene.fillers.samples);
     solid_bounds_.set(tile.solids, scene.solids);
-    collect_partial();
+    seen_.partial = partial_samples_of(scene.samples, tile);
+    seen_.partial_cells.resize(seen_.partial.count());
 }
 
 // The steps. What shows through cracks is seen last: a crack lies between what the lens point meets, and others and fillers
@@ -83,41 +79,6 @@ bool See::is_deep() const {
         }
     }
     return nearest > farthest + kernels::behind_crack_px;
-}
-
-// Those that some lens point brings into the tile, or into a pixel next to it.
-void See::collect_partial() {
-    const BlockedSamples &samples = scene_.samples;
-    float reach_x = 0, reach_y = 0, beside = border; // for each pixel of CoC, and of all
-    for (const LensSample &p : tile_.lens) {
-        reach_x = std::max(reach_x, std::abs(p.x));
-        reach_y = std::max(reach_y, std::abs(p.y));
-        beside = std::max({beside, border + std::abs(p.pixel_x), border + std::abs(p.pixel_y)});
-    }
-    const auto in_reach = [&](std::uint32_t i) {
-        const float coc = std::abs(samples.coc[i]), x = samples.x[i] - float(tile_.origin.x),
-                    y = samples.y[i] - float(tile_.origin.y);
-        const float across = coc * reach_x + beside, down = coc * reach_y + beside;
-        return x > -across && x < float(tile_.size) + across && y > -down && y < float(tile_.size) + down;
-    };
-    std::vector<std::uint64_t> order;
-    for (const std::uint32_t b : tile_.samples)
-        for (std::uint32_t i = samples.blocks[b].opaque_end; i < samples.blocks[b].end; ++i)
-            if (in_reach(i)) order.push_back(order_key(samples.depth(i), i));
-    std::sort(order.begin(), order.end());
-    PartialSamples &partial = seen_.partial;
-    partial.sample.assign(order.begin(), order.end()); // the lower half
-    const auto in_order = [&](auto &to, const auto &value) {
-        to.resize(order.size());
-        std::ranges::transform(partial.sample, to.begin(), value);
-    };
-    in_order(partial.x, [&](std::uint32_t i) { return samples.x[i]; });
-    in_order(partial.y, [&](std::uint32_t i) { return samples.y[i]; });
-    in_order(partial.coc, [&](std::uint32_t i) { return samples.coc[i]; });
-    in_order(partial.depth, [&](std::uint32_t i) { return samples.depth(i); });
-    in_order(partial.left, [&](std::uint32_t i) { return 1 - samples.alpha[i]; });
-    in_order(partial.key, [&](std::uint32_t i) { return samples.key(i); });
-    seen_.partial_cells.resize(order.size());
 }
 
 TileProjection See::projection(const LensSample &point) const {

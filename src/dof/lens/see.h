@@ -8,6 +8,7 @@
 #include "dof/device/tile_device.h"
 #include "dof/lens/gather_scene.h"
 #include "dof/lens/lens_tiles.h"
+#include "dof/lens/partial_samples.h"
 #include "dof/lens/tile_projection.h"
 #include "kernels/lens_layout.h"
 #include "lens/cat_eye.h"
@@ -32,17 +33,6 @@ constexpr std::size_t at(int x, int y) { return std::size_t((y + border) * strid
 constexpr int column(std::size_t cell) { return int(cell) % stride - border; }
 constexpr int row(std::size_t cell) { return int(cell) / stride - border; }
 } // namespace tile_cells
-
-// Samples of partial coverage that a tile may see, front to back. All that is asked of them is side by side in that order, as
-// they are many.
-struct PartialSamples {
-    std::vector<std::uint32_t> sample; // of the BlockedSamples
-    std::vector<float> x, y, coc, depth;
-    std::vector<float> left; // what each leaves of the light behind it
-    std::vector<std::uint64_t> key;
-
-    std::size_t count() const { return sample.size(); }
-};
 
 // Keys name samples by their lower half: those of the picture, or the fillers.
 struct Seen {
@@ -97,7 +87,6 @@ private:
         std::uint64_t key; // of the sample that shows through it
     };
     bool is_deep() const;
-    void collect_partial();
     TileProjection projection(const LensSample &point) const;
     BlockBounds::Box box_of(const Cells &cells) const;
     void see_columns(const LensSample &point);
