@@ -317,8 +317,7 @@ std::vector<Way> with_images(const Way &way, const Scene &scene, const LensSampl
 // A lens point sees partial samples before what shows through a crack.
 Way through_crack(const std::vector<Met> &partial, const Placed *torn, bool is, const Pixel &pixel) {
     Way way{partial, is};
-    const auto behind =
-        std::ranges::find_if(way.met, [&](const Met &m) { return before(torn, m.sample); });
+    const auto behind = std::ranges::find_if(way.met, [&](const Met &m) { return before(torn, m.sample); });
     way.met.insert(behind, {torn, true, true, passes(*torn, pixel)});
     return way;
 }

@@ -132,10 +132,11 @@ std::vector<Answer> answers(std::span<const Rows> scenes) {
         return five_views(row) || method_name(row) == "centre + 4 denoised, lens normal";
     };
     std::vector<Answer> result;
-    add_comparison(scenes, "Denoised ray tracing, of as many rays?", renderer_is("denoised ray tracing"), either,
-                   result);
+    add_comparison(scenes, "Denoised ray tracing, of as many rays?", renderer_is("denoised ray tracing"),
+                   either, result);
     add_comparison(scenes, "Ray tracing the lens as it is?", traced, five_views, result);
-    add_comparison(scenes, "Averages of many views?", renderer_is("accumulated lens views"), five_views, result);
+    add_comparison(scenes, "Averages of many views?", renderer_is("accumulated lens views"), five_views,
+                   result);
     add_programs(scenes, result);
     add_notes(scenes, result);
     return result;

@@ -41,14 +41,10 @@ void add_errors(const std::string &prefix, const ErrorFigures &errors, Fields &f
 }
 
 Fields fields_of(const ReportRow &row, const RayTracingCurves &ray_tracing) {
-    Fields fields{{"scene", row.scene},
-                  {"renderer", row.renderer},
-                  {"processor", row.processor},
-                  {"budget", row.budget},
-                  {"size", row.size},
-                  {"views", fmt::to_string(row.views)},
-                  {"rays", shortest(row.rays)},
-                  {"seconds", shortest(total_seconds(row))}};
+    Fields fields{{"scene", row.scene},         {"renderer", row.renderer},
+                  {"processor", row.processor}, {"budget", row.budget},
+                  {"size", row.size},           {"views", fmt::to_string(row.views)},
+                  {"rays", shortest(row.rays)}, {"seconds", shortest(total_seconds(row))}};
     for (std::size_t s = 0; s < stage_names.size(); ++s)
         fields.emplace_back(std::string("seconds_") + stage_names[s], shortest(row.seconds[s]));
     fields.emplace_back("runs", fmt::to_string(row.runs));

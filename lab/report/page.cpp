@@ -115,8 +115,8 @@ std::string answers_table(std::span<const PageScene> scenes) {
     const std::vector<Answer> all = answers(rows);
     if (all.empty()) return "";
     std::string html = "<table class=\"answers\">\n<thead><tr>\n" + element("th", "the question") +
-                       element("th", "where that is better than five views") + element("th", "where five views are") +
-                       "</tr></thead>\n<tbody>\n";
+                       element("th", "where that is better than five views") +
+                       element("th", "where five views are") + "</tr></thead>\n<tbody>\n";
     for (const Answer &answer : all)
         html += "<tr>\n" + element("td", answer.question) + element("td", answer.losses) +
                 element("td", answer.gains) + "</tr>\n";
@@ -150,7 +150,8 @@ std::string section(const PageScene &scene) {
     std::string html = "<section>\n" + element("h2", name) + "<ul class=\"verdict\">\n";
     for (const std::string &sentence : scene.sentences) html += element("li", sentence);
     html += "</ul>\n" + viewer(scene.pictures);
-    html += plots_of(scene.plots) + on_demand("Plots of every way that was measured", plots_of(scene.more_plots));
+    html +=
+        plots_of(scene.plots) + on_demand("Plots of every way that was measured", plots_of(scene.more_plots));
     html += worst_blocks(scene.worst);
     return html + table(scene.rows) + "</section>\n";
 }

@@ -90,9 +90,10 @@ std::string plot_command(const std::vector<Line> &lines, const char *columns) {
 std::vector<ReportRow> rows_in_use(std::span<const ReportRow> rows) {
     constexpr std::size_t most = 6;
     std::vector<std::string> used;
-    for (const char *name : {"distributed ray tracing", "denoised ray tracing", "centre + 4, lens normal",
-                             "accumulated lens views", "one view, lens normal", "centre + 4 denoised, lens normal",
-                             "centre + 4 planned, lens normal", "centre + 8, lens normal"})
+    for (const char *name :
+         {"distributed ray tracing", "denoised ray tracing", "centre + 4, lens normal",
+          "accumulated lens views", "one view, lens normal", "centre + 4 denoised, lens normal",
+          "centre + 4 planned, lens normal", "centre + 8, lens normal"})
         if (used.size() < most &&
             std::ranges::any_of(rows, [&](const ReportRow &row) { return method_name(row) == name; }))
             used.push_back(name);

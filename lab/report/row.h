@@ -45,7 +45,7 @@ struct ReportRow {
     std::optional<ErrorCauses> causes;
     std::optional<Steadiness> pull;  // of a pull of focus to 1.1 times its distance, in 16 frames
     std::string picture, difference; // PNG files, relative to the folder of the report
-    std::string worst{};             // another: the worst 8 x 8 pixels amid others, and the reference's beside them
+    std::string worst{}; // another: the worst 8 x 8 pixels amid others, and the reference's beside them
 };
 
 double total_seconds(const ReportRow &row);

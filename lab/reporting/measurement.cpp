@@ -1,6 +1,7 @@
 #include "lab/reporting/measurement.h"
 
 #include "base/parallel.h"
+#include "base/tone_map.h"
 #include "io/display/shown_picture.h"
 #include "io/exr/exr_flat.h"
 #include "io/files/folder.h"
@@ -10,7 +11,6 @@
 #include "lab/reporting/files.h"
 #include "loading/region_file.h"
 #include "measure/flip.h"
-#include "base/tone_map.h"
 
 #include <fmt/format.h>
 

@@ -110,8 +110,9 @@ std::optional<Rendered> ReadyScene::views(const ViewFolders &folders, int rim, i
     const std::string centre = "center." + ending;
     if (wanted > points.size() || (wanted > 0 && points.size() % wanted != 0)) return {};
     if (!found->camera.seconds.contains(centre)) return {};
-    Rendered views{.folder = fmt::format("{}/{}{}-{}x{}", name_, found->camera.supersample == 1 ? "views" : "fine",
-                                          kind_of(ending), 1 + rim, samples),
+    Rendered views{.folder =
+                       fmt::format("{}/{}{}-{}x{}", name_, found->camera.supersample == 1 ? "views" : "fine",
+                                   kind_of(ending), 1 + rim, samples),
                    .picture = (found->path / centre).string(),
                    .ready_seconds = found->camera.seconds.at(centre),
                    .views = 1 + rim,

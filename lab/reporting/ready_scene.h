@@ -63,7 +63,7 @@ private:
     std::filesystem::path folder_;
     std::string name_;
     ViewFolders views_, fine_; // by samples per pixel, each number once; fine: larger than the picture
-    CameraSummary camera_;          // of the folder itself
+    CameraSummary camera_;     // of the folder itself
 };
 
 } // namespace sparselens::lab

@@ -37,7 +37,8 @@ struct Rendered {
     double rays = 0;         // camera samples per pixel, all views together
     int planned_samples = 0; // above 0: rim views are partial, with so many samples in each covered pixel
     int supersample = 1;     // views are so many times as wide as the picture
-    std::vector<std::string> pull{}; // frames of a pull of focus that were rendered the same way; may be empty
+    std::vector<std::string>
+        pull{}; // frames of a pull of focus that were rendered the same way; may be empty
 };
 
 // A picture that another way made.

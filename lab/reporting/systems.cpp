@@ -72,8 +72,8 @@ public:
     std::string many_points() {
         const Layers from = warp();
         const Words words{"--method", "lens", "--lens-samples", fmt::to_string(budgets_.many_points)};
-        const Layers made =
-            then(from, Stage::process, "many-points", {"dof-gather", from.file}, words + size() + lens_, 4, false);
+        const Layers made = then(from, Stage::process, "many-points", {"dof-gather", from.file},
+                                 words + size() + lens_, 4, false);
         return made.file;
     }
 

@@ -12,7 +12,7 @@ namespace sparselens::lab {
 namespace {
 
 constexpr int layer_count = 4;       // of depth peeling and strata
-constexpr int fine = 2;        // times the size of the picture, of fine views
+constexpr int fine = 2;              // times the size of the picture, of fine views
 constexpr int lens_view_samples = 4; // a pixel: with fewer, moving the views by parts of a pixel costs much
 
 std::vector<std::string> view_files(const std::string &folder, int rim) {

@@ -89,8 +89,7 @@ StressResult blocks() {
 // Four times the pixels, and the disc as much wider.
 StressResult grown(double coc, double wider, double Looked::*count) {
     StressResult result;
-    const Looked small = looked_at(512, coc, result),
-                 large = looked_at(1024, coc * wider, result);
+    const Looked small = looked_at(512, coc, result), large = looked_at(1024, coc * wider, result);
     result.error += large.*count / small.*count;
     return result;
 }
@@ -100,20 +99,22 @@ StressResult grown_disc() { return grown(40, 2, &Looked::samples); }
 // Samples that lie within a tile of so many cells, one beside it on either side, or in a block of 8 that reaches into that.
 constexpr double samples_for_each_pixel(int cells) { return (cells + 17.0) * (cells + 17.0) / tile_pixels; }
 
-constexpr const char *whole_blocks =
-    "a lens point moves into a tile what lies in it, one cell beside it, or in a block of 8 that reaches into these";
+constexpr const char *whole_blocks = "a lens point moves into a tile what lies in it, one cell beside it, or "
+                                     "in a block of 8 that reaches into these";
 constexpr std::array cases{
     StressCase{"samples_coc_10", "samples looked at for each pixel and lens point, an opaque plane at CoC 10",
                samples_for_each_pixel(64), whole_blocks, samples<10>},
-    StressCase{"samples_coc_30", "the same at CoC 30, three times as wide", samples_for_each_pixel(64), whole_blocks,
-               samples<30>},
+    StressCase{"samples_coc_30", "the same at CoC 30, three times as wide", samples_for_each_pixel(64),
+               whole_blocks, samples<30>},
     StressCase{"cells_coc_40", "the same at CoC 40: cells of 4 x 4, two beside a tile",
                samples_for_each_pixel(16 + 4), whole_blocks, samples<40>},
     StressCase{"cells_coc_80", "the same at CoC 80: cells of 8 x 8, two beside a tile",
                samples_for_each_pixel(8 + 4), whole_blocks, samples<80>},
     StressCase{"blocks_coc_10", "blocks asked by each lens point, a plane at CoC 10 in 1024 x 1024 pixels",
                (64 + 2 * 10 + 17) * (64 + 2 * 10 + 17) / 64.0,
-               "blocks of 8 x 8 within the CoC and a pixel of a tile, or that reach into that; 16384 are in the picture", blocks},
+               "blocks of 8 x 8 within the CoC and a pixel of a tile, or that reach into that; 16384 are in "
+               "the picture",
+               blocks},
     StressCase{"grown_picture", "four times the pixels, CoC 10 as before: times the blocks asked", 4 * 1.25,
                "a tile at the border, of which a small picture has more, has fewer beside it", grown_picture},
     StressCase{"grown_disc", "four times the pixels, CoC 80 in place of 40: times the samples looked at", 4,

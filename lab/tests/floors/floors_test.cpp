@@ -1,13 +1,13 @@
 // The whole way from views to the picture is as good as it was: floors.h.
 #include "deep/edge_depths.h"
 #include "deep/tidy.h"
+#include "deep/view_samples.h"
 #include "dof/gather_picture.h"
 #include "io/exr/exr_flat.h"
 #include "lab/tests/floors/floors.h"
 #include "lab/tests/support/traced.h"
 #include "lab/trace/deep.h"
 #include "measure/image_error.h"
-#include "deep/view_samples.h"
 #include "warp/warp.h"
 
 #include <gtest/gtest.h>

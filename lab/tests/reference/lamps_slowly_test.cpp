@@ -89,16 +89,11 @@ TEST_P(LampsSlowly, AreTheLightOfATile) {
     const Case &c = GetParam();
     const ThinLens lens = lens_of(c);
     const Ldi ldi = scene(c, lens);
-    GatherScene lit{&ldi,
-                    ldi.windows.data,
-                    lens,
-                    std::make_unique<Optics>(ldi, lens, LensLooks{}, 0),
-                    {},
-                    make_blocks(ldi, lens, ldi.windows.data),
-                    {},
-                    {},
-                    {},
-                    {}};
+    GatherScene lit{&ldi, ldi.windows.data,
+                    lens, std::make_unique<Optics>(ldi, lens, LensLooks{}, 0),
+                    {},   make_blocks(ldi, lens, ldi.windows.data),
+                    {},   {},
+                    {},   {}};
     const BlockedSamples &samples = lit.samples;
     lit.colours = make_colours(ldi, samples);
     const LightChannels channels = light_channels(ldi);

@@ -21,18 +21,20 @@ std::vector<Answer> answers_of(const std::vector<ReportRow> &rows) {
 }
 
 const Answer &about(const std::vector<Answer> &all, const std::string &word) {
-    const auto found =
-        std::ranges::find_if(all, [&](const Answer &a) { return a.question.find(word) != std::string::npos; });
+    const auto found = std::ranges::find_if(
+        all, [&](const Answer &a) { return a.question.find(word) != std::string::npos; });
     if (found == all.end()) throw std::runtime_error("no answer about " + word);
     return *found;
 }
 
 TEST(Answers, TellAtWhichRaysTheDenoiserIsBetter) {
-    const auto all = answers_of({row("centre + 4", "lens normal", 5, 30), row("centre + 4", "lens normal", 80, 40),
-                                 row("denoised ray tracing", "", 5, 28), row("denoised ray tracing", "", 80, 42.5)});
+    const auto all =
+        answers_of({row("centre + 4", "lens normal", 5, 30), row("centre + 4", "lens normal", 80, 40),
+                    row("denoised ray tracing", "", 5, 28), row("denoised ray tracing", "", 80, 42.5)});
     EXPECT_EQ(about(all, "Denoised").losses, "fence at 80 rays (up to 2.5 dB)");
     EXPECT_EQ(about(all, "Denoised").gains, "fence at 5 rays (up to 2.0 dB)");
-    EXPECT_EQ(std::ranges::count_if(all, [](const Answer &a) { return a.question.starts_with("Averages"); }), 0);
+    EXPECT_EQ(std::ranges::count_if(all, [](const Answer &a) { return a.question.starts_with("Averages"); }),
+              0);
 }
 
 // A denoiser of the views may have the better of the two: it costs them no ray either.
@@ -64,13 +66,15 @@ TEST(Answers, ProgramsOfOneViewAreComparedWithOneView) {
 
 TEST(Plot, ShowsSixWaysThatAreInUse) {
     std::vector<ReportRow> rows;
-    for (const char *of_literature : {"one view, scatter", "centre + 4, selective K=8", "4 strata, layered blend",
-                                      "one view, lens normal", "accumulated lens views", "distributed ray tracing",
-                                      "denoised ray tracing", "centre + 4, lens normal", "centre + 8, lens normal",
-                                      "centre + 4 denoised, lens normal"}) {
+    for (const char *of_literature :
+         {"one view, scatter", "centre + 4, selective K=8", "4 strata, layered blend",
+          "one view, lens normal", "accumulated lens views", "distributed ray tracing",
+          "denoised ray tracing", "centre + 4, lens normal", "centre + 8, lens normal",
+          "centre + 4 denoised, lens normal"}) {
         const std::string name = of_literature;
         const auto comma = name.find(", ");
-        rows.push_back(row(name.substr(0, comma), comma == std::string::npos ? "" : name.substr(comma + 2), 5, 30));
+        rows.push_back(
+            row(name.substr(0, comma), comma == std::string::npos ? "" : name.substr(comma + 2), 5, 30));
     }
     const std::vector<ReportRow> kept = rows_in_use(rows);
     ASSERT_EQ(kept.size(), 6u);

@@ -33,8 +33,13 @@ TEST(Page, HoldsAllOfItself) {
     std::vector<ReportRow> rows = ray_tracing_rows();
     rows.push_back(report_row(Role::sparse_lens, "<sparse> & \"co\"", 2, 5, 39));
     rows.back().errors.front().nonfinite_image = 12345;
-    const std::string html = page_as_html(
-        {{"a < machine"}, {{rows, {"1 < 2"}, {"<svg/>"}, {"<svg2/>"}, {{"reference", "foo"}, {"best", "bar"}}, {{"a > block", "foob"}}}}});
+    const std::string html = page_as_html({{"a < machine"},
+                                           {{rows,
+                                             {"1 < 2"},
+                                             {"<svg/>"},
+                                             {"<svg2/>"},
+                                             {{"reference", "foo"}, {"best", "bar"}},
+                                             {{"a > block", "foob"}}}}});
     EXPECT_TRUE(html.starts_with("<!DOCTYPE html>"));
     EXPECT_TRUE(holds(html, "a &lt; machine"));
     EXPECT_TRUE(holds(html, "1 &lt; 2"));

@@ -75,7 +75,8 @@ TEST(Systems, TheWholeTaxonomyIsThere) {
                                          "centre + 8, lens final"};
     EXPECT_EQ(methods, expected);
     EXPECT_EQ(all.plan.rows.size(),
-              4u * 7 + 5 + 5 + 4 * 12 + 3 * 2); // four sample counts, five of rays and lens views; three of fine views
+              4u * 7 + 5 + 5 + 4 * 12 +
+                  3 * 2); // four sample counts, five of rays and lens views; three of fine views
     EXPECT_TRUE(std::ranges::includes(methods, quick_methods));
     EXPECT_EQ(quick_methods.size(), 14u);
 }
