@@ -1,5 +1,6 @@
-// An array that is set by those who fill it: what it grows by is not cleared first, so that its memory is touched by all the threads
-// that fill it and not by the one that asks for it. Whoever leaves out an entry finds any value there.
+// A std::vector that does not clear what it grows by: whoever asks for entries sets all of them, and one that is not set may hold
+// anything. The threads that set them are then the first to touch their memory, which takes as long as clearing does; a std::vector
+// has it touched by one thread.
 #pragma once
 
 #include <memory>

@@ -152,8 +152,8 @@ void gather_tiles(const GatherScene &scene, const LensGatherOptions &options, Pr
     std::atomic<std::size_t> next = 0;
     parallel_for(order.size(), [&](std::size_t i) {
         progress.advance();
-        // Who watches is shown them one after the other, whichever thread makes them. Else threads work apart: tiles side by side wait
-        // for what shadows their lamps.
+        // Somebody who watches is shown the tiles in this order. Otherwise the threads begin far apart: tiles side by side would wait for
+        // each other, as what may shadow their lamps is found once.
         const std::size_t t = order[options.watch ? next++ : i];
         const std::optional<PlannedTile> tile = done[t] ? std::nullopt : from.plan.tile(t);
         if (!tile) return;
