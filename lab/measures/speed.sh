@@ -22,6 +22,9 @@ for size in ${sizes-1920x1080 3840x2160}; do
         row "\`oiiotool --flatten\`" "$flatten"
         row "\`ldi-warp\`" "$warp"
         row "\`dof-gather\`" "$(cost dof-gather ldi.exr -o picture.exr)"
+        for fstop in 1.5 2.8; do
+            [ $scene != macro ] || row "\`dof-gather --fstop $fstop\`" "$(cost dof-gather ldi.exr --fstop $fstop -o picture.exr)"
+        done
         [ $scene != fence ] || row "\`dof-gather --quality final\`" "$(cost dof-gather ldi.exr --quality final -o picture.exr)"
     done
 done
