@@ -10,7 +10,6 @@
 #include "options/chosen_device.h"
 #include "options/colour_options.h"
 #include "options/warp_options.h"
-#include "view/view_mapping.h"
 #include "warp/reprojected_views.h"
 #include "warp/warp.h"
 

@@ -1,5 +1,6 @@
 #include "plan/disocclusion.h"
 
+#include "base/parallel.h"
 #include "plan/tuning.h"
 
 #include <algorithm>
@@ -172,6 +173,23 @@ PixelMask grown(const PixelMask &mask, int margin) {
         grow_line(&rows.set[grid.index(x, 0)], &both.set[grid.index(x, 0)], grid.height(),
                   std::size_t(grid.width()), margin);
     return both;
+}
+
+double share_at_edges(const Windows &windows, std::span<const float> z, const ThinLens &lens) {
+    const Grid grid(windows.width(), windows.height());
+    const auto depth = [&](int x, int y) { return perceptive_depth(lens, double(z[grid.index(x, y)])); };
+    std::vector<std::size_t> edges(std::size_t(grid.height())); // by row
+    parallel_for(edges.size(), [&](std::size_t row) {
+        const int y = int(row);
+        for (int x = 0; x < grid.width(); ++x) {
+            const double own = depth(x, y);
+            const auto torn = [&](int u, int v) {
+                return grid.contains(u, v) && std::abs(depth(u, v) - own) > double(torn_px);
+            };
+            edges[row] += torn(x - 1, y) || torn(x + 1, y) || torn(x, y - 1) || torn(x, y + 1);
+        }
+    });
+    return double(std::accumulate(edges.begin(), edges.end(), std::size_t{0})) / double(grid.size());
 }
 
 } // namespace sparselens

@@ -43,6 +43,9 @@ struct MovedDepth {
 MovedDepth move_depth(const Windows &windows, std::span<const float> z, const ThinLens &lens,
                       const Imath::V2d &u);
 
+// Of the pixels of windows.data, the share beside which the depth is torn: edges of what stands before something else.
+double share_at_edges(const Windows &windows, std::span<const float> z, const ThinLens &lens);
+
 // The pixels of the rim view in which nothing lands.
 PixelMask disoccluded(const MovedDepth &moved);
 

@@ -1,7 +1,6 @@
 #include "plan/plan.h"
 
 #include "base/parallel.h"
-#include "kernels/surface.h"
 #include "lens/lens_points.h"
 #include "plan/noise.h"
 #include "plan/tuning.h"
@@ -159,27 +158,6 @@ OverscanNeed overscan_of(const View &centre, const ThinLens &lens) {
             largest_coc({0, bottom}, {1, 0}, w.width(), w.height(), lens.pixel_aspect)};
 }
 
-double share_at_edges(const View &centre, const ThinLens &lens) {
-    const Grid grid = centre.image.windows.grid();
-    const auto depth = [&](int x, int y) {
-        return perceptive_depth(
-            lens, double(centre.z[std::size_t(y) * std::size_t(grid.width()) + std::size_t(x)]));
-    };
-    std::vector<std::size_t> edges(std::size_t(grid.height())); // by row
-    parallel_for(edges.size(), [&](std::size_t row) {
-        const int y = int(row);
-        for (int x = 0; x < grid.width(); ++x) {
-            const double own = depth(x, y);
-            const auto torn = [&](int u, int v) {
-                return u >= 0 && v >= 0 && u < grid.width() && v < grid.height() &&
-                       std::abs(depth(u, v) - own) > double(torn_px);
-            };
-            edges[row] += torn(x - 1, y) || torn(x + 1, y) || torn(x, y - 1) || torn(x, y + 1);
-        }
-    });
-    return double(std::accumulate(edges.begin(), edges.end(), std::size_t{0})) / double(grid.size());
-}
-
 PixelMask everything(const Imath::Box2i &window) {
     PixelMask mask(window);
     std::ranges::fill(mask.set, std::uint8_t{1});
@@ -226,7 +204,7 @@ Plan make_plan(const View &centre, const ThinLens &lens, const PlanOptions &opti
     Plan plan;
     if (lens.radius == 0 || options.views == 0) return plan;
     plan.overscan = overscan_of(centre, lens);
-    plan.edges = share_at_edges(centre, lens);
+    plan.edges = share_at_edges(centre.image.windows, centre.z, lens);
     if (options.across == 1 && plan.edges >= PlanTuning::many_edges) plan.supersample = 2;
     const PixelMask noisy = find_noise(centre, lens, options, plan);
 

@@ -1,7 +1,6 @@
 #include "gpu/lens/tile_rules.h"
 
 #include "deep/holdout.h"
-#include "lens/cat_eye.h"
 
 #include <algorithm>
 #include <array>
