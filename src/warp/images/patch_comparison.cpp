@@ -47,9 +47,8 @@ void sum_patches(Field &field, int width, int rows) {
 
 } // namespace
 
-PatchComparison::PatchComparison(const MatchedView &centre, double scale, const Imath::Box2i &block,
-                                 float surface)
-    : scale_(scale), surface_(surface), corner_(block.min - Imath::V2i(reach)),
+PatchComparison::PatchComparison(const MatchedView &centre, const Imath::Box2i &block, float surface)
+    : surface_(surface), corner_(block.min - Imath::V2i(reach)),
       width_(block.max.x - block.min.x + 1 + 2 * reach), height_(block.max.y - block.min.y + 1 + 2 * reach) {
     const float *from = centre.cut(Imath::V2d(corner_) + Imath::V2d(0.5)).first;
     counts_.fill(0);
@@ -143,8 +142,7 @@ void PatchComparison::take(std::span<float> out) {
 
 void PatchComparison::at_depth(const MatchedView &view, double depth, std::span<float> out) {
     const auto in_view = [&](int x, int y) {
-        return view.mapping().in_view(Imath::V2d(corner_ + Imath::V2i(x, y)) + Imath::V2d(0.5),
-                                      depth / scale_);
+        return view.in_view(Imath::V2d(corner_ + Imath::V2i(x, y)) + Imath::V2d(0.5), depth);
     };
     const Imath::V2d first = in_view(0, 0); // of equal steps: at one depth the mapping is linear
     const double step = in_view(1, 0).x - first.x;
@@ -165,8 +163,8 @@ void PatchComparison::at_depth(const MatchedView &view, double depth, std::span<
 void PatchComparison::at_depths(const MatchedView &view, const Field &depths, double behind,
                                 std::span<float> out) {
     compare_each(view, [&](int x, int y) {
-        return view.mapping().in_view(Imath::V2d(corner_ + Imath::V2i(x, y)) + Imath::V2d(0.5),
-                                      (double(depths[at(x, y)]) + behind) / scale_);
+        return view.in_view(Imath::V2d(corner_ + Imath::V2i(x, y)) + Imath::V2d(0.5),
+                            double(depths[at(x, y)]) + behind);
     });
     take(out);
 }

@@ -17,7 +17,7 @@ public:
     using Field =
         std::array<float, std::size_t(row) * most_side>; // of those pixels, from the upper left corner
 
-    PatchComparison(const MatchedView &centre, double scale, const Imath::Box2i &block, float surface);
+    PatchComparison(const MatchedView &centre, const Imath::Box2i &block, float surface);
 
     Imath::V2i corner() const { return corner_; }
     int width() const { return width_; } // of the block and what lies around
@@ -41,7 +41,6 @@ private:
     void compare_each(const MatchedView &view, const PlaceAt &place_at);
     void take(std::span<float> out);
 
-    double scale_;
     float surface_;
     Imath::V2i corner_;
     int width_, height_;
