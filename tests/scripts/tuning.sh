@@ -29,7 +29,8 @@ dof/lens/shadow_lists.cpp all_blocks longest_of_many
 dof/lens/shadow_lists.h none
 dof/lens/shadow_search.cpp of_edge
 dof/lens/shadow_search.h beside
-dof/lens/fillers.cpp directions pixels_at_once unknown
+dof/lens/filler_samples.cpp pixels_at_once
+dof/lens/fillers.cpp directions unknown
 dof/lens/fillers.h nothing
 dof/lens/lens_sets.h final_points largest_coc normal_points
 dof/lens/lens_tiles.h lens_tile_size
@@ -49,9 +50,9 @@ plan/noise.cpp block_size spread least_of_four
 warp/images/matched_view.h cutout
 warp/images/neighbours.h image_block reach
 warp/images/patch_comparison.cpp alike
-warp/images/patch_comparison.h reach row
+warp/images/patch_rows.h patch_reach patch_row
 warp/images/image_sweep.cpp rounding rows
-warp/images/image_depths.cpp rows_at_once
+warp/images/image_search.h rows_at_once
 warp/images/show_images.cpp rows_at_once
 warp/lamps/lamp_light.cpp farthest_move
 warp/reproject.cpp far_off
