@@ -137,6 +137,7 @@ void run(const GatherCommand &given, const ToolContext &tool, LdiCache &cache, C
     options.picture.gather.lens.device = device.open(options.device, tool);
     options.picture.gather.lens.looks = looks;
     options.picture.gather.lens.across = frame.subpixels.across;
+    options.picture.gather.views_radius = views_radius(in.camera);
     Image picture;
     if (needs_gather(options.show))
         picture =

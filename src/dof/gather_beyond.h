@@ -15,8 +15,9 @@ Image gather_beyond(AnyLdi &&ldi, const ThinLens &lens, const Imath::Box2i &wind
                     const GatherOptions &options, const Gather &gather) {
     if (!options.beyond) return gather(ldi, options.lens);
     LensGatherOptions by = options.lens;
-    const BeyondFrame all = go_on_beyond(std::forward<AnyLdi>(ldi), lens, by.looks, options.beyond->frame,
-                                         by.known.value_or(window), options.beyond->reach, by.across);
+    const BeyondFrame all =
+        go_on_beyond(std::forward<AnyLdi>(ldi), lens, by.looks, options.beyond->frame,
+                     by.known.value_or(window), options.beyond->reach, by.across, options.views_radius);
     by.known = all.known;
     by.unseen = all.unseen;
     by.seen = options.beyond->frame;

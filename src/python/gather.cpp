@@ -148,6 +148,7 @@ PictureObject gathered_all(const Asked &asked, const OpenedLdi &in, Camera camer
     options.holdout = holdout ? &*holdout : nullptr;
     options.gather.lens.device = device;
     options.gather.lens.across = frame.subpixels.across;
+    options.gather.views_radius = views_radius(camera);
     out.image = frame.picture_of(gather_picture(ldi, lens, frame.gathered, frame.needed, options, progress));
     write_picture_camera(out.header, camera);
     return out;

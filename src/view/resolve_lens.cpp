@@ -138,9 +138,14 @@ std::optional<ThinLens> known_lens(const Camera &camera, const Windows &windows)
     return known || radius == 0.0 ? std::optional(resolve_lens(camera, windows)) : std::nullopt;
 }
 
-std::optional<std::string> warning_of_wide_lens(const Camera &camera, const ThinLens &lens) {
+double views_radius(const Camera &camera) {
     double widest = 0;
     for (const Imath::V2d &point : camera.lens_points) widest = std::max(widest, point.length());
+    return widest;
+}
+
+std::optional<std::string> warning_of_wide_lens(const Camera &camera, const ThinLens &lens) {
+    const double widest = views_radius(camera);
     if (widest == 0 || lens.radius <= 1.001 * widest) return {};
     return "the aperture is larger than the one the views were rendered for; what it sees beyond them is "
            "unknown";

@@ -155,6 +155,7 @@ TakenPicture Shot::taken(const GatherCommand &options, const ToolContext &tool, 
     by.holdout = holdout(options, of);
     by.gather.lens.device = device_.open(options.device, tool);
     by.gather.lens.across = from.windows.subpixels.across;
+    by.gather.views_radius = views_radius(out.camera);
     if (options.windows.proxy == 1 && of->across == 1) by.gather.lens.watch = watch;
     Image made = options.show == Show::picture ? gathered(from, by, progress)
                                                : false_colours(options.show, from, by, progress);

@@ -90,6 +90,25 @@ TEST(BeyondFrame, WhatViewsWouldHaveShownIsNotMadeUp) {
               (std::vector<float>{19, unknown, 19, 19, 23, 19, 23, 23}));
 }
 
+// The same views, through a lens of half their aperture: they showed as much, and each surface goes on once, from where it ends.
+TEST(BeyondFrame, AStoppedDownLensGoesOnFromWhatWiderViewsShowed) {
+    const double near = infinite_coc(lens) - 5, far = infinite_coc(lens) - 1.2;
+    std::vector<double> cocs(20, far);
+    cocs.insert(cocs.end(), {NAN, NAN, NAN, near, near});
+    const Ldi ldi = row_of(cocs);
+    const Imath::Box2i frame({0, 0}, {19, 0});
+    ThinLens stopped = lens;
+    stopped.radius = lens.radius / 2;
+    const auto beside = [&](const ThinLens &by, double views_radius) {
+        return go_on_beyond(ldi, by, {}, frame, frame, {7, 1}, 1, views_radius);
+    };
+    const BeyondFrame open = beside(lens, 0), shut = beside(stopped, lens.radius);
+    EXPECT_EQ(values(shut, 19, 26), (std::vector<float>{19, unknown, 19, 19, 23, 24, 24, 24}));
+    EXPECT_EQ(shut.ldi.z, open.ldi.z);
+    EXPECT_EQ(shut.ldi.begin, open.ldi.begin);
+    EXPECT_EQ(shut.unseen, open.unseen);
+}
+
 // Three bars as near as the one that the frame cuts off are 2 or 3 pixels wide, others wider or at other depths.
 TEST(BeyondFrame, WhatIsCutOffEndsAsOthersAsNearAndWideDo) {
     const auto bars = [&](int cut, std::vector<int> widths, double c) {

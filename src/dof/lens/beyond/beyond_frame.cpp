@@ -21,8 +21,8 @@ constexpr double sky = std::numeric_limits<double>::infinity();
 class Continuation {
 public:
     Continuation(const Ldi &ldi, const ThinLens &lens, const LensLooks &looks, const Imath::Box2i &frame,
-                 const Imath::Box2i &known, const Imath::V2i &reach, int across)
-        : ldi_(ldi), frame_(frame), known_(known), border_(ldi, lens, looks, across) {
+                 const Imath::Box2i &known, const Imath::V2i &reach, int across, double views_radius)
+        : ldi_(ldi), frame_(frame), known_(known), border_(ldi, lens, looks, across, views_radius) {
         grown_ = known;
         grown_.min.x -= reach.x;
         grown_.max.x += reach.x;
@@ -169,16 +169,17 @@ Imath::V2i look_beyond(const Ldi &ldi, const ThinLens &lens, const LensLooks &lo
 
 BeyondFrame go_on_beyond(const Ldi &ldi, const ThinLens &lens, const LensLooks &looks,
                          const Imath::Box2i &frame, const Imath::Box2i &known, const Imath::V2i &reach,
-                         int across) {
+                         int across, double views_radius) {
     BeyondFrame made;
-    Continuation(ldi, lens, looks, frame, known, reach, across).run(made.ldi, made);
+    Continuation(ldi, lens, looks, frame, known, reach, across, views_radius).run(made.ldi, made);
     return made;
 }
 
 BeyondFrame go_on_beyond(Ldi &&ldi, const ThinLens &lens, const LensLooks &looks, const Imath::Box2i &frame,
-                         const Imath::Box2i &known, const Imath::V2i &reach, int across) {
+                         const Imath::Box2i &known, const Imath::V2i &reach, int across,
+                         double views_radius) {
     BeyondFrame made;
-    Continuation(ldi, lens, looks, frame, known, reach, across).run(ldi, made);
+    Continuation(ldi, lens, looks, frame, known, reach, across, views_radius).run(ldi, made);
     made.ldi = std::move(ldi);
     return made;
 }

@@ -38,11 +38,13 @@ Imath::V2i look_beyond(const Ldi &ldi, const ThinLens &lens, const LensLooks &lo
                        const Imath::Box2i &frame);
 
 // `across`: pixels, across and down, that become one of the picture: distances above are counted in those, but for what rim
-// views saw. `known`: the part of the frame whose samples the LDI has, rows of it; beyond those at its border, it goes on.
+// views saw. `views_radius`: scene units, of the lens from whose rim they looked, in whose pixels perceptive depth says what
+// they saw; 0: of this lens. `known`: the part of the frame whose samples the LDI has, rows of it; beyond those at its border, it goes on.
 BeyondFrame go_on_beyond(const Ldi &ldi, const ThinLens &lens, const LensLooks &looks,
                          const Imath::Box2i &frame, const Imath::Box2i &known, const Imath::V2i &reach,
-                         int across = 1);
+                         int across = 1, double views_radius = 0);
 BeyondFrame go_on_beyond(Ldi &&ldi, const ThinLens &lens, const LensLooks &looks, const Imath::Box2i &frame,
-                         const Imath::Box2i &known, const Imath::V2i &reach, int across = 1);
+                         const Imath::Box2i &known, const Imath::V2i &reach, int across = 1,
+                         double views_radius = 0);
 
 } // namespace sparselens

@@ -33,9 +33,9 @@ float level_around(const std::vector<float> &bright, int at, int along_px) {
 
 } // namespace
 
-Border::Border(const Ldi &ldi, const ThinLens &lens, const LensLooks &looks, int across)
-    : ldi_(ldi), lens_(lens), across_(across), light_(lens, looks, ldi.windows), alpha_(ldi.alpha()),
-      brightness_(light_channels(ldi).brightness) {}
+Border::Border(const Ldi &ldi, const ThinLens &lens, const LensLooks &looks, int across, double views_radius)
+    : ldi_(ldi), lens_(lens), across_(across), wider_(views_radius > 0 ? views_radius / lens.radius : 1),
+      light_(lens, looks, ldi.windows), alpha_(ldi.alpha()), brightness_(light_channels(ldi).brightness) {}
 
 Imath::V2d Border::reach(const Imath::V2i &at) const {
     const Imath::V2d middle = Imath::V2d(at) + Imath::V2d(0.5);
@@ -84,7 +84,7 @@ std::vector<Leaving> Border::leaving(const Line &line, int i, float level, bool 
             if (looked && !seen_last(of, line, i, n)) continue;
             const float reaches = brightness(of) > level ? extent(line, i, n, of, level)
                                                          : std::numeric_limits<float>::infinity();
-            found.push_back({std::uint32_t(of), depth(of), n, reaches});
+            found.push_back({std::uint32_t(of), shown_until(of), n, reaches});
         }
     return found;
 }
@@ -92,7 +92,7 @@ std::vector<Leaving> Border::leaving(const Line &line, int i, float level, bool 
 // Whether no rim view looked farther at the surface of that sample, n pixels beyond the border; or one more pixel, without
 // seeing it: parallax may tear a surface.
 bool Border::seen_last(std::uint64_t sample, const Line &line, int i, int n) const {
-    const double left = depth(sample) + 0.5 - n;
+    const double left = shown_until(sample) + 0.5 - n;
     return left < 1 || (left < 2 && !shows(samples(line.pixel(i, n + 1)), depth(sample)));
 }
 

@@ -23,7 +23,7 @@ inline bool is_one_surface(double a, double b) {
 // A sample that goes on beyond the frame.
 struct Leaving {
     std::uint32_t sample;
-    double depth; // perceptive, pixels
+    double depth; // perceptive, pixels, of the lens from whose rim views looked
     int from;     // where it was seen last: pixels beyond the border
     float extent; // beyond that, pixels, of the small light that it is part of; infinite for all else
 
@@ -44,8 +44,9 @@ struct BorderPixel {
 
 class Border {
 public:
-    // `across`: pixels, across and down, that become one of the picture, which distances are counted in.
-    Border(const Ldi &ldi, const ThinLens &lens, const LensLooks &looks, int across);
+    // `across`: pixels, across and down, that become one of the picture, which distances are counted in. `views_radius`: scene
+    // units, of the lens from whose rim views looked; 0: of this lens.
+    Border(const Ldi &ldi, const ThinLens &lens, const LensLooks &looks, int across, double views_radius = 0);
 
     // How far its light reaches.
     Imath::V2d reach(const Imath::V2i &at) const;
@@ -73,10 +74,13 @@ private:
     std::vector<float> brightest(const Imath::V2i &first, const Imath::V2i &step, int count) const;
 
     float brightness(std::uint64_t sample) const;
+    // How far rim views showed its surface beyond the frame, pixels.
+    double shown_until(std::uint64_t sample) const { return wider_ * depth(sample); }
 
     const Ldi &ldi_;
     const ThinLens &lens_;
     int across_;
+    double wider_; // than this lens, the one from whose rim views looked
     LightReach light_;
     std::size_t alpha_;
     std::vector<std::size_t> brightness_;
