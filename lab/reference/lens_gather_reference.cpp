@@ -198,7 +198,7 @@ ReferencePicture lens_gather_reference(const Ldi &ldi, const ThinLens &lens, con
                                        std::span<const LensSample> points, const Holdout *holdout,
                                        const CatEye *cat_eye) {
     const SlowLens by{points, cat_eye, lens.pixel_aspect};
-    const std::vector<Filler> fillers = find_fillers(ldi, lens, window);
+    const LargeArray<Filler> fillers = find_fillers(ldi, lens, window);
     const Scene scene = place_scene(ldi, lens, window, fillers);
     ReferencePicture picture{ldi.windows, {}, {}};
     picture.windows.data = window;

@@ -31,9 +31,12 @@ struct LampDisc {
         const double u = (x - centre.x) / radius.x, v = (y - centre.y) / radius.y;
         return u * u + v * v <= 1;
     }
-    bool contains_pixel(int x, int y) const {
-        return contains(x, y) && contains(x + 1, y) && contains(x, y + 1) && contains(x + 1, y + 1);
+    // All pixels of a box.
+    bool contains_pixels(const Imath::Box2i &box) const {
+        return contains(box.min.x, box.min.y) && contains(box.max.x + 1, box.min.y) &&
+               contains(box.min.x, box.max.y + 1) && contains(box.max.x + 1, box.max.y + 1);
     }
+    bool contains_pixel(int x, int y) const { return contains_pixels({{x, y}, {x, y}}); }
 };
 
 // Which share of each pixel of a box is in shadow, by 64 points in each pixel: no two of them share a row or a column, so

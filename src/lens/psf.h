@@ -11,6 +11,7 @@
 #include <Imath/ImathVec.h>
 
 #include <array>
+#include <numbers>
 
 namespace sparselens {
 
@@ -22,6 +23,9 @@ struct Psf {
     Imath::V2d centre;
     double radius = 0; // pixels; tested up to 1e4
     double pixel_aspect = 1;
+
+    // The weight of a pixel that lies in the disc as a whole.
+    double whole_weight() const { return 1 / (std::numbers::pi * radius * radius) / pixel_aspect; }
 };
 
 // The share of the light that falls into a box (EXR pixel coordinates), in closed form; the error is below 1e-14.
@@ -43,9 +47,6 @@ public:
     // The rows of the box that the disc touches.
     int begin_row() const { return rows_.begin; }
     int end_row() const { return rows_.end; }
-
-    // The weight of a pixel that lies in the disc as a whole.
-    double whole_weight() const { return area_to_weight_ / psf_.pixel_aspect; }
 
     struct Span {
         int begin = 0, end = 0; // columns

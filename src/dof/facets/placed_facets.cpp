@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace sparselens {
 
@@ -123,23 +124,29 @@ void draw_triangle(const Seen &seen, std::size_t i, const std::array<std::uint64
 PlacedFacets place_facets(const FacetBlocks &found, std::size_t ldi_samples, const FacetCorners &corners) {
     PlacedFacets placed;
     if (found.blocks.empty()) return placed;
-    const std::vector<std::uint32_t> places = places_of(ldi_samples, corners.source);
     constexpr float most = std::numeric_limits<float>::max();
+    std::uint32_t count = 0;
     for (const std::vector<Facet> &block : found.blocks) {
-        const auto begin = std::uint32_t(placed.key[0].size());
-        placed.blocks.push_back(
-            {begin, begin + std::uint32_t(block.size()), most, -most, most, -most, most, -most});
-        for (const Facet &facet : block) {
-            for (std::size_t k = 0; k < 3; ++k) {
-                const std::uint32_t i = places[facet.sample[k]];
-                placed.x[k].push_back(corners.x[i]);
-                placed.y[k].push_back(corners.y[i]);
-                placed.coc[k].push_back(corners.coc[i]);
-                placed.key[k].push_back(kernels::key_of(corners.upper[i], i));
-            }
-            widen(placed.blocks.back(), placed, placed.key[0].size() - 1);
-        }
+        const std::uint32_t begin = std::exchange(count, count + std::uint32_t(block.size()));
+        placed.blocks.push_back({begin, count, most, -most, most, -most, most, -most});
     }
+    for (auto *along : {&placed.x, &placed.y, &placed.coc})
+        for (LargeArray<float> &values : *along) values.resize(count);
+    for (LargeArray<std::uint64_t> &keys : placed.key) keys.resize(count);
+    const std::vector<std::uint32_t> places = places_of(ldi_samples, corners.source);
+    parallel_for(placed.blocks.size(), [&](std::size_t b) {
+        FacetBlock &block = placed.blocks[b];
+        for (std::uint32_t f = block.begin; f < block.end; ++f) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                const std::uint32_t i = places[found.blocks[b][f - block.begin].sample[k]];
+                placed.x[k][f] = corners.x[i];
+                placed.y[k][f] = corners.y[i];
+                placed.coc[k][f] = corners.coc[i];
+                placed.key[k][f] = kernels::key_of(corners.upper[i], i);
+            }
+            widen(block, placed, f);
+        }
+    });
     return placed;
 }
 

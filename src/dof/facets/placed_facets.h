@@ -1,6 +1,7 @@
 // Facets as a lens point draws them: into a grid of cells that each keep the greatest key.
 #pragma once
 
+#include "base/large_array.h"
 #include "dof/facets/facets.h"
 #include "lens/lens_samples.h"
 
@@ -16,8 +17,8 @@ struct FacetBlock {
 
 struct PlacedFacets {
     // [corner][facet]
-    std::array<std::vector<float>, 3> x, y, coc;   // of its samples, pixels, as they are placed
-    std::array<std::vector<std::uint64_t>, 3> key; // nearer is greater
+    std::array<LargeArray<float>, 3> x, y, coc;   // of its samples, pixels, as they are placed
+    std::array<LargeArray<std::uint64_t>, 3> key; // nearer is greater
     std::vector<FacetBlock> blocks;
 };
 

@@ -11,6 +11,7 @@
 #include <limits>
 #include <numbers>
 #include <tuple>
+#include <utility>
 
 namespace sparselens {
 
@@ -180,7 +181,7 @@ Filler mean_of(const Ldi &ldi, std::size_t alpha_channel, std::size_t pixel, std
 
 } // namespace
 
-std::vector<Filler> find_fillers(const Ldi &ldi, const ThinLens &lens, const KnownPixels &known) {
+LargeArray<Filler> find_fillers(const Ldi &ldi, const ThinLens &lens, const KnownPixels &known) {
     const std::vector<Ground> grounds = find_grounds(ldi, lens, known);
     const Distances distances = find_distances(grounds, ldi.windows);
     const std::size_t alpha = ldi.alpha();
@@ -203,8 +204,12 @@ std::vector<Filler> find_fillers(const Ldi &ldi, const ThinLens &lens, const Kno
             if (count > 0) rows[row].push_back(mean_of(ldi, alpha, pixel, std::span(sides).first(count)));
         }
     });
-    std::vector<Filler> fillers;
-    for (const std::vector<Filler> &row : rows) fillers.insert(fillers.end(), row.begin(), row.end());
+    std::vector<std::size_t> begin{0};
+    for (const std::vector<Filler> &row : rows) begin.push_back(begin.back() + row.size());
+    LargeArray<Filler> fillers(begin.back());
+    parallel_for(rows.size(), [&](std::size_t row) {
+        std::ranges::copy(std::exchange(rows[row], {}), fillers.begin() + std::ptrdiff_t(begin[row]));
+    });
     return fillers;
 }
 

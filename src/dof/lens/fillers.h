@@ -16,6 +16,7 @@
 // meets no opaque sample.
 #pragma once
 
+#include "base/large_array.h"
 #include "deep/ldi.h"
 #include "dof/facets/known_pixels.h"
 #include "lens/thin_lens.h"
@@ -45,6 +46,6 @@ struct Filler {
 };
 
 // At most one a pixel, in the order of the pixels. The LDI has less than 2^32 samples and pixels.
-std::vector<Filler> find_fillers(const Ldi &ldi, const ThinLens &lens, const KnownPixels &known);
+LargeArray<Filler> find_fillers(const Ldi &ldi, const ThinLens &lens, const KnownPixels &known);
 
 } // namespace sparselens

@@ -67,12 +67,12 @@ void complete(GatherScene &scene, const Treat &treat, const Progress &progress) 
     const Ldi &ldi = *scene.ldi;
     const Optics &optics = *scene.optics;
     BlockedSamples &samples = scene.samples;
-    const std::vector<Filler> fillers =
+    LargeArray<Filler> fillers =
         find_fillers(ldi, scene.lens, scene.known); // before there are colours, as it takes memory
     progress.may_end();
     scene.colours = make_colours(ldi, samples);
     treat();
-    scene.fillers = place_fillers(ldi, scene.lens, fillers, samples, scene.colours);
+    scene.fillers = place_fillers(ldi, scene.lens, std::exchange(fillers, {}), samples, scene.colours);
     optics.bend(scene.fillers.samples);
     progress.may_end();
     scene.facets = place_facets(find_facets(ldi, scene.lens, double(optics.widest())), ldi.samples(),

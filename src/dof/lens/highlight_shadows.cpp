@@ -1,5 +1,6 @@
 #include "dof/lens/highlight_shadows.h"
 
+#include "base/float4.h"
 #include "dof/lens/lens_tiles.h"
 #include "dof/tuning.h"
 
@@ -19,6 +20,51 @@ CocRange shared_cocs(const ShadowedLamp &group) {
     constexpr double of_radius = GatherTuning::shared_shadow_of_radius;
     const double most = of_radius * std::abs(group.lamp.coc) / std::max(group.spread, 1e-3); // |1 - m|
     return {most < 1 ? float(-most / (1 - most)) : -INFINITY, float(most / (1 + most))};
+}
+
+// Where the edges of a thing's shadow lie on the lamp's screen.
+struct ShadowEdges {
+    Float4 coc, magnified, from_lamp, at;
+
+    ShadowEdges(const ShadowedLamp &lamp, const ShadowCasters &casters, const Footprint &footprint) {
+        const auto both = [](const auto &v) {
+            return Float4{float(v.x), float(v.x), float(v.y), float(v.y)};
+        };
+        coc = casters.across * load4(footprint.coc.data());
+        magnified = shadow_magnification(float(lamp.lamp.coc) + Float4{}, coc, both(lamp.screen.scale));
+        from_lamp = casters.across * load4(footprint.place.data()) + both(casters.corner) -
+                    both(lamp.origin) - both(lamp.lamp.centre);
+        at = both(lamp.screen.middle) + magnified * from_lamp;
+    }
+    // As blurred as the lamp, and right before it.
+    bool as_blurred() const {
+        return std::isnan(at[0]) || std::isnan(at[1]) || std::isnan(at[2]) || std::isnan(at[3]);
+    }
+    // Past an edge that is more blurred than the lamp it is the other way round.
+    Imath::Box2f shadow() const {
+        Imath::Box2f box;
+        for (const int axis : {0, 1}) {
+            const int first = 2 * axis, last = first + 1;
+            float low = -INFINITY, high = INFINITY;
+            (magnified[first] > 0 ? low : high) = at[first];
+            if (magnified[last] > 0)
+                high = std::min(high, at[last]);
+            else
+                low = std::max(low, at[last]);
+            box.min[axis] = low, box.max[axis] = high;
+        }
+        return box;
+    }
+};
+
+// Whether some of it lies in a box of pixels.
+bool reaches(const Imath::Box2f &shadow, const Imath::Box2i &box) {
+    for (const int axis : {0, 1}) {
+        const auto begin = float(box.min[axis]), end = float(box.max[axis]) + 1;
+        const float low = shadow.min[axis], high = shadow.max[axis];
+        if (!(high > begin && low <= end && high > low)) return false;
+    }
+    return true;
 }
 
 // Of the first sample of a block: the same wherever the tile lies, and in all frames.
@@ -135,14 +181,17 @@ void HighlightShadows::share(std::span<const std::uint32_t> group, const Imath::
                           {}};
     for (const std::uint32_t h : group) {
         group_->place.extendBy(place(h));
-        group_->spread = std::max(group_->spread, (this->lamp(h).centre - lamp.centre).length());
+        const Lamp member = this->lamp(h);
+        group_->spread = std::max(group_->spread, (member.centre - lamp.centre).length());
+        group_->cocs = std::max(group_->cocs, std::abs(member.coc - lamp.coc));
     }
     for_each_block(*group_, group.front(), [&](const CastingBlock &b) {
-        if (b.apart) {
-            apart_.push_back(b);
-            return true;
-        }
-        cast_block(*group_, b, shared_);
+        for_each_caster(b, [&](const Caster &caster) {
+            if (!b.apart)
+                cast_one(*group_, caster, shared_);
+            else if (may_cast(*group_, caster))
+                apart_.push_back(caster);
+        });
         return !shared_.dark(); // no other shadow changes that
     });
 }
@@ -155,13 +204,15 @@ bool HighlightShadows::cast(std::uint32_t highlight, const ShadowScreen &screen)
         sample,  lamp(highlight), origin_, screen, depth, depth + one_surface_px, search_.far_before(depth),
         {at, at}};
     own_.any = false;
-    const auto cast_own = [&](const CastingBlock &b) {
-        cast_block(asked, b, own_);
-        return !own_.dark(); // no other shadow changes that
-    };
-    if (!group_) for_each_block(asked, highlight, cast_own);
-    for (const CastingBlock &b : apart_)
-        if (!cast_own(b)) break;
+    if (!group_)
+        for_each_block(asked, highlight, [&](const CastingBlock &b) {
+            for_each_caster(b, [&](const Caster &caster) { cast_one(asked, caster, own_); });
+            return !own_.dark(); // no other shadow changes that
+        });
+    for (const Caster &caster : apart_) {
+        cast_one(asked, caster, own_);
+        if (own_.dark()) break;
+    }
     return shared_.any || own_.any;
 }
 
@@ -170,21 +221,25 @@ float HighlightShadows::lit(int x, int y, const LampDisc *disc) const {
                     : shared_.lamp.lit(x, y, disc);
 }
 
-void HighlightShadows::cast_block(const ShadowedLamp &lamp, const CastingBlock &b, Shadow &shadow) const {
+template <typename Visit>
+void HighlightShadows::for_each_caster(const CastingBlock &b, const Visit &visit) const {
     const ShadowCasters &casters = search_.casters(b.set);
-    const BlockedSamples &samples = casters.samples;
-    const SampleBlock &block = samples.blocks[b.number];
+    const SampleBlock &block = casters.samples.blocks[b.number];
     const std::vector<Footprint> &footprints = casters.footprints.of(b.number).footprints;
-    const std::uint32_t first = name_of(b.number, samples.columns);
+    const std::uint32_t first = name_of(b.number, casters.samples.columns);
+    for (std::uint32_t n = 0; n < block.end - block.begin; ++n)
+        visit(Caster{&casters, block.begin + n, &footprints[n], first + n});
+}
+
+bool HighlightShadows::is_before(const ShadowedLamp &lamp, const Caster &caster) const {
+    const ShadowCasters &casters = *caster.of;
+    const BlockedSamples &samples = casters.samples;
     const ShadowSearch::Range range = search_.range_of(lamp, casters);
-    const float farthest = casters.is_coarse() ? range.farthest : lamp.hardly;
-    for (std::uint32_t i = block.begin; i < block.end; ++i) {
-        const float depth = samples.depth(i);
-        const Imath::V2f at(samples.x[i], samples.y[i]);
-        const bool right_before = !casters.is_coarse() && depth > lamp.depth && lamp.is_beside({at, at});
-        if ((depth > farthest || right_before) && depth <= range.nearest)
-            cast_one(lamp, casters, i, footprints[i - block.begin], first + i - block.begin, shadow);
-    }
+    const float depth = samples.depth(caster.sample);
+    if (!(depth > range.farthest && depth <= range.nearest)) return false;
+    if (casters.is_coarse() || depth > lamp.hardly) return true;
+    const Imath::V2f at(samples.x[caster.sample], samples.y[caster.sample]);
+    return lamp.is_beside({at, at});
 }
 
 // Whether it is another highlight's, of other pixels and no nearer than a part of the same lamp would be.
@@ -196,34 +251,41 @@ bool HighlightShadows::are_side_by_side(std::uint32_t lamp_sample, std::uint32_t
            !(same(samples_.x) && same(samples_.y)) && std::ranges::binary_search(highlights_.sample, sample);
 }
 
-void HighlightShadows::cast_one(const ShadowedLamp &asked, const ShadowCasters &casters, std::uint32_t sample,
-                                const Footprint &footprint, std::uint32_t name, Shadow &into) const {
-    const auto coc = float(asked.lamp.coc);
-    Imath::Box2f shadow;
+// Whether it may cast a shadow on some member of the group.
+bool HighlightShadows::may_cast(const ShadowedLamp &group, const Caster &caster) const {
+    const ShadowCasters &casters = *caster.of;
+    const float depth = casters.samples.depth(caster.sample);
+    if (casters.is_coarse() ? !(depth > search_.far_before(group.depth) / casters.across)
+                            : !(depth > group.depth && depth <= search_.range_of(group, casters).nearest))
+        return false;
+    const ShadowEdges edges(group, casters, *caster.footprint);
+    const Float4 apart = float(group.lamp.coc) - edges.coc;
+    Imath::Box2f shadow = edges.shadow();
     for (const int axis : {0, 1}) {
-        // From where to where. Past an edge that is more blurred than the lamp it is the other way round.
-        float low = -INFINITY, high = INFINITY;
-        const auto scale = float(asked.screen.scale[axis]), middle = float(asked.screen.middle[axis]),
-                   lamp = float(asked.lamp.centre[axis]), first = float(asked.origin[axis]);
-        for (const bool ends : {false, true}) {
-            const std::size_t k = std::size_t(2 * axis + ends);
-            const float m = shadow_magnification(coc, casters.across * footprint.coc[k], scale);
-            const float place = casters.across * footprint.place[k] + casters.corner[axis];
-            const float edge = middle + m * (place - first - lamp);
-            if (std::isnan(edge)) return; // as blurred as the lamp, and right before it
-            if (ends != (m > 0))
-                low = std::max(low, edge);
-            else
-                high = std::min(high, edge);
+        float moves = 0; // pixels, from member to member
+        for (const int k : {2 * axis, 2 * axis + 1}) {
+            const float least = std::abs(apart[k]) - 2 * float(group.cocs);
+            if (!(least > 0)) return true;
+            const float magnifies = std::abs(edges.coc[k]) / (least * std::abs(apart[k])) * float(group.cocs);
+            const auto spread = float(group.spread);
+            moves = std::max(moves, std::abs(1 - edges.magnified[k]) * spread +
+                                        magnifies * (std::abs(edges.from_lamp[k]) + spread));
         }
-        const auto begin = float(asked.screen.box.min[axis]), end = float(asked.screen.box.max[axis]) + 1;
-        if (!(high > begin && low <= end && high > low)) return;
-        shadow.min[axis] = low, shadow.max[axis] = high;
+        constexpr float rounding = 0.01f; // pixels
+        shadow.min[axis] -= moves + rounding, shadow.max[axis] += moves + rounding;
     }
-    const float alpha = casters.samples.alpha[sample];
+    return reaches(shadow, group.screen.box);
+}
+
+void HighlightShadows::cast_one(const ShadowedLamp &lamp, const Caster &caster, Shadow &into) const {
+    if (!is_before(lamp, caster)) return;
+    const ShadowEdges edges(lamp, *caster.of, *caster.footprint);
+    const Imath::Box2f shadow = edges.shadow();
+    if (edges.as_blurred() || !reaches(shadow, lamp.screen.box)) return;
+    const float alpha = caster.of->samples.alpha[caster.sample];
     const bool opaque = is_opaque(alpha); // as solids are
-    if (!opaque && !casters.is_coarse() && are_side_by_side(asked.sample, sample)) return;
-    into.hide(shadow, opaque ? 1 : alpha, name, asked.screen);
+    if (!opaque && !caster.of->is_coarse() && are_side_by_side(lamp.sample, caster.sample)) return;
+    into.hide(shadow, opaque ? 1 : alpha, caster.name, lamp.screen);
 }
 
 } // namespace sparselens

@@ -88,9 +88,17 @@ private:
     void for_each_block(const ShadowedLamp &lamp, std::uint32_t first_member, const Visit &visit) const;
     std::vector<CastingBlock> blocks_of_disc(const ShadowedLamp &lamp) const;
     bool is_apart(const ShadowedLamp &group, const CastingBlock &block) const;
-    void cast_block(const ShadowedLamp &lamp, const CastingBlock &block, Shadow &shadow) const;
-    void cast_one(const ShadowedLamp &lamp, const ShadowCasters &casters, std::uint32_t sample,
-                  const Footprint &footprint, std::uint32_t name, Shadow &into) const;
+    struct Caster {
+        const ShadowCasters *of;
+        std::uint32_t sample;
+        const Footprint *footprint;
+        std::uint32_t name;
+    };
+    template <typename Visit>
+    void for_each_caster(const CastingBlock &block, const Visit &visit) const;
+    bool may_cast(const ShadowedLamp &group, const Caster &caster) const;
+    bool is_before(const ShadowedLamp &lamp, const Caster &caster) const;
+    void cast_one(const ShadowedLamp &lamp, const Caster &caster, Shadow &into) const;
     bool are_side_by_side(std::uint32_t lamp_sample, std::uint32_t sample) const;
 
     const Highlights &highlights_;
@@ -101,7 +109,7 @@ private:
     double pixel_aspect_ = 1;
     Imath::V2d extent_{1, 1};
     std::optional<ShadowedLamp> group_; // of several samples
-    std::vector<CastingBlock> apart_;   // that cast other shadows on each of its samples
+    std::vector<Caster> apart_;         // of other shadows on each of its samples
     Shadow shared_, own_;
 };
 

@@ -36,7 +36,8 @@ HighlightTile::HighlightTile(const GatherScene &scene, const BlockFootprints &fo
                              const BlockFootprints &solid_footprints)
     : scene_(scene),
       shadows_(scene.highlights, {scene.samples, footprints}, {scene.solids, solid_footprints}),
-      half_extent_(aperture_.half_extent()), light_(sets_.size() * size * size), together_(light_.size()) {
+      half_extent_(aperture_.half_extent()), light_(sets_.size() * size * size), together_(light_.size()),
+      whole_(sets_.size()), whole_together_(sets_.size()) {
     half_extent_.y *= scene.pixel_aspect();
 }
 
@@ -59,6 +60,7 @@ void HighlightTile::spread(const Imath::V2i &origin, std::span<const std::uint32
             if (!scene_.optics->field.skews()) return spread_group(group);
             for (std::size_t n = 0; n < group.size(); ++n) spread_group(group.subspan(n, 1));
         });
+    add_lit();
 }
 
 Lamp HighlightTile::lamp(std::uint32_t highlight) const {
@@ -95,11 +97,23 @@ void HighlightTile::add_group() {
         for (int y = reached_.min.y; y <= reached_.max.y; ++y)
             for (int x = reached_.min.x; x <= reached_.max.x; ++x) {
                 const std::size_t pixel = at(x, y, g * 4);
-                store4(&light_[pixel],
-                       load4(&light_[pixel]) + shadows_.shared_lit(x, y) * load4(&together_[pixel]));
+                store4(&light_[pixel], load4(&light_[pixel]) +
+                                           shadows_.shared_lit(x, y) *
+                                               (load4(&whole_together_[g * 4]) + load4(&together_[pixel])));
                 store4(&together_[pixel], Float4{});
             }
+    std::ranges::fill(whole_together_, 0.0f);
     any_together_ = false;
+}
+
+// Of all discs that reach over the whole tile, and that nothing hides.
+void HighlightTile::add_lit() {
+    for (std::size_t g = 0; g < sets_.size() / 4; ++g) {
+        const Float4 light = load4(&whole_[g * 4]);
+        for (std::size_t pixel = at(0, 0, g * 4); pixel < at(0, 0, g * 4 + 4); pixel += 4)
+            store4(&light_[pixel], load4(&light_[pixel]) + light);
+    }
+    std::ranges::fill(whole_, 0.0f);
 }
 
 void HighlightTile::spread_one(std::uint32_t highlight) {
@@ -151,10 +165,12 @@ void HighlightTile::spread_few(const LampLight &light, const Spreading &from) {
 void HighlightTile::spread_disc(const Spreading &from) {
     const double squeeze = aperture_.shape().squeeze;
     const double coc = std::abs(from.lamp.coc);
-    const PsfRows rows({from.lamp.centre, coc / squeeze, from.lamp.pixel_aspect * squeeze}, tile);
+    const Psf psf{from.lamp.centre, coc / squeeze, from.lamp.pixel_aspect * squeeze};
     const LampDisc disc{from.lamp.centre, {coc / squeeze, coc * from.lamp.pixel_aspect}};
-    const double inside = rows.whole_weight() * (1 - 1e-6);
     const bool in_rows = !held_out_.by && (from.together || !from.shadowed);
+    if (in_rows && disc.contains_pixels(tile)) return add_whole(from, psf.whole_weight());
+    const PsfRows rows(psf, tile);
+    const double inside = psf.whole_weight() * (1 - 1e-6);
     std::array<double, PsfRows::max_size + 1> weights;
     for (int y = rows.begin_row(); y < rows.end_row(); ++y) {
         const PsfRows::Span span = rows.row(y, weights.data());
@@ -220,6 +236,15 @@ void HighlightTile::add_row(const Spreading &from, int y, int begin, int end, co
             load4(&highlights_.light.values[(g * highlights_.light.count + from.highlight) * 4]);
         float *sum = &sums[at(begin, y, g * 4)];
         for (int x = begin; x < end; ++x, sum += 4) store4(sum, load4(sum) + float(weights[x]) * light);
+    }
+}
+
+void HighlightTile::add_whole(const Spreading &from, double weight) {
+    std::vector<float> &sums = from.together ? whole_together_ : whole_;
+    for (std::size_t g = 0; g < sets_.size() / 4; ++g) {
+        const Float4 light =
+            load4(&highlights_.light.values[(g * highlights_.light.count + from.highlight) * 4]);
+        store4(&sums[g * 4], load4(&sums[g * 4]) + float(weight) * light);
     }
 }
 

@@ -57,6 +57,7 @@ private:
     void spread_one(std::uint32_t highlight);
     void spread_few(const LampLight &light, const Spreading &from);
     void spread_disc(const Spreading &from);
+    void add_whole(const Spreading &from, double weight);
     void spread_shape(const Spreading &from);
     void add_seen(const Spreading &from, int x, int y, double weight, const std::array<double, 3> *colours);
     // `disc`: where the light of one lies; of a pixel that its edge crosses, only what lies in it is lit.
@@ -65,6 +66,7 @@ private:
     void add_row(const Spreading &from, int y, int begin, int end, const double *weights);
     float lit(const Spreading &from, int x, int y, const LampDisc *disc) const;
     void add_group();
+    void add_lit();
     const LampCells &cells_of(const Lamp &lamp);
     double left_by_cat_eye(bool behind, int x, int y);
 
@@ -84,6 +86,8 @@ private:
     // The same, of the highlights at work that are shadowed together: as if nothing hid it.
     std::vector<float> together_;
     bool any_together_ = false;
+    // [group][4]: what each pixel takes from discs that reach over the whole tile; together, of the highlights at work.
+    std::vector<float> whole_, whole_together_;
 };
 
 } // namespace sparselens

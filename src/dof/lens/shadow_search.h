@@ -53,6 +53,7 @@ struct ShadowedLamp {
     float far; // perceptive depth, pixels: from which on coarse casters cast; infinite: there are none
     Imath::Box2f place; // of all
     double spread = 0;  // pixels: of the group around it
+    double cocs = 0;    // pixels: by how much those of the group differ from its own at most
 
     bool is_beside(const Imath::Box2f &box) const {
         constexpr float beside = 2; // pixels

@@ -43,8 +43,7 @@ struct Ranges {
         facets.add(task.facets);
         solids.add(task.solids);
         for (const std::uint32_t b : task.facets)
-            for (const std::vector<std::uint64_t> &corners : scene.facets.key)
-                add_named(scene, corners, scene.facets.blocks[b]);
+            for (const auto &corners : scene.facets.key) add_named(scene, corners, scene.facets.blocks[b]);
         for (const std::uint32_t b : task.solids)
             add_named(scene, scene.solids.named, scene.solids.blocks[b]);
     }
