@@ -87,8 +87,9 @@ bool HighlightShadows::is_apart(const ShadowedLamp &group, const CastingBlock &b
     const float to_share = casters.across / float(group.lamp.coc);
     for (std::uint32_t i = block.begin; i < block.end; ++i) {
         if (!(samples.depth(i) > farthest) || samples.depth(i) > nearest) continue;
-        for (const float coc : footprints[i - block.begin].coc)
-            if (!(coc * to_share >= shared.least && coc * to_share <= shared.most)) return true;
+        const Float4 share = to_share * load4(footprints[i - block.begin].coc.data());
+        const auto within = (share >= shared.least) & (share <= shared.most);
+        if ((within[0] & within[1] & within[2] & within[3]) == 0) return true;
     }
     return false;
 }
@@ -186,9 +187,10 @@ void HighlightShadows::share(std::span<const std::uint32_t> group, const Imath::
         group_->cocs = std::max(group_->cocs, std::abs(member.coc - lamp.coc));
     }
     for_each_block(*group_, group.front(), [&](const CastingBlock &b) {
+        const ShadowSearch::Range range = search_.range_of(*group_, search_.casters(b.set));
         for_each_caster(b, [&](const Caster &caster) {
             if (!b.apart)
-                cast_one(*group_, caster, shared_);
+                cast_one(*group_, range, caster, shared_);
             else if (may_cast(*group_, caster))
                 apart_.push_back(caster);
         });
@@ -206,11 +208,14 @@ bool HighlightShadows::cast(std::uint32_t highlight, const ShadowScreen &screen)
     own_.any = false;
     if (!group_)
         for_each_block(asked, highlight, [&](const CastingBlock &b) {
-            for_each_caster(b, [&](const Caster &caster) { cast_one(asked, caster, own_); });
+            const ShadowSearch::Range range = search_.range_of(asked, search_.casters(b.set));
+            for_each_caster(b, [&](const Caster &caster) { cast_one(asked, range, caster, own_); });
             return !own_.dark(); // no other shadow changes that
         });
-    for (const Caster &caster : apart_) {
-        cast_one(asked, caster, own_);
+    ShadowSearch::Range range{};
+    for (const ShadowCasters *of = nullptr; const Caster &caster : apart_) {
+        if (of != caster.of) of = caster.of, range = search_.range_of(asked, *of);
+        cast_one(asked, range, caster, own_);
         if (own_.dark()) break;
     }
     return shared_.any || own_.any;
@@ -228,18 +233,8 @@ void HighlightShadows::for_each_caster(const CastingBlock &b, const Visit &visit
     const std::vector<Footprint> &footprints = casters.footprints.of(b.number).footprints;
     const std::uint32_t first = name_of(b.number, casters.samples.columns);
     for (std::uint32_t n = 0; n < block.end - block.begin; ++n)
-        visit(Caster{&casters, block.begin + n, &footprints[n], first + n});
-}
-
-bool HighlightShadows::is_before(const ShadowedLamp &lamp, const Caster &caster) const {
-    const ShadowCasters &casters = *caster.of;
-    const BlockedSamples &samples = casters.samples;
-    const ShadowSearch::Range range = search_.range_of(lamp, casters);
-    const float depth = samples.depth(caster.sample);
-    if (!(depth > range.farthest && depth <= range.nearest)) return false;
-    if (casters.is_coarse() || depth > lamp.hardly) return true;
-    const Imath::V2f at(samples.x[caster.sample], samples.y[caster.sample]);
-    return lamp.is_beside({at, at});
+        visit(Caster{&casters, block.begin + n, &footprints[n], first + n,
+                     casters.samples.depth(block.begin + n)});
 }
 
 // Whether it is another highlight's, of other pixels and no nearer than a part of the same lamp would be.
@@ -254,10 +249,9 @@ bool HighlightShadows::are_side_by_side(std::uint32_t lamp_sample, std::uint32_t
 // Whether it may cast a shadow on some member of the group.
 bool HighlightShadows::may_cast(const ShadowedLamp &group, const Caster &caster) const {
     const ShadowCasters &casters = *caster.of;
-    const float depth = casters.samples.depth(caster.sample);
-    if (casters.is_coarse() ? !(depth > search_.far_before(group.depth) / casters.across)
-                            : !(depth > group.depth && depth <= search_.range_of(group, casters).nearest))
-        return false;
+    const float farthest =
+        casters.is_coarse() ? search_.far_before(group.depth) / casters.across : group.depth;
+    if (!(caster.depth > farthest && caster.depth <= search_.range_of(group, casters).nearest)) return false;
     const ShadowEdges edges(group, casters, *caster.footprint);
     const Float4 apart = float(group.lamp.coc) - edges.coc;
     Imath::Box2f shadow = edges.shadow();
@@ -277,12 +271,18 @@ bool HighlightShadows::may_cast(const ShadowedLamp &group, const Caster &caster)
     return reaches(shadow, group.screen.box);
 }
 
-void HighlightShadows::cast_one(const ShadowedLamp &lamp, const Caster &caster, Shadow &into) const {
-    if (!is_before(lamp, caster)) return;
+void HighlightShadows::cast_one(const ShadowedLamp &lamp, const ShadowSearch::Range &range,
+                                const Caster &caster, Shadow &into) const {
+    if (!(caster.depth > range.farthest && caster.depth <= range.nearest)) return;
+    const BlockedSamples &samples = caster.of->samples;
+    if (!caster.of->is_coarse() && caster.depth <= lamp.hardly) {
+        const Imath::V2f at(samples.x[caster.sample], samples.y[caster.sample]);
+        if (!lamp.is_beside({at, at})) return;
+    }
     const ShadowEdges edges(lamp, *caster.of, *caster.footprint);
     const Imath::Box2f shadow = edges.shadow();
     if (edges.as_blurred() || !reaches(shadow, lamp.screen.box)) return;
-    const float alpha = caster.of->samples.alpha[caster.sample];
+    const float alpha = samples.alpha[caster.sample];
     const bool opaque = is_opaque(alpha); // as solids are
     if (!opaque && !caster.of->is_coarse() && are_side_by_side(lamp.sample, caster.sample)) return;
     into.hide(shadow, opaque ? 1 : alpha, caster.name, lamp.screen);

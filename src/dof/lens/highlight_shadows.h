@@ -93,12 +93,13 @@ private:
         std::uint32_t sample;
         const Footprint *footprint;
         std::uint32_t name;
+        float depth; // as its casters count it
     };
     template <typename Visit>
     void for_each_caster(const CastingBlock &block, const Visit &visit) const;
     bool may_cast(const ShadowedLamp &group, const Caster &caster) const;
-    bool is_before(const ShadowedLamp &lamp, const Caster &caster) const;
-    void cast_one(const ShadowedLamp &lamp, const Caster &caster, Shadow &into) const;
+    void cast_one(const ShadowedLamp &lamp, const ShadowSearch::Range &range, const Caster &caster,
+                  Shadow &into) const;
     bool are_side_by_side(std::uint32_t lamp_sample, std::uint32_t sample) const;
 
     const Highlights &highlights_;
