@@ -24,6 +24,7 @@ dof/lens/cells.cpp beside
 dof/lens/cells.h cell_sizes
 dof/lens/highlight_shadows.cpp rounding
 dof/lens/shadow_areas.cpp least_range most_steps rounding
+dof/lens/shadow_edges.cpp rounding
 dof/lens/shadow_areas.h size
 dof/lens/shadow_lists.cpp all_blocks longest_of_many
 dof/lens/shadow_lists.h none

@@ -2,6 +2,7 @@
 
 #include "base/float4.h"
 #include "dof/lens/lens_tiles.h"
+#include "dof/lens/shadow_edges.h"
 #include "dof/tuning.h"
 
 #include <algorithm>
@@ -20,51 +21,6 @@ CocRange shared_cocs(const ShadowedLamp &group) {
     constexpr double of_radius = GatherTuning::shared_shadow_of_radius;
     const double most = of_radius * std::abs(group.lamp.coc) / std::max(group.spread, 1e-3); // |1 - m|
     return {most < 1 ? float(-most / (1 - most)) : -INFINITY, float(most / (1 + most))};
-}
-
-// Where the edges of a thing's shadow lie on the lamp's screen.
-struct ShadowEdges {
-    Float4 coc, magnified, from_lamp, at;
-
-    ShadowEdges(const ShadowedLamp &lamp, const ShadowCasters &casters, const Footprint &footprint) {
-        const auto both = [](const auto &v) {
-            return Float4{float(v.x), float(v.x), float(v.y), float(v.y)};
-        };
-        coc = casters.across * load4(footprint.coc.data());
-        magnified = shadow_magnification(float(lamp.lamp.coc) + Float4{}, coc, both(lamp.screen.scale));
-        from_lamp = casters.across * load4(footprint.place.data()) + both(casters.corner) -
-                    both(lamp.origin) - both(lamp.lamp.centre);
-        at = both(lamp.screen.middle) + magnified * from_lamp;
-    }
-    // As blurred as the lamp, and right before it.
-    bool as_blurred() const {
-        return std::isnan(at[0]) || std::isnan(at[1]) || std::isnan(at[2]) || std::isnan(at[3]);
-    }
-    // Past an edge that is more blurred than the lamp it is the other way round.
-    Imath::Box2f shadow() const {
-        Imath::Box2f box;
-        for (const int axis : {0, 1}) {
-            const int first = 2 * axis, last = first + 1;
-            float low = -INFINITY, high = INFINITY;
-            (magnified[first] > 0 ? low : high) = at[first];
-            if (magnified[last] > 0)
-                high = std::min(high, at[last]);
-            else
-                low = std::max(low, at[last]);
-            box.min[axis] = low, box.max[axis] = high;
-        }
-        return box;
-    }
-};
-
-// Whether some of it lies in a box of pixels.
-bool reaches(const Imath::Box2f &shadow, const Imath::Box2i &box) {
-    for (const int axis : {0, 1}) {
-        const auto begin = float(box.min[axis]), end = float(box.max[axis]) + 1;
-        const float low = shadow.min[axis], high = shadow.max[axis];
-        if (!(high > begin && low <= end && high > low)) return false;
-    }
-    return true;
 }
 
 // Of the first sample of a block: the same wherever the tile lies, and in all frames.
@@ -252,23 +208,7 @@ bool HighlightShadows::may_cast(const ShadowedLamp &group, const Caster &caster)
     const float farthest =
         casters.is_coarse() ? search_.far_before(group.depth) / casters.across : group.depth;
     if (!(caster.depth > farthest && caster.depth <= search_.range_of(group, casters).nearest)) return false;
-    const ShadowEdges edges(group, casters, *caster.footprint);
-    const Float4 apart = float(group.lamp.coc) - edges.coc;
-    Imath::Box2f shadow = edges.shadow();
-    for (const int axis : {0, 1}) {
-        float moves = 0; // pixels, from member to member
-        for (const int k : {2 * axis, 2 * axis + 1}) {
-            const float least = std::abs(apart[k]) - 2 * float(group.cocs);
-            if (!(least > 0)) return true;
-            const float magnifies = std::abs(edges.coc[k]) / (least * std::abs(apart[k])) * float(group.cocs);
-            const auto spread = float(group.spread);
-            moves = std::max(moves, std::abs(1 - edges.magnified[k]) * spread +
-                                        magnifies * (std::abs(edges.from_lamp[k]) + spread));
-        }
-        constexpr float rounding = 0.01f; // pixels
-        shadow.min[axis] -= moves + rounding, shadow.max[axis] += moves + rounding;
-    }
-    return reaches(shadow, group.screen.box);
+    return ShadowEdges(group, casters.across, casters.corner, *caster.footprint).may_reach(group);
 }
 
 void HighlightShadows::cast_one(const ShadowedLamp &lamp, const ShadowSearch::Range &range,
@@ -279,7 +219,7 @@ void HighlightShadows::cast_one(const ShadowedLamp &lamp, const ShadowSearch::Ra
         const Imath::V2f at(samples.x[caster.sample], samples.y[caster.sample]);
         if (!lamp.is_beside({at, at})) return;
     }
-    const ShadowEdges edges(lamp, *caster.of, *caster.footprint);
+    const ShadowEdges edges(lamp, caster.of->across, caster.of->corner, *caster.footprint);
     const Imath::Box2f shadow = edges.shadow();
     if (edges.as_blurred() || !reaches(shadow, lamp.screen.box)) return;
     const float alpha = samples.alpha[caster.sample];

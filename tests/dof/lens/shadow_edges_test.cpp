@@ -1,0 +1,70 @@
+// Shadows of a square pixel, by hand; and what a group's middle lamp says of the others, against each of them.
+#include "dof/lens/shadow_edges.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace sparselens {
+namespace {
+
+ShadowedLamp lamp_at(const Imath::V2d &centre, double coc) {
+    return {.sample = 0,
+            .lamp = {centre, coc, 1},
+            .origin = {0, 0},
+            .screen = {centre, Imath::V2d(coc), {{0, 0}, {63, 63}}},
+            .depth = 0,
+            .hardly = 0,
+            .far = 0,
+            .place = {}};
+}
+Footprint square_at(float x, float y, float coc) {
+    return {{x - 0.5f, x + 0.5f, y - 0.5f, y + 0.5f}, {coc, coc, coc, coc}};
+}
+ShadowEdges edges_of(const ShadowedLamp &lamp, const Footprint &thing) { return {lamp, 1, {0, 0}, thing}; }
+
+// A lamp of 100 pixels' CoC at (10, 20); what has half of it casts a shadow twice as large about the lamp.
+TEST(ShadowEdges, AreThoseOfTheThingMagnifiedAboutTheLamp) {
+    const ShadowedLamp lamp = lamp_at({10, 20}, 100);
+    const Imath::Box2f shadow = edges_of(lamp, square_at(15, 22, 50)).shadow();
+    EXPECT_EQ(shadow.min, Imath::V2f(19, 23));
+    EXPECT_EQ(shadow.max, Imath::V2f(21, 25));
+    EXPECT_TRUE(reaches(shadow, lamp.screen.box));
+    EXPECT_FALSE(reaches(shadow, {{22, 0}, {63, 63}}));
+    EXPECT_FALSE(reaches(shadow, {{0, 0}, {63, 21}}));
+}
+
+TEST(ShadowEdges, OfWhatIsMoreBlurredAreTheOtherWayRound) {
+    const ShadowedLamp lamp = lamp_at({10, 20}, 100);
+    const Imath::Box2f shadow = edges_of(lamp, square_at(11, 19, 200)).shadow();
+    EXPECT_EQ(shadow.min, Imath::V2f(8.5f, 20.5f));
+    EXPECT_EQ(shadow.max, Imath::V2f(9.5f, 21.5f));
+    EXPECT_FALSE(edges_of(lamp, square_at(11, 19, 200)).as_blurred());
+    EXPECT_TRUE(edges_of(lamp, square_at(10.5f, 20.5f, 100)).as_blurred());
+}
+
+TEST(ShadowEdges, WhatReachesAMemberMayReachItsGroup) {
+    std::mt19937 random(3);
+    const auto between = [&](double a, double b) {
+        return std::uniform_real_distribution<double>(a, b)(random);
+    };
+    int reached = 0, left_out = 0;
+    for (int i = 0; i < 4000; ++i) {
+        ShadowedLamp group = lamp_at({between(-100, 160), between(-100, 160)}, between(64, 800));
+        const ShadowedLamp member = lamp_at(group.lamp.centre + Imath::V2d(between(-5, 5), between(-5, 5)),
+                                            group.lamp.coc + between(-0.5, 0.5));
+        group.spread = 5 * std::sqrt(2.0), group.cocs = 0.5;
+        const Footprint thing = square_at(float(between(-100, 160)), float(between(-100, 160)),
+                                          float(between(-100, 1.2 * group.lamp.coc)));
+        const ShadowEdges of_member = edges_of(member, thing);
+        const bool reaches_member = !of_member.as_blurred() && reaches(of_member.shadow(), member.screen.box);
+        const bool may = edges_of(group, thing).may_reach(group);
+        EXPECT_TRUE(may || !reaches_member);
+        reached += reaches_member, left_out += !may;
+    }
+    EXPECT_GT(reached, 100);
+    EXPECT_GT(left_out, 1000);
+}
+
+} // namespace
+} // namespace sparselens
