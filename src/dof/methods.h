@@ -23,8 +23,8 @@ struct GatherOptions {
         Imath::V2i reach;
     };
     std::optional<Beyond> beyond = {}; // else nothing is known there
-    double views_radius =
-        0; // lens: scene units, of the lens from whose rim views looked beyond the frame; 0: the lens that gathers
+    // Lens: of the lens from whose rim views looked beyond the frame, scene units; 0: the lens that gathers.
+    double views_radius = 0;
 };
 
 struct GatherMethod {

@@ -37,9 +37,10 @@ struct BeyondFrame {
 Imath::V2i look_beyond(const Ldi &ldi, const ThinLens &lens, const LensLooks &looks,
                        const Imath::Box2i &frame);
 
-// `across`: pixels, across and down, that become one of the picture: distances above are counted in those, but for what rim
-// views saw. `views_radius`: scene units, of the lens from whose rim they looked, in whose pixels perceptive depth says what
-// they saw; 0: of this lens. `known`: the part of the frame whose samples the LDI has, rows of it; beyond those at its border, it goes on.
+// `known`: the part of the frame whose samples the LDI has, rows of it; beyond those at its border, it goes on. `across`: pixels,
+// across and down, that become one of the picture: distances above are counted in those, but for what rim views saw.
+// `views_radius`: scene units, of the lens from whose rim they looked, in whose pixels perceptive depth says what they saw; 0: of
+// this lens.
 BeyondFrame go_on_beyond(const Ldi &ldi, const ThinLens &lens, const LensLooks &looks,
                          const Imath::Box2i &frame, const Imath::Box2i &known, const Imath::V2i &reach,
                          int across = 1, double views_radius = 0);
