@@ -105,8 +105,8 @@ in_python() {
     local folder python
     folder=$(dirname "$bin")
     python=$(sed -n 's/^_Python_EXECUTABLE:INTERNAL=//p' "$folder/CMakeCache.txt" 2>/dev/null || true)
-    if [ ! -d "$folder/python/sparselens" ]; then
-        note='left out: the module was not built (packages pybind11-dev, python3-dev)'
+    if ! compgen -G "$folder/python/sparselens/_sparselens.*" >/dev/null; then # configured, it has the rest of the package
+        note='left out: the module was not built (packages pybind11-dev, python3-dev; target sparselens_python)'
     elif ! "${python:=python3}" -c 'import numpy' 2>/dev/null; then
         note="left out: $python lacks numpy (package python3-numpy)"
     else

@@ -47,3 +47,10 @@ demo --spp 1
 [ "$(reused)" -eq 0 ] || fail "other arguments, or a damaged file, went unseen: $(cat stdout)"
 exits 2 "$source_dir/tools/demo.sh" --nonsense 1
 exits 2 "$source_dir/tools/demo.sh" --size
+
+# A build that has the Python package but not its module, as the demo's own build leaves it where pybind11 is installed.
+mkdir -p bare/python/sparselens
+echo 'from ._sparselens import *' >bare/python/sparselens/__init__.py
+ln -s "$(realpath "$bin")" bare/bin
+bin=bare/bin demo
+grep -q '^import sparselens.* left out: the module was not built' stdout || fail "no word of the module: $(cat stdout)"
