@@ -11,7 +11,7 @@ release=$(sed -n 's/^VERSION_CODENAME=//p' "${SPARSELENS_OS_RELEASE-/etc/os-rele
 blender='blender libgl1-mesa-dri xauth xvfb'
 build='g++ cmake ninja-build pkg-config libcli11-dev libembree-dev libfmt-dev libimath-dev libopencolorio-dev
        libopenexr-dev libopenimageio-dev libtbb-dev nlohmann-json3-dev'
-demo='fonts-dejavu-core libcpp-httplib-dev openimageio-tools'
+demo='fonts-dejavu-core openimageio-tools'
 gpu='glslc libvulkan-dev mesa-vulkan-drivers spirv-tools vulkan-validationlayers'
 lint='clang-14 clang-format-14 clang-tidy-14'
 report='chromium chromium-driver gnuplot-nox'

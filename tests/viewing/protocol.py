@@ -1,11 +1,15 @@
 """protocol.py BIN_DIR LDI REFERENCE: what dof-view answers, what it refuses, and what it bears."""
 import concurrent.futures
+import contextlib
 import json
 import os
+import resource
 import signal
 import socket
+import subprocess
 import sys
 import tempfile
+import threading
 import time
 
 from served import apart, served
@@ -78,7 +82,7 @@ def refuses(server):
                 raw.sendall(line)
                 raw.shutdown(socket.SHUT_WR)
                 answer = raw.recv(64)
-                assert not answer or answer.split()[1] in (b"400", b"403", b"404", b"413", b"414"), (line[:50], answer)
+                assert not answer or answer.split()[1] in (b"400", b"403", b"404", b"413", b"431"), (line[:50], answer)
             except (BrokenPipeError, ConnectionResetError):
                 pass
     assert status(server, good) == 200
@@ -91,24 +95,33 @@ def listens_here_alone(server):
 
 
 def bears_many(server):
-    """Connections that say nothing, half a request, and one that does not read: memory stays, and a page is answered after them."""
+    """1000 connections that say nothing, or half a request byte by byte, and stay: memory stays, and a page is answered beside them."""
     before = server.memory()
     many = []
     for i in range(1000):
-        raw = socket.socket()
-        raw.setblocking(False)
-        raw.connect_ex(("127.0.0.1", server.port))
-        many.append(raw)
+        raw = socket.create_connection(("127.0.0.1", server.port))
         if i % 3 == 0:
-            try:
-                raw.send(b"POST /picture HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Le")
-            except OSError:
-                pass
-    time.sleep(1)
-    assert server.memory() < before + 100, (before, server.memory())
-    for raw in many:
-        raw.close()
-    assert status(server, {"page": "a", "settings": {}}) == 200
+            raw.sendall(b"POST /picture HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Le")
+        many.append(raw)
+    ended = threading.Event()
+
+    def drip():
+        while not ended.wait(.2):
+            for raw in many:
+                with contextlib.suppress(OSError):
+                    raw.send(b"G")
+
+    dripping = threading.Thread(target=drip)
+    dripping.start()
+    try:
+        for _ in range(3):
+            assert status(server, {"page": "a", "settings": {}}) == 200
+        assert server.memory() < before + 50, (before, server.memory())
+    finally:
+        ended.set()
+        dripping.join()
+        for raw in many:
+            raw.close()
     body = json.dumps({"page": "slow", "settings": {}}).encode()
     with socket.create_connection(("127.0.0.1", server.port)) as slow:
         slow.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
@@ -116,7 +129,36 @@ def bears_many(server):
                      (server.key.encode(), len(body), body))
         slow.recv(10)
         assert status(server, {"page": "a", "settings": {}}) == 200
-    assert server.memory() < before + 100, (before, server.memory())
+    assert server.memory() < before + 50, (before, server.memory())
+
+
+def bears_lines_without_end(server):
+    """Four lines of 64 MB, with and without a request before them: memory stays, and none is read to its end."""
+    before = server.memory()
+    piece = b"y" * 65536
+    for begun in (b"", b"GET / HTTP/1.1\r\nHost: ", b"POST /picture HTTP/1.1\r\nContent-Length: 64000000\r\n\r\n", b"GET /?key="):
+        with socket.create_connection(("127.0.0.1", server.port)) as raw:
+            taken = 0
+            with contextlib.suppress(OSError):
+                raw.sendall(begun)
+                while taken < 1024:
+                    raw.sendall(piece)
+                    taken += 1
+                    assert server.memory() < before + 10, (begun, taken, before, server.memory())
+        assert status(server, {"page": "a", "settings": {}}) == 200
+
+
+def bears_little_memory():
+    """Where a picture finds no memory, the page is told, and the next is made."""
+    subprocess.run([program.replace("dof-view", "dof-trace"), "fence", "--size", "640x360", "--spp", "1", "--views", "0", "-o", "large"], check=True)
+    with served(program, "large/center.exr") as server:
+        server.said("/facts") # and that page's threads are there
+        size = int(server.memory("VmSize") * 2**20)
+        resource.prlimit(server.process.pid, resource.RLIMIT_AS, (size, resource.RLIM_INFINITY))
+        code, why = server.send("/picture", json.dumps({"page": "a", "settings": {}}).encode())
+        assert (code, why) == (500, b"there is not enough memory for this\n"), (code, why)
+        resource.prlimit(server.process.pid, resource.RLIMIT_AS, (resource.RLIM_INFINITY, resource.RLIM_INFINITY))
+        server.picture(settings={})
 
 
 def newest_wins(server):
@@ -200,9 +242,11 @@ def main():
         refuses(server)
         listens_here_alone(server)
         bears_many(server)
+        bears_lines_without_end(server)
         with served(program, ldi) as second:
             assert second.key != server.key and second.port != server.port
             assert status(server, {"page": "a"}, X_Sparselens_Key=second.key) == 403
+    bears_little_memory()
     with served(program, ldi, "--lens-samples", "8000", "--threads", "1") as server:
         makes_pieces(server)
         newest_wins(server)

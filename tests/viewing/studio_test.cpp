@@ -96,7 +96,7 @@ TEST(Studio, IsLeftWithWorkInHand) {
     }
 }
 
-TEST(Crew, DoesAllWithFewThreadsAndHoldsWhoeverBringsTooMuch) {
+TEST(Crew, DoesAllWithFewThreads) {
     std::atomic<int> done = 0, at_once_now = 0, most = 0;
     {
         Crew crew;
@@ -109,7 +109,6 @@ TEST(Crew, DoesAllWithFewThreadsAndHoldsWhoeverBringsTooMuch) {
                 --at_once_now;
                 ++done;
             });
-        EXPECT_GE(done + int(Crew::most_at_once + Crew::most_waiting), 1000);
     }
     EXPECT_EQ(done, 1000);
     EXPECT_LE(most, int(Crew::most_at_once));

@@ -1,15 +1,22 @@
 #include "viewing/crew.h"
 
+#include <exception>
 #include <utility>
 
 namespace sparselens {
 
 void Crew::add(std::function<void()> task) {
-    std::unique_lock lock(mutex_);
-    changed_.wait(lock, [&] { return waiting_.size() < most_waiting || ending_; });
+    const std::lock_guard lock(mutex_);
     if (ending_) return;
     waiting_.push_back(std::move(task));
-    if (idle_ < waiting_.size() && threads_.size() < most_at_once) threads_.emplace_back([this] { run(); });
+    if (idle_ < waiting_.size() && threads_.size() < most_at_once) try {
+            threads_.emplace_back([this] { run(); });
+        } catch (const std::exception &) { // no memory for one more: those that are there do it
+            if (threads_.empty()) {
+                waiting_.pop_back();
+                throw;
+            }
+        }
     changed_.notify_all();
 }
 

@@ -1,5 +1,5 @@
-// Threads that answer connections: no more than `most_at_once`, each made when it is first needed. Whoever adds a task while
-// `most_waiting` wait is held until one is begun, so that memory stays bounded whatever comes.
+// Threads that work on requests: no more than `most_at_once`, each made when it is first needed. How many tasks may wait is a
+// matter of those who add them.
 #pragma once
 
 #include <condition_variable>
@@ -14,10 +14,10 @@ namespace sparselens {
 
 class Crew {
 public:
-    static constexpr std::size_t most_at_once = 64, most_waiting = 128;
+    static constexpr std::size_t most_at_once = 64;
 
     ~Crew() { end(); }
-    void add(std::function<void()> task); // it may not throw
+    void add(std::function<void()> task); // which may not throw; throws where there can be no thread at all
     void end();                           // after the tasks that were added
 
 private:

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <set>
 #include <utility>
 
 namespace sparselens {
@@ -11,6 +12,7 @@ Reel::Reel(const std::vector<std::string> &paths, std::uint64_t most_bytes, Read
     std::set<std::string> seen;
     for (const std::string &path : paths)
         if (seen.insert(path).second) paths_.push_back(path);
+    bad_.resize(paths_.size());
     if (paths_.size() > 1) reader_ = std::thread([this] { read_ahead(); });
 }
 
@@ -84,7 +86,7 @@ Reel::Held Reel::read(std::unique_lock<std::mutex> &lock, std::size_t number) {
     reading_ = false;
     changed_.notify_all();
     if (failure) std::rethrow_exception(failure);
-    bad_.erase(number);
+    bad_[number] = false;
     held_[number] = frame;
     held_bytes_ += frame->packed.bytes();
     largest_ = std::max(largest_, frame->packed.bytes());
@@ -103,7 +105,7 @@ std::optional<std::size_t> Reel::next_ahead() const {
             nearer += found->second->packed.bytes();
         else if (step == 0)
             return {}; // who asked reads it
-        else if (!bad_.contains(number))
+        else if (!bad_[number])
             return nearer + largest_ <= most_bytes_ ? std::optional(number) : std::nullopt;
     }
     return {};
@@ -121,7 +123,7 @@ void Reel::read_ahead() {
         try {
             read(lock, *next);
         } catch (...) {
-            bad_.insert(*next); // who asks for it is told why
+            bad_[*next] = true; // who asks for it is told why
         }
     }
 }

@@ -12,7 +12,6 @@
 #include <memory>
 #include <mutex>
 #include <optional>
-#include <set>
 #include <string>
 #include <thread>
 #include <vector>
@@ -50,7 +49,7 @@ private:
     mutable std::mutex mutex_;
     std::condition_variable changed_;
     std::map<std::size_t, Held> held_; // by their number
-    std::set<std::size_t> bad_;        // that could not be read ahead
+    std::vector<bool> bad_;            // that could not be read ahead
     std::size_t last_asked_ = 0;
     std::uint64_t held_bytes_ = 0, largest_ = 0; // largest: of all frames so far
     bool forwards_ = true, reading_ = false, closing_ = false;

@@ -100,14 +100,13 @@ void Studio::work_on(Job &job) {
     const auto watch = [&job] {
         if (job.outdated) throw Outdated();
     };
-    Progress progress(
-        [&](const std::string &stage, int percent) {
-            watch();
-            const std::lock_guard lock(mutex_);
-            job.state = {stage, percent};
-        },
-        watch);
+    const auto say = [&](const std::string &stage, int percent) {
+        watch();
+        const std::lock_guard lock(mutex_);
+        job.state = {stage, percent};
+    };
     try {
+        Progress progress(say, watch);
         job.answer = job.work(progress);
     } catch (const Outdated &) {
         return; // nobody waits for it
