@@ -198,7 +198,13 @@ picture same a.exr out.exr R,G || fail "a copy of red is not gathered as red is"
 exits 0 "$gather" ldi.exr -o right.exr --lens-point 1,0
 exits 0 "$gather" ldi.exr -o left.exr --lens-point -1,0
 differ right.exr left.exr "--lens-point"
-fails_saying 2 'lens-point.*at most 1' "$gather" ldi.exr -o y.exr --lens-point 1,1
+exits 0 "$gather" ldi.exr -o rim.exr --lens-point 0.71,0.71 # a point of the rim, rounded
+exits 0 "$gather" ldi.exr -o rounded.exr --lens-point 0.708,0.708
+cmp rim.exr rounded.exr || fail "--lens-point goes beyond the rim"
+exits 0 "$gather" ldi.exr -o rim.exr --lens-point 0.708,0.707
+for point in 1,1 0.72,0.72 nan,0; do
+    fails_saying 2 'lens-point.*at most 1' "$gather" ldi.exr -o y.exr --lens-point $point
+done
 fails_saying 2 'lens-point.*method lens' "$gather" ldi.exr -o y.exr --lens-point 0,1 --method selective
 
 # --show: what the tool understood, in colours; the picture is not gathered.

@@ -52,6 +52,17 @@ oiiotool left.exr right.exr --siappendall -o ldi.exr
 agree "${lens[@]}" --stereo-view right
 mv deep.exr ldi.exr
 
+# A sequence whose second frame has another size, other colours and sub-pixels.
+exits 0 "$bin/dof-trace" grass --size 96x54 --spp 4 --supersample 2 --views 0 -o second
+oiiotool second/center.exr --attrib:type=float[8] chromaticities 0.713,0.293,0.165,0.83,0.128,0.044,0.32168,0.33767 -o shot.0002.exr
+cp ldi.exr shot.0001.exr
+agree_frames() { exits 0 python3 "$helpers/agree.py" "$bin" shot.####.exr "$@"; }
+agree_frames
+agree_frames --fstop 1:0.3,2:0.8 --blades 5 --cat-eye 1 --tilt -10,5
+cp center.exr hold.0001.exr
+cp shot.0002.exr hold.0002.exr
+agree_frames --holdout hold.####.exr --holdout-defocused --quality final
+
 # Its own.
 says --port 0 -v
 grep -q "'largest_coc'" stdout || fail "says $(cat stdout)"

@@ -1,24 +1,38 @@
 """agree.py BIN_DIR LDI OPTIONS...: the picture that a page of dof-view shows is, byte by byte, that of dof-gather with the same
-options, and so is that of the command which the page copies."""
+options, and so is that of the command which the page copies for PNG; the one for EXR writes that. LDI may be a sequence, of which each
+frame is compared."""
 import subprocess
 import sys
 
 from png import read_png
 from served import served
 
+folder, ldi, *options = sys.argv[1:]
+
+
+def runs(command):
+    """Returns the name of the file that it writes."""
+    tool, words = command.split(" ", 1)
+    assert tool == "dof-gather", command
+    subprocess.run(f"{folder}/dof-gather {words}", shell=True, check=True)
+    return words.split()[-1]
+
 
 def main():
-    folder, ldi, *options = sys.argv[1:]
+    shown = {}
     with served(folder + "/dof-view", ldi, *options) as server:
-        said, pixels = server.picture(settings={})
-        shown = said["width"], said["height"], said["channels"], pixels
-        command = server.said("/commands", settings={})["shell"]
-    subprocess.run([folder + "/dof-gather", ldi, *options, "-o", "gathered.png"], check=True)
-    assert read_png("gathered.png") == shown, "another picture than dof-gather's"
-    tool, *words = command.split(" ", 1)
-    assert tool == "dof-gather", command
-    subprocess.run(f"{folder}/dof-gather {words[0]}", shell=True, check=True)
-    assert read_png(words[0].split()[-1]) == shown, f"the command makes another picture: {command}"
+        for frame in server.said("/facts").get("frames", [None]):
+            asked = {"settings": {}, **({} if frame is None else {"frame": frame})}
+            said, pixels = server.picture(**asked)
+            commands = [server.said("/commands", **asked, **form)["shell"] for form in ({"format": "png"}, {})]
+            shown[frame] = (said["width"], said["height"], said["channels"], pixels), *commands
+    gathered = "gathered.####.png" if None not in shown else "gathered.png"
+    subprocess.run([folder + "/dof-gather", ldi, *options, "-o", gathered], check=True)
+    for frame, (picture, command, for_exr) in shown.items():
+        assert read_png(gathered.replace("####", f"{frame or 0:04}")) == picture, f"another picture than dof-gather's: {frame}"
+        assert read_png(runs(command)) == picture, f"the command makes another picture: {command}"
+        with open(runs(for_exr), "rb") as file:
+            assert file.read(4) == b"\x76\x2f\x31\x01", f"not an EXR file: {for_exr}"
 
 
 main()

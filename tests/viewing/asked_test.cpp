@@ -18,6 +18,8 @@ TEST(Asked, IsRead) {
     EXPECT_TRUE(least.settings.empty());
     EXPECT_FALSE(least.frame);
     EXPECT_FALSE(least.pixel);
+    EXPECT_EQ(least.format, "exr");
+    EXPECT_EQ(parse_asked(R"({"page": "a", "format": "png"})").format, "png");
 }
 
 TEST(Asked, AnythingElseIsRefused) {
@@ -37,6 +39,8 @@ TEST(Asked, AnythingElseIsRefused) {
                              R"({"page": "a", "settings": {"fstop": "2 3"}})",
                              R"({"page": "a", "exposure": "1"})",
                              R"({"page": "a", "exposure": 21})",
+                             R"({"page": "a", "format": "../a"})",
+                             R"({"page": "a", "format": 1})",
                              R"({"page": "a", "frame": 1.5})",
                              R"({"page": "a", "frame": 3000000000})",
                              R"({"page": "a", "pixel": [1]})",

@@ -51,6 +51,12 @@ TEST(ViewWords, AreReadAsACommandLineIs) {
         EXPECT_THROW(command_of(words), UsageError);
 }
 
+TEST(ViewWords, AFileOfExrHasNoDisplay) {
+    const Words words{"a.exr", "--display", "P3", "--fstop", "2", "--view-transform=Raw"};
+    EXPECT_EQ(words_for(words, "b.png"), words);
+    EXPECT_EQ(words_for(words, "b.exr"), (Words{"a.exr", "--fstop", "2"}));
+}
+
 TEST(ViewWords, AreCommandsElsewhere) {
     const Words words{"it's.exr",
                       "--fstop",

@@ -77,8 +77,10 @@ void add_method_options(CLI::App &app, GatherCommand &options) {
 
 void add_point_option(CLI::App &app, std::optional<Imath::V2d> &point) {
     const auto read = [&point](const std::string &text) {
+        constexpr double most_rounded = 1.01; // a point of the rim by two digits
         point = parse_pair(text);
-        if (!point || point->length() > 1)
+        if (point && point->length() > 1 && point->length() <= most_rounded) point->normalize();
+        if (!point || point->length() > most_rounded)
             throw CLI::ValidationError(
                 "--lens-point",
                 fmt::format("must be X,Y at most 1 from the middle (e.g. 0.5,-0.5), not '{}'", text));

@@ -49,6 +49,11 @@ std::map<std::string, std::string> settings_of(const Json &object) {
     return settings;
 }
 
+std::string format_of(const Json &value) {
+    if (value != "exr" && value != "png") refuse("format is neither exr nor png");
+    return value.get<std::string>();
+}
+
 double exposure_of(const Json &value) {
     constexpr double most = 20;
     if (!value.is_number() || !(std::abs(value.get<double>()) <= most))
@@ -86,6 +91,8 @@ Asked parse_asked(std::string_view text) {
             asked.settings = settings_of(value);
         else if (name == "frame")
             asked.frame = frame_of(value);
+        else if (name == "format")
+            asked.format = format_of(value);
         else if (name == "exposure")
             asked.exposure = exposure_of(value);
         else if (name == "pixel")

@@ -17,6 +17,7 @@ struct Asked {
     // line of the server says.
     std::map<std::string, std::string> settings;
     std::optional<int> frame;        // its number, where there are frames; else the first
+    std::string format = "exr";      // of the files that commands write: "exr" or "png"
     double exposure = 0;             // stops, [-20, 20]
     std::optional<Imath::V2i> pixel; // of the picture, EXR coordinates
 };

@@ -7,6 +7,8 @@
 #include "loading/holdout_file.h"
 #include "loading/ldi_cache.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -33,26 +35,35 @@ Image rgba_of(Image image) {
     return out;
 }
 
-std::vector<std::string> paths_of(const std::vector<GatherCommand> &frames) {
-    std::vector<std::string> paths;
-    for (const GatherCommand &frame : frames) paths.push_back(frame.input);
-    return paths;
+// What a file is read as: the focal length of its frame makes the lengths of rays planar.
+std::string name_of(const GatherCommand &options) {
+    if (options.depth.meaning != DepthMeaning::distance) return options.input;
+    return fmt::format("{}:{}:{}", options.input, options.lens.focal_length_mm.value_or(0),
+                       options.lens.sensor_width_mm.value_or(0));
 }
 
-// By the options of its frame, of which the focal length may depend.
+std::vector<std::string> names_of(const std::vector<GatherCommand> &frames) {
+    std::vector<std::string> names;
+    for (const GatherCommand &frame : frames) names.push_back(name_of(frame));
+    return names;
+}
+
+// By the options of the first frame of that name.
 Reel::Read reader_of(const std::vector<GatherCommand> &frames, const ToolContext &tool) {
-    return [frames, &tool](const std::string &path) {
-        const GatherCommand &options = *std::ranges::find(frames, path, &GatherCommand::input);
+    return [frames, &tool](const std::string &name) {
+        const GatherCommand &options = *std::ranges::find(frames, name, name_of);
         LdiCache cache;
         OpenedLdi &in =
-            cache.load(path, options.channels, {options.lens, options.depth}, options.colour, tool);
-        return shot_frame(std::move(in), options.windows);
+            cache.load(options.input, options.channels, {options.lens, options.depth}, options.colour, tool);
+        return shot_frame(std::move(in), options.windows, options.colour);
     };
 }
 
-// The last one that is alike, else the result of `make`, which takes the place of the oldest of a few.
+// The last one that is alike, else the result of `make`, which takes the place of the oldest of a few. Those of frames that have
+// been let go are let go.
 template <typename Kept, typename Alike, typename Make>
 const Kept &last_few(std::deque<Kept> &kept, const Alike &alike, const Make &make) {
+    std::erase_if(kept, [](const Kept &one) { return one.of.expired(); });
     if (const auto found = std::ranges::find_if(kept, alike); found != kept.end()) return *found;
     if (kept.size() >= most_small) kept.pop_front();
     return kept.emplace_back(make());
@@ -88,13 +99,15 @@ Image false_colours(Show show, Subject &from, PictureOptions by, Progress &progr
 } // namespace
 
 Shot::Shot(const std::vector<GatherCommand> &frames, const ToolContext &tool)
-    : name_(frames.front().input),
-      reel_(paths_of(frames), memory_for_frames(tool.max_memory), reader_of(frames, tool)),
-      to_display_(output_transform(frames.front().colour, frame(frames.front())->in.header)) {}
+    : reel_(names_of(frames), memory_for_frames(tool.max_memory), reader_of(frames, tool)) {
+    frame(frames.front());
+}
+
+Reel::Held Shot::frame(const GatherCommand &options) { return reel_.at(name_of(options)); }
 
 const Shot::Small &Shot::small(const Reel::Held &frame, const WindowOptions &options) {
     return last_few(
-        small_, [&](const Small &other) { return other.of == frame && other.proxy == options.proxy; },
+        small_, [&](const Small &other) { return other.of.lock() == frame && other.proxy == options.proxy; },
         [&] {
             ThinLens any;
             OpenedLdi in = frame->unpacked();
@@ -130,7 +143,7 @@ LensFile Shot::looks_of(const GivenLooks &given, std::optional<double> fstop) {
 const Ldi *Shot::holdout(const GatherCommand &options, const Reel::Held &frame) {
     if (options.holdout.empty()) return nullptr;
     const auto alike = [&](const ReadHoldout &other) {
-        return other.path == options.holdout && other.of == frame && other.proxy == options.windows.proxy;
+        return other.path == options.holdout && other.of.lock() == frame && other.proxy == options.windows.proxy;
     };
     return &last_few(holdouts_, alike, [&] {
                 return ReadHoldout{options.holdout, frame, options.windows.proxy,
@@ -164,15 +177,15 @@ TakenPicture Shot::taken(const GatherCommand &options, const ToolContext &tool, 
     return out;
 }
 
-ShownPixels Shot::displayed(Image image, double exposure) const {
+ShownPixels Shot::displayed(Image image, double exposure, const ShotFrame &frame) {
     image = rgba_of(std::move(image));
     const auto gain = float(std::exp2(exposure));
     if (exposure != 0)
         for (std::size_t k = 0; k < image.channels.size(); ++k)
             if (image.channels[k].name != "A")
                 for (float &value : image.plane(k)) value *= gain;
-    transform_colours(to_display_, image);
-    return shown_pixels(name_, image);
+    transform_colours(frame.to_display, image);
+    return shown_pixels(frame.in.name, image);
 }
 
 } // namespace sparselens

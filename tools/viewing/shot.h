@@ -41,7 +41,7 @@ public:
     Shot(const std::vector<GatherCommand> &frames, const ToolContext &tool);
 
     // The frame of which a picture is made; by any number of threads. Throws as dof-gather does.
-    Reel::Held frame(const GatherCommand &options) { return reel_.at(options.input); }
+    Reel::Held frame(const GatherCommand &options);
     const Reel &reel() const { return reel_; }
 
     // What dof-gather would write; by one thread at a time. Throws as that does, and what `progress` throws. Who watches is told of
@@ -49,14 +49,14 @@ public:
     TakenPicture taken(const GatherCommand &options, const ToolContext &tool, Progress &progress,
                        const TileWatch *watch = nullptr);
 
-    // As PNG shows linear colours of the file's space, after `exposure` stops.
-    ShownPixels displayed(Image image, double exposure) const;
+    // As PNG shows linear colours of the frame's space, after `exposure` stops.
+    static ShownPixels displayed(Image image, double exposure, const ShotFrame &frame);
 
 private:
     Subject subject(const GatherCommand &options, const Reel::Held &frame, const Camera &camera);
     // A frame as small as a proxy of it is.
     struct Small {
-        Reel::Held of;
+        std::weak_ptr<const ShotFrame> of; // which is held by the reel alone
         int proxy;
         PackedLdi ldi;
         GatherWindows windows;
@@ -73,15 +73,13 @@ private:
     };
     struct ReadHoldout {
         std::string path;
-        Reel::Held of;
+        std::weak_ptr<const ShotFrame> of;
         int proxy;
         Ldi ldi;
     };
 
-    std::string name_;
     Reel reel_;
     ChosenGatherDevice device_;
-    ColourTransform to_display_;
     std::deque<Small> small_; // the last few
     std::optional<ReadLooks> looks_;
     std::deque<ReadHoldout> holdouts_; // the last few

@@ -88,13 +88,14 @@ ThinLens ShotFrame::lens(const Camera &camera) const {
     return lens;
 }
 
-ShotFrame shot_frame(OpenedLdi in, const WindowOptions &windows) {
+ShotFrame shot_frame(OpenedLdi in, const WindowOptions &windows, const ColourOptions &colour) {
     if (!all_found(find_rgb(in.ldi.channels)))
         throw Error(in.name + ": needs the channels R, G and B, which are what is shown");
     const DepthExtent depths = depth_extent(in.ldi);
     const int across = subpixels_of(windows, in).across;
     ObjectNames names = object_names(in.header);
-    return {pack(std::move(in)), across, depths, std::move(names)};
+    ColourTransform to_display = output_transform(colour, in.header);
+    return {pack(std::move(in)), across, depths, std::move(names), std::move(to_display)};
 }
 
 } // namespace sparselens

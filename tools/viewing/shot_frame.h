@@ -2,6 +2,7 @@
 #pragma once
 
 #include "deep/packed_rows.h"
+#include "io/display/colour.h"
 #include "io/open_ldi.h"
 #include "options/gather_options.h"
 
@@ -35,6 +36,7 @@ struct ShotFrame : PackedLdi {
     int across = 1; // sub-pixels of the LDI that become one pixel
     DepthExtent depths = {};
     ObjectNames names = {};
+    ColourTransform to_display = {}; // of its colours, as PNG shows them
 
     // The camera and the lens of its picture. Throws as dof-gather does.
     Camera camera(const GatherCommand &options) const;
@@ -42,6 +44,6 @@ struct ShotFrame : PackedLdi {
 };
 
 // Throws Error where it has no R, G and B, which are what is shown.
-ShotFrame shot_frame(OpenedLdi in, const WindowOptions &windows);
+ShotFrame shot_frame(OpenedLdi in, const WindowOptions &windows, const ColourOptions &colour);
 
 } // namespace sparselens

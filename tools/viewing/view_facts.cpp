@@ -20,6 +20,7 @@ using Json = nlohmann::json;
 namespace {
 
 constexpr double sharp_px = 1; // as --show focus has it
+constexpr std::size_t most_objects = 65535;
 
 // visit(name) for the objects that a sample is of, each matte's by descending coverage.
 template <typename Visit>
@@ -89,7 +90,7 @@ ObjectMap object_map(const ShotFrame &frame) {
     const auto add = [&](const Ldi &ldi, const Imath::V2i &at) {
         const SampleRange samples = ldi.pixel(ldi.windows.index(at.x, at.y));
         const std::string name = samples.empty() ? "" : object_of(ldi, mattes, samples.front(), frame.names);
-        if (name.empty()) return std::size_t{0};
+        if (name.empty() || (objects.size() == most_objects && !objects.contains(name))) return std::size_t{0};
         const double z = double(ldi.z[samples.front()]);
         Object &object = objects.try_emplace(name, Object{objects.size() + 1, {z, z}}).first->second;
         object.depths = {std::min(object.depths.nearest, z), std::max(object.depths.farthest, z)};
@@ -118,8 +119,9 @@ ObjectMap object_map(const ShotFrame &frame) {
 }
 
 Json sample_facts(const ShotFrame &frame, const ThinLens &lens, const Imath::V2i &pixel) {
-    const Imath::V2i at = middle_subpixel(pixel, frame.across);
     Json samples = Json::array();
+    if (!reduced(frame.in.ldi.windows.data, frame.across).intersects(pixel)) return samples; // however far away
+    const Imath::V2i at = middle_subpixel(pixel, frame.across);
     if (!frame.in.ldi.windows.data.intersects(at)) return samples;
     const Ldi ldi = frame.row(at.y);
     const auto rgb = find_rgb(ldi.channels);

@@ -16,7 +16,7 @@ nlohmann::json lens_facts(const TakenPicture &picture);
 nlohmann::json sample_facts(const ShotFrame &frame, const ThinLens &lens, const Imath::V2i &pixel);
 
 // The objects that the pixels of the picture show in front. `said`: their names, and the focus and the hyperfocal distance of
-// the widest lens that is sharp all over each. `numbers`: two bytes for each pixel, the lower first: which it is, from 1.
+// the widest lens that is sharp all over each. `numbers`: two bytes for each pixel, the lower first: which it is, from 1 to 65535; 0: none, or one of more.
 struct ObjectMap {
     nlohmann::json said;
     std::vector<std::uint8_t> numbers;

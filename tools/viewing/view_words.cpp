@@ -143,6 +143,11 @@ GatherCommand command_of(const Words &words) {
     return options;
 }
 
+Words words_for(const Words &words, const std::string &output) {
+    if (!output.ends_with(".exr")) return words;
+    return without(words, [](const std::string &name) { return name == "--display" || name == "--view-transform"; });
+}
+
 std::string shell_command(const Words &words, const std::string &output) {
     return command_line("dof-gather", words) + " -o" +
            command_line("", {output}); // after a blank, quoted if need be

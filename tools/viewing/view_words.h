@@ -28,6 +28,9 @@ Words words_with(const Words &given, const std::map<std::string, std::string> &s
 // What the words ask for. Throws UsageError as a command line is refused.
 GatherCommand command_of(const Words &words);
 
+// The words without those that do not apply to such an output: an EXR file has no display.
+Words words_for(const Words &words, const std::string &output);
+
 // The command that makes the picture, for a shell, and as a script for Python.
 std::string shell_command(const Words &words, const std::string &output);
 std::string python_script(const Words &words, const std::string &input, const std::string &output);

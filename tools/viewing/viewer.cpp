@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/subpixels.h"
 #include "io/exr/exr_flat.h"
+#include "viewing/lens_guess.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -63,7 +64,9 @@ Viewer::Viewer(const ViewOptions &options, const Words &words, const FrameComman
     : options_(options), words_(picture_words(words)), frames_(frames), tool_(tool),
       shot_(commands_of(frames), tool) {
     const Reel::Held first = shot_.frame(options.picture);
-    first->lens(first->camera(options.picture)); // what is unknown is a matter of the command line
+    guess_ = lens_guess(*first, first->camera(options.picture));
+    if (!guess_.empty()) warn(tool, guess_in_words(guess_));
+    words_.insert(words_.end(), guess_.begin(), guess_.end());
     if (!options.reference.empty()) reference_of(options.reference);
     if (!options.save.empty() && !std::filesystem::is_directory(options.save))
         throw Error(options.save + ": is not a folder, where --save could write");
@@ -76,12 +79,18 @@ std::size_t Viewer::frame_of(const Asked &asked) const {
     throw UsageError(fmt::format("the request: there is no frame {}", *asked.frame));
 }
 
+Words Viewer::words_of_frame(std::size_t i) const {
+    Words words = picture_words(frames_.words(i));
+    words.insert(words.end(), guess_.begin(), guess_.end());
+    return words;
+}
+
 Words Viewer::words_of(const Asked &asked) const {
-    return words_with(picture_words(frames_.words(frame_of(asked))), asked.settings, options_.presets);
+    return words_with(words_of_frame(frame_of(asked)), asked.settings, options_.presets);
 }
 
 GatherCommand Viewer::command_of_frame(const Asked &asked) const {
-    return command_of(picture_words(frames_.words(frame_of(asked))));
+    return command_of(words_of_frame(frame_of(asked)));
 }
 
 std::string Viewer::facts(const Asked &asked) {
@@ -108,6 +117,8 @@ std::string Viewer::facts(const Asked &asked) {
         facts["frames"].push_back(frames_.number(i));
     for (const auto &preset : options_.presets) facts["lenses"].push_back(preset.first);
     for (const auto &type : chromatic_types()) facts["chromatic_types"].push_back(type.first);
+    if (!guess_.empty()) facts["guess"] = guess_in_words(guess_);
+    if (camera.metres_per_unit) facts["metres_per_unit"] = *camera.metres_per_unit;
     if (camera.fstop) facts["fstop"] = json_number(*camera.fstop);
     if (camera.focus_distance) facts["focus"] = json_number(*camera.focus_distance);
     return facts.dump(-1, ' ', false, Json::error_handler_t::replace);
@@ -132,13 +143,15 @@ std::shared_ptr<const TakenPicture> Viewer::taken(const Words &words, const Gath
 std::string Viewer::answer(const Words &words, const Asked &asked, Progress &progress) {
     const auto begun = std::chrono::steady_clock::now();
     const GatherCommand command = command_of(words);
-    const TileWatch watch{
-        asked.pixel.value_or(Imath::V2i(0)),
-        [&](const Image &picture, const Imath::Box2i &tile) { add_piece(asked, picture, tile); }};
+    const Reel::Held frame = shot_.frame(command);
+    const TileWatch watch{asked.pixel.value_or(Imath::V2i(0)),
+                          [&](const Image &picture, const Imath::Box2i &tile) {
+                              add_piece(asked, *frame, picture, tile);
+                          }};
     const Pieces::AtWork at_work(pieces_, asked.page);
     const auto picture = taken(words, command, progress, asked.pixel ? &watch : nullptr);
     progress.may_end();
-    const ShownPixels pixels = shot_.displayed(picture->image, asked.exposure);
+    const ShownPixels pixels = Shot::displayed(picture->image, asked.exposure, *frame);
     Json said = size_of(pixels);
     said["lens"] = lens_facts(*picture);
     said["milliseconds"] =
@@ -147,14 +160,14 @@ std::string Viewer::answer(const Words &words, const Asked &asked, Progress &pro
 }
 
 // Those of its pixels that are shown.
-void Viewer::add_piece(const Asked &asked, const Image &picture, const Imath::Box2i &tile) {
+void Viewer::add_piece(const Asked &asked, const ShotFrame &frame, const Image &picture, const Imath::Box2i &tile) {
     const Imath::Box2i &display = picture.windows.display;
     const Imath::Box2i box({std::max(tile.min.x, display.min.x), std::max(tile.min.y, display.min.y)},
                            {std::min(tile.max.x, display.max.x), std::min(tile.max.y, display.max.y)});
     if (box.isEmpty()) return;
     Image piece = crop(picture, box);
     piece.windows.display = box;
-    pieces_.add({box.min, shot_.displayed(std::move(piece), asked.exposure)});
+    pieces_.add({box.min, Shot::displayed(std::move(piece), asked.exposure, frame)});
 }
 
 std::string Viewer::pieces(const Asked &asked) {
@@ -179,12 +192,13 @@ std::optional<std::string> Viewer::picture(const Asked &asked) {
 std::optional<std::string> Viewer::reference(const Asked &asked) {
     const std::string path = value_of("--reference", frames_.words(frame_of(asked)));
     if (path.empty()) throw UsageError("there is no reference: start dof-view with --reference");
-    const ShownPixels pixels = shot_.displayed(reference_of(path), asked.exposure);
+    const Reel::Held frame = shot_.frame(command_of_frame(asked));
+    const std::lock_guard lock(reference_mutex_); // one copy at a time, however many ask
+    const ShownPixels pixels = Shot::displayed(reference_of(path), asked.exposure, *frame);
     return with_bytes(size_of(pixels), pixels.values);
 }
 
-Image Viewer::reference_of(const std::string &path) {
-    const std::lock_guard lock(reference_mutex_);
+const Image &Viewer::reference_of(const std::string &path) {
     if (!reference_ || reference_->path != path) reference_ = Reference{path, read_flat_exr(path).image};
     return reference_->image;
 }
@@ -194,8 +208,8 @@ std::optional<std::string> Viewer::rendered(const Asked &asked) {
     sharp.settings = {{"lens-radius", "0"}};
     const GatherCommand command = command_of(words_of(sharp));
     return studio_.make(asked.page + "/rendered", [this, command, asked](Progress &progress) {
-        const ShownPixels pixels =
-            shot_.displayed(shot_.taken(command, tool_, progress).image, asked.exposure);
+        const ShownPixels pixels = Shot::displayed(shot_.taken(command, tool_, progress).image, asked.exposure,
+                                                   *shot_.frame(command));
         return with_bytes(size_of(pixels), pixels.values);
     });
 }
@@ -211,7 +225,7 @@ std::string Viewer::samples(const Asked &asked) {
     const Reel::Held frame = shot_.frame(command);
     Json said{{"samples", sample_facts(*frame, frame->lens(frame->camera(command)), *asked.pixel)}};
     const std::lock_guard lock(last_mutex_);
-    if (last_) {
+    if (last_ && std::ranges::find(last_->words, command.input) != last_->words.end()) {
         const Image &image = last_->picture->image;
         const Imath::V2i at = reduced({*asked.pixel, *asked.pixel}, last_->proxy).min;
         if (image.windows.data.intersects(at))
@@ -229,17 +243,18 @@ std::string Viewer::progress(const Asked &asked) const {
 }
 
 std::string Viewer::commands(const Asked &asked) const {
-    const Words words = words_of(asked);
-    const std::string input = command_of(words).input, output = stem_of(input) + ".png";
+    const std::string ending = "." + asked.format;
+    const std::string input = command_of(words_of(asked)).input, output = stem_of(input) + ending;
+    const Words words = words_for(words_of(asked), output);
     // The name of the files of all frames stands where that of the first does.
     const Words first = picture_words(frames_.words(0));
     std::string range =
         stem_of(words_[std::size_t(std::ranges::find(first, options_.picture.input) - first.begin())]);
     if (file_at(range, 1) == range) range += ".####";
-    return Json{
-        {"shell", shell_command(words, output)},
-        {"range", shell_command(words_with(words_, asked.settings, options_.presets), range + ".png")},
-        {"python", python_script(words, input, output)}}
+    return Json{{"shell", shell_command(words, output)},
+                {"range", words_for(words_with(words_, asked.settings, options_.presets), output)},
+                {"range_output", range + ending},
+                {"python", python_script(words, input, output)}}
         .dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

@@ -48,7 +48,7 @@ public:
     std::string objects(const Asked &asked);
 
     // JSON: the samples of a pixel, and its value in the last picture; how far the picture of the page is; the commands that
-    // make it elsewhere; the name of the PNG that was written (--save).
+    // make it elsewhere, of a range of frames as words; the name of the PNG that was written (--save).
     std::string samples(const Asked &asked);
     std::string progress(const Asked &asked) const;
     std::string commands(const Asked &asked) const;
@@ -56,16 +56,18 @@ public:
 
 private:
     std::size_t frame_of(const Asked &asked) const;
+    Words words_of_frame(std::size_t i) const;
     Words words_of(const Asked &asked) const;
     GatherCommand command_of_frame(const Asked &asked) const;
-    Image reference_of(const std::string &path);
+    const Image &reference_of(const std::string &path); // while its mutex is held
     std::shared_ptr<const TakenPicture> taken(const Words &words, const GatherCommand &command,
                                               Progress &progress, const TileWatch *watch = nullptr);
-    void add_piece(const Asked &asked, const Image &picture, const Imath::Box2i &tile);
+    void add_piece(const Asked &asked, const ShotFrame &frame, const Image &picture, const Imath::Box2i &tile);
     std::string answer(const Words &words, const Asked &asked, Progress &progress);
 
     ViewOptions options_;
     Words words_; // those that make the pictures, of all frames
+    Words guess_; // of the lens, after them
     FrameCommands frames_;
     const ToolContext &tool_;
     Shot shot_;
