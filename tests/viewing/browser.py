@@ -12,7 +12,7 @@ from served import apart, served
 
 folder, ldi, reference, mattes = sys.argv[1:5]
 shots = sys.argv[5] if len(sys.argv) > 5 else None
-ENTER, LEFT, UP, SHIFT = "\ue007", "\ue012", "\ue013", "\ue008"
+ENTER, LEFT, UP, SHIFT, CONTROL = "\ue007", "\ue012", "\ue013", "\ue008", "\ue009"
 
 
 class Page:
@@ -42,6 +42,15 @@ class Page:
     def pixels(self, canvas="above"):
         return self.browser.run("const c = part(arguments[0]); return [c.width, c.height,"
                                 "Array.from(c.getContext('2d').getImageData(0, 0, c.width, c.height).data).join()]", canvas)
+
+    def writes(self, form):
+        """Commands are for such files from now on."""
+        self.browser.run("part('format').value = arguments[0]; part('format').dispatchEvent(new Event('change'))", form)
+        self.browser.until(f"part('command').value.endsWith('.{form}')")
+
+    def types(self, field, text):
+        self.browser.run("const field = part(arguments[0]); field.focus(); field.value = arguments[1];"
+                         "field.dispatchEvent(new Event('input')); field.dispatchEvent(new Event('change'))", field, text)
 
     def set_keys(self, keys):
         """Of the focus distance: its values by frames."""
@@ -118,7 +127,12 @@ def is_exact(page):
     page.rests("final")
     page.browser.until("part('command').value.includes('final')")
     command = page.browser.run("return part('command').value")
+    assert command.endswith(" -o ldi.dof.exr"), command # beside ldi.exr
     runs(command)
+    page.writes("png")
+    command = page.browser.run("return part('command').value")
+    runs(command)
+    page.writes("exr")
     assert tuple(page.pixels()[:2]) == read_png(command.split()[-1])[:2] and page.is_picture(command.split()[-1]), command
     page.shot("final")
 
@@ -130,6 +144,9 @@ def compares(page):
     browser.press("w")
     browser.until("part('below').width > 1 && !part('border').hidden")
     assert "50%" in browser.run(clip), browser.run(clip)
+    assert browser.run("return [part('side_left').textContent, part('side_right').textContent]") == ["this picture", "the reference"]
+    assert browser.run("return part('side_left').getBoundingClientRect().right < part('border').getBoundingClientRect().left + 9"
+                       " && part('side_right').getBoundingClientRect().left > part('border').getBoundingClientRect().left")
     left, y = browser.run("const b = part('border').getBoundingClientRect(); return [b.left + b.width / 2, b.top + 50]")
     browser.pointer(("move", left, y), ("down",), ("move", left - 100, y), ("up",))
     assert browser.run("return comparing.share") < 50
@@ -160,8 +177,11 @@ def shows(page):
     for key, name in (("p", "focus"), ("c", "coc"), ("l", "layers"), ("t", "tiles")):
         page.does(browser.press, key)
         assert page.pixels()[2] != plain and browser.run(f"return part('show_{name}').classList.contains('on')"), name
+        legend = browser.run("return part('legend').hidden ? '' : part('legend').textContent")
+        assert {"focus": "sharp", "coc": "behind it", "layers": "1 sample", "tiles": "lens points"}[name] in legend, legend
         page.shot(name)
         page.does(browser.press, key)
+        assert browser.run("return part('legend').hidden")
         assert page.pixels()[2] == plain, name
     page.does(browser.press, "e")
     middle, (x, y) = page.pixels()[2], page.at(80, 45)
@@ -172,6 +192,9 @@ def shows(page):
     assert browser.run("const disc = part('lens_disc').getBoundingClientRect(), eye = part('eye_at').getBoundingClientRect();"
                        "return eye.left > disc.left + disc.width / 2 && eye.top > disc.top + disc.height / 2")
     page.shot("eye")
+    for direction in range(12): # the rim: rounded, it is still in the lens
+        page.does(browser.run, f"setEye([2 * Math.cos({direction} * .53), 2 * Math.sin({direction} * .53)])")
+        assert browser.run("return part('said').textContent") == ""
     page.does(browser.press, "e")
     assert page.pixels()[2] == plain
     browser.press("x")
@@ -191,8 +214,10 @@ def has_looks(page):
     browser.run("for (const part of document.querySelectorAll('details')) part.open = true")
     names = {look["name"] for look in page.server.said("/facts")["looks"]}
     others = {"lens", "tilt", "axial-chromatic-type", "cat-eye-darkening"}
-    shown = browser.run("return Array.from(document.querySelectorAll('.look > span'), (name) => name.textContent)")
+    shown = browser.run("return Array.from(document.querySelectorAll('.look'), (row) => row.dataset.option)")
     assert set(shown) == names | others, (names, shown)
+    said = browser.run("return Array.from(document.querySelectorAll('.look > span'), (name) => name.textContent)")
+    assert "anamorphic squeeze" in said and not any("-" in name for name in said), said
     before = page.pixels()[2]
     page.does(browser.run, "const slider = part('look_blades').previousSibling; slider.value = 5; slider.dispatchEvent(new Event('input'))")
     assert page.pixels()[2] != before
@@ -219,6 +244,9 @@ def has_keys(page):
     page.shot("keys")
     command = page.copies("command of all frames", "--frames 1-3")
     assert "--focus-distance 1:2,3:5" in command, command
+    assert command.endswith(" -o ldi.dof.####.exr"), command
+    page.writes("png")
+    command = page.copies("command of all frames", "--frames 1-3")
     runs(command)
     made = command.split()[-1].replace("####", "0002")
     assert page.is_picture(made)
@@ -260,10 +288,11 @@ def has_frames(browser):
         page.set_keys({4: 8, 1: 5})
         page.does(browser.press, ".")
         assert browser.run("return [time.frame, focusNow()]") == [2, 6]
+        page.writes("png")
         command = page.copies("command of all frames", "--frames 1,2,4")
         assert "shot.####.ldi.exr" in command and "1:5,4:8" in command, command
         runs(command)
-        assert page.is_picture("shot.0002.png")
+        assert page.is_picture("shot.dof.0002.png")
         browser.run("window.seen = new Set(); const before = goTo; goTo = (frame) => (seen.add(frame), before(frame)); play()")
         browser.until("seen.size === 3")
         browser.press(" ")
@@ -278,13 +307,143 @@ def knows_objects(browser):
         browser.until("objects.list")
         for x, name in ((3, "near"), (20, "far")):
             browser.pointer(("move", *page.at(x, 8)))
-            browser.until(f"part('object').textContent === '{name}'")
+            browser.until(f"part('object').textContent === 'object {name}'")
+            browser.until("objects.list[objects.shown - 1]?.name === '" + name + "'")
+            assert browser.run("return document.querySelector('footer').textContent").count(name) == 1
             marked = [int(value) for value in page.pixels("marks")[2].split(",")]
             assert marked[4 * (8 * 24 + 12) + 3] == (255 if name == "far" else 0) and marked[4 * (8 * 24 + 11) + 3] == (255 if name == "near" else 0)
         page.shot("objects")
+        browser.until("getComputedStyle(part('marks')).opacity === '0'") # the edge can be judged
+        browser.pointer(("move", *page.at(21, 8)))
+        browser.until("getComputedStyle(part('marks')).opacity === '1'")
         page.does(page.click, 20, 8, SHIFT)
         near, far = browser.run("return [asNumber(state.lens.near), asNumber(state.lens.far)]")
         assert 7.5 < near < 7.62 and 8.95 < far < 9.05, (near, far)
+
+
+def has_frames_of_any_size(browser):
+    """Each frame has its own size on the page, and its own colours."""
+    subprocess.run([folder + "/dof-trace", "grass", "--size", "96x54", "--spp", "4", "--supersample", "2", "--views", "0", "-o", "small"], check=True)
+    os.symlink(os.path.abspath(ldi), "sized.0001.exr")
+    os.symlink(os.path.abspath("small/center.exr"), "sized.0002.exr")
+    with served(folder + "/dof-view", "sized.####.exr") as server:
+        page = Page(browser, server)
+        for key, size in ((".", [96, 54]), (",", [160, 90])):
+            page.does(browser.press, key)
+            assert browser.run("return [state.facts.width, state.facts.height, part('above').width, part('above').height]") == 2 * size
+            box = browser.run("const b = part('above').getBoundingClientRect(), f = part('frame').getBoundingClientRect(); return [b.width, f.width, b.height, f.height]")
+            assert abs(box[0] / box[1] - 1) < .01 or abs(box[2] / box[3] - 1) < .01, (size, box)
+
+
+def is_forgiving(page):
+    """What is typed wrongly is not set; steps are undone; a reload keeps what is set."""
+    browser = page.browser
+    page.does(page.types, "focus_text", "3.5")
+    page.does(page.types, "focus_text", "7")
+    page.does(browser.press, "z", CONTROL) # though the field was the last to be written in
+    assert browser.run("return [state.settings['focus-distance'], part('focus_text').value]") == ["3.5", "3.5"]
+    for wrong in ("abc", "1,5", "60cm", "0", "-1"):
+        page.types("focus_text", wrong)
+        browser.until("part('focus_text').classList.contains('wrong') && part('said').textContent.includes('focus-distance')")
+        assert browser.run("return state.settings['focus-distance']") == "3.5", wrong
+    page.does(browser.wheel, *page.at(80, 45), -100)
+    browser.until("part('command').value.includes('--focus-distance 3.57') && !part('focus_text').classList.contains('wrong')")
+    assert browser.run("return part('focus_text').value").startswith("3.57")
+    browser.run("part('frame').focus()")
+    page.does(page.types, "look_blades", "5")
+    browser.press("k")
+    browser.run("part('frame').focus()")
+    before = browser.run("return snapshot()")
+    page.does(browser.press, "z", CONTROL) # the key
+    assert browser.run("return [Object.keys(time.keys).length, state.settings.blades]") == [0, "5"]
+    page.does(browser.press, "z", CONTROL)
+    assert browser.run("return [state.settings.blades ?? '', part('look_blades').value, state.settings['focus-distance'].slice(0, 4)]") == ["", "", "3.57"]
+    page.does(browser.press, "z", CONTROL)
+    assert browser.run("return state.settings['focus-distance']") == "3.5"
+    for _ in range(3):
+        page.does(browser.press, "Z", CONTROL + SHIFT)
+    assert browser.run("return snapshot()") == before
+    browser.reload()
+    page.rests()
+    assert browser.run("return snapshot()") == before
+    assert browser.run("return [part('look_blades').value, part('keyed').textContent]") == ["5", "keys at 1"]
+    page.does(page.click, 60, 50, SHIFT)
+    browser.until("part('said').classList.contains('note') && part('said').textContent.includes('Cryptomattes')")
+    assert browser.run("return part('focus_name').textContent") == "focus, m"
+
+
+def outlives_the_server(browser):
+    """A bar says that nobody answers; the page goes on when somebody does, and at another address with what was set."""
+    with served(folder + "/dof-view", ldi) as server:
+        page = Page(browser, server)
+        page.does(browser.run, "set('focus-distance', 2.5)")
+        browser.set_online(False)
+        page.browser.run("set('focus-distance', 2.75)")
+        browser.until("!part('ended').hidden && part('said').hidden")
+        page.shot("ended")
+        browser.run("document.body.dataset.quality = ''")
+        browser.set_online(True)
+        browser.until("part('ended').hidden && state.lens.focus === 2.75")
+        page.rests()
+    browser.until("!part('ended').hidden") # though nobody touches the page
+    with served(folder + "/dof-view", ldi) as server:
+        for address in ("abc", "http://example.org/?key=1", server.address):
+            browser.run("part('address').value = arguments[0]; part('go_on').requestSubmit()", address)
+        browser.until(f"location.port === '{server.port}' && document.body.dataset.quality === 'normal'")
+        assert browser.run("return state.lens.focus") == 2.75
+
+
+def guesses_a_lens(browser):
+    """A flat file without a lens is shown, and the page says what it was shown with."""
+    subprocess.run(["oiiotool", "--pattern", "constant:color=.5,.4,.3,1,4", "96x54", "5", "--chnames", "R,G,B,A,Z", "-d", "float", "-o", "flat.exr"], check=True)
+    with served(folder + "/dof-view", "flat.exr") as server:
+        page = Page(browser, server)
+        said = browser.run("return part('guess').textContent")
+        assert "guess" in said and "--focal-length 50 --sensor-width 36 --fstop 2.8 --focus-distance 4" in said, said
+        assert browser.run("return part('focus_name').textContent") == "focus, units"
+        page.shot("guess")
+        runs(browser.until("part('command').value"))
+
+
+def survives_names(browser):
+    """A name with all that a shell reads goes through the copied commands."""
+    name = """a $HOME `id` "b" it's.exr"""
+    os.symlink(os.path.abspath(ldi), name)
+    os.mkdir("queue")
+    with open("queue/sbatch", "w") as script:
+        script.write("#!/bin/sh\n[ \"$1\" = --array=1-2 ] && [ \"$2\" = --wrap ] && [ $# = 3 ] || exit 9\nSLURM_ARRAY_TASK_ID=2 sh -c \"$3\"\n")
+    os.chmod("queue/sbatch", 0o755)
+    path = os.pathsep.join((os.path.abspath("queue"), os.path.abspath(folder), os.environ["PATH"]))
+    with served(folder + "/dof-view", name, "--save", ".") as server:
+        page = Page(browser, server)
+        browser.run("part('last').value = 2; part('time').open = true")
+        page.set_keys({1: 2, 2: 3})
+        for form, made in (("job for Slurm", 2), ("command of all frames", 1)):
+            subprocess.run(page.copies(form, "SLURM" if made == 2 else "--frames 1-2"), shell=True, check=True, env={**os.environ, "PATH": path})
+            assert os.path.exists(name.replace(".exr", f".dof.{made:04}.exr")), form
+        browser.run("part('save').click()")
+        browser.until("part('said').textContent.startsWith('written: ') && part('said').classList.contains('note')")
+
+
+def fits_small_windows(browser):
+    """Below 800 pixels the panel is under the picture; H hides it."""
+    boxes = "const f = part('frame').getBoundingClientRect(), a = document.querySelector('aside').getBoundingClientRect(); return [f.width, f.height, f.bottom, a.width, a.top, a.left, f.right]"
+    with served(folder + "/dof-view", ldi) as server:
+        page = Page(browser, server)
+        for width in (480, 900):
+            browser.resize(width, 720)
+            frame_width, frame_height, frame_bottom, panel_width, panel_top, panel_left, frame_right = browser.run(boxes)
+            assert browser.run("return document.documentElement.scrollWidth <= innerWidth")
+            if width < 800:
+                assert frame_width == panel_width == width and panel_top >= frame_bottom and frame_height > 300
+            else:
+                assert panel_left >= frame_right > 500
+            page.shot(f"width-{width}")
+            browser.press("h")
+            hidden = browser.run(boxes)
+            assert hidden[0] == width and hidden[1] > 600 and hidden[3] == 0, hidden
+            browser.press("h")
+        browser.resize(1280, 720)
 
 
 def main():
@@ -312,9 +471,16 @@ def main():
             assert said["lens"]["focus"] == 2.5
             page.does(page.click, 100, 20)
             assert browser.run("return focusNow()") != 2.5
+            with served(folder + "/dof-view", ldi) as other:
+                is_forgiving(Page(browser, other))
             has_frames(browser)
+            has_frames_of_any_size(browser)
             has_pieces(browser)
             knows_objects(browser)
+            guesses_a_lens(browser)
+            survives_names(browser)
+            fits_small_windows(browser)
+            outlives_the_server(browser)
         finally:
             browser.end()
 

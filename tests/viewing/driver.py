@@ -29,9 +29,7 @@ class Browser:
         options = {"goog:chromeOptions": {"args": arguments, "binary": shutil.which("chromium") or shutil.which("google-chrome")},
                    "goog:loggingPrefs": {"browser": "ALL"}}
         self.session = self.call("POST", "/session", {"capabilities": {"alwaysMatch": options}}, rooted=True)["sessionId"]
-        self.run("window.resizeTo(%d, %d)" % size)
-        inner = self.run("return [innerWidth, innerHeight]")
-        self.call("POST", "/window/rect", {"width": 2 * size[0] - inner[0], "height": 2 * size[1] - inner[1]})
+        self.resize(*size)
 
     def call(self, method, path, body=None, rooted=False):
         url = self.base + path if rooted else f"{self.base}/session/{self.session}{path}"
@@ -45,6 +43,19 @@ class Browser:
 
     def open(self, address):
         self.call("POST", "/url", {"url": address})
+
+    def reload(self):
+        self.call("POST", "/refresh", {})
+
+    def set_online(self, online):
+        conditions = {"offline": not online, "latency": 0, "throughput": -1}
+        self.call("POST", "/chromium/network_conditions", {"network_conditions": conditions})
+
+    def resize(self, width, height):
+        """Of what is inside the window."""
+        self.call("POST", "/window/rect", {"width": width, "height": height})
+        inner = self.run("return [innerWidth, innerHeight]")
+        self.call("POST", "/window/rect", {"width": 2 * width - inner[0], "height": 2 * height - inner[1]})
 
     def run(self, script, *arguments):
         return self.call("POST", "/execute/sync", {"script": script, "args": list(arguments)})

@@ -221,7 +221,7 @@ def knows_frames(folder):
             assert status(server, {"page": "a", "frame": 6, "settings": {}, "pixel": [1, 1]}, path) == 400, path
         commands = server.said("/commands", settings={}, frame=7)
         assert "shot.0007.ldi.exr" in commands["shell"] and "--fstop 6" in commands["shell"], commands
-        assert commands["range"] == [sequence, "--fstop", "3:2,7:6"] and commands["range_output"] == "shot.####.exr", commands
+        assert commands["range"] == [sequence, "--fstop", "3:2,7:6"] and commands["range_output"] == "shot.dof.####.exr", commands
         assert "shot.0007.ldi.exr" in commands["python"], commands
         assert server.said("/commands", settings={"fstop": "8"}, frame=7)["range"] == [sequence, "--fstop", "8"]
     for limit, held in ((None, 3), ("700KB", 2)):

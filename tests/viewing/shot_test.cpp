@@ -1,16 +1,14 @@
-#include "viewing/shot.h"
-
 #include "io/exr/exr_deep.h"
 #include "support/ldi_samples.h"
 #include "support/mattes.h"
 #include "support/scratch_folder.h"
 #include "viewing/lens_guess.h"
+#include "viewing/shot.h"
 #include "viewing/view_facts.h"
 #include "viewing/view_words.h"
 
-#include <gtest/gtest.h>
-
 #include <fmt/format.h>
+#include <gtest/gtest.h>
 
 #include <bit>
 
@@ -78,14 +76,17 @@ TEST(Shot, AFileIsReadAnewWhereAnotherFocalLengthMakesItsRaysPlanar) {
 TEST(ObjectMap, NumbersDoNotComeRoundAgain) {
     constexpr int width = 65600;
     ObjectNames names;
-    for (int i = 0; i < width; ++i) names[std::bit_cast<std::uint32_t>(hashed(std::uint32_t(i)))] = fmt::format("{:06}", i);
-    const ObjectMap map = object_map(frame_of(make_ldi(windows_of_size(width, 1), channels_with_matte(),
-                                                       [](int x, int) {
-                                                           return std::vector<Sample>{
-                                                               {2, {1, 1, 1, 1, hashed(std::uint32_t(x)), 1, 0, 0}}};
-                                                       }),
-                                              names));
-    const auto number = [&](int x) { return map.numbers[std::size_t(2 * x)] + 256 * map.numbers[std::size_t(2 * x + 1)]; };
+    for (int i = 0; i < width; ++i)
+        names[std::bit_cast<std::uint32_t>(hashed(std::uint32_t(i)))] = fmt::format("{:06}", i);
+    const ObjectMap map = object_map(frame_of(
+        make_ldi(windows_of_size(width, 1), channels_with_matte(),
+                 [](int x, int) {
+                     return std::vector<Sample>{{2, {1, 1, 1, 1, hashed(std::uint32_t(x)), 1, 0, 0}}};
+                 }),
+        names));
+    const auto number = [&](int x) {
+        return map.numbers[std::size_t(2 * x)] + 256 * map.numbers[std::size_t(2 * x + 1)];
+    };
     EXPECT_EQ(map.said["objects"].size(), 65535u);
     EXPECT_EQ(number(0), 1);
     EXPECT_EQ(number(65534), 65535);
@@ -98,7 +99,8 @@ TEST(SampleFacts, AreEmptyHoweverFarAwayThePixelIs) {
     frame.across = 16;
     const ThinLens lens{.radius = 0.1, .focal_px = 100, .focus = 3, .pixel_aspect = 1};
     EXPECT_EQ(sample_facts(frame, lens, {1, 0}).size(), 0u); // its middle is beyond the one row
-    for (const int x : {1 << 28, 1 << 30, -(1 << 28)}) EXPECT_EQ(sample_facts(frame, lens, {x, 0}).size(), 0u) << x;
+    for (const int x : {1 << 28, 1 << 30, -(1 << 28)})
+        EXPECT_EQ(sample_facts(frame, lens, {x, 0}).size(), 0u) << x;
     frame.across = 1;
     EXPECT_EQ(sample_facts(frame, lens, {1, 0}).size(), 1u);
 }
@@ -122,7 +124,8 @@ TEST(LensGuess, IsOfWhatIsUnknownAlone) {
     field.focus_distance = 7;
     EXPECT_EQ(lens_guess(frame, field), (Words{"--focal-length", "50", "--fstop", "2.8"}));
     EXPECT_EQ(lens_guess(frame_of(ldi_of({{}, {}})), camera), Words());
-    EXPECT_NE(guess_in_words({"--fstop", "2.8"}).find("a guess to begin with: --fstop 2.8"), std::string::npos);
+    EXPECT_NE(guess_in_words({"--fstop", "2.8"}).find("a guess to begin with: --fstop 2.8"),
+              std::string::npos);
     EXPECT_EQ(guess_in_words({}), "");
 }
 

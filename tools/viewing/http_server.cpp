@@ -82,8 +82,8 @@ struct HttpServer::Connection {
     bool keep_alive = true, over = false;
 
     bool can_go() const { return state == State::reading || state == State::draining; }
-    short awaited() const {
-        return state == State::working ? short(0) : state == State::writing ? short(POLLOUT) : short(POLLIN);
+    pollfd awaited() const { // nothing while it is worked for: who has gone is seen when the answer is sent
+        return {state == State::working ? -1 : socket, short(state == State::writing ? POLLOUT : POLLIN), 0};
     }
 };
 
@@ -128,8 +128,7 @@ void HttpServer::wait() {
     files_.clear(); // it has room for all: nothing here may need memory
     files_.push_back({wake_, POLLIN, 0});
     files_.push_back({has_room && Clock::now() >= accept_again_ ? listener_ : -1, POLLIN, 0});
-    for (const Connection &connection : connections_)
-        files_.push_back({connection.socket, connection.awaited(), 0});
+    for (const Connection &connection : connections_) files_.push_back(connection.awaited());
     ::poll(files_.data(), files_.size(), int(most_waiting.count()));
     eventfd_t woken = 0;
     ::eventfd_read(wake_, &woken);

@@ -36,8 +36,10 @@ Words lens_guess(const ShotFrame &frame, const Camera &camera) {
 
 std::string guess_in_words(const Words &guess) {
     std::string text;
-    for (std::size_t i = 0; i + 1 < guess.size(); i += 2) text += (i ? " " : "") + guess[i] + " " + guess[i + 1];
-    return text.empty() ? text : "the file does not say all of its lens; this is a guess to begin with: " + text;
+    for (std::size_t i = 0; i + 1 < guess.size(); i += 2)
+        text += (i ? " " : "") + guess[i] + " " + guess[i + 1];
+    return text.empty() ? text
+                        : "the file does not say all of its lens; this is a guess to begin with: " + text;
 }
 
 } // namespace sparselens

@@ -143,7 +143,8 @@ LensFile Shot::looks_of(const GivenLooks &given, std::optional<double> fstop) {
 const Ldi *Shot::holdout(const GatherCommand &options, const Reel::Held &frame) {
     if (options.holdout.empty()) return nullptr;
     const auto alike = [&](const ReadHoldout &other) {
-        return other.path == options.holdout && other.of.lock() == frame && other.proxy == options.windows.proxy;
+        return other.path == options.holdout && other.of.lock() == frame &&
+               other.proxy == options.windows.proxy;
     };
     return &last_few(holdouts_, alike, [&] {
                 return ReadHoldout{options.holdout, frame, options.windows.proxy,

@@ -90,7 +90,8 @@ ObjectMap object_map(const ShotFrame &frame) {
     const auto add = [&](const Ldi &ldi, const Imath::V2i &at) {
         const SampleRange samples = ldi.pixel(ldi.windows.index(at.x, at.y));
         const std::string name = samples.empty() ? "" : object_of(ldi, mattes, samples.front(), frame.names);
-        if (name.empty() || (objects.size() == most_objects && !objects.contains(name))) return std::size_t{0};
+        if (name.empty() || (objects.size() == most_objects && !objects.contains(name)))
+            return std::size_t{0};
         const double z = double(ldi.z[samples.front()]);
         Object &object = objects.try_emplace(name, Object{objects.size() + 1, {z, z}}).first->second;
         object.depths = {std::min(object.depths.nearest, z), std::max(object.depths.farthest, z)};
@@ -120,7 +121,8 @@ ObjectMap object_map(const ShotFrame &frame) {
 
 Json sample_facts(const ShotFrame &frame, const ThinLens &lens, const Imath::V2i &pixel) {
     Json samples = Json::array();
-    if (!reduced(frame.in.ldi.windows.data, frame.across).intersects(pixel)) return samples; // however far away
+    if (!reduced(frame.in.ldi.windows.data, frame.across).intersects(pixel))
+        return samples; // however far away
     const Imath::V2i at = middle_subpixel(pixel, frame.across);
     if (!frame.in.ldi.windows.data.intersects(at)) return samples;
     const Ldi ldi = frame.row(at.y);

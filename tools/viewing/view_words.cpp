@@ -145,7 +145,8 @@ GatherCommand command_of(const Words &words) {
 
 Words words_for(const Words &words, const std::string &output) {
     if (!output.ends_with(".exr")) return words;
-    return without(words, [](const std::string &name) { return name == "--display" || name == "--view-transform"; });
+    return without(words,
+                   [](const std::string &name) { return name == "--display" || name == "--view-transform"; });
 }
 
 std::string shell_command(const Words &words, const std::string &output) {

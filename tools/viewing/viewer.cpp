@@ -12,6 +12,7 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <string_view>
 #include <utility>
 
 namespace sparselens {
@@ -37,6 +38,19 @@ Json size_of(const ShownPixels &pixels) {
 
 std::string stem_of(const std::string &path) {
     return path == "-" ? "picture" : std::filesystem::path(path).stem().stem().string();
+}
+
+// The name of a file or a sequence of pictures made from such a one, which is another: before the number of the frame, if it has
+// one, stands "dof".
+std::string output_name(const std::string &input, const std::string &ending) {
+    std::string name = input == "-" ? "picture" : std::filesystem::path(input).filename().string();
+    for (const std::string_view last : {".exr", ".ldi"})
+        if (name.ends_with(last) && name.size() > last.size()) name.resize(name.size() - last.size());
+    const std::size_t dot = name.rfind('.');
+    const bool numbered = dot != std::string::npos && dot + 1 < name.size() &&
+                          name.find_first_not_of("0123456789#@%dF$-", dot + 1) == std::string::npos;
+    return name.substr(0, numbered ? dot : std::string::npos) + ".dof" + (numbered ? name.substr(dot) : "") +
+           ending;
 }
 
 std::vector<GatherCommand> commands_of(const FrameCommands &frames) {
@@ -144,10 +158,9 @@ std::string Viewer::answer(const Words &words, const Asked &asked, Progress &pro
     const auto begun = std::chrono::steady_clock::now();
     const GatherCommand command = command_of(words);
     const Reel::Held frame = shot_.frame(command);
-    const TileWatch watch{asked.pixel.value_or(Imath::V2i(0)),
-                          [&](const Image &picture, const Imath::Box2i &tile) {
-                              add_piece(asked, *frame, picture, tile);
-                          }};
+    const TileWatch watch{
+        asked.pixel.value_or(Imath::V2i(0)),
+        [&](const Image &picture, const Imath::Box2i &tile) { add_piece(asked, *frame, picture, tile); }};
     const Pieces::AtWork at_work(pieces_, asked.page);
     const auto picture = taken(words, command, progress, asked.pixel ? &watch : nullptr);
     progress.may_end();
@@ -160,7 +173,8 @@ std::string Viewer::answer(const Words &words, const Asked &asked, Progress &pro
 }
 
 // Those of its pixels that are shown.
-void Viewer::add_piece(const Asked &asked, const ShotFrame &frame, const Image &picture, const Imath::Box2i &tile) {
+void Viewer::add_piece(const Asked &asked, const ShotFrame &frame, const Image &picture,
+                       const Imath::Box2i &tile) {
     const Imath::Box2i &display = picture.windows.display;
     const Imath::Box2i box({std::max(tile.min.x, display.min.x), std::max(tile.min.y, display.min.y)},
                            {std::min(tile.max.x, display.max.x), std::min(tile.max.y, display.max.y)});
@@ -208,8 +222,8 @@ std::optional<std::string> Viewer::rendered(const Asked &asked) {
     sharp.settings = {{"lens-radius", "0"}};
     const GatherCommand command = command_of(words_of(sharp));
     return studio_.make(asked.page + "/rendered", [this, command, asked](Progress &progress) {
-        const ShownPixels pixels = Shot::displayed(shot_.taken(command, tool_, progress).image, asked.exposure,
-                                                   *shot_.frame(command));
+        const ShownPixels pixels = Shot::displayed(shot_.taken(command, tool_, progress).image,
+                                                   asked.exposure, *shot_.frame(command));
         return with_bytes(size_of(pixels), pixels.values);
     });
 }
@@ -244,16 +258,15 @@ std::string Viewer::progress(const Asked &asked) const {
 
 std::string Viewer::commands(const Asked &asked) const {
     const std::string ending = "." + asked.format;
-    const std::string input = command_of(words_of(asked)).input, output = stem_of(input) + ending;
+    const std::string input = command_of(words_of(asked)).input, output = output_name(input, ending);
     const Words words = words_for(words_of(asked), output);
     // The name of the files of all frames stands where that of the first does.
     const Words first = picture_words(frames_.words(0));
-    std::string range =
-        stem_of(words_[std::size_t(std::ranges::find(first, options_.picture.input) - first.begin())]);
-    if (file_at(range, 1) == range) range += ".####";
+    std::string range = words_[std::size_t(std::ranges::find(first, options_.picture.input) - first.begin())];
+    range = output_name(range, file_at(range, 1) == range ? ".####" + ending : ending);
     return Json{{"shell", shell_command(words, output)},
                 {"range", words_for(words_with(words_, asked.settings, options_.presets), output)},
-                {"range_output", range + ending},
+                {"range_output", range},
                 {"python", python_script(words, input, output)}}
         .dump(-1, ' ', false, Json::error_handler_t::replace);
 }

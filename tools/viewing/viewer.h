@@ -62,7 +62,8 @@ private:
     const Image &reference_of(const std::string &path); // while its mutex is held
     std::shared_ptr<const TakenPicture> taken(const Words &words, const GatherCommand &command,
                                               Progress &progress, const TileWatch *watch = nullptr);
-    void add_piece(const Asked &asked, const ShotFrame &frame, const Image &picture, const Imath::Box2i &tile);
+    void add_piece(const Asked &asked, const ShotFrame &frame, const Image &picture,
+                   const Imath::Box2i &tile);
     std::string answer(const Words &words, const Asked &asked, Progress &progress);
 
     ViewOptions options_;

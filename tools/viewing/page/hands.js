@@ -43,10 +43,11 @@ function pixelAt(event) {
     return x < 0 || y < 0 || x >= width || y >= height ? null : [x + min[0], y + min[1]];
 }
 
-async function focusAt(pixel) {
+async function focusAt(pixel, wantsObject = false) {
     const { samples } = await (await ask('samples', { settings: state.settings, pixel })).json();
-    if (samples.length > 0) set('focus-distance', samples[0].z);
-    else say('there is nothing to focus on in pixel ' + pixel.join(','));
+    if (samples.length === 0) return say('there is nothing to focus on in pixel ' + pixel.join(','));
+    set('focus-distance', samples[0].z);
+    if (wantsObject) say('focused, but not stopped down: ' + (state.facts.objects ? 'no Cryptomatte names the object there' : 'the file has no Cryptomattes to say what is one object'), true);
 }
 
 const moveFocus = (steps) => set('focus-distance', asText(Math.min(focusNow(), 1e6) * 1.01 ** steps, 5));
@@ -60,6 +61,7 @@ function moveDepth(event, shown) {
     const frame = part('frame').getBoundingClientRect();
     part('depth').hidden = !shown;
     part('depth').style.left = event.clientX - frame.left + 'px';
+    part('depth').classList.toggle('before', event.clientX > frame.right - 150);
     part('depth').style.top = event.clientY - frame.top + 'px';
 }
 
@@ -82,6 +84,7 @@ function startPointer() {
         if (!pressed) {
             if (pixel && !event.target.closest('#samples')) sayPixel(pixel);
             if (objects.list) outline(pixel ? objectAt(pixel) : 0);
+            fadeOutline();
             return;
         }
         if (Math.hypot(event.clientX - pressed.x, event.clientY - pressed.y) > 3) pressed.moved = true;
@@ -101,8 +104,7 @@ function startPointer() {
         if (event.altKey) {
             listed.pixel = pixel;
             setList(true);
-        } else if (event.shiftKey && sharpen(pixel)) return;
-        else focusAt(pixel).catch((error) => say(error.message));
+        } else if (!event.shiftKey || !sharpen(pixel)) focusAt(pixel, event.shiftKey).catch((error) => say(error.message));
     });
     frame.addEventListener('pointerleave', () => part('depth').hidden = true);
     frame.addEventListener('pointercancel', () => pressed = null);
@@ -113,7 +115,7 @@ function startPointer() {
         if (event.ctrlKey) zoomBy(1.25 ** notches, event.clientX, event.clientY);
         else moveFocus(2 * notches);
     }, { passive: false });
-    addEventListener('resize', () => place.fitted ? fit() : showPlace());
+    new ResizeObserver(() => place.fitted ? fit() : showPlace()).observe(frame); // of the window, or of what is beside it
 }
 
 const keys = {
@@ -128,6 +130,7 @@ const keys = {
     e: ['the eye at one point of the lens: drag moves it', () => part('eye').click()],
     x: ['the samples of the pixel', () => setList(!listed.on)],
     k: ['set a key at this frame', setKey],
+    h: ['hide or show the panel', () => part('panel').click()],
     ',': ['the frame before', () => step(-1)],
     '.': ['the next frame', () => step(1)],
     ' ': ['plays the frames', play],
@@ -147,6 +150,10 @@ const keys = {
 
 function startKeys() {
     addEventListener('keydown', (event) => {
+        if ((event.ctrlKey || event.metaKey) && event.key.toLowerCase() === 'z' && !event.target.writing) {
+            event.preventDefault();
+            undo(event.shiftKey ? 1 : -1);
+        }
         const typing = event.target.matches('input:not([type=range], [type=checkbox]), select, textarea') && event.key !== 'Escape';
         const pressing = event.target.matches('button, summary, [type=checkbox]') && [' ', 'Enter'].includes(event.key);
         const moving = event.target.matches('[type=range]') && event.key.startsWith('Arrow');
@@ -158,7 +165,7 @@ function startKeys() {
         found[1]();
     });
     const hands = [['click', 'focus there'], ['Alt and click', 'the samples there; click one to focus on it'],
-        ['Shift and click', 'stops down until all of the object is sharp'], ['drag sideways', 'f-number'], ['wheel', 'focus'], ['Ctrl and wheel', 'zoom'], ['Shift and drag', 'move the picture'],
+        ['Shift and click', 'stops down until all of the object is sharp'], ['drag sideways', 'f-number'], ['wheel', 'focus'], ['Ctrl and wheel', 'zoom'], ['Shift and drag', 'move the picture'], ['Ctrl and Z', 'undo; with Shift: redo'],
         ...Object.entries(keys).map(([key, [what]]) => [key === ' ' ? 'Space' : key.length === 1 ? key.toUpperCase() : key, what])];
     for (const line of hands) {
         const row = part('help').insertRow();

@@ -1,12 +1,23 @@
-// The looks of the lens: presets, numbers, and the few that are neither.
-function lookRow(name, help, ...controls) {
+// The looks of the lens: presets, numbers, and the few that are neither. Each row knows how to show what is set.
+const rows = [];
+
+// As people say it who choose lenses; the option is in the row's title.
+const lookWords = {
+    'blade-curvature': 'blade roundness', 'blade-rotation': 'blade rotation, \u00b0', squeeze: 'anamorphic squeeze', spherical: 'soap bubbles',
+    'cat-eye': "cat's eye", 'cat-eye-darkening': "cat's eye darkens", 'axial-chromatic': 'colour fringes, mm', 'axial-chromatic-type': 'fringe colours',
+    'field-curvature': 'curved focus', breathing: 'focus breathing', tilt: 'tilted focus, \u00b0', 'highlight-gain': 'brighter lights',
+    'highlight-threshold': 'lights: above', 'highlight-knee': 'lights: softness', lens: 'lens by name',
+};
+
+function lookRow(option, help, show, ...controls) {
     const row = document.createElement('label'), text = document.createElement('span');
     row.className = 'row look';
-    row.title = help;
-    text.textContent = name;
+    row.dataset.option = option;
+    row.title = help + ' (--' + option + ')';
+    text.textContent = lookWords[option] ?? option.replaceAll('-', ' ');
     row.append(text, ...controls);
     part('looks').append(row);
-    return row;
+    rows.push(show);
 }
 
 // A choice of words, of which the first means what the file or the command line says.
@@ -15,7 +26,7 @@ function addChoice(option, help, first, words) {
     select.id = 'look_' + option;
     select.append(new Option(first, ''), ...words.map((word) => new Option(word, word)));
     select.addEventListener('change', () => set(option, select.value));
-    lookRow(option, help, select).addEventListener('begin', () => select.value = '');
+    lookRow(option, help, () => select.value = state.settings[option] ?? '', select);
 }
 
 // A control for each look that is a number, with the range that its words say.
@@ -31,20 +42,12 @@ function addNumbers() {
         slider.step = look.name === 'blades' ? 1 : (high - low) / 100;
         text.id = 'look_' + look.name;
         text.placeholder = look.help.match(/default: ([^)]*)/)?.[1] ?? '';
-        const begin = () => {
-            text.value = '';
-            slider.value = text.placeholder;
-        };
-        begin();
-        lookRow(look.name, look.help, slider, text).addEventListener('begin', begin);
-        slider.addEventListener('input', () => {
-            const value = look.name === 'blades' && slider.value < 3 ? '0' : slider.value;
-            set(look.name, text.value = value);
-        });
-        text.addEventListener('change', () => {
-            slider.value = text.value || text.placeholder;
-            set(look.name, text.value.trim());
-        });
+        lookRow(look.name, look.help, () => {
+            fillField(text, state.settings[look.name] ?? '');
+            slider.value = state.settings[look.name] ?? text.placeholder;
+        }, slider, text);
+        slider.addEventListener('input', () => set(look.name, look.name === 'blades' && slider.value < 3 ? '0' : slider.value));
+        startField(text, (value) => typed(look.name, value, text));
     }
 }
 
@@ -54,22 +57,21 @@ function addTilt() {
         const field = document.createElement('input');
         field.placeholder = axis + ' 0';
         field.id = 'tilt_' + axis;
-        field.addEventListener('change', () => set('tilt', fields.some((f) => f.value.trim()) ?
-            fields.map((f) => f.value.trim() || '0').join(',') : ''));
+        startField(field, () => typed('tilt', fields.some((f) => f.value.trim()) ? fields.map((f) => f.value.trim() || '0').join(',') : '', field));
         return field;
     });
-    lookRow('tilt', 'Angles of the plane of focus in degrees: above 0 it is nearer to the right (X) and at the top (Y)', ...fields)
-        .addEventListener('begin', () => fields.forEach((field) => field.value = ''));
+    lookRow('tilt', 'Angles of the plane of focus in degrees: above 0 it is nearer to the right (X) and at the top (Y)',
+        () => fields.forEach((field, i) => fillField(field, state.settings.tilt?.split(',')[i] ?? '')), ...fields);
 }
 
 function addLooks() {
     if (state.facts.lenses) addChoice('lens', 'A lens by name; the numbers below beat what it says', 'none', state.facts.lenses);
     addNumbers();
     addTilt();
-    addChoice('axial-chromatic-type', 'Colours that focus off the green plane', 'as it began', state.facts.chromatic_types);
-    addChoice('cat-eye-darkening', "Darken where the cat's eye blocks light", 'as it began', ['on']);
+    addChoice('axial-chromatic-type', 'Colours that focus off the green plane', 'as given', state.facts.chromatic_types);
+    addChoice('cat-eye-darkening', "Darken where the cat's eye blocks light", 'as given', ['on']);
 }
 
-function resetLooks() {
-    for (const row of part('looks').querySelectorAll('.look')) row.dispatchEvent(new Event('begin'));
+function showLooks() {
+    for (const show of rows) show();
 }

@@ -1,5 +1,5 @@
 // Objects by the Cryptomattes of the file: the one under the pointer is outlined and named, and a lens can be found for it.
-const objects = { list: null, numbers: null, asked: false, shown: 0 };
+const objects = { list: null, numbers: null, asked: false, shown: 0, fade: 0 };
 
 async function loadObjects() {
     if (objects.asked || !state.facts.objects) return;
@@ -31,7 +31,14 @@ function outline(number) {
                 y > 0 && of[i - width] !== number || y + 1 < height && of[i + width] !== number))
                 data.data.set([255, 210, 60, 255], 4 * i);
     draw(part('marks'), data);
-    part('object').textContent = number ? objects.list[number - 1].name : '';
+}
+
+// It is seen while the pointer moves, and not where the picture is judged.
+function fadeOutline() {
+    const marks = part('marks');
+    clearTimeout(objects.fade);
+    marks.classList.toggle('still', Boolean(comparing.mode || state.overlay));
+    objects.fade = setTimeout(() => marks.classList.add('still'), 1000);
 }
 
 // Focuses so, and stops down so far, that all of the object is sharp; no wider than the lens is now.

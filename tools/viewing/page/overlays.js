@@ -6,7 +6,38 @@ function showCompared() {
     part('border').hidden = comparing.mode !== 'slide';
     const box = part('above').getBoundingClientRect(), frame = part('frame').getBoundingClientRect();
     part('border').style.left = box.left - frame.left + box.width * comparing.share / 100 + 'px';
+    saySides();
+    fadeOutline();
     for (const name of ['slide', 'flip', 'difference']) part(name).classList.toggle('on', comparing.mode === name);
+}
+
+// Which picture is on which side of the wipe, or is shown.
+function saySides() {
+    const [left, right] = [part('side_left'), part('side_right')], other = part('with').selectedOptions[0]?.textContent ?? '';
+    left.hidden = !comparing.mode;
+    right.hidden = comparing.mode !== 'slide';
+    [left.textContent, right.textContent] = comparing.mode === 'flip' && comparing.share < 50 ? [other, ''] : ['this picture', other];
+    if (comparing.mode === 'difference') left.textContent = 'difference to ' + other + ', eight times';
+    left.classList.toggle('beside', comparing.mode === 'slide');
+    left.style.left = comparing.mode === 'slide' ? part('border').style.left : '';
+    right.style.left = part('border').style.left;
+}
+
+// What false colours mean, as false_colour.h has them.
+const legends = {
+    focus: [['#008000', 'sharp: a CoC below 1 px']],
+    coc: [['#00f', 'in front of focus'], ['#fff', 'in focus'], ['#f00', 'behind it; half of the colour at a CoC of 8 px']],
+    layers: [['#808080', '1 sample a pixel'], ['#00f', '2'], ['#0ff', '3'], ['#0f0', '4'], ['#ff0', '5'], ['#ff8000', '6'], ['#f00', '7'], ['#fff', 'more']],
+    tiles: [['#000', 'copied'], ['#00f', '16 lens points'], ['#0f0', '256'], ['#f00', '4096']],
+};
+
+function sayLegend() {
+    part('legend').hidden = !state.overlay;
+    part('legend').replaceChildren(...(legends[state.overlay] ?? []).flatMap(([colour, text]) => {
+        const swatch = document.createElement('i');
+        swatch.style.background = colour;
+        return [swatch, text + ' '];
+    }));
 }
 
 // Chosen again, a mode ends; flip goes to the other picture first.
@@ -41,18 +72,20 @@ function keep() {
     comparing.kept = above.getContext('2d').getImageData(0, 0, above.width, above.height);
     if (!part('with').querySelector('[value=kept]')) part('with').append(new Option('what was kept', 'kept'));
     part('with').value = 'kept';
-    loadTarget();
+    loadTarget().then(showCompared);
 }
 
 function setOverlay(name) {
     state.overlay = state.overlay === name ? '' : name;
+    sayLegend();
+    fadeOutline();
     changed();
 }
 
 // The eye in the lens: seen through one point of it, of which the disc beside the picture says where it is.
 function setEye(eye) {
-    const far = eye ? Math.max(1.001, Math.hypot(...eye)) : 1; // rounded, it is still in the lens
-    state.eye = eye && (Math.hypot(...eye) > 1 ? eye.map((part) => part / far) : eye);
+    const far = eye ? Math.max(1, Math.hypot(...eye)) : 1;
+    state.eye = eye && eye.map((along) => along / far);
     part('eye').classList.toggle('on', Boolean(state.eye));
     part('lens_disc').hidden = !state.eye;
     if (state.eye) {
@@ -77,9 +110,10 @@ async function sayPixel(pixel) {
         const value = said.value ? ['R', 'G', 'B', 'A'].filter((name) => name in said.value)
             .map((name) => name + ' ' + asText(asNumber(said.value[name]), 4)).join('  ') : '';
         const front = said.samples[0], depth = front && asText(asNumber(front.z), 5);
-        part('depth').textContent = depth ? 'depth ' + depth : 'nothing';
-        part('pixel').textContent = pixel.join(',') + '  ' + value + (front ? '  z ' + depth +
-            '  CoC ' + asText(asNumber(front.coc), 3) + ' px  ' + front.objects.join(' ') : '  nothing');
+        part('depth').textContent = depth ? 'depth ' + depth + ' ' + unit() : 'nothing';
+        part('pixel').textContent = pixel.join(',') + '  ' + value + (front ? '  depth ' + depth + ' ' + unit() +
+            '  CoC ' + asText(asNumber(front.coc), 3) + ' px' : '  nothing');
+        part('object').textContent = front?.objects.length ? 'object ' + [...new Set(front.objects)].join(', ') : '';
         sayList(said.samples);
     } catch (error) {
         say(error.message);
@@ -105,7 +139,7 @@ function sayList(samples) {
         return line;
     };
     const head = table.createTHead(), body = table.createTBody();
-    head.append(row(['pixel ' + listed.pixel.join(','), 'depth', 'image at', 'CoC px', 'alpha', 'colour', 'objects'], 'th'));
+    head.append(row(['pixel ' + listed.pixel.join(','), 'depth, ' + unit(), 'image at', 'CoC, px', 'alpha', 'colour', 'objects'], 'th'));
     samples.forEach((sample, i) => {
         const colour = sample.rgb.map((value) => asText(asNumber(value), 3)).join(' ');
         const line = row([i + 1, asText(asNumber(sample.z), 5), sample.image === undefined ? '' : asText(asNumber(sample.image), 5),

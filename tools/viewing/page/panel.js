@@ -3,6 +3,33 @@ const aperture = () => state.facts.fstop === undefined ? 'lens-radius' : 'fstop'
 const focusNow = () => asNumber(state.settings['focus-distance'] ?? state.lens?.focus ?? state.facts.focus);
 const apertureNow = () => asNumber(state.settings[aperture()] ?? (aperture() === 'fstop' ? state.facts.fstop : state.lens?.radius));
 
+// What was typed is set where the server takes it; else what was there stays.
+async function typed(option, text, field) {
+    try {
+        await ask('commands', { settings: { ...state.settings, [option]: text } });
+    } catch (error) {
+        field.classList.add('wrong');
+        return say(error.message);
+    }
+    field.classList.remove('wrong');
+    set(option, text);
+}
+
+// A field shows the text unless somebody writes in it.
+function fillField(field, text) {
+    if (document.activeElement === field && field.writing) return;
+    field.value = text;
+    field.classList.remove('wrong');
+}
+
+function startField(field, change) {
+    field.addEventListener('input', () => field.writing = true);
+    field.addEventListener('change', () => {
+        field.writing = false;
+        change(field.value.trim());
+    });
+}
+
 function set(option, value) {
     if (value === '') delete state.settings[option];
     else state.settings[option] = String(value);
@@ -21,8 +48,8 @@ const fromSlider = (place, [low, high]) => low * (high / low) ** (place / 1000);
 
 function sayLens() {
     const lens = state.lens, number = (name) => asText(asNumber(lens[name]), 4);
-    part('lens').textContent = 'sharp from ' + number('near') + ' to ' + number('far') + '; hyperfocal distance ' +
-        number('hyperfocal') + '; largest CoC ' + asText(asNumber(lens.largest_coc), 3) + ' px';
+    part('lens').textContent = 'sharp from ' + number('near') + ' to ' + number('far') + ' ' + unit() + '; hyperfocal distance ' +
+        number('hyperfocal') + ' ' + unit() + '; largest CoC ' + asText(asNumber(lens.largest_coc), 3) + ' px';
     part('warning').textContent = lens.warnings.join('\n');
     if (state.began === undefined) state.began = apertureNow();
     sayControls();
@@ -30,11 +57,14 @@ function sayLens() {
 
 function sayControls() {
     const fill = (id, value) => {
-        if (document.activeElement !== part(id + '_text')) part(id + '_text').value = asText(value, 5);
+        fillField(part(id + '_text'), asText(value, 5));
         if (state.began > 0 && value > 0) part(id).value = toSlider(Math.min(value, 1e9), range(id));
     };
     fill('focus', focusNow());
     fill('aperture', apertureNow());
+    part('focus_name').textContent = 'focus, ' + unit();
+    part('aperture_name').textContent = aperture() === 'fstop' ? 'f-number' : 'radius, ' + unit();
+    showLooks();
     part('exposure').value = state.exposure;
     part('exposure_text').textContent = (state.exposure > 0 ? '+' : '') + state.exposure;
     for (const name of ['focus', 'coc', 'layers', 'tiles']) part('show_' + name).classList.toggle('on', state.overlay === name);
@@ -42,7 +72,7 @@ function sayControls() {
 
 // By their language.
 async function commandsNow() {
-    return (await ask('commands', { settings: withQuality(settingsNow(), state.quality) })).json();
+    return (await ask('commands', { settings: withQuality(settingsNow(), state.quality), format: part('format').value })).json();
 }
 
 async function sayCommand() {
@@ -69,10 +99,10 @@ async function copy(language) {
 
 function startPanel() {
     part('name').textContent = state.facts.file;
-    part('aperture_name').textContent = aperture() === 'fstop' ? 'f-number' : 'radius';
+    part('guess').textContent = state.facts.guess ?? '';
     for (const [id, option] of [['focus', 'focus-distance'], ['aperture', aperture()]]) {
         part(id).addEventListener('input', () => set(option, asText(fromSlider(part(id).value, range(id)), 4)));
-        part(id + '_text').addEventListener('change', () => set(option, part(id + '_text').value.trim()));
+        startField(part(id + '_text'), (text) => typed(option, text, part(id + '_text')));
     }
     part('exposure').addEventListener('input', () => setExposure(Number(part('exposure').value)));
     part('normal').addEventListener('click', () => full('normal'));
@@ -81,14 +111,18 @@ function startPanel() {
     part('copy_python').addEventListener('click', () => copy('python'));
     part('reset').addEventListener('click', () => {
         state.settings = {};
-        resetLooks();
         changed();
     });
     part('save').hidden = !state.facts.save;
     part('save').addEventListener('click', async () => {
         const response = await ask('save', { settings: withQuality(settingsNow(), 'final') });
-        if (response) say('written: ' + (await response.json()).file);
+        if (response) say('written: ' + (await response.json()).file, true);
     });
+    part('format').addEventListener('change', () => {
+        remember();
+        sayCommand().catch((error) => say(error.message));
+    });
+    part('panel').addEventListener('click', () => document.body.classList.toggle('bare'));
     addLooks();
 }
 

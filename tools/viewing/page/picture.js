@@ -8,6 +8,7 @@ const state = {
     eye: null,       // the point of the lens that is looked through: [right, up] of its middle, 1 at the rim; null: all
     overlay: '',     // what --show shows in place of the picture
     lens: null,      // what the server says of the lens of the last picture
+    began: undefined, // the aperture of the first picture
 };
 const flow = { level: 3, drafting: false, again: false, full: 0, rest: 0, slow: 0, reshow: false, reshowing: false, pointer: null, pieces: 0 };
 
@@ -79,6 +80,7 @@ async function changed() {
 }
 
 async function draft() {
+    await knowFrame();
     if (state.overlay) return; // false colours are of the pixels that they are made of
     const begun = performance.now(), proxy = proxies[flow.level];
     const settings = withQuality(proxy > 1 ? { ...settingsNow(), proxy: String(proxy) } : settingsNow(), 'draft');
@@ -94,14 +96,16 @@ async function draft() {
 async function full(quality) {
     const turn = ++flow.full, begun = performance.now();
     state.quality = quality;
+    remember();
     sayCommand().catch(() => {}); // what is wrong, the picture says
     flow.slow = setTimeout(() => watch(turn), 500);
     showPieces(turn).catch(() => {});
     try {
+        await knowFrame();
         const asked = { settings: withQuality(settingsNow(), quality), exposure: exposureNow(), pixel: flow.pointer ?? middle() };
         const said = await show(await ask('picture', asked), quality);
         if (said) part('speed').textContent = quality + ': ' + Math.round(performance.now() - begun) + ' ms';
-        if (said) knowFrame().catch((error) => say(error.message));
+        if (said) knowMore().catch((error) => say(error.message));
     } catch (error) {
         say(error.message);
     }

@@ -5,11 +5,51 @@ const part = (id) => document.getElementById(id);
 
 // The response; null where this page has asked for something newer. Throws what the server says is wrong.
 async function ask(path, asked) {
-    const response = await fetch('/' + path, {
-        method: 'POST', headers: { 'X-Sparselens-Key': key }, body: JSON.stringify({ page, ...(state.facts?.frames && { frame: time.frame }), ...asked }) });
+    const body = JSON.stringify({ page, ...(state.facts?.frames && { frame: time.frame }), ...asked });
+    const response = await fetch('/' + path, { method: 'POST', headers: { 'X-Sparselens-Key': key }, body }).catch(() => null);
+    if (!response || response.status === 403) {
+        lose();
+        throw new Error(''); // the bar says it
+    }
     if (response.status === 409) return null;
     if (!response.ok) throw new Error((await response.text()).trim());
     return response;
+}
+
+// Without a server the page keeps what it has, says so in a bar, and goes on as soon as it answers.
+const server = { lost: false };
+
+function lose() {
+    if (server.lost) return;
+    server.lost = true;
+    part('ended').hidden = false;
+    setTimeout(findAgain, 1000);
+}
+
+async function findAgain() {
+    try {
+        await ask('progress', {});
+    } catch {
+        setTimeout(findAgain, 1000);
+        return;
+    }
+    server.lost = false;
+    part('ended').hidden = true;
+    if (state.facts) await changed();
+    else location.reload();
+}
+
+function startServer() {
+    setInterval(() => server.lost || document.hidden || ask('progress', {}).catch(() => {}), 5000);
+    part('go_on').addEventListener('submit', (event) => {
+        event.preventDefault();
+        const given = part('address').value.trim(), to = URL.canParse(given) ? new URL(given) : null;
+        const isOne = to?.searchParams.has('key') && ['127.0.0.1', 'localhost'].includes(to.hostname);
+        part('address').classList.toggle('wrong', !isOne);
+        if (!isOne) return;
+        to.hash = location.hash;
+        location.assign(to);
+    });
 }
 
 // The JSON of an answer, and the bytes after it.
@@ -37,11 +77,14 @@ async function pictureOf(response) {
     return { said, data: imageOf(said, bytes) };
 }
 
-// A message at the foot of the picture, until the next.
-function say(text) {
+// A message at the foot of the picture, until the next: of what went wrong, or a note.
+function say(text, isNote = false) {
     part('said').textContent = text;
+    part('said').classList.toggle('note', isNote);
     part('said').hidden = !text;
 }
 
 const asNumber = (value) => value === 'inf' ? Infinity : Number(value);
-const asText = (value, digits = 4) => Number.isFinite(value) ? String(Number(value.toPrecision(digits))) : 'inf';
+const asText = (value, digits = 4) => Number.isFinite(value) ? String(Number(value.toPrecision(digits))) : Number.isNaN(value) ? '' : 'inf';
+// What a depth is measured in.
+const unit = () => ({ 1: 'm', 0.01: 'cm', 0.001: 'mm' })[state.facts.metres_per_unit] ?? 'units';

@@ -1,5 +1,6 @@
 // Where the page begins.
 async function start() {
+    startServer();
     state.facts = await (await ask('facts', {})).json();
     document.title = 'dof-view: ' + state.facts.name;
     part('frame').tabIndex = 0;
@@ -9,6 +10,7 @@ async function start() {
     startPointer();
     startKeys();
     for (const canvas of [part('above'), part('below'), part('marks')]) draw(canvas, new ImageData(1, 1));
+    restoreFromAddress();
     fit();
     part('frame').focus();
     await changed();

@@ -1,6 +1,6 @@
 // Time: the frames of a sequence, and keys of the lens over frames. Between two keys values are linear, or smooth: slow at both; beyond the first and the last
 // they stay, as the keys of dof-gather do.
-const time = { frame: 1, keys: {}, known: null, playing: false }; // keys: { option: { frame: value } }; known: the frame of state.facts
+const time = { frame: 1, keys: {}, known: null, settled: null, playing: false }; // keys: { option: { frame: value } }; known, settled: the frame of state.facts, and of the objects
 const timeRange = () => [Number(part('first').value), Number(part('last').value)];
 
 // The numbers of the frames: those of the sequence, else all of the range.
@@ -28,6 +28,7 @@ function keyedNow() {
 function setKey() {
     for (const [option, value] of Object.entries(keyedNow())) (time.keys[option] ??= {})[time.frame] = Math.min(value, 1e6);
     sayTime();
+    remember();
     sayCommand();
 }
 
@@ -37,6 +38,7 @@ function removeKey() {
         if (Object.keys(keys).length === 0) delete time.keys[option];
     }
     sayTime();
+    remember();
 }
 
 function valueAt(keys, frame) {
@@ -52,6 +54,7 @@ async function goTo(frame) {
     time.frame = frameNumbers().reduce((best, each) => Math.abs(each - frame) < Math.abs(best - frame) ? each : best);
     for (const [option, keys] of Object.entries(time.keys)) state.settings[option] = asText(valueAt(keys, time.frame), 9);
     sayTime();
+    remember(true);
     await changed();
 }
 
@@ -70,15 +73,24 @@ async function play() {
         if (state.overlay) await full('normal'); // which has no drafts
         await new Promise(requestAnimationFrame);
     }
+    remember(true);
 }
 
-// What a sequence has in each frame, once the page rests there.
+// What the frame has, before it is shown: its size, its depths and its lens may be others.
 async function knowFrame() {
-    if (!state.facts.frames || time.known === time.frame || time.playing) return;
-    time.known = time.frame;
-    state.facts = await (await ask('facts', {})).json();
+    if (!state.facts.frames || time.known === time.frame) return;
+    const frame = time.frame;
+    state.facts = await (await ask('facts', { frame })).json();
+    time.known = frame;
     part('name').textContent = state.facts.file;
     forgetObjects();
+    if (place.fitted) fit();
+}
+
+// What takes longer, once the page rests there.
+async function knowMore() {
+    if (!state.facts.frames || time.settled === time.known || time.playing) return;
+    time.settled = time.known;
     await Promise.all([loadObjects(), loadTarget()]);
 }
 
@@ -88,21 +100,22 @@ function baked(option) {
     return frames.map((frame) => [frame, asText(valueAt(keys, frame), 9)]);
 }
 
-// The command for all frames: that of one, with keys for values.
-async function rangeCommand() {
-    const { range } = await commandsNow(), output = range.lastIndexOf(' -o ');
-    let command = range.slice(0, output) + ' --frames ' + frameText() + range.slice(output);
-    for (const option of Object.keys(time.keys)) {
-        const keys = ` --${option} ` + baked(option).map((pair) => pair.join(':')).join(',');
-        command = command.replace(new RegExp(` --${option}[ =]\\S+`), '').replace(' --frames', keys + ' --frames');
-    }
-    return command;
+// A word as a shell reads it.
+const quoted = (word) => /^[-\w=+,./:@%#]+$/.test(word) ? word : "'" + word.replaceAll("'", "'\\''") + "'";
+
+// The command for frames: that of one, with keys for values.
+async function rangeCommand(frames) {
+    const { range, range_output } = await commandsNow(), words = [];
+    for (let i = 0; i < range.length; ++i)
+        if (!(range[i].replace(/^--|=.*$/gs, '') in time.keys)) words.push(range[i]);
+        else if (!range[i].includes('=')) ++i; // its value
+    for (const option of Object.keys(time.keys)) words.push('--' + option, baked(option).map((pair) => pair.join(':')).join(','));
+    return ['dof-gather', ...words.map(quoted), '--frames', frames, '-o', quoted(range_output)].join(' ');
 }
 
 const forms = {
-    'command of all frames': rangeCommand,
-    'job for Slurm': async () => `sbatch --array=${frameText()} --wrap "` +
-        (await rangeCommand()).replace(/--frames \S+/, '--frames \\$SLURM_ARRAY_TASK_ID') + '"',
+    'command of all frames': () => rangeCommand(frameText()),
+    'job for Slurm': async () => `sbatch --array=${frameText()} --wrap ` + quoted(await rangeCommand('$SLURM_ARRAY_TASK_ID')),
     'focus, for --focus-distance @file': () => baked('focus-distance').map((pair) => pair.join(':')).join('\n') + '\n',
     'f-number, for --fstop @file': () => baked(aperture()).map((pair) => pair.join(':')).join('\n') + '\n',
     'all keys as JSON': () => JSON.stringify({ frames: timeRange(), smooth: part('smooth').checked, keys: time.keys }, null, 1),
@@ -123,12 +136,15 @@ function sayTime() {
 function startTime() {
     if (state.facts.frames) {
         [part('first').value, part('last').value] = [Math.min(...state.facts.frames), Math.max(...state.facts.frames)];
-        time.frame = time.known = state.facts.frames[0];
+        time.frame = time.known = time.settled = state.facts.frames[0];
         part('time').open = true;
     }
     part('play').addEventListener('click', play);
     for (const name of Object.keys(forms)) part('form').append(new Option(name, name));
-    for (const id of ['first', 'last', 'smooth']) part(id).addEventListener('change', () => goTo(time.frame));
+    for (const id of ['first', 'last', 'smooth']) part(id).addEventListener('change', () => {
+        remember();
+        goTo(time.frame);
+    });
     part('frame_number').addEventListener('input', () => goTo(Number(part('frame_number').value)));
     part('key').addEventListener('click', setKey);
     part('no_key').addEventListener('click', removeKey);
