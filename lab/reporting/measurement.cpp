@@ -179,7 +179,7 @@ std::vector<ReportRow> measure_rows(const ScenePlan &plan, std::span<const StepT
 std::vector<PagePicture> page_pictures(const ScenePlan &plan, std::span<const ReportRow> rows,
                                        const std::string &folder) {
     const auto bytes = [&](const std::string &file) {
-        return read_text_file((fs::path(folder) / file).string());
+        return read_bytes((fs::path(folder) / file).string());
     };
     std::vector<PagePicture> pictures{
         {"reference", bytes(SceneMeasurement::png_name(plan.reference.folder, "picture"))}};
@@ -206,7 +206,7 @@ std::vector<PagePicture> worst_places(std::span<const ReportRow> rows, const std
     for (const ReportRow &row : rows)
         places.push_back({fmt::format("{}, {}: {} dB", method_name(row), row.budget,
                                       fixed(row.errors.front().psnr_worst, 1)),
-                          read_text_file((fs::path(folder) / row.worst).string())});
+                          read_bytes((fs::path(folder) / row.worst).string())});
     return places;
 }
 

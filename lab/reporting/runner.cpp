@@ -93,7 +93,7 @@ private:
         auto [found, is_new] = programs_.try_emplace(program);
         if (is_new)
             found->second =
-                fmt::to_string(hash_of(read_text_file((fs::path(options_.tools) / program).string())));
+                fmt::to_string(hash_of(read_bytes((fs::path(options_.tools) / program).string())));
         return found->second;
     }
 

@@ -113,7 +113,7 @@ std::string shown_picture(const std::string &name, const std::string &format, co
                                      image.windows.display_width(), image.windows.display_height(),
                                      int(channels.size()), deep_bits ? 16 : 8, image.windows.pixel_aspect});
     if (failed) throw Error(name + ": cannot write: " + failed);
-    return read_text_file(encoded.path());
+    return read_bytes(encoded.path());
 }
 
 void write_shown_picture(const std::string &path, const Image &image) {

@@ -128,10 +128,14 @@ constexpr char exr_magic[] = {0x76, 0x2f, 0x31, 0x01};
 
 constexpr std::size_t most_text = std::size_t(64) << 20;
 
+void check_size(const std::string &path, std::uint64_t bytes, Content content) {
+    if (content == Content::text && bytes > most_text)
+        throw Error(display_name(path) + ": has more than 64 MB of text, which is not what is read here");
+}
+
 void check_stream(const std::string &path, const std::vector<char> &bytes, std::size_t used,
                   Content content) {
-    if (content == Content::text && used > most_text)
-        throw Error(display_name(path) + ": sends more than 64 MB of text, which is not what is read here");
+    check_size(path, used, content);
     if (content == Content::exr && used >= sizeof exr_magic &&
         std::memcmp(bytes.data(), exr_magic, sizeof exr_magic) != 0)
         throw Error(display_name(path) + ": " + not_exr({bytes.data(), used}));
@@ -167,7 +171,10 @@ std::unique_ptr<InputStream> open_input(const std::string &path, Content content
     struct stat info {};
     if (::fstat(descriptor, &info) == 0 && S_ISDIR(info.st_mode))
         throw Error(path + ": is a folder, not a file");
-    if (S_ISREG(info.st_mode)) return std::make_unique<FileInput>(path, file, std::uint64_t(info.st_size));
+    if (S_ISREG(info.st_mode)) {
+        check_size(path, std::uint64_t(info.st_size), content);
+        return std::make_unique<FileInput>(path, file, std::uint64_t(info.st_size));
+    }
     return in_memory(descriptor);
 }
 

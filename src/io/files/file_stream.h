@@ -36,9 +36,9 @@ public:
     }
 };
 
-// What a file is expected to hold. A pipe or a device that sends anything else may never end: it is left at once where it
-// does not begin as an EXR file does, or after 64 MB of text.
-enum class Content { exr, text };
+// What a file is expected to hold. Text of more than 64 MB is refused. A pipe or a device that sends anything else may never end: it is
+// left at once where it does not begin as an EXR file does, or after 64 MB of text.
+enum class Content { exr, text, bytes };
 
 // A seekable stream; `-` and files that cannot seek are read into memory as a whole.
 std::unique_ptr<InputStream> open_input(const std::string &path, Content content = Content::exr);

@@ -12,10 +12,8 @@ namespace {
 // OpenEXR's streams take at most so many bytes at once.
 constexpr std::size_t most_at_once = std::numeric_limits<int>::max();
 
-} // namespace
-
-std::string read_text_file(const std::string &path) {
-    const auto stream = open_input(path, Content::text);
+std::string contents_of(const std::string &path, Content content) {
+    const auto stream = open_input(path, content);
     std::string contents(std::size_t(stream->size()), '\0');
     for (std::size_t done = 0; done < contents.size();) {
         const std::size_t count = std::min(contents.size() - done, most_at_once);
@@ -24,6 +22,11 @@ std::string read_text_file(const std::string &path) {
     }
     return contents;
 }
+
+} // namespace
+
+std::string read_text_file(const std::string &path) { return contents_of(path, Content::text); }
+std::string read_bytes(const std::string &path) { return contents_of(path, Content::bytes); }
 
 void write_text_file(const std::string &path, std::string_view contents) {
     OutputFile file(path);

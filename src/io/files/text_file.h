@@ -7,8 +7,11 @@
 
 namespace sparselens {
 
-// The contents of a file; `-` stands for standard input. Pipes and devices may send 64 MB.
+// The contents of a file of at most 64 MB; `-` stands for standard input.
 std::string read_text_file(const std::string &path);
+
+// The same for a file of any size, and of any bytes.
+std::string read_bytes(const std::string &path);
 
 // The file appears whole or not at all (see OutputFile). `-` stands for standard output.
 void write_text_file(const std::string &path, std::string_view contents);

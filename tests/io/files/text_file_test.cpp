@@ -6,6 +6,8 @@
 #include <sys/stat.h>
 
 #include <csignal>
+#include <cstdint>
+#include <filesystem>
 #include <fstream>
 #include <thread>
 
@@ -34,7 +36,20 @@ TEST(TextFile, MayComeThroughAPipe) {
     }
     std::signal(SIGPIPE, before);
     EXPECT_EQ(what_of<Error>([] { read_text_file("/dev/zero"); }),
-              "/dev/zero: sends more than 64 MB of text, which is not what is read here");
+              "/dev/zero: has more than 64 MB of text, which is not what is read here");
+}
+
+// A file without blocks on the disk, which takes no time to make, and would take all memory to read.
+TEST(TextFile, MayNotBeOfAnySize) {
+    const ScratchFolder scratch;
+    const std::string path = scratch.file("long.json");
+    write_text_file(path, "{}");
+    constexpr std::uintmax_t most = std::uintmax_t(64) << 20;
+    std::filesystem::resize_file(path, most);
+    EXPECT_EQ(read_text_file(path).size(), most);
+    std::filesystem::resize_file(path, most + 1);
+    EXPECT_EQ(what_of<Error>([&] { read_text_file(path); }),
+              path + ": has more than 64 MB of text, which is not what is read here");
 }
 
 TEST(TextFile, ErrorsNameTheFile) {
