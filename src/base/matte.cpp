@@ -77,6 +77,18 @@ void IdCoverage::merge() {
     merged_ = pairs_.size();
 }
 
+void IdCoverage::limit() {
+    double sum = 0, positive = 0;
+    for (const Pair &pair : pairs_) {
+        sum += pair.coverage;
+        positive += std::max(pair.coverage, 0.0);
+    }
+    const double limited = std::clamp(sum, 0.0, 1.0);
+    for (Pair &pair : pairs_) pair.coverage = std::max(pair.coverage, 0.0);
+    if (positive == limited) return;
+    for (Pair &pair : pairs_) pair.coverage *= limited / positive;
+}
+
 std::span<const IdCoverage::Pair> IdCoverage::ranked() {
     if (pairs_.size() > few) merge();
     std::erase_if(pairs_, [](const Pair &pair) { return !(pair.coverage > nothing); });

@@ -36,6 +36,8 @@ public:
     };
 
     void add(float id, double coverage);
+    // Leaves out what is below 0, and scales the rest so that the sum stays, within [0, 1].
+    void limit();
     std::span<const Pair> ranked(); // by descending coverage, without what covers nothing
     void clear() { pairs_.clear(), merged_ = 0; }
 

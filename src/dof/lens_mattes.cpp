@@ -88,6 +88,7 @@ std::vector<Channel> matte_channels(const Ldi &ldi) {
 Image gather_mattes(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window,
                     const LensGatherOptions &options, Progress &progress) {
     LensGatherOptions by = options;
+    by.keeps_sums = true;
     by.watch = nullptr;
     by.chosen = nullptr;
     Windows windows = ldi.windows;
@@ -102,6 +103,7 @@ Image gather_mattes(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &wi
                        std::span(ids).subspan(first, std::min(ids_at_once, ids.size() - first)), lens, window,
                        by, progress, seen);
         for (std::size_t i = 0; i < seen.size(); ++i) {
+            seen[i].limit(); // cells may have left it
             const auto pairs = seen[i].ranked();
             for (std::size_t r = 0; r < std::min(pairs.size(), in_picture[m].ranks.size()); ++r) {
                 out.plane(in_picture[m].ranks[r].id)[i] = pairs[r].id;

@@ -58,11 +58,12 @@ std::array<Taps, size> taps_of(int first_pixel, int first_cell, int across) {
 Float4 least(Float4 a, Float4 b) { return a < b ? a : b; }
 Float4 most(Float4 a, Float4 b) { return a > b ? a : b; }
 
-// at(n), n from 0 to 3, within the range of the four.
+// at(n), n from 0 to 3.
 template <typename At>
-Float4 sum_of(const std::array<float, 4> &weight, const At &at) {
+Float4 sum_of(const std::array<float, 4> &weight, CellRange range, const At &at) {
     const Float4 a = at(0), b = at(1), c = at(2), d = at(3);
     const Float4 sum = weight[0] * a + weight[1] * b + weight[2] * c + weight[3] * d;
+    if (range == CellRange::open) return sum;
     return least(most(sum, least(least(a, b), least(c, d))), most(most(a, b), most(c, d)));
 }
 
@@ -70,6 +71,7 @@ struct Interpolation {
     const TilePicture &cells;
     std::size_t count; // cells across and down
     std::array<Taps, size> across, down;
+    CellRange range;
 
     bool known(std::size_t column, std::size_t row) const { return cells.is_known(row * size + column); }
     Float4 value(std::size_t group, std::size_t column, std::size_t row) const {
@@ -79,12 +81,12 @@ struct Interpolation {
         std::vector<float> rows(count * size * 4); // [row of cells][column of pixels][4]
         for (std::size_t y = 0; y < count; ++y)
             for (std::size_t x = 0; x < size; ++x)
-                store4(&rows[(y * size + x) * 4], sum_of(across[x].weight, [&](std::size_t n) {
+                store4(&rows[(y * size + x) * 4], sum_of(across[x].weight, range, [&](std::size_t n) {
                     return value(group, across[x].first + n, y);
                 }));
         for (std::size_t y = 0; y < size; ++y)
             for (std::size_t x = 0; x < size; ++x)
-                store4(to + (y * size + x) * 4, sum_of(down[y].weight, [&](std::size_t n) {
+                store4(to + (y * size + x) * 4, sum_of(down[y].weight, range, [&](std::size_t n) {
                            return load4(&rows[((down[y].first + n) * size + x) * 4]);
                        }));
     }
@@ -135,9 +137,9 @@ TileCells cells_of_tile(const Imath::V2i &first_pixel, int across) {
 
 TilePicture PixelsOfCells::picture() const { return {values.data(), known.data(), groups, pixels * 4}; }
 
-PixelsOfCells interpolated(const TilePicture &cells, const TileCells &of) {
+PixelsOfCells interpolated(const TilePicture &cells, const TileCells &of, CellRange range) {
     const Interpolation from{cells, std::size_t(of.count()), taps_of(of.first_pixel.x, of.first.x, of.across),
-                             taps_of(of.first_pixel.y, of.first.y, of.across)};
+                             taps_of(of.first_pixel.y, of.first.y, of.across), range};
     PixelsOfCells made{std::vector<float>(cells.groups * pixels * 4),
                        std::vector<float>(cells.groups * pixels, 1.0f), cells.groups};
     for (std::size_t g = 0; g < cells.groups; ++g) from.interpolate(g, &made.values[g * pixels * 4]);

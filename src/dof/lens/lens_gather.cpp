@@ -87,7 +87,8 @@ struct Gathering {
     // Sets its pixels to what is gathered, and to what highlights spread there.
     void finish(const PlannedTile &tile, const TilePicture &made) {
         if (!tile.cells) return set_pixels(tile, made);
-        const PixelsOfCells pixels = interpolated(made, *tile.cells);
+        const PixelsOfCells pixels =
+            interpolated(made, *tile.cells, options.keeps_sums ? CellRange::open : CellRange::limited);
         set_pixels(tile, pixels.picture());
     }
     void set_pixels(const PlannedTile &tile, const TilePicture &picture) {

@@ -46,6 +46,7 @@ struct LensGatherOptions {
         {};                                // pixels of which the empty ones are transparent; else the window;
     std::span<const char> unseen = {};     // [pixel of the data window] but for these
     std::optional<Imath::Box2i> seen = {}; // pixels that were seen, not made up beyond the frame; else all
+    bool keeps_sums = false; // of channels: where tiles are gathered in cells, each may leave its range
     const Holdout *holdout = nullptr;      // holds the picture out
     const TileWatch *watch = nullptr;      // where given
     TileDevice *device = nullptr;          // where given: gathers the tiles that it can

@@ -3,7 +3,9 @@
 #include "dof/gather_rows.h"
 #include "dof/lens/cells.h"
 #include "dof/lens/tile_plan.h"
+#include "dof/lens_mattes.h"
 #include "support/lens_ldi.h"
+#include "support/mattes.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -110,6 +112,23 @@ struct Scene {
     }
 };
 
+// Each sample shows one of so many objects, in stripes of 5 pixels of its column; there are ranks for all of them.
+Ldi with_objects(Ldi ldi, int objects) {
+    std::vector<Channel> channels = channels_with_matte(objects / 2);
+    channels.erase(channels.begin(), channels.begin() + 4); // R, G, B and A are there
+    const std::size_t first = ldi.channels.size();
+    ldi.channels.insert(ldi.channels.end(), channels.begin(), channels.end());
+    ldi.values.resize(ldi.channels.size(), std::vector<float>(ldi.samples()));
+    for (std::size_t pixel = 0; pixel < ldi.windows.pixels(); ++pixel)
+        for (const std::uint64_t i : ldi.pixel(pixel)) {
+            const bool wall = i + 1 == ldi.begin[pixel + 1];
+            const int stripe = ldi.windows.pixel(pixel).x / 5;
+            ldi.values[first][i] = hashed(std::uint32_t(1 + (stripe + (wall ? 13 : 0)) % objects));
+            ldi.values[first + 1][i] = 1;
+        }
+    return ldi;
+}
+
 double rms(const Image &a, const Image &b) {
     double sum = 0;
     for (std::size_t i = 0; i < a.values.size(); ++i)
@@ -147,6 +166,26 @@ TEST(Cells, ThePictureIsThatOfManyLensPoints) {
         const Image cells = scene.gather({}), pixels = scene.gather({.lens_samples = 256});
         EXPECT_LT(rms(cells, truth), rms(pixels, truth)) << wall << " " << card;
         for (const float a : cells.plane(3)) ASSERT_NEAR(a, 1, 1e-6);
+    }
+}
+
+// 40 objects, more than are gathered at once, in stripes on the card and the wall: the lens sees something of each pixel's light in
+// all of them together.
+TEST(Cells, CoveragesOfObjectsAddUpToAll) {
+    Scene scene;
+    scene.ldi = with_objects(std::move(scene.ldi), 40);
+    ASSERT_GT(scene.cell_size({}), 1);
+    const Image picture =
+        gather_mattes(scene.ldi, lens, scene.ldi.windows.data, {.looks = {}}, scene.silent);
+    const std::vector<Matte> mattes = find_mattes(picture.channels);
+    for (std::size_t i = 0; i < picture.windows.pixels(); ++i) {
+        double sum = 0;
+        for (const Matte::Rank &rank : mattes[0].ranks) {
+            const double coverage = double(picture.plane(rank.coverage)[i]);
+            ASSERT_GE(coverage, 0);
+            sum += coverage;
+        }
+        ASSERT_NEAR(sum, 1, 1e-5) << picture.windows.pixel(i);
     }
 }
 
