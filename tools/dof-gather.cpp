@@ -129,8 +129,9 @@ void run(const GatherCommand &given, const ToolContext &tool, LdiCache &cache, C
     raise_highlights(frame, in, highlight_gain(given_looks.values));
     const Ldi &ldi = frame.ldi(in);
     const std::size_t samples = in.samples_read;
-    Image depth =
-        options.depth_output.empty() ? Image() : frame.picture_of(crop(front_depth(ldi), frame.needed));
+    Image depth;
+    if (!options.depth_output.empty())
+        depth = frame.picture_of(crop(front_depth(ldi), frame.needed), depth_of_nothing);
     LensTiles tiles;
     options.picture.holdout = holdout ? &*holdout : nullptr;
     options.picture.gather.lens.chosen = &tiles;

@@ -25,6 +25,7 @@ struct Options {
     std::vector<std::string> inputs;
     std::string output;
     std::optional<double> tolerance;
+    std::optional<int> supersample;
     int layers = 0;
     AskedCompression compression;
 };
@@ -46,6 +47,7 @@ void add_options(CLI::App &app, Options &options) {
         ->check(CLI::Range(0, 1 << 20));
     add_compression_option(app, options.compression, true);
     add_lens_options(app, options.lens);
+    add_subpixels_option(app, options.supersample);
     add_depth_options(app, options.depth);
     add_history_option(app, options.history);
     add_examples(app, {{"Merge samples that no lens tells apart", "ldi-cluster ldi.exr -o small.exr"},
@@ -57,6 +59,7 @@ OpenedLdi open_merged(const Options &options, const ToolContext &tool) {
     std::vector<OpenedLdi> parts;
     for (const std::string &path : options.inputs) {
         parts.push_back(open_ldi(path, {options.lens, options.depth}));
+        if (options.supersample) parts.back().camera.supersample = options.supersample;
         say_samples(tool, parts.back());
         warn_of_invalid_values(tool, path, parts.back().bad);
     }

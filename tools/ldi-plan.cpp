@@ -53,7 +53,8 @@ Stats plan_stats(const Plan &plan, int views_allowed, const Windows &centre) {
 }
 
 void run(const PlanCommand &options, const ToolContext &tool) {
-    const OpenedView centre = open_view(options.centre, {options.lens, options.depth});
+    OpenedView centre = open_view(options.centre, {options.lens, options.depth});
+    if (options.supersample) centre.camera.supersample = options.supersample;
     say_reading(tool, options.centre, centre.notes, centre.warnings);
     warn_of_invalid_values(tool, options.centre, centre.bad);
     const Windows &windows = centre.view.image.windows;
@@ -62,7 +63,7 @@ void run(const PlanCommand &options, const ToolContext &tool) {
     PlanOptions by = options.plan;
     by.across = centre.camera.supersample.value_or(1);
     const Plan plan = make_plan(centre.view, lens, by, *tool.progress);
-    write_plan(options.output, plan, {options.centre, windows, lens, options.plan.margin}, options.masks);
+    write_plan(options.output, plan, {options.centre, windows, lens, by.margin, by.across}, options.masks);
     if (!options.cameras.empty())
         write_cameras(options.cameras, cameras_of(plan, centre.camera, lens, windows.display_width()),
                       {options.centre, lens, centre.camera.metres_per_unit});

@@ -49,7 +49,8 @@ std::vector<Imath::V2d> lens_view_points(const LensLooks &looks, int n) {
 std::vector<Imath::V2d> trace_plan(const TraceJob &job) {
     const PlanRequest plan = read_plan(job.options.plan);
     RenderSettings settings = job.view;
-    if (plan.display != settings.windows.display)
+    if (plan.display != settings.windows.display ||
+        plan.across.value_or(job.options.supersample) != job.options.supersample)
         throw Error(job.options.plan + ": made for a picture of another size: give the same --size "
                                        "and --supersample as there");
     std::vector<Imath::V2d> points;

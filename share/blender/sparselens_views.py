@@ -711,6 +711,21 @@ def plain_name(name):
     return name
 
 
+def check_plan(plan, size, supersample):
+    """Refuses a plan of a picture of another size, or of other sub-pixels:
+    its boxes are not where they should be."""
+    window = plan.get("display_window")
+    if window != [0, 0, size[0] - 1, size[1] - 1]:
+        raise ValueError(
+            "--plan: it was made for a picture with the window %s, and this "
+            "one has %dx%d pixels: give the resolution and --supersample of "
+            "its centre view" % (window, size[0], size[1]))
+    of_plan = plan.get("center_supersample", supersample)
+    if of_plan != supersample:
+        raise ValueError("--plan: its centre view was rendered with "
+                         "--supersample %s: give it here, too" % (of_plan,))
+
+
 def views_of_plan(plan):
     """Names, lens points and boxes of what a plan of ldi-plan asks for; it
     was made from the centre view, which is there already."""
@@ -985,7 +1000,10 @@ def main(arguments):
         if not options.plan:
             return views_of_lens(options.views, options.lens_views)
         with open(numbered(options.plan, frame)) as file:
-            return views_of_plan(json.load(file))
+            plan = json.load(file)
+        check_plan(plan, shot_of(scene, eyes[0], options.supersample).size,
+                   options.supersample)
+        return views_of_plan(plan)
 
     frames = options.frames
     if frames is None:

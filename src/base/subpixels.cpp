@@ -4,6 +4,8 @@
 #include "base/parallel.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <limits>
 
 namespace sparselens {
 
@@ -18,21 +20,52 @@ struct Run {
     std::vector<double> shares;
 };
 
-// Of pixel `at` of a row or a column, of those sub-pixels that lie in [least, most].
-Run run_of(int at, int across, const std::vector<double> &shares, int least, int most) {
-    const int beside = (int(shares.size()) - across) / 2, first = at * across - beside;
-    const int from = std::max(least - first, 0), to = std::min(most - first + 1, int(shares.size()));
-    Run run{first + from, {shares.begin() + from, shares.begin() + to}};
-    double sum = 0;
-    for (const double share : run.shares) sum += share;
-    for (double &share : run.shares) share /= sum;
+// How many sub-pixels on each side of its own a pixel shows.
+int subpixels_beside(const Subpixels &by) { return (int(subpixel_shares(by).size()) - by.across) / 2; }
+
+Imath::Box2i wider(const Imath::Box2i &box, int by) {
+    return {box.min - Imath::V2i(by), box.max + Imath::V2i(by)};
+}
+
+// Sub-pixels of a row or a column, the last one included.
+struct Range {
+    int least, most;
+    bool has(int at) const { return at >= least && at <= most; }
+};
+
+// Those that a picture has along an axis, and those of which it is known what they show: in its display window, those that it
+// does not have are empty.
+struct Extent {
+    Range there, known;
+
+    Extent(const Windows &windows, unsigned axis)
+        : there{windows.data.min[axis], windows.data.max[axis]}, known{std::min(there.least,
+                                                                                windows.display.min[axis]),
+                                                                       std::max(there.most,
+                                                                                windows.display.max[axis])} {}
+    bool is_empty(int at) const { return known.has(at) && !there.has(at); }
+    int nearest(int at) const { return std::clamp(at, there.least, there.most); }
+};
+
+// Of pixel `at` of a row or a column. What is known has all of the light; what is there has its part of it.
+Run run_of(int at, int across, const std::vector<double> &shares, const Extent &extent) {
+    const int count = int(shares.size()), first = at * across - (count - across) / 2;
+    double known = 0;
+    for (int i = 0; i < count; ++i)
+        if (extent.known.has(first + i)) known += shares[std::size_t(i)];
+    Run run;
+    for (int i = 0; i < count; ++i) {
+        if (!extent.there.has(first + i)) continue;
+        if (run.shares.empty()) run.first = first + i;
+        run.shares.push_back(shares[std::size_t(i)] / known);
+    }
     return run;
 }
 
-std::vector<Run> runs_of(int first, int last, int across, const std::vector<double> &shares, int least,
-                         int most) {
+std::vector<Run> runs_of(int first, int last, int across, const std::vector<double> &shares,
+                         const Extent &extent) {
     std::vector<Run> runs;
-    for (int at = first; at <= last; ++at) runs.push_back(run_of(at, across, shares, least, most));
+    for (int at = first; at <= last; ++at) runs.push_back(run_of(at, across, shares, extent));
     return runs;
 }
 
@@ -40,8 +73,8 @@ std::vector<Run> runs_of(int first, int last, int across, const std::vector<doub
 class RowOfPixels {
 public:
     RowOfPixels(const Image &fine, const std::vector<Run> &columns, const Run &rows, Image &out, int y)
-        : fine_(fine), columns_(columns), rows_(rows), out_(out), y_(y),
-          sums_(std::size_t(fine.windows.width())) {}
+        : fine_(fine), columns_(columns), rows_(rows), out_(out), y_(y), across_(fine.windows, 0),
+          down_(fine.windows, 1), sums_(std::size_t(fine.windows.width())) {}
 
     // Down first, so that it is read in the order of memory.
     void mean(std::size_t channel) {
@@ -54,18 +87,19 @@ public:
         }
         for (std::size_t i = 0; i < columns_.size(); ++i) {
             const Run &run = columns_[i];
-            const double *from = &sums_[std::size_t(run.first - data.min.x)];
             double sum = 0;
-            for (std::size_t k = 0; k < run.shares.size(); ++k) sum += run.shares[k] * from[k];
+            for (std::size_t k = 0; k < run.shares.size(); ++k)
+                sum += run.shares[k] * sums_[std::size_t(run.first - data.min.x) + k];
             out_.at(channel, out_.windows.data.min.x + int(i), y_) = float(sum);
         }
     }
-    void middle(std::size_t channel, int across) {
-        const Imath::Box2i &data = fine_.windows.data, &box = out_.windows.data;
+    void middle(std::size_t channel, int across, float nothing) {
+        const Imath::Box2i &box = out_.windows.data;
         for (int x = box.min.x; x <= box.max.x; ++x) {
             const Imath::V2i at = middle_subpixel({x, y_}, across);
-            out_.at(channel, x, y_) = fine_.at(channel, std::clamp(at.x, data.min.x, data.max.x),
-                                               std::clamp(at.y, data.min.y, data.max.y));
+            out_.at(channel, x, y_) = across_.is_empty(at.x) || down_.is_empty(at.y)
+                                          ? nothing
+                                          : fine_.at(channel, across_.nearest(at.x), down_.nearest(at.y));
         }
     }
     void mattes(std::span<const Matte> mattes) {
@@ -88,6 +122,7 @@ private:
     const Run &rows_;
     Image &out_;
     int y_;
+    Extent across_, down_;
     std::vector<double> sums_; // of each column of sub-pixels
 };
 
@@ -103,33 +138,40 @@ Imath::Box2i subpixels_in(const Imath::Box2i &box, int across) {
 }
 
 Imath::Box2i subpixels_under(const Imath::Box2i &box, const Subpixels &by) {
-    const Imath::V2i beside((int(subpixel_shares(by).size()) - by.across) / 2);
-    const Imath::Box2i in = subpixels_in(box, by.across);
-    return {in.min - beside, in.max + beside};
+    return wider(subpixels_in(box, by.across), subpixels_beside(by));
+}
+
+Imath::Box2i pixels_reached(const Imath::Box2i &box, const Subpixels &by) {
+    return reduced(wider(box, subpixels_beside(by)), by.across);
 }
 
 Imath::V2i middle_subpixel(const Imath::V2i &pixel, int across) {
-    return pixel * across + Imath::V2i(across / 2);
+    using Limits = std::numeric_limits<int>;
+    const auto middle = [across](int at) {
+        const std::int64_t exact = std::int64_t(at) * across + across / 2;
+        return int(std::clamp<std::int64_t>(exact, Limits::min(), Limits::max()));
+    };
+    return {middle(pixel.x), middle(pixel.y)};
 }
 
-Image mean_of_subpixels(const Image &fine, const Subpixels &by, const Imath::Box2i &box) {
+Image mean_of_subpixels(const Image &fine, const Subpixels &by, const Imath::Box2i &box, float nothing) {
     const std::vector<double> shares = subpixel_shares(by);
-    const Imath::Box2i &data = fine.windows.data;
+    const Extent across(fine.windows, 0), down(fine.windows, 1);
     Windows windows = fine.windows;
     windows.data = box;
     windows.display = reduced(fine.windows.display, by.across);
     Image out(windows, fine.channels);
     const std::vector<Matte> mattes = find_mattes(fine.channels);
-    const std::vector<Run> columns = runs_of(box.min.x, box.max.x, by.across, shares, data.min.x, data.max.x);
+    const std::vector<Run> columns = runs_of(box.min.x, box.max.x, by.across, shares, across);
     parallel_for(std::size_t(out.windows.height()), [&](std::size_t row) {
         const int y = box.min.y + int(row);
-        const Run rows = run_of(y, by.across, shares, data.min.y, data.max.y);
+        const Run rows = run_of(y, by.across, shares, down);
         RowOfPixels pixels(fine, columns, rows, out, y);
         for (std::size_t k = 0; k < out.channels.size(); ++k) {
             if (is_light(out.channels[k]))
                 pixels.mean(k);
             else if (!is_in_matte(out.channels[k]))
-                pixels.middle(k, by.across);
+                pixels.middle(k, by.across, nothing);
         }
         if (!mattes.empty()) pixels.mattes(mattes);
     });

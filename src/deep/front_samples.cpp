@@ -1,7 +1,5 @@
 #include "deep/front_samples.h"
 
-#include <limits>
-
 namespace sparselens {
 
 float front_depth(const Ldi &ldi, const Imath::V2i &pixel) {
@@ -13,8 +11,7 @@ float front_depth(const Ldi &ldi, const Imath::V2i &pixel) {
 Image front_depth(const Ldi &ldi) {
     Image depth(ldi.windows, {{"Z", PixelType::float32, ChannelKind::data}});
     for (std::size_t i = 0; i < ldi.windows.pixels(); ++i)
-        depth.values[i] =
-            ldi.pixel(i).empty() ? std::numeric_limits<float>::infinity() : ldi.z[ldi.pixel(i).front()];
+        depth.values[i] = ldi.pixel(i).empty() ? depth_of_nothing : ldi.z[ldi.pixel(i).front()];
     return depth;
 }
 

@@ -5,6 +5,7 @@
 #include "../view/view.h"
 #include "ldi.h"
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -13,7 +14,8 @@ namespace sparselens {
 // The planar depth of the front sample of pixel (x, y), EXR coordinates, or 0 where it has none.
 float front_depth(const Ldi &ldi, const Imath::V2i &pixel);
 
-// The same for all pixels, as a single channel Z (float); infinity where a pixel is empty.
+// The same for all pixels, as a single channel Z (float); depth_of_nothing where a pixel is empty.
+inline constexpr float depth_of_nothing = std::numeric_limits<float>::infinity();
 Image front_depth(const Ldi &ldi);
 
 // Its R, G, B, as far as they are there, and its planar depth, 0 where there is none.

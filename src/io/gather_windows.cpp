@@ -5,6 +5,7 @@
 #include "deep/proxy.h"
 #include "io/camera/camera_read.h"
 #include "io/files/memory_limit.h"
+#include "kernels/photo_rules.h"
 
 #include <fmt/format.h>
 
@@ -24,6 +25,19 @@ Imath::Box2i common(const Imath::Box2i &a, const Imath::Box2i &b, const char *wh
 // Whether no display window lies beyond `data`.
 bool holds(const Imath::Box2i &data, const Imath::Box2i &display) {
     return data.intersects(display.min) && data.intersects(display.max);
+}
+
+// Of the samples of a picture, and of where each of its pixels has its own.
+double bytes_of(const Ldi &ldi) {
+    std::size_t floats = ldi.values.size() * ldi.samples();
+    for (const auto *of : {&ldi.z, &ldi.z_back, &ldi.dx, &ldi.dy, &ldi.weight, &ldi.optical, &ldi.solid})
+        floats += of->size();
+    return double(floats * sizeof(float)) + double(ldi.begin.size() * sizeof(ldi.begin[0]));
+}
+
+// For `copies` of it, in all.
+void check_copies(const std::string &name, const Ldi &ldi, int copies) {
+    check_memory(name, copies * bytes_of(ldi), std::uint64_t(bytes_of(ldi)));
 }
 
 // A few near samples in a huge display window may require a picture of gigabytes.
@@ -66,16 +80,34 @@ int smaller_by(const WindowOptions &options, const Subpixels &by) {
     return options.proxy > 1 ? options.proxy * by.across : 1;
 }
 
-void need_all(GatherWindows &frame) {
+// The warp looks for images by steps of the picture's pixels: it must have known of them.
+void check_warped_for(int across, int said, const OpenedLdi &in) {
+    if (in.camera.lens_points.size() < 2 || kernels::motion_unit(across) <= kernels::motion_unit(said))
+        return;
+    throw UsageError(
+        fmt::format("{}: it was warped for pixels of {} x {}, not of {} x {}: give `supersample` {} where "
+                    "its views are warped",
+                    in.name, said, said, across, across, across));
+}
+
+// All pixels that show something of what is gathered; beyond the display window no filter adds any.
+void need_all(GatherWindows &frame, const Imath::Box2i &display) {
     frame.needed = frame.gathered;
     frame.picture = reduced(frame.gathered, frame.subpixels.across);
+    const Imath::Box2i shown = reduced(display, frame.subpixels.across),
+                       reached = pixels_reached(frame.gathered, frame.subpixels);
+    const Imath::Box2i more({std::max(reached.min.x, shown.min.x), std::max(reached.min.y, shown.min.y)},
+                            {std::min(reached.max.x, shown.max.x), std::min(reached.max.y, shown.max.y)});
+    if (!more.isEmpty()) frame.picture.extendBy(more);
 }
 
 } // namespace
 
 Subpixels subpixels_of(const WindowOptions &options, const OpenedLdi &in) {
-    const Subpixels by{options.supersample.value_or(in.camera.supersample.value_or(1)),
+    const int said = in.camera.supersample.value_or(1);
+    const Subpixels by{options.supersample.value_or(said),
                        options.filter.value_or(in.camera.pixel_filter.value_or(PixelFilter{}))};
+    check_warped_for(by.across, said, in);
     const Imath::Box2i &display = in.ldi.windows.display;
     if (subpixels_in(reduced(display, by.across), by.across) != display)
         throw UsageError(fmt::format(
@@ -84,9 +116,9 @@ Subpixels subpixels_of(const WindowOptions &options, const OpenedLdi &in) {
     return by;
 }
 
-Image GatherWindows::picture_of(Image needed_pixels) const {
+Image GatherWindows::picture_of(Image needed_pixels, float nothing) const {
     if (subpixels.across == 1) return needed_pixels;
-    return mean_of_subpixels(needed_pixels, subpixels, picture);
+    return mean_of_subpixels(needed_pixels, subpixels, picture, nothing);
 }
 
 bool keeps_pixels(const WindowOptions &options, const Imf::Header &header) {
@@ -103,7 +135,7 @@ GatherWindows gather_windows(const WindowOptions &options, const OpenedLdi &in, 
         frame.changed = proxy(in.ldi, smaller);
     else
         frame.subpixels = by;
-    need_all(frame);
+    need_all(frame, frame.ldi(in).windows.display);
     return frame;
 }
 
@@ -112,7 +144,7 @@ void choose_windows(GatherWindows &frame, const WindowOptions &options, const Op
     if (options.overscan == OutputOverscan::grow)
         if (auto padded = grown(in, frame.ldi(in), lens, looks, frame.subpixels.across, frame.gathered))
             frame.changed = std::move(padded);
-    need_all(frame);
+    need_all(frame, frame.ldi(in).windows.display);
     if (options.overscan == OutputOverscan::crop)
         frame.picture = common(frame.picture, reduced(frame.ldi(in).windows.display, frame.subpixels.across),
                                "`overscan=crop`: the display window");
@@ -131,12 +163,17 @@ Ldi holdout_for(const OpenedLdi &in, const WindowOptions &options, const Ldi &ho
         throw Error(name + ": its display window differs from that of the picture it holds out; use a "
                            "holdout of the same size");
     if (options.proxy > 1) return proxy(holdout, coarse ? options.proxy : smaller_by(options, by));
-    return coarse ? enlarged(holdout, by.across) : holdout;
+    if (!coarse) return holdout;
+    check_copies(name, holdout, 1 + by.across * by.across);
+    return enlarged(holdout, by.across);
 }
 
 void raise_highlights(GatherWindows &frame, const OpenedLdi &in, const HighlightGain &by) {
     if (by.gain == 1) return;
-    if (!frame.changed) frame.changed = in.ldi;
+    if (!frame.changed) {
+        check_copies(in.name, in.ldi, 2);
+        frame.changed = in.ldi;
+    }
     raise_highlights(*frame.changed, by);
 }
 

@@ -26,7 +26,8 @@ struct WindowOptions {
     std::optional<PixelFilter> filter = {}; // else as its file says, else a box
 };
 
-// As options or the file have it. Throws UsageError where a block of sub-pixels would be cut by the display window.
+// As options or the file have it. Throws UsageError where a block of sub-pixels would be cut by the display window, and where views
+// were warped for so much larger pixels that the LDI would be another one (kernels/photo_rules.h).
 Subpixels subpixels_of(const WindowOptions &options, const OpenedLdi &in);
 
 // The pixels that are gathered, those of them that are needed, and the picture that they become, by `subpixels`. A proxy is made of
@@ -37,8 +38,8 @@ struct GatherWindows {
     std::optional<Ldi> changed; // the LDI to gather; empty: the LDI as it was read
 
     const Ldi &ldi(const OpenedLdi &in) const { return changed ? *changed : in.ldi; }
-    // The picture of what was gathered, or of anything else of the pixels that are needed.
-    Image picture_of(Image needed_pixels) const;
+    // The picture of what was gathered, or of anything else of the pixels that are needed; `nothing`: data of empty sub-pixels.
+    Image picture_of(Image needed_pixels, float nothing = 0) const;
 };
 
 // Whether the LDI to gather has the pixels of the file, whatever they show.

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "deep/merge.h"
 #include "deep/tidy.h"
+#include "view/place_views.h"
 
 #include <fmt/format.h>
 
@@ -16,6 +17,7 @@ void require_one_camera(const OpenedLdi &first, const OpenedLdi &other) {
     if (other.ldi.windows.display != first.ldi.windows.display)
         throw Error(fmt::format("{}: its display window differs from that of {}; merge pictures of one size",
                                 other.name, first.name));
+    require_same_subpixels(first.camera, first.name, other.camera, other.name);
     const int width = first.ldi.windows.display_width();
     const auto focal = focal_length_px(first.camera, width), others = focal_length_px(other.camera, width);
     constexpr double rounding = 1e-3; // relative, of values that other programs have written

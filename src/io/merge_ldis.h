@@ -8,7 +8,7 @@
 namespace sparselens {
 
 // Merges the samples of the pictures, which are not empty, by depth (deep/merge.h). Name, header and camera are those of
-// the first. Throws Error, naming the file, if its display window or its focal length differs from that of the first.
+// the first. Throws Error, naming the file, if its display window, its sub-pixels or its focal length differ from those of the first.
 OpenedLdi merge_ldis(std::vector<OpenedLdi> parts);
 
 } // namespace sparselens

@@ -111,6 +111,7 @@ void write_plan(const std::string &path, const Plan &plan, const PlanSetting &se
     Json json{
         {"version", 1},
         {"center", setting.centre},
+        {"center_supersample", setting.across},
         {"display_window", json_of(setting.windows.display)},
         {"data_window", json_of(setting.windows.data)},
         {"lens",
@@ -157,7 +158,8 @@ PixelMask mask_of(const RequestedView &view) {
 PlanRequest read_plan(const std::string &path) {
     try {
         const Given json = read_json_file(path);
-        PlanRequest request{box_of(json.at("display_window")), {}};
+        PlanRequest request{box_of(json.at("display_window")), {}, {}};
+        if (json.contains("center_supersample")) request.across = whole_number(json.at("center_supersample"));
         for (const Given &view : json.at("views"))
             request.views.push_back(view_of(view, fs::path(path).parent_path()));
         return request;

@@ -1,6 +1,6 @@
 // Plans on disk: what ldi-plan found worth rendering, as JSON and, on request, with one EXR mask per view.
 //
-//   {"version": 1, "center": FILE, "display_window": [x0, y0, x1, y1], "data_window": [...],
+//   {"version": 1, "center": FILE, "center_supersample": N, "display_window": [x0, y0, x1, y1], "data_window": [...],
 //    "lens": {"radius": R, "focal_px": F, "focus_distance": D or null for infinity},
 //    "margin": PX, "share": S, "advice": "none" | "planned" | "full", "noise_db": N or null,
 //    "edges": S, "supersample": 1 | 2,
@@ -16,6 +16,7 @@
 
 #include "../plan/plan.h"
 
+#include <optional>
 #include <string>
 
 namespace sparselens {
@@ -25,6 +26,7 @@ struct PlanSetting {
     Windows windows;
     ThinLens lens;
     int margin;
+    int across = 1; // pixels of the centre view, across and down, that become one of the picture
 };
 
 // `masks` is a folder, created if missing, or empty for no masks.
@@ -40,6 +42,7 @@ struct RequestedView {
 
 struct PlanRequest {
     Imath::Box2i display;
+    std::optional<int> across; // as in PlanSetting
     std::vector<RequestedView> views;
 };
 

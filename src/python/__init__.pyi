@@ -387,6 +387,7 @@ def warp(
     optical: Literal["on", "off"] = "on",
     precision: Literal["exact", "lens"] = "exact",
     device: Optional[str] = "cpu",
+    supersample: Optional[int] = None,
     progress: Optional[_Progress] = None,
     focal_length: Optional[float] = None,
     sensor_width: Optional[float] = None,
@@ -404,6 +405,7 @@ def warp(
     optical: "on" finds the depth of what mirrors and glass show, which then is blurred and averaged by it, or "off".
     precision: "exact", or rounded as finely as a "lens" picture needs, for smaller files.
     device: what warps: "cpu", "auto" (a GPU if there is one), "gpu" (a GPU, or Error), or a part of a device's name.
+    supersample: so many pixels of the views, across and down, are one of the picture (default: as they say, else 1).
     progress: called with the name of the stage and a whole percentage.
     Lens values replace those of the centre view:
       focal_length (mm), sensor_width (mm, spans the display window), fstop (a number, or inf),
@@ -416,6 +418,7 @@ def cluster(
     *,
     tolerance: Optional[float] = 0.25,
     layers: int = 0,
+    supersample: Optional[int] = None,
     progress: Optional[_Progress] = None,
     focal_length: Optional[float] = None,
     sensor_width: Optional[float] = None,
@@ -429,6 +432,7 @@ def cluster(
     ldi: an Ldi, or a sequence of them, which are merged by depth first.
     tolerance: samples are merged whose circles of confusion differ by less, pixels.
     layers: at most so many samples per pixel; 0: no limit.
+    supersample: so many pixels of the LDIs, across and down, are one of the picture (default: as they say, else 1).
     progress: called with the name of the stage and a whole percentage.
     Lens values replace those of the LDI:
       focal_length (mm), sensor_width (mm, spans the display window), fstop (a number, or inf),
@@ -542,6 +546,7 @@ def plan(
     views: int = 4,
     margin: int = 2,
     noise: Optional[float] = None,
+    supersample: Optional[int] = None,
     progress: Optional[_Progress] = None,
     focal_length: Optional[float] = None,
     sensor_width: Optional[float] = None,
@@ -554,6 +559,7 @@ def plan(
 
     view: the centre View. views: the largest number of views. margin: pixels added around what it does not see.
     noise: standard deviation of the noise of a tone-mapped pixel (default: measured).
+    supersample: so many pixels of the view, across and down, are one of the picture (default: as it says, else 1).
     progress: called with the name of the stage and a whole percentage.
     Lens values replace those of the view:
       focal_length (mm), sensor_width (mm, spans the display window), fstop (a number, or inf),

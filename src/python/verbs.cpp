@@ -94,6 +94,7 @@ LdiObject warp(const py::object &views, const py::kwargs &given) {
     WarpOptions options = warp_options(keywords);
     const bool rounds = keywords.word<bool>("precision", {{"exact", false}, {"lens", true}}).value_or(false);
     const LensValues lens = lens_values(keywords);
+    const auto across = keywords.whole("supersample", 1, most_across);
     const std::string given_device = keywords.text("device");
     const py::object progress = keywords.take("progress");
     keywords.done();
@@ -105,6 +106,7 @@ LdiObject warp(const py::object &views, const py::kwargs &given) {
             placed.emplace_back(View(view->in.view)); // a copy
             stated.push_back(
                 {view->in.view.name, camera_with_options(lens, view->in.camera), view->position});
+            if (across) stated.back().camera.supersample = across;
         }
         OpenedLdi out;
         out.name = "warp";
@@ -154,6 +156,7 @@ LdiObject cluster(const py::object &ldi, const py::kwargs &given) {
     const auto from = several<LdiObject>(ldi, "ldi", "an Ldi, or a sequence of them");
     const auto tolerance = keywords.number("tolerance", at_least_0);
     const int layers = keywords.whole("layers", 0, 1 << 20).value_or(0);
+    const auto across = keywords.whole("supersample", 1, most_across);
     const LensValues lens = lens_values(keywords);
     const py::object progress = keywords.take("progress");
     keywords.done();
@@ -161,10 +164,14 @@ LdiObject cluster(const py::object &ldi, const py::kwargs &given) {
         OpenedLdi merged; // of one LDI only what describes it: its samples are not copied
         if (from.size() > 1) {
             std::vector<OpenedLdi> parts;
-            for (const OpenedLdi *part : from) parts.push_back(*part);
+            for (const OpenedLdi *part : from) {
+                parts.push_back(*part);
+                if (across) parts.back().camera.supersample = across;
+            }
             merged = merge_ldis(std::move(parts));
         } else {
             merged = described_as(*from[0]);
+            if (across) merged.camera.supersample = across;
         }
         const Ldi &in = from.size() > 1 ? merged.ldi : from[0]->ldi;
         merged.camera = camera_with_options(lens, merged.camera);
@@ -217,7 +224,8 @@ PlanObject plan(const py::object &view, const py::kwargs &given) {
     options.views = keywords.whole("views", 0, 64).value_or(options.views);
     options.margin = keywords.whole("margin", 0, 1024).value_or(options.margin);
     options.noise = keywords.number("noise", at_least_0);
-    options.across = centre.camera.supersample.value_or(1);
+    options.across =
+        keywords.whole("supersample", 1, most_across).value_or(centre.camera.supersample.value_or(1));
     const LensValues values = lens_values(keywords);
     const py::object progress = keywords.take("progress");
     keywords.done();
@@ -225,7 +233,7 @@ PlanObject plan(const py::object &view, const py::kwargs &given) {
     const ThinLens lens = resolve_lens(camera_with_options(values, centre.camera), windows);
     return job<PlanObject>(progress, [&](Progress &said) -> PlanObject {
         return {make_plan(centre.view, lens, options, said),
-                {centre.view.name, windows, lens, options.margin}};
+                {centre.view.name, windows, lens, options.margin, options.across}};
     });
 }
 

@@ -1,11 +1,26 @@
 #include "view/place_views.h"
 
+#include "base/error.h"
+
+#include <fmt/format.h>
+
 #include <utility>
 
 namespace sparselens {
 
+void require_same_subpixels(const Camera &first, const std::string &first_name, const Camera &other,
+                            const std::string &name) {
+    const int expected = first.supersample.value_or(1), found = other.supersample.value_or(1);
+    if (found == expected) return;
+    throw Error(fmt::format("{}: {} x {} of its pixels are one of the picture, and {} x {} of {} "
+                            "(ldi.supersample): use files that agree, or say it for all by `supersample`",
+                            name, found, found, expected, expected, first_name));
+}
+
 PlacedCameras place_cameras(std::span<const StatedView> stated) {
     Camera centre = stated[0].camera;
+    for (const StatedView &view : stated)
+        require_same_subpixels(centre, stated[0].name, view.camera, view.name);
     std::vector<ViewPlace> places(stated.size());
     std::vector<std::size_t> unplaced; // views that only their cameras place
     std::vector<Camera> cameras;

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 namespace sparselens {
 namespace {
 
@@ -38,6 +40,33 @@ TEST(Subpixels, LightIsKept) {
         }
 }
 
+// An element that begins and ends within pixels of its display window: the sub-pixels that it does not have are empty, and a wide
+// filter carries light into the pixels beside it. Beyond the display window nobody knows what there is.
+TEST(Subpixels, WhatIsNotThereIsEmpty) {
+    const Imath::Box2i display({0, 0}, {79, 79}), data({21, 21}, {45, 52});
+    std::vector<Channel> channels{{"A"}, {"N.X"}};
+    find_kinds(channels);
+    const Image fine = filled(windows_of(display, data), channels, [](std::size_t, int, int) { return 1; });
+    for (const PixelFilter &filter : {PixelFilter{}, wide}) {
+        const Subpixels by{4, filter};
+        const Image out = mean_of_subpixels(fine, by, pixels_reached(data, by), 7);
+        double covered = 0;
+        for (const float a : out.plane(0)) covered += double(a);
+        EXPECT_NEAR(covered * 16 / (25 * 32), 1, 1e-6);
+        if (filter == wide) continue;
+        EXPECT_EQ(out.windows.data, Imath::Box2i({5, 5}, {11, 13}));
+        EXPECT_FLOAT_EQ(out.at(0, 5, 8), 0.75f);
+        EXPECT_FLOAT_EQ(out.at(0, 5, 5), 0.75f * 0.75f);
+        EXPECT_FLOAT_EQ(out.at(0, 11, 13), 0.5f * 0.25f);
+        EXPECT_EQ(out.at(1, 5, 5), 1);
+        EXPECT_EQ(out.at(1, 11, 13), 7);
+    }
+    const Image beyond =
+        mean_of_subpixels(filled(windows_of(data, data), channels, [](std::size_t, int, int) { return 1; }),
+                          {4, wide}, {{5, 5}, {11, 13}}, 7);
+    for (const float value : beyond.values) EXPECT_EQ(value, 1);
+}
+
 // What a pixel is does not depend on which others are made, as long as the sub-pixels under it are there.
 TEST(Subpixels, OfAPartOfThePictureAreTheSame) {
     const Imath::Box2i data({0, 0}, {39, 39}), part({5, 6}, {9, 7});
@@ -58,6 +87,11 @@ TEST(Subpixels, OfABoxAndBack) {
     }
     EXPECT_EQ(subpixels_in(box, 2), Imath::Box2i({-4, 6}, {9, 11}));
     EXPECT_EQ(subpixels_under(box, {2, wide}), Imath::Box2i({-5, 5}, {10, 12}));
+    EXPECT_EQ(pixels_reached(subpixels_in(box, 2), {2, {}}), box);
+    EXPECT_EQ(pixels_reached(subpixels_in(box, 2), {2, wide}), Imath::Box2i({-3, 2}, {5, 6}));
+    constexpr int far = 1 << 28; // times 16 is 0, where integers overflow
+    EXPECT_EQ(middle_subpixel({far, -far}, 16),
+              Imath::V2i(std::numeric_limits<int>::max(), std::numeric_limits<int>::min()));
 }
 
 } // namespace

@@ -1,9 +1,12 @@
 // Growth with each look: the picture of an element is the same whether its data window is tight or large.
 #include "base/error.h"
+#include "deep/front_samples.h"
 #include "deep/pad.h"
 #include "dof/gather_picture.h"
+#include "io/files/memory_limit.h"
 #include "io/gather_windows.h"
 #include "support/lens_ldi.h"
+#include "support/scratch_folder.h"
 
 #include <gtest/gtest.h>
 
@@ -105,6 +108,83 @@ TEST(GatherWindows, HaveWholeBlocksOfSubpixels) {
     EXPECT_THROW(made({.supersample = 5}), UsageError);
     in.camera.supersample = 1;
     EXPECT_EQ(made({.proxy = 2, .supersample = 2}).windows, made({.proxy = 4}).windows);
+}
+
+// A lens of radius 0 spreads nothing, so a kept window shows what a grown one shows: what the file does not have is empty, its data
+// and its depth too. A wide filter carries light beyond the window.
+TEST(GatherWindows, KeepTheLightOfPixelsThatAreCovered) {
+    OpenedLdi in = element(0);
+    in.ldi.windows.data = {{141, 31}, {152, 42}};
+    in.header.dataWindow() = in.ldi.windows.data;
+    for (const PixelFilter &filter : {PixelFilter{}, PixelFilter{PixelFilter::Shape::blackman_harris, 3}}) {
+        const auto made = [&](OutputOverscan overscan, bool depth) {
+            const WindowOptions options{.overscan = overscan, .supersample = 4, .filter = filter};
+            ThinLens sharp = lens;
+            sharp.radius = 0;
+            GatherWindows frame = gather_windows(options, in, sharp);
+            choose_windows(frame, options, in, sharp, {});
+            if (depth)
+                return frame.picture_of(crop(front_depth(frame.ldi(in)), frame.needed), depth_of_nothing);
+            Progress silent;
+            return frame.picture_of(
+                gather_picture(frame.ldi(in), sharp, frame.gathered, frame.needed, {}, silent));
+        };
+        const Image kept = made(OutputOverscan::keep, false), grown = made(OutputOverscan::grow, false);
+        const auto there = [&kept](const Image &image) { return crop(image, kept.windows.data); };
+        EXPECT_LT(largest_difference(kept, there(grown)), 1e-6);
+        EXPECT_EQ(made(OutputOverscan::keep, true).values, there(made(OutputOverscan::grow, true)).values);
+        double covered = 0;
+        for (const float a : kept.plane(1)) covered += double(a);
+        EXPECT_NEAR(covered, 144.0 / 16, 1e-5);
+    }
+}
+
+const std::string none = "(nothing was thrown)"; // by what_of()
+
+// Views are warped for the picture's pixels, where those are more than two sub-pixels wide.
+TEST(GatherWindows, TheWarpMustHaveKnownOfSubpixels) {
+    OpenedLdi in = element(0);
+    in.name = "x.exr";
+    in.camera.lens_points = {{0, 0}, {1, 0}};
+    const auto says = [&](int across) {
+        return what_of<UsageError>([&] { subpixels_of({.supersample = across}, in); });
+    };
+    EXPECT_EQ(says(2), none);
+    EXPECT_EQ(says(4),
+              "x.exr: it was warped for pixels of 1 x 1, not of 4 x 4: give `supersample` 4 where its views "
+              "are warped");
+    in.camera.supersample = 4;
+    for (const int across : {1, 2, 4}) EXPECT_EQ(says(across), none);
+    in.camera = {};
+    EXPECT_EQ(says(4), none); // not made of views
+}
+
+TEST(GatherWindows, CopiesCountAsMemory) {
+    struct Limit {
+        explicit Limit(std::uint64_t bytes) { set_memory_limit(bytes); }
+        ~Limit() { set_memory_limit({}); }
+    };
+    OpenedLdi in = element(0);
+    in.name = "x.exr";
+    in.ldi.dx = in.ldi.dy = in.ldi.weight = {};
+    // 144 samples of two channels and a depth; where each of 144 pixels has its own, and where the last one ends.
+    constexpr std::uint64_t bytes = 144 * 3 * 4 + 145 * 8;
+    const auto raised = [&](std::uint64_t limit) {
+        GatherWindows frame;
+        const Limit set(limit);
+        return what_of<Error>([&] { raise_highlights(frame, in, {.gain = 2}); });
+    };
+    EXPECT_EQ(raised(2 * bytes), none);
+    EXPECT_EQ(raised(2 * bytes - 1), "x.exr: asks for 1 MB of memory, more than `max_memory` allows");
+    Ldi coarse = in.ldi;
+    coarse.windows.display = {{0, 0}, {95, 63}};
+    coarse.windows.data = {{70, 15}, {81, 26}};
+    const auto held = [&](std::uint64_t limit) {
+        const Limit set(limit);
+        return what_of<Error>([&] { holdout_for(in, {.supersample = 2}, coarse, "card.exr"); });
+    };
+    EXPECT_EQ(held(5 * bytes), none);
+    EXPECT_EQ(held(5 * bytes - 1), "card.exr: asks for 1 MB of memory, more than `max_memory` allows");
 }
 
 TEST(HoldoutFor, IsAsLargeAsTheLdiOrAsThePicture) {

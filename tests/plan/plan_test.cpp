@@ -143,11 +143,12 @@ TEST(PlanFile, MasksAndRectanglesComeBack) {
     const ScratchFolder folder;
     const View centre = card_before_wall();
     const Plan plan = plan_of(centre);
-    const PlanSetting setting{"centre.exr", centre.image.windows, lens, 2};
+    const PlanSetting setting{"centre.exr", centre.image.windows, lens, 2, 3};
     for (const std::string &masks : {folder.file("masks"), std::string()}) {
         write_plan(folder.file("plan.json"), plan, setting, masks);
         const PlanRequest read = read_plan(folder.file("plan.json"));
         EXPECT_EQ(read.display, centre.image.windows.display);
+        EXPECT_EQ(read.across, 3);
         ASSERT_EQ(read.views.size(), plan.views.size());
         for (std::size_t k = 0; k < plan.views.size(); ++k) {
             EXPECT_EQ(read.views[k].u, plan.views[k].u);

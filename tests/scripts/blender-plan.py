@@ -46,6 +46,28 @@ for name in "../../x", "/tmp/x", "a/b", "..", ".", "", "a\\b", "a\nb", "-x", "x"
             sys.exit(f"{name!r}: {error}")
 
 
+def expect_plan(pattern, plan, size=(160, 90), supersample=1):
+    try:
+        script.check_plan(plan, size, supersample)
+        found = ""
+    except ValueError as error:
+        found = str(error)
+    if pattern not in found or (found and not pattern):
+        sys.exit(f"check_plan: {found!r} of {plan}, in place of {pattern!r}")
+
+
+window = {"display_window": [0, 0, 159, 89]}
+expect_plan("", window)
+expect_plan("", window, supersample=2)  # of a version that did not say it
+expect_plan("", {**window, "center_supersample": 2}, supersample=2)
+expect_plan("--supersample 2", {**window, "center_supersample": 2})
+expect_plan("--supersample 1", {**window, "center_supersample": 1}, supersample=2)
+for size in (80, 45), (320, 180), (160, 91), (161, 90):
+    expect_plan("window [0, 0, 159, 89]", window, size)
+expect_plan("window [1, 0, 160, 89]", {"display_window": [1, 0, 160, 89]})
+expect_plan("window None", {})
+
+
 def things(**members):
     return types.SimpleNamespace(**members)
 

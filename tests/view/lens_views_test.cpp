@@ -1,6 +1,7 @@
 #include "base/error.h"
 #include "support/scratch_folder.h"
 #include "view/lens_views.h"
+#include "view/place_views.h"
 #include "view/projection.h"
 
 #include <gtest/gtest.h>
@@ -19,6 +20,21 @@ Camera camera_at(double x, double y, double z = 0) {
     Camera camera;
     camera.world_to_camera = to_world.inverse() * move;
     return camera;
+}
+
+// Files that say nothing have one pixel for each of the picture.
+TEST(PlaceViews, ViewsHaveTheSubpixelsOfTheCentre) {
+    const auto placed = [](std::optional<int> centre, std::optional<int> view) {
+        std::vector<StatedView> stated{{"center.exr", {}, {}}, {"view.exr", {}, Imath::V2d(1, 0)}};
+        stated[0].camera.supersample = centre;
+        stated[1].camera.supersample = view;
+        return what_of<Error>([&] { place_cameras(stated); });
+    };
+    EXPECT_EQ(placed({}, 1), "(nothing was thrown)");
+    EXPECT_EQ(placed(2, 2), "(nothing was thrown)");
+    EXPECT_EQ(placed(2, {}), "view.exr: 1 x 1 of its pixels are one of the picture, and 2 x 2 of center.exr "
+                             "(ldi.supersample): use files that agree, or say it for all by `supersample`");
+    EXPECT_EQ(placed({}, 4).substr(0, 19), "view.exr: 4 x 4 of ");
 }
 
 const std::vector<std::string> names{"a.exr", "b.exr", "c.exr", "d.exr"};

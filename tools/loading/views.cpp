@@ -37,8 +37,13 @@ OpenedViews open_views(const ViewList &list, const OpenOptions &options) {
         positions.push_back(view_offset(offset));
         paths.push_back(path);
     }
+    const auto camera_of = [&list](const OpenedView &view) {
+        Camera camera = view.camera;
+        if (list.supersample) camera.supersample = list.supersample;
+        return camera;
+    };
     PackedFile centre(open_view(paths[0], options));
-    const Camera camera = centre.opened.camera;
+    const Camera camera = camera_of(centre.opened);
     OpenedViews opened;
     opened.header = std::move(centre.opened.header);
     opened.depth_filtered = centre.opened.depth_filtered;
@@ -48,7 +53,7 @@ OpenedViews open_views(const ViewList &list, const OpenOptions &options) {
         paths.size() - 1, // the rim views: while one is decompressed, the depths of another are settled
         [&](std::size_t n) { return PackedFile(open_view(paths[n + 1], options, camera)); },
         [&](std::size_t n, PackedFile next) {
-            stated.push_back({paths[n + 1], next.opened.camera, positions[n + 1]});
+            stated.push_back({paths[n + 1], camera_of(next.opened), positions[n + 1]});
             add(opened, next);
         },
         not_packed_yet);

@@ -23,6 +23,16 @@ void add_lens_options(CLI::App &app, LensValues &options) {
     app.get_option("--lens-radius")->excludes("--fstop");
 }
 
+void add_subpixels_option(CLI::App &app, std::optional<int> &across) {
+    app.add_option(
+           "--supersample", across,
+           "This number of the files' pixels, across and down, is one of the picture (default: as the "
+           "files say, else 1)")
+        ->type_name("N")
+        ->check(CLI::Range(1, most_across))
+        ->group("Lens");
+}
+
 void add_depth_options(CLI::App &app, DepthOptions &options) {
     const std::map<std::string, DepthMeaning> meanings{{"z", DepthMeaning::planar},
                                                        {"distance", DepthMeaning::distance},

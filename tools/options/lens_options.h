@@ -11,6 +11,8 @@ namespace sparselens {
 
 void add_lens_options(CLI::App &app, LensValues &values);
 void add_depth_options(CLI::App &app, DepthOptions &options); // the choice of the picture among them
+// How many pixels of the files are one of the picture.
+void add_subpixels_option(CLI::App &app, std::optional<int> &across);
 void add_picture_choice(CLI::App &app, PictureChoice &picture);
 
 CLI::Validator number(NumberRange range);

@@ -50,6 +50,7 @@ void add_plan_options(CLI::App &app, PlanCommand &options) {
         ->type_name("SIGMA")
         ->check(number(at_least_0));
     add_lens_options(app, options.lens);
+    add_subpixels_option(app, options.supersample);
     add_depth_options(app, options.depth);
     add_examples(app, {{"Plan at most four views, and write a mask for each",
                         "ldi-plan center.exr -o plan.json --masks masks"},

@@ -5,6 +5,7 @@
 #include "options/lens_options.h"
 #include "plan/plan.h"
 
+#include <optional>
 #include <string>
 
 namespace sparselens {
@@ -14,6 +15,7 @@ struct PlanCommand {
     LensValues lens;
     DepthOptions depth;
     PlanOptions plan;
+    std::optional<int> supersample;
 };
 
 void add_plan_options(CLI::App &app, PlanCommand &options);

@@ -3,6 +3,7 @@
 
 #include "harness/commands/cli.h"
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,6 +13,7 @@ namespace sparselens {
 struct ViewList {
     std::vector<std::string> files;                          // the centre view first
     std::vector<std::pair<std::string, std::string>> placed; // "X,Y" and a file
+    std::optional<int> supersample = {}; // pixels of all, across and down, in one of the picture
 };
 
 void add_view_list(CLI::App &app, ViewList &list);

@@ -53,6 +53,7 @@ void add_warp_options(CLI::App &app, WarpCommand &options) {
     add_device_option(app, options.device, "What warps");
     add_compression_option(app, options.compression, true);
     add_lens_options(app, options.lens);
+    add_subpixels_option(app, options.views.supersample);
     add_depth_options(app, options.depth);
     add_input_colour_options(app, options.colour);
     add_history_option(app, options.history);

@@ -11,14 +11,15 @@ namespace {
 
 using Shape = PixelFilter::Shape;
 
-// Also where the data window begins within a block, and ends within one.
+// Also where the data window begins within a block, and ends within one, in the display window or beyond it.
 TEST(Subpixels, AreAsTheReferenceHasThem) {
     for (const int across : {1, 2, 3, 4})
         for (const PixelFilter &filter :
              {PixelFilter{}, PixelFilter{Shape::blackman_harris, 1.5}, PixelFilter{Shape::gaussian, 3}}) {
             const Imath::Box2i display({0, 0}, {12 * across - 1, 9 * across - 1});
             for (const Imath::Box2i &data :
-                 {display, Imath::Box2i({-7, -3}, {11 * across, 10 * across + 1})}) {
+                 {display, Imath::Box2i({-7, -3}, {11 * across, 10 * across + 1}),
+                  Imath::Box2i({3 * across + 1, -3}, {6 * across, 5 * across + 1})}) {
                 const Image fine = random_picture(windows_of(display, data));
                 const Imath::Box2i box({2, 1}, {8, 7});
                 const Subpixels by{across, filter};
