@@ -78,6 +78,18 @@ TEST_F(LensDeviceTest, CellsAreTheCpus) {
     expect_same(ldi, {.quality = Quality::draft}, 1e-6, wide);
 }
 
+// Discs less than half a pixel wide, and more than that high.
+TEST_F(LensDeviceTest, HighDiscsAreTheCpus) {
+    ThinLens high = lens;
+    high.pixel_aspect = 2;
+    Windows windows = windows_of_size(80, 70);
+    windows.pixel_aspect = 2;
+    const Ldi ldi = make_ldi(windows, {{"Y"}}, [&](int x, int y) {
+        return std::vector<Sample>{{depth_of(high, 0.4), {float(random_unit(x, y, 7))}}};
+    });
+    expect_same(ldi, {}, 1e-6, high);
+}
+
 TEST_F(LensDeviceTest, HighlightsAreAddedToIt) {
     expect_same(random_surfaces(windows_of_size(90, 70), lens, false, 6), {.lens_samples = 12});
 }

@@ -35,7 +35,7 @@ struct FacetBlocks {
     std::vector<std::vector<Facet>> blocks; // those that have any, row by row
 };
 
-// `widest`: how far lens points are from the middle at most. The LDI has less than 2^32 samples.
+// `widest`: how far lens points are from the middle at most, in pixels for each pixel of CoC. The LDI has less than 2^32 samples.
 FacetBlocks find_facets(const Ldi &ldi, const ThinLens &lens, double widest);
 
 } // namespace sparselens

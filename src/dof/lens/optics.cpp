@@ -17,7 +17,9 @@ std::size_t Optics::doubled(const Imath::V2i &first, int size) const {
     return left <= 0.25 ? 2 : left <= 0.5 ? 1 : 0;
 }
 
-float Optics::widest() const { return float(std::max(aperture.half_extent().x, aperture.half_extent().y)); }
+float Optics::widest() const {
+    return float(std::max(aperture.half_extent().x, aperture.half_extent().y * frame.pixel_aspect));
+}
 
 void Optics::bend(BlockedSamples &samples) const {
     if (!moves() && coc == 0 && field.flat()) return;

@@ -30,7 +30,8 @@ struct Optics {
     // lens. `first`, `size`: as of coc_gradient().
     std::size_t doubled(const Imath::V2i &first, int size) const;
     bool moves() const { return field.moves(); }
-    float widest() const, narrowest() const; // of the aperture, for each pixel of CoC
+    // How far the aperture reaches, along the axis where it reaches farthest and least, in pixels of that axis for each pixel of CoC.
+    float widest() const, narrowest() const;
 
     // Adds to the CoC of samples, whose places are relative to the corner, and moves them to where the magnified picture
     // shows them.

@@ -96,6 +96,30 @@ TEST(LensGather, PlanesAreConvolvedWithTheirDiscs) {
         }
 }
 
+// Of rows that are light and dark, a lens shows in pixels twice as wide as high what it shows at twice the CoC in square ones. They
+// are as high in a pull of focus: none stays sharp until it jumps.
+TEST(LensGather, ADiscBlursAsSoonAsItIsHighEnough) {
+    const auto column = [](double c, double aspect) {
+        ThinLens by = lens;
+        by.pixel_aspect = aspect;
+        Windows windows = windows_of_size(16, 48);
+        windows.pixel_aspect = float(aspect);
+        const Image picture =
+            gather(make_ldi(windows, grey,
+                            [&](int, int y) {
+                                return std::vector<Sample>{{depth_of(by, c), {y / 8 % 2 == 0 ? 0.0f : 1.0f}}};
+                            }),
+                   by);
+        std::vector<float> values;
+        for (int y = 8; y < 40; ++y) values.push_back(picture.at(0, 8, y));
+        return values;
+    };
+    for (const double c : {0.2, 0.3, 0.4, 0.48, 0.52, 0.6}) {
+        const std::vector<float> wide = column(c, 2), square = column(2 * c, 1);
+        for (std::size_t y = 0; y < wide.size(); ++y) EXPECT_NEAR(wide[y], square[y], 0.02) << c << " " << y;
+    }
+}
+
 // Through one point of the lens, a plane is moved by its CoC, as it is.
 TEST(LensGatherThroughAPoint, PlanesAreMoved) {
     Plane plane(5, 1);
