@@ -43,7 +43,7 @@ OpenedLdi with_camera(LdiFile &&file, const std::string &path, const OpenOptions
                      .bad = {},
                      .notes = std::move(file.notes),
                      .warnings = std::move(file.warnings)};
-    opened.camera = camera_with_options(options.lens, read_camera(opened.header));
+    opened.camera = camera_with_options(options.lens, read_perspective_camera(opened.header, opened.name));
     return opened;
 }
 
@@ -64,7 +64,7 @@ public:
     // None where all rows are needed at once.
     std::optional<Ldi> operator()(const Imf::Header &header, Ldi rows) {
         const std::array<float, 2> depths = depths_of(rows);
-        const Camera camera = camera_with_options(options_.lens, read_camera(header));
+        const Camera camera = camera_with_options(options_.lens, read_perspective_camera(header, name_));
         make_planar(rows, options_.depth.meaning, depth_range(options_.depth, header), camera);
         if (!all_valid(rows)) return none();
         const std::size_t in_file = rows.samples();

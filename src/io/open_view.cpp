@@ -43,7 +43,7 @@ OpenedView ready_view(FlatFile file, const std::string &path, const OpenOptions 
     opened.notes.push_back("depth: " +
                            find_depth_channel(view.image.channels, options.depth.picture.depth, path));
     view.z = take_depth(view.image, options.depth.picture.depth, path);
-    const Camera own = read_camera(opened.header);
+    const Camera own = read_perspective_camera(opened.header, view.name);
     opened.camera = camera_with_options(options.lens, own);
     const Camera frustum = camera_with_options(options.lens, with_frustum_of(otherwise, own));
     if (const auto warning = normalized_warning(options.depth, view.z)) opened.warnings.push_back(*warning);

@@ -62,6 +62,10 @@ std::optional<Frustum> frustum_of(const Imath::M44d &world_to_ndc, const Imath::
     return Frustum{1 / seen->scale.x, {off.x, off.y * seen->scale.x / std::abs(seen->scale.y)}};
 }
 
+bool is_orthographic(const Imath::M44d &m) {
+    return m[0][3] == 0 && m[1][3] == 0 && m[2][3] == 0 && m[3][3] != 0 && m != Imath::M44d();
+}
+
 std::optional<Projection> read_projection(const Imath::M44d &world_to_ndc, const Imath::M44d &world_to_camera,
                                           const ProjectionHints &hints) {
     const Imath::M44d to_world = world_to_camera.inverse();

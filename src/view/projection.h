@@ -28,6 +28,9 @@ struct Frustum {
 // Empty where the matrix is not a perspective projection from the position of that camera.
 std::optional<Frustum> frustum_of(const Imath::M44d &world_to_ndc, const Imath::M44d &world_to_camera);
 
+// Whether its w is the same for all points, as row vectors have it. The unit matrix says nothing.
+bool is_orthographic(const Imath::M44d &world_to_ndc);
+
 struct ProjectionHints {
     bool clip_space = false;     // known to be clip space; else it may be either
     std::optional<double> field; // from other attributes; it tells the conventions apart

@@ -2,6 +2,8 @@
 
 #include "io/exr/header_values.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -201,6 +203,14 @@ std::optional<Imath::V2d> by_screen_window(const Imf::Header &header) {
     return sound && centre != Imath::V2d(0, 0) ? std::optional(point) : std::nullopt;
 }
 
+// The standard marks panoramas. V-Ray numbers projections, of which perspective is 0.
+std::string other_projection(const Imf::Header &header, const std::vector<HeaderValue> &values) {
+    if (header.find("envmap") != header.end()) return "envmap says that it is a panorama";
+    const HeaderValue *vray = find_value(values, "cameraProjection");
+    const double kind = vray ? number(vray->numbers) : 0;
+    return kind > 0 ? fmt::format("{} is {:g}, and perspective is 0", vray->name, kind) : "";
+}
+
 // The names that write_camera() uses. What else stands in such a file has come along from the centre view, and is
 // not what the options have since made of it.
 bool is_ours(const HeaderValue &value) {
@@ -223,6 +233,7 @@ CameraAttributes find_camera_attributes(const Imf::Header &header) {
             if (name.read == screen_window && value == 1) continue;
             found.numbers.push_back({name.quantity, entry->name, value, name.exact});
         }
+    found.no_perspective = other_projection(header, values);
     found.principal_point = by_screen_window(header);
     if (const auto width = acquired_width(values)) found.numbers.push_back(*width);
     for (const MatrixName &name : matrix_names)

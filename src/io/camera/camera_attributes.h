@@ -60,7 +60,9 @@ struct CameraAttributes {
     // From screenWindowCenter and screenWindowWidth, see Camera. Empty if they have their default values, which
     // programs without a camera write.
     std::optional<Imath::V2d> principal_point;
-    bool ours = false; // written by this project: attributes of other programs are then not listed
+    std::string
+        no_perspective; // the attribute that says that the camera has another projection, and how; else empty
+    bool ours = false;  // written by this project: attributes of other programs are then not listed
 };
 
 // All camera attributes of the header.

@@ -1,5 +1,6 @@
 #include "io/camera/camera_read.h"
 
+#include "base/error.h"
 #include "io/camera/camera_attributes.h"
 #include "view/projection.h"
 
@@ -15,6 +16,8 @@
 namespace sparselens {
 
 namespace {
+
+constexpr const char *projection_parameter = "projection"; // no parameter gives it
 
 std::string text_of(double value) { return fmt::format("{:g}", value); }
 
@@ -61,6 +64,7 @@ public:
         camera_.fstop = pick({Quantity::fstop}, "f-number", "fstop", true);
         camera_.focus_distance =
             pick({Quantity::focus_units, Quantity::focus_metres}, "focus distance", "focus_distance", true);
+        if (!has_.no_perspective.empty()) camera_.unsure[projection_parameter] = has_.no_perspective;
         read_placement();
         read_film();
         read_aperture();
@@ -79,6 +83,9 @@ private:
     void read_film();
     void read_aperture();
     void read_projections();
+    void say_orthographic(const NamedMatrix &matrix) {
+        camera_.unsure[projection_parameter] = matrix.name + " is orthographic";
+    }
     void read_principal_point();
 
     const CameraAttributes &has_;
@@ -179,12 +186,20 @@ void Reader::read_projections() {
             camera_.world_to_ndc = matrix.matrix;
             continue;
         }
-        if (!camera_.world_to_camera) continue;
+        if (!camera_.world_to_camera) {
+            if (is_orthographic(*matrix.matrix)) say_orthographic(matrix);
+            continue;
+        }
         std::optional<double> field = camera_.field;
         if (!field && camera_.focal_length_mm && camera_.sensor_width_mm)
             field = *camera_.sensor_width_mm / *camera_.focal_length_mm;
         const auto projection =
             read_projection(*matrix.matrix, *camera_.world_to_camera, {matrix.certain, field});
+        if (!projection &&
+            (is_orthographic(*matrix.matrix) || is_orthographic(matrix.matrix->transposed()))) {
+            say_orthographic(matrix);
+            return;
+        }
         if (!projection || (field && !agree(*field, projection->field))) {
             camera_.unsure["sensor_width"] =
                 projection ? matrix.name + " makes the picture " + text_of(projection->field) +
@@ -226,6 +241,16 @@ Camera read_camera(const Imf::Header &header) {
     Camera camera = Reader(attributes).read();
     camera.lens_points = read_points(header);
     read_subpixels(header, camera);
+    return camera;
+}
+
+Camera read_perspective_camera(const Imf::Header &header, const std::string &name) {
+    Camera camera = read_camera(header);
+    if (const auto why = camera.unsure.find(projection_parameter); why != camera.unsure.end())
+        throw Error(fmt::format(
+            "{}: its camera has no perspective ({}): render it with a perspective camera, or remove "
+            "the attribute if it is wrong",
+            name, why->second));
     return camera;
 }
 

@@ -8,12 +8,18 @@
 #include <Imath/ImathBox.h>
 #include <ImfHeader.h>
 
+#include <string>
+
 namespace sparselens {
 
 // Reads the standard attributes and those of other programs (camera_attributes.h), or only ours if the header has
 // sparselens:version. A value that is missing, invalid, out of range or contradictory is unknown; the reason is in
 // Camera::unsure. worldToNDC is converted to the convention of the standard.
 Camera read_camera(const Imf::Header &header);
+
+// The same for a picture that is seen through a lens, which takes a perspective camera. Throws Error, naming the file and the
+// attribute, where the header says that the camera is another one: orthographic, a panorama.
+Camera read_perspective_camera(const Imf::Header &header, const std::string &name);
 
 // The data window of pictures made from an LDI. The LDI may have grown beyond its centre view; the pictures have the
 // data window of the centre view. For other files: the data window of the header.

@@ -6,6 +6,7 @@
 #include "view/lens_views.h"
 #include "view/resolve_lens.h"
 
+#include <ImfStandardAttributes.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -55,6 +56,56 @@ TEST(CameraErrors, NameTheOptionThatIsMissing) {
     EXPECT_EQ(complaint(spoilt("V-Ray", "cameraTransform", {}), with_focus), "");
     EXPECT_EQ(complaint(spoilt("Redshift", "rs/camera/aperture", {})),
               "the focal length is unknown: give `focal_length`");
+}
+
+// What the header says of the projection; "" if it may be a perspective.
+std::string projection_complaint(const Write &write) {
+    Imf::Header header(64, 36);
+    write(header, Pose());
+    try {
+        read_perspective_camera(header, "x.exr");
+        return "";
+    } catch (const Error &error) {
+        return error.what();
+    }
+}
+
+// No lens value that a user gives makes a perspective of them.
+TEST(CameraErrors, OtherProjectionsAreRefused) {
+    const std::string why = "x.exr: its camera has no perspective (",
+                      what_to_do =
+                          "): render it with a perspective camera, or remove the attribute if it is wrong";
+    for (const Renderer &renderer : renderers())
+        EXPECT_EQ(projection_complaint(renderer.write), "") << renderer.name;
+    // From a picture 4 wide and 2.25 high: x right, y up, z forward.
+    const Imath::M44d flat(0.25, 0, 0, 0, 0, -1 / 2.25, 0, 0, 0, 0, 0.01, 0, 0.5, 0.5, 0, 1);
+    for (const char *name : {"worldToNDC", "NP", "dtex/np"})
+        for (const bool placed : {true, false})
+            for (const bool transposed : {true, false}) {
+                if (transposed && !placed) continue; // without the camera's place it could be anything
+                EXPECT_EQ(projection_complaint([&](Imf::Header &h, const Pose &p) {
+                              write_standard(h, p);
+                              const Imath::M44d world_to_ndc = standard_camera(p).inverse() * flat;
+                              h.erase("worldToNDC");
+                              if (!placed) h.erase("worldToCamera");
+                              put(h, name, transposed ? world_to_ndc.transposed() : world_to_ndc);
+                          }),
+                          why + name + " is orthographic" + what_to_do);
+            }
+    EXPECT_EQ(projection_complaint([](Imf::Header &h, const Pose &p) {
+                  write_standard(h, p);
+                  put(h, "worldToNDC", Imath::M44d()); // says nothing
+              }),
+              "");
+    const auto vray = [](double kind) { return spoilt("V-Ray", "cameraProjection", kind); };
+    EXPECT_EQ(projection_complaint(vray(0)), "");
+    EXPECT_EQ(projection_complaint(vray(2)),
+              why + "cameraProjection is 2, and perspective is 0" + what_to_do);
+    EXPECT_EQ(projection_complaint([](Imf::Header &h, const Pose &p) {
+                  write_standard(h, p);
+                  Imf::addEnvmap(h, Imf::ENVMAP_LATLONG);
+              }),
+              why + "envmap says that it is a panorama" + what_to_do);
 }
 
 TEST(CameraErrors, NameTheAttributeThatIsWrong) {
