@@ -111,10 +111,7 @@ void run(const WarpCommand &options, const ToolContext &tool, ChosenWarpDevice &
 }
 
 // What one step frees the next one takes, of whatever size: without this, the kernel clears most pages several times.
-void keep_freed_memory() {
-    mallopt(M_MMAP_MAX, 0);
-    mallopt(M_TRIM_THRESHOLD, 1 << 28);
-}
+void keep_freed_memory() { mallopt(M_MMAP_MAX, 0); }
 
 } // namespace
 

@@ -1,10 +1,13 @@
 #include "harness/frame_run.h"
 #include "harness/in_turn.h"
 #include "harness/neighbours.h"
+#include "harness/two_at_once.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
+#include <cstdint>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -158,6 +161,31 @@ TEST(Neighbours, TakeWhatTheOneBeforeKeeps) {
     EXPECT_TRUE(nothing.are_apart(1));
     EXPECT_TRUE(unsaid.keeps_for_next(0));
     EXPECT_FALSE(unsaid.are_apart(1));
+}
+
+// Each takes 10 for each byte of its file.
+TEST(TwoAtOnce, AsLongAsBothFit) {
+    const auto fits = [](const std::vector<std::uint64_t> &bytes, std::uint64_t memory) {
+        TwoAtOnce two(bytes, memory);
+        std::vector<bool> found;
+        std::uint64_t peak = 0;
+        for (std::size_t i = 0; i < bytes.size(); ++i) {
+            found.push_back(two.fit(i, peak));
+            const std::uint64_t at_once = bytes[i] + (found.back() ? bytes[i - 1] : 0);
+            peak = std::max(peak, 10 * std::max<std::uint64_t>(at_once, 1));
+            if (found.back()) {
+                EXPECT_LE(peak, memory);
+            }
+        }
+        return found;
+    };
+    const std::vector<bool> alone{false, false, false, false, false}, two{false, false, true, true, true};
+    EXPECT_EQ(fits({5, 5, 5, 5, 5}, 100), two);
+    EXPECT_EQ(fits({5, 5, 5, 5, 5}, 99), alone);
+    EXPECT_EQ(fits({0, 0, 0, 0, 0}, 20), two); // through pipes
+    EXPECT_EQ(fits({5, 6, 7, 8, 9}, 140), (std::vector<bool>{false, false, true, false, false}));
+    EXPECT_EQ(fits({1, 1, 1, 50, 50, 1, 1}, 100),
+              (std::vector<bool>{false, false, true, false, false, false, true}));
 }
 
 } // namespace

@@ -8,6 +8,7 @@
 #include "harness/process.h"
 #include "harness/progress_lines.h"
 #include "harness/tool.h"
+#include "harness/two_at_once.h"
 #include "harness/up_to_date.h"
 #include "harness/words.h"
 #include "io/exr/picture_choice.h"
@@ -18,9 +19,11 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <set>
+#include <system_error>
 #include <utility>
 
 namespace sparselens {
@@ -138,6 +141,20 @@ std::uint64_t peak_memory() {
     return std::uint64_t(usage.ru_maxrss) * 1024;
 }
 
+// By each frame, from files.
+std::vector<std::uint64_t> bytes_read(const std::vector<NamedFiles> &frames) {
+    std::vector<std::uint64_t> bytes;
+    for (const NamedFiles &frame : frames) {
+        bytes.push_back(0);
+        for (const NamedFile &input : frame.inputs) {
+            std::error_code unknown;
+            const std::uintmax_t size = std::filesystem::file_size(input.path, unknown);
+            if (!unknown) bytes.back() += size;
+        }
+    }
+    return bytes;
+}
+
 Tool context_of(const std::string &name, const FrameCommand &command) {
     const auto tool = std::make_shared<ToolContext>();
     tool->tool_name = name;
@@ -177,7 +194,7 @@ int run_words(const std::string &name, const std::string &description, const std
     const Process process(first->process, *context_of(name, *first));
     const Neighbours neighbours(std::move(keeps));
     const std::uint64_t memory = memory_for_frames(first->process.max_memory);
-    bool two_fit = false; // two frames, each as large as the first, which is worked on alone
+    TwoAtOnce two_at_once(bytes_read(files), memory);
     FrameRun run(first->frames.skip_bad_frames);
     const auto warned = std::make_shared<std::set<std::string>>();
     bool go_on = true;
@@ -188,7 +205,7 @@ int run_words(const std::string &name, const std::string &description, const std
         const Tool tool = context_of(name, *command);
         if (commands->is_range()) tool->frame = commands->number(i);
         tool->keeps = neighbours.keeps_for_next(i);
-        if (i == 2) two_fit = 2 * peak_memory() <= memory;
+        const bool two_fit = two_at_once.fit(i, peak_memory());
         tool->warned = warned;
         tool->turn = std::make_shared<InTurn>(false);
         tool->command_line = command_line(name, commands->words(i));
