@@ -107,12 +107,12 @@ Subpixels subpixels_of(const WindowOptions &options, const OpenedLdi &in) {
     const int said = in.camera.supersample.value_or(1);
     const Subpixels by{options.supersample.value_or(said),
                        options.filter.value_or(in.camera.pixel_filter.value_or(PixelFilter{}))};
-    check_warped_for(by.across, said, in);
     const Imath::Box2i &display = in.ldi.windows.display;
     if (subpixels_in(reduced(display, by.across), by.across) != display)
         throw UsageError(fmt::format(
             "{}: its display window cannot be divided into pixels of {} x {}: give another `supersample`",
             in.name, by.across, by.across));
+    check_warped_for(by.across, said, in);
     return by;
 }
 
