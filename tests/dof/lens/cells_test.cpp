@@ -175,8 +175,7 @@ TEST(Cells, CoveragesOfObjectsAddUpToAll) {
     Scene scene;
     scene.ldi = with_objects(std::move(scene.ldi), 40);
     ASSERT_GT(scene.cell_size({}), 1);
-    const Image picture =
-        gather_mattes(scene.ldi, lens, scene.ldi.windows.data, {.looks = {}}, scene.silent);
+    const Image picture = gather_mattes(scene.ldi, lens, scene.ldi.windows.data, {.looks = {}}, scene.silent);
     const std::vector<Matte> mattes = find_mattes(picture.channels);
     for (std::size_t i = 0; i < picture.windows.pixels(); ++i) {
         double sum = 0;
