@@ -47,9 +47,9 @@ struct LensGatherOptions {
     std::span<const char> unseen = {};     // [pixel of the data window] but for these
     std::optional<Imath::Box2i> seen = {}; // pixels that were seen, not made up beyond the frame; else all
     bool keeps_sums = false; // of channels: where tiles are gathered in cells, each may leave its range
-    const Holdout *holdout = nullptr;      // holds the picture out
-    const TileWatch *watch = nullptr;      // where given
-    TileDevice *device = nullptr;          // where given: gathers the tiles that it can
+    const Holdout *holdout = nullptr; // holds the picture out
+    const TileWatch *watch = nullptr; // where given
+    TileDevice *device = nullptr;     // where given: gathers the tiles that it can
 };
 
 // Pixels `window` (EXR coordinates, within the LDI's data window), channels of the LDI. In `window`, or `known`, an empty
