@@ -37,7 +37,7 @@ void set_mean(const std::array<std::span<const float>, 3> &parts, std::span<floa
     }
 }
 
-Ldi of_one_coverage(const Ldi &ldi, const Covered &covered) {
+Ldi of_one_coverage(const Ldi &ldi, const CoveredChannels &covered) {
     Ldi one = without_channels(ldi);
     const auto add = [&](std::size_t k) {
         if (k == npos || k == ldi.alpha() || find_channel(one.channels, ldi.channels[k].name) != npos) return;
@@ -102,11 +102,11 @@ void add_mean_coverage(Image &image) {
     image.values.insert(image.values.begin() + place * pixels, mean.begin(), mean.end());
 }
 
-std::vector<Covered> by_coverage(const Ldi &ldi) {
+std::vector<CoveredChannels> by_coverage(const Ldi &ldi) {
     const std::vector<std::size_t> coverage = coverage_by_channel(ldi);
-    std::vector<Covered> all{{ldi.alpha(), {}}};
+    std::vector<CoveredChannels> all{{ldi.alpha(), {}}};
     for (std::size_t k = 0; k < coverage.size(); ++k) {
-        const auto same = std::ranges::find(all, coverage[k], &Covered::coverage);
+        const auto same = std::ranges::find(all, coverage[k], &CoveredChannels::coverage);
         if (same == all.end())
             all.push_back({coverage[k], {k}});
         else
@@ -116,7 +116,7 @@ std::vector<Covered> by_coverage(const Ldi &ldi) {
 }
 
 Ldi with_each_coverage(const Ldi &ldi, const std::function<Ldi(std::size_t)> &make) {
-    const std::vector<Covered> all = by_coverage(ldi);
+    const std::vector<CoveredChannels> all = by_coverage(ldi);
     Ldi result = make(all.front().coverage);
     for (std::size_t c = 1; c < all.size(); ++c) {
         Ldi other = make(all[c].coverage);
@@ -131,10 +131,10 @@ Image composited(const Ldi &ldi, const std::function<Image(const Ldi &)> &compos
 
 Image composited(const Ldi &ldi, const std::function<Image(const Ldi &)> &composite,
                  const std::function<Image(Ldi &&)> &composite_one) {
-    const std::vector<Covered> all = by_coverage(ldi);
+    const std::vector<CoveredChannels> all = by_coverage(ldi);
     if (all.size() == 1) return composite(ldi);
     Image result;
-    for (const Covered &covered : all) {
+    for (const CoveredChannels &covered : all) {
         const Image one = composite_one(of_one_coverage(ldi, covered));
         if (result.channels.empty()) result = Image(one.windows, ldi.channels);
         for (const std::size_t k : covered.channels) {

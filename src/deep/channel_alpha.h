@@ -29,13 +29,13 @@ std::size_t coverage_of(std::span<const Channel> channels, std::size_t k);
 std::vector<std::size_t> coverage_by_channel(const Ldi &ldi);
 
 // A channel of coverage and the channels that it covers, including itself.
-struct Covered {
+struct CoveredChannels {
     std::size_t coverage; // npos: none, everything is opaque
     std::vector<std::size_t> channels;
 };
 
 // All channels of the LDI by their coverage: A first, and A alone where alpha is not per channel.
-std::vector<Covered> by_coverage(const Ldi &ldi);
+std::vector<CoveredChannels> by_coverage(const Ldi &ldi);
 
 // make(alpha) makes an LDI from another one by its coverage channel `alpha`: the same samples for each `alpha`, with
 // the values of all channels. Returns that of A, where every channel has its values by its own coverage.

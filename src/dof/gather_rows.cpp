@@ -53,7 +53,7 @@ bool sees_infinity(const Ldi &rows, std::size_t coverage) {
 
 bool sees_infinity(const Ldi &rows) {
     return std::ranges::any_of(by_coverage(rows),
-                               [&](const Covered &c) { return sees_infinity(rows, c.coverage); });
+                               [&](const CoveredChannels &c) { return sees_infinity(rows, c.coverage); });
 }
 
 Extremes extremes_of(const Ldi &rows, const ThinLens &lens) {

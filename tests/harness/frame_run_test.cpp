@@ -149,8 +149,9 @@ TEST(FrameRun, LetsFramesSpeakInTurn) {
     EXPECT_EQ(said, "112233");
 }
 
-TEST(Neighbours, TakeWhatTheOneBeforeKeeps) {
-    const Neighbours one_file({"a", "a", "b"}), nothing({"", "", ""}), unsaid({std::nullopt, std::nullopt});
+TEST(FrameNeighbours, TakeWhatTheOneBeforeKeeps) {
+    const FrameNeighbours one_file({"a", "a", "b"}), nothing({"", "", ""}),
+        unsaid({std::nullopt, std::nullopt});
     EXPECT_TRUE(one_file.keeps_for_next(0));
     EXPECT_FALSE(one_file.keeps_for_next(1));
     EXPECT_FALSE(one_file.keeps_for_next(2));

@@ -9,10 +9,10 @@
 
 namespace sparselens {
 
-class Neighbours {
+class FrameNeighbours {
 public:
     // What each keeps; "": nothing. None: it is not said.
-    explicit Neighbours(std::vector<std::optional<std::string>> keeps) : keeps_(std::move(keeps)) {}
+    explicit FrameNeighbours(std::vector<std::optional<std::string>> keeps) : keeps_(std::move(keeps)) {}
 
     bool keeps_for_next(std::size_t i) const { return i + 1 < keeps_.size() && same(i, i + 1); }
     // Whether a frame takes nothing of the one before it, so that both may be worked on at the same time.

@@ -192,7 +192,7 @@ int run_words(const std::string &name, const std::string &description, const std
 
     const ProgressFormat format = first->frames.progress;
     const Process process(first->process, *context_of(name, *first));
-    const Neighbours neighbours(std::move(keeps));
+    const FrameNeighbours neighbours(std::move(keeps));
     const std::uint64_t memory = memory_for_frames(first->process.max_memory);
     TwoAtOnce two_at_once(bytes_read(files), memory);
     FrameRun run(first->frames.skip_bad_frames);
