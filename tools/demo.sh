@@ -75,9 +75,15 @@ compared() {
 for_screen=(--ch R,G,B --colorconvert linear sRGB --clamp:min=0:max=1)
 to_png() { oiiotool "$1.exr" "${for_screen[@]}" -d uint8 -o "$1.png"; }
 
-# Where Debian has it, as OpenImageIO finds it by its name up to 2.4 only.
-font=/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf
-[ -e "$font" ] || font=DejaVuSans
+# The font by its path, as OpenImageIO finds it by its name up to 2.4 only. A picture needs no titles: where oiiotool cannot
+# write them, they are left out.
+font=$(find /usr/share/fonts -name DejaVuSans.ttf -print -quit 2>/dev/null || true)
+writes_titles() {
+    local code=0
+    oiiotool --create 32x32 3 "--text:x=2:y=20:size=12:font=$font" a -d uint8 -o "$out/title.png" >/dev/null 2>&1 || code=1
+    rm -f "$out/title.png"
+    return $code
+}
 
 # strip FILE WIDTH: before, after and reference side by side, each WIDTH wide; below them the same detail of each.
 strip() {
@@ -87,8 +93,8 @@ strip() {
     local files=("$center" "$result" "$reference")
     local titles=('before: the centre view' 'after: from 5 views' "reference: $reference_spp rays a pixel")
     for i in 0 1 2; do
-        pictures+=("${files[i]}" "${for_screen[@]}" --resize "$panel" --fill:color=0.1,0.1,0.1 "$2x20+0+0"
-            "--text:x=6:y=14:size=12:font=$font" "${titles[i]}")
+        pictures+=("${files[i]}" "${for_screen[@]}" --resize "$panel")
+        [ -n "$no_titles" ] || pictures+=(--fill:color=0.1,0.1,0.1 "$2x20+0+0" "--text:x=6:y=14:size=12:font=$font" "${titles[i]}")
         details+=("${files[i]}" "${for_screen[@]}" --cut "$detail" --resize:filter=box "$panel")
     done
     oiiotool "${pictures[@]}" "${details[@]}" --mosaic:pad=4 3x2 -d uint8 -o "$1"
@@ -157,6 +163,8 @@ row 'import sparselens, gather in Python' "$seconds" '' '' "$note"
 row "${reference_row[@]}"
 
 for picture in "$center" "$reference" "${methods[@]/#/$out/}"; do to_png "${picture%.exr}"; done
+no_titles=
+writes_titles || no_titles='; without titles, as oiiotool finds no font (package fonts-dejavu-core)'
 strip "$out/fence.png" 480
 strip "$out/fence-small.png" 240
 
@@ -166,7 +174,7 @@ printf '%s\n' "${table[@]}" >&3
 cat >&3 <<END
 
 Look at these pictures (PNG for the screen, EXR for everything else):
-  $out/fence.png  before, after and the reference, with details
+  $out/fence.png  before, after and the reference, with details$no_titles
   $result  the best picture (${result%.exr}.png)
   $center  the centre view that it was made from (${center%.exr}.png)
   $reference  the reference (${reference%.exr}.png)

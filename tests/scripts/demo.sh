@@ -16,6 +16,7 @@ before=$(decibels 'the centre view as it is') after=$(decibels 'dof-gather --met
 [ -n "$before" ] && [ -n "$after" ] || fail "no error figures: $(cat stdout)"
 # At most half the error of the view that it is made of, though that, of few rays, is in the reference too: 6 dB.
 awk "BEGIN { exit !($after >= $before + 6) }" || fail "defocusing brings too little: $before dB before, $after dB after"
+! grep -q 'without titles' stdout || fail "oiiotool finds no font: $(cat stdout)"
 # It ends with what to look at: the pictures it names are there, and the commands it names work.
 sed '1,/^Look at/d' stdout >look
 pictures=$(sed '/^The best one/,$d' look | grep -oE '[^ (]+\.(png|exr)')
@@ -47,6 +48,18 @@ demo --spp 1
 [ "$(reused)" -eq 0 ] || fail "other arguments, or a damaged file, went unseen: $(cat stdout)"
 exits 2 "$source_dir/tools/demo.sh" --nonsense 1
 exits 2 "$source_dir/tools/demo.sh" --size
+
+# Where oiiotool finds no font, whatever its name or path, the pictures have no titles, and the demo says why.
+mkdir no-fonts
+cat >no-fonts/oiiotool <<END
+#!/bin/bash
+[[ " \$*" != *" --text"* ]] || { echo 'oiiotool ERROR: -text : Could not find font "DejaVuSans"' >&2; exit 1; }
+exec $(command -v oiiotool) "\$@"
+END
+chmod +x no-fonts/oiiotool
+PATH=$PWD/no-fonts:$PATH demo
+grep -q 'fence.png .*; without titles, as oiiotool finds no font' stdout || fail "no word of titles: $(cat stdout)"
+exits 0 oiiotool --info out/fence.png
 
 # A build that has the Python package but not its module, as the demo's own build leaves it where pybind11 is installed.
 mkdir -p bare/python/sparselens
