@@ -9,8 +9,9 @@ tools/install-deps.sh build demo gpu test
 cmake --preset release --log-level=WARNING -DSPARSELENS_TESTS=ON -DSPARSELENS_BENCHMARKS=ON \
     -DSPARSELENS_LAB=ON -DSPARSELENS_GPU=ON -DSPARSELENS_PYTHON=ON
 cmake --build build -j "$(nproc)"
-# One more at once than there are cores, as some mostly wait. The limit is for what never ends: ten times what the longest test takes where other work slows it down.
+# One more at once than there are cores, as some mostly wait. The limit is for what never ends: ten times what the longest test
+# takes on two cores, and less than half of what continuous integration has.
 code=0
-ctest --test-dir build --output-on-failure --timeout 3000 -j "$(($(nproc) + 1))" | tee build/tests.log || code=$?
+ctest --test-dir build --output-on-failure --timeout 1500 -j "$(($(nproc) + 1))" | tee build/tests.log || code=$?
 tests/skips.sh build || code=1
 exit $code

@@ -1,10 +1,11 @@
 #!/bin/bash
-# The test suite under sanitizers: longer than continuous integration has time for, but for the unit tests.
+# The test suite under sanitizers.
 #
-#   tests/sanitizers.sh [--units] [asan] [tsan]     asan: Address- and UndefinedBehaviorSanitizer, tsan: ThreadSanitizer; both
+#   tests/sanitizers.sh [--units | --quick] [asan] [tsan]   asan: Address- and UndefinedBehaviorSanitizer, tsan: ThreadSanitizer; both
 #
 # Builds in build-asan/ and build-tsan/. Left out are tests of the sources and of the package, which run nothing that
-# sanitizers could look at, and the demo; with --units all but the unit tests.
+# sanitizers could look at, and the demo; with --units all but the unit tests; with --quick, which continuous integration has
+# time for, also those of the laboratory and the slowest, which repeat at large what others do with small pictures.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 exec </dev/null
@@ -15,11 +16,25 @@ export TSAN_OPTIONS="halt_on_error=1:second_deadlock_stack=1:suppressions=$PWD/t
 export LSAN_OPTIONS="suppressions=$PWD/tests/lsan.suppressions:print_suppressions=0"
 export SPARSELENS_HOSTILE_SECONDS=400 SPARSELENS_HOSTILE_KB=4000000 # what the sanitizers need themselves
 
+# Half of the time of all.
+slowest='GatherRows.BlurFarWiderThanTheCellsAroundIsTheSame
+BeyondFrame.ElementsThatTheFrameCutsOffStayOpaque
+Invariants.FourTimesTheLensPointsAreCloserToTheTruth
+LensLooks.GiveTheSameBitsOnAnyNumberOfThreads
+Cells.ALampKeepsItsDisc'
+
 targets=() tests=(-E '^(scripts|packaging|bench)\.')
-if [ "${1-}" = --units ]; then
+case ${1-} in
+--units)
     shift
     targets=(--target sparselens-tests sparselens-lab-tests) tests=(-R '^(lab\.)?unit\.')
-fi
+    ;;
+--quick)
+    shift
+    targets=(--target sparselens-tests) tests=(-R '^unit\.')
+    export GTEST_FILTER="-$(paste -sd : <<<"$slowest")"
+    ;;
+esac
 [ $# -gt 0 ] || set -- asan tsan
 for sanitizer; do
     cmake --preset "$sanitizer" --log-level=WARNING

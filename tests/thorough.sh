@@ -5,8 +5,8 @@
 #
 # lto: what differs between files of one name (tests/lto.sh); no-lab: all without Embree; no-gpu, no-python, shared: every
 # test without the kernels for GPUs, without the Python module, with a shared library; asan: the unit tests under
-# AddressSanitizer and UndefinedBehaviorSanitizer; tsan: the tests under ThreadSanitizer; mutations: every deliberate fault; fuzz: a minute of each target. Prints a table at the end; what each
-# row said is in build-thorough/ROW.log. Exit 1 where one fails.
+# AddressSanitizer and UndefinedBehaviorSanitizer; tsan: the tests under ThreadSanitizer; mutations: every deliberate fault; fuzz:
+# a minute of each target. Prints a table at the end; what each row said is in build-thorough/ROW.log. Exit 1 where one fails.
 set -uo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 exec </dev/null

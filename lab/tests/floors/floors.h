@@ -1,7 +1,7 @@
 // What the whole way from views to the picture is worth today, in dB of the tone-mapped picture against a ray-traced
 // reference. This table is the one place of it. A figure may fall by `floor_below` before the test fails, and is raised here
-// when the picture becomes better, so that what was won cannot be lost unseen (docs/tolerances.md, section 5). Where it falls for
-// a reason, the commit says which.
+// when the picture becomes better, so that what was won cannot be lost unseen (docs/tolerances.md, section 5). Where it is lowered,
+// section 8 has the reason.
 //
 //   build/bin/sparselens-lab-tests --gtest_filter='*Floors*'     prints each row as it is measured now
 //
@@ -30,7 +30,7 @@ struct MeasuredScene {
 
 // clang-format off
 inline constexpr MeasuredScene measured_scenes[] = {
-    {"fence", {38.46, 42.55}, {31.01, 36.93}, 1},
+    {"fence", {38.46, 42.56}, {31.05, 36.93}, 1},
     {"grass", {37.66, 39.35}, {36.02, 37.00}, 1},
     {"mist", {53.60, 52.34}, {49.21, 49.40}, 1},
     {"mirror", {42.49, 43.04}, {41.52, 36.68}, 1},

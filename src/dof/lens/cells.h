@@ -1,10 +1,10 @@
 // Tiles that are gathered in cells of several pixels.
 //
-// A lens leaves no detail as fine as a pixel in what lies far out of focus: where everything that can reach a tile is opaque and
-// has a CoC of many pixels, it is gathered in cells of 4 x 4 or 8 x 8 pixels, from a small scene (gather_scene.h). A cell is the mean
-// of its pixels. Along a row, and then along a column, a pixel is the mean that the cubic polynomial has there which has the means
-// of the four cells around it, but no more and no less than these. That limit is of each channel alone: where channels have a sum
-// that is to be kept, it is left out.
+// A lens leaves no detail as fine as a pixel in what lies far out of focus: where everything that can reach a tile has a CoC of
+// many pixels, and no empty background shows, it is gathered in cells of 4 x 4 or 8 x 8 pixels, from a small scene
+// (gather_scene.h). A cell is the mean of its pixels. Along a row, and then along a column, a pixel is the mean that the cubic
+// polynomial has there which has the means of the four cells around it, but no more and no less than these. That limit is of
+// each channel alone: where channels have a sum that is to be kept, it is left out.
 #pragma once
 
 #include "dof/device/tile_device.h"
