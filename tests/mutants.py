@@ -62,12 +62,12 @@ def generated(lines):
         for number in numbers:
             if number > len(text):
                 continue
-            of_line = [f"{file}:{number}: {m.strip()}" for m in (made := list(mutants_of(text[number - 1])))]
-            order = sorted(range(len(made)), key=lambda i: hashlib.sha256(of_line[i].encode()).digest())
-            for turn, i in enumerate(order):
-                whole = "".join(text[:number - 1] + [made[i]] + text[number:])
-                found.append((turn, hashlib.sha256(of_line[i].encode()).digest(), (of_line[i], file, whole, None)))
-    return [fault for _, _, fault in sorted(found, key=lambda f: f[:2])]
+            named = {f"{file}:{number}: {m.strip()}": m for m in mutants_of(text[number - 1])}
+            by_chance = {hashlib.sha256(name.encode()).digest(): name for name in named}
+            for turn, (chance, name) in enumerate(sorted(by_chance.items())):
+                whole = "".join(text[:number - 1] + [named[name]] + text[number:])
+                found.append((turn, chance, (name, file, whole, None)))
+    return [fault for _, _, fault in sorted(found)]
 
 
 def listed(lines):
@@ -102,12 +102,12 @@ class Tests:
         return all(subprocess.run(c, shell=True, cwd=self.build, capture_output=True).returncode == 0 for c in (compile_, link))
 
     def failing(self, filters, limit):
-        """The first test that fails; None: none does."""
+        """The first test that fails; None: none does; "no time": they did not end."""
         try:
             ran = subprocess.run([self.scratch / "tests", "--gtest_brief=1", "--gtest_fail_fast", f"--gtest_filter={filters}"],
                                  capture_output=True, text=True, errors="replace", timeout=limit, cwd=self.build)
         except subprocess.TimeoutExpired:
-            return "none ended"
+            return "no time"
         failed = re.search(r"\[  FAILED  \] ([\w./]+)", ran.stdout)
         return failed[1] if failed else "all ended early" if ran.returncode else None
 
@@ -133,8 +133,11 @@ def main():
                 break
             if not tests.prepared(file, text):
                 continue
+            # Those beside it are quick: where they do not end, the fault is why.
             first = None if filters or not tests.beside(file) else tests.failing(tests.beside(file), 600)
-            by = first or tests.failing(filters or "*", 1200)
+            by = first or tests.failing(filters or "*", max(end - time.monotonic(), 1))
+            if by == "no time" and not first:  # a fault that none ends with, or the end of what was given
+                break
             print(f"{'caught' if by else 'NOT CAUGHT'}: {name}{f' ({by})' if by else ''}", flush=True)
             if filters:
                 code |= not by
