@@ -69,6 +69,7 @@ cat >>options <<'END'
 --source-dir
 --system-site-packages
 --test-dir
+--write
 END
 for document in "${documents[@]}"; do
     matches '(^|[ `(])--[a-z][a-z_-]+' "$source_dir/$document" | tr -d ' `(' | while read -r option; do
