@@ -5,7 +5,7 @@
 #
 # Builds in build-asan/ and build-tsan/. Left out are tests of the sources and of the package, which run nothing that
 # sanitizers could look at, and the demo; with --units all but the unit tests; with --quick, which continuous integration has
-# time for, also those of the laboratory and the slowest, which repeat at large what others do with small pictures.
+# time for, also those of the laboratory, devices and the slowest, which repeat at large what others do with small pictures.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 exec </dev/null
@@ -23,7 +23,7 @@ Invariants.FourTimesTheLensPointsAreCloserToTheTruth
 LensLooks.GiveTheSameBitsOnAnyNumberOfThreads
 Cells.ALampKeepsItsDisc'
 
-targets=() tests=(-E '^(scripts|packaging|bench)\.')
+targets=() without=() tests=(-E '^(scripts|packaging|bench)\.')
 case ${1-} in
 --units)
     shift
@@ -31,13 +31,13 @@ case ${1-} in
     ;;
 --quick)
     shift
-    targets=(--target sparselens-tests) tests=(-R '^unit\.')
+    targets=(--target sparselens-tests) tests=(-R '^unit\.') without=(-DSPARSELENS_LAB=OFF -DSPARSELENS_GPU=OFF)
     export GTEST_FILTER="-$(paste -sd : <<<"$slowest")"
     ;;
 esac
 [ $# -gt 0 ] || set -- asan tsan
 for sanitizer; do
-    cmake --preset "$sanitizer" --log-level=WARNING
+    cmake --preset "$sanitizer" --log-level=WARNING "${without[@]}"
     cmake --build "build-$sanitizer" -j "$(nproc)" "${targets[@]}"
     ctest --test-dir "build-$sanitizer" --output-on-failure --timeout 10000 -j 2 "${tests[@]}"
 done
