@@ -33,6 +33,10 @@ endfunction()
 function(sparselens_precompiled_tests target)
     target_precompile_headers(${target} PRIVATE <algorithm> <array> <cmath> <filesystem> <fstream> <functional> <map>
         <memory> <numeric> <optional> <random> <span> <sstream> <string> <vector> <ImathVec.h> <gtest/gtest.h>)
+    # Sanitizers more than double what optimising takes; what is tested is optimised all the same.
+    if(SPARSELENS_SANITIZE)
+        target_compile_options(${target} PRIVATE -O0)
+    endif()
     # In precompiled headers GCC 12 sees overflows of std::string that are not there.
     target_compile_options(${target} PRIVATE
         $<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds> $<$<CXX_COMPILER_ID:GNU>:-Wno-stringop-overflow>)
