@@ -105,13 +105,26 @@ as_large --method selective
 same small.exr expected.exr "--method selective" 1e-5
 as_large --lens-radius 0
 same small.exr expected.exr "--lens-radius 0" 1e-5
-# Lens points look from other places in sub-pixels than in pixels: 40 dB are far from what one look more or less makes.
-for look in "" "--blades 5 --cat-eye 0.5 --tilt 5,0 --axial-chromatic 0.05 --breathing 1" "--highlight-gain 4 --highlight-threshold 0.5"; do
-    as_large --lens-samples 400 $look
+# With lens points of its own choice, and in cells where all is far out of focus, 0.3 dB below what it was measured to be from
+# 1024 lens points at each sub-pixel: docs/tolerances.md, section 5.
+far='--focus-distance 0.5 --lens-radius 0.2'
+while read -r measured look; do
+    exits 0 "$bin/dof-gather" ldi.exr -d float -o large.exr --supersample 1 --lens-samples 1024 $look
+    picture edit large.exr cut.exr crop=160x96
+    halved cut.exr expected.exr 80x48
+    exits 0 "$bin/dof-gather" ldi.exr -d float -o all.exr $look
+    picture edit all.exr small.exr crop=80x48
     exits 0 "$bin/dof-compare" small.exr expected.exr --json
     psnr=$(sed -nE 's/.*"psnr_tonemapped": *([0-9.]+).*/\1/p' stdout | head -1)
-    [ "${psnr%.*}" -ge 40 ] || fail "$look: $psnr dB from the mean of the sub-pixels"
-done
+    echo "mean of sub-pixels: $psnr dB, $look"
+    awk -v a="$psnr" -v b="$measured" 'BEGIN { exit !(a >= b - 0.3) }' || fail "$look: $psnr dB from the mean of the sub-pixels, not $measured"
+done <<END
+47.63
+43.66 --blades 5 --cat-eye 0.5 --tilt 5,0 --axial-chromatic 0.05 --breathing 1
+46.42 --highlight-gain 4 --highlight-threshold 0.5
+51.61 $far
+49.75 $far --blades 5 --cat-eye 1 --axial-chromatic 0.05
+END
 exits 0 "$bin/dof-gather" ldi.exr -d float -o pull.#.exr --frames 1-2 --focus-distance 1:2.5,2:6
 exits 0 "$bin/dof-gather" ldi.exr -d float -o alone.exr --focus-distance 6
 same pull.0002.exr alone.exr "the second frame"
