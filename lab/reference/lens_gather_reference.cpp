@@ -1,6 +1,7 @@
 #include "lab/reference/lens_gather_reference.h"
 
 #include "base/parallel.h"
+#include "lab/reference/find_fillers_slowly.h"
 #include "lab/reference/seen_slowly.h"
 
 #include <algorithm>
@@ -198,18 +199,21 @@ ReferencePicture lens_gather_reference(const Ldi &ldi, const ThinLens &lens, con
                                        std::span<const LensSample> points, const Holdout *holdout,
                                        const CatEye *cat_eye) {
     const SlowLens by{points, cat_eye, lens.pixel_aspect};
-    const LargeArray<Filler> fillers = find_fillers(ldi, lens, window);
+    const std::vector<Filler> fillers = find_fillers_slowly(ldi, lens, window);
     const Scene scene = place_scene(ldi, lens, window, fillers);
     ReferencePicture picture{ldi.windows, {}, {}};
     picture.windows.data = window;
     const std::size_t pixels = picture.windows.pixels(), channels = ldi.channels.size();
     picture.values.resize(channels * pixels);
     std::vector<std::uint32_t> unsure(pixels); // lens points
+    long double widest = 0;                    // of them
+    for (const LensSample &point : points)
+        widest = std::max({widest, (long double)std::abs(point.x), (long double)std::abs(point.y)});
     parallel_for(pixels, [&](std::size_t i) {
         const Imath::V2i at = picture.windows.pixel(i);
         const Pixel pixel{at.x, at.y, (long double)std::max(ldi.windows.width(), ldi.windows.height()),
                           holdout};
-        const auto values = gather(ldi, scene, by, pixel, unsure[i]);
+        const auto values = gather(ldi, near(scene, pixel, widest), by, pixel, unsure[i]);
         for (std::size_t k = 0; k < channels; ++k) picture.values[k * pixels + i] = values[k];
     });
     for (const std::uint32_t count : unsure) {

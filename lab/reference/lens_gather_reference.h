@@ -1,6 +1,5 @@
 // The lens gather, slow and obvious: every lens point of every pixel tries every sample, in long double, from the
-// formulas of design.md section 1 and, of this library's kernels, find_fillers() alone. Tests the
-// fast one.
+// formulas of design.md section 1, with none of this library's kernels. Tests the fast one.
 //
 // A lens point looks through one point of the pixel. It sees the samples whose unit square, displaced by their
 // CoC, covers that point, and those at the corner that weighs most there (barycentric coordinates) of a facet

@@ -380,6 +380,30 @@ Scene place_scene(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &wind
     return scene;
 }
 
+Scene near(const Scene &scene, const Pixel &pixel, long double widest) {
+    long double coc = 0;
+    for (const auto *some : {&scene.samples, &scene.fillers, &scene.solids})
+        for (const Placed &s : *some) coc = std::max({coc, std::abs(s.coc), std::abs(s.image_coc)});
+    // Samples lie up to half a pixel beside their own, those of a facet up to two apart, and a pixel looks at those beside it.
+    const long double reach = coc * widest + 4;
+    const auto is_near = [&](const Placed &s) {
+        return std::abs(s.x - pixel.x - 0.5L) <= reach && std::abs(s.y - pixel.y - 0.5L) <= reach;
+    };
+    Scene part{scene.lens, {}, {}, {}, {}};
+    std::vector<std::size_t> place(scene.samples.size(), 0); // in `part`, from 1 on
+    for (std::size_t i = 0; i < scene.samples.size(); ++i)
+        if (is_near(scene.samples[i])) {
+            part.samples.push_back(scene.samples[i]);
+            place[i] = part.samples.size();
+        }
+    std::ranges::copy_if(scene.fillers, std::back_inserter(part.fillers), is_near);
+    std::ranges::copy_if(scene.solids, std::back_inserter(part.solids), is_near);
+    for (const auto &[a, b, c] : scene.facets)
+        if (place[a] && place[b] && place[c])
+            part.facets.push_back({place[a] - 1, place[b] - 1, place[c] - 1});
+    return part;
+}
+
 std::vector<Way> ways_to_see(const Scene &scene, const LensSample &point, const Pixel &pixel) {
     std::vector<Met> met, partial;
     meet(scene.samples, scene.facets, point, pixel, met);

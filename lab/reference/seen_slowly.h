@@ -37,6 +37,16 @@ struct Scene {
 Scene place_scene(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window,
                   std::span<const Filler> fillers);
 
+struct Pixel {
+    int x, y;
+    long double extent; // the largest coordinate there is: a float knows a place to some 1e-7 of it
+    const Holdout *holdout;
+};
+
+// Of a scene, what some lens point may see of a pixel or of those beside it, if none lies farther from the middle of the lens in x or
+// in y: what else there is only takes time.
+Scene near(const Scene &scene, const Pixel &pixel, long double widest);
+
 // How far a place is from the edge of what is looked at, inside; and how far rounding may move it.
 struct Margin {
     long double inside, unclear;
@@ -49,12 +59,6 @@ struct Met {
     const Placed *sample;
     bool seen, sure;
     long double passes; // of its light, the holdout
-};
-
-struct Pixel {
-    int x, y;
-    long double extent; // the largest coordinate there is: a float knows a place to some 1e-7 of it
-    const Holdout *holdout;
 };
 
 // One way in which a lens point may see a pixel: what it meets, front to back; and whether it is the way it does.

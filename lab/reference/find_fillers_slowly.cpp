@@ -1,0 +1,139 @@
+#include "lab/reference/find_fillers_slowly.h"
+
+#include "deep/build.h"
+#include "deep/unmixing.h"
+#include "dof/tuning.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace sparselens {
+
+namespace {
+
+// The last thing that a pixel holds.
+struct Ground {
+    Imath::V2i pixel;
+    double depth;                        // perceptive
+    std::optional<std::uint64_t> sample; // none: nothing
+};
+using Found = std::optional<Ground>;
+
+// A ground that goes on from so many pixels away, and what it shows.
+struct Side {
+    int distance;
+    Ground ground, shown;
+};
+
+class SlowFillers {
+public:
+    SlowFillers(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &known)
+        : ldi_(ldi), lens_(lens), known_(known) {}
+
+    std::optional<Filler> at(const Imath::V2i &pixel) const {
+        std::vector<Side> sides;
+        for (const Imath::V2i &on : {Imath::V2i(1, 0), {-1, 0}, {0, 1}, {0, -1}})
+            if (const auto side = nearest_side(pixel, on)) sides.push_back(*side);
+        if (sides.empty()) return {};
+        const Side first = *std::ranges::min_element(sides, fills_before);
+        Filler filler{std::uint32_t(ldi_.windows.index(pixel.x, pixel.y)), z_of(first.ground), 0, {}};
+        double weights = 0;
+        for (const Side &side : sides) {
+            if (side.ground.sample.has_value() != first.ground.sample.has_value()) continue;
+            if (std::abs(side.ground.depth - first.ground.depth) >= one_surface_px) continue;
+            const double weight = 1.0 / side.distance;
+            filler.part[filler.count++] = {
+                side.shown.sample ? std::uint32_t(*side.shown.sample) : Filler::nothing,
+                std::uint32_t(ldi_.windows.index(side.shown.pixel.x, side.shown.pixel.y)),
+                float(weight / coverage(side.shown))};
+            weights += weight;
+        }
+        for (Filler::Part &part : filler.part) part.share /= float(weights);
+        return filler;
+    }
+
+private:
+    static bool fills_before(const Side &a, const Side &b) {
+        if (a.distance != b.distance) return a.distance < b.distance;
+        return a.ground.depth != b.ground.depth ? a.ground.depth < b.ground.depth
+                                                : a.ground.sample.has_value() && !b.ground.sample.has_value();
+    }
+    float z_of(const Ground &ground) const {
+        return ground.sample ? ldi_.z[*ground.sample] : std::numeric_limits<float>::infinity();
+    }
+    double coverage(const Ground &ground) const {
+        return ground.sample ? double(alpha_at(ldi_, ldi_.alpha(), *ground.sample)) : 1;
+    }
+
+    Found ground(const Imath::V2i &pixel) const {
+        if (!ldi_.windows.data.intersects(pixel)) return {};
+        double left = 1;
+        Found last;
+        for (const std::uint64_t i : ldi_.pixel(ldi_.windows.index(pixel.x, pixel.y))) {
+            const double alpha = std::clamp(double(alpha_at(ldi_, ldi_.alpha(), i)), 0.0, 1.0);
+            left *= 1 - alpha;
+            if (alpha >= 0.5) last = Ground{pixel, perceptive_depth(lens_, double(ldi_.z[i])), i};
+        }
+        if (left < 1.0 / 2048) return last;
+        return known_.intersects(pixel) ? Found(Ground{pixel, 0, {}}) : Found();
+    }
+
+    // Whether it is hidden by each pixel up to n on, as it is where it goes on.
+    bool reaches(const Ground &from, const Imath::V2i &on, int n) const {
+        for (int m = 1; m <= n; ++m) {
+            const Found other = ground(from.pixel + m * on);
+            if (!other) return false;
+            const double nearer = other->depth - from.depth;
+            if (nearer <= one_surface_px || m - 1 >= std::sqrt(2.0) * nearer) return false;
+        }
+        return true;
+    }
+
+    std::optional<Side> nearest_side(const Imath::V2i &pixel, const Imath::V2i &on) const {
+        for (int n = 1; ldi_.windows.data.intersects(pixel - n * on); ++n) {
+            const Found from = ground(pixel - n * on);
+            if (from && reaches(*from, on, n)) return Side{n, *from, shown_by(*from, on)};
+        }
+        return {};
+    }
+
+    // The ground before its last one, where the last one's colour is a mixture.
+    Ground shown_by(const Ground &last, const Imath::V2i &on) const {
+        const Found before = ground(last.pixel - on), hides = ground(last.pixel + on);
+        if (!before || !hides || !last.sample || !before->sample || !hides->sample) return last;
+        if (ldi_.pixel(ldi_.windows.index(last.pixel.x, last.pixel.y)).size() != 1) return last;
+        if (std::abs(before->depth - last.depth) >= one_surface_px) return last;
+        const auto mixture = colour(last), strange = colour(*hides), own = colour(*before);
+        if (!mixture || !unmix(*mixture, *strange, *own, mostly_b, GatherTuning::filler_mixed)) return last;
+        return *before;
+    }
+
+    // None where there are no R, G and B.
+    std::optional<Imath::V3d> colour(const Ground &of) const {
+        Imath::V3d colour;
+        for (const int k : {0, 1, 2}) {
+            const std::size_t channel = find_channel(ldi_.channels, std::string(1, "RGB"[k]));
+            if (channel == npos) return {};
+            colour[k] = double(ldi_.values[channel][*of.sample]) / coverage(of);
+        }
+        return colour;
+    }
+
+    const Ldi &ldi_;
+    const ThinLens &lens_;
+    Imath::Box2i known_;
+};
+
+} // namespace
+
+std::vector<Filler> find_fillers_slowly(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &known) {
+    const SlowFillers slow(ldi, lens, known);
+    std::vector<Filler> fillers;
+    for (std::size_t i = 0; i < ldi.windows.pixels(); ++i)
+        if (const auto filler = slow.at(ldi.windows.pixel(i))) fillers.push_back(*filler);
+    return fillers;
+}
+
+} // namespace sparselens
