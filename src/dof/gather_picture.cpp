@@ -13,11 +13,6 @@ namespace sparselens {
 
 namespace {
 
-bool merges_layers(const ThinLens &lens, const PictureOptions &options) {
-    return options.layer_tolerance > 0 && lens.radius > 0 && !options.holdout &&
-           options.method == &gather_methods().front();
-}
-
 // `ldi` is an Ldi&&, if it may be used up, or a const Ldi&. Where colours have coverages of their own, what goes on beyond the
 // frame is found for each (methods.cpp).
 template <typename AnyLdi>
@@ -49,20 +44,21 @@ Image gather_layers(AnyLdi &&ldi, const ThinLens &lens, const Imath::Box2i &gath
                 written);
 }
 
-// Once is enough: merged twice, layers would change by more than the tolerance.
-Image gather_merged(Ldi &&ldi, const ThinLens &lens, const Imath::Box2i &gathered,
-                    const Imath::Box2i &written, PictureOptions options, Progress &progress) {
-    progress.may_end();
-    options.layer_tolerance = 0;
-    return gather_layers(std::move(ldi), lens, gathered, written, options, progress);
-}
-
 // The frame is what is gathered where nothing else is said.
 PictureOptions framed(PictureOptions options, const Ldi &ldi, const ThinLens &lens,
                       const Imath::Box2i &gathered) {
     if (!options.gather.beyond && lens.radius > 0)
         options.gather.beyond = {gathered, look_beyond(ldi, lens, options.gather.lens.looks, gathered)};
     return options;
+}
+
+// Once is enough: merged twice, layers would change by more than the tolerance.
+Image gather_merged(Ldi &&ldi, const ThinLens &lens, const Imath::Box2i &gathered,
+                    const Imath::Box2i &written, PictureOptions options, Progress &progress) {
+    progress.may_end();
+    options.layer_tolerance = 0;
+    options = framed(std::move(options), ldi, lens, gathered);
+    return gather_layers(std::move(ldi), lens, gathered, written, options, progress);
 }
 
 // A sample in each pixel that has any.
@@ -88,6 +84,11 @@ Ldi flattened(const Ldi &ldi) {
 
 } // namespace
 
+bool merges_layers(const ThinLens &lens, const PictureOptions &options) {
+    return options.layer_tolerance > 0 && lens.radius > 0 && !options.holdout &&
+           options.method == &gather_methods().front();
+}
+
 bool can_reduce_first(const PictureOptions &options, const ThinLens &lens, bool magnifies,
                       std::span<const Channel> channels) {
     return options.method == &gather_methods().front() && !options.holdout && !magnifies &&
@@ -110,28 +111,28 @@ Ldi reduced_first(Ldi rows, const ThinLens &lens, const PictureOptions &options)
 }
 
 Image gather_picture(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &gathered,
-                     const Imath::Box2i &written, const PictureOptions &given, Progress &progress) {
-    if (given.holdout && given.holdout_defocused) {
-        PictureOptions without = given;
+                     const Imath::Box2i &written, const PictureOptions &options, Progress &progress) {
+    if (options.holdout && options.holdout_defocused) {
+        PictureOptions without = options;
         without.holdout = nullptr;
         return without_holdout(
-            gather_picture(with_holdout(ldi, *given.holdout), lens, gathered, written, without, progress));
+            gather_picture(with_holdout(ldi, *options.holdout), lens, gathered, written, without, progress));
     }
-    const PictureOptions options = framed(given, ldi, lens, gathered);
     if (!merges_layers(lens, options) || !can_merge_layers(ldi))
-        return gather_layers(ldi, lens, gathered, written, options, progress);
+        return gather_layers(ldi, lens, gathered, written, framed(options, ldi, lens, gathered), progress);
     return gather_merged(
         merge_layers(ldi, perceptive_scale(lens.radius, lens.focal_px), options.layer_tolerance), lens,
         gathered, written, options, progress);
 }
 
 Image gather_picture(Ldi &&ldi, const ThinLens &lens, const Imath::Box2i &gathered,
-                     const Imath::Box2i &written, const PictureOptions &given, Progress &progress) {
-    if (given.holdout && given.holdout_defocused)
-        return gather_picture(std::as_const(ldi), lens, gathered, written, given, progress);
-    const PictureOptions options = framed(given, ldi, lens, gathered);
-    if (!merges_layers(lens, options) || !can_merge_layers(ldi))
-        return gather_layers(std::move(ldi), lens, gathered, written, options, progress);
+                     const Imath::Box2i &written, const PictureOptions &options, Progress &progress) {
+    if (options.holdout && options.holdout_defocused)
+        return gather_picture(std::as_const(ldi), lens, gathered, written, options, progress);
+    if (!merges_layers(lens, options) || !can_merge_layers(ldi)) {
+        const PictureOptions by = framed(options, ldi, lens, gathered);
+        return gather_layers(std::move(ldi), lens, gathered, written, by, progress);
+    }
     const double scale = perceptive_scale(lens.radius, lens.focal_px);
     return gather_merged(merge_layers(std::move(ldi), scale, options.layer_tolerance), lens, gathered,
                          written, options, progress);

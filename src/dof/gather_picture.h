@@ -29,6 +29,9 @@ Image gather_picture(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &g
 Image gather_picture(Ldi &&ldi, const ThinLens &lens, const Imath::Box2i &gathered,
                      const Imath::Box2i &written, const PictureOptions &options, Progress &progress);
 
+// Whether layers are merged first. What goes on beyond the frame is then found of the merged ones.
+bool merges_layers(const ThinLens &lens, const PictureOptions &options);
+
 // What the method lens makes of the samples of `rows` first, which lie alone: with a lens of radius 0 the flattened pixel,
 // else merged layers where those of these channels are merged by rows; the picture of all rows is then that of a
 // layer_tolerance of 0. Not for other methods and pictures with a holdout, and with radius 0 neither for those that a look magnifies

@@ -7,13 +7,16 @@
 #include "dof/lens/beyond/beyond_frame.h"
 #include "dof/lens/lens_tiles.h"
 #include "dof/lens/optics.h"
+#include "dof/merge_layers.h"
 #include "dof/tuning.h"
+#include "lens/perceptive_depth.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <mutex>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 namespace sparselens {
@@ -216,9 +219,13 @@ Image gather_rows(const PackedRows &rows, const ThinLens &lens, const Imath::Box
     LensTiles all{}, some;
     PictureOptions by = options;
     by.gather.lens.chosen = &some;
-    if (lens.radius > 0)
-        by.gather.beyond = {
-            gathered, look_beyond(border_of(rows, gathered), lens, options.gather.lens.looks, gathered)};
+    if (lens.radius > 0) {
+        Ldi border = border_of(rows, gathered);
+        if (merges_layers(lens, options))
+            border = merge_layers(std::move(border), perceptive_scale(lens.radius, lens.focal_px),
+                                  options.layer_tolerance);
+        by.gather.beyond = {gathered, look_beyond(border, lens, options.gather.lens.looks, gathered)};
+    }
     const Bands bands(rows, lens, gathered, by);
     const int height = bands.height(limits);
     if (height > gathered.max.y - gathered.min.y) return all_at_once();
