@@ -71,8 +71,14 @@ silent "--scene-unit"
 exits 0 "$gather" $center --lens-radius 0 -o x.exr
 silent "a pinhole"
 
-# Places of views in millimetres; the same view twice.
-exits 0 "$warp" $center --view 60,0 views/view_0.exr --view 0,60 views/view_1.exr -o x.exr
-says_once 'warning: views/view_0.exr and 1 more: stands 60 from the centre, 1e\+03 times the radius of the lens, 0.06: positions' "millimetres"
+# Places of views in millimetres, where a scene unit is a centimetre, a decimetre and a metre; nothing else is said of them.
+for factor in 10 100 1000; do
+    far=$(awk "BEGIN { print 0.06 * $factor }")
+    exits 0 "$warp" $center --view $far,0 views/view_0.exr --view 0,$far views/view_1.exr -o x.exr
+    says_once "warning: views/view_0.exr and 1 more: stands $far from the centre, $factor times the radius of the lens, 0.06: in millimetres\?" \
+        "millimetres"
+    ! grep -E 'turned|agree' stderr || fail "said of pixels, too"
+done
+# The same view twice.
 exits 0 "$warp" $center "${rim[@]}" views/view_2.exr -o x.exr
 says_once 'warning: views/view_2.exr: is the same picture as views/view_2.exr, from the same place' "a view twice"

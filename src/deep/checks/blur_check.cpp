@@ -13,14 +13,16 @@ namespace sparselens {
 
 namespace {
 
-constexpr std::size_t enough = 100;               // edges
-constexpr double defocused = 0.64;                // 0.48 at a CoC of 4, and 1 through a pinhole
-constexpr std::size_t side = 3;                   // pixels of a surface on either side of an edge
-constexpr std::size_t length = 29;                // pixels from the end of one side to that of the other
+constexpr std::size_t enough = 100; // edges
+constexpr double defocused = 0.74;  // half way from 0.48, at a CoC of 4, to 1, through a pinhole
+constexpr std::size_t side = 3;     // pixels of a surface on either side of an edge
+constexpr std::size_t length = 29;  // pixels from the end of one side to that of the other
 constexpr double least_coc = 4, largest_coc = 10; // of the nearer surface: the blur lies between the sides
 constexpr double apart = 2;                       // pixels, of CoC
 constexpr double contrast = 0.2;                  // of the sides, relative to their sum
 constexpr double even = 0.15;                     // change within a side, of the contrast
+constexpr std::size_t far_apart = 8;              // pixels: the width of the least blur
+constexpr double sharp_step = 2.0 / 23;           // of a step spread over a pixel: 2 / 3 of 8 - 1 / 3
 
 // The pixels of a view along a line.
 struct Along {
@@ -55,7 +57,7 @@ std::optional<Side> side_of(const Along &pixels, std::size_t first) {
     return found;
 }
 
-// The largest share of a step of colour in three pixels; empty where there is no such edge.
+// The largest change of colour in three pixels, of the step; empty where there is no such edge.
 std::optional<double> steepest_of(const Along &pixels) {
     const double left_coc = pixels.c(0), right_coc = pixels.c(length - 1); // most lines end here
     const double nearer = std::abs(std::min(left_coc, right_coc));
@@ -67,8 +69,43 @@ std::optional<double> steepest_of(const Along &pixels) {
     if (std::max(left->uneven, right->uneven) > even * step.length()) return {};
     double steepest = 0;
     for (std::size_t i = side - 1; i + 3 <= length - side; ++i)
-        steepest = std::max(steepest, (pixels.colour(i + 3) - pixels.colour(i)).dot(step) / step.length2());
-    return steepest;
+        steepest = std::max(steepest, (pixels.colour(i + 3) - pixels.colour(i)).length());
+    return steepest / step.length();
+}
+
+// Sums of squares of differences of colours, as two lines side by side agree on them.
+struct Variation {
+    double near = 0, far = 0;
+};
+
+// Of the lines that begin at `line` and `beside` it, where all that they show is out of focus.
+void add_variation(const FlatPixels &picture, const std::vector<float> &coc, const PictureLine &line,
+                   std::size_t beside, Variation &sum) {
+    const auto shown = [&](std::size_t i) { // lights count no more than surfaces
+        const Imath::V3d v = picture.colour(i);
+        return Imath::V3d(v.x / (1 + v.x), v.y / (1 + v.y), v.z / (1 + v.z));
+    };
+    const auto product = [&](std::size_t a, std::size_t b) {
+        return (shown(line[b]) - shown(line[a])).dot(shown(line[b] + beside) - shown(line[a] + beside));
+    };
+    const auto out_of_focus = [&](std::size_t i) { return std::abs(coc[i]) >= float(least_coc); };
+    std::size_t run = 0; // of pixels out of focus, up to here
+    for (std::size_t i = 0; i < line.length; ++i) {
+        run = out_of_focus(line[i]) && out_of_focus(line[i] + beside) ? run + 1 : 0;
+        if (run <= far_apart) continue;
+        sum.near += product(i - 1, i);
+        sum.far += product(i - far_apart, i);
+    }
+}
+
+double fineness_of(const FlatPixels &picture, const std::vector<float> &coc) {
+    const auto width = std::size_t(picture.grid.width()), height = std::size_t(picture.grid.height());
+    Variation sum;
+    visit_lines(picture.grid, [&](const PictureLine &line) {
+        const std::size_t beside = line.step == 1 ? width : 1;
+        if (line[line.length - 1] + beside < width * height) add_variation(picture, coc, line, beside, sum);
+    });
+    return sum.far > 0 ? sum.near / sum.far : 1;
 }
 
 } // namespace
@@ -85,11 +122,11 @@ EdgeSharpness sharpness_of_edges(const View &view, const ThinLens &lens) {
             if (const auto steepest = steepest_of({pixels, coc, line, i})) found.push_back(*steepest);
     });
     if (found.empty()) return {};
-    return {found.size(), median(found)};
+    return {found.size(), median(found), fineness_of(pixels, coc)};
 }
 
 bool looks_defocused(const EdgeSharpness &sharpness) {
-    return sharpness.edges >= enough && sharpness.steepest < defocused;
+    return sharpness.edges >= enough && sharpness.steepest < defocused && sharpness.fine < sharp_step;
 }
 
 } // namespace sparselens

@@ -11,15 +11,21 @@ namespace sparselens {
 
 struct EdgeSharpness {
     std::size_t edges = 0; // of surfaces out of focus before others, that stand out by their colour
-    // The median of the largest share of such a step of colour that three pixels hold: about 1 through a pinhole, and through
-    // a lens 6 / (pi c) at most, with c the CoC, which is 4 and more.
+    // The median of the largest change of colour in three pixels there, relative to the step: about 1 through a pinhole, and
+    // through a lens 6 / (pi c) at most, with c the CoC, which is 4 and more.
     double steepest = 0;
+    // How much two pixels side by side differ where all is out of focus, relative to two that are eight apart: 2 / 23 where
+    // edges are sharp, more where strands or textures are, a quarter of that where edges are spread over a CoC of 4. Squared, and
+    // as two lines side by side agree on it, so that noise adds nothing.
+    double fine = 1; // also where nothing tells
 };
 
 EdgeSharpness sharpness_of_edges(const View &view, const ThinLens &lens);
 
-// Of 26 rendered and traced pictures the median is 0.71 and more through a pinhole; through a lens it is 0.29 to 0.59, and 0.69 in
-// one of lights in fog. False where too few edges tell.
+// Whether edges are blurred, and so is all else out of focus: the edges of fur are soft, but its strands are not. Of 60 rendered and
+// traced pictures the median of edges is 0.76 and more through a pinhole, but from 0.51 in fur; through a lens it is 0.3 to 0.67.
+// What is fine is 0.095 to 0.2 through a pinhole, 0.13 to 0.2 in fur, 0.02 where textures are smooth, and 0.02 to 0.065 through a
+// lens. False where too few edges tell.
 bool looks_defocused(const EdgeSharpness &sharpness);
 
 } // namespace sparselens

@@ -1,20 +1,18 @@
 #include "deep/checks/encoding_check.h"
 
-#include "base/median.h"
 #include "deep/checks/picture_lines.h"
 #include "view/flat_pixels.h"
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
-#include <vector>
 
 namespace sparselens {
 
 namespace {
 
-constexpr std::size_t enough = 100;      // edges
-constexpr double between = 0.5;          // light and sRGB
+constexpr double explained = 0.1;        // of the pixels
+constexpr double sure = 3;               // standard deviations
+constexpr double around = 0.5;           // of the way from the line to the curve
 constexpr double contrast = 0.15;        // of the sides, relative to their sum
 constexpr double even = 0.1;             // change within a side, of the contrast
 constexpr double clearly_mixed = 0.15;   // of either side
@@ -45,15 +43,26 @@ Imath::V3d on_curve(const Imath::V3d &a, const Imath::V3d &b, double along) {
     return at;
 }
 
-// Of a pixel between two sides; empty where it tells nothing.
-std::optional<double> place_of(const Imath::V3d &a, const Imath::V3d &pixel, const Imath::V3d &b) {
+// Asks a pixel between two sides.
+void ask(const Imath::V3d &a, const Imath::V3d &pixel, const Imath::V3d &b, EdgeMixing &mixing) {
     const Imath::V3d way = b - a;
     const double along = (pixel - a).dot(way) / way.length2();
-    if (along < clearly_mixed || along > 1 - clearly_mixed) return {};
+    if (along < clearly_mixed || along > 1 - clearly_mixed) return;
     const Imath::V3d on_line = a + way * along;
     const Imath::V3d departure = on_curve(a, b, along) - on_line;
-    if (departure.length() < least_departure * way.length()) return {};
-    return (pixel - on_line).dot(departure) / departure.length2();
+    if (departure.length() < least_departure * way.length()) return;
+    const auto is_at = [&](double place) {
+        return (pixel - on_line - departure * place).length() < around * departure.length();
+    };
+    ++mixing.pixels;
+    mixing.light += is_at(0);
+    mixing.encoded += is_at(1);
+    mixing.beyond += is_at(2);
+}
+
+// Of two counts.
+bool surely_more(std::size_t a, std::size_t b) {
+    return double(a) - double(b) > sure * std::sqrt(double(a + b));
 }
 
 bool is_displayable(const Imath::V3d &v) {
@@ -66,7 +75,7 @@ EdgeMixing mixing_at_edges(const View &view) {
     const FlatPixels pixels = flat_pixels(view);
     if (!pixels.have_colours()) return {};
     const auto colour = [&](std::size_t i) { return pixels.colour(i); };
-    std::vector<double> places;
+    EdgeMixing mixing;
     visit_lines(pixels.grid, [&](const PictureLine &line) {
         for (std::size_t i = 2; i + 2 < line.length; ++i) {
             const Imath::V3d a = colour(line[i - 1]), b = colour(line[i + 1]);
@@ -75,13 +84,15 @@ EdgeMixing mixing_at_edges(const View &view) {
             if (!is_displayable(a) || !is_displayable(b)) continue;
             if ((colour(line[i - 2]) - a).length() > even * apart) continue;
             if ((colour(line[i + 2]) - b).length() > even * apart) continue;
-            if (const auto place = place_of(a, colour(line[i]), b)) places.push_back(*place);
+            ask(a, colour(line[i]), b, mixing);
         }
     });
-    if (places.empty()) return {};
-    return {places.size(), median(places)};
+    return mixing;
 }
 
-bool looks_encoded(const EdgeMixing &mixing) { return mixing.edges >= enough && mixing.encoded > between; }
+bool looks_encoded(const EdgeMixing &mixing) {
+    return double(mixing.encoded) >= explained * double(mixing.pixels) &&
+           surely_more(mixing.encoded, mixing.light) && surely_more(mixing.encoded, mixing.beyond);
+}
 
 } // namespace sparselens

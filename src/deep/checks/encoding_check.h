@@ -1,8 +1,9 @@
 // Whether the colours of a picture are light, or were encoded for a display (sRGB) and are read as light.
 //
 // A pixel on an edge shows a mixture of what lies on its two sides, and light mixes linearly: the colour lies on the line
-// between theirs. Encoded, that line is a curve, by the transfer function of IEC 61966-2-1. How far the pixel lies along
-// that curve, off the line, is 0 for light and 1 for sRGB; noise takes it to either side.
+// between theirs. Encoded, that line is a curve, by the transfer function of IEC 61966-2-1. Of a colour between two others, the
+// point of the line and that of the curve are known. A mixture lies beside one of them. A third surface may lie anywhere, and is
+// asked for nothing: views of one sample mix nothing.
 #pragma once
 
 #include "../../view/view.h"
@@ -11,15 +12,16 @@
 
 namespace sparselens {
 
+// Pixels between two sides, and how many of them lie around the point of the line, around that of the curve, and around one that
+// lies as far beyond the curve, where only chance and noise bring them: nearer to it than half the way from line to curve.
 struct EdgeMixing {
-    std::size_t edges = 0; // pixels that tell
-    double encoded = 0;    // their median: 0 for light, 1 for sRGB
+    std::size_t pixels = 0, light = 0, encoded = 0, beyond = 0;
 };
 
 EdgeMixing mixing_at_edges(const View &view);
 
-// Of 33 rendered and traced pictures, the median lies from -0.13 to 0.04, and from 0.66 to 1.13 once they are encoded. False
-// where too few pixels tell: greys, black and what is above 1 say nothing.
+// Whether the curve explains a tenth of the pixels or more, and more than the line and than chance, by three standard deviations.
+// Greys, black and what is above 1 say nothing.
 bool looks_encoded(const EdgeMixing &mixing);
 
 } // namespace sparselens

@@ -25,16 +25,30 @@ constexpr std::size_t some = 4;        // one pixel in so many tells roughly how
 constexpr double one_side = 175;       // degrees within which all other views stand
 constexpr double equally_far = 1.2;    // ratio of distances
 
-// The least contradicted of the positions tried so far. Where much less is seen, little can contradict.
+// Whether fewer depths tell against `a` than against `b`, by more than chance: three standard deviations.
+bool depth_prefers(const PoseVerdict &a, const PoseVerdict &b) {
+    const auto off_a = double(a.off_depth), off_b = double(b.off_depth);
+    return off_b - off_a > 3 * std::sqrt(off_a + off_b);
+}
+
+// By colours and depths together, or by depths alone.
+bool is_clear(const PoseVerdict &better, const PoseVerdict &stated) {
+    return better.contradiction < std::min(clearly * stated.contradiction, stated.contradiction - at_least) ||
+           (double(better.off_depth) < clearly * double(stated.off_depth) && depth_prefers(better, stated));
+}
+
+// The best of the positions tried so far: that which depths tell least against, and of those alike the least contradicted. Where
+// much less is seen, little can contradict.
 class Search {
 public:
     Search(const PoseEvidence &evidence, const Imath::V2d &stated)
-        : evidence_(evidence), stated_(evidence.at(stated)), best_(stated), least_(stated_.contradiction) {}
+        : evidence_(evidence), stated_(evidence.at(stated)), best_(stated), least_(stated_) {}
 
     void attempt(const Imath::V2d &position) {
         const PoseVerdict there = evidence_.at(position);
-        if (there.told < enough || 2 * there.told < stated_.told || there.contradiction >= least_) return;
-        least_ = there.contradiction;
+        if (there.told < enough || 2 * there.told < stated_.told || depth_prefers(least_, there)) return;
+        if (!depth_prefers(there, least_) && there.contradiction >= least_.contradiction) return;
+        least_ = there;
         best_ = position;
     }
 
@@ -49,16 +63,14 @@ public:
     }
 
     const Imath::V2d &best() const { return best_; }
-    bool can_tell() const { return stated_.told >= enough; }
-    bool is_clear() const {
-        return least_ < std::min(clearly * stated_.contradiction, stated_.contradiction - at_least);
-    }
+    const PoseVerdict &stated() const { return stated_; }
+    const PoseVerdict &there() const { return least_; }
 
 private:
     const PoseEvidence &evidence_;
     PoseVerdict stated_;
     Imath::V2d best_;
-    double least_;
+    PoseVerdict least_;
 };
 
 void search_around_centre(double reach, Search &search) {
@@ -84,37 +96,55 @@ void search_around(const Imath::V2d &at, Search &search) {
     if (search.best() != turned) search.refine(0.1 * search.best().length(), along);
 }
 
-} // namespace
+struct Found {
+    Imath::V2d position;
+    PoseVerdict there, stated;
+};
 
-std::optional<Imath::V2d> better_position(const PackedView &centre, const PackedView &view, double focal_px,
-                                          double reach) {
-    const PoseEvidence evidence(centre, view, focal_px);
+std::optional<Found> find_position(const PoseEvidence &evidence, const PackedView &view, double reach) {
     const double motion = evidence.motion(), stated = view.position.length();
     if (evidence.size() < enough || !(motion > 0)) return {};
     if (stated > 0 && stated * motion < least_motion) return {}; // it shows the same from there
     Search search(evidence, view.position);
-    if (!search.can_tell()) return {};
+    if (search.stated().told < enough) return {};
     if (stated > 0)
         search_around(view.position, search);
     else
         search_around_centre(reach > 0 ? reach : usual_motion / motion, search);
     const double moved = (search.best() - view.position).length() * motion;
-    if (!search.is_clear() || moved < least_motion) return {};
-    return search.best();
+    if (!is_clear(search.there(), search.stated()) || moved < least_motion) return {};
+    return Found{search.best(), search.there(), search.stated()};
 }
 
-std::optional<Imath::V2d> turned_by(const PackedView &centre, const PackedView &view, double focal_px) {
+// Whether the view would only be nearer to the centre there, or farther out. What mirrors and glass show moves so, and may be
+// all that the picture shows: then only depths tell.
+bool is_along(const Imath::V2d &position, const Imath::V2d &stated) {
+    return stated.length() > 0 && position.dot(stated) >= (1 - 1e-9) * position.length() * stated.length();
+}
+
+} // namespace
+
+std::optional<Imath::V2d> better_position(const PackedView &centre, const PackedView &view, double focal_px,
+                                          double reach) {
+    const auto found = find_position(PoseEvidence(centre, view, focal_px), view, reach);
+    if (!found) return {};
+    if (is_along(found->position, view.position) && !depth_prefers(found->there, found->stated)) return {};
+    return found->position;
+}
+
+std::optional<Imath::V2d> turned_by(const PackedView &centre, const PackedView &view, double focal_px,
+                                    double reach) {
     const PoseEvidence evidence(centre, view, focal_px);
     const PoseVerdict stated = evidence.at(view.position);
     if (stated.told < enough || stated.contradiction < worth_turning) return {};
     const double width = view.samples.windows.display_width();
     Imath::V2d best(0, 0); // pixels, right and down
-    double least = 1;
+    PoseVerdict least{.contradiction = 1};
     const auto attempt = [&](const Imath::V2d &axis, std::size_t every) {
         const PoseVerdict there = evidence.at(view.position, axis / width, every);
         const std::size_t told = there.told * every;
-        if (told < enough || 2 * told < stated.told || there.contradiction >= least) return;
-        least = there.contradiction;
+        if (told < enough || 2 * told < stated.told || there.contradiction >= least.contradiction) return;
+        least = there;
         best = axis;
     };
     attempt({0, 0}, some);
@@ -125,7 +155,7 @@ std::optional<Imath::V2d> turned_by(const PackedView &centre, const PackedView &
     for (const Imath::V2d &direction : directions)
         for (double by = 1; by <= farthest_turned; by += turning_step)
             for (const double way : {by, -by}) attempt(direction * way, some);
-    least = 1;
+    least = {.contradiction = 1};
     attempt(best, 1);
     for (double step = turning_step; step >= fine_motion;) {
         const Imath::V2d before = best;
@@ -133,11 +163,9 @@ std::optional<Imath::V2d> turned_by(const PackedView &centre, const PackedView &
             for (const double way : {step, -step}) attempt(before + axis * way, 1);
         if (best == before) step /= 2;
     }
-    if (best.length() < least_motion ||
-        least > std::min(clearly * stated.contradiction, stated.contradiction - at_least))
-        return {};
-    if (const auto moved = better_position(centre, view, focal_px);
-        moved && evidence.at(*moved).contradiction <= least)
+    if (best.length() < least_motion || !is_clear(least, stated) || !depth_prefers(least, stated)) return {};
+    if (const auto moved = find_position(evidence, view, reach);
+        moved && (moved->there.contradiction <= least.contradiction || depth_prefers(moved->there, least)))
         return {};
     const double degrees = 180 / std::numbers::pi;
     return Imath::V2d(-std::atan2(best.x, focal_px), std::atan2(best.y, focal_px)) * degrees;

@@ -19,7 +19,9 @@ std::optional<Imath::V2d> better_position(const PackedView &centre, const Packed
 
 // How far the view's axis is turned, degrees to the right and up, where it clearly agrees with the centre view at its stated
 // place if it is turned so, and more than at any other place; as cameras are that are aimed at the focus. Empty else.
-std::optional<Imath::V2d> turned_by(const PackedView &centre, const PackedView &view, double focal_px);
+// `reach` as above.
+std::optional<Imath::V2d> turned_by(const PackedView &centre, const PackedView &view, double focal_px,
+                                    double reach = 0);
 
 // The first of the views before views[i] that is the same picture, though it is said to stand elsewhere, whence it would
 // show the scene otherwise.

@@ -15,6 +15,7 @@ constexpr int beside = 2;              // pixels
 constexpr double contrast = 0.1;       // relative difference of colour
 constexpr double jump = 1.05;          // ratio of depths
 constexpr double same_depth = 1.04;    // ratio: what is nearer is in front
+constexpr double rounding = 1e-3;      // of depths, relative: that of half
 
 bool holds(const Imath::Box2i &data, const Imath::V2d &p) {
     return p.x >= data.min.x && p.x < data.max.x + 1.0 && p.y >= data.min.y && p.y < data.max.y + 1.0;
@@ -51,25 +52,22 @@ PoseVerdict PoseEvidence::at(const Imath::V2d &position, const Imath::V2d &axis,
     framing.principal_point += axis;
     const ViewMapping mapping(position, focal_px_, view_.samples.windows, framing,
                               centre_.view.framing.principal_point);
-    double sum = 0;
     PoseVerdict verdict;
     for (std::size_t i = 0; i < pixels_.size(); i += every) {
         const Pixel &pixel = pixels_[i];
         const Imath::V2d landed =
             mapping.at_infinity(pixel.place) + mapping.parallax(pixel.place) * (1 / pixel.z);
         if (!holds(centre_.samples.windows.data, landed)) continue;
-        const auto off = contradiction(landed, pixel);
-        if (!off) continue;
-        sum += *off;
-        ++verdict.told;
+        ask(landed, pixel, verdict);
     }
-    if (verdict.told > 0) verdict.contradiction = sum / double(verdict.told);
+    if (verdict.told > 0) verdict.contradiction /= double(verdict.told);
     return verdict;
 }
 
 // A place is known to a pixel: of the four pixels around it, any may show the same surface, or one that hides it.
-std::optional<double> PoseEvidence::contradiction(const Imath::V2d &landed, const Pixel &pixel) const {
+void PoseEvidence::ask(const Imath::V2d &landed, const Pixel &pixel, PoseVerdict &verdict) const {
     Imath::V3d least(0), most(0);
+    double nearest = pixel.z, farthest = pixel.z;
     bool seen = false, hidden = false;
     for (const double dx : {-0.5, 0.5})
         for (const double dy : {-0.5, 0.5}) {
@@ -83,12 +81,16 @@ std::optional<double> PoseEvidence::contradiction(const Imath::V2d &landed, cons
                 least[k] = seen ? std::min(least[k], there[k]) : there[k];
                 most[k] = seen ? std::max(most[k], there[k]) : there[k];
             }
+            nearest = seen ? std::min(nearest, z) : z;
+            farthest = seen ? std::max(farthest, z) : z;
             seen = true;
         }
-    if (!seen) return hidden ? std::optional<double>() : 1;
-    Imath::V3d nearest;
-    for (int k = 0; k < 3; ++k) nearest[k] = std::clamp(pixel.colour[k], least[k], most[k]);
-    return relative_difference(nearest, pixel.colour);
+    if (!seen && hidden) return;
+    ++verdict.told;
+    verdict.off_depth += !seen || pixel.z < nearest * (1 - rounding) || pixel.z > farthest * (1 + rounding);
+    Imath::V3d closest;
+    for (int k = 0; k < 3; ++k) closest[k] = std::clamp(pixel.colour[k], least[k], most[k]);
+    verdict.contradiction += seen ? relative_difference(closest, pixel.colour) : 1;
 }
 
 double PoseEvidence::motion() const {

@@ -6,7 +6,6 @@
 #include "deep/packed_view.h"
 
 #include <array>
-#include <optional>
 #include <vector>
 
 namespace sparselens {
@@ -32,6 +31,8 @@ struct PosedPicture {
 struct PoseVerdict {
     double contradiction = 0; // [0, 1], the mean over the pixels that tell
     std::size_t told = 0;     // how many there are: the centre view sees what they show
+    std::size_t off_depth =
+        0; // and of how many the depth tells against it; mirrors and glass mislead colours alone
 };
 
 class PoseEvidence {
@@ -44,7 +45,7 @@ public:
     // What they say if the view stands at `position`, and its optical axis meets the picture farther right and down by `axis`
     // display widths than its framing says. A pixel in front of what the centre view shows contradicts by 1,
     // one on the same surface by the relative difference of its colour from those that this surface has around there.
-    // One pixel in `every` is asked.
+    // Off depth is what is in front, or nearer or farther than that surface is around there. One pixel in `every` is asked.
     PoseVerdict at(const Imath::V2d &position, const Imath::V2d &axis = {0, 0}, std::size_t every = 1) const;
 
     // How many pixels the nearest of them moves for each scene unit that the view is moved; 0 where there are none.
@@ -58,8 +59,8 @@ private:
         Imath::V3d colour;
     };
 
-    // Of one that lands there; empty if it may be hidden from the centre.
-    std::optional<double> contradiction(const Imath::V2d &landed, const Pixel &pixel) const;
+    // Adds one that lands there, unless it may be hidden from the centre.
+    void ask(const Imath::V2d &landed, const Pixel &pixel, PoseVerdict &verdict) const;
 
     PosedPicture centre_, view_;
     double focal_px_;

@@ -49,20 +49,19 @@ void say_of_first(std::span<const PackedView> views, double lens_radius, Warning
                     views[0].name, middle ? ", " + views[*middle].name : std::string()));
 }
 
-void say_of_distances(std::span<const PackedView> views, double lens_radius, Warnings &said) {
-    const std::vector<std::size_t> beyond = views_beyond_lens(views, lens_radius);
+void say_of_distances(std::span<const PackedView> views, const std::vector<std::size_t> &beyond,
+                      double lens_radius, Warnings &said) {
     if (beyond.empty()) return;
     const PackedView &view = views[beyond.front()];
     said.push_back(fmt::format(
-        "{}{}: stands {:.3g} from the centre, {:.3g} times the radius of the lens, {:.3g}: positions "
-        "(`view`), the radius and the unit of the scene (`scene_unit`) do not go together; positions are in "
-        "scene units",
+        "{}{}: stands {:.4g} from the centre, {:.4g} times the radius of the lens, {:.4g}: in millimetres? "
+        "Positions (`view`) and the radius are in scene units, and `scene_unit` says how long one is",
         view.name, beyond.size() > 1 ? fmt::format(" and {} more", beyond.size() - 1) : "",
         view.position.length(), view.position.length() / lens_radius, lens_radius));
 }
 
-// Of one view; empty where it is where it should be.
-std::string said_of_pose(std::span<const PackedView> views, std::size_t i, double focal_px, double reach) {
+// Of one view that is another one; empty where it is not.
+std::string said_of_copy(std::span<const PackedView> views, std::size_t i, double focal_px) {
     const PackedView &view = views[i];
     if (const auto other = same_picture_and_place(views, i))
         return fmt::format(
@@ -72,7 +71,13 @@ std::string said_of_pose(std::span<const PackedView> views, std::size_t i, doubl
         return fmt::format("{}: is the same picture as {}, though it is said to stand at {} and that at "
                            "{}; render it from there, or leave it out",
                            view.name, views[*other].name, text(view.position), text(views[*other].position));
-    if (const auto turned = turned_by(views[0], view, focal_px))
+    return {};
+}
+
+// Of one view; empty where it is where it should be.
+std::string said_of_pose(std::span<const PackedView> views, std::size_t i, double focal_px, double reach) {
+    const PackedView &view = views[i];
+    if (const auto turned = turned_by(views[0], view, focal_px, reach))
         return fmt::format(
             "{}: disagrees with the centre view, and would agree if it were turned by {:.2g} degrees to the "
             "right and {:.2g} up (or its lens shifted so): render all views with parallel axes, not aimed "
@@ -116,16 +121,19 @@ Warnings view_warnings(const std::vector<PackedView> &views, const ViewFacts &fa
         focal_length_px(facts.camera, views[0].samples.windows.display_width()).value_or(0);
     double reach = 0;
     for (const PackedView &view : views) reach = std::max(reach, view.position.length());
+    const std::vector<std::size_t> beyond =
+        views_beyond_lens(views, radius); // of their pixels nothing is asked
     Warnings said;
     std::vector<std::string> poses(views.size());
     parallel_for(views.size(), [&](std::size_t i) {
         if (i == 0)
             said = picture_warnings(unpacked(views[0]), facts);
-        else
+        else if (poses[i] = said_of_copy(views, i, focal_px);
+                 poses[i].empty() && !std::ranges::binary_search(beyond, i))
             poses[i] = said_of_pose(views, i, focal_px, reach > 0 ? reach : radius);
     });
     say_of_first(views, radius, said);
-    say_of_distances(views, radius, said);
+    say_of_distances(views, beyond, radius, said);
     std::ranges::copy_if(poses, std::back_inserter(said), [](const std::string &s) { return !s.empty(); });
     return said;
 }

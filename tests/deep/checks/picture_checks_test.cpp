@@ -34,12 +34,38 @@ View stripes(const std::function<float(float)> &stored) {
 
 TEST(EncodingCheck, LightMixesAtEdgesAndCodesDoNot) {
     const EdgeMixing light = mixing_at_edges(stripes([](float v) { return v; }));
-    EXPECT_GT(light.edges, 500u);
-    EXPECT_NEAR(light.encoded, 0, 0.01);
+    EXPECT_GT(light.pixels, 500u);
+    EXPECT_EQ(light.light, light.pixels);
+    EXPECT_EQ(light.encoded, 0u);
     EXPECT_FALSE(looks_encoded(light));
     const EdgeMixing codes = mixing_at_edges(stripes(srgb));
-    EXPECT_NEAR(codes.encoded, 1, 0.01);
+    EXPECT_EQ(codes.encoded, codes.pixels);
+    EXPECT_EQ(codes.light, 0u);
     EXPECT_TRUE(looks_encoded(codes));
+}
+
+// Stripes as one sample a pixel shows them, each third of them a pixel wide and of a colour between the two beside it: it lies
+// far from the line, on the curve's side.
+TEST(EncodingCheck, WhatNoPixelMixesSaysNothing) {
+    const View view = make_view(windows_of_size(128, 64), {0, 0}, [](int x, int y) {
+        const int place = (x + y) % 17;
+        if (place == 8 || place == 16) return ViewPixel{.z = 3, .r = 0.6f, .g = 0.55f, .b = 0.2f};
+        return place < 8 ? ViewPixel{.z = 3, .r = 0.8f, .g = 0.1f, .b = 0.02f}
+                         : ViewPixel{.z = 3, .r = 0.05f, .g = 0.6f, .b = 0.3f};
+    });
+    const EdgeMixing mixing = mixing_at_edges(view);
+    EXPECT_GT(mixing.pixels, 500u);
+    EXPECT_EQ(mixing.light + mixing.encoded + mixing.beyond, 0u);
+    EXPECT_FALSE(looks_encoded(mixing));
+}
+
+TEST(EncodingCheck, FewMixturesSayNothing) {
+    EXPECT_TRUE(looks_encoded({.pixels = 40, .light = 2, .encoded = 25, .beyond = 2}));
+    EXPECT_FALSE(looks_encoded({.pixels = 40, .light = 0, .encoded = 8, .beyond = 0})) << "chance";
+    EXPECT_FALSE(looks_encoded({.pixels = 1000, .light = 0, .encoded = 90, .beyond = 0}))
+        << "of all, too few";
+    EXPECT_FALSE(looks_encoded({.pixels = 1000, .light = 300, .encoded = 350, .beyond = 0})) << "as light";
+    EXPECT_FALSE(looks_encoded({.pixels = 1000, .light = 0, .encoded = 300, .beyond = 280})) << "as beyond";
 }
 
 TEST(EncodingCheck, GreysSayNothing) {
@@ -101,6 +127,22 @@ TEST(BlurCheck, EdgesOutOfFocusAreSharpThroughAPinhole) {
     const EdgeSharpness blurred = sharpness_of_edges(card_of(12), lens); // twice the CoC
     EXPECT_NEAR(blurred.steepest, 3.0 / 12, 0.01);
     EXPECT_TRUE(looks_defocused(blurred));
+}
+
+// The card is of fur: its edge is soft, and strands of it are as sharp as pixels are.
+TEST(BlurCheck, WhatIsFineOutOfFocusIsNoBlur) {
+    const View soft = card_of(12);
+    View fur = soft;
+    const Windows &w = fur.image.windows;
+    for (int y = 0; y < 100; ++y)
+        for (int x = 0; x < 46; ++x) // the sides of edges, from 46 on, are even
+            for (std::size_t k = 0; k < 3; ++k)
+                if ((x + y / 8) % 4 == 0) fur.image.at(k, w.data.min.x + x, w.data.min.y + y) *= 0.5f;
+    EXPECT_TRUE(looks_defocused(sharpness_of_edges(soft, lens)));
+    const EdgeSharpness sharpness = sharpness_of_edges(fur, lens);
+    EXPECT_NEAR(sharpness.steepest, 3.0 / 12, 0.01);
+    EXPECT_GT(sharpness.fine, 0.2);
+    EXPECT_FALSE(looks_defocused(sharpness));
 }
 
 TEST(BlurCheck, EdgesInFocusMayBeAnything) {
@@ -167,8 +209,12 @@ TEST(ViewWarnings, EachSaysWhatToDo) {
     const auto said = view_warnings(
         views, {.camera = camera_with({.radius = 0.4, .focal_px = 100, .focus = lens.focus}, views[0])});
     ASSERT_FALSE(said.empty());
-    EXPECT_EQ(said[0].find("view and 1 more: stands 400 from the centre, 1e+03 times the radius"), 0u)
+    EXPECT_EQ(said[0].find(
+                  "view and 1 more: stands 400 from the centre, 1000 times the radius of the lens, 0.4: in "
+                  "millimetres?"),
+              0u)
         << said[0];
+    EXPECT_EQ(said.size(), 3u) << "and that they are the same picture";
 }
 
 } // namespace

@@ -36,6 +36,21 @@ View card_before_wall(const Imath::V2d &position) {
     });
 }
 
+// The same card, of a pattern before a white wall, is a mirror, behind which a pattern is seen three times as far away.
+View mirror_before_wall(const Imath::V2d &position) {
+    View view = card_before_wall(position);
+    const Windows &w = view.image.windows;
+    const std::size_t red = find_channel(view.image.channels, "R");
+    for (int y = w.data.min.y; y <= w.data.max.y; ++y)
+        for (int x = w.data.min.x; x <= w.data.max.x; ++x) {
+            const double z = 6;
+            const Imath::V2d seen((x + 0.5 - 80) / focal_px * z + position.x,
+                                  -(y + 0.5 - 60) / focal_px * z + position.y);
+            view.image.at(red, x, y) = view.z[w.index(x, y)] < 5 ? pattern(seen.x, seen.y, z) : 1;
+        }
+    return view;
+}
+
 View said_to_stand_at(View view, const Imath::V2d &position) {
     view.position = position;
     return view;
@@ -80,6 +95,30 @@ TEST(PoseCheck, ARimViewAtTheCentreIsFoundAndTheReverse) {
     ASSERT_TRUE(better);
     EXPECT_EQ(*better, Imath::V2d(0, 0));
     EXPECT_FALSE(better_position(centre, centre, focal_px, 0.1));
+}
+
+TEST(PoseCheck, MirrorsDoNotMislead) {
+    const View centre = mirror_before_wall({0, 0}), view = mirror_before_wall({0.15, 0.05});
+    EXPECT_FALSE(better_position(centre, view, focal_px));
+    EXPECT_FALSE(turned_by(centre, view, focal_px));
+    for (const double factor : {0.4, 2.5}) { // colours would have it at a third
+        const auto better =
+            better_position(centre, said_to_stand_at(view, Imath::V2d(0.15, 0.05) * factor), focal_px);
+        ASSERT_TRUE(better) << factor;
+        EXPECT_LT((*better - Imath::V2d(0.15, 0.05)).length(), 0.04) << factor; // two pixels
+    }
+}
+
+// A window that fills the picture: all is farther than its panes, and moves less.
+TEST(PoseCheck, WithoutEdgesOfDepthNeitherDistancesNorTurnsAreTold) {
+    const auto window = [](const Imath::V2d &position) {
+        View view = card_before_wall(position * 0.5);
+        std::ranges::fill(view.z, 2.0f);
+        return said_to_stand_at(view, position);
+    };
+    const View centre = window({0, 0}), view = window({0.2, 0});
+    EXPECT_FALSE(better_position(centre, view, focal_px));
+    EXPECT_FALSE(turned_by(centre, view, focal_px));
 }
 
 View grey() {
