@@ -132,7 +132,7 @@ Warnings view_warnings(const std::vector<PackedView> &views, const ViewFacts &fa
                  poses[i].empty() && !std::ranges::binary_search(beyond, i))
             poses[i] = said_of_pose(views, i, focal_px, reach > 0 ? reach : radius);
     });
-    say_of_first(views, radius, said);
+    if (beyond.empty()) say_of_first(views, radius, said);
     say_of_distances(views, beyond, radius, said);
     std::ranges::copy_if(poses, std::back_inserter(said), [](const std::string &s) { return !s.empty(); });
     return said;
