@@ -89,6 +89,12 @@ struct WarpTuning {
     static constexpr double image_behind_camera_px = 6;
     // Depths that are tried: where the surface is nearer than any that matters, the steps are larger.
     static constexpr std::size_t image_most_steps = 320;
+    // With more to try, a picture of half the size is searched first, ...
+    static constexpr std::size_t image_many_depths = 64;
+    // ... and then so many steps on either side of what it says, ...
+    static constexpr std::size_t image_guess_steps = 4;
+    // ... or says so many of its pixels away.
+    static constexpr int image_guess_reach = 2;
     // Steps at once, first: a valley is wider.
     static constexpr std::size_t image_coarse_steps = 2;
     // Perceptive, from the surface: less is not worth it.

@@ -51,9 +51,9 @@ plan/noise.cpp block_size spread least_of_four
 warp/images/matched_view.h cutout
 warp/images/neighbours.h image_block reach
 warp/images/patch_comparison.cpp alike
-warp/images/patch_comparison.h reach row
+warp/images/patch_rows.h patch_reach patch_row
 warp/images/image_sweep.cpp rounding rows
-warp/images/image_depths.cpp rows_at_once
+warp/images/image_search.h rows_at_once
 warp/images/show_images.cpp rows_at_once
 warp/lamps/lamp_light.cpp farthest_move
 warp/reproject.cpp far_off

@@ -77,9 +77,55 @@ TEST(MatchedView, WhatIsForgottenIsMadeAgain) {
     EXPECT_EQ(view.bytes(), 0u);
     const MatchedView::Pixel before = view.at(at.x, at.y);
     EXPECT_GT(view.bytes(), 0u);
-    view.forget();
+    view.forget_unused(); // which was used since it was made
+    EXPECT_GT(view.bytes(), 0u);
+    view.forget_unused();
     EXPECT_EQ(view.bytes(), 0u);
     for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(view.at(at.x, at.y)[k], before[k]);
+}
+
+// Slowly: the mean of those of 2 x 2 pixels that the view has, repeated beyond its border, by 1, 2, 1 along both axes.
+TEST(MatchedView, OfHalfTheSizeHasMeansOfFourPixels) {
+    const View picture = some_view();
+    const ViewSamples samples(picture, picture.image.channels);
+    const ViewMapping mapping({0.5, 0.25}, 100, samples.windows, {}, {});
+    const MatchedView view({&samples, &mapping}, scale), half = view.half();
+    const Imath::Box2i &data = samples.windows.data;
+    const auto sharp = [&](std::size_t k, int x, int y) {
+        const std::size_t i = samples.windows.index(std::clamp(x, data.min.x, data.max.x),
+                                                    std::clamp(y, data.min.y, data.max.y));
+        const float value = samples.pixel(i).empty() ? 0 : samples.value(k, i);
+        return value / (1 + std::abs(value));
+    };
+    int known = 0;
+    for (int y = 2; y <= 96; ++y)
+        for (int x = -3; x <= 120; ++x) {
+            ASSERT_EQ(half.contains(x, y), y > 0);
+            for (std::size_t k = 0; k < 3; ++k) {
+                float sum = 0;
+                for (int v = -2; v < 4; ++v)
+                    for (int u = -2; u < 4; ++u)
+                        sum += float((v < 0 || v > 1 ? 1 : 2) * (u < 0 || u > 1 ? 1 : 2)) / 64 *
+                               sharp(k, 2 * x + u, 2 * y + v);
+                ASSERT_NEAR(half.at(x, y)[k], sum, 1e-6) << x << ' ' << y;
+            }
+            float least = 1e9f, most = 0;
+            for (int n = 0; n < 4; ++n) {
+                const int u = std::clamp(2 * x + n % 2, data.min.x, data.max.x),
+                          v = std::clamp(2 * y + n / 2, data.min.y, data.max.y);
+                const float depth = view.depth(u, v);
+                least = std::isnan(depth) ? -1e9f : std::min(least, depth), most = std::max(most, depth);
+            }
+            const bool one = most - least < 2 * one_mirror_px;
+            ASSERT_EQ(std::isnan(half.depth(x, y)), !one) << x << ' ' << y;
+            ASSERT_TRUE(!one || std::abs(half.depth(x, y) - most / 2) < 0.5f);
+            known += one;
+        }
+    EXPECT_GT(known, 500);
+    const Imath::V2d from(30.2, 20.7), at = half.in_view(from, 3), same = view.in_view(2.0 * from, 6) / 2.0;
+    EXPECT_NEAR(at.x, same.x, 1e-12);
+    EXPECT_NEAR(at.y, same.y, 1e-12);
+    EXPECT_NE(at, from);
 }
 
 // Also where tiles meet.

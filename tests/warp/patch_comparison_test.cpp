@@ -70,7 +70,7 @@ TEST(PatchComparison, BlocksAreAsPixelByPixel) {
                                       Imath::Box2i({-8, -8}, {-1, -1}), Imath::Box2i({200, 8}, {207, 15})})
         for (const double depth : {-3.0, 0.0, 7.3, 8.0, 40.0}) {
             const Grid pixels(block);
-            PatchComparison comparison(pair.centre, scale, block, surface);
+            PatchComparison comparison(pair.centre, block, surface);
             std::vector<float> found(pixels.size()), each(pixels.size());
             comparison.at_depth(pair.view, depth, found);
             PatchComparison::Field depths;

@@ -2,13 +2,15 @@
 
 #include "base/grid.h"
 #include "base/median.h"
-#include "base/parallel.h"
+#include "warp/images/image_search.h"
+#include "warp/images/neighbours.h"
 #include "warp/images/robust_mean.h"
 #include "warp/tuning.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace sparselens {
 
@@ -16,24 +18,13 @@ namespace {
 
 constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
 constexpr int near_by = WarpTuning::image_plane_reach, farther = WarpTuning::image_continued_reach;
-constexpr std::size_t rows_at_once = 8; // of blocks
 
-// visit(column, row) for the tiles around one.
-template <typename Visit>
-void for_each_beside(const Tiles &tiles, std::size_t tile, const Visit &visit) {
-    const int column = int(tile) % tiles.columns(), row = int(tile) / tiles.columns();
-    for (int r = std::max(row - 1, 0); r <= std::min(row + 1, tiles.rows() - 1); ++r)
-        for (int c = std::max(column - 1, 0); c <= std::min(column + 1, tiles.columns() - 1); ++c)
-            if (c != column || r != row) visit(std::size_t(r * tiles.columns() + c));
-}
-
-// Of the blocks that are searched alone: most pictures show few mirrors.
 class ImageDepths {
 public:
-    ImageDepths(const ImageSweep &sweep, const Imath::Box2i &data)
-        : sweep_(sweep), box_(data), tiles_(data, image_block), blocks_(tiles_.count(), not_searched) {}
+    explicit ImageDepths(ImageSearch &search)
+        : search_(search), sweep_(search.sweep()), matches_(search.matches),
+          depths_(matches_.size(), unknown), tried_(depths_) {}
 
-    void search(std::vector<std::size_t> next);
     void agree_with_neighbours();
     void refine();
     void go_on();
@@ -41,84 +32,26 @@ public:
     std::vector<float> all() const;
 
 private:
-    static constexpr std::uint32_t not_searched = ~0u;
-    static constexpr std::size_t block_pixels = std::size_t(image_block) * image_block;
-
-    // npos: not searched.
-    std::size_t index_of(const Imath::V2i &pixel) const {
-        const auto x = unsigned(pixel.x - box_.min.x), y = unsigned(pixel.y - box_.min.y);
-        constexpr auto side = unsigned(image_block);
-        const std::uint32_t block = blocks_[std::size_t(y / side) * std::size_t(tiles_.columns()) + x / side];
-        return block == not_searched ? npos : block * block_pixels + (y % side) * side + x % side;
-    }
-    void add_block(std::size_t tile) { blocks_[tile] = count_++; }
-    bool search_tile(std::size_t tile);
-    // visit(tile) for those that were searched.
-    template <typename Visit>
-    void for_each_searched(const Visit &visit) const;
     // What is known of the pixels of a tile and around; depth_at(index) says it of images.
     template <typename DepthAt>
     Neighbours neighbours(const Imath::Box2i &tile, const DepthAt &depth_at) const;
     float continued(const Neighbours &neighbours, const Imath::V2i &place, const Imath::V2i &pixel,
                     const ImageMatch &match, std::vector<float> &around, float &tried) const;
 
+    const ImageSearch &search_;
     const ImageSweep &sweep_;
-    Imath::Box2i box_;
-    Tiles tiles_;
-    std::vector<std::uint32_t> blocks_; // by tile: which block of the arrays it is
-    std::uint32_t count_ = 0;           // of blocks
-    std::vector<ImageMatch> matches_;   // by pixel, block by block
+    std::vector<ImageMatch> &matches_; // by pixel, as the search numbers them
     std::vector<float> depths_;
     std::vector<float> tried_; // the last depth at which the views did not agree
 };
 
-template <typename Visit>
-void ImageDepths::for_each_searched(const Visit &visit) const {
-    sweep_.go_through(tiles_.count(), rows_at_once * std::size_t(tiles_.columns()), [&](std::size_t tile) {
-        if (blocks_[tile] != not_searched) visit(tiles_.box(tile));
-    });
-}
-
 template <typename DepthAt>
 Neighbours ImageDepths::neighbours(const Imath::Box2i &tile, const DepthAt &depth_at) const {
     return Neighbours([&](const Imath::V2i &place) -> Neighbours::Pixel {
-        const Imath::V2i pixel = tile.min + place;
-        const std::size_t index = box_.intersects(pixel) ? index_of(pixel) : npos;
+        const std::size_t index = search_.index_of(tile.min + place);
         if (index == npos || !matches_[index].surface) return {unknown, unknown};
         return {matches_[index].own_depth, depth_at(index)};
     });
-}
-
-// Whether much was found.
-bool ImageDepths::search_tile(std::size_t tile) {
-    const Imath::Box2i block = tiles_.box(tile);
-    const std::vector<ImageMatch> found = sweep_.search(block);
-    const Grid pixels(block);
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < found.size(); ++i) {
-        matches_[index_of(pixels.pixel(i))] = found[i];
-        count += found[i].found;
-    }
-    return double(count) >= WarpTuning::image_enough_found * double(found.size());
-}
-
-void ImageDepths::search(std::vector<std::size_t> next) {
-    for (const std::size_t tile : next) add_block(tile);
-    while (!next.empty()) {
-        matches_.resize(count_ * block_pixels);
-        std::vector<std::uint8_t> much(next.size());
-        sweep_.go_through(next.size(), std::size_t(tiles_.columns()),
-                          [&](std::size_t n) { much[n] = search_tile(next[n]); });
-        std::vector<std::size_t> beside;
-        for (std::size_t n = 0; n < next.size(); ++n)
-            if (much[n])
-                for_each_beside(tiles_, next[n], [&](std::size_t other) {
-                    if (blocks_[other] == not_searched) beside.push_back(other), add_block(other);
-                });
-        next = std::move(beside);
-    }
-    depths_.assign(matches_.size(), unknown);
-    tried_ = depths_;
 }
 
 // On the plane that fits the depths around which are as near to that one as those of one image are; unknown if those are too few.
@@ -144,14 +77,14 @@ float depth_by_neighbours(const Neighbours &neighbours, const Imath::V2i &place,
 }
 
 void ImageDepths::agree_with_neighbours() {
-    for_each_searched([&](const Imath::Box2i &tile) {
+    search_.for_each_searched([&](const Imath::Box2i &tile) {
         const Neighbours around_tile = neighbours(
             tile, [&](std::size_t index) { return matches_[index].found ? matches_[index].depth : unknown; });
         std::vector<float> around;
         const Grid pixels(tile);
         for (std::size_t n = 0; n < pixels.size(); ++n) {
             const Imath::V2i pixel = pixels.pixel(n);
-            const std::size_t index = index_of(pixel);
+            const std::size_t index = search_.index_of(pixel);
             if (matches_[index].found)
                 depths_[index] = depth_by_neighbours(around_tile, pixel - tile.min, around);
         }
@@ -161,14 +94,14 @@ void ImageDepths::agree_with_neighbours() {
 // A patch need not lie at one depth.
 void ImageDepths::refine() {
     const auto depth_at = [&](const Imath::V2i &p) {
-        const std::size_t index = box_.intersects(p) ? index_of(p) : npos;
+        const std::size_t index = search_.index_of(p);
         return index == npos ? unknown : depths_[index];
     };
     std::vector<float> next(depths_.size(), unknown);
-    for_each_searched([&](const Imath::Box2i &block) {
+    search_.for_each_searched([&](const Imath::Box2i &block) {
         const std::vector<float> refined = sweep_.refined(block, depth_at);
         const Grid pixels(block);
-        for (std::size_t n = 0; n < pixels.size(); ++n) next[index_of(pixels.pixel(n))] = refined[n];
+        for (std::size_t n = 0; n < pixels.size(); ++n) next[search_.index_of(pixels.pixel(n))] = refined[n];
     });
     for (std::size_t i = 0; i < matches_.size(); ++i) {
         matches_[i].found = !std::isnan(next[i]);
@@ -196,13 +129,13 @@ float ImageDepths::continued(const Neighbours &neighbours, const Imath::V2i &pla
 
 void ImageDepths::go_on() {
     std::vector<float> next = depths_;
-    for_each_searched([&](const Imath::Box2i &tile) {
+    search_.for_each_searched([&](const Imath::Box2i &tile) {
         const Neighbours around_tile = neighbours(tile, [&](std::size_t index) { return depths_[index]; });
         std::vector<float> around;
         const Grid pixels(tile);
         for (std::size_t n = 0; n < pixels.size(); ++n) {
             const Imath::V2i pixel = pixels.pixel(n);
-            const std::size_t index = index_of(pixel);
+            const std::size_t index = search_.index_of(pixel);
             if (matches_[index].surface && std::isnan(depths_[index]))
                 next[index] =
                     continued(around_tile, pixel - tile.min, pixel, matches_[index], around, tried_[index]);
@@ -212,13 +145,13 @@ void ImageDepths::go_on() {
 }
 
 std::vector<float> ImageDepths::all() const {
-    const Grid grid(box_);
+    const Grid grid(search_.box());
     std::vector<float> depths(grid.size(), unknown);
-    for_each_searched([&](const Imath::Box2i &tile) {
+    search_.for_each_searched([&](const Imath::Box2i &tile) {
         const Grid pixels(tile);
         for (std::size_t n = 0; n < pixels.size(); ++n) {
             const Imath::V2i pixel = pixels.pixel(n);
-            depths[grid.index(pixel.x, pixel.y)] = depths_[index_of(pixel)];
+            depths[grid.index(pixel.x, pixel.y)] = depths_[search_.index_of(pixel)];
         }
     });
     return depths;
@@ -242,8 +175,8 @@ std::vector<std::size_t> blocks_to_search(const Imath::Box2i &data, std::span<co
 
 std::vector<float> find_image_depths(const ImageSweep &sweep, const Imath::Box2i &data,
                                      const std::vector<std::size_t> &blocks) {
-    ImageDepths depths(sweep, data);
-    depths.search(blocks);
+    ImageSearch search(sweep, data, blocks);
+    ImageDepths depths(search);
     depths.agree_with_neighbours();
     depths.refine();
     depths.agree_with_neighbours();

@@ -1,8 +1,8 @@
 #include "warp/images/image_sweep.h"
 
 #include "base/median.h"
+#include "warp/images/mean_curves.h"
 #include "warp/images/patch_comparison.h"
-#include "warp/images/robust_mean.h"
 #include "warp/tuning.h"
 
 #include <algorithm>
@@ -28,19 +28,6 @@ float surface_of(const MatchedView &centre, const Imath::Box2i &block) {
     return median(depths);
 }
 
-// By step and pixel of a block.
-class Curves {
-public:
-    Curves(std::size_t steps, std::size_t pixels) : pixels_(pixels), values_(steps * pixels, unknown) {}
-    float &at(std::size_t k, std::size_t pixel) { return values_[k * pixels_ + pixel]; }
-    float at(std::size_t k, std::size_t pixel) const { return values_[k * pixels_ + pixel]; }
-    std::span<float> step_of(std::size_t k) { return std::span(values_).subspan(k * pixels_, pixels_); }
-
-private:
-    std::size_t pixels_;
-    std::vector<float> values_;
-};
-
 // The depths that are tried, in equal steps.
 struct Depths {
     double first, by;
@@ -52,6 +39,9 @@ struct Depths {
         count = std::size_t((last - first) / by) + 1;
     }
     double at(double k) const { return first + by * k; }
+    std::size_t nearest(double depth) const {
+        return std::min(std::size_t(std::max((depth - first) / by + 0.5, 0.0)), count - 1);
+    }
 };
 
 // The place of the least of three values in equal steps, on the parabola through them, from the middle one: [-1/2, 1/2].
@@ -59,29 +49,6 @@ double least_of_parabola(double before, double middle, double after) {
     const double bend = before - 2 * middle + after;
     return bend > 0 ? std::clamp(0.5 * (before - after) / bend, -0.5, 0.5) : 0;
 }
-
-// The difference of each pixel of a block at steps of depth, the robust mean over the rim views; unknown at first.
-class MeanCurves : public Curves {
-public:
-    MeanCurves(std::span<const MatchedView> views, std::size_t steps, std::size_t pixels)
-        : Curves(steps, pixels), rims_(views.subspan(1)), means_(rims_.size(), pixels), differences_(pixels) {
-    }
-
-    // compare(view, out) compares the block with one view at step k.
-    template <class Compare>
-    void find(std::size_t k, const Compare &compare) {
-        for (const MatchedView &view : rims_) {
-            compare(view, std::span(differences_));
-            means_.add(differences_);
-        }
-        means_.take(step_of(k));
-    }
-
-private:
-    std::span<const MatchedView> rims_;
-    RobustMeans means_;
-    std::vector<float> differences_;
-};
 
 // The least one of every `every` steps; npos where none is known.
 std::size_t least_of(const Curves &curve, std::size_t count, std::size_t pixel, std::size_t every) {
@@ -119,26 +86,39 @@ void mark_beside(std::size_t best, std::vector<bool> &marks) {
     }
 }
 
+// The steps that tell whether a guess is right.
+void mark_around(std::size_t guess, std::vector<bool> &marks) {
+    constexpr std::size_t reach = WarpTuning::image_guess_steps;
+    for (std::size_t k = guess - std::min(guess, reach); k <= std::min(guess + reach, marks.size() - 1); ++k)
+        marks[k] = true;
+}
+
 } // namespace
 
 void ImageSweep::make_room() const {
-    constexpr std::size_t rows = 3; // of tiles: so far apart may a view show what is looked for at one place
+    constexpr std::size_t rows = 2; // of tiles: so far apart may a view show what is looked for at one place
     std::size_t held = 0, much = 0;
     for (const MatchedView &view : views_) {
         held += view.bytes();
         much += rows * view.bytes_of_row();
     }
     if (held > much)
-        for (MatchedView &view : views_) view.forget();
+        for (MatchedView &view : views_) view.forget_unused();
 }
 
-std::vector<ImageMatch> ImageSweep::search(const Imath::Box2i &block) const {
+bool ImageSweep::has_many_depths(const Imath::Box2i &block) const {
+    const float surface = surface_of(views_[0], block);
+    return !std::isnan(surface) && Depths(surface).count > WarpTuning::image_many_depths;
+}
+
+std::vector<ImageMatch> ImageSweep::search(const Imath::Box2i &block,
+                                           const std::optional<std::vector<float>> &guesses) const {
     const MatchedView &centre = views_[0];
     const Grid grid(block);
     std::vector<ImageMatch> matches(grid.size());
     const float surface = surface_of(centre, block);
     if (std::isnan(surface)) return matches;
-    PatchComparison comparison(centre, scale_, block, surface);
+    PatchComparison comparison(centre, block, surface);
     MeanCurves at_surface(views_, 1, grid.size());
     at_surface.find(0, [&](const MatchedView &view, std::span<float> out) {
         comparison.at_depths(view, comparison.own_depths(), 0, out);
@@ -163,15 +143,21 @@ std::vector<ImageMatch> ImageSweep::search(const Imath::Box2i &block) const {
             comparison.at_depth(view, depths.at(double(k)), out);
         });
     };
-    for (std::size_t k = 0; k < depths.count; k += coarse) find(k);
-    std::vector<bool> between(depths.count);
-    for (std::size_t i = 0; i < grid.size(); ++i) {
-        if (!worth_it(matches[i])) continue;
-        const std::size_t best = least_of(curves, depths.count, i, coarse);
-        if (best != npos) mark_beside(best, between);
+    std::vector<bool> tried(depths.count);
+    if (guesses && depths.count > WarpTuning::image_many_depths) {
+        for (const float guess : *guesses) mark_around(depths.nearest(double(guess)), tried);
+        for (std::size_t k = 0; k < depths.count; ++k)
+            if (tried[k]) find(k);
+    } else {
+        for (std::size_t k = 0; k < depths.count; k += coarse) find(k);
+        for (std::size_t i = 0; i < grid.size(); ++i) {
+            if (!worth_it(matches[i])) continue;
+            const std::size_t best = least_of(curves, depths.count, i, coarse);
+            if (best != npos) mark_beside(best, tried);
+        }
+        for (std::size_t k = 0; k < depths.count; ++k)
+            if (tried[k] && k % coarse != 0) find(k);
     }
-    for (std::size_t k = 0; k < depths.count; ++k)
-        if (between[k]) find(k);
     for (std::size_t i = 0; i < grid.size(); ++i) {
         ImageMatch &match = matches[i];
         if (!worth_it(match)) continue;
@@ -195,7 +181,7 @@ std::vector<float> ImageSweep::refined(const Imath::Box2i &block,
     const bool known = std::ranges::any_of(refined, [](float depth) { return !std::isnan(depth); });
     const float surface = known ? surface_of(centre, block) : unknown;
     if (std::isnan(surface)) return std::vector<float>(grid.size(), unknown);
-    PatchComparison comparison(centre, scale_, block, surface);
+    PatchComparison comparison(centre, block, surface);
     PatchComparison::Field depths;
     for (int y = 0; y < comparison.height(); ++y)
         for (int x = 0; x < comparison.width(); ++x)
@@ -225,7 +211,7 @@ std::vector<float> ImageSweep::differences(const Imath::V2i &pixel, double depth
     const float surface = surface_of(views_[0], block);
     std::vector<float> differences(views_.size() - 1, unknown);
     if (std::isnan(surface)) return differences;
-    PatchComparison comparison(views_[0], scale_, block, surface);
+    PatchComparison comparison(views_[0], block, surface);
     for (std::size_t v = 1; v < views_.size(); ++v)
         comparison.at_depth(views_[v], depth, std::span(differences).subspan(v - 1, 1));
     return differences;

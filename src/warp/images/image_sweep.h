@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -27,8 +28,10 @@ struct ImageMatch {
 class ImageSweep {
 public:
     // The first view is the centre. `unit`: motion_unit() (kernels/photo_rules.h).
-    ImageSweep(std::span<MatchedView> views, double scale, double unit)
-        : views_(views), scale_(scale), unit_(unit) {}
+    ImageSweep(std::span<MatchedView> views, double unit) : views_(views), unit_(unit) {}
+
+    std::span<const MatchedView> views() const { return views_; }
+    double unit() const { return unit_; }
 
     // work(i) for i in [0, count), in parallel, some after the others: between these the views forget what was made of them if
     // it is much. So what follows in the picture should follow in count.
@@ -40,8 +43,13 @@ public:
         }
     }
 
-    // Of the pixels of a block of the centre view, at most 8 x 8, row by row.
-    std::vector<ImageMatch> search(const Imath::Box2i &block) const;
+    // Whether a block of the centre view has more depths to try than are tried one by one.
+    bool has_many_depths(const Imath::Box2i &block) const;
+
+    // Of the pixels of a block, at most 8 x 8, row by row. Where it has many depths, those near one of the guesses are tried, if
+    // these are given.
+    std::vector<ImageMatch> search(const Imath::Box2i &block,
+                                   const std::optional<std::vector<float>> &guesses = {}) const;
 
     // By the pixels of a block, depths near those that depth_at(pixel) says for it and those around, which need not be the
     // same all over a patch; NaN where that is NaN.
@@ -56,7 +64,7 @@ private:
     void make_room() const;
 
     std::span<MatchedView> views_;
-    double scale_, unit_;
+    double unit_;
 };
 
 } // namespace sparselens

@@ -1,11 +1,13 @@
 #include "warp/images/matched_view.h"
 
+#include "base/subpixels.h"
 #include "kernels/photo_rules.h"
 #include "lens/perceptive_depth.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace sparselens {
 
@@ -51,56 +53,102 @@ struct Square {
 
 } // namespace
 
-MatchedView::MatchedView(const PlacedView &view, double scale)
-    : view_(view), scale_(scale), rgb_(find_rgb(view.samples->channels)), grid_(view.samples->windows.grid()),
-      corner_(grid_.box().min) {
+MatchedView::MatchedView(const PlacedView &view, double scale, int across)
+    : view_(view), across_(across), scale_(scale / across), rgb_(find_rgb(view.samples->channels)),
+      grid_(reduced(view.samples->windows.data, across)), corner_(grid_.box().min) {
     columns_ = std::size_t(pieces_of(grid_.width() + cutout, tile_side));
     count_ = columns_ * std::size_t(pieces_of(grid_.height() + cutout, tile_side));
-    forget();
+    tiles_ = std::make_unique<Tile[]>(count_);
 }
 
-void MatchedView::forget() { tiles_ = std::make_unique<Tile[]>(count_); }
+void MatchedView::forget_unused() {
+    for (Tile &tile : std::span(tiles_.get(), count_))
+        if (!tile.is_used.exchange(false) && !tile.planes.empty())
+            spare_->planes.push_back(std::exchange(tile.planes, {}));
+}
 
 std::size_t MatchedView::bytes() const {
     const std::span<const Tile> tiles(tiles_.get(), count_);
-    const auto made = std::ranges::count_if(tiles, [](const Tile &tile) { return tile.is_made.load(); });
+    const auto made = std::ranges::count_if(tiles, [](const Tile &tile) { return !tile.planes.empty(); });
     return std::size_t(made) * tile_bytes;
 }
 
-float MatchedView::depth(int x, int y) const {
-    if (!contains(x, y)) return unknown;
+float MatchedView::depth_in_view(int x, int y) const {
     const ViewSamples &view = *view_.samples;
-    const SampleRange samples = view.pixel(grid_.index(x, y));
+    const SampleRange samples = view.pixel(view.windows.index(x, y));
     return samples.size() == 1 ? float(perceptive_depth(scale_, double(view.z(samples.front())))) : unknown;
 }
 
-// What lies outside has the colours of the border, and no depth.
+// Of several pixels of the view, the mean, if they show one surface.
+float MatchedView::depth(int x, int y) const {
+    if (!contains(x, y)) return unknown;
+    if (across_ == 1) return depth_in_view(x, y);
+    float sum = 0, count = 0, first = unknown;
+    const Imath::Box2i frame = view_.samples->windows.data, box = subpixels_in({{x, y}, {x, y}}, across_);
+    for (int v = std::max(box.min.y, frame.min.y); v <= std::min(box.max.y, frame.max.y); ++v)
+        for (int u = std::max(box.min.x, frame.min.x); u <= std::min(box.max.x, frame.max.x); ++u) {
+            const float own = depth_in_view(u, v);
+            if (count == 0) first = own;
+            if (!kernels::is_one_surface(own, first, one_mirror_px)) return unknown;
+            sum += own, count += 1;
+        }
+    return sum / count;
+}
+
+// What lies outside has the colours of the border.
+void MatchedView::add_colours(const Imath::V2i &first, std::span<float> red, std::span<float> green,
+                              std::span<float> blue) const {
+    const ViewSamples &view = *view_.samples;
+    const Imath::Box2i frame = view.windows.data;
+    const std::span<float> out[] = {red, green, blue};
+    const int y = std::clamp(first.y, frame.min.y, frame.max.y), count = int(red.size()) * across_;
+    std::vector<float> values(std::size_t(count), 0.0f);
+    for (std::size_t k = 0; k < 3; ++k) {
+        if (rgb_[k] == npos) continue;
+        for (int x = 0; x < count; ++x) {
+            const int column = std::clamp(first.x + x, frame.min.x, frame.max.x);
+            const SampleRange samples = view.pixel(view.windows.index(column, y));
+            values[std::size_t(x)] = samples.empty() ? 0 : view.value(rgb_[k], samples.front());
+        }
+        for (float &value : values) value = kernels::bounded(value);
+        for (int x = 0; x < count; ++x) out[k][std::size_t(x / across_)] += values[std::size_t(x)];
+    }
+}
+
+void MatchedView::use(std::size_t number) const {
+    Tile &tile = tiles_[number];
+    const std::scoped_lock lock(tile.making);
+    if (tile.planes.empty()) make(number);
+    tile.is_used.store(true, std::memory_order_release);
+}
+
 void MatchedView::make(std::size_t tile) const {
-    std::call_once(tiles_[tile].making, [&] {
-        constexpr Square square{row};
-        const Imath::V2i at(int(tile % columns_), int(tile / columns_));
-        const Imath::V2i first = corner_ + at * tile_side - Imath::V2i(cutout);
-        const Imath::Box2i frame = grid_.box();
-        const ViewSamples &view = *view_.samples;
-        constexpr auto size = std::size_t((row + 2) * (row + 2)), out_size = std::size_t(plane);
-        std::vector<float> sharp(4 * size);
-        for (int y = -1; y <= row; ++y)
-            for (int x = -1; x <= row; ++x) {
-                const Imath::V2i p = first + Imath::V2i(x, y);
-                const SampleRange samples = view.pixel(grid_.index(
-                    std::clamp(p.x, frame.min.x, frame.max.x), std::clamp(p.y, frame.min.y, frame.max.y)));
-                const std::size_t i = square.around(x, y);
-                for (std::size_t k = 0; k < 3 && !samples.empty(); ++k)
-                    if (rgb_[k] != npos)
-                        sharp[k * size + i] = kernels::bounded(view.value(rgb_[k], samples.front()));
-                sharp[3 * size + i] = depth(p.x, p.y);
-            }
-        std::vector<float> &planes = tiles_[tile].planes;
-        planes.resize(4 * out_size);
-        for (std::size_t k = 0; k < 3; ++k) square.smooth(&sharp[k * size], &planes[k * out_size]);
-        square.keep_one_surface(&sharp[3 * size], &planes[3 * out_size]);
-        tiles_[tile].is_made.store(true, std::memory_order_release);
-    });
+    constexpr Square square{row};
+    constexpr auto wide = std::size_t(row + 2), size = wide * wide, out_size = std::size_t(plane);
+    const Imath::V2i at(int(tile % columns_), int(tile / columns_));
+    const Imath::V2i first = corner_ + at * tile_side - Imath::V2i(cutout + 1);
+    std::vector<float> sharp(4 * size);
+    const auto line = [&](std::size_t k, int y) {
+        return std::span(sharp).subspan(k * size + std::size_t(y) * wide, wide);
+    };
+    for (int y = 0; y < row + 2; ++y) {
+        for (int v = 0; v < across_; ++v)
+            add_colours(first * across_ + Imath::V2i(0, y * across_ + v), line(0, y), line(1, y), line(2, y));
+        for (int x = 0; x < row + 2; ++x) line(3, y)[std::size_t(x)] = depth(first.x + x, first.y + y);
+    }
+    if (across_ > 1)
+        for (float &colour : std::span(sharp).first(3 * size)) colour /= float(across_ * across_);
+    std::vector<float> &planes = tiles_[tile].planes;
+    {
+        const std::scoped_lock lock(spare_->taking);
+        if (!spare_->planes.empty()) {
+            planes = std::move(spare_->planes.back());
+            spare_->planes.pop_back();
+        }
+    }
+    planes.resize(4 * out_size);
+    for (std::size_t k = 0; k < 3; ++k) square.smooth(&sharp[k * size], &planes[k * out_size]);
+    square.keep_one_surface(&sharp[3 * size], &planes[3 * out_size]);
 }
 
 MatchedView::Pixel MatchedView::at(int x, int y) const {

@@ -11,6 +11,7 @@
 #include <atomic>
 #include <memory>
 #include <mutex>
+#include <span>
 #include <vector>
 
 namespace sparselens {
@@ -28,8 +29,12 @@ public:
     // is NaN where the pixel or one beside it shows several surfaces, none or another one: the colours are mixed there.
     using Pixel = std::array<float, 4>;
 
-    // `scale` is R F. The view must outlive this.
-    MatchedView(const PlacedView &view, double scale);
+    // `scale` is R F in pixels of the view, of which `across`, across and down, are one here: all that is said of pixels, of
+    // their depths too, is said of those. The view must outlive this.
+    MatchedView(const PlacedView &view, double scale, int across = 1);
+
+    // The same view where twice as many, across and down, are one.
+    MatchedView half() const { return {view_, scale_ * across_, 2 * across_}; }
 
     bool contains(int x, int y) const { return grid_.contains(x, y); }
     Pixel at(int x, int y) const;
@@ -46,14 +51,19 @@ public:
     };
     Cutout cut(const Imath::V2d &place) const;
 
-    // What was made of it so far; it is made again where it is looked at again. Nobody may look meanwhile.
+    // What was made of it and is held.
     std::size_t bytes() const;
     std::size_t bytes_of_row() const { return columns_ * tile_bytes; } // of tiles
-    void forget();
+    // Tiles at which nobody has looked since this was last called: they are made again where somebody does. Nobody may meanwhile.
+    void forget_unused();
 
     // Of the surface, if the pixel shows just one; else NaN.
     float depth(int x, int y) const;
 
+    // Where it shows what the centre view shows at that place; NaN where that lies behind its camera.
+    Imath::V2d in_view(const Imath::V2d &place, double depth) const {
+        return view_.mapping->in_view(place * double(across_), depth / scale_) * (1.0 / across_);
+    }
     const ViewMapping &mapping() const { return *view_.mapping; }
     const ViewSamples &samples() const { return *view_.samples; }
 
@@ -63,9 +73,9 @@ private:
     static constexpr std::size_t tile_bytes = 4 * std::size_t(plane) * sizeof(float);
 
     struct Tile {
-        std::atomic<bool> is_made = false;
-        std::once_flag making;
-        std::vector<float> planes;
+        std::atomic<bool> is_used = false; // lately; then it is made
+        std::mutex making;
+        std::vector<float> planes; // empty: not made
     };
 
     // The pixel of that column and line, counted from the window's corner; both may be as low as -cutout.
@@ -73,18 +83,29 @@ private:
         const auto x = unsigned(column + cutout), y = unsigned(line + cutout);
         constexpr auto side = unsigned(tile_side);
         const std::size_t tile = std::size_t(y / side) * columns_ + x / side;
-        if (!tiles_[tile].is_made.load(std::memory_order_acquire)) make(tile);
+        if (!tiles_[tile].is_used.load(std::memory_order_acquire)) use(tile);
         return &tiles_[tile].planes[std::size_t(y % side) * std::size_t(row) + x % side];
     }
+    void use(std::size_t tile) const;
     void make(std::size_t tile) const;
+    float depth_in_view(int x, int y) const; // of a pixel of the view
+    // Adds those of a line of the view, from a pixel on.
+    void add_colours(const Imath::V2i &first, std::span<float> red, std::span<float> green,
+                     std::span<float> blue) const;
 
     PlacedView view_;
-    double scale_;
+    int across_;
+    double scale_; // in pixels of this
     std::array<std::size_t, 3> rgb_;
     Grid grid_;
     Imath::V2i corner_;
     std::size_t columns_, count_; // of tiles
     std::unique_ptr<Tile[]> tiles_;
+    struct Spare { // what tiles had that were forgotten
+        std::mutex taking;
+        std::vector<std::vector<float>> planes;
+    };
+    std::unique_ptr<Spare> spare_ = std::make_unique<Spare>();
 };
 
 } // namespace sparselens

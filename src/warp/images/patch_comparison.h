@@ -3,6 +3,7 @@
 #pragma once
 
 #include "warp/images/matched_view.h"
+#include "warp/images/patch_rows.h"
 
 #include <array>
 #include <span>
@@ -11,13 +12,13 @@ namespace sparselens {
 
 class PatchComparison {
 public:
-    static constexpr int reach = 3, patch = 2 * reach + 1; // pixels
-    static constexpr int most_side = 8 + 2 * reach;        // a block of at most 8 x 8 and what lies around
-    static constexpr int row = 16;                         // pixels from one to the next
+    static constexpr int reach = patch_reach, patch = patch_side;
+    static constexpr int most_side = 8 + 2 * reach; // a block of at most 8 x 8 and what lies around
+    static constexpr int row = patch_row;           // pixels from one to the next
     using Field =
         std::array<float, std::size_t(row) * most_side>; // of those pixels, from the upper left corner
 
-    PatchComparison(const MatchedView &centre, double scale, const Imath::Box2i &block, float surface);
+    PatchComparison(const MatchedView &centre, const Imath::Box2i &block, float surface);
 
     Imath::V2i corner() const { return corner_; }
     int width() const { return width_; } // of the block and what lies around
@@ -34,14 +35,11 @@ public:
     void at_depths(const MatchedView &view, const Field &depths, double behind, std::span<float> out);
 
 private:
-    // Each puts squared differences, and which pixels can be compared.
-    template <int columns>
-    void compare_shifted(const MatchedView::Cutout &seen);
+    // Puts squared differences, and which pixels can be compared.
     template <typename PlaceAt>
     void compare_each(const MatchedView &view, const PlaceAt &place_at);
     void take(std::span<float> out);
 
-    double scale_;
     float surface_;
     Imath::V2i corner_;
     int width_, height_;

@@ -50,8 +50,7 @@ private:
     void add(const MatchedView &view, const Imath::V2i &pixel, double depth,
              std::vector<ImageSample> &seen) const {
         const double inverse_z = depth / scale_;
-        const Imath::V2d middle(pixel.x + 0.5, pixel.y + 0.5),
-            place = view.mapping().in_view(middle, inverse_z);
+        const Imath::V2d middle(pixel.x + 0.5, pixel.y + 0.5), place = view.in_view(middle, depth);
         const Imath::V2i q(int(std::floor(place.x)), int(std::floor(place.y)));
         if (!view.contains(q.x, q.y)) return;
         const float own = views_[0].depth(pixel.x, pixel.y);
@@ -103,7 +102,7 @@ void show_images(std::span<const PlacedView> views, double scale, int across,
     std::vector<MatchedView> matched;
     matched.reserve(views.size());
     for (const PlacedView &view : views) matched.emplace_back(view, scale);
-    const ImageSweep sweep(matched, scale, kernels::motion_unit(across));
+    const ImageSweep sweep(matched, kernels::motion_unit(across));
     const std::vector<float> depths = find_image_depths(sweep, ldi.windows.data, blocks);
     const auto known = [](float depth) { return !std::isnan(depth); };
     if (std::ranges::none_of(depths, known)) return;

@@ -1,0 +1,28 @@
+// The rows of a block of pixels in comparison with another view, four pixels at a time: most of the search's work.
+#pragma once
+
+#include "warp/images/matched_view.h"
+
+namespace sparselens {
+
+inline constexpr int patch_reach = 3, patch_side = 2 * patch_reach + 1; // pixels
+inline constexpr int patch_row = 16;                                    // from one row of a block to the next
+
+// A block and what lies around it, at most 14 pixels wide and high.
+struct PatchBlock {
+    const float *own[3]; // colours
+    const float *counts; // 1: shows the surface; else 0
+    float surface;
+    int width, height;
+};
+
+// Puts the squared difference of each pixel from what the cutout shows there, R, G and B together, and 1 where it can be compared:
+// where it counts, and the view shows the surface, too. Else 0 in both. Whether all that count can be compared.
+bool compare_shifted(const PatchBlock &block, const MatchedView::Cutout &seen, float *squares,
+                     float *compared);
+
+// Of a block so wide and high: afterwards a pixel holds the sum over the patch whose upper left corner it is, if that lies in the
+// block.
+void sum_patches(float *values, int width, int height);
+
+} // namespace sparselens
