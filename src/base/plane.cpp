@@ -28,6 +28,17 @@ bool as_halves(std::span<const float> values, std::uint16_t *halves) {
     return std::ranges::all_of(values, is_half);
 }
 
+// As of_half(), many at once: its table does not stay in the cache.
+void from_halves(std::span<const std::uint16_t> halves, std::span<float> out) {
+    constexpr std::uint32_t not_finite = 0x7c00, exponents = 0x7f800000;
+    for (std::size_t i = 0; i < halves.size(); ++i) {
+        const std::uint32_t magnitude = halves[i] & 0x7fffu, sign = std::uint32_t(halves[i] & 0x8000u) << 16;
+        const std::uint32_t finite =
+            std::bit_cast<std::uint32_t>(std::bit_cast<float>(magnitude << 13) * 0x1p112f);
+        out[i] = std::bit_cast<float>((magnitude < not_finite ? finite : magnitude << 13 | exponents) | sign);
+    }
+}
+
 } // namespace
 
 Plane Plane::packed(std::span<const float> values) {
@@ -51,6 +62,15 @@ Plane Plane::packed(std::span<const float> values) {
     plane.own_.assign(values.begin(), values.end());
     plane.floats_ = plane.own_.data();
     return plane;
+}
+
+void Plane::copy(std::size_t first, std::span<float> out) const {
+    if (!floats_)
+        from_halves(std::span(halves_).subspan(first, out.size()), out);
+    else if (mask_ == 0)
+        std::ranges::fill(out, floats_[0]);
+    else
+        std::copy_n(floats_ + first, out.size(), out.begin());
 }
 
 Plane Plane::of(std::span<const float> values) {

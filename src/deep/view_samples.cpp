@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace sparselens {
 
@@ -41,6 +42,37 @@ void ViewSamples::find_shown(std::span<const float> covers) {
         for (std::size_t i = 64 * begin; i < std::min(64 * end, pixels_); ++i)
             if (z_[i] > 0 && (covers.empty() || covers[i] != 0))
                 words_[i / 64].shown |= std::uint64_t{1} << (i % 64);
+    });
+}
+
+template <typename Visit>
+void ViewSamples::for_each_changed(std::size_t first, std::size_t count, const Visit &visit) const {
+    for (std::size_t begin = first; begin < first + count;) {
+        const std::size_t end = std::min(begin / 64 * 64 + 64, first + count);
+        const Word &word = words_[begin / 64];
+        for (std::uint64_t changed = (~word.shown | word.replaced) >> (begin % 64); changed != 0;
+             changed &= changed - 1) {
+            const std::size_t i = begin + std::size_t(std::countr_zero(changed));
+            if (i >= end) break;
+            visit(i);
+        }
+        begin = end;
+    }
+}
+
+void ViewSamples::front_values(std::size_t channel, std::size_t first, std::span<float> out) const {
+    planes_[channel].copy(first, out);
+    for_each_changed(first, out.size(), [&](std::size_t i) {
+        const SampleRange samples = pixel(i);
+        out[i - first] = samples.empty() ? 0 : value(channel, samples.front());
+    });
+}
+
+void ViewSamples::single_depths(std::size_t first, std::span<float> out) const {
+    std::ranges::copy(z_.subspan(first, out.size()), out.begin());
+    for_each_changed(first, out.size(), [&](std::size_t i) {
+        const SampleRange samples = pixel(i);
+        out[i - first] = samples.size() == 1 ? z(samples.front()) : std::numeric_limits<float>::quiet_NaN();
     });
 }
 

@@ -48,6 +48,10 @@ public:
         return i < pixels_ ? planes_[channel][i] : replaced_.values[channel][i - pixels_];
     }
 
+    // Of pixels from one on: the value of the front sample, 0 where there is none; and the depth, NaN where there is not one sample.
+    void front_values(std::size_t channel, std::size_t first, std::span<float> out) const;
+    void single_depths(std::size_t first, std::span<float> out) const;
+
     // Of all pixels, whether they show something or not. As made, see PackedView.
     std::span<const float> depths() const { return z_; }
     Image image() const;
@@ -80,6 +84,9 @@ private:
     ViewSamples(const View &view, std::span<const Channel> channels, MakePlane plane_of);
     Ldi empty() const;
     void find_shown(std::span<const float> covers);
+    // visit(i) for those of so many pixels from one on that show nothing, or what was put in the place of their sample.
+    template <typename Visit>
+    void for_each_changed(std::size_t first, std::size_t count, const Visit &visit) const;
 
     struct Word { // of 64 pixels, from the lowest bit on
         std::uint64_t shown = 0, replaced = 0;

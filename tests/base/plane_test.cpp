@@ -14,6 +14,11 @@ namespace {
 void expect_same_bits(const Plane &plane, const std::vector<float> &values) {
     for (std::size_t i = 0; i < values.size(); ++i)
         ASSERT_EQ(std::bit_cast<std::uint32_t>(plane[i]), std::bit_cast<std::uint32_t>(values[i])) << i;
+    if (values.empty()) return;
+    std::vector<float> copied(values.size() - 1);
+    plane.copy(1, copied);
+    for (std::size_t i = 0; i < copied.size(); ++i)
+        ASSERT_EQ(std::bit_cast<std::uint32_t>(copied[i]), std::bit_cast<std::uint32_t>(values[i + 1])) << i;
 }
 
 void expect_packed(const std::vector<float> &values, std::size_t bytes) {

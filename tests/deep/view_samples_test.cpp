@@ -28,6 +28,31 @@ TEST(ViewSamples, PixelsThatShowSomethingAreSamples) {
     }
 }
 
+// From any pixel on, across words of 64.
+TEST(ViewSamples, RunsOfPixelsAreAsPixelByPixel) {
+    const View view = random_view(windows_of_size(50, 10), {0, 0}, 4);
+    ViewSamples samples(view, view.image.channels);
+    samples.replace([](std::size_t i) { return i % 5 == 0; },
+                    [&](std::size_t i, Ldi &out) {
+                        for (std::size_t n = 0; n < 1 + i % 2; ++n)
+                            append(out, samples, float(n + 1), 1, std::vector<Term>{{i, double(n) + 2}});
+                    });
+    for (const std::size_t first : {0u, 3u, 64u, 130u})
+        for (const std::size_t count : {1u, 61u, 200u}) {
+            std::vector<float> values(count), depths(count);
+            samples.front_values(1, first, values);
+            samples.single_depths(first, depths);
+            for (std::size_t n = 0; n < count; ++n) {
+                const SampleRange range = samples.pixel(first + n);
+                ASSERT_EQ(values[n], range.empty() ? 0 : samples.value(1, range.front())) << first + n;
+                ASSERT_EQ(std::isnan(depths[n]), range.size() != 1) << first + n;
+                if (range.size() == 1) {
+                    ASSERT_EQ(depths[n], samples.z(range.front()));
+                }
+            }
+        }
+}
+
 TEST(ViewSamples, ChannelsComeInTheOrderAskedFor) {
     const View view = random_view(windows_of_size(2, 2), {0, 0}, 1);
     const Ldi ldi = ViewSamples(view, std::vector<Channel>{{"A"}, {"G"}}).as_ldi();

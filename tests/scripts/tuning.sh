@@ -53,8 +53,7 @@ warp/images/neighbours.h image_block reach
 warp/images/patch_comparison.cpp alike
 warp/images/patch_rows.h patch_reach patch_row
 warp/images/image_sweep.cpp rounding rows
-warp/images/image_search.h rows_at_once
-warp/images/show_images.cpp rows_at_once
+warp/images/image_depths.cpp band_rows
 warp/lamps/lamp_light.cpp farthest_move
 warp/reproject.cpp far_off
 warp/surfaces.cpp few

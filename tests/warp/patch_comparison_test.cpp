@@ -90,14 +90,21 @@ TEST(PatchComparison, BlocksAreAsPixelByPixel) {
     EXPECT_GT(unknown, 200);
 }
 
+float mean_of(const std::vector<float> &differences) { return robust_means(differences, 1)[0]; }
+
 TEST(RobustMeans, AreOfTheBestThreeQuarters) {
     constexpr float none = std::numeric_limits<float>::quiet_NaN();
-    EXPECT_EQ(robust_mean(std::vector{4.0f, 1.0f, 3.0f, 2.0f}), 2);
-    EXPECT_EQ(robust_mean(std::vector{4.0f, none, 3.0f, 2.0f}), 3);
-    EXPECT_EQ(robust_mean(std::vector{none, none, 3.0f, 2.0f}), 2.5f);
-    EXPECT_TRUE(std::isnan(robust_mean(std::vector{none, none, 3.0f, none})));
-    EXPECT_EQ(robust_mean(std::vector{5.0f}), 5);
-    EXPECT_TRUE(std::isnan(robust_mean(std::vector{none})));
+    EXPECT_EQ(mean_of({4.0f, 1.0f, 3.0f, 2.0f}), 2);
+    EXPECT_EQ(mean_of({4.0f, none, 3.0f, 2.0f}), 3);
+    EXPECT_EQ(mean_of({none, none, 3.0f, 2.0f}), 2.5f);
+    EXPECT_TRUE(std::isnan(mean_of({none, none, 3.0f, none})));
+    EXPECT_EQ(mean_of({5.0f}), 5);
+    EXPECT_TRUE(std::isnan(mean_of({none})));
+}
+
+TEST(RobustMeans, OfPixelsAreThoseOfEach) {
+    const std::vector<float> views{4, 5, 1, 6, 3, 7, 2, 9}; // of two pixels, view by view
+    EXPECT_EQ(robust_means(views, 2), (std::vector{mean_of({4, 1, 3, 2}), mean_of({5, 6, 7, 9})}));
 }
 
 } // namespace

@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 namespace sparselens {
 
@@ -19,38 +18,40 @@ namespace {
 constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
 constexpr int near_by = WarpTuning::image_plane_reach, farther = WarpTuning::image_continued_reach;
 
+// Perceptive, by pixel as the search numbers them; NaN: not known.
+using Depths = std::vector<float>;
+
+// What the search found, in steps: each makes depths of those that the step before it made of a block and those around.
 class ImageDepths {
 public:
-    explicit ImageDepths(ImageSearch &search)
+    explicit ImageDepths(const ImageSearch &search)
         : search_(search), sweep_(search.sweep()), matches_(search.matches),
-          depths_(matches_.size(), unknown), tried_(depths_) {}
+          tried_(matches_.size(), unknown) {}
 
-    void agree_with_neighbours();
-    void refine();
-    void go_on();
-    // By pixel of the data window, row by row.
-    std::vector<float> all() const;
+    void find(const ShowImages &show);
 
 private:
-    // What is known of the pixels of a tile and around; depth_at(index) says it of images.
-    template <typename DepthAt>
-    Neighbours neighbours(const Imath::Box2i &tile, const DepthAt &depth_at) const;
-    float continued(const Neighbours &neighbours, const Imath::V2i &place, const Imath::V2i &pixel,
-                    const ImageMatch &match, std::vector<float> &around, float &tried) const;
+    void agree_with_neighbours(const Imath::Box2i &tile, const Depths &from, Depths &to) const;
+    void refine(const Imath::Box2i &tile, const Depths &from, Depths &to) const;
+    void go_on(const Imath::Box2i &tile, const Depths &from, Depths &to);
+    Neighbours neighbours(const Imath::Box2i &tile, const Depths &depths) const;
+    float depth_at(const Imath::V2i &pixel, const Depths &depths) const {
+        const std::size_t index = search_.index_of(pixel);
+        return index == npos ? unknown : depths[index];
+    }
 
     const ImageSearch &search_;
     const ImageSweep &sweep_;
-    std::vector<ImageMatch> &matches_; // by pixel, as the search numbers them
-    std::vector<float> depths_;
-    std::vector<float> tried_; // the last depth at which the views did not agree
+    const std::vector<ImageMatch> &matches_;
+    Depths tried_; // the last depth at which the views did not agree
 };
 
-template <typename DepthAt>
-Neighbours ImageDepths::neighbours(const Imath::Box2i &tile, const DepthAt &depth_at) const {
+// What is known of the pixels of a tile and around.
+Neighbours ImageDepths::neighbours(const Imath::Box2i &tile, const Depths &depths) const {
     return Neighbours([&](const Imath::V2i &place) -> Neighbours::Pixel {
         const std::size_t index = search_.index_of(tile.min + place);
         if (index == npos || !matches_[index].surface) return {unknown, unknown};
-        return {matches_[index].own_depth, depth_at(index)};
+        return {matches_[index].own_depth, depths[index]};
     });
 }
 
@@ -76,85 +77,87 @@ float depth_by_neighbours(const Neighbours &neighbours, const Imath::V2i &place,
     return std::isnan(own) ? depth_on_plane(neighbours, place, median(around), around.size()) : own;
 }
 
-void ImageDepths::agree_with_neighbours() {
-    search_.for_each_searched([&](const Imath::Box2i &tile) {
-        const Neighbours around_tile = neighbours(
-            tile, [&](std::size_t index) { return matches_[index].found ? matches_[index].depth : unknown; });
-        std::vector<float> around;
-        const Grid pixels(tile);
-        for (std::size_t n = 0; n < pixels.size(); ++n) {
-            const Imath::V2i pixel = pixels.pixel(n);
-            const std::size_t index = search_.index_of(pixel);
-            if (matches_[index].found)
-                depths_[index] = depth_by_neighbours(around_tile, pixel - tile.min, around);
-        }
-    });
-}
-
-// A patch need not lie at one depth.
-void ImageDepths::refine() {
-    const auto depth_at = [&](const Imath::V2i &p) {
-        const std::size_t index = search_.index_of(p);
-        return index == npos ? unknown : depths_[index];
-    };
-    std::vector<float> next(depths_.size(), unknown);
-    search_.for_each_searched([&](const Imath::Box2i &block) {
-        const std::vector<float> refined = sweep_.refined(block, depth_at);
-        const Grid pixels(block);
-        for (std::size_t n = 0; n < pixels.size(); ++n) next[search_.index_of(pixels.pixel(n))] = refined[n];
-    });
-    for (std::size_t i = 0; i < matches_.size(); ++i) {
-        matches_[i].found = !std::isnan(next[i]);
-        if (matches_[i].found) matches_[i].depth = next[i];
+void ImageDepths::agree_with_neighbours(const Imath::Box2i &tile, const Depths &from, Depths &to) const {
+    const Neighbours around_tile = neighbours(tile, from);
+    std::vector<float> around;
+    const Grid pixels(tile);
+    for (std::size_t n = 0; n < pixels.size(); ++n) {
+        const Imath::V2i pixel = pixels.pixel(n);
+        const std::size_t index = search_.index_of(pixel);
+        if (!std::isnan(from[index])) to[index] = depth_by_neighbours(around_tile, pixel - tile.min, around);
     }
 }
 
-// The median of the depths around, if the views agree about as well there as on the surface.
-float ImageDepths::continued(const Neighbours &neighbours, const Imath::V2i &place, const Imath::V2i &pixel,
-                             const ImageMatch &match, std::vector<float> &around, float &tried) const {
+// A patch need not lie at one depth.
+void ImageDepths::refine(const Imath::Box2i &tile, const Depths &from, Depths &to) const {
+    const std::vector<float> refined =
+        sweep_.refined(tile, [&](const Imath::V2i &p) { return depth_at(p, from); });
+    const Grid pixels(tile);
+    for (std::size_t n = 0; n < pixels.size(); ++n) to[search_.index_of(pixels.pixel(n))] = refined[n];
+}
+
+// The median of the depths around; unknown if those are too few.
+float depth_around(const Neighbours &neighbours, const Imath::V2i &place, std::vector<float> &around) {
     around.clear();
     neighbours.for_each_around(place, farther, [&](const Imath::V2i &, float depth) {
         if (!std::isnan(depth)) around.push_back(depth);
     });
-    if (around.size() < WarpTuning::image_least_sources) return unknown;
-    const float depth = median(around);
-    if (depth == tried) return unknown;
-    tried = depth;
-    const float there = robust_mean(sweep_.differences(pixel, double(depth)));
-    return there <= WarpTuning::image_continued_difference * match.at_surface +
-                        WarpTuning::image_continued_least_difference
-               ? depth
-               : unknown;
+    return around.size() < WarpTuning::image_least_sources ? unknown : median(around);
 }
 
-void ImageDepths::go_on() {
-    std::vector<float> next = depths_;
-    search_.for_each_searched([&](const Imath::Box2i &tile) {
-        const Neighbours around_tile = neighbours(tile, [&](std::size_t index) { return depths_[index]; });
-        std::vector<float> around;
-        const Grid pixels(tile);
-        for (std::size_t n = 0; n < pixels.size(); ++n) {
-            const Imath::V2i pixel = pixels.pixel(n);
-            const std::size_t index = search_.index_of(pixel);
-            if (matches_[index].surface && std::isnan(depths_[index]))
-                next[index] =
-                    continued(around_tile, pixel - tile.min, pixel, matches_[index], around, tried_[index]);
+// To pixels of the same surface where the views agree about as well as on that.
+void ImageDepths::go_on(const Imath::Box2i &tile, const Depths &from, Depths &to) {
+    const Neighbours around_tile = neighbours(tile, from);
+    const Grid pixels(tile);
+    std::vector<float> around, depths(pixels.size(), unknown);
+    std::array<Neighbours::Pixel, image_block * image_block / 4> of_four;
+    of_four.fill({unknown, unknown}); // pixels side by side have the same around them
+    for (std::size_t n = 0; n < pixels.size(); ++n) {
+        const std::size_t index = search_.index_of(pixels.pixel(n));
+        to[index] = from[index];
+        if (!matches_[index].surface || !std::isnan(from[index])) continue;
+        const Imath::V2i place = pixels.pixel(n) - tile.min;
+        auto &[own, depth] = of_four[std::size_t(place.y / 2 * (image_block / 2) + place.x / 2)];
+        if (!kernels::is_one_surface(own, matches_[index].own_depth, one_mirror_px)) {
+            own = matches_[index].own_depth;
+            depth = depth_around(around_tile, place, around);
         }
-    });
-    depths_ = std::move(next);
+        if (depth != tried_[index]) depths[n] = tried_[index] = depth;
+    }
+    if (std::ranges::all_of(depths, [](float depth) { return std::isnan(depth); })) return;
+    const auto tried_at = [&](const Imath::V2i &p) {
+        const float depth = tile.intersects(p) ? depths[pixels.index(p.x, p.y)] : unknown;
+        return std::isnan(depth) ? depth_at(p, from) : depth;
+    };
+    const std::vector<float> means = robust_means(sweep_.differences(tile, tried_at), pixels.size());
+    for (std::size_t n = 0; n < pixels.size(); ++n) {
+        const std::size_t index = search_.index_of(pixels.pixel(n));
+        const float most = WarpTuning::image_continued_difference * matches_[index].at_surface +
+                           WarpTuning::image_continued_least_difference;
+        if (!std::isnan(depths[n]) && means[n] <= most) to[index] = depths[n];
+    }
 }
 
-std::vector<float> ImageDepths::all() const {
-    const Grid grid(search_.box());
-    std::vector<float> depths(grid.size(), unknown);
-    search_.for_each_searched([&](const Imath::Box2i &tile) {
-        const Grid pixels(tile);
-        for (std::size_t n = 0; n < pixels.size(); ++n) {
-            const Imath::V2i pixel = pixels.pixel(n);
-            depths[grid.index(pixel.x, pixel.y)] = depths_[search_.index_of(pixel)];
-        }
-    });
-    return depths;
+// One step follows the other down the picture, a band behind it, so that they look at the same tiles of the views.
+void ImageDepths::find(const ShowImages &show) {
+    constexpr std::size_t made = 3 + WarpTuning::image_continuations, // steps that make depths
+        band_rows = 2;                                                // of blocks; a step looks one beyond
+    std::array<Depths, made + 1> depths;
+    depths.fill(Depths(matches_.size(), unknown));
+    for (std::size_t i = 0; i < matches_.size(); ++i)
+        if (matches_[i].found) depths[0][i] = matches_[i].depth;
+    const auto take = [&](std::size_t step, const Imath::Box2i &tile) {
+        const Depths &from = depths[step];
+        if (step == made) return show(tile, [&](const Imath::V2i &pixel) { return depth_at(pixel, from); });
+        if (step == 1) return refine(tile, from, depths[step + 1]);
+        if (step < 3) return agree_with_neighbours(tile, from, depths[step + 1]);
+        go_on(tile, from, depths[step + 1]);
+    };
+    const std::size_t bands = search_.bands(band_rows);
+    for (std::size_t time = 0; time < bands + made; ++time)
+        for (std::size_t step = time - std::min(time, bands - 1); step <= std::min(time, made); ++step)
+            search_.for_each_searched(band_rows, time - step,
+                                      [&](const Imath::Box2i &tile) { take(step, tile); });
 }
 
 } // namespace
@@ -173,15 +176,10 @@ std::vector<std::size_t> blocks_to_search(const Imath::Box2i &data, std::span<co
     return blocks;
 }
 
-std::vector<float> find_image_depths(const ImageSweep &sweep, const Imath::Box2i &data,
-                                     const std::vector<std::size_t> &blocks) {
-    ImageSearch search(sweep, data, blocks);
-    ImageDepths depths(search);
-    depths.agree_with_neighbours();
-    depths.refine();
-    depths.agree_with_neighbours();
-    for (int n = 0; n < WarpTuning::image_continuations; ++n) depths.go_on();
-    return depths.all();
+void find_image_depths(const ImageSweep &sweep, const Imath::Box2i &data,
+                       const std::vector<std::size_t> &blocks, const ShowImages &show) {
+    const ImageSearch search(sweep, data, blocks);
+    ImageDepths(search).find(show);
 }
 
 } // namespace sparselens

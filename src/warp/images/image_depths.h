@@ -7,6 +7,7 @@
 #include "warp/images/neighbours.h"
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -16,9 +17,13 @@ namespace sparselens {
 // and where they differ slightly not those that have fewer than two beside them.
 std::vector<std::size_t> blocks_to_search(const Imath::Box2i &data, std::span<const Disagreement> differ);
 
-// Searches those blocks, and others where it has found something beside them. The result is perceptive depth by pixel of
-// `data`, row by row; NaN: the pixel shows its surface, or nothing is known.
-std::vector<float> find_image_depths(const ImageSweep &sweep, const Imath::Box2i &data,
-                                     const std::vector<std::size_t> &blocks);
+// Perceptive depth of the image that a pixel shows; NaN: the pixel shows its surface, or nothing is known.
+using ImageDepthAt = std::function<float(const Imath::V2i &pixel)>;
+using ShowImages = std::function<void(const Imath::Box2i &block, const ImageDepthAt &depth_at)>;
+
+// Searches those blocks, and others where it has found something beside them: show(block, depth_at) for each, in parallel, once what
+// lies around it is known, too.
+void find_image_depths(const ImageSweep &sweep, const Imath::Box2i &data,
+                       const std::vector<std::size_t> &blocks, const ShowImages &show);
 
 } // namespace sparselens

@@ -29,12 +29,13 @@ std::vector<std::size_t> halved(const Tiles &tiles, const std::vector<std::size_
     return found;
 }
 
-// For those of the blocks that have many depths; nothing if none has.
+// For those of the blocks that have many depths; nothing if few have.
 std::optional<ImageGuesses> guesses_for(const ImageSweep &sweep, const Imath::Box2i &data,
                                         std::vector<std::size_t> blocks) {
     const Tiles tiles(data, image_block);
     std::erase_if(blocks, [&](std::size_t block) { return !sweep.has_many_depths(tiles.box(block)); });
-    if (blocks.empty()) return {};
+    const bool few = double(blocks.size()) < WarpTuning::image_many_blocks * double(tiles.count());
+    if (few || sweep.views()[0].across() >= WarpTuning::image_smallest) return {};
     std::vector<MatchedView> views;
     views.reserve(sweep.views().size());
     for (const MatchedView &view : sweep.views()) views.push_back(view.half());

@@ -6,6 +6,7 @@
 #include "base/grid.h"
 #include "warp/images/image_sweep.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -43,14 +44,16 @@ public:
     // By that number.
     std::vector<ImageMatch> matches;
 
-    // visit(tile) for those that were searched.
+    // The data window in bands of so many rows of blocks.
+    std::size_t bands(std::size_t rows) const { return pieces_of(std::size_t(tiles_.rows()), rows); }
+    // visit(block) for those of a band that were searched.
     template <typename Visit>
-    void for_each_searched(const Visit &visit) const {
-        constexpr std::size_t rows_at_once = 8; // of blocks
-        sweep_.go_through(tiles_.count(), rows_at_once * std::size_t(tiles_.columns()),
-                          [&](std::size_t tile) {
-                              if (blocks_[tile] != not_searched) visit(tiles_.box(tile));
-                          });
+    void for_each_searched(std::size_t rows, std::size_t band, const Visit &visit) const {
+        const std::size_t columns = std::size_t(tiles_.columns()), first = band * rows * columns,
+                          count = std::min(rows * columns, tiles_.count() - first);
+        sweep_.go_through(count, count, [&](std::size_t n) {
+            if (blocks_[first + n] != not_searched) visit(tiles_.box(first + n));
+        });
     }
     ImageGuesses guesses() const;
 

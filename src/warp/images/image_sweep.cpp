@@ -93,10 +93,30 @@ void mark_around(std::size_t guess, std::vector<bool> &marks) {
         marks[k] = true;
 }
 
+PatchComparison::Field field_of(const PatchComparison &comparison,
+                                const std::function<float(const Imath::V2i &)> &depth_at) {
+    PatchComparison::Field depths;
+    depths.fill(unknown);
+    for (int y = 0; y < comparison.height(); ++y)
+        for (int x = 0; x < comparison.width(); ++x)
+            depths[PatchComparison::at(x, y)] = depth_at(comparison.corner() + Imath::V2i(x, y));
+    return depths;
+}
+
+void fill_with_median(PatchComparison::Field &depths) {
+    std::vector<float> known;
+    for (const float depth : depths)
+        if (!std::isnan(depth)) known.push_back(depth);
+    if (known.empty()) return;
+    const float middle = median(known);
+    for (float &depth : depths)
+        if (std::isnan(depth)) depth = middle;
+}
+
 } // namespace
 
 void ImageSweep::make_room() const {
-    constexpr std::size_t rows = 2; // of tiles: so far apart may a view show what is looked for at one place
+    constexpr std::size_t rows = 3; // of tiles: so far apart may a view show what is looked for at one place
     std::size_t held = 0, much = 0;
     for (const MatchedView &view : views_) {
         held += view.bytes();
@@ -182,10 +202,7 @@ std::vector<float> ImageSweep::refined(const Imath::Box2i &block,
     const float surface = known ? surface_of(centre, block) : unknown;
     if (std::isnan(surface)) return std::vector<float>(grid.size(), unknown);
     PatchComparison comparison(centre, block, surface);
-    PatchComparison::Field depths;
-    for (int y = 0; y < comparison.height(); ++y)
-        for (int x = 0; x < comparison.width(); ++x)
-            depths[PatchComparison::at(x, y)] = depth_at(comparison.corner() + Imath::V2i(x, y));
+    const PatchComparison::Field depths = field_of(comparison, depth_at);
     constexpr std::size_t steps = 2 * side + 1;
     MeanCurves curves(views_, steps, grid.size());
     for (std::size_t k = 0; k < steps; ++k)
@@ -206,14 +223,17 @@ std::vector<float> ImageSweep::refined(const Imath::Box2i &block,
     return refined;
 }
 
-std::vector<float> ImageSweep::differences(const Imath::V2i &pixel, double depth) const {
-    const Imath::Box2i block(pixel, pixel);
+std::vector<float> ImageSweep::differences(const Imath::Box2i &block,
+                                           const std::function<float(const Imath::V2i &)> &depth_at) const {
+    const std::size_t pixels = Grid(block).size();
+    std::vector<float> differences((views_.size() - 1) * pixels, unknown);
     const float surface = surface_of(views_[0], block);
-    std::vector<float> differences(views_.size() - 1, unknown);
     if (std::isnan(surface)) return differences;
     PatchComparison comparison(views_[0], block, surface);
+    PatchComparison::Field depths = field_of(comparison, depth_at);
+    fill_with_median(depths);
     for (std::size_t v = 1; v < views_.size(); ++v)
-        comparison.at_depth(views_[v], depth, std::span(differences).subspan(v - 1, 1));
+        comparison.at_depths(views_[v], depths, 0, std::span(differences).subspan((v - 1) * pixels, pixels));
     return differences;
 }
 

@@ -56,9 +56,10 @@ public:
     std::vector<float> refined(const Imath::Box2i &block,
                                const std::function<float(const Imath::V2i &)> &depth_at) const;
 
-    // The difference of the patch around a pixel from each rim view if it lay at that perceptive depth; NaN where too
-    // little of the view can be compared.
-    std::vector<float> differences(const Imath::V2i &pixel, double depth) const;
+    // The difference of each pixel of a block from each rim view, view by view, if what it and those around show lies at the depths
+    // that depth_at(pixel) says or, where that is NaN, at the middle one of those; NaN where too little can be compared.
+    std::vector<float> differences(const Imath::Box2i &block,
+                                   const std::function<float(const Imath::V2i &)> &depth_at) const;
 
 private:
     void make_room() const;

@@ -39,17 +39,32 @@ struct Square {
 
     // The depth of a pixel if it and all those around show one surface.
     void keep_one_surface(const float *from, float *to) const {
-        for (int y = 0; y < side; ++y)
-            for (int x = 0; x < side; ++x) {
-                const float own = from[around(x, y)];
-                bool one = true;
-                for (int v = y - 1; v <= y + 1; ++v)
-                    for (int u = x - 1; u <= x + 1; ++u)
-                        one &= kernels::is_one_surface(from[around(u, v)], own, one_mirror_px);
-                to[at(x, y)] = one ? own : unknown;
-            }
+        for (int y = 0; y < side; ++y) {
+            const float *own = from + around(0, y);
+            float *out = to + at(0, y);
+            std::copy_n(own, side, out);
+            for (int v = y - 1; v <= y + 1; ++v)
+                for (int u = -1; u <= 1; ++u) {
+                    const float *other = from + around(u, v);
+                    for (int x = 0; x < side; ++x)
+                        out[x] = kernels::is_one_surface(other[x], own[x], one_mirror_px) ? out[x] : unknown;
+                }
+        }
     }
 };
+
+// Of pixels to the right of one, read(index, values) says those inside; those outside are as the nearest one of these.
+template <typename Read>
+void read_line(const Windows &windows, const Imath::V2i &first, std::span<float> out, const Read &read) {
+    const Imath::Box2i &frame = windows.data;
+    const int count = int(out.size()), y = std::clamp(first.y, frame.min.y, frame.max.y);
+    const int begin = std::clamp(frame.min.x - first.x, 0, count - 1),
+              end = std::clamp(frame.max.x + 1 - first.x, begin + 1, count);
+    const int x = std::clamp(first.x + begin, frame.min.x, frame.max.x);
+    read(windows.index(x, y), out.subspan(std::size_t(begin), std::size_t(end - begin)));
+    std::fill_n(out.begin(), begin, out[std::size_t(begin)]);
+    std::fill(out.begin() + end, out.end(), out[std::size_t(end - 1)]);
+}
 
 } // namespace
 
@@ -73,46 +88,55 @@ std::size_t MatchedView::bytes() const {
     return std::size_t(made) * tile_bytes;
 }
 
-float MatchedView::depth_in_view(int x, int y) const {
+float MatchedView::depth(int x, int y) const {
+    if (!contains(x, y)) return unknown;
+    if (across_ == 1) {
+        const SampleRange samples = view_.samples->pixel(grid_.index(x, y));
+        if (samples.size() != 1) return unknown;
+        return float(perceptive_depth(scale_, double(view_.samples->z(samples.front()))));
+    }
+    float depth = unknown;
+    depths_of({x, y}, std::span(&depth, 1));
+    return depth;
+}
+
+void MatchedView::colours_of(std::size_t k, const Imath::V2i &first, std::span<float> out) const {
     const ViewSamples &view = *view_.samples;
-    const SampleRange samples = view.pixel(view.windows.index(x, y));
-    return samples.size() == 1 ? float(perceptive_depth(scale_, double(view.z(samples.front())))) : unknown;
+    const auto side = std::size_t(across_);
+    std::vector<float> line(out.size() * side);
+    std::ranges::fill(out, 0.0f);
+    for (int v = 0; v < across_; ++v) {
+        read_line(view.windows, first * across_ + Imath::V2i(0, v), std::span(line),
+                  [&](std::size_t i, std::span<float> values) { view.front_values(rgb_[k], i, values); });
+        for (float &value : line) value = kernels::bounded(value);
+        for (std::size_t x = 0; x < out.size(); ++x)
+            for (std::size_t u = 0; u < side; ++u) out[x] += line[x * side + u];
+    }
+    if (across_ > 1)
+        for (float &value : out) value /= float(across_ * across_);
 }
 
 // Of several pixels of the view, the mean, if they show one surface.
-float MatchedView::depth(int x, int y) const {
-    if (!contains(x, y)) return unknown;
-    if (across_ == 1) return depth_in_view(x, y);
-    float sum = 0, count = 0, first = unknown;
-    const Imath::Box2i frame = view_.samples->windows.data, box = subpixels_in({{x, y}, {x, y}}, across_);
-    for (int v = std::max(box.min.y, frame.min.y); v <= std::min(box.max.y, frame.max.y); ++v)
-        for (int u = std::max(box.min.x, frame.min.x); u <= std::min(box.max.x, frame.max.x); ++u) {
-            const float own = depth_in_view(u, v);
-            if (count == 0) first = own;
-            if (!kernels::is_one_surface(own, first, one_mirror_px)) return unknown;
-            sum += own, count += 1;
-        }
-    return sum / count;
-}
-
-// What lies outside has the colours of the border.
-void MatchedView::add_colours(const Imath::V2i &first, std::span<float> red, std::span<float> green,
-                              std::span<float> blue) const {
+void MatchedView::depths_of(const Imath::V2i &first, std::span<float> out) const {
     const ViewSamples &view = *view_.samples;
-    const Imath::Box2i frame = view.windows.data;
-    const std::span<float> out[] = {red, green, blue};
-    const int y = std::clamp(first.y, frame.min.y, frame.max.y), count = int(red.size()) * across_;
-    std::vector<float> values(std::size_t(count), 0.0f);
-    for (std::size_t k = 0; k < 3; ++k) {
-        if (rgb_[k] == npos) continue;
-        for (int x = 0; x < count; ++x) {
-            const int column = std::clamp(first.x + x, frame.min.x, frame.max.x);
-            const SampleRange samples = view.pixel(view.windows.index(column, y));
-            values[std::size_t(x)] = samples.empty() ? 0 : view.value(rgb_[k], samples.front());
+    const auto side = std::size_t(across_);
+    std::vector<float> line(out.size() * side), firsts;
+    for (int v = 0; v < across_; ++v) {
+        read_line(view.windows, first * across_ + Imath::V2i(0, v), std::span(line),
+                  [&](std::size_t i, std::span<float> values) { view.single_depths(i, values); });
+        for (float &depth : line) depth = float(perceptive_depth(scale_, double(depth)));
+        if (across_ == 1) return void(std::ranges::copy(line, out.begin()));
+        if (v == 0) {
+            for (std::size_t x = 0; x < out.size(); ++x) firsts.push_back(line[x * side]);
+            std::ranges::fill(out, 0.0f);
         }
-        for (float &value : values) value = kernels::bounded(value);
-        for (int x = 0; x < count; ++x) out[k][std::size_t(x / across_)] += values[std::size_t(x)];
+        for (std::size_t x = 0; x < out.size(); ++x)
+            for (std::size_t u = 0; u < side; ++u) {
+                const float depth = line[x * side + u];
+                out[x] += kernels::is_one_surface(depth, firsts[x], one_mirror_px) ? depth : unknown;
+            }
     }
+    for (float &depth : out) depth /= float(across_ * across_);
 }
 
 void MatchedView::use(std::size_t number) const {
@@ -132,12 +156,13 @@ void MatchedView::make(std::size_t tile) const {
         return std::span(sharp).subspan(k * size + std::size_t(y) * wide, wide);
     };
     for (int y = 0; y < row + 2; ++y) {
-        for (int v = 0; v < across_; ++v)
-            add_colours(first * across_ + Imath::V2i(0, y * across_ + v), line(0, y), line(1, y), line(2, y));
-        for (int x = 0; x < row + 2; ++x) line(3, y)[std::size_t(x)] = depth(first.x + x, first.y + y);
+        const Imath::V2i from = first + Imath::V2i(0, y);
+        for (std::size_t k = 0; k < 3; ++k)
+            if (rgb_[k] != npos) colours_of(k, from, line(k, y));
+        depths_of(from, line(3, y));
+        for (int x = 0; x < row + 2; ++x)
+            if (!contains(from.x + x, from.y)) line(3, y)[std::size_t(x)] = unknown;
     }
-    if (across_ > 1)
-        for (float &colour : std::span(sharp).first(3 * size)) colour /= float(across_ * across_);
     std::vector<float> &planes = tiles_[tile].planes;
     {
         const std::scoped_lock lock(spare_->taking);
@@ -154,20 +179,6 @@ void MatchedView::make(std::size_t tile) const {
 MatchedView::Pixel MatchedView::at(int x, int y) const {
     const float *p = from_corner(x - corner_.x, y - corner_.y);
     return {p[0], p[plane], p[2 * plane], p[3 * plane]};
-}
-
-bool MatchedView::at(const Imath::V2d &place, Pixel &out) const {
-    const double x = place.x - 0.5 - corner_.x, y = place.y - 0.5 - corner_.y;
-    if (!(x >= 0 && y >= 0 && x < grid_.width() - 1 && y < grid_.height() - 1)) return false;
-    const int column = int(x), line = int(y);
-    const float u = float(x - column), v = float(y - line);
-    const float *p = from_corner(column, line);
-    out[3] = p[3 * plane + (v < 0.5f ? 0 : row) + (u < 0.5f ? 0 : 1)];
-    for (std::size_t k = 0; k < 3; ++k, p += plane) {
-        const float upper = p[0] + u * (p[1] - p[0]), lower = p[row] + u * (p[row + 1] - p[row]);
-        out[k] = upper + v * (lower - upper);
-    }
-    return true;
 }
 
 MatchedView::Cutout MatchedView::cut(const Imath::V2d &place) const {

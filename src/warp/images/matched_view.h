@@ -35,6 +35,7 @@ public:
 
     // The same view where twice as many, across and down, are one.
     MatchedView half() const { return {view_, scale_ * across_, 2 * across_}; }
+    int across() const { return across_; }
 
     bool contains(int x, int y) const { return grid_.contains(x, y); }
     Pixel at(int x, int y) const;
@@ -88,10 +89,10 @@ private:
     }
     void use(std::size_t tile) const;
     void make(std::size_t tile) const;
-    float depth_in_view(int x, int y) const; // of a pixel of the view
-    // Adds those of a line of the view, from a pixel on.
-    void add_colours(const Imath::V2i &first, std::span<float> red, std::span<float> green,
-                     std::span<float> blue) const;
+    // Of pixels to the right of one: R, G or B, ...
+    void colours_of(std::size_t k, const Imath::V2i &first, std::span<float> out) const;
+    // ... and as depth().
+    void depths_of(const Imath::V2i &first, std::span<float> out) const;
 
     PlacedView view_;
     int across_;
@@ -107,5 +108,19 @@ private:
     };
     std::unique_ptr<Spare> spare_ = std::make_unique<Spare>();
 };
+
+inline bool MatchedView::at(const Imath::V2d &place, Pixel &out) const {
+    const double x = place.x - 0.5 - corner_.x, y = place.y - 0.5 - corner_.y;
+    if (!(x >= 0 && y >= 0 && x < grid_.width() - 1 && y < grid_.height() - 1)) return false;
+    const int column = int(x), line = int(y);
+    const float u = float(x - column), v = float(y - line);
+    const float *p = from_corner(column, line);
+    out[3] = p[3 * plane + (v < 0.5f ? 0 : row) + (u < 0.5f ? 0 : 1)];
+    for (std::size_t k = 0; k < 3; ++k, p += plane) {
+        const float upper = p[0] + u * (p[1] - p[0]), lower = p[row] + u * (p[row + 1] - p[row]);
+        out[k] = upper + v * (lower - upper);
+    }
+    return true;
+}
 
 } // namespace sparselens

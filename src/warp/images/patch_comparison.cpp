@@ -91,10 +91,19 @@ void PatchComparison::at_depth(const MatchedView &view, double depth, std::span<
 
 void PatchComparison::at_depths(const MatchedView &view, const Field &depths, double behind,
                                 std::span<float> out) {
-    compare_each(view, [&](int x, int y) {
-        return view.in_view(Imath::V2d(corner_ + Imath::V2i(x, y)) + Imath::V2d(0.5),
-                            double(depths[at(x, y)]) + behind);
-    });
+    const auto in_view = [&](int x, int y, double depth) {
+        return view.in_view(Imath::V2d(corner_ + Imath::V2i(x, y)) + Imath::V2d(0.5), depth);
+    };
+    const auto depth_at = [&](int x, int y) { return double(depths[at(x, y)]) + behind; };
+    if (view.mapping().approach() ==
+        0) { // no camera stands farther forward: the mapping is linear in depth, too
+        const Imath::V2d first = in_view(0, 0, 0), along = in_view(0, 0, 1) - first;
+        const double step = in_view(1, 0, 0).x - first.x;
+        compare_each(view,
+                     [&](int x, int y) { return first + step * Imath::V2d(x, y) + depth_at(x, y) * along; });
+    } else {
+        compare_each(view, [&](int x, int y) { return in_view(x, y, depth_at(x, y)); });
+    }
     take(out);
 }
 

@@ -60,13 +60,14 @@ private:
     std::vector<float> worse_;
 };
 
-// Of one pixel.
-inline float robust_mean(std::span<const float> differences) {
-    RobustMeans means(differences.size(), 1);
-    for (const float &difference : differences) means.add(std::span(&difference, 1));
-    float mean;
-    means.take(std::span(&mean, 1));
-    return mean;
+// Of `pixels` pixels, view by view.
+inline std::vector<float> robust_means(std::span<const float> differences, std::size_t pixels) {
+    RobustMeans robust(differences.size() / pixels, pixels);
+    for (; !differences.empty(); differences = differences.subspan(pixels))
+        robust.add(differences.first(pixels));
+    std::vector<float> means(pixels);
+    robust.take(means);
+    return means;
 }
 
 } // namespace sparselens

@@ -1,7 +1,6 @@
 #include "warp/images/show_images.h"
 
 #include "base/channel_kind.h"
-#include "base/parallel.h"
 #include "kernels/photo_rules.h"
 #include "lens/perceptive_depth.h"
 #include "warp/images/image_depths.h"
@@ -9,6 +8,7 @@
 #include "warp/tuning.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 namespace sparselens {
@@ -27,16 +27,25 @@ public:
     Shower(std::span<const MatchedView> views, const ImageSweep &sweep, double scale, Ldi &ldi)
         : views_(views), sweep_(sweep), scale_(scale), ldi_(ldi), alpha_(ldi.alpha()) {}
 
-    // Gives the pixel's front sample its image at that perceptive depth.
-    void show(const Imath::V2i &pixel, double depth) const {
-        std::vector<ImageSample> seen{centre(pixel)};
-        const std::vector<float> differences = sweep_.differences(pixel, depth);
-        const float usual = robust_mean(differences);
-        for (std::size_t v = 1; v < views_.size(); ++v)
-            if (differences[v - 1] <=
-                WarpTuning::image_shown_difference * usual + WarpTuning::image_shown_least_difference)
-                add(views_[v], pixel, depth, seen);
-        store(ldi_.pixel(ldi_.windows.index(pixel.x, pixel.y)).front(), depth, seen);
+    // Gives the front samples of a block's pixels their images. Whether there is one.
+    bool show(const Imath::Box2i &block, const ImageDepthAt &depth_at) const {
+        const Grid pixels(block);
+        std::vector<float> own(pixels.size());
+        for (std::size_t n = 0; n < own.size(); ++n) own[n] = depth_at(pixels.pixel(n));
+        if (std::ranges::all_of(own, [](float depth) { return std::isnan(depth); })) return false;
+        const std::vector<float> differences = sweep_.differences(block, depth_at),
+                                 usual = robust_means(differences, own.size());
+        for (std::size_t n = 0; n < own.size(); ++n) {
+            if (std::isnan(own[n])) continue;
+            const Imath::V2i pixel = pixels.pixel(n);
+            std::vector<ImageSample> seen{centre(pixel)};
+            for (std::size_t v = 1; v < views_.size(); ++v)
+                if (differences[(v - 1) * own.size() + n] <=
+                    WarpTuning::image_shown_difference * usual[n] + WarpTuning::image_shown_least_difference)
+                    add(views_[v], pixel, double(own[n]), seen);
+            store(ldi_.pixel(ldi_.windows.index(pixel.x, pixel.y)).front(), double(own[n]), seen);
+        }
+        return true;
     }
 
 private:
@@ -103,17 +112,14 @@ void show_images(std::span<const PlacedView> views, double scale, int across,
     matched.reserve(views.size());
     for (const PlacedView &view : views) matched.emplace_back(view, scale);
     const ImageSweep sweep(matched, kernels::motion_unit(across));
-    const std::vector<float> depths = find_image_depths(sweep, ldi.windows.data, blocks);
-    const auto known = [](float depth) { return !std::isnan(depth); };
-    if (std::ranges::none_of(depths, known)) return;
     ldi.optical = ldi.z;
     const Shower shower(matched, sweep, scale, ldi);
-    const std::size_t width = std::size_t(ldi.windows.width());
-    constexpr std::size_t rows_at_once = 64;
-    sweep.go_through(depths.size() / width, rows_at_once, [&](std::size_t row) {
-        for (std::size_t i = row * width; i < (row + 1) * width; ++i)
-            if (known(depths[i])) shower.show(ldi.windows.pixel(i), double(depths[i]));
-    });
+    std::atomic<bool> shown = false;
+    find_image_depths(sweep, ldi.windows.data, blocks,
+                      [&](const Imath::Box2i &block, const ImageDepthAt &depth_at) {
+                          if (shower.show(block, depth_at)) shown = true;
+                      });
+    if (!shown) std::vector<float>().swap(ldi.optical);
 }
 
 } // namespace sparselens
