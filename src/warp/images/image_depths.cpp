@@ -84,7 +84,8 @@ void ImageDepths::agree_with_neighbours(const Imath::Box2i &tile, const Depths &
     for (std::size_t n = 0; n < pixels.size(); ++n) {
         const Imath::V2i pixel = pixels.pixel(n);
         const std::size_t index = search_.index_of(pixel);
-        if (!std::isnan(from[index])) to[index] = depth_by_neighbours(around_tile, pixel - tile.min, around);
+        to[index] =
+            std::isnan(from[index]) ? unknown : depth_by_neighbours(around_tile, pixel - tile.min, around);
     }
 }
 
@@ -142,16 +143,17 @@ void ImageDepths::go_on(const Imath::Box2i &tile, const Depths &from, Depths &to
 void ImageDepths::find(const ShowImages &show) {
     constexpr std::size_t made = 3 + WarpTuning::image_continuations, // steps that make depths
         band_rows = 2;                                                // of blocks; a step looks one beyond
-    std::array<Depths, made + 1> depths;
+    std::array<Depths, 3> depths; // what a step reads of a band, the third step after it writes there later
     depths.fill(Depths(matches_.size(), unknown));
     for (std::size_t i = 0; i < matches_.size(); ++i)
         if (matches_[i].found) depths[0][i] = matches_[i].depth;
     const auto take = [&](std::size_t step, const Imath::Box2i &tile) {
-        const Depths &from = depths[step];
+        const Depths &from = depths[step % 3];
+        Depths &to = depths[(step + 1) % 3];
         if (step == made) return show(tile, [&](const Imath::V2i &pixel) { return depth_at(pixel, from); });
-        if (step == 1) return refine(tile, from, depths[step + 1]);
-        if (step < 3) return agree_with_neighbours(tile, from, depths[step + 1]);
-        go_on(tile, from, depths[step + 1]);
+        if (step == 1) return refine(tile, from, to);
+        if (step < 3) return agree_with_neighbours(tile, from, to);
+        go_on(tile, from, to);
     };
     const std::size_t bands = search_.bands(band_rows);
     for (std::size_t time = 0; time < bands + made; ++time)
