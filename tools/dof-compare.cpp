@@ -15,6 +15,7 @@
 #include "measure/temporal_error.h"
 #include "measure/temporal_text.h"
 #include "options/lens_options.h"
+#include "options/picture_options.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -62,6 +63,7 @@ void add_options(CLI::App &app, Options &options) {
         app.add_option("--flip-map", options.flip_map,
                        "Write FLIP of each pixel, from 0 to 1: EXR, or PNG and others to look at")
             ->type_name("FILE")
+            ->check(output_name(OutputKind::picture))
             ->needs(flip);
     app.add_option("--frames", options.frames,
                    "Compare over time: how steady a sequence is (names hold #### or %04d), and its changes "

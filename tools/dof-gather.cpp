@@ -23,6 +23,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -88,6 +89,8 @@ ChooseSamples choose_samples(const GatherCommand &options, const ToolContext &to
 
 // No tiles: not gathered by tiles.
 Stats gather_stats(const LdiCache &cache, std::size_t samples, const LensTiles &tiles) {
+    const std::optional<double> &focused = cache.last().camera.focus_distance;
+    const Stats focus = focused && std::isfinite(*focused) ? Stats(*focused) : Stats(nullptr);
     Stats points = Stats::object();
     std::size_t copied = 0;
     for (const auto &[number, count] : histogram(tiles)) {
@@ -100,6 +103,7 @@ Stats gather_stats(const LdiCache &cache, std::size_t samples, const LensTiles &
             {"samples_invisible", cache.last().invisible},
             {"samples", samples},
             {"channels_left_out", cache.channels_left_out()},
+            {"focus_distance", focus},
             {"tiles", tiles.lens_points.size()},
             {"tiles_copied", copied},
             {"lens_points", points}};
@@ -113,6 +117,7 @@ void run(const GatherCommand &given, const ToolContext &tool, LdiCache &cache, C
                                choose_samples(options, tool, looks_given));
     if (in.reduced() && merges_by_rows(in.ldi.channels))
         options.picture.layer_tolerance = 0; // they are merged
+    if (needs_gather(options.show)) require_channels(in);
     say_camera(tool, options.input, in.camera);
     ThinLens lens = lens_for_ldi(in, options.focus_pixel, subpixels_of(options.windows, in).across, tool);
     const auto holdout = open_holdout(options.holdout, in, options.windows, by);
@@ -151,12 +156,12 @@ void run(const GatherCommand &given, const ToolContext &tool, LdiCache &cache, C
     append_history(header, tool, options.history);
     *tool.last_step = [&tool, header, depth = std::move(depth), picture = std::move(picture),
                        output = options.output, depth_output = options.depth_output, type = options.type,
-                       colour = options.colour, compression = options.compression,
+                       colour = options.colour, compression = options.compression, in_tiles = options.tiles,
                        stats = gather_stats(cache, samples, tiles)]() mutable {
-        if (!depth_output.empty()) write_flat_exr(depth_output, depth, header, compression);
-        warn_of_clamped(
-            tool, output,
-            write_picture(tool, colour, output, in_type(std::move(picture), type), header, compression));
+        if (!depth_output.empty()) write_flat_exr(depth_output, depth, header, compression, in_tiles);
+        warn_of_clamped(tool, output,
+                        write_picture(tool, colour, output, in_type(std::move(picture), type), header,
+                                      compression, in_tiles));
         write_stats(tool, stats);
     };
 }

@@ -22,7 +22,7 @@ struct Options {
     LensValues lens;
     DepthOptions depth;
     HistoryOptions history;
-    std::vector<std::string> inputs;
+    std::vector<std::string> inputs, depth_files;
     std::string output;
     std::optional<double> tolerance;
     std::optional<int> supersample;
@@ -37,7 +37,8 @@ void add_options(CLI::App &app, Options &options) {
         ->required();
     app.add_option("-o,--output", options.output, "LDI to write; - for standard output")
         ->type_name("OUT.exr")
-        ->required();
+        ->required()
+        ->check(output_name(OutputKind::exr));
     app.add_option("--tolerance", options.tolerance,
                    "Merge samples whose circles of confusion differ by less, in pixels (default: 0.25)")
         ->type_name("PX")
@@ -49,6 +50,7 @@ void add_options(CLI::App &app, Options &options) {
     add_lens_options(app, options.lens);
     add_subpixels_option(app, options.supersample);
     add_depth_options(app, options.depth);
+    add_depth_files_option(app, options.depth_files);
     add_history_option(app, options.history);
     add_examples(app, {{"Merge samples that no lens tells apart", "ldi-cluster ldi.exr -o small.exr"},
                        {"Merge the deep pictures of two elements by depth, and change nothing else",
@@ -56,12 +58,14 @@ void add_options(CLI::App &app, Options &options) {
 }
 
 OpenedLdi open_merged(const Options &options, const ToolContext &tool) {
+    const std::vector<DepthOptions> depths =
+        depths_of_pictures(options.depth, options.depth_files, options.inputs.size());
     std::vector<OpenedLdi> parts;
-    for (const std::string &path : options.inputs) {
-        parts.push_back(open_ldi(path, {options.lens, options.depth}));
+    for (std::size_t i = 0; i < depths.size(); ++i) {
+        parts.push_back(open_ldi(options.inputs[i], {options.lens, depths[i]}));
         if (options.supersample) parts.back().camera.supersample = options.supersample;
         say_samples(tool, parts.back());
-        warn_of_invalid_values(tool, path, parts.back().bad);
+        warn_of_invalid_values(tool, options.inputs[i], parts.back().bad);
     }
     return merge_ldis(std::move(parts));
 }
@@ -77,11 +81,12 @@ Stats cluster_stats(const OpenedLdi &in, const Clustered &out) {
 void run(const Options &options, const ToolContext &tool) {
     OpenedLdi in = open_merged(options, tool);
     ClusterOptions by{.layers = options.layers};
-    // --layers alone does not need the lens: inverse depths are compared without a scale.
-    const auto scale =
-        perceptive_scale(in.camera, in.ldi.windows, options.tolerance.has_value() || options.layers == 0);
+    // --layers alone needs no lens, as inverse depths are compared without a scale, and --tolerance 0 none either.
+    const double tolerance = options.tolerance.value_or(0.25);
+    const bool must_know = tolerance > 0 && (options.tolerance || options.layers == 0);
+    const auto scale = perceptive_scale(in.camera, in.ldi.windows, must_know);
     if (scale) by.scale = *scale;
-    if (scale) by.tolerance = options.tolerance.value_or(0.25);
+    if (scale) by.tolerance = tolerance;
     const Clustered out = cluster(in.ldi, by, *tool.progress);
     tool.say(fmt::format("{} samples to {}, ", in.ldi.samples(), out.ldi.samples()) +
              (scale ? fmt::format("CoC changed by at most {:.6f} px", out.largest_error)

@@ -59,7 +59,8 @@ void run(const PlanCommand &options, const ToolContext &tool) {
     warn_of_invalid_values(tool, options.centre, centre.bad);
     const Windows &windows = centre.view.image.windows;
     const ThinLens lens = centre.lens();
-    warn_of(tool, picture_warnings(centre.view, {centre.depth, centre.depth_filtered, centre.camera}));
+    warn_of(tool, picture_warnings(centre.view, {centre.depth, centre.depth_filtered, centre.camera,
+                                                 centre.unpremultiplied}));
     PlanOptions by = options.plan;
     by.across = centre.camera.supersample.value_or(1);
     const Plan plan = make_plan(centre.view, lens, by, *tool.progress);

@@ -73,6 +73,7 @@ Stats warp_stats(const GivenViews &given, const Ldi &ldi) {
 
 void run(const WarpCommand &options, const ToolContext &tool, ChosenWarpDevice &device) {
     OpenedViews in = open_views(options.views, {options.lens, options.depth});
+    check_views(in.views); // before anything is said of views that do not go together
     say_camera(tool, in.views[0].name, in.camera);
     say_framings(tool, in.views);
     for (std::size_t i = 0; i < in.views.size(); ++i) {
@@ -91,9 +92,9 @@ void run(const WarpCommand &options, const ToolContext &tool, ChosenWarpDevice &
     write_camera(in.header, in.camera);
     append_history(in.header, tool, options.history);
     write_picture_window(in.header, in.views[0].samples.windows.data);
-    check_views(in.views);
-    const std::vector<std::string> warnings = view_warnings(
-        in.views, {options.depth.meaning, in.depth_filtered, in.camera}); // while the pixels are there
+    const std::vector<std::string> warnings =
+        view_warnings(in.views, {options.depth.meaning, in.depth_filtered, in.camera,
+                                 in.unpremultiplied}); // while the pixels are there
     const GivenViews given = given_views(in.views);
     Ldi ldi = warp(std::move(in.views), warp_by, *tool.progress);
     if (options.round_for_lens) round_for_lens(ldi, scale_in_picture(warp_by));

@@ -28,10 +28,16 @@ std::string last_component(const std::string &layer) { return lower_case(split(l
 
 using Layers = std::unordered_set<std::string>;
 
-Layers layers_with(const char *letter, std::span<const Channel> channels) {
+Layers layers_with(std::string_view letter, std::span<const Channel> channels) {
     Layers layers;
     for (const Channel &channel : channels)
         if (const auto [layer, last] = split(channel.name); lower_case(last) == letter) layers.insert(layer);
+    return layers;
+}
+
+Layers coloured_layers(std::span<const Channel> channels) {
+    Layers layers = layers_with("g", channels);
+    layers.merge(layers_with("green", channels));
     return layers;
 }
 
@@ -59,6 +65,7 @@ bool is_data(const std::string &name, const Layers &with_x) {
                                        "velocity",
                                        "depth",
                                        "zdepth",
+                                       "z",
                                        "denoising normal",
                                        "denoising depth",
                                        "point",
@@ -142,7 +149,7 @@ ColourPart colour_part(const Channel &channel) {
 }
 
 void find_kinds(std::span<Channel> channels, std::span<const std::string> mattes) {
-    const Layers with_x = layers_with("x", channels), coloured = layers_with("g", channels);
+    const Layers with_x = layers_with("x", channels), coloured = coloured_layers(channels);
     const auto is_id = [&](const Channel &channel) {
         const IdWord word = id_word(channel.name);
         return channel.type != PixelType::uint32 &&

@@ -159,6 +159,11 @@ void Repair::repair_depths() {
     });
     if (bad > 0 && 2 * bad >= covered) {
         const Imath::V2i p = s_.windows.pixel(first_bad);
+        if (std::isnan(first_depth))
+            throw Error(
+                fmt::format("{}: depth nan in pixel {},{} is not a number above 0, as half of all depths or "
+                            "more: render depth again, or give another channel (`depth_channel`)",
+                            name_, p.x, p.y));
         throw Error(
             fmt::format("{}: depth {:g} in pixel {},{} is not a number above 0: `depth` says what the "
                         "channel holds (negative: "

@@ -1,5 +1,6 @@
 #include "io/channels.h"
 
+#include "base/channel_names.h"
 #include "base/error.h"
 #include "deep/channel_alpha.h"
 
@@ -16,7 +17,8 @@ namespace {
 bool names(const std::string &item, const Channel &channel) {
     const std::string &name = channel.name;
     if (item == "rgba") return name == "R" || name == "G" || name == "B" || name == "A";
-    return item == name || name.starts_with(item + ".") || (is_in_matte(channel) && item == channel.matte);
+    return item == name || colour_name(item) == name || name.starts_with(item + ".") ||
+           (is_in_matte(channel) && item == channel.matte);
 }
 
 std::vector<std::string> items_of(const std::string &list) {

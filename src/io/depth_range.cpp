@@ -1,6 +1,7 @@
 #include "io/depth_range.h"
 
 #include "base/error.h"
+#include "deep/checks/white_near_check.h"
 #include "io/exr/header_values.h"
 
 #include <fmt/format.h>
@@ -36,10 +37,11 @@ DepthRange depth_range(const DepthOptions &options, const Imf::Header &header) {
         throw UsageError(fmt::format("`depth={}`: which depth is {} is unknown: give {}", word,
                                      near ? "1" : (far ? "0" : "0 and which is 1"),
                                      near ? "`far`" : (far ? "`near`" : "`near` and `far`")));
-    if (!(*near > 0 && *near < *far))
-        throw UsageError(fmt::format("`depth={}`: `near` must be above 0 and less than `far`: they are "
-                                     "{:g} and {:g}",
-                                     word, *near, *far));
+    if (!(*near > 0 && *far > 0 && *near != *far))
+        throw UsageError(
+            fmt::format("`depth={}`: `near` and `far` must be above 0 and not the same: they are "
+                        "{:g} and {:g}",
+                        word, *near, *far));
     return {*near, *far};
 }
 
@@ -49,6 +51,15 @@ std::optional<std::string> normalized_warning(const DepthOptions &options, std::
     if (!(least >= 0 && least < 1 && most == 1)) return {};
     return "its depths end at exactly 1, as normalised ones do: if they are, give `depth=normalized` with "
            "`near` and `far`, or `depth=hyperbolic` if they are those of a depth buffer";
+}
+
+std::optional<std::string> normalized_warning(const DepthOptions &options, std::span<const float> depths,
+                                              const Grid &grid) {
+    if (options.meaning == DepthMeaning::planar && looks_white_near(grid, depths))
+        return "its depths lie from 0 to 1 and seem to be white near: if they are, give `depth=normalized` "
+               "with "
+               "`near`, the depth of 0, which is the farther one, and `far`, that of 1";
+    return normalized_warning(options, depths);
 }
 
 } // namespace sparselens

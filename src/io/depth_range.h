@@ -18,7 +18,9 @@ namespace sparselens {
 DepthRange depth_range(const DepthOptions &options, const Imf::Header &header);
 
 // A warning where depths that are read as they stand look like normalised ones: none is above 1, and the farthest are
-// exactly 1.
+// exactly 1; or, of a flat picture of that grid, they bend as those do that are white near (white_near_check.h).
 std::optional<std::string> normalized_warning(const DepthOptions &options, std::span<const float> depths);
+std::optional<std::string> normalized_warning(const DepthOptions &options, std::span<const float> depths,
+                                              const Grid &grid);
 
 } // namespace sparselens

@@ -121,6 +121,21 @@ Image GatherWindows::picture_of(Image needed_pixels, float nothing) const {
     return mean_of_subpixels(needed_pixels, subpixels, picture, nothing);
 }
 
+void require_inside(const Imath::V2i &focus_pixel, const OpenedLdi &in, int across) {
+    const Imath::Box2i inside = reduced(in.ldi.windows.data, across);
+    if (inside.intersects(focus_pixel)) return;
+    throw UsageError(fmt::format(
+        "`focus_pixel`: {},{} lies outside of {}, whose pixels go from {},{} to {},{}", focus_pixel.x,
+        focus_pixel.y, in.name, inside.min.x, inside.min.y, inside.max.x, inside.max.y));
+}
+
+void require_channels(const OpenedLdi &in) {
+    if (in.ldi.channels.empty())
+        throw Error(in.name +
+                    ": has depth but no colours, so there is nothing to gather; give the picture, and "
+                    "its depth by `depth_file` where that is in a file of its own");
+}
+
 bool keeps_pixels(const WindowOptions &options, const Imf::Header &header) {
     return options.proxy == 1 &&
            (options.overscan != OutputOverscan::grow || holds(header.dataWindow(), header.displayWindow()));

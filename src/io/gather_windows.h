@@ -42,6 +42,13 @@ struct GatherWindows {
     Image picture_of(Image needed_pixels, float nothing = 0) const;
 };
 
+// Throws UsageError where the pixel to focus on lies outside of the picture, of whose pixels the LDI has `across` sub-pixels to a
+// side.
+void require_inside(const Imath::V2i &focus_pixel, const OpenedLdi &in, int across);
+
+// Throws Error where there is nothing to gather but depth.
+void require_channels(const OpenedLdi &in);
+
 // Whether the LDI to gather has the pixels of the file, whatever they show.
 bool keeps_pixels(const WindowOptions &options, const Imf::Header &header);
 

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "deep/channel_alpha.h"
+#include "deep/checks/premultiplied_check.h"
 #include "deep/edge_depths.h"
 #include "deep/tidy.h"
 #include "io/camera/camera_read.h"
@@ -149,13 +150,22 @@ std::size_t settle_speckles_of(Ldi &ldi) {
     return settle_speckles(ldi.windows, ldi.channels, planes, ldi.z);
 }
 
+// The same, before samples that cover nothing are left out.
+bool seems_unpremultiplied(const Ldi &ldi, const PictureChoice &choice) {
+    if (choice.unpremultiplied) return false;
+    const auto plane = [&](std::size_t k) { return std::span<const float>(ldi.values[k]); };
+    return looks_unpremultiplied(fall_at_edges(flat_pixels(ldi.windows, ldi.channels, ldi.z, plane)));
+}
+
 } // namespace
 
 OpenedLdi ready_ldi(LdiFile file, const std::string &path, const OpenOptions &options) {
     const bool deep = file.deep;
     OpenedLdi opened = with_camera(std::move(file), path, options);
-    if (const auto warning = normalized_warning(options.depth, opened.ldi.z))
-        opened.warnings.push_back(*warning);
+    const auto warning = deep ? normalized_warning(options.depth, opened.ldi.z)
+                              : normalized_warning(options.depth, opened.ldi.z, opened.ldi.windows.grid());
+    if (warning) opened.warnings.push_back(*warning);
+    if (!deep) opened.unpremultiplied = seems_unpremultiplied(opened.ldi, options.depth.picture);
     make_planar(opened.ldi, options.depth.meaning, depth_range(options.depth, opened.header), opened.camera);
     opened.bad = sanitize(opened.ldi, opened.name);
     if (!deep) {

@@ -37,6 +37,7 @@ struct OpenedLdi {
     bool deep = true;                          // the file; else it is a flat picture with depth
     DepthMeaning depth = DepthMeaning::planar; // what the file's depths were read as
     bool depth_filtered = false;               // of a flat picture: see edge_depths.h
+    bool unpremultiplied = false;              // of a flat picture: its colours seem to be
     bool coverage_by_colour = false;           // AR, AG and AB differ in the file (deep/channel_alpha.h)
     std::vector<std::string> notes, warnings;  // see LdiFile
 

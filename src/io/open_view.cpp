@@ -1,10 +1,11 @@
 #include "io/open_view.h"
 
 #include "base/parallel.h"
+#include "deep/checks/premultiplied_check.h"
 #include "deep/edge_depths.h"
 #include "io/camera/camera_read.h"
 #include "io/depth_range.h"
-#include "io/exr/exr_common.h"
+#include "io/exr/depth_channel.h"
 #include "io/exr/exr_flat.h"
 #include "io/files/file_stream.h"
 #include "view/depth_reader.h"
@@ -40,18 +41,23 @@ OpenedView ready_view(FlatFile file, const std::string &path, const OpenOptions 
                       .notes = std::move(file.notes),
                       .warnings = std::move(file.warnings)};
     View &view = opened.view;
-    opened.notes.push_back("depth: " +
-                           find_depth_channel(view.image.channels, options.depth.picture.depth, path));
-    view.z = take_depth(view.image, options.depth.picture.depth, path);
+    const DepthChannel depth =
+        find_depth_channel(view.image.channels, options.depth.picture.depth_in_memory(), path);
+    if (options.depth.picture.depth_file.empty()) opened.notes.push_back("depth: " + depth.name);
+    if (depth.warning) opened.warnings.push_back(*depth.warning);
+    view.z = take_depth(view.image, options.depth.picture.depth_in_memory(), path);
     const Camera own = read_perspective_camera(opened.header, view.name);
     opened.camera = camera_with_options(options.lens, own);
     const Camera frustum = camera_with_options(options.lens, with_frustum_of(otherwise, own));
-    if (const auto warning = normalized_warning(options.depth, view.z)) opened.warnings.push_back(*warning);
+    if (const auto warning = normalized_warning(options.depth, view.z, view.image.windows.grid()))
+        opened.warnings.push_back(*warning);
     const DepthReader read(view.image.windows, options.depth.meaning,
                            depth_range(options.depth, opened.header), frustum);
     parallel_ranges(view.z.size(), 4096, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) view.z[i] = read.planar(view.z[i], i);
     });
+    opened.unpremultiplied =
+        !options.depth.picture.unpremultiplied && looks_unpremultiplied(fall_at_edges(flat_pixels(view)));
     opened.bad = sanitize(view);
     if (const std::size_t speckles = settle_speckles(view))
         opened.warnings.push_back(speckle_warning(speckles));

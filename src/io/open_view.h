@@ -22,6 +22,7 @@ struct OpenedView {
     InvalidValues bad;                                  // what was repaired
     DepthMeaning depth = DepthMeaning::planar;          // what the file's depths were read as
     bool depth_filtered = false;                        // see SettledEdges
+    bool unpremultiplied = false;                       // its colours seem to be
     std::vector<std::string> notes = {}, warnings = {}; // see FlatFile
 
     // UsageError: a value of the lens is unknown (see resolve_lens.h).

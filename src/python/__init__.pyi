@@ -123,7 +123,7 @@ class View(_Image, _Opened):
       world_to_camera: 4 x 4 numbers, instead of position; see Camera
       name: for messages (default: "view")
       data_window, display_window, pixel_aspect (default: (0, 0, width - 1, height - 1) for both, and 1)
-      depth, near, far, depth_channel: what the depths are, as in open_view
+      depth, near, far, depth_channel, unpremultiplied: what depths and colours are, as in open_view
       focal_length (mm), sensor_width (mm, spans the display window), fstop (a number, or inf),
       lens_radius (scene units, instead of fstop), focus_distance (scene units, or inf), scene_unit (metres)
 
@@ -146,6 +146,7 @@ class View(_Image, _Opened):
         near: Optional[float] = None,
         far: Optional[float] = None,
         depth_channel: Optional[str] = None,
+        unpremultiplied: bool = False,
         focal_length: Optional[float] = None,
         sensor_width: Optional[float] = None,
         fstop: Optional[float] = None,
@@ -175,7 +176,7 @@ class Ldi(_Windows, _Opened):
       z_back, dx, dy, weight, optical, solid: float32 (samples), see the properties; dx and dy come together
       name: for messages (default: "ldi")
       data_window, display_window, pixel_aspect, world_to_camera: as in View
-      depth, near, far: what z is, as in open_view
+      depth, near, far, unpremultiplied: what z and the colours are, as in open_view
       focal_length (mm), sensor_width (mm, spans the display window), fstop (a number, or inf),
       lens_radius (scene units, instead of fstop), focus_distance (scene units, or inf), scene_unit (metres)
 
@@ -202,6 +203,7 @@ class Ldi(_Windows, _Opened):
         depth: _Depth = "z",
         near: Optional[float] = None,
         far: Optional[float] = None,
+        unpremultiplied: bool = False,
         focal_length: Optional[float] = None,
         sensor_width: Optional[float] = None,
         fstop: Optional[float] = None,
@@ -257,6 +259,9 @@ class Picture(_Image):
         pixel_aspect: float = 1,
     ) -> None:
         """See help(sparselens.Picture)."""
+    @property
+    def camera(self) -> Camera:
+        """The camera and the lens that it was made by, with the focus distance that focus_pixel found."""
     def _repr_png_(self) -> Optional[bytes]:
         """The picture as PNG, through the default display and view; None without R, G and B. Notebooks call it."""
 
@@ -333,8 +338,10 @@ def open_view(
     near: Optional[float] = None,
     far: Optional[float] = None,
     depth_channel: Optional[str] = None,
+    depth_file: Optional[_Path] = None,
     stereo_view: Optional[str] = None,
     layer: Optional[str] = None,
+    unpremultiplied: bool = False,
     focal_length: Optional[float] = None,
     sensor_width: Optional[float] = None,
     fstop: Optional[float] = None,
@@ -347,10 +354,13 @@ def open_view(
     position: (x, y), where the camera stood relative to the centre view, scene units; default: as the file says.
     center: the centre view, which gives what this file does not say of its frustum.
     depth: what depth channels hold: "z" planar, "distance" along the ray, "inverse" 1 / z, "negative" -z,
-      "normalized" 0 at near to 1 at far, "hyperbolic" the same, linear in 1 / z. Depths beyond far (default: 1e10) are sky.
-    depth_channel: default: the first of Z, depth.Z and *.Depth.Z.
+      "normalized" 0 at near to 1 at far (near is the larger where white is near), "hyperbolic" the same, linear in 1 / z.
+      Depths beyond far (default: 1e10) are sky.
+    depth_channel: default: Z, depth.Z, *.Depth.Z or the like, in any case.
+    depth_file: a flat EXR of the same size that holds the depth, which the picture then needs not have.
     stereo_view: the view of a stereo file, such as "right".
     layer: the picture of a file that holds several, such as a view layer of Blender.
+    unpremultiplied: the colours of the file are not multiplied by A yet.
     Lens values replace those of the file:
       focal_length (mm), sensor_width (mm, spans the display window), fstop (a number, or inf),
       lens_radius (scene units, instead of fstop), focus_distance (scene units, or inf), scene_unit (metres)
@@ -364,8 +374,10 @@ def open_ldi(
     near: Optional[float] = None,
     far: Optional[float] = None,
     depth_channel: Optional[str] = None,
+    depth_file: Optional[_Path] = None,
     stereo_view: Optional[str] = None,
     layer: Optional[str] = None,
+    unpremultiplied: bool = False,
     focal_length: Optional[float] = None,
     sensor_width: Optional[float] = None,
     fstop: Optional[float] = None,
@@ -375,7 +387,13 @@ def open_ldi(
 ) -> Ldi:
     """Opens any deep EXR, or a flat one with depth, and returns an Ldi. Keywords and errors are those of open_view."""
 
-def open_picture(path: _Path, *, stereo_view: Optional[str] = None, layer: Optional[str] = None) -> Picture:
+def open_picture(
+    path: _Path,
+    *,
+    stereo_view: Optional[str] = None,
+    layer: Optional[str] = None,
+    unpremultiplied: bool = False,
+) -> Picture:
     """Opens a flat EXR and returns a Picture of all its channels. Raises Error where the file cannot be read."""
 
 def warp(
@@ -595,6 +613,7 @@ def write(
     *,
     compression: Optional[str] = None,
     type: Optional[Literal["half", "float"]] = None,
+    tiles: int = 0,
     colorconfig: Optional[_Path] = None,
     display: Optional[str] = None,
     view_transform: Optional[str] = None,
@@ -605,6 +624,7 @@ def write(
     what: a Picture or a numpy array (EXR, or PNG, JPEG, TIFF and the like by the extension), an Ldi (deep EXR) or a Plan (JSON).
     compression: of EXR, such as "zip"; default: that of the file that it came from.
     type: "half" or "float", of the channels of a picture (default: their own; float where they came from numpy).
+    tiles: EXR of a picture in tiles of so many pixels to a side; 0: in scanlines.
     colorconfig, display, view_transform: of OpenColorIO, for PNG and the like (default: $OCIO and its display).
     masks: with a Plan, a folder for one mask per view.
 

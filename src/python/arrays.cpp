@@ -1,5 +1,6 @@
 #include "python/arrays.h"
 
+#include "base/channel_names.h"
 #include "base/error.h"
 
 #include <fmt/format.h>
@@ -125,9 +126,15 @@ py::array planes_of(const Image &image, const py::object &owner, Access access) 
         access);
 }
 
+std::size_t channel_named(std::span<const Channel> channels, const std::string &name) {
+    std::size_t k = find_channel(channels, name);
+    if (k == npos) k = find_channel(channels, colour_name(name));
+    if (k == npos) throw py::key_error(name);
+    return k;
+}
+
 py::array plane_of(const Image &image, const std::string &channel, const py::object &owner, Access access) {
-    const std::size_t k = find_channel(image.channels, channel);
-    if (k == npos) throw py::key_error(channel);
+    const std::size_t k = channel_named(image.channels, channel);
     return shared(image.plane(k), owner,
                   {std::size_t(image.windows.height()), std::size_t(image.windows.width())}, access,
                   image.channels[k].type);

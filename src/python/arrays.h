@@ -28,6 +28,8 @@ py::array shared(std::span<const std::uint8_t> mask, const py::object &owner, st
 
 // The picture as [channel][row][column].
 py::array planes_of(const Image &image, const py::object &owner, Access access);
+// The number of a channel, by its name or by another spelling of it (base/channel_names.h). KeyError: there is none.
+std::size_t channel_named(std::span<const Channel> channels, const std::string &name);
 // One channel as [row][column]. KeyError: there is none of that name.
 py::array plane_of(const Image &image, const std::string &channel, const py::object &owner, Access access);
 

@@ -1,7 +1,9 @@
 #include "python/from_arrays.h"
 
 #include "base/error.h"
+#include "deep/premultiply.h"
 #include "io/camera/camera_write.h"
+#include "io/exr/kept_names.h"
 #include "python/arrays.h"
 #include "python/job.h"
 
@@ -160,6 +162,12 @@ ViewObject view_from(const py::object &image, const py::object &depth, const py:
     }
     set_windows(file.image.windows, keywords);
     file.header = header_for(file.image.windows, keywords);
+    name_colours(file.image.channels, file.header);
+    if (options.depth.picture.unpremultiplied) {
+        std::vector<std::span<float>> planes;
+        for (std::size_t k = 0; k < file.image.channels.size(); ++k) planes.push_back(file.image.plane(k));
+        premultiply(file.image.channels, planes);
+    }
     keywords.done();
     ViewObject view{
         job<OpenedView>(py::none(), [&](Progress &) { return ready_view(std::move(file), name, options); }),
@@ -181,6 +189,10 @@ LdiObject ldi_from(const py::object &begin, const py::object &z, const py::objec
                  .notes = {},
                  .warnings = {}};
     keywords.done();
+    name_colours(file.ldi.channels, file.header);
+    if (options.depth.picture.unpremultiplied)
+        premultiply(file.ldi.channels,
+                    std::vector<std::span<float>>(file.ldi.values.begin(), file.ldi.values.end()));
     auto ldi =
         job<OpenedLdi>(py::none(), [&](Progress &) { return ready_ldi(std::move(file), name, options); });
     warn_of(name, ldi.warnings, ldi.bad);
@@ -193,6 +205,7 @@ PictureObject picture_from(const py::object &image, const py::kwargs &given) {
     PictureObject picture{image_from(image, "image", layout, channel_names(keywords), "Y"), {}};
     set_windows(picture.image.windows, keywords);
     keywords.done();
+    name_colours(picture.image.channels, picture.header);
     return picture;
 }
 

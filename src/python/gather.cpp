@@ -123,6 +123,7 @@ Asked asked_by(const py::kwargs &given) {
 Camera focused(Camera camera, const OpenedLdi &in, const Asked &asked) {
     const std::optional<Imath::V2i> &pixel = asked.focus_pixel;
     if (!pixel) return camera;
+    require_inside(*pixel, in, subpixels_of(asked.windows, in).across);
     const float z = front_depth(in.ldi, middle_subpixel(*pixel, subpixels_of(asked.windows, in).across));
     if (!(z > 0))
         throw UsageError(
@@ -170,6 +171,7 @@ PictureObject gathered(const Asked &asked, const OpenedLdi &in, const Camera &ca
 PictureObject gather(const py::object &ldi, const py::kwargs &given) {
     const Asked asked = asked_by(given);
     const OpenedLdi &in = argument<OpenedLdi>(ldi, "ldi", "an Ldi");
+    require_channels(in);
     const Camera camera = focused(camera_with_options(asked.lens, in.camera), in, asked);
     const ThinLens lens = resolve_lens(camera, in.ldi.windows);
     if (const auto warning = warning_of_wide_lens(camera, lens)) warn(*warning);

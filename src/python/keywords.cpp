@@ -32,7 +32,10 @@ std::vector<Number> numbers(const py::object &object, const char *name, std::siz
     try {
         found = object.cast<std::vector<Number>>();
     } catch (const py::cast_error &) {
-        wrong_type(name, wanted, object);
+        if (!py::isinstance<py::sequence>(object) || py::isinstance<py::str>(object))
+            wrong_type(name, wanted, object);
+        throw py::type_error(
+            fmt::format("{}: must be {}, not {}", name, wanted, std::string(py::str(object))));
     }
     if (found.size() != count) Keywords::refuse(name, wanted, py::str(object));
     return found;
@@ -156,7 +159,9 @@ LensValues lens_values(Keywords &keywords) {
 }
 
 PictureChoice picture_choice(Keywords &keywords) {
-    return {.stereo_view = keywords.text("stereo_view"), .layer = keywords.text("layer")};
+    return {.stereo_view = keywords.text("stereo_view"),
+            .layer = keywords.text("layer"),
+            .unpremultiplied = keywords.flag("unpremultiplied")};
 }
 
 DepthOptions depth_options(Keywords &keywords) {
@@ -170,8 +175,14 @@ DepthOptions depth_options(Keywords &keywords) {
     picture.depth = keywords.text("depth_channel");
     return {.meaning = meaning.value_or(DepthMeaning::planar),
             .picture = std::move(picture),
-            .near = keywords.number("near"),
+            .near = keywords.number("near", above_0_or_inf),
             .far = keywords.number("far", above_0_or_inf)};
+}
+
+OpenOptions file_options(Keywords &keywords) {
+    OpenOptions options{lens_values(keywords), depth_options(keywords)};
+    options.depth.picture.depth_file = keywords.path("depth_file");
+    return options;
 }
 
 std::string path_of(const py::object &path, const char *name) {

@@ -77,11 +77,14 @@ private:
 // focal_length, sensor_width, fstop, lens_radius, focus_distance, scene_unit.
 LensValues lens_values(Keywords &keywords);
 
-// stereo_view, layer.
+// stereo_view, layer, unpremultiplied.
 PictureChoice picture_choice(Keywords &keywords);
 
-// depth, near, far, depth_channel, stereo_view, layer.
+// depth, near, far, depth_channel, stereo_view, layer, unpremultiplied.
 DepthOptions depth_options(Keywords &keywords);
+
+// All of the above, and depth_file: how a file is opened.
+OpenOptions file_options(Keywords &keywords);
 
 [[noreturn]] void wrong_type(const char *name, const char *wanted, const py::handle &found);
 

@@ -1,6 +1,7 @@
 #include "python/objects.h"
 
 #include "base/text.h"
+#include "io/camera/camera_read.h"
 #include "plan/rectangles.h"
 #include "python/arrays.h"
 #include "python/from_arrays.h"
@@ -40,8 +41,7 @@ py::object optional_samples(const std::vector<float> &values, const py::object &
 
 py::array samples_of(const py::object &self, const std::string &channel) {
     const Ldi &ldi = self.cast<const LdiObject &>().ldi;
-    const std::size_t k = find_channel(ldi.channels, channel);
-    if (k == npos) throw py::key_error(channel);
+    const std::size_t k = channel_named(ldi.channels, channel);
     return shared(ldi.values[k], self, {}, Access::read_only, ldi.channels[k].type);
 }
 
@@ -199,7 +199,10 @@ void bind_picture(py::module_ &module) {
     type.def(py::init(&picture_from), py::arg("image"), doc::Picture::init);
     bind_image(
         type, [](const PictureObject &picture) -> const Image & { return picture.image; }, Access::writable);
-    type.def("__repr__",
+    type.def_property_readonly(
+            "camera", [](const PictureObject &picture) { return read_camera(picture.header); },
+            doc::Picture::camera)
+        .def("__repr__",
              [](const PictureObject &picture) {
                  return text_of("Picture", {}, picture.image.windows,
                                 fmt::format("{} channels", picture.image.channels.size()));

@@ -36,7 +36,7 @@ ViewObject open_view(const py::object &path, const py::kwargs &given) {
     const py::object center = keywords.take("center");
     const Camera otherwise =
         center.is_none() ? Camera{} : argument<ViewObject>(center, "center", a_view).in.camera;
-    const OpenOptions options{lens_values(keywords), depth_options(keywords)};
+    const OpenOptions options = file_options(keywords);
     keywords.done();
     ViewObject view{
         job<OpenedView>(py::none(), [&](Progress &) { return open_view(name, options, otherwise); }),
@@ -48,7 +48,7 @@ ViewObject open_view(const py::object &path, const py::kwargs &given) {
 LdiObject open_ldi(const py::object &path, const py::kwargs &given) {
     Keywords keywords("open_ldi", given);
     const std::string name = path_of(path, "path");
-    const OpenOptions options{lens_values(keywords), depth_options(keywords)};
+    const OpenOptions options = file_options(keywords);
     keywords.done();
     auto ldi = job<OpenedLdi>(py::none(), [&](Progress &) { return open_ldi(name, options); });
     warn_of(name, ldi.warnings, ldi.bad);
@@ -116,8 +116,8 @@ LdiObject warp(const py::object &views, const py::kwargs &given) {
         write_picture_window(out.header, placed[0].samples.windows.data);
         check_views(placed);
         // While their pixels are there.
-        std::vector<std::string> of_views =
-            view_warnings(placed, {from[0]->in.depth, from[0]->in.depth_filtered, out.camera});
+        std::vector<std::string> of_views = view_warnings(
+            placed, {from[0]->in.depth, from[0]->in.depth_filtered, out.camera, from[0]->in.unpremultiplied});
         with_warp_device(given_device.empty() ? "cpu" : given_device, warnings, [&](WarpDevice *device) {
             options.device = device;
             const WarpOptions by = with_lens(options, out.camera, placed);
@@ -144,10 +144,11 @@ OpenedLdi described_as(const OpenedLdi &in) {
 ClusterOptions cluster_options(const Camera &camera, const Windows &windows, std::optional<double> tolerance,
                                int layers) {
     ClusterOptions options{.layers = layers};
-    const auto scale = perceptive_scale(camera, windows, tolerance.has_value() || layers == 0);
+    const double by = tolerance.value_or(0.25);
+    const auto scale = perceptive_scale(camera, windows, by > 0 && (tolerance || layers == 0));
     if (!scale) return options;
     options.scale = *scale;
-    options.tolerance = tolerance.value_or(0.25);
+    options.tolerance = by;
     return options;
 }
 

@@ -5,6 +5,7 @@
 #include "io/display/colour.h"
 #include "io/display/shown_picture.h"
 #include "io/display/stated_space.h"
+#include "io/output_name.h"
 #include "python/arrays.h"
 #include "python/job.h"
 
@@ -50,23 +51,30 @@ void warn_of_clamped(const std::string &path, std::size_t clamped) {
                          clamped));
 }
 
+void refuse_wrong_name(const std::string &path, OutputKind kind) {
+    if (const std::string wrong = wrong_with_output(path, kind); !wrong.empty())
+        throw UsageError("path: " + wrong);
+}
+
 void write_picture(const std::string &path, PictureObject picture, Keywords &keywords) {
     const auto type =
         keywords.word<PixelType>("type", {{"half", PixelType::half}, {"float", PixelType::float32}});
     const auto compression = compression_from(keywords, false);
+    const int tiles = keywords.whole("tiles", 0, 8192).value_or(0);
     const Display display{keywords.path("colorconfig"), keywords.text("display"),
                           keywords.text("view_transform")};
     keywords.done();
+    refuse_wrong_name(path, OutputKind::picture);
     const bool shown = is_shown_picture(path);
-    if (shown && (compression || type))
-        throw UsageError("compression: it and type apply to EXR, not to " + path);
+    if (shown && (compression || type || tiles > 0))
+        throw UsageError("compression: it, type and tiles apply to EXR, not to " + path);
     if (!shown && !(display.display + display.view).empty())
         throw UsageError("display: it and view_transform apply to PNG, JPEG and TIFF, not to " + path);
     set_type(picture.image.channels, type);
     std::size_t clamped = 0;
     run_job(py::none(), [&](Progress &) {
         if (!shown) {
-            clamped = write_flat_exr(path, picture.image, picture.header, compression);
+            clamped = write_flat_exr(path, picture.image, picture.header, compression, tiles);
             return;
         }
         display.show(picture.image, picture.header);
@@ -78,6 +86,7 @@ void write_picture(const std::string &path, PictureObject picture, Keywords &key
 void write_deep(const std::string &path, const LdiObject &in, Keywords &keywords) {
     const auto compression = compression_from(keywords, true);
     keywords.done();
+    refuse_wrong_name(path, OutputKind::exr);
     Imf::Header header = in.header;
     write_camera(header, in.camera);
     const auto clamped = job<std::size_t>(

@@ -14,7 +14,9 @@ enum class DepthMeaning { planar, distance, inverse, negative, normalized, hyper
 
 // Planes in front of the camera, scene units. What lies at `far` or beyond is the sky.
 struct DepthRange {
-    double near = 0, far = 1e10; // near < far, which may be infinite
+    // One of the two may be infinite. Where near is the larger, normalised depths are white near the camera: 0 at the far
+    // plane, and 1 at the one close by.
+    double near = 0, far = 1e10;
 };
 
 // Whether a depth value stands for the sky: `far` and everything beyond (renderers write 1e10, 1e30, infinity or their

@@ -20,6 +20,7 @@ private:
     const Windows &windows_;
     DepthMeaning meaning_;
     DepthRange range_;
+    bool white_near_; // 1 is near: turned round
     double focal_px_;
     Imath::V2d principal_point_;
 };

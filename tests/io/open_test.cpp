@@ -111,8 +111,11 @@ TEST_F(Opened, NormalizedDepthNeedsBothPlanes) {
     EXPECT_THROW(depths_of_view(normalized), UsageError);
     normalized.near = 2;
     EXPECT_THROW(depths_of_ldi(normalized), UsageError);
-    normalized.far = 1;
-    EXPECT_THROW(depths_of_ldi(normalized), UsageError); // nearer than near
+    normalized.far = 2;
+    EXPECT_THROW(depths_of_ldi(normalized), UsageError); // the same
+    normalized.far = 1;                                  // white near: 0 at 2, which is the sky, and 1 at 1
+    EXPECT_EQ(depths_of_view(normalized), (std::vector<float>{inf, 1.5f, 1}));
+    EXPECT_EQ(depths_of_ldi(normalized), (std::vector<float>{inf, 1.5f, 1}));
     normalized.far = 10;
     EXPECT_EQ(depths_of_view(normalized), (std::vector<float>{2, 6, inf}));
     EXPECT_EQ(depths_of_ldi(normalized), (std::vector<float>{2, 6, inf}));

@@ -57,10 +57,28 @@ silent "--depth hyperbolic"
 exits 0 "$gather" hyperbolic.exr -o x.exr --lens-radius 0 --depth-out z.hyperbolic.exr --depth hyperbolic --near 2 --far 20
 picture same z.exr z.hyperbolic.exr Z 1e-3 || fail "--depth hyperbolic: another depth"
 
+# Depth from 0 to 1 that is white near.
+oiiotool z.exr --mulc -0.01001001 --addc 1.001001 --clamp:min=0:max=1 --chnames Z -d float -o white.z.exr # planes at 0.1 and 100
+depth_of white.z.exr white.exr
+met 'its depths lie from 0 to 1 and seem to be white near.*--depth normalized with --near, .* and --far' white.exr
+exits 0 "$warp" white.exr -o x.exr --depth normalized --near 100 --far 0.1
+silent "--depth normalized of white near"
+exits 0 "$gather" white.exr -o x.exr --lens-radius 0 --depth-out z.white.exr --depth normalized --near 100 --far 0.1
+picture same z.exr z.white.exr Z 1e-3 || fail "--depth normalized of white near: another depth"
+
 # Depth averaged over edges, as its colours are.
 exits 0 "$bin/dof-trace" fence --size 1280x720 --spp 1 --views 0 -o large
 oiiotool large/center.exr --ch R,G,B,A,Z --resize:filter=box 640x360 --fullsize 640x360+0+0 -d half -d Z=float -o averaged.exr
 met 'its depth is averaged over edges.*without a filter' averaged.exr
+
+# Colours that are not premultiplied.
+exits 0 "$bin/dof-trace" element --size 320x180 --spp 8 --views 0 -o element
+exits 0 "$warp" element/center.exr -o x.exr
+silent "an element"
+oiiotool element/center.exr --ch R,G,B,A --unpremult element/center.exr --ch Z --chappend -d half -d Z=float -o straight.exr
+met 'its edges stay as bright as the surfaces where A falls.*--unpremultiplied' straight.exr
+exits 0 "$warp" straight.exr -o x.exr --unpremultiplied
+silent "--unpremultiplied"
 
 # Centimetres taken for metres: the lens is too small by 100.
 picture edit $center centimetres.exr 'erase=sparselens:metresPerUnit'

@@ -25,7 +25,7 @@ OpenedLdi &LdiCache::load(const std::string &path, const std::string &channels, 
     const LensValues &lens = options.lens;
     const Key key(path, channels, depth.meaning, depth.near, depth.far, depth.picture.stereo_view,
                   depth.picture.layer, depth.picture.depth, lens.focal_length_mm, lens.sensor_width_mm,
-                  colour.config, colour.input_space);
+                  colour.config, colour.input_space, depth.picture.depth_file, depth.picture.unpremultiplied);
     read_now_ = !last_ || taken_ || key_ != key;
     if (read_now_) {
         last_.reset(); // two at a time may be more than fits

@@ -34,9 +34,10 @@ public:
 
 private:
     // Everything that the samples depend on. The focal length is part of it, because it makes ray lengths planar.
-    using Key = std::tuple<std::string, std::string, DepthMeaning, std::optional<double>,
-                           std::optional<double>, std::string, std::string, std::string,
-                           std::optional<double>, std::optional<double>, std::string, std::string>;
+    using Key =
+        std::tuple<std::string, std::string, DepthMeaning, std::optional<double>, std::optional<double>,
+                   std::string, std::string, std::string, std::optional<double>, std::optional<double>,
+                   std::string, std::string, std::string, bool>;
 
     Key key_;
     std::optional<OpenedLdi> last_;

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/subpixels.h"
 #include "deep/front_samples.h"
+#include "io/gather_windows.h"
 #include "io/picture_looks.h"
 
 #include <fmt/format.h>
@@ -12,6 +13,7 @@ namespace sparselens {
 ThinLens lens_for_ldi(OpenedLdi &in, const std::optional<Imath::V2i> &focus_pixel, int across,
                       const ToolContext &tool) {
     if (focus_pixel) {
+        require_inside(*focus_pixel, in, across);
         const float z = front_depth(in.ldi, middle_subpixel(*focus_pixel, across));
         if (!(z > 0))
             throw UsageError("--focus-pixel: " + in.name +

@@ -32,7 +32,8 @@ void warn_of(const ToolContext &tool, const std::vector<std::string> &warnings) 
 
 void warn_of_flat_picture(const ToolContext &tool, const OpenedLdi &in) {
     if (in.deep) return;
-    warn_of(tool, picture_warnings(front_view(in.ldi, in.name), {in.depth, in.depth_filtered, in.camera}));
+    warn_of(tool, picture_warnings(front_view(in.ldi, in.name),
+                                   {in.depth, in.depth_filtered, in.camera, in.unpremultiplied}));
 }
 
 void say_border_reach(const ToolContext &tool, const std::string &path, const Ldi &ldi, const ThinLens &lens,
@@ -42,7 +43,8 @@ void say_border_reach(const ToolContext &tool, const std::string &path, const Ld
     const std::string text =
         fmt::format("{}: the blur reaches {} pixels beyond the frame, and {} were rendered there",
                     display_name(path), pieces_of(reach.needed, across), reach.rendered / across);
-    if (reach.too_little() && reach.bright)
+    const bool can_be_rendered = reach.needed <= ldi.windows.display_width(); // else depths or lens are wrong
+    if (reach.too_little() && reach.bright && can_be_rendered)
         warn_once(tool, "overscan",
                   text + "; discs of lights outside the frame are missing, so render more overscan");
     else

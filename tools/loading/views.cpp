@@ -1,6 +1,7 @@
 #include "loading/views.h"
 
 #include "base/in_order.h"
+#include "options/lens_options.h"
 #include "options/picture_options.h"
 
 #include <optional>
@@ -42,16 +43,21 @@ OpenedViews open_views(const ViewList &list, const OpenOptions &options) {
         if (list.supersample) camera.supersample = list.supersample;
         return camera;
     };
-    PackedFile centre(open_view(paths[0], options));
+    const std::vector<DepthOptions> depths =
+        depths_of_pictures(options.depth, list.depth_files, paths.size());
+    PackedFile centre(open_view(paths[0], {options.lens, depths[0]}));
     const Camera camera = camera_of(centre.opened);
     OpenedViews opened;
     opened.header = std::move(centre.opened.header);
     opened.depth_filtered = centre.opened.depth_filtered;
+    opened.unpremultiplied = centre.opened.unpremultiplied;
     std::vector<StatedView> stated{{paths[0], camera, positions[0]}};
     add(opened, centre);
     in_order(
         paths.size() - 1, // the rim views: while one is decompressed, the depths of another are settled
-        [&](std::size_t n) { return PackedFile(open_view(paths[n + 1], options, camera)); },
+        [&](std::size_t n) {
+            return PackedFile(open_view(paths[n + 1], {options.lens, depths[n + 1]}, camera));
+        },
         [&](std::size_t n, PackedFile next) {
             stated.push_back({paths[n + 1], camera_of(next.opened), positions[n + 1]});
             add(opened, next);

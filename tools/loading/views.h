@@ -14,6 +14,7 @@ struct OpenedViews {
     Imf::Header header;            // of the centre view
     Camera camera;               // of the centre view, with the options over it; the lens points of all views
     bool depth_filtered = false; // of the centre view, see SettledEdges
+    bool unpremultiplied = false;                          // the same: its colours seem to be
     std::vector<InvalidValues> bad;                        // of each view
     std::vector<std::vector<std::string>> notes, warnings; // of each view, see OpenedView
 };

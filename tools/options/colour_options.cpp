@@ -149,18 +149,19 @@ ColourTransform output_transform(const ColourOptions &options, const Imf::Header
 
 std::size_t write_picture(const ToolContext &tool, const ColourOptions &options, const std::string &path,
                           Image image, const Imf::Header &metadata,
-                          std::optional<Imf::Compression> compression) {
+                          std::optional<Imf::Compression> compression, int tiles) {
     const bool shown = is_shown_picture(path);
     if (!shown && !(options.display.empty() && options.view.empty()))
         throw UsageError("--display and --view-transform apply to PNG, JPEG and TIFF, not to " + path);
     if (shown && compression) throw UsageError("--compression applies to EXR, not to " + path);
+    if (shown && tiles > 0) throw UsageError("--tiles applies to EXR, not to " + path);
     Imf::Header header = metadata;
     if (shown || !options.output_space.empty()) {
         const ColourConfig config(options.config);
         transform_colours(output_transform(config, options, space_of(config, metadata)), image);
         header = with_space(config, metadata, options.output_space);
     }
-    if (!shown) return write_flat_exr(path, image, header, compression);
+    if (!shown) return write_flat_exr(path, image, header, compression, tiles);
     write_shown_picture(path, image);
     tool.say(path + ": written with a display transform");
     return 0;

@@ -41,9 +41,9 @@ ColourTransform output_transform(const ColourOptions &options, const Imf::Header
 // Writes a picture of linear colours, in the space of the chromaticities of `metadata`, else scene-linear: as OpenEXR in
 // --output-colorspace (default: in its own space), which chromaticities then say; as PNG, JPEG, TIFF and the like in --output-colorspace, else through --display and --view-transform (default: those of the
 // configuration). `compression` is that of OpenEXR (compression.h). Throws UsageError for a display with an OpenEXR file, and
-// for a compression with any other. Returns what write_flat_exr returns.
+// for a compression or tiles with any other. Returns what write_flat_exr returns.
 std::size_t write_picture(const ToolContext &tool, const ColourOptions &options, const std::string &path,
                           Image image, const Imf::Header &metadata,
-                          std::optional<Imf::Compression> compression = {});
+                          std::optional<Imf::Compression> compression = {}, int tiles = 0);
 
 } // namespace sparselens

@@ -124,6 +124,7 @@ void add_picture_making_options(CLI::App &app, GatherCommand &options) {
     add_look_options(app, options.looks);
     add_highlight_options(app, options.looks);
     add_depth_options(app, options.depth);
+    add_depth_file_option(app, options.depth.picture.depth_file);
     add_input_colour_options(app, options.colour);
     add_output_colour_options(app, options.colour);
     add_window_options(app, options.windows);
@@ -136,11 +137,14 @@ void add_gather_options(CLI::App &app, GatherCommand &options) {
     app.add_option("-o,--output", options.output,
                    "Picture to write (EXR, PNG, JPEG or TIFF); - for standard output")
         ->type_name("OUT.exr")
-        ->required();
+        ->required()
+        ->check(output_name(OutputKind::picture));
     app.add_option("--depth-out", options.depth_output, "Also write the depth of the front samples (EXR)")
-        ->type_name("FILE");
+        ->type_name("FILE.exr")
+        ->check(output_name(OutputKind::exr));
     add_type_option(app, options.type);
     add_compression_option(app, options.compression, false);
+    add_tiles_option(app, options.tiles);
     add_show_option(app, options.show);
     add_point_option(app, options.picture.gather.lens.point);
     add_history_option(app, options.history);

@@ -29,6 +29,7 @@ struct GatherCommand {
     std::optional<Imath::V2i> focus_pixel;
     std::optional<PixelType> type; // -d
     AskedCompression compression;
+    int tiles = 0; // pixels to a side; 0: scanlines
     Show show = Show::picture;
 };
 

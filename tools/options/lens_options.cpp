@@ -1,5 +1,6 @@
 #include "options/lens_options.h"
 
+#include "base/error.h"
 #include "harness/words.h"
 
 #include <CLI/CLI.hpp>
@@ -43,9 +44,9 @@ void add_depth_options(CLI::App &app, DepthOptions &options) {
     app.add_option(
            "--depth", options.meaning,
            "What depth channels hold: z: planar; distance: from the camera along the ray; inverse: 1 / z; "
-           "negative: -z; normalized: 0 at --near to 1 at --far; hyperbolic: the same, but linear in 1 / z, "
-           "as in a "
-           "depth buffer (default: z)")
+           "negative: -z; normalized: 0 at --near to 1 at --far, and where white is near --near is the "
+           "larger; "
+           "hyperbolic: the same, but linear in 1 / z, as in a depth buffer (default: z)")
         ->type_name("z|distance|inverse|negative|normalized|hyperbolic")
         ->transform(words(meanings))
         ->group("Lens");
@@ -53,7 +54,7 @@ void add_depth_options(CLI::App &app, DepthOptions &options) {
            "--near", options.near,
            "With --depth normalized and hyperbolic, the depth of 0 (default: the near attribute of the file)")
         ->type_name("D")
-        ->check(number(above_0))
+        ->check(number(above_0_or_inf))
         ->group("Lens");
     app.add_option("--far", options.far,
                    "Depths beyond this are sky; with --depth normalized and hyperbolic, the depth of 1 "
@@ -61,14 +62,46 @@ void add_depth_options(CLI::App &app, DepthOptions &options) {
         ->type_name("D")
         ->check(number(above_0_or_inf))
         ->group("Lens");
-    app.add_option("--depth-channel", options.picture.depth,
-                   "Depth channel (default: the first of Z, depth.Z and *.Depth.Z)")
+    app.add_option(
+           "--depth-channel", options.picture.depth,
+           "Depth channel, of --depth-file where that is given (default: Z, depth.Z, *.Depth.Z or the like)")
         ->type_name("NAME")
         ->group("Lens");
     add_picture_choice(app, options.picture);
 }
 
+void add_depth_file_option(CLI::App &app, std::string &file) {
+    app.add_option(
+           "--depth-file", file,
+           "File that holds the depth of the picture, which then needs none (EXR, flat, of the same size)")
+        ->type_name("FILE.exr")
+        ->group("Lens");
+}
+
+void add_depth_files_option(CLI::App &app, std::vector<std::string> &files) {
+    app.add_option("--depth-file", files,
+                   "File that holds the depth of a picture, once for each picture and in their order")
+        ->type_name("FILE.exr")
+        ->allow_extra_args(false)
+        ->group("Lens");
+}
+
+std::vector<DepthOptions> depths_of_pictures(const DepthOptions &depth, const std::vector<std::string> &files,
+                                             std::size_t pictures) {
+    if (!files.empty() && files.size() != pictures)
+        throw UsageError(
+            fmt::format("--depth-file: there are {} of them for {} pictures; give one for each, in the "
+                        "order of the pictures",
+                        files.size(), pictures));
+    std::vector<DepthOptions> each(pictures, depth);
+    for (std::size_t i = 0; i < files.size(); ++i) each[i].picture.depth_file = files[i];
+    return each;
+}
+
 void add_picture_choice(CLI::App &app, PictureChoice &picture) {
+    app.add_flag("--unpremultiplied", picture.unpremultiplied,
+                 "The colours of the input are not multiplied by its coverage (A) yet")
+        ->group("Colour");
     app.add_option("--stereo-view", picture.stereo_view,
                    "Stereo view to read, e.g. right (default: the file's first)")
         ->type_name("NAME")

@@ -7,6 +7,9 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <string>
+#include <vector>
+
 namespace sparselens {
 
 void add_lens_options(CLI::App &app, LensValues &values);
@@ -14,6 +17,15 @@ void add_depth_options(CLI::App &app, DepthOptions &options); // the choice of t
 // How many pixels of the files are one of the picture.
 void add_subpixels_option(CLI::App &app, std::optional<int> &across);
 void add_picture_choice(CLI::App &app, PictureChoice &picture);
+
+// --depth-file: of the one picture that a tool reads, or of each of several.
+void add_depth_file_option(CLI::App &app, std::string &file);
+void add_depth_files_option(CLI::App &app, std::vector<std::string> &files);
+
+// The options for each picture, whose depths are in the files where there are any. Throws UsageError where there are more or
+// fewer files than pictures.
+std::vector<DepthOptions> depths_of_pictures(const DepthOptions &depth, const std::vector<std::string> &files,
+                                             std::size_t pictures);
 
 CLI::Validator number(NumberRange range);
 

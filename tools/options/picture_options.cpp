@@ -64,6 +64,19 @@ void add_method_option(CLI::App &app, const GatherMethod *&method) {
         ->type_name(fmt::format("{}", fmt::join(names, "|")));
 }
 
+void add_tiles_option(CLI::App &app, int &tiles) {
+    app.add_option(
+           "--tiles", tiles,
+           "Write EXR in tiles of N x N pixels, as viewers and Nuke read parts of large pictures; 0: in "
+           "scanlines (default: 0)")
+        ->type_name("N")
+        ->check(CLI::Range(0, 8192));
+}
+
+CLI::Validator output_name(OutputKind kind) {
+    return {[kind](const std::string &path) { return wrong_with_output(path, kind); }, ""};
+}
+
 void add_type_option(CLI::App &app, std::optional<PixelType> &type) {
     const std::map<std::string, PixelType> types{{"half", PixelType::half}, {"float", PixelType::float32}};
     const auto read = [&type, types](const std::string &text) {

@@ -5,6 +5,7 @@
 #include "dof/methods.h"
 #include "harness/commands/cli.h"
 #include "io/exr/compression.h"
+#include "io/output_name.h"
 
 #include <optional>
 #include <string>
@@ -27,6 +28,12 @@ void add_method_option(CLI::App &app, const GatherMethod *&method);
 // Adds --compression, with the names that flat or deep files may have; empty: as output_compression() says.
 using AskedCompression = std::optional<Imf::Compression>;
 void add_compression_option(CLI::App &app, AskedCompression &compression, bool deep);
+
+// Adds --tiles N: EXR in tiles of N x N pixels, else in scanlines.
+void add_tiles_option(CLI::App &app, int &tiles);
+
+// Checks the name of an output before any work is done.
+CLI::Validator output_name(OutputKind kind);
 
 // Adds -d half|float: the type in which channels are written, else that of the input.
 void add_type_option(CLI::App &app, std::optional<PixelType> &type);

@@ -52,6 +52,7 @@ void add_plan_options(CLI::App &app, PlanCommand &options) {
     add_lens_options(app, options.lens);
     add_subpixels_option(app, options.supersample);
     add_depth_options(app, options.depth);
+    add_depth_file_option(app, options.depth.picture.depth_file);
     add_examples(app, {{"Plan at most four views, and write a mask for each",
                         "ldi-plan center.exr -o plan.json --masks masks"},
                        {"Print where the cameras stand, for a spreadsheet or a script",

@@ -15,7 +15,8 @@ void add_warp_options(CLI::App &app, WarpCommand &options) {
     add_view_list(app, options.views);
     app.add_option("-o,--output", options.output, "LDI to write; - for standard output")
         ->type_name("LDI.exr")
-        ->required();
+        ->required()
+        ->check(output_name(OutputKind::exr));
     const std::map<std::string, Merge> merges{{"average", Merge::average}, {"keep", Merge::keep}};
     app.add_option("--merge", options.merge,
                    "average: average the views of a surface; keep: keep one sample per surface and leave the "
@@ -55,6 +56,7 @@ void add_warp_options(CLI::App &app, WarpCommand &options) {
     add_lens_options(app, options.lens);
     add_subpixels_option(app, options.views.supersample);
     add_depth_options(app, options.depth);
+    add_depth_files_option(app, options.views.depth_files);
     add_input_colour_options(app, options.colour);
     add_history_option(app, options.history);
     add_examples(

@@ -23,7 +23,7 @@ namespace {
 constexpr std::array own_options{"--reference", "--port", "--save", "--frames", "--threads", "--max-memory"};
 constexpr std::array own_flags{"--open", "-v", "--verbose"};
 // Of dof-gather: those of pictures that take no value.
-constexpr std::array picture_flags{"--cat-eye-darkening", "--holdout-defocused"};
+constexpr std::array picture_flags{"--cat-eye-darkening", "--holdout-defocused", "--unpremultiplied"};
 
 // What a page may set beside the looks that are numbers.
 constexpr std::array settable{
@@ -155,7 +155,8 @@ std::string shell_command(const Words &words, const std::string &output) {
 }
 
 std::string python_script(const Words &words, const std::string &input, const std::string &output) {
-    constexpr std::array of_file{"--depth", "--near", "--far", "--depth-channel", "--stereo-view", "--layer"};
+    constexpr std::array of_file{"--depth",      "--near",        "--far",   "--depth-channel",
+                                 "--depth-file", "--stereo-view", "--layer", "--unpremultiplied"};
     constexpr std::array of_output{"--colorconfig", "--display", "--view-transform"};
     constexpr std::array of_tools{"--colorspace", "--output-colorspace", "--show", "--lens-point"};
     std::string opened, gathered, written, missing;

@@ -95,6 +95,10 @@ std::string said_of_pose(std::span<const PackedView> views, std::size_t i, doubl
 
 Warnings picture_warnings(const View &view, const ViewFacts &facts) {
     Warnings said;
+    if (facts.unpremultiplied)
+        said.push_back(view.name +
+                       ": its edges stay as bright as the surfaces where A falls, so its colours seem to be "
+                       "unpremultiplied: if they are, give `unpremultiplied`, or write them multiplied by A");
     if (looks_encoded(mixing_at_edges(view)))
         said.push_back(view.name +
                        ": its colours mix at edges as sRGB codes do, not as light does: if they are encoded "

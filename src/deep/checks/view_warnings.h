@@ -19,6 +19,7 @@ struct ViewFacts {
     DepthMeaning depth = DepthMeaning::planar; // as what they were read
     bool depth_filtered = false;               // of the first view: see edge_depths.h
     Camera camera = {};                        // of the first view
+    bool unpremultiplied = false;              // of the first view: see premultiplied_check.h
 };
 
 // Of the first view, which is the centre or the only one: its colours, its depths, and what the lens makes of them. Colours

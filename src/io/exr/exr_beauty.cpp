@@ -9,7 +9,7 @@
 
 #include <algorithm>
 #include <array>
-#include <unordered_set>
+#include <set>
 
 namespace sparselens {
 
@@ -28,7 +28,7 @@ std::string in_file(const std::vector<FileChannel> &channels, const std::vector<
 constexpr std::array colours{"R", "G", "B", "A", "AR", "AG", "AB"};
 
 // Names of channels that hold no ids.
-using Names = std::unordered_set<std::string>;
+using Names = std::set<std::string>;
 
 Names names_with_light(const std::vector<Channel> &channels) {
     Names found;
@@ -42,9 +42,11 @@ std::string prefix_of(const std::string &layer) { return layer.substr(0, layer.r
 
 // The depth of a picture in a layer; empty where it has none.
 std::string own_depth(const PictureLayer &picture, const Names &channels) {
-    for (const std::string &name : {picture.prefix + "Depth.Z", picture.prefix + "depth.Z",
-                                    picture.prefix + "Z", picture.beauty + ".Z"})
-        if (!picture.prefix.empty() && channels.contains(name)) return name;
+    if (picture.prefix.empty()) return {};
+    for (const std::string &wanted :
+         {picture.prefix + "depth.z", picture.prefix + "z", picture.beauty + ".z"})
+        for (const std::string &name : channels)
+            if (lower_case(name) == lower_case(wanted)) return name;
     return {};
 }
 
@@ -113,7 +115,7 @@ void name_beauty(std::vector<FileChannel> &channels, const std::string &layer,
     for (FileChannel &found : channels)
         for (const char *name : {"R", "G", "B", "A", "AR", "AG", "AB"})
             if (found.channel.name == layer + "." + name && find_channel(channels_of_picture, name) == npos)
-                found.channel.name = name;
+                rename(found, name);
     colours_first(channels);
 }
 
@@ -181,9 +183,9 @@ bool ChannelsOfPicture::owns(const std::string &channel) const {
 std::string ChannelsOfPicture::name_of(const std::string &channel) const {
     for (const char *name : colours)
         if (channel == own_.beauty + "." + name) return name;
-    if (depth_.ends_with(".Z") && !depth_.ends_with("epth.Z"))
+    if (const std::string own = lower_case(depth_); own.ends_with(".z") && !own.ends_with("depth.z"))
         for (const std::string end : {"", "Back"})
-            if (channel == depth_ + end) return "Z" + end;
+            if (lower_case(channel) == own + lower_case(end)) return "Z" + end;
     if (!asked_depth_.empty() && (channel == asked_depth_ || channel == asked_depth_ + "Back"))
         return channel;
     return !owns(channel) && belongs_to_others(channel) ? "" : channel;

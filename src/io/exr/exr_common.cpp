@@ -2,6 +2,7 @@
 
 #include "base/parallel.h"
 #include "base/text.h"
+#include "io/exr/kept_names.h"
 
 #include <ImfTileDescription.h>
 #include <fmt/format.h>
@@ -25,22 +26,7 @@ bool describes_storage(const std::string &name) {
         "deepImageState",   "displayWindow", "lineOrder",   "maxSamplesPerPixel",
         "pixelAspectRatio", "preview",       "tiles",       "type",
         "version"};
-    return is_among(names, name);
-}
-
-std::string what_there_is(const std::vector<Channel> &channels) {
-    std::vector<std::string> names;
-    for (const Channel &channel : channels) names.push_back(channel.name);
-    return names.empty() ? "it has no channels" : "its channels are " + first_of(names);
-}
-
-std::size_t depth_channel(const std::vector<Channel> &channels, const std::string &asked) {
-    if (!asked.empty()) return find_channel(channels, asked);
-    for (const char *name : {"Z", "depth.Z"})
-        if (const std::size_t k = find_channel(channels, name); k != npos) return k;
-    for (std::size_t k = 0; k < channels.size(); ++k)
-        if (channels[k].name.ends_with(".Depth.Z")) return k;
-    return npos;
+    return is_among(names, name) || name == kept_names_attribute;
 }
 
 } // namespace
@@ -61,32 +47,12 @@ double memory_of(const Imf::Header &header, std::size_t values) {
     return pixels * double(values * sizeof(float));
 }
 
-std::string find_depth_channel(const std::vector<Channel> &channels, const std::string &asked,
-                               const std::string &path) {
-    const std::size_t k = depth_channel(channels, asked);
-    if (k == npos)
-        throw Error(
-            asked.empty()
-                ? fmt::format("{}: has no depth channel (Z, depth.Z or *.Depth.Z): give `depth_channel`; {}",
-                              display_name(path), what_there_is(channels))
-                : fmt::format("{}: has no channel {} (`depth_channel`); {}", display_name(path), asked,
-                              what_there_is(channels)));
-    if (channels[k].type == PixelType::uint32)
-        throw Error(fmt::format("{}: the depth channel {} holds integers, not depths", display_name(path),
-                                channels[k].name));
-    return channels[k].name;
-}
-
 std::string first_of(const std::vector<std::string> &names) {
     constexpr std::size_t most = 40; // in a line that can be read
     const std::size_t listed = std::min(most, names.size());
     const std::string list =
         fmt::format("{}", fmt::join(names.begin(), names.begin() + std::ptrdiff_t(listed), ", "));
     return listed == names.size() ? list : fmt::format("{} and {} more", list, names.size() - listed);
-}
-
-bool has_depth_channel(const std::vector<Channel> &channels, const std::string &asked) {
-    return depth_channel(channels, asked) != npos;
 }
 
 bool is_position_channel(const std::string &channel) {

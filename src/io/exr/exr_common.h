@@ -19,16 +19,8 @@ Windows windows_of(const Imf::Header &header);
 // The memory, in bytes, of a picture with `values` floats per pixel and of one tile of its file.
 double memory_of(const Imf::Header &header, std::size_t values);
 
-// The name of the depth channel: `asked`, or if that is empty Z, depth.Z or *.Depth.Z. Throws Error where there is no
-// such channel, listing those that there are, or where it holds integers.
-std::string find_depth_channel(const std::vector<Channel> &channels, const std::string &asked,
-                               const std::string &path);
-
 // The names, separated by commas; of many, the first and how many more there are.
 std::string first_of(const std::vector<std::string> &names);
-
-// Whether there is a depth channel, of any type.
-bool has_depth_channel(const std::vector<Channel> &channels, const std::string &asked);
 
 // Whether the channel holds the position or weight of a sample in our files: Z, ZBack, ldi.dx, ldi.dy,
 // ldi.weight, ldi.optical or ldi.solid.

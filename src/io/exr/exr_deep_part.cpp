@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "base/text.h"
 #include "io/exr/exr_common.h"
 #include "io/exr/kept_rows.h"
 #include "io/exr/part_readers.h"
@@ -33,7 +34,7 @@ struct Planes {
 // The array of the LDI that a channel fills because of its name, if it does.
 std::vector<float> *placement_array(Ldi &ldi, const std::string &name, const std::string &depth) {
     if (name == depth) return &ldi.z;
-    if (name == depth + "Back") return &ldi.z_back; // ZBack, depth.ZBack
+    if (lower_case(name) == lower_case(depth) + "back") return &ldi.z_back; // ZBack, depth.ZBack
     if (name == "ldi.dx") return &ldi.dx;
     if (name == "ldi.dy") return &ldi.dy;
     if (name == "ldi.optical") return &ldi.optical;
@@ -45,7 +46,7 @@ std::vector<float> *placement_array(Ldi &ldi, const std::string &name, const std
 Planes plan_planes(Ldi &ldi, const std::vector<FileChannel> &found, const std::string &depth) {
     Planes planes;
     std::vector<std::string> carried;
-    for (const auto &[in_file, channel] : found)
+    for (const auto &[in_file, channel, kept] : found)
         if (std::vector<float> *array = placement_array(ldi, channel.name, depth)) {
             planes.add(in_file, *array, PixelType::float32);
         } else if (!is_position_channel(channel.name)) {

@@ -1,6 +1,8 @@
 #include "base/text.h"
 #include "deep/channel_alpha.h"
 #include "deep/merge.h"
+#include "deep/premultiply.h"
+#include "io/exr/depth_channel.h"
 #include "io/exr/exr_beauty.h"
 #include "io/exr/exr_common.h"
 #include "io/exr/exr_deep.h"
@@ -10,6 +12,7 @@
 #include "io/exr/exr_mattes.h"
 #include "io/exr/exr_parts.h"
 #include "io/exr/header_edit.h"
+#include "io/exr/kept_names.h"
 #include "io/files/memory_limit.h"
 #include "io/files/open_exr.h"
 
@@ -34,11 +37,17 @@ double memory_held_by(const Ldi &ldi) {
            double(ldi.begin.back()) * double((ldi.values.size() + 5) * sizeof(float));
 }
 
+void premultiply(Ldi &ldi) {
+    const std::vector<std::span<float>> planes(ldi.values.begin(), ldi.values.end());
+    premultiply(ldi.channels, planes);
+}
+
 // The parts of one view as one picture, see read_ldi().
 class DeepPicture {
 public:
     DeepPicture(const DeepSource &source, const std::string &view, const PictureChoice &choice)
-        : source_(source), view_(view), asked_(choice.depth), layer_(choice.layer) {}
+        : source_(source), view_(view), asked_(choice.depth), layer_(choice.layer),
+          unpremultiplied_(choice.unpremultiplied) {}
 
     // Of the parts those that hold something of the layer asked for.
     std::vector<int> parts_of_layer(const std::vector<int> &numbers) {
@@ -64,9 +73,11 @@ public:
     void add(int number, bool only_as_layer, const ReduceRows &reduce = {}) {
         const Imf::Header &header = source_.file.header(number);
         const std::vector<FileChannel> channels = named_channels(header);
-        const std::string depth = depth_of(channels);
-        const bool by_rows = reduce && !depth.empty() && header.type() == Imf::DEEPSCANLINE;
-        Ldi part = read_deep_part(source_, number, channels, depth, by_rows ? reduce : ReduceRows(), packed_);
+        const DepthChannel found = depth_of(channels);
+        const std::string &depth = found.name;
+        by_rows_ = reduce && !depth.empty() && header.type() == Imf::DEEPSCANLINE;
+        Ldi part =
+            read_deep_part(source_, number, channels, depth, by_rows_ ? reduce : ReduceRows(), packed_);
         const auto whose = std::ranges::find_if(parts_, [&](const Ldi &other) {
             return depth.empty() ? part.windows == other.windows && part.begin == other.begin
                                  : same_samples(part, other);
@@ -80,8 +91,10 @@ public:
         if (parts_.empty()) {
             notes_.push_back(beauty_note(channels, source_.file.parts() > 1 ? name : std::string()));
             notes_.push_back("depth: " + depth);
+            if (found.warning) warnings_.push_back(*found.warning);
         }
         source_.held += memory_held_by(part);
+        keep(channels, whose == parts_.end() ? nullptr : &*whose, name);
         if (whose != parts_.end()) return add_layer(*whose, std::move(part), name);
         if (depth.empty())
             throw Error(
@@ -95,6 +108,8 @@ public:
     bool is_merged() const { return parts_.size() > 1; }
 
     Ldi whole() {
+        if (unpremultiplied_ && !by_rows_)
+            for (Ldi &part : parts_) premultiply(part);
         if (!is_merged()) return std::move(parts_[0]);
         notes_.push_back(fmt::format("{} deep parts are merged", parts_.size()));
         Imath::Box2i data;
@@ -106,6 +121,7 @@ public:
     }
 
     std::optional<PackedRows> packed() { return std::move(packed_); }
+    const KeptNames &kept_names() const { return kept_; }
     std::vector<std::string> notes() const { return notes_; }
     std::vector<std::string> warnings() const { return warnings_; }
 
@@ -124,11 +140,19 @@ private:
 
     std::vector<FileChannel> of_layer(std::vector<FileChannel> channels, const std::string &part) const {
         for (FileChannel &found : channels)
-            found.channel.name =
-                chosen_->name_of(full_name(found.channel.name, part, source_.file.parts() > 1));
+            rename(found, chosen_->name_of(full_name(found.channel.name, part, source_.file.parts() > 1)));
         std::erase_if(channels, [](const FileChannel &found) { return found.channel.name.empty(); });
         colours_first(channels);
         return channels;
+    }
+
+    // The names that the channels of a part keep, which becomes a layer of `whose` where that is given.
+    void keep(const std::vector<FileChannel> &channels, const Ldi *whose, const std::string &part) {
+        for (FileChannel found : channels) {
+            if (whose && find_channel(whose->channels, found.channel.name) != npos)
+                rename(found, part + "." + found.channel.name);
+            if (!found.kept.empty()) kept_.emplace(found.channel.name, found.kept);
+        }
     }
 
     static std::vector<Channel> plain(const std::vector<FileChannel> &found) {
@@ -150,10 +174,10 @@ private:
     }
 
     // The first part must have one; those after it may be layers of it.
-    std::string depth_of(const std::vector<FileChannel> &found) const {
+    DepthChannel depth_of(const std::vector<FileChannel> &found) const {
         const std::vector<Channel> channels = plain(found);
         const bool may_lack = !parts_.empty() && !has_depth_channel(channels, asked_);
-        return may_lack ? "" : find_depth_channel(channels, asked_, source_.path);
+        return may_lack ? DepthChannel{} : find_depth_channel(channels, asked_, source_.path);
     }
 
     DeepSource source_;
@@ -162,16 +186,19 @@ private:
     std::vector<Ldi> parts_;
     std::optional<PackedRows> packed_; // the samples of the only part
     std::vector<std::string> notes_, warnings_;
-    bool beauty_in_layer_ = true;
+    bool beauty_in_layer_ = true, unpremultiplied_ = false;
+    bool by_rows_ = false; // the rows of the only part came one after the other, ready
+    KeptNames kept_;
 };
 
 LdiFile read_flat_as_ldi(const DeepSource &source, InputStream &stream, const PictureChoice &choice) {
     const std::string &path = source.path;
     FlatFile flat = read_flat_part(source.file, path, stream, choice);
     check_memory(path, 2 * memory_of(flat.header, flat.image.channels.size() + 1), source.size);
-    const std::string depth = find_depth_channel(flat.image.channels, choice.depth, path);
-    flat.notes.push_back("depth: " + depth);
-    return LdiFile{ldi_of_flat(flat.image, depth), flat.header, false, std::move(flat.notes),
+    const DepthChannel depth = find_depth_channel(flat.image.channels, choice.depth_in_memory(), path);
+    if (choice.depth_file.empty()) flat.notes.push_back("depth: " + depth.name);
+    if (depth.warning) flat.warnings.push_back(*depth.warning);
+    return LdiFile{ldi_of_flat(flat.image, depth.name), flat.header, false, std::move(flat.notes),
                    std::move(flat.warnings)};
 }
 
@@ -187,6 +214,11 @@ LdiFile read_ldi(const std::string &path, const PictureChoice &choice, const Red
         const DeepSource source{file, *stream, path, stream->bytes()};
         const std::vector<int> deep = deep_parts(file);
         if (deep.empty()) return read_flat_as_ldi(source, *stream, choice);
+        if (!choice.depth_file.empty())
+            throw UsageError(
+                fmt::format("`depth_file`: goes with flat pictures, and {} is deep: its samples have "
+                            "depths of their own",
+                            display_name(path)));
         const PartsOfView of_view = parts_of_view(file, deep, choice.stereo_view, path);
         const std::string &view = of_view.view;
         DeepPicture picture(source, view, choice);
@@ -199,6 +231,7 @@ LdiFile read_ldi(const std::string &path, const PictureChoice &choice, const Red
         const auto by_rows = [&](Ldi rows) {
             add_mean_coverage(rows);
             find_kinds_by(header, rows.channels);
+            if (choice.unpremultiplied) premultiply(rows);
             return reduce(header, std::move(rows));
         };
         for (const int part : numbers)
@@ -209,6 +242,7 @@ LdiFile read_ldi(const std::string &path, const PictureChoice &choice, const Red
             header.compression() = Imf::ZIPS_COMPRESSION; // a pipe's says nothing of the picture
         Ldi ldi = picture.whole();
         find_kinds_by(header, ldi.channels);
+        set_kept_names(header, picture.kept_names());
         std::vector<std::string> notes = picture.notes();
         if (const auto flat = std::size_t(file.parts()) - deep.size(); flat > 0)
             notes.push_back(fmt::format("{} flat parts are not used beside the deep ones", flat));

@@ -2,6 +2,7 @@
 #include "deep/order.h"
 #include "io/exr/exr_common.h"
 #include "io/exr/exr_deep.h"
+#include "io/exr/kept_names.h"
 
 #include <ImfDeepFrameBuffer.h>
 #include <ImfDeepImageStateAttribute.h>
@@ -28,7 +29,7 @@ struct StoredChannel {
     const std::vector<float> *values;
 };
 
-std::vector<StoredChannel> stored_channels(const Ldi &ldi) {
+std::vector<StoredChannel> stored_channels(const Ldi &ldi, const Imf::Header &metadata) {
     std::vector<StoredChannel> stored{{"Z", PixelType::float32, &ldi.z}};
     const auto add = [&](const char *name, PixelType type, const std::vector<float> &values) {
         if (!values.empty()) stored.push_back({name, type, &values});
@@ -39,8 +40,9 @@ std::vector<StoredChannel> stored_channels(const Ldi &ldi) {
     add("ldi.weight", PixelType::half, ldi.weight);
     add("ldi.optical", PixelType::float32, ldi.optical);
     add("ldi.solid", PixelType::half, ldi.solid);
-    for (std::size_t k = 0; k < ldi.channels.size(); ++k)
-        stored.push_back({ldi.channels[k].name, ldi.channels[k].type, &ldi.values[k]});
+    const std::vector<Channel> named = by_kept_names(ldi.channels, metadata);
+    for (std::size_t k = 0; k < named.size(); ++k)
+        stored.push_back({named[k].name, named[k].type, &ldi.values[k]});
     return stored;
 }
 
@@ -87,7 +89,7 @@ std::size_t write_rows(Imf::DeepScanLineOutputFile &file, const Ldi &ldi,
 std::size_t write_ldi(const std::string &path, const Ldi &ldi, const Imf::Header &metadata,
                       std::optional<Imf::Compression> compression) {
     return with_file_name(path, [&] {
-        const std::vector<StoredChannel> stored = stored_channels(ldi);
+        const std::vector<StoredChannel> stored = stored_channels(ldi, metadata);
         std::vector<Channel> channels;
         for (const StoredChannel &channel : stored) channels.push_back({channel.name, channel.type});
         Imf::Header header = output_header(ldi.windows, channels, metadata);

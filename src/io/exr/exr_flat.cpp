@@ -2,11 +2,15 @@
 
 #include "base/text.h"
 #include "deep/channel_alpha.h"
+#include "deep/premultiply.h"
+#include "io/exr/depth_channel.h"
+#include "io/exr/depth_file.h"
 #include "io/exr/exr_beauty.h"
 #include "io/exr/exr_common.h"
 #include "io/exr/exr_header_check.h"
 #include "io/exr/exr_mattes.h"
 #include "io/exr/exr_parts.h"
+#include "io/exr/kept_names.h"
 #include "io/exr/luminance_chroma.h"
 #include "io/files/memory_limit.h"
 #include "io/files/open_exr.h"
@@ -16,6 +20,7 @@
 #include <ImfMultiPartInputFile.h>
 #include <ImfOutputFile.h>
 #include <ImfPartType.h>
+#include <ImfTiledOutputFile.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -57,6 +62,12 @@ struct PictureParts {
             for (const FileChannel &found : part.channels) all.push_back(found.channel);
         return all;
     }
+    std::vector<FileChannel> file_channels() const {
+        std::vector<FileChannel> all;
+        for (const PartChannels &part : parts)
+            all.insert(all.end(), part.channels.begin(), part.channels.end());
+        return all;
+    }
 };
 
 // What the picture takes for R, G, B and A, and what it says of that.
@@ -79,10 +90,10 @@ void add_part(Imf::MultiPartInputFile &file, int number, const std::string &path
     PartChannels part{number, {}};
     const std::string layer = layer_of(file.header(number));
     for (FileChannel &found : channels_of(file.header(number), picture.view, path)) {
-        std::string &name = found.channel.name;
-        if (chosen) name = chosen->name_of(full_name(name, layer, file.parts() > 1));
+        const std::string &name = found.channel.name;
+        if (chosen) rename(found, chosen->name_of(full_name(name, layer, file.parts() > 1)));
         if (name.empty()) continue;
-        if (taken.contains(name)) name = layer + "." + name;
+        if (taken.contains(name)) rename(found, layer + "." + name);
         if (!taken.insert(name).second) { // the same layer twice
             picture.warnings.push_back(fmt::format(
                 "channel {} of part {} is not used: there is one of that name", found.in_file, layer));
@@ -113,7 +124,8 @@ PictureParts parts_of_picture(Imf::MultiPartInputFile &file, const std::string &
     auto [view, numbers] = parts_of_view(file, flat_parts(file, path), choice.stereo_view, path);
     const std::vector<Channel> all = full_channels(file, numbers, view, path);
     Chosen chosen;
-    if (const auto layer = chosen_picture(all, choice.layer, path)) chosen.emplace(*layer, all, choice.depth);
+    const std::string depth = choice.depth_file.empty() ? choice.depth : std::string();
+    if (const auto layer = chosen_picture(all, choice.layer, path)) chosen.emplace(*layer, all, depth);
     const auto beauty = std::ranges::find_if(
         numbers, [&, &view = view](int part) { return holds_beauty(file, part, view, path, chosen); });
     if (beauty != numbers.end()) std::rotate(numbers.begin(), beauty, beauty + 1);
@@ -140,6 +152,7 @@ Imf::Header header_of(const Imf::MultiPartInputFile &file, const PictureParts &p
     if (is_standard_stream(path))
         header.compression() = Imf::ZIP_COMPRESSION; // a pipe's says nothing of the picture
     header.dataWindow() = picture.windows.data;
+    keep_names(header, picture.file_channels());
     return with_mattes_of(file, header);
 }
 
@@ -171,7 +184,7 @@ std::size_t read_channels(Imf::MultiPartInputFile &file, const PartChannels &par
     if (is_luminance_chroma(header)) made.emplace(header);
     std::array<std::span<float>, 3> colours;
     Imf::FrameBuffer pixels;
-    for (const auto &[in_file, channel] : part.channels) {
+    for (const auto &[in_file, channel, kept] : part.channels) {
         const std::span<float> plane = image.plane(k++);
         if (made && is_among(rgb_names, in_file)) {
             colours[std::size_t(std::ranges::find(rgb_names, in_file) - rgb_names.begin())] = plane;
@@ -192,6 +205,12 @@ std::size_t read_channels(Imf::MultiPartInputFile &file, const PartChannels &par
     return k;
 }
 
+std::vector<std::span<float>> planes_of(Image &image) {
+    std::vector<std::span<float>> planes;
+    for (std::size_t k = 0; k < image.channels.size(); ++k) planes.push_back(image.plane(k));
+    return planes;
+}
+
 } // namespace
 
 FlatFile read_flat_part(Imf::MultiPartInputFile &file, const std::string &path, InputStream &stream,
@@ -208,8 +227,11 @@ FlatFile read_flat_part(Imf::MultiPartInputFile &file, const std::string &path, 
     for (const PartChannels &part : picture.parts) k = read_channels(file, part, image, k);
     if (!missing.covered.isEmpty()) missing.fill(image);
     add_mean_coverage(image);
-    return FlatFile{std::move(image), header, stream.bytes(), std::move(picture.notes),
+    FlatFile result{std::move(image), header, stream.bytes(), std::move(picture.notes),
                     std::move(picture.warnings)};
+    if (!choice.depth_file.empty()) put_depth_of_file(result, path, choice);
+    if (choice.unpremultiplied) premultiply(result.image.channels, planes_of(result.image));
+    return result;
 }
 
 FlatFile read_flat_exr(const std::string &path, const PictureChoice &choice) {
@@ -231,7 +253,7 @@ Imf::Header read_flat_header(const std::string &path, const PictureChoice &choic
 }
 
 std::vector<float> take_depth(Image &image, const std::string &depth_channel, const std::string &path) {
-    const std::string name = find_depth_channel(image.channels, depth_channel, path);
+    const std::string name = find_depth_channel(image.channels, depth_channel, path).name;
     const auto plane = image.plane(find_channel(image.channels, name));
     std::vector<float> depth(plane.begin(), plane.end());
     std::size_t carried = 0; // in place: a picture may have many channels
@@ -249,25 +271,31 @@ std::vector<float> take_depth(Image &image, const std::string &depth_channel, co
 }
 
 std::size_t write_flat_exr(const std::string &path, const Image &image, const Imf::Header &metadata,
-                           std::optional<Imf::Compression> compression) {
+                           std::optional<Imf::Compression> compression, int tiles) {
     return with_file_name(path, [&] {
         std::size_t clamped = 0;
         const Windows &w = image.windows;
-        std::vector<std::vector<char>> stored(image.channels.size());
+        const std::vector<Channel> channels = by_kept_names(image.channels, metadata);
+        std::vector<std::vector<char>> stored(channels.size());
         Imf::FrameBuffer pixels;
         for (std::size_t k = 0; k < stored.size(); ++k) {
-            const Channel &channel = image.channels[k];
+            const Channel &channel = channels[k];
             const std::size_t bytes = bytes_of(channel.type);
             stored[k].resize(w.pixels() * bytes);
             clamped += store(channel.type, image.plane(k).data(), w.pixels(), stored[k].data());
             pixels.insert(channel.name, Imf::Slice::Make(imf_type(channel.type), stored[k].data(), w.data,
                                                          bytes, bytes * std::size_t(w.width())));
         }
-        Imf::Header header = output_header(w, image.channels, metadata);
+        Imf::Header header = output_header(w, channels, metadata);
         OutputFile output(path);
         header.compression() =
             output_compression(false, compression, output.to_pipe(), metadata, image.channels);
-        {
+        if (tiles > 0) {
+            header.setTileDescription(Imf::TileDescription(unsigned(tiles), unsigned(tiles)));
+            Imf::TiledOutputFile file(output.stream(), header);
+            file.setFrameBuffer(pixels);
+            file.writeTiles(0, file.numXTiles() - 1, 0, file.numYTiles() - 1);
+        } else {
             Imf::OutputFile file(output.stream(), header);
             file.setFrameBuffer(pixels);
             file.writePixels(w.height());

@@ -45,9 +45,9 @@ FlatFile read_flat_part(Imf::MultiPartInputFile &file, const std::string &path, 
 std::vector<float> take_depth(Image &image, const std::string &depth_channel, const std::string &path);
 
 // Stores channels in their own types, compressed as compression.h says. Keeps all of `metadata` that does not describe the
-// pixels themselves (windows, channels, tiling). Returns the number of values beyond the range of half, which became its
+// pixels themselves (windows, channels, tiling). `tiles`: in tiles of so many pixels to a side; 0: in scanlines. Returns the number of values beyond the range of half, which became its
 // largest value, 65504.
 std::size_t write_flat_exr(const std::string &path, const Image &image, const Imf::Header &metadata,
-                           std::optional<Imf::Compression> compression = {});
+                           std::optional<Imf::Compression> compression = {}, int tiles = 0);
 
 } // namespace sparselens

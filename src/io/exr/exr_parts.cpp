@@ -1,11 +1,13 @@
 #include "io/exr/exr_parts.h"
 
+#include "base/channel_names.h"
 #include "base/error.h"
 #include "base/text.h"
 #include "io/exr/exr_beauty.h"
 #include "io/exr/exr_common.h"
 #include "io/exr/exr_mattes.h"
 #include "io/exr/header_edit.h"
+#include "io/exr/kept_names.h"
 #include "io/exr/luminance_chroma.h"
 
 #include <ImfStandardAttributes.h>
@@ -40,7 +42,32 @@ Channel channel_of(const std::string &name, const Imf::Channel &in_file) {
     return {name, type};
 }
 
+void name_colours(std::vector<FileChannel> &channels) {
+    std::vector<Channel> plain;
+    for (const FileChannel &found : channels) plain.push_back(found.channel);
+    const std::vector<std::string> names = names_of_colours(plain);
+    for (std::size_t k = 0; k < channels.size(); ++k)
+        if (std::string &name = channels[k].channel.name; name != names[k]) {
+            channels[k].kept = name;
+            name = names[k];
+        }
+}
+
 } // namespace
+
+void rename(FileChannel &channel, const std::string &name) {
+    std::string &kept = channel.kept;
+    if (const std::size_t layer = name.rfind('.') + 1; !kept.empty() && layer > 0)
+        kept = name.substr(0, layer) + kept.substr(kept.rfind('.') + 1);
+    channel.channel.name = name;
+}
+
+void keep_names(Imf::Header &header, const std::vector<FileChannel> &channels) {
+    KeptNames names;
+    for (const FileChannel &found : channels)
+        if (!found.kept.empty()) names[found.channel.name] = found.kept;
+    set_kept_names(header, names);
+}
 
 std::string layer_of(const Imf::Header &header) {
     std::string name = header.hasName() ? header.name() : std::string();
@@ -124,6 +151,7 @@ std::vector<FileChannel> channels_of(const Imf::Header &header, const std::strin
     };
     channels.erase(std::unique(channels.begin(), channels.end(), same_name), channels.end());
     find_kinds_by(header, channels);
+    name_colours(channels);
     colours_first(channels);
     return channels;
 }

@@ -43,7 +43,15 @@ PartsOfView parts_of_view(const Imf::MultiPartInputFile &file, const std::vector
 struct FileChannel {
     std::string in_file; // R, G or B where they are made of luminance and chroma
     Channel channel;
+    std::string kept =
+        {}; // the name that it keeps in files where the picture knows it by another (kept_names.h)
 };
+
+// Gives the channel another name. The name that it keeps follows, where that is one of a layer.
+void rename(FileChannel &channel, const std::string &name);
+
+// Says in the header which names the channels keep.
+void keep_names(Imf::Header &header, const std::vector<FileChannel> &channels);
 
 // The channels of the part in the view: R, G, B, A first, then by name. Throws Error where one is subsampled.
 std::vector<FileChannel> channels_of(const Imf::Header &header, const std::string &view,

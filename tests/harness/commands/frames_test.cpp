@@ -161,11 +161,18 @@ TEST(FrameCommands, KeysComeFromAFileToo) {
 }
 
 TEST(FrameCommands, WithoutSequencesTheWordsAreTheCommand) {
-    const Words words{"in.exr", "-o", "out.exr", "--focus-distance", "1:5,24:2"};
+    const Words words{"in.exr", "-o", "out.exr", "--focus-distance", "5"};
     const FrameCommands commands(words);
     EXPECT_FALSE(commands.is_range());
     ASSERT_EQ(commands.size(), 1u);
     EXPECT_EQ(commands.words(0), words);
+}
+
+TEST(FrameCommands, KeysNeedFrames) {
+    for (const Words &words :
+         {Words{"in.exr", "--focus-distance", "1:5,24:2"}, Words{"in.exr", "--focus-distance=1:5,24:2"}})
+        EXPECT_EQ(what_of<UsageError>([&] { FrameCommands commands(words); }),
+                  "--focus-distance 1:5,24:2 is keyed by frame, and keys need --frames");
 }
 
 TEST(FrameCommands, NamesAndValuesGoByTheFrame) {

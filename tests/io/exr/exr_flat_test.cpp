@@ -277,9 +277,10 @@ TEST(TakeDepth, TakesTheOneThatIsAskedFor) {
     EXPECT_EQ(take_depth(image, "P.z", "f"), (std::vector<float>{0, 1}));
     EXPECT_EQ(what_of<Error>([&] { take_depth(image, "P.z", "f.exr"); }),
               "f.exr: has no channel P.z (`depth_channel`); its channels are R");
-    EXPECT_EQ(
-        what_of<Error>([&] { take_depth(image, "", "f.exr"); }),
-        "f.exr: has no depth channel (Z, depth.Z or *.Depth.Z): give `depth_channel`; its channels are R");
+    EXPECT_EQ(what_of<Error>([&] { take_depth(image, "", "f.exr"); }),
+              "f.exr: has no depth channel (Z, depth.Z, *.Depth.Z and the like): give `depth_file` where it "
+              "is in a "
+              "file of its own, else `depth_channel`; its channels are R");
 }
 
 // Another Z would be mistaken for the depth by whoever reads what we write.

@@ -168,6 +168,7 @@ FrameCommands::Word FrameCommands::read_word(const std::string &text, const std:
         word.keys = read_keys(word.value.substr(1), kind);
     else if (option.starts_with('-'))
         word.keys = parse_keys(word.value, kind);
+    if (word.keys && is_among(keyed_options, option)) word.keyed_option = option;
     std::error_code error;
     if (word.keys || word.value.size() > longest_name ||
         (names_are_names && std::filesystem::exists(word.value, error)))
@@ -208,6 +209,10 @@ FrameCommands::FrameCommands(const std::vector<std::string> &words) {
     for (const Word &word : words_)
         if (word.keys_from_file && !is_range())
             throw UsageError(word.value + " holds a value for each frame: give --frames");
+    for (const Word &word : words_)
+        if (!word.keyed_option.empty() && !is_range())
+            throw UsageError(fmt::format("{} {} is keyed by frame, and keys need --frames", word.keyed_option,
+                                         word.value));
 }
 
 std::string FrameCommands::word_at(const Word &word, std::size_t i) const {

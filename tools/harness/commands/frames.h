@@ -47,6 +47,7 @@ private:
         std::string before, value; // "--option=" and the rest; else "" and the word
         bool is_sequence = false, is_output = false, keys_from_file = false;
         std::optional<Keys> keys;
+        std::string keyed_option;     // the option that the keys are of, where it may have keys
         std::vector<int> own_numbers; // those of a sequence with a range of its own
     };
     static Word read_word(const std::string &text, const std::string &previous, bool names_are_names);

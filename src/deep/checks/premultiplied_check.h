@@ -1,0 +1,24 @@
+// Whether the colours of a picture are multiplied by their coverage, as they must be.
+//
+// From an opaque surface to nothing, over an edge of one to three pixels, coverage falls from 1 to 0. Premultiplied colours fall
+// with it, and unpremultiplied ones stay as bright as the surface. Light that is added without coverage (glows, flames) does
+// not tell: the nothing beside the edge has to be black.
+#pragma once
+
+#include "../../view/flat_pixels.h"
+
+#include <cstddef>
+
+namespace sparselens {
+
+struct EdgeFall {
+    std::size_t pixels = 0; // on such edges
+    double stays =
+        0; // the median of how far they stay bright: 0 where colours fall with coverage, 1 where they do not
+};
+
+EdgeFall fall_at_edges(const FlatPixels &pixels);
+
+bool looks_unpremultiplied(const EdgeFall &fall);
+
+} // namespace sparselens

@@ -1,0 +1,105 @@
+#include "io/exr/depth_channel.h"
+
+#include "base/channel_names.h"
+#include "base/error.h"
+#include "base/text.h"
+#include "io/exr/exr_common.h"
+#include "io/files/file_stream.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <span>
+
+namespace sparselens {
+
+namespace {
+
+std::string what_there_is(const std::vector<Channel> &channels) {
+    std::vector<std::string> names;
+    for (const Channel &channel : channels) names.push_back(channel.name);
+    return names.empty() ? "it has no channels" : "its channels are " + first_of(names);
+}
+
+std::size_t named(std::span<const Channel> channels, const std::string &asked) {
+    if (const std::size_t exactly = find_channel(channels, asked); exactly != npos) return exactly;
+    for (std::size_t k = 0; k < channels.size(); ++k)
+        if (lower_case(channels[k].name) == lower_case(asked)) return k;
+    return npos;
+}
+
+// The first of those whose names are the clearest.
+std::size_t by_rank(std::span<const Channel> channels) {
+    std::size_t best = npos;
+    int least = 0;
+    for (std::size_t k = 0; k < channels.size(); ++k)
+        if (const auto rank = depth_rank(channels[k].name); rank && (best == npos || *rank < least)) {
+            best = k;
+            least = *rank;
+        }
+    return best;
+}
+
+// The only channel that is so; npos where none or several are.
+template <typename Is>
+std::size_t only(std::span<const Channel> channels, const Is &is) {
+    std::size_t found = npos;
+    for (std::size_t k = 0; k < channels.size(); ++k) {
+        if (channels[k].type == PixelType::uint32 || is_in_matte(channels[k]) ||
+            !is(lower_case(channels[k].name)))
+            continue;
+        if (found != npos) return npos;
+        found = k;
+    }
+    return found;
+}
+
+std::size_t guessed(std::span<const Channel> channels) {
+    const auto is_alone = [&](const std::string &name) {
+        return name.ends_with(".z") && named(channels, name.substr(0, name.size() - 1) + "x") == npos;
+    };
+    if (const std::size_t k = only(channels, is_alone); k != npos) return k;
+    return only(channels, [](const std::string &name) { return name.find("depth") != name.npos; });
+}
+
+} // namespace
+
+std::optional<int> depth_rank(std::string_view name) {
+    static constexpr std::array layers{"z", "depth", "zdepth"};
+    const std::string lower = lower_case(std::string(name));
+    if (lower == "z") return 0;
+    if (lower == "depth.z") return 1;
+    if (lower.ends_with(".depth.z")) return 2;
+    if (lower.ends_with(".zback") || lower.ends_with("depthback")) return {};
+    const std::size_t dot = lower.find('.');
+    if (dot != lower.rfind('.') || !is_among(layers, lower.substr(0, dot))) return {};
+    const std::string last = dot == lower.npos ? "" : lower.substr(dot + 1);
+    if (colour_name(last) == "A") return {}; // of a depth that was written as a picture
+    return colour_name(last) == "G" || colour_name(last) == "B" ? 4 : 3;
+}
+
+DepthChannel find_depth_channel(const std::vector<Channel> &channels, const std::string &asked,
+                                const std::string &path) {
+    const std::size_t clear = asked.empty() ? by_rank(channels) : named(channels, asked);
+    const std::size_t k = clear == npos && asked.empty() ? guessed(channels) : clear;
+    if (k == npos)
+        throw Error(
+            asked.empty()
+                ? fmt::format("{}: has no depth channel (Z, depth.Z, *.Depth.Z and the like): give "
+                              "`depth_file` where it is in a file of its own, else `depth_channel`; {}",
+                              display_name(path), what_there_is(channels))
+                : fmt::format("{}: has no channel {} (`depth_channel`); {}", display_name(path), asked,
+                              what_there_is(channels)));
+    const std::string &name = channels[k].name;
+    if (channels[k].type == PixelType::uint32)
+        throw Error(
+            fmt::format("{}: the depth channel {} holds integers, not depths", display_name(path), name));
+    if (clear != npos) return {name};
+    return {name, fmt::format("channel {} is taken for the depth; if it is not, give `depth_channel`", name)};
+}
+
+bool has_depth_channel(const std::vector<Channel> &channels, const std::string &asked) {
+    return (asked.empty() ? by_rank(channels) : named(channels, asked)) != npos;
+}
+
+} // namespace sparselens

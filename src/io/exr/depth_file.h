@@ -1,0 +1,16 @@
+// The depth of a picture from a file of its own. Not for use outside io/.
+#pragma once
+
+#include "io/exr/exr_flat.h"
+
+#include <string>
+
+namespace sparselens {
+
+// Reads the depth of choice.depth_file and puts it into the picture as Z, in place of what is there; what it took it says in the
+// notes and warnings. The depth is that of the channel that names tell (depth_channel.h), else of the only channel, else of the
+// first of R, G and B. Outside its data window it is 0. Throws Error where the file holds no depth, or differs from the
+// picture in display window or pixel aspect ratio.
+void put_depth_of_file(FlatFile &picture, const std::string &path, const PictureChoice &choice);
+
+} // namespace sparselens

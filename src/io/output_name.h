@@ -1,0 +1,17 @@
+// Which names pictures may be written under. The ending says the format, and one that is none is a slip: it is refused before
+// any work is done.
+#pragma once
+
+#include <string>
+
+namespace sparselens {
+
+enum class OutputKind {
+    exr,    // deep pictures, depths, and what else is EXR alone
+    picture // EXR, or one of the formats for the screen (io/display/shown_picture.h)
+};
+
+// What is wrong with the name, with the list of endings; empty where nothing is. `-`, pipes and devices need no ending.
+std::string wrong_with_output(const std::string &path, OutputKind kind);
+
+} // namespace sparselens
