@@ -158,6 +158,7 @@ PictureObject gathered_all(const Asked &asked, const OpenedLdi &in, Camera camer
 // The same of the channels that are asked for, of a copy of the LDI.
 PictureObject gathered(const Asked &asked, const OpenedLdi &in, const Camera &camera, const ThinLens &lens,
                        TileDevice *device, Progress &progress) {
+    require_channels(in);
     if (asked.channels.empty()) return gathered_all(asked, in, camera, lens, device, progress);
     OpenedLdi fewer = in;
     keep_channels(fewer.ldi, asked.channels);
@@ -171,7 +172,6 @@ PictureObject gathered(const Asked &asked, const OpenedLdi &in, const Camera &ca
 PictureObject gather(const py::object &ldi, const py::kwargs &given) {
     const Asked asked = asked_by(given);
     const OpenedLdi &in = argument<OpenedLdi>(ldi, "ldi", "an Ldi");
-    require_channels(in);
     const Camera camera = focused(camera_with_options(asked.lens, in.camera), in, asked);
     const ThinLens lens = resolve_lens(camera, in.ldi.windows);
     if (const auto warning = warning_of_wide_lens(camera, lens)) warn(*warning);

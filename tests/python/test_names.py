@@ -16,9 +16,9 @@ def soft():
 
 
 def channels_in(path):
-    """By their names in the file, in its header."""
-    header = path.read_bytes()[:2000]
-    return [name for name in PLAIN + NUKE if b"\0" + name.encode() + b"\0" in header[8:]]
+    """By their names in the file's list of channels."""
+    listed = path.read_bytes().split(b"channels\0chlist\0")[1].split(b"compression\0")[0]
+    return [name for name in PLAIN + NUKE if b"\0" + name.encode() + b"\0" in listed]
 
 
 def test_names_of_colours(tmp_path):
