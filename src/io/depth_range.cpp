@@ -1,6 +1,7 @@
 #include "io/depth_range.h"
 
 #include "base/error.h"
+#include "deep/checks/depth_check.h"
 #include "deep/checks/white_near_check.h"
 #include "io/exr/header_values.h"
 
@@ -19,6 +20,11 @@ std::optional<double> number_in(const Imf::Header &header, std::initializer_list
         if (const HeaderValue *found = find_value(values, name); found && found->numbers.size() == 1)
             return found->numbers[0];
     return {};
+}
+
+bool are_inverse(const Grid &grid, std::span<const float> depths) {
+    const Image no_channels(windows_of_size(grid.width(), grid.height()), {});
+    return looks_inverse(slopes_of_depth({"", no_channels, {depths.begin(), depths.end()}}));
 }
 
 } // namespace
@@ -55,7 +61,8 @@ std::optional<std::string> normalized_warning(const DepthOptions &options, std::
 
 std::optional<std::string> normalized_warning(const DepthOptions &options, std::span<const float> depths,
                                               const Grid &grid) {
-    if (options.meaning == DepthMeaning::planar && looks_white_near(grid, depths))
+    if (options.meaning == DepthMeaning::planar && looks_white_near(grid, depths) &&
+        !are_inverse(grid, depths)) // which is told by another warning
         return "its depths lie from 0 to 1 and seem to be white near: if they are, give `depth=normalized` "
                "with "
                "`near`, the depth of 0, which is the farther one, and `far`, that of 1";
