@@ -1,6 +1,7 @@
 #!/bin/bash
 # Every option of every tool is in --help, in the manual page, in the completion, and in a script that shows its effect;
 # those that tools share are shown here, for each tool.
+declare -A ending=([ldi-plan]=json)
 . "$(dirname "$0")/check.sh"
 scripts=("$source_dir"/tests/tools/*.sh "$source_dir"/lab/tests/tools/*.sh)
 command -v oiiotool >/dev/null || skip "needs oiiotool (openimageio-tools)"
@@ -51,9 +52,9 @@ run() {
 show() { for option in "${@:2}"; do shown[$1 $option]=yes; done; }
 
 for tool in "${!task[@]}"; do
-    run "$tool" out.$tool.exr --threads 3 -v
+    run "$tool" out.$tool.${ending[$tool]:-exr} --threads 3 -v
     grep -qx "$tool: threads: 3" stderr || fail "$tool --threads 3 -v: $(cat stderr)"
-    expected=1 run "$tool" none.$tool.exr --max-memory 1KB
+    expected=1 run "$tool" none.$tool.${ending[$tool]:-exr} --max-memory 1KB
     grep -q 'asks for .* of memory, more than --max-memory allows' stderr || fail "$tool --max-memory: $(cat stderr)"
     show "$tool" --threads -v --max-memory
 done
@@ -65,25 +66,25 @@ show dof-stress --threads -v
 
 # --far: what lies there or beyond is the sky.
 for tool in ldi-plan ldi-warp ldi-cluster dof-gather dof-compare; do
-    run $tool near.$tool.exr --far 1e9
-    cmp -s near.$tool.exr out.$tool.exr || fail "$tool --far changes what has no sky"
-    run $tool far.$tool.exr --far 6
-    if cmp -s far.$tool.exr out.$tool.exr; then fail "$tool --far changes nothing"; fi
+    run $tool near.$tool.${ending[$tool]:-exr} --far 1e9
+    cmp -s near.$tool.${ending[$tool]:-exr} out.$tool.${ending[$tool]:-exr} || fail "$tool --far changes what has no sky"
+    run $tool far.$tool.${ending[$tool]:-exr} --far 6
+    if cmp -s far.$tool.${ending[$tool]:-exr} out.$tool.${ending[$tool]:-exr}; then fail "$tool --far changes nothing"; fi
     show $tool --far
 done
 
 # Frames, of which the third is missing.
 count() { find . -maxdepth 1 -name "$1" -printf x | wc -c; }
 for tool in ldi-plan ldi-warp ldi-cluster dof-gather; do
-    frame_name=.# run $tool frame.#.$tool.exr --frames 1-4x3
-    [ "$(count "frame.*.$tool.exr")" -eq 2 ] || fail "$tool --frames 1-4x3: $(ls)"
-    frame_name=.# run $tool frame.#.$tool.exr --frames 1,2,4 -u -v --progress plain
+    frame_name=.# run $tool frame.#.$tool.${ending[$tool]:-exr} --frames 1-4x3
+    [ "$(count "frame.*.$tool.${ending[$tool]:-exr}")" -eq 2 ] || fail "$tool --frames 1-4x3: $(ls)"
+    frame_name=.# run $tool frame.#.$tool.${ending[$tool]:-exr} --frames 1,2,4 -u -v --progress plain
     [ "$(grep -c 'is up to date' stderr)" -eq 2 ] || fail "$tool -u: $(cat stderr)"
     grep -qx "$tool: 100%" stderr || fail "$tool --progress: $(cat stderr)"
-    frame_name=.# expected=1 run $tool bad.#.$tool.exr --frames 1-4
-    [ "$(count "bad.*.$tool.exr")" -eq 2 ] || fail "$tool goes on after a frame that fails: $(ls)"
-    frame_name=.# expected=1 run $tool bad.#.$tool.exr --frames 1-4 --skip-bad-frames
-    [ "$(count "bad.*.$tool.exr")" -eq 3 ] || fail "$tool --skip-bad-frames: $(ls)"
+    frame_name=.# expected=1 run $tool bad.#.$tool.${ending[$tool]:-exr} --frames 1-4
+    [ "$(count "bad.*.$tool.${ending[$tool]:-exr}")" -eq 2 ] || fail "$tool goes on after a frame that fails: $(ls)"
+    frame_name=.# expected=1 run $tool bad.#.$tool.${ending[$tool]:-exr} --frames 1-4 --skip-bad-frames
+    [ "$(count "bad.*.$tool.${ending[$tool]:-exr}")" -eq 3 ] || fail "$tool --skip-bad-frames: $(ls)"
     show $tool --frames -u --progress --skip-bad-frames
 done
 
