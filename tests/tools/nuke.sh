@@ -178,4 +178,6 @@ fails_saying 1 'other.exr.*display window' "$bin/ldi-warp" plain.exr --view 0.1,
 exits 0 "$bin/ldi-plan" straight.exr --unpremultiplied "${lens[@]}" --noise 0 -o plan.json
 [ ! -s stderr ] || fail "ldi-plan --unpremultiplied: $(cat stderr)"
 exits 0 "$bin/dof-compare" straight.exr straight.exr --unpremultiplied --json
-if lab; then exits 0 "$bin/dof-accumulate" --view 0,0 straight.exr -o x.exr --lens-radius 0 --unpremultiplied; fi
+if lab; then
+    exits 0 "$bin/dof-accumulate" --view 0,0 straight.exr -o x.exr --lens-radius 0 --unpremultiplied
+fi
