@@ -2,6 +2,7 @@
 // the depth, luminance and chroma. "h NAME", "f NAME" and "u NAME" are channels of half, float and uint, others attributes.
 #include "base/matte.h"
 #include "fuzz/fuzz.h"
+#include "io/exr/depth_channel.h"
 #include "io/exr/exr_beauty.h"
 #include "io/exr/exr_common.h"
 #include "io/exr/exr_mattes.h"

@@ -173,10 +173,11 @@ TEST(TwoAtOnce, AsLongAsBothFit) {
         for (std::size_t i = 0; i < bytes.size(); ++i) {
             found.push_back(two.fit(i, peak));
             const std::uint64_t at_once = bytes[i] + (found.back() ? bytes[i - 1] : 0);
-            peak = std::max(peak, 10 * std::max<std::uint64_t>(at_once, 1));
+            const std::uint64_t taken = 10 * std::max<std::uint64_t>(at_once, 1);
             if (found.back()) {
-                EXPECT_LE(peak, memory);
+                EXPECT_LE(taken, memory);
             }
+            peak = std::max(peak, taken);
         }
         return found;
     };
@@ -184,7 +185,9 @@ TEST(TwoAtOnce, AsLongAsBothFit) {
     EXPECT_EQ(fits({5, 5, 5, 5, 5}, 100), two);
     EXPECT_EQ(fits({5, 5, 5, 5, 5}, 99), alone);
     EXPECT_EQ(fits({0, 0, 0, 0, 0}, 20), two); // through pipes
-    EXPECT_EQ(fits({5, 6, 7, 8, 9}, 140), (std::vector<bool>{false, false, true, false, false}));
+    // The second may be at work still when the third is asked for: the first is taken to have held all of it, 12 a byte.
+    EXPECT_EQ(fits({5, 6, 7, 8, 9}, 155), alone);
+    EXPECT_EQ(fits({5, 6, 7, 8, 9}, 156), (std::vector<bool>{false, false, true, false, false}));
     EXPECT_EQ(fits({1, 1, 1, 50, 50, 1, 1}, 100),
               (std::vector<bool>{false, false, true, false, false, false, true}));
 }

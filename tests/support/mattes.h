@@ -7,6 +7,7 @@
 #include <bit>
 #include <cstdint>
 #include <set>
+#include <string>
 
 namespace sparselens {
 
@@ -15,7 +16,9 @@ inline std::vector<Channel> channels_with_matte(int layers = 1) {
     std::vector<Channel> channels = rgba_channels();
     for (int layer = 0; layer < layers; ++layer)
         for (const char *last : {".R", ".G", ".B", ".A"})
-            channels.push_back({"CryptoObject0" + std::to_string(layer) + last, PixelType::float32});
+            channels.push_back(
+                {"CryptoObject" + std::string(layer < 10 ? "0" : "") + std::to_string(layer) + last,
+                 PixelType::float32});
     find_kinds(channels);
     return channels;
 }
