@@ -121,17 +121,21 @@ void add_memory_option(CLI::App &app, ProcessOptions &options) {
         ->transform(CLI::AsSizeValue(false));
 }
 
+// Options look at files and at what OpenImageIO writes, so that not only their words may fail.
 std::optional<int> parse_words(CLI::App &app, const std::vector<std::string> &words,
                                const std::string &prefix) {
     take_commas_for_no_digits();
-    try {
-        parse_all(app, std::vector<std::string>(words.rbegin(), words.rend())); // as CLI11 wants them
-    } catch (const CLI::Success &answer) {                                      // --help, --version
-        return app.exit(answer);
-    } catch (const CLI::ParseError &error) {
-        return fail(prefix, explanation(app, error) + " (see --help)", 2);
-    }
-    return {};
+    std::optional<int> answered;
+    const int code = exit_code_of(prefix, [&] {
+        try {
+            parse_all(app, std::vector<std::string>(words.rbegin(), words.rend())); // as CLI11 wants them
+        } catch (const CLI::Success &answer) {                                      // --help, --version
+            answered = app.exit(answer);
+        } catch (const CLI::ParseError &error) {
+            answered = fail(prefix, explanation(app, error) + " (see --help)", 2);
+        }
+    });
+    return code == 0 ? answered : code;
 }
 
 namespace {
