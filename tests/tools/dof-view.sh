@@ -31,13 +31,14 @@ agree --colorconfig "$source_dir/share/ocio/config.ocio" --colorspace sRGB
 agree --output-colorspace sRGB
 agree --overscan keep --region 20,10,100,70
 agree --proxy 2
-agree --supersample 2 --pixel-filter gaussian
+agree --supersample 2 --pixel-filter gaussian --unpremultiplied
 agree --holdout center.exr --holdout-defocused
 agree --display Rec.1886 --view-transform Raw
 exits 0 "$bin/dof-trace" fence --size 80x45 --spp 1 --views 0 -o flat
 mv ldi.exr deep.exr
 oiiotool flat/center.exr --ch R,G,B,A,Z --mulc 1,1,1,1,0.05 -o ldi.exr
 agree --depth normalized --depth-channel Z --near 0.1 --far 20
+agree --depth-file flat/center.exr
 lens=(--focal-length 36 --sensor-width 36 --fstop 0.3 --focus-distance 5)
 for name in fg bg; do
     oiiotool flat/center.exr --ch R,G,B,A,Z --chnames $name.Combined.R,$name.Combined.G,$name.Combined.B,$name.Combined.A,$name.Depth.Z -o $name.exr

@@ -179,5 +179,7 @@ exits 0 "$bin/ldi-plan" straight.exr --unpremultiplied "${lens[@]}" --noise 0 -o
 [ ! -s stderr ] || fail "ldi-plan --unpremultiplied: $(cat stderr)"
 exits 0 "$bin/dof-compare" straight.exr straight.exr --unpremultiplied --json
 if lab; then
+    exits 0 "$bin/dof-accumulate" --view 0,0 soft.exr -o accumulated.soft.exr --lens-radius 0
     exits 0 "$bin/dof-accumulate" --view 0,0 straight.exr -o x.exr --lens-radius 0 --unpremultiplied
+    same x.exr accumulated.soft.exr 1e-3
 fi
