@@ -1,0 +1,197 @@
+#include "finish/finish_picture.h"
+
+#include "base/error.h"
+#include "base/parallel.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+namespace sparselens {
+
+namespace {
+
+constexpr float nothing = std::numeric_limits<float>::quiet_NaN(); // where a render says nothing
+
+bool is_finished(const Channel &channel) { return is_light(channel) && channel.type != PixelType::uint32; }
+
+std::string prefix_of(const std::string &name) {
+    const std::size_t dot = name.rfind('.');
+    return dot == std::string::npos ? "" : name.substr(0, dot + 1);
+}
+
+// Channels that are finished together: R, G and B of one layer, or one alone.
+std::vector<std::vector<std::size_t>> groups_of(std::span<const Channel> channels) {
+    std::vector<std::vector<std::size_t>> groups;
+    std::vector<std::string> prefixes; // of groups of colours; of others, a name that no layer has
+    for (std::size_t c = 0; c < channels.size(); ++c) {
+        if (!is_finished(channels[c])) continue;
+        const ColourPart part = colour_part(channels[c]);
+        const bool colour = part != ColourPart::none && part != ColourPart::coverage;
+        const std::string prefix = colour ? prefix_of(channels[c].name) : channels[c].name + "/";
+        const auto found = std::ranges::find(prefixes, prefix);
+        if (found == prefixes.end()) {
+            prefixes.push_back(prefix);
+            groups.push_back({c});
+        } else {
+            groups[std::size_t(found - prefixes.begin())].push_back(c);
+        }
+    }
+    return groups;
+}
+
+// The values of a channel over the pixels of `windows`; nothing outside its data window.
+Values over(const Image &image, std::size_t channel, const Windows &windows) {
+    const Grid grid = windows.grid(), own = image.windows.grid();
+    const std::span<const float> plane = image.plane(channel);
+    Values values(grid.size());
+    parallel_for(std::size_t(grid.height()), [&](std::size_t row) {
+        for (int x = 0; x < grid.width(); ++x) {
+            const Imath::V2i at = windows.data.min + Imath::V2i(x, int(row));
+            values[row * std::size_t(grid.width()) + std::size_t(x)] =
+                own.contains(at.x, at.y) ? plane[own.index(at.x, at.y)] : nothing;
+        }
+    });
+    return values;
+}
+
+void check_window(const Render &render, const Windows &windows) {
+    if (render.image.windows.display == windows.display) return;
+    throw Error(fmt::format("{}: its picture is {}x{}, the gathered one {}x{}: render both with the same "
+                            "camera and size",
+                            render.name, render.image.windows.display_width(),
+                            render.image.windows.display_height(), windows.display_width(),
+                            windows.display_height()));
+}
+
+// Leaves only finite values: where a render says nothing, what is gathered; where that says nothing either, 0.
+void settle(Colours &gathered, std::vector<Halves *> halves) {
+    for (std::size_t c = 0; c < gathered.size(); ++c)
+        parallel_ranges(gathered[c].size(), std::size_t(1) << 16, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                float &g = gathered[c][i];
+                if (!std::isfinite(g)) g = (*halves[0])[0][c][i];
+                if (!std::isfinite(g)) g = 0;
+            }
+        });
+    // A pixel is taken or left as a whole, so that its colours belong together.
+    parallel_ranges(gathered[0].size(), std::size_t(1) << 16, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+            for (Halves *pair : halves) {
+                bool whole = true;
+                for (const Colours &half : *pair)
+                    for (const Values &channel : half) whole &= std::isfinite(channel[i]);
+                if (whole) continue;
+                for (Colours &half : *pair)
+                    for (std::size_t c = 0; c < half.size(); ++c) half[c][i] = gathered[c][i];
+            }
+    });
+}
+
+Halves taken(TwoHalves &from, const std::vector<std::size_t> &channels) {
+    Halves halves;
+    for (const std::size_t c : channels) {
+        auto planes = from.take(c);
+        for (std::size_t k = 0; k < 2; ++k) halves[k].push_back(std::move(planes[k]));
+    }
+    return halves;
+}
+
+LayerToFinish layer_of(PictureToFinish &picture, const std::vector<std::size_t> &channels) {
+    const Windows &windows = picture.gathered.windows;
+    LayerToFinish layer{Grid(windows.width(), windows.height()),
+                        {},
+                        taken(picture.rays, channels),
+                        picture.rays.samples(),
+                        {}};
+    for (const std::size_t c : channels) {
+        const auto plane = picture.gathered.plane(c);
+        layer.gathered.emplace_back(plane.begin(), plane.end());
+    }
+    const auto has_all = [&](const auto &has) { return std::ranges::all_of(channels, has); };
+    for (TwoHalves &denoised : picture.denoised)
+        if (has_all([&](std::size_t c) { return denoised.has(c); }))
+            layer.given.push_back(taken(denoised, channels));
+    for (const Image &other : picture.others) {
+        const auto index = [&](std::size_t c) {
+            return find_channel(other.channels, picture.gathered.channels[c].name);
+        };
+        if (!has_all([&](std::size_t c) { return index(c) != npos; })) continue;
+        Halves twice;
+        for (const std::size_t c : channels)
+            for (Colours &half : twice) half.push_back(over(other, index(c), windows));
+        layer.given.push_back(std::move(twice));
+    }
+    std::vector<Halves *> all{&layer.rays};
+    for (Halves &given : layer.given) all.push_back(&given);
+    settle(layer.gathered, all);
+    return layer;
+}
+
+} // namespace
+
+TwoHalves::TwoHalves(const Image &gathered)
+    : windows_(gathered.windows), channels_(gathered.channels), has_(channels_.size()) {
+    for (std::size_t c = 0; c < channels_.size(); ++c) has_[c] = is_finished(channels_[c]);
+    for (auto &half : sums_) half.resize(channels_.size());
+}
+
+bool TwoHalves::complete() const { return samples_[0] > 0 && samples_[1] > 0; }
+
+void TwoHalves::add(const Render &render) {
+    check_window(render, windows_);
+    const std::size_t half = samples_[0] <= samples_[1] ? 0 : 1;
+    samples_[half] += render.samples;
+    const auto share = float(render.samples / samples_[half]); // 1 for the first of a half
+    std::size_t missing = 0;
+    for (std::size_t c = 0; c < channels_.size(); ++c) {
+        if (!has_[c]) continue;
+        const std::size_t from = find_channel(render.image.channels, channels_[c].name);
+        has_[c] = from != npos;
+        if (!has_[c]) continue;
+        Values values = over(render.image, from, windows_);
+        missing = std::max(
+            missing, std::size_t(std::ranges::count_if(values, [](float v) { return !std::isfinite(v); })));
+        Values &sum = sums_[half][c];
+        if (sum.empty())
+            sum = std::move(values);
+        else
+            for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += share * (values[i] - sum[i]);
+    }
+    missing_ += missing;
+}
+
+std::array<Values, 2> TwoHalves::take(std::size_t channel) {
+    return {std::move(sums_[0][channel]), std::move(sums_[1][channel])};
+}
+
+FinishedPicture finish_picture(PictureToFinish picture, Progress &progress) {
+    if (!picture.rays.complete())
+        throw Error("one render alone cannot tell its noise: give two or more of different seeds");
+    FinishedPicture finished;
+    const auto colours = find_rgb(picture.gathered.channels);
+    if (!all_found(colours) ||
+        !std::ranges::all_of(colours, [&](std::size_t c) { return picture.rays.has(c); }))
+        throw Error("the gathered picture and the renders have no R, G and B in common");
+    for (const std::vector<std::size_t> &channels : groups_of(picture.gathered.channels)) {
+        if (!std::ranges::all_of(channels, [&](std::size_t c) { return picture.rays.has(c); })) {
+            for (const std::size_t c : channels)
+                finished.as_gathered.push_back(picture.gathered.channels[c].name);
+            continue;
+        }
+        LayerToFinish layer = layer_of(picture, channels);
+        const bool beauty = std::ranges::find(channels, colours[0]) != channels.end();
+        FinishedLayer result = finish_layer(layer, progress);
+        if (beauty) {
+            finished.error = estimate_error(result, layer.rays, layer.samples, layer.grid);
+            finished.kept = std::move(result.kept);
+        }
+        for (std::size_t k = 0; k < channels.size(); ++k)
+            std::ranges::copy(result.picture[k], picture.gathered.plane(channels[k]).begin());
+    }
+    finished.image = std::move(picture.gathered);
+    return finished;
+}
+
+} // namespace sparselens

@@ -1,0 +1,40 @@
+// Thresholds of dof-finish, with units. Where a measurement exists, the comment quotes it: dB of fence, grass and mirror (320x180,
+// 20 + 20 rays over the lens, views of 20 rays).
+#pragma once
+
+#include <array>
+
+namespace sparselens {
+
+struct FinishTuning {
+    // Radii of the windows of the regressions, pixels, the largest first: a later one corrects the earlier ones.
+    static constexpr std::array<int, 4> regression_radius{8, 4, 2, 1};
+    // How much a slope is drawn towards 1, as a share of the squared mean of the guide.
+    static constexpr float regression_prior = 0.1f;
+
+    // The mean over similar pixels: how far away they are looked for, pixels. Of mirror, it gains 1.4 dB.
+    static constexpr int similar_reach = 4;
+    // How different two pixels may be, tone-mapped and squared, before one counts less for the other.
+    static constexpr float similar_noise = 1e-4f;
+
+    // Radius of the window in which the energy of a candidate is compared with its noise, pixels, ...
+    static constexpr int energy_radius = 2;
+    // ... and of the larger window in which that noise is measured, so that it does not follow single bright rays.
+    static constexpr int noise_radius = 8;
+    // The ring in which the other render confirms a candidate: the half sides of its outer and inner square, pixels. The inner
+    // square is left out, so that the noise of a pixel cannot confirm itself.
+    static constexpr int ring_outer = 10, ring_inner = 2;
+    // Radius of the window over which trust is smoothed, pixels.
+    static constexpr int trust_radius = 1;
+    // Classes of pixels for each of the two measures of trust.
+    static constexpr int classes = 12;
+    // Side of the blocks whose spread tells how certain the trust in a class is, pixels.
+    static constexpr int block_px = 32;
+
+    // Radius of the window over which the map of the estimated error is averaged, pixels.
+    static constexpr int error_radius = 4;
+    // Values below this count as this dark where an error is seen on a display: its tone curve has no slope at 0.
+    static constexpr float darkest = 0.003f;
+};
+
+} // namespace sparselens

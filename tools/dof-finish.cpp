@@ -1,0 +1,128 @@
+// dof-finish: makes a gathered picture and a few rays through the same lens into one picture that is nearer to the truth.
+#include "base/error.h"
+#include "finish/finish_picture.h"
+#include "harness/stats.h"
+#include "harness/tool.h"
+#include "io/exr/exr_flat.h"
+#include "io/render_samples.h"
+#include "loading/notices.h"
+#include "options/finish_options.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+using namespace sparselens;
+
+namespace {
+
+FlatFile read(const std::string &path, const ToolContext &tool) {
+    FlatFile file = read_flat_exr(path);
+    say_reading(tool, path, file.notes, file.warnings);
+    return file;
+}
+
+// The numbers of samples that the headers state; where one states none, all count the same.
+std::vector<double> stated_samples(const FinishCommand &options, const ToolContext &tool) {
+    std::vector<double> samples;
+    for (const std::string &path : options.renders)
+        if (const auto stated = path == "-" ? std::nullopt : render_samples(read_flat_header(path)))
+            samples.push_back(*stated);
+    if (samples.size() == options.renders.size()) return samples;
+    tool.say("the renders do not say how many samples they have: all count the same");
+    return std::vector<double>(options.renders.size(), 1);
+}
+
+// One after the other: only what they add up to stays in memory.
+TwoHalves added_up(const std::vector<std::string> &paths, const std::vector<double> &samples,
+                   const Image &gathered, const ToolContext &tool) {
+    TwoHalves halves(gathered);
+    for (std::size_t k = 0; k < paths.size(); ++k)
+        halves.add({paths[k], read(paths[k], tool).image, samples[k]});
+    return halves;
+}
+
+// The same value in R, G and B, so that every program shows it as grey.
+Image map_of(const Values &values, const Windows &windows) {
+    Image image(windows, {{"R", PixelType::half}, {"G", PixelType::half}, {"B", PixelType::half}});
+    for (std::size_t c = 0; c < 3; ++c) std::ranges::copy(values, image.plane(c).begin());
+    return image;
+}
+
+Image shown(FinishedPicture finished, ShowFinished show) {
+    if (show == ShowFinished::picture) return std::move(finished.image);
+    if (show == ShowFinished::trust) return map_of(finished.kept, finished.image.windows);
+    for (float &e : finished.error.map) e = std::sqrt(e);
+    return map_of(finished.error.map, finished.image.windows);
+}
+
+// What people read, and what --stats writes.
+Stats say_error(const FinishCommand &options, const FinishedPicture &finished,
+                const std::array<double, 2> &samples, const ToolContext &tool) {
+    const ErrorEstimate &error = finished.error;
+    const auto known = decibels(error);
+    Stats stats{{"estimated_mse", error.mean}, {"estimated_mse_deviation", error.standard_deviation}};
+    stats["estimated_psnr"] = known ? Stats(*known) : Stats(nullptr);
+    double kept = 0;
+    for (const float share : finished.kept) kept += double(share);
+    stats["kept"] = kept / double(finished.kept.size());
+    tool.say(known ? fmt::format("estimated error: {:.2f} dB", *known)
+                   : std::string("the error is too small for these renders to tell"));
+    if (!options.goal) return stats;
+    const auto times = times_the_rays(error, samples, *options.goal);
+    stats["times_the_rays"] = times ? Stats(*times) : Stats(nullptr);
+    if (!times)
+        fmt::print(stderr, "{}: {:g} dB: these renders cannot tell; give more samples\n", tool.tool_name,
+                   *options.goal);
+    else if (*times <= 1)
+        fmt::print(stderr, "{}: {:g} dB: reached\n", tool.tool_name, *options.goal);
+    else
+        fmt::print(stderr, "{}: {:g} dB: about {:.2g} times the rays\n", tool.tool_name, *options.goal,
+                   *times);
+    return stats;
+}
+
+void run(const FinishCommand &options, const ToolContext &tool) {
+    if (options.renders.size() < 2)
+        throw UsageError(
+            "one render alone cannot tell its noise from what it shows: render the same picture again "
+            "with another seed, and give both");
+    FlatFile file = read(options.gathered, tool);
+    const std::vector<double> samples =
+        options.samples.empty() ? stated_samples(options, tool) : options.samples;
+    PictureToFinish picture{{}, added_up(options.renders, samples, file.image, tool)};
+    if (!options.denoised.empty())
+        picture.denoised.push_back(added_up(options.denoised, samples, file.image, tool));
+    for (const std::string &path : options.others) picture.others.push_back(read(path, tool).image);
+    picture.gathered = std::move(file.image);
+    const auto halves = picture.rays.samples();
+    if (picture.rays.missing() > 0)
+        warn(tool, fmt::format("{} pixels of the renders are missing or not finite: they stay as gathered",
+                               picture.rays.missing()));
+    FinishedPicture finished = finish_picture(std::move(picture), *tool.progress);
+    if (!finished.as_gathered.empty())
+        tool.say(fmt::format("stay as gathered, because a render lacks them: {}",
+                             fmt::join(finished.as_gathered, ", ")));
+    append_history(file.header, tool, options.history);
+    const Stats stats = say_error(options, finished, halves, tool);
+    warn_of_clamped(tool, options.output,
+                    write_picture(tool, options.colour, options.output,
+                                  in_type(shown(std::move(finished), options.show), options.type),
+                                  file.header, options.compression));
+    write_stats(tool, stats);
+}
+
+} // namespace
+
+int main(int argc, char **argv) {
+    return run_frames("dof-finish", "Makes a gathered picture exact by a few rays through the same lens",
+                      argc, argv, [](CLI::App &app) {
+                          const auto options = std::make_shared<FinishCommand>();
+                          add_finish_options(app, *options);
+                          return Job{[options](const ToolContext &tool) { run(*options, tool); }};
+                      });
+}

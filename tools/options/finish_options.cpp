@@ -1,0 +1,84 @@
+#include "options/finish_options.h"
+
+#include "harness/examples.h"
+#include "harness/words.h"
+#include "options/lens_options.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <map>
+
+namespace sparselens {
+
+namespace {
+
+void check(const FinishCommand &options) {
+    if (!options.samples.empty() && options.samples.size() != options.renders.size())
+        throw CLI::ValidationError("--samples", fmt::format("{} numbers for {} renders: give one for each",
+                                                            options.samples.size(), options.renders.size()));
+    if (!options.denoised.empty() && options.denoised.size() != options.renders.size())
+        throw CLI::ValidationError("--denoised",
+                                   fmt::format("{} pictures for {} renders: denoise each render by itself",
+                                               options.denoised.size(), options.renders.size()));
+}
+
+void add_input_options(CLI::App &app, FinishCommand &options) {
+    app.add_option("GATHERED", options.gathered, "Picture of dof-gather (EXR); - for standard input")
+        ->type_name("")
+        ->required();
+    app.add_option(
+           "RAYS", options.renders,
+           "Two or more renders of the same picture with depth of field, by the same camera and lens, each "
+           "with a seed of its own")
+        ->type_name("...")
+        ->required();
+    app.add_option("--samples", options.samples,
+                   "Samples per pixel of each render, comma-separated (default: as the files say, else the "
+                   "same for all)")
+        ->type_name("N,N,...")
+        ->delimiter(',')
+        ->check(number(above_0));
+    app.add_option("--denoised", options.denoised,
+                   "What a denoiser made of each render by itself, in the same order, comma-separated")
+        ->type_name("FILE,FILE,...")
+        ->delimiter(',');
+    app.add_option("--gathered", options.others,
+                   "Another gathered picture of the same lens, for example of denoised views, to choose from")
+        ->type_name("FILE")
+        ->take_all()
+        ->allow_extra_args(false);
+}
+
+} // namespace
+
+void add_finish_options(CLI::App &app, FinishCommand &options) {
+    add_input_options(app, options);
+    app.add_option("-o,--output", options.output,
+                   "Picture to write (EXR, PNG, JPEG or TIFF); - for standard output")
+        ->type_name("OUT.exr")
+        ->required();
+    const std::map<std::string, ShowFinished> shows{{"error", ShowFinished::error},
+                                                    {"trust", ShowFinished::trust}};
+    app.add_option(
+           "--show", options.show,
+           "Write a map instead of the picture. error: the estimated error of each pixel as a display "
+           "shows it, rms; trust: 1 where the picture stays as gathered, 0 where the rays decide")
+        ->type_name("error|trust")
+        ->transform(words(shows));
+    app.add_option("--goal", options.goal, "Also say how many rays a picture of this many dB takes")
+        ->type_name("DB")
+        ->check(number(above_0));
+    add_output_colour_options(app, options.colour);
+    add_type_option(app, options.type);
+    add_compression_option(app, options.compression, false);
+    add_history_option(app, options.history);
+    add_examples(app,
+                 {{"Make a gathered picture exact by two renders through the lens",
+                   "dof-finish picture.exr rays_1.exr rays_2.exr -o final.exr"},
+                  {"See where the rays decided", "dof-finish picture.exr rays_1.exr rays_2.exr -o trust.exr "
+                                                 "--show trust"}});
+    app.final_callback([&options] { check(options); });
+}
+
+} // namespace sparselens

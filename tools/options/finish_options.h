@@ -1,0 +1,32 @@
+// The command line of dof-finish.
+#pragma once
+
+#include "harness/commands/cli.h"
+#include "harness/history.h"
+#include "options/colour_options.h"
+#include "options/picture_options.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace sparselens {
+
+enum class ShowFinished { picture, error, trust };
+
+struct FinishCommand {
+    std::string gathered, output;
+    std::vector<std::string> renders, denoised, others;
+    std::vector<double> samples; // of each render; empty: as their headers say
+    std::optional<double> goal;  // dB
+    ShowFinished show = ShowFinished::picture;
+    ColourOptions colour; // of the output
+    std::optional<PixelType> type;
+    AskedCompression compression;
+    HistoryOptions history;
+};
+
+// `options` must stay where it is until the command line is parsed.
+void add_finish_options(CLI::App &app, FinishCommand &options);
+
+} // namespace sparselens
