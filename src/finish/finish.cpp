@@ -18,6 +18,19 @@ Halves regressed(const LayerToFinish &layer, const Values &weights, int radius) 
     return predicted;
 }
 
+// A pixel in which neither the gathered picture nor a ray shows anything stays empty: windows reach beyond what an element covers.
+void empty_again(const LayerToFinish &layer, FinishedLayer &finished) {
+    for (std::size_t i = 0; i < layer.grid.size(); ++i) {
+        const auto shows = [i](const Colours &colours) {
+            return std::ranges::any_of(colours, [i](const Values &channel) { return channel[i] != 0; });
+        };
+        if (shows(layer.gathered) || shows(layer.rays[0]) || shows(layer.rays[1])) continue;
+        for (Colours *colours : {&finished.picture, &finished.of_one[0], &finished.of_one[1]})
+            for (Values &channel : *colours) channel[i] = 0;
+        finished.kept[i] = 1;
+    }
+}
+
 } // namespace
 
 FinishedLayer finish_layer(const LayerToFinish &layer, Progress &progress) {
@@ -37,6 +50,7 @@ FinishedLayer finish_layer(const LayerToFinish &layer, Progress &progress) {
     offer(means_of_similar(layer.rays, pictures[2], layer.grid));
     finished.picture = std::move(pictures[2]);
     finished.of_one = {std::move(pictures[0]), std::move(pictures[1])};
+    empty_again(layer, finished);
     return finished;
 }
 

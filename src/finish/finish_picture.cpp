@@ -14,6 +14,11 @@ namespace {
 
 constexpr float nothing = std::numeric_limits<float>::quiet_NaN(); // where a render says nothing
 
+// Beyond every light; squares of what is larger overflow.
+constexpr float largest = 1e8f;
+
+bool is_told(float value) { return std::abs(value) <= largest; } // false for NaN
+
 bool is_finished(const Channel &channel) { return is_light(channel) && channel.type != PixelType::uint32; }
 
 std::string prefix_of(const std::string &name) {
@@ -71,8 +76,8 @@ void settle(Colours &gathered, std::vector<Halves *> halves) {
         parallel_ranges(gathered[c].size(), std::size_t(1) << 16, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) {
                 float &g = gathered[c][i];
-                if (!std::isfinite(g)) g = (*halves[0])[0][c][i];
-                if (!std::isfinite(g)) g = 0;
+                if (!is_told(g)) g = (*halves[0])[0][c][i];
+                if (!is_told(g)) g = 0;
             }
         });
     // A pixel is taken or left as a whole, so that its colours belong together.
@@ -81,7 +86,7 @@ void settle(Colours &gathered, std::vector<Halves *> halves) {
             for (Halves *pair : halves) {
                 bool whole = true;
                 for (const Colours &half : *pair)
-                    for (const Values &channel : half) whole &= std::isfinite(channel[i]);
+                    for (const Values &channel : half) whole &= is_told(channel[i]);
                 if (whole) continue;
                 for (Colours &half : *pair)
                     for (std::size_t c = 0; c < half.size(); ++c) half[c][i] = gathered[c][i];
@@ -151,8 +156,8 @@ void TwoHalves::add(const Render &render) {
         has_[c] = from != npos;
         if (!has_[c]) continue;
         Values values = over(render.image, from, windows_);
-        missing = std::max(
-            missing, std::size_t(std::ranges::count_if(values, [](float v) { return !std::isfinite(v); })));
+        missing = std::max(missing,
+                           std::size_t(std::ranges::count_if(values, [](float v) { return !is_told(v); })));
         Values &sum = sums_[half][c];
         if (sum.empty())
             sum = std::move(values);

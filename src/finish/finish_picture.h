@@ -19,7 +19,7 @@ struct Render {
 };
 
 // Two or more independent renders through the same lens, added up to two halves of nearly equal numbers of samples. Pixels
-// outside a render's data window, and those with a value that is not finite, stay as gathered.
+// outside a render's data window, and those with a value that is not finite or above 1e8, stay as gathered.
 class TwoHalves {
 public:
     explicit TwoHalves(const Image &gathered);

@@ -51,11 +51,17 @@ Values Regression::of(std::span<const float> rays) const {
     Values level = averaged(grid_, radius_, [&](std::size_t i) { return weights_[i] * rays[i]; });
     const Values product =
         averaged(grid_, radius_, [&](std::size_t i) { return weights_[i] * guide_[i] * rays[i]; });
+    double covariances = 0, variances = 0;
+    for (std::size_t i = 0; i < grid_.size(); ++i) {
+        covariances += double(product[i] - mean_[i] * level[i]);
+        variances += double(weight_[i] * variance_[i]);
+    }
+    const auto slope = variances > 0 ? float(covariances / variances) : 0.0f;
     parallel_ranges(grid_.size(), grain, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const float y = level[i] / weight_[i], covariance = product[i] / weight_[i] - mean_[i] * y;
             const float prior = FinishTuning::regression_prior * (least_square + mean_[i] * mean_[i]);
-            level[i] = y + (covariance + prior) / (variance_[i] + prior) * (guide_[i] - mean_[i]);
+            level[i] = y + (covariance + prior * slope) / (variance_[i] + prior) * (guide_[i] - mean_[i]);
         }
     });
     return level;

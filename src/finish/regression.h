@@ -1,6 +1,7 @@
 // Regression of noisy rays on a picture without noise: in a soft window around each pixel, the straight line of the guide that
 // fits the rays best. The guide says where edges are, the rays say how bright it is. Pixels count by the tone curve, so that
-// lamps do not decide for all. The slope is drawn towards 1 where the guide hardly varies. The prediction is linear in the rays.
+// lamps do not decide for all. Where the guide hardly varies, the slope is drawn towards that of
+// the whole picture: close to 1 where the guide is right, to 0 where it shows something else. The prediction is linear in the rays.
 #pragma once
 
 #include "base/grid.h"

@@ -189,21 +189,22 @@ float share_at(const Table &shares, double across, double down) {
                  y * ((1 - x) * at(j + 1, i) + x * at(j + 1, i + 1)));
 }
 
-} // namespace
-
-// How much light a bright event brings to one sample: the mean over all light that the rays show above the picture.
+// How much light a bright event brings to one sample: its variance over its mean, as events of S. Poisson have it, of all light
+// that the rays show above the picture. What both renders show alike is no event, and adds to the mean alone.
 double event_height(const Offer &offer) {
-    double light = 0, squares = 0;
-    for (std::size_t k = 0; k < 2; ++k)
-        for (std::size_t c = 0; c < offer.channels(); ++c)
-            for (std::size_t i = 0; i < offer.evidence.grid.size(); ++i) {
-                const double above =
-                    offer.evidence.samples[k] *
-                    std::max(double(offer.evidence.rays[k][c][i] - offer.pictures[k][c][i]), 0.0);
-                light += above;
-                squares += above * above;
-            }
-    return light > 0 ? squares / light : 0;
+    const auto [n, m] = offer.evidence.samples;
+    const Halves &rays = offer.evidence.rays;
+    double light = 0, variance = 0;
+    for (std::size_t c = 0; c < offer.channels(); ++c)
+        for (std::size_t i = 0; i < offer.evidence.grid.size(); ++i) {
+            const double above = double(of_both(offer.evidence.samples, rays[0][c][i], rays[1][c][i]) -
+                                        offer.pictures[2][c][i]);
+            if (!(above > 0)) continue;
+            const double difference = double(rays[0][c][i] - rays[1][c][i]);
+            light += above;
+            variance += n * m / (n + m) * difference * difference;
+        }
+    return light > 0 ? variance / light : 0;
 }
 
 // Where a candidate is darker, the light that it takes away may come from events so rare that no ray met one. The variance that
@@ -251,6 +252,8 @@ Measures measured(const Offer &offer, std::array<Values, 2> &energies) {
     });
     return measures;
 }
+
+} // namespace
 
 void blend_in(Trio &pictures, const Halves &candidate, const RayEvidence &evidence, Values &kept) {
     const Offer offer{pictures, candidate, evidence};

@@ -9,7 +9,7 @@ namespace sparselens {
 struct FinishTuning {
     // Radii of the windows of the regressions, pixels, the largest first: a later one corrects the earlier ones.
     static constexpr std::array<int, 4> regression_radius{8, 4, 2, 1};
-    // How much a slope is drawn towards 1, as a share of the squared mean of the guide.
+    // How much a slope is drawn towards that of the whole picture, as a share of the squared mean of the guide.
     static constexpr float regression_prior = 0.1f;
 
     // The mean over similar pixels: how far away they are looked for, pixels. Of mirror, it gains 1.4 dB.
@@ -17,10 +17,8 @@ struct FinishTuning {
     // How different two pixels may be, tone-mapped and squared, before one counts less for the other.
     static constexpr float similar_noise = 1e-4f;
 
-    // Radius of the window in which the energy of a candidate is compared with its noise, pixels, ...
+    // Radius of the window in which the energy of a candidate is compared with its noise, pixels.
     static constexpr int energy_radius = 2;
-    // ... and of the larger window in which that noise is measured, so that it does not follow single bright rays.
-    static constexpr int noise_radius = 8;
     // The ring in which the other render confirms a candidate: the half sides of its outer and inner square, pixels. The inner
     // square is left out, so that the noise of a pixel cannot confirm itself.
     static constexpr int ring_outer = 10, ring_inner = 2;

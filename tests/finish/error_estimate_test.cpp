@@ -1,0 +1,64 @@
+// The estimated error beside the true one, where the truth is known.
+#include "finish/error_estimate.h"
+#include "finish/synthetic.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+
+namespace sparselens {
+namespace {
+
+const Grid grid(160, 90);
+const Colours truth = synthetic_truth(grid);
+
+ErrorEstimate estimated(const LayerToFinish &layer, const FinishedLayer &finished) {
+    return estimate_error(finished, layer.rays, layer.samples, grid);
+}
+
+TEST(ErrorEstimate, LiesNearTheTrueError) {
+    for (const auto &samples : {std::array<double, 2>{40, 40}, {64, 16}, {16, 64}, {320, 320}})
+        for (const int blur : {1, 3}) {
+            const LayerToFinish layer = layer_of(grid, truth, blurred(truth, grid, blur), samples);
+            const FinishedLayer result = finished(layer);
+            const auto known = decibels(estimated(layer, result));
+            ASSERT_TRUE(known) << samples[0] << ' ' << blur;
+            EXPECT_NEAR(*known, decibels_of(result.picture, truth), 2) << samples[0] << ' ' << blur;
+        }
+}
+
+// A difference in the estimate's map is where the picture is wrong.
+TEST(ErrorEstimate, TheMapShowsWhere) {
+    Colours wrong = truth;
+    for (int y = 30; y < 60; ++y)
+        for (int x = 100; x < 130; ++x) wrong[1][grid.index(x, y)] += 0.2f;
+    const LayerToFinish layer = layer_of(grid, truth, wrong, {8, 8});
+    const ErrorEstimate error = estimated(layer, {wrong, {wrong, wrong}, {}});
+    double inside = 0, outside = 0;
+    for (int y = 32; y < 58; ++y)
+        for (int x = 102; x < 128; ++x) {
+            inside += double(error.map[grid.index(x, y)]);
+            outside += double(error.map[grid.index(x - 70, y)]);
+        }
+    EXPECT_GT(inside, 5 * outside);
+}
+
+TEST(ErrorEstimate, WhatIsTooSmallToTellIsNotTold) {
+    const LayerToFinish layer = layer_of(grid, truth, truth, {4, 4});
+    const ErrorEstimate error = estimated(layer, {truth, {truth, truth}, {}});
+    EXPECT_FALSE(decibels(error));
+    EXPECT_FALSE(times_the_rays(error, layer.samples, 60));
+}
+
+TEST(ErrorEstimate, SaysHowManyRaysAGoalTakes) {
+    const std::array<double, 2> samples{32, 32};
+    const ErrorEstimate error{{}, 1e-4, 1e-6, 2e-4}; // half the error by twice the rays
+    EXPECT_EQ(times_the_rays(error, samples, 39).value(), 1);
+    EXPECT_NEAR(times_the_rays(error, samples, 43.01).value(), 2, 0.01);
+    const ErrorEstimate slow{{}, 1e-4, 1e-6, 1e-4}; // it did not fall
+    EXPECT_GT(times_the_rays(slow, samples, 43.01).value(), 10);
+}
+
+} // namespace
+} // namespace sparselens

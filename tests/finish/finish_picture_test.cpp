@@ -1,0 +1,161 @@
+// Whole pictures: layers, alpha, what is kept as gathered, windows that differ, values that are not finite.
+#include "base/error.h"
+#include "finish/finish_picture.h"
+#include "finish/synthetic.h"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <limits>
+
+namespace sparselens {
+namespace {
+
+constexpr float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
+const Grid grid(64, 48);
+const Windows windows = windows_of_size(64, 48);
+const Colours truth = synthetic_truth(grid);
+
+Image picture_of(const Colours &colours, const std::vector<Channel> &channels = rgba_channels()) {
+    Image image(windows, channels);
+    for (std::size_t c = 0; c < channels.size(); ++c)
+        for (std::size_t i = 0; i < grid.size(); ++i) image.plane(c)[i] = colours[c % colours.size()][i];
+    if (channels == rgba_channels()) std::ranges::fill(image.plane(3), 1.0f);
+    return image;
+}
+
+Render render(std::uint32_t seed, double samples = 16, const std::string &name = "rays.exr") {
+    return {name, picture_of(rays_of(truth, samples, seed)), samples};
+}
+
+FinishedPicture finished(Image gathered, const std::vector<Render> &renders) {
+    TwoHalves halves(gathered);
+    for (const Render &r : renders) halves.add(r);
+    Progress silent;
+    return finish_picture({std::move(gathered), std::move(halves)}, silent);
+}
+
+TEST(TwoHalves, ThreeRendersAreSharedOutEvenly) {
+    TwoHalves halves(picture_of(truth));
+    EXPECT_FALSE(halves.complete());
+    halves.add(render(1, 32));
+    EXPECT_FALSE(halves.complete());
+    halves.add(render(2, 8));
+    halves.add(render(3, 24));
+    EXPECT_TRUE(halves.complete());
+    EXPECT_EQ(halves.samples(), (std::array<double, 2>{32, 32}));
+    const auto [first, second] = halves.take(1);
+    const Image one = render(1, 32).image, two = render(2, 8).image, three = render(3, 24).image;
+    for (std::size_t i = 0; i < grid.size(); ++i) {
+        ASSERT_EQ(first[i], one.plane(1)[i]);
+        ASSERT_NEAR(second[i], 0.25f * two.plane(1)[i] + 0.75f * three.plane(1)[i],
+                    1e-5f * (1 + std::abs(second[i])));
+    }
+}
+
+TEST(TwoHalves, AnotherPictureIsAnErrorThatNamesTheFile) {
+    TwoHalves halves(picture_of(truth));
+    Render other = render(1);
+    other.image.windows.display.max.x += 1;
+    try {
+        halves.add(other);
+        FAIL() << "taken";
+    } catch (const Error &error) {
+        EXPECT_NE(std::string(error.what()).find("rays.exr"), std::string::npos);
+        EXPECT_NE(std::string(error.what()).find("65x48"), std::string::npos);
+    }
+}
+
+// Renders whose data windows differ: where one says nothing, the picture stays as gathered.
+TEST(FinishPicture, WhereARenderSaysNothingItStaysAsGathered) {
+    Render first = render(1), second = render(2);
+    first.image = crop(first.image, {{0, 0}, {39, 47}});
+    second.image.at(0, 5, 6) = nan;
+    second.image.at(1, 7, 8) = inf;
+    second.image.at(2, 9, 10) = 1e30f; // its square overflows
+    const Image gathered = picture_of(blurred(truth, grid, 1));
+    const FinishedPicture result = finished(gathered, {first, second});
+    for (std::size_t c = 0; c < 3; ++c) {
+        for (const Imath::V2i &at : {Imath::V2i(40, 10), {63, 47}, {5, 6}, {7, 8}, {9, 10}})
+            EXPECT_NEAR(result.image.at(c, at.x, at.y), gathered.at(c, at.x, at.y), 0.1f);
+        for (const float v : result.image.plane(c)) ASSERT_TRUE(std::isfinite(v));
+    }
+}
+
+TEST(FinishPicture, CountsThePixelsThatAreMissing) {
+    TwoHalves halves(picture_of(truth));
+    Render cut = render(1);
+    cut.image = crop(cut.image, {{0, 0}, {31, 47}});
+    halves.add(cut);
+    EXPECT_EQ(halves.missing(), 32u * 48u);
+}
+
+TEST(FinishPicture, OneRenderIsAnError) {
+    EXPECT_THROW(finished(picture_of(truth), {render(1)}), Error);
+    EXPECT_THROW(finished(picture_of(truth), {}), Error);
+}
+
+TEST(FinishPicture, LayersAreFinishedAndDataAndIdsStay) {
+    std::vector<Channel> channels{{"R"}, {"G"}, {"B"}, {"A"}, {"key.R"}, {"key.G"}, {"key.B"}};
+    channels.push_back({"Z", PixelType::float32, ChannelKind::data});
+    channels.push_back({"objectid", PixelType::uint32, ChannelKind::light});
+    Image gathered = picture_of(blurred(truth, grid, 2), channels);
+    std::ranges::fill(gathered.plane(3), 1.0f);
+    for (float &id : gathered.plane(8)) id = std::bit_cast<float>(77u);
+    const auto rays = [&](std::uint32_t seed) {
+        Render r{"rays.exr", picture_of(rays_of(truth, 256, seed), channels), 256};
+        std::ranges::fill(r.image.plane(3), 1.0f);
+        for (std::size_t i = 0; i < grid.size(); ++i) // channels in another order than the gathered ones
+            for (std::size_t c = 4; c < 7; ++c)
+                r.image.plane(c)[i] = rays_of({{truth[c - 4][i]}}, 256, seed + std::uint32_t(i))[0][0];
+        return r;
+    };
+    const FinishedPicture result = finished(gathered, {rays(1), rays(50000)});
+    EXPECT_NE(Values(result.image.plane(4).begin(), result.image.plane(4).end()),
+              Values(gathered.plane(4).begin(), gathered.plane(4).end()));
+    for (const std::size_t c : {3u, 7u})
+        for (std::size_t i = 0; i < grid.size(); ++i)
+            ASSERT_EQ(result.image.plane(c)[i], gathered.plane(c)[i]) << c;
+    for (const float id : result.image.plane(8)) ASSERT_EQ(std::bit_cast<std::uint32_t>(id), 77u);
+}
+
+TEST(FinishPicture, NamesTheLayersThatTheRendersLack) {
+    const std::vector<Channel> channels{{"R"}, {"G"}, {"B"}, {"A"}, {"key.R"}, {"key.G"}, {"key.B"}};
+    const Image gathered = picture_of(truth, channels);
+    const FinishedPicture result = finished(gathered, {render(1), render(2)});
+    EXPECT_EQ(result.as_gathered, (std::vector<std::string>{"key.R", "key.G", "key.B"}));
+    for (std::size_t i = 0; i < grid.size(); ++i) ASSERT_EQ(result.image.plane(4)[i], gathered.plane(4)[i]);
+}
+
+TEST(FinishPicture, WithoutColoursInCommonIsAnError) {
+    Render grey = render(1);
+    grey.image = picture_of({truth[0]}, {{"Y"}});
+    EXPECT_THROW(finished(picture_of(truth), {grey, grey}), Error);
+}
+
+// An element on nothing: its colours and its coverage are both 0 outside.
+TEST(FinishPicture, AnElementOverNothingKeepsNothingAroundIt) {
+    Image gathered = picture_of(truth);
+    std::vector<Render> renders{render(1), render(2)};
+    const auto cut_out = [](Image &image) {
+        for (std::size_t c = 0; c < 4; ++c)
+            for (std::size_t i = 0; i < grid.size(); ++i)
+                if (grid.pixel(i).x >= 32) image.plane(c)[i] = 0;
+    };
+    cut_out(gathered);
+    for (Render &r : renders) cut_out(r.image);
+    const FinishedPicture result = finished(gathered, renders);
+    for (std::size_t c = 0; c < 4; ++c)
+        for (std::size_t i = 0; i < grid.size(); ++i)
+            if (grid.pixel(i).x >= 44) {
+                ASSERT_EQ(result.image.plane(c)[i], 0) << c << ' ' << i;
+            }
+    for (std::size_t i = 0; i < grid.size(); ++i) {
+        ASSERT_GE(result.image.plane(3)[i], 0);
+        ASSERT_LE(result.image.plane(3)[i], 1);
+    }
+}
+
+} // namespace
+} // namespace sparselens

@@ -1,0 +1,79 @@
+// The limits of finish_layer(): a gathered picture that is right, one of another scene, and rays without end.
+#include "finish/synthetic.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace sparselens {
+namespace {
+
+const Grid grid(160, 90);
+const Colours truth = synthetic_truth(grid);
+
+TEST(Finish, WhatIsRightStays) {
+    const FinishedLayer result = finished(layer_of(grid, truth, truth, {4, 4}));
+    EXPECT_GT(decibels_of(result.picture, truth), 55);
+}
+
+TEST(Finish, WhatIsWrongGetsNearerThanBoth) {
+    const Colours wrong = blurred(truth, grid, 2);
+    for (const double samples : {8.0, 40.0, 160.0}) {
+        const LayerToFinish layer = layer_of(grid, truth, wrong, {samples, samples});
+        const double rays = decibels_of(mean_of(layer.rays, layer.samples), truth);
+        EXPECT_GT(decibels_of(finished(layer).picture, truth),
+                  std::max(rays, decibels_of(wrong, truth)) + 0.5)
+            << samples;
+    }
+}
+
+TEST(Finish, AGatheredPictureOfAnotherSceneCostsLittle) {
+    const Colours other = synthetic_truth(grid, 1), nothing(3, Values(grid.size(), 0.5f));
+    for (const double samples : {10.0, 160.0}) {
+        const double by_other = decibels_of(
+                         finished(layer_of(grid, truth, other, {samples, samples})).picture, truth),
+                     by_nothing = decibels_of(
+                         finished(layer_of(grid, truth, nothing, {samples, samples})).picture, truth);
+        EXPECT_GT(by_other, by_nothing - 0.2) << samples;
+    }
+}
+
+TEST(Finish, ManyRaysDecide) {
+    const LayerToFinish layer = layer_of(grid, truth, synthetic_truth(grid, 1), {2048, 2048});
+    EXPECT_GT(decibels_of(finished(layer).picture, truth),
+              decibels_of(mean_of(layer.rays, layer.samples), truth) - 0.05);
+}
+
+// The brighter a pixel the rarer the ray: one that only a render met must not stay.
+TEST(Finish, AFireflyOfOneRenderIsNotBelieved) {
+    LayerToFinish layer = layer_of(grid, truth, truth, {16, 16});
+    for (Values &channel : layer.rays[0]) channel[grid.index(100, 70)] = 500;
+    const FinishedLayer result = finished(layer);
+    for (const Values &channel : result.picture) EXPECT_LT(channel[grid.index(100, 70)], 2);
+}
+
+TEST(Finish, AnyFiniteValueGivesFiniteOnes) {
+    for (const float huge : {65504.0f, -65504.0f, 1e8f}) {
+        LayerToFinish layer = layer_of(grid, truth, truth, {16, 16});
+        layer.rays[0][0][2000] = layer.rays[1][1][4000] = layer.gathered[2][6000] = huge;
+        const FinishedLayer result = finished(layer);
+        for (const Values &channel : result.picture)
+            for (const float v : channel) ASSERT_TRUE(std::isfinite(v)) << huge;
+    }
+}
+
+TEST(Finish, BlackStaysBlack) {
+    const Colours black(3, Values(grid.size(), 0.0f));
+    const FinishedLayer result = finished({grid, black, {black, black}});
+    EXPECT_EQ(result.picture, black);
+}
+
+TEST(Finish, WhatOthersMadeIsTakenWhereItIsNearer) {
+    LayerToFinish layer = layer_of(grid, truth, blurred(truth, grid, 3), {8, 8});
+    const double without = decibels_of(finished(layer).picture, truth);
+    layer.given.push_back({truth, truth});
+    EXPECT_GT(decibels_of(finished(layer).picture, truth), without + 3);
+}
+
+} // namespace
+} // namespace sparselens
