@@ -1,5 +1,5 @@
-// dof-trace: renders a test scene: the centre view, views from the lens, deep pictures, and a distributed-ray-tracing
-// reference.
+// dof-trace: renders a test scene: the centre view, views from the lens, deep pictures, a distributed-ray-tracing reference,
+// and two such halves of few rays.
 #include "harness/tool.h"
 #include "lab/trace/scenes.h"
 #include "lab/tracing/trace_options.h"
@@ -21,12 +21,13 @@ void trace(const TraceOptions &options, const ToolContext &tool) {
     TraceOutputs outputs(options.folder, camera, settings, options.type, tool);
     const TraceJob job{options, tracer, settings, view, view_samples(options), outputs, *tool.progress};
     if (!options.plan.empty())
-        return outputs.write_summary(trace_plan(job), options.samples, options.supersample, 0);
+        return outputs.write_summary(trace_plan(job), options.samples, options.supersample, 0, 0);
     const std::vector<Imath::V2d> rim = trace_rim(job);
     trace_lens(job);
     trace_reference(job);
+    trace_halves(job);
     trace_deep(job);
-    outputs.write_summary(rim, options.samples, options.supersample, options.reference);
+    outputs.write_summary(rim, options.samples, options.supersample, options.reference, options.halves / 2);
 }
 
 } // namespace

@@ -35,7 +35,7 @@ double of(const Imath::C4f &colour, std::size_t channel) {
 class LookPicture {
 public:
     LookPicture(const Tracer &tracer, const RenderSettings &settings, int samples)
-        : tracer_(tracer), settings_(settings), points_(samples, false, seeded(settings, 0)),
+        : tracer_(tracer), settings_(settings), points_(samples, false, seeded(settings, settings.stream)),
           rays_(settings) {}
 
     PixelSums pixel(int x, int y) const {

@@ -139,7 +139,7 @@ Image render_reference(const Tracer &tracer, const RenderSettings &settings, int
     if (settings.looks != LensLooks() || settings.highlights.gain != 1)
         return render_looks(tracer, settings, samples, progress);
     Image image(settings.windows, rgba_channels());
-    const PixelSamples points(samples, false, seeded(settings, 0));
+    const PixelSamples points(samples, false, seeded(settings, settings.stream));
     const bool scatters = settings.light == Light::area || tracer.scene().mirrors;
     const auto make = [&](const Run &run) {
         std::array<Imath::V2d, batch_size> p, on_lens;

@@ -21,6 +21,7 @@ struct RenderSettings {
     Light light = Light::sun;
     double dolly = 0;              // how far the camera has moved along z, scene units
     std::uint32_t seed = 0;        // [0, 64): pictures of different seeds share no noise
+    std::uint32_t stream = 0;      // of the reference, below 2^26: streams share no noise, either
     LensLooks looks = {};          // of the reference
     HighlightGain highlights = {}; // of the light that its rays bring
     bool scattered = false; // views: no grids in the pixels, so that the average of many views is antialiased

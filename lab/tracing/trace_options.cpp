@@ -54,6 +54,14 @@ std::string scene_help() {
     return text;
 }
 
+CLI::Validator even() {
+    return {[](const std::string &text) {
+                return (text.back() - '0') % 2 == 0 ? ""
+                                                    : "must be an even number, half of it for each picture";
+            },
+            ""};
+}
+
 // What is rendered: the scene, and which pictures of it.
 void add_picture_options(CLI::App &app, TraceOptions &options) {
     app.add_option("SCENE", options.scene, scene_help())
@@ -91,6 +99,12 @@ void add_picture_options(CLI::App &app, TraceOptions &options) {
                    "Rays per pixel of a reference by distributed ray tracing (default: no reference)")
         ->type_name("SPP")
         ->check(CLI::Range(1, largest_count));
+    app.add_option("--halves", options.halves,
+                   "Rays per pixel of two pictures like the reference, half of them each, for dof-finish: "
+                   "rays_1.exr, rays_2.exr (default: none)")
+        ->type_name("N")
+        ->check(CLI::Range(2, largest_count))
+        ->check(even());
 }
 
 // How it is rendered: the size, the light, the layers and the type of the channels.

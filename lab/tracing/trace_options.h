@@ -27,6 +27,7 @@ struct TraceOptions {
     int samples = 16;    // per pixel of the picture, of each view
     int supersample = 1; // pixels of views, across and down, in one of the picture
     int reference = 0;   // rays per pixel; 0: no reference
+    int halves = 0;      // rays per pixel of both; 0: none
     int width = 640, height = 360;
     int overscan = 0; // pixels
     double dolly = 0; // scene units

@@ -5,6 +5,7 @@
 #include "io/exr/exr_flat.h"
 #include "io/files/folder.h"
 #include "io/files/text_file.h"
+#include "io/render_samples.h"
 #include "lab/trace/camera_at.h"
 
 #include <fmt/format.h>
@@ -55,12 +56,14 @@ void TraceOutputs::note(const std::string &name, double seconds) {
     tool_.say(fmt::format("{}: {:.3f} s", path(name), seconds));
 }
 
-void TraceOutputs::add(const std::string &name, const Imath::V2d &u, const std::function<Image()> &make) {
+void TraceOutputs::add(const std::string &name, const Imath::V2d &u, const std::function<Image()> &make,
+                       std::optional<int> rays) {
     double seconds = 0;
     Image image = timed(make, seconds);
     set_colour_type(image.channels, type_);
     Imf::Header header;
     write_camera(header, camera_of(image.windows, u));
+    if (rays) write_render_samples(header, *rays);
     write_flat_exr(path(name), image, header);
     note(name, seconds);
 }
@@ -76,7 +79,7 @@ void TraceOutputs::add_deep(const std::string &name, const std::function<Ldi()> 
 }
 
 void TraceOutputs::write_summary(const std::vector<Imath::V2d> &views, int view_samples, int supersample,
-                                 int reference_samples) const {
+                                 int reference_samples, int half_samples) const {
     nlohmann::ordered_json json{{"width", settings_.windows.display_width()},
                                 {"height", settings_.windows.display_height()},
                                 {"focal_mm", *camera_.focal_length_mm},
@@ -88,6 +91,7 @@ void TraceOutputs::write_summary(const std::vector<Imath::V2d> &views, int view_
                                 {"view_spp", view_samples},
                                 {"supersample", supersample},
                                 {"ref_spp", reference_samples},
+                                {"half_spp", half_samples},
                                 {"seconds", nlohmann::ordered_json::object()}};
     for (const Imath::V2d &u : views) json["views"].push_back({u.x, u.y});
     for (const auto &[name, time] : seconds_) json["seconds"][name] = std::round(time * 1000) / 1000;

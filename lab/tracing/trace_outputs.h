@@ -7,6 +7,7 @@
 #include "view/camera.h"
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,14 +20,16 @@ public:
     TraceOutputs(std::string folder, Camera camera, RenderSettings settings, PixelType type,
                  const ToolContext &tool);
 
-    // Renders with `make`, writes DIR/name and records the time that rendering took. `u` is the lens point.
-    void add(const std::string &name, const Imath::V2d &u, const std::function<Image()> &make);
+    // Renders with `make`, writes DIR/name and records the time that rendering took. `u` is the lens point. The header says how many
+    // `rays` over the lens a pixel has, if it is a picture of such.
+    void add(const std::string &name, const Imath::V2d &u, const std::function<Image()> &make,
+             std::optional<int> rays = {});
     void add_deep(const std::string &name, const std::function<Ldi()> &make);
 
     // Writes DIR/camera.json; an infinite number is written as null. `views` are the lens points of the rim views, whose samples are
-    // counted per pixel of the picture.
+    // counted per pixel of the picture, as are those of each half.
     void write_summary(const std::vector<Imath::V2d> &views, int view_samples, int supersample,
-                       int reference_samples) const;
+                       int reference_samples, int half_samples) const;
 
 private:
     Camera camera_of(const Windows &windows, const Imath::V2d &u) const;

@@ -14,7 +14,13 @@ namespace sparselens::lab {
 namespace {
 
 // Streams of random numbers; the reference has 0.
-enum Stream : std::uint32_t { of_centre = 1, of_deep = 0x1000000, of_rim = 0x2000000, of_lens = 0x3000000 };
+enum Stream : std::uint32_t {
+    of_centre = 1,
+    of_deep = 0x1000000,
+    of_rim = 0x2000000,
+    of_lens = 0x3000000,
+    of_halves = 0x3800000
+};
 
 void add_view(const TraceJob &job, const RenderSettings &settings, int samples, const std::string &name,
               const Imath::V2d &u, std::uint32_t stream) {
@@ -27,6 +33,11 @@ void add_views(const TraceJob &job, const RenderSettings &settings, int samples,
                std::uint32_t stream) {
     for (std::size_t k = 0; k < points.size(); ++k)
         add_view(job, settings, samples, fmt::format(format, k), points[k], stream + std::uint32_t(k));
+}
+
+void add_reference(const TraceJob &job, const RenderSettings &settings, int rays, const std::string &name) {
+    job.outputs.add(
+        name, {0, 0}, [&] { return render_reference(job.tracer, settings, rays, job.progress); }, rays);
 }
 
 // Views are averaged with equal weights: the looks of the aperture's shape show so, others do not.
@@ -83,9 +94,16 @@ void trace_lens(const TraceJob &job) {
 
 void trace_reference(const TraceJob &job) {
     if (job.options.reference == 0) return;
-    job.outputs.add("reference.exr", {0, 0}, [&] {
-        return render_reference(job.tracer, job.settings, job.options.reference, job.progress);
-    });
+    add_reference(job, job.settings, job.options.reference, "reference.exr");
+}
+
+void trace_halves(const TraceJob &job) {
+    RenderSettings settings = job.settings;
+    if (job.options.halves == 0) return;
+    for (const int k : {1, 2}) {
+        settings.stream = of_halves + std::uint32_t(k);
+        add_reference(job, settings, job.options.halves / 2, fmt::format("rays_{}.exr", k));
+    }
 }
 
 void trace_deep(const TraceJob &job) {

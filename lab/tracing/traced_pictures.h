@@ -33,6 +33,9 @@ void trace_lens(const TraceJob &job);
 // Renders the reference by distributed ray tracing, if --reference asks for it.
 void trace_reference(const TraceJob &job);
 
+// Renders two halves of --halves rays each as the reference is, without noise in common.
+void trace_halves(const TraceJob &job);
+
 // Renders the deep picture of each --deep.
 void trace_deep(const TraceJob &job);
 

@@ -122,11 +122,27 @@ for lens in '--lens-radius 0' '--fstop inf'; do
     grep -q '"fstop": null' still/camera.json || fail "$lens: $(cat still/camera.json)"
 done
 
+# Two halves for dof-finish: without noise in common, neither with each other nor with the reference, and they say how many rays.
+exits 0 "$trace" fence -o halves "${small[@]}" --reference 3 --halves 6
+same fence/reference.exr halves/reference.exr "--halves"
+for pair in 'rays_1 rays_2' 'rays_1 reference' 'rays_2 reference'; do
+    read -r one other <<<"$pair"
+    picture same halves/$one.exr halves/$other.exr 0.01 >found && fail "$pair show the same noise"
+    header halves/$one.exr '^sparselens:samples.*: 3$'
+    header halves/$other.exr '^sparselens:samples.*: 3$'
+done
+exits 0 "$trace" fence -o halves2 "${small[@]}" --halves 6 --seed 1
+picture same halves/rays_1.exr halves2/rays_1.exr 0.01 >found && fail "--seed has no effect on --halves"
+exits 0 "$trace" fence -o looks "${small[@]}" --halves 6 --blades 5
+picture same looks/rays_1.exr looks/rays_2.exr 0.01 >found && fail "halves with looks show the same noise"
+grep -q '"half_spp": 3' halves/camera.json || fail "camera.json: $(cat halves/camera.json)"
+exrheader halves/center.exr | grep -q '^sparselens:samples' && fail 'a view says how many rays it has'
+
 # Wrong usage.
 fails_saying 2 'SCENE' "$trace" -o out
 fails_saying 2 'meadow' "$trace" meadow -o out
 fails_saying 2 'output' "$trace" fence
-for wrong in '--spp 0' '--views -1' '--lens-views x' '--reference 0' '--size 48' '--size 0x4' '--size 48x27x2' \
+for wrong in '--spp 0' '--views -1' '--lens-views x' '--reference 0' '--halves 0' '--halves 3' '--size 48' '--size 0x4' '--size 48x27x2' \
     '--size 65536x65536' '--overscan -1' '--seed 64' '--light moon' '-d double' '--deep peel' '--deep visible:2' '--deep peel:0' '--deep skin:3' \
     '--fstop abc' '--fstop 0' '--lens-radius -1' '--focus-distance 0' '--focal-length inf' '--threads -1'; do
     fails_saying 2 '' "$trace" fence -o out $wrong
