@@ -18,15 +18,17 @@ Halves regressed(const LayerToFinish &layer, const Values &weights, int radius) 
     return predicted;
 }
 
-// A pixel in which neither the gathered picture nor a ray shows anything stays empty: windows reach beyond what an element covers.
-void empty_again(const LayerToFinish &layer, FinishedLayer &finished) {
+// A pixel of which all say the same stays: nothing remains nothing around an element, however far windows reach, and coverage of 1
+// remains 1.
+void keep_agreed(const LayerToFinish &layer, FinishedLayer &finished) {
     for (std::size_t i = 0; i < layer.grid.size(); ++i) {
-        const auto shows = [i](const Colours &colours) {
-            return std::ranges::any_of(colours, [i](const Values &channel) { return channel[i] != 0; });
-        };
-        if (shows(layer.gathered) || shows(layer.rays[0]) || shows(layer.rays[1])) continue;
+        bool agreed = true;
+        for (std::size_t c = 0; c < layer.gathered.size(); ++c)
+            agreed &=
+                layer.rays[0][c][i] == layer.gathered[c][i] && layer.rays[1][c][i] == layer.gathered[c][i];
+        if (!agreed) continue;
         for (Colours *colours : {&finished.picture, &finished.of_one[0], &finished.of_one[1]})
-            for (Values &channel : *colours) channel[i] = 0;
+            for (std::size_t c = 0; c < colours->size(); ++c) (*colours)[c][i] = layer.gathered[c][i];
         finished.kept[i] = 1;
     }
 }
@@ -50,7 +52,7 @@ FinishedLayer finish_layer(const LayerToFinish &layer, Progress &progress) {
     offer(means_of_similar(layer.rays, pictures[2], layer.grid));
     finished.picture = std::move(pictures[2]);
     finished.of_one = {std::move(pictures[0]), std::move(pictures[1])};
-    empty_again(layer, finished);
+    keep_agreed(layer, finished);
     return finished;
 }
 

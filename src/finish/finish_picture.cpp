@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -192,6 +193,8 @@ FinishedPicture finish_picture(PictureToFinish picture, Progress &progress) {
             finished.error = estimate_error(result, layer.rays, layer.samples, layer.grid);
             finished.kept = std::move(result.kept);
         }
+        if (colour_part(picture.gathered.channels[channels[0]]) == ColourPart::coverage)
+            for (float &alpha : result.picture[0]) alpha = std::clamp(alpha, 0.0f, 1.0f);
         for (std::size_t k = 0; k < channels.size(); ++k)
             std::ranges::copy(result.picture[k], picture.gathered.plane(channels[k]).begin());
     }

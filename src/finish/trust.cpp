@@ -11,8 +11,7 @@ namespace sparselens {
 
 namespace {
 
-using Tuning = FinishTuning;
-constexpr std::size_t classes = Tuning::classes, cells = classes * classes;
+constexpr std::size_t classes = FinishTuning::classes, cells = classes * classes;
 constexpr std::size_t grain = 1 << 14; // pixels that a thread takes at once
 constexpr float least_energy = 1e-9f;  // squared values: below what a picture shows
 constexpr float largest_energy_ratio = 30, largest_confirmation = 50; // a logarithm; standard deviations
@@ -76,10 +75,10 @@ Answer answer(const Offer &offer, std::size_t k, std::size_t i) {
 // The mean over the ring, of values that a box_mean() of each square has averaged; nearly, at the border of the picture.
 void ring_mean(Values &values, const Grid &grid) {
     constexpr auto area = [](int radius) { return float((2 * radius + 1) * (2 * radius + 1)); };
-    constexpr float outer = area(Tuning::ring_outer), inner = area(Tuning::ring_inner);
+    constexpr float outer = area(FinishTuning::ring_outer), inner = area(FinishTuning::ring_inner);
     Values near = values;
-    box_mean(values, grid, Tuning::ring_outer);
-    box_mean(near, grid, Tuning::ring_inner);
+    box_mean(values, grid, FinishTuning::ring_outer);
+    box_mean(near, grid, FinishTuning::ring_inner);
     for_pixels(grid,
                [&](std::size_t i) { values[i] = (outer * values[i] - inner * near[i]) / (outer - inner); });
 }
@@ -117,7 +116,7 @@ Confirmation confirmation(const Offer &offer, std::size_t k) {
     });
     ring_mean(found.sum, grid);
     ring_mean(found.variance, grid);
-    constexpr int outer = 2 * Tuning::ring_outer + 1, inner = 2 * Tuning::ring_inner + 1;
+    constexpr int outer = 2 * FinishTuning::ring_outer + 1, inner = 2 * FinishTuning::ring_inner + 1;
     constexpr auto pixels = float(outer * outer - inner * inner);
     for_pixels(grid, [&](std::size_t i) {
         found.sum[i] *= pixels;
@@ -234,7 +233,7 @@ Measures measured(const Offer &offer, std::array<Values, 2> &energies) {
     for (std::size_t k = 0; k < 3; ++k) {
         Values energy = energy_of(offer, k);
         if (k < 2) energies[k] = energy;
-        soft_mean(energy, grid, Tuning::energy_radius);
+        soft_mean(energy, grid, FinishTuning::energy_radius);
         for_pixels(grid, [&](std::size_t i) {
             energy[i] = std::log((std::max(energy[i], 0.0f) + least_energy) /
                                  (std::max(noise[i], 0.0f) / float(samples[k]) + least_energy));
@@ -278,7 +277,7 @@ void blend_in(Trio &pictures, const Halves &candidate, const RayEvidence &eviden
     by_energy.divide();
     by_confirmation.divide();
 
-    const Tiles blocks(grid.box(), Tuning::block_px);
+    const Tiles blocks(grid.box(), FinishTuning::block_px);
     const std::vector<Table> zero(blocks.count(), Table{});
     ClassSums sums{zero, zero, zero};
     const double height = event_height(offer);
@@ -304,7 +303,7 @@ void blend_in(Trio &pictures, const Halves &candidate, const RayEvidence &eviden
             share[i] = share_at(shares, by_confirmation.place_of(measures.confirmed[k][i]),
                                 by_energy.place_of(share[i]));
         });
-        soft_mean(share, grid, Tuning::trust_radius);
+        soft_mean(share, grid, FinishTuning::trust_radius);
     }
     // The changes are those of pictures that are not changed yet, so each pixel is changed last.
     for_pixels(grid, [&](std::size_t i) {

@@ -148,7 +148,7 @@ TEST(FinishPicture, AnElementOverNothingKeepsNothingAroundIt) {
     const FinishedPicture result = finished(gathered, renders);
     for (std::size_t c = 0; c < 4; ++c)
         for (std::size_t i = 0; i < grid.size(); ++i)
-            if (grid.pixel(i).x >= 44) {
+            if (grid.pixel(i).x >= 32) {
                 ASSERT_EQ(result.image.plane(c)[i], 0) << c << ' ' << i;
             }
     for (std::size_t i = 0; i < grid.size(); ++i) {

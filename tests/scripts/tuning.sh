@@ -4,7 +4,7 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
-stages='plan warp dof'
+stages='plan warp dof finish'
 
 # FILE NAME...: sizes of what is stored or worked on at once, sentinels, bounds of arithmetic and its constants, defaults and tables
 # of options.
@@ -58,6 +58,13 @@ warp/lamps/lamp_light.cpp farthest_move
 warp/reproject.cpp far_off
 warp/surfaces.cpp few
 warp/warp_device.h warp_band_rows
+finish/classes.cpp bins
+finish/error_estimate.cpp fastest slowest
+finish/finish_picture.cpp largest
+finish/regression.cpp grain least_square
+finish/similar_pixels.cpp band_rows
+finish/trust.cpp grain largest_confirmation largest_energy_ratio least_energy side
+finish/window_means.cpp lanes
 '
 
 faults=0

@@ -72,6 +72,7 @@ every_tool() {
     hostile "$file" ldi-warp "$file" --view 0.05,0 "$file" "${lens[@]}"
     hostile "$file" dof-accumulate --view 0,0 "$file" --view 0.05,0 "$file" --outside transparent "${lens[@]}"
     hostile "$file" ldi-plan "$file" "${lens[@]}"
+    hostile "$file" dof-finish "$file" "$file" "$file"
     hostile "$file" dof-compare "$file" "$file" --regions "$file" "${lens[@]}"
 }
 

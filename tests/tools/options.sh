@@ -31,12 +31,13 @@ if tested --no-such-option dof-gather; then fail "an option of runs that fail co
 trace() { exits 0 "$bin/dof-trace" fence --size 48x27 --spp 1 -o "$@"; }
 trace views --views 1
 exits 0 "$bin/ldi-warp" views/center.exr views/view_0.exr -o ldi.exr
+trace rays --views 0 --halves 2
 exits 0 "$bin/ldi-plan" views/center.exr --noise 0 --lens-radius 0.5 --masks masks -o plan.json
 for frame in 1 2 4; do cp ldi.exr in.000$frame.exr && cp views/center.exr center.000$frame.exr; done
 # What each does with one input, but for the output; %FRAME% is empty, or stands for the frame.
 declare -A task=(
     [ldi-plan]="center%FRAME%.exr --noise 0 --lens-radius 0.5" [ldi-warp]="center%FRAME%.exr" [ldi-cluster]="in%FRAME%.exr --tolerance 1"
-    [dof-gather]="in%FRAME%.exr" [dof-trace]="fence --plan plan.json --size 48x27" [dof-accumulate]="center.exr"
+    [dof-gather]="in%FRAME%.exr" [dof-finish]="center%FRAME%.exr rays/rays_1.exr rays/rays_2.exr" [dof-trace]="fence --plan plan.json --size 48x27" [dof-accumulate]="center.exr"
     [dof-compare]="center.exr views/view_0.exr --json --regions in.exr"
 )
 cp ldi.exr in.exr
@@ -75,7 +76,7 @@ done
 
 # Frames, of which the third is missing.
 count() { find . -maxdepth 1 -name "$1" -printf x | wc -c; }
-for tool in ldi-plan ldi-warp ldi-cluster dof-gather; do
+for tool in ldi-plan ldi-warp ldi-cluster dof-gather dof-finish; do
     frame_name=.# run $tool frame.#.$tool.${ending[$tool]:-exr} --frames 1-4x3
     [ "$(count "frame.*.$tool.${ending[$tool]:-exr}")" -eq 2 ] || fail "$tool --frames 1-4x3: $(ls)"
     frame_name=.# run $tool frame.#.$tool.${ending[$tool]:-exr} --frames 1,2,4 -u -v --progress plain

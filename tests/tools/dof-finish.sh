@@ -1,0 +1,114 @@
+#!/bin/bash
+# dof-finish from the shell: nearer to the truth than what it is given, what each option changes, and how it fails.
+. "$(dirname "$0")/check.sh"
+finish=$bin/dof-finish
+answers_help dof-finish a.exr b.exr c.exr -o out.exr
+
+exits 0 "$bin/dof-trace" fence --size 160x90 --spp 4 --halves 80 --reference 1024 -d float -o fence
+exits 0 "$bin/ldi-warp" fence/center.exr fence/view_{0..3}.exr -o ldi.exr
+exits 0 "$bin/dof-gather" ldi.exr -o gathered.exr
+one=fence/rays_1.exr two=fence/rays_2.exr truth=fence/reference.exr
+decibels() { "$bin/dof-compare" "$1" "$2" | awk '$1 == "psnr_tonemapped" { print $2 }'; }
+holds() { awk "BEGIN { exit !($1) }" || fail "not so: $1: $2"; }
+# shellcheck disable=SC2086
+same() { picture same "$1" "$2" ${4:-0} >found || fail "$3: $(cat found)"; }
+differ() { picture differ "$1" "$2" >found || fail "$3: $(cat found)"; }
+
+# Nearer to the truth than both, and it says how near.
+exits 0 "$finish" gathered.exr $one $two -o out.exr --stats stats.json -v
+grep -Eq '^dof-finish: estimated error: [0-9.]+ dB$' stderr || fail "-v: $(cat stderr)"
+picture edit $one one.exr erase=sparselens:samples
+oiiotool $one $two --add --mulc 0.5 -o rays.exr
+db=$(decibels out.exr $truth)
+holds "$db > $(decibels gathered.exr $truth) + 1" "nearer than the gathered picture"
+holds "$db > $(decibels rays.exr $truth) + 1" "nearer than the rays"
+estimated=$(grep -o '"estimated_psnr":[0-9.]*' stats.json | cut -d: -f2)
+holds "$estimated < $db + 2 && $estimated > $db - 2" "the estimate: $estimated for $db"
+grep -Eq '"kept":0\.[0-9]+' stats.json || fail "--stats: $(cat stats.json)"
+exits 0 "$finish" gathered.exr $one $two -o again.exr --threads 1
+cmp -s out.exr again.exr || fail "--threads 1 and --stats change the picture"
+
+# Maps, and how many rays a goal takes.
+exits 0 "$finish" gathered.exr $one $two -o trust.exr --show trust
+exits 0 "$finish" gathered.exr $one $two -o error.exr --show error
+differ trust.exr error.exr "--show"
+kept=$(grep -o '"kept":[0-9.]*' stats.json | cut -d: -f2)
+holds "$(picture sum trust.exr R) / 14400 - $kept < 0.001" "--show trust is what --stats has the mean of"
+holds "$(picture sum trust.exr R) / 14400 - $kept > -0.001" "--show trust is what --stats has the mean of"
+holds "$(picture sum error.exr R) / 14400 < 0.1 && $(picture sum error.exr R) > 1" "--show error is the error"
+exits 0 "$finish" gathered.exr $one $two -o goal.exr --goal 60 --stats goal.json
+same goal.exr out.exr "--goal changes no picture"
+grep -Eq '^dof-finish: 60 dB: about [0-9.e+]+ times the rays$' stderr || fail "--goal 60: $(cat stderr)"
+grep -q '"times_the_rays":[0-9]' goal.json || fail "--goal: $(cat goal.json)"
+exits 0 "$finish" gathered.exr $one $two -o goal.exr --goal 20
+grep -qx 'dof-finish: 20 dB: reached' stderr || fail "--goal 20: $(cat stderr)"
+
+# The headers say how many samples; where they do not, all count the same.
+exits 0 "$finish" gathered.exr $one $two -o stated.exr --samples 40,40
+same stated.exr out.exr "--samples as the headers say"
+exits 0 "$finish" gathered.exr $one $two -o unequal.exr --samples 64,16
+differ unequal.exr out.exr "--samples"
+exits 0 "$finish" gathered.exr one.exr $two -o even.exr -v
+same even.exr out.exr "renders without a number" 0.001
+grep -q 'do not say how many samples' stderr || fail "-v of unknown samples: $(cat stderr)"
+fails_saying 2 '--samples.*1 numbers for 2 renders' "$finish" gathered.exr $one $two -o x.exr --samples 3
+for value in 0,4 a,b -1,2; do fails_saying 2 '--samples' "$finish" gathered.exr $one $two -o x.exr --samples=$value; done
+
+# More renders and other pictures to choose from: the truth itself is the best of them.
+exits 0 "$finish" gathered.exr $one $two $one $two -o four.exr
+same four.exr out.exr "the same rays twice" 0.01
+exits 0 "$finish" gathered.exr $one $two --gathered $truth -o other.exr
+holds "$(decibels other.exr $truth) > $db + 3" "--gathered"
+exits 0 "$finish" gathered.exr $one $two --denoised $truth,$truth -o denoised.exr
+same denoised.exr other.exr "--denoised and --gathered of the same pictures"
+fails_saying 2 '--denoised.*1 pictures for 2 renders' "$finish" gathered.exr $one $two -o x.exr --denoised $one
+
+# Frames, pipes, pictures for the screen, types, names of files.
+for frame in 1 2; do cp gathered.exr g.000$frame.exr && cp $one a.000$frame.exr && cp $two b.000$frame.exr; done
+exits 0 "$finish" g.####.exr a.####.exr b.####.exr -o f.####.exr --frames 1-2
+same f.0001.exr out.exr "--frames"
+same f.0002.exr out.exr "--frames"
+exits 0 "$finish" g.####.exr a.####.exr b.####.exr -o f.####.exr --frames 1-2 -u -v
+[ "$(grep -c 'is up to date' stderr)" -eq 2 ] || fail "-u: $(cat stderr)"
+sleep 0.01
+touch b.0002.exr
+exits 0 "$finish" g.####.exr a.####.exr b.####.exr -o f.####.exr --frames 1-2 -u -v
+[ "$(grep -c 'is up to date' stderr)" -eq 1 ] || fail "-u after a render changed: $(cat stderr)"
+"$bin/dof-gather" ldi.exr -o - | "$finish" - $one $two -o - >piped.exr
+same piped.exr out.exr "pipes"
+exits 0 "$finish" gathered.exr $one $two -o out.png
+head -c 4 out.png | grep -q PNG || fail "no PNG"
+exits 0 "$finish" gathered.exr $one $two -o float.exr -d float
+exrheader float.exr | grep -q 'R, 32-bit' || fail "-d float"
+same float.exr out.exr "-d float" 0.01
+exits 0 "$finish" gathered.exr $one $two -o zip.exr --compression zip
+same zip.exr out.exr "--compression"
+fails_saying 2 'would overwrite the input b.0001.exr' "$finish" gathered.exr $one b.0001.exr -o b.0001.exr
+for input in --denoised=$one,b.0001.exr --gathered=b.0001.exr; do
+    fails_saying 2 'would overwrite the input b.0001.exr' "$finish" gathered.exr $one $two $input -o b.0001.exr
+done
+
+# What is not finite stays as gathered; alpha and depth come out as they are.
+picture edit $one nan.exr fill=3x3+50+40 R=nan
+exits 0 "$finish" gathered.exr nan.exr $two -o mended.exr
+grep -Eq '^dof-finish: .*9 pixels of the renders are missing or not finite: they stay as gathered$' stderr || fail "NaN: $(cat stderr)"
+for at in 50,40 52,42; do picture pixel mended.exr $at R,G,B | grep -qi nan && fail "NaN is in the picture"; done
+holds "$(decibels mended.exr $truth) > $db - 0.2" "NaN costs little"
+same mended.exr gathered.exr "alpha stays" "A 1e-5"
+
+# Failures: one line that says what to do; the old output stays.
+fails_saying 2 'one render alone cannot tell.*another seed' "$finish" gathered.exr $one -o x.exr
+picture edit $two small.exr crop=80x90+0+0
+exits 0 "$finish" gathered.exr $one small.exr -o cropped.exr
+exits 0 "$bin/dof-trace" fence --size 80x45 --views 0 --halves 4 -o other
+fails_saying 1 'other/rays_2.exr: its picture is 80x45, the gathered one 160x90' "$finish" gathered.exr $one other/rays_2.exr -o x.exr
+head -c 9000 $two >cut.exr
+fails_saying 1 'cut.exr' "$finish" gathered.exr $one cut.exr -o x.exr
+fails_saying 1 'missing.exr' "$finish" gathered.exr $one missing.exr -o x.exr
+fails_saying 1 'ldi.exr' "$finish" ldi.exr $one $two -o x.exr
+fails_saying 2 '--show' "$finish" gathered.exr $one $two -o x.exr --show me
+fails_saying 2 '--goal' "$finish" gathered.exr $one $two -o x.exr --goal 0
+[ ! -e x.exr ] || fail "a failure wrote x.exr"
+cp out.exr old.exr
+exits 1 "$finish" gathered.exr $one cut.exr -o old.exr
+cmp -s old.exr out.exr || fail "a failure harms the old output"
