@@ -83,6 +83,20 @@ exrheader float.exr | grep -q 'R, 32-bit' || fail "-d float"
 same float.exr out.exr "-d float" 0.01
 exits 0 "$finish" gathered.exr $one $two -o zip.exr --compression zip
 same zip.exr out.exr "--compression"
+exits 0 "$finish" gathered.exr $one $two -o encoded.exr --output-colorspace 'Gamma 2.2'
+differ encoded.exr out.exr "--output-colorspace"
+for how in '--display Rec.1886' '--view-transform Raw'; do
+    # shellcheck disable=SC2086
+    exits 0 "$finish" gathered.exr $one $two -o shown.png $how
+    if cmp -s shown.png out.png; then fail "$how changes nothing"; fi
+done
+history() { exrheader "$1" | grep -A9 '^Exif:ImageHistory'; }
+unset SPARSELENS_NO_HISTORY
+exits 0 "$finish" gathered.exr $one $two -o told.exr
+history told.exr | grep -q 'dof-finish gathered.exr fence/rays_1.exr fence/rays_2.exr' || fail "history: $(history told.exr)"
+exits 0 "$finish" gathered.exr $one $two -o told.exr --no-history
+if history told.exr | grep -q dof-finish; then fail "--no-history: $(history told.exr)"; fi
+export SPARSELENS_NO_HISTORY=1
 fails_saying 2 'would overwrite the input b.0001.exr' "$finish" gathered.exr $one b.0001.exr -o b.0001.exr
 for input in --denoised=$one,b.0001.exr --gathered=b.0001.exr; do
     fails_saying 2 'would overwrite the input b.0001.exr' "$finish" gathered.exr $one $two $input -o b.0001.exr
