@@ -30,7 +30,7 @@ namespace {
 using namespace sparselens;
 
 struct Options {
-    std::string image, reference, regions, frames, flip_map;
+    std::string image, reference, second_reference, regions, frames, flip_map;
     bool json = false;
     std::optional<FlipRange> flip;
     LensValues lens;
@@ -45,6 +45,11 @@ void add_options(CLI::App &app, Options &options) {
                    "Reference (EXR), over whose data window the pictures are compared; with --frames it may "
                    "be left out")
         ->type_name("");
+    CLI::Option *second =
+        app.add_option("REF_2", options.second_reference,
+                       "Another reference, without noise in common with REF: psnr_without_noise is the "
+                       "tone-mapped error without their noise. Other figures compare with the mean of both")
+            ->type_name("");
     app.add_flag("--json", options.json, "Print JSON instead of a table");
     CLI::Option *regions =
         app.add_option(
@@ -70,6 +75,7 @@ void add_options(CLI::App &app, Options &options) {
                    "with those of "
                    "REF, if that is given. RANGE is e.g. 1-16")
         ->type_name("RANGE")
+        ->excludes(second)
         ->excludes(regions)
         ->excludes(flip)
         ->excludes(flip_map);
@@ -80,6 +86,8 @@ void add_options(CLI::App &app, Options &options) {
             !option->check_lname("layer"))
             option->needs(regions); // they say how to read that file
     add_examples(app, {{"Compare a picture with its reference", "dof-compare picture.exr reference.exr"},
+                       {"... without the noise of two references",
+                        "dof-compare picture.exr reference.exr another.exr"},
                        {"... also in focus, in the blur and at silhouettes, as JSON",
                         "dof-compare picture.exr reference.exr --regions ldi.exr --json"},
                        {"Write where somebody sees the difference, at any exposure",
@@ -108,22 +116,41 @@ void write_flip_map(const std::string &path, std::span<const float> map, const W
         write_flat_exr(path, image, {});
 }
 
+std::optional<Image> second_reference(const Options &options, const Windows &windows,
+                                      const ToolContext &tool) {
+    if (options.second_reference.empty()) return {};
+    return rgba_over(read_picture(options.second_reference, options, tool), windows,
+                     options.second_reference);
+}
+
 void compare_pictures(const Options &options, const ToolContext &tool) {
     if (options.reference.empty())
         throw UsageError("REF is required: name the reference, or a sequence by --frames");
-    const auto from_stdin = {options.image == "-", options.reference == "-", options.regions == "-"};
+    const auto from_stdin = {options.image == "-", options.reference == "-", options.second_reference == "-",
+                             options.regions == "-"};
     if (std::ranges::count(from_stdin, true) > 1)
         throw UsageError("standard input (-) cannot be read twice: give one file by its name");
     const Image reference_file = read_picture(options.reference, options, tool);
     const Windows &windows = reference_file.windows;
-    const Image reference = rgba_over(reference_file, windows, options.reference);
+    Image reference = rgba_over(reference_file, windows, options.reference);
     const Image image = rgba_over(read_picture(options.image, options, tool), windows, options.image);
+
+    std::optional<Image> first;
+    const auto second = second_reference(options, windows, tool);
+    if (second) {
+        first = std::move(reference);
+        reference = mean_of_references(*first, *second);
+    }
 
     std::vector<std::uint8_t> bits;
     if (!options.regions.empty())
         bits = regions_over(windows, options.regions, {options.lens, options.depth}, tool);
     const std::size_t count = bits.empty() ? 0 : region_names.size();
     auto figures = image_error(image, reference, bits, count);
+    if (second) {
+        const auto errors = error_without_noise(image, *first, *second, bits, count);
+        for (std::size_t r = 0; r < figures.size(); ++r) figures[r].without_noise = errors[r];
+    }
     if (options.flip) {
         const std::vector<float> map = flip_map(image, reference, *options.flip);
         const std::vector<double> means = flip_means(map, bits, count);

@@ -14,6 +14,13 @@ namespace {
 
 std::string six_digits(double value) { return std::isnan(value) ? "-" : fmt::format("{:.6g}", value); }
 
+// Where the error is below what the references can tell, what it is better than.
+std::string decibels_text(const ErrorWithoutNoise &error) {
+    if (error.is_told()) return six_digits(error.decibels());
+    const double bound = error.at_least();
+    return std::isnan(bound) ? "-" : "> " + six_digits(bound);
+}
+
 using Json = nlohmann::ordered_json;
 
 // Numbers keep all their digits; what is not finite is written as null, since JSON has no infinity.
@@ -21,6 +28,11 @@ Json json_of(const ErrorFigures &figures) {
     Json json;
     for (const Figure &figure : figure_table) json[figure.name] = figures.*figure.value;
     if (figures.flip) json["flip"] = *figures.flip;
+    if (const auto &error = figures.without_noise) {
+        json["psnr_without_noise"] = error->is_told() ? Json(error->decibels()) : Json(nullptr);
+        json["mse_without_noise"] = error->mean_square;
+        json["mse_deviation"] = error->deviation;
+    }
     json["pixels"] = figures.pixels;
     json["nonfinite"] = {{"image", figures.nonfinite_image}, {"reference", figures.nonfinite_reference}};
     return json;
@@ -47,6 +59,11 @@ std::string figures_as_table(const ErrorFigures &whole, std::span<const NamedFig
         TextRow &row = rows.emplace_back(TextRow{"flip"});
         for (const NamedFigures &column : columns)
             row.push_back(six_digits(column.figures.flip.value_or(NAN)));
+    }
+    if (whole.without_noise) {
+        TextRow &row = rows.emplace_back(TextRow{"psnr_without_noise"});
+        for (const NamedFigures &column : columns)
+            row.push_back(decibels_text(column.figures.without_noise.value_or(ErrorWithoutNoise())));
     }
     const auto count_row = [&](const char *name, std::size_t ErrorFigures::*count) {
         TextRow &row = rows.emplace_back(TextRow{name});

@@ -13,7 +13,8 @@ struct NamedFigures {
     ErrorFigures figures;
 };
 
-// One object: the figures of the whole picture by name, "flip" among them where it was measured, "pixels", "nonfinite": {"image": , "reference": } and, where
+// One object: the figures of the whole picture by name, "flip" among them where it was measured, "psnr_without_noise" (null: too small to tell),
+// "mse_without_noise" and "mse_deviation" where there are two references, "pixels", "nonfinite": {"image": , "reference": } and, where
 // there are regions, "regions": {NAME: the same for the region}. A figure that is infinite or unknown is null; other
 // numbers keep all their digits.
 std::string figures_as_json(const ErrorFigures &whole, std::span<const NamedFigures> regions);

@@ -12,11 +12,13 @@
 //   p99              the smallest |a - b| that at least 99 % of the channel values do not exceed
 //   max, max_alpha   the largest |a - b| of the colours, and that of A
 //   flip             the mean of flip_map() (flip.h), where somebody measured it
+//   without_noise    as error_without_noise() (without_noise.h) has it, where somebody measured it
 // A pixel with a channel (R, G, B or A) that is infinite or NaN in either picture is counted and left out, as is every
 // SSIM window that contains it. The figures of an empty set of pixels are NaN.
 #pragma once
 
 #include "../base/image.h"
+#include "without_noise.h"
 
 #include <array>
 #include <cstddef>
@@ -34,6 +36,7 @@ struct ErrorFigures {
     std::size_t nonfinite_image = 0, nonfinite_reference = 0;
     Imath::V2i worst_block{0, 0}; // the upper left pixel, from the corner of the data window
     std::optional<double> flip = {};
+    std::optional<ErrorWithoutNoise> without_noise = {}; // where there are two references
 };
 
 struct Figure {

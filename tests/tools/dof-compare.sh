@@ -183,6 +183,24 @@ fails_saying 2 REF "$compare" a.exr
 fails_saying 2 'twice' "$compare" - -
 echo "dof-compare: fine"
 
+# Two references: without their noise the error is what it is; where it is below what they can tell, it says so.
+exits 0 "$bin/dof-trace" fence --size 64x36 --views 0 --halves 512 --reference 1024 -d float -o noisy
+picture edit noisy/reference.exr wrong.exr 'R*=1.3' 'G*=1.3' 'B*=1.3'
+"$compare" wrong.exr noisy/reference.exr >figures
+known=$(awk '$1 == "psnr_tonemapped" { print $2 }' figures)
+exits 0 "$compare" wrong.exr noisy/rays_1.exr noisy/rays_2.exr
+awk -v known="$known" '$1 == "psnr_without_noise" { found = $2 > known - 0.5 && $2 < known + 0.5 } END { exit !found }' stdout ||
+    fail "psnr_without_noise: $(cat stdout), not $known"
+exits 0 "$compare" noisy/reference.exr noisy/rays_1.exr noisy/rays_2.exr
+grep -Eq '^psnr_without_noise +> [0-9.]+$' stdout || fail "an error too small to tell: $(cat stdout)"
+exits 0 "$compare" noisy/reference.exr noisy/rays_1.exr noisy/rays_2.exr --json
+grep -q '"psnr_without_noise": null' stdout && grep -Eq '"mse_deviation": [0-9.e-]+' stdout || fail "--json: $(cat stdout)"
+mv stdout one-way.json
+exits 0 "$compare" noisy/reference.exr noisy/rays_2.exr noisy/rays_1.exr --json --threads 1
+cmp -s stdout one-way.json || fail "the order of references matters"
+fails_saying 1 'n1.exr' "$compare" wrong.exr noisy/rays_1.exr n1.exr
+fails_saying 2 'REF_2' "$compare" 's.####.exr' 's.####.exr' 's.####.exr' --frames 1-3
+
 # --frames: how steady a sequence is. Of three pixels one stays, one changes evenly, one pops in the last frame.
 frame() { picture make "$1" 3x1 R=0.5 G=0.5 B=0.5 A=1 fill=1x1+1+0 R=$2 G=$2 B=$2 fill=1x1+2+0 R=$3 G=$3 B=$3; }
 frame s.0001.exr 0.50 0.5
