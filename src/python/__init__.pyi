@@ -329,6 +329,14 @@ class _Figures(TypedDict):
 class _Comparison(_Figures, total=False):
     regions: dict[str, _Figures]
 
+class _Finished(TypedDict):
+    picture: Picture
+    psnr: Optional[float]
+    mse: float
+    mse_deviation: float
+    trust: Picture
+    error: Picture
+
 def open_view(
     path: _Path,
     *,
@@ -529,6 +537,25 @@ def gather(
       lens_radius (scene units, instead of fstop), focus_distance (scene units, or inf), scene_unit (metres)
 
     Raises UsageError where the lens is unknown, or keywords contradict each other."""
+
+def finish(
+    gathered: Picture,
+    rays: Sequence[Picture],
+    *,
+    samples: Optional[Sequence[float]] = None,
+    denoised: Optional[Sequence[Picture]] = None,
+    progress: Optional[_Progress] = None,
+) -> _Finished:
+    """Makes a gathered picture exact by two or more renders of a few rays through the same lens, each with a seed of its own. As
+    dof-finish. Returns a dict: picture; psnr, the estimated error in dB, None where it is too small to tell; mse and mse_deviation,
+    the same as a mean square of tone-mapped values; trust, a Picture of Y: 1 as gathered, 0 as the rays say; error, of each pixel.
+
+    gathered: the Picture of gather(). rays: a sequence of Picture.
+    samples: rays per pixel of each (default: as their files say, else the same for all).
+    denoised: what a denoiser made of each of rays by itself.
+    progress: called with the name of the stage and a whole percentage.
+
+    Raises UsageError where there is one render alone, and Error where the sizes differ or there are no R, G and B."""
 
 def flatten(ldi: Ldi) -> Picture:
     """Composites the samples of an Ldi front to back and returns the Picture seen without a lens."""

@@ -12,6 +12,7 @@
 #include "measure/regions.h"
 #include "python/arrays.h"
 #include "python/device.h"
+#include "python/finish.h"
 #include "python/gather.h"
 #include "python/job.h"
 #include "python/objects.h"
@@ -295,6 +296,7 @@ void bind_verbs(py::module_ &module) {
         .def("warp", &warp, py::arg("views"), doc::warp)
         .def("cluster", &cluster, py::arg("ldi"), doc::cluster)
         .def("gather", &gather, py::arg("ldi"), doc::gather)
+        .def("finish", &finish, py::arg("gathered"), py::arg("rays"), doc::finish)
         .def("flatten", &flatten, py::arg("ldi"), doc::flatten)
         .def("front_depth", py::overload_cast<const py::object &>(&front_depth), py::arg("ldi"),
              doc::front_depth)

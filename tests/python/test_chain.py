@@ -218,3 +218,28 @@ def test_compare(views, names, clustered, tool, tmp_path):
     pixels = numpy.ascontiguousarray(picture.pixels)
     assert sparselens.compare(pixels, views[0])["psnr"] == by_tool["psnr"]
     assert math.isinf(sparselens.compare(picture, picture)["psnr"])
+
+
+def test_finish(clustered, tool, tmp_path):
+    tool("dof-gather", clustered, "-o", tmp_path / "gathered.exr", "-d", "float")
+    tool("dof-trace", "fence", "--size", "160x90", "--views", 0, "--halves", 32, "-d", "float", "-o", tmp_path)
+    files = [tmp_path / name for name in ("gathered.exr", "rays_1.exr", "rays_2.exr")]
+    tool("dof-finish", *files, "-o", tmp_path / "final.exr", "--stats", tmp_path / "stats.json")
+    by_tool = json.loads((tmp_path / "stats.json").read_text())
+    gathered, *rays = [sparselens.open_picture(file) for file in files]
+    finished = sparselens.finish(gathered, rays)
+    assert numpy.array_equal(finished["picture"].pixels, sparselens.open_picture(tmp_path / "final.exr").pixels)
+    assert finished["psnr"] == by_tool["estimated_psnr"] and finished["mse"] == by_tool["estimated_mse"]
+    assert finished["mse_deviation"] == by_tool["estimated_mse_deviation"]
+    assert finished["trust"]["Y"].mean() == pytest.approx(by_tool["kept"], abs=1e-5)
+    assert 0 < finished["error"]["Y"].mean() < 0.1
+    unequal = sparselens.finish(gathered, rays, samples=[64, 16], denoised=rays)
+    assert not numpy.array_equal(unequal["picture"].pixels, finished["picture"].pixels)
+    with pytest.raises(sparselens.UsageError, match="one render alone"):
+        sparselens.finish(gathered, rays[:1])
+    with pytest.raises(sparselens.UsageError, match="samples: 1 for 2"):
+        sparselens.finish(gathered, rays, samples=[64])
+    with pytest.raises(sparselens.UsageError, match="denoised: 1 for 2"):
+        sparselens.finish(gathered, rays, denoised=rays[:1])
+    with pytest.raises(TypeError, match="rays"):
+        sparselens.finish(gathered, 3)

@@ -68,8 +68,9 @@ def test_help(name):
 LENS = dict(focal_length=36, sensor_width=36, lens_radius=0.1, focus_distance=3)
 LDI = sparselens.Ldi(numpy.array([0, 1], numpy.uint64), numpy.ones(1, numpy.float32), {}, size=(1, 1), **LENS)
 VIEW = sparselens.View(numpy.ones((1, 1, 4), numpy.float32), numpy.ones((1, 1), numpy.float32), **LENS)
+PICTURE = sparselens.Picture(numpy.ones((1, 1, 4), numpy.float32))
 FIRST = {"open_view": ["x"], "open_ldi": ["x"], "open_picture": ["x"], "warp": [[VIEW]], "show": [LDI, "coc"], "plan": [VIEW],
-         "compare": [VIEW, VIEW], "write": ["x.exr", VIEW.pixels], "set_limits": []}
+         "compare": [VIEW, VIEW], "finish": [PICTURE, [PICTURE, PICTURE]], "write": ["x.exr", VIEW.pixels], "set_limits": []}
 
 
 @pytest.mark.parametrize("name", [n for n in sparselens.__all__ if inspect.isbuiltin(getattr(sparselens, n))])

@@ -1,0 +1,105 @@
+#include "python/finish.h"
+
+#include "base/error.h"
+#include "finish/finish_picture.h"
+#include "io/render_samples.h"
+#include "python/job.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace sparselens::python {
+
+namespace {
+
+using Pictures = std::vector<const PictureObject *>;
+
+Pictures pictures_of(const py::object &given, const char *name) {
+    constexpr const char *wanted = "a sequence of Picture";
+    Pictures found;
+    if (given.is_none()) return found;
+    if (!py::isinstance<py::sequence>(given)) wrong_type(name, wanted, given);
+    for (const py::handle &item : py::reinterpret_borrow<py::sequence>(given))
+        found.push_back(&argument<PictureObject>(py::reinterpret_borrow<py::object>(item), name, wanted));
+    return found;
+}
+
+// As the headers say, where all do; else all count the same.
+std::vector<double> stated_samples(const Pictures &rays) {
+    std::vector<double> samples;
+    for (const PictureObject *picture : rays)
+        if (const auto stated = render_samples(picture->header)) samples.push_back(*stated);
+    return samples.size() == rays.size() ? samples : std::vector<double>(rays.size(), 1);
+}
+
+std::vector<double> samples_of(const py::object &given, const Pictures &rays) {
+    if (given.is_none()) return stated_samples(rays);
+    std::vector<double> samples;
+    if (!py::isinstance<py::sequence>(given) || py::isinstance<py::str>(given))
+        wrong_type("samples", "a sequence of numbers", given);
+    for (const py::handle &item : py::reinterpret_borrow<py::sequence>(given)) {
+        if (!py::isinstance<py::float_>(item) && !py::isinstance<py::int_>(item))
+            wrong_type("samples", "a sequence of numbers", item);
+        samples.push_back(item.cast<double>());
+        if (!(samples.back() > 0) || !std::isfinite(samples.back()))
+            Keywords::refuse("samples", "above 0", fmt::format("{:g}", samples.back()));
+    }
+    return samples;
+}
+
+void check_count(const char *name, std::size_t count, std::size_t rays) {
+    if (count != rays)
+        throw UsageError(fmt::format("{}: {} for {} renders: give one for each", name, count, rays));
+}
+
+TwoHalves added_up(const char *name, const Pictures &pictures, const std::vector<double> &samples,
+                   const Image &gathered) {
+    TwoHalves halves(gathered);
+    for (std::size_t k = 0; k < pictures.size(); ++k)
+        halves.add({fmt::format("{}[{}]", name, k), pictures[k]->image, samples[k]});
+    return halves;
+}
+
+// One value a pixel, as a picture of the channel Y.
+PictureObject map_of(const Values &values, const Windows &windows) {
+    PictureObject map{Image(windows, {{"Y", PixelType::float32}}), {}};
+    std::ranges::copy(values, map.image.plane(0).begin());
+    return map;
+}
+
+} // namespace
+
+py::dict finish(const py::object &gathered, const py::object &rays, const py::kwargs &given) {
+    Keywords keywords("finish", given);
+    const PictureObject &in = argument<PictureObject>(gathered, "gathered", "a Picture");
+    const Pictures renders = pictures_of(rays, "rays");
+    if (renders.size() < 2)
+        throw UsageError(
+            "rays: one render alone cannot tell its noise from what it shows: give two or more, each of "
+            "another seed");
+    const std::vector<double> samples = samples_of(keywords.take("samples"), renders);
+    check_count("samples", samples.size(), renders.size());
+    const Pictures denoised = pictures_of(keywords.take("denoised"), "denoised");
+    if (!denoised.empty()) check_count("denoised", denoised.size(), renders.size());
+    const py::object progress = keywords.take("progress");
+    keywords.done();
+    FinishedPicture made = job<FinishedPicture>(progress, [&](Progress &said) {
+        PictureToFinish picture{in.image, added_up("rays", renders, samples, in.image)};
+        if (!denoised.empty()) picture.denoised.push_back(added_up("denoised", denoised, samples, in.image));
+        return finish_picture(std::move(picture), said);
+    });
+    const auto known = decibels(made.error);
+    for (float &e : made.error.map) e = std::sqrt(e);
+    py::dict found;
+    found["trust"] = map_of(made.kept, made.image.windows);
+    found["error"] = map_of(made.error.map, made.image.windows);
+    found["psnr"] = known ? py::object(py::float_(*known)) : py::object(py::none());
+    found["mse"] = made.error.mean;
+    found["mse_deviation"] = made.error.standard_deviation;
+    found["picture"] = PictureObject{std::move(made.image), in.header};
+    return found;
+}
+
+} // namespace sparselens::python
