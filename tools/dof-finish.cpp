@@ -80,8 +80,10 @@ Stats say_error(const FinishCommand &options, const FinishedPicture &finished,
                    *options.goal);
     else if (*times <= 1)
         fmt::print(stderr, "{}: {:g} dB: reached\n", tool.tool_name, *options.goal);
+    else if (*times > 100)
+        fmt::print(stderr, "{}: {:g} dB: more than 100 times the rays\n", tool.tool_name, *options.goal);
     else
-        fmt::print(stderr, "{}: {:g} dB: about {:.2g} times the rays\n", tool.tool_name, *options.goal,
+        fmt::print(stderr, "{}: {:g} dB: about {:.1f} times the rays\n", tool.tool_name, *options.goal,
                    *times);
     return stats;
 }
