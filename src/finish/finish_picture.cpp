@@ -190,6 +190,7 @@ FinishedPicture finish_picture(PictureToFinish picture, Progress &progress) {
         const bool beauty = std::ranges::find(channels, colours[0]) != channels.end();
         FinishedLayer result = finish_layer(layer, progress);
         if (beauty) {
+            finished.mistakes = check_lens(layer);
             finished.error = estimate_error(result, layer.rays, layer.samples, layer.grid);
             finished.kept = std::move(result.kept);
         }

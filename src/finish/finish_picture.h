@@ -5,6 +5,7 @@
 #include "base/image.h"
 #include "base/progress.h"
 #include "finish/error_estimate.h"
+#include "finish/lens_check.h"
 
 #include <string>
 #include <vector>
@@ -55,6 +56,7 @@ struct FinishedPicture {
     Image image;
     Values kept;                          // of R, G and B: 1 as gathered, 0 as the rays say
     ErrorEstimate error;                  // of R, G and B
+    LensMistakes mistakes;                // of R, G and B
     std::vector<std::string> as_gathered; // names of light channels that the renders lack
 };
 

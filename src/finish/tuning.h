@@ -29,6 +29,14 @@ struct FinishTuning {
     // Side of the blocks whose spread tells how certain the trust in a class is, pixels.
     static constexpr int block_px = 32;
 
+    // A mistake is named that explains this share of the difference of both renders from the gathered picture, ...
+    // Fence, grass, mirror, mist: .01 at most where there is none; .24 by 5 % of exposure, .39 by half a pixel.
+    static constexpr double mistake_share = 0.1;
+    // ... on which they differ by this share at most, ...
+    static constexpr double mistake_disagreement = 0.25;
+    // ... and which is at least this large: relative, and pixels.
+    static constexpr double mistake_brightness = 0.02, mistake_shift = 0.15;
+
     // Radius of the window over which the map of the estimated error is averaged, pixels.
     static constexpr int error_radius = 4;
     // Values below this count as this dark where an error is seen on a display: its tone curve has no slope at 0.

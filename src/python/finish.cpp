@@ -90,6 +90,7 @@ py::dict finish(const py::object &gathered, const py::object &rays, const py::kw
         if (!denoised.empty()) picture.denoised.push_back(added_up("denoised", denoised, samples, in.image));
         return finish_picture(std::move(picture), said);
     });
+    for (const std::string &text : made.mistakes.warnings()) warn(text);
     const auto known = decibels(made.error);
     for (float &e : made.error.map) e = std::sqrt(e);
     py::dict found;

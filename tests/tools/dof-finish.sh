@@ -113,6 +113,16 @@ for at in 50,40 52,42; do picture pixel mended.exr $at R,G,B | grep -qi nan && f
 holds "$(decibels mended.exr $truth) > $db - 0.2" "NaN costs little"
 same mended.exr gathered.exr "alpha stays" "A 1e-5"
 
+# A mistake is named: another exposure, half a pixel; and none where there is none.
+[ -z "$(grep warning stderr | grep -v 'not finite')" ] || fail "warns of a good picture: $(cat stderr)"
+picture edit gathered.exr stop.exr 'R*=2' 'G*=2' 'B*=2'
+exits 0 "$finish" stop.exr $one $two -o x1.exr
+grep -Eq '^dof-finish: warning: the gathered picture is (1.9[0-9]|2.0[0-9]) times as bright' stderr || fail "a stop: $(cat stderr)"
+oiiotool gathered.exr --origin +1+0 --fullsize 160x90+0+0 --crop 160x90+0+0 -o moved.exr
+oiiotool gathered.exr moved.exr --add --mulc 0.5 -o half.exr
+exits 0 "$finish" half.exr $one $two -o x1.exr
+grep -Eq '^dof-finish: warning: the gathered picture lies about 0.[3-7] pixels to the right' stderr || fail "half a pixel: $(cat stderr)"
+
 # Failures: one line that says what to do; the old output stays.
 fails_saying 2 'one render alone cannot tell.*another seed' "$finish" gathered.exr $one -o x.exr
 picture edit $two small.exr crop=80x90+0+0

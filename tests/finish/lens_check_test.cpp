@@ -1,0 +1,70 @@
+// Mistakes between a gathered picture and rays: named where they are, and nowhere else.
+#include "finish/lens_check.h"
+#include "finish/synthetic.h"
+
+#include <gtest/gtest.h>
+
+namespace sparselens {
+namespace {
+
+const Grid grid(160, 90);
+const Colours truth = blurred(synthetic_truth(grid), grid, 1);
+
+Colours times(Colours colours, float factor) {
+    for (Values &channel : colours)
+        for (float &v : channel) v *= factor;
+    return colours;
+}
+
+// Moved by half a pixel to the right, or down.
+Colours moved(const Colours &colours, int dx, int dy) {
+    Colours result = colours;
+    for (std::size_t c = 0; c < 3; ++c)
+        for (std::size_t i = 0; i < grid.size(); ++i) {
+            const Imath::V2i at = grid.pixel(i);
+            result[c][i] =
+                (colours[c][i] + colours[c][grid.index(std::max(at.x - dx, 0), std::max(at.y - dy, 0))]) / 2;
+        }
+    return result;
+}
+
+LensMistakes found(const Colours &gathered, double samples = 16) {
+    return check_lens(layer_of(grid, truth, gathered, {samples, samples}));
+}
+
+TEST(LensCheck, NothingIsSaidOfGoodPictures) {
+    for (const double samples : {1.0, 16.0, 1024.0})
+        for (const int blur : {0, 1, 3})
+            EXPECT_EQ(found(blurred(truth, grid, blur), samples).warnings(), std::vector<std::string>())
+                << samples << ' ' << blur;
+}
+
+TEST(LensCheck, ExposureIsNamed) {
+    for (const float factor : {0.5f, 0.9f, 1.1f, 2.0f}) {
+        const LensMistakes mistakes = found(times(truth, factor));
+        ASSERT_TRUE(mistakes.brightness) << factor;
+        EXPECT_NEAR(*mistakes.brightness, factor, 0.02 * double(factor));
+        EXPECT_EQ(mistakes.warnings().size(), 1u);
+    }
+}
+
+TEST(LensCheck, HalfAPixelIsNamed) {
+    const LensMistakes right = found(moved(truth, 1, 0)), below = found(moved(truth, 0, 1));
+    ASSERT_TRUE(right.right);
+    EXPECT_NEAR(*right.right, 0.5, 0.2);
+    EXPECT_FALSE(right.down || right.brightness);
+    ASSERT_TRUE(below.down);
+    EXPECT_NEAR(*below.down, 0.5, 0.2);
+    EXPECT_FALSE(below.right || below.brightness);
+    EXPECT_NE(below.warnings()[0].find("bottom"), std::string::npos);
+}
+
+TEST(LensCheck, BlackAndTinyPicturesAreFine) {
+    const Colours black(3, Values(grid.size(), 0.0f));
+    EXPECT_TRUE(check_lens({grid, black, {black, black}}).warnings().empty());
+    const Colours dot(3, Values(1, 1.0f));
+    EXPECT_TRUE(check_lens({Grid(1, 1), dot, {dot, dot}}).warnings().empty());
+}
+
+} // namespace
+} // namespace sparselens
