@@ -31,7 +31,7 @@ public:
     Band(const Colours &mapped, std::span<const float> weights, const Grid &grid, int begin, int end)
         : mapped_(mapped), weights_(weights), width_(grid.width()), height_(grid.height()), begin_(begin),
           end_(end), differences_(std::size_t(end - begin + 2) * std::size_t(width_)),
-          sums_(std::size_t(end - begin) * std::size_t(width_), 0.0f) {}
+          sums_(std::size_t(end - begin) * std::size_t(width_), 0.0f), row_(std::size_t(width_)) {}
 
     void gather(const Halves &rays, Halves &means) {
         for (int dy = -reach; dy <= reach; ++dy)
@@ -75,22 +75,29 @@ private:
 
     void add(const Halves &rays, Halves &means, int dx, int dy) {
         compare(dx, dy);
-        for (int y = std::max(begin_, -dy); y < std::min(end_, height_ - dy); ++y)
-            for (int x = std::max(0, -dx); x < std::min(width_, width_ - dx); ++x) {
-                const std::size_t there = at(x + dx, y + dy);
-                const float weight = likeness(patch(x, y)) * weights_[there];
-                if (weight == 0) continue;
-                sums_[in_band(x, y)] += weight;
-                for (std::size_t h = 0; h < 2; ++h)
-                    for (std::size_t c = 0; c < means[h].size(); ++c)
-                        means[h][c][at(x, y)] += weight * rays[h][c][there];
+        const int left = std::max(0, -dx), right = std::min(width_, width_ - dx);
+        if (left >= right) return;
+        for (int y = std::max(begin_, -dy); y < std::min(end_, height_ - dy); ++y) {
+            const std::size_t here = at(left, y), there = at(left + dx, y + dy),
+                              count = std::size_t(right - left);
+            float *sums = sums_.data() + in_band(left, y);
+            for (std::size_t i = 0; i < count; ++i) {
+                row_[i] = likeness(patch(left + int(i), y)) * weights_[there + i];
+                sums[i] += row_[i];
             }
+            for (std::size_t h = 0; h < 2; ++h)
+                for (std::size_t c = 0; c < means[h].size(); ++c) {
+                    float *mean = means[h][c].data() + here;
+                    const float *ray = rays[h][c].data() + there;
+                    for (std::size_t i = 0; i < count; ++i) mean[i] += row_[i] * ray[i];
+                }
+        }
     }
 
     const Colours &mapped_;
     std::span<const float> weights_;
     int width_, height_, begin_, end_;
-    std::vector<float> differences_, sums_;
+    std::vector<float> differences_, sums_, row_;
 };
 
 } // namespace
