@@ -218,6 +218,17 @@ double unseen_variance(const Offer &offer, std::size_t k, std::size_t i, double 
     return sum * height * offer.testing(k);
 }
 
+// The part of a change that is noise, as the changes of both renders differ.
+double noise_of_change(const Offer &offer, std::size_t k, std::size_t i) {
+    const auto [n, m] = offer.evidence.samples;
+    double sum = 0;
+    for (std::size_t c = 0; c < offer.channels(); ++c) {
+        const double difference = double(offer.change(0, c, i)) - double(offer.change(1, c, i));
+        sum += double(offer.weight(2, c, i)) * difference * difference;
+    }
+    return sum * n * m / (n + m) / offer.evidence.samples[k] * offer.testing(k);
+}
+
 // The two measures that make a pixel's class, of each picture.
 struct Measures {
     std::array<Values, 3> energy_ratio, confirmed; // a logarithm; standard deviations
@@ -290,7 +301,8 @@ void blend_in(Trio &pictures, const Halves &candidate, const RayEvidence &eviden
                     const std::size_t cell = by_energy.of(measures.energy_ratio[k][i]) * classes +
                                              by_confirmation.of(measures.confirmed[k][i]);
                     sums.answers[b][cell] += double(answers[k][i]);
-                    sums.energies[b][cell] += double(energies[k][i]);
+                    sums.energies[b][cell] +=
+                        double(energies[k][i]) + noise_of_change(offer, k, i) * FinishTuning::noise_costs;
                     sums.unseen[b][cell] += unseen_variance(offer, k, i, height);
                 }
             }

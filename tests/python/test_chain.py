@@ -80,7 +80,7 @@ GATHERS = [
     {"region": (10, 20, 49, 69)},
     {"proxy": 2},
     {"supersample": 2},
-    {"supersample": 5, "pixel_filter": "blackman-harris", "region": (5, 2, 20, 12), "focus_pixel": (16, 9)},
+    {"supersample": 2, "pixel_filter": "blackman-harris", "region": (5, 2, 20, 12), "focus_pixel": (16, 9)},
     {"supersample": 2, "proxy": 2},
     {"overscan": "keep"},
     {"focus_pixel": (80, 45)},
