@@ -6,6 +6,7 @@ export PATH=$bin:$PATH
 dof-trace fence --size 160x90 --spp 1 --views 2 -o .
 dof-trace fence --size 160x90 --spp 1 --views 0 --reference 1 -o traced
 cp traced/reference.exr reference.exr
+cp traced/reference.exr another.exr
 cp view_0.exr right.exr
 cp view_1.exr left.exr
 cp center.exr beauty.exr

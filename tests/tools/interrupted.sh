@@ -93,7 +93,9 @@ fi
 chmod 755 out
 untouched "read-only folder"
 fails_saying 1 'ldi.exr: cannot create the folder: Not a directory' "${gather[@]}" -o ldi.exr/x.exr
-fails_saying 1 'cannot write' "${gather[@]}" -o out
+mkdir out.exr
+fails_saying 1 'cannot write' "${gather[@]}" -o out.exr
+rmdir out.exr
 untouched "output is a folder"
 fails_saying 1 'cannot write: No space left' "${gather[@]}" -o /dev/full
 code=0
