@@ -72,7 +72,7 @@ private:
 // Empty if more than the picture is made of the samples, else by what they are reduced while the file is read.
 ChooseSamples choose_samples(const GatherCommand &options, const ToolContext &tool, Looks &looks) {
     if (tool.keeps || options.show != Show::picture || !options.holdout.empty() ||
-        !options.depth_output.empty() || options.focus_pixel)
+        !options.depth_output.empty() || options.focus_pixel || !options.recolor.empty())
         return {};
     return [&](const Imf::Header &header, const Camera &camera, const Ldi &rows) -> ReduceSamples {
         const LookValues &values = looks.of(options, camera.fstop).values;
@@ -113,7 +113,7 @@ void run(const GatherCommand &given, const ToolContext &tool, LdiCache &cache, C
     GatherCommand options = given;
     const OpenOptions by{options.lens, options.depth};
     Looks looks_given;
-    OpenedLdi &in = cache.load(options.input, options.channels, by, options.colour, tool,
+    OpenedLdi &in = cache.load({options.input, options.recolor}, options.channels, by, options.colour, tool,
                                choose_samples(options, tool, looks_given));
     if (in.reduced() && merges_by_rows(in.ldi.channels))
         options.picture.layer_tolerance = 0; // they are merged

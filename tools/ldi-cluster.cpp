@@ -8,6 +8,7 @@
 #include "io/exr/exr_deep.h"
 #include "io/merge_ldis.h"
 #include "loading/notices.h"
+#include "loading/recoloured.h"
 #include "options/lens_options.h"
 #include "options/picture_options.h"
 
@@ -23,7 +24,7 @@ struct Options {
     DepthOptions depth;
     HistoryOptions history;
     std::vector<std::string> inputs, depth_files;
-    std::string output;
+    std::string output, recolor;
     std::optional<double> tolerance;
     std::optional<int> supersample;
     int layers = 0;
@@ -46,6 +47,7 @@ void add_options(CLI::App &app, Options &options) {
     app.add_option("--layers", options.layers, "Keep at most K samples per pixel; 0: no limit (default: 0)")
         ->type_name("K")
         ->check(CLI::Range(0, 1 << 20));
+    add_recolor_option(app, options.recolor);
     add_compression_option(app, options.compression, true);
     add_lens_options(app, options.lens);
     add_subpixels_option(app, options.supersample);
@@ -54,7 +56,9 @@ void add_options(CLI::App &app, Options &options) {
     add_history_option(app, options.history);
     add_examples(app, {{"Merge samples that no lens tells apart", "ldi-cluster ldi.exr -o small.exr"},
                        {"Merge the deep pictures of two elements by depth, and change nothing else",
-                        "ldi-cluster front.exr back.exr -o shot.exr --tolerance 0"}});
+                        "ldi-cluster front.exr back.exr -o shot.exr --tolerance 0"},
+                       {"Give deep samples the colours of a flat picture of the same frame",
+                        "ldi-cluster deep.exr --recolor beauty.exr -o shot.exr"}});
 }
 
 OpenedLdi open_merged(const Options &options, const ToolContext &tool) {
@@ -80,6 +84,7 @@ Stats cluster_stats(const OpenedLdi &in, const Clustered &out) {
 
 void run(const Options &options, const ToolContext &tool) {
     OpenedLdi in = open_merged(options, tool);
+    recolor_by(tool, options.recolor, options.depth.picture, {}, in);
     ClusterOptions by{.layers = options.layers};
     // --layers alone needs no lens, as inverse depths are compared without a scale, and --tolerance 0 none either.
     const double tolerance = options.tolerance.value_or(0.25);

@@ -1,5 +1,6 @@
 #include "deep/sanitize.h"
 
+#include "base/coverage.h"
 #include "base/error.h"
 #include "base/parallel.h"
 #include "deep/channel_alpha.h"
@@ -121,7 +122,6 @@ private:
 
 void Repair::repair_coverage(std::size_t channel) {
     const std::span<float> values = s_.values[channel];
-    constexpr float rounding = 1.0f / 64;
     Changes changes;
     for_each_sample([&](std::size_t pixel, std::uint64_t i) {
         const float a = values[i];
@@ -135,7 +135,7 @@ void Repair::repair_coverage(std::size_t channel) {
         });
         const float around = count > 0 ? float(sum / count) : 1;
         changes.emplace_back(i, std::isnan(a) ? around : std::clamp(a, 0.0f, 1.0f));
-        if (!(a >= -rounding && a <= 1 + rounding)) ++found_.alphas;
+        if (!(a >= -coverage_rounding && a <= 1 + coverage_rounding)) ++found_.alphas;
     });
     apply(changes, values);
 }

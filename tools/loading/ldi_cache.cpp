@@ -3,6 +3,7 @@
 #include "io/camera/camera_read.h"
 #include "io/channels.h"
 #include "loading/notices.h"
+#include "loading/recoloured.h"
 
 namespace sparselens {
 
@@ -19,13 +20,15 @@ std::vector<std::string> keep_and_tell(Ldi &ldi, const std::string &channels) {
 
 } // namespace
 
-OpenedLdi &LdiCache::load(const std::string &path, const std::string &channels, const OpenOptions &options,
+OpenedLdi &LdiCache::load(const LdiNames &names, const std::string &channels, const OpenOptions &options,
                           const ColourOptions &colour, const ToolContext &tool, const ChooseSamples &choose) {
+    const auto &[path, recolor] = names;
     const DepthOptions &depth = options.depth;
     const LensValues &lens = options.lens;
     const Key key(path, channels, depth.meaning, depth.near, depth.far, depth.picture.stereo_view,
                   depth.picture.layer, depth.picture.depth, lens.focal_length_mm, lens.sensor_width_mm,
-                  colour.config, colour.input_space, depth.picture.depth_file, depth.picture.unpremultiplied);
+                  colour.config, colour.input_space, depth.picture.depth_file, recolor,
+                  depth.picture.unpremultiplied);
     read_now_ = !last_ || taken_ || key_ != key;
     if (read_now_) {
         last_.reset(); // two at a time may be more than fits
@@ -34,7 +37,8 @@ OpenedLdi &LdiCache::load(const std::string &path, const std::string &channels, 
         taken_ = opened.reduced();
         say_samples(tool, opened);
         warn_of_invalid_values(tool, path, opened.bad);
-        opened.header = to_linear(tool, colour, path, opened.header, opened.ldi);
+        recolor_by(tool, recolor, depth.picture, colour, opened);
+        if (recolor.empty()) opened.header = to_linear(tool, colour, path, opened.header, opened.ldi);
         warn_of_flat_picture(tool, opened);
         channels_left_out_ = keep_and_tell(opened.ldi, channels);
         if (auto *packed = std::get_if<PackedRows>(&opened.held)) packed->keep_channels(opened.ldi.channels);

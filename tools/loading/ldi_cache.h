@@ -13,12 +13,17 @@
 
 namespace sparselens {
 
+// A file with samples, and the flat picture of its colours (loading/recoloured.h) or "".
+struct LdiNames {
+    std::string path, recolor;
+};
+
 class LdiCache {
 public:
-    // Calls open_ldi(), to_linear() and keep_channels() if the last file was another or was read by other options, and
+    // Calls open_ldi(), recolor_by(), to_linear() and keep_channels() if the last file was another or was read by other options, and
     // then warns of invalid values. The camera always follows the options given. Earlier results become invalid.
     // Samples that were reduced are read anew the next time.
-    OpenedLdi &load(const std::string &path, const std::string &channels, const OpenOptions &options,
+    OpenedLdi &load(const LdiNames &names, const std::string &channels, const OpenOptions &options,
                     const ColourOptions &colour, const ToolContext &tool, const ChooseSamples &choose = {});
 
     // The samples of the last load(), which are read anew the next time.
@@ -37,7 +42,7 @@ private:
     using Key =
         std::tuple<std::string, std::string, DepthMeaning, std::optional<double>, std::optional<double>,
                    std::string, std::string, std::string, std::optional<double>, std::optional<double>,
-                   std::string, std::string, std::string, bool>;
+                   std::string, std::string, std::string, std::string, bool>;
 
     Key key_;
     std::optional<OpenedLdi> last_;

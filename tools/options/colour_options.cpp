@@ -142,6 +142,13 @@ Imf::Header to_linear(const ToolContext &tool, const ColourOptions &options, con
     return std::move(to.header);
 }
 
+Imf::Header to_linear(const ToolContext &tool, const ColourOptions &options, const std::string &path,
+                      const Imf::Header &header, Image &image) {
+    LinearColours to = linear_colours(tool, options, path, header);
+    if (to.transform) transform_colours(*to.transform, image);
+    return std::move(to.header);
+}
+
 ColourTransform output_transform(const ColourOptions &options, const Imf::Header &metadata) {
     const ColourConfig config(options.config);
     return output_transform(config, options, space_of(config, metadata));

@@ -30,6 +30,8 @@ Imf::Header to_linear(const ToolContext &tool, const ColourOptions &options, con
                       const Imf::Header &header, Ldi &ldi);
 Imf::Header to_linear(const ToolContext &tool, const ColourOptions &options, const std::string &path,
                       const Imf::Header &header, PackedView &view);
+Imf::Header to_linear(const ToolContext &tool, const ColourOptions &options, const std::string &path,
+                      const Imf::Header &header, Image &image);
 
 // Whether to_linear() leaves the colours of such a file as they are.
 bool is_linear(const ToolContext &tool, const ColourOptions &options, const std::string &path,

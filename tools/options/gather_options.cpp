@@ -125,6 +125,7 @@ void add_picture_making_options(CLI::App &app, GatherCommand &options) {
     add_highlight_options(app, options.looks);
     add_depth_options(app, options.depth);
     add_depth_file_option(app, options.depth.picture.depth_file);
+    add_recolor_option(app, options.recolor);
     add_input_colour_options(app, options.colour);
     add_output_colour_options(app, options.colour);
     add_window_options(app, options.windows);

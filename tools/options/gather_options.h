@@ -25,7 +25,7 @@ struct GatherCommand {
     HistoryOptions history;
     PictureOptions picture;     // without the holdout, which is a file
     std::string device = "cpu"; // as choose_device() has it
-    std::string input, output, depth_output, channels, holdout;
+    std::string input, recolor, output, depth_output, channels, holdout;
     std::optional<Imath::V2i> focus_pixel;
     std::optional<PixelType> type; // -d
     AskedCompression compression;

@@ -64,6 +64,14 @@ void add_method_option(CLI::App &app, const GatherMethod *&method) {
         ->type_name(fmt::format("{}", fmt::join(names, "|")));
 }
 
+void add_recolor_option(CLI::App &app, std::string &path) {
+    app.add_option(
+           "--recolor", path,
+           "Flat picture of the same frame, whose colours and light passes the samples get instead of "
+           "their own, so that flattened they are that picture (EXR)")
+        ->type_name("BEAUTY.exr");
+}
+
 void add_tiles_option(CLI::App &app, int &tiles) {
     app.add_option(
            "--tiles", tiles,

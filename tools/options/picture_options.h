@@ -29,6 +29,9 @@ void add_method_option(CLI::App &app, const GatherMethod *&method);
 using AskedCompression = std::optional<Imf::Compression>;
 void add_compression_option(CLI::App &app, AskedCompression &compression, bool deep);
 
+// Adds --recolor FILE: see loading/recoloured.h.
+void add_recolor_option(CLI::App &app, std::string &path);
+
 // Adds --tiles N: EXR in tiles of N x N pixels, else in scanlines.
 void add_tiles_option(CLI::App &app, int &tiles);
 

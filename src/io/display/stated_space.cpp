@@ -55,4 +55,16 @@ Imf::Header with_space(const ColourConfig &config, const Imf::Header &header, co
     return result;
 }
 
+Imf::Header with_space_of(const Imf::Header &other, const Imf::Header &header) {
+    Imf::Header result = header;
+    for (const char *name : {"chromaticities", interop_id, oiio_space}) {
+        const auto said = other.find(name);
+        if (said != other.end())
+            set_attribute(result, name, said.attribute());
+        else if (header.find(name) != header.end())
+            result = without_attribute(result, name);
+    }
+    return result;
+}
+
 } // namespace sparselens

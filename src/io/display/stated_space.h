@@ -26,4 +26,7 @@ std::optional<StatedSpace> stated_space(const ColourConfig &config, const Imf::H
 // some, stay if they say the same; else the id becomes that of the space, or goes, as does oiio:ColorSpace.
 Imf::Header with_space(const ColourConfig &config, const Imf::Header &header, const std::string &space);
 
+// The header, which says what `other` says of the space of its colours.
+Imf::Header with_space_of(const Imf::Header &other, const Imf::Header &header);
+
 } // namespace sparselens

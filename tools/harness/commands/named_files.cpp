@@ -18,9 +18,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::array output_options{"--output", "--depth-out", "--cameras"};
-constexpr std::array input_options{"--view",        "--depth-file", "--center",  "--holdout",
-                                   "--colorconfig", "--regions",    "--plan",    "--lens",
-                                   "--aperture",    "--denoised",   "--gathered"};
+constexpr std::array input_options{"--view",        "--depth-file", "--center",   "--holdout",
+                                   "--colorconfig", "--regions",    "--plan",     "--lens",
+                                   "--aperture",    "--denoised",   "--gathered", "--recolor"};
 
 bool is_input(const CLI::Option &option) {
     return option.get_positional() || is_among(input_options, option.get_name());

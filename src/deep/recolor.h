@@ -1,0 +1,36 @@
+// Gives the samples of a deep picture the colours of a flat picture of the same frame: studios keep deep alpha, and one flat
+// beauty with its passes. Flattened, every channel of light is that of the flat picture again.
+//
+// In each pixel V is a channel of the flat picture, F its coverage; D is the coverage of all samples, and a that of one:
+//
+//   F agrees with D      a sample becomes V a / D: V by what the sample shows of the pixel. D stays as it is
+//   F is more            the rest of the coverage, (F - D) / (1 - D), lies at infinity behind the samples, as a sky does that the
+//                        deep picture left out; all of them share V as above, with F in the place of D
+//   F is less            V a / D: the light is right, and the coverage stays
+//   there is no sample   light becomes one at infinity, of coverage F, which is 0 where the light covers nothing
+//   nothing covers       the last sample has all light
+//
+// By AR, AG and AB, where the deep picture has them, what they cover is shared, and by A what they leave uncovered. Samples
+// behind an opaque one have its colour. Depths, volumes, coverage, ids, Cryptomattes and data are those of the deep picture, all
+// light is that of the flat one; a flat picture without A covers what the deep one does. The result has the pixels
+// of the flat picture: outside them nobody knows a colour.
+#pragma once
+
+#include "ldi.h"
+
+namespace sparselens {
+
+struct Recolored {
+    Ldi ldi;                  // tidy
+    std::size_t differ = 0;   // pixels whose coverage does not agree (base/coverage.h)
+    std::size_t beyond = 0;   // pixels with samples outside the flat picture, which are left out
+    std::size_t infinite = 0; // pixels that got a sample at infinity
+};
+
+// The LDI is tidy, the values of both are valid (sanitize.h), and the display windows are the same.
+Recolored recolor(Ldi ldi, const Image &flat);
+
+// Whether recolor() takes the channel from the flat picture: light that is no coverage.
+bool is_recolored(std::span<const Channel> channels, std::size_t k);
+
+} // namespace sparselens
