@@ -9,6 +9,7 @@
 #include "io/merge_ldis.h"
 #include "loading/notices.h"
 #include "loading/recoloured.h"
+#include "options/colour_options.h"
 #include "options/lens_options.h"
 #include "options/picture_options.h"
 
@@ -22,6 +23,7 @@ namespace {
 struct Options {
     LensValues lens;
     DepthOptions depth;
+    ColourOptions colour;
     HistoryOptions history;
     std::vector<std::string> inputs, depth_files;
     std::string output, recolor;
@@ -48,6 +50,9 @@ void add_options(CLI::App &app, Options &options) {
         ->type_name("K")
         ->check(CLI::Range(0, 1 << 20));
     add_recolor_option(app, options.recolor);
+    add_input_colour_options(app, options.colour);
+    for (const char *of_beauty : {"--colorspace", "--colorconfig"})
+        app.get_option(of_beauty)->needs("--recolor");
     add_compression_option(app, options.compression, true);
     add_lens_options(app, options.lens);
     add_subpixels_option(app, options.supersample);
@@ -84,7 +89,7 @@ Stats cluster_stats(const OpenedLdi &in, const Clustered &out) {
 
 void run(const Options &options, const ToolContext &tool) {
     OpenedLdi in = open_merged(options, tool);
-    recolor_by(tool, options.recolor, options.depth.picture, {}, in);
+    recolor_by(tool, options.recolor, options.depth.picture, options.colour, in);
     ClusterOptions by{.layers = options.layers};
     // --layers alone needs no lens, as inverse depths are compared without a scale, and --tolerance 0 none either.
     const double tolerance = options.tolerance.value_or(0.25);

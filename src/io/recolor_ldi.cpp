@@ -9,6 +9,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace sparselens {
@@ -31,6 +33,16 @@ void require_one_frame(const OpenedLdi &ldi, const Beauty &beauty) {
             fmt::format("{}: its data window has no pixel in common with that of {}; give the picture "
                         "of the same frame (`recolor`)",
                         beauty.name, ldi.name));
+}
+
+// Of the rest, depths at infinity for one, nothing is needed.
+Image light_and_coverage(const Image &image) {
+    std::vector<Channel> kept;
+    std::ranges::copy_if(image.channels, std::back_inserter(kept), is_light);
+    Image result(image.windows, kept);
+    for (std::size_t k = 0; k < kept.size(); ++k)
+        std::ranges::copy(image.plane(find_channel(image.channels, kept[k].name)), result.plane(k).begin());
+    return result;
 }
 
 // The names that channels have in files: those of light as in the beauty, the others as in the deep file.
@@ -71,9 +83,10 @@ Beauty open_beauty(const std::string &path, const PictureChoice &choice) {
 
 Beauty ready_beauty(FlatFile file, const std::string &path) {
     const std::string name = display_name(path);
+    file.image = light_and_coverage(file.image);
+    const std::vector<Channel> &channels = file.image.channels;
     bool lit = false;
-    for (std::size_t k = 0; k < file.image.channels.size(); ++k)
-        lit = lit || is_recolored(file.image.channels, k);
+    for (std::size_t k = 0; k < channels.size(); ++k) lit = lit || is_recolored(channels, k);
     if (!lit) throw Error(name + ": has no colours; give a picture with R, G and B (`recolor`)");
     // Every pixel is in front of the camera, so that its values are repaired as those of a view.
     View view{name, std::move(file.image), {}};

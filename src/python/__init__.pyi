@@ -445,6 +445,7 @@ def cluster(
     tolerance: Optional[float] = 0.25,
     layers: int = 0,
     supersample: Optional[int] = None,
+    recolor: Optional[Picture] = None,
     progress: Optional[_Progress] = None,
     focal_length: Optional[float] = None,
     sensor_width: Optional[float] = None,
@@ -459,6 +460,7 @@ def cluster(
     tolerance: samples are merged whose circles of confusion differ by less, pixels.
     layers: at most so many samples per pixel; 0: no limit.
     supersample: so many pixels of the LDIs, across and down, are one of the picture (default: as they say, else 1).
+    recolor: a flat Picture of the same frame, whose colours and light the samples get instead of their own.
     progress: called with the name of the stage and a whole percentage.
     Lens values replace those of the LDI:
       focal_length (mm), sensor_width (mm, spans the display window), fstop (a number, or inf),

@@ -8,6 +8,7 @@
 #include "io/camera/camera_read.h"
 #include "io/camera/camera_write.h"
 #include "io/merge_ldis.h"
+#include "io/recolor_ldi.h"
 #include "measure/image_error.h"
 #include "measure/regions.h"
 #include "python/arrays.h"
@@ -153,33 +154,48 @@ ClusterOptions cluster_options(const Camera &camera, const Windows &windows, std
     return options;
 }
 
+// Returns what is to be warned of.
+std::vector<std::string> recolored_by(const PictureObject &picture, OpenedLdi &ldi) {
+    const Beauty beauty = ready_beauty({.image = picture.image, .header = picture.header}, "recolor");
+    std::vector<std::string> warnings = recolor(ldi, beauty);
+    if (beauty.bad.any()) warnings.push_back(beauty.name + ": " + beauty.bad.text());
+    return warnings;
+}
+
 LdiObject cluster(const py::object &ldi, const py::kwargs &given) {
     Keywords keywords("cluster", given);
     const auto from = several<LdiObject>(ldi, "ldi", "an Ldi, or a sequence of them");
     const auto tolerance = keywords.number("tolerance", at_least_0);
     const int layers = keywords.whole("layers", 0, 1 << 20).value_or(0);
     const auto across = keywords.whole("supersample", 1, most_across);
+    const py::object colours = keywords.take("recolor");
     const LensValues lens = lens_values(keywords);
     const py::object progress = keywords.take("progress");
     keywords.done();
-    return job<OpenedLdi>(progress, [&](Progress &said) {
+    const PictureObject *beauty =
+        colours.is_none() ? nullptr : &argument<PictureObject>(colours, "recolor", "a Picture");
+    std::vector<std::string> warnings;
+    LdiObject made = job<OpenedLdi>(progress, [&](Progress &said) {
         OpenedLdi merged; // of one LDI only what describes it: its samples are not copied
-        if (from.size() > 1) {
+        if (from.size() > 1 || beauty) {
             std::vector<OpenedLdi> parts;
             for (const OpenedLdi *part : from) {
                 parts.push_back(*part);
                 if (across) parts.back().camera.supersample = across;
             }
             merged = merge_ldis(std::move(parts));
+            if (beauty) warnings = recolored_by(*beauty, merged);
         } else {
             merged = described_as(*from[0]);
             if (across) merged.camera.supersample = across;
         }
-        const Ldi &in = from.size() > 1 ? merged.ldi : from[0]->ldi;
+        const Ldi &in = from.size() > 1 || beauty ? merged.ldi : from[0]->ldi;
         merged.camera = camera_with_options(lens, merged.camera);
         merged.ldi = cluster(in, cluster_options(merged.camera, in.windows, tolerance, layers), said).ldi;
         return merged;
     });
+    for (const std::string &warning : warnings) warn(warning);
+    return made;
 }
 
 PictureObject flatten(const py::object &ldi) {

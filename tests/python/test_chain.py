@@ -68,6 +68,20 @@ def test_cluster_merges(clustered, tool, tmp_path):
     assert (tmp_path / "python.exr").read_bytes() == (tmp_path / "tool.exr").read_bytes()
 
 
+@pytest.mark.filterwarnings("ignore::UserWarning")
+def test_recolor(clustered, tool, tmp_path):
+    beauty = tmp_path / "beauty.exr"
+    sparselens.write(beauty, sparselens.gather(sparselens.open_ldi(clustered), lens_radius=0))
+    tool("ldi-cluster", clustered, "--recolor", beauty, "-o", tmp_path / "tool.exr")
+    picture = sparselens.open_picture(beauty)
+    ldi = sparselens.cluster(sparselens.open_ldi(clustered), recolor=picture)
+    sparselens.write(tmp_path / "python.exr", ldi)
+    assert (tmp_path / "python.exr").read_bytes() == (tmp_path / "tool.exr").read_bytes()
+    assert numpy.abs(sparselens.flatten(ldi)["R"] - picture["R"]).max() < 1e-3 * picture["R"].max()
+    with pytest.raises(TypeError, match="recolor"):
+        sparselens.cluster(ldi, recolor=beauty)
+
+
 GATHERS = [
     {},
     {"focus_distance": 2.2},

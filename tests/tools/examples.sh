@@ -13,6 +13,7 @@ cp center.exr beauty.exr
 ldi-warp center.exr view_*.exr -o ldi.exr
 cp ldi.exr front.exr
 cp ldi.exr back.exr
+cp ldi.exr deep.exr
 dof-gather ldi.exr -o picture.exr
 dof-gather ldi.exr -o pull.####.exr --frames 1-3 --focus-distance 1:2.0,3:5.0
 rm -r traced

@@ -125,7 +125,6 @@ void add_picture_making_options(CLI::App &app, GatherCommand &options) {
     add_highlight_options(app, options.looks);
     add_depth_options(app, options.depth);
     add_depth_file_option(app, options.depth.picture.depth_file);
-    add_recolor_option(app, options.recolor);
     add_input_colour_options(app, options.colour);
     add_output_colour_options(app, options.colour);
     add_window_options(app, options.windows);
@@ -143,6 +142,7 @@ void add_gather_options(CLI::App &app, GatherCommand &options) {
     app.add_option("--depth-out", options.depth_output, "Also write the depth of the front samples (EXR)")
         ->type_name("FILE.exr")
         ->check(output_name(OutputKind::exr));
+    add_recolor_option(app, options.recolor);
     add_type_option(app, options.type);
     add_compression_option(app, options.compression, false);
     add_tiles_option(app, options.tiles);
