@@ -53,8 +53,8 @@ Reel::Read reader_of(const std::vector<GatherCommand> &frames, const ToolContext
     return [frames, &tool](const std::string &name) {
         const GatherCommand &options = *std::ranges::find(frames, name, name_of);
         LdiCache cache;
-        OpenedLdi &in =
-            cache.load({options.input, options.recolor}, options.channels, {options.lens, options.depth}, options.colour, tool);
+        OpenedLdi &in = cache.load({options.input, options.recolor}, options.channels,
+                                   {options.lens, options.depth}, options.colour, tool);
         return shot_frame(std::move(in), options.windows, options.colour);
     };
 }
