@@ -14,6 +14,7 @@ ldi-warp center.exr view_*.exr -o ldi.exr
 cp ldi.exr front.exr
 cp ldi.exr back.exr
 cp ldi.exr deep.exr
+dof-trace fence --size 160x90 --views 0 --halves 4 -o .
 dof-gather ldi.exr -o picture.exr
 dof-gather ldi.exr -o pull.####.exr --frames 1-3 --focus-distance 1:2.0,3:5.0
 rm -r traced

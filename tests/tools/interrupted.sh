@@ -117,8 +117,8 @@ for name in "${names[@]}"; do
     mkdir named
     cd named
     cp ../ldi.exr "./$name"
-    exits 0 "$bin/dof-gather" -o "./out-${name:0:200}" -- "$name"
-    cmp -s "./out-${name:0:200}" ../gathered.exr || fail "not the picture: $name"
+    exits 0 "$bin/dof-gather" -o "./out-${name:0:200}.exr" -- "$name"
+    cmp -s "./out-${name:0:200}.exr" ../gathered.exr || fail "not the picture: $name"
     exits 0 "$bin/dof-gather" -o "./$name" -- ../ldi.exr # longest name: the temporary's must be cut
     exits 0 "$bin/ldi-cluster" "--tolerance=0.5" -o x.exr -- ../ldi.exr
     fails_saying 1 'missing' "$bin/dof-gather" -o x2.exr -- "missing$name"
