@@ -14,20 +14,22 @@ namespace {
 void count_votes(const ViewSamples &view, std::size_t alpha, std::size_t pixel, double inverse_z,
                  double tolerance, const SeePast &past, Votes &votes) {
     if (view.pixel(pixel).empty()) return;
-    double left = 1;
+    double left = 1, there = 0;
     for (const std::uint64_t i : view.pixel(pixel)) {
         const double covers = kernels::covers(double(alpha_at(view, alpha, i)), left);
         const double nearer = 1 / double(view.z(i)) - inverse_z;
         if (std::abs(nearer) < tolerance)
-            votes.there += covers;
+            there += covers;
         else if (nearer < 0) {
             votes.past += covers;
             if (past && covers > 0) past(view, i, covers);
         }
         left -= covers;
     }
+    votes.there += there;
     votes.past += left;
     votes.open += left;
+    if (there > 0) votes.through += left;
 }
 
 } // namespace
@@ -51,7 +53,7 @@ Votes votes_on(const ReprojectedViews &views, const Imath::V2d &place, double in
 double visibility_vote(const ReprojectedViews &views, const Imath::V2d &place, double inverse_z,
                        double tolerance) {
     const Votes votes = votes_on(views, place, inverse_z, tolerance);
-    return kernels::coverage_by_votes(votes.there, votes.past);
+    return kernels::coverage_by_votes(votes.there + votes.through, votes.past - votes.through);
 }
 
 } // namespace sparselens

@@ -3,6 +3,9 @@
 // A pixel of one view on an edge claims the whole pixel for the surface. Of the other views of the same position, some
 // see the surface and some see past it. If every claim counted, the surface would grow with every view; by majority it
 // keeps its size, and its edge becomes softer with more views.
+//
+// A veil, or an edge before nothing, covers a part of the pixels that see it. Its samples have that coverage, and the vote must
+// not take it from them again: what a pixel leaves open is no vote against what it sees there.
 #pragma once
 
 #include "warp/reprojected_views.h"
@@ -13,9 +16,10 @@ namespace sparselens {
 
 // What rim views say of a position, each up to 1.
 struct Votes {
-    double there = 0; // they see the surface
-    double past = 0;  // they see past it,
-    double open = 0;  // and of that, past everything
+    double there = 0;   // they see the surface
+    double past = 0;    // they see past it,
+    double open = 0;    // of that, past everything,
+    double through = 0; // and of that, where they see the surface too
     double all() const { return there + past; }
 };
 

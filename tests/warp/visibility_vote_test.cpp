@@ -67,12 +67,21 @@ TEST(VisibilityVote, AnEdgeIsSharedByMajority) {
     EXPECT_EQ(coverage(0, 1), 0);
 }
 
-// A pixel that is covered in part votes by its parts.
-TEST(VisibilityVote, PartialCoverageVotesInPart) {
+// A veil covers a part of the pixels that see it, and votes for itself with the whole of each: a wall that another view sees
+// past it has no more of a vote. A veil in front of the surface is a vote against it, and what that leaves open another.
+TEST(VisibilityVote, WhatAVeilLeavesOpenIsNoVoteAgainstIt) {
     const Windows w = windows_of_size(8, 8);
-    const auto half = [](int, int) { return ViewPixel{.z = 2, .a = 0.5f}; };
-    const std::vector<View> views{make_view(w, {0, 0}, half), make_view(w, {0, 0}, half)};
-    EXPECT_DOUBLE_EQ(visibility_vote(ReprojectedViews(views, focal_px, 1, 0), {4, 4}, 0.5, tolerance), 0.5);
+    const auto coverage = [&](const std::vector<ViewPixel> &pixels, double z) {
+        std::vector<View> views{make_view(w, {0, 0}, [](int, int) { return ViewPixel{.z = 2}; })};
+        for (const ViewPixel &p : pixels) views.push_back(make_view(w, {0, 0}, [&](int, int) { return p; }));
+        return visibility_vote(ReprojectedViews(views, focal_px, 1, 0), {4, 4}, 1 / z, tolerance);
+    };
+    const ViewPixel veil{.z = 2, .a = 0.3f}, wall{.z = 10};
+    EXPECT_EQ(coverage({veil}, 2), 1);
+    EXPECT_EQ(coverage({veil, veil, veil}, 2), 1);
+    EXPECT_DOUBLE_EQ(coverage({veil, wall}, 2), 0.5);
+    EXPECT_DOUBLE_EQ(coverage({veil, veil, veil, wall, wall, wall}, 2), 0.5);
+    EXPECT_EQ(coverage({veil}, 10), 0); // it looks past the wall's place
 }
 
 } // namespace

@@ -147,6 +147,26 @@ private:
 
 double depth_of(float z) { return focal_px * radius / double(z); }
 
+// A see-through film behind an opaque bar covers there what it covers where the views see it, however few of them do.
+TEST(Warp, AFilmBehindABarKeepsItsCoverage) {
+    const float covers = 0.3f;
+    TwoPlanes scene;
+    scene.front_covers = [](double x, double) { return x >= 18 && x < 24; };
+    std::vector<View> views = five_views(scene, windows_of_size(40, 12), radius);
+    for (View &view : views)
+        for (std::size_t i = 0; i < view.z.size(); ++i)
+            if (view.z[i] == float(scene.back_z))
+                for (const std::size_t k : {1u, 3u}) view.image.plane(k)[i] *= covers;
+    const Ldi ldi = warped(views);
+    std::size_t behind = 0;
+    for (std::size_t pixel = 0; pixel < ldi.windows.pixels(); ++pixel) {
+        const TestPixel samples = samples_of(ldi, pixel);
+        for (const TestSample &s : samples) EXPECT_FLOAT_EQ(s.alpha, s.z > 5 ? covers : 1);
+        behind += samples.size() == 2;
+    }
+    EXPECT_GE(behind, 2u * 10); // beside both edges of the bar
+}
+
 // Extra vision: seeing what no view saw. Every sample's colour lies among those of view pixels that land within a
 // pixel of it, on its surface (no more than surface_px from one of its samples, so twice that from their mean). What fills
 // up the last of a pixel is what rim views see past it (opaque_pixels.h).

@@ -5,12 +5,12 @@
 #include "warp_data.glsl"
 #include "warp_merge.glsl"
 
-double there, past;
+double there, past, through;
 
 // What one pixel of a view says, whose samples these are.
 void count_votes(uint begin, uint end, double inverse_z) {
     if (begin == end) return;
-    precise double left = 1, seen = there, missed = past;
+    precise double left = 1, seen = 0, missed = past;
     for (uint i = begin; i < end; ++i) {
         const double alpha = frame.alpha == none ? 1.0lf : double(value_of(i, frame.alpha));
         const double covered = covers(alpha, left);
@@ -20,7 +20,8 @@ void count_votes(uint begin, uint end, double inverse_z) {
         left = left - covered;
     }
     missed = missed + left;
-    there = seen;
+    if (seen > 0) through = through + left;
+    there = there + seen;
     past = missed;
 }
 
@@ -35,8 +36,10 @@ double vote(ivec2 pixel, Mean mean) {
     precise const double x = double(pixel.x) + 0.5lf + mean.dx, y = double(pixel.y) + 0.5lf + mean.dy;
     there = 0;
     past = 0;
+    through = 0;
     for (uint v = 1; v < frame.views; ++v) ask(views[v], x, y, mean.inverse_z);
-    return coverage_by_votes(there, past);
+    precise const double seen = there + through, missed = past - through;
+    return coverage_by_votes(seen, missed);
 }
 
 void main() {
