@@ -38,6 +38,7 @@ public:
             if (const auto side = nearest_side(pixel, on)) sides.push_back(*side);
         if (sides.empty()) return {};
         const Side first = *std::ranges::min_element(sides, fills_before);
+        if (first.ground.sample && holds(pixel, first.ground.depth)) return {};
         Filler filler{std::uint32_t(ldi_.windows.index(pixel.x, pixel.y)), z_of(first.ground), 0, {}};
         double weights = 0;
         for (const Side &side : sides) {
@@ -55,6 +56,11 @@ public:
     }
 
 private:
+    bool holds(const Imath::V2i &pixel, double depth) const {
+        for (const std::uint64_t i : ldi_.pixel(ldi_.windows.index(pixel.x, pixel.y)))
+            if (std::abs(perceptive_depth(lens_, double(ldi_.z[i])) - depth) < one_surface_px) return true;
+        return false;
+    }
     static bool fills_before(const Side &a, const Side &b) {
         if (a.distance != b.distance) return a.distance < b.distance;
         return a.ground.depth != b.ground.depth ? a.ground.depth < b.ground.depth

@@ -161,8 +161,18 @@ struct Side {
     auto order() const { return std::tuple(distance, ground.depth, ground.sample == Filler::nothing); }
 };
 
-Filler mean_of(const Ldi &ldi, std::size_t alpha_channel, std::size_t pixel, std::span<const Side> sides) {
-    const Side &nearest = *std::ranges::min_element(sides, {}, &Side::order);
+// Whether the pixel holds a sample of the surface that the ground belongs to.
+bool is_seen(const Ldi &ldi, const ThinLens &lens, std::size_t pixel, const Ground &ground) {
+    if (ground.sample == Filler::nothing) return false;
+    for (const std::uint64_t i : ldi.pixel(pixel)) {
+        const auto depth = float(perceptive_depth(lens, double(ldi.z[i])));
+        if (kernels::is_one_surface(depth, ground.depth, one_surface_px)) return true;
+    }
+    return false;
+}
+
+Filler mean_of(const Ldi &ldi, std::size_t alpha_channel, std::size_t pixel, const Side &nearest,
+               std::span<const Side> sides) {
     const bool nothing = nearest.ground.sample == Filler::nothing;
     Filler filler{std::uint32_t(pixel), std::numeric_limits<float>::infinity(), 0, {}};
     if (!nothing) filler.z = ldi.z[nearest.ground.sample];
@@ -201,7 +211,11 @@ LargeArray<Filler> find_fillers(const Ldi &ldi, const ThinLens &lens, const Know
                         grounds[end],
                         has_before ? shown.at_end(end, before, end + step[k]) : shown.at_end(end), n};
                 }
-            if (count > 0) rows[row].push_back(mean_of(ldi, alpha, pixel, std::span(sides).first(count)));
+            if (count == 0) continue;
+            const std::span<const Side> found = std::span(sides).first(count);
+            const Side &nearest = *std::ranges::min_element(found, {}, &Side::order);
+            if (!is_seen(ldi, lens, pixel, nearest.ground))
+                rows[row].push_back(mean_of(ldi, alpha, pixel, nearest, found));
         }
     });
     std::vector<std::size_t> begin{0};

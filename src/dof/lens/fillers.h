@@ -6,7 +6,8 @@
 // pixels of perceptive depth, as its edge may run at 45 degrees, and by more than one_surface_px. Where no ground is known,
 // none goes on: what lies beyond the frame, beyond_frame.h says.
 // Where grounds go on from several sides, the nearest side fills, of sides as near the farthest ground: the mean of
-// those that are one surface with it, each weighted by 1 / n.
+// those that are one surface with it, each weighted by 1 / n. Where the pixel holds a sample of that surface, views looked there,
+// and it is not filled: a veil is as thin as they saw it.
 //
 // It shows what the last pixel of the ground shows; where that holds one sample whose colour is a mixture (deep/unmixing.h) of the
 // pixel before it, of the same surface, and of the one that hides it, what the pixel before shows: silhouettes that no view

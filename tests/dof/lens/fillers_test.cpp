@@ -80,6 +80,21 @@ TEST(Fillers, GoOnOpaque) {
     EXPECT_EQ(filled(picture(0.4f)), std::vector<float>(4, -1));
 }
 
+// A veil behind a bar, which ends there in what covers more: views saw it, so that nothing goes on behind it. What lies farther
+// does.
+TEST(Fillers, AVeilThatWasSeenIsNotFilledUp) {
+    const auto picture = [](double coc) {
+        return make_ldi(windows_of_size(3, 1), grey_alpha, [coc](int x, int) {
+            std::vector<Sample> samples{{depth_of(lens, -4), {1, 1}}};
+            if (x == 0) samples.push_back({depth_of(lens, 4), {0.3f, 0.6f}});
+            if (x == 1) samples.push_back({depth_of(lens, coc), {0.1f, 0.2f}});
+            return samples;
+        });
+    };
+    EXPECT_EQ(filled(picture(4)), (std::vector<float>{-1, -1, 0.5f}));
+    EXPECT_EQ(filled(picture(3)), (std::vector<float>{-1, 0.5f, 0.5f}));
+}
+
 // Slowly: each pixel looks along its row and column for the nearest ground that goes on as far as to it.
 TEST(Fillers, AreWhatTheRuleSays) {
     for (const bool opaque : {true, false}) {
@@ -120,6 +135,11 @@ TEST(Fillers, AreWhatTheRuleSays) {
                     e = n < nearest ? depth : std::min(e, depth);
                     nearest = n;
                 }
+                double &e = expected[ldi.windows.index(x, y)];
+                bool is_seen = false;
+                for (const std::uint64_t i : ldi.pixel(ldi.windows.index(x, y)))
+                    is_seen = is_seen || std::abs(perceptive_depth(lens, double(ldi.z[i])) - e) < 0.5;
+                if (e > 0 && is_seen) e = -1;
             }
         for (const Filler &filler : find_fillers(ldi, lens, known))
             depths[filler.pixel] = perceptive_depth(lens, double(filler.z));
