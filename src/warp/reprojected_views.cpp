@@ -54,12 +54,13 @@ ReprojectedViews::ReprojectedViews(std::vector<PackedView> views, double focal_p
         samples.back().keep_channels(channels);
     }
     const bool separate = jump > 0 && scale > 0;
+    std::vector<CrossedLamps> crossed(samples.size());
     if (separate && samples.size() > 1)
-        settle_lamp_depths(samples, mappings, inverse_depth_step(scale, jump));
+        crossed = settle_lamp_depths(samples, mappings, inverse_depth_step(scale, jump));
     sources_.resize(samples.size());
     for (std::size_t v = 0; v < samples.size();
          ++v) { // one after the other, each by all threads, in less memory
-        if (separate) separate_silhouettes(samples[v], scale, jump);
+        if (separate) separate_silhouettes(samples[v], scale, jump, crossed[v]);
         sources_[v] = std::make_unique<Source>(std::move(samples[v]), mappings[v]);
     }
 }

@@ -26,7 +26,8 @@ struct Estimate {
 
 class Separation {
 public:
-    Separation(const ViewSamples &view, double scale, double jump);
+    Separation(const ViewSamples &view, double scale, double jump,
+               std::span<const std::size_t> crossed_lamps);
     bool may_be_mixed(std::size_t pixel) const;
     void emit_pixel(std::size_t pixel, Ldi &out) const; // of one that may be mixed, if it is
 
@@ -36,6 +37,8 @@ private:
     unsigned char side_of(int x, int y) const;
     void find_sides_of_full_row(int y);
     std::optional<Mixture> find(int x, int y) const;
+    bool is_of_crossed_lamp(int x, int y) const;
+    Mixture of_lamp(int x, int y, const Mixture &light) const;
     std::optional<Mixture> mixture_of(int x, int y) const;
     std::optional<Estimate> estimate(int x, int y, double depth) const;
     Imath::V3d purest(int x, int y, double depth, const Imath::V3d &front, const Imath::V3d &behind) const;
@@ -58,12 +61,15 @@ private:
     const ViewSamples &view_;
     SamplesAround samples_;
     double scale_, jump_;
+    std::span<const std::size_t> crossed_lamps_; // pixels, ascending
     std::vector<Matte> mattes_;
     std::vector<unsigned char> sides_; // of each pixel
 };
 
-Separation::Separation(const ViewSamples &view, double scale, double jump)
-    : view_(view), samples_(view, scale), scale_(scale), jump_(jump), mattes_(find_mattes(view.channels)) {
+Separation::Separation(const ViewSamples &view, double scale, double jump,
+                       std::span<const std::size_t> crossed_lamps)
+    : view_(view), samples_(view, scale), scale_(scale), jump_(jump), crossed_lamps_(crossed_lamps),
+      mattes_(find_mattes(view.channels)) {
     sides_.assign(view.windows.pixels(), inside);
     if (!samples_.have_colours()) return;
     const Grid &grid = samples_.grid();
@@ -219,10 +225,25 @@ void Separation::emit_mixture(std::uint64_t i, const Mixture &mixture, Ldi &out)
     share_mattes(view_, i, front, share, mattes_, out);
 }
 
+bool Separation::is_of_crossed_lamp(int x, int y) const {
+    return std::ranges::binary_search(crossed_lamps_, samples_.grid().index(x, y));
+}
+
+// A lamp's own pixel. The pixels around may tell how much of it what crosses the lamp covers: that shows no more light than unlit
+// strands do, and the lamp the rest.
+Mixture Separation::of_lamp(int x, int y, const Mixture &light) const {
+    std::optional<Mixture> mixture = mixture_of(x, y);
+    if (!mixture) return light;
+    mixture->front = light.front;
+    return *mixture;
+}
+
 std::optional<Mixture> Separation::find(int x, int y) const {
     const bool strands = among_strands(samples_, x, y);
-    if (strands)
-        if (const auto light = light_between_strands(samples_, x, y)) return light;
+    if (strands || is_of_crossed_lamp(x, y))
+        if (const auto light =
+                light_between_strands(samples_, x, y, jump_, strands ? WarpTuning::strand_apart_px : jump_))
+            return strands || light->far_depth != depth_of(own_sample(x, y)) ? light : of_lamp(x, y, *light);
     if (const auto mixture = mixture_of(x, y)) return mixture;
     return strands ? strands_before(samples_, x, y) : std::nullopt;
 }
@@ -241,8 +262,9 @@ void Separation::emit_pixel(std::size_t pixel, Ldi &out) const {
 
 } // namespace
 
-void separate_silhouettes(ViewSamples &view, double scale, double jump) {
-    const Separation separation(view, scale, jump);
+void separate_silhouettes(ViewSamples &view, double scale, double jump,
+                          std::span<const std::size_t> crossed_lamps) {
+    const Separation separation(view, scale, jump, crossed_lamps);
     view.replace([&](std::size_t pixel) { return separation.may_be_mixed(pixel); },
                  [&](std::size_t pixel, Ldi &out) { separation.emit_pixel(pixel, out); });
 }

@@ -11,11 +11,16 @@
 
 #include "deep/view_samples.h"
 
+#include <cstddef>
+#include <span>
+
 namespace sparselens {
 
 // `view` has at most one sample a pixel; scale is R F, pixels times scene units. jump, > 0: pixels of
 // perceptive depth that part two surfaces. The same as where samples are averaged: what is mixed of two surfaces
-// which are averaged apart would be left to one of them whole.
-void separate_silhouettes(ViewSamples &view, double scale, double jump);
+// which are averaged apart would be left to one of them whole. The light of `crossed_lamps`, which are pixels in ascending
+// order, stays theirs (lamps/lamp_depths.h).
+void separate_silhouettes(ViewSamples &view, double scale, double jump,
+                          std::span<const std::size_t> crossed_lamps = {});
 
 } // namespace sparselens

@@ -17,8 +17,10 @@ namespace {
 
 // A lamp of a view.
 struct SeenLamp {
-    KnownLamp lamp;                 // inverse_z is 0 if no pixel stands before what is around
-    double around = 0;              // 1 / z of the nearest that is around
+    KnownLamp lamp;          // inverse_z is 0 if all its pixels have depths that are around
+    double around = 0;       // 1 / z of the nearest that is around; of a lamp of known depth, behind it
+    bool is_crossed = false; // whether something that is around stands before a lamp of known depth
+    std::vector<Imath::V2i> all;
     std::vector<Imath::V2i> pixels; // whose light is to be at the lamp's depth
     std::vector<Imath::V2i> at_its_depth;
     bool settled = false; // by other views
@@ -35,15 +37,23 @@ double inverse_z_at(const ViewSamples &view, const Imath::V2i &p) {
     return shown.empty() ? 0 : 1 / double(view.z(shown.front()));
 }
 
-// 1 / z of the nearest two or three pixels from a lamp; nothing at the border of the view.
-std::optional<double> nearest_around(const ViewSamples &view, std::span<const Imath::V2i> pixels) {
+// What the pixels two or three from a lamp show.
+struct Around {
+    std::vector<double> inverse_z; // the nearest last
+    bool whole = true;             // the border of the view cuts off none of it
+};
+
+Around look_around(const ViewSamples &view, std::span<const Imath::V2i> pixels) {
     const std::vector<Imath::V2i> edge = grown(pixels, 1);
-    double nearest = 0;
+    Around around;
     for (const Imath::V2i &p : grown(pixels, WarpTuning::lamp_gap)) {
-        if (!view.windows.data.intersects(p)) return {};
-        if (!is_among(edge, p)) nearest = std::max(nearest, inverse_z_at(view, p));
+        if (!view.windows.data.intersects(p))
+            around.whole = false;
+        else if (!is_among(edge, p))
+            around.inverse_z.push_back(inverse_z_at(view, p));
     }
-    return nearest;
+    std::ranges::sort(around.inverse_z);
+    return around;
 }
 
 class LampsOfView {
@@ -51,13 +61,16 @@ public:
     LampsOfView(ViewSamples &view, double tolerance);
     std::span<const SeenLamp> lamps() const { return lamps_; }
     void settle_by_neighbours();
+    // The pixels of lamps that something crosses, ascending.
+    std::vector<std::size_t> crossed() const;
     // Those whose depth is not known, by rows.
     std::vector<LampBeforeWall> unknown() const;
     // By lamps whose places are in the centre view.
     void settle_by_others(const ViewMapping &mapping, std::span<const KnownLamp> others);
 
 private:
-    SeenLamp look_at(const CompactLamp &found, double around) const;
+    SeenLamp look_at(const CompactLamp &found, std::span<const double> around) const;
+    double depth_of(const CompactLamp &found, std::span<const double> around) const;
     double light_at(const Imath::V2i &p) const { return light_.at(view_.windows.index(p.x, p.y)); }
     void move(const Imath::V2i &pixel, double inverse_z);
 
@@ -70,29 +83,52 @@ private:
 LampsOfView::LampsOfView(ViewSamples &view, double tolerance)
     : view_(view), light_(view), tolerance_(tolerance) {
     if (!light_.is_known()) return;
-    for (const CompactLamp &found : find_compact_lamps(view.windows.grid(), light_.picture()))
-        if (const auto around = nearest_around(view, found.pixels)) lamps_.push_back(look_at(found, *around));
+    for (const CompactLamp &found : find_compact_lamps(view.windows.grid(), light_.picture())) {
+        const Around around = look_around(view, found.pixels);
+        if (around.inverse_z.empty()) continue;
+        SeenLamp seen = look_at(found, around.inverse_z);
+        // What stands before it may lie beyond the border; what crosses it is seen.
+        if (around.whole || seen.is_crossed) lamps_.push_back(std::move(seen));
+    }
 }
 
-SeenLamp LampsOfView::look_at(const CompactLamp &found, double around) const {
-    SeenLamp seen{{}, around, {}, {}, false};
+// 1 / z of the lamp, which nothing around has: that of its nearest pixel if it stands before all that is around. Else strands or bars
+// may cross it, and it is that of the brightest pixel that has neither their depth nor that of what is behind. 0: not known.
+double LampsOfView::depth_of(const CompactLamp &found, std::span<const double> around) const {
+    double nearest = 0, brightest = 0, depth = 0;
+    for (const Imath::V2i &p : found.pixels) {
+        const double inverse_z = inverse_z_at(view_, p), light = light_at(p);
+        nearest = std::max(nearest, inverse_z);
+        const auto above = std::ranges::lower_bound(around, inverse_z - tolerance_);
+        const bool is_around = above != around.end() && *above <= inverse_z + tolerance_;
+        if (is_around || light <= brightest) continue;
+        brightest = light;
+        depth = inverse_z;
+    }
+    return nearest > around.back() + tolerance_ ? nearest : depth;
+}
+
+SeenLamp LampsOfView::look_at(const CompactLamp &found, std::span<const double> around) const {
+    SeenLamp seen{{}, around.back(), false, found.pixels, {}, {}, false};
     KnownLamp &lamp = seen.lamp;
     const double enough =
         is_small(found.pixels) ? 0 : WarpTuning::lamp_edge_share * light_at(found.pixels[0]);
-    double nearest = 0;
     for (const Imath::V2i &p : found.pixels) {
         const double light = light_at(p);
         if (light >= enough) seen.pixels.push_back(p);
         lamp.light += light;
         lamp.place += light * (Imath::V2d(p) + Imath::V2d(0.5));
-        nearest = std::max(nearest, inverse_z_at(view_, p));
     }
     lamp.place /= lamp.light;
-    if (!(nearest > around + tolerance_)) return seen;
+    const double depth = depth_of(found, around);
+    if (depth == 0) return seen;
+    const auto before = std::ranges::upper_bound(around, depth);
+    seen.is_crossed = before != around.end();
+    seen.around = before != around.begin() ? *(before - 1) : 0;
     double sum = 0, total = 0;
     for (const Imath::V2i &p : found.pixels) {
         const double inverse_z = inverse_z_at(view_, p), light = light_at(p);
-        if (inverse_z < nearest - tolerance_) continue;
+        if (std::abs(inverse_z - depth) > tolerance_) continue;
         seen.at_its_depth.push_back(p);
         sum += light * inverse_z;
         total += light;
@@ -112,9 +148,18 @@ void LampsOfView::settle_by_neighbours() {
         const std::vector<Imath::V2i> beside = grown(seen.at_its_depth, 1);
         for (const Imath::V2i &p : seen.pixels) {
             const bool of_what_is_around = inverse_z_at(view_, p) < seen.around + tolerance_;
-            if (of_what_is_around && is_among(beside, p)) move(p, seen.lamp.inverse_z);
+            if (of_what_is_around && (seen.is_crossed || is_among(beside, p))) move(p, seen.lamp.inverse_z);
         }
     }
+}
+
+std::vector<std::size_t> LampsOfView::crossed() const {
+    std::vector<std::size_t> pixels;
+    for (const SeenLamp &seen : lamps_)
+        if (seen.is_crossed)
+            for (const Imath::V2i &p : seen.all) pixels.push_back(view_.windows.index(p.x, p.y));
+    std::ranges::sort(pixels);
+    return pixels;
 }
 
 std::vector<LampBeforeWall> LampsOfView::unknown() const {
@@ -152,8 +197,8 @@ void LampsOfView::settle_by_others(const ViewMapping &mapping, std::span<const K
 
 } // namespace
 
-void settle_lamp_depths(std::span<ViewSamples> views, std::span<const ViewMapping> mappings,
-                        double tolerance) {
+std::vector<CrossedLamps> settle_lamp_depths(std::span<ViewSamples> views,
+                                             std::span<const ViewMapping> mappings, double tolerance) {
     std::vector<std::optional<LampsOfView>> found(views.size());
     parallel_for(views.size(), [&](std::size_t v) { found[v].emplace(views[v], tolerance); });
     std::vector<KnownLamp> known; // in the centre view
@@ -169,11 +214,16 @@ void settle_lamp_depths(std::span<ViewSamples> views, std::span<const ViewMappin
         found[v]->settle_by_neighbours();
         found[v]->settle_by_others(mappings[v], known);
     });
+    std::vector<CrossedLamps> crossed;
     std::vector<std::vector<LampBeforeWall>> unknown;
-    for (const auto &view : found) unknown.push_back(view->unknown());
+    for (const auto &view : found) {
+        crossed.push_back(view->crossed());
+        unknown.push_back(view->unknown());
+    }
     const std::vector<KnownLamp> by_parallax = depths_by_parallax(unknown, mappings, tolerance);
-    if (by_parallax.empty()) return;
+    if (by_parallax.empty()) return crossed;
     parallel_for(views.size(), [&](std::size_t v) { found[v]->settle_by_others(mappings[v], by_parallax); });
+    return crossed;
 }
 
 } // namespace sparselens

@@ -21,10 +21,10 @@ double nearest_beside(const SamplesAround &samples, int x, int y) {
 }
 
 // The colour of unlit strands at that depth: a low percentile of those around.
-std::optional<std::uint64_t> dim_one(const SamplesAround &samples, int x, int y, double depth) {
+std::optional<std::uint64_t> dim_one(const SamplesAround &samples, int x, int y, double depth, double apart) {
     std::vector<std::pair<double, std::uint64_t>> strands;
     samples.around(x, y, WarpTuning::strand_light_reach, [&](std::uint64_t i, int, int) {
-        if (std::abs(samples.depth_of(i) - depth) <= WarpTuning::strand_apart_px && samples.is_opaque(i))
+        if (std::abs(samples.depth_of(i) - depth) <= apart && samples.is_opaque(i))
             strands.push_back({brightness(samples, i), i});
     });
     if (strands.size() < 3) return {};
@@ -35,13 +35,11 @@ std::optional<std::uint64_t> dim_one(const SamplesAround &samples, int x, int y,
 
 // The brightest pixel behind strands of that depth, if it is brighter than `least`.
 std::optional<std::uint64_t> lamp_behind(const SamplesAround &samples, int x, int y, double depth,
-                                         double least) {
+                                         double apart, double least) {
     std::optional<std::uint64_t> lamp;
     samples.around(x, y, WarpTuning::strand_light_reach, [&](std::uint64_t i, int dx, int dy) {
         const double own = samples.depth_of(i);
-        if ((dx == 0 && dy == 0) || own > depth - WarpTuning::strand_apart_px ||
-            own < WarpTuning::least_lamp_px)
-            return;
+        if ((dx == 0 && dy == 0) || own > depth - apart || own < WarpTuning::least_lamp_px) return;
         if (const double value = brightness(samples, i); value > least) {
             least = value;
             lamp = i;
@@ -81,22 +79,23 @@ bool among_strands(const SamplesAround &samples, int x, int y) {
     return std::min(along, down) >= WarpTuning::strand_jumps;
 }
 
-std::optional<Mixture> light_between_strands(const SamplesAround &samples, int x, int y) {
+std::optional<Mixture> light_between_strands(const SamplesAround &samples, int x, int y, double jump,
+                                             double apart) {
     const std::uint64_t own = samples.own_sample(x, y);
     const double own_depth = samples.depth_of(own), nearest = nearest_beside(samples, x, y);
-    const bool is_strand = own_depth > nearest - WarpTuning::strand_apart_px;
+    const bool is_strand = own_depth > nearest - apart;
     const double near_depth = is_strand ? own_depth : nearest;
-    const auto strand = dim_one(samples, x, y, near_depth);
+    const auto strand = dim_one(samples, x, y, near_depth, apart);
     if (!strand) return {};
     const double c = brightness(samples, own), f = brightness(samples, *strand);
     if (!stands_out(c, f)) return {};
-    const auto lamp = lamp_behind(samples, x, y, near_depth, c / LampTuning::stands_out);
+    const auto lamp = lamp_behind(samples, x, y, near_depth, apart, c / LampTuning::stands_out);
     if (!lamp) return {};
     const double b = brightness(samples, *lamp), lamp_depth = samples.depth_of(*lamp);
     // A lamp's own pixel stays at its depth, and one of what is beside the lamp takes it.
     if (!is_strand) {
-        const bool is_lamp = std::abs(own_depth - lamp_depth) < WarpTuning::strand_apart_px;
-        return Mixture{near_depth, is_lamp ? own_depth : lamp_depth, 0, {}};
+        const bool is_lamp = std::abs(own_depth - lamp_depth) < jump;
+        return Mixture{near_depth, is_lamp ? own_depth : lamp_depth, 0, {}, strand};
     }
     const double share = b > c ? (b - c) / (b - f) : 0;
     return Mixture{near_depth, lamp_depth, share < least_mixed_share ? 0 : share, {}, strand};

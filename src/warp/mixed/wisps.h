@@ -6,7 +6,7 @@
 // pixel does not say what it shows more of, and what the surfaces show is told by single pixels around:
 //
 //   - A pixel that is four times as bright as the strands are holds light from between them. It belongs to the brightest
-//     pixel behind, a lamp: a = (b - c) / (b - f) of brightnesses.
+//     pixel behind, a lamp: a = (b - c) / (b - f) of brightnesses. The same is true of a lamp that a single strand crosses.
 //   - Else B is the one of the farther pixels that leaves most of the pixel to the strands and still explains its colour, and F
 //     the one of the strands that differs most from B.
 #pragma once
@@ -32,8 +32,10 @@ struct Mixture {
 // two pixels of perceptive depth, along rows and along columns.
 bool among_strands(const SamplesAround &samples, int x, int y);
 
-// Of a pixel among strands: what its light from between them is, if it has any.
-std::optional<Mixture> light_between_strands(const SamplesAround &samples, int x, int y);
+// Of a pixel among strands, or of a lamp that they cross: what its light from between them is, if it has any. Perceptive: `jump` parts
+// the lamp from what is behind it, `apart` the strands from both.
+std::optional<Mixture> light_between_strands(const SamplesAround &samples, int x, int y, double jump,
+                                             double apart);
 
 // Of a pixel among strands: its share of them, if the pixels around explain its colour.
 std::optional<Mixture> strands_before(const SamplesAround &samples, int x, int y);

@@ -1,5 +1,5 @@
-#include "support/views.h"
 #include "warp/lamps/lamp_depths.h"
+#include "warp/warp_fixture.h"
 
 #include <gtest/gtest.h>
 
@@ -77,6 +77,42 @@ TEST(LampDepths, StayWhereSomethingElseMayBeSeen) {
     for (const auto &scene : std::vector<std::function<ViewPixel(int, int)>>{on_the_wall, beside_a_post,
                                                                              on_a_wire, lamps_in_line})
         EXPECT_EQ(settled({picture(scene)}), Moved{});
+}
+
+// Column 11 is a strand that covers half of each pixel of a lamp of 3 x 3; the lamp's first column has the wall's depth.
+ViewPixel crossed(int x, int y, int strand = 11, int left = 10) {
+    const bool shines = x >= left && x < left + 3 && y >= 10 && y < 13;
+    if (x == strand) return shining(post, shines ? 250 : 0.5f);
+    return shines ? shining(x == left ? wall : lamp, 500) : none;
+}
+
+TEST(LampDepths, AStrandMayCrossTheLamp) {
+    EXPECT_EQ(settled({picture([](int x, int y) { return crossed(x, y); })}),
+              (Moved{{{10, 10}, lamp}, {{10, 11}, lamp}, {{10, 12}, lamp}}));
+    const auto of_one_depth = [](int x, int y) { // the lamp is on the wall
+        ViewPixel p = crossed(x, y);
+        if (p.z == lamp) p.z = wall;
+        return p;
+    };
+    EXPECT_EQ(settled({picture(of_one_depth)}), Moved{});
+}
+
+// A second view sees the lamp beside the strand: it is three pixels farther left there, the strand four.
+TEST(LampDepths, NoLightOfALampStaysWithTheStrandThatCrossesIt) {
+    constexpr double radius = 3 * double(lamp) / focal_px;
+    const std::vector<View> views{picture([](int x, int y) { return crossed(x, y); }),
+                                  make_view(windows_of_size(32, 32), {radius, 0}, [](int x, int y) {
+                                      const ViewPixel p = crossed(x, y, 7, 7);
+                                      return p.z > 0 ? p : ViewPixel{.z = wall, .r = 1, .g = 1, .b = 1};
+                                  })};
+    const Ldi ldi = warping::warped(views, {.focal_px = focal_px, .radius = radius});
+    double of_strand = 0, of_lamp = 0;
+    for (std::size_t i = 0; i < ldi.samples(); ++i) {
+        if (ldi.z[i] < 1.75f) of_strand = std::max(of_strand, double(ldi.values[0][i]));
+        if (ldi.z[i] > 1.75f && ldi.z[i] < 3) of_lamp = std::max(of_lamp, double(ldi.values[0][i]));
+    }
+    EXPECT_LE(of_strand, 0.6);
+    EXPECT_NEAR(of_lamp, 500, 10);
 }
 
 // The second view stands to the left: what lies at `lamp` is one pixel farther right there.
