@@ -19,7 +19,7 @@ namespace {
 struct SeenLamp {
     KnownLamp lamp;          // inverse_z is 0 if all its pixels have depths that are around
     double around = 0;       // 1 / z of the nearest that is around; of a lamp of known depth, behind it
-    bool is_crossed = false; // whether something that is around stands before a lamp of known depth
+    bool is_crossed = false; // whether something that is around stands before it
     std::vector<Imath::V2i> all;
     std::vector<Imath::V2i> pixels; // whose light is to be at the lamp's depth
     std::vector<Imath::V2i> at_its_depth;
@@ -87,8 +87,8 @@ LampsOfView::LampsOfView(ViewSamples &view, double tolerance)
         const Around around = look_around(view, found.pixels);
         if (around.inverse_z.empty()) continue;
         SeenLamp seen = look_at(found, around.inverse_z);
-        // What stands before it may lie beyond the border; what crosses it is seen.
-        if (around.whole || seen.is_crossed) lamps_.push_back(std::move(seen));
+        // What stands before it may lie beyond the border; what crosses a lamp of known depth is seen.
+        if (around.whole || (seen.is_crossed && seen.lamp.inverse_z != 0)) lamps_.push_back(std::move(seen));
     }
 }
 
@@ -121,7 +121,10 @@ SeenLamp LampsOfView::look_at(const CompactLamp &found, std::span<const double> 
     }
     lamp.place /= lamp.light;
     const double depth = depth_of(found, around);
-    if (depth == 0) return seen;
+    if (depth == 0) { // it may be of what is around, and is where it shines most
+        seen.is_crossed = around.back() > inverse_z_at(view_, found.pixels[0]) + tolerance_;
+        return seen;
+    }
     const auto before = std::ranges::upper_bound(around, depth);
     seen.is_crossed = before != around.end();
     seen.around = before != around.begin() ? *(before - 1) : 0;

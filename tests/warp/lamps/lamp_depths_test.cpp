@@ -115,6 +115,22 @@ TEST(LampDepths, NoLightOfALampStaysWithTheStrandThatCrossesIt) {
     EXPECT_NEAR(of_lamp, 500, 10);
 }
 
+// In a second view the lamp, which is part of the wall, is one pixel farther left, and the strand four.
+TEST(LampDepths, NorWithAStrandBeforeALampOfTheWall) {
+    constexpr double radius = 6 / focal_px;
+    const auto on_the_wall = [](int strand, int left) {
+        return [=](int x, int y) {
+            ViewPixel p = crossed(x, y, strand, left);
+            if (p.z != post) p.z = wall;
+            return p.r > 0 ? p : ViewPixel{.z = wall, .r = 1, .g = 1, .b = 1};
+        };
+    };
+    const std::vector<View> views{make_view(windows_of_size(32, 32), {0, 0}, on_the_wall(11, 10)),
+                                  make_view(windows_of_size(32, 32), {radius, 0}, on_the_wall(7, 9))};
+    const Ldi ldi = warping::warped(views, {.focal_px = focal_px, .radius = radius});
+    for (std::size_t i = 0; i < ldi.samples(); ++i) EXPECT_LE(ldi.z[i] < 1.75f ? ldi.values[0][i] : 0, 0.6f);
+}
+
 // The second view stands to the left: what lies at `lamp` is one pixel farther right there.
 TEST(LampDepths, OtherViewsTell) {
     const auto before = [](int x, int y) { return in_square(x, y) ? shining(lamp, 500) : none; };
