@@ -38,7 +38,7 @@ struct Range {
 struct Extent {
     Range there, known;
 
-    Extent(const Windows &windows, unsigned axis)
+    Extent(const Windows &windows, int axis)
         : there{windows.data.min[axis], windows.data.max[axis]}, known{std::min(there.least,
                                                                                 windows.display.min[axis]),
                                                                        std::max(there.most,
