@@ -142,7 +142,8 @@ void add_light(Ldi &ldi, const Image &flat) {
         ldi.values.emplace_back(ldi.samples());
     }
     for (const auto &pair : added) {
-        const std::size_t k = pair.first, cover = coverage_of(ldi.channels, k); // clang 14 captures no bindings
+        const std::size_t k = pair.first,
+                          cover = coverage_of(ldi.channels, k); // clang 14 captures no bindings
         const std::span<const float> plane = flat.plane(pair.second);
         parallel_ranges(plane.size(), 4096, [&](std::size_t begin, std::size_t end) {
             for (std::size_t pixel = begin; pixel < end; ++pixel)
