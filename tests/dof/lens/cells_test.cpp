@@ -235,9 +235,11 @@ const std::vector<Beside> beside_cells{
 };
 
 TEST(Cells, ThePictureIsThatOfManyLensPointsWhateverTheLensAndTheSamplesAre) {
-    for (const auto &[name, looks, change] : beside_cells) {
+    for (const Beside &beside : beside_cells) {
+        const char *name = beside.name;
+        const LensLooks &looks = beside.looks;
         Scene scene(70, -62, 1, 90, 60);
-        change(scene.ldi);
+        beside.change(scene.ldi);
         ASSERT_GT(scene.cell_size({.looks = looks}), 1) << name;
         const auto picture = [&](int points) {
             PictureOptions options;
