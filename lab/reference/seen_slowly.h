@@ -43,7 +43,7 @@ struct Pixel {
     const Holdout *holdout;
 };
 
-// Of a scene, what some lens point may see of a pixel or of those beside it, if none lies farther from the middle of the lens in x or
+// The part of a scene that some lens point may see of a pixel or of those beside it, if none lies farther from the middle of the lens in x or
 // in y: what else there is only takes time.
 Scene near(const Scene &scene, const Pixel &pixel, long double widest);
 

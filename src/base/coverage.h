@@ -14,7 +14,7 @@ inline bool lets_through(double transmittance) { return transmittance >= 1.0 / 2
 // as a lamp shines through the last step.
 inline bool is_one_in_half(float alpha) { return alpha >= 1 - 0x1p-12f; }
 
-// Of one pixel in two files: the filter, half and a renderer's compression of deep samples (by 0.01) may lie between them.
+// One pixel in two files: the filter, half and a renderer's compression of deep samples (by 0.01) may lie between them.
 inline constexpr double coverage_rounding = 1.0 / 64;
 inline bool is_same_coverage(double a, double b) {
     return a - b <= coverage_rounding && b - a <= coverage_rounding;

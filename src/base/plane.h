@@ -24,7 +24,7 @@ public:
 
     float operator[](std::size_t i) const { return floats_ ? floats_[i & mask_] : of_half(halves_[i]); }
 
-    // Of out.size() pixels from one on.
+    // For out.size() pixels from one on.
     void copy(std::size_t first, std::span<float> out) const;
 
     std::size_t bytes() const {

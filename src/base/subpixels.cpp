@@ -33,7 +33,7 @@ struct Range {
     bool has(int at) const { return at >= least && at <= most; }
 };
 
-// Those that a picture has along an axis, and those of which it is known what they show: in its display window, those that it
+// The sub-pixels that a picture has along an axis, and the known ones: in its display window, those that it
 // does not have are empty.
 struct Extent {
     Range there, known;
@@ -47,7 +47,7 @@ struct Extent {
     int nearest(int at) const { return std::clamp(at, there.least, there.most); }
 };
 
-// Of pixel `at` of a row or a column. What is known has all of the light; what is there has its part of it.
+// For pixel `at` of a row or a column. Known sub-pixels have all of the light; those that are there have a part of it.
 Run run_of(int at, int across, const std::vector<double> &shares, const Extent &extent) {
     const int count = int(shares.size()), first = at * across - (count - across) / 2;
     double known = 0;

@@ -78,7 +78,7 @@ struct Variation {
     double near = 0, far = 0;
 };
 
-// Of the lines that begin at `line` and `beside` it, where all that they show is out of focus.
+// For the lines that begin at `line` and `beside` it, where all that they show is out of focus.
 void add_variation(const FlatPixels &picture, const std::vector<float> &coc, const PictureLine &line,
                    std::size_t beside, Variation &sum) {
     const auto shown = [&](std::size_t i) { // lights count no more than surfaces

@@ -60,7 +60,7 @@ void ask(const Imath::V3d &a, const Imath::V3d &pixel, const Imath::V3d &b, Edge
     mixing.beyond += is_at(2);
 }
 
-// Of two counts.
+// For two counts.
 bool surely_more(std::size_t a, std::size_t b) {
     return double(a) - double(b) > sure * std::sqrt(double(a + b));
 }
