@@ -7,8 +7,8 @@
 
 namespace sparselens {
 
-// Of every channel of light that is no coverage: by the A of its layer where that has one, else by what covers it
-// (channel_alpha.h). Where nothing covers it, it stays.
+// Multiplies every channel of light but coverage: by the A of its layer where that has one, else by the coverage of the channel
+// (channel_alpha.h). A channel without coverage stays as it is.
 void premultiply(std::span<const Channel> channels, std::span<const std::span<float>> planes);
 
 } // namespace sparselens

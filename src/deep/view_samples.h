@@ -48,7 +48,8 @@ public:
         return i < pixels_ ? planes_[channel][i] : replaced_.values[channel][i - pixels_];
     }
 
-    // Of pixels from one on: the value of the front sample, 0 where there is none; and the depth, NaN where there is not one sample.
+    // For pixels from `first` on: the value of the front sample, 0 where there is none, or the depth of the only sample, NaN
+    // where there is none or more than one.
     void front_values(std::size_t channel, std::size_t first, std::span<float> out) const;
     void single_depths(std::size_t first, std::span<float> out) const;
 

@@ -29,7 +29,7 @@ Image gather_picture(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &g
 Image gather_picture(Ldi &&ldi, const ThinLens &lens, const Imath::Box2i &gathered,
                      const Imath::Box2i &written, const PictureOptions &options, Progress &progress);
 
-// Whether layers are merged first. What goes on beyond the frame is then found of the merged ones.
+// Whether layers are merged first. The merged layers then tell what goes on beyond the frame.
 bool merges_layers(const ThinLens &lens, const PictureOptions &options);
 
 // What the method lens makes of the samples of `rows` first, which lie alone: with a lens of radius 0 the flattened pixel,

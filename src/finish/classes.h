@@ -9,7 +9,7 @@ namespace sparselens {
 
 class Classes {
 public:
-    // Of values in [least, most]; all others count as its ends.
+    // For values in [least, most]; values outside count as the nearer end.
     Classes(std::size_t count, float least, float most);
 
     // Each pixel counts half by its weight and half by itself, so that neither many pixels of little weight nor a few of

@@ -140,7 +140,7 @@ struct Mean {
 };
 
 // Lamps behind a steep relief do not shine through it where tiles meet: the six columns there are as even as any six, to three
-// standard errors of their mean. Nor elsewhere: floors/floors.h.
+// standard errors of their mean. floors/floors.h covers the rest of the picture.
 TEST(LensScenes, MacroReliefHasNoSeam) {
     const SceneCamera scene("macro", 256, 144);
     const Image image = relief(gather(warped(scene, scene.five_views(9)), scene, Quality::final));

@@ -22,9 +22,9 @@ struct EdgeSharpness {
 
 EdgeSharpness sharpness_of_edges(const View &view, const ThinLens &lens);
 
-// Whether edges are blurred, and so is all else out of focus: the edges of fur are soft, but its strands are not. Of some 50 rendered
-// and traced pictures the median of edges is 0.78 and more through a pinhole, but from 0.51 in fur; through a lens it is 0.3 to
-// 0.67, and more where little is out of focus. What is fine is 0.095 to 0.2 through a pinhole, 0.13 to 0.2 in fur, 0.02 where
+// Whether edges are blurred, and so is all else out of focus: the edges of fur are soft, but its strands are not. In some 50
+// rendered and traced pictures, the median of edges is 0.78 and more through a pinhole, but from 0.51 in fur; through a lens it is
+// 0.3 to 0.67, and more where little is out of focus. `fine` is 0.095 to 0.2 through a pinhole, 0.13 to 0.2 in fur, 0.02 where
 // textures are smooth, and 0.02 to 0.065 through a lens. False where too few edges tell.
 bool looks_defocused(const EdgeSharpness &sharpness);
 

@@ -1,9 +1,9 @@
 // Whether the colours of a picture are light, or were encoded for a display (sRGB) and are read as light.
 //
 // A pixel on an edge shows a mixture of what lies on its two sides, and light mixes linearly: the colour lies on the line
-// between theirs. Encoded, that line is a curve, by the transfer function of IEC 61966-2-1. Of a colour between two others, the
-// point of the line and that of the curve are known. A mixture lies beside one of them. A third surface may lie anywhere, and is
-// asked for nothing: views of one sample mix nothing.
+// between theirs. Encoded, that line is a curve, by the transfer function of IEC 61966-2-1. For a colour between two others, the
+// points on the line and on the curve are known, and a mixture lies beside one of them. The colour of a third surface may lie
+// anywhere, so it does not count. Views of one sample mix nothing.
 #pragma once
 
 #include "../../view/view.h"

@@ -60,7 +60,7 @@ void say_of_distances(std::span<const PackedView> views, const std::vector<std::
         view.position.length(), view.position.length() / lens_radius, lens_radius));
 }
 
-// Of one view that is another one; empty where it is not.
+// The warning of a view that repeats another one; empty where it does not.
 std::string said_of_copy(std::span<const PackedView> views, std::size_t i, double focal_px) {
     const PackedView &view = views[i];
     if (const auto other = same_picture_and_place(views, i))
@@ -74,7 +74,7 @@ std::string said_of_copy(std::span<const PackedView> views, std::size_t i, doubl
     return {};
 }
 
-// Of one view; empty where it is where it should be.
+// The warning of a view that stands wrongly; empty where it stands where it should.
 std::string said_of_pose(std::span<const PackedView> views, std::size_t i, double focal_px, double reach) {
     const PackedView &view = views[i];
     if (const auto turned = turned_by(views[0], view, focal_px, reach))
