@@ -1,11 +1,11 @@
 #!/bin/bash
 # All tests in another release of Debian, in a root of its own: made by debootstrap, or the one that an earlier run made.
 #
-#   tests/platforms.sh SUITE [STEP...]     SUITE: bookworm, trixie, sid; steps: tests, wheel, blender (all)
+#   tests/platforms.sh SUITE [STEP...]     SUITE: bookworm, trixie, sid; steps: demo, tests, wheel, blender (all)
 #
-# tests: what is committed is built and tested by tests/run.sh; then wheel: tests/packaging/wheel.sh, with what pip makes of it;
-# blender: tests/blender against Debian's Blender. Prints a
-# table at the end: versions, tests, skips; exit 1 where something fails. Needs root, debootstrap, and apt's lists (apt-get
+# What is committed is tried: demo is README's first command, tools/demo.sh; tests is its second, tests/run.sh; wheel is
+# tests/packaging/wheel.sh, with what pip makes of it; blender is tests/blender against Debian's Blender. Prints a table at
+# the end: versions, tests, skips; exit 1 where something fails. Needs root, debootstrap, and apt's lists (apt-get
 # update), whose mirror of Debian it takes. Roots lie in $SPARSELENS_ROOTS (/var/tmp/sparselens-roots), 3 GB each; what the
 # steps said is in SUITE-STEP.log there. A $CCACHE_DIR is used by the builds, too.
 set -euo pipefail
@@ -20,8 +20,8 @@ fail() {
 case ${1-} in bookworm | trixie | sid) suite=$1 ;; *) fail "name a suite: bookworm, trixie or sid" ;; esac
 shift
 steps=("$@")
-[ $# -gt 0 ] || steps=(tests wheel blender)
-for step in "${steps[@]}"; do [[ $step =~ ^(tests|wheel|blender)$ ]] || fail "no step $step (tests, wheel, blender)"; done
+[ $# -gt 0 ] || steps=(demo tests wheel blender)
+for step in "${steps[@]}"; do [[ $step =~ ^(demo|tests|wheel|blender)$ ]] || fail "no step $step (demo, tests, wheel, blender)"; done
 [ "$(id -u)" -eq 0 ] || fail "only root may make a root of another release and mount in it"
 roots=${SPARSELENS_ROOTS:-/var/tmp/sparselens-roots}
 root=$roots/$suite
@@ -81,6 +81,12 @@ results=()
 for step in "${steps[@]}"; do
     log=$root-$step.log
     case $step in
+    demo)
+        if within tools/demo.sh >"$log" 2>&1; then results+=('demo: passed'); else
+            code=1
+            results+=("demo: failed: $(tail -n 1 "$log")")
+        fi
+        ;;
     tests)
         within tests/run.sh >"$log" 2>&1 || code=1
         results+=("$(sed -nE 's/^.* tests passed, .* out of ([0-9]+)$/tests: \1/p' "$log")"
