@@ -8,6 +8,12 @@ import pytest
 import sparselens
 
 
+def saved(folder, what):
+    """The bytes of the file that it is written to."""
+    sparselens.write(folder / "python.exr", what)
+    return (folder / "python.exr").read_bytes()
+
+
 def test_warp(views, warped, tmp_path):
     sparselens.write(tmp_path / "warped.exr", sparselens.warp(views))
     assert (tmp_path / "warped.exr").read_bytes() == warped.read_bytes()
@@ -118,6 +124,18 @@ def test_gather(clustered, tool, tmp_path, keywords):
     tool("dof-gather", clustered, *options_of(keywords), "-o", tmp_path / "tool.exr")
     sparselens.write(tmp_path / "python.exr", sparselens.gather(sparselens.open_ldi(clustered), **keywords))
     assert (tmp_path / "python.exr").read_bytes() == (tmp_path / "tool.exr").read_bytes()
+
+
+def test_gather_sub_pixels(views, names, tool, tmp_path):
+    """A pixel of the picture is 5 x 5 of the views: region and focus pixel count the picture's."""
+    keywords = {"supersample": 5, "pixel_filter": "blackman-harris", "region": (5, 2, 20, 12), "focus_pixel": (16, 9)}
+    warped = tmp_path / "warped.exr"
+    tool("ldi-warp", *names, "--supersample", 5, "-o", warped)
+    assert warped.read_bytes() == saved(tmp_path, sparselens.warp(views, supersample=5))
+    tool("dof-gather", warped, *options_of(keywords), "-o", tmp_path / "tool.exr")
+    picture = sparselens.gather(sparselens.open_ldi(warped), **keywords)
+    assert (tmp_path / "tool.exr").read_bytes() == saved(tmp_path, picture)
+    assert (picture.width, picture.height) == (16, 11)
 
 
 @pytest.mark.parametrize("method", ["lens", "selective"])
