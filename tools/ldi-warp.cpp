@@ -5,6 +5,7 @@
 #include "harness/tool.h"
 #include "io/camera/camera_write.h"
 #include "io/exr/exr_deep.h"
+#include "loading/denoised.h"
 #include "loading/notices.h"
 #include "loading/views.h"
 #include "options/chosen_device.h"
@@ -89,6 +90,7 @@ void run(const WarpCommand &options, const ToolContext &tool, ChosenWarpDevice &
                                            .find_images = options.find_images,
                                            .device = device.open(options.device, tool)},
                                           in.camera, in.views);
+    take_denoised(tool, options, in.views, warp_by);
     write_camera(in.header, in.camera);
     append_history(in.header, tool, options.history);
     write_picture_window(in.header, in.views[0].samples.windows.data);

@@ -1,5 +1,6 @@
 #include "finish/finish_picture.h"
 
+#include "base/colour_layers.h"
 #include "base/error.h"
 #include "base/parallel.h"
 
@@ -21,31 +22,6 @@ constexpr float largest = 1e8f;
 bool is_told(float value) { return std::abs(value) <= largest; } // false for NaN
 
 bool is_finished(const Channel &channel) { return is_light(channel) && channel.type != PixelType::uint32; }
-
-std::string prefix_of(const std::string &name) {
-    const std::size_t dot = name.rfind('.');
-    return dot == std::string::npos ? "" : name.substr(0, dot + 1);
-}
-
-// Channels that are finished together: R, G and B of one layer, or one alone.
-std::vector<std::vector<std::size_t>> groups_of(std::span<const Channel> channels) {
-    std::vector<std::vector<std::size_t>> groups;
-    std::vector<std::string> prefixes; // of groups of colours; of others, a name that no layer has
-    for (std::size_t c = 0; c < channels.size(); ++c) {
-        if (!is_finished(channels[c])) continue;
-        const ColourPart part = colour_part(channels[c]);
-        const bool colour = part != ColourPart::none && part != ColourPart::coverage;
-        const std::string prefix = colour ? prefix_of(channels[c].name) : channels[c].name + "/";
-        const auto found = std::ranges::find(prefixes, prefix);
-        if (found == prefixes.end()) {
-            prefixes.push_back(prefix);
-            groups.push_back({c});
-        } else {
-            groups[std::size_t(found - prefixes.begin())].push_back(c);
-        }
-    }
-    return groups;
-}
 
 // The values of a channel over the pixels of `windows`; nothing outside its data window.
 Values over(const Image &image, std::size_t channel, const Windows &windows) {
@@ -180,7 +156,7 @@ FinishedPicture finish_picture(PictureToFinish picture, Progress &progress) {
     if (!all_found(colours) ||
         !std::ranges::all_of(colours, [&](std::size_t c) { return picture.rays.has(c); }))
         throw Error("the gathered picture and the renders have no R, G and B in common");
-    for (const std::vector<std::size_t> &channels : groups_of(picture.gathered.channels)) {
+    for (const std::vector<std::size_t> &channels : colour_layers(picture.gathered.channels)) {
         if (!std::ranges::all_of(channels, [&](std::size_t c) { return picture.rays.has(c); })) {
             for (const std::size_t c : channels)
                 finished.as_gathered.push_back(picture.gathered.channels[c].name);

@@ -4,11 +4,13 @@
 #include "deep/flatten.h"
 #include "deep/front_samples.h"
 #include "deep/rounded.h"
+#include "denoised/denoised_views.h"
 #include "dof/false_colour.h"
 #include "io/camera/camera_read.h"
 #include "io/camera/camera_write.h"
 #include "io/merge_ldis.h"
 #include "io/recolor_ldi.h"
+#include "lens/perceptive_depth.h"
 #include "measure/image_error.h"
 #include "measure/regions.h"
 #include "python/arrays.h"
@@ -90,14 +92,30 @@ WarpOptions warp_options(Keywords &keywords) {
             .find_images = images.value_or(true)};
 }
 
+// In the order of the views.
+std::vector<DenoisedPicture> denoised_pictures(Keywords &keywords, std::size_t views) {
+    const py::object given = keywords.take("denoised");
+    if (given.is_none()) return {};
+    std::vector<DenoisedPicture> pictures;
+    for (const PictureObject *picture : several<PictureObject>(given, "denoised", "a sequence of Picture"))
+        pictures.push_back(
+            {"denoised[" + std::to_string(pictures.size()) + "]",
+             ready_beauty({.image = picture->image, .header = picture->header}, "denoised").image});
+    if (pictures.size() != views)
+        throw UsageError("denoised: " + std::to_string(pictures.size()) + " for " + std::to_string(views) +
+                         " views; give one for each, in the order of the views");
+    return pictures;
+}
+
 LdiObject warp(const py::object &views, const py::kwargs &given) {
     Keywords keywords("warp", given);
     const auto from = several<ViewObject>(views, "views", "a sequence of View");
-    WarpOptions options = warp_options(keywords);
+    const WarpOptions options = warp_options(keywords);
     const bool rounds = keywords.word<bool>("precision", {{"exact", false}, {"lens", true}}).value_or(false);
     const LensValues lens = lens_values(keywords);
     const auto across = keywords.whole("supersample", 1, most_across);
     const std::string given_device = keywords.text("device");
+    const std::vector<DenoisedPicture> denoised = denoised_pictures(keywords, from.size());
     const py::object progress = keywords.take("progress");
     keywords.done();
     std::vector<std::string> warnings;
@@ -117,12 +135,16 @@ LdiObject warp(const py::object &views, const py::kwargs &given) {
         write_camera(out.header, out.camera);
         write_picture_window(out.header, placed[0].samples.windows.data);
         check_views(placed);
+        const WarpOptions of_lens = with_lens(options, out.camera, placed);
+        if (!denoised.empty())
+            take_denoised(placed, denoised, of_lens.focal_px,
+                          perceptive_scale(of_lens.radius, of_lens.focal_px));
         // While their pixels are there.
         std::vector<std::string> of_views = view_warnings(
             placed, {from[0]->in.depth, from[0]->in.depth_filtered, out.camera, from[0]->in.unpremultiplied});
         with_warp_device(given_device.empty() ? "cpu" : given_device, warnings, [&](WarpDevice *device) {
-            options.device = device;
-            const WarpOptions by = with_lens(options, out.camera, placed);
+            WarpOptions by = of_lens;
+            by.device = device;
             out.ldi = warp(std::move(placed), by, said);
             if (rounds) round_for_lens(out.ldi, scale_in_picture(by));
         });

@@ -1,6 +1,7 @@
 """The chain on the scene fence: every function gives the bytes of its tool."""
 import json
 import math
+import subprocess
 import warnings
 
 import numpy
@@ -28,6 +29,21 @@ def test_warp_keywords(views, names, warped, tool, tmp_path, keywords):
     assert (tmp_path / "python.exr").read_bytes() == (tmp_path / "tool.exr").read_bytes()
     if name not in ("agreement", "optical"):  # fence has no mirrors
         assert (tmp_path / "tool.exr").read_bytes() != warped.read_bytes()
+
+
+def test_warp_denoised(names, views, tool, tmp_path):
+    """Here the denoiser is a mean over a square."""
+    denoised = []
+    for k, name in enumerate(names):
+        denoised.append(tmp_path / f"denoised_{k}.exr")
+        subprocess.run(["oiiotool", name, "--dup", "--ch", "R,G,B", "--blur:kernel=box", "3x3", "-o", denoised[k]], check=True)
+    tool("ldi-warp", *names, "--denoised", *denoised, "-o", tmp_path / "tool.exr")
+    pictures = [sparselens.open_picture(name) for name in denoised]
+    assert (tmp_path / "tool.exr").read_bytes() == saved(tmp_path, sparselens.warp(views, denoised=pictures))
+    with pytest.raises(sparselens.UsageError, match="denoised: 2 for 5 views"):
+        sparselens.warp(views, denoised=pictures[:2])
+    with pytest.raises(TypeError, match="denoised"):
+        sparselens.warp(views, denoised=denoised)
 
 
 def on_device(verb, *arguments, **keywords):

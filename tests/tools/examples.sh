@@ -10,6 +10,7 @@ cp traced/reference.exr another.exr
 cp view_0.exr right.exr
 cp view_1.exr left.exr
 cp center.exr beauty.exr
+for view in center view_0 view_1; do cp $view.exr smooth.$view.exr; done
 ldi-warp center.exr view_*.exr -o ldi.exr
 cp ldi.exr front.exr
 cp ldi.exr back.exr

@@ -17,6 +17,11 @@ void add_warp_options(CLI::App &app, WarpCommand &options) {
         ->type_name("LDI.exr")
         ->required()
         ->check(output_name(OutputKind::exr));
+    app.add_option("--denoised", options.denoised,
+                   "What a denoiser made of each view, in the order of the views. Its colours are taken but "
+                   "for details that "
+                   "all views show: lamps, glints, strands, texture")
+        ->type_name("CENTER.exr [VIEW.exr ...]");
     const std::map<std::string, Merge> merges{{"average", Merge::average}, {"keep", Merge::keep}};
     app.add_option("--merge", options.merge,
                    "average: average the views of a surface; keep: keep one sample per surface and leave the "
@@ -60,12 +65,15 @@ void add_warp_options(CLI::App &app, WarpCommand &options) {
     add_input_colour_options(app, options.colour);
     add_history_option(app, options.history);
     add_examples(
-        app, {{"Warp views that say where their cameras stood", "ldi-warp center.exr view_*.exr -o ldi.exr"},
-              {"Warp views that do not, of a lens that they do not describe either",
-               "ldi-warp center.exr --view 0.06,0 right.exr --view -0.06,0 left.exr -o ldi.exr "
-               "--focal-length 36 --sensor-width 36 --lens-radius 0.06 --focus-distance 5"},
-              {"Warp, cluster and gather in a pipe",
-               "ldi-warp center.exr view_*.exr -o - | ldi-cluster - -o - | dof-gather - -o picture.exr"}});
+        app,
+        {{"Warp views that say where their cameras stood", "ldi-warp center.exr view_*.exr -o ldi.exr"},
+         {"Warp views that do not, of a lens that they do not describe either",
+          "ldi-warp center.exr --view 0.06,0 right.exr --view -0.06,0 left.exr -o ldi.exr "
+          "--focal-length 36 --sensor-width 36 --lens-radius 0.06 --focus-distance 5"},
+         {"Warp views of few samples, with what a denoiser made of them",
+          "ldi-warp center.exr view_*.exr --denoised smooth.center.exr smooth.view_*.exr -o ldi.exr"},
+         {"Warp, cluster and gather in a pipe",
+          "ldi-warp center.exr view_*.exr -o - | ldi-cluster - -o - | dof-gather - -o picture.exr"}});
 }
 
 } // namespace sparselens

@@ -19,6 +19,7 @@ struct WarpCommand {
     ColourOptions colour;
     HistoryOptions history;
     ViewList views;
+    std::vector<std::string> denoised; // of all views, in their order; or none
     Merge merge = Merge::average;
     bool split_silhouettes = true, test_photo_consistency = true, find_images = true, round_for_lens = false;
     std::string output;

@@ -1,0 +1,25 @@
+// Views that were denoised, and as they were before: the warp gets the colours of the denoiser where it took away noise, and those of
+// the renderer where all views show what it took away: lamps, glints, strands, fine texture.
+#pragma once
+
+#include "base/image.h"
+#include "deep/packed_view.h"
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace sparselens {
+
+struct DenoisedPicture {
+    std::string name; // for messages
+    Image image;      // linear, premultiplied, with the windows of its view
+};
+
+// Changes the colours of the views, which are placed, with the centre view first. Layers of light that a denoised picture lacks, and
+// coverage, stay as they are. `focal_px` and `scale` are those of ReprojectedViews. Throws Error, naming both files, where their
+// windows differ, and where a picture has no layer of its view.
+void take_denoised(std::vector<PackedView> &views, std::span<const DenoisedPicture> denoised, double focal_px,
+                   double scale);
+
+} // namespace sparselens

@@ -1,0 +1,197 @@
+#include "denoised/kept_details.h"
+
+#include "base/parallel.h"
+#include "denoised/tuning.h"
+#include "finish/window_means.h"
+#include "kernels/surface.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sparselens {
+
+namespace {
+
+using Tuning = DenoisedTuning;
+
+// What one pixel and the same places of other views tell. Squares are those that a display shows (colours.h).
+struct Evidence {
+    float shared = 0;     // mean product with other views
+    float difference = 0; // half of the mean squared difference
+    float own = 0;        // square of its own
+    float stands_out = 0; // square of the mean over all views
+    float views = 0;      // that show it, besides this one
+};
+
+// Four pixels of a view and their weights, around a place between them.
+struct Between {
+    std::size_t corner, right, below; // index of the upper left pixel; steps to its neighbours
+    float x, y;                       // weights of the right and of the lower pixels
+
+    float of(std::span<const float> values) const {
+        const float *at = values.data() + corner;
+        const float upper = at[0] + x * (at[right] - at[0]);
+        const float lower = at[below] + x * (at[below + right] - at[below]);
+        return upper + y * (lower - upper);
+    }
+};
+
+// False outside of the view.
+bool between(const Grid &grid, const Imath::V2d &place, Between &found) {
+    const Imath::Box2i box = grid.box();
+    const double x = place.x - 0.5 - box.min.x, y = place.y - 0.5 - box.min.y;
+    if (!(x >= 0 && y >= 0 && x <= grid.width() - 1 && y <= grid.height() - 1)) return false; // NaN, too
+    const auto column = std::size_t(x), row = std::size_t(y);
+    const auto width = std::size_t(grid.width());
+    found = {row * width + column, column + 1 < width ? 1u : 0u,
+             row + 1 < std::size_t(grid.height()) ? width : 0, float(x - double(column)),
+             float(y - double(row))};
+    return true;
+}
+
+// Whether the view shows, between those pixels, the surface at that inverse depth.
+bool shows(const DenoisedLayer &view, const Between &at, double inverse_z, double scale) {
+    double inverse[4];
+    const std::size_t corners[] = {at.corner, at.corner + at.right, at.corner + at.below,
+                                   at.corner + at.below + at.right};
+    for (int k = 0; k < 4; ++k) {
+        if (!(view.z[corners[k]] > 0)) return false;
+        inverse[k] = 1 / double(view.z[corners[k]]);
+    }
+    const double upper = inverse[0] + double(at.x) * (inverse[1] - inverse[0]);
+    const double lower = inverse[2] + double(at.x) * (inverse[3] - inverse[2]);
+    return scale * std::abs(upper + double(at.y) * (lower - upper) - inverse_z) < double(one_surface_px);
+}
+
+class Comparison {
+public:
+    Comparison(std::span<const DenoisedLayer> views, std::span<const Colours> details, std::size_t at,
+               double scale)
+        : views_(views), details_(details), at_(at), scale_(scale) {}
+
+    Evidence of_pixel(std::size_t i) const {
+        const DenoisedLayer &view = views_[at_];
+        const Imath::V2i pixel = view.grid.pixel(i);
+        const Imath::V2d centre(pixel.x + 0.5, pixel.y + 0.5);
+        const double inverse_z = 1 / double(view.z[i]);
+        const Imath::V2d place = view.mapping.at_infinity(centre) + view.mapping.parallax(centre) * inverse_z;
+        Evidence found;
+        std::array<float, 3> sum{};
+        const std::size_t channels = details_[at_].size();
+        for (std::size_t c = 0; c < channels; ++c) sum[c] = own(c, i);
+        for (std::size_t k = 0; k < views_.size(); ++k) {
+            Between at{};
+            if (k == at_ || !between(views_[k].grid, views_[k].mapping.in_view(place, inverse_z), at))
+                continue;
+            if (!shows(views_[k], at, inverse_z, scale_)) continue;
+            ++found.views;
+            for (std::size_t c = 0; c < channels; ++c) {
+                const float other = at.of(details_[k][c]), mine = own(c, i);
+                sum[c] += other;
+                found.shared += mine * other;
+                found.difference += (mine - other) * (mine - other) / 2;
+            }
+        }
+        for (std::size_t c = 0; c < channels; ++c) {
+            found.own += own(c, i) * own(c, i);
+            found.stands_out += sum[c] * sum[c] / ((found.views + 1) * (found.views + 1));
+        }
+        if (found.views > 0) {
+            found.shared /= found.views;
+            found.difference /= found.views;
+        }
+        return found;
+    }
+
+private:
+    float own(std::size_t channel, std::size_t i) const { return details_[at_][channel][i]; }
+
+    std::span<const DenoisedLayer> views_;
+    std::span<const Colours> details_;
+    std::size_t at_;
+    double scale_;
+};
+
+// Planes of what is averaged over windows. Where no other view shows a pixel, its part of the means over views is 0.
+struct Planes {
+    explicit Planes(std::size_t pixels)
+        : shared(pixels), difference(pixels), log_difference(pixels), log_own(pixels), compared(pixels),
+          stands_out(pixels), own_difference(pixels), views(pixels) {}
+
+    void set(std::size_t i, const Evidence &found, float weight) {
+        const float least = Tuning::rounding * weight * found.own + 1e-20f;
+        shared[i] = weight * found.shared;
+        difference[i] = weight * found.difference;
+        compared[i] = found.views > 0;
+        log_difference[i] = found.views > 0 ? std::log(weight * found.difference + least) : 0;
+        log_own[i] = std::log(weight * found.own + least);
+        stands_out[i] = weight * found.stands_out;
+        own_difference[i] = weight * found.difference;
+        views[i] = found.views;
+    }
+
+    // Over windows, but for what a single pixel is judged by.
+    void average(const Grid &grid) {
+        for (Values *values : {&shared, &difference, &log_difference, &log_own, &compared})
+            soft_mean(*values, grid, Tuning::window_radius);
+    }
+
+    float kept(std::size_t i) const { return std::max(kept_in_window(i), kept_pixel(i)); }
+
+private:
+    float kept_in_window(std::size_t i) const {
+        const float detail = std::max(shared[i], 0.0f), all = detail + difference[i];
+        return all > 0 ? detail / all : 0;
+    }
+    float kept_pixel(std::size_t i) const {
+        float noise, errors;
+        if (views[i] > 0) {
+            const float around = Tuning::mean_over_geometric * std::exp(log_difference[i] / compared[i]);
+            noise = std::max(around, own_difference[i]) / (views[i] + 1); // a firefly of one view is no lamp
+            errors = Tuning::standard_errors;
+        } else {
+            noise = Tuning::mean_over_geometric_alone * std::exp(log_own[i]);
+            errors = Tuning::standard_errors_alone;
+        }
+        const float limit = errors * errors * noise;
+        return stands_out[i] > limit ? 1 - limit / stands_out[i] : 0;
+    }
+
+    Values shared, difference, log_difference, log_own,
+        compared; // the last: 1 where another view shows the pixel, else 0
+    Values stands_out, own_difference, views;
+};
+
+} // namespace
+
+Colours details_of(const DenoisedLayer &view) {
+    Colours details(view.noisy.size());
+    parallel_for(details.size(), [&](std::size_t c) {
+        details[c].resize(view.grid.size());
+        for (std::size_t i = 0; i < details[c].size(); ++i)
+            details[c][i] = view.noisy[c][i] - view.denoised[c][i];
+        box_mean(details[c], view.grid, Tuning::detail_radius);
+    });
+    return details;
+}
+
+Values kept_details(std::span<const DenoisedLayer> views, std::span<const Colours> details, std::size_t at,
+                    double scale) {
+    const DenoisedLayer &view = views[at];
+    const Comparison comparison(views, details, at, scale);
+    Planes planes(view.grid.size());
+    const auto width = std::size_t(view.grid.width());
+    parallel_for(std::size_t(view.grid.height()), [&](std::size_t row) {
+        for (std::size_t i = row * width; i < (row + 1) * width; ++i)
+            planes.set(i, view.z[i] > 0 ? comparison.of_pixel(i) : Evidence{},
+                       seen(brightness(view.denoised, i)));
+    });
+    planes.average(view.grid);
+    Values kept(view.grid.size());
+    parallel_ranges(kept.size(), std::size_t(1) << 14, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) kept[i] = planes.kept(i);
+    });
+    return kept;
+}
+
+} // namespace sparselens

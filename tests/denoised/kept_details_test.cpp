@@ -1,0 +1,131 @@
+// What denoised views get back: details that all views show, small lamps; neither noise nor fireflies.
+#include "denoised/kept_details.h"
+#include "finish/synthetic.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace sparselens {
+namespace {
+
+const Grid grid(61, 45);
+constexpr double focal_px = 60, radius = 0.1;
+const Imath::V2d places[] = {{0, 0}, {radius, 0}, {0, radius}, {-radius, 0}, {0, -radius}};
+
+// A plane at one depth before five cameras, or before the first of them; noisy and denoised pictures are set by the test.
+class Views {
+public:
+    explicit Views(float depth, std::size_t count = 5) : z_(grid.size(), depth) {
+        Windows windows = windows_of_size(grid.width(), grid.height());
+        for (std::size_t v = 0; v < count; ++v)
+            views.push_back({grid, z_, ViewMapping(places[v], focal_px, windows), {}, {}});
+    }
+
+    // The denoised picture, with what is kept of the noisy one.
+    Colours taken(std::size_t at) const {
+        std::vector<Colours> details;
+        for (const DenoisedLayer &view : views) details.push_back(details_of(view));
+        const Values kept = kept_details(views, details, at, focal_px * radius);
+        Colours result = views[at].denoised;
+        for (std::size_t c = 0; c < result.size(); ++c)
+            for (std::size_t i = 0; i < grid.size(); ++i)
+                result[c][i] += kept[i] * (views[at].noisy[c][i] - result[c][i]);
+        return result;
+    }
+
+    std::vector<DenoisedLayer> views;
+
+private:
+    std::vector<float> z_;
+};
+
+constexpr float far_away = std::numeric_limits<float>::infinity(); // all views show the same
+
+Colours constant(float value) { return Colours(3, Values(grid.size(), value)); }
+
+double squared_error(const Colours &picture, const Colours &truth) {
+    double sum = 0;
+    for (std::size_t c = 0; c < truth.size(); ++c)
+        for (std::size_t i = 0; i < grid.size(); ++i)
+            sum += std::pow(double(picture[c][i]) - double(truth[c][i]), 2);
+    return sum;
+}
+
+TEST(KeptDetails, AreAllOfThemWhereNothingIsNoise) {
+    const Colours truth = synthetic_truth(grid);
+    Views all(far_away);
+    for (DenoisedLayer &view : all.views) view.noisy = truth, view.denoised = blurred(truth, grid, 2);
+    EXPECT_LT(squared_error(all.taken(0), truth), 1e-4 * squared_error(all.views[0].denoised, truth));
+}
+
+TEST(KeptDetails, AreNoNoise) {
+    const Colours truth = constant(0.5f);
+    Views all(far_away);
+    for (std::uint32_t v = 0; v < 5; ++v)
+        all.views[v].noisy = rays_of(truth, 1, v + 1), all.views[v].denoised = truth;
+    EXPECT_LT(squared_error(all.taken(0), truth), 0.05 * squared_error(all.views[0].noisy, truth));
+}
+
+TEST(KeptDetails, AreNearerToTheTruthThanEither) {
+    const Colours truth = synthetic_truth(grid);
+    Views all(far_away);
+    for (std::uint32_t v = 0; v < 5; ++v)
+        all.views[v].noisy = rays_of(truth, 16, v + 1), all.views[v].denoised = blurred(truth, grid, 2);
+    const double error = squared_error(all.taken(0), truth);
+    EXPECT_LT(error, squared_error(all.views[0].noisy, truth));
+    EXPECT_LT(error, 0.5 * squared_error(all.views[0].denoised, truth));
+}
+
+// Seen from the other cameras it lies elsewhere: whole pixels away, or between two pixels.
+TEST(KeptDetails, ALampOfLessThanAPixelStays) {
+    for (const float parallax : {3.0f, 2.5f}) {
+        Views all(float(focal_px * radius) / parallax);
+        for (std::uint32_t v = 0; v < 5; ++v) {
+            all.views[v].denoised = constant(0.5f);
+            all.views[v].noisy = rays_of(constant(0.5f), 4, v + 1);
+            const Imath::V2d at =
+                all.views[v].mapping.in_view({30.5, 20.5}, double(parallax) / (focal_px * radius));
+            const int x = int(std::floor(at.x - 0.25)), y = int(std::floor(at.y - 0.25));
+            for (Values &channel :
+                 all.views[v].noisy) { // half of it in each of two pixels where it lies between them
+                const bool between = parallax == 2.5f && v > 0;
+                channel[grid.index(x, y)] += between ? 50.0f : 100.0f;
+                if (between) channel[grid.index(x + (v % 2 == 1), y + (v % 2 == 0))] += 50.0f;
+            }
+        }
+        const float kept = all.taken(0)[1][grid.index(30, 20)];
+        EXPECT_NEAR(kept, all.views[0].noisy[1][grid.index(30, 20)], parallax == 3.0f ? 1.0f : 15.0f)
+            << parallax;
+    }
+}
+
+TEST(KeptDetails, AFireflyOfOneViewGoes) {
+    Views all(far_away);
+    for (std::uint32_t v = 0; v < 5; ++v)
+        all.views[v].denoised = constant(0.5f), all.views[v].noisy = rays_of(constant(0.5f), 4, v + 1);
+    all.views[0].noisy[0][grid.index(30, 20)] = 100;
+    EXPECT_LT(all.taken(0)[0][grid.index(30, 20)], 10);
+    EXPECT_LT(all.taken(1)[0][grid.index(30, 20)], 1);
+}
+
+TEST(KeptDetails, OneViewAloneKeepsItsLamps) {
+    Views one(2, 1);
+    one.views[0].denoised = constant(0.5f), one.views[0].noisy = rays_of(constant(0.5f), 4, 1);
+    one.views[0].noisy[0][grid.index(30, 20)] = 100;
+    EXPECT_NEAR(one.taken(0)[0][grid.index(30, 20)], 100, 5);
+    one.views[0].noisy[0][grid.index(30, 20)] = 0.5f;
+    EXPECT_LT(squared_error(one.taken(0), constant(0.5f)),
+              0.05 * squared_error(one.views[0].noisy, constant(0.5f)));
+}
+
+TEST(KeptDetails, WhatShowsNothingKeepsNothing) {
+    Views all(0);
+    for (DenoisedLayer &view : all.views) view.noisy = constant(1), view.denoised = constant(0.5f);
+    const Colours taken = all.taken(0);
+    for (const float v : taken[0]) ASSERT_TRUE(std::isfinite(v));
+}
+
+} // namespace
+} // namespace sparselens
