@@ -104,7 +104,35 @@ std::vector<std::vector<NewPlane>> new_planes(std::span<const PackedView> views,
     return planes;
 }
 
+std::size_t found(const PackedView &view, std::span<const Channel> channels, const std::string &name) {
+    const std::size_t channel = find_channel(channels, name);
+    if (channel == npos)
+        throw Error(fmt::format("{}: has no channel {}: render it with its denoised and its noisy colours",
+                                view.name, name));
+    return channel;
+}
+
 } // namespace
+
+DenoisedPicture part_denoised(PackedView &view, const std::string &noisy_layer) {
+    View both = unpacked(view);
+    const std::vector<Channel> channels = both.image.channels;
+    DenoisedPicture denoised{view.name, Image(both.image.windows, {})};
+    std::vector<Channel> kept = channels;
+    for (const char *name : rgb_names) {
+        const std::size_t colour = found(view, channels, name),
+                          noisy = found(view, channels, noisy_layer + "." + name);
+        denoised.image.channels.push_back(channels[colour]);
+        const auto from = both.image.plane(colour);
+        denoised.image.values.insert(denoised.image.values.end(), from.begin(), from.end());
+        std::ranges::copy(both.image.plane(noisy), from.begin());
+    }
+    std::erase_if(kept, [&](const Channel &channel) { return channel.name.starts_with(noisy_layer + "."); });
+    PackedView parted(std::move(both));
+    parted.samples.keep_channels(kept);
+    view = std::move(parted);
+    return denoised;
+}
 
 void take_denoised(std::vector<PackedView> &views, std::span<const DenoisedPicture> denoised, double focal_px,
                    double scale) {

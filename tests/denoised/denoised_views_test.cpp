@@ -91,6 +91,25 @@ TEST(DenoisedViews, AreTheViewsThemselvesWhereNothingWasDenoised) {
         EXPECT_TRUE(std::ranges::equal(made[v].image.values, noisy[v].image.values));
 }
 
+TEST(DenoisedViews, APictureOfBothIsParted) {
+    const View noisy = five_views(scene(0.2f), windows, radius)[0],
+               clean = five_views(scene(0), windows, radius)[0];
+    View both = clean;
+    for (const char *name : {"Noisy Image.R", "Noisy Image.G", "Noisy Image.B", "Noisy Image.A"})
+        both.image.channels.push_back({.name = name});
+    const auto of_noisy = std::span(noisy.image.values);
+    both.image.values.insert(both.image.values.end(), of_noisy.begin(), of_noisy.end());
+    PackedView view{View(both)};
+    const DenoisedPicture denoised = part_denoised(view, "Noisy Image");
+    for (std::size_t c = 0; c < 3; ++c)
+        EXPECT_TRUE(std::ranges::equal(denoised.image.plane(c), clean.image.plane(c))) << c;
+    const View parted = unpacked(view);
+    EXPECT_EQ(parted.image.channels, clean.image.channels);
+    for (std::size_t c = 0; c < 3; ++c)
+        EXPECT_TRUE(std::ranges::equal(parted.image.plane(c), noisy.image.plane(c))) << c;
+    EXPECT_THROW(part_denoised(view, "Noisy Image"), Error); // it is gone
+}
+
 void expect_error(const std::vector<View> &views, const std::vector<DenoisedPicture> &denoised,
                   const std::string &text) {
     try {

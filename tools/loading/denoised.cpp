@@ -13,13 +13,14 @@
 
 namespace sparselens {
 
-void take_denoised(const ToolContext &tool, const WarpCommand &options, std::vector<PackedView> &views,
-                   const WarpOptions &by) {
-    if (options.denoised.empty()) return;
-    if (options.denoised.size() != views.size())
+namespace {
+
+std::vector<DenoisedPicture> open_denoised(const ToolContext &tool, const WarpCommand &options,
+                                           std::size_t views) {
+    if (options.denoised.size() != views)
         throw UsageError(fmt::format(
             "--denoised: there are {} of them for {} views; give one for each, in the order of the views",
-            options.denoised.size(), views.size()));
+            options.denoised.size(), views));
     std::vector<DenoisedPicture> denoised;
     for (const std::string &path : options.denoised) {
         tool.say("reading " + path);
@@ -29,6 +30,19 @@ void take_denoised(const ToolContext &tool, const WarpCommand &options, std::vec
         to_linear(tool, options.colour, path, picture.header, picture.image);
         denoised.push_back({path, std::move(picture.image)});
     }
+    return denoised;
+}
+
+} // namespace
+
+void take_denoised(const ToolContext &tool, const WarpCommand &options, std::vector<PackedView> &views,
+                   const WarpOptions &by) {
+    if (options.denoised.empty() && options.noisy.empty()) return;
+    std::vector<DenoisedPicture> denoised;
+    if (options.noisy.empty())
+        denoised = open_denoised(tool, options, views.size());
+    else
+        for (PackedView &view : views) denoised.push_back(part_denoised(view, options.noisy));
     take_denoised(views, denoised, by.focal_px, perceptive_scale(by.radius, by.focal_px));
 }
 

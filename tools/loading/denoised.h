@@ -1,4 +1,4 @@
-// --denoised: what a denoiser made of the views.
+// --denoised and --noisy: what a denoiser made of the views.
 #pragma once
 
 #include "deep/packed_view.h"
@@ -9,8 +9,9 @@
 
 namespace sparselens {
 
-// Opens the denoised pictures, makes their colours linear and gives them to the views (denoised/denoised_views.h); nothing where
-// none is named. Throws UsageError where there are not as many as views.
+// Opens the denoised pictures and makes their colours linear, or parts them from the views, whose colours are linear, and gives
+// them to the views (denoised/denoised_views.h); nothing where none is named. Throws UsageError where there are not as many as
+// views.
 void take_denoised(const ToolContext &tool, const WarpCommand &options, std::vector<PackedView> &views,
                    const WarpOptions &by);
 

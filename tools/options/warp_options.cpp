@@ -22,6 +22,11 @@ void add_warp_options(CLI::App &app, WarpCommand &options) {
                    "for details that "
                    "all views show: lamps, glints, strands, texture")
         ->type_name("CENTER.exr [VIEW.exr ...]");
+    app.add_option("--noisy", options.noisy,
+                   "The same for views that are denoised and hold what they were before in this layer "
+                   "(Cycles: Noisy Image)")
+        ->type_name("LAYER")
+        ->excludes("--denoised");
     const std::map<std::string, Merge> merges{{"average", Merge::average}, {"keep", Merge::keep}};
     app.add_option("--merge", options.merge,
                    "average: average the views of a surface; keep: keep one sample per surface and leave the "
@@ -65,15 +70,14 @@ void add_warp_options(CLI::App &app, WarpCommand &options) {
     add_input_colour_options(app, options.colour);
     add_history_option(app, options.history);
     add_examples(
-        app,
-        {{"Warp views that say where their cameras stood", "ldi-warp center.exr view_*.exr -o ldi.exr"},
-         {"Warp views that do not, of a lens that they do not describe either",
-          "ldi-warp center.exr --view 0.06,0 right.exr --view -0.06,0 left.exr -o ldi.exr "
-          "--focal-length 36 --sensor-width 36 --lens-radius 0.06 --focus-distance 5"},
-         {"Warp views of few samples, with what a denoiser made of them",
-          "ldi-warp center.exr view_*.exr --denoised smooth.center.exr smooth.view_*.exr -o ldi.exr"},
-         {"Warp, cluster and gather in a pipe",
-          "ldi-warp center.exr view_*.exr -o - | ldi-cluster - -o - | dof-gather - -o picture.exr"}});
+        app, {{"Warp views that say where their cameras stood", "ldi-warp center.exr view_*.exr -o ldi.exr"},
+              {"Warp views that do not, of a lens that they do not describe either",
+               "ldi-warp center.exr --view 0.06,0 right.exr --view -0.06,0 left.exr -o ldi.exr "
+               "--focal-length 36 --sensor-width 36 --lens-radius 0.06 --focus-distance 5"},
+              {"Warp views of few samples, with what a denoiser made of them",
+               "ldi-warp center.exr view_*.exr --denoised smooth.center.exr smooth.view_*.exr -o ldi.exr"},
+              {"Warp, cluster and gather in a pipe",
+               "ldi-warp center.exr view_*.exr -o - | ldi-cluster - -o - | dof-gather - -o picture.exr"}});
 }
 
 } // namespace sparselens

@@ -20,6 +20,7 @@ struct WarpCommand {
     HistoryOptions history;
     ViewList views;
     std::vector<std::string> denoised; // of all views, in their order; or none
+    std::string noisy; // the layer of the views as they were before they were denoised; empty: none
     Merge merge = Merge::average;
     bool split_silhouettes = true, test_photo_consistency = true, find_images = true, round_for_lens = false;
     std::string output;
