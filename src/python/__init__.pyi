@@ -408,6 +408,7 @@ def warp(
     views: Union[View, Sequence[View]],
     *,
     denoised: Optional[Union[Picture, Sequence[Picture]]] = None,
+    noisy: Optional[str] = None,
     merge: Literal["average", "keep"] = "average",
     silhouettes: Literal["split", "whole"] = "split",
     agreement: Literal["test", "assume"] = "test",
@@ -427,6 +428,7 @@ def warp(
 
     views: a sequence of View, the centre view first. Each stands where its position or its camera says.
     denoised: what a denoiser made of each view: its colours are taken but for details that all views show.
+    noisy: the same for views that are denoised and hold what they were before in this layer (Cycles: "Noisy Image").
     merge: "average" the views of a surface, or "keep" one sample per surface and the centre view unchanged.
     silhouettes: "split" pixels that mix two surfaces into two samples, or leave them "whole".
     agreement: "test" whether views agree out of focus before they are averaged, or "assume" it.

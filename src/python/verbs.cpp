@@ -115,7 +115,9 @@ LdiObject warp(const py::object &views, const py::kwargs &given) {
     const LensValues lens = lens_values(keywords);
     const auto across = keywords.whole("supersample", 1, most_across);
     const std::string given_device = keywords.text("device");
-    const std::vector<DenoisedPicture> denoised = denoised_pictures(keywords, from.size());
+    std::vector<DenoisedPicture> denoised = denoised_pictures(keywords, from.size());
+    const std::string noisy = keywords.text("noisy");
+    if (!denoised.empty() && !noisy.empty()) throw UsageError("noisy and denoised exclude each other");
     const py::object progress = keywords.take("progress");
     keywords.done();
     std::vector<std::string> warnings;
@@ -135,6 +137,8 @@ LdiObject warp(const py::object &views, const py::kwargs &given) {
         write_camera(out.header, out.camera);
         write_picture_window(out.header, placed[0].samples.windows.data);
         check_views(placed);
+        if (!noisy.empty())
+            for (PackedView &view : placed) denoised.push_back(part_denoised(view, noisy));
         const WarpOptions of_lens = with_lens(options, out.camera, placed);
         if (!denoised.empty())
             take_denoised(placed, denoised, of_lens.focal_px,

@@ -40,6 +40,15 @@ def test_warp_denoised(names, views, tool, tmp_path):
     tool("ldi-warp", *names, "--denoised", *denoised, "-o", tmp_path / "tool.exr")
     pictures = [sparselens.open_picture(name) for name in denoised]
     assert (tmp_path / "tool.exr").read_bytes() == saved(tmp_path, sparselens.warp(views, denoised=pictures))
+    for view, noisy, smooth in zip(["a", "b"], names, denoised):
+        both = tmp_path / f"{view}.exr"
+        subprocess.run(["oiiotool", smooth, noisy, "--ch", "Noisy Image.R=R,Noisy Image.G=G,Noisy Image.B=B", "--chappend",
+                        noisy, "--ch", "A,Z", "--chappend", "-o", both], check=True)
+    tool("ldi-warp", tmp_path / "a.exr", tmp_path / "b.exr", "--noisy", "Noisy Image", "-o", tmp_path / "tool.exr")
+    both = [sparselens.open_view(tmp_path / name) for name in ("a.exr", "b.exr")]
+    assert (tmp_path / "tool.exr").read_bytes() == saved(tmp_path, sparselens.warp(both, noisy="Noisy Image"))
+    with pytest.raises(sparselens.UsageError, match="exclude"):
+        sparselens.warp(both, noisy="Noisy Image", denoised=pictures[:2])
     with pytest.raises(sparselens.UsageError, match="denoised: 2 for 5 views"):
         sparselens.warp(views, denoised=pictures[:2])
     with pytest.raises(TypeError, match="denoised"):
