@@ -14,6 +14,7 @@ namespace {
 
 constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
 constexpr std::size_t block_pixels = std::size_t(image_block) * image_block;
+constexpr std::size_t band_rows = 13; // of blocks: about as high as a tile of the views
 
 // The blocks of a picture of half the size that hold these.
 std::vector<std::size_t> halved(const Tiles &tiles, const std::vector<std::size_t> &blocks,
@@ -61,20 +62,29 @@ ImageSearch::ImageSearch(const ImageSweep &sweep, const Imath::Box2i &data,
                          const std::vector<std::size_t> &blocks)
     : sweep_(sweep), box_(data), tiles_(data, image_block), guesses_(guesses_for(sweep, data, blocks)),
       blocks_(tiles_.count(), not_searched) {
-    std::vector<std::size_t> next = blocks;
-    for (const std::size_t tile : next) add_block(tile);
-    while (!next.empty()) {
+    // Band by band, back to the one above where that has new blocks: so the views are made once for a band, not once for each ring
+    // of blocks around those that found something.
+    const std::size_t columns = std::size_t(tiles_.columns()), in_band = band_rows * columns;
+    std::vector<std::vector<std::size_t>> waiting(pieces_of(tiles_.count(), in_band));
+    const auto add = [&](std::size_t tile) {
+        blocks_[tile] = count_++;
+        waiting[tile / in_band].push_back(tile);
+    };
+    std::ranges::for_each(blocks, add);
+    for (std::size_t band = 0; band < waiting.size();) {
+        const std::vector<std::size_t> next = std::exchange(waiting[band], {});
         matches.resize(count_ * block_pixels);
         std::vector<std::uint8_t> much(next.size());
-        sweep_.go_through(next.size(), std::size_t(tiles_.columns()),
-                          [&](std::size_t n) { much[n] = search_tile(next[n]); });
-        std::vector<std::size_t> beside;
+        sweep_.go_through(next.size(), columns, [&](std::size_t n) { much[n] = search_tile(next[n]); });
         for (std::size_t n = 0; n < next.size(); ++n)
             if (much[n])
                 for_each_beside(tiles_, next[n], [&](std::size_t other) {
-                    if (blocks_[other] == not_searched) beside.push_back(other), add_block(other);
+                    if (blocks_[other] == not_searched) add(other);
                 });
-        next = std::move(beside);
+        if (band > 0 && !waiting[band - 1].empty())
+            --band;
+        else if (waiting[band].empty())
+            ++band;
     }
 }
 

@@ -60,7 +60,6 @@ public:
 private:
     static constexpr std::uint32_t not_searched = ~0u;
 
-    void add_block(std::size_t tile) { blocks_[tile] = count_++; }
     bool search_tile(std::size_t tile);
 
     const ImageSweep &sweep_;
