@@ -40,6 +40,8 @@ struct GatherTuning {
     static constexpr float shadow_far_cells = 16;
     // Perceptive: surfaces no farther apart are one altogether for a footprint; from torn_px on they are two.
     static constexpr float footprint_whole_px = 0.75f;
+    // Pixels of place and of CoC, perceptive: footprints whose edges are no farther off a common straight one are one.
+    static constexpr float joined_px = 1.0f / 16;
     // Of one_surface_px: what is no farther away shows the surface altogether.
     static constexpr double neighbours_whole = 0.75;
 

@@ -5,30 +5,49 @@
 
 namespace sparselens {
 
+namespace {
+
+NearSteps steps_of(std::span<const JoinedFootprint> footprints) {
+    constexpr std::size_t in_step = 1; // with others at the depth of the lamp, bounds would tell nothing
+    std::vector<NearBounds> bounds;
+    bounds.reserve(footprints.size() + 1);
+    for (const auto &[footprint, farthest, nearest, sample] : footprints) {
+        const auto &[place, coc] = footprint;
+        const auto [least, most] = std::ranges::minmax(coc);
+        bounds.push_back({nearest, place[0], place[1], place[2], place[3], least, most});
+    }
+    return {std::move(bounds), in_step};
+}
+
+} // namespace
+
 BlockFootprints::BlockFootprints(const Ldi &ldi, const BlockedSamples &samples, std::optional<Links> links)
     : ldi_(ldi), samples_(samples), links_(std::move(links)), areas_(samples, links_ ? &*links_ : nullptr),
       made_(samples.blocks.size()), computed_(samples.blocks.size()) {}
 
+const std::vector<JoinedFootprint> &BlockFootprints::Block::apart_from(float farthest, float nearest) const {
+    const bool parts = std::ranges::any_of(joined, [&](const JoinedFootprint &one) {
+        return one.depth <= nearest && one.nearest > farthest && one.depth < one.nearest;
+    });
+    return parts ? alone : joined;
+}
+
 const BlockFootprints::Block &BlockFootprints::of(std::uint32_t block) const {
     std::call_once(made_[block], [&] {
         Block &made = computed_[block];
-        made.footprints = compute(block);
-        made.near = steps_of(samples_.blocks[block], made.footprints);
+        const std::vector<Footprint> footprints = compute(block);
+        const SampleBlock &own = samples_.blocks[block];
+        const SampleRun run{own.begin, own.end};
+        made.alone = joined(in_picture(), run, own.begin, footprints);
+        made.joined = joined(in_picture(), run, own.opaque_end, footprints);
+        made.near = steps_of(made.joined);
     });
     return computed_[block];
 }
 
-NearSteps BlockFootprints::steps_of(const SampleBlock &block, std::span<const Footprint> footprints) const {
-    constexpr std::size_t in_step = 1; // with others at the depth of the lamp, bounds would tell nothing
-    std::vector<NearBounds> samples;
-    samples.reserve(footprints.size() + 1);
-    for (std::size_t i = 0; i < footprints.size(); ++i) {
-        const auto &[place, coc] = footprints[i];
-        const auto [least, most] = std::ranges::minmax(coc);
-        samples.push_back(
-            {samples_.depth(block.begin + i), place[0], place[1], place[2], place[3], least, most});
-    }
-    return {std::move(samples), in_step};
+SamplesInPicture BlockFootprints::in_picture() const {
+    return {samples_.x,     samples_.y,      samples_.hiding_coc(),
+            samples_.upper, samples_.source, links_ ? &*links_ : nullptr};
 }
 
 std::vector<Footprint> BlockFootprints::compute(std::uint32_t block) const {
@@ -42,10 +61,8 @@ std::vector<Footprint> BlockFootprints::compute(std::uint32_t block) const {
         }
     const SampleBlock &own = samples_.blocks[block];
     const Imath::V2i first = Imath::V2i(column, row) * size;
-    return footprints_of(ldi_,
-                         {samples_.x, samples_.y, samples_.hiding_coc(), samples_.upper, samples_.source,
-                          links_ ? &*links_ : nullptr},
-                         {first, first + Imath::V2i(size - 1)}, {own.begin, own.end}, around);
+    return footprints_of(ldi_, in_picture(), {first, first + Imath::V2i(size - 1)}, {own.begin, own.end},
+                         around);
 }
 
 } // namespace sparselens

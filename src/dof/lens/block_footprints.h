@@ -1,7 +1,7 @@
 // What the samples of a picture cover, by blocks: asked for by what casts shadows on small lamps (highlight_tile.h).
 #pragma once
 
-#include "dof/footprints/footprint.h"
+#include "dof/footprints/joined_footprints.h"
 #include "dof/lens/near_bounds.h"
 #include "dof/lens/sample_blocks.h"
 #include "dof/lens/shadow_areas.h"
@@ -22,8 +22,11 @@ public:
     BlockFootprints(const BlockFootprints &) = delete; // its parts refer to each other
 
     struct Block {
-        std::vector<Footprint> footprints; // of its samples
-        NearSteps near;                    // of these footprints
+        std::vector<JoinedFootprint> alone, joined; // of its samples
+        NearSteps near;                             // of these footprints
+
+        // Those of which none lies on both sides of a lamp whose depth is between these.
+        const std::vector<JoinedFootprint> &apart_from(float farthest, float nearest) const;
     };
     // Computed when first asked for, by any thread.
     const Block &of(std::uint32_t block) const;
@@ -31,8 +34,8 @@ public:
     const ShadowAreas &areas() const { return areas_; }
 
 private:
+    SamplesInPicture in_picture() const;
     std::vector<Footprint> compute(std::uint32_t block) const;
-    NearSteps steps_of(const SampleBlock &block, std::span<const Footprint> footprints) const;
 
     const Ldi &ldi_;
     const BlockedSamples &samples_;

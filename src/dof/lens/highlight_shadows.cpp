@@ -32,18 +32,25 @@ std::uint32_t name_of(std::uint32_t block, int columns) {
 
 } // namespace
 
+// Of a block: one lies before all lamps of a group, or before none.
+const std::vector<JoinedFootprint> &HighlightShadows::casters_of(const ShadowedLamp &lamp,
+                                                                 const CastingBlock &b) const {
+    const ShadowCasters &casters = search_.casters(b.set);
+    const BlockFootprints::Block &block = casters.footprints.of(b.number);
+    if (!casters.is_coarse()) return block.apart_from(lamp.depth, lamp.hardly);
+    return block.apart_from(search_.far_before(lamp.depth) / casters.across, lamp.far / casters.across);
+}
+
 // Whether the shadows of what a block has before a group differ from lamp to lamp.
 bool HighlightShadows::is_apart(const ShadowedLamp &group, const CastingBlock &b) const {
     const ShadowCasters &casters = search_.casters(b.set);
     const BlockedSamples &samples = casters.samples;
-    const SampleBlock &block = samples.blocks[b.number];
-    const std::vector<Footprint> &footprints = casters.footprints.of(b.number).footprints;
-    const auto [farthest, nearest] = search_.range_of(group, casters, block);
+    const auto [farthest, nearest] = search_.range_of(group, casters, samples.blocks[b.number]);
     const CocRange shared = shared_cocs(group);
     const float to_share = casters.across / float(group.lamp.coc);
-    for (std::uint32_t i = block.begin; i < block.end; ++i) {
-        if (!(samples.depth(i) > farthest) || samples.depth(i) > nearest) continue;
-        const Float4 share = to_share * load4(footprints[i - block.begin].coc.data());
+    for (const auto &[footprint, depth, to, sample] : casters_of(group, b)) {
+        if (!(depth > farthest) || depth > nearest) continue;
+        const Float4 share = to_share * load4(footprint.coc.data());
         const auto within = (share >= shared.least) & (share <= shared.most);
         if ((within[0] & within[1] & within[2] & within[3]) == 0) return true;
     }
@@ -144,7 +151,7 @@ void HighlightShadows::share(std::span<const std::uint32_t> group, const Imath::
     }
     for_each_block(*group_, group.front(), [&](const CastingBlock &b) {
         const ShadowSearch::Range range = search_.range_of(*group_, search_.casters(b.set));
-        for_each_caster(b, [&](const Caster &caster) {
+        for_each_caster(*group_, b, [&](const Caster &caster) {
             if (!b.apart)
                 cast_one(*group_, range, caster, shared_);
             else if (may_cast(*group_, caster))
@@ -165,7 +172,7 @@ bool HighlightShadows::cast(std::uint32_t highlight, const ShadowScreen &screen)
     if (!group_)
         for_each_block(asked, highlight, [&](const CastingBlock &b) {
             const ShadowSearch::Range range = search_.range_of(asked, search_.casters(b.set));
-            for_each_caster(b, [&](const Caster &caster) { cast_one(asked, range, caster, own_); });
+            for_each_caster(asked, b, [&](const Caster &caster) { cast_one(asked, range, caster, own_); });
             return !own_.dark(); // no other shadow changes that
         });
     ShadowSearch::Range range{};
@@ -183,14 +190,13 @@ float HighlightShadows::lit(int x, int y, const LampDisc *disc) const {
 }
 
 template <typename Visit>
-void HighlightShadows::for_each_caster(const CastingBlock &b, const Visit &visit) const {
+void HighlightShadows::for_each_caster(const ShadowedLamp &lamp, const CastingBlock &b,
+                                       const Visit &visit) const {
     const ShadowCasters &casters = search_.casters(b.set);
-    const SampleBlock &block = casters.samples.blocks[b.number];
-    const std::vector<Footprint> &footprints = casters.footprints.of(b.number).footprints;
-    const std::uint32_t first = name_of(b.number, casters.samples.columns);
-    for (std::uint32_t n = 0; n < block.end - block.begin; ++n)
-        visit(Caster{&casters, block.begin + n, &footprints[n], first + n,
-                     casters.samples.depth(block.begin + n)});
+    const std::uint32_t first = casters.samples.blocks[b.number].begin,
+                        name = name_of(b.number, casters.samples.columns);
+    for (const JoinedFootprint &joined : casters_of(lamp, b))
+        visit(Caster{&casters, &joined, name + (joined.sample - first)});
 }
 
 // Whether it is another highlight's, of other pixels and no nearer than a part of the same lamp would be.
@@ -207,24 +213,25 @@ bool HighlightShadows::may_cast(const ShadowedLamp &group, const Caster &caster)
     const ShadowCasters &casters = *caster.of;
     const float farthest =
         casters.is_coarse() ? search_.far_before(group.depth) / casters.across : group.depth;
-    if (!(caster.depth > farthest && caster.depth <= search_.range_of(group, casters).nearest)) return false;
-    return ShadowEdges(group, casters.across, casters.corner, *caster.footprint).may_reach(group);
+    const auto &[footprint, depth, to, sample] = *caster.joined;
+    if (!(depth > farthest && depth <= search_.range_of(group, casters).nearest)) return false;
+    return ShadowEdges(group, casters.across, casters.corner, footprint).may_reach(group);
 }
 
 void HighlightShadows::cast_one(const ShadowedLamp &lamp, const ShadowSearch::Range &range,
                                 const Caster &caster, Shadow &into) const {
-    if (!(caster.depth > range.farthest && caster.depth <= range.nearest)) return;
-    const BlockedSamples &samples = caster.of->samples;
-    if (!caster.of->is_coarse() && caster.depth <= lamp.hardly) {
-        const Imath::V2f at(samples.x[caster.sample], samples.y[caster.sample]);
-        if (!lamp.is_beside({at, at})) return;
-    }
-    const ShadowEdges edges(lamp, caster.of->across, caster.of->corner, *caster.footprint);
+    const auto &[footprint, depth, to, sample] = *caster.joined;
+    if (!(depth > range.farthest && depth <= range.nearest)) return;
+    const std::array<float, 4> &place = footprint.place;
+    if (!caster.of->is_coarse() && depth <= lamp.hardly &&
+        !lamp.is_beside({{place[0], place[2]}, {place[1], place[3]}}))
+        return;
+    const ShadowEdges edges(lamp, caster.of->across, caster.of->corner, footprint);
     const Imath::Box2f shadow = edges.shadow();
     if (edges.as_blurred() || !reaches(shadow, lamp.screen.box)) return;
-    const float alpha = samples.alpha[caster.sample];
+    const float alpha = caster.of->samples.alpha[sample];
     const bool opaque = is_opaque(alpha); // as solids are
-    if (!opaque && !caster.of->is_coarse() && are_side_by_side(lamp.sample, caster.sample)) return;
+    if (!opaque && !caster.of->is_coarse() && are_side_by_side(lamp.sample, sample)) return;
     into.hide(shadow, opaque ? 1 : alpha, caster.name, lamp.screen);
 }
 

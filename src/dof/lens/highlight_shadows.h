@@ -2,9 +2,9 @@
 //
 // Whether a place in a disc sees the lamp needs no lens points of the gather: place and lamp fix the point of the lens, and
 // so what hides the lamp there (lens/lamp_shadow.h). A sample hides all that is farther; those of one surface hide
-// none of each other, as they end where the next begins (dof/footprints/footprint.h). Highlights of partial
-// coverage in other pixels, no more than a tenth nearer, hide none of each other: they are lamps smaller than a pixel, side by
-// side.
+// none of each other, as they end where the next begins (dof/footprints/footprint.h). Opaque ones side by side cast one
+// shadow (dof/footprints/joined_footprints.h). Highlights of partial coverage in other pixels, no more than a tenth nearer,
+// hide none of each other: they are lamps smaller than a pixel, side by side.
 //
 // The pixels of one lamp share the shadows that are nearly the same for all of them, so that a lamp costs no more where it has
 // more pixels. Of two places of a lamp, w pixels apart, the shadows of one thing lie (1 - m) w apart, m as in lamp_shadow.h.
@@ -90,13 +90,12 @@ private:
     bool is_apart(const ShadowedLamp &group, const CastingBlock &block) const;
     struct Caster {
         const ShadowCasters *of;
-        std::uint32_t sample;
-        const Footprint *footprint;
+        const JoinedFootprint *joined; // whose depth is as these casters count it
         std::uint32_t name;
-        float depth; // as its casters count it
     };
     template <typename Visit>
-    void for_each_caster(const CastingBlock &block, const Visit &visit) const;
+    void for_each_caster(const ShadowedLamp &lamp, const CastingBlock &block, const Visit &visit) const;
+    const std::vector<JoinedFootprint> &casters_of(const ShadowedLamp &lamp, const CastingBlock &block) const;
     bool may_cast(const ShadowedLamp &group, const Caster &caster) const;
     void cast_one(const ShadowedLamp &lamp, const ShadowSearch::Range &range, const Caster &caster,
                   Shadow &into) const;
