@@ -21,8 +21,9 @@ struct GatherTuning {
     static constexpr double lamp_common = 0.3;
     // Octaves below a sample's brightness, to which others count as bright as half.
     static constexpr double lamp_octave = 1;
-    // The size of a group of highlights, of the CoC.
-    static constexpr float lamp_group_of_coc = 1.0f / 32;
+    // The size of a group of highlights, of the CoC. A street at night at 1280x720 and four times its lens, 1/32: 18.8 CPU s, 1/16:
+    // 15.1, 61 dB apart, 1/8: 17.9, as more lamps then stand between what shades them.
+    static constexpr float lamp_group_of_coc = 1.0f / 16;
     // Pixels of CoC: discs that are smaller are shadowed in cells.
     static constexpr double lamp_in_cells_px = 3;
     // Pixels of CoC: up to this, light comes from a sample's square, ...

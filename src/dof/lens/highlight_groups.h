@@ -1,4 +1,4 @@
-// Highlights that are shadowed together (highlight_shadows.h): samples of one surface and one block, within a square of 1/32 of
+// Highlights that are shadowed together (highlight_shadows.h): samples of one surface and one block, within a square of 1/16 of
 // their CoC. A sample near the focus is alone.
 #pragma once
 

@@ -5,6 +5,7 @@
 #include "dof/lens/highlights.h"
 #include "dof/lens/shadow_lists.h"
 #include "dof/lens/solid_samples.h"
+#include "dof/tuning.h"
 #include "support/lens_ldi.h"
 
 #include <gtest/gtest.h>
@@ -186,7 +187,7 @@ TEST(HighlightGroups, HoldEachSampleOnceAndAreSmall) {
             found.insert(found.end(), group.begin(), group.end());
             several += group.size() > 1;
             for (const std::uint32_t i : group) {
-                const float reach = std::abs(samples.coc[group[0]]) / 32;
+                const float reach = GatherTuning::lamp_group_of_coc * std::abs(samples.coc[group[0]]);
                 EXPECT_TRUE(i == group[0] || std::abs(samples.x[i] - samples.x[group[0]]) <= reach);
                 EXPECT_TRUE(i == group[0] || std::abs(samples.y[i] - samples.y[group[0]]) <= reach);
                 EXPECT_LE(std::abs(samples.depth(i) - samples.depth(group[0])), one_surface_px);
