@@ -1,4 +1,4 @@
-// What happens to each layer of a picture, in words for -v: the table of docs/file-format.md.
+// What happens to each layer of a picture, in words for -v: the list of docs/file-format.md.
 #pragma once
 
 #include "../base/image.h"
