@@ -42,25 +42,22 @@ void add_options(CLI::App &app, Options &options) {
         ->required()
         ->type_name("");
     app.add_option("REF", options.reference,
-                   "Reference (EXR), over whose data window the pictures are compared; with --frames it may "
-                   "be left out")
+                   "Reference (EXR); its data window is compared. Optional with --frames")
         ->type_name("");
     CLI::Option *second =
         app.add_option("REF_2", options.second_reference,
-                       "Another reference, without noise in common with REF: psnr_without_noise is the "
-                       "tone-mapped error without their noise. Other figures compare with the mean of both")
+                       "Another reference that shares no noise with REF. psnr_without_noise is then the "
+                       "tone-mapped error without their noise; other figures use the mean of both")
             ->type_name("");
     app.add_flag("--json", options.json, "Print JSON instead of a table");
-    CLI::Option *regions =
-        app.add_option(
-               "--regions", options.regions,
-               "Also compare by region: in focus, blurred, silhouettes, as this LDI tells (deep EXR, or flat "
-               "with depth)")
-            ->type_name("LDI");
+    CLI::Option *regions = app.add_option("--regions", options.regions,
+                                          "Also compare by region: in focus, blurred, silhouettes. The "
+                                          "regions come from this LDI (deep EXR, or flat with depth)")
+                               ->type_name("LDI");
     CLI::Option *flip =
         app.add_option("--flip", options.flip,
-                       "Also tell what somebody sees who flips between the two: FLIP. ldr: of the values "
-                       "in [0, 1]; hdr: at the worst of several exposures")
+                       "Also compute FLIP, the difference that a viewer notices when flipping between the "
+                       "pictures. ldr: for values in [0, 1]; hdr: for the worst of several exposures")
             ->type_name("ldr|hdr")
             ->transform(
                 words(std::map<std::string, FlipRange>{{"ldr", FlipRange::ldr}, {"hdr", FlipRange::hdr}}));
@@ -71,9 +68,8 @@ void add_options(CLI::App &app, Options &options) {
             ->check(output_name(OutputKind::picture))
             ->needs(flip);
     app.add_option("--frames", options.frames,
-                   "Compare over time: how steady a sequence is (names hold #### or %04d), and its changes "
-                   "with those of "
-                   "REF, if that is given. RANGE is e.g. 1-16")
+                   "Compare over time: how steady a sequence is (names hold #### or %04d), and how its "
+                   "changes differ from those of REF, if given. RANGE is e.g. 1-16")
         ->type_name("RANGE")
         ->excludes(second)
         ->excludes(regions)

@@ -65,12 +65,11 @@ void add_options(CLI::App &app, ViewOptions &options) {
                    "Frames of a timeline, e.g. 1-100x2 (default: the files that #### in IN stands for)")
         ->type_name("RANGE")
         ->group("Frames");
-    app.add_option("--port", options.port,
-                   "Port of this machine to serve at; 0: any that is free (default: 0)")
+    app.add_option("--port", options.port, "Port of this machine; 0: any free port (default: 0)")
         ->type_name("N")
         ->check(CLI::Range(0, 65535));
     app.add_option("--save", options.save,
-                   "Folder that the page may write pictures to (default: it writes nothing)")
+                   "Folder for pictures that the page saves (default: the page saves nothing)")
         ->type_name("DIR");
     app.add_flag("--open", options.open, "Open the page in the browser");
     add_examples(app, {{"Look at an LDI: open the address that is printed in a browser", "dof-view ldi.exr"},

@@ -20,17 +20,17 @@ constexpr NumberRange stretch{"a number from 0.001 to 1000", [](double v) { retu
 constexpr NumberRange gain{"a number from 1 to 1000", [](double v) { return v >= 1 && v <= 1000; }};
 
 constexpr std::array numbers{
-    LookNumber{"blades", "N", "Number of blades: the corners of the aperture; 0: round (default: 0)",
+    LookNumber{"blades", "N",
+               "Number of blades, which is the number of corners of the aperture; 0: round (default: 0)",
                &LookValues::blades, blade_count},
     LookNumber{"blade-curvature", "C", "Curvature of the blades, from 0, straight, to 1, round (default: 0)",
                &LookValues::curvature, share},
-    LookNumber{
-        "blade-rotation", "DEG",
-        "Rotation of the blades, degrees counter-clockwise as a lamp behind focus shows it; 0: a side's "
-        "middle is to the right (default: 0)",
-        &LookValues::rotation, angle},
+    LookNumber{"blade-rotation", "DEG",
+               "Rotation of the blades, in degrees counter-clockwise for a lamp behind focus; 0: the middle "
+               "of a side is at the right (default: 0)",
+               &LookValues::rotation, angle},
     LookNumber{"squeeze", "S",
-               "How many times higher than wide the aperture is, e.g. 2 for an anamorphic lens (default: 1)",
+               "Height of the aperture divided by its width, e.g. 2 for an anamorphic lens (default: 1)",
                &LookValues::squeeze, stretch},
     LookNumber{
         "spherical", "S",
@@ -38,28 +38,25 @@ constexpr std::array numbers{
         "bright cores (default: 0)",
         &LookValues::spherical, signed_share},
     LookNumber{"cat-eye", "A",
-               "Cat's eye: how many radii a second circle that cuts the aperture is displaced at the "
-               "picture's corner "
+               "Cat's eye: a second circle cuts the aperture, displaced by A radii at the picture's corner "
                "(default: 0)",
                &LookValues::cat_eye, to_100},
     LookNumber{"axial-chromatic", "MM",
-               "How far behind the sensor red comes to focus where green is sharp, from -5 to 5 mm; blue as "
-               "far before "
-               "it (default: 0)",
+               "Colour fringes: where green is sharp, red focuses this far behind the sensor and blue as far "
+               "in front of it, from -5 to 5 mm (default: 0)",
                &LookValues::axial_chromatic, within_5},
-    LookNumber{
-        "field-curvature", "K",
-        "Bends the plane of focus, from -1 to 1: 1/d grows by K of itself towards the picture's corners "
-        "(default: 0)",
-        &LookValues::field_curvature, signed_share},
+    LookNumber{"field-curvature", "K",
+               "Bends the plane of focus, from -1 to 1: 1/d is 1 + K times as large at the picture's corners "
+               "(default: 0)",
+               &LookValues::field_curvature, signed_share},
     LookNumber{"astigmatism", "A",
-               "Parts the foci of rays along and across a line through the axis, from -1 to 1: 1/d grows and "
-               "shrinks by A of itself towards the corners (default: 0)",
+               "Separates the focus of rays along and across a line through the axis, from -1 to 1: at the "
+               "corners 1/d is 1 + A and 1 - A times as large (default: 0)",
                &LookValues::astigmatism, signed_share},
-    LookNumber{
-        "breathing", "B",
-        "Magnification by focusing, from 0 to 2: 1 is that of a thin lens that moves as a whole (default: 0)",
-        &LookValues::breathing, to_2},
+    LookNumber{"breathing", "B",
+               "Focus breathing: magnification by focusing, from 0 to 2; 1 is a thin lens that moves as a "
+               "whole (default: 0)",
+               &LookValues::breathing, to_2},
 };
 
 constexpr std::array highlights{

@@ -106,7 +106,7 @@ void add_process_options(CLI::App &app, ProcessOptions &options) {
     app.set_version_flag("--version", app.get_name() + " (sparselens) " SPARSELENS_VERSION);
     app.add_flag("-v,--verbose", options.verbose, "Report on stderr what was found and done");
     app.add_option("--threads", options.threads,
-                   "Number of threads; 0 uses all that the process may use (default: 0)")
+                   "Number of threads; 0: all that the process may use (default: 0)")
         ->type_name("N")
         ->envname("CUE_THREADS")
         ->check(CLI::Range(0, 4096));
@@ -115,7 +115,7 @@ void add_process_options(CLI::App &app, ProcessOptions &options) {
 
 void add_memory_option(CLI::App &app, ProcessOptions &options) {
     app.add_option("--max-memory", options.max_memory,
-                   "Memory limit for reading a file, and for frames at once, e.g. 4GB (default: 64 MB plus "
+                   "Memory limit for reading a file and for frames in work, e.g. 4GB (default: 64 MB plus "
                    "1100 times the size of the file; a quarter of the machine's)")
         ->type_name("SIZE")
         ->transform(CLI::AsSizeValue(false));

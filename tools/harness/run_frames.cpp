@@ -78,8 +78,8 @@ void explain_all_pictures(CLI::App &app) {
         if (!option) continue;
         std::string text = option->get_description();
         text.insert(text.rfind(" (default"),
-                    fmt::format("; all: one run for each {}, whose name replaces {} in the names of files",
-                                each->noun, each->placeholder));
+                    fmt::format("; all: one run for each {}; its name replaces {} in file names", each->noun,
+                                each->placeholder));
         option->description(text);
     }
 }

@@ -17,10 +17,11 @@ void add_device_option(CLI::App &app, std::string &device, const std::string &wh
         for (const gpu::DeviceInfo &there : gpu::list_devices()) lines += "\n" + gpu::description(there);
         throw CLI::CallForVersion(lines.empty() ? gpu::no_devices : lines.substr(1), 0);
     };
-    app.add_option("--device", device,
-                   what_works +
-                       ": the CPU, a GPU if there is one, a GPU, or the device whose name has that "
-                       "in it, also one in software. list prints those that there are (default: cpu)")
+    app.add_option(
+           "--device", device,
+           what_works +
+               ". cpu: the CPU; auto: a GPU if there is one; gpu: a GPU, else an error; a part of a name: "
+               "the device of that name, even one in software; list: print the devices (default: cpu)")
         ->type_name("cpu|auto|gpu|list")
         ->group("Device")
         ->envname("SPARSELENS_DEVICE")

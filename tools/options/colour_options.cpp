@@ -108,7 +108,7 @@ void add_output_colour_options(CLI::App &app, ColourOptions &options) {
             ->type_name("SPACE")
             ->group("Colour");
     app.add_option("--display", options.display,
-                   "Display for which PNG, JPEG and TIFF are made (default: that of the configuration)")
+                   "Display for PNG, JPEG and TIFF (default: that of the configuration)")
         ->type_name("DISPLAY")
         ->group("Colour")
         ->excludes(space);

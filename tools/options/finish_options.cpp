@@ -27,10 +27,9 @@ void add_input_options(CLI::App &app, FinishCommand &options) {
     app.add_option("GATHERED", options.gathered, "Picture of dof-gather (EXR); - for standard input")
         ->type_name("")
         ->required();
-    app.add_option(
-           "RAYS", options.renders,
-           "Two or more renders of the same picture with depth of field, by the same camera and lens, each "
-           "with a seed of its own")
+    app.add_option("RAYS", options.renders,
+                   "Two or more renders of the picture with depth of field, with the same camera and lens "
+                   "and different seeds")
         ->type_name("...")
         ->required();
     app.add_option("--samples", options.samples,
@@ -40,7 +39,7 @@ void add_input_options(CLI::App &app, FinishCommand &options) {
         ->delimiter(',')
         ->check(number(above_0));
     app.add_option("--denoised", options.denoised,
-                   "What a denoiser made of each render by itself, in the same order, comma-separated")
+                   "Denoised version of each render, in the same order, comma-separated")
         ->type_name("FILE,FILE,...")
         ->delimiter(',');
     app.add_option("--gathered", options.others,

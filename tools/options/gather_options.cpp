@@ -45,17 +45,15 @@ void add_method_options(CLI::App &app, GatherCommand &options) {
         ->type_name("draft|normal|final")
         ->group(lens_group)
         ->transform(words(qualities));
-    app.add_option(
-           "--lens-samples", options.picture.gather.lens.lens_samples,
-           "Number of lens points in every tile; 0: as many as the quality and the picture need (default: 0)")
+    app.add_option("--lens-samples", options.picture.gather.lens.lens_samples,
+                   "Number of lens points in every tile; 0: chosen by quality and picture (default: 0)")
         ->type_name("N")
         ->group(lens_group)
         ->check(CLI::Range(0, 1 << 20));
-    app.add_option(
-           "--layer-tolerance", options.picture.layer_tolerance,
-           fmt::format("Merge layers of a pixel first whose circles of confusion differ by less, in pixels; "
-                       "0: none (default: {})",
-                       options.picture.layer_tolerance))
+    app.add_option("--layer-tolerance", options.picture.layer_tolerance,
+                   fmt::format("First merge layers of a pixel whose circles of confusion differ by less than "
+                               "this, in pixels; 0: merge none (default: {})",
+                               options.picture.layer_tolerance))
         ->type_name("PX")
         ->group(lens_group)
         ->check(number(at_least_0));
@@ -66,11 +64,11 @@ void add_method_options(CLI::App &app, GatherCommand &options) {
         ->group("Method selective")
         ->check(CLI::Range(1, 4096));
     app.add_option("--holdout", options.holdout,
-                   "Deep EXR that hides what is behind it and is not shown itself; it stays sharp")
+                   "Deep EXR that hides what is behind it, and is not shown; it stays sharp")
         ->type_name("DEEP.exr")
         ->group(lens_group);
     app.add_flag("--holdout-defocused", options.picture.holdout_defocused,
-                 "The holdout is part of the scene and out of focus like the rest, rather than sharp")
+                 "Put the holdout out of focus, like the rest of the scene")
         ->group(lens_group)
         ->needs("--holdout");
 }
@@ -87,8 +85,8 @@ void add_point_option(CLI::App &app, std::optional<Imath::V2d> &point) {
     };
     app.add_option_function<std::string>(
            "--lens-point", read,
-           "See through this point of the lens alone, X right and Y up of its middle, 1 at the rim; what no "
-           "view saw is half magenta, and what is unknown black")
+           "Show what this point of the lens sees, X right and Y up of its middle, 1 at the rim. Tints areas "
+           "that no view saw magenta; unknown areas are black")
         ->type_name("X,Y")
         ->group("Method lens");
 }
@@ -114,7 +112,7 @@ void add_picture_making_options(CLI::App &app, GatherCommand &options) {
         ->required();
     add_method_option(app, options.picture.method);
     add_method_options(app, options);
-    add_device_option(app, options.device, "What gathers by the methods lens and selective");
+    add_device_option(app, options.device, "Device that gathers, for the methods lens and selective");
     add_pixel_option(app, "--focus-pixel", options.focus_pixel,
                      "Focus on the front surface in this pixel, in EXR coordinates");
     app.add_option("--channels", options.channels,

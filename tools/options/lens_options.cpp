@@ -25,10 +25,9 @@ void add_lens_options(CLI::App &app, LensValues &options) {
 }
 
 void add_subpixels_option(CLI::App &app, std::optional<int> &across) {
-    app.add_option(
-           "--supersample", across,
-           "This number of the files' pixels, across and down, is one of the picture (default: as the "
-           "files say, else 1)")
+    app.add_option("--supersample", across,
+                   "Number of pixels of the files, across and down, that make one pixel of the picture "
+                   "(default: as the files say, else 1)")
         ->type_name("N")
         ->check(CLI::Range(1, most_across))
         ->group("Lens");
@@ -41,12 +40,10 @@ void add_depth_options(CLI::App &app, DepthOptions &options) {
                                                        {"negative", DepthMeaning::negative},
                                                        {"normalized", DepthMeaning::normalized},
                                                        {"hyperbolic", DepthMeaning::hyperbolic}};
-    app.add_option(
-           "--depth", options.meaning,
-           "What depth channels hold: z: planar; distance: from the camera along the ray; inverse: 1 / z; "
-           "negative: -z; normalized: 0 at --near to 1 at --far, and where white is near --near is the "
-           "larger; "
-           "hyperbolic: the same, but linear in 1 / z, as in a depth buffer (default: z)")
+    app.add_option("--depth", options.meaning,
+                   "Kind of depth. z: planar; distance: from the camera along the ray; inverse: 1 / z; "
+                   "negative: -z; normalized: 0 at --near to 1 at --far (if near is white, --near is the "
+                   "larger); hyperbolic: the same, but linear in 1 / z, as in a depth buffer (default: z)")
         ->type_name("z|distance|inverse|negative|normalized|hyperbolic")
         ->transform(words(meanings))
         ->group("Lens");
@@ -64,23 +61,21 @@ void add_depth_options(CLI::App &app, DepthOptions &options) {
         ->group("Lens");
     app.add_option(
            "--depth-channel", options.picture.depth,
-           "Depth channel, of --depth-file where that is given (default: Z, depth.Z, *.Depth.Z or the like)")
+           "Depth channel of the picture, or of --depth-file (default: Z, depth.Z, *.Depth.Z or the like)")
         ->type_name("NAME")
         ->group("Lens");
     add_picture_choice(app, options.picture);
 }
 
 void add_depth_file_option(CLI::App &app, std::string &file) {
-    app.add_option(
-           "--depth-file", file,
-           "File that holds the depth of the picture, which then needs none (EXR, flat, of the same size)")
+    app.add_option("--depth-file", file, "File with the depth of the picture (EXR, flat, of the same size)")
         ->type_name("FILE.exr")
         ->group("Lens");
 }
 
 void add_depth_files_option(CLI::App &app, std::vector<std::string> &files) {
     app.add_option("--depth-file", files,
-                   "File that holds the depth of a picture, once for each picture and in their order")
+                   "File with the depth of a picture; give one for each picture, in their order")
         ->type_name("FILE.exr")
         ->allow_extra_args(false)
         ->group("Lens");
@@ -99,16 +94,17 @@ std::vector<DepthOptions> depths_of_pictures(const DepthOptions &depth, const st
 }
 
 void add_picture_choice(CLI::App &app, PictureChoice &picture) {
-    app.add_flag("--unpremultiplied", picture.unpremultiplied,
-                 "The colours of the input are not multiplied by its coverage (A) yet")
+    app.add_flag(
+           "--unpremultiplied", picture.unpremultiplied,
+           "Multiply the colours of the input by its coverage (A); the default expects multiplied colours")
         ->group("Colour");
     app.add_option("--stereo-view", picture.stereo_view,
                    "Stereo view to read, e.g. right (default: the file's first)")
         ->type_name("NAME")
         ->group("Lens");
     app.add_option("--layer", picture.layer,
-                   "Picture to read of a file that holds several, such as a view layer of Blender: its "
-                   "beauty, depth and passes (default: the only one)")
+                   "Picture to read if a file holds several, such as view layers of Blender, with its depth "
+                   "and passes (default: the only one)")
         ->type_name("NAME")
         ->group("Lens");
 }

@@ -30,19 +30,18 @@ std::optional<Imath::V2d> parse_degrees(const std::string &text) {
 
 void add_look_options(CLI::App &app, GivenLooks &given) {
     app.add_option("--lens", given.lens_file,
-                   "Looks of a lens by name (JSON, see share/lenses); options beat them")
+                   "Lens file with looks (JSON, see share/lenses); options override it")
         ->type_name("FILE")
         ->group(group);
     for (const LookNumber &number : look_numbers()) add_number(app, number, given.values)->group(group);
     app.add_flag_callback(
            "--cat-eye-darkening", [&given] { given.values.cat_eye_darkening = true; },
-           "Darken where the cat's eye blocks light (default: keep the exposure)")
+           "Darken the picture where the cat's eye blocks light (default: keep the exposure)")
         ->group(group);
     const auto types = chromatic_types();
-    app.add_option(
-           "--axial-chromatic-type", given.values.chromatic_type,
-           "Colours that focus off the green plane: red behind and blue in front; blue in front; red and "
-           "blue behind (default: red-blue)")
+    app.add_option("--axial-chromatic-type", given.values.chromatic_type,
+                   "Colours that focus elsewhere than green. red-blue: red behind and blue in front; "
+                   "blue-yellow: blue in front; green-magenta: red and blue behind (default: red-blue)")
         ->type_name("red-blue|blue-yellow|green-magenta")
         ->group(group)
         ->transform(words(std::map<std::string, ChromaticType>(types.begin(), types.end())));
@@ -57,12 +56,13 @@ void add_look_options(CLI::App &app, GivenLooks &given) {
                given.values.tilt_x = pair->x;
                given.values.tilt_y = pair->y;
            },
-           "Angles of the plane of focus in degrees: above 0 it is nearer to the right (X) and at the "
-           "top (Y) (default: 0,0)")
+           "Tilt of the plane of focus in degrees; above 0 it is nearer at the right (X) and at the top (Y) "
+           "(default: 0,0)")
         ->type_name("X,Y")
         ->group(group);
-    app.add_option("--aperture", given.aperture_file,
-                   "Picture of the aperture (EXR, grey or RGB weights), from rim to rim of its own content")
+    app.add_option(
+           "--aperture", given.aperture_file,
+           "Picture of the aperture (EXR, grey or RGB weights); its content spans the lens from rim to rim")
         ->type_name("FILE")
         ->group(group)
         ->excludes("--blades")

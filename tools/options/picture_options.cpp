@@ -65,18 +65,16 @@ void add_method_option(CLI::App &app, const GatherMethod *&method) {
 }
 
 void add_recolor_option(CLI::App &app, std::string &path) {
-    app.add_option(
-           "--recolor", path,
-           "Flat picture of the same frame, whose colours and light passes the samples get instead of "
-           "their own, so that flattened they are that picture (EXR)")
+    app.add_option("--recolor", path,
+                   "Flat picture of the same frame (EXR). Its colours and light passes replace those of the "
+                   "samples, which flatten to that picture")
         ->type_name("BEAUTY.exr");
 }
 
 void add_tiles_option(CLI::App &app, int &tiles) {
-    app.add_option(
-           "--tiles", tiles,
-           "Write EXR in tiles of N x N pixels, as viewers and Nuke read parts of large pictures; 0: in "
-           "scanlines (default: 0)")
+    app.add_option("--tiles", tiles,
+                   "Write EXR in tiles of N x N pixels, which viewers and Nuke read faster in part; 0: in "
+                   "scanlines (default: 0)")
         ->type_name("N")
         ->check(CLI::Range(0, 8192));
 }

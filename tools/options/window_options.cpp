@@ -30,11 +30,10 @@ std::optional<Imath::Box2i> parse_box(const std::string &text) {
 void add_window_options(CLI::App &app, WindowOptions &options) {
     const std::map<std::string, OutputOverscan> overscans{
         {"grow", OutputOverscan::grow}, {"keep", OutputOverscan::keep}, {"crop", OutputOverscan::crop}};
-    app.add_option(
-           "--overscan", options.overscan,
-           "Pixels to make. grow: those of the file, and as far into an empty display window as the "
-           "blur reaches; keep: those of the file, where the blur is cut off; crop: those of the file "
-           "that lie in the display window (default: grow)")
+    app.add_option("--overscan", options.overscan,
+                   "Pixels to make. grow: the pixels of the file, and beyond them as far as the blur reaches "
+                   "in the display window; keep: the pixels of the file, which cuts the blur off; crop: the "
+                   "pixels of the file in the display window (default: grow)")
         ->type_name("grow|keep|crop")
         ->transform(words(overscans))
         ->group("Windows");
@@ -43,8 +42,8 @@ void add_window_options(CLI::App &app, WindowOptions &options) {
         ->check(CLI::Range(1, 1024))
         ->group("Windows");
     app.add_option("--supersample", options.supersample,
-                   "This number of the file's pixels, across and down, becomes one of the picture; 1: none "
-                   "(default: as the file says, else 1)")
+                   "Number of pixels of the file, across and down, that make one pixel of the picture; 1: "
+                   "keep all pixels (default: as the file says, else 1)")
         ->type_name("N")
         ->check(CLI::Range(1, most_across))
         ->group("Windows");
@@ -59,9 +58,8 @@ void add_window_options(CLI::App &app, WindowOptions &options) {
                                    "pixels if wanted, not '{}'",
                                    text));
            },
-           "With --supersample, the filter that the renderer has for pixels of the picture, and its width as "
-           "Cycles has "
-           "it (default: as the file says, else box; width 1.5)")
+           "With --supersample, the renderer's pixel filter for the picture, and its width as in Cycles "
+           "(default: as the file says, else box; width 1.5)")
         ->type_name("box|blackman-harris|gaussian[:WIDTH]")
         ->group("Windows");
     app.add_option_function<std::string>(
@@ -74,7 +72,7 @@ void add_window_options(CLI::App &app, WindowOptions &options) {
                                                           "all included), not '{}'",
                                                           text));
            },
-           "Make only these pixels of the full-size picture, in EXR coordinates, the last ones included")
+           "Make only these pixels of the full-size picture, in EXR coordinates, with X1 and Y1 included")
         ->type_name("X0,Y0,X1,Y1")
         ->group("Windows");
 }
