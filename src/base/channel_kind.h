@@ -1,11 +1,12 @@
-// What the values of a channel are, which decides what may be done with them. This is the one place that tells it.
+// The kind of a channel decides what may be done with its values. Only this file decides the kind.
 //
 //   light     colour and coverage: they are averaged; small bright ones are spread exactly, those near focus sharpened
-//   data      normals, positions, UV, motion, further depths: they are averaged, and that is all
-//   ids       integers, numbers of layers named so (below), and the pairs of a Cryptomatte (matte.h): never calculated with
+//   data      normals, positions, UV, motion, further depths: they are only averaged
+//   ids       integers, layers with names of ids (below), and the pairs of a Cryptomatte (matte.h): they are only copied
 //
-// A channel holds data if it is the X, Y, Z, U, V or W of a layer (Y beside X only: alone it is luminance), or Z or ZBack, or
-// if its layer is named so (N, P, normal, uv, motion vector, ...); and ids if that is IndexOB, objectid, *ID, ... without colours.
+// A channel holds data if it is the X, Y, Z, U, V or W of a layer (Y only beside X: alone it is luminance), or Z or
+// ZBack, or if its layer has a name of data (N, P, normal, uv, motion vector, ...). It holds ids if its layer is named
+// IndexOB, objectid, *ID, ... and has no colours.
 #pragma once
 
 #include <span>

@@ -1,8 +1,8 @@
 // The two ways in which a job can fail. The tools tell them apart by their exit codes.
 //
-// A message of the library, be it an error or a warning, carries each parameter that a user may give between backquotes, by a name
-// that belongs to nobody: `lens_radius`, or `depth=inverse` where it says which value to give. spelled() (text.h) makes of it
-// what a face of the library calls it: --lens-radius and --depth inverse, lens_radius and depth='inverse'.
+// Errors and warnings of the library name parameters between backquotes, in a neutral spelling: `lens_radius`, or
+// `depth=inverse` to suggest a value. spelled() (text.h) translates them for the user: --lens-radius and --depth
+// inverse for the tools, lens_radius and depth='inverse' for Python.
 #pragma once
 
 #include <stdexcept>
@@ -15,7 +15,7 @@ struct Error : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-// What is asked for is impossible, or something needed is missing: exit code 2. The message carries the parameter.
+// The request is impossible, or a value is missing: exit code 2. The message names the parameter.
 struct UsageError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };

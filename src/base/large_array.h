@@ -1,6 +1,6 @@
-// A std::vector that does not clear what it grows by: whoever asks for entries sets all of them, and one that is not set may hold
-// anything. The threads that set them are then the first to touch their memory, which takes as long as clearing does; a std::vector
-// has it touched by one thread.
+// A std::vector that does not clear new entries. The caller must set all of them; an entry that is not set may hold
+// anything. First touching the memory takes as long as clearing it, and here the threads that set the entries share
+// that work.
 #pragma once
 
 #include <memory>

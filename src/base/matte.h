@@ -1,7 +1,7 @@
-// Cryptomatte: which objects a pixel or a sample shows, as pairs of an id and its coverage ("Cryptomatte specification",
-// J. Friedman, A. Jones, 2015). An id is the hash of a name, whose 32 bits stand in a float channel; R and G of the layer
-// NAME00 are the pair of rank 0, B and A that of rank 1, R and G of NAME01 that of rank 2, and so on, by descending
-// coverage. The attributes cryptomatte/... of the header say which NAMEs there are.
+// Cryptomatte: which objects a pixel or a sample shows, as pairs of an id and its coverage ("Cryptomatte
+// specification", J. Friedman, A. Jones, 2015). An id is the hash of a name, whose 32 bits stand in a float channel; R
+// and G of the layer NAME00 are the pair of rank 0, B and A that of rank 1, R and G of NAME01 that of rank 2, and so
+// on, by descending coverage. The attributes cryptomatte/... of the header say which NAMEs there are.
 //
 // Ids are only copied. The coverage of one id behaves as premultiplied colour does: where samples are averaged or
 // composited, the coverage of each id is, and the pairs are ranked anew.
@@ -21,7 +21,7 @@ struct Matte {
         std::size_t id, coverage; // channels
     };
     std::string name;
-    std::vector<Rank> ranks; // by descending coverage; those that both channels are there for
+    std::vector<Rank> ranks; // by descending coverage; only ranks with both channels
 };
 
 // The mattes among the channels, by their kinds (channel_kind.h).
@@ -71,7 +71,7 @@ public:
                 sums_[m].add(value(rank.id), factor * double(value(rank.coverage)));
     }
 
-    // As write_pairs(), of every matte. The sum is empty then.
+    // Like write_pairs(), for every matte. Empties the sum.
     template <typename Write>
     void take(const Write &write) {
         for (std::size_t m = 0; m < mattes_.size(); ++m) {

@@ -1,9 +1,9 @@
-// What a pixel of a picture shows of what lies around it, and how that is made of sub-pixels: of a picture rendered at several
-// times the size, of which blocks of sub-pixels become one pixel each.
+// The filter of a picture's pixels, and how it is made from sub-pixels. Sub-pixels are the pixels of a picture rendered
+// at several times the size; a block of them becomes one pixel.
 //
-// Renderers filter pixels wider than the square that they are. A view at N times the size is filtered by the same number of its
-// own pixels, which is 1/N of the width in the picture. What is missing is a filter of what variances say: that of the whole
-// filter, less that of the views' own, and less what the gather adds.
+// Renderers filter over more than the square of a pixel. A view at N times the size is filtered over the same number of
+// its own pixels, which is 1/N of the width in the picture. The missing filter follows from variances: the variance of
+// the whole filter, minus that of the views' filter, minus what the gather adds.
 #pragma once
 
 #include <optional>
@@ -15,12 +15,11 @@ namespace sparselens {
 
 struct PixelFilter {
     enum class Shape { box, blackman_harris, gaussian } shape = Shape::box;
-    double width =
-        1.5; // pixels, (0, 16]; as Cycles' setting of that name. A box has none: it is one pixel wide
+    double width = 1.5; // pixels, (0, 16]; as in Cycles. A box ignores it: it is one pixel wide
     bool operator==(const PixelFilter &) const = default;
 };
 
-// From "box", "blackman-harris" or "gaussian", the latter two with ":WIDTH" behind if wanted, and back. Empty if it is none of them.
+// Reads "box", "blackman-harris" or "gaussian", the latter two with an optional ":WIDTH"; empty for any other text.
 std::optional<PixelFilter> pixel_filter_of(std::string_view text);
 std::string text_of(const PixelFilter &filter);
 
@@ -32,8 +31,8 @@ struct Subpixels {
 };
 inline constexpr int most_across = 16;
 
-// The shares in a pixel, across or down, of its sub-pixels and of those on both sides beside them: of across + 2 m, they add up
-// to 1 and are symmetric. For a box they are 1 / across each.
+// The weights of sub-pixels in a pixel, across or down: its own ones and m more on each side, across + 2 m in all. They
+// are symmetric and sum to 1. For a box each is 1 / across.
 std::vector<double> subpixel_shares(const Subpixels &by);
 
 } // namespace sparselens

@@ -46,11 +46,11 @@ struct Ldi {
     std::vector<float> z_back; // >= z; empty where no sample has an extent (points)
     std::vector<float> dx, dy; // offset from the pixel centre, [-1/2, 1/2], y down; empty means 0
     std::vector<float> weight; // view samples merged into this one, > 0; empty means 1
-    // Planar depth of the image that a mirror or glass shows there, as z: it gives the CoC, while z goes on saying what
-    // hides what. Below 0 if rays would meet behind the camera, never 0. Empty: as z.
+    // Planar depth of the image in a mirror or glass, as z. It gives the CoC, while z still decides occlusion. Below 0
+    // if rays would meet behind the camera, never 0. Empty: equal to z.
     std::vector<float> optical;
-    // By how much 1 / z falls, 1 / scene units, through what is taken to be solid behind a sample of half coverage or
-    // more, as no view saw through there (warp/solids.h). 0 where nothing is known; empty: nowhere is it.
+    // How far 1 / z falls, 1 / scene units, through the solid behind a sample of half coverage or more, which no view
+    // saw through (warp/solids.h). 0 if unknown; empty: unknown everywhere.
     std::vector<float> solid;
     std::vector<std::vector<float>> values; // [channel][sample]
 

@@ -1,6 +1,5 @@
-// The samples of an LDI in less memory: values that halves hold take two bytes, as they do in most files, and next to none
-// where most of them are one and the same, as coverage often is. They come back as they were, bit by bit. For pictures that are
-// worked on a few rows at a time.
+// The samples of an LDI in less memory, for work on a few rows at a time. Values that are exact as half take two bytes.
+// If most values are equal, as coverage often is, they take almost nothing. Unpacking restores every bit.
 #pragma once
 
 #include "ldi.h"
@@ -25,32 +24,32 @@ public:
 private:
     using Other = std::pair<std::uint32_t, float>;
 
-    float most_ = 0; // what most values are, where there are neither of the next
+    float most_ = 0; // the most frequent value; used if the next two are empty
     std::vector<std::uint16_t> halves_;
-    std::vector<float> floats_; // in place of halves where too many values are none
-    std::vector<Other> others_; // values that are not those, by their number
+    std::vector<float> floats_; // instead of halves if too many values are not exact as half
+    std::vector<Other> others_; // the exceptions, by their index
 };
 
 class PackedRows {
 public:
-    // Of a picture of these windows, of which no row is there yet.
+    // A picture of these windows, without rows so far.
     explicit PackedRows(const Windows &windows) : windows_(windows), rows_{0} {}
 
-    // The rows below those that are there, of the same channels.
+    // Adds the next rows, which have the same channels.
     void append(const Ldi &rows);
 
     // Rows [first, last] (EXR coordinates) of the picture as an LDI of those rows.
     Ldi rows(int first, int last) const;
 
-    // Forgets all channels but these, whose order it takes.
+    // Keeps these channels only, in this order.
     void keep_channels(std::span<const Channel> channels);
 
     const Windows &windows() const { return windows_; }
     const std::vector<Channel> &channels() const { return channels_; }
     std::uint64_t samples() const { return rows_.back(); }
-    // Of rows [first, last].
+    // The number of samples in rows [first, last].
     std::uint64_t samples(int first, int last) const;
-    std::size_t bytes() const; // of all that is held
+    std::size_t bytes() const; // memory used
 
 private:
     struct Piece {                        // some rows
@@ -67,19 +66,19 @@ private:
     std::vector<Piece> pieces_;
 };
 
-// Bytes that so many samples take as floats, with what is gathered from them.
+// Bytes that this number of samples takes as floats, together with the data that the gather makes from them.
 double bytes_to_gather(std::uint64_t samples, std::span<const Channel> channels);
 
-// Bytes that samples may take, with what is gathered from them, where the file has so many: with the picture, deep files of ten
-// samples a pixel and more stay within 24 for each sample and 100 for each pixel, beside 32 MB. It is more for each pixel and
-// less for each sample than that, so that LDIs of opaque views, of one or two samples a pixel, are gathered at once: bands
-// would take them half as long again and save a tenth of the memory.
+// The memory budget in bytes for the samples and the data that the gather makes from them. With the picture, deep files
+// of ten or more samples a pixel stay within 24 bytes per sample, 100 per pixel and 32 MB. The budget counts more per
+// pixel and less per sample, so that LDIs of one or two samples a pixel are gathered at once: bands would take them
+// half as long again and save a tenth of the memory.
 double memory_to_gather(std::uint64_t samples_in_file, std::size_t pixels);
 
-// `rows` in the window that begins with row `top`: the pixels above them have no samples.
+// `rows` in a window that begins at row `top`; the added pixels have no samples.
 Ldi with_empty_above(Ldi rows, int top);
 
-// All arrays of an LDI that have one entry a sample, those of its channels last.
+// All arrays of an LDI with one entry per sample; the arrays of its channels come last.
 std::vector<std::vector<float> *> arrays_of(Ldi &ldi);
 std::vector<const std::vector<float> *> arrays_of(const Ldi &ldi);
 

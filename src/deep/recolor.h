@@ -1,7 +1,8 @@
-// Gives the samples of a deep picture the colours of a flat picture of the same frame: studios keep deep alpha, and one flat
-// beauty with its passes. Flattened, every channel of light is that of the flat picture again.
+// Gives the samples of a deep picture the colours of a flat picture of the same frame: studios keep deep alpha, and one
+// flat beauty with its passes. Flattened, every channel of light is that of the flat picture again.
 //
-// In each pixel V is a channel of the flat picture, F its coverage; D is the coverage of all samples, and a that of one:
+// In each pixel V is a channel of the flat picture, F its coverage; D is the coverage of all samples, and a that of
+// one:
 //
 //   F agrees with D      a sample becomes V a / D: V by what the sample shows of the pixel. D stays as it is
 //   F is more            the rest of the coverage, (F - D) / (1 - D), lies at infinity behind the samples, as a sky does that the
@@ -10,10 +11,10 @@
 //   there is no sample   light becomes one at infinity, of coverage F, which is 0 where the light covers nothing
 //   nothing covers       the last sample has all light
 //
-// By AR, AG and AB, where the deep picture has them, what they cover is shared, and by A what they leave uncovered. Samples
-// behind an opaque one have its colour. Depths, volumes, coverage, ids, Cryptomattes and data are those of the deep picture, all
-// light is that of the flat one; a flat picture without A covers what the deep one does. The result has the pixels
-// of the flat picture: outside them nobody knows a colour.
+// If the deep picture has AR, AG and AB, they share the light that they cover, and A shares the rest. Samples behind an
+// opaque one get its colour. Depths, volumes, coverage, ids, Cryptomattes and data come from the deep picture, all
+// light from the flat one. A flat picture without A has the coverage of the deep one. The result has the pixels of the
+// flat picture only.
 #pragma once
 
 #include "ldi.h"

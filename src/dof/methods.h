@@ -17,13 +17,14 @@ struct GatherOptions {
     int layers = 8;             // selective: the largest number of layers kept apart in a pixel
     LensGatherOptions lens;     // lens: quality, lens points
     double layer_tolerance = 0; // lens: layers of the light that are merged (merge_layers.h), pixels; 0: none
-    // Lens: the frame, beyond which what leaves it goes on (lens/beyond/beyond_frame.h), and how far the lens looks there, pixels.
+    // Lens: the frame, beyond which surfaces continue (lens/beyond/beyond_frame.h), and how far the lens looks there,
+    // pixels.
     struct Beyond {
         Imath::Box2i frame;
         Imath::V2i reach;
     };
     std::optional<Beyond> beyond = {}; // else nothing is known there
-    // Lens: of the lens from whose rim views looked beyond the frame, scene units; 0: the lens that gathers.
+    // Lens: radius of the lens that the views were rendered with, scene units; 0: the radius of the gathering lens.
     double views_radius = 0;
 };
 
@@ -31,7 +32,7 @@ struct GatherMethod {
     using Gather = Image (*)(const Ldi &, const ThinLens &, const Imath::Box2i &window, const GatherOptions &,
                              Progress &);
     const char *name;
-    const char *what; // it does: a few words for users
+    const char *what; // description for users, a few words
     bool on_devices;  // GatherOptions::lens.device may be given
     Gather light;     // all channels but Cryptomattes
 
@@ -44,8 +45,8 @@ struct GatherMethod {
 // The default method first.
 std::span<const GatherMethod> gather_methods();
 
-// One more method, at the end. Before main alone, as pointers to methods are kept: for programs that have methods of their
-// own. Returns true, so that it can be called where a constant is initialised.
+// Adds a method at the end, for programs with methods of their own. Call it before main only, because pointers to
+// methods are kept. Returns true, so that the initialiser of a constant can call it.
 bool join_gather_methods(const GatherMethod &);
 
 } // namespace sparselens

@@ -1,5 +1,5 @@
-// An LDI from a file, ready for use: depth is planar, invalid values are repaired, samples are tidy, and camera and lens
-// are those of the file with the user's values over them.
+// An LDI from a file, ready for use: depth is planar, invalid values are repaired, samples are tidy, and camera and
+// lens are those of the file with the user's values over them.
 #pragma once
 
 #include "../deep/ldi.h"
@@ -21,8 +21,8 @@ namespace sparselens {
 // How the samples of a file are held.
 struct AllSamples {};   // all
 struct FewerSamples {}; // those that a ReduceSamples left
-using SamplesHeld =
-    std::variant<AllSamples, FewerSamples, PackedRows>; // the last: the same, many, in place of the LDI's
+using SamplesHeld = std::variant<AllSamples, FewerSamples,
+                                 PackedRows>; // PackedRows: all samples, packed; `ldi` is then empty
 
 struct OpenedLdi {
     std::string name; // of the file, for messages
@@ -51,14 +51,16 @@ struct OpenedLdi {
 // length of the ray, and the focal length is unknown.
 OpenedLdi open_ldi(const std::string &path, const OpenOptions &options = {});
 
-// Fewer samples instead of those of some rows, which are tidy; windows and channels stay. Several threads call it at once.
+// Replaces the samples of some rows, which are tidy, by fewer; windows and channels stay. Several threads call it at
+// once.
 using ReduceSamples = std::function<Ldi(Ldi rows)>;
-// Says, once a file, by what; empty: all are needed. `rows` are some of its rows.
+// Chooses the ReduceSamples of a file, once; empty: all samples are needed. `rows` are some of its rows.
 using ChooseSamples =
     std::function<ReduceSamples(const Imf::Header &header, const Camera &camera, const Ldi &rows)>;
 
-// The same with less memory, for those who need fewer samples. The picture is read with all of them where `choose` says so, where
-// it cannot be read a few rows at a time (see read_ldi()), and where values are invalid, as the pixels around repair them.
+// The same with less memory, for callers that need fewer samples. All samples are read if `choose` says so, if the
+// picture cannot be read a few rows at a time (see read_ldi()), or if values are invalid, because the pixels around
+// repair them.
 OpenedLdi open_ldi(const std::string &path, const OpenOptions &options, const ChooseSamples &choose);
 
 // The same for a deep picture that is in memory, or was read otherwise; `path` is for messages.

@@ -1,21 +1,21 @@
-// Whether two samples near each other show one surface: how far their perceptive depths, in pixels, may differ.
+// Thresholds that decide whether two samples near each other show one surface, in pixels of perceptive depth.
 #pragma once
 
 #include <cmath>
 
 namespace sparselens {
 
-// Seen from the rim of the lens, samples that differ by less move apart by less than half a pixel, so that pictures of both
-// fall into the same pixels.
+// One surface: seen from the rim of the lens, such samples move apart by less than half a pixel and stay in the same
+// pixel.
 inline constexpr float one_surface_px = 0.5f;
 
-// Less from corner to corner of a facet leaves no gap that has to be closed.
+// Steep: a facet with a smaller difference from corner to corner leaves no gap to close.
 inline constexpr float steep_px = 0.25f;
 
-// Samples side by side that differ by more are torn apart: nothing spreads from one to the other.
+// Torn: nothing spreads between neighbouring samples that differ by more.
 inline constexpr float torn_px = 1;
 
-// On a mirror or glass, samples a few pixels apart.
+// One mirror or glass: samples a few pixels apart.
 inline constexpr float one_mirror_px = 1;
 
 namespace kernels {

@@ -43,7 +43,7 @@ struct MovedDepth {
 MovedDepth move_depth(const Windows &windows, std::span<const float> z, const ThinLens &lens,
                       const Imath::V2d &u);
 
-// Of the pixels of windows.data, the share beside which the depth is torn: edges of what stands before something else.
+// The share of the pixels of windows.data that lie beside a jump of depth, at the edges of nearer objects.
 double share_at_edges(const Windows &windows, std::span<const float> z, const ThinLens &lens);
 
 // The pixels of the rim view in which nothing lands.
@@ -56,8 +56,8 @@ PixelMask unseen_by_centre(const MovedDepth &moved);
 PixelMask pixels_that_show(const MovedDepth &moved, const PixelMask &of_centre, const ThinLens &lens,
                            const Imath::V2d &u);
 
-// The mask without what is one pixel wide, along either axis: what thin things, as wires and blades of grass, hide from
-// the centre view, and where a steep surface opens.
+// The mask without areas one pixel wide along either axis: thin objects, such as wires and blades of grass, hide them,
+// or a steep surface opens there.
 PixelMask without_slits(const PixelMask &mask);
 
 // All pixels within `margin` pixels, along each axis, of those that are set.

@@ -23,7 +23,7 @@ struct Camera {
     std::optional<double> lens_radius;     // of the aperture, scene units, [0, inf): as a user gave it
     std::optional<double> focus_distance;  // scene units, (0, inf]
     std::optional<double> metres_per_unit; // (0, inf)
-    LookValues looks;                      // of them blades, their rotation and the squeeze
+    LookValues looks;                      // only blades, their rotation and the squeeze
     // Width of the picture over the focal length, (0, inf). A field of view or a projection matrix gives it, also if
     // one of the two is unknown.
     std::optional<double> field;
@@ -42,8 +42,8 @@ struct Camera {
     std::map<std::string, std::string> unsure;
 };
 
-// Of focal length, film back and field, computes the one that is missing from the other two, unless the file
-// contradicts itself about it (Camera::unsure).
+// Computes focal length, film back or field of view from the other two if it is missing, unless the file contradicts
+// itself about it (Camera::unsure).
 void complete_field(Camera &camera);
 
 // The focal length in pixels of a picture that is `display_width` pixels wide. Empty if neither the field nor both of

@@ -1,5 +1,5 @@
-// What options, a lens file and a picture's header say of the looks of a lens, each by the same table of names and
-// ranges. What none of them says is as in LensLooks, into which resolve_looks.h makes them.
+// The looks of a lens as options, a lens file or a picture's header give them, with one table of names and ranges.
+// resolve_looks.h turns them into LensLooks, whose defaults apply where a value is missing.
 #pragma once
 
 #include "../lens/aperture_shape.h"
@@ -12,8 +12,8 @@
 
 namespace sparselens {
 
-// Which colours focus off the green's plane: red behind the sensor and blue before it; only blue, before it; red and
-// blue, behind it.
+// The colours that focus elsewhere than green: red behind the sensor and blue in front of it; only blue, in front; red
+// and blue, behind.
 enum class ChromaticType { red_blue, blue_yellow, green_magenta };
 
 struct LookValues {
@@ -37,7 +37,8 @@ std::span<const std::pair<const char *, ChromaticType>> chromatic_types();
 
 bool is_tilt(double degrees); // between -89 and 89
 
-// `above` where it says something, else `below`. Blades above a picture replace it, and the other way round.
+// The values of `above`, else those of `below`. Blades of one replace an aperture picture of the other, and the other
+// way round.
 LookValues look_values_over(const LookValues &above, const LookValues &below);
 
 } // namespace sparselens

@@ -1,4 +1,4 @@
-// Numbers that a user may give: options, keywords, and of looks keys of a lens file. One table makes them all.
+// Numbers that a user may give, as options, keywords and, for looks, keys of a lens file. One table makes them all.
 #pragma once
 
 #include <cmath>

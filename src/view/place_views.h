@@ -23,7 +23,8 @@ struct ViewPlace {
     Framing framing = {};
 };
 
-// Throws Error, naming both files, where not as many pixels of the one are one of the picture as of the other.
+// Throws Error, naming both files, if their pixels are different fractions of a pixel of the picture
+// (Camera::supersample).
 void require_same_subpixels(const Camera &first, const std::string &first_name, const Camera &other,
                             const std::string &name);
 
@@ -32,8 +33,8 @@ struct PlacedCameras {
     std::vector<ViewPlace> places;
 };
 
-// Of views, the first of which is the centre. The position is the one stated, else that of worldToCamera (see position_on_lens,
-// whose errors are thrown, as those of require_same_subpixels()).
+// The first view is the centre. A position is the stated one, else that of worldToCamera. Throws the errors of
+// position_on_lens and require_same_subpixels().
 PlacedCameras place_cameras(std::span<const StatedView> stated);
 
 // Sets position, framing and depth of views[1] and all after it, relative to views[0], which is the centre, by

@@ -1,4 +1,4 @@
-// From what a user, a lens file and a picture's header say of the looks to the looks of one lens and picture.
+// Turns the looks that a user, a lens file and a picture's header give into those of one lens and picture.
 #pragma once
 
 #include "../base/image.h"
@@ -9,8 +9,8 @@
 
 namespace sparselens {
 
-// `lens` is that of the picture (a proxy's has a shorter focal length in pixels). UsageError: a look needs the focal length,
-// which is unknown, or the lens cannot focus that near.
+// `lens` is that of the picture (a proxy's has a shorter focal length in pixels). UsageError: a look needs the focal
+// length, which is unknown, or the lens cannot focus that near.
 LensLooks resolve_looks(const LookValues &values, const Camera &camera, const ThinLens &lens,
                         const Windows &windows);
 

@@ -1,8 +1,8 @@
 // From views to an LDI: a centre view and any number of rim views are warped into the pixels of the centre view.
 //
-// No sample is invented: each one is a pixel of some view, or an average of pixels of one surface, which what views see past
-// it may fill up (opaque_pixels.h). Two samples belong to the same surface if their perceptive depths R F / z differ by less
-// than `surface_px` pixels.
+// No sample is invented: each one is a pixel of some view, or an average of pixels of one surface. Samples seen past it
+// may fill it up (opaque_pixels.h). Two samples belong to the same surface if their perceptive depths R F / z differ by
+// less than `surface_px` pixels.
 #pragma once
 
 #include "../base/progress.h"
@@ -43,13 +43,13 @@ struct WarpOptions {
     WarpDevice *device = nullptr; // where given: works on the rows that it can
 };
 
-// Takes the lens, and `across`, from the camera of the centre view, views[0]. Perceptive depth refers to the lens radius if that is
-// known, else to the distance of the outermost view. A single view needs no lens. Throws UsageError if the focal length
-// is unknown.
+// Takes the lens, and `across`, from the camera of the centre view, views[0]. Perceptive depth refers to the lens
+// radius if that is known, else to the distance of the outermost view. A single view needs no lens. Throws UsageError
+// if the focal length is unknown.
 WarpOptions with_lens(WarpOptions options, const Camera &camera, std::span<const View> views);
 WarpOptions with_lens(WarpOptions options, const Camera &camera, const std::vector<PackedView> &views);
 
-// Perceptive depth times z in pixels of the picture, of which a view may have several to a side.
+// Perceptive depth times z, in pixels of the picture; a view may have several pixels for each of them.
 double scale_in_picture(const WarpOptions &with_lens);
 
 // views[0] is the centre, whose windows and channels the LDI has. The result does not depend on the order of the

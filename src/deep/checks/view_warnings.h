@@ -1,5 +1,5 @@
-// What is said of views that show a mistake, each in one sentence that names the view and says what to do. What is checked
-// stands beside this file; a warning needs a clear finding over many pixels, for a false one is worse than none.
+// Warnings about views that show a mistake. Each is one sentence that names the view and says what to do. The checks
+// stand beside this file. A warning needs clear evidence in many pixels, because a false warning is worse than none.
 #pragma once
 
 #include "../../view/camera.h"
@@ -14,7 +14,7 @@ namespace sparselens {
 
 struct PackedView; // deep/packed_view.h
 
-// What is known of views beside their pixels.
+// What the caller knows about the views besides their pixels.
 struct ViewFacts {
     DepthMeaning depth = DepthMeaning::planar; // as what they were read
     bool depth_filtered = false;               // of the first view: see edge_depths.h
@@ -22,11 +22,11 @@ struct ViewFacts {
     bool unpremultiplied = false;              // of the first view: see premultiplied_check.h
 };
 
-// Of the first view, which is the centre or the only one: its colours, its depths, and what the lens makes of them. Colours
-// are linear by now, if they are what they are said to be.
+// Checks the first view, which is the centre or the only one: its colours, its depths, and the blur that the lens gives
+// them. Colours must have been converted to linear.
 std::vector<std::string> picture_warnings(const View &view, const ViewFacts &facts);
 
-// That, and whether the views stand where they are said to.
+// Checks the first view, and whether all views stand where they should.
 std::vector<std::string> view_warnings(std::span<const View> views, const ViewFacts &facts);
 std::vector<std::string> view_warnings(const std::vector<PackedView> &views, const ViewFacts &facts);
 

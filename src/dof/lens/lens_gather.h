@@ -1,8 +1,8 @@
-// The lens gather: the layered picture seen through each point of the lens separately, so that what hides what
-// is decided where it happens, and the cost does not grow with the area of the blur.
+// The lens gather looks at the layered picture through each point of the lens separately. Occlusion is decided at each
+// lens point, and the cost does not grow with the area of the blur.
 //
-// Work goes by tiles. A tile that no sample with a CoC of half a pixel or more can reach is the flattened LDI.
-// Any other takes as many lens points as its blur and its contrast ask for.
+// It works on tiles. A tile that no sample with a CoC of half a pixel or more can reach is the flattened LDI. Other
+// tiles take as many lens points as their blur and contrast need.
 #pragma once
 
 #include "../../base/image.h"
@@ -24,8 +24,8 @@ struct GatherScene; // dof/lens/gather_scene.h
 
 enum class Quality { draft, normal, final };
 
-// Who looks on: tiles are made from this pixel (EXR coordinates) outwards, and told of when they are made, by several threads at once;
-// those that are in focus and those of a device are not.
+// Observer. Tiles are computed from the pixel `from` (EXR coordinates) outwards. `made` is called after each tile, from
+// several threads, but not for tiles in focus or made by a device.
 struct TileWatch {
     Imath::V2i from;
     std::function<void(const Image &picture, const Imath::Box2i &tile)>
@@ -35,32 +35,32 @@ struct TileWatch {
 struct LensGatherOptions {
     Quality quality = Quality::normal;
     int lens_samples = 0; // points in every tile; 0: by the quality and what the tile needs
-    // Where given: this point of the lens alone, x right, y up, [-1, 1]. It sees lamps as they are, nothing is sharpened, what no
-    // view saw is half magenta (what fillers are), and what nothing is known of stays black.
+    // If given, only this point of the lens is used, x right, y up, [-1, 1]. Lamps stay as they are, nothing is
+    // sharpened, fillers (areas that no view saw) are tinted magenta, and unknown areas stay black.
     std::optional<Imath::V2d> point = {};
     int across = 1; // pixels, across and down, that become one of the picture (base/subpixels.h)
     LensLooks looks = {};
-    LensTiles *chosen = nullptr;             // where given: is told what was chosen
-    std::optional<Imath::Box2i> region = {}; // tiles beside it stay as they were rendered
+    LensTiles *chosen = nullptr;             // if given, receives the chosen tiles
+    std::optional<Imath::Box2i> region = {}; // only its tiles are gathered; the others stay in focus
     std::optional<Imath::Box2i> known =
         {};                                // pixels of which the empty ones are transparent; else the window;
     std::span<const char> unseen = {};     // [pixel of the data window] but for these
     std::optional<Imath::Box2i> seen = {}; // pixels that were seen, not made up beyond the frame; else all
     bool keeps_sums = false; // of channels: where tiles are gathered in cells, each may leave its range
-    const Holdout *holdout = nullptr; // holds the picture out
-    const TileWatch *watch = nullptr; // where given
-    TileDevice *device = nullptr;     // where given: gathers the tiles that it can
+    const Holdout *holdout = nullptr; // hides the picture behind it
+    const TileWatch *watch = nullptr; // if given
+    TileDevice *device = nullptr;     // if given, gathers the tiles that it can
 };
 
-// Pixels `window` (EXR coordinates, within the LDI's data window), channels of the LDI. In `window`, or `known`, an empty
-// pixel is transparent to infinity; outside of it, nothing is known. Ids are the front samples'. The LDI is tidy,
-// the lens radius above 0, or 0 where the looks magnify.
+// Gathers the pixels `window` (EXR coordinates, within the LDI's data window), with the channels of the LDI. An empty
+// pixel in `window`, or in `known`, is transparent to infinity; outside, nothing is known. Ids are those of the front
+// samples. The LDI must be tidy, and the lens radius above 0, or 0 if the looks magnify.
 Image lens_gather(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window,
                   const LensGatherOptions &options, Progress &progress);
 
-// Its steps, for who gathers again and again (but of R, G and B alike): the flattened LDI, which no lens and no look changes; all that
-// tiles are gathered from, by prepare() (dof/lens/gather_scene.h); and the tiles that are out of focus, in place of those
-// of `picture`. A listener of `progress` that throws ends the work.
+// The steps of lens_gather(), for callers that gather repeatedly (only if R, G and B share one focus): the flattened
+// LDI, which does not depend on lens and looks; prepare() (dof/lens/gather_scene.h); and gather_tiles(), which replaces
+// the tiles of `picture` that are out of focus. The work ends if a listener of `progress` throws.
 Image in_focus_everywhere(const Ldi &ldi, const Imath::Box2i &window, const LensGatherOptions &options);
 void gather_tiles(const GatherScene &scene, const LensGatherOptions &options, Progress &progress,
                   Image &picture);

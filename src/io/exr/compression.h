@@ -19,16 +19,16 @@ struct NamedCompression {
     bool exact; // keeps all bits of 32-bit floats
 };
 
-// All that the OpenEXR has which this is compiled with: htj2k256 and htj2k32 from 3.4 on.
+// All methods of the OpenEXR that this is compiled with; htj2k256 and htj2k32 from 3.4 on.
 std::span<const NamedCompression> compressions();
 
 // The names that flat or deep files may have, separated by `separator`.
 std::string compression_names(bool deep, const std::string &separator);
 
-// The compression of a new file: what is asked for, else none into a pipe, else that of `metadata` where it is the header
-// of a file of the same kind (flat or deep), else ZIP (flat) or ZIPS (deep). The ids of a Cryptomatte need a method that is
-// exact; without one in `metadata`, they get ZIP. Throws UsageError where a file with these channels may not have what is
-// asked for.
+// The compression of a new file: the requested one, else none into a pipe, else that of `metadata` if it is the header
+// of a file of the same kind (flat or deep), else ZIP (flat) or ZIPS (deep). The ids of a Cryptomatte need an exact
+// method; if `metadata` has none, they get ZIP. Throws UsageError if a file with these channels may not have the
+// requested one.
 Imf::Compression output_compression(bool deep, std::optional<Imf::Compression> asked, bool to_pipe,
                                     const Imf::Header &metadata, std::span<const Channel> channels);
 

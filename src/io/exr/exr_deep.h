@@ -22,7 +22,7 @@ struct LdiFile {
     Imf::Header header;
     bool deep = true;                      // false: the file is a flat picture
     std::vector<std::string> notes;        // what was taken for what, and how several parts were combined
-    std::vector<std::string> warnings;     // what is hardly meant
+    std::vector<std::string> warnings;     // likely mistakes
     std::optional<PackedRows> packed = {}; // the samples, in place of those of `ldi`
 };
 
@@ -32,17 +32,17 @@ struct LdiFile {
 // - the other parts are one object each, and the picture has the samples of all of them (see deep_merge());
 // - but if exactly one part has the name of a beauty (exr_parts.h), that part is the whole picture, and parts that are
 //   not layers of it are left out.
-// If no part has a channel R, G or B, a layer with the name of a beauty (exr_beauty.h) becomes R, G, B and A. If the choice
-// names a layer, only what belongs to it is read, or to none (exr_beauty.h); UsageError where one part holds several
-// beauties and it names none. A missing A is made of AR, AG and AB. The back
-// depths are in the channel NAMEBack beside the depth's. Samples are returned as they stand in the
-// file (see tidy); a flat picture has one per pixel.
+// If no part has a channel R, G or B, a layer with the name of a beauty (exr_beauty.h) becomes R, G, B and A. If the
+// choice names a layer, only its channels are read, and those that belong to no picture (exr_beauty.h). Throws
+// UsageError if one part holds several beauties and the choice names none. A missing A is made from AR, AG and AB. Back
+// depths are in the channel NAMEBack beside the depth channel. Samples are returned as they stand in the file (see
+// tidy); a flat picture has one per pixel.
 LdiFile read_ldi(const std::string &path, const PictureChoice &choice = {});
 
-// The same with less memory, for a picture of which fewer samples are needed: `reduce` is given a few rows of it at a time,
-// by several threads at once, and what it makes of them is kept; it may not change the windows. If that is none, it is asked
-// no more, and there are no samples. What would take more than memory_to_gather() is kept packed.
-// `reduce` is not asked where the picture has several parts, tiles, or is flat: then all samples are there.
+// The same with less memory, if fewer samples are needed. `reduce` gets a few rows at a time, from several threads at
+// once, and its result is kept; it may not change the windows. If it returns nothing, it is not called again, and the
+// result has no samples. Samples that would take more than memory_to_gather() are kept packed. `reduce` is not called
+// if the picture has several parts or tiles, or is flat; the result then has all samples.
 using ReduceFileRows = std::function<std::optional<Ldi>(const Imf::Header &header, Ldi rows)>;
 LdiFile read_ldi(const std::string &path, const PictureChoice &choice, const ReduceFileRows &reduce);
 

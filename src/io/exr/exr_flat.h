@@ -24,15 +24,15 @@ struct FlatFile {
     Imf::Header header;                  // that of the part with the beauty
     std::uint64_t file_size = 0;         // bytes; limits the memory that it may ask for, see check_memory()
     std::vector<std::string> notes = {}; // what was taken for what
-    std::vector<std::string> warnings = {}; // what is hardly meant
+    std::vector<std::string> warnings = {}; // likely mistakes
 };
 
-// The flat parts of one view of the file as one picture, or of those that belong to one layer of it: the beauty (by the name of the part, else the first part), then
-// all other parts of the same display window. The data window contains those of all parts; outside its own, a part is 0,
-// which as a depth is that of nothing. Parts that are not used are named in the warnings. A channel whose name is taken
-// becomes one of the layer of its part. If nothing is named R, G or B, the layer with the name of a beauty is taken for it
-// (exr_beauty.h: ViewLayer.Combined, Ci); UsageError where several are and the choice names none (exr_beauty.h). A missing
-// A is made of AR, AG and AB (see channel_alpha.h).
+// Reads the flat parts of one view of the file, or the channels of one layer of it, as one picture: the beauty (by the
+// name of the part, else the first part), then all other parts with the same display window. The data window contains
+// those of all parts; outside its own, a part is 0, which as a depth means nothing. Warnings name parts that are not
+// used. A channel whose name is taken becomes a channel of the layer of its part. If nothing is named R, G or B, the
+// layer with the name of a beauty is read as the beauty (exr_beauty.h: ViewLayer.Combined, Ci). Throws UsageError if
+// there are several and the choice names none. A missing A is made from AR, AG and AB (see channel_alpha.h).
 FlatFile read_flat_exr(const std::string &path, const PictureChoice &choice = {});
 // The header of the part with the beauty, without reading pixels.
 Imf::Header read_flat_header(const std::string &path, const PictureChoice &choice = {});
@@ -44,9 +44,9 @@ FlatFile read_flat_part(Imf::MultiPartInputFile &file, const std::string &path, 
 // positions of samples (see is_position_channel), which must not be carried along like colours.
 std::vector<float> take_depth(Image &image, const std::string &depth_channel, const std::string &path);
 
-// Stores channels in their own types, compressed as compression.h says. Keeps all of `metadata` that does not describe the
-// pixels themselves (windows, channels, tiling). `tiles`: in tiles of so many pixels to a side; 0: in scanlines. Returns the number of values beyond the range of half, which became its
-// largest value, 65504.
+// Stores channels in their own types, compressed as compression.h says. Keeps all of `metadata` that does not describe
+// the pixels themselves (windows, channels, tiling). `tiles`: width and height of tiles in pixels; 0: scanlines.
+// Returns the number of values beyond the range of half, which became its largest value, 65504.
 std::size_t write_flat_exr(const std::string &path, const Image &image, const Imf::Header &metadata,
                            std::optional<Imf::Compression> compression = {}, int tiles = 0);
 

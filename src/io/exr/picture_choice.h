@@ -1,6 +1,6 @@
-// Which picture of a file is read where it holds several: the views of a stereo file ("left", "right", ...), and layers that
-// are a picture each, as the view layers of Blender are (exr_beauty.h). And which of its channels is the depth, and whether its
-// colours are premultiplied.
+// Chooses the picture to read if a file holds several: views of a stereo file ("left", "right", ...), and layers that
+// are pictures, such as Blender's view layers (exr_beauty.h). Also chooses the depth channel, and says whether colours
+// are premultiplied.
 #pragma once
 
 #include <string>
@@ -12,11 +12,12 @@ struct PictureChoice {
     std::string stereo_view = {}; // empty: the file's first
     std::string layer = {};       // empty: the only one
     std::string depth = {};       // a channel, of any layer; empty: the one that names tell (depth_channel.h)
-    // A flat file of the same display window, whose depth takes the place of the picture's; `depth` is a channel of it then.
+    // A flat file with the same display window, whose depth replaces that of the picture; `depth` then names a channel
+    // of it.
     std::string depth_file = {};
-    bool unpremultiplied = false; // colours are not multiplied by their coverage yet: they will be
+    bool unpremultiplied = false; // colours are not yet multiplied by their coverage; the reader does it
 
-    // The depth channel of the picture in memory, as `depth` says it.
+    // The depth channel of the picture in memory.
     std::string depth_in_memory() const { return depth_file.empty() ? depth : "Z"; }
 };
 
@@ -24,7 +25,7 @@ struct PictureChoice {
 // the file cannot be read.
 std::vector<std::string> stereo_views(const std::string &path);
 
-// The layers of a view that are a picture each; empty where none is. Reads only the header. Throws Error as above.
+// The layers of a view that are pictures; empty if there are none. Reads only the header. Throws Error as above.
 std::vector<std::string> picture_layers(const std::string &path, const std::string &stereo_view = {});
 
 } // namespace sparselens
