@@ -21,7 +21,7 @@ struct Cover {
 std::vector<std::array<std::size_t, 3>> place_facets_slowly(const Ldi &ldi, const ThinLens &lens,
                                                             std::span<const Placed> samples);
 
-// Of each sample, through facets alone; empty if there are none.
+// Covers each sample through facets alone; empty if there are none.
 void cover_by_facets(std::span<const Placed> samples, std::span<const std::array<std::size_t, 3>> facets,
                      const LensSample &point, const Imath::Vec2<long double> &at, long double extent,
                      std::vector<Cover> &covers);

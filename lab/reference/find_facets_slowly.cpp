@@ -33,7 +33,7 @@ public:
         return found;
     }
 
-    // Those with a corner in this sample's pixel, which is the upper left one of four.
+    // Adds facets with a corner in this sample's pixel, which is the upper left one of four.
     void add_facets(const Opaque &a, std::vector<std::array<std::uint64_t, 3>> &facets) const {
         const Imath::V2i right(1, 0), down(0, 1);
         const Found b = linked(a, right), c = linked(a, down);

@@ -15,7 +15,7 @@ namespace {
 
 constexpr long double infinity = std::numeric_limits<long double>::infinity();
 
-// Of the weight of all lens points: what covers less is not seen at all.
+// Share of the weight of all lens points: less coverage is not seen at all.
 constexpr long double least_coverage = 1e-6L;
 
 // All of them over each other, of each light(m); at the least and at the most by leaving out what is not sure.

@@ -108,7 +108,7 @@ std::vector<Placed> place_solids(const Ldi &ldi, const ThinLens &lens, std::span
     return placed;
 }
 
-// Of one coordinate of a sample's square.
+// The margin of one coordinate of a sample's square.
 Margin margin(long double sample, long double displaced, long double looked_at, long double extent) {
     return {0.5L - std::abs(sample + displaced - looked_at), 5e-7L * extent + 1e-6L * std::abs(displaced)};
 }

@@ -31,7 +31,7 @@ Image tone_mapped_picture(Image image) {
     return image;
 }
 
-// Of tone-mapped pictures.
+// The difference of tone-mapped pictures.
 Image difference_picture(Image a, const Image &b) {
     constexpr float gain = 8;
     for (std::size_t i = 0; i < a.values.size(); ++i)

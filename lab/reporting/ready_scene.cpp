@@ -99,7 +99,7 @@ Rendered ReadyScene::reference(StepList &) const {
     return {.folder = name_ + "/reference", .picture = (folder_ / "reference.exr").string()};
 }
 
-// Of N views evenly on the rim every (N / rim)-th is taken.
+// Takes every (N / rim)-th of N views evenly on the rim.
 std::optional<Rendered> ReadyScene::views(const ViewFolders &folders, int rim, int samples,
                                           const std::string &ending) const {
     const auto found =

@@ -54,7 +54,7 @@ private:
     };
     using ViewFolders = std::vector<ViewFolder>;
 
-    // Of the files that end so: as they were rendered, or denoised.
+    // The rays a pixel of the files with this ending: as rendered, or denoised.
     std::vector<int> rays(const std::string &ending) const;
     std::optional<Rendered> views(const ViewFolders &folders, int rim, int samples,
                                   const std::string &ending) const;

@@ -68,7 +68,7 @@ std::optional<Rendered> TracedScene::views(int rim, int samples, StepList &steps
     return views(rim, samples, 1, steps);
 }
 
-// Those of which each pixel of a fine view has a whole number.
+// The budgets that give each pixel of a fine view a whole number of samples.
 std::vector<int> TracedScene::fine_samples() const {
     std::vector<int> samples = budgets_.samples;
     std::erase_if(samples, [](int count) { return count % (fine * fine) != 0; });

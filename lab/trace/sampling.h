@@ -39,7 +39,7 @@ public:
 
     int count() const { return int(points_.count()); }
 
-    // Those of samples [first, first + out.size()) of pixel (x, y).
+    // The numbers of samples [first, first + out.size()) of pixel (x, y).
     void in_pixel(int x, int y, std::uint32_t first, std::span<Imath::V2d> out) const;
     void on_lens(int x, int y, std::uint32_t first, std::span<Imath::V2d> out) const;
     void on_light(int x, int y, std::uint32_t first, std::span<Imath::V2d> out) const;

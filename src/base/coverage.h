@@ -10,8 +10,8 @@ inline constexpr float half_covered = 0.5f;
 // Less than 1/2048 of a pixel left over is rounding too.
 inline bool lets_through(double transmittance) { return transmittance >= 1.0 / 2048; }
 
-// Of which half leaves nothing: its last step below 1 is 2^-11. What is less keeps what is behind it where samples are merged,
-// as a lamp shines through the last step.
+// Whether half rounds the coverage to 1: its last step below 1 is 2^-11. Smaller coverage keeps the samples behind it
+// when merged, as a lamp shines through the last step.
 inline bool is_one_in_half(float alpha) { return alpha >= 1 - 0x1p-12f; }
 
 // One pixel in two files: the filter, half and a renderer's compression of deep samples (by 0.01) may lie between them.

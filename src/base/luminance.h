@@ -5,7 +5,7 @@
 
 namespace sparselens {
 
-// Of R, G and B, as in Rec. 709.
+// Weights of R, G and B (Rec. 709).
 inline constexpr std::array luma_weights{0.2126, 0.7152, 0.0722};
 
 } // namespace sparselens

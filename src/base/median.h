@@ -7,7 +7,7 @@
 
 namespace sparselens {
 
-// Of at least one value, and of an even number the upper one of the two in the middle. Reorders them.
+// The median of at least one value; for an even number, the upper one of the two in the middle. Reorders them.
 template <std::ranges::random_access_range Values>
 auto median(Values &&values) {
     const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);

@@ -100,7 +100,7 @@ struct Move {
     std::uint64_t from, count, to;
 };
 
-// Of a row that begins at pixel `first`; sets where its pixels begin.
+// Lists the moves of a row that begins at pixel `first`, and sets where its pixels begin.
 void list_moves(const Ldi &ldi, const ChangedRow &row, std::size_t first, std::vector<std::uint64_t> &begin,
                 std::vector<Move> &moves) {
     for (std::size_t x = 0; x < row.changes.size(); ++x) {

@@ -49,7 +49,7 @@ Ldi concatenate(const Ldi &like, std::vector<Ldi> pieces);
 // 0. Of what comes one by one no two whole copies are held.
 void append_pixels(Ldi &whole, const Ldi &piece);
 
-// Of what becomes one sample: as solid as the least of those that cover half or more.
+// The solid of samples that become one: the smallest of those that cover half or more.
 float solid_of(const Ldi &ldi, std::size_t alpha_channel, std::span<const Term> terms);
 
 inline float alpha_at(const Ldi &ldi, std::size_t alpha_channel, std::uint64_t index) {

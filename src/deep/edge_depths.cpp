@@ -33,7 +33,7 @@ bool shows_surface(const FlatPixels &pixels, std::size_t i) {
     return pixels.coverage(i) > 0 && std::isfinite(pixels.z[i]);
 }
 
-// Of colours without coverage.
+// The difference of two colours divided by their coverage.
 double colour_difference(const FlatPixels &pixels, std::size_t a, std::size_t b) {
     return relative_difference(pixels.colour(a) / double(pixels.coverage(a)),
                                pixels.colour(b) / double(pixels.coverage(b)));

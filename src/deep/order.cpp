@@ -25,7 +25,7 @@ bool is_sorted_strictly(const std::vector<Extent> &extents) {
     return true;
 }
 
-// Of sorted extents only neighbours can overlap first.
+// In sorted extents, neighbours overlap first, so only they are compared.
 bool are_apart(const std::vector<Extent> &extents) {
     for (std::size_t i = 1; i < extents.size(); ++i) {
         const auto &[z, back] = extents[i - 1];

@@ -24,7 +24,7 @@ bool same_bits(float a, float b) {
     return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b);
 }
 
-// That of more than half of the values, if there is one; else any.
+// The value that more than half of the values have, if there is one; else any.
 float majority(std::span<const float> values) {
     float found = 0;
     std::size_t lead = 0;

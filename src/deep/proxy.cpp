@@ -30,7 +30,7 @@ struct Seen {
     double x, y;       // place, in small pixels from the middle of the small one
 };
 
-// Of what is joined with it, the means.
+// Gives joined samples the means of their surface.
 void take_means(std::span<const std::uint32_t> joined, std::vector<Seen> &seen) {
     struct Surface {
         std::uint32_t first;
@@ -101,7 +101,7 @@ bool alike(const Seen &first, const Seen &s, const ProxyFor &by) {
 
 float offset(double sum, std::size_t count) { return float(std::clamp(sum / double(count), -0.5, 0.5)); }
 
-// Of some samples, the mean of what is depth: that of depths is harmonic.
+// The mean position and depth of some samples; the mean of depths is harmonic.
 struct PlaceSum {
     double x = 0, y = 0, inverse_z = 0, inverse_optical = 0;
     std::size_t count = 0;
@@ -133,7 +133,7 @@ public:
         : ldi_(ldi), alpha_(alpha), factor_(factor), by_(by), dimmed_(dimmed_channels(ldi, by)) {}
 
     void append_to(Ldi &out, const Imath::V2i &small) const {
-        // Of the light; less is what rounding leaves behind surfaces that hide everything.
+        // A share of the light; rounding leaves less behind surfaces that hide everything.
         constexpr double nothing_left = 1e-4;
         thread_local std::vector<Seen> seen; // kept, as there are many pixels
         thread_local std::vector<Term> terms;

@@ -20,7 +20,7 @@ constexpr float finest_px =
 constexpr int fraction_bits = std::numeric_limits<float>::digits - 1;
 constexpr int colour_bits = 8, weight_bits = 4; // kept of the fraction: off by half of the last one at most
 
-// Of so many bits of the fraction; to even. Greater numbers never become less than smaller ones.
+// Rounds to this number of bits of the fraction, to even. The order of numbers stays.
 float rounded(float value, int bits) {
     const int dropped = fraction_bits - bits;
     if (dropped <= 0 || !std::isfinite(value)) return value;

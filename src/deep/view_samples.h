@@ -53,7 +53,7 @@ public:
     void front_values(std::size_t channel, std::size_t first, std::span<float> out) const;
     void single_depths(std::size_t first, std::span<float> out) const;
 
-    // Of all pixels, whether they show something or not. As made, see PackedView.
+    // The depths of all pixels, empty ones too. For a view made from a PackedView, see there.
     std::span<const float> depths() const { return z_; }
     Image image() const;
     // By the bits of depths, then of values.
@@ -71,7 +71,7 @@ public:
     void replace(const std::function<bool(std::size_t pixel)> &changes,
                  const std::function<void(std::size_t pixel, Ldi &out)> &fill);
 
-    // Of all channels only coverage can be asked afterwards.
+    // Frees all channels but coverage.
     void forget_colours();
 
     // In rows [first, end), counted from the top.

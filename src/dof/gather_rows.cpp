@@ -26,7 +26,7 @@ namespace {
 constexpr int rows_at_once = 16,
               highlight_rows = 32; // the cells of highlights.cpp, the noise blocks of sharpen.cpp
 
-// Of the samples of some rows, or of all.
+// Extremes of the samples of some rows, or of all.
 struct Extremes {
     double coc = 0;                                                               // pixels, without its sign
     double least_depth = std::numeric_limits<double>::infinity(), most_depth = 0; // perceptive, pixels
@@ -90,7 +90,8 @@ struct Band {
     int first, last;
 };
 
-// Of the picture, from its first or last row on, that tell what goes on beyond it (beyond/border.h).
+// The number of rows of the picture, from its first or last one, that decide what continues beyond it
+// (beyond/border.h).
 int border_rows(const PictureOptions &options) {
     return GatherTuning::border_inwards * options.gather.lens.across;
 }
@@ -176,7 +177,7 @@ void copy_rows(const Image &band, Image &picture) {
                                              std::ptrdiff_t(picture.windows.index(rows.min.x, rows.min.y)));
 }
 
-// Of which none has lens points.
+// The tiles of a band, without lens points.
 LensTiles tiles_of(const Imath::Box2i &gathered, const Band &band) {
     const Tiles tiles({{gathered.min.x, band.first}, {gathered.max.x, band.last}}, lens_tile_size);
     return {lens_tile_size, tiles.columns(), tiles.rows(), std::vector<int>(tiles.count())};

@@ -75,8 +75,8 @@ public:
 
     const DeviceInfo &info() const { return info_; }
     std::size_t largest_buffer() const; // bytes that a program can reach
-    // Of its loops, that a work group may take. Mesa's device in software ends a program after 65535, and what it has not
-    // written is garbage; other devices have no such bound.
+    // The turns of loops that a work group may take. Mesa's device in software ends a program after 65535, and what it
+    // has not written is garbage; other devices have no such bound.
     double most_turns() const;
 
     // Bytes in the device's memory, at least one, uninitialised.

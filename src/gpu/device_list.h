@@ -29,7 +29,7 @@ struct DeviceInfo {
     bool float64 = false;   // computes with numbers of 64 bits, which the selective gather needs
 };
 
-// Of this machine; empty where there is no loader or no driver that works. Never throws for want of either, but says in
+// The devices of this machine; empty if no loader or no driver works. Does not throw for want of either, but says in
 // `why_none` what Vulkan did.
 std::vector<DeviceInfo> list_devices(std::string *why_none = nullptr);
 

@@ -13,7 +13,8 @@ namespace sparselens {
 
 namespace {
 
-// Of the longer side. Tables of such a picture take 0.5 GB at most; a disc in a picture is smaller, or out of focus enough.
+// The longer side. Tables of such a picture take 0.5 GB at most; a disc in a picture is smaller, or out of focus
+// enough.
 constexpr int most_pixels = 2048;
 
 // The channels that weigh R, G and B.

@@ -144,7 +144,7 @@ OpenedLdi open_ldi(const std::string &path, const OpenOptions &options, const Ch
 
 namespace {
 
-// Of one that has one sample in each pixel.
+// Settles an LDI with one sample in each pixel.
 std::size_t settle_speckles_of(Ldi &ldi) {
     const std::vector<std::span<const float>> planes(ldi.values.begin(), ldi.values.end());
     return settle_speckles(ldi.windows, ldi.channels, planes, ldi.z);

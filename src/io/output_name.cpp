@@ -22,7 +22,7 @@ bool is_pipe_or_device(const std::string &path) {
             !std::filesystem::is_directory(status));
 }
 
-// Those of the usual ones that the OpenImageIO at hand writes.
+// The usual endings that the installed OpenImageIO writes.
 std::string endings() {
     static constexpr std::array usual{"png", "jpg", "jpeg", "tif", "tiff",
                                       "bmp", "dpx", "hdr",  "tga", "webp"};

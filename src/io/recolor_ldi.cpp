@@ -35,7 +35,7 @@ void require_one_frame(const OpenedLdi &ldi, const Beauty &beauty) {
                         beauty.name, ldi.name));
 }
 
-// Of the rest, depths at infinity for one, nothing is needed.
+// Drops everything else, such as depths at infinity.
 Image light_and_coverage(const Image &image) {
     std::vector<Channel> kept;
     std::ranges::copy_if(image.channels, std::back_inserter(kept), is_light);

@@ -17,7 +17,7 @@ struct Beauty {
     std::vector<std::string> notes = {}, warnings = {};
 };
 
-// Of a flat EXR; the choice is that of the picture with the samples, but for its depth.
+// Opens a flat EXR; the choice is that of the deep picture, without its depth.
 // Throws Error, naming the file, where it is deep, cannot be read or has no light.
 Beauty open_beauty(const std::string &path, const PictureChoice &choice);
 Beauty ready_beauty(FlatFile file, const std::string &path);

@@ -24,7 +24,7 @@ inline constexpr uint cells = uint(side * side);
 inline constexpr uint chunk = 512; // partial samples at once
 static_assert(tile_size == 2 * size);
 
-// Of samples or facets; pixels.
+// A block of samples or facets; lengths in pixels.
 struct Block {
     uint begin, opaque_end;
     float x_min, x_max, y_min, y_max, coc_min, coc_max;

@@ -15,7 +15,7 @@ inline Real half_chord(Real radius, Real d) {
     return sqrt(max(Real(0), (radius - d) * (radius + d)));
 }
 
-// Of sqrt(r^2 - t^2), from 0 to t.
+// The integral of sqrt(r^2 - t^2) from 0 to t.
 template <typename Real>
 inline Real chord_integral(Real radius, Real t) {
     return (t * half_chord(radius, t) + radius * radius * asin(t / radius)) / 2;
@@ -83,8 +83,8 @@ struct Band {
     double low, high, outer, inner;
 };
 
-// Of the row between `top` and `bottom`, where half the chord is `at_top` and `at_bottom`: its part above the centre, or
-// below. The row that holds the centre has both.
+// The part of the row between `top` and `bottom`, with half chords `at_top` and `at_bottom`, that lies above the
+// centre, or below. The row that holds the centre has both.
 inline Band band_of(bool is_above, double top, double bottom, double at_top, double at_bottom,
                     double radius) {
     const bool both = top < 0 && bottom > 0;

@@ -42,7 +42,7 @@ public:
     // the light in a pixel is off by less than 1e-3 of that of a pixel within.
     std::vector<Imath::V2d> outline(double coc) const;
 
-    // Of a picture, for light from behind focus or in front; null for others.
+    // The table of an aperture picture, for light from behind focus or in front; null for other apertures.
     const PictureTable *picture(bool behind) const;
 
     // How much light that comes from behind or in front weighs at a radius, the mean over the lens being 1.

@@ -19,7 +19,7 @@ public:
     bool flat() const { return looks_.field_curvature == 0 && looks_.tilt == Imath::V2d(0, 0) && !skews(); }
     bool skews() const { return looks_.astigmatism != 0; }
 
-    // Of 1/d, at p: 1 on the axis.
+    // Factor on 1/d at p; 1 on the axis.
     double factor(const Imath::V2d &p) const {
         const Imath::V2d q = frame_.from_axis(p), place = frame_.place(p);
         return (1 + looks_.field_curvature * place.dot(place)) * (1 + looks_.tilt.dot(q) / focal_px_);

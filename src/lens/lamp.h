@@ -18,9 +18,9 @@ struct LampTuning {
     static constexpr float stands_out = 4;
     // The same of the brightest pixel of a lamp by which views are compared.
     static constexpr float stands_out_of_view = 8;
-    // Of so many samples one may be a lamp's: the others are what surrounds it; ...
+    // One in this number of samples may be a lamp's, and the others surround it; ...
     static constexpr std::size_t one_in = 5;
-    // ... of those along the whole border.
+    // ... along the whole border.
     static constexpr std::size_t one_in_border = 32;
 };
 

@@ -16,7 +16,7 @@ constexpr int reversed(int k) {
     return r;
 }
 
-// Of the first n columns, and of the first n rows.
+// Bits of the first n columns, and of the first n rows.
 using Prefixes = std::array<std::uint64_t, points + 1>;
 
 constexpr Prefixes column_prefixes() {
@@ -77,7 +77,7 @@ struct Reach {
     }
 };
 
-// Of the points of a pixel that lie in a disc; of all, where none does.
+// The lit share of the points of a pixel that lie in a disc; of all points if none does.
 float lit_points(std::uint64_t hidden, int x, int y, const LampDisc &disc) {
     int inside = 0, lit_inside = 0;
     for (int k = 0; k < points; ++k)

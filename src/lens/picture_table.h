@@ -13,7 +13,7 @@
 
 namespace sparselens {
 
-// Of R, G, B, and of their mean.
+// Light of R, G and B, and their mean.
 using LightOfColours = std::array<double, 4>;
 
 class PictureTable {

@@ -46,7 +46,7 @@ PsfRows::PsfRows(const Psf &psf, const Imath::Box2i &box)
             half_chord(radius, std::abs(y - psf.centre.y) / psf.pixel_aspect);
 }
 
-// Those of the box that lie within a distance of the centre, in part or whole.
+// The columns of the box that lie within a distance of the centre, in part or whole.
 PsfRows::Span PsfRows::columns_within(double distance) const {
     const int right = box_.max.x + 1;
     return {first_within(psf_.centre.x, distance, box_.min.x, right),

@@ -14,8 +14,8 @@
 
 namespace sparselens {
 
-// Of a second difference. In one step of focus, what is above the first one is seen as a flicker, and above the second
-// as a sparkle.
+// Thresholds of a second difference. In one step of focus, people see more than the first as a flicker, and more than
+// the second as a sparkle.
 inline constexpr std::array temporal_thresholds{0.02, 0.05};
 
 struct Steadiness {

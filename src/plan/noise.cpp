@@ -79,7 +79,7 @@ public:
             if (noise_around(own, blocks_.pixel(i))) variance_[i] = mean_around(own, blocks_.pixel(i));
     }
 
-    // Of the block that the pixel lies in, or next to.
+    // The variance of the block that the pixel lies in, or next to.
     double at(int x, int y) const {
         if (variance_.empty()) return 0;
         return variance_[blocks_.index(std::clamp((x - 1) / block_size, 0, blocks_.width() - 1),

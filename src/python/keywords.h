@@ -28,7 +28,7 @@ public:
     py::object take(const char *name); // None where it is not given
     bool flag(const char *name);       // False where it is not given
     std::optional<double> number(const char *name, NumberRange range = above_0);
-    // Those of a table.
+    // The numbers of a table.
     template <typename Values>
     void numbers_of(std::span<const NumberParameter<Values>> table, Values &values) {
         for (const NumberParameter<Values> &of : table) {

@@ -46,7 +46,7 @@ inline FlatPixels flat_pixels(const View &view) {
     return flat_pixels(image.windows, image.channels, view.z, [&](std::size_t k) { return image.plane(k); });
 }
 
-// Of two colours, relative to their size: [0, 1] of light that is not negative.
+// The difference of two colours relative to their size, in [0, 1] for light that is not negative.
 inline double relative_difference(const Imath::V3d &a, const Imath::V3d &b) {
     double off = 0, light = 1e-6; // both dark: no difference
     for (int k = 0; k < 3; ++k) {

@@ -33,7 +33,7 @@ struct PhotoConsistency {
 // By what is said of a block (kernels/photo_rules.h).
 Disagreement disagreement_of(std::uint32_t verdict);
 
-// Of some rows of `data`, whose surfaces are given.
+// Tests some rows of `data`, whose surfaces are given.
 PhotoConsistency find_photo_consistency(const ReprojectedViews &views, const PhotoConsistencyOptions &options,
                                         const Imath::Box2i &data, const Surfaces &surfaces);
 

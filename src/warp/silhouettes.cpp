@@ -170,7 +170,7 @@ std::optional<Mixture> Separation::mixture_of(int x, int y) const {
     return mixture;
 }
 
-// Of the pixels of a surface that shows none without an edge, as a wire or a small lamp, the one least mixed: that
+// The least mixed pixel of a surface that has edges in all its pixels, such as a wire or a small lamp: the pixel
 // which differs most from what is behind.
 Imath::V3d Separation::purest(int x, int y, double depth, const Imath::V3d &front,
                               const Imath::V3d &behind) const {

@@ -52,7 +52,7 @@ std::vector<float> least_around(const std::vector<float> &values, const Grid &gr
     return least;
 }
 
-// Of each pixel of a view.
+// The farthest depth in each pixel of a view.
 std::vector<float> farthest_in(const ViewSamples &view) {
     std::vector<float> farthest(view.windows.pixels());
     const std::size_t alpha = view.alpha();

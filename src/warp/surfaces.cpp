@@ -28,7 +28,7 @@ bool one_surface(const ViewSample &a, const ViewSample &b, double tolerance) {
     return kernels::is_one_surface(double(a.inverse_z), double(b.inverse_z), tolerance);
 }
 
-// Of the samples of a pixel, front to back, those that belong to it.
+// The samples of a pixel, front to back, that belong to it.
 std::span<ViewSample> behind_centre(const ReprojectedViews &views, double tolerance,
                                     std::span<ViewSample> samples) {
     const auto centre =

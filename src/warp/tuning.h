@@ -61,7 +61,7 @@ struct WarpTuning {
 
     // Where lamps stand (lamps/lamp_depths.h). Pixels, wide and high, of a lamp that no pixel need show alone.
     static constexpr int small_lamp = 3;
-    // Of the brightest pixel's light: with less, a pixel of a larger lamp is an edge.
+    // Share of the brightest pixel's light: with less, a pixel of a larger lamp is an edge.
     static constexpr double lamp_edge_share = 0.3;
     // Pixels between where two views show one lamp: from what is expected, ...
     static constexpr double lamp_same_place = 0.75;
@@ -74,13 +74,13 @@ struct WarpTuning {
 
     // What light they have (lamps/lamp_light.h). Pixels around a lamp that may hold a part of its light.
     static constexpr int lamp_margin = 2;
-    // Of the light of the lamp and its margin: what is not the lamp's.
+    // Share of the light of the lamp and its margin that may come from elsewhere.
     static constexpr double lamp_most_of_surroundings = 0.25;
-    // Of the lamp's light: views that differ by more show different things, ...
+    // Share of the lamp's light: views that differ by more show different objects, ...
     static constexpr double lamp_most_noise = 0.33;
     // ... and so do those that differ by more than this divided by its pixels.
     static constexpr double lamp_noise_of_pixels = 1;
-    // Of the lamp's light: what is changed of it at most.
+    // Largest share of the lamp's light that may be changed.
     static constexpr double lamp_largest_change = 0.5;
 
     // At which depth mirrors and glass show what they show (images/image_sweep.h). Perceptive: between depths that are tried.
@@ -103,7 +103,7 @@ struct WarpTuning {
     static constexpr std::size_t image_coarse_steps = 2;
     // Perceptive, from the surface: less is not worth it.
     static constexpr float image_least_px = 0.25f;
-    // Of the difference of the views at the surface: what explains them leaves less.
+    // Share of the views' difference at the surface: a depth that explains them leaves less.
     static constexpr float image_left = 0.5f;
     // The difference at the surface, mean square, R, G and B together: less is not seen.
     static constexpr float image_least_difference = 3e-5f;
@@ -115,16 +115,16 @@ struct WarpTuning {
     static constexpr int image_fine_steps = 3;
     // ... and perceptive, how far apart they are.
     static constexpr double image_fine_px = 0.25;
-    // Of a patch that both views show, to be compared.
+    // Share of a patch that both views must show to be compared.
     static constexpr float image_least_patch = 0.4f;
 
     // Which of them belong together (images/image_depths.h). Of the pixels of a block that found a depth, to search those beside it.
     static constexpr double image_enough_found = 0.25;
-    // Of the eight blocks beside one: more than a line ends with.
+    // Number of the eight blocks beside one: more than at the end of a line.
     static constexpr int image_enough_beside = 2;
     // Pixels around, whose depths lie on a plane.
     static constexpr int image_plane_reach = 6;
-    // Of those pixels that found a depth: so many are as near to it as the next says.
+    // Share of the pixels that found a depth: this many are as near to it as the next constant says.
     static constexpr double image_agreement = 0.4;
     // Perceptive: depths no farther apart are those of one image.
     static constexpr float image_one_px = 0.8f;

@@ -26,8 +26,9 @@ struct Votes {
 // A sample that a view sees past the surface, and how much of the view's pixel it covers, above 0.
 using SeePast = std::function<void(const ViewSamples &view, std::uint64_t sample, double covers)>;
 
-// Of a surface at (x, y) of the centre view (pixels) and depth 1 / inverse_z. A view says nothing where something nearer
-// hides the position or where it lies outside the view. Depths whose inverses differ by less than `tolerance` are the same.
+// Votes on a surface at (x, y) of the centre view (pixels) and depth 1 / inverse_z. A view says nothing where something
+// nearer hides the position or where it lies outside the view. Depths whose inverses differ by less than `tolerance`
+// are the same.
 Votes votes_on(const ReprojectedViews &views, const Imath::V2d &place, double inverse_z, double tolerance,
                const SeePast &past = {});
 

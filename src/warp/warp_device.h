@@ -1,6 +1,6 @@
-// Who turns reprojected views into samples in place of the CPU: a GPU (gpu/warp/warp_device.h). The warp prepares the views
-// for both alike (depths of edges, silhouettes), works itself on the rows that the device leaves, and looks for images in
-// mirrors and glass.
+// A device that turns reprojected views into samples instead of the CPU: a GPU (gpu/warp/warp_device.h). The warp
+// prepares the views for both alike (depths of edges, silhouettes), works itself on the rows that the device leaves,
+// and looks for images in mirrors and glass.
 #pragma once
 
 #include "base/device_report.h"

@@ -85,7 +85,7 @@ TEST(Matte, IsFoundInAnyOrderOfItsChannels) {
     EXPECT_EQ(mattes[0].ranks[1].coverage, 0u);
 }
 
-// Of a header that was made to take long: looking through all channels for each of them would take minutes.
+// This header is made to take long: looking through all channels for each of them would take minutes.
 TEST(ChannelKind, OfManyChannelsAreFoundAtOnce) {
     std::vector<Channel> channels;
     for (int i = 0; i < 100'000; ++i) channels.push_back({fmt::format("layer{}.y", i)});

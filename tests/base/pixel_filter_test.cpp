@@ -32,7 +32,7 @@ double variance_of(const std::vector<double> &shares) {
     return sum;
 }
 
-// Of the window of Blackman and Harris over the width 1, added up.
+// The variance of the window of Blackman and Harris over the width 1, added up.
 double blackman_harris_variance() {
     const double turn = 2 * std::numbers::pi;
     double all = 0, square = 0;

@@ -265,7 +265,7 @@ TEST(Cluster, ALensOfNoRadiusNeedsOneLayer) {
         EXPECT_LE(samples_of(out.ldi, pixel).size(), 1u);
 }
 
-// Of one mirror, at perceptive depth 1: images at these perceptive depths.
+// One mirror at perceptive depth 1, with images at these perceptive depths.
 Ldi mirror_of(std::initializer_list<double> images, double spacing) {
     return make_ldi(windows_of_size(1, 1), {{"R"}, {"A"}}, [&](int, int) {
         std::vector<Sample> samples;

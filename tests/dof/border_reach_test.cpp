@@ -50,7 +50,7 @@ TEST(BorderReach, FindsLampsAtTheBorderThatAreDiscs) {
     EXPECT_FALSE(border_reach(plane(0.5, 0, {0, 7}), lens).bright);
 }
 
-// Of pixels twice as wide as high a disc of 4.7 pixels across is 9.4 pixels high.
+// With pixels twice as wide as high, a disc 4.7 pixels across is 9.4 pixels high.
 TEST(BorderReach, IsAskedOfEachSideByItself) {
     Ldi wide = plane(4.7, 10);
     ThinLens high = lens;

@@ -55,7 +55,7 @@ protected:
         options.gather.lens.quality = Quality::draft;
         options.gather.lens.chosen = &tiles;
     }
-    // Of bands of one row of tiles against all at once.
+    // Compares bands of one row of tiles with all rows at once.
     void expect_same(const Imath::Box2i &written) {
         const Image whole = gather_picture(ldi, lens, window, written, options, progress);
         const std::vector<int> chosen = tiles.lens_points;

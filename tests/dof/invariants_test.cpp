@@ -194,7 +194,7 @@ TEST(Invariants, AMirroredPictureIsMirrored) {
     EXPECT_LT(asymmetry(with_lamps, 1024), 0.7 * asymmetry(with_lamps, 64));
 }
 
-// Of the lamps it is less so: each pixel of a disc asks one lens point whether it sees the lamp, however many there
+// Lamps gain less: each pixel of a disc asks one lens point whether it sees the lamp, however many there
 // are.
 TEST(Invariants, FourTimesTheLensPointsAreCloserToTheTruth) {
     for (const std::uint32_t seed : {5u, 6u, 7u}) {

@@ -210,7 +210,7 @@ TEST_F(LensDeviceTest, HoldoutsAreTheCpus) {
     }
 }
 
-// Of a few lens points each; tiles of which one lens point takes too long are the CPU's.
+// Passes have a few lens points each; tiles where one lens point takes too long are the CPU's.
 TEST_F(LensDeviceTest, WhatTakesLongTakesPasses) {
     LensLooks looks;
     looks.aperture.spherical = 0.5;

@@ -83,7 +83,7 @@ TEST_F(WarpDeviceTest, FramingsAreTheCpus) {
     }
 }
 
-// Of some views, a part was rendered, and one is cropped.
+// Some views were rendered in part, and one is cropped.
 TEST_F(WarpDeviceTest, MissingViewsAreTheCpus) {
     std::vector<View> views = five_views(one_plane([](double x, double) { return float(x / 64); }),
                                          windows_of_size(64, 48), radius);

@@ -18,7 +18,7 @@ Windows window(int width, int height) {
     return windows;
 }
 
-// Of a circle of radius 1, by another one whose middle is d away.
+// The area of a circle of radius 1 inside another one whose middle is d away, as a share.
 double lens_of_two_circles(double d) {
     return d >= 2 ? 0 : (2 * std::acos(d / 2) - d / 2 * std::sqrt(4 - d * d)) / std::numbers::pi;
 }

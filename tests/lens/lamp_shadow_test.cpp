@@ -55,7 +55,7 @@ TEST(LampShadow, ChangesByOnePointAtATime) {
     }
 }
 
-// Of a pixel that a disc's edge crosses, what lies in the disc is lit or not.
+// In a pixel that a disc's edge crosses, only points in the disc are lit or not.
 TEST(LampShadow, CountsWhatLiesInADisc) {
     const LampDisc disc{{5, 5}, {3, 3}}, wide{{5, 5}, {9, 9}};
     for (const float edge : {7.25f, 7.5f, 7.75f}) {

@@ -71,7 +71,7 @@ TEST(Noise, WhatLooksLikeNoiseHereAndThereIsNone) {
     EXPECT_GT(with_a_noisy_block_in(1), 3e-4);
 }
 
-// Of the left half only: it is found where it is, but for the blocks beside the border.
+// Only the left half has noise: it is found there, except in the blocks beside the border.
 TEST(Noise, IsFoundWhereItIs) {
     std::mt19937 random(5);
     std::normal_distribution<double> noise(0.5, 0.02);

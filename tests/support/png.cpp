@@ -54,7 +54,7 @@ Chunk next_chunk(Reader &reader) {
     return {{checked.begin(), checked.begin() + 4}, {checked.begin() + 4, checked.end()}};
 }
 
-// Of a byte: what the one to the left, the one above and the one to the left of that predict (section 9.4).
+// The byte that the one to the left, the one above and the one to the left of that predict (section 9.4).
 int paeth(int left, int above, int above_left) {
     const int estimate = left + above - above_left;
     const int to_left = std::abs(estimate - left), to_above = std::abs(estimate - above),

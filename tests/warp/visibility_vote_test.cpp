@@ -50,7 +50,7 @@ TEST(VisibilityVote, WhoCannotTellDoesNotVote) {
     EXPECT_EQ(views.coverage(12, 5, std::numeric_limits<double>::infinity()), 1);
 }
 
-// Of two views one half sees it: between a quarter and three quarters coverage is in proportion.
+// One of two views sees it: between a quarter and three quarters, coverage is in proportion.
 TEST(VisibilityVote, AnEdgeIsSharedByMajority) {
     TwoPlanes with = card_up_to(20), without = card_up_to(-100);
     const Windows w = windows_of_size(40, 10);

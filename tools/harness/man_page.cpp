@@ -82,7 +82,7 @@ std::string section(const CLI::App &app, const std::string &group, bool argument
     return text;
 }
 
-// Of the options and arguments that are given none: "Options", since CLI11 2.5 "OPTIONS".
+// The group of options and arguments without one: "Options", since CLI11 2.5 "OPTIONS".
 std::string group_of_none() { return CLI::OptionDefaults().get_group(); }
 
 std::string environment(const CLI::App &app) {

@@ -1,4 +1,4 @@
-// Who may come in: those who know the key, from a page of this server's own. A page of another site that a browser shows
+// Lets in requests that know the key, from a page of this server's own. A page of another site that a browser shows
 // cannot read the key, but may send requests to any port; and a name of its own that it points to 127.0.0.1 makes it seem
 // of one site with this server (DNS rebinding). So the name in Host is this machine's, and Origin, where there is one, is it.
 #pragma once

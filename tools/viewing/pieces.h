@@ -17,7 +17,7 @@ struct Piece {
     ShownPixels pixels;
 };
 
-// Of one picture at a time; by any number of threads.
+// Pieces of one picture at a time, made and taken by any number of threads.
 class Pieces {
 public:
     // While it lives, a picture of the page is at work, which has no pieces yet.
@@ -36,7 +36,7 @@ public:
         const std::lock_guard lock(mutex_);
         pieces_.push_back(std::move(piece));
     }
-    // Those that are new, in their order; none where another page's picture is at work.
+    // Takes the new pieces, in their order; none if another page's picture is at work.
     std::vector<Piece> take(const std::string &page) {
         const std::lock_guard lock(mutex_);
         if (page != page_) return {};

@@ -1,7 +1,7 @@
 // The viewer on a port of this machine, for browsers.
 //
 // Requests come from the loopback device alone, name this machine, know the key (door.h) and are small (http_request.h, asked.h).
-// Those that are refused get 403, malformed ones 400, and a page that has asked for something newer gets 409.
+// Refused requests get 403, malformed ones 400, and a page that has asked for something newer gets 409.
 #pragma once
 
 #include "viewing/viewer.h"

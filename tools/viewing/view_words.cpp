@@ -19,10 +19,10 @@ namespace sparselens {
 
 namespace {
 
-// Of dof-view alone; the flags take no value.
+// Options of dof-view alone; the flags take no value.
 constexpr std::array own_options{"--reference", "--port", "--save", "--frames", "--threads", "--max-memory"};
 constexpr std::array own_flags{"--open", "-v", "--verbose"};
-// Of dof-gather: those of pictures that take no value.
+// Options of pictures of dof-gather that take no value.
 constexpr std::array picture_flags{"--cat-eye-darkening", "--holdout-defocused", "--unpremultiplied"};
 
 // What a page may set beside the looks that are numbers.

@@ -8,7 +8,7 @@
 namespace sparselens::lab {
 namespace {
 
-// Of a row of pixels, 16 lens points each: as alike as those of a reference.
+// Rays of a row of pixels, 16 lens points each, as similar to each other as those of a reference.
 std::vector<Ray> rays_of_a_row() {
     const RenderSettings settings = settings_of_size(640, 360);
     std::vector<Ray> rays;

@@ -126,7 +126,7 @@ TEST(Systems, ARowTakesTheTimeOfItsWholeChain) {
         for (const std::size_t step : row.steps) EXPECT_TRUE(all.steps[step].timed);
 }
 
-// Of the lens gather over centre and 4 with most samples alone: it takes as long as 16 pictures.
+// Only for the lens gather over centre and 4 with most samples, because it takes as long as 16 pictures.
 TEST(Systems, PullsOfFocusShowHowSteadyTheLensIs) {
     const Planned all = planned("fence");
     const PlannedRow &row = all.row("centre + 4, lens final", "64 samples");

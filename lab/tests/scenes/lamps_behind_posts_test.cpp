@@ -60,7 +60,7 @@ std::vector<Lamp> all_lamps() {
 Paint black(const Imath::V3d &) { return {.colour = {0, 0, 0}, .emits = true}; }
 Paint white(const Imath::V3d &) { return {.colour = {60, 60, 60}, .emits = true}; }
 
-// Of these pixels of the centre view, y up.
+// A square that shows at these pixels of the centre view, y up.
 Quad facing(double z, double left, double bottom, double right, double top, Material material) {
     const auto corner = [&](double x, double y) { return Imath::V3d(x, y, width) * (z / width); };
     return {{{corner(left, bottom), corner(right, bottom), corner(right, top), corner(left, top)}}, material};
@@ -82,7 +82,7 @@ Ldi ldi_of(const std::vector<Lamp> &lamps, int post) {
     return warp(camera.five_views(16), {.focal_px = width, .radius = full, .focus = focus}, silent);
 }
 
-// Of each lamp, what pixels nearer to it than to the others show.
+// The light of each lamp: the pixels nearer to it than to the others.
 std::vector<double> light_of(const Image &picture, const std::vector<Lamp> &lamps) {
     std::vector<double> light(lamps.size(), 0);
     for (std::size_t i = 0; i < picture.windows.pixels(); ++i) {

@@ -68,7 +68,7 @@ std::map<int, double> seen_by_lens(const SceneCamera &scene, const Imath::V2i &p
     return shares;
 }
 
-// Of each object, over all pixels: sums of its share of them and of the picture's error in it, and of their squares.
+// Sums for each object over all pixels: its share of them, the picture's error in it, and the squares of both.
 struct MatteError {
     double shares = 0, errors = 0, shares_squared = 0, errors_squared = 0;
 

@@ -1,6 +1,6 @@
-// Who gathers tiles of a picture in place of the CPU: a GPU (gpu/gather/gather_device.h). The lens gather prepares samples,
-// fillers and lens points for both alike, the selective gather its splats (splat_tiles.h); each gathers itself what the
-// device leaves.
+// A device that gathers tiles of a picture instead of the CPU: a GPU (gpu/gather/gather_device.h). The lens gather
+// prepares samples, fillers and lens points for both alike, the selective gather its splats (splat_tiles.h); each
+// gathers itself what the device leaves.
 #pragma once
 
 #include "base/device_report.h"

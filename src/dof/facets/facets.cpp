@@ -62,7 +62,7 @@ std::vector<DepthRange> ranges_of_row(const Links &links, const Windows &windows
     return ranges;
 }
 
-// Of one row of blocks.
+// The facets of one row of blocks.
 std::vector<std::vector<Facet>> find_in_row(const Links &links, const Windows &windows, int block_row,
                                             float steep) {
     constexpr int size = FacetBlocks::size;

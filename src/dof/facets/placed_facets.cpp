@@ -46,8 +46,8 @@ bool out_of_reach(const FacetBlock &b, const LensSample &lens, const FacetGrid &
 
 constexpr std::size_t at_once = 64;
 
-// Of some facets, along one axis: where a lens point sees their corners, in cells, 0 in the middle of the first; how wide
-// they are; and the cells, 1 to `last`, whose middle lies between the corners.
+// Extents of some facets along one axis: where a lens point sees their corners, in cells, 0 in the middle of the first;
+// how wide they are; and the cells, 1 to `last`, whose middle lies between the corners.
 struct Extents {
     std::array<std::array<float, at_once>, 3> at;
     std::array<float, at_once> least, most;

@@ -30,7 +30,7 @@ public:
             for (std::uint32_t i = run.begin; i < run.end; ++i) put(i);
     }
 
-    // Of sample i of a pixel in row y.
+    // The place of sample i of a pixel in row y.
     std::uint32_t place(int y, std::uint64_t i) const {
         const Row &row = rows_[std::size_t(y - box_.min.y)];
         return row.place[i - row.first];

@@ -13,7 +13,7 @@ class InterpolationBlur {
 public:
     static constexpr double largest_weight = 0.125; // f (1 - f) is at most 1/4
 
-    // Of a disc if null.
+    // The aperture; null: a disc.
     explicit InterpolationBlur(const Aperture *aperture);
     ~InterpolationBlur();
 

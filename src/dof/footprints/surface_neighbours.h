@@ -17,9 +17,9 @@ struct SurfaceNeighbours {
     double along(std::size_t neighbour) const { return double(neighbour < 2 ? horizontal : vertical); }
 };
 
-// Of sample i, in pixel (x, y) from the corner of the data window. A neighbour is the sample of its pixel that is nearest in
-// perceptive depth, and nearer than one_surface_px; from 3/4 of that on it shows the surface less and less, so that nothing
-// changes at once as the aperture opens.
+// The neighbours of sample i, in pixel (x, y) from the corner of the data window. A neighbour is the sample of its
+// pixel that is nearest in perceptive depth, and nearer than one_surface_px; from 3/4 of that on it shows the surface
+// less and less, so that nothing changes at once as the aperture opens.
 SurfaceNeighbours surface_neighbours(const Ldi &ldi, const ThinLens &lens, std::uint64_t i, int x, int y);
 
 } // namespace sparselens

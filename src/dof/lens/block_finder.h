@@ -25,7 +25,8 @@ public:
     // The samples outlive this.
     BlockFinder(const BlockedSamples &samples, const Aperture &aperture, double pixel_aspect);
 
-    // Those that can reach a tile, or the pixels next to it, in their order. `stretched`: by how much lens points are at most.
+    // Finds the blocks that can reach a tile, or the pixels next to it, in their order. `stretched`: by how much lens
+    // points are at most.
     ReachingCocs find(const Imath::V2i &origin, int size, float stretched,
                       std::vector<std::uint32_t> &found) const;
     float extent() const { return extent_; }

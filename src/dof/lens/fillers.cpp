@@ -125,7 +125,8 @@ public:
     ShownByGrounds(const Ldi &ldi, std::span<const Ground> grounds)
         : ldi_(ldi), grounds_(grounds), alpha_(ldi.alpha()), rgb_(find_rgb(ldi.channels)) {}
 
-    // Of the ground whose last pixel is `end`, with another before it along a row or column, and one that hides it behind it.
+    // The Shown of the ground whose last pixel is `end`; `before` precedes it along a row or column, and `behind`,
+    // which hides it, follows.
     Shown at_end(std::size_t end, std::size_t before, std::size_t behind) const {
         return is_mixed(end, before, behind) ? Shown{grounds_[before].sample, before}
                                              : Shown{grounds_[end].sample, end};

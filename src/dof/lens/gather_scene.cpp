@@ -81,7 +81,7 @@ void complete(GatherScene &scene, const Treat &treat, const Progress &progress) 
     optics.bend(scene.solids);
 }
 
-// Of the LDI's samples, how much of their light stays; empty: all.
+// The share of each sample's light that stays; empty: all of it.
 std::vector<float> left_by_highlights(const GatherScene &scene) {
     const std::vector<std::uint32_t> &from = scene.highlights.sample;
     if (from.empty()) return {};
@@ -91,7 +91,7 @@ std::vector<float> left_by_highlights(const GatherScene &scene) {
     return left;
 }
 
-// Of looks, what is counted in pixels. The middle of the small display window may lie elsewhere.
+// Scales looks that are counted in pixels. The middle of the small display window may lie elsewhere.
 LensLooks smaller(LensLooks looks, const Windows &large, const Windows &small, int across) {
     const auto middle = [](const Windows &windows) {
         return Imath::V2d(windows.display.min + windows.display.max + Imath::V2i(1)) / 2;

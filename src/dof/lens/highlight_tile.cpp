@@ -91,7 +91,7 @@ void HighlightTile::spread_group(std::span<const std::uint32_t> group) {
     if (any_together_) add_group();
 }
 
-// Of all that are shadowed together, once for each pixel.
+// Adds all highlights that share shadows, once for each pixel.
 void HighlightTile::add_group() {
     for (std::size_t g = 0; g < sets_.size() / 4; ++g)
         for (int y = reached_.min.y; y <= reached_.max.y; ++y)
@@ -106,7 +106,7 @@ void HighlightTile::add_group() {
     any_together_ = false;
 }
 
-// Of all discs that reach over the whole tile, and that nothing hides.
+// Adds all discs that cover the whole tile and that nothing hides.
 void HighlightTile::add_lit() {
     for (std::size_t g = 0; g < sets_.size() / 4; ++g) {
         const Float4 light = load4(&whole_[g * 4]);

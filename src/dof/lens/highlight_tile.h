@@ -28,8 +28,8 @@ public:
     HighlightTile(const GatherScene &scene, const BlockFootprints &footprints,
                   const BlockFootprints &solid_footprints);
 
-    // Of the tile whose first pixel is `origin`, relative to the data window's corner like the samples. `blocks`: those that
-    // can reach it; `solids`, of those; `coarse`: of a tile that is gathered in cells.
+    // Spreads highlights over the tile whose first pixel is `origin`, relative to the data window's corner like the
+    // samples. `blocks`: those that can reach it; `solids`, of those; `coarse`: of a tile that is gathered in cells.
     void spread(const Imath::V2i &origin, std::span<const std::uint32_t> blocks,
                 std::span<const std::uint32_t> solids = {}, const CoarseCasters *coarse = nullptr,
                 const ShadowLists *lists = nullptr);

@@ -32,7 +32,7 @@ struct Highlights {
 // window's corner) or lets light through, as what else lies beyond is made up; but of all that it shows where that is nothing.
 // What is made up has to stand out of all that it shows, too, so that no more than a fifth of that are highlights.
 // From six times on it spreads all that stands out, below that less and less, so that nothing pops where a lamp is hardly one.
-// Of the channels only those in `colour_channels` are light.
+// Only the channels in `colour_channels` are light.
 Highlights take_highlights(const BlockedSamples &samples, std::span<const std::size_t> brightness,
                            std::span<const std::size_t> colour_channels, SampleColours &colours,
                            const std::optional<Imath::Box2i> &seen = {});

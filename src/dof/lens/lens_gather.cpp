@@ -66,7 +66,7 @@ struct Gathering {
         for (const GatherScene *one : plan.scenes()) all.try_emplace(one, *one, scene);
         return all;
     }
-    // Of a tile that is gathered in cells.
+    // The casters for a tile that is gathered in cells.
     std::optional<CoarseCasters> coarse_casters(const PlannedTile &tile) const {
         if (!tile.cells) return {};
         const auto &[samples, solids, shadows] = footprints.at(tile.scene);

@@ -40,7 +40,7 @@ public:
     // A share of it is in front of focus.
     void put_in_front(std::size_t, float) {}
 
-    // Of all lens points: the weight of what is known; 0: nothing is. [group][pixel][4].
+    // The weight of known light over all lens points; 0: nothing is known. [group][pixel][4].
     std::vector<float> known(std::size_t groups) const;
 
 private:
@@ -73,7 +73,7 @@ private:
 
     const GatherScene &scene_;
     float total_ = 0;
-    // Of the lens point, [side][channel]: by what light is multiplied, and how it counts in what the sum is divided by.
+    // For the lens point, [side][channel]: the factor on light, and its weight in the divisor of the sum.
     std::array<std::vector<float>, 2> light_, weight_;
     // [group][row][column][4]: how much more the pixels from that column on see.
     std::vector<double> steps_;

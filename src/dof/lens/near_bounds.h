@@ -6,7 +6,7 @@
 
 namespace sparselens {
 
-// Of samples that are nearer than some depth, and perhaps of some that are not.
+// Bounds of all samples nearer than some depth, and perhaps of some others.
 struct NearBounds {
     float depth; // of the nearest sample that is not within, perceptive, pixels
     float x_min, x_max, y_min, y_max, coc_min, coc_max;
@@ -15,10 +15,10 @@ struct NearBounds {
 class NearSteps {
 public:
     NearSteps() = default;
-    // Of samples, with the depth and the extent of each. One step is kept for so many of them.
+    // Takes the depth and the extent of each sample. One step is kept for every `in_step` samples.
     NearSteps(std::vector<NearBounds> samples, std::size_t in_step);
 
-    // Of all that are nearer than a depth; null: there are none.
+    // The bounds of all samples nearer than a depth; null: there are none.
     const NearBounds *nearer_than(float depth) const;
 
 private:

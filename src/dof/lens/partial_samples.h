@@ -21,7 +21,7 @@ struct PartialSamples {
     std::size_t count() const { return sample.size(); }
 };
 
-// Those that some lens point brings into the tile, or into a pixel next to it.
+// The samples that some lens point brings into the tile, or into a pixel next to it.
 PartialSamples partial_samples_of(const BlockedSamples &samples, const TileTask &tile);
 
 } // namespace sparselens

@@ -100,8 +100,8 @@ struct SampleCounts {
     std::uint32_t opaque = 0, all = 0;
 };
 
-// Of what `place(x, y, placed)` appends for the pixel in that column and row of a window of this size; `count` says how many
-// that will be, so that they need not be kept twice.
+// Makes blocks of the samples that `place(x, y, placed)` appends for each column and row of a window of this size;
+// `count` says how many that will be, so that they need not be kept twice.
 using CountSamples = std::function<SampleCounts(int x, int y)>;
 using PlaceSamples = std::function<void(int x, int y, std::vector<PlacedSample> &placed)>;
 BlockedSamples make_blocks(const Windows &windows, const CountSamples &count, const PlaceSamples &place,

@@ -15,8 +15,8 @@ public:
     // The scene outlives this.
     explicit SceneBlocks(const GatherScene &scene);
 
-    // Those of the tile [origin, origin + size), relative to the data window's corner like the samples. `stretched`: by how much lens
-    // points are at most.
+    // Finds the blocks of the tile [origin, origin + size), relative to the data window's corner like the samples.
+    // `stretched`: by how much lens points are at most.
     ReachingCocs find(const Imath::V2i &origin, int size, float stretched, TileBlocks &found) const;
     float extent() const { return samples_.extent(); } // of the aperture, for each pixel of CoC
 

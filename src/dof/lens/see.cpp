@@ -135,7 +135,7 @@ void See::see_solids(const LensSample &point) {
                    });
 }
 
-// Of mirrors and glass, the image, in the window that their surface is.
+// Finds the images of mirrors and glass, which show through the window that the surface is.
 void See::see_images(const LensSample &point) {
     seen_.images.clear();
     const auto shows_images = [&](std::uint32_t b) { return scene_.samples.blocks[b].shows_images; };
@@ -184,7 +184,7 @@ void See::find_empty() {
     }
 }
 
-// Those of the empty cells are no longer empty.
+// Finds cracks; their cells are no longer empty.
 void See::find_cracks() {
     cracks_.clear();
     seen_.for_each_empty([&](std::size_t cell) {

@@ -39,7 +39,7 @@ struct Seen {
     Imath::V2i origin;           // the tile's first pixel, relative to the data window's corner
     int rows = tile_cells::size; // of pixels that are asked for, from there
     PartialSamples partial;
-    // Of one lens point:
+    // State of one lens point:
     std::array<CatEye::Columns, tile_cells::size> columns; // [row]: the pixels that see through it
     // [cell]: key of the nearest opaque sample, or of one that shows through a crack; 0: none
     std::vector<std::uint64_t> front;

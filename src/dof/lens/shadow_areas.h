@@ -32,11 +32,12 @@ public:
         return std::size_t(row / size) * std::size_t(columns_) + std::size_t(column / size);
     }
 
-    // Those of an area, ascending.
+    // The blocks of an area, ascending.
     std::vector<std::uint32_t> blocks_of(std::size_t area) const;
 
-    // Of the samples of an area that are nearer than a perceptive depth; null: there are none. Their centres, and the CoCs of their
-    // footprints (dof/footprints/footprint.h), whose edges lie less than a pixel from the centres. For any thread.
+    // The bounds of the samples of an area nearer than a perceptive depth; null: there are none. Bounds are of their
+    // centres, and of the CoCs of their footprints (dof/footprints/footprint.h), whose edges lie less than a pixel from
+    // the centres. For any thread.
     const NearBounds *nearer_than(std::size_t area, float depth) const;
     // Whether any of it may lie between two perceptive depths.
     bool lies_between(std::size_t area, float farthest, float nearest) const {

@@ -10,7 +10,7 @@
 namespace sparselens {
 
 struct ShadowEdges {
-    // Of the edges of the footprint, in its order: pixels, but for the magnification.
+    // The edges of the footprint, in its order: pixels, except the magnification.
     Float4 coc, magnified, from_lamp, at;
 
     // `across`, `corner`: as ShadowCasters has them.

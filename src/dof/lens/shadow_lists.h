@@ -16,7 +16,7 @@ namespace sparselens {
 
 class ShadowLists {
 public:
-    // Of groups of highlights among these samples.
+    // Lists for groups of highlights among these samples.
     ShadowLists(const Highlights &highlights, const BlockedSamples &samples);
 
     // The list of the group with that first member: what find() says when it is first asked for, by any thread. Null: its disc is small,

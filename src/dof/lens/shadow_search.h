@@ -36,7 +36,7 @@ struct ShadowCasters {
     bool is_coarse() const { return across > 1; }
 };
 
-// Of a coarse scene, those that can reach a tile.
+// The samples of a coarse scene that can reach a tile.
 struct CoarseCasters {
     ShadowCasters samples, solids;
     std::span<const std::uint32_t> blocks, solid_blocks;
@@ -75,7 +75,7 @@ class ShadowSearch {
 public:
     ShadowSearch(const ShadowCasters &samples, const ShadowCasters &solids) : casters_{samples, solids} {}
 
-    // Of a tile, with the blocks that can reach it. `extent`: of the lens, for each pixel of CoC.
+    // Begins a tile, with the blocks that can reach it. `extent`: of the lens, for each pixel of CoC.
     void begin(std::span<const std::uint32_t> samples, std::span<const std::uint32_t> solids,
                const Imath::V2d &extent, const CoarseCasters *coarse);
 

@@ -199,7 +199,7 @@ Sharpener::Band Sharpener::weigh(int top, int bottom) const {
     return band;
 }
 
-// Of the four sides of SurfaceNeighbours.
+// The opposite one of the four sides of SurfaceNeighbours.
 constexpr std::size_t opposite(std::size_t side) { return side ^ 1; }
 
 std::array<Term, 5> Sharpener::terms(const Band &band, std::uint64_t i) const {

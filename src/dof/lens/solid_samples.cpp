@@ -42,7 +42,7 @@ public:
     std::size_t pixel_of(std::uint64_t i) const {
         return std::size_t(std::ranges::upper_bound(ldi_.begin, i) - ldi_.begin.begin() - 1);
     }
-    // Of a solid.
+    // The Shown of a solid.
     Shown shown_by(std::uint64_t i) const { return *shown_of(pixel_of(i), i); }
 
 private:

@@ -15,9 +15,9 @@
 
 namespace sparselens {
 
-// Those of an LDI, in the blocks of its `samples`, before looks move them (optics.h); no blocks where nothing is solid. Their
-// CoC is where solids are seen, their depth that from which on they hide what is farther; the key has that depth, and of
-// `samples` the one that shows.
+// The solids of an LDI, in the blocks of its `samples`, before looks move them (optics.h); no blocks where nothing is
+// solid. Their CoC is where solids are seen, their depth that from which on they hide what is farther; the key has that
+// depth, and of `samples` the one that shows.
 BlockedSamples place_solids(const Ldi &ldi, const ThinLens &lens, const BlockedSamples &samples);
 
 } // namespace sparselens

@@ -20,7 +20,7 @@ namespace sparselens {
 template <typename Light>
 class Weigh {
 public:
-    // Of a tile, before any lens point.
+    // Begins a tile, before any lens point.
     Weigh(const GatherScene &scene, const Seen &tile);
 
     // Adds what a lens point sees.
@@ -40,7 +40,7 @@ private:
     };
     Opaque opaque_at(const Seen &seen, std::size_t cell) const;
     std::size_t side_of(std::uint64_t key) const;
-    // Of light from that depth, the holdout; of that of what is opaque there.
+    // How much the holdout lets pass of light from that depth, and of the light of the opaque sample there.
     float passes(const Seen &seen, std::size_t cell, float depth) const;
     float opaque_passes(const Seen &seen, std::size_t cell) const;
     void add_opaque(const Seen &seen);
@@ -55,13 +55,13 @@ private:
     HeldOut held_out_;
     Light light_;
     std::vector<float> partial_; // colours of the partial samples: [group][of each][4]
-    // Of one lens point: its partial samples.
+    // Partial samples of one lens point:
     std::vector<float> left_;     // [cell]: what they leave of the light behind them
     std::vector<float> over_;     // [side][group][cell][4]: their colours
     std::vector<float> in_front_; // [cell]: what those in front of focus hide, if the light has two sides
     std::vector<std::uint32_t> covered_cells_;
     std::span<const std::uint32_t> covered_; // of those: where there are any
-    // Of all so far:
+    // Sums over all lens points so far:
     std::vector<float> sums_;  // [group][pixel][4]
     std::vector<float> known_; // [group][pixel], of the picture
 };

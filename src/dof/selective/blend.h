@@ -29,7 +29,7 @@ namespace sparselens {
 // share of the CoC where it is large, so that their number stays bounded.
 int depth_bin(double coc);
 
-// Of one bin or layer, in this order: coverage, known, and the colours. Of a bin there is one sum more: known times
+// The sums of one bin or layer, in this order: coverage, known, and the colours. A bin has one sum more: known times
 // radius, for its mean radius.
 inline constexpr std::size_t sums_before_colours = 2;
 

@@ -149,7 +149,7 @@ struct Gathering {
         return found;
     }
 
-    // Those of the row's blocks that reach the tile.
+    // The blocks of the row that reach the tile.
     std::vector<VisitedBlock> visited(const Imath::Box2i &tile, std::span<const std::uint32_t> row) const {
         const Imath::Box2d area = area_of(tile);
         std::vector<VisitedBlock> found;

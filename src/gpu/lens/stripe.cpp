@@ -55,7 +55,7 @@ void place_blocks(Stripe &stripe, const Placed &what) {
     }
 }
 
-// Those blocks of a range whose first block is number `first` of the stripe.
+// Lists blocks of a range whose first block is number `first` of the stripe.
 std::uint32_t list_blocks(Stripe &stripe, const Range &range, std::size_t first,
                           std::span<const std::uint32_t> blocks) {
     const auto at = std::uint32_t(stripe.block_lists.size());

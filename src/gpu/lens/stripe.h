@@ -16,7 +16,7 @@
 namespace sparselens::gpu {
 
 struct Stripe {
-    // Of samples: those of the LDI, then fillers; then, without alphas and colours, solids.
+    // Samples: first those of the LDI, then fillers, then solids, which have no alphas and colours.
     std::vector<std::array<float, 2>> places;
     std::vector<std::uint32_t> uppers; // halves of keys
     std::vector<float> cocs, alphas;

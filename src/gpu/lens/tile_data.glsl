@@ -1,6 +1,6 @@
 // What the kernel of the lens gather works on: bindings, shared memory, and the lens point at hand. All of a stripe (stripe.h).
 
-// Of samples, apart from each other what changes in a pull of focus and what does not.
+// Samples; data that change in a pull of focus are apart from data that do not.
 layout(binding = 0) readonly buffer Places { vec2 places[]; };
 // The upper half of the key: 1 for a background, else the bits of the perceptive depth, plus 2.
 layout(binding = 1) readonly buffer Uppers { uint uppers[]; };
@@ -31,7 +31,7 @@ shared uint counts[pixels]; // of partial samples, then where the next one is li
 shared uint listed[chunk];
 shared uint listed_count;
 
-// Of the quarter and the lens point at hand.
+// State of the current quarter and lens point.
 ivec2 corner; // in the tile
 vec2 first;   // pixel
 uint rules;   // of the tile

@@ -14,7 +14,7 @@ namespace sparselens::gpu {
 
 inline constexpr std::size_t tile_pixels = lens_kernel::tile_size * lens_kernel::tile_size;
 
-// Those of lens_layout.h, all but `images`.
+// The rules of lens_layout.h, all but `images`.
 std::uint32_t rules_of(const GatherScene &scene, std::span<const LensSample> lens);
 
 // [lens point][two rows]: where the pixels of a row begin that see through it, and where they end, 8 bits each. None without
@@ -22,8 +22,8 @@ std::uint32_t rules_of(const GatherScene &scene, std::span<const LensSample> len
 std::size_t column_words(const GatherScene &scene, const TileTask &task);
 void place_columns(std::span<std::uint32_t> to, const GatherScene &scene, const TileTask &task);
 
-// Of each pixel, which of the tile's parts of the holdout is its first, then how many these all are; then of each part front,
-// back and the share that it lets through (bits of float). None without a holdout.
+// For each pixel, the index of its first part of the tile's holdout; then the number of all parts; then for each part
+// front, back and the share that it lets through (bits of float). None without a holdout.
 std::size_t holdout_words(const GatherScene &scene, const TileTask &task);
 void place_holdout(std::span<std::uint32_t> to, const GatherScene &scene, const TileTask &task);
 

@@ -67,7 +67,7 @@ void add_uniform(uint block) {
     uniform_ = Bin(coverage, known, radius, light);
 }
 
-// Those of the chunk that touch the strip of pixel j, a bit for each.
+// The splats of the chunk that touch the strip of pixel j, a bit for each.
 uint touching_pixel(uint j) {
     const uint strip = pixel_of(j) / strip_size;
     return touching[2 * strip] | touching[2 * strip + 1];

@@ -33,7 +33,7 @@ struct Bin {
     dvec4 light;
 };
 
-// Of the work group, and of the thread.
+// State of the work group and of the thread.
 Tile tile;
 uint place;     // (tile, group)
 uint group;

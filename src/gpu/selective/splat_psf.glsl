@@ -43,13 +43,13 @@ void add_band(inout double weight, uint s, Band band, int x) {
         weight = sum;
     }
     const int to_right = max(columns.y - 1, all.x), to_left = min(columns.x, all.y - 1);
-    // Of the arcs to the right and to the left, in this order, most pixels meet one.
+    // Most pixels meet only one of the arcs to the right and to the left, which are added in this order.
     const bool met_right = right < all.y && x >= to_right, met_left = left > all.x && x <= to_left;
     for (int side = met_right ? 0 : 1; side < (met_left ? 2 : 1); ++side)
         add_arc(weight, s, band, x, side == 0 ? to_right : to_left, side == 0 ? 1 : -1);
 }
 
-// Of splat s of the chunk in the pixel at (x, y), which it touches.
+// The weight of splat s of the chunk in the pixel at (x, y), which it touches.
 double weight_of(uint s, int x, int y) {
     const dvec4 d = disc[s];
     precise const double top = (y - d.y) / push.pixel_aspect, bottom = (y + 1 - d.y) / push.pixel_aspect;

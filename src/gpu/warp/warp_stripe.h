@@ -32,7 +32,7 @@ double largest_inverse_z(const ReprojectedViews &views);
 // `inverse_z`: the largest one.
 WarpStripe make_stripe(const WarpScene &scene, const Imath::Box2i &box, double inverse_z);
 
-// Of the largest buffer that it takes.
+// The size of the largest buffer that it takes.
 std::size_t buffer_bytes(const WarpScene &scene, const WarpStripe &stripe);
 
 warp_kernel::Frame frame_of(const WarpScene &scene, const WarpStripe &stripe, std::uint32_t most_in_pixel);

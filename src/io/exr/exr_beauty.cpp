@@ -50,7 +50,7 @@ std::string own_depth(const PictureLayer &picture, const Names &channels) {
     return {};
 }
 
-// Of all beauties the first in each layer.
+// The first beauty of each layer.
 std::vector<PictureLayer> with_beauty(const std::vector<Channel> &channels) {
     std::vector<PictureLayer> pictures;
     Names found;

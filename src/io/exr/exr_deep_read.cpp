@@ -49,7 +49,7 @@ public:
         : source_(source), view_(view), asked_(choice.depth), layer_(choice.layer),
           unpremultiplied_(choice.unpremultiplied) {}
 
-    // Of the parts those that hold something of the layer asked for.
+    // The parts that hold channels of the requested layer.
     std::vector<int> parts_of_layer(const std::vector<int> &numbers) {
         if (layer_.empty()) return numbers;
         const std::vector<Channel> all = full_channels(source_.file, numbers, view_, source_.path);

@@ -29,7 +29,7 @@ std::vector<std::string> views_of(const Imf::Header &header);
 // The views of the parts `numbers`, each once.
 std::vector<std::string> all_views(const Imf::MultiPartInputFile &file, const std::vector<int> &numbers);
 
-// Those of the parts `numbers` that belong to the view `asked`, or if that is empty to the default view of the first
+// The parts among `numbers` that belong to the view `asked`, or if that is empty, to the default view of the first
 // part (if that part names no view, all parts that name none). Throws Error, listing the views of the parts, where
 // there is no view of that name.
 struct PartsOfView {

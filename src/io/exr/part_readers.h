@@ -19,7 +19,7 @@ namespace sparselens {
 
 class PartReaders {
 public:
-    // Of part `number` of the file in `stream`, which is opened as often as threads read it.
+    // Readers of part `number` of the file in `stream`; each thread that reads opens the file once.
     PartReaders(const InputStream &stream, int number) : stream_(stream), number_(number) {}
 
     // work(part), by a reader that no other thread has.

@@ -53,7 +53,7 @@ struct Square {
     }
 };
 
-// Of pixels to the right of one, read(index, values) says those inside; those outside are as the nearest one of these.
+// Reads pixels from one to the right. read(index, values) gives those inside; pixels outside repeat the nearest one.
 template <typename Read>
 void read_line(const Windows &windows, const Imath::V2i &first, std::span<float> out, const Read &read) {
     const Imath::Box2i &frame = windows.data;
@@ -116,7 +116,7 @@ void MatchedView::colours_of(std::size_t k, const Imath::V2i &first, std::span<f
         for (float &value : out) value /= float(across_ * across_);
 }
 
-// Of several pixels of the view, the mean, if they show one surface.
+// The mean depth of several pixels of the view, if they show one surface.
 void MatchedView::depths_of(const Imath::V2i &first, std::span<float> out) const {
     const ViewSamples &view = *view_.samples;
     const auto side = std::size_t(across_);

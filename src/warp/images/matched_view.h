@@ -58,7 +58,7 @@ public:
     // Tiles at which nobody has looked since this was last called: they are made again where somebody does. Nobody may meanwhile.
     void forget_unused();
 
-    // Of the surface, if the pixel shows just one; else NaN.
+    // The depth of the surface, if the pixel shows just one; else NaN.
     float depth(int x, int y) const;
 
     // Where it shows what the centre view shows at that place; NaN where that lies behind its camera.
@@ -89,7 +89,7 @@ private:
     }
     void use(std::size_t tile) const;
     void make(std::size_t tile) const;
-    // Of pixels to the right of one: R, G or B, ...
+    // Reads pixels from one to the right: R, G or B, ...
     void colours_of(std::size_t k, const Imath::V2i &first, std::span<float> out) const;
     // ... and as depth().
     void depths_of(const Imath::V2i &first, std::span<float> out) const;

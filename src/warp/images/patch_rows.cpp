@@ -18,7 +18,7 @@ Mask4 on_surface(Float4 depths, float surface) {
 
 Float4 where(Mask4 mask, Float4 value) { return Float4(mask & Mask4(value)); }
 
-// Of four pixels, what lies between them and those to the right.
+// Interpolates between four pixels and their neighbours to the right.
 Float4 between(const float *pixels, float right) {
     const Float4 left = load4(pixels);
     return left + right * (load4(pixels + 1) - left);
@@ -56,13 +56,13 @@ bool compare_groups(const PatchBlock &block, const MatchedView::Cutout &seen, fl
     return missing[0] + missing[1] + missing[2] + missing[3] == 0;
 }
 
-// Of a sum of seven, pairs are added first.
+// Adds seven values, in pairs first.
 template <typename Value>
 Value sum_of(Value a, Value b, Value c, Value d, Value e, Value f, Value g) {
     return ((a + b) + (c + d)) + ((e + f) + g);
 }
 
-// Of all columns, those below each other.
+// Adds the values of each column that lie below each other.
 void sum_down(float *values, int columns, int height) {
     static_assert(patch_side == 7);
     for (int x = 0; x < columns; x += 4) {

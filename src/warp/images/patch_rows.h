@@ -21,8 +21,8 @@ struct PatchBlock {
 bool compare_shifted(const PatchBlock &block, const MatchedView::Cutout &seen, float *squares,
                      float *compared);
 
-// Of a block so wide and high: afterwards a pixel holds the sum over the patch whose upper left corner it is, if that lies in the
-// block.
+// Sums a block of this width and height in place: a pixel then holds the sum over the patch whose upper left corner it
+// is, if that lies in the block.
 void sum_patches(float *values, int width, int height);
 
 } // namespace sparselens

@@ -11,13 +11,15 @@
 
 namespace sparselens {
 
-// Of several pixels at once. What the views say is kept in order, so that the order of the views does not matter.
+// Robust means of several pixels at once. The differences are kept sorted, so that the order of the views does not
+// matter.
 class RobustMeans {
 public:
     RobustMeans(std::size_t views, std::size_t pixels)
         : views_(views), pixels_(pixels), ranks_(views * pixels), known_(pixels), worse_(pixels) {}
 
-    // Of the next view, by pixel; NaN where it cannot be compared. After the last view, take() makes room for the first one.
+    // Adds the next view, by pixel; NaN where it cannot be compared. After the last view, take() makes room for the
+    // first one.
     void add(std::span<const float> differences) {
         constexpr float last = std::numeric_limits<float>::infinity();
         for (std::size_t i = 0; i < pixels_; ++i) {
@@ -60,7 +62,7 @@ private:
     std::vector<float> worse_;
 };
 
-// Of `pixels` pixels, view by view.
+// The robust means of `pixels` pixels; the differences come view by view.
 inline std::vector<float> robust_means(std::span<const float> differences, std::size_t pixels) {
     RobustMeans robust(differences.size() / pixels, pixels);
     for (; !differences.empty(); differences = differences.subspan(pixels))

@@ -63,7 +63,7 @@ public:
     void settle_by_neighbours();
     // The pixels of lamps that something crosses, ascending.
     std::vector<std::size_t> crossed() const;
-    // Those whose depth is not known, by rows.
+    // The lamps whose depth is not known, by rows.
     std::vector<LampBeforeWall> unknown() const;
     // By lamps whose places are in the centre view.
     void settle_by_others(const ViewMapping &mapping, std::span<const KnownLamp> others);

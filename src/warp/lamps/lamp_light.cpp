@@ -51,7 +51,7 @@ private:
     std::vector<PixelLight<ViewSamples>> lights_; // of the views
 };
 
-// Of the brightest sample of its brightest pixel.
+// The depth of the brightest sample of its brightest pixel.
 double Calibration::inverse_depth(const CompactLamp &lamp) const {
     const ViewSamples &centre = *views_[0].samples;
     double most = -1, inverse_z = 0;

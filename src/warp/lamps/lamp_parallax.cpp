@@ -18,7 +18,7 @@ public:
                  double tolerance)
         : lamps_(lamps), mappings_(mappings), tolerance_(tolerance) {}
 
-    // Of lamp `seen` in view v; none where it may as well lie on what is around.
+    // The depth of lamp `seen` in view v; none if it may as well lie on its surroundings.
     std::optional<KnownLamp> before_its_wall(std::size_t v, const LampBeforeWall &seen) const {
         if (shown(in_centre(v, seen.lamp, seen.around)).parallax.size() > lamps_.size() / 2) return {};
         std::optional<KnownLamp> found;

@@ -15,7 +15,7 @@ inline float value_in(const ViewSamples &view, std::size_t channel, std::uint64_
     return view.value(channel, i);
 }
 
-// Of an Ldi or of ViewSamples.
+// The light of pixels of an Ldi or of ViewSamples.
 template <typename Samples>
 class PixelLight {
 public:
@@ -41,7 +41,7 @@ public:
         return sum;
     }
 
-    // Of all pixels of the data window.
+    // The light of all pixels of the data window.
     std::vector<float> picture() const {
         std::vector<float> light(samples_.windows.pixels());
         parallel_ranges(light.size(), 4096, [&](std::size_t begin, std::size_t end) {

@@ -12,7 +12,7 @@ using Pair = IdCoverage::Pair;
 
 bool same_id(float a, float b) { return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b); }
 
-// Of an object in a sample of the view.
+// The coverage of an object in a sample of the view.
 double coverage_in(const ViewSamples &view, const Matte &matte, float id, std::uint64_t sample) {
     double sum = 0;
     for (const Matte::Rank &rank : matte.ranks)
@@ -20,7 +20,7 @@ double coverage_in(const ViewSamples &view, const Matte &matte, float id, std::u
     return sum;
 }
 
-// Of what is no object of the matte.
+// The coverage without an object of the matte.
 double none_in(const ViewSamples &view, const Matte &matte, std::uint64_t sample) {
     double left = double(alpha_at(view, view.alpha(), sample));
     for (const Matte::Rank &rank : matte.ranks) left -= double(view.value(rank.coverage, sample));

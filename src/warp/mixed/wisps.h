@@ -32,12 +32,12 @@ struct Mixture {
 // two pixels of perceptive depth, along rows and along columns.
 bool among_strands(const SamplesAround &samples, int x, int y);
 
-// Of a pixel among strands, or of a lamp that they cross: what its light from between them is, if it has any. Perceptive: `jump` parts
-// the lamp from what is behind it, `apart` the strands from both.
+// The light from between strands in a pixel among them, or in a lamp that they cross, if it has any. Perceptive: `jump`
+// parts the lamp from what is behind it, `apart` the strands from both.
 std::optional<Mixture> light_between_strands(const SamplesAround &samples, int x, int y, double jump,
                                              double apart);
 
-// Of a pixel among strands: its share of them, if the pixels around explain its colour.
+// The share of strands in a pixel among them, if the pixels around explain its colour.
 std::optional<Mixture> strands_before(const SamplesAround &samples, int x, int y);
 
 } // namespace sparselens

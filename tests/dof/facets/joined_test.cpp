@@ -46,7 +46,7 @@ TEST(JoinedInCells, ThatStaysAloneWhichIsFlatOrShowsAnImage) {
     EXPECT_EQ(surfaces_in(surface([](int x) { return 20 + 1.5 * x; }, true)), all);
 }
 
-// Of the first cell; the wall is behind the other half of it, and flat.
+// The first cell has half of the surface; the flat wall is behind its other half.
 TEST(JoinedInCells, ASilhouetteIsNot) {
     EXPECT_EQ(surfaces_in(surface([](int x) { return x < across + 4 ? 60 + 1.5 * x : 20; })),
               2u + across * across);

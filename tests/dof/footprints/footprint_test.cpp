@@ -54,7 +54,7 @@ TEST(Footprint, SharesItsEdgesWithItsSurfaceAndEndsWhereThatEnds) {
         }
 }
 
-// Of columns 0 to 5 that lean by more than a pixel of CoC from one to the next, which ends before a wall.
+// The surface has columns 0 to 5, which lean by more than a pixel of CoC from one to the next, and ends before a wall.
 TEST(Footprint, OfASteepSurfaceSharesItsEdgesWhereThatGoesOn) {
     const Ldi ldi = make_ldi(windows_of_size(size, size), rgba_channels(), [&](int x, int) {
         return std::vector<Sample>{{depth_of(lens, x < 6 ? -20 + 3 * x : 30), {1, 1, 1, 1}}};

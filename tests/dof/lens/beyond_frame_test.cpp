@@ -129,7 +129,7 @@ TEST(BeyondFrame, WhatIsCutOffEndsAsOthersAsNearAndWideDo) {
     EXPECT_EQ(bars(2, {}, -2.9), (std::vector<float>{0, 0, 0, 0, 0}));
 }
 
-// Of pixels of the picture, 3 x 3 of which are one of it, the bars are as wide, and as far apart, as those above.
+// With 3 x 3 sub-pixels, the bars are as wide and as far apart in pixels of the picture as those above.
 TEST(BeyondFrame, WidthsAreCountedInPixelsOfThePicture) {
     const auto ends = [](int cut, int width, int apart) {
         std::vector<double> cocs(std::size_t(cut), -2.9);
@@ -160,7 +160,7 @@ TEST(BeyondFrame, KeepsCoverageAndWhatIsBehind) {
     EXPECT_FALSE(all.unseen[all.ldi.windows.index(-1, 0)]);
 }
 
-// Of a lamp of 5 pixels' radius, cut off 3 pixels from its middle, 2 pixels are beyond.
+// A lamp of 5 pixels' radius that is cut off 3 pixels from its middle has 2 pixels beyond.
 TEST(BeyondFrame, SmallLightsGoOnAsDiscs) {
     const Ldi ldi = make_ldi(windows_of_size(80, 80), coloured, [](int x, int y) {
         const float v = std::hypot(x + 0.5 - 3, y + 0.5 - 40) < 5 ? 100.0f : y < 10 ? 3.0f : 1.0f;
@@ -216,7 +216,7 @@ TEST(BeyondFrame, IsWhatTheRuleSays) {
                                                    : SampleRange{0, 0};
         };
         const auto near = [&](std::uint64_t k) { return perceptive_depth(lens, double(ldi.z[k])); };
-        // Those samples, m pixels from the frame, that no view looked farther at; or one pixel farther, and saw none.
+        // The samples m pixels from the frame beyond which no view looked, or one pixel farther and saw none.
         const auto seen_last = [&](const Imath::V2i &at, const Imath::V2i &step, int m) {
             std::vector<std::uint64_t> found;
             for (const std::uint64_t i : of_pixel(at)) {

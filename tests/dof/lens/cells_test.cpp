@@ -137,7 +137,7 @@ double rms(const Image &a, const Image &b) {
     return std::sqrt(sum / double(a.values.size()));
 }
 
-// Of any size: of the last row and column of cells only some pixels are known.
+// For any size: only some pixels of the last row and column of cells are known.
 TEST(Cells, AWallIsEvenUpToTheBorder) {
     for (const int across : {256, 250, 257}) {
         const Ldi wall = make_ldi(windows_of_size(across, across), rgba_channels(), [](int, int) {

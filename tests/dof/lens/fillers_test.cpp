@@ -49,7 +49,7 @@ TEST(Fillers, TheFartherSideGoesOnBehindTheNearerOne) {
     EXPECT_FLOAT_EQ(between[3], (0 / 3.0f + 4) / (1 + 1 / 3.0f));
     // One surface does not go on behind itself, however steep.
     EXPECT_EQ(filled(row_of({3, 2.6, 2.2, 1.8, 1.4, 1, 0.6})), std::vector<float>(7, -1));
-    // Of two that go on, the one whose edge is nearer.
+    // If two continue, the one whose edge is nearer.
     EXPECT_EQ(filled(row_of({7, 7, 3, -3, -3})), (std::vector<float>{-1, -1, 1, 2, 2}));
 }
 

@@ -29,7 +29,7 @@ struct LampBehindBoards : BlockedLdi {
     std::vector<std::uint32_t> lamp, blocks;
     Highlights highlights;
 
-    // Of boards that are all as near, and what lies that many pixels of CoC behind them: solid things, or samples.
+    // Boards at one depth, and solids or samples that many pixels of CoC behind them.
     static Ldi solid_boards(double boards, double behind, bool are_solid) {
         return make_ldi(windows_of_size(size, size), rgba_channels(), [&](int x, int y) {
             std::vector<Sample> samples;
@@ -68,7 +68,7 @@ struct LampBehindBoards : BlockedLdi {
         highlights.sample = lamp;
     }
 
-    // Of each of the lamp's samples, one after the other, the share that is lit at each pixel of the tile at `origin`.
+    // The lit share at each pixel of the tile at `origin`, for one sample of the lamp after the other.
     std::vector<float> lit(bool together, const Imath::V2i &origin = {0, 0},
                            const ShadowLists *lists = nullptr) {
         HighlightShadows shadows(highlights, {samples, footprints}, {solids, solid_footprints});

@@ -376,7 +376,7 @@ TEST(LensGatherOfALamp, IsAnEvenDisc) {
     for (const double diameter : {1.0, 3.0, 10.0})
         for (const double c : {30.0, 60.0, 140.0}) {
             const int size = 2 * int(c + diameter) + 8;
-            // Of a pixel's middle, or of where four meet: lamps of 1, 9 and 80 pixels.
+            // Centred in a pixel, or where four meet: lamps of 1, 9 and 80 pixels.
             const double middle = size / 2 + (int(diameter) % 2 == 1 ? 0.5 : 0);
             double emitted = 0;
             const Ldi ldi = make_ldi(windows_of_size(size, size), rgba_channels(), [&](int x, int y) {

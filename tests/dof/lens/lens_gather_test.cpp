@@ -96,8 +96,8 @@ TEST(LensGather, PlanesAreConvolvedWithTheirDiscs) {
         }
 }
 
-// Of rows that are light and dark, a lens shows in pixels twice as wide as high what it shows at twice the CoC in square ones. They
-// are as high in a pull of focus: none stays sharp until it jumps.
+// With light and dark rows, a lens shows in pixels twice as wide as high what it shows at twice the CoC in square ones.
+// They are as high in a pull of focus: none stays sharp until it jumps.
 TEST(LensGather, ADiscBlursAsSoonAsItIsHighEnough) {
     const auto column = [](double c, double aspect) {
         ThinLens by = lens;

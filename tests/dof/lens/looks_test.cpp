@@ -86,7 +86,8 @@ TEST(LensLooks, GiveTheSameBitsOnAnyNumberOfThreads) {
     }
 }
 
-// Of 1/d, by hand: (1 + K rho^2) (1 + tan X x/F + tan Y y/F), with x right and y up of the axis and rho in half diagonals.
+// The factor on 1/d, by hand: (1 + K rho^2) (1 + tan X x/F + tan Y y/F), with x right and y up of the axis and rho in
+// half diagonals.
 struct BentFocus {
     double curvature, tan_x, tan_y;
     double factor(double x, double y, double half_diagonal) const {
@@ -257,7 +258,7 @@ TEST(LensLooks, FocusColoursAtDifferentDepths) {
     }
 }
 
-// Of two circles of radius 1 and r whose middles are d apart.
+// The common area of two circles of radius 1 and r whose middles are d apart.
 double common_area(double r, double d) {
     const double x = (d * d + 1 - r * r) / (2 * d), y = std::sqrt(1 - x * x);
     return std::acos(x) + r * r * std::acos((d - x) / r) - d * y;

@@ -47,7 +47,7 @@ struct TileFixture {
                 facets};
     }
     TileTask task() const { return {{0, 0}, blocks, {}, {}, points}; }
-    // Of the one in its place in a pixel.
+    // The key of the sample at this place in a pixel.
     std::uint64_t key(int x, int y, std::size_t place = 0) const {
         const std::size_t source = ldi.begin[std::size_t(y * 64 + x)] + place;
         const auto &sources = blocked.samples.source;

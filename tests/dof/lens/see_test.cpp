@@ -117,7 +117,7 @@ TEST(See, AMirrorShowsWhatItShowsWhereItIs) {
     const TileTask task = tile.task();
     See see(scene, task);
     const Seen &seen = see.through(tile.points[0]);
-    // Of the columns left of the first image, the one beside it shows that, the others the mirror.
+    // The column to the left of the first image shows that image, the columns farther left show the mirror.
     EXPECT_EQ(count_shown(seen, [&](int x, int y) { return tile.key(std::max(x - 3, x < 2 ? x : 0), y); }),
               64 * 64);
     EXPECT_EQ(seen.front[tile_cells::at(40, 50)], tile.key(40, 50));

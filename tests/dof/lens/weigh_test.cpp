@@ -52,7 +52,7 @@ struct WeighTest : testing::Test {
     struct Mean {
         float value, known;
     };
-    // Of channel Y, of lens points that see that each.
+    // The mean of channel Y over lens points that each see their part.
     template <typename Light>
     Mean mean(const std::vector<std::pair<LensSample, Seen>> &points, const LensLooks &looks = {}) const {
         const GatherScene scene = tile.scene(looks);

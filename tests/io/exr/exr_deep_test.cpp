@@ -212,7 +212,7 @@ Ldi third_party(int width, int height) {
     return ldi;
 }
 
-// Of a pyramid the picture itself: its reduced levels, filled here with other counts, are nobody's samples.
+// Only the picture of a pyramid is read; its reduced levels, filled here with other counts, are nobody's samples.
 TEST_F(ExrDeep, OfMipmapsTheFullSizeIsRead) {
     Ldi ldi = third_party(50, 37);
     ForeignDeep foreign(ldi, "Z");

@@ -129,7 +129,7 @@ Ldi kept(const std::function<ViewPixel(std::size_t view, int x, int y)> &pixel) 
 bool in_lamp(int x, int y) { return (x == 10 || x == 11) && (y == 10 || y == 11); }
 ViewPixel grey(float z, float light) { return {.z = z, .r = light, .g = light, .b = light}; }
 
-// Of what is 0.75 times as bright as it should be; the colours of a lamp keep their proportion.
+// The lamp is 0.75 times as bright as it should be; its colours keep their proportion.
 TEST(LampLight, IsTheMeanOfTheViews) {
     const Ldi ldi = kept([](std::size_t view, int x, int y) {
         return in_lamp(x, y) ? ViewPixel{.z = 5, .r = 1000.0f + 10 * float(view), .g = 500, .b = 0}

@@ -24,7 +24,7 @@ struct NamedFiles {
 
 NamedFiles named_files(const CLI::App &parsed);
 
-// Of the frames of a range, or of one command: throws UsageError where an output is a file that any of them reads, or
+// Checks the frames of a range, or one command: throws UsageError where an output is a file that any of them reads, or
 // where two options write one file. Files are compared as files, through symbolic and hard links; folders and devices
 // are not compared.
 void refuse_overwriting(std::span<const NamedFiles> commands);
