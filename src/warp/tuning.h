@@ -1,6 +1,6 @@
-// The thresholds of the warp, each in its unit, with what was measured of it; of what says nothing, nothing was.
-// lab/sweep NAME measures what other values cost. What a user chooses is an option (warp.h), with a default there; rules that a
-// device shares are in src/kernels. "Perceptive" is of perceptive depth, in pixels.
+// Thresholds of the warp, with units. Where a measurement exists, the comment quotes it. lab/sweep NAME measures what
+// other values cost. Values that a user chooses are options with defaults (warp.h); rules that a device shares are in
+// src/kernels. "Perceptive" means pixels of perceptive depth.
 #pragma once
 
 #include <cstddef>
@@ -8,71 +8,72 @@
 namespace sparselens {
 
 struct WarpTuning {
-    // Pixels that an LDI grows beyond the centre view on a side, at most.
+    // Largest number of pixels that an LDI grows beyond the centre view on a side.
     static constexpr int most_overscan = 1024;
 
-    // Solids (solids.h). Perceptive: how thick what no view sees through is taken to be.
+    // Solids (solids.h). Perceptive: thickness of a surface that no view sees through.
     static constexpr double solid_px = 4;
-    // Pixels of a view around the one that is asked.
+    // Pixels around the one of a view that is tested.
     static constexpr int solid_margin = 1;
-    // Perceptive: what a view sees nearer, it sees by so much nearer.
+    // Perceptive: a view counts as seeing something nearer if it is nearer by at least this.
     static constexpr double solid_nearer_px = 0.5;
-    // Perceptive: of what is no farther than that, no gap shows what lies behind.
+    // Perceptive: a gap between surfaces closer than this never shows the background.
     static constexpr double solid_relief_px = 1;
 
-    // Silhouettes (silhouettes.h). Pixels around that tell what a surface shows.
+    // Silhouettes (silhouettes.h). Radius of the pixels that tell the colour of a surface.
     static constexpr int silhouette_radius = 2;
-    // How much a pixel that may be mixed itself tells of its surface, of what others tell.
+    // Weight of a pixel that may be mixed itself, relative to other pixels.
     static constexpr double silhouette_edge_share = 0.1;
-    // Pixels: of a surface that fewer tell of, nothing is known.
+    // Pixels: with less support, the colour of a surface is unknown.
     static constexpr double silhouette_least_support = 0.01;
     // Distance of a mixed colour from the line between the two, as a share of their contrast, ...
     static constexpr double silhouette_residual = 0.2;
-    // ... where the one behind is one pixel, not a mean, ...
+    // ... if the surface behind is one pixel, not a mean, ...
     static constexpr double silhouette_residual_of_one = 0.1;
-    // ... and less than this share of either may as well be texture.
+    // ... and a smaller share of either surface may be texture.
     static constexpr double silhouette_least_share_of_one = 0.1;
-    // How much what is behind a silhouette counts against what is seen directly: it is taken from the pixels around.
+    // Weight of the background behind a silhouette, relative to samples seen directly: it is estimated from the pixels
+    // around.
     static constexpr float estimate_weight = 0.0625f;
 
-    // Strands (mixed/wisps.h). Pixels around one that tell whether it is among them.
+    // Strands (mixed/wisps.h). Radius of the pixels that tell whether one is among strands.
     static constexpr int strand_reach = 2;
-    // Jumps in depth, of 20 pairs of pixels: half of them are expected among strands that cover half.
+    // Jumps in depth among 20 pairs of pixels. Strands that cover half give about 10.
     static constexpr int strand_jumps = 5;
-    // Perceptive: between strands and what is behind them.
+    // Perceptive: distance between strands and the surface behind them.
     static constexpr double strand_apart_px = 2;
-    // Pixels: a lamp of a few pixels, all of them behind strands.
+    // Pixels: reach of a lamp of a few pixels that strands cross everywhere.
     static constexpr int strand_light_reach = 4;
-    // Perceptive: nearer than this is no sky, which has no lamps.
+    // Perceptive: anything less is sky, which has no lamps.
     static constexpr double least_lamp_px = 0.1;
-    // Share of the strands around that are dimmer than what they are taken to show.
+    // Share of the strands around that are dimmer than the colour estimated for them.
     static constexpr double dim_strand = 0.3;
-    // What two colours leave of a third that they explain, as a share of it.
+    // Residual of a colour that two others explain, as a share of it.
     static constexpr double strand_residual = 0.1;
 
-    // Small lamps (lamps/compact_lamps.h). Pixels, wide and high, that tell what surrounds a lamp.
+    // Small lamps (lamps/compact_lamps.h). Width and height in pixels of the block that tells what surrounds a lamp.
     static constexpr int lamp_block = 16;
-    // Part of the brightest pixel that others of a lamp have at least.
+    // Least light of a lamp's other pixels, as a share of the brightest one.
     static constexpr float lamp_belongs_to_brightest = 0.02f;
-    // Pixels: what is bright and lies no farther apart is one lamp.
+    // Pixels: bright pixels no farther apart than this are one lamp.
     static constexpr int lamp_gap = 3;
-    // Pixels that one is wide or high, at most.
+    // Largest width or height of a lamp, pixels.
     static constexpr int largest_lamp = 12;
 
-    // Where lamps stand (lamps/lamp_depths.h). Pixels, wide and high, of a lamp that no pixel need show alone.
+    // Depth of lamps (lamps/lamp_depths.h). Width and height in pixels of a lamp that may lack a pixel of its own.
     static constexpr int small_lamp = 3;
     // Share of the brightest pixel's light: with less, a pixel of a larger lamp is an edge.
     static constexpr double lamp_edge_share = 0.3;
-    // Pixels between where two views show one lamp: from what is expected, ...
+    // Pixels between the positions of one lamp in two views: from the expected one, ...
     static constexpr double lamp_same_place = 0.75;
     // ... and at all.
     static constexpr double lamp_farthest = 64;
-    // Lamps of a view: of more, none is matched.
+    // Lamps of a view: if there are more, none is matched.
     static constexpr std::size_t most_lamps = 1000;
-    // Views that show a lamp at one depth: two do by chance.
+    // Views that must show a lamp at one depth: two may agree by chance.
     static constexpr std::size_t lamp_least_views = 3;
 
-    // What light they have (lamps/lamp_light.h). Pixels around a lamp that may hold a part of its light.
+    // Light of lamps (lamps/lamp_light.h). Pixels around a lamp that may hold a part of its light.
     static constexpr int lamp_margin = 2;
     // Share of the light of the lamp and its margin that may come from elsewhere.
     static constexpr double lamp_most_of_surroundings = 0.25;
@@ -83,65 +84,69 @@ struct WarpTuning {
     // Largest share of the lamp's light that may be changed.
     static constexpr double lamp_largest_change = 0.5;
 
-    // At which depth mirrors and glass show what they show (images/image_sweep.h). Perceptive: between depths that are tried.
+    // Depth of images in mirrors and glass (images/image_sweep.h). Perceptive: step between depths that are tried.
     static constexpr double image_step_px = 0.5;
-    // Perceptive, below 0: how far behind the camera is searched.
+    // Perceptive: how far behind the camera (below 0) the search goes.
     static constexpr double image_behind_camera_px = 6;
-    // Depths that are tried: where the surface is nearer than any that matters, the steps are larger.
+    // Largest number of depths that are tried; for a very near surface the steps become larger.
     static constexpr std::size_t image_most_steps = 320;
-    // A block with more of them is searched at half the size first, ...
+    // A block with more depths is searched at half the size first, ...
     static constexpr std::size_t image_many_depths = 64;
-    // ... if they are this share of all blocks: a smaller picture of fewer costs more than it saves. Of fence at 1920x1080 they are 0.01, ...
+    // ... if such blocks are at least this share of all: for fewer, a smaller picture costs more than it saves (0.01 in
+    // fence at 1920x1080), ...
     static constexpr double image_many_blocks = 0.02;
-    // ... and unless a pixel is already so many pixels of the view wide: in macro, eight read the views once more for a few blocks.
+    // ... and unless a pixel is already this many pixels of the view wide: in macro, eight would read the views once
+    // more for a few blocks.
     static constexpr int image_smallest = 4;
-    // Steps that are tried then on either side of a depth that the smaller picture found, ...
+    // Steps that are then tried on either side of a depth that the smaller picture found, ...
     static constexpr std::size_t image_guess_steps = 4;
-    // ... at most so many of its pixels away.
+    // ... at most this many of its pixels away.
     static constexpr int image_guess_reach = 2;
-    // Steps at once, first: a valley is wider.
+    // Step size of the first pass, in steps: a valley is wider.
     static constexpr std::size_t image_coarse_steps = 2;
-    // Perceptive, from the surface: less is not worth it.
+    // Perceptive: least distance of an image from the surface that is worth it.
     static constexpr float image_least_px = 0.25f;
     // Share of the views' difference at the surface: a depth that explains them leaves less.
     static constexpr float image_left = 0.5f;
-    // The difference at the surface, mean square, R, G and B together: less is not seen.
+    // Difference at the surface, mean square of R, G and B together: less is invisible.
     static constexpr float image_least_difference = 3e-5f;
-    // Times the least difference: it is more one step and a half away, ...
+    // Factor on the least difference: one and a half steps away the difference must be larger, ...
     static constexpr float image_valley = 1.25f;
     // ... and in any other valley.
     static constexpr float image_rival = 1.4f;
-    // Steps on either side by which a depth is refined, ...
+    // Steps on either side that refine a depth, ...
     static constexpr int image_fine_steps = 3;
     // ... and perceptive, how far apart they are.
     static constexpr double image_fine_px = 0.25;
     // Share of a patch that both views must show to be compared.
     static constexpr float image_least_patch = 0.4f;
 
-    // Which of them belong together (images/image_depths.h). Of the pixels of a block that found a depth, to search those beside it.
+    // Images that belong together (images/image_depths.h). Share of a block's pixels that must find a depth before its
+    // neighbours are searched.
     static constexpr double image_enough_found = 0.25;
     // Number of the eight blocks beside one: more than at the end of a line.
     static constexpr int image_enough_beside = 2;
-    // Pixels around, whose depths lie on a plane.
+    // Radius in pixels of depths that lie on a plane.
     static constexpr int image_plane_reach = 6;
     // Share of the pixels that found a depth: this many are as near to it as the next constant says.
     static constexpr double image_agreement = 0.4;
-    // Perceptive: depths no farther apart are those of one image.
+    // Perceptive: depths no farther apart than this belong to one image.
     static constexpr float image_one_px = 0.8f;
     // Pixels from which a depth may be continued: Neighbours::reach at most, ...
     static constexpr int image_continued_reach = 8;
-    // ... how many of them there must be, ...
+    // ... the least number of them, ...
     static constexpr std::size_t image_least_sources = 8;
-    // ... how often, ...
+    // ... the number of repetitions, ...
     static constexpr int image_continuations = 2;
-    // ... and times the difference at the surface that the views may have there, ...
+    // ... and the difference that views may have there, as a factor on that at the surface, ...
     static constexpr float image_continued_difference = 1.25f;
     // ... or at all, mean square.
     static constexpr float image_continued_least_difference = 1e-5f;
 
-    // What views show there (images/show_images.h). Times the mean of the best views: one that differs more sees something else, ...
+    // Colours of images (images/show_images.h). Factor on the mean difference of the best views: a view that differs
+    // more sees something else, ...
     static constexpr float image_shown_difference = 4;
-    // ... unless it differs by less than is seen, mean square.
+    // ... unless its difference, mean square, is invisible.
     static constexpr float image_shown_least_difference = 2e-4f;
 };
 
