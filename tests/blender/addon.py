@@ -1,10 +1,9 @@
 """Runs the add-on on a scene full of settings of its own, and fails where one of them is changed afterwards.
 
-    blender -b SCENE.blend -P addon.py -- sparselens_views.py DIR [auto]
+    blender -b SCENE.blend -P addon.py -- FOLDER DIR [auto]
         auto: with automatic overscan
 """
 
-import importlib.util
 import sys
 
 import bpy
@@ -47,19 +46,17 @@ class Recorder:
 
 def draw_panel(addon):
     """Without windows nothing draws a panel, so this does."""
-    if not addon.SPARSELENS_PT_panel.is_registered:
+    if not addon.panel.SPARSELENS_PT_panel.is_registered:
         sys.exit("the panel is not registered")
     panel = type("Panel", (), {"layout": Recorder()})()
-    addon.SPARSELENS_PT_panel.draw(panel, bpy.context)
+    addon.panel.SPARSELENS_PT_panel.draw(panel, bpy.context)
     if "overscan_auto" not in panel.layout.shown or panel.layout.shown[-1] != "sparselens.render_views":
         sys.exit("the panel shows %s" % panel.layout.shown)
 
 
 def main(path, folder, overscan=""):
-    spec = importlib.util.spec_from_file_location("sparselens_views", path)
-    addon = importlib.util.module_from_spec(spec)
-    sys.modules[spec.name] = addon
-    spec.loader.exec_module(addon)
+    sys.path.insert(0, path)
+    import sparselens_blender as addon
     addon.register()
     draw_panel(addon)
 

@@ -1,6 +1,6 @@
 #!/bin/bash
 # share/blender as users install it, into settings of its own: as an extension where Blender has those (4.2 and later), built and
-# checked by Blender itself; else the one file, as an add-on. Its operator then renders what the script does. A minute.
+# checked by Blender itself; else a zip of its folder, as an add-on. Its operator then renders what the script does. A minute.
 #   bash extension.sh BIN_DIR
 . "$(dirname "$0")/common.sh"
 export HOME=$PWD/home XDG_CONFIG_HOME=$PWD/home/.config
@@ -8,18 +8,19 @@ mkdir home
 in_blender -P "$scene" -- CYCLES 96x54 save "$PWD/small.blend"
 
 if blender --command extension --help 2>/dev/null | grep -q server-generate; then
-    quietly blender --command extension validate "$source_dir/share/blender"
-    quietly blender --command extension build --source-dir "$source_dir/share/blender" --output-dir "$PWD"
-    zip=$(echo sparselens_views-*.zip)
+    quietly blender --command extension validate "$source_dir/share/blender/sparselens_blender"
+    quietly blender --command extension build --source-dir "$source_dir/share/blender/sparselens_blender" --output-dir "$PWD"
+    zip=$(echo sparselens_blender-*.zip)
     quietly blender --command extension validate "$zip"
     grep -q Success said || fail "validate: $(cat said)"
     quietly blender --command extension install-file -r user_default -e "$zip"
     enable=
     echo "extension: $zip is valid and was installed"
 else
+    python3 -m zipfile -c sparselens_blender.zip "$source_dir/share/blender/sparselens_blender"
     enable="import bpy
-bpy.ops.preferences.addon_install(filepath='$views')
-bpy.ops.preferences.addon_enable(module='sparselens_views')"
+bpy.ops.preferences.addon_install(filepath='$PWD/sparselens_blender.zip')
+bpy.ops.preferences.addon_enable(module='sparselens_blender')"
     echo "add-on: installed; this Blender has no extensions"
 fi
 cat >operate.py <<EOF

@@ -192,12 +192,12 @@ alike cut.exr own.exr 36
 echo "holdouts and the render region: said"
 
 # The add-on renders the same, and leaves the scene as it was; so does installing.
-in_blender marker.blend -P "$source_dir/tests/blender/addon.py" -- "$views" "$PWD/addon"
+in_blender marker.blend -P "$source_dir/tests/blender/addon.py" -- "$(dirname "$views")" "$PWD/addon"
 grep -q 'Warning: the render region is not used' said || fail "the add-on does not say that the region is not used: $(tail -n 5 said)"
 in_blender marker.blend -P "$views" -- -o marker --frame 3 --samples 2 --overscan 3
 alike addon/center.exr marker/center.exr 90
 alike addon/view_3.exr marker/view_3.exr 90
-in_blender marker.blend -P "$source_dir/tests/blender/addon.py" -- "$views" "$PWD/addon_auto" auto
+in_blender marker.blend -P "$source_dir/tests/blender/addon.py" -- "$(dirname "$views")" "$PWD/addon_auto" auto
 in_blender marker.blend -P "$views" -- -o marker --frame 3 --samples 2 --overscan auto
 alike addon_auto/center.exr marker/center.exr 90
 echo "add-on: the same views, the scene unchanged"

@@ -40,7 +40,7 @@ for name in $expected; do
     done
     if readelf -d "$root/usr/bin/$name" | grep -E 'R(UN)?PATH'; then fail "$name looks for libraries in a folder of its own"; fi
 done
-for script in slurm/submit.sh openjd/template.yaml opencue/submit.py blender/sparselens_views.py; do
+for script in slurm/submit.sh openjd/template.yaml opencue/submit.py blender/sparselens_{views.py,blender/{__init__,panel,command}.py}; do
     [ -s "$root/usr/share/sparselens/$script" ] || fail "$script is in no package"
 done
 

@@ -16,7 +16,9 @@ for tool in $expected; do
     done
 done
 
-[ -s "$prefix/share/sparselens/blender/sparselens_views.py" ] || fail "the Blender script is not installed"
+for script in sparselens_views.py sparselens_blender/{__init__,panel,command}.py sparselens_blender/blender_manifest.toml; do
+    [ -s "$prefix/share/sparselens/blender/$script" ] || fail "the Blender add-on lacks $script"
+done
 [ -s "$prefix/share/sparselens/lenses/petzval.json" ] || fail "the lenses of docs/looks.md are not installed"
 for script in slurm/submit.sh slurm/warp.sh slurm/gather.sh opencue/submit.py; do
     [ -x "$prefix/share/sparselens/$script" ] || fail "$script is not installed, or is no executable"

@@ -24,6 +24,10 @@ tag=$("$python" -c 'import sys; print("cp%d%d" % sys.version_info[:2])')
 "$python" -m zipfile -l "${wheels[0]}" >list
 ! grep -E 'dof-(accumulate|trace|report|stress)|test|embree|\.(a|h|cmake) ' list || fail "that is not the product's"
 
+for script in sparselens_views.py sparselens_blender/__init__.py; do
+    grep -q "/share/sparselens/blender/$script " list || fail "the Blender add-on lacks $script"
+done
+
 # Where it is used: no compiler is there, and no other file of the build. Both tools and module are found as in any environment.
 "$python" -m venv --system-site-packages --without-pip used
 logged build/bin/python "${pip[@]}" --python used/bin/python install --no-index --no-deps "${wheels[0]}"

@@ -1,9 +1,9 @@
-"""What share/blender/sparselens_views.py takes from a plan, and what it says of a scene that it cannot render right, without
+"""What share/blender/sparselens_blender takes from a plan, and what it says of a scene that it cannot render right, without
 Blender: a stand-in for its modules is enough. tests/blender/script.sh asks the same of Blender's own scenes.
 
-    blender-plan.py SCRIPT
+    blender-plan.py FOLDER
 """
-import importlib.util
+import importlib
 import sys
 import types
 
@@ -18,29 +18,26 @@ class Anything:
         return None
 
 
-def module_of(path):
+def modules_of(path):
     base = type("Base", (), {})
     sys.modules["bpy"] = types.SimpleNamespace(
         types=types.SimpleNamespace(PropertyGroup=base, Operator=base, Panel=base), props=Anything())
     sys.modules["mathutils"] = types.SimpleNamespace(Matrix=object)
-    spec = importlib.util.spec_from_file_location("sparselens_views", path)
-    module = importlib.util.module_from_spec(spec)
-    sys.modules["sparselens_views"] = module
-    spec.loader.exec_module(module)
-    return module
+    sys.path.insert(0, path)
+    return [importlib.import_module("sparselens_blender." + name) for name in ("views", "checks")]
 
 
 def plan_of(name):
     return {"views": [{"name": name, "lens_point": [1, 0], "rectangles": [[0, 0, 9, 9], [3, 3, 4, 4]]}]}
 
 
-script = module_of(sys.argv[1])
+views, checks = modules_of(sys.argv[1])
 expected = [("view_0_0", [1, 0], [0, 0, 9, 9]), ("view_0_1", [1, 0], [3, 3, 4, 4])]
-if script.views_of_plan(plan_of("view_0")) != expected:
-    sys.exit(f"views_of_plan: {script.views_of_plan(plan_of('view_0'))}")
+if views.views_of_plan(plan_of("view_0")) != expected:
+    sys.exit(f"views_of_plan: {views.views_of_plan(plan_of('view_0'))}")
 for name in "../../x", "/tmp/x", "a/b", "..", ".", "", "a\\b", "a\nb", "-x", "x" * 101, 3, None, ["a"]:
     try:
-        sys.exit(f"views_of_plan takes the name {name!r}: {script.views_of_plan(plan_of(name))}")
+        sys.exit(f"views_of_plan takes the name {name!r}: {views.views_of_plan(plan_of(name))}")
     except ValueError as error:
         if repr(name) not in str(error):
             sys.exit(f"{name!r}: {error}")
@@ -48,7 +45,7 @@ for name in "../../x", "/tmp/x", "a/b", "..", ".", "", "a\\b", "a\nb", "-x", "x"
 
 def expect_plan(pattern, plan, size=(160, 90), supersample=1):
     try:
-        script.check_plan(plan, size, supersample)
+        views.check_plan(plan, size, supersample)
         found = ""
     except ValueError as error:
         found = str(error)
@@ -102,22 +99,22 @@ def expect(found, *patterns):
 
 def expect_refusal(scene, pattern):
     try:
-        sys.exit(f"check_scene takes what {pattern!r} is to be said of: {script.check_scene(scene)}")
+        sys.exit(f"check_scene takes what {pattern!r} is to be said of: {checks.check_scene(scene)}")
     except ValueError as error:
         expect([str(error)], pattern)
 
 
-expect(script.check_scene(scene([layer(objects=[thing("plain", nodes=["BSDF_PRINCIPLED"])])])))
+expect(checks.check_scene(scene([layer(objects=[thing("plain", nodes=["BSDF_PRINCIPLED"])])])))
 held = collection("outer", [collection("held", holdout=True)])
 none = collection("outer", [collection("empty", objects=(), holdout=True),
                             collection("excluded", [collection("within", holdout=True)], exclude=True)])
-expect(script.check_scene(scene([layer(root=none, objects=[thing("hidden", hide_render=True, is_holdout=True)])])))
-expect(script.check_scene(scene([layer(root=held)])), "collection 'held' is a holdout")
-expect(script.check_scene(scene([layer(objects=[thing("ball", is_holdout=True)])])), "object 'ball' is a holdout")
-expect(script.check_scene(scene([layer(objects=[thing("ball", nodes=["EMISSION", "HOLDOUT"])])])),
+expect(checks.check_scene(scene([layer(root=none, objects=[thing("hidden", hide_render=True, is_holdout=True)])])))
+expect(checks.check_scene(scene([layer(root=held)])), "collection 'held' is a holdout")
+expect(checks.check_scene(scene([layer(objects=[thing("ball", is_holdout=True)])])), "object 'ball' is a holdout")
+expect(checks.check_scene(scene([layer(objects=[thing("ball", nodes=["EMISSION", "HOLDOUT"])])])),
        "object 'ball' has a holdout material")
-expect(script.check_scene(scene([layer(), layer(use=False, root=held)])))
-expect(script.check_scene(scene([layer()], use_motion_blur=True, use_border=True)),
+expect(checks.check_scene(scene([layer(), layer(use=False, root=held)])))
+expect(checks.check_scene(scene([layer()], use_motion_blur=True, use_border=True)),
        "motion blur", "--region 12,3,35,21") # of 48x27
 expect_refusal(scene([layer(use=False)]), "no view layer of scene 'Scene'")
 expect_refusal(scene([layer()], "BLENDER_WORKBENCH"), "choose Cycles or EEVEE")

@@ -4,4 +4,4 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 command -v python3 >/dev/null || { echo "skipped: needs python3"; exit 77; }
-PYTHONDONTWRITEBYTECODE=1 python3 tests/scripts/blender-plan.py share/blender/sparselens_views.py
+PYTHONDONTWRITEBYTECODE=1 python3 tests/scripts/blender-plan.py share/blender

@@ -6,7 +6,7 @@
 readme=$source_dir/README.md
 cd "$source_dir"
 documents=(README.md CONTRIBUTING.md CHANGELOG.md docs/*.md lab/results/*.md share/*/README.md)
-scripts=(share/*/*.sh share/*/*.py share/*/*.yaml)
+scripts=(share/*/*.sh share/*/*.py share/blender/*/*.py share/*/*.yaml)
 cd "$scratch"
 PATH=$bin:$PATH
 
@@ -43,7 +43,7 @@ done
 for script in "${scripts[@]}"; do named "$script"; done
 # Options are those of a tool by its own help, of a script of share/ that has them, or of another program.
 for tool in "$bin"/ldi-* "$bin"/dof-*; do "$tool" --help; done | grep -oE -e '--[a-z][a-z_-]+' >options
-cat "$source_dir"/share/{blender/sparselens_views.py,opencue/submit.py,slurm/submit.sh} >scripts
+cat "$source_dir"/share/{blender/sparselens_blender/command.py,opencue/submit.py,slurm/submit.sh} >scripts
 grep -oE -e "\"--[a-z][a-z_-]+\"" scripts | tr -d '"' >>options
 cat >>options <<'END'
 --add

@@ -1,0 +1,115 @@
+"""What a scene is while its views are rendered. Afterwards all is as it was."""
+
+from contextlib import ExitStack, contextmanager
+
+import bpy
+
+
+@contextmanager
+def changed(thing, **values):
+    """Properties with other values for a while."""
+    before = {name: getattr(thing, name) for name in values}
+    try:
+        for name, value in values.items():
+            setattr(thing, name, value)
+        yield
+    finally:
+        for name, value in before.items():
+            setattr(thing, name, value)
+
+
+@contextmanager
+def still_camera(scene):
+    """A camera without animation and without depth of field takes the place
+    of the scene's for a while. Markers let go of their cameras meanwhile, or
+    the render would switch to one of them."""
+    data = bpy.data.cameras.new("sparselens view")
+    made = bpy.data.objects.new("sparselens view", data)
+    scene.collection.objects.link(made)
+    try:
+        with ExitStack() as stack:
+            for marker in scene.timeline_markers:
+                stack.enter_context(changed(marker, camera=None))
+            stack.enter_context(changed(scene, camera=made))
+            yield made
+    finally:
+        bpy.data.objects.remove(made)
+        bpy.data.cameras.remove(data)
+
+
+def file_settings(settings, multilayer, codec):
+    """Values for `settings`, the image_settings of a render, that give an EXR
+    with depth. Since Blender 4.0 only multilayer files have depth; Blender 5
+    wants to know of several layers first, and parts of a file are its way of
+    storing them unless told to interleave."""
+    known = settings.bl_rna.properties
+    single = not multilayer and "use_zbuffer" in known
+    values = {
+        "media_type": "IMAGE" if single else "MULTI_LAYER_IMAGE",
+        "file_format": "OPEN_EXR" if single else "OPEN_EXR_MULTILAYER",
+        "color_mode": "RGBA", "color_depth": "16", "exr_codec": codec,
+        "use_exr_interleave": True, "use_zbuffer": True,
+        "color_management": "FOLLOW_SCENE"}
+    return {name: value for name, value in values.items() if name in known}
+
+
+@contextmanager
+def colour_and_depth(layer):
+    """Switches off all other passes of a view layer for a while, but for its
+    AOVs and light groups, which have no switch."""
+    with ExitStack() as stack:
+        for owner in (layer, layer.cycles, layer.eevee):
+            names = [prop.identifier for prop in owner.bl_rna.properties
+                     if prop.identifier.startswith("use_pass_")
+                     or prop.identifier == "denoising_store_passes"]
+            stack.enter_context(changed(owner, **{
+                name: name in ("use_pass_combined", "use_pass_z")
+                for name in names}))
+        yield
+
+
+@contextmanager
+def render_settings(scene, size, multilayer=False, codec="ZIP"):
+    """EXR with depth, of a picture of that size, and of nothing else than the
+    views; afterwards all is as it was."""
+    render = scene.render
+    with ExitStack() as stack:
+        stack.enter_context(changed(
+            render.image_settings,
+            **file_settings(render.image_settings, multilayer, codec)))
+        stack.enter_context(changed(
+            render, filepath="", use_multiview=False, use_compositing=False,
+            use_sequencer=False, use_stamp=False, use_border=False,
+            use_crop_to_border=False, border_min_x=0, border_max_x=1,
+            border_min_y=0, border_max_y=1, resolution_percentage=100,
+            resolution_x=size[0], resolution_y=size[1]))
+        for layer in scene.view_layers:
+            stack.enter_context(changed(layer, use_pass_z=True) if multilayer
+                                else colour_and_depth(layer))
+        yield
+
+
+@contextmanager
+def finer(scene, supersample):
+    """As many fewer samples a pixel, for a while, as pixels are smaller."""
+    subpixels = supersample * supersample
+    cycles = scene.render.engine == "CYCLES"
+    samples = (scene.cycles.samples if cycles
+               else scene.eevee.taa_render_samples)
+    if samples < subpixels:
+        raise ValueError(
+            "--supersample %d: %d samples a pixel are too few for %d pixels "
+            "in its place" % (supersample, samples, subpixels))
+    fewer = round(samples / subpixels)
+    with (changed(scene.cycles, samples=fewer) if cycles
+          else changed(scene.eevee, taa_render_samples=fewer)):
+        yield
+
+
+@contextmanager
+def only_layer(scene, name):
+    """Renders one view layer, for a while; with no name all that are used."""
+    with ExitStack() as stack:
+        for layer in scene.view_layers if name else ():
+            stack.enter_context(changed(layer, use=layer.name == name))
+        yield
