@@ -4,31 +4,13 @@
         auto: with automatic overscan
 """
 
+import os
 import sys
 
 import bpy
 
-
-def values(thing):
-    """The simple properties of a thing, and what its pointers point to."""
-    found = {}
-    for prop in thing.bl_rna.properties:
-        value = getattr(thing, prop.identifier)
-        if prop.type in {"BOOLEAN", "INT", "FLOAT", "STRING", "ENUM"}:
-            found[prop.identifier] = value if not hasattr(value, "__len__") else tuple(value)
-        elif prop.type == "POINTER":
-            found[prop.identifier] = str(value)
-    return found
-
-
-def state(scene):
-    camera = scene.camera
-    things = {"scene": scene, "render": scene.render, "files": scene.render.image_settings, "camera": camera,
-              "lens": camera.data, "depth of field": camera.data.dof, "layer": scene.view_layers[0]}
-    things.update({marker.name: marker for marker in scene.timeline_markers})
-    found = {(name, prop): value for name, thing in things.items() for prop, value in values(thing).items()}
-    found["objects"], found["cameras"] = sorted(bpy.data.objects.keys()), sorted(bpy.data.cameras.keys())
-    return found
+sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
+from state import state  # noqa: E402
 
 
 class Recorder:
@@ -50,7 +32,7 @@ def draw_panel(addon):
         sys.exit("the panel is not registered")
     panel = type("Panel", (), {"layout": Recorder()})()
     addon.panel.SPARSELENS_PT_panel.draw(panel, bpy.context)
-    if "overscan_auto" not in panel.layout.shown or panel.layout.shown[-1] != "sparselens.render_views":
+    if "overscan_auto" not in panel.layout.shown or panel.layout.shown[-1] != "sparselens.take_picture":
         sys.exit("the panel shows %s" % panel.layout.shown)
 
 

@@ -11,8 +11,8 @@ in_blender -P "$scene" -- CYCLES 96x54 save "$PWD/small.blend"
 for kind in keys path track driver child marker lens; do
     variant small $kind
     in_blender $kind.blend -P "$variants" -- still 4 "$PWD/still.blend"
-    in_blender $kind.blend -P "$views" -- -o $kind --frames 4 --samples 64 --views 2
-    in_blender still.blend -P "$views" -- -o still --samples 64 --views 2
+    in_blender $kind.blend -P "$views" -- --overscan 0 -o $kind --frames 4 --samples 64 --views 2
+    in_blender still.blend -P "$views" -- --overscan 0 -o still --samples 64 --views 2
     for view in center view_0 view_1; do alike $kind/$view.0004.exr still/$view.exr 60; done
     for view in view_0 view_1; do unlike $kind/center.0004.exr $kind/$view.0004.exr 30; done
     unlike $kind/view_0.0004.exr $kind/view_1.0004.exr 30
@@ -23,17 +23,17 @@ done
 in_blender path.blend -P "$variants" -- eevee "$PWD/eevee.blend"
 if eevee_runs eevee; then
     in_blender eevee.blend -P "$variants" -- still 4 "$PWD/still.blend"
-    in_eevee eevee.blend -P "$views" -- -o eevee --frames 4 --samples 1 --views 1
-    in_eevee still.blend -P "$views" -- -o eevee_still --samples 1 --views 1
+    in_eevee eevee.blend -P "$views" -- --overscan 0 -o eevee --frames 4 --samples 1 --views 1
+    in_eevee still.blend -P "$views" -- --overscan 0 -o eevee_still --samples 1 --views 1
     for view in center view_0; do alike eevee/$view.0004.exr eevee_still/$view.exr 60; done
     unlike eevee/center.0004.exr eevee/view_0.0004.exr 30
     echo "EEVEE: the views of a camera that stands still"
 fi
 
 # Several frames in one process are what each of them is alone, and differ.
-in_blender keys.blend -P "$views" -- -o range --frames 1-5x2,6 --samples 4 --views 1
+in_blender keys.blend -P "$views" -- --overscan 0 -o range --frames 1-5x2,6 --samples 4 --views 1
 [ "$(cd range && echo *)" = "$(echo {center,view_0}.000{1,3,5,6}.exr)" ] || fail "--frames wrote $(ls range)"
-in_blender keys.blend -P "$views" -- -o alone --frame 5 --samples 4 --views 1
+in_blender keys.blend -P "$views" -- --overscan 0 -o alone --frame 5 --samples 4 --views 1
 alike range/view_0.0005.exr alone/view_0.exr 60
 unlike range/center.0001.exr range/center.0005.exr 30
 for what in worldToCamera focus aperture pinholeFocalLength aperture_blades aperture_rotation aperture_ratio; do
@@ -43,7 +43,7 @@ done
 # What the picture shows, by Blender's own pinhole render: shift, fit, pixels that are not square, a percentage. Noise
 # of the same seed is the same, so 60 dB; with overscan every pixel has another seed, so 36 dB at 128 samples.
 variant small pinhole,framing
-in_blender pinhole,framing.blend -P "$views" -- -o framing --samples 128 --views 0
+in_blender pinhole,framing.blend -P "$views" -- --overscan 0 -o framing --samples 128 --views 0
 in_blender pinhole,framing.blend -P "$variants" -- render 128 1 1 "$PWD/own.####.exr"
 alike framing/center.exr own.0001.exr 60
 in_blender pinhole,framing.blend -P "$views" -- -o over --samples 128 --views 0 --overscan 9
@@ -57,7 +57,7 @@ echo "framing and overscan: as Blender's own picture"
 
 # --overscan auto: as many pixels as ldi-plan asks for, at each frame, in the camera's own shape of pixels.
 asked() { sed -n '/"overscan"/,/}/s/.*": \([0-9]*\),*$/\1/p' "$1" | sort -n | tail -n 1; }
-in_blender lens.blend -P "$views" -- -o far --frames 1,4 --samples 4 --views 0
+in_blender lens.blend -P "$views" -- --overscan 0 -o far --frames 1,4 --samples 4 --views 0
 in_blender lens.blend -P "$views" -- -o auto --frames 1,4 --samples 4 --views 1 --overscan auto
 for frame in 0001 0004; do
     "$bin/ldi-plan" far/center.$frame.exr -o plan.json >/dev/null
@@ -78,9 +78,9 @@ echo "--overscan auto: what the plan asks for"
 # size. Noise of the same seed is the same.
 in_blender small.blend --python-expr "import bpy; r = bpy.context.scene.render; r.resolution_x *= 2; r.resolution_y *= 2
 bpy.context.scene.cycles.filter_width = 2; bpy.ops.wm.save_as_mainfile(filepath='$PWD/large.blend')"
-in_blender small.blend -P "$views" -- -o fine --samples 16 --views 1 --supersample 2
-in_blender large.blend -P "$views" -- -o by_hand --samples 4 --views 1
-in_blender small.blend --python-expr "import bpy; bpy.context.scene.cycles.filter_width = 2" -P "$views" -- -o wide --samples 16 --views 1 --supersample 2
+in_blender small.blend -P "$views" -- --overscan 0 -o fine --samples 16 --views 1 --supersample 2
+in_blender large.blend -P "$views" -- --overscan 0 -o by_hand --samples 4 --views 1
+in_blender small.blend --python-expr "import bpy; bpy.context.scene.cycles.filter_width = 2" -P "$views" -- --overscan 0 -o wide --samples 16 --views 1 --supersample 2
 for view in center view_0; do alike wide/$view.exr by_hand/$view.exr 60; done
 exrheader wide/center.exr >header
 grep -Fq 'ldi.pixelFilter (type string): "blackman-harris:2"' header || fail "the filter: $(grep ldi header)"
@@ -92,7 +92,7 @@ defocused fine.exr fine/center.exr fine/view_0.exr
 exrheader fine.exr | grep -F 'displayWindow (type box2i): (0 0) - (95 53)' >/dev/null || fail "the picture of sub-pixels is not of the scene's size"
 in_blender small.blend -P "$views" -- -o fine_over --samples 4 --views 0 --supersample 2 --overscan 3
 exrheader fine_over/center.exr | grep -F 'dataWindow (type box2i): (-6 -6) - (197 113)' >/dev/null || fail "--supersample and --overscan"
-if blender --python-exit-code 1 -b small.blend -P "$views" -- -o few --samples 3 --supersample 2 >said 2>&1; then fail "3 samples for 4 pixels"; fi
+if blender --python-exit-code 1 -b small.blend -P "$views" -- --overscan 0 -o few --samples 3 --supersample 2 >said 2>&1; then fail "3 samples for 4 pixels"; fi
 grep -q 'error: --supersample 2: 3 samples a pixel are too few' said || fail "3 samples for 4 pixels: $(tail -n 3 said)"
 echo "--supersample: the views of twice the size"
 
@@ -100,20 +100,20 @@ echo "--supersample: the views of twice the size"
 # convergence is at 31 dB and less.
 for kind in offaxis offaxis_left parallel toe toe_left cameras; do
     variant small "pinhole,$kind"
-    in_blender "pinhole,$kind.blend" -P "$views" -- -o $kind --samples 128 --views 0
+    in_blender "pinhole,$kind.blend" -P "$views" -- --overscan 0 -o $kind --samples 128 --views 0
     in_blender "pinhole,$kind.blend" -P "$variants" -- render 128 1 1 "$PWD/own.####.exr"
     alike $kind/center_L.exr own.0001_L.exr 36
     alike $kind/center_R.exr own.0001_R.exr 36
     echo "$kind: both eyes as Blender's own"
 done
-in_blender pinhole,cameras.blend -P "$views" -- -o right --samples 4 --eye right
+in_blender pinhole,cameras.blend -P "$views" -- --overscan 0 -o right --samples 4 --eye right
 [ "$(cd right && echo *)" = "$(echo center_R.exr view_{0..3}_R.exr)" ] || fail "--eye right wrote $(ls right)"
 
 # All passes, Cryptomatte with its metadata too; the picture made of them is that of colour and depth alone, once
 # ldi-warp says that it takes Combined for the beauty.
 variant small passes
-in_blender passes.blend -P "$views" -- -o layers --samples 4 --multilayer
-in_blender passes.blend -P "$views" -- -o plain --samples 4
+in_blender passes.blend -P "$views" -- --overscan 0 -o layers --samples 4 --multilayer
+in_blender passes.blend -P "$views" -- --overscan 0 -o plain --samples 4
 for view in center view_0 view_1 view_2 view_3; do
     exrheader layers/$view.exr >header
     grep -Eq 'ViewLayer\.(DiffCol|Diffuse Color)\.R,' header || fail "--multilayer: no colour of diffuse in $view.exr" # since 5.0 by its name
@@ -141,18 +141,18 @@ complains() {
 }
 variant small homeless
 variant small panorama
-complains 1 "has no camera" homeless.blend -P "$views" -- -o none
-complains 1 "not a perspective one" panorama.blend -P "$views" -- -o none
-complains 1 "no eye 'middle'.*right" pinhole,cameras.blend -P "$views" -- -o none --eye middle
-complains 1 "name it \(--eye\)" pinhole,cameras.blend -P "$views" -- -o none --plan plan.json
-complains 1 "No such file" small.blend -P "$views" -- -o none --plan missing.json
+complains 1 "has no camera" homeless.blend -P "$views" -- --overscan 0 -o none
+complains 1 "not a perspective one" panorama.blend -P "$views" -- --overscan 0 -o none
+complains 1 "no eye 'middle'.*right" pinhole,cameras.blend -P "$views" -- --overscan 0 -o none --eye middle
+complains 1 "name it \(--eye\)" pinhole,cameras.blend -P "$views" -- --overscan 0 -o none --plan plan.json
+complains 1 "No such file" small.blend -P "$views" -- --overscan 0 -o none --plan missing.json
 complains 2 "usage: blender -b" small.blend -P "$views"
-complains 2 "invalid frame range" small.blend -P "$views" -- -o none --frames 1-
-complains 2 "not allowed with" small.blend -P "$views" -- -o none --frames 1-2 --frame 1
+complains 2 "invalid frame range" small.blend -P "$views" -- --overscan 0 -o none --frames 1-
+complains 2 "not allowed with" small.blend -P "$views" -- --overscan 0 -o none --frames 1-2 --frame 1
 # What cannot be rendered: one line, before anything is.
 refused() { # KIND PATTERN
     variant small "$1"
-    complains 1 "^sparselens_views.py: error: .*$2" "$1.blend" -P "$views" -- -o none --samples 1 --frame 6
+    complains 1 "^sparselens_views.py: error: .*$2" "$1.blend" -P "$views" -- --overscan 0 -o none --samples 1 --frame 6
     [ "$(grep -c 'sparselens_views.py\|Traceback' stderr)" -eq 1 ] || fail "$1: not one line: $(cat stderr)"
 }
 refused mesh "'Sphere', which is no camera but of type MESH: set a camera"
@@ -171,19 +171,19 @@ echo "errors: said, with their exit codes"
 # What is rendered otherwise than the scene asks for is said once for all frames.
 warned() { # KIND PATTERN
     variant small "$1"
-    exits 0 blender --python-exit-code 1 -b "$1.blend" -P "$views" -- -o warned --samples 1 --views 1 --frames 1-2
+    exits 0 blender --python-exit-code 1 -b "$1.blend" -P "$views" -- --overscan 0 -o warned --samples 1 --views 1 --frames 1-2
     [ "$(grep -Ec "^sparselens_views.py: warning: .*$2" stderr)" -eq 1 ] || fail "$1: not one '$2': $(cat stderr)"
 }
 for kind in held_collection held_object held_material; do
     warned $kind "(collection 'held'|object 'Sphere') .*holdout.*render it and the rest apart.*docs/comp.md"
 done
 variant small unheld
-exits 0 blender --python-exit-code 1 -b unheld.blend -P "$views" -- -o warned --samples 1 --views 0
+exits 0 blender --python-exit-code 1 -b unheld.blend -P "$views" -- --overscan 0 -o warned --samples 1 --views 0
 if grep 'warning:' stderr; then fail "a holdout that is not rendered is warned of"; fi
 warned pinhole,region 'the render region is not used.*dof-gather --region'
 box=$(sed -nE 's/.*--region ([0-9,]+)$/\1/p' stderr)
 # The pixels of that region are those that Blender renders of it; the seed of each is another, so 36 dB.
-in_blender pinhole,region.blend -P "$views" -- -o region --samples 128 --views 0
+in_blender pinhole,region.blend -P "$views" -- --overscan 0 -o region --samples 128 --views 0
 in_blender pinhole,region.blend -P "$variants" -- render 128 1 1 "$PWD/own.####.exr"
 IFS=, read -r x0 y0 x1 y1 <<<"$box"
 oiiotool region/center.exr --cut "$((x1 - x0 + 1))x$((y1 - y0 + 1))+$x0+$y0" --ch R,G,B -o cut.exr

@@ -2,13 +2,32 @@
 describes."""
 
 bl_info = {
-    "name": "sparselens views",
+    "name": "sparselens",
     "author": "sparselens",
     "version": (0, 2, 0),
     "blender": (3, 4, 0),
     "location": "Properties > Camera > sparselens",
-    "description": "Renders the views that sparselens makes depth of field of",
+    "description": "Depth of field of a few views: renders them, and takes "
+                   "the picture",
     "category": "Render",
 }
 
-from .panel import register, unregister  # noqa: E402,F401
+import bpy  # noqa: E402
+
+from . import command, panel  # noqa: E402
+
+commands = []  # of Blender's own command line, since 4.2
+
+
+def register():
+    panel.register()
+    if hasattr(bpy.utils, "register_cli_command"):
+        commands.append(bpy.utils.register_cli_command(
+            "sparselens", command.run_as_command))
+
+
+def unregister():
+    for made in commands:
+        bpy.utils.unregister_cli_command(made)
+    commands.clear()
+    panel.unregister()

@@ -1,4 +1,7 @@
-"""The command line of the script."""
+"""The command line: of the script, which renders views and with --picture
+makes pictures of them, and of Blender's --command sparselens, which makes
+pictures.
+"""
 
 import argparse
 import json
@@ -8,7 +11,9 @@ import traceback
 
 import bpy
 
-from .renders import AUTO, render_frames
+from .headless import Pictures
+from .renders import (
+    AUTO, Count, Manner, folder_of, render_now, views_steps)
 from .shots import eyes_of, shot_of
 from .views import check_plan, numbered, views_of_lens, views_of_plan
 
@@ -39,35 +44,32 @@ def overscan_option(text):
     return AUTO if text == AUTO else natural_number(text)
 
 
-def read_options(arguments):
-    parser = argparse.ArgumentParser(
-        prog="sparselens_views.py",
-        usage="blender -b SCENE.blend -P sparselens_views.py -- -o DIR "
-              "[options]",
-        description="Renders the centre view and the views from the rim of "
-                    "the lens, from the scene's camera.")
-    add = parser.add_argument
+def add_options(add, exclusive):
     add("-o", "--output", required=True, metavar="DIR",
-        help="folder of the views: center.exr, view_0.exr, ...")
+        help="folder of the views: center.exr, view_0.exr, ...; of pictures "
+             "their name, such as //out/####.exr. Without an ending they are "
+             "what the scene's output settings say")
     add("--views", type=natural_number, default=4, metavar="N",
         help="views from the rim of the lens (default: 4)")
-    frames = parser.add_mutually_exclusive_group()
+    frames = exclusive()
     frames.add_argument(
         "--frame", type=int, metavar="N",
         help="frame to render (default: the scene's current one)")
     frames.add_argument(
         "--frames", type=frame_numbers, metavar="RANGE",
         help="frames to render, e.g. 1-24; the files are center.####.exr, "
-             "view_0.####.exr, ...")
+             "view_0.####.exr, ... (default of pictures whose name has #: "
+             "those of the scene)")
     add("--samples", type=natural_number, metavar="N",
         help="samples a pixel of the picture (default: the scene's)")
     add("--supersample", type=natural_number, default=1, metavar="N",
         help="render N times the width and height with 1/N^2 of the samples "
              "a pixel; dof-gather makes the picture of the scene's size of "
              "it (default: 1)")
-    add("--overscan", type=overscan_option, default=0, metavar="PX",
-        help="pixels of the picture to render beyond each side (default: 0); "
-             "auto: as many as the blur at the border of each frame needs")
+    add("--overscan", type=overscan_option, default=AUTO, metavar="PX",
+        help="pixels of the picture to render beyond each side; auto: as "
+             "many as the blur at the border of each frame needs (default: "
+             "auto)")
     add("--multilayer", action="store_true",
         help="multilayer EXR with all passes of the view layers, AOVs and "
              "Cryptomatte too (default: colour and depth)")
@@ -77,13 +79,32 @@ def read_options(arguments):
     add("--eye", metavar="NAME",
         help="view of a stereo scene, e.g. left (default: all of them, the "
              "eye's suffix in the names of the files)")
+
+
+def add_views_options(add):
     add("--plan", metavar="PLAN.json",
         help="render only what this file of ldi-plan asks for, a file a "
              "rectangle: view_0_0.exr, ...; plan.####.json for --frames")
     add("--lens-views", type=natural_number, default=0, metavar="N",
         help="also render N views spread over the lens, lens_0000.exr, ..., "
              "whose average (dof-accumulate) is the true picture")
-    options = parser.parse_args(arguments)
+
+
+def add_picture_options(add):
+    add("--views-folder", metavar="DIR",
+        help="with pictures, folder of the views and LDIs, which stay there "
+             "(default: views, in the folder of the pictures)")
+    add("--again", action="store_true",
+        help="with pictures, render all views, also those of an earlier run "
+             "with the same camera, size and samples")
+    add("--looks", default="", metavar="OPTIONS",
+        help="with pictures, options of dof-gather, e.g. '--cat-eye 0.5'")
+    add("--tools", default="", metavar="DIR",
+        help="with pictures, folder of ldi-warp and dof-gather (default: "
+             "beside the add-on, in pip's package, or on the PATH)")
+
+
+def check_options(parser, options):
     if options.samples == 0:
         parser.error("argument --samples: 0 samples make no picture")
     if not 1 <= options.supersample <= 16:
@@ -91,6 +112,43 @@ def read_options(arguments):
     if options.supersample > 1 and options.lens_views:
         parser.error("argument --lens-views: their average is the picture: "
                      "render them without --supersample")
+    if options.picture:
+        for name in "plan", "lens_views":
+            if getattr(options, name):
+                parser.error("argument --%s: not allowed with argument "
+                             "--picture" % name.replace("_", "-"))
+        return
+    for name in "views_folder", "again", "looks", "tools":
+        if getattr(options, name):
+            parser.error("argument --%s: needs --picture"
+                         % name.replace("_", "-"))
+
+
+def read_options(arguments, command=False):
+    """Of the script, or of Blender's --command sparselens."""
+    if command:
+        parser = argparse.ArgumentParser(
+            prog="sparselens", usage="blender -b SCENE.blend --command "
+            "sparselens -o //out/#### [options]", description="Renders views "
+            "from the lens of the scene's camera, and makes pictures of "
+            "them.")
+        parser.set_defaults(picture=True, plan=None, lens_views=0)
+    else:
+        parser = argparse.ArgumentParser(
+            prog="sparselens_views.py",
+            usage="blender -b SCENE.blend -P sparselens_views.py -- -o DIR "
+                  "[options]",
+            description="Renders the centre view and the views from the rim "
+                        "of the lens, from the scene's camera.")
+        parser.add_argument(
+            "--picture", action="store_true", help="also make pictures of "
+            "the views, named by -o")
+    add_options(parser.add_argument, parser.add_mutually_exclusive_group)
+    if not command:
+        add_views_options(parser.add_argument)
+    add_picture_options(parser.add_argument)
+    options = parser.parse_args(arguments)
+    check_options(parser, options)
     return options
 
 
@@ -105,15 +163,19 @@ def chosen_eyes(scene, name):
     return chosen
 
 
-def main(arguments):
-    options = read_options(arguments)
-    scene = bpy.context.scene
-    eyes = chosen_eyes(scene, options.eye)
+def frames_of(options, scene):
+    if options.frames is not None:
+        return options.frames
+    if options.frame is not None:
+        return [options.frame]
+    if options.picture and "#" in options.output:
+        return range(scene.frame_start, scene.frame_end + 1, scene.frame_step)
+    return [scene.frame_current]
+
+
+def render_views(options, scene, eyes, manner, say):
     if options.plan and len(eyes) > 1:
         raise ValueError("--plan: a plan is made for one eye: name it (--eye)")
-    if options.samples:
-        scene.cycles.samples = options.samples
-        scene.eevee.taa_render_samples = options.samples
 
     def views_at(frame):
         if not options.plan:
@@ -124,24 +186,51 @@ def main(arguments):
                    options.supersample)
         return views_of_plan(plan)
 
-    frames = options.frames
-    if frames is None:
-        frames = [scene.frame_current if options.frame is None
-                  else options.frame]
-    render_frames(scene, frames, options.output, views_at, eyes,
-                  several=options.frames is not None,
-                  overscan=options.overscan, multilayer=options.multilayer,
-                  layer=options.layer, supersample=options.supersample)
+    folder, count = folder_of(options.output), Count()
+    render_now(scene, views_steps(
+        scene, frames_of(options, scene), folder, views_at, eyes, manner,
+        count, options.frames is not None, say))
+    print("sparselens_views.py: %d views in %s" % (count.rendered,
+                                                   options.output))
+
+
+def main(options, say):
+    scene = bpy.context.scene
+    eyes = chosen_eyes(scene, options.eye)
+    if options.samples:
+        scene.cycles.samples = options.samples
+        scene.eevee.taa_render_samples = options.samples
+    manner = Manner(options.overscan, options.multilayer, options.layer,
+                    options.supersample)
+    if not options.picture:
+        return render_views(options, scene, eyes, manner, say)
+    manner.keep = not options.again
+    Pictures(scene, eyes, manner, options, say).make(frames_of(options, scene))
+
+
+def run(arguments, command=False):
+    """Returns the exit code. Blender goes on after an exception, and would
+    end with 0."""
+    name = "sparselens" if command else "sparselens_views.py"
+    try:
+        options = read_options(arguments, command)
+        main(options, lambda text: print("%s: warning: %s" % (name, text),
+                                         file=sys.stderr))
+    except SystemExit as ended:  # by argparse
+        return ended.code
+    except (ValueError, OSError, RuntimeError) as error:
+        print("%s: error: %s" % (name, error), file=sys.stderr)
+        return 1
+    except Exception:
+        traceback.print_exc()
+        return 1
+    return 0
 
 
 def run_as_script():
-    """Blender goes on after an exception, and ends with 0: end it here."""
     after = sys.argv.index("--") + 1 if "--" in sys.argv else len(sys.argv)
-    try:
-        main(sys.argv[after:])
-    except (ValueError, OSError, RuntimeError) as error:
-        print("sparselens_views.py: error:", error, file=sys.stderr)
-        sys.exit(1)
-    except Exception:
-        traceback.print_exc()
-        sys.exit(1)
+    sys.exit(run(sys.argv[after:]))
+
+
+def run_as_command(arguments):
+    return run(arguments, command=True)

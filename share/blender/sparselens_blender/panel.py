@@ -1,28 +1,29 @@
 """The settings of a scene, their panel in the camera's properties, and the
-operator that renders.
+add-on's preferences.
 """
 
 import bpy
 
-from .renders import AUTO, render_frames
-from .shots import eyes_of
-from .views import views_of_lens
+from . import taking
+from .operators import (
+    SPARSELENS_OT_find_tools, SPARSELENS_OT_render_views,
+    SPARSELENS_OT_take_picture)
 
 
 class SPARSELENS_Settings(bpy.types.PropertyGroup):
     folder: bpy.props.StringProperty(
-        name="Folder", description="Where the views go", subtype="DIR_PATH",
-        default="//views/")
+        name="Folder", description="Where the views go, and what is made of "
+        "them", subtype="DIR_PATH", default="//views/")
     views: bpy.props.IntProperty(
         name="Rim Views", description="Views from the rim of the lens",
         default=4, min=0, max=64)
+    overscan_auto: bpy.props.BoolProperty(
+        name="Auto Overscan", default=True,
+        description="Render as many pixels beyond each side as the blur at "
+                    "the border needs, at each frame")
     overscan: bpy.props.IntProperty(
         name="Overscan", description="Pixels rendered beyond each side",
         default=0, min=0, max=4096, subtype="PIXEL")
-    overscan_auto: bpy.props.BoolProperty(
-        name="Automatic Overscan",
-        description="As many pixels beyond each side as the blur at the "
-                    "border needs, at each frame, instead of Overscan")
     supersample: bpy.props.IntProperty(
         name="Supersample", description="Pixels rendered, across and down, "
         "for each of the picture, with as many fewer samples",
@@ -32,35 +33,30 @@ class SPARSELENS_Settings(bpy.types.PropertyGroup):
         description="Multilayer EXR with all passes of the view layers")
     animation: bpy.props.BoolProperty(
         name="Animation",
-        description="All frames of the scene, else the current one")
+        description="Render the views of all frames of the scene, else those "
+                    "of the current one")
+    looks: bpy.props.StringProperty(
+        name="Looks", description="Options of dof-gather for what Blender's "
+        "camera does not have, such as --cat-eye 0.5 --spherical 0.3")
+    live: bpy.props.BoolProperty(
+        name="Live", default=True,
+        description="Once a picture is taken, take it anew whenever focus, "
+                    "f-stop, blades, ratio or rotation change")
 
 
-class SPARSELENS_OT_render_views(bpy.types.Operator):
-    """Render the centre view and the views from the rim of the lens"""
+class SPARSELENS_Preferences(bpy.types.AddonPreferences):
+    bl_idname = __package__
 
-    bl_idname = "sparselens.render_views"
-    bl_label = "Render Views"
+    folder: bpy.props.StringProperty(
+        name="Folder of the Tools", subtype="DIR_PATH",
+        description="Where ldi-warp and dof-gather are. If empty, they are "
+                    "looked for beside the add-on, in pip's package, and on "
+                    "the PATH")
 
-    def execute(self, context):
-        scene, settings = context.scene, context.scene.sparselens
-        frames = [scene.frame_current]
-        if settings.animation:
-            frames = range(scene.frame_start, scene.frame_end + 1,
-                           scene.frame_step)
-        try:
-            views = views_of_lens(settings.views, 0)
-            render_frames(scene, frames, bpy.path.abspath(settings.folder),
-                          lambda frame: views, eyes_of(scene),
-                          several=settings.animation,
-                          say=lambda text: self.report({"WARNING"}, text),
-                          overscan=(AUTO if settings.overscan_auto
-                                    else settings.overscan),
-                          multilayer=settings.multilayer,
-                          supersample=settings.supersample)
-        except (ValueError, OSError, RuntimeError) as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
-        return {"FINISHED"}
+    def draw(self, context):
+        row = self.layout.row()
+        row.prop(self, "folder")
+        row.operator("sparselens.find_tools")
 
 
 class SPARSELENS_PT_panel(bpy.types.Panel):
@@ -74,14 +70,26 @@ class SPARSELENS_PT_panel(bpy.types.Panel):
         return context.camera is not None
 
     def draw(self, context):
-        self.layout.use_property_split = True
-        for name in SPARSELENS_Settings.__annotations__:
-            self.layout.prop(context.scene.sparselens, name)
-        self.layout.operator("sparselens.render_views")
+        layout, settings = self.layout, context.scene.sparselens
+        layout.use_property_split = True
+        layout.prop(settings, "folder")
+        layout.prop(settings, "views")
+        layout.prop(settings, "overscan_auto")
+        if not settings.overscan_auto:
+            layout.prop(settings, "overscan")
+        for name in "supersample", "multilayer", "animation":
+            layout.prop(settings, name)
+        layout.operator("sparselens.render_views")
+        layout.prop(settings, "looks")
+        layout.prop(settings, "live")
+        layout.operator("sparselens.take_picture")
+        if taking.follower and taking.follower.message:
+            layout.label(text=taking.follower.message, icon="ERROR")
 
 
-CLASSES = (SPARSELENS_Settings, SPARSELENS_OT_render_views,
-           SPARSELENS_PT_panel)
+CLASSES = (SPARSELENS_Settings, SPARSELENS_Preferences,
+           SPARSELENS_OT_render_views, SPARSELENS_OT_take_picture,
+           SPARSELENS_OT_find_tools, SPARSELENS_PT_panel)
 
 
 def register():
@@ -92,6 +100,7 @@ def register():
 
 
 def unregister():
+    taking.stop_following()
     del bpy.types.Scene.sparselens
     for made in reversed(CLASSES):
         bpy.utils.unregister_class(made)

@@ -1,36 +1,79 @@
-"""Renders the views of frames into a folder."""
+"""Renders the views of frames into a folder.
+
+What renders comes step by step: a generator puts the scene as a view needs
+it, and yields; whoever asks for the next step has it rendered meanwhile, at
+once or in Blender's own time. When the generator ends or is closed, the scene
+is as it was.
+"""
 
 import math
 import os
 import sys
 from contextlib import ExitStack
+from dataclasses import dataclass
 
 import bpy
-from mathutils import Matrix
 
 from .checks import check_scene
 from .exr import depth_rows, exr_box, with_attributes
 from .for_a_while import (
     changed, finer, only_layer, render_settings, still_camera)
-from .shots import camera_attributes, shot_of
+from .kept import is_kept, manner_attributes, overscan_of_file
+from .shots import camera_attributes, shot_of, view_placement
 
 AUTO = "auto"  # overscan: as much as the blur needs
 LARGEST_PROBE = 512  # pixels
 LARGEST_OVERSCAN = 1024  # pixels; as far as ldi-warp looks
 
 
-def layer_to_render(scene, name, multilayer):
+@dataclass
+class Manner:
+    """How views are rendered."""
+
+    overscan: object = AUTO  # pixels of the scene's picture, or AUTO
+    multilayer: bool = False
+    layer: str = None        # the only view layer to render
+    supersample: int = 1     # pixels, across and down, for one of the picture
+    keep: bool = False       # views of an earlier run that are the same
+
+
+@dataclass
+class Count:
+    """What became of the views."""
+
+    rendered: int = 0
+    kept: int = 0
+
+
+def warn(text):
+    print("sparselens_views.py: warning:", text, file=sys.stderr)
+
+
+def folder_of(path):
+    """A folder's full name; // is that of the .blend file."""
+    if path.startswith("//") and not bpy.data.filepath:
+        raise ValueError("'%s' is a folder beside the .blend file, which is "
+                         "not saved yet: save it, or choose another folder"
+                         % path)
+    return os.path.abspath(bpy.path.abspath(path))
+
+
+def used_layers(scene):
+    return [layer.name for layer in scene.view_layers if layer.use]
+
+
+def layer_to_render(scene, name, multilayer, say=warn):
     """The name of the only view layer to render, or None for all. Says what
     of several will not be written."""
     names = [layer.name for layer in scene.view_layers]
     if name and name not in names:
         raise ValueError("--layer: the scene has no view layer '%s'; it has: "
                          "%s" % (name, ", ".join(names)))
-    used = [layer.name for layer in scene.view_layers if layer.use]
+    used = used_layers(scene)
     if not name and not multilayer and len(used) > 1:
-        warn("the scene renders %d view layers, %s, of which the files hold "
-             "'%s' alone: choose one by --layer, or take all by --multilayer"
-             % (len(used), ", ".join(used), used[0]))
+        say("the scene renders %d view layers, %s, of which the files hold "
+            "'%s' alone: choose one by --layer, or take all by --multilayer"
+            % (len(used), ", ".join(used), used[0]))
     return name or (None if multilayer else used[0])
 
 
@@ -59,27 +102,28 @@ def set_border(render, box, overscan):
     render.border_max_y = (height - y0 + 0.25) / height
 
 
-def render_view(scene, path, shot, u, overscan, box=None, plain=True):
-    """Renders what is seen from lens point u (x right, y up; the lens has the
-    radius 1). The file appears complete or not at all; its channels have
-    `plain` names where it holds colour and depth alone."""
-    radius = shot.lens_radius
-    placement = shot.placement @ Matrix.Translation(
-        (radius * u[0], radius * u[1], 0))
+def windows(size, overscan):
+    width, height = size
+    return {"displayWindow": exr_box(0, 0, width, height),
+            "dataWindow": exr_box(-overscan, -overscan, width + 2 * overscan,
+                                  height + 2 * overscan)}
+
+
+def view_steps(scene, path, shot, u, overscan, box, attributes, plain):
+    """Renders what is seen from lens point u. The file appears complete or
+    not at all; its channels have `plain` names where it holds colour and
+    depth alone."""
+    placement = view_placement(shot, u)
     aim(scene.camera, shot, placement, overscan)
     set_border(scene.render, box, overscan)
-    width, height = shot.size
-    attributes = camera_attributes(shot, placement)
-    attributes["displayWindow"] = exr_box(0, 0, width, height)
-    attributes["dataWindow"] = exr_box(
-        -overscan, -overscan, width + 2 * overscan, height + 2 * overscan)
-
     partial = path + ".partial.exr"
     scene.render.filepath = partial
     try:
-        bpy.ops.render.render(write_still=True, scene=scene.name)
+        yield os.path.basename(path)
         with open(partial, "rb") as file:
-            data = with_attributes(file.read(), attributes, plain)
+            data = with_attributes(
+                file.read(), camera_attributes(shot, placement) | attributes,
+                plain)
         with open(partial, "wb") as file:
             file.write(data)
         os.replace(partial, path)
@@ -88,82 +132,106 @@ def render_view(scene, path, shot, u, overscan, box=None, plain=True):
             os.remove(partial)
 
 
-def overscan_of(scene, folder, shot):
+def overscan_steps(scene, folder, shot):
     """The pixels of overscan that the blur of a frame needs: its largest
-    circle of confusion at the border. Read from the depth of a small picture
-    of one sample a pixel."""
+    circle of confusion at the border, in any layer. Read from the depth of
+    small pictures of one sample a pixel."""
     shrink = min(1, LARGEST_PROBE / max(shot.size))
     size = [max(1, round(side * shrink)) for side in shot.size]
     path = os.path.join(folder, ".overscan.partial.exr")
-    with ExitStack() as stack:
-        stack.enter_context(render_settings(scene, size, codec="NONE"))
-        stack.enter_context(changed(scene.cycles, samples=1))
-        stack.enter_context(changed(scene.eevee, taa_render_samples=1))
-        camera = stack.enter_context(still_camera(scene))
-        stack.enter_context(changed(scene.render, filepath=path))
-        aim(camera, shot, shot.placement, 0)
-        try:
-            bpy.ops.render.render(write_still=True, scene=scene.name)
-            with open(path, "rb") as file:
-                rows = depth_rows(file.read())
-        finally:
-            if os.path.exists(path):
-                os.remove(path)
 
     def largest(depths, stretch, most):
         radius = max(shot.blur_radius(depth) for depth in depths if depth > 0)
         return min(math.ceil(radius * stretch), most, LARGEST_OVERSCAN)
 
-    columns = [row[0] for row in rows] + [row[-1] for row in rows]
-    return max(largest(columns, 1, shot.size[0]),
-               largest(rows[0] + rows[-1], shot.pixel_aspect, shot.size[1]))
+    found = 0
+    for layer in used_layers(scene):
+        with ExitStack() as stack:
+            stack.enter_context(only_layer(scene, layer))
+            stack.enter_context(render_settings(scene, size, codec="NONE"))
+            stack.enter_context(changed(scene.cycles, samples=1))
+            stack.enter_context(changed(scene.eevee, taa_render_samples=1))
+            camera = stack.enter_context(still_camera(scene))
+            stack.enter_context(changed(scene.render, filepath=path))
+            aim(camera, shot, shot.placement, 0)
+            try:
+                yield "overscan"
+                with open(path, "rb") as file:
+                    rows = depth_rows(file.read())
+            finally:
+                if os.path.exists(path):
+                    os.remove(path)
+        columns = [row[0] for row in rows] + [row[-1] for row in rows]
+        found = max(found, largest(columns, 1, shot.size[0]), largest(
+            rows[0] + rows[-1], shot.pixel_aspect, shot.size[1]))
+    return found
 
 
-def warn(text):
-    print("sparselens_views.py: warning:", text, file=sys.stderr)
+def eye_steps(scene, folder, ending, views, eye, manner, count):
+    """The views of one eye at the current frame."""
+    def path_of(name):
+        return os.path.join(folder, name + eye.file_suffix + ending)
 
-
-def render_frame(scene, folder, ending, views, eyes, overscan=0,
-                 multilayer=False, layer=None, supersample=1):
-    """Renders the views of the current frame into the folder. `overscan` is
-    in pixels of the scene's picture, or AUTO; `layer` the only view layer to
-    render; `supersample` how many pixels, across and down, are rendered for
-    one of the picture."""
-    shots = [(eye, shot_of(scene, eye, supersample)) for eye in eyes]
-    for eye, shot in shots:
-        pixels = overscan
-        if overscan == AUTO:
-            with only_layer(scene, layer):
-                pixels = math.ceil(overscan_of(scene, folder, shot)
-                                   / supersample)
-            print("sparselens_views.py: frame %d%s: overscan of %d pixels" % (
+    shot = shot_of(scene, eye, manner.supersample)
+    finest = manner.supersample
+    attributes = manner_attributes(scene, manner.layer, manner.multilayer)
+    pixels = manner.overscan
+    if pixels == AUTO:
+        center = path_of("center")
+        if manner.keep and is_kept(center, shot, (0, 0), attributes):
+            pixels = overscan_of_file(center) // finest
+        else:
+            with only_layer(scene, manner.layer):
+                needed = yield from overscan_steps(scene, folder, shot)
+            pixels = math.ceil(needed / finest)
+            print("sparselens: frame %d%s: overscan of %d pixels" % (
                 scene.frame_current, eye.name and ", " + eye.name, pixels))
-        beyond = pixels * supersample
-        size = [side + 2 * beyond for side in shot.size]
-        with render_settings(scene, size, multilayer), still_camera(scene), \
-                only_layer(scene, layer), finer(scene, supersample):
-            for name, u, box in views:
-                path = os.path.join(folder, name + eye.file_suffix + ending)
-                render_view(scene, path, shot, u, beyond, box,
-                            plain=not multilayer)
+    beyond = pixels * finest
+    attributes |= windows(shot.size, beyond)
+    left = [(path_of(name), u, box) for name, u, box in views
+            if not (manner.keep
+                    and is_kept(path_of(name), shot, u, attributes))]
+    count.kept += len(views) - len(left)
+    if not left:
+        return
+    size = [side + 2 * beyond for side in shot.size]
+    with render_settings(scene, size, manner.multilayer), \
+            still_camera(scene), only_layer(scene, manner.layer), \
+            finer(scene, finest):
+        for path, u, box in left:
+            yield from view_steps(scene, path, shot, u, beyond, box,
+                                  attributes, plain=not manner.multilayer)
+            count.rendered += 1
 
 
-def render_frames(scene, frames, folder, views_at, eyes, several=False,
-                  say=warn, **options):
-    """The same for a list of frames; views_at(frame) are the views of one.
-    With `several` the names carry the frame's number. Warnings go to `say`,
-    once for all frames."""
+def frame_ending(frame, several):
+    """How the names of a frame's files end."""
+    return ".%04d.exr" % frame if several else ".exr"
+
+
+def views_steps(scene, frames, folder, views_at, eyes, manner, count,
+                several=False, say=warn):
+    """The views of a list of frames; views_at(frame) are those of one. With
+    `several` the names carry the frame's number. Warnings go to `say`, once
+    for all frames. Yields what is to be rendered, in words."""
     for text in check_scene(scene):
         say(text)
-    folder, before = os.path.abspath(folder), scene.frame_current
-    options["layer"] = layer_to_render(scene, options.get("layer"),
-                                       options.get("multilayer"))
+    manner.layer = layer_to_render(scene, manner.layer, manner.multilayer, say)
     os.makedirs(folder, exist_ok=True)
+    before = scene.frame_current
     try:
         for frame in frames:
             scene.frame_set(frame)
-            ending = ".%04d.exr" % frame if several else ".exr"
-            render_frame(scene, folder, ending, views_at(frame), eyes,
-                         **options)
+            views = views_at(frame)
+            for eye in eyes:
+                yield from eye_steps(scene, folder,
+                                     frame_ending(frame, several), views, eye,
+                                     manner, count)
     finally:
-        scene.frame_set(before)
+        if scene.frame_current != before:
+            scene.frame_set(before)
+
+
+def render_now(scene, steps):
+    for _ in steps:
+        bpy.ops.render.render(write_still=True, scene=scene.name)

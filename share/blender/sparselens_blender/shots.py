@@ -206,6 +206,13 @@ def shot_of(scene, eye, supersample=1):
         pixel_filter=pixel_filter_of(scene))
 
 
+def view_placement(shot, u):
+    """Where lens point u (x right, y up; the lens has the radius 1) stands."""
+    radius = shot.lens_radius
+    return shot.placement @ Matrix.Translation(
+        (radius * u[0], radius * u[1], 0))
+
+
 def camera_attributes(shot, placement):
     """The EXR attributes of a view. Camera space in EXR: x right, y up, z
     forward, where Blender's z points backward."""

@@ -1,0 +1,73 @@
+"""Runs the tools, one after the other, and blocks nothing meanwhile."""
+
+import subprocess
+import tempfile
+
+
+class ToolError(RuntimeError):
+    """What a tool said when it failed."""
+
+
+class Chain:
+    """Commands, of which each begins when the one before has done its work.
+    Their outputs appear whole or not at all, so it can be stopped any time."""
+
+    def __init__(self, commands):
+        self.left = list(commands)
+        self.process = self.said = None
+        self.warnings = []
+
+    def poll(self):
+        """Whether all is done. Raises ToolError where a tool has failed."""
+        if self.process is None:
+            return not self.begin()
+        if self.process.poll() is None:
+            return False
+        self.end()
+        return not self.begin()
+
+    def begin(self):
+        if not self.left:
+            return False
+        command = self.left.pop(0)
+        self.said = tempfile.TemporaryFile()
+        try:
+            self.process = subprocess.Popen(
+                command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                stderr=self.said)
+        except OSError as error:
+            self.said.close()
+            raise ToolError("%s cannot be run: %s"
+                            % (command[0], error.strerror)) from error
+        return True
+
+    def end(self):
+        process, self.process = self.process, None
+        with self.said as said:
+            said.seek(0)
+            lines = said.read().decode(errors="replace").splitlines()
+        self.warnings += [line for line in lines if ": warning: " in line]
+        if process.returncode != 0:
+            self.left = []
+            errors = [line for line in lines if ": warning: " not in line]
+            raise ToolError("\n".join(errors) or "%s ended with %d" % (
+                process.args[0], process.returncode))
+
+    def wait(self):
+        while not self.poll():
+            if self.process:
+                self.process.wait()
+
+    def stop(self):
+        """Ends what runs, and begins no more."""
+        self.left = []
+        if self.process is None:
+            return
+        self.process.terminate()
+        try:
+            self.process.wait(timeout=10)
+        except subprocess.TimeoutExpired:
+            self.process.kill()
+            self.process.wait()
+        self.process = None
+        self.said.close()

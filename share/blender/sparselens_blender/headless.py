@@ -1,0 +1,139 @@
+"""Pictures of frames without a window: views, LDI and picture, frame by frame.
+What an earlier run has left is taken as it is.
+"""
+
+import os
+import re
+import shlex
+
+import bpy
+
+from . import pictures, tools
+from .chain import Chain
+from .for_a_while import changed
+from .renders import (
+    Count, folder_of, frame_ending, render_now, used_layers, views_steps)
+from .shots import shot_of
+from .views import numbered, views_of_lens
+
+FORMATS = {".exr": "OPEN_EXR", ".png": "PNG", ".jpg": "JPEG", ".jpeg": "JPEG",
+           ".tif": "TIFF", ".tiff": "TIFF", ".tga": "TARGA", ".bmp": "BMP"}
+
+
+def format_of(name, scene):
+    """The ending of a picture's name, and Blender's word for such a file. A
+    name without one gets that of the scene's output settings."""
+    ending = os.path.splitext(name)[1].lower()
+    if ending in FORMATS:
+        return "", FORMATS[ending]
+    if re.fullmatch(r"\.[a-z]{2,5}", ending):
+        raise ValueError("-o %s: pictures end in one of %s" % (
+            name, " ".join(FORMATS)))
+    kind = scene.render.image_settings.file_format
+    if kind == "OPEN_EXR_MULTILAYER":
+        kind = "OPEN_EXR"
+    if scene.render.is_movie_format:
+        raise ValueError("the scene's output is a film (%s), and sparselens "
+                         "makes pictures: give their name an ending, such as "
+                         "-o //out/####.png" % kind)
+    return (".exr" if kind == "OPEN_EXR" else scene.render.file_extension,
+            kind)
+
+
+class Pictures:
+    def __init__(self, scene, eyes, manner, options, say):
+        self.scene, self.eyes, self.manner, self.options = (
+            scene, eyes, manner, options)
+        self.said, self.say_ = set(), say
+        self.tools, _ = tools.find(options.tools)
+        self.ending, self.kind = format_of(options.output, scene)
+        self.name = os.path.join(
+            folder_of(os.path.dirname(options.output) or "."),
+            os.path.basename(options.output)) + self.ending
+        self.views = folder_of(options.views_folder or os.path.join(
+            os.path.dirname(self.name), "views"))
+        self.looks = shlex.split(options.looks)
+        self.count = Count()
+        if options.multilayer and not options.layer:
+            used = used_layers(scene)
+            if len(used) > 1:
+                raise ValueError("--multilayer: a picture is of one of the "
+                                 "view layers %s: choose it by --layer"
+                                 % ", ".join(used))
+
+    def say(self, text):
+        if text not in self.said:
+            self.said.add(text)
+            self.say_(text)
+
+    def make(self, frames):
+        several = "#" in os.path.basename(self.name)
+        if len(frames) > 1 and not several:
+            raise ValueError("-o %s: %d frames need a # in the name, for the "
+                             "number" % (self.options.output, len(frames)))
+        os.makedirs(os.path.dirname(self.name), exist_ok=True)
+        before, made = self.scene.frame_current, 0
+        try:
+            for frame in frames:
+                self.scene.frame_set(frame)
+                self.render(frame, several)
+                for eye in self.eyes:
+                    out = self.take(frame, eye, several)
+                    made += 1
+                    print("sparselens: frame %d, %d of %d: %s" % (
+                        frame, made, len(frames) * len(self.eyes), out),
+                        flush=True)
+        finally:
+            self.scene.frame_set(before)
+        print("sparselens: %d pictures in %s, of %d views rendered and %d "
+              "kept in %s" % (made, os.path.dirname(self.name),
+                              self.count.rendered, self.count.kept,
+                              self.views))
+
+    def render(self, frame, several):
+        views = views_of_lens(self.options.views, 0)
+        render_now(self.scene, views_steps(
+            self.scene, [frame], self.views, lambda _: views, self.eyes,
+            self.manner, self.count, several, self.say))
+
+    def take(self, frame, eye, several):
+        """The picture of the views; returns its name."""
+        files = pictures.Files(self.views, eye.file_suffix,
+                               frame_ending(frame, several),
+                               self.options.views)
+        shot = shot_of(self.scene, eye, self.manner.supersample)
+        stem, ending = os.path.splitext(numbered(self.name, frame))
+        out = stem + eye.file_suffix + ending
+        made = out if self.kind == "OPEN_EXR" else files.path("picture")
+        layer = self.options.multilayer and self.manner.layer
+        chain = Chain([
+            *pictures.warp_commands(self.tools, files, layer),
+            pictures.gather_command(
+                self.tools, files.path("ldi"), made,
+                pictures.lens_options(shot) + self.looks
+                + pictures.unless_made())])
+        chain.wait()
+        for text in chain.warnings:
+            self.say(text.split(": warning: ", 1)[1])
+        if made != out:
+            self.save(made, out)
+        return out
+
+    def save(self, path, out):
+        """As the scene's output settings have it, through its view
+        transform."""
+        stem, ending = os.path.splitext(out)
+        partial = stem + ".partial" + ending
+        image = bpy.data.images.load(path)
+        settings = self.scene.render.image_settings
+        values = {"file_format": self.kind}
+        if "media_type" in settings.bl_rna.properties:  # since Blender 5
+            values = {"media_type": "IMAGE"} | values
+        try:
+            with changed(settings, **values):
+                image.save_render(partial, scene=self.scene)
+            os.replace(partial, out)
+        finally:
+            bpy.data.images.remove(image)
+            if os.path.exists(partial):
+                os.remove(partial)

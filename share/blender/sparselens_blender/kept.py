@@ -1,0 +1,81 @@
+"""Which views of an earlier run can stay: those of this camera, rendered as
+they would be now. What else of the scene has changed no file says.
+"""
+
+import struct
+from dataclasses import replace
+
+from .exr import exr_box, exr_int, exr_text, read_header
+from .shots import camera_attributes, view_placement
+
+# The lens may be set anew afterwards, but not wider than the views are.
+OF_THE_LENS = {"aperture", "focus", "aperture_blades", "aperture_rotation",
+               "aperture_ratio"}
+
+
+def manner_attributes(scene, layer, multilayer):
+    """The frame, and how its views are rendered, in words."""
+    cycles = scene.render.engine == "CYCLES"
+    samples = (scene.cycles.samples if cycles
+               else scene.eevee.taa_render_samples)
+    words = [scene.render.engine, "%d samples" % samples]
+    if cycles and scene.cycles.use_denoising:
+        words.append("denoised")
+    words += [layer] if layer else []
+    words += ["all passes"] if multilayer else []
+    return {"sparselens:frame": exr_int(scene.frame_current),
+            "sparselens:rendered": exr_text(", ".join(words))}
+
+
+def header_of(path):
+    """The attributes of an EXR file; of one that cannot be read, None."""
+    try:
+        with open(path, "rb") as file:
+            for most in 1 << 16, -1:  # few headers are longer
+                file.seek(0)
+                try:
+                    return read_header(file.read(most))[0]
+                except (IndexError, struct.error):
+                    continue
+                except ValueError:
+                    if most < 0:
+                        return None
+    except OSError:
+        pass
+    return None
+
+
+def floats(header, name):
+    kind, value = header[name]
+    return struct.unpack("<%df" % (len(value) // 4), value)
+
+
+def overscan_of_file(path):
+    """Pixels that a view was rendered with beyond each side, in its own."""
+    header = header_of(path)
+    if header is None:
+        return None
+    return -struct.unpack("<4i", header["dataWindow"][1])[0]
+
+
+def is_of_camera(header, shot, u=(0, 0), wider=False):
+    """Whether a view was seen from point u of this camera's lens, or of one
+    that was as wide; with `wider` this lens may be the wider one."""
+    try:
+        fstop, = floats(header, "aperture")
+    except (KeyError, ValueError, struct.error):
+        return False
+    then = replace(shot, fstop=fstop)
+    wanted = camera_attributes(then, view_placement(then, u))
+    wanted["displayWindow"] = exr_box(0, 0, *shot.size)
+    return (fstop <= shot.fstop or wider) and all(
+        header.get(name) == value for name, value in wanted.items()
+        if name not in OF_THE_LENS)
+
+
+def is_kept(path, shot, u, others):
+    """Whether the view in this file need not be rendered again: it is of this
+    camera, and has these other attributes."""
+    header = header_of(path)
+    return header is not None and is_of_camera(header, shot, u) and all(
+        header.get(name) == value for name, value in others.items())

@@ -1,0 +1,223 @@
+"""What the buttons do: at once where there is no window, and otherwise bit by
+bit on a timer, until all is done or Esc is pressed.
+"""
+
+from contextlib import ExitStack
+
+import bpy
+
+from . import tools
+from .for_a_while import changed
+from .renders import AUTO, Count, Manner, folder_of, render_now, views_steps
+from .shots import eyes_of
+from .taking import (
+    ERRORS, Taking, chosen_folder, editors, start_following, stop_following)
+from .views import views_of_lens
+
+
+class Stopped(Exception):
+    """Esc was pressed."""
+
+
+class BitByBit:
+    """An operator that has begin(context), tick(context), which says whether
+    all is done, and end(context), which is called however it ends."""
+
+    timer = None
+
+    def invoke(self, context, event):
+        if bpy.app.background:
+            return self.execute(context)
+        try:
+            self.begin(context)
+        except ERRORS as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        manager = context.window_manager
+        self.timer = manager.event_timer_add(0.05, window=context.window)
+        manager.modal_handler_add(self)
+        return {"RUNNING_MODAL"}
+
+    def modal(self, context, event):
+        if event.type == "ESC" and event.value == "PRESS":
+            self.cancel(context)
+            self.report({"INFO"}, "Stopped")
+            return {"CANCELLED"}
+        if event.type != "TIMER":
+            return {"PASS_THROUGH"}
+        try:
+            if not self.tick(context):
+                return {"PASS_THROUGH"}
+        except Stopped:
+            self.cancel(context)
+            self.report({"INFO"}, "Stopped")
+            return {"CANCELLED"}
+        except ERRORS as error:
+            self.cancel(context)
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        self.cancel(context)
+        self.done(context)
+        return {"FINISHED"}
+
+    def cancel(self, context):
+        """Blender calls this, too, where it ends the operator."""
+        self.end(context)
+        if self.timer is not None:
+            context.window_manager.event_timer_remove(self.timer)
+            self.timer = None
+        context.workspace.status_text_set(None)
+
+
+class Rendering:
+    """The views, rendered in Blender's own time."""
+
+    def __init__(self, scene, say):
+        settings = scene.sparselens
+        frames, several = [scene.frame_current], settings.animation
+        if several:
+            frames = range(scene.frame_start, scene.frame_end + 1,
+                           scene.frame_step)
+        views, eyes = views_of_lens(settings.views, 0), eyes_of(scene)
+        self.scene, self.folder = scene.name, folder_of(settings.folder)
+        self.most = len(frames) * len(views) * len(eyes)
+        self.count = Count()
+        self.steps = views_steps(
+            scene, frames, self.folder, lambda frame: views, eyes,
+            Manner(AUTO if settings.overscan_auto else settings.overscan,
+                   settings.multilayer, supersample=settings.supersample),
+            self.count, several, say)
+        self.stopped = False
+        self.around = ExitStack()
+
+    def begin(self):
+        """Keeps hands and windows off the scene meanwhile."""
+        self.around.enter_context(changed(
+            bpy.context.preferences.view, render_display_type="NONE"))
+        self.around.enter_context(changed(
+            bpy.data.scenes[self.scene].render, use_lock_interface=True))
+        bpy.app.handlers.render_cancel.append(self.note_stop)
+        self.around.callback(bpy.app.handlers.render_cancel.remove,
+                             self.note_stop)
+
+    def note_stop(self, *_):
+        self.stopped = True
+
+    def tick(self):
+        """Begins the next render where none runs; None when all is done."""
+        if bpy.app.is_job_running("RENDER"):
+            return ""
+        if self.stopped:
+            raise Stopped
+        what = next(self.steps, None)
+        if what is not None:
+            bpy.ops.render.render("INVOKE_DEFAULT", write_still=True,
+                                  scene=self.scene)
+        return what
+
+    def end(self):
+        self.steps.close()
+        self.around.close()
+
+    def words(self):
+        return "%d views in %s" % (self.count.rendered, self.folder)
+
+
+class SPARSELENS_OT_render_views(BitByBit, bpy.types.Operator):
+    """Render the centre view and the views from the rim of the lens"""
+
+    bl_idname = "sparselens.render_views"
+    bl_label = "Render Views"
+
+    def warn(self, text):
+        self.report({"WARNING"}, text)
+
+    def execute(self, context):
+        try:
+            self.rendering = Rendering(context.scene, self.warn)
+            render_now(context.scene, self.rendering.steps)
+        except ERRORS as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        self.done(context)
+        return {"FINISHED"}
+
+    def begin(self, context):
+        stop_following()
+        self.rendering = Rendering(context.scene, self.warn)
+        self.rendering.begin()
+
+    def tick(self, context):
+        what = self.rendering.tick()
+        if what:
+            context.workspace.status_text_set(
+                "sparselens: %s, %d of %d views rendered; Esc stops" % (
+                    what, self.rendering.count.rendered, self.rendering.most))
+        return what is None
+
+    def end(self, context):
+        self.rendering.end()
+
+    def done(self, context):
+        self.report({"INFO"}, self.rendering.words())
+
+
+class SPARSELENS_OT_take_picture(BitByBit, bpy.types.Operator):
+    """Make the picture of the views, with the focus and f-stop that the camera has now"""
+
+    bl_idname = "sparselens.take_picture"
+    bl_label = "Take Picture"
+    bl_options = {"REGISTER", "UNDO"}
+
+    def execute(self, context):
+        try:
+            self.taking = Taking(context.scene, draft=False)
+            self.taking.wait()
+        except ERRORS as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        self.say_warnings()
+        return {"FINISHED"}
+
+    def begin(self, context):
+        stop_following()
+        self.taking = Taking(context.scene, draft=True)
+        if not any(editors()):
+            bpy.ops.render.view_show("INVOKE_DEFAULT")
+
+    def tick(self, context):
+        done = self.taking.tick()
+        context.workspace.status_text_set("sparselens: %s; Esc stops"
+                                          % self.taking.words)
+        return done
+
+    def end(self, context):
+        self.taking.stop()
+
+    def done(self, context):
+        self.say_warnings()
+        if context.scene.sparselens.live:
+            start_following(self.taking.state)
+
+    def say_warnings(self):
+        for text in self.taking.warnings:
+            self.report({"WARNING"}, text)
+        self.report({"INFO"}, "The image editor shows %s"
+                    % ", ".join(self.taking.images))
+
+
+class SPARSELENS_OT_find_tools(bpy.types.Operator):
+    """Look for sparselens' tools, and say which version is found where"""
+
+    bl_idname = "sparselens.find_tools"
+    bl_label = "Test"
+
+    def execute(self, context):
+        try:
+            folder, where = tools.find(chosen_folder())
+            text = "%s, %s: %s" % (tools.version(folder), where, folder)
+        except ERRORS as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        self.report({"INFO"}, text)
+        return {"FINISHED"}

@@ -1,0 +1,200 @@
+"""Takes the pictures of a scene's frame, bit by bit, and shows them."""
+
+import os
+import shlex
+
+import bpy
+
+from . import pictures, tools
+from .chain import Chain, ToolError
+from .kept import header_of
+from .renders import folder_of, used_layers
+from .shots import eyes_of, shot_of
+
+ERRORS = ValueError, OSError, RuntimeError, ToolError
+
+
+def chosen_folder():
+    """The folder of the tools that the preferences name."""
+    addon = bpy.context.preferences.addons.get(__package__)
+    return addon.preferences.folder if addon and addon.preferences else ""
+
+
+def looks_of(settings):
+    try:
+        return shlex.split(settings.looks)
+    except ValueError as error:
+        raise ValueError("Looks: %s: %s" % (settings.looks, error)) from error
+
+
+def lens_state(scene):
+    """What a picture depends on that may be changed after the render."""
+    settings = scene.sparselens
+    return (scene.name, scene.frame_current, settings.looks, *[
+        word for eye in eyes_of(scene)
+        for word in pictures.lens_options(shot_of(scene, eye))])
+
+
+def image_of(key, path):
+    """Blender's image of this key, which now shows the file."""
+    image = next((image for image in bpy.data.images
+                  if image.get("sparselens") == key), None)
+    if image is None:
+        image = bpy.data.images.load(path)
+        image.name, image["sparselens"] = key, key
+        image.use_view_as_render = True
+    image.filepath = path
+    image.reload()
+    return image
+
+
+def editors():
+    for window in bpy.context.window_manager.windows:
+        for area in window.screen.areas:
+            if area.type == "IMAGE_EDITOR":
+                yield area
+
+
+def show(image):
+    """In the image editors that have nothing else to show."""
+    for area in editors():
+        space = area.spaces.active
+        if space.image is None or space.image.type == "RENDER_RESULT":
+            space.image = image
+        area.tag_redraw()
+
+
+def is_shown(image):
+    return any(area.spaces.active.image == image for area in editors())
+
+
+class Taking:
+    """The pictures of the current frame, one for each eye: warps if the views
+    are newer than the LDI, then gathers; with `draft` a draft first."""
+
+    def __init__(self, scene, draft):
+        settings = scene.sparselens
+        folder, _ = tools.find(chosen_folder())
+        views = folder_of(settings.folder)
+        self.state = lens_state(scene)
+        self.warnings = []
+        self.images = []
+        warps, drafts, finals = [], [], []
+        for eye in eyes_of(scene):
+            shot = shot_of(scene, eye, settings.supersample)
+            files = pictures.files_to_take(scene, views, eye, settings.views,
+                                           shot)
+            layer = settings.multilayer and used_layers(scene)[0]
+            ldi, made = files.path("ldi"), files.path("picture")
+            sketch = os.path.join(bpy.app.tempdir, os.path.basename(made))
+            options = pictures.lens_options(shot) + looks_of(settings)
+            key = "sparselens, " + scene.name + eye.file_suffix
+            size = [side // settings.supersample for side in shot.size]
+            warps += [(command, None) for command in pictures.warp_commands(
+                folder, files, layer)]
+            drafts.append((pictures.gather_command(
+                folder, ldi, sketch, options + pictures.draft_options(size[0])
+            ), (key, sketch, size)))
+            finals.append((pictures.gather_command(
+                folder, ldi, made, options + pictures.unless_made()),
+                (key, made, None)))
+        self.stages = ([("warping", warps)]
+                       + ([("a draft", drafts)] if draft else [])
+                       + [("the picture", finals)])
+        self.words, self.chain, self.to_show = "", None, []
+
+    @property
+    def interruptible(self):
+        """Whether the last stage runs, so that what is newer may begin."""
+        return not self.stages
+
+    def tick(self):
+        """Whether all is done. Raises what went wrong."""
+        if self.chain is not None:
+            if not self.chain.poll():
+                return False
+            self.warnings += self.chain.warnings
+            for key, path, size in self.to_show:
+                self.show(key, path, size)
+        if not self.stages:
+            return True
+        self.words, commands = self.stages.pop(0)
+        self.chain = Chain([command for command, _ in commands])
+        self.to_show = [shown for _, shown in commands if shown]
+        return False
+
+    def show(self, key, path, size):
+        image = image_of(key, path)
+        if size and tuple(image.size) != tuple(size):
+            image.scale(*size)
+        show(image)
+        self.images = [image.name for image in bpy.data.images
+                       if image.get("sparselens")]
+
+    def wait(self):
+        while not self.tick():
+            self.chain.wait()
+
+    def stop(self):
+        self.stages, self.to_show = [], []
+        if self.chain is not None:
+            self.chain.stop()
+
+
+class Follower:
+    """Takes the picture anew whenever a field of the lens has changed: a
+    draft, then properly. A draft that runs is shown before the next."""
+
+    def __init__(self, state):
+        self.seen, self.taking, self.message = state, None, ""
+
+    def tick(self, scene):
+        if bpy.app.is_job_running("RENDER"):
+            return
+        try:
+            state = lens_state(scene)
+            if self.taking is None or self.taking.interruptible:
+                if state != self.seen:
+                    self.stop()
+                    self.seen, self.message = state, ""
+                    self.taking = Taking(scene, draft=True)
+            if self.taking and self.taking.tick():
+                self.taking = None
+        except ERRORS as error:
+            self.stop()
+            self.message = str(error)
+
+    def stop(self):
+        if self.taking:
+            self.taking.stop()
+        self.taking = None
+
+
+follower = None
+INTERVAL = 0.1  # seconds
+
+
+def follow():
+    """What Blender calls on its timer."""
+    scene = bpy.context.scene
+    if follower is None or not scene.sparselens.live:
+        stop_following()
+        return None
+    follower.tick(scene)
+    return INTERVAL
+
+
+def start_following(state):
+    global follower
+    stop_following()
+    follower = Follower(state)
+    bpy.app.timers.register(follow, first_interval=INTERVAL)
+
+
+def stop_following():
+    global follower
+    if follower is not None:
+        follower.stop()
+    follower = None
+    if bpy.app.timers.is_registered(follow):
+        bpy.app.timers.unregister(follow)

@@ -1,0 +1,87 @@
+"""Where the tools are that make pictures of views: ldi-warp, dof-gather."""
+
+import importlib.metadata
+import os
+import shutil
+import subprocess
+
+HERE = os.path.dirname(os.path.realpath(__file__))
+ENDING = ".exe" if os.name == "nt" else ""
+NAMES = "ldi-warp", "dof-gather"
+
+
+class NoTool(ValueError):
+    """A tool is not found; the message says where it was looked for."""
+
+
+def folders_beside():
+    """A folder within the add-on, and that of the installation which the
+    add-on is part of: PREFIX/share/sparselens/blender/sparselens_blender."""
+    yield os.path.join(HERE, "bin")
+    yield os.path.normpath(os.path.join(HERE, *[os.pardir] * 4, "bin"))
+
+
+def folders_of_pip():
+    """Where pip has put the tools, for the Python that Blender runs."""
+    try:
+        files = importlib.metadata.files("sparselens") or []
+    except importlib.metadata.PackageNotFoundError:
+        return
+    for file in files:
+        if file.name == NAMES[1] + ENDING:
+            yield str(file.locate().resolve().parent)
+
+
+def folders_on_path():
+    found = shutil.which(NAMES[1])
+    if found:
+        yield os.path.dirname(found)
+
+
+def candidates(chosen):
+    """(folder, where that is), best first. A folder that somebody has chosen
+    is the only one."""
+    if chosen:
+        yield os.path.expanduser(chosen), "the chosen folder"
+        return
+    for found, where in ((folders_beside, "beside the add-on"),
+                         (folders_of_pip, "in pip's package"),
+                         (folders_on_path, "on the PATH")):
+        for folder in found():
+            yield folder, where
+
+
+def has_tools(folder):
+    return all(os.access(os.path.join(folder, name + ENDING), os.X_OK)
+               for name in NAMES)
+
+
+def find(chosen=""):
+    """The folder of the tools, and where that is, in words."""
+    for folder, where in candidates(chosen):
+        if has_tools(folder):
+            return folder, where
+    if chosen:
+        raise NoTool("the folder '%s' does not have ldi-warp and dof-gather: "
+                     "choose the one of sparselens' tools" % chosen)
+    raise NoTool("ldi-warp and dof-gather are not found, neither beside the "
+                 "add-on nor in pip's package nor on the PATH: name their "
+                 "folder in the add-on's preferences, or by --tools")
+
+
+def tool(folder, name):
+    return os.path.join(folder, name + ENDING)
+
+
+def version(folder):
+    """What dof-gather says of itself."""
+    command = [tool(folder, "dof-gather"), "--version"]
+    try:
+        done = subprocess.run(command, capture_output=True, text=True,
+                              stdin=subprocess.DEVNULL, timeout=60)
+    except (OSError, subprocess.TimeoutExpired) as error:
+        raise NoTool("%s cannot be run: %s" % (command[0], error)) from error
+    if done.returncode != 0:
+        raise NoTool("%s cannot be run: %s" % (
+            command[0], (done.stderr.strip() or "no reason given")))
+    return done.stdout.strip()

@@ -1,0 +1,153 @@
+"""Presses the add-on's buttons without a window, and fails where something is not as it should be.
+
+    blender -b SCENE.blend -P pictures.py -- FOLDER VIEWS ACTION...
+        render: renders the views into VIEWS; take: takes the picture; focus D, fstop N, blades N: sets the lens; frame N;
+        move: moves the camera; refuse PATTERN: taking the picture is an error of these words, on one line; stop: begins a render and a
+        picture, and stops both; follow D: takes the picture, and lets it follow a new focus distance
+"""
+
+import os
+import re
+import sys
+import time
+
+import bpy
+
+sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
+from state import state  # noqa: E402
+
+
+def check(true, text):
+    if not true:
+        sys.exit("pictures.py: %s" % text)
+
+
+class Unchanged:
+    """The scene is afterwards what it was."""
+
+    def __enter__(self):
+        self.before = state(bpy.context.scene)
+
+    def __exit__(self, *error):
+        after = state(bpy.context.scene)
+        changes = [(key, self.before.get(key), after.get(key)) for key in set(self.before) | set(after)
+                   if self.before.get(key) != after.get(key)]
+        check(not changes, "changed: %s" % changes)
+
+
+def said_by(operator):
+    try:
+        with Unchanged():
+            return "" if operator() == {"FINISHED"} else "cancelled"
+    except RuntimeError as error:
+        return str(error)
+
+
+def image_of(name="sparselens, Scene"):
+    found = [image for image in bpy.data.images if image.get("sparselens") == name]
+    check(len(found) == 1, "%d images of %s" % (len(found), name))
+    return found[0]
+
+
+def render():
+    check(said_by(bpy.ops.sparselens.render_views) == "", "no views")
+
+
+def take():
+    said = said_by(bpy.ops.sparselens.take_picture)
+    check(said == "", "no picture: %s" % said)
+    scene, image = bpy.context.scene, image_of()
+    check(tuple(image.size) == (scene.render.resolution_x, scene.render.resolution_y),
+          "the image has %s pixels" % str(tuple(image.size)))
+    check(image.has_data or image.pixels[0] >= 0, "the image has no pixels")
+
+
+def refuse(pattern):
+    said = said_by(bpy.ops.sparselens.take_picture)
+    check(re.fullmatch("Error: [^\n]*%s[^\n]*\n?" % pattern, said), "not '%s': %s" % (pattern, said))
+
+
+def stop(addon):
+    """As Esc does it, which takes a window: tests/blender/window.sh presses it."""
+    scene = bpy.context.scene
+    files = sorted(os.listdir(scene.sparselens.folder))
+    with Unchanged():
+        rendering = addon.operators.Rendering(scene, print)
+        rendering.begin()
+        next(rendering.steps)
+        check(scene.camera.name == "sparselens view", "the render has not begun")
+        rendering.end()
+    with Unchanged():
+        taking = addon.taking.Taking(scene, draft=True)
+        while taking.chain is None or taking.chain.process is None:
+            check(not taking.tick(), "nothing is left to stop")
+        process = taking.chain.process
+        taking.stop()
+        check(process.poll() is not None, "the tool goes on")
+        check(taking.tick(), "a stopped picture begins again")
+    check(sorted(os.listdir(scene.sparselens.folder)) == files, "left are %s" % os.listdir(scene.sparselens.folder))
+
+
+def follow(addon, distance):
+    """What Blender's timer does, done by hand."""
+    scene = bpy.context.scene
+    take()
+    follower = addon.taking.Follower(addon.taking.lens_state(scene))
+    follower.tick(scene)
+    check(follower.taking is None, "an unchanged lens takes a picture")
+    scene.camera.data.dof.focus_distance = float(distance)
+    shown, began = [], time.time()
+    while follower.taking or not shown:
+        check(time.time() - began < 100 and not follower.message, "following: %s" % follower.message)
+        follower.tick(scene)
+        path = image_of().filepath
+        if path not in shown[-1:]:
+            shown.append(path)
+        time.sleep(0.01)
+    names = [os.path.dirname(path) == scene.sparselens.folder for path in shown]
+    check(names[-2:] == [False, True], "a draft and then the picture: %s" % shown)
+    check(tuple(image_of().size) == (96, 54), "the picture's size: %s" % str(tuple(image_of().size)))
+
+
+def main(folder, views, *actions):
+    sys.path.insert(0, folder)
+    import sparselens_blender as addon
+    addon.register()
+    scene = bpy.context.scene
+    scene.cycles.samples = 4
+    scene.sparselens.folder, scene.sparselens.views = views, 2
+    scene.sparselens.overscan_auto, scene.sparselens.overscan = False, 4
+    actions = list(actions)
+    while actions:
+        action = actions.pop(0)
+        if action == "render":
+            render()
+        elif action == "take":
+            take()
+        elif action == "focus":
+            scene.camera.data.dof.focus_distance = float(actions.pop(0))
+        elif action == "fstop":
+            scene.camera.data.dof.aperture_fstop = float(actions.pop(0))
+        elif action == "blades":
+            dof = scene.camera.data.dof
+            dof.aperture_blades, dof.aperture_rotation, dof.aperture_ratio = int(actions.pop(0)), 0.3, 1.5
+        elif action == "frame":
+            scene.frame_set(int(actions.pop(0)))
+        elif action == "move":
+            scene.camera.location.x += 0.1
+            bpy.context.view_layer.update()
+        elif action == "refuse":
+            refuse(actions.pop(0))
+        elif action == "stop":
+            stop(addon)
+        elif action == "follow":
+            follow(addon, actions.pop(0))
+        elif action == "set":
+            name, value = actions.pop(0).split("=")
+            setattr(scene.sparselens, name, type(getattr(scene.sparselens, name))(value))
+        else:
+            sys.exit("pictures.py: unknown: %s" % action)
+    addon.unregister()
+
+
+main(*sys.argv[sys.argv.index("--") + 1:])

@@ -1,0 +1,172 @@
+#!/bin/bash
+# The add-on's Take Picture, and --picture: their pictures are dof-gather's to the bit, nothing is rendered twice, the scene is as it was,
+# and what cannot be is said. Pictures of 96x54; two minutes.
+#   bash pictures.sh BIN_DIR
+. "$(dirname "$0")/common.sh"
+PATH=$bin:$PATH
+in_blender -P "$scene" -- CYCLES 96x54 save "$PWD/small.blend"
+press() { # FILE.blend VIEWS ACTION...
+    local blend=$1 folder=$2
+    shift 2
+    in_blender "$blend" -P "$source_dir/tests/blender/pictures.py" -- "$(dirname "$views")" "$PWD/$folder" "$@"
+}
+# by_hand VIEWS FRAME OPTION...: hand.exr of the views in this folder; FRAME is as .0001 or nothing.
+by_hand() {
+    local folder=$1 frame=$2
+    shift 2
+    ldi-warp "$folder/center$frame.exr" "$folder"/view_?"$frame".exr -o hand.ldi.exr 2>log || fail "$(cat log)"
+    dof-gather hand.ldi.exr -o hand.exr --overscan crop "$@" 2>log || fail "$(cat log)"
+}
+same() { picture same "$1" hand.exr >found 2>&1 || fail "$2 ($(cat found))"; }
+
+# What stands in the panel is what the files say. A changed lens takes the same views and the same LDI.
+press small.blend still refuse 'center.exr is not there: press Render Views' render take
+by_hand still ""
+same still/picture.exr "Take Picture"
+touch -d yesterday still/*.exr still/ldi.exr
+stat -c '%n %Y' still/center.exr still/view_?.exr still/ldi.exr >before
+press small.blend still focus 2.5 fstop 0.8 blades 5 take
+by_hand still "" --focus-distance 2.5 --fstop "$(python3 -c 'import struct; print(struct.unpack("f", struct.pack("f", 0.8))[0])')" --blades 5 \
+    --blade-rotation "$(python3 -c 'import math, struct; print(math.degrees(struct.unpack("f", struct.pack("f", 0.3))[0]))')" --squeeze 1.5
+same still/picture.exr "another lens"
+stat -c '%n %Y' still/center.exr still/view_?.exr still/ldi.exr | cmp - before || fail "another lens rendered or warped again"
+touch still/view_0.exr
+press small.blend still take
+[ still/ldi.exr -nt before ] || fail "the LDI of views that are newer was not made again"
+press small.blend still set looks='--cat-eye 0.7' focus 3 take
+by_hand still "" --focus-distance 3 --cat-eye 0.7
+same still/picture.exr "another look"
+press small.blend still follow 2
+by_hand still "" --focus-distance 2
+same still/picture.exr "followed"
+press small.blend still stop
+# Where files say what made them, the same command makes nothing again, and another does.
+(unset SPARSELENS_NO_HISTORY && press small.blend still focus 2.2 take take focus 2.7 take take)
+by_hand still "" --focus-distance "$(python3 -c 'import struct; print(struct.unpack("f", struct.pack("f", 2.7))[0])')"
+same still/picture.exr "with history"
+echo "Take Picture: dof-gather's bits, the scene unchanged"
+
+# What cannot be a picture is said in one line, and so is what a tool says.
+press small.blend still move refuse "camera 'Camera' has been moved or changed.*: press Render Views"
+press small.blend still frame 2 refuse "center.exr shows frame 1, not 2: press Render Views"
+press small.blend still set views=3 refuse "view_2.exr is not there"
+press small.blend still set supersample=2 refuse "or the picture's size"
+press small.blend still set looks='--spherical 7' refuse "dof-gather: .*spherical.*"
+in_blender small.blend --python-expr "import bpy; bpy.ops.wm.read_homefile(use_empty=True)
+import sys; sys.path.insert(0, '$(dirname "$views")')
+import sparselens_blender; sparselens_blender.register()
+try:
+    sparselens_blender.renders.folder_of('//views/')
+    sys.exit('// of a file that is not saved')
+except ValueError as error:
+    assert 'not saved yet' in str(error), error"
+PATH=/usr/bin:/bin press small.blend still refuse 'ldi-warp and dof-gather are not found, neither beside the add-on'
+cp still/view_1.exr whole.exr
+head -c 9000 whole.exr >still/view_1.exr
+press small.blend still refuse 'ldi-warp: .*view_1.exr'
+cp whole.exr still/view_1.exr
+echo "mistakes: said"
+
+# The tools: beside the add-on, then of pip, then on the PATH; a folder that is chosen is the only one.
+mkdir -p beside/share/sparselens beside/bin site/sparselens-9.dist-info site/bin chosen
+cp -r "$(dirname "$views")" beside/share/sparselens/blender
+printf '../site/bin/dof-gather,,\n' >site/sparselens-9.dist-info/RECORD
+printf 'Name: sparselens\nVersion: 9\n' >site/sparselens-9.dist-info/METADATA
+for folder in beside site chosen; do
+    mkdir -p $folder/bin
+    for name in ldi-warp dof-gather; do printf '#!/bin/sh\necho "%s of %s"\n' $name $folder >$folder/bin/$name; done
+    chmod +x $folder/bin/*
+done
+find_in() { # EXPECTED FOLDER [CHOSEN]
+    in_blender small.blend --python-expr "import sys; sys.path[:0] = ['$2', '$PWD/site'] if 'site' in '$1' else ['$2']
+from sparselens_blender import tools
+folder, where = tools.find('${3:-}')
+print('found:', tools.version(folder), where)"
+    grep -q "^found: $1" said || fail "$1: $(grep found: said || tail -n 3 said)"
+}
+find_in 'dof-gather of beside beside the add-on' "$PWD/beside/share/sparselens/blender"
+find_in 'dof-gather of site in pip' "$(dirname "$views")"
+find_in 'dof-gather (sparselens) .* on the PATH' "$(dirname "$views")"
+find_in 'dof-gather of chosen the chosen folder' "$PWD/beside/share/sparselens/blender" "$PWD/chosen/bin"
+if (find_in x "$(dirname "$views")" /nowhere) 2>log; then fail "a chosen folder without tools"; fi
+grep -q "the folder '/nowhere' does not have" said || fail "a chosen folder without tools: $(tail -n 3 said)"
+echo "tools: found"
+
+# One line for frames: keys of focus and camera. A second run after a kill renders what is left, and its pictures are the same.
+variant small keys
+variant keys lens
+one_line=(blender --python-exit-code 1 -b lens.blend -P "$views" -- --picture --frames 1-3 --samples 4 --views 2)
+quietly "${one_line[@]}" -o "$PWD/whole/shot.####.exr"
+grep -q "^sparselens: 3 pictures in $PWD/whole, of 9 views rendered and 0 kept in" said || fail "--picture: $(tail -n 5 said)"
+for frame in 1 2 3; do
+    by_hand whole/views .000$frame
+    same whole/shot.000$frame.exr "--picture, frame $frame"
+done
+"${one_line[@]}" -o "$PWD/torn/shot.####.exr" >said 2>&1 &
+until [ -s torn/views/view_0.0002.exr ]; do
+    kill -0 $! 2>log || fail "--picture ended: $(tail -n 5 said)"
+    sleep 0.02
+done
+kill -9 $!
+wait $! 2>log || true
+rm -f torn/views/*.partial*
+stat -c '%n %y' torn/views/{center,view}*.exr >before
+quietly "${one_line[@]}" -o "$PWD/torn/shot.####.exr"
+while read -r name time; do [ "$(stat -c '%y' "$name")" = "$time" ] || fail "$name was rendered twice"; done <before
+grep -q "of $((9 - $(wc -l <before))) views rendered and $(wc -l <before) kept" said || fail "after a kill: $(tail -n 3 said)"
+for frame in 1 2 3; do
+    picture same whole/shot.000$frame.exr torn/shot.000$frame.exr >found || fail "after a kill frame $frame is another ($(cat found))"
+done
+# Keys of the lens that are changed afterwards leave the views; a wider lens, a moved camera, other samples and --again do not.
+again() { # RENDERED EXPRESSION OPTION...
+    local rendered=$1 expression=$2
+    shift 2
+    quietly blender --python-exit-code 1 -b lens.blend --python-expr "import bpy; scene = bpy.context.scene; camera = scene.camera; dof = camera.data.dof
+$expression" -P "$views" -- --picture --frames 1 --samples 4 --views 2 --overscan 0 -o "$PWD/kept/#.exr" "$@"
+    grep -q "of $rendered views rendered and $((3 - rendered)) kept" said || fail "$expression $*: $(tail -n 3 said)"
+}
+again 3 ""
+again 0 ""
+by_hand kept/views .0001
+same kept/0001.exr "kept views"
+again 0 "camera.data.animation_data_clear(); dof.aperture_fstop = 0.9; dof.focus_object = None; dof.focus_distance = 3"
+by_hand kept/views .0001 --fstop "$(python3 -c 'import struct; print(struct.unpack("f", struct.pack("f", 0.9))[0])')" --focus-distance 3
+same kept/0001.exr "kept views of another lens"
+again 3 "camera.data.animation_data_clear(); dof.aperture_fstop = 0.4"
+again 0 ""
+again 3 "" --samples 2
+again 3 "camera.animation_data_clear(); camera.location.x = 0.1" --samples 2
+again 3 "camera.animation_data_clear(); camera.location.x = 0.1" --samples 2 --again
+rm kept/views/view_1.0001.exr
+again 1 "camera.animation_data_clear(); camera.location.x = 0.1" --samples 2
+echo "--picture: dof-gather's bits, and no view twice"
+
+# Other formats are Blender's: its output settings, its colours. Those of its Standard view are dof-gather's own, rounded.
+quietly blender --python-exit-code 1 -b small.blend --python-expr "import bpy; scene = bpy.context.scene
+scene.render.image_settings.file_format = 'PNG'; scene.view_settings.view_transform = 'Standard'" \
+    -P "$views" -- --picture --samples 4 --views 2 -o "$PWD/formats/shot"
+[ -s formats/shot.png ] || fail "the scene's format: $(ls formats)"
+by_hand formats/views ""
+dof-gather hand.ldi.exr --overscan crop -o hand.png
+[ "$(oiiotool hand.png formats/shot.png --diff 2>&1 | sed -n 's/.*Max error *= *\([0-9.e-]*\).*/\1/p' | awk '{ print $1 > 1.5 / 255 }')" != 1 ] ||
+    fail "the PNG has other colours: $(oiiotool hand.png formats/shot.png --diff 2>&1)"
+quietly blender --python-exit-code 1 -b small.blend --python-expr "import bpy; bpy.context.scene.view_settings.view_transform = 'Filmic'" \
+    -P "$views" -- --picture --samples 4 --views 2 -o "$PWD/formats/filmic.png"
+grep -q "0 views rendered and 3 kept\|3 kept" said || fail "another format renders again: $(tail -n 3 said)"
+if oiiotool formats/shot.png formats/filmic.png --diff >log 2>&1; then fail "Filmic looks as Standard does"; fi
+says() { # CODE PATTERN OPTION...
+    local code=$1 pattern=$2
+    shift 2
+    exits "$code" blender -b small.blend -P "$views" -- --picture --samples 4 --views 2 "$@"
+    grep -Eq "^sparselens_views.py: error: .*$pattern" stderr || fail "'$pattern' is not in: $(cat stderr)"
+}
+says 1 '2 frames need a #' -o "$PWD/x/a.png" --frames 1-2
+says 1 'pictures end in one of' -o "$PWD/x/a.psd"
+says 2 'not allowed with argument --picture' -o "$PWD/x/a.png" --plan plan.json
+says 1 'dof-gather: .*--spherical' -o "$PWD/formats/shot.exr" --looks '--spherical 7'
+exits 2 blender -b small.blend -P "$views" -- -o x --again
+grep -q 'error: argument --again: needs --picture' stderr || fail "--again: $(cat stderr)"
+exits 1 blender -b --factory-startup -P "$views" -- -o //views/
+grep -q "'//views/' is a folder beside the .blend file, which is not saved yet" stderr || fail "//: $(cat stderr)"
+[ ! -e x ] || fail "an error left files: $(ls x)"
+echo "--picture: the scene's format and colours"
