@@ -110,8 +110,7 @@ class Pictures:
             *pictures.warp_commands(self.tools, files, layer),
             pictures.gather_command(
                 self.tools, files.path("ldi"), made,
-                pictures.lens_options(shot) + self.looks
-                + pictures.unless_made())])
+                pictures.lens_options(shot) + self.looks)])
         chain.wait()
         for text in chain.warnings:
             self.say(text.split(": warning: ", 1)[1])

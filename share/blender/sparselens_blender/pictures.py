@@ -84,11 +84,6 @@ def lens_options(shot):
             "--squeeze", number(shot.ratio)]
 
 
-def unless_made():
-    """Leaves what the same command has made, which its history says."""
-    return [] if os.environ.get("SPARSELENS_NO_HISTORY") else ["--update"]
-
-
 def is_newest(path, others):
     try:
         return all(os.path.getmtime(path) >= os.path.getmtime(other)
@@ -98,12 +93,13 @@ def is_newest(path, others):
 
 
 def warp_commands(folder, files, layer=None):
-    """Make the LDI, unless it is newer than the views."""
+    """Make the LDI, unless it is newer than the views; of files with several
+    layers it may be that of another."""
     ldi = files.path("ldi")
-    if not unless_made() and is_newest(ldi, files.views):
+    if not layer and is_newest(ldi, files.views):
         return []
     return [[tools.tool(folder, "ldi-warp"), *files.views, "-o", ldi,
-             *unless_made(), *(["--layer", layer] if layer else [])]]
+             *(["--layer", layer] if layer else [])]]
 
 
 def gather_command(folder, ldi, out, options):

@@ -96,8 +96,7 @@ class Taking:
                 folder, ldi, sketch, options + pictures.draft_options(size[0])
             ), (key, sketch, size)))
             finals.append((pictures.gather_command(
-                folder, ldi, made, options + pictures.unless_made()),
-                (key, made, None)))
+                folder, ldi, made, options), (key, made, None)))
         self.stages = ([("warping", warps)]
                        + ([("a draft", drafts)] if draft else [])
                        + [("the picture", finals)])

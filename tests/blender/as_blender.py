@@ -1,0 +1,43 @@
+"""A stand-in for `blender -b`, made of the module bpy from PyPI, so that the tests of share/blender run in other releases:
+
+    python3.11 -m venv env && env/bin/pip install bpy==4.2.0
+    tests/blender/bpy.sh env/bin/python BIN_DIR pictures.sh
+
+Takes what those tests give Blender: FILE.blend, -P, --python-expr, --python-exit-code, in their order.
+"""
+
+import runpy
+import sys
+import traceback
+
+
+def run(words):
+    import bpy  # reads the arguments of its own
+    exit_code = 0
+    words = iter(words)
+    for word in words:
+        if word == "--":
+            return
+        if word in ("-b", "--factory-startup"):
+            continue
+        if word == "--python-exit-code":
+            exit_code = int(next(words))
+            continue
+        try:
+            if word == "-P":
+                runpy.run_path(next(words), run_name="__main__")
+            elif word == "--python-expr":
+                exec(next(words), {"__name__": "__main__"})
+            elif word.endswith(".blend"):
+                bpy.ops.wm.open_mainfile(filepath=word)
+            else:
+                sys.exit("as_blender.py: unknown: %s" % word)
+        except Exception:
+            traceback.print_exc()
+            if exit_code:
+                sys.exit(exit_code)
+
+
+words = sys.argv[1:]
+sys.argv = ["blender"] + words
+run(words)
