@@ -233,6 +233,12 @@ make_offaxis_left, make_toe = stereo("OFFAXIS", "LEFT"), stereo("TOE", "CENTER")
 make_toe_left = stereo("TOE", "LEFT")
 
 
+def make_toe_rim(scene, camera):
+    """Eyes as far apart as the middle of the lens is from its rim."""
+    make_toe(scene, camera)
+    camera.data.stereo.interocular_distance = 0.05
+
+
 def make_cameras(scene, camera):
     """A camera for each eye."""
     other = bpy.data.objects.new("Camera_R", camera.data.copy())

@@ -24,6 +24,10 @@ class BitByBit:
     all is done, and end(context), which is called however it ends."""
 
     timer = None
+    stopped = False
+
+    def may_stop(self):
+        return True
 
     def invoke(self, context, event):
         if bpy.app.background:
@@ -39,13 +43,12 @@ class BitByBit:
         return {"RUNNING_MODAL"}
 
     def modal(self, context, event):
-        if event.type == "ESC" and event.value == "PRESS":
-            self.cancel(context)
-            self.report({"INFO"}, "Stopped")
-            return {"CANCELLED"}
+        self.stopped |= event.type == "ESC" and event.value == "PRESS"
         if event.type != "TIMER":
             return {"PASS_THROUGH"}
         try:
+            if self.stopped and self.may_stop():
+                raise Stopped
             if not self.tick(context):
                 return {"PASS_THROUGH"}
         except Stopped:
@@ -154,6 +157,10 @@ class SPARSELENS_OT_render_views(BitByBit, bpy.types.Operator):
                 "sparselens: %s, %d of %d views rendered; Esc stops" % (
                     what, self.rendering.count.rendered, self.rendering.most))
         return what is None
+
+    def may_stop(self):
+        """A render that runs stops by itself, at the same key."""
+        return not bpy.app.is_job_running("RENDER")
 
     def end(self, context):
         self.rendering.end()

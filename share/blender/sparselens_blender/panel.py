@@ -72,6 +72,7 @@ class SPARSELENS_PT_panel(bpy.types.Panel):
     def draw(self, context):
         layout, settings = self.layout, context.scene.sparselens
         layout.use_property_split = True
+        layout.use_property_decorate = False
         layout.prop(settings, "folder")
         layout.prop(settings, "views")
         layout.prop(settings, "overscan_auto")

@@ -1,0 +1,161 @@
+"""Presses the add-on's buttons in a window, as a person does, and fails where something is not as it should be.
+
+    blender SCENE.blend -P window.py -- FOLDER VIEWS [SCREENSHOT.png]
+"""
+
+import ctypes
+import os
+import sys
+import time
+import traceback
+
+import bpy
+
+sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
+from state import state  # noqa: E402
+
+
+def check(true, text):
+    if not true:
+        raise AssertionError(text)
+
+
+def main_window():
+    return bpy.context.window_manager.windows[0]
+
+
+def press(operator):
+    with bpy.context.temp_override(window=main_window()):
+        check(operator("INVOKE_DEFAULT") == {"RUNNING_MODAL"}, "%s does not run on" % operator)
+
+
+class KeyEvent(ctypes.Structure):
+    """XKeyEvent of Xlib.h, as long as an XEvent is."""
+
+    _fields_ = ([("type", ctypes.c_int), ("serial", ctypes.c_ulong), ("send_event", ctypes.c_int),
+                 ("display", ctypes.c_void_p)]
+                + [(name, ctypes.c_ulong) for name in ("window", "root", "subwindow", "time")]
+                + [(name, ctypes.c_int) for name in ("x", "y", "x_root", "y_root")]
+                + [("state", ctypes.c_uint), ("keycode", ctypes.c_uint), ("same_screen", ctypes.c_int),
+                   ("rest", ctypes.c_long * 24)])
+
+
+def escape():
+    """As the keyboard sends it: Blender's own event_simulate() stops no render."""
+    x11, window = ctypes.CDLL("libX11.so.6"), ctypes.c_ulong
+    for name in "XOpenDisplay", "XDefaultRootWindow":
+        getattr(x11, name).restype = ctypes.c_void_p if name == "XOpenDisplay" else window
+    display = ctypes.c_void_p(x11.XOpenDisplay(None))
+    root, parent, children, count = window(), window(), ctypes.POINTER(window)(), ctypes.c_uint()
+    x11.XQueryTree(display, window(x11.XDefaultRootWindow(display)), *[
+        ctypes.byref(found) for found in (root, parent, children, count)])
+    code = x11.XKeysymToKeycode(display, window(0xff1b))
+    for child in children[:count.value]:
+        for kind in 2, 3:  # pressed, released
+            event = KeyEvent(type=kind, display=display, window=child, root=root, keycode=code, same_screen=1)
+            x11.XSendEvent(display, window(child), 0, 0, ctypes.byref(event))
+    x11.XCloseDisplay(display)
+
+
+def until(true, what):
+    """Ten times what it takes on a slow machine."""
+    began = time.time()
+    while not true():
+        check(time.time() - began < 200, "waited for %s" % what)
+        yield
+
+
+def idle():
+    return bpy.context.scene.camera.name == "Camera" and not bpy.app.is_job_running("RENDER")
+
+
+def same(before, what):
+    after = state(bpy.context.scene)
+    changes = [(key, value, after.get(key)) for key, value in before.items() if value != after.get(key)]
+    check(not changes, "%s changed %s" % (what, changes))
+
+
+def taken():
+    return next((image for image in bpy.data.images if image.get("sparselens")), None)
+
+
+def shown():
+    return {area.spaces.active.image for window in bpy.context.window_manager.windows
+            for area in window.screen.areas if area.type == "IMAGE_EDITOR"}
+
+
+def steps(addon, folder, screenshot):
+    scene = bpy.context.scene
+    bpy.context.view_layer.objects.active = scene.camera
+    yield
+    area = next(area for area in main_window().screen.areas if area.type == "PROPERTIES")
+    area.spaces.active.context = "DATA"
+    before = state(scene)
+
+    # Esc in the midst of the second view: what was rendered stays, the scene is as it was.
+    press(bpy.ops.sparselens.render_views)
+    yield from until(lambda: os.path.exists(os.path.join(folder, "center.exr")) and bpy.app.is_job_running("RENDER"), "the second view")
+    escape()
+    yield from until(idle, "the render to stop")
+    yield
+    same(before, "Esc")
+    check(os.listdir(folder) == ["center.exr"], "Esc left %s" % os.listdir(folder))
+
+    press(bpy.ops.sparselens.render_views)
+    yield from until(lambda: idle() and os.path.exists(os.path.join(folder, "view_3.exr")), "the views")
+    yield
+    same(before, "Render Views")
+    check(len(os.listdir(folder)) == 5, "rendered were %s" % os.listdir(folder))
+
+    press(bpy.ops.sparselens.take_picture)
+    path = os.path.join(folder, "picture.exr")
+    yield from until(lambda: taken() and taken().filepath == path and addon.taking.follower, "the picture")
+    same(before, "Take Picture")
+    check(taken() in shown(), "no image editor shows the picture")
+    first = os.path.getmtime(path)
+
+    # A field that changes: a draft, and the picture.
+    scene.camera.data.dof.focus_distance = 2
+    yield from until(lambda: taken().filepath != path, "a draft")
+    yield from until(lambda: taken().filepath == path and os.path.getmtime(path) > first, "the picture of another focus")
+    check(not addon.taking.follower.message, addon.taking.follower.message)
+
+    # What a tool says of a wrong look stands in the panel.
+    scene.sparselens.looks = "--spherical 7"
+    yield from until(lambda: "--spherical" in addon.taking.follower.message, "dof-gather's own words")
+    if screenshot:
+        with bpy.context.temp_override(window=main_window(), area=area):
+            bpy.ops.screen.screen_full_area()
+        yield
+        yield
+        with bpy.context.temp_override(window=main_window()):
+            bpy.ops.screen.screenshot(filepath=screenshot)
+    addon.unregister()
+    check(addon.taking.follower is None, "it follows without an add-on")
+
+
+def main(path, folder, screenshot=None):
+    sys.path.insert(0, path)
+    import sparselens_blender as addon
+    addon.register()
+    scene = bpy.context.scene
+    scene.cycles.samples = 32
+    scene.sparselens.folder = folder
+    running = steps(addon, folder, screenshot)
+
+    def step():
+        try:
+            next(running)
+            return 0.1
+        except StopIteration:
+            print("window.py: all is as it should be", flush=True)
+            os._exit(0)
+        except Exception:
+            traceback.print_exc()
+            sys.stderr.flush()
+            os._exit(1)
+
+    bpy.app.timers.register(step, first_interval=1)
+
+
+main(*sys.argv[sys.argv.index("--") + 1:])
