@@ -25,6 +25,9 @@ class Recorder:
     def operator(self, name):
         self.shown.append(name)
 
+    def label(self, text, icon="NONE"):
+        self.shown.append(text)
+
 
 def draw_panel(addon):
     """Without windows nothing draws a panel, so this does."""
@@ -32,7 +35,9 @@ def draw_panel(addon):
         sys.exit("the panel is not registered")
     panel = type("Panel", (), {"layout": Recorder()})()
     addon.panel.SPARSELENS_PT_panel.draw(panel, bpy.context)
-    if "overscan_auto" not in panel.layout.shown or panel.layout.shown[-1] != "sparselens.take_picture":
+    buttons = [name for name in panel.layout.shown if name.startswith("sparselens.")]
+    if "overscan_auto" not in panel.layout.shown or buttons != [
+            "sparselens.render_views", "sparselens.take_picture", "sparselens.render_animation"]:
         sys.exit("the panel shows %s" % panel.layout.shown)
 
 

@@ -3,7 +3,8 @@
     blender -b SCENE.blend -P pictures.py -- FOLDER VIEWS ACTION...
         render: renders the views into VIEWS; take: takes the picture; focus D, fstop N, blades N: sets the lens; frame N;
         move: moves the camera; refuse PATTERN: taking the picture is an error of these words, on one line; stop: begins a render and a
-        picture, and stops both; follow D: takes the picture, and lets it follow a new focus distance
+        picture, and stops both; follow D: takes the picture, and lets it follow a new focus distance; animate NAME: makes the frames 1 and 2;
+        set NAME=VALUE: a field of the panel
 """
 
 import os
@@ -72,7 +73,10 @@ def stop(addon):
     scene = bpy.context.scene
     files = sorted(os.listdir(scene.sparselens.folder))
     with Unchanged():
-        rendering = addon.operators.Rendering(scene, print)
+        views = [("center", (0, 0), None)]
+        rendering = addon.operators.Rendering(scene, addon.renders.views_steps(
+            scene, [scene.frame_current], scene.sparselens.folder, lambda frame: views, addon.shots.eyes_of(scene),
+            addon.renders.Manner(overscan=0), addon.renders.Count()))
         rendering.begin()
         next(rendering.steps)
         check(scene.camera.name == "sparselens view", "the render has not begun")
@@ -140,11 +144,14 @@ def main(folder, views, *actions):
             refuse(actions.pop(0))
         elif action == "stop":
             stop(addon)
+        elif action == "animate":  # into this file, without an ending
+            scene.render.filepath, scene.frame_end = actions.pop(0), 2
+            check(said_by(bpy.ops.sparselens.render_animation) == "", "no animation")
         elif action == "follow":
             follow(addon, actions.pop(0))
         elif action == "set":
             name, value = actions.pop(0).split("=")
-            setattr(scene.sparselens, name, type(getattr(scene.sparselens, name))(value))
+            setattr(scene.sparselens, name, type(getattr(scene.sparselens, name))(eval(value)))
         else:
             sys.exit("pictures.py: unknown: %s" % action)
     addon.unregister()

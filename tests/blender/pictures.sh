@@ -33,7 +33,7 @@ stat -c '%n %Y' still/center.exr still/view_?.exr still/ldi.exr | cmp - before |
 touch still/view_0.exr
 press small.blend still take
 [ still/ldi.exr -nt before ] || fail "the LDI of views that are newer was not made again"
-press small.blend still set looks='--cat-eye 0.7' focus 3 take
+press small.blend still set looks="'--cat-eye 0.7'" focus 3 take
 by_hand still "" --focus-distance 3 --cat-eye 0.7
 same still/picture.exr "another look"
 press small.blend still follow 2
@@ -47,7 +47,7 @@ press small.blend still move refuse "camera 'Camera' has been moved or changed.*
 press small.blend still frame 2 refuse "center.exr shows frame 1, not 2: press Render Views"
 press small.blend still set views=3 refuse "view_2.exr is not there"
 press small.blend still set supersample=2 refuse "or the picture's size"
-press small.blend still set looks='--spherical 7' refuse "dof-gather: .*spherical.*"
+press small.blend still set looks="'--spherical 7'" refuse "dof-gather: .*spherical.*"
 in_blender small.blend --python-expr "import bpy; bpy.ops.wm.read_homefile(use_empty=True)
 import sys; sys.path.insert(0, '$(dirname "$views")')
 import sparselens_blender; sparselens_blender.register()
@@ -136,6 +136,22 @@ again 3 "camera.animation_data_clear(); camera.location.x = 0.1" --samples 2 --a
 rm kept/views/view_1.0001.exr
 again 1 "camera.animation_data_clear(); camera.location.x = 0.1" --samples 2
 echo "--picture: dof-gather's bits, and no view twice"
+
+# Render Animation makes the pictures that the output settings name, and keeps what it may.
+press lens.blend film animate "$PWD/film/shot"
+grep -q "Info: 2 pictures in $PWD/film, of 6 views rendered and 0 kept in $PWD/film" said || fail "Render Animation: $(tail -n 5 said)"
+[ "$(cd film && echo shot*)" = "shot0001.png shot0002.png" ] || fail "Render Animation wrote $(ls film)"
+by_hand film .0002
+same film/picture.0002.exr "Render Animation"
+press lens.blend film set keep=True animate "$PWD/film/shot"
+grep -q "of 0 views rendered and 6 kept" said || fail "Keep Views: $(tail -n 5 said)"
+if grep -q Warning said; then fail "Keep Views: $(grep Warning said)"; fi
+touch lens.blend
+press lens.blend film set keep=True animate "$PWD/film/shot"
+grep -q "Warning: lens.blend was saved after views that are kept were rendered: .*switch Keep Views off" said || fail "a newer file: $(tail -n 5 said)"
+press lens.blend film animate "$PWD/film/shot"
+grep -q "of 6 views rendered and 0 kept" said || fail "without Keep Views: $(tail -n 5 said)"
+echo "Render Animation: the scene's output, and no view twice"
 
 # Other formats are Blender's: its output settings, its colours. Those of its Standard view are dof-gather's own, rounded.
 quietly blender --python-exit-code 1 -b small.blend --python-expr "import bpy; scene = bpy.context.scene

@@ -11,9 +11,9 @@ import traceback
 
 import bpy
 
-from .headless import Pictures
 from .renders import (
     AUTO, Count, Manner, folder_of, render_now, views_steps)
+from .sequence import Pictures
 from .shots import eyes_of, shot_of
 from .views import check_plan, numbered, views_of_lens, views_of_plan
 
@@ -205,7 +205,9 @@ def main(options, say):
     if not options.picture:
         return render_views(options, scene, eyes, manner, say)
     manner.keep = not options.again
-    Pictures(scene, eyes, manner, options, say).make(frames_of(options, scene))
+    made = Pictures(scene, eyes, manner, options, say)
+    render_now(scene, made.steps(frames_of(options, scene)))
+    print("sparselens:", made.words())
 
 
 def run(arguments, command=False):

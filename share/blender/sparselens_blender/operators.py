@@ -2,13 +2,17 @@
 bit on a timer, until all is done or Esc is pressed.
 """
 
+import os
 from contextlib import ExitStack
+from types import SimpleNamespace
 
 import bpy
 
 from . import tools
+from .chain import Chain
 from .for_a_while import changed
 from .renders import AUTO, Count, Manner, folder_of, render_now, views_steps
+from .sequence import Pictures
 from .shots import eyes_of
 from .taking import (
     ERRORS, Taking, chosen_folder, editors, start_following, stop_following)
@@ -73,24 +77,11 @@ class BitByBit:
 
 
 class Rendering:
-    """The views, rendered in Blender's own time."""
+    """Steps that render, in Blender's own time, and between them tools."""
 
-    def __init__(self, scene, say):
-        settings = scene.sparselens
-        frames, several = [scene.frame_current], settings.animation
-        if several:
-            frames = range(scene.frame_start, scene.frame_end + 1,
-                           scene.frame_step)
-        views, eyes = views_of_lens(settings.views, 0), eyes_of(scene)
-        self.scene, self.folder = scene.name, folder_of(settings.folder)
-        self.most = len(frames) * len(views) * len(eyes)
-        self.count = Count()
-        self.steps = views_steps(
-            scene, frames, self.folder, lambda frame: views, eyes,
-            Manner(AUTO if settings.overscan_auto else settings.overscan,
-                   settings.multilayer, supersample=settings.supersample),
-            self.count, several, say)
-        self.stopped = False
+    def __init__(self, scene, steps):
+        self.scene, self.steps = scene.name, steps
+        self.words, self.chain, self.stopped = "", None, False
         self.around = ExitStack()
 
     def begin(self):
@@ -107,38 +98,52 @@ class Rendering:
         self.stopped = True
 
     def tick(self):
-        """Begins the next render where none runs; None when all is done."""
+        """Begins the next step where none runs. Whether all are done."""
         if bpy.app.is_job_running("RENDER"):
-            return ""
+            return False
         if self.stopped:
             raise Stopped
-        what = next(self.steps, None)
-        if what is not None:
+        if self.chain is not None and not self.chain.poll():
+            return False
+        self.chain = None
+        step = next(self.steps, None)
+        if step is None:
+            return True
+        if isinstance(step, Chain):
+            self.words, self.chain = "warping and gathering", step
+        else:
+            self.words = step
             bpy.ops.render.render("INVOKE_DEFAULT", write_still=True,
                                   scene=self.scene)
-        return what
+        return False
 
     def end(self):
+        if self.chain is not None:
+            self.chain.stop()
         self.steps.close()
         self.around.close()
 
-    def words(self):
-        return "%d views in %s" % (self.count.rendered, self.folder)
+
+def frames_of(scene):
+    return range(scene.frame_start, scene.frame_end + 1, scene.frame_step)
 
 
-class SPARSELENS_OT_render_views(BitByBit, bpy.types.Operator):
-    """Render the centre view and the views from the rim of the lens"""
+def manner_of(settings):
+    return Manner(AUTO if settings.overscan_auto else settings.overscan,
+                  settings.multilayer, supersample=settings.supersample)
 
-    bl_idname = "sparselens.render_views"
-    bl_label = "Render Views"
+
+class Renders(BitByBit):
+    """An operator of steps: prepare(context) sets self.steps, self.count and
+    self.most, the number of views."""
 
     def warn(self, text):
         self.report({"WARNING"}, text)
 
     def execute(self, context):
         try:
-            self.rendering = Rendering(context.scene, self.warn)
-            render_now(context.scene, self.rendering.steps)
+            self.prepare(context)
+            render_now(context.scene, self.steps)
         except ERRORS as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
@@ -147,16 +152,17 @@ class SPARSELENS_OT_render_views(BitByBit, bpy.types.Operator):
 
     def begin(self, context):
         stop_following()
-        self.rendering = Rendering(context.scene, self.warn)
+        self.prepare(context)
+        self.rendering = Rendering(context.scene, self.steps)
         self.rendering.begin()
 
     def tick(self, context):
-        what = self.rendering.tick()
-        if what:
-            context.workspace.status_text_set(
-                "sparselens: %s, %d of %d views rendered; Esc stops" % (
-                    what, self.rendering.count.rendered, self.rendering.most))
-        return what is None
+        done = self.rendering.tick()
+        context.workspace.status_text_set(
+            "sparselens: %s, %d of %d views; Esc stops" % (
+                self.rendering.words, self.count.rendered + self.count.kept,
+                self.most))
+        return done
 
     def may_stop(self):
         """A render that runs stops by itself, at the same key."""
@@ -165,8 +171,57 @@ class SPARSELENS_OT_render_views(BitByBit, bpy.types.Operator):
     def end(self, context):
         self.rendering.end()
 
+
+class SPARSELENS_OT_render_views(Renders, bpy.types.Operator):
+    """Render the centre view and the views from the rim of the lens"""
+
+    bl_idname = "sparselens.render_views"
+    bl_label = "Render Views"
+
+    def prepare(self, context):
+        scene, settings = context.scene, context.scene.sparselens
+        frames = [scene.frame_current]
+        if settings.animation:
+            frames = frames_of(scene)
+        views, eyes = views_of_lens(settings.views, 0), eyes_of(scene)
+        self.folder, self.count = folder_of(settings.folder), Count()
+        self.most = len(frames) * len(views) * len(eyes)
+        self.steps = views_steps(
+            scene, frames, self.folder, lambda frame: views, eyes,
+            manner_of(settings), self.count, settings.animation, self.warn)
+
     def done(self, context):
-        self.report({"INFO"}, self.rendering.words())
+        self.report({"INFO"}, "%d views in %s" % (self.count.rendered,
+                                                  self.folder))
+
+
+class SPARSELENS_OT_render_animation(Renders, bpy.types.Operator):
+    """Render the views of all frames of the scene, and make the pictures that its output settings name"""
+
+    bl_idname = "sparselens.render_animation"
+    bl_label = "Render Animation"
+
+    def prepare(self, context):
+        scene, settings = context.scene, context.scene.sparselens
+        folder, name = os.path.split(scene.render.filepath)
+        options = SimpleNamespace(
+            output=os.path.join(folder, name if "#" in name
+                                else name + "####"),
+            views_folder=settings.folder, views=settings.views, layer=None,
+            multilayer=settings.multilayer, looks=settings.looks,
+            tools=chosen_folder())
+        manner = manner_of(settings)
+        manner.keep = settings.keep
+        eyes, frames = eyes_of(scene), frames_of(scene)
+        self.pictures = Pictures(scene, eyes, manner, options, self.warn)
+        self.pictures.render_again = ("if more than the lens has changed, "
+                                      "switch Keep Views off")
+        self.count, self.steps = (self.pictures.count,
+                                  self.pictures.steps(frames))
+        self.most = len(frames) * (settings.views + 1) * len(eyes)
+
+    def done(self, context):
+        self.report({"INFO"}, self.pictures.words())
 
 
 class SPARSELENS_OT_take_picture(BitByBit, bpy.types.Operator):

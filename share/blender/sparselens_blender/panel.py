@@ -6,8 +6,9 @@ import bpy
 
 from . import taking
 from .operators import (
-    SPARSELENS_OT_find_tools, SPARSELENS_OT_render_views,
-    SPARSELENS_OT_take_picture)
+    SPARSELENS_OT_find_tools, SPARSELENS_OT_render_animation,
+    SPARSELENS_OT_render_views, SPARSELENS_OT_take_picture, frames_of)
+from .shots import picture_size
 
 
 class SPARSELENS_Settings(bpy.types.PropertyGroup):
@@ -42,6 +43,22 @@ class SPARSELENS_Settings(bpy.types.PropertyGroup):
         name="Live", default=True,
         description="Once a picture is taken, take it anew whenever focus, "
                     "f-stop, blades, ratio or rotation change")
+
+
+    keep: bpy.props.BoolProperty(
+        name="Keep Views",
+        description="Render Animation takes views that are there, where the "
+                    "camera, the picture's size and the samples are still "
+                    "the same. What else of the scene has changed it does "
+                    "not see")
+
+
+def gigabytes(scene):
+    """Of the views and LDIs of all frames, without compression: 12 bytes a
+    pixel of a view, and LDIs as large as three of them."""
+    settings, size = scene.sparselens, picture_size(scene.render)
+    pixels = size[0] * size[1] * settings.supersample ** 2
+    return 12e-9 * pixels * (settings.views + 4) * len(frames_of(scene))
 
 
 class SPARSELENS_Preferences(bpy.types.AddonPreferences):
@@ -86,11 +103,16 @@ class SPARSELENS_PT_panel(bpy.types.Panel):
         layout.operator("sparselens.take_picture")
         if taking.follower and taking.follower.message:
             layout.label(text=taking.follower.message, icon="ERROR")
+        layout.prop(settings, "keep")
+        layout.operator("sparselens.render_animation")
+        layout.label(text="%d frames, up to %.1f GB" % (
+            len(frames_of(context.scene)), gigabytes(context.scene)))
 
 
 CLASSES = (SPARSELENS_Settings, SPARSELENS_Preferences,
            SPARSELENS_OT_render_views, SPARSELENS_OT_take_picture,
-           SPARSELENS_OT_find_tools, SPARSELENS_PT_panel)
+           SPARSELENS_OT_render_animation, SPARSELENS_OT_find_tools,
+           SPARSELENS_PT_panel)
 
 
 def register():

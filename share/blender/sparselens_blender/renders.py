@@ -14,6 +14,7 @@ from dataclasses import dataclass
 
 import bpy
 
+from .chain import Chain
 from .checks import check_scene
 from .exr import depth_rows, exr_box, with_attributes
 from .for_a_while import (
@@ -43,6 +44,11 @@ class Count:
 
     rendered: int = 0
     kept: int = 0
+    oldest: float = math.inf  # time of the oldest view that is kept
+
+    def keep(self, paths):
+        self.kept += len(paths)
+        self.oldest = min([self.oldest, *map(os.path.getmtime, paths)])
 
 
 def warn(text):
@@ -188,10 +194,11 @@ def eye_steps(scene, folder, ending, views, eye, manner, count):
                 scene.frame_current, eye.name and ", " + eye.name, pixels))
     beyond = pixels * finest
     attributes |= windows(shot.size, beyond)
+    kept = {name for name, u, _ in views if manner.keep
+            and is_kept(path_of(name), shot, u, attributes)}
+    count.keep([path_of(name) for name in kept])
     left = [(path_of(name), u, box) for name, u, box in views
-            if not (manner.keep
-                    and is_kept(path_of(name), shot, u, attributes))]
-    count.kept += len(views) - len(left)
+            if name not in kept]
     if not left:
         return
     size = [side + 2 * beyond for side in shot.size]
@@ -233,5 +240,9 @@ def views_steps(scene, frames, folder, views_at, eyes, manner, count,
 
 
 def render_now(scene, steps):
-    for _ in steps:
-        bpy.ops.render.render(write_still=True, scene=scene.name)
+    """Renders, and waits for tools, where nobody waits for a window."""
+    for step in steps:
+        if isinstance(step, Chain):
+            step.wait()
+        else:
+            bpy.ops.render.render(write_still=True, scene=scene.name)

@@ -1,6 +1,4 @@
-"""Pictures of frames without a window: views, LDI and picture, frame by frame.
-What an earlier run has left is taken as it is.
-"""
+"""Pictures of frames: views, LDI and picture, frame by frame."""
 
 import os
 import re
@@ -12,7 +10,7 @@ from . import pictures, tools
 from .chain import Chain
 from .for_a_while import changed
 from .renders import (
-    Count, folder_of, frame_ending, render_now, used_layers, views_steps)
+    Count, folder_of, frame_ending, used_layers, views_steps)
 from .shots import shot_of
 from .views import numbered, views_of_lens
 
@@ -41,6 +39,10 @@ def format_of(name, scene):
 
 
 class Pictures:
+    """Views, LDIs and pictures of frames; options as in command.py."""
+
+    render_again = "if more than the lens has changed, give --again"
+
     def __init__(self, scene, eyes, manner, options, say):
         self.scene, self.eyes, self.manner, self.options = (
             scene, eyes, manner, options)
@@ -53,7 +55,7 @@ class Pictures:
         self.views = folder_of(options.views_folder or os.path.join(
             os.path.dirname(self.name), "views"))
         self.looks = shlex.split(options.looks)
-        self.count = Count()
+        self.count, self.made = Count(), 0
         if options.multilayer and not options.layer:
             used = used_layers(scene)
             if len(used) > 1:
@@ -66,38 +68,30 @@ class Pictures:
             self.said.add(text)
             self.say_(text)
 
-    def make(self, frames):
+    def steps(self, frames):
+        """Yields what is to be rendered, in words, and chains of tools that
+        are to run."""
         several = "#" in os.path.basename(self.name)
         if len(frames) > 1 and not several:
             raise ValueError("-o %s: %d frames need a # in the name, for the "
                              "number" % (self.options.output, len(frames)))
         os.makedirs(os.path.dirname(self.name), exist_ok=True)
-        before, made = self.scene.frame_current, 0
+        before = self.scene.frame_current
+        views = views_of_lens(self.options.views, 0)
         try:
             for frame in frames:
                 self.scene.frame_set(frame)
-                self.render(frame, several)
+                yield from views_steps(
+                    self.scene, [frame], self.views, lambda _: views,
+                    self.eyes, self.manner, self.count, several, self.say)
                 for eye in self.eyes:
-                    out = self.take(frame, eye, several)
-                    made += 1
-                    print("sparselens: frame %d, %d of %d: %s" % (
-                        frame, made, len(frames) * len(self.eyes), out),
-                        flush=True)
+                    yield from self.take(frame, eye, several)
         finally:
             self.scene.frame_set(before)
-        print("sparselens: %d pictures in %s, of %d views rendered and %d "
-              "kept in %s" % (made, os.path.dirname(self.name),
-                              self.count.rendered, self.count.kept,
-                              self.views))
-
-    def render(self, frame, several):
-        views = views_of_lens(self.options.views, 0)
-        render_now(self.scene, views_steps(
-            self.scene, [frame], self.views, lambda _: views, self.eyes,
-            self.manner, self.count, several, self.say))
+        self.warn_of_kept()
 
     def take(self, frame, eye, several):
-        """The picture of the views; returns its name."""
+        """The picture of the views."""
         files = pictures.Files(self.views, eye.file_suffix,
                                frame_ending(frame, several),
                                self.options.views)
@@ -111,12 +105,26 @@ class Pictures:
             pictures.gather_command(
                 self.tools, files.path("ldi"), made,
                 pictures.lens_options(shot) + self.looks)])
-        chain.wait()
+        yield chain
         for text in chain.warnings:
             self.say(text.split(": warning: ", 1)[1])
         if made != out:
             self.save(made, out)
-        return out
+        self.made += 1
+        print("sparselens: frame %d: %s" % (frame, out), flush=True)
+
+    def warn_of_kept(self):
+        """The scene may be another than that of the views."""
+        blend = bpy.data.filepath
+        if self.count.kept and os.path.exists(blend) and \
+                os.path.getmtime(blend) > self.count.oldest:
+            self.say("%s was saved after views that are kept were rendered: "
+                     "%s" % (os.path.basename(blend), self.render_again))
+
+    def words(self):
+        return "%d pictures in %s, of %d views rendered and %d kept in %s" % (
+            self.made, os.path.dirname(self.name), self.count.rendered,
+            self.count.kept, self.views)
 
     def save(self, path, out):
         """As the scene's output settings have it, through its view
