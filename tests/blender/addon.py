@@ -34,7 +34,15 @@ def draw_panel(addon):
     if not addon.panel.SPARSELENS_PT_panel.is_registered:
         sys.exit("the panel is not registered")
     panel = type("Panel", (), {"layout": Recorder()})()
-    addon.panel.SPARSELENS_PT_panel.draw(panel, bpy.context)
+    scene = bpy.context.scene
+    context = type("Context", (), {"scene": scene, "camera": scene.camera.data})
+    addon.panel.SPARSELENS_PT_panel.draw(panel, context)
+    if any("scene's camera" in text for text in panel.layout.shown):
+        sys.exit("the panel of the scene's camera names another: %s" % panel.layout.shown)
+    context.camera, panel.layout = None, Recorder()
+    addon.panel.SPARSELENS_PT_panel.draw(panel, context)
+    if "Views are those of the scene's camera, %s" % scene.camera.name not in panel.layout.shown:
+        sys.exit("the panel of another camera does not say so: %s" % panel.layout.shown)
     buttons = [name for name in panel.layout.shown if name.startswith("sparselens.")]
     if "overscan_auto" not in panel.layout.shown or buttons != [
             "sparselens.render_views", "sparselens.take_picture", "sparselens.render_animation"]:

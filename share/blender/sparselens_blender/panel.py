@@ -90,6 +90,10 @@ class SPARSELENS_PT_panel(bpy.types.Panel):
         layout, settings = self.layout, context.scene.sparselens
         layout.use_property_split = True
         layout.use_property_decorate = False
+        camera = context.scene.camera
+        if camera is None or camera.data != context.camera:
+            layout.label(text="Views are those of the scene's camera, %s" % (
+                camera.name if camera else "which is not set"), icon="INFO")
         layout.prop(settings, "folder")
         layout.prop(settings, "views")
         layout.prop(settings, "overscan_auto")
