@@ -102,7 +102,8 @@ def follow(addon, distance):
     scene.camera.data.dof.focus_distance = float(distance)
     shown, began = [], time.time()
     while follower.taking or not shown:
-        check(time.time() - began < 100 and not follower.message, "following: %s" % follower.message)
+        check(time.time() - began < 100 and ": warning: " in (follower.message or ": warning: "),
+              "following: %s" % follower.message)
         follower.tick(scene)
         path = image_of().filepath
         if path not in shown[-1:]:

@@ -137,6 +137,38 @@ rm kept/views/view_1.0001.exr
 again 1 "camera.animation_data_clear(); camera.location.x = 0.1" --samples 2
 echo "--picture: dof-gather's bits, and no view twice"
 
+# Both eyes of a stereo scene, and the chosen one of several view layers.
+variant small toe
+in_blender toe.blend -P "$views" -- --picture --samples 4 --views 2 -o "$PWD/eyes/shot.exr"
+[ "$(cd eyes && echo *.exr)" = "shot_L.exr shot_R.exr" ] || fail "stereo: $(ls eyes)"
+for eye in L R; do
+    ldi-warp eyes/views/center_$eye.exr eyes/views/view_?_$eye.exr -o hand.ldi.exr
+    dof-gather hand.ldi.exr -o hand.exr --overscan crop
+    same eyes/shot_$eye.exr "stereo, $eye"
+done
+variant small layers
+for manner in "" --multilayer; do
+    in_blender layers.blend -P "$views" -- --picture --samples 4 --views 2 -o "$PWD/layered/shot.exr" --layer front $manner --views-folder "$PWD/layered/views$manner"
+    ldi-warp layered/views$manner/{center,view_0,view_1}.exr -o hand.ldi.exr ${manner:+--layer front} 2>log || fail "$(cat log)"
+    dof-gather hand.ldi.exr -o hand.exr --overscan crop 2>log || fail "$(cat log)"
+    same layered/shot.exr "a view layer, $manner"
+done
+exits 1 blender -b layers.blend -P "$views" -- --picture -o "$PWD/layered/shot.exr" --multilayer
+grep -q 'error: --multilayer: a picture is of one of the view layers back, front: choose it by --layer' stderr || fail "two layers: $(cat stderr)"
+echo "eyes and layers: each its picture"
+
+# Automatic overscan is that of all layers: the posts, in a layer of their own, are nearer than what the first layer shows.
+in_blender layers.blend -P "$views" -- -o overscan --samples 1 --views 0 --multilayer
+both=$(sed -n 's/.*overscan of \([0-9]*\) pixels.*/\1/p' said)
+most=0
+for layer in back front; do
+    in_blender layers.blend -P "$views" -- -o overscan --samples 1 --views 0 --layer $layer
+    of_layer=$(sed -n 's/.*overscan of \([0-9]*\) pixels.*/\1/p' said)
+    [ "$of_layer" -le "$most" ] || most=$of_layer
+    echo "overscan of $layer: $of_layer"
+done
+[ "$both" -eq "$most" ] || fail "overscan of both layers: $both, not $most"
+
 # Render Animation makes the pictures that the output settings name, and keeps what it may.
 press lens.blend film animate "$PWD/film/shot"
 grep -q "Info: 2 pictures in $PWD/film, of 6 views rendered and 0 kept in $PWD/film" said || fail "Render Animation: $(tail -n 5 said)"

@@ -2,6 +2,8 @@
 add-on's preferences.
 """
 
+import textwrap
+
 import bpy
 
 from . import taking
@@ -61,6 +63,14 @@ def gigabytes(scene):
     return 12e-9 * pixels * (settings.views + 4) * len(frames_of(scene))
 
 
+def say(layout, text, context):
+    """In as many lines as the panel is wide; about 7 pixels a letter."""
+    region = getattr(context, "region", None)
+    letters = max(20, region.width // 7 - 6) if region else 60
+    for number, line in enumerate(textwrap.wrap(text, letters)):
+        layout.label(text=line, icon="BLANK1" if number else "ERROR")
+
+
 class SPARSELENS_Preferences(bpy.types.AddonPreferences):
     bl_idname = __package__
 
@@ -92,8 +102,8 @@ class SPARSELENS_PT_panel(bpy.types.Panel):
         layout.use_property_decorate = False
         camera = context.scene.camera
         if camera is None or camera.data != context.camera:
-            layout.label(text="Views are those of the scene's camera, %s" % (
-                camera.name if camera else "which is not set"), icon="INFO")
+            say(layout, "Views are those of the scene's camera, %s" % (
+                camera.name if camera else "which is not set"), context)
         layout.prop(settings, "folder")
         layout.prop(settings, "views")
         layout.prop(settings, "overscan_auto")
@@ -105,8 +115,8 @@ class SPARSELENS_PT_panel(bpy.types.Panel):
         layout.prop(settings, "looks")
         layout.prop(settings, "live")
         layout.operator("sparselens.take_picture")
-        if taking.follower and taking.follower.message:
-            layout.label(text=taking.follower.message, icon="ERROR")
+        if taking.follower:
+            say(layout, taking.follower.message, context)
         layout.prop(settings, "keep")
         layout.operator("sparselens.render_animation")
         layout.label(text="%d frames, up to %.1f GB" % (

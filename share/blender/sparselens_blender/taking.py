@@ -145,7 +145,8 @@ class Follower:
     draft, then properly. A draft that runs is shown before the next."""
 
     def __init__(self, state):
-        self.seen, self.taking, self.message = state, None, ""
+        self.seen, self.taking = state, None
+        self.message = ""  # what went wrong, or is warned of
 
     def tick(self, scene):
         if bpy.app.is_job_running("RENDER"):
@@ -158,6 +159,7 @@ class Follower:
                     self.seen, self.message = state, ""
                     self.taking = Taking(scene, draft=True)
             if self.taking and self.taking.tick():
+                self.message = "; ".join(self.taking.warnings)
                 self.taking = None
         except ERRORS as error:
             self.stop()
