@@ -2,7 +2,7 @@
 
     blender -b SCENE.blend -P pictures.py -- FOLDER VIEWS ACTION...
         render: renders the views into VIEWS; take: takes the picture; focus D, fstop N, blades N: sets the lens; frame N;
-        move: moves the camera; refuse PATTERN: taking the picture is an error of these words, on one line; stop: begins a render and a
+        reload FILE.blend: saves the file as this one, and opens it; move: moves the camera; refuse PATTERN: taking the picture is an error of these words, on one line; stop: begins a render and a
         picture, and stops both; follow D: takes the picture, and lets it follow a new focus distance; animate NAME: makes the frames 1 and 2;
         set NAME=VALUE: a field of the panel
 """
@@ -124,7 +124,7 @@ def main(folder, views, *actions):
     scene.sparselens.overscan_auto, scene.sparselens.overscan = False, 4
     actions = list(actions)
     while actions:
-        action = actions.pop(0)
+        scene, action = bpy.context.scene, actions.pop(0)
         if action == "render":
             render()
         elif action == "take":
@@ -141,6 +141,11 @@ def main(folder, views, *actions):
         elif action == "move":
             scene.camera.location.x += 0.1
             bpy.context.view_layer.update()
+        elif action == "reload":  # into this file
+            addon.taking.start_following(addon.taking.lens_state(scene))
+            bpy.ops.wm.save_as_mainfile(filepath=actions.pop(0))
+            bpy.ops.wm.open_mainfile(filepath=bpy.data.filepath)
+            check(addon.taking.follower is None, "another file is followed")
         elif action == "refuse":
             refuse(actions.pop(0))
         elif action == "stop":

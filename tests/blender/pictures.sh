@@ -36,6 +36,9 @@ press small.blend still take
 press small.blend still set looks="'--cat-eye 0.7'" focus 3 take
 by_hand still "" --focus-distance 3 --cat-eye 0.7
 same still/picture.exr "another look"
+press small.blend still take reload "$PWD/saved.blend" focus 3.5 take
+by_hand still "" --focus-distance 3.5
+same still/picture.exr "after saving and opening"
 press small.blend still follow 2
 by_hand still "" --focus-distance 2
 same still/picture.exr "followed"

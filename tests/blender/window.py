@@ -120,6 +120,18 @@ def steps(addon, folder, screenshot):
     yield from until(lambda: taken().filepath == path and os.path.getmtime(path) > first, "the picture of another focus")
     check(": warning: " in (addon.taking.follower.message or ": warning: "), addon.taking.follower.message)
 
+    # Undo takes the image away; the next change brings it back.
+    with bpy.context.temp_override(window=main_window()):
+        bpy.ops.ed.undo_push(message="focus")
+        bpy.ops.ed.undo()
+        bpy.ops.ed.undo()
+    yield
+    before = os.path.getmtime(path)
+    bpy.context.scene.camera.data.dof.focus_distance = 3
+    yield from until(lambda: os.path.getmtime(path) > before and taken() and taken().filepath == path and taken() in shown(),
+                     "the picture after undo")
+    scene = bpy.context.scene
+
     # What a tool says of a wrong look stands in the panel.
     scene.sparselens.looks = "--spherical 7"
     yield from until(lambda: "--spherical" in addon.taking.follower.message, "dof-gather's own words")

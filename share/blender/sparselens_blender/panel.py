@@ -134,9 +134,11 @@ def register():
         bpy.utils.register_class(made)
     bpy.types.Scene.sparselens = bpy.props.PointerProperty(
         type=SPARSELENS_Settings)
+    bpy.app.handlers.load_pre.append(taking.stop_at_load)
 
 
 def unregister():
+    bpy.app.handlers.load_pre.remove(taking.stop_at_load)
     taking.stop_following()
     del bpy.types.Scene.sparselens
     for made in reversed(CLASSES):

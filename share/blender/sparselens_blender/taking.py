@@ -199,3 +199,9 @@ def stop_following():
     follower = None
     if bpy.app.timers.is_registered(follow):
         bpy.app.timers.unregister(follow)
+
+
+@bpy.app.handlers.persistent
+def stop_at_load(*_):
+    """Another file has another camera."""
+    stop_following()
