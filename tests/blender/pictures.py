@@ -74,7 +74,7 @@ def stop(addon):
     files = sorted(os.listdir(scene.sparselens.folder))
     with Unchanged():
         views = [("center", (0, 0), None)]
-        rendering = addon.operators.Rendering(scene, addon.renders.views_steps(
+        rendering = addon.bit_by_bit.Rendering(scene, addon.renders.views_steps(
             scene, [scene.frame_current], scene.sparselens.folder, lambda frame: views, addon.shots.eyes_of(scene),
             addon.renders.Manner(overscan=0), addon.renders.Count()))
         rendering.begin()

@@ -95,6 +95,8 @@ def steps(addon, folder, screenshot):
     # Esc in the midst of the second view: what was rendered stays, the scene is as it was.
     press(bpy.ops.sparselens.render_views)
     yield from until(lambda: os.path.exists(os.path.join(folder, "center.exr")) and bpy.app.is_job_running("RENDER"), "the second view")
+    for other in bpy.ops.sparselens.render_views, bpy.ops.sparselens.take_picture, bpy.ops.sparselens.render_animation:
+        check(not other.poll(), "%s can begin meanwhile" % other)
     escape()
     yield from until(idle, "the render to stop")
     yield

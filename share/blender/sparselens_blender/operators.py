@@ -1,127 +1,18 @@
-"""What the buttons do: at once where there is no window, and otherwise bit by
-bit on a timer, until all is done or Esc is pressed.
-"""
+"""What the buttons do."""
 
 import os
-from contextlib import ExitStack
 from types import SimpleNamespace
 
 import bpy
 
 from . import tools
-from .chain import Chain
-from .for_a_while import changed
+from .bit_by_bit import BitByBit, Rendering
 from .renders import AUTO, Count, Manner, folder_of, render_now, views_steps
 from .sequence import Pictures
 from .shots import eyes_of
 from .taking import (
     ERRORS, Taking, chosen_folder, editors, start_following, stop_following)
 from .views import views_of_lens
-
-
-class Stopped(Exception):
-    """Esc was pressed."""
-
-
-class BitByBit:
-    """An operator that has begin(context), tick(context), which says whether
-    all is done, and end(context), which is called however it ends."""
-
-    timer = None
-    stopped = False
-
-    def may_stop(self):
-        return True
-
-    def invoke(self, context, event):
-        if bpy.app.background:
-            return self.execute(context)
-        try:
-            self.begin(context)
-        except ERRORS as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
-        manager = context.window_manager
-        self.timer = manager.event_timer_add(0.05, window=context.window)
-        manager.modal_handler_add(self)
-        return {"RUNNING_MODAL"}
-
-    def modal(self, context, event):
-        self.stopped |= event.type == "ESC" and event.value == "PRESS"
-        if event.type != "TIMER":
-            return {"PASS_THROUGH"}
-        try:
-            if self.stopped and self.may_stop():
-                raise Stopped
-            if not self.tick(context):
-                return {"PASS_THROUGH"}
-        except Stopped:
-            self.cancel(context)
-            self.report({"INFO"}, "Stopped")
-            return {"CANCELLED"}
-        except ERRORS as error:
-            self.cancel(context)
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
-        self.cancel(context)
-        self.done(context)
-        return {"FINISHED"}
-
-    def cancel(self, context):
-        """Blender calls this, too, where it ends the operator."""
-        self.end(context)
-        if self.timer is not None:
-            context.window_manager.event_timer_remove(self.timer)
-            self.timer = None
-        context.workspace.status_text_set(None)
-
-
-class Rendering:
-    """Steps that render, in Blender's own time, and between them tools."""
-
-    def __init__(self, scene, steps):
-        self.scene, self.steps = scene.name, steps
-        self.words, self.chain, self.stopped = "", None, False
-        self.around = ExitStack()
-
-    def begin(self):
-        """Keeps hands and windows off the scene meanwhile."""
-        self.around.enter_context(changed(
-            bpy.context.preferences.view, render_display_type="NONE"))
-        self.around.enter_context(changed(
-            bpy.data.scenes[self.scene].render, use_lock_interface=True))
-        bpy.app.handlers.render_cancel.append(self.note_stop)
-        self.around.callback(bpy.app.handlers.render_cancel.remove,
-                             self.note_stop)
-
-    def note_stop(self, *_):
-        self.stopped = True
-
-    def tick(self):
-        """Begins the next step where none runs. Whether all are done."""
-        if bpy.app.is_job_running("RENDER"):
-            return False
-        if self.stopped:
-            raise Stopped
-        if self.chain is not None and not self.chain.poll():
-            return False
-        self.chain = None
-        step = next(self.steps, None)
-        if step is None:
-            return True
-        if isinstance(step, Chain):
-            self.words, self.chain = "warping and gathering", step
-        else:
-            self.words = step
-            bpy.ops.render.render("INVOKE_DEFAULT", write_still=True,
-                                  scene=self.scene)
-        return False
-
-    def end(self):
-        if self.chain is not None:
-            self.chain.stop()
-        self.steps.close()
-        self.around.close()
 
 
 def frames_of(scene):

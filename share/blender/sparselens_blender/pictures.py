@@ -7,7 +7,6 @@ from dataclasses import dataclass
 
 from . import tools
 from .kept import header_of, is_of_camera
-from .shots import shot_of
 
 
 @dataclass

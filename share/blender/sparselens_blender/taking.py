@@ -7,7 +7,6 @@ import bpy
 
 from . import pictures, tools
 from .chain import Chain, ToolError
-from .kept import header_of
 from .renders import folder_of, used_layers
 from .shots import eyes_of, shot_of
 
@@ -62,10 +61,6 @@ def show(image):
         if space.image is None or space.image.type == "RENDER_RESULT":
             space.image = image
         area.tag_redraw()
-
-
-def is_shown(image):
-    return any(area.spaces.active.image == image for area in editors())
 
 
 class Taking:
