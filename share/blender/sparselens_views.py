@@ -32,8 +32,8 @@ def main():
         from sparselens_blender.command import run_as_script
         run_as_script()
     else:
-        import sparselens_blender
-        sparselens_blender.register()
+        from sparselens_blender import panel
+        panel.register()  # not the command, which Blender 4.2 has to end
 
 
 if __name__ == "__main__":
