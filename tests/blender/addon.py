@@ -45,7 +45,8 @@ def draw_panel(addon):
         sys.exit("the panel of another camera does not say so: %s" % panel.layout.shown)
     buttons = [name for name in panel.layout.shown if name.startswith("sparselens.")]
     if "overscan_auto" not in panel.layout.shown or buttons != [
-            "sparselens.render_views", "sparselens.take_picture", "sparselens.render_animation"]:
+            "sparselens.render_views", "sparselens.take_picture", "sparselens.render_animation",
+            "sparselens.make_nodes"]:
         sys.exit("the panel shows %s" % panel.layout.shown)
 
 

@@ -4,6 +4,7 @@
         render: renders the views into VIEWS; take: takes the picture; focus D, fstop N, blades N: sets the lens; frame N;
         reload FILE.blend: saves the file as this one, and opens it; move: moves the camera; refuse PATTERN: taking the picture is an error of these words, on one line; stop: begins a render and a
         picture, and stops both; follow D: takes the picture, and lets it follow a new focus distance; animate NAME: makes the frames 1 and 2;
+        compose FILE.exr: what the node group gives;
         set NAME=VALUE: a field of the panel
 """
 
@@ -114,6 +115,30 @@ def follow(addon, distance):
     check(tuple(image_of().size) == (96, 54), "the picture's size: %s" % str(tuple(image_of().size)))
 
 
+def compose(path):
+    """What the compositor makes of the node group alone, as an EXR."""
+    check(said_by(bpy.ops.sparselens.make_nodes) == "", "no node group")
+    check(said_by(bpy.ops.sparselens.make_nodes) == "", "no node group a second time")
+    scene, group = bpy.context.scene, bpy.data.node_groups["Sparse lens"]
+    check([node.bl_idname for node in group.nodes].count("CompositorNodeImage") == 1, "made twice")
+    if bpy.app.version < (5, 0):
+        scene.use_nodes = True
+        tree = scene.node_tree
+        tree.nodes.clear()
+        out = tree.nodes.new("CompositorNodeComposite")
+    else:
+        tree = scene.compositing_node_group = bpy.data.node_groups.new("composed", "CompositorNodeTree")
+        tree.interface.new_socket("Image", in_out="OUTPUT", socket_type="NodeSocketColor")
+        out = tree.nodes.new("NodeGroupOutput")
+    node = tree.nodes.new("CompositorNodeGroup")
+    node.node_tree = group
+    tree.links.new(node.outputs["Image"], out.inputs["Image"])
+    settings = scene.render.image_settings
+    settings.file_format, settings.color_mode, settings.color_depth = "OPEN_EXR", "RGBA", "32"
+    scene.render.filepath = path
+    bpy.ops.render.render(write_still=True)
+
+
 def main(folder, views, *actions):
     sys.path.insert(0, folder)
     import sparselens_blender as addon
@@ -146,6 +171,8 @@ def main(folder, views, *actions):
             bpy.ops.wm.save_as_mainfile(filepath=actions.pop(0))
             bpy.ops.wm.open_mainfile(filepath=bpy.data.filepath)
             check(addon.taking.follower is None, "another file is followed")
+        elif action == "compose":
+            compose(actions.pop(0))
         elif action == "refuse":
             refuse(actions.pop(0))
         elif action == "stop":

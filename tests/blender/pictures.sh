@@ -173,6 +173,18 @@ same film/picture.0002.exr "Render Animation"
 press lens.blend film set keep=True animate "$PWD/film/shot"
 grep -q "of 0 views rendered and 6 kept" said || fail "Keep Views: $(tail -n 5 said)"
 if grep -q Warning said; then fail "Keep Views: $(grep Warning said)"; fi
+# The node group of the compositor gives these pictures, and a still.
+composed() { # FILE PICTURE: linear, within the rounding to half
+    oiiotool "$1" --ch R,G,B -o a.exr "$2" --ch R,G,B -o b.exr
+    oiiotool a.exr b.exr --fail 0.001 --hardfail 0.002 --diff >log 2>&1 || fail "composed is $1, not $2: $(cat log)"
+}
+press lens.blend film frame 2 compose "$PWD/composed.exr"
+composed composed.exr film/picture.0002.exr
+press lens.blend film frame 1 compose "$PWD/composed.exr" frame 2 compose "$PWD/composed.exr"
+composed composed.exr film/picture.0002.exr
+press small.blend still compose "$PWD/composed.exr"
+composed composed.exr still/picture.exr
+echo "the node group: the pictures"
 touch lens.blend
 press lens.blend film set keep=True animate "$PWD/film/shot"
 grep -q "Warning: lens.blend was saved after views that are kept were rendered: .*switch Keep Views off" said || fail "a newer file: $(tail -n 5 said)"

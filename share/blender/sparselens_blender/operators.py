@@ -5,7 +5,7 @@ from types import SimpleNamespace
 
 import bpy
 
-from . import tools
+from . import nodes, tools
 from .bit_by_bit import BitByBit, Rendering
 from .renders import AUTO, Count, Manner, folder_of, render_now, views_steps
 from .sequence import Pictures
@@ -157,6 +157,24 @@ class SPARSELENS_OT_take_picture(BitByBit, bpy.types.Operator):
             self.report({"WARNING"}, text)
         self.report({"INFO"}, "The image editor shows %s"
                     % ", ".join(self.taking.images))
+
+
+class SPARSELENS_OT_make_nodes(bpy.types.Operator):
+    """Make the node group Sparse lens, which reads the pictures, for the compositor"""
+
+    bl_idname = "sparselens.make_nodes"
+    bl_label = "Make Node Group"
+    bl_options = {"REGISTER", "UNDO"}
+
+    def execute(self, context):
+        try:
+            group = nodes.group_of(context.scene)
+        except ERRORS as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        self.report({"INFO"}, "In the compositor: Add > Group > %s"
+                    % group.name)
+        return {"FINISHED"}
 
 
 class SPARSELENS_OT_find_tools(bpy.types.Operator):

@@ -8,8 +8,9 @@ import bpy
 
 from . import taking
 from .operators import (
-    SPARSELENS_OT_find_tools, SPARSELENS_OT_render_animation,
-    SPARSELENS_OT_render_views, SPARSELENS_OT_take_picture, frames_of)
+    SPARSELENS_OT_find_tools, SPARSELENS_OT_make_nodes,
+    SPARSELENS_OT_render_animation, SPARSELENS_OT_render_views,
+    SPARSELENS_OT_take_picture, frames_of)
 from .shots import picture_size
 
 
@@ -121,12 +122,13 @@ class SPARSELENS_PT_panel(bpy.types.Panel):
         layout.operator("sparselens.render_animation")
         layout.label(text="%d frames, up to %.1f GB" % (
             len(frames_of(context.scene)), gigabytes(context.scene)))
+        layout.operator("sparselens.make_nodes")
 
 
 CLASSES = (SPARSELENS_Settings, SPARSELENS_Preferences,
            SPARSELENS_OT_render_views, SPARSELENS_OT_take_picture,
-           SPARSELENS_OT_render_animation, SPARSELENS_OT_find_tools,
-           SPARSELENS_PT_panel)
+           SPARSELENS_OT_render_animation, SPARSELENS_OT_make_nodes,
+           SPARSELENS_OT_find_tools, SPARSELENS_PT_panel)
 
 
 def register():
