@@ -31,8 +31,31 @@ assert bpy.types.SPARSELENS_PT_panel.is_registered
 scene.cycles.samples = 2
 scene.sparselens.folder, scene.sparselens.views = "$PWD/installed", 1
 assert bpy.ops.sparselens.render_views() == {"FINISHED"}
+addons = bpy.context.preferences.addons
+preferences = next(addons[name].preferences for name in addons.keys() if name.endswith("sparselens_blender"))
+preferences.folder = "$bin"
+assert bpy.ops.sparselens.find_tools() == {"FINISHED"}
+assert bpy.ops.sparselens.take_picture() == {"FINISHED"}
+preferences.folder = "/nowhere"
+for operator in bpy.ops.sparselens.find_tools, bpy.ops.sparselens.take_picture:
+    try:
+        operator()
+        raise SystemExit("tools in /nowhere")
+    except RuntimeError as error:
+        assert "the folder '/nowhere' does not have ldi-warp and dof-gather" in str(error), error
 EOF
 in_blender small.blend -P operate.py
+cp said operated
 in_blender small.blend -P "$views" -- -o script --views 1 --samples 2
 for view in center view_0; do alike installed/$view.exr script/$view.exr 90; done
+[ -s installed/picture.exr ] || fail "the installed add-on takes no picture"
+grep -q "dof-gather (sparselens) [0-9.]*, the chosen folder: $bin" operated || fail "the button Test: $(tail -n 5 operated)"
+if [ -z "$enable" ]; then
+    PATH=$bin:$PATH quietly blender -b small.blend --command sparselens -o "$PWD/line.exr" --samples 2 --views 1
+    PATH=$bin:$PATH in_blender small.blend -P "$views" -- --picture -o "$PWD/expected.exr" --samples 2 --views 1 --views-folder "$PWD/again"
+    picture same line.exr expected.exr >found || fail "--command sparselens makes another picture ($(cat found))"
+    echo "one line: the script's picture"
+else
+    echo "skipped: --command, which this Blender does not have"
+fi
 echo "installed: the operator renders what the script does"
