@@ -104,7 +104,7 @@ rm -f torn/views/*.partial*
 stat -c '%n %y' torn/views/{center,view}*.exr >before
 quietly "${one_line[@]}" -o "$PWD/torn/shot.####.exr"
 while read -r name time; do [ "$(stat -c '%y' "$name")" = "$time" ] || fail "$name was rendered twice"; done <before
-grep -q "of $((9 - $(wc -l <before))) views rendered and $(wc -l <before) kept" said || fail "after a kill: $(tail -n 3 said)"
+grep -Eq "of $((9 - $(wc -l <before))) views? rendered and $(wc -l <before) kept" said || fail "after a kill: $(tail -n 3 said)"
 for frame in 1 2 3; do
     picture same whole/shot.000$frame.exr torn/shot.000$frame.exr >found || fail "after a kill frame $frame is another ($(cat found))"
 done
@@ -114,7 +114,7 @@ again() { # RENDERED EXPRESSION OPTION...
     shift 2
     quietly blender --python-exit-code 1 -b lens.blend --python-expr "import bpy; scene = bpy.context.scene; camera = scene.camera; dof = camera.data.dof
 $expression" -P "$views" -- --picture --frames 1 --samples 4 --views 2 --overscan 0 -o "$PWD/kept/#.exr" "$@"
-    grep -q "of $rendered views rendered and $((3 - rendered)) kept" said || fail "$expression $*: $(tail -n 3 said)"
+    grep -Eq "of $rendered views? rendered and $((3 - rendered)) kept" said || fail "$expression $*: $(tail -n 3 said)"
 }
 again 3 ""
 again 0 ""
@@ -131,6 +131,10 @@ again 3 "camera.animation_data_clear(); camera.location.x = 0.1" --samples 2 --a
 rm kept/views/view_1.0001.exr
 again 1 "camera.animation_data_clear(); camera.location.x = 0.1" --samples 2
 echo "--picture: dof-gather's bits, and no view twice"
+
+# The last line of the views' own run says how many there are.
+in_blender small.blend -P "$views" -- -o narrow --samples 1 --views 1 --overscan 0
+grep -q '^sparselens_views.py: 2 views in narrow$' said || fail "the last line: $(tail -n 3 said)"
 
 # Both eyes of a stereo scene, and the chosen one of several view layers.
 variant small toe

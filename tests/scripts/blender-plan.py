@@ -24,14 +24,14 @@ def modules_of(path):
         types=types.SimpleNamespace(PropertyGroup=base, Operator=base, Panel=base, AddonPreferences=base), props=Anything(), app=Anything())
     sys.modules["mathutils"] = types.SimpleNamespace(Matrix=object)
     sys.path.insert(0, path)
-    return [importlib.import_module("sparselens_blender." + name) for name in ("views", "checks")]
+    return [importlib.import_module("sparselens_blender." + name) for name in ("views", "checks", "chain")]
 
 
 def plan_of(name):
     return {"views": [{"name": name, "lens_point": [1, 0], "rectangles": [[0, 0, 9, 9], [3, 3, 4, 4]]}]}
 
 
-views, checks = modules_of(sys.argv[1])
+views, checks, chain = modules_of(sys.argv[1])
 expected = [("view_0_0", [1, 0], [0, 0, 9, 9]), ("view_0_1", [1, 0], [3, 3, 4, 4])]
 if views.views_of_plan(plan_of("view_0")) != expected:
     sys.exit(f"views_of_plan: {views.views_of_plan(plan_of('view_0'))}")
@@ -118,3 +118,13 @@ expect(checks.check_scene(scene([layer()], use_motion_blur=True, use_border=True
        "motion blur", "--region 12,3,35,21") # of 48x27
 expect_refusal(scene([layer(use=False)]), "no view layer of scene 'Scene'")
 expect_refusal(scene([layer()], "BLENDER_WORKBENCH"), "choose Cycles or EEVEE")
+
+# A warning that each frame gives is said once, and then how often it came.
+said = []
+once = chain.Once(said.append)
+for frame in 1, 2, 3:
+    once(f"views/center.{frame:04d}.exr: {frame * 37.5} pixels have the depth of the sky")
+    once(f"ldi.{frame:04d}.exr: the blur reaches {frame} pixels beyond the frame")
+once.end()
+if len(said) != 3 or "37.5 pixels" not in said[0] or "blur" not in said[1] or said[2] != "4 more like these, of other files":
+    sys.exit(f"Once: {said}")

@@ -1,11 +1,37 @@
 """Runs the tools, one after the other, and blocks nothing meanwhile."""
 
+import re
 import subprocess
 import tempfile
 
 
 class ToolError(RuntimeError):
     """What a tool said when it failed."""
+
+
+def kind_of(warning):
+    """What is warned of, without files and numbers."""
+    return re.sub(r"\S*\.exr|\d[\d.,]*", "", warning)
+
+
+class Once:
+    """Says a warning of each kind once, and at the end how many more there
+    were."""
+
+    def __init__(self, say):
+        self.say, self.kinds, self.more = say, set(), 0
+
+    def __call__(self, text):
+        if kind_of(text) in self.kinds:
+            self.more += 1
+            return
+        self.kinds.add(kind_of(text))
+        self.say(text)
+
+    def end(self):
+        if self.more:
+            self.say("%d more like these, of other files" % self.more)
+        self.more = 0
 
 
 class Chain:

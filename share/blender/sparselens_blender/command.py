@@ -15,7 +15,8 @@ from .renders import (
     AUTO, Count, Manner, folder_of, render_now, views_steps)
 from .sequence import Pictures
 from .shots import eyes_of, shot_of
-from .views import check_plan, numbered, views_of_lens, views_of_plan
+from .views import (
+    check_plan, counted, numbered, views_of_lens, views_of_plan)
 
 
 def frame_numbers(text):
@@ -190,8 +191,8 @@ def render_views(options, scene, eyes, manner, say):
     render_now(scene, views_steps(
         scene, frames_of(options, scene), folder, views_at, eyes, manner,
         count, options.frames is not None, say))
-    print("sparselens_views.py: %d views in %s" % (count.rendered,
-                                                   options.output))
+    print("sparselens_views.py: %s in %s" % (counted(count.rendered, "view"),
+                                             options.output))
 
 
 def main(options, say):

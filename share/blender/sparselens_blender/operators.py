@@ -7,12 +7,14 @@ import bpy
 
 from . import nodes, tools
 from .bit_by_bit import BitByBit, Rendering
-from .renders import AUTO, Count, Manner, folder_of, render_now, views_steps
+from .chain import Once
+from .renders import (
+    AUTO, Count, Manner, folder_of, render_now, views_steps)
 from .sequence import Pictures
 from .shots import eyes_of
 from .taking import (
     ERRORS, Taking, chosen_folder, editors, start_following, stop_following)
-from .views import views_of_lens
+from .views import counted, views_of_lens
 
 
 def frames_of(scene):
@@ -82,8 +84,8 @@ class SPARSELENS_OT_render_views(Renders, bpy.types.Operator):
             manner_of(settings), self.count, settings.animation, self.warn)
 
     def done(self, context):
-        self.report({"INFO"}, "%d views in %s" % (self.count.rendered,
-                                                  self.folder))
+        self.report({"INFO"}, "%s in %s" % (
+            counted(self.count.rendered, "view"), self.folder))
 
 
 class SPARSELENS_OT_render_animation(Renders, bpy.types.Operator):
@@ -153,8 +155,10 @@ class SPARSELENS_OT_take_picture(BitByBit, bpy.types.Operator):
             start_following(self.taking.state)
 
     def say_warnings(self):
+        say = Once(lambda text: self.report({"WARNING"}, text))
         for text in self.taking.warnings:
-            self.report({"WARNING"}, text)
+            say(text)
+        say.end()
         self.report({"INFO"}, "The image editor shows %s"
                     % ", ".join(self.taking.images))
 

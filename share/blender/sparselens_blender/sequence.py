@@ -7,12 +7,12 @@ import shlex
 import bpy
 
 from . import pictures, tools
-from .chain import Chain
+from .chain import Chain, Once
 from .for_a_while import changed
 from .renders import (
     Count, folder_of, frame_ending, used_layers, views_steps)
 from .shots import shot_of
-from .views import numbered, views_of_lens
+from .views import counted, numbered, views_of_lens
 
 FORMATS = {".exr": "OPEN_EXR", ".png": "PNG", ".jpg": "JPEG", ".jpeg": "JPEG",
            ".tif": "TIFF", ".tiff": "TIFF", ".tga": "TARGA", ".bmp": "BMP"}
@@ -46,7 +46,7 @@ class Pictures:
     def __init__(self, scene, eyes, manner, options, say):
         self.scene, self.eyes, self.manner, self.options = (
             scene, eyes, manner, options)
-        self.said, self.say_ = set(), say
+        self.say = Once(say)
         self.tools, _ = tools.find(options.tools)
         self.ending, self.kind = format_of(options.output, scene)
         self.name = os.path.join(
@@ -62,11 +62,6 @@ class Pictures:
                 raise ValueError("--multilayer: a picture is of one of the "
                                  "view layers %s: choose it by --layer"
                                  % ", ".join(used))
-
-    def say(self, text):
-        if text not in self.said:
-            self.said.add(text)
-            self.say_(text)
 
     def steps(self, frames):
         """Yields what is to be rendered, in words, and chains of tools that
@@ -88,6 +83,7 @@ class Pictures:
                     yield from self.take(frame, eye, several)
         finally:
             self.scene.frame_set(before)
+            self.say.end()
         self.warn_of_kept()
 
     def take(self, frame, eye, several):
@@ -122,9 +118,9 @@ class Pictures:
                      "%s" % (os.path.basename(blend), self.render_again))
 
     def words(self):
-        return "%d pictures in %s, of %d views rendered and %d kept in %s" % (
-            self.made, os.path.dirname(self.name), self.count.rendered,
-            self.count.kept, self.views)
+        return "%s in %s, of %s rendered and %d kept in %s" % (
+            counted(self.made, "picture"), os.path.dirname(self.name),
+            counted(self.count.rendered, "view"), self.count.kept, self.views)
 
     def save(self, path, out):
         """As the scene's output settings have it, through its view

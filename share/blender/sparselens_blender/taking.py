@@ -154,7 +154,7 @@ class Follower:
                     self.seen, self.message = state, ""
                     self.taking = Taking(scene, draft=True)
             if self.taking and self.taking.tick():
-                self.message = "; ".join(self.taking.warnings)
+                self.message = (self.taking.warnings or [""])[0]
                 self.taking = None
         except ERRORS as error:
             self.stop()

@@ -63,3 +63,7 @@ def numbered(name, frame):
     """The name with the frame's number for each run of #."""
     return re.sub("#+", lambda run: "%0*d" % (
         4 if len(run[0]) == 1 else len(run[0]), frame), name)
+
+
+def counted(number, word):
+    return "%d %s%s" % (number, word, "" if number == 1 else "s")
