@@ -123,9 +123,9 @@ bool is_mixed(const FlatPixels &pixels, std::size_t own, const Sides &sides) {
     return mix && std::abs(mix->share - sides.share) <= same_share;
 }
 
-// What an opaque pixel says: whether it lies between two surfaces, whether it is a mixture of those right beside it,
-// and the depth of the one that it shows more of. A filter may be wider than a pixel, so that the pixels right beside
-// it may be mixed themselves: of several mixtures it is that of the two that are farthest apart.
+// An opaque pixel: whether it lies between two surfaces, whether it is a mixture of those right beside it, and the depth of
+// the one that it shows more of. A filter may be wider than a pixel, so that the pixels right beside it may be mixed
+// themselves. If there are several mixtures, the one of the two surfaces farthest apart counts.
 struct Edge {
     bool parted = false, mixed = false;
     std::optional<float> depth;

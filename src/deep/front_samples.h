@@ -1,4 +1,4 @@
-// What the front sample of each pixel is. The LDI is sorted.
+// The front sample of each pixel. The LDI must be sorted.
 #pragma once
 
 #include "../lens/thin_lens.h"

@@ -16,8 +16,8 @@ public:
     // hide each other. Outside the data window all light passes.
     double passes(int x, int y, double z) const;
 
-    // What passes() is computed from: of each sample of a pixel, front to back, its extent, and the share of the light that it
-    // lets through. Appended to `parts`; how many those of the pixels of a box are.
+    // Data of passes(): for each sample of a pixel, front to back, its extent and the share of the light that it lets through.
+    // append_parts() appends those of a pixel; parts_in() counts those of the pixels of a box.
     struct Part {
         float front, back, clear;
     };

@@ -1,5 +1,5 @@
-// The samples of a view: one in each pixel that shows something (A is not 0, depth is above 0), in whose place others may be put.
-// What is not changed is that of the view: five views are most of what the warp holds.
+// The samples of a view: one in each pixel that shows something (A is not 0, depth is above 0), which other samples may replace.
+// Unchanged samples use the memory of the view, because five views are most of the warp's memory.
 #pragma once
 
 #include "base/plane.h"

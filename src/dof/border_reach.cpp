@@ -14,7 +14,7 @@ namespace sparselens {
 
 namespace {
 
-// What one side of the frame needs and has, in pixels. Light reaches farther down than across where pixels are not square.
+// Needed and rendered pixels of one side of the frame. Light reaches down and across differently if pixels are not square.
 struct Side {
     int rendered = 0;
     double reach = 0;

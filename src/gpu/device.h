@@ -1,6 +1,6 @@
 // A device that computes: buffers in its memory, programs, and runs of them. Calls return when the device is done.
 //
-// What goes wrong on a device mid-way is a DeviceFailed; whoever catches it can do the same work on the CPU.
+// A failure of the device throws DeviceFailed; the caller can then do the same work on the CPU.
 #pragma once
 
 #include "base/error.h"

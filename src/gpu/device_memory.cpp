@@ -30,7 +30,7 @@ private:
     std::byte *at_;
 };
 
-// What it wrote is seen by the device's later reads, and by the host.
+// Makes the written data visible to later reads of the device and to the host.
 void finish_transfer(const vk::raii::CommandBuffer &command) {
     using Stage = vk::PipelineStageFlagBits;
     using Access = vk::AccessFlagBits;

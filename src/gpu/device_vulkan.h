@@ -1,4 +1,4 @@
-// What a Device, its buffers and its programs are made of.
+// The Vulkan parts of a Device, its buffers and its programs.
 #pragma once
 
 #include "gpu/device.h"

@@ -28,7 +28,7 @@ struct VulkanInstance {
     explicit VulkanInstance(const std::function<void(const std::string &)> *message = nullptr);
 };
 
-// What a device is, and what of what the kernels need it lacks.
+// Describes a device, and the features of the kernels that it lacks.
 DeviceInfo info_of(const vk::raii::PhysicalDevice &device, std::size_t index);
 
 } // namespace sparselens::gpu

@@ -17,7 +17,7 @@
 
 namespace sparselens {
 
-// What the file says beside the cameras: that of the centre view.
+// Data of the centre view that the file holds besides the cameras.
 struct CamerasSetting {
     std::string centre;
     ThinLens lens;

@@ -11,7 +11,7 @@ enum class OutputKind {
     picture // EXR, or one of the formats for the screen (io/display/shown_picture.h)
 };
 
-// What is wrong with the name, with the list of endings; empty where nothing is. `-`, pipes and devices need no ending.
+// Says why the name is wrong, with the list of endings; empty if it is right. `-`, pipes and devices need no ending.
 std::string wrong_with_output(const std::string &path, OutputKind kind);
 
 } // namespace sparselens

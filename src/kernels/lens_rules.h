@@ -69,7 +69,7 @@ inline uint64_t behind_crack(uint64_t shown) {
     return key_of(shown == 0 ? background_upper : upper_of_depth(depth), 0xffffffffu);
 }
 
-// What hides a filler of that depth has a greater key.
+// A sample that hides a filler of that depth has a greater key.
 inline uint64_t hiding_key(float depth) {
     return key_of(upper_of_depth(depth + one_surface_px), 0xffffffffu);
 }
@@ -85,11 +85,11 @@ inline float left_behind(float transmittance, float left) {
     return min(transmittance * left, 1 - 1.0f / 16777216);
 }
 
-// What a channel is to a lens that treats colours differently; one bit each.
+// Kinds of channels for a lens that treats colours differently; one bit each.
 inline constexpr uint is_red = 1, is_green = 2, is_blue = 4, is_coverage = 8, is_data = 16;
 
-// By what a lens point multiplies a channel; `side`: for light from behind focus, or from in front. Data takes no part: what has
-// no colour is the same for all light.
+// Factor of a lens point on a channel; `side`: for light from behind focus, or from in front. Data has no colour and is the same for
+// all light.
 inline float light_weight(uint set, float weight, float red, float green, float blue, float side) {
     const float colour = set == is_red ? red : set == is_green ? green : set == is_blue ? blue : 1;
     return weight * colour * (set == is_data ? 1 : side);
@@ -99,7 +99,7 @@ inline bool is_darkened(uint set, bool darkens) {
     return darkens && (set & (is_red | is_green | is_blue)) != 0;
 }
 
-// What rounding leaves of a weight is no knowledge.
+// A weight that is only a rounding error counts as unknown.
 inline float known_weight(float known, float total) { return known > 1e-6f * total ? known : 0; }
 
 } // namespace sparselens::kernels

@@ -1,5 +1,5 @@
-// What GLSL has built in, for the other headers of this folder: they are written in what C++ and GLSL have in common, and a
-// build makes GLSL of them (cmake/AsGlsl.cmake). Each rule that the CPU and a device both follow stands there once.
+// Built-in functions of GLSL, for the other headers of this folder. These are written in the common part of C++ and GLSL, and the
+// build turns them into GLSL (cmake/AsGlsl.cmake). Each rule that the CPU and a device both follow stands there once.
 #pragma once
 
 #include <algorithm>

@@ -40,7 +40,7 @@ public:
                Imath::V2d(q.x * q.x - q.y * q.y, 2 * q.x * q.y);
     }
 
-    // What is added to the CoC of what the ray through the middle of the lens shows at p, pixels.
+    // Added to the CoC of the sample that the ray through the middle of the lens shows at p, pixels.
     double coc_offset(const Imath::V2d &p) const { return at_focus_ * (factor(p) - 1); }
 
     // Its change from pixel to pixel.
@@ -61,8 +61,8 @@ inline Imath::V2d skewed(const Imath::V2d &s, const Imath::V2d &u) {
     return {s.x * u.x + s.y * u.y, s.y * u.x - s.x * u.y};
 }
 
-// What is at p in the centre view and has the CoC c there is seen through a lens point, which displaces by u for each pixel
-// of CoC, at x = p + (c + gradient (x - p)) u = p + c stretch(u) u. Beyond 1/10 of a fold nothing is stretched further.
+// A lens point displaces by u for each pixel of CoC. It sees a sample at p in the centre view, with the CoC c there, at
+// x = p + (c + gradient (x - p)) u = p + c stretch(u) u. Beyond 1/10 of a fold nothing is stretched further.
 inline double stretch(const Imath::V2d &coc_gradient, const Imath::V2d &u) {
     return 1 / std::max(0.1, 1 - coc_gradient.dot(u));
 }

@@ -1,5 +1,5 @@
-// What a lamp is: light so many times as bright as what surrounds it that its disc shows, where other samples out of focus blur into
-// each other. All who look for lamps ask here, and differ only in what surrounds one:
+// Defines a lamp: light that is so much brighter than its surroundings that its disc shows, where other samples out of focus blur
+// into each other. All searches for lamps use these thresholds, and differ only in the surroundings:
 // - highlights, which are spread exactly (dof/lens/highlights.h): the samples of the windows that it lies in;
 // - what the border of the frame cuts off (dof/lens/beyond/border.h): the samples beside it along the border;
 // - whether light beyond the frame would show (dof/border_reach.h): nearly all samples of the border;

@@ -34,8 +34,8 @@ constexpr Prefixes row_prefixes() {
 
 constexpr Prefixes of_columns = column_prefixes(), of_rows = row_prefixes();
 
-// What hides less is taken for a veil over the whole of what it covers in a pixel: of many such, one behind the other, whole
-// points would be a coarse measure.
+// A sample that hides less counts as a veil over all that it covers in a pixel, because whole points would be too coarse for many
+// veils behind each other.
 constexpr float thin = 0.125f;
 
 // The points that hide a share of n / 64 of the light, spread over the pixel's columns: each is so many columns after the

@@ -111,7 +111,7 @@ void integrate_over_pixels(std::span<const Imath::V2d> polygon, const RadialDens
     for (std::size_t i = 0; i < polygon.size(); ++i)
         sums.add_edge(polygon[i], polygon[(i + 1) % polygon.size()]);
     sums.finish();
-    // What lies right of an edge is outside if it rises with y up: y here runs down.
+    // The right side of an edge is outside if the edge rises with y up; here y runs down.
     if (signed_area(polygon) > 0)
         for (double &value : values) value = -value;
     for (double &value : values) value = std::max(value, 0.0);

@@ -11,7 +11,7 @@
 
 namespace sparselens {
 
-// What the display window shows of the plane at depth 1, as OpenEXR has it: its width, and its centre relative to the
+// The part of the plane at depth 1 that the display window shows, as in OpenEXR: its width, and its centre relative to the
 // optical axis; x right, y up.
 struct ScreenWindow {
     double width = 1; // (0, inf)

@@ -24,7 +24,7 @@ inline bool is_missing(const ReprojectedViews &views, std::size_t view, const Im
     const Windows &windows = views.samples(view).windows;
     const ViewMapping &mapping = views.reprojection(view).mapping();
     const Imath::V2d seen = mapping.in_view(place, inverse_z);
-    // What the centre view has beyond its frame in that direction is not missing, however the view is framed.
+    // Pixels beyond the centre view's frame in that direction are not missing, however the view is framed.
     const Imath::V2d towards = mapping.at_infinity(seen);
     const Imath::Box2i &frame = views.samples(0).windows.data;
     if (!kernels::lies_in(towards.x, frame.min.x, frame.max.x)) return false;

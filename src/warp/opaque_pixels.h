@@ -1,10 +1,10 @@
-// What is opaque in the views is opaque in the LDI: there the samples of a pixel let no light through.
+// Keeps pixels opaque that are opaque in the views: the samples of such a pixel let no light through.
 //
-// The mean of a surface has the mean of its samples' coverage, and the vote of the views takes some more from what the
-// centre view does not see. What was behind it in one view lies elsewhere in another, so that the samples which fall into
-// one pixel need not add up to a whole one. What the last of them leaves open is filled by what the rim views see past it
-// there, at its depth, so that it does not grow; where none sees past it, by its own colour. Where views see past
-// everything, as many of them leave it open: elements over nothing have edges that let light through, and keep them.
+// The mean of a surface has the mean of its samples' coverage, and the vote of the views reduces surfaces that the centre view
+// does not see. Their background lies elsewhere in another view, so that the samples which fall into one pixel need not add
+// up to a whole one. The light that rim views see past the last sample fills the rest, at its depth, so that the sample does
+// not grow. If no view sees past it, its own colour fills the rest. If views see past everything, that share of them leaves
+// the rest open: elements over nothing keep edges that let light through.
 #pragma once
 
 #include "deep/ldi.h"

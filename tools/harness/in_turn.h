@@ -1,4 +1,4 @@
-// What a frame has to say, in its turn: what it says before is kept until then.
+// Prints the messages of frames in their order; messages of a later frame are kept until then.
 #pragma once
 
 #include <functional>

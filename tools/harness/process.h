@@ -1,4 +1,4 @@
-// What the process of a tool does before and after its work.
+// Work of a tool's process before and after its job.
 #pragma once
 
 #include "harness/tool.h"
@@ -36,7 +36,7 @@ private:
     std::unique_ptr<ThreadLimit> threads_;
 };
 
-// What was freed and is kept for what comes next goes back to the system: before something that takes much.
+// Returns freed memory to the system, before work that needs much.
 void give_back_memory();
 
 // For what frames hold beside each other: --max-memory, else a quarter of the machine's.

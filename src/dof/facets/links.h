@@ -39,7 +39,7 @@ public:
         return {sample, depth_at_1_ / ldi_.z[sample]};
     }
 
-    // What a sample of that pixel is linked to in the pixel one step on; none if it is none.
+    // The sample that a sample of that pixel is linked to in the pixel one step on; none if there is none.
     LinkedSample linked(const LinkedSample &a, const Imath::V2i &pixel, const Imath::V2i &step) const;
 
 private:

@@ -22,7 +22,7 @@ struct PlacedFacets {
     std::vector<FacetBlock> blocks;
 };
 
-// What holds the samples that facets are placed by.
+// The samples at the corners of facets.
 struct FacetCorners {
     std::span<const float> x, y, coc;
     std::span<const std::uint32_t> upper;  // of their keys, whose lower half is their place here

@@ -24,8 +24,8 @@ struct Taps {
     std::array<float, 4> weight;
 };
 
-// What the mean of four cells says of the mean of [begin, end], in cells from the first one's edge: that of the polynomial which
-// has the means of all four, by its integral at the five edges.
+// Weights of four cells' means in the mean of [begin, end], in cells from the first one's edge. They follow from the polynomial
+// that has the means of all four, by its integral at the five edges.
 std::array<float, 4> weights_of(double begin, double end) {
     const auto lagrange = [](int edge, double at) {
         double product = 1;

@@ -113,7 +113,7 @@ Distances find_distances(std::span<const Ground> grounds, const Windows &windows
     return distances;
 }
 
-// What a ground shows where it goes on.
+// The sample that a ground shows where it continues.
 struct Shown {
     std::uint32_t sample; // of the LDI; Filler::nothing
     std::size_t pixel;    // that has it

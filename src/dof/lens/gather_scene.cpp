@@ -144,7 +144,7 @@ GatherScene coarse_scene(const GatherScene &scene, int across) {
     const auto joined = joined_in_cells(large, Links(large, scene.lens), across, float(tolerance));
     auto small = std::make_unique<Ldi>(proxy(
         large, across, {perceptive_scale(scene.lens.radius, scene.lens.focal_px), tolerance, left, joined}));
-    // What covers a part of a cell is spread over it: moved, it would lie before its neighbours, and light would be lost.
+    // A sample that covers a part of a cell is spread over it. Displaced, it would hide its neighbours, and light would be lost.
     small->dx.clear(), small->dy.clear();
     ThinLens lens = scene.lens;
     lens.focal_px /= across;

@@ -38,7 +38,7 @@ private:
     // visit(sample) for the samples of the cells in a box.
     template <typename Visit>
     void for_each_sample(const Imath::Box2i &cells, const Visit &visit) const;
-    // What lets light through beyond the frame is no less known than the frame's pixel beside it.
+    // A transparent pixel beyond the frame is as well known as the frame's pixel beside it.
     bool is_seen(std::uint32_t sample) const {
         if (!seen_ || samples_.source[sample] == BlockedSamples::background) return true;
         return seen_->intersects(
@@ -117,7 +117,7 @@ std::vector<Found> HighlightFinder::find_in(const Imath::V2i &at) const {
         float level = std::abs(samples_.coc[i]) < near_focus ? covered_level : any_level;
         if (!is_seen(i)) level = std::max(level, made_up_level); // so that few of them are highlights, too
         if (!stands_out(brightness, level)) return;
-        // What stands out of nothing alone is few samples, and exact discs are better than lens points.
+        // Only few samples stand out of empty surroundings, and exact discs are better than lens points.
         const double rarity =
             covered_level > any_level
                 ? 1

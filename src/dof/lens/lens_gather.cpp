@@ -37,7 +37,7 @@ std::vector<std::size_t> averaged_channels(const Image &image) {
     return averaged;
 }
 
-// What all that a scene is made of covers, and what casts shadows on the highlights in tiles that are gathered from it.
+// Footprints of all samples and solids of a scene, and the shadow lists of the highlights in its tiles.
 struct SceneFootprints {
     BlockFootprints samples, solids;
     ShadowLists shadows;

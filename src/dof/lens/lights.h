@@ -13,7 +13,7 @@
 
 namespace sparselens {
 
-// What a pixel's partial samples are before something opaque, for four channels.
+// The partial samples of a pixel in front of an opaque one, for four channels.
 struct Covered {
     std::array<Float4, 2> over; // [side]: the sum of their colours
     float taken;                // of the light behind them

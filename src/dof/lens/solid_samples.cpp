@@ -12,7 +12,7 @@ namespace sparselens {
 
 namespace {
 
-// What shows where a solid is seen.
+// The sample that shows where a solid is seen.
 struct Shown {
     std::size_t pixel;
     std::uint64_t sample;

@@ -63,7 +63,7 @@ void Weigh<Light>::add_opaque(const Seen &seen) {
     }
 }
 
-// What is behind the empty cells without a filler is not known.
+// The background of empty cells without a filler is unknown.
 template <typename Light>
 void Weigh<Light>::add_fillers(const Seen &seen) {
     seen.for_each_empty([&](std::size_t cell) {

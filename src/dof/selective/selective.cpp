@@ -129,7 +129,7 @@ void write_tile(Image &image, const SplatSource &source, const Imath::Box2i &til
         }
 }
 
-// What all tiles are gathered from, and the picture that they make.
+// The input of all tiles, and the picture that they make.
 struct Gathering {
     const SplatSource &source;
     const SplatBlocks &grid;

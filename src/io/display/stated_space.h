@@ -1,4 +1,4 @@
-// What the header of an EXR says of the colour space of its colours. In this order: chromaticities; colorInteropID, an id of the
+// The colour space that the header of an EXR states. In this order: chromaticities; colorInteropID, an id of the
 // Color Interop Forum (OpenEXR 3.4, Blender 5, OpenImageIO 3.1); oiio:ColorSpace, such an id, or a name of a configuration.
 #pragma once
 
@@ -19,7 +19,7 @@ struct StatedSpace {
     std::optional<std::string> space; // as the configuration names it, if it does
 };
 
-// What it says; nothing where it says nothing, or no more than an oiio:ColorSpace that the configuration does not know.
+// The stated space; empty if there is none, or only an oiio:ColorSpace that the configuration does not know.
 std::optional<StatedSpace> stated_space(const ColourConfig &config, const Imf::Header &header);
 
 // The header for colours in that space: with its chromaticities, or without where it has none. The others, where there are

@@ -1,5 +1,4 @@
-// What is kept of rows of a deep part that are read one after the other: their samples, or where that is much, the samples
-// packed.
+// Keeps rows of a deep part that are read one after the other: as samples, or packed if they are many.
 #pragma once
 
 #include "deep/ldi.h"

@@ -36,8 +36,8 @@ public:
     }
 };
 
-// What a file is expected to hold. Text of more than 64 MB is refused. A pipe or a device that sends anything else may never end: it is
-// left at once where it does not begin as an EXR file does, or after 64 MB of text.
+// The expected content of a file. Text of more than 64 MB is refused. A pipe or a device with other content may never end: reading
+// stops at once if it does not begin like an EXR file, or after 64 MB of text.
 enum class Content { exr, text, bytes };
 
 // A seekable stream; `-` and files that cannot seek are read into memory as a whole.

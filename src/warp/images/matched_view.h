@@ -52,10 +52,10 @@ public:
     };
     Cutout cut(const Imath::V2d &place) const;
 
-    // What was made of it and is held.
+    // Memory of the tiles that were made and are held.
     std::size_t bytes() const;
     std::size_t bytes_of_row() const { return columns_ * tile_bytes; } // of tiles
-    // Tiles at which nobody has looked since this was last called: they are made again where somebody does. Nobody may meanwhile.
+    // Frees tiles that were not read since the last call; reading makes them again. No thread may read meanwhile.
     void forget_unused();
 
     // The depth of the surface, if the pixel shows just one; else NaN.

@@ -87,7 +87,7 @@ LampsOfView::LampsOfView(ViewSamples &view, double tolerance)
         const Around around = look_around(view, found.pixels);
         if (around.inverse_z.empty()) continue;
         SeenLamp seen = look_at(found, around.inverse_z);
-        // What stands before it may lie beyond the border; what crosses a lamp of known depth is seen.
+        // Something before it may lie beyond the border; strands that cross a lamp of known depth are visible.
         if (around.whole || (seen.is_crossed && seen.lamp.inverse_z != 0)) lamps_.push_back(std::move(seen));
     }
 }

@@ -22,7 +22,7 @@ namespace sparselens {
 // has more than a million frames.
 std::vector<int> frame_numbers(const std::string &range);
 
-// What a command line gives an option, "" where it does not.
+// The value that a command line gives an option; "" if it does not.
 std::string value_of(const std::string &option, const std::vector<std::string> &words);
 
 // The name with every #, ##, @@, ... %04d and $F4 replaced by the number. A minus before a range in the name is a sign, unless

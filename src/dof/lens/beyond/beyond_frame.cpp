@@ -121,7 +121,7 @@ private:
             if (l.from < n && l.depth < shown) pixel.push_back({l.sample, l.light(n)});
         return border.open;
     }
-    // What lies both above or below and beside it is one surface.
+    // Samples both above or below and beside it are one surface.
     bool go_on_past_corner(const Imath::V2i &at, const Imath::V2i &nearest, Pixel &pixel) const {
         Pixel above, beside;
         const bool open = go_on({nearest.x, at.y}, above);

@@ -1,21 +1,21 @@
-// What lies beyond the frame, the window of which everything is known: what leaves the frame goes on beyond it as it leaves,
-// and what enters nothing stays nothing.
+// Continues the picture beyond the frame, the window of which everything is known. A surface that leaves the frame continues
+// as it leaves; an empty border stays empty.
 //
-// A pixel beyond the frame continues the pixel of the frame that is nearest to it: it has its samples, with their coverage,
-// depth and place in the pixel, and lets light through to infinity if that does. Across a side beyond which there are samples,
-// rim views looked past the frame, by the perceptive depth of what they saw: n pixels from the frame, what is nearer than
-// n - 1/2 pixels is there or not, as they showed it. There a sample goes on from the last pixel in which they could see it, or
-// from the last but one, if they saw nothing of its surface in the last, where parallax may tear it. So what they saw to end
-// ends, and what only they saw goes on too. Past corners lies what goes on both above or below the frame and beside it. Where
-// that leaves out what ends the frame's pixel, it is unknown what lies there.
+// A pixel beyond the frame continues the nearest pixel of the frame: it has the same samples, with their coverage, depth and
+// position in the pixel, and is transparent to infinity if that pixel is. If there are samples beyond a side, rim views looked
+// past the frame there, by the perceptive depth of what they saw: n pixels from the frame they showed everything nearer than
+// n - 1/2 pixels. A sample then continues from the last pixel in which they could see it, or from the last but one if they saw
+// nothing of its surface in the last, where parallax may tear it. A surface that they saw end ends, and a surface that only they
+// saw continues too. Past corners, samples continue that continue both above or below the frame and beside it. If that
+// leaves out the last sample of the frame's pixel, the pixel is unknown.
 //
-// Across other sides, an opaque surface in front ends where others do: those that the row shows whole within 96 pixels, nearer
-// than what is on either side of them, as near as it (one_surface_px) and at most one pixel narrower. It becomes as wide as the
-// narrowest of them; past that goes on what lies beside it in the frame. If there are none, it goes on.
+// Beyond other sides, an opaque surface in front ends like similar surfaces: those that the row shows whole within 96 pixels,
+// nearer than their surroundings on both sides, as near as it (one_surface_px) and at most one pixel narrower. It becomes as wide
+// as the narrowest of them, and its neighbour in the frame continues beyond it. If there are none, it continues itself.
 //
-// A small light goes on as a disc does, so that a lamp leaves no streak. It is one where it is brighter than four times what
-// four of five pixels up to 32 away along the border stay below. How wide it is where it was seen last, and 2 pixels before
-// (1, where it was not that long), says how far its disc reaches on; n times as far, 1 / n^2 of its light is left.
+// A small light continues as a disc, so that a lamp leaves no streak. A light is small if it is brighter than four times the
+// level that four of five pixels up to 32 away along the border stay below. Its width where it was last seen, and 2 pixels
+// before (1 if it was not that long), tells how far its disc reaches; n times as far, 1 / n^2 of its light is left.
 #pragma once
 
 #include "deep/ldi.h"
