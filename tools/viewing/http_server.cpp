@@ -45,7 +45,8 @@ int listening_at(int port) {
     if (::bind(socket, reinterpret_cast<const sockaddr *>(&address), sizeof address) != 0 ||
         ::listen(socket, SOMAXCONN) != 0) {
         close_file(socket);
-        throw Error(fmt::format("--port {}: the port cannot be had: another program may use it", port));
+        throw Error(
+            fmt::format("--port {}: the port is not available; another program may be using it", port));
     }
     return socket;
 }

@@ -34,7 +34,7 @@ public:
     using Answer =
         std::function<HttpAnswer(const HttpRequest &)>; // by several threads; what it throws becomes 500
 
-    // Port 0: any that is free. `headers` are part of every answer. Throws Error where the port cannot be had.
+    // Port 0: any free port. `headers` are part of every answer. Throws Error if the port is not available.
     HttpServer(int port, MayComeIn may_come_in, Answer answer, std::string headers,
                const HttpLimits &limits = {});
     ~HttpServer();

@@ -11,7 +11,7 @@
 
 namespace sparselens {
 
-// Serves until the process ends. `ready` is told the port. Throws Error where the port cannot be had.
+// Serves until the process ends. `ready` is told the port. Throws Error if the port is not available.
 void serve(Viewer &viewer, int port, const std::string &key, const std::function<void(int port)> &ready);
 
 } // namespace sparselens

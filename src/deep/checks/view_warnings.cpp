@@ -31,13 +31,13 @@ void say_of_lens(const View &view, const ThinLens &lens, Warnings &said) {
     const double largest = largest_circle_of_confusion(view, lens);
     if (blurs_nothing(largest, lens))
         said.push_back(fmt::format(
-            "{}: the largest circle of confusion is {:.2g} pixels, so that the lens blurs nothing: check the "
-            "unit of the scene (`scene_unit=0.01` where it is a centimetre), the aperture and the focus",
+            "{}: the largest circle of confusion is {:.2g} pixels, so the lens blurs nothing: check the "
+            "unit of the scene (`scene_unit=0.01` if it is a centimetre), the aperture and the focus",
             view.name, largest));
     if (looks_defocused(sharpness_of_edges(view, lens)))
         said.push_back(view.name +
-                       ": its edges out of focus are blurred, as of a picture with depth of field, which "
-                       "blurs them again: switch depth of field off in the render");
+                       ": its edges out of focus are blurred, so the render seems to have depth of field, "
+                       "which would be applied twice: switch depth of field off in the render");
 }
 
 void say_of_first(std::span<const PackedView> views, double lens_radius, Warnings &said) {
@@ -105,7 +105,7 @@ Warnings picture_warnings(const View &view, const ViewFacts &facts) {
                        "for a display, give `colorspace=sRGB`, or render scene-linear");
     if (facts.depth_filtered)
         said.push_back(view.name +
-                       ": its depth is averaged over edges; what could be was repaired: render depth "
+                       ": its depth is averaged over edges and was repaired where possible: render depth "
                        "without a filter, as the closest or the first sample of each pixel");
     if (facts.depth == DepthMeaning::planar && looks_inverse(slopes_of_depth(view)))
         said.push_back(view.name +
