@@ -6,7 +6,7 @@
 #include "harness/tool.h"
 #include "io/camera/camera_write.h"
 #include "io/exr/exr_deep.h"
-#include "io/merge_ldis.h"
+#include "chain/merge_ldis.h"
 #include "loading/notices.h"
 #include "loading/recoloured.h"
 #include "options/colour_options.h"

@@ -8,7 +8,7 @@
 #include "dof/false_colour.h"
 #include "io/camera/camera_read.h"
 #include "io/camera/camera_write.h"
-#include "io/merge_ldis.h"
+#include "chain/merge_ldis.h"
 #include "io/recolor_ldi.h"
 #include "lens/perceptive_depth.h"
 #include "measure/image_error.h"

@@ -2,7 +2,7 @@
 #include "fuzz/fuzz.h"
 #include "harness/commands/frames.h"
 #include "harness/tool.h"
-#include "io/channels.h"
+#include "chain/channels.h"
 #include "options/lens_options.h"
 #include "options/picture_options.h"
 #include "options/view_list.h"

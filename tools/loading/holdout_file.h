@@ -2,14 +2,14 @@
 #pragma once
 
 #include "deep/ldi.h"
-#include "io/gather_windows.h"
+#include "chain/gather_windows.h"
 
 #include <optional>
 #include <string>
 
 namespace sparselens {
 
-// Empty if the path is empty, else as holdout_for() has it (io/gather_windows.h).
+// Empty if the path is empty, else as holdout_for() has it (chain/gather_windows.h).
 std::optional<Ldi> open_holdout(const std::string &path, const OpenedLdi &ldi, const WindowOptions &windows,
                                 const OpenOptions &options);
 

@@ -1,7 +1,7 @@
 #include "loading/ldi_cache.h"
 
 #include "io/camera/camera_read.h"
-#include "io/channels.h"
+#include "chain/channels.h"
 #include "loading/notices.h"
 #include "loading/recoloured.h"
 

@@ -3,8 +3,8 @@
 #include "base/error.h"
 #include "base/subpixels.h"
 #include "deep/front_samples.h"
-#include "io/gather_windows.h"
-#include "io/picture_looks.h"
+#include "chain/gather_windows.h"
+#include "chain/picture_looks.h"
 
 #include <fmt/format.h>
 

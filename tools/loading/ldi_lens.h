@@ -15,7 +15,7 @@ namespace sparselens {
 ThinLens lens_for_ldi(OpenedLdi &in, const std::optional<Imath::V2i> &focus_pixel, int across,
                       const ToolContext &tool);
 
-// The looks of the lens where the method knows any (io/picture_looks.h). Warns where it does not know what the camera says.
+// The looks of the lens where the method knows any (chain/picture_looks.h). Warns where it does not know what the camera says.
 LensLooks looks_for_ldi(const LensFile &given, Camera &camera, Imf::Header &header, const ThinLens &lens,
                         const Windows &windows, const GatherMethod *method, const ToolContext &tool);
 

@@ -4,7 +4,7 @@
 #include "deep/front_samples.h"
 #include "dof/border_reach.h"
 #include "io/files/file_stream.h"
-#include "io/layer_notes.h"
+#include "chain/layer_notes.h"
 
 #include <fmt/format.h>
 

@@ -4,7 +4,7 @@
 #include "harness/examples.h"
 #include "harness/one_line.h"
 #include "harness/words.h"
-#include "io/picture_looks.h"
+#include "chain/picture_looks.h"
 #include "options/chosen_device.h"
 #include "options/picture_options.h"
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "harness/commands/cli.h"
-#include "io/gather_windows.h"
+#include "chain/gather_windows.h"
 
 namespace sparselens {
 

@@ -2,8 +2,8 @@
 
 #include "base/error.h"
 #include "harness/process.h"
-#include "io/channels.h"
-#include "io/picture_looks.h"
+#include "chain/channels.h"
+#include "chain/picture_looks.h"
 #include "loading/holdout_file.h"
 #include "loading/ldi_cache.h"
 

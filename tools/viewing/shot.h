@@ -4,7 +4,7 @@
 #include "harness/tool.h"
 #include "io/display/colour.h"
 #include "io/display/shown_picture.h"
-#include "io/gather_windows.h"
+#include "chain/gather_windows.h"
 #include "options/chosen_device.h"
 #include "options/gather_options.h"
 #include "viewing/reel.h"

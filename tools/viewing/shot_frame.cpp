@@ -3,7 +3,7 @@
 #include "base/error.h"
 #include "deep/front_samples.h"
 #include "io/camera/camera_read.h"
-#include "io/channels.h"
+#include "chain/channels.h"
 
 #include <ImfStringAttribute.h>
 #include <nlohmann/json.hpp>

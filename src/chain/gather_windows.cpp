@@ -1,4 +1,4 @@
-#include "io/gather_windows.h"
+#include "chain/gather_windows.h"
 
 #include "base/error.h"
 #include "deep/pad.h"

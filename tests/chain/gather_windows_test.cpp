@@ -4,7 +4,7 @@
 #include "deep/pad.h"
 #include "dof/gather_picture.h"
 #include "io/files/memory_limit.h"
-#include "io/gather_windows.h"
+#include "chain/gather_windows.h"
 #include "support/lens_ldi.h"
 #include "support/scratch_folder.h"
 

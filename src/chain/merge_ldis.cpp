@@ -1,4 +1,4 @@
-#include "io/merge_ldis.h"
+#include "chain/merge_ldis.h"
 
 #include "base/error.h"
 #include "deep/merge.h"

@@ -1,7 +1,7 @@
 // Several deep pictures of one camera as one.
 #pragma once
 
-#include "open_ldi.h"
+#include "../io/open_ldi.h"
 
 #include <vector>
 

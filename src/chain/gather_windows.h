@@ -4,7 +4,7 @@
 #include "../base/subpixels.h"
 #include "../deep/highlight_gain.h"
 #include "../lens/lens_looks.h"
-#include "open_ldi.h"
+#include "../io/open_ldi.h"
 
 #include <optional>
 

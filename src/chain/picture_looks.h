@@ -5,7 +5,7 @@
 #include "../lens/lens_looks.h"
 #include "../lens/thin_lens.h"
 #include "../view/camera.h"
-#include "lens_file.h"
+#include "../io/lens_file.h"
 
 #include <ImfHeader.h>
 

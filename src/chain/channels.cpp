@@ -1,4 +1,4 @@
-#include "io/channels.h"
+#include "chain/channels.h"
 
 #include "base/channel_names.h"
 #include "base/error.h"

@@ -1,4 +1,4 @@
-#include "io/picture_looks.h"
+#include "chain/picture_looks.h"
 
 #include "base/error.h"
 #include "io/exr/header_edit.h"

@@ -1,4 +1,4 @@
-#include "io/layer_notes.h"
+#include "chain/layer_notes.h"
 
 #include <fmt/format.h>
 
