@@ -1,9 +1,9 @@
 // dof-accumulate: averages dense views from the lens, shifted so that the plane of focus stays in place.
+#include "chain/file_notices.h"
 #include "harness/tool.h"
 #include "io/camera/camera_write.h"
 #include "lab/averaging/accumulate_options.h"
 #include "lab/averaging/averaging.h"
-#include "loading/notices.h"
 #include "options/picture_options.h"
 
 #include <CLI/CLI.hpp>
@@ -35,8 +35,8 @@ void accumulate_files(const AccumulateOptions &options, const ToolContext &tool)
     const Image picture = in_type(image, options.type);
     Imf::Header header = header_of(files);
     append_history(header, tool, options.history);
-    warn_of_clamped(tool, options.output,
-                    write_flat_exr(options.output, picture, header, options.compression));
+    tell_clamped(tool.tell(), options.output,
+                 write_flat_exr(options.output, picture, header, options.compression));
 }
 
 } // namespace

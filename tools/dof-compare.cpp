@@ -1,12 +1,12 @@
 // dof-compare: how far a picture is from its reference, and how steady a sequence is.
 #include "base/error.h"
+#include "chain/file_notices.h"
 #include "harness/commands/frames.h"
 #include "harness/examples.h"
 #include "harness/tool.h"
 #include "harness/words.h"
 #include "io/display/shown_picture.h"
 #include "io/exr/exr_flat.h"
-#include "loading/notices.h"
 #include "loading/region_file.h"
 #include "measure/figures_text.h"
 #include "measure/flip.h"
@@ -93,7 +93,7 @@ void add_options(CLI::App &app, Options &options) {
 
 Image read_picture(const std::string &path, const Options &options, const ToolContext &tool) {
     FlatFile file = read_flat_exr(path, options.depth.picture);
-    say_reading(tool, path, file.notes, file.warnings);
+    tell_reading(tool.tell(), path, file.notes, file.warnings);
     return std::move(file.image);
 }
 

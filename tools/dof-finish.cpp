@@ -1,11 +1,11 @@
 // dof-finish: makes a gathered picture and a few rays through the same lens into one picture that is nearer to the truth.
 #include "base/error.h"
+#include "chain/file_notices.h"
 #include "finish/finish_picture.h"
 #include "harness/stats.h"
 #include "harness/tool.h"
 #include "io/exr/exr_flat.h"
 #include "io/render_samples.h"
-#include "loading/notices.h"
 #include "options/finish_options.h"
 
 #include <CLI/CLI.hpp>
@@ -22,7 +22,7 @@ namespace {
 
 FlatFile read(const std::string &path, const ToolContext &tool) {
     FlatFile file = read_flat_exr(path);
-    say_reading(tool, path, file.notes, file.warnings);
+    tell_reading(tool.tell(), path, file.notes, file.warnings);
     return file;
 }
 
@@ -112,10 +112,10 @@ void run(const FinishCommand &options, const ToolContext &tool) {
                              fmt::join(finished.as_gathered, ", ")));
     append_history(file.header, tool, options.history);
     const Stats stats = say_error(options, finished, halves, tool);
-    warn_of_clamped(tool, options.output,
-                    write_picture(tool, options.colour, options.output,
-                                  in_type(shown(std::move(finished), options.show), options.type),
-                                  file.header, options.compression));
+    tell_clamped(tool.tell(), options.output,
+                 write_picture(tool.tell(), options.colour, options.output,
+                               in_type(shown(std::move(finished), options.show), options.type), file.header,
+                               options.compression));
     write_stats(tool, stats);
 }
 

@@ -1,14 +1,11 @@
 // ldi-cluster: merges deep pictures, and the samples of each pixel to fewer.
-#include "deep/cluster.h"
+#include "chain/cluster_ldi.h"
+#include "chain/file_notices.h"
 #include "harness/examples.h"
 #include "harness/history.h"
 #include "harness/stats.h"
 #include "harness/tool.h"
-#include "io/camera/camera_write.h"
 #include "io/exr/exr_deep.h"
-#include "chain/merge_ldis.h"
-#include "loading/notices.h"
-#include "loading/recoloured.h"
 #include "options/colour_options.h"
 #include "options/lens_options.h"
 #include "options/picture_options.h"
@@ -20,17 +17,10 @@ using namespace sparselens;
 
 namespace {
 
-struct Options {
-    LensValues lens;
-    DepthOptions depth;
-    ColourOptions colour;
-    HistoryOptions history;
-    std::vector<std::string> inputs, depth_files;
-    std::string output, recolor;
-    std::optional<double> tolerance;
-    std::optional<int> supersample;
-    int layers = 0;
-    AskedCompression compression;
+struct Options : ClusterRequest {
+    HistoryOptions history = {};
+    std::string output = {};
+    AskedCompression compression = {};
 };
 
 void add_options(CLI::App &app, Options &options) {
@@ -66,45 +56,20 @@ void add_options(CLI::App &app, Options &options) {
                         "ldi-cluster deep.exr --recolor beauty.exr -o shot.exr"}});
 }
 
-OpenedLdi open_merged(const Options &options, const ToolContext &tool) {
-    const std::vector<DepthOptions> depths =
-        depths_of_pictures(options.depth, options.depth_files, options.inputs.size());
-    std::vector<OpenedLdi> parts;
-    for (std::size_t i = 0; i < depths.size(); ++i) {
-        parts.push_back(open_ldi(options.inputs[i], {options.lens, depths[i]}));
-        if (options.supersample) parts.back().camera.supersample = options.supersample;
-        say_samples(tool, parts.back());
-        warn_of_invalid_values(tool, options.inputs[i], parts.back().bad);
-    }
-    return merge_ldis(std::move(parts));
-}
-
-Stats cluster_stats(const OpenedLdi &in, const Clustered &out) {
-    return {{"samples_invisible", in.invisible},
-            {"samples_read", in.ldi.samples()},
-            {"samples", out.ldi.samples()},
-            {"samples_merged", in.ldi.samples() - out.ldi.samples()},
-            {"largest_coc_change", out.largest_error}};
+Stats cluster_stats(const ClusteredLdi &made) {
+    return {{"samples_invisible", made.invisible},
+            {"samples_read", made.samples_read},
+            {"samples", made.ldi.samples()},
+            {"samples_merged", made.samples_read - made.ldi.samples()},
+            {"largest_coc_change", made.largest_error}};
 }
 
 void run(const Options &options, const ToolContext &tool) {
-    OpenedLdi in = open_merged(options, tool);
-    recolor_by(tool, options.recolor, options.depth.picture, options.colour, in);
-    ClusterOptions by{.layers = options.layers};
-    // --layers alone needs no lens, as inverse depths are compared without a scale, and --tolerance 0 none either.
-    const double tolerance = options.tolerance.value_or(0.25);
-    const bool must_know = tolerance > 0 && (options.tolerance || options.layers == 0);
-    const auto scale = perceptive_scale(in.camera, in.ldi.windows, must_know);
-    if (scale) by.scale = *scale;
-    if (scale) by.tolerance = tolerance;
-    const Clustered out = cluster(in.ldi, by, *tool.progress);
-    tool.say(fmt::format("{} samples to {}, ", in.ldi.samples(), out.ldi.samples()) +
-             (scale ? fmt::format("CoC changed by at most {:.6f} px", out.largest_error)
-                    : "by inverse depth alone, because the lens is unknown"));
-    write_camera(in.header, in.camera);
-    append_history(in.header, tool, options.history);
-    warn_of_clamped(tool, options.output, write_ldi(options.output, out.ldi, in.header, options.compression));
-    write_stats(tool, cluster_stats(in, out));
+    ClusteredLdi made = cluster_ldi(options, *tool.progress, tool.tell());
+    append_history(made.header, tool, options.history);
+    tell_clamped(tool.tell(), options.output,
+                 write_ldi(options.output, made.ldi, made.header, options.compression));
+    write_stats(tool, cluster_stats(made));
 }
 
 } // namespace

@@ -1,11 +1,9 @@
 // ldi-plan: plans which views from the rim of the lens, and which of their pixels, are worth rendering.
-#include "deep/checks/view_warnings.h"
+#include "chain/file_notices.h"
+#include "chain/plan_views.h"
 #include "harness/stats.h"
 #include "harness/tool.h"
 #include "io/cameras_file.h"
-#include "io/open_view.h"
-#include "io/plan_file.h"
-#include "loading/notices.h"
 #include "options/plan_options.h"
 
 #include <fmt/format.h>
@@ -53,21 +51,18 @@ Stats plan_stats(const Plan &plan, int views_allowed, const Windows &centre) {
 }
 
 void run(const PlanCommand &options, const ToolContext &tool) {
-    OpenedView centre = open_view(options.centre, {options.lens, options.depth});
-    if (options.supersample) centre.camera.supersample = options.supersample;
-    say_reading(tool, options.centre, centre.notes, centre.warnings);
-    warn_of_invalid_values(tool, options.centre, centre.bad);
-    const Windows &windows = centre.view.image.windows;
-    const ThinLens lens = centre.lens();
-    warn_of(tool, picture_warnings(centre.view, {centre.depth, centre.depth_filtered, centre.camera,
-                                                 centre.unpremultiplied}));
-    PlanOptions by = options.plan;
-    by.across = centre.camera.supersample.value_or(1);
-    const Plan plan = make_plan(centre.view, lens, by, *tool.progress);
-    write_plan(options.output, plan, {options.centre, windows, lens, by.margin, by.across}, options.masks);
+    const OpenedView centre = open_view(options.centre, {options.lens, options.depth});
+    tell_reading(tool.tell(), options.centre, centre.notes, centre.warnings);
+    tell_invalid_values(tool.tell(), options.centre, centre.bad);
+    PlannedViews made =
+        plan_views(centre, options.plan, options.lens, options.supersample, *tool.progress, tool.tell());
+    made.setting.centre = options.centre;
+    const auto &[plan, setting, camera] = made;
+    write_plan(options.output, plan, setting, options.masks);
+    const Windows &windows = setting.windows;
     if (!options.cameras.empty())
-        write_cameras(options.cameras, cameras_of(plan, centre.camera, lens, windows.display_width()),
-                      {options.centre, lens, centre.camera.metres_per_unit});
+        write_cameras(options.cameras, cameras_of(plan, camera, setting.lens, windows.display_width()),
+                      {options.centre, setting.lens, camera.metres_per_unit});
     write_stats(tool, plan_stats(plan, options.plan.views, windows));
     summarise(plan, centre.view, options.output == "-" ? stderr : stdout);
 }

@@ -1,9 +1,9 @@
 #include "lab/averaging/averaging.h"
 
 #include "base/error.h"
+#include "chain/file_notices.h"
 #include "io/files/memory_limit.h"
 #include "lab/methods/accumulate.h"
-#include "loading/notices.h"
 
 #include <fmt/format.h>
 
@@ -54,7 +54,7 @@ Image average_views(LensViewFiles &files, const ThinLens &lens, bool transparent
     tool.progress->start("averaging", files.views.size());
     for (LensViewFile &file : files.views) {
         FlatFile read = file.take_pixels();
-        say_reading(tool, file.path, read.notes, read.warnings);
+        tell_reading(tool.tell(), file.path, read.notes, read.warnings);
         Image view = transparent_outside ? with_surroundings(file.path, read) : std::move(read.image);
         if (!sum) sum = start_accumulation(view.windows, view.channels);
         const std::size_t bad = fill_nonfinite(view, sum->channels);

@@ -141,10 +141,14 @@ bool keeps_pixels(const WindowOptions &options, const Imf::Header &header) {
            (options.overscan != OutputOverscan::grow || holds(header.dataWindow(), header.displayWindow()));
 }
 
-GatherWindows gather_windows(const WindowOptions &options, const OpenedLdi &in, ThinLens &lens) {
+ThinLens lens_in_gathered(const WindowOptions &options, const OpenedLdi &in, ThinLens lens) {
+    lens.focal_px /= smaller_by(options, subpixels_of(options, in));
+    return lens;
+}
+
+GatherWindows gather_windows(const WindowOptions &options, const OpenedLdi &in) {
     const Subpixels by = subpixels_of(options, in);
     const int smaller = smaller_by(options, by);
-    lens.focal_px /= smaller;
     GatherWindows frame{reduced(read_picture_window(in.header), smaller), {}, {}, {}, {}};
     if (smaller > 1)
         frame.changed = proxy(in.ldi, smaller);

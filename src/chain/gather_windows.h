@@ -3,8 +3,8 @@
 
 #include "../base/subpixels.h"
 #include "../deep/highlight_gain.h"
-#include "../lens/lens_looks.h"
 #include "../io/open_ldi.h"
+#include "../lens/lens_looks.h"
 
 #include <optional>
 
@@ -52,8 +52,11 @@ void require_channels(const OpenedLdi &in);
 // Whether the LDI to gather has the pixels of the file, whatever they show.
 bool keeps_pixels(const WindowOptions &options, const Imf::Header &header);
 
-// Those of the file, all of them needed. Scales `lens` and a copy of the LDI down to the proxy.
-GatherWindows gather_windows(const WindowOptions &options, const OpenedLdi &in, ThinLens &lens);
+// Those of the file, all of them needed; of a proxy, with a copy of the LDI that is as small.
+GatherWindows gather_windows(const WindowOptions &options, const OpenedLdi &in);
+
+// The lens of the LDI in the pixels that are gathered.
+ThinLens lens_in_gathered(const WindowOptions &options, const OpenedLdi &in, ThinLens lens);
 
 // Pads a copy of the LDI where the blur of a lens of these looks reaches beyond the picture into the display window, if
 // OutputOverscan::grow, and chooses the pixels of the picture.

@@ -1,15 +1,11 @@
 #include "python/gather.h"
 
 #include "base/error.h"
-#include "deep/front_samples.h"
-#include "dof/gather_picture.h"
-#include "io/camera/camera_write.h"
-#include "chain/channels.h"
-#include "chain/gather_windows.h"
-#include "chain/picture_looks.h"
-#include "python/device.h"
+#include "chain/take_picture.h"
+#include "python/devices.h"
 #include "python/job.h"
 #include "python/keywords.h"
+#include "python/told.h"
 
 #include <fmt/format.h>
 
@@ -20,19 +16,9 @@ namespace sparselens::python {
 namespace {
 
 // What the keywords ask for.
-struct Asked {
-    PictureOptions picture; // without the holdout
-    WindowOptions windows;
-    std::string channels; // comma-separated; empty: all
-    std::string device;   // as with_gather_device() has it
-    std::optional<Imath::V2i> focus_pixel;
-    const OpenedLdi *holdout = nullptr; // kept alive by `keep_holdout`
-    py::object keep_holdout, progress;
-    LensValues lens;
-    GivenLooks looks;
+struct Asked : PictureRequest {
+    py::object keep_holdout = {}, progress = {}; // the former keeps `opened_holdout` alive
 };
-
-bool knows_looks(const Asked &asked) { return asked.picture.method == &gather_methods().front(); }
 
 void set_method(Asked &asked, Keywords &keywords) {
     const std::string name = keywords.text("method");
@@ -52,10 +38,9 @@ void set_method(Asked &asked, Keywords &keywords) {
     asked.picture.gather.layers = keywords.whole("layers", 1, 4096).value_or(asked.picture.gather.layers);
     asked.picture.layer_tolerance =
         keywords.number("layer_tolerance", at_least_0).value_or(asked.picture.layer_tolerance);
-    refuse_ignored(asked.picture.method->name,
-                   [&](const std::string &parameter) { return keywords.is_given(parameter); });
     asked.device = keywords.text("device");
     if (asked.device.empty()) asked.device = "cpu";
+    check_method(asked, [&](const std::string &parameter) { return keywords.is_given(parameter); });
 }
 
 GivenLooks look_keywords(Keywords &keywords) {
@@ -90,9 +75,9 @@ Asked asked_by(const py::kwargs &given) {
     Asked asked;
     asked.keep_holdout = keywords.take("holdout");
     if (!asked.keep_holdout.is_none())
-        asked.holdout = &argument<OpenedLdi>(asked.keep_holdout, "holdout", "an Ldi");
+        asked.opened_holdout = &argument<OpenedLdi>(asked.keep_holdout, "holdout", "an Ldi");
     asked.picture.holdout_defocused = keywords.flag("holdout_defocused");
-    if (asked.picture.holdout_defocused && !asked.holdout)
+    if (asked.picture.holdout_defocused && !asked.opened_holdout)
         throw UsageError("holdout_defocused: needs a holdout");
     asked.looks = look_keywords(keywords);
     take_highlights(keywords, asked.looks.values);
@@ -120,74 +105,16 @@ Asked asked_by(const py::kwargs &given) {
     return asked;
 }
 
-Camera focused(Camera camera, const OpenedLdi &in, const Asked &asked) {
-    const std::optional<Imath::V2i> &pixel = asked.focus_pixel;
-    if (!pixel) return camera;
-    require_inside(*pixel, in, subpixels_of(asked.windows, in).across);
-    const float z = front_depth(in.ldi, middle_subpixel(*pixel, subpixels_of(asked.windows, in).across));
-    if (!(z > 0))
-        throw UsageError(
-            fmt::format("focus_pixel: ldi has no sample at ({}, {}); choose a pixel that shows something",
-                        pixel->x, pixel->y));
-    camera.focus_distance = double(z);
-    return camera;
-}
-
-PictureObject gathered_all(const Asked &asked, const OpenedLdi &in, Camera camera, ThinLens lens,
-                           TileDevice *device, Progress &progress) {
-    PictureObject out{{}, in.header};
-    std::optional<Ldi> holdout;
-    if (asked.holdout) holdout = holdout_for(in, asked.windows, asked.holdout->ldi, "holdout");
-    GatherWindows frame = gather_windows(asked.windows, in, lens);
-    const LensFile looks = read_looks(asked.looks, camera.fstop);
-    PictureOptions options = asked.picture;
-    if (knows_looks(asked))
-        options.gather.lens.looks = picture_looks(looks, camera, out.header, lens, frame.ldi(in).windows);
-    choose_windows(frame, asked.windows, in, lens, options.gather.lens.looks);
-    raise_highlights(frame, in, highlight_gain(looks.values));
-    const Ldi &ldi = frame.ldi(in);
-    options.holdout = holdout ? &*holdout : nullptr;
-    options.gather.lens.device = device;
-    options.gather.lens.across = frame.subpixels.across;
-    options.gather.views_radius = views_radius(camera);
-    out.image = frame.picture_of(gather_picture(ldi, lens, frame.gathered, frame.needed, options, progress));
-    write_picture_camera(out.header, camera);
-    return out;
-}
-
-// The same of the channels that are asked for, of a copy of the LDI.
-PictureObject gathered(const Asked &asked, const OpenedLdi &in, const Camera &camera, const ThinLens &lens,
-                       TileDevice *device, Progress &progress) {
-    require_channels(in);
-    if (asked.channels.empty()) return gathered_all(asked, in, camera, lens, device, progress);
-    OpenedLdi fewer = in;
-    keep_channels(fewer.ldi, asked.channels);
-    PictureObject out = gathered_all(asked, fewer, camera, lens, device, progress);
-    out.image = chosen_channels(std::move(out.image), asked.channels);
-    return out;
-}
-
 } // namespace
 
 PictureObject gather(const py::object &ldi, const py::kwargs &given) {
     const Asked asked = asked_by(given);
     const OpenedLdi &in = argument<OpenedLdi>(ldi, "ldi", "an Ldi");
-    const Camera camera = focused(camera_with_options(asked.lens, in.camera), in, asked);
-    const ThinLens lens = resolve_lens(camera, in.ldi.windows);
-    if (const auto warning = warning_of_wide_lens(camera, lens)) warn(*warning);
-    if (!knows_looks(asked))
-        if (const auto warning = warning_of_round_aperture(camera.looks, asked.picture.method->name))
-            warn(*warning);
-    std::vector<std::string> warnings;
-    auto picture = job<PictureObject>(asked.progress, [&](Progress &said) {
-        PictureObject made;
-        with_gather_device(asked.device, warnings, [&](TileDevice *device) {
-            made = gathered(asked, in, camera, lens, device, said);
+    return told_job<PictureObject>(
+        asked.progress, [&](Progress &progress, const Tell &tell) -> PictureObject {
+            TakenPicture made = take_picture(in, asked, {progress, tell, &gather_device()});
+            return {std::move(made.image), std::move(made.header)};
         });
-        return made;
-    });
-    for (const std::string &warning : warnings) warn(warning);
-    return picture;
 }
 
 } // namespace sparselens::python

@@ -1,7 +1,7 @@
 // The Python module sparselens, whose package (sparselens/__init__.py) imports what is here.
 #include "base/error.h"
 #include "io/files/memory_limit.h"
-#include "python/device.h"
+#include "python/devices.h"
 #include "python/objects.h"
 
 #include <ImfThreading.h>
@@ -86,5 +86,8 @@ PYBIND11_MODULE(_sparselens, module) {
     bind_objects(module);
     bind_verbs(module);
     module.def("set_limits", &set_limits, doc::set_limits);
-    py::module_::import("atexit").attr("register")(py::cpp_function(&release_devices));
+    py::module_::import("atexit").attr("register")(py::cpp_function([] {
+        gather_device().release();
+        warp_device().release();
+    }));
 }

@@ -2,7 +2,6 @@
 
 #include "base/text.h"
 #include "io/camera/camera_read.h"
-#include "plan/rectangles.h"
 #include "python/arrays.h"
 #include "python/from_arrays.h"
 #include "python/write.h"

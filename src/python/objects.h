@@ -1,10 +1,10 @@
 // What the functions of the module take and give: the library's own structures, with what Python needs beside them.
 #pragma once
 
+#include "chain/plan_views.h"
 #include "io/open_ldi.h"
 #include "io/open_view.h"
 #include "io/plan_file.h"
-#include "plan/plan.h"
 
 #include <pybind11/pybind11.h>
 

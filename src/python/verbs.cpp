@@ -1,28 +1,21 @@
 #include "base/error.h"
-#include "deep/checks/view_warnings.h"
-#include "deep/cluster.h"
+#include "chain/cluster_ldi.h"
+#include "chain/make_ldi.h"
+#include "chain/take_picture.h"
 #include "deep/flatten.h"
 #include "deep/front_samples.h"
-#include "deep/rounded.h"
-#include "denoised/denoised_views.h"
-#include "dof/false_colour.h"
 #include "io/camera/camera_read.h"
 #include "io/camera/camera_write.h"
-#include "chain/merge_ldis.h"
-#include "io/recolor_ldi.h"
-#include "lens/perceptive_depth.h"
 #include "measure/image_error.h"
 #include "measure/regions.h"
 #include "python/arrays.h"
-#include "python/device.h"
+#include "python/devices.h"
 #include "python/finish.h"
 #include "python/gather.h"
 #include "python/job.h"
 #include "python/objects.h"
+#include "python/told.h"
 #include "python/write.h"
-#include "view/place_views.h"
-#include "warp/reprojected_views.h"
-#include "warp/warp.h"
 
 #include <pybind11/stl.h>
 #include <sparselens_docs.h>
@@ -92,136 +85,55 @@ WarpOptions warp_options(Keywords &keywords) {
             .find_images = images.value_or(true)};
 }
 
-// In the order of the views.
-std::vector<DenoisedPicture> denoised_pictures(Keywords &keywords, std::size_t views) {
-    const py::object given = keywords.take("denoised");
-    if (given.is_none()) return {};
-    std::vector<DenoisedPicture> pictures;
-    for (const PictureObject *picture : several<PictureObject>(given, "denoised", "a sequence of Picture"))
-        pictures.push_back(
-            {"denoised[" + std::to_string(pictures.size()) + "]",
-             ready_beauty({.image = picture->image, .header = picture->header}, "denoised").image});
-    if (pictures.size() != views)
-        throw UsageError("denoised: " + std::to_string(pictures.size()) + " for " + std::to_string(views) +
-                         " views; give one for each, in the order of the views");
-    return pictures;
+// Of a MadeLdi or a ClusteredLdi.
+template <typename Made>
+LdiObject ldi_of(const std::string &name, Made made) {
+    LdiObject out;
+    out.name = name;
+    out.ldi = std::move(made.ldi);
+    out.header = std::move(made.header);
+    out.camera = std::move(made.camera);
+    return out;
 }
 
 LdiObject warp(const py::object &views, const py::kwargs &given) {
     Keywords keywords("warp", given);
-    const auto from = several<ViewObject>(views, "views", "a sequence of View");
-    const WarpOptions options = warp_options(keywords);
-    const bool rounds = keywords.word<bool>("precision", {{"exact", false}, {"lens", true}}).value_or(false);
-    const LensValues lens = lens_values(keywords);
-    const auto across = keywords.whole("supersample", 1, most_across);
-    const std::string given_device = keywords.text("device");
-    std::vector<DenoisedPicture> denoised = denoised_pictures(keywords, from.size());
-    const std::string noisy = keywords.text("noisy");
-    if (!denoised.empty() && !noisy.empty()) throw UsageError("noisy and denoised exclude each other");
+    std::vector<ViewInMemory> from;
+    for (const ViewObject *view : several<ViewObject>(views, "views", "a sequence of View"))
+        from.push_back({&view->in, view->position});
+    LdiFromViews request{.warp = warp_options(keywords)};
+    request.round_for_lens =
+        keywords.word<bool>("precision", {{"exact", false}, {"lens", true}}).value_or(false);
+    request.lens = lens_values(keywords);
+    request.supersample = keywords.whole("supersample", 1, most_across);
+    if (const std::string device = keywords.text("device"); !device.empty()) request.device = device;
     const py::object progress = keywords.take("progress");
     keywords.done();
-    std::vector<std::string> warnings;
-    OpenedLdi made = job<OpenedLdi>(progress, [&](Progress &said) {
-        std::vector<PackedView> placed;
-        std::vector<StatedView> stated;
-        for (const ViewObject *view : from) {
-            placed.emplace_back(View(view->in.view)); // a copy
-            stated.push_back(
-                {view->in.view.name, camera_with_options(lens, view->in.camera), view->position});
-            if (across) stated.back().camera.supersample = across;
-        }
-        OpenedLdi out;
-        out.name = "warp";
-        out.header = from[0]->in.header;
-        out.camera = place_views(placed, stated);
-        write_camera(out.header, out.camera);
-        write_picture_window(out.header, placed[0].samples.windows.data);
-        check_views(placed);
-        if (!noisy.empty())
-            for (PackedView &view : placed) denoised.push_back(part_denoised(view, noisy));
-        const WarpOptions of_lens = with_lens(options, out.camera, placed);
-        if (!denoised.empty())
-            take_denoised(placed, denoised, of_lens.focal_px,
-                          perceptive_scale(of_lens.radius, of_lens.focal_px));
-        // While their pixels are there.
-        std::vector<std::string> of_views = view_warnings(
-            placed, {from[0]->in.depth, from[0]->in.depth_filtered, out.camera, from[0]->in.unpremultiplied});
-        with_warp_device(given_device.empty() ? "cpu" : given_device, warnings, [&](WarpDevice *device) {
-            WarpOptions by = of_lens;
-            by.device = device;
-            out.ldi = warp(std::move(placed), by, said);
-            if (rounds) round_for_lens(out.ldi, scale_in_picture(by));
-        });
-        for (std::string &warning : of_views) warnings.push_back(std::move(warning));
-        return out;
+    return told_job<LdiObject>(progress, [&](Progress &said, const Tell &tell) -> LdiObject {
+        MadeLdi made = make_ldi(from, request, {said, tell, &warp_device()});
+        return ldi_of(request.name, std::move(made));
     });
-    for (const std::string &warning : warnings) warn(warning);
-    LdiObject out{std::move(made)};
-    return out;
-}
-
-// The LDI without its samples.
-OpenedLdi described_as(const OpenedLdi &in) {
-    OpenedLdi out;
-    out.name = in.name;
-    out.header = in.header;
-    out.camera = in.camera;
-    return out;
-}
-
-ClusterOptions cluster_options(const Camera &camera, const Windows &windows, std::optional<double> tolerance,
-                               int layers) {
-    ClusterOptions options{.layers = layers};
-    const double by = tolerance.value_or(0.25);
-    const auto scale = perceptive_scale(camera, windows, by > 0 && (tolerance || layers == 0));
-    if (!scale) return options;
-    options.scale = *scale;
-    options.tolerance = by;
-    return options;
-}
-
-// Returns what is to be warned of.
-std::vector<std::string> recolored_by(const PictureObject &picture, OpenedLdi &ldi) {
-    const Beauty beauty = ready_beauty({.image = picture.image, .header = picture.header}, "recolor");
-    std::vector<std::string> warnings = recolor(ldi, beauty);
-    if (beauty.bad.any()) warnings.push_back(beauty.name + ": " + beauty.bad.text());
-    return warnings;
 }
 
 LdiObject cluster(const py::object &ldi, const py::kwargs &given) {
     Keywords keywords("cluster", given);
     const auto from = several<LdiObject>(ldi, "ldi", "an Ldi, or a sequence of them");
-    const auto tolerance = keywords.number("tolerance", at_least_0);
-    const int layers = keywords.whole("layers", 0, 1 << 20).value_or(0);
-    const auto across = keywords.whole("supersample", 1, most_across);
+    ClusterRequest request{.tolerance = keywords.number("tolerance", at_least_0)};
+    request.layers = keywords.whole("layers", 0, 1 << 20).value_or(0);
+    request.supersample = keywords.whole("supersample", 1, most_across);
     const py::object colours = keywords.take("recolor");
-    const LensValues lens = lens_values(keywords);
+    request.lens = lens_values(keywords);
     const py::object progress = keywords.take("progress");
     keywords.done();
-    const PictureObject *beauty =
+    const PictureObject *flat =
         colours.is_none() ? nullptr : &argument<PictureObject>(colours, "recolor", "a Picture");
-    std::vector<std::string> warnings;
-    LdiObject made = job<OpenedLdi>(progress, [&](Progress &said) {
-        OpenedLdi merged; // of one LDI only what describes it: its samples are not copied
-        if (from.size() > 1 || beauty) {
-            std::vector<OpenedLdi> parts;
-            for (const OpenedLdi *part : from) {
-                parts.push_back(*part);
-                if (across) parts.back().camera.supersample = across;
-            }
-            merged = merge_ldis(std::move(parts));
-            if (beauty) warnings = recolored_by(*beauty, merged);
-        } else {
-            merged = described_as(*from[0]);
-            if (across) merged.camera.supersample = across;
-        }
-        const Ldi &in = from.size() > 1 || beauty ? merged.ldi : from[0]->ldi;
-        merged.camera = camera_with_options(lens, merged.camera);
-        merged.ldi = cluster(in, cluster_options(merged.camera, in.windows, tolerance, layers), said).ldi;
-        return merged;
+    return told_job<LdiObject>(progress, [&](Progress &said, const Tell &tell) -> LdiObject {
+        std::optional<Beauty> beauty;
+        if (flat) beauty = ready_beauty({.image = flat->image, .header = flat->header}, "recolor");
+        if (beauty) request.beauty = &*beauty;
+        ClusteredLdi made = cluster_ldi(from, request, said, tell);
+        return ldi_of(from[0]->name, std::move(made));
     });
-    for (const std::string &warning : warnings) warn(warning);
-    return made;
 }
 
 PictureObject flatten(const py::object &ldi) {
@@ -251,14 +163,16 @@ PictureObject show(const py::object &ldi, const py::object &what, const py::kwar
     keywords.done();
     if (!py::isinstance<py::str>(what)) wrong_type("what", "a str", what);
     const auto name = what.cast<std::string>();
-    if (name == "layers")
-        return job<PictureObject>(py::none(),
-                                  [&](Progress &) { return picture_of_ldi(in, layer_colours(in.ldi)); });
-    if (name != "coc" && name != "focus") Keywords::refuse("what", "one of coc, focus, layers", name);
-    const ThinLens lens = resolve_lens(camera_with_options(values, in.camera), in.ldi.windows);
-    const auto colours = name == "coc" ? coc_colours : focus_colours;
-    return job<PictureObject>(py::none(),
-                              [&](Progress &) { return picture_of_ldi(in, colours(in.ldi, lens)); });
+    const std::pair<const char *, Show> words[] = {
+        {"coc", Show::coc}, {"focus", Show::focus}, {"layers", Show::layers}};
+    const auto found = std::ranges::find(words, name, [](const auto &word) { return word.first; });
+    if (found == std::end(words)) Keywords::refuse("what", "one of coc, focus, layers", name);
+    ThinLens lens;
+    if (found->second != Show::layers)
+        lens = resolve_lens(camera_with_options(values, in.camera), in.ldi.windows);
+    return job<PictureObject>(py::none(), [&](Progress &) {
+        return picture_of_ldi(in, false_colours(found->second, in.ldi, lens));
+    });
 }
 
 PlanObject plan(const py::object &view, const py::kwargs &given) {
@@ -268,16 +182,13 @@ PlanObject plan(const py::object &view, const py::kwargs &given) {
     options.views = keywords.whole("views", 0, 64).value_or(options.views);
     options.margin = keywords.whole("margin", 0, 1024).value_or(options.margin);
     options.noise = keywords.number("noise", at_least_0);
-    options.across =
-        keywords.whole("supersample", 1, most_across).value_or(centre.camera.supersample.value_or(1));
-    const LensValues values = lens_values(keywords);
+    const auto across = keywords.whole("supersample", 1, most_across);
+    const LensValues lens = lens_values(keywords);
     const py::object progress = keywords.take("progress");
     keywords.done();
-    const Windows &windows = centre.view.image.windows;
-    const ThinLens lens = resolve_lens(camera_with_options(values, centre.camera), windows);
-    return job<PlanObject>(progress, [&](Progress &said) -> PlanObject {
-        return {make_plan(centre.view, lens, options, said),
-                {centre.view.name, windows, lens, options.margin, options.across}};
+    return told_job<PlanObject>(progress, [&](Progress &said, const Tell &tell) -> PlanObject {
+        PlannedViews made = plan_views(centre, options, lens, across, said, tell);
+        return {std::move(made.plan), std::move(made.setting)};
     });
 }
 

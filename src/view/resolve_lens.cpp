@@ -144,11 +144,9 @@ double views_radius(const Camera &camera) {
     return widest;
 }
 
-std::optional<std::string> warning_of_wide_lens(const Camera &camera, const ThinLens &lens) {
+bool sees_past_views(const Camera &camera, const ThinLens &lens) {
     const double widest = views_radius(camera);
-    if (widest == 0 || lens.radius <= 1.001 * widest) return {};
-    return "the aperture is larger than the one the views were rendered for; what it sees beyond them is "
-           "unknown";
+    return widest > 0 && lens.radius > 1.001 * widest;
 }
 
 } // namespace sparselens

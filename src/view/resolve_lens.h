@@ -53,8 +53,7 @@ std::optional<ThinLens> known_lens(const Camera &camera, const Windows &windows)
 // The radius of the lens from whose rim the views of an LDI looked, scene units; 0 if its camera does not say where they stood.
 double views_radius(const Camera &camera);
 
-// What to warn of where the lens sees past the views that its LDI was made of; empty if it does not, or if the camera does
-// not say where they stood.
-std::optional<std::string> warning_of_wide_lens(const Camera &camera, const ThinLens &lens);
+// Whether the lens sees past the views that its LDI was made of; it is not known to where the camera does not say where they stood.
+bool sees_past_views(const Camera &camera, const ThinLens &lens);
 
 } // namespace sparselens

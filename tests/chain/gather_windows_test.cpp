@@ -1,10 +1,10 @@
 // Growth with each look: the picture of an element is the same whether its data window is tight or large.
 #include "base/error.h"
+#include "chain/gather_windows.h"
 #include "deep/front_samples.h"
 #include "deep/pad.h"
 #include "dof/gather_picture.h"
 #include "io/files/memory_limit.h"
-#include "chain/gather_windows.h"
 #include "support/lens_ldi.h"
 #include "support/scratch_folder.h"
 
@@ -33,7 +33,7 @@ OpenedLdi element(double coc) {
 
 Image gathered(const OpenedLdi &in, const LensLooks &looks) {
     ThinLens by = lens;
-    GatherWindows frame = gather_windows({}, in, by);
+    GatherWindows frame = gather_windows({}, in);
     choose_windows(frame, {}, in, by, looks);
     PictureOptions options;
     options.gather.lens = {.lens_samples = 256, .looks = looks};
@@ -81,7 +81,7 @@ TEST(GatherWindows, HaveWholeBlocksOfSubpixels) {
     const auto made = [&](const WindowOptions &options) {
         ThinLens sharp = lens;
         sharp.radius = 0;
-        GatherWindows frame = gather_windows(options, in, sharp);
+        GatherWindows frame = gather_windows(options, in);
         choose_windows(frame, options, in, sharp, {});
         PictureOptions by;
         Progress silent;
@@ -121,7 +121,7 @@ TEST(GatherWindows, KeepTheLightOfPixelsThatAreCovered) {
             const WindowOptions options{.overscan = overscan, .supersample = 4, .filter = filter};
             ThinLens sharp = lens;
             sharp.radius = 0;
-            GatherWindows frame = gather_windows(options, in, sharp);
+            GatherWindows frame = gather_windows(options, in);
             choose_windows(frame, options, in, sharp, {});
             if (depth)
                 return frame.picture_of(crop(front_depth(frame.ldi(in)), frame.needed), depth_of_nothing);

@@ -1,8 +1,8 @@
 // Any words as a command line: the options that the tools share.
+#include "chain/channels.h"
 #include "fuzz/fuzz.h"
 #include "harness/commands/frames.h"
 #include "harness/tool.h"
-#include "chain/channels.h"
 #include "options/lens_options.h"
 #include "options/picture_options.h"
 #include "options/view_list.h"

@@ -6,13 +6,15 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
 # What there is, a word and what it is said of: `floor FOLDER_OR_FILE...`, the lowest first; `never FOLDER...: FOLDER...`; `public HEADER`, by its path in src/;
-# `folder PATH`; `file PATH`; `include FILE NAME`.
+# `folder PATH`; `file PATH`; `include FILE NAME`; `call FILE LINE NAME`, where a face does what src/chain does for all faces.
 facts() {
     sed -n '/^```floors$/,/^```$/{/^```/d;s/#.*//;s/^/floor /;p}' docs/code.md
     sed -n '/^```never$/,/^```$/{/^```/d;s/#.*//;s/:/ &/;s/^/never /;p}' docs/code.md
     sed -n '/^set(SPARSELENS_PUBLIC_HEADERS$/,/^)$/p' src/CMakeLists.txt | grep -oE '[a-z_/0-9]+\.h' | sed 's/^/public /'
     find src tools lab -path lab/tests -prune -o -type d -printf 'folder %p\n'
     find src tools lab -path lab/tests -prune -o -type f -printf 'file %p\n' | sort
+    { grep -rnoE --include=*.cpp --include=*.h '\b(gather_picture|gather_rows|lens_gather|make_plan|with_lens|choose_windows|border_reach)\(|->(gather|light)\(' src/python tools || true; } |
+        sed -E 's/^([^:]*):([0-9]*):(.*)\($/call \1 \2 \3/'
     find src tools lab -path lab/tests -prune -o '(' -name '*.h' -o -name '*.cpp' -o -name '*.cpp.in' ')' -print | sort | xargs grep -oH '^#include "[^"]*"' |
         sed -E 's/^([^:]*):#include "(.*)"/include \1 \2/'
 }
@@ -84,6 +86,7 @@ $1 == "never" {
 $1 == "public" { is_public["src/" $2] = 1; ++publics }
 $1 == "folder" { is_folder[$2] = 1 }
 $1 == "file" { is_file[$2] = 1 }
+$1 == "call" { fault($2 ":" $3 " calls " $4 ": ask src/chain") }
 $1 == "include" {
     ++includes
     check_floors($2, $3)

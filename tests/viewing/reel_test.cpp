@@ -13,7 +13,7 @@ namespace {
 const std::vector<std::string> five{"a", "b", "c", "d", "e"};
 
 ShotFrame frame_called(const std::string &path) {
-    ShotFrame frame{{{}, PackedRows(windows_of_size(250, 1))}};
+    ShotFrame frame{{}, PackedRows(windows_of_size(250, 1))};
     frame.in.name = path;
     Ldi ldi;
     ldi.windows = windows_of_size(250, 1);

@@ -28,7 +28,7 @@ GatherCommand draft_of(const std::string &path) {
 ShotFrame frame_of(Ldi ldi, ObjectNames names = {}) {
     OpenedLdi in;
     in.ldi = std::move(ldi);
-    ShotFrame frame{pack(std::move(in))};
+    ShotFrame frame = pack(std::move(in));
     frame.depths = {2, 8};
     frame.names = std::move(names);
     return frame;

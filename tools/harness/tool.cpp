@@ -1,5 +1,6 @@
 #include "harness/tool.h"
 
+#include "chain/words.h"
 #include "harness/commands/named_files.h"
 #include "harness/history.h"
 #include "harness/one_line.h"
@@ -27,6 +28,16 @@ std::string warning(const ToolContext &tool, const std::string &text) {
 
 void warn(const ToolContext &tool, const std::string &text) {
     tool.turn->say([line = warning(tool, text)] { fmt::print(stderr, "{}", line); });
+}
+
+Tell ToolContext::tell() const {
+    return [this](const Notice &notice) {
+        switch (level_of(notice)) {
+        case NoticeLevel::note: say(words_of(notice)); break;
+        case NoticeLevel::warning: warn(*this, words_of(notice)); break;
+        case NoticeLevel::once: warn_once(*this, fmt::to_string(int(notice.kind)), words_of(notice)); break;
+        }
+    };
 }
 
 void warn_once(const ToolContext &tool, const std::string &kind, const std::string &text) {

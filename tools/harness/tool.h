@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/progress.h"
+#include "chain/notices.h"
 #include "harness/commands/cli.h"
 #include "harness/in_turn.h"
 
@@ -35,6 +36,9 @@ struct ToolContext {
     // With --verbose, prints the line to stderr after the name of the tool.
     void say(const std::string &line) const;
     std::string tool_name;
+
+    // Prints what the chain says, notes with --verbose alone.
+    Tell tell() const;
 
     // All that it says is said in the turn of its frame; never null.
     std::shared_ptr<InTurn> turn = std::make_shared<InTurn>(true);

@@ -1,10 +1,10 @@
 #include "loading/region_file.h"
 
 #include "base/error.h"
+#include "chain/file_notices.h"
 #include "deep/front_samples.h"
 #include "deep/proxy.h"
 #include "io/open_ldi.h"
-#include "loading/notices.h"
 #include "measure/regions.h"
 
 #include <fmt/format.h>
@@ -14,8 +14,7 @@ namespace sparselens {
 std::vector<std::uint8_t> regions_over(const Windows &target, const std::string &file,
                                        const OpenOptions &options, const ToolContext &tool) {
     OpenedLdi in = open_ldi(file, options);
-    say_samples(tool, in);
-    warn_of_invalid_values(tool, file, in.bad);
+    tell_samples(tool.tell(), in);
     const auto has_size = [&](const Windows &windows) {
         return windows.display_width() == target.display_width() &&
                windows.display_height() == target.display_height();

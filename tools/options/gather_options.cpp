@@ -4,8 +4,7 @@
 #include "harness/examples.h"
 #include "harness/one_line.h"
 #include "harness/words.h"
-#include "chain/picture_looks.h"
-#include "options/chosen_device.h"
+#include "options/device_option.h"
 #include "options/picture_options.h"
 
 #include <CLI/CLI.hpp>
@@ -25,15 +24,10 @@ void check(const CLI::App &parsed, const GatherCommand &options) {
         return option && option->count() > 0;
     };
     try {
-        refuse_ignored(options.picture.method->name, is_given);
+        check_method(options, is_given);
     } catch (const UsageError &error) {
         throw CLI::ValidationError(with_options(error.what()));
     }
-    if (options.device != "cpu" && options.device != "auto" && !options.picture.method->on_devices)
-        throw CLI::ValidationError("--device " + options.device,
-                                   "works with --method lens and --method selective only");
-    if (options.show == Show::tiles && options.picture.method != &gather_methods().front())
-        throw CLI::ValidationError("--show tiles", "works with --method lens only");
 }
 
 void add_method_options(CLI::App &app, GatherCommand &options) {
@@ -91,6 +85,17 @@ void add_point_option(CLI::App &app, std::optional<Imath::V2d> &point) {
         ->group("Method lens");
 }
 
+void add_show_option(CLI::App &app, Show &show) {
+    const std::map<std::string, Show> shows{
+        {"coc", Show::coc}, {"focus", Show::focus}, {"layers", Show::layers}, {"tiles", Show::tiles}};
+    app.add_option(
+           "--show", show,
+           "Write false colours instead of the picture. coc: circle of confusion; focus: what is in focus; "
+           "layers: samples per pixel; tiles: lens points per tile, with --method lens")
+        ->type_name("coc|focus|layers|tiles")
+        ->transform(words(shows));
+}
+
 void add_gather_examples(CLI::App &app) {
     add_examples(
         app,
@@ -139,6 +144,7 @@ void add_gather_options(CLI::App &app, GatherCommand &options) {
         ->check(output_name(OutputKind::picture));
     app.add_option("--depth-out", options.depth_output, "Also write the depth of the front samples (EXR)")
         ->type_name("FILE.exr")
+        ->each([&options](const std::string &) { options.front_depth = true; })
         ->check(output_name(OutputKind::exr));
     add_recolor_option(app, options.recolor);
     add_type_option(app, options.type);

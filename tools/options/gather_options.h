@@ -1,14 +1,13 @@
 // The command line of dof-gather.
 #pragma once
 
-#include "dof/gather_picture.h"
+#include "chain/take_picture.h"
 #include "harness/commands/cli.h"
 #include "harness/history.h"
 #include "options/colour_options.h"
 #include "options/lens_options.h"
 #include "options/look_options.h"
 #include "options/picture_options.h"
-#include "options/show.h"
 #include "options/window_options.h"
 
 #include <optional>
@@ -16,21 +15,12 @@
 
 namespace sparselens {
 
-struct GatherCommand {
-    LensValues lens;
-    GivenLooks looks;
-    DepthOptions depth;
-    ColourOptions colour;
-    WindowOptions windows;
-    HistoryOptions history;
-    PictureOptions picture;     // without the holdout, which is a file
-    std::string device = "cpu"; // as choose_device() has it
-    std::string input, recolor, output, depth_output, channels, holdout;
-    std::optional<Imath::V2i> focus_pixel;
-    std::optional<PixelType> type; // -d
-    AskedCompression compression;
+struct GatherCommand : PictureRequest {
+    HistoryOptions history = {};
+    std::string output = {}, depth_output = {};
+    std::optional<PixelType> type = {}; // -d
+    AskedCompression compression = {};
     int tiles = 0; // pixels to a side; 0: scanlines
-    Show show = Show::picture;
 };
 
 // `options` must stay where it is until the command line is parsed, which throws where options contradict each other.

@@ -1,6 +1,5 @@
 #include "options/lens_options.h"
 
-#include "base/error.h"
 #include "harness/words.h"
 
 #include <CLI/CLI.hpp>
@@ -79,18 +78,6 @@ void add_depth_files_option(CLI::App &app, std::vector<std::string> &files) {
         ->type_name("FILE.exr")
         ->allow_extra_args(false)
         ->group("Lens");
-}
-
-std::vector<DepthOptions> depths_of_pictures(const DepthOptions &depth, const std::vector<std::string> &files,
-                                             std::size_t pictures) {
-    if (!files.empty() && files.size() != pictures)
-        throw UsageError(
-            fmt::format("--depth-file: there are {} of them for {} pictures; give one for each, in the "
-                        "order of the pictures",
-                        files.size(), pictures));
-    std::vector<DepthOptions> each(pictures, depth);
-    for (std::size_t i = 0; i < files.size(); ++i) each[i].picture.depth_file = files[i];
-    return each;
 }
 
 void add_picture_choice(CLI::App &app, PictureChoice &picture) {

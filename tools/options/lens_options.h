@@ -22,11 +22,6 @@ void add_picture_choice(CLI::App &app, PictureChoice &picture);
 void add_depth_file_option(CLI::App &app, std::string &file);
 void add_depth_files_option(CLI::App &app, std::vector<std::string> &files);
 
-// The options for each picture, whose depths are in the files where there are any. Throws UsageError where there are more or
-// fewer files than pictures.
-std::vector<DepthOptions> depths_of_pictures(const DepthOptions &depth, const std::vector<std::string> &files,
-                                             std::size_t pictures);
-
 CLI::Validator number(NumberRange range);
 
 // Of a table.

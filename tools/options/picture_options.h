@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/image.h"
-#include "dof/methods.h"
+#include "chain/take_picture.h"
 #include "harness/commands/cli.h"
 #include "io/exr/compression.h"
 #include "io/output_name.h"

@@ -1,9 +1,9 @@
 // The command line of ldi-plan.
 #pragma once
 
+#include "chain/plan_views.h"
 #include "harness/commands/cli.h"
 #include "options/lens_options.h"
-#include "plan/plan.h"
 
 #include <optional>
 #include <string>

@@ -3,7 +3,6 @@
 
 #include "harness/commands/cli.h"
 
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,8 +12,6 @@ namespace sparselens {
 struct ViewList {
     std::vector<std::string> files;                          // the centre view first
     std::vector<std::pair<std::string, std::string>> placed; // "X,Y" and a file
-    std::optional<int> supersample = {};  // pixels of all, across and down, in one of the picture
-    std::vector<std::string> depth_files; // of all views, these before those; or none
 };
 
 void add_view_list(CLI::App &app, ViewList &list);

@@ -2,7 +2,7 @@
 
 #include "harness/examples.h"
 #include "harness/words.h"
-#include "options/chosen_device.h"
+#include "options/device_option.h"
 #include "options/picture_options.h"
 
 #include <CLI/CLI.hpp>
@@ -28,25 +28,25 @@ void add_warp_options(CLI::App &app, WarpCommand &options) {
         ->type_name("LAYER")
         ->excludes("--denoised");
     const std::map<std::string, Merge> merges{{"average", Merge::average}, {"keep", Merge::keep}};
-    app.add_option("--merge", options.merge,
+    app.add_option("--merge", options.warp.merge,
                    "How to merge views. average: average the views of a surface; keep: keep one sample per "
                    "surface and leave the centre view unchanged (default: average)")
         ->type_name("average|keep")
         ->transform(words(merges));
     const std::map<std::string, bool> silhouettes{{"split", true}, {"whole", false}};
-    app.add_option("--silhouettes", options.split_silhouettes,
+    app.add_option("--silhouettes", options.warp.split_silhouettes,
                    "With --merge average, pixels that mix two surfaces. split: make them two samples; whole: "
                    "leave them one (default: split)")
         ->type_name("split|whole")
         ->transform(words(silhouettes));
     const std::map<std::string, bool> agreement{{"test", true}, {"assume", false}};
-    app.add_option("--agreement", options.test_photo_consistency,
+    app.add_option("--agreement", options.warp.test_photo_consistency,
                    "With --merge average, views that disagree (mirrors, glass). test: average only views "
                    "that agree within noise or near focus; assume: average all (default: test)")
         ->type_name("test|assume")
         ->transform(words(agreement));
     const std::map<std::string, bool> optical{{"on", true}, {"off", false}};
-    app.add_option("--optical", options.find_images,
+    app.add_option("--optical", options.warp.find_images,
                    "With --agreement test, images in mirrors and glass. on: estimate their depth and blur "
                    "them by it; off: blur them by the depth of the surface (default: on)")
         ->type_name("on|off")
@@ -60,10 +60,10 @@ void add_warp_options(CLI::App &app, WarpCommand &options) {
     add_device_option(app, options.device, "Device that warps");
     add_compression_option(app, options.compression, true);
     add_lens_options(app, options.lens);
-    add_subpixels_option(app, options.views.supersample);
+    add_subpixels_option(app, options.supersample);
     add_depth_options(app, options.depth);
-    add_depth_files_option(app, options.views.depth_files);
-    add_input_colour_options(app, options.colour);
+    add_depth_files_option(app, options.depth_files);
+    add_input_colour_options(app, options.colour.emplace());
     add_history_option(app, options.history);
     add_examples(
         app, {{"Warp views with their camera in the metadata", "ldi-warp center.exr view_*.exr -o ldi.exr"},

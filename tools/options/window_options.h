@@ -1,8 +1,8 @@
 // The options of a picture's pixels and size.
 #pragma once
 
-#include "harness/commands/cli.h"
 #include "chain/gather_windows.h"
+#include "harness/commands/cli.h"
 
 namespace sparselens {
 

@@ -1,38 +1,24 @@
 // The LDIs that are looked at: loaded once, gathered as often as somebody asks.
 #pragma once
 
+#include "chain/devices.h"
+#include "chain/take_picture.h"
 #include "harness/tool.h"
-#include "io/display/colour.h"
 #include "io/display/shown_picture.h"
-#include "chain/gather_windows.h"
-#include "options/chosen_device.h"
 #include "options/gather_options.h"
 #include "viewing/reel.h"
 
 #include <deque>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
 namespace sparselens {
 
 // A picture through a lens: linear R, G, B and A.
-struct TakenPicture {
-    Image image;
-    Camera camera; // with its focus
-    ThinLens lens; // for pixels of the full-size picture
-    DepthExtent depths;
+struct ShotPicture : TakenPicture {
+    DepthExtent depths = {};
     std::vector<std::string> warnings = {};
-};
-
-// What it is gathered from: samples of its own, which pixels, and the lens in them.
-struct Subject {
-    OpenedLdi in;
-    GatherWindows windows;
-    ThinLens lens;
-
-    Ldi &ldi() { return windows.changed ? *windows.changed : in.ldi; }
 };
 
 class Shot {
@@ -46,31 +32,23 @@ public:
 
     // What dof-gather would write; by one thread at a time. Throws as that does, and what `progress` throws. Who watches is told of
     // pixels of the picture, where those are what is gathered.
-    TakenPicture taken(const GatherCommand &options, const ToolContext &tool, Progress &progress,
-                       const TileWatch *watch = nullptr);
+    ShotPicture taken(const GatherCommand &options, const ToolContext &tool, Progress &progress,
+                      const TileWatch *watch = nullptr);
 
     // As PNG shows linear colours of the frame's space, after `exposure` stops.
     static ShownPixels displayed(Image image, double exposure, const ShotFrame &frame);
 
 private:
-    Subject subject(const GatherCommand &options, const Reel::Held &frame, const Camera &camera);
     // A frame as small as a proxy of it is.
     struct Small {
         std::weak_ptr<const ShotFrame> of; // which is held by the reel alone
         int proxy;
-        PackedLdi ldi;
+        PackedRows ldi;
         GatherWindows windows;
     };
-    const Small &small(const Reel::Held &frame, const WindowOptions &options);
-    LensFile looks_of(const GivenLooks &given, std::optional<double> fstop);
+    GatherWindows small(const Reel::Held &frame, const WindowOptions &options);
     const Ldi *holdout(const GatherCommand &options, const Reel::Held &frame);
 
-    // The files beside the LDI, as they were last read.
-    struct ReadLooks {
-        std::string lens, aperture;
-        std::optional<double> fstop;
-        LensFile said;
-    };
     struct ReadHoldout {
         std::string path;
         std::weak_ptr<const ShotFrame> of;
@@ -79,9 +57,9 @@ private:
     };
 
     Reel reel_;
-    ChosenGatherDevice device_;
+    GatherDevice device_;
     std::deque<Small> small_; // the last few
-    std::optional<ReadLooks> looks_;
+    LooksReader looks_;
     std::deque<ReadHoldout> holdouts_; // the last few
 };
 

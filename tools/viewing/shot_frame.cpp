@@ -2,8 +2,6 @@
 
 #include "base/error.h"
 #include "deep/front_samples.h"
-#include "io/camera/camera_read.h"
-#include "chain/channels.h"
 
 #include <ImfStringAttribute.h>
 #include <nlohmann/json.hpp>
@@ -52,16 +50,28 @@ DepthExtent depth_extent(const Ldi &ldi) {
     return extent.farthest > 0 ? extent : DepthExtent{};
 }
 
-Ldi PackedLdi::row(int y) const { return packed.rows(y, y); }
+Ldi all_rows(const PackedRows &rows) {
+    const Imath::Box2i &data = rows.windows().data;
+    return rows.rows(data.min.y, data.max.y);
+}
 
-OpenedLdi PackedLdi::unpacked() const {
+Ldi ShotFrame::row(int y) const { return packed.rows(y, y); }
+
+OpenedLdi ShotFrame::unpacked() const {
     OpenedLdi all = in;
-    const Imath::Box2i &data = packed.windows().data;
-    all.ldi = packed.rows(data.min.y, data.max.y);
+    all.ldi = all_rows(packed);
     return all;
 }
 
-PackedLdi pack(OpenedLdi in) {
+Camera ShotFrame::camera(const PictureRequest &request) const {
+    return picture_camera(request, in, [this](const Imath::V2i &at) { return front_depth(row(at.y), at); });
+}
+
+ThinLens ShotFrame::lens(const PictureRequest &request) const {
+    return picture_lens(request, in, camera(request));
+}
+
+ShotFrame pack(OpenedLdi in) {
     PackedRows rows(in.ldi.windows);
     rows.append(in.ldi);
     Ldi bare;
@@ -71,31 +81,16 @@ PackedLdi pack(OpenedLdi in) {
     return {std::move(in), std::move(rows)};
 }
 
-Camera ShotFrame::camera(const GatherCommand &options) const {
-    Camera camera = camera_with_options(options.lens, read_camera(in.header));
-    if (options.focus_pixel) {
-        const Imath::V2i at = middle_subpixel(*options.focus_pixel, across);
-        const float z = in.ldi.windows.data.intersects(at) ? front_depth(row(at.y), at) : 0;
-        if (!(z > 0)) throw UsageError("--focus-pixel: " + in.name + " has no sample there");
-        camera.focus_distance = double(z);
-    }
-    return camera;
-}
-
-ThinLens ShotFrame::lens(const Camera &camera) const {
-    ThinLens lens = resolve_lens(camera, in.ldi.windows);
-    lens.focal_px /= across;
-    return lens;
-}
-
 ShotFrame shot_frame(OpenedLdi in, const WindowOptions &windows, const ColourOptions &colour) {
     if (!all_found(find_rgb(in.ldi.channels)))
         throw Error(in.name + ": needs the channels R, G and B, which are what is shown");
     const DepthExtent depths = depth_extent(in.ldi);
-    const int across = subpixels_of(windows, in).across;
-    ObjectNames names = object_names(in.header);
-    ColourTransform to_display = output_transform(colour, in.header);
-    return {pack(std::move(in)), across, depths, std::move(names), std::move(to_display)};
+    ShotFrame frame = pack(std::move(in));
+    frame.across = subpixels_of(windows, frame.in).across;
+    frame.depths = depths;
+    frame.names = object_names(frame.in.header);
+    frame.to_display = output_transform(colour, frame.in.header);
+    return frame;
 }
 
 } // namespace sparselens

@@ -22,26 +22,26 @@ struct DepthExtent {
 };
 DepthExtent depth_extent(const Ldi &ldi);
 
-// An LDI in half the memory.
-struct PackedLdi {
+Ldi all_rows(const PackedRows &rows);
+
+// The LDI is held in half the memory.
+struct ShotFrame {
     OpenedLdi in;      // without its samples,
     PackedRows packed; // which are here
-
-    Ldi row(int y) const; // of the data window
-    OpenedLdi unpacked() const;
-};
-PackedLdi pack(OpenedLdi in);
-
-struct ShotFrame : PackedLdi {
-    int across = 1; // sub-pixels of the LDI that become one pixel
+    int across = 1;    // sub-pixels of the LDI that become one pixel
     DepthExtent depths = {};
     ObjectNames names = {};
     ColourTransform to_display = {}; // of its colours, as PNG shows them
 
+    Ldi row(int y) const; // of the data window
+    OpenedLdi unpacked() const;
+
     // The camera and the lens of its picture. Throws as dof-gather does.
-    Camera camera(const GatherCommand &options) const;
-    ThinLens lens(const Camera &camera) const; // for pixels of the picture
+    Camera camera(const PictureRequest &request) const;
+    ThinLens lens(const PictureRequest &request) const; // for pixels of the picture
 };
+
+ShotFrame pack(OpenedLdi in); // nothing else is known of it
 
 // Throws Error where it has no R, G and B, which are what is shown.
 ShotFrame shot_frame(OpenedLdi in, const WindowOptions &windows, const ColourOptions &colour);

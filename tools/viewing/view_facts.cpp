@@ -60,7 +60,7 @@ Json short_number(float value) {
 
 Json json_number(double value) { return std::isfinite(value) ? Json(value) : Json("inf"); }
 
-Json lens_facts(const TakenPicture &picture) {
+Json lens_facts(const ShotPicture &picture) {
     const ThinLens &lens = picture.lens;
     const SharpRange sharp = sharp_range(lens, sharp_px);
     const double largest = std::max(std::abs(circle_of_confusion(lens, picture.depths.nearest)),

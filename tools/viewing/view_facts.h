@@ -10,7 +10,7 @@
 namespace sparselens {
 
 // Focus, f-number, what is sharp (a CoC of at most a pixel), hyperfocal distance, the largest CoC, warnings.
-nlohmann::json lens_facts(const TakenPicture &picture);
+nlohmann::json lens_facts(const ShotPicture &picture);
 
 // The samples of a pixel of the picture (of its middle sub-pixel), front to back: depth, CoC, alpha, colour, objects.
 nlohmann::json sample_facts(const ShotFrame &frame, const ThinLens &lens, const Imath::V2i &pixel);

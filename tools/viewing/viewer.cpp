@@ -138,8 +138,8 @@ std::string Viewer::facts(const Asked &asked) {
     return facts.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-std::shared_ptr<const TakenPicture> Viewer::taken(const Words &words, const GatherCommand &command,
-                                                  Progress &progress, const TileWatch *watch) {
+std::shared_ptr<const ShotPicture> Viewer::taken(const Words &words, const GatherCommand &command,
+                                                 Progress &progress, const TileWatch *watch) {
     {
         const std::lock_guard lock(last_mutex_);
         if (last_ && last_->words == words) return last_->picture;
@@ -148,7 +148,7 @@ std::shared_ptr<const TakenPicture> Viewer::taken(const Words &words, const Gath
         const std::lock_guard lock(last_mutex_);
         last_.reset();
     }
-    const auto picture = std::make_shared<const TakenPicture>(shot_.taken(command, tool_, progress, watch));
+    const auto picture = std::make_shared<const ShotPicture>(shot_.taken(command, tool_, progress, watch));
     const std::lock_guard lock(last_mutex_);
     last_ = Last{words, command.windows.proxy, picture};
     return picture;
@@ -237,7 +237,7 @@ std::string Viewer::samples(const Asked &asked) {
     if (!asked.pixel) throw UsageError("the request: it says no pixel");
     const GatherCommand command = command_of(words_of(asked));
     const Reel::Held frame = shot_.frame(command);
-    Json said{{"samples", sample_facts(*frame, frame->lens(frame->camera(command)), *asked.pixel)}};
+    Json said{{"samples", sample_facts(*frame, frame->lens(command), *asked.pixel)}};
     const std::lock_guard lock(last_mutex_);
     if (last_ && std::ranges::find(last_->words, command.input) != last_->words.end()) {
         const Image &image = last_->picture->image;
@@ -283,7 +283,7 @@ std::optional<std::string> Viewer::save(const Asked &asked) {
             path = std::filesystem::path(options_.save) /
                    fmt::format("{}.{:04}.png", stem_of(command.input), ++saved_);
         while (std::filesystem::exists(path));
-        write_picture(tool_, command.colour, path.string(), std::move(image),
+        write_picture(tool_.tell(), command.colour, path.string(), std::move(image),
                       shot_.frame(command)->in.header);
         return Json{{"file", path.string()}}.dump(-1, ' ', false, Json::error_handler_t::replace);
     });

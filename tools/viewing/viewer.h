@@ -60,8 +60,8 @@ private:
     Words words_of(const Asked &asked) const;
     GatherCommand command_of_frame(const Asked &asked) const;
     const Image &reference_of(const std::string &path); // while its mutex is held
-    std::shared_ptr<const TakenPicture> taken(const Words &words, const GatherCommand &command,
-                                              Progress &progress, const TileWatch *watch = nullptr);
+    std::shared_ptr<const ShotPicture> taken(const Words &words, const GatherCommand &command,
+                                             Progress &progress, const TileWatch *watch = nullptr);
     void add_piece(const Asked &asked, const ShotFrame &frame, const Image &picture,
                    const Imath::Box2i &tile);
     std::string answer(const Words &words, const Asked &asked, Progress &progress);
@@ -82,7 +82,7 @@ private:
     struct Last {
         Words words;
         int proxy = 1;
-        std::shared_ptr<const TakenPicture> picture;
+        std::shared_ptr<const ShotPicture> picture;
     };
     mutable std::mutex last_mutex_;
     std::optional<Last> last_;

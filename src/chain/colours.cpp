@@ -1,0 +1,138 @@
+#include "chain/colours.h"
+
+#include "base/error.h"
+#include "deep/packed_view.h"
+#include "io/display/shown_picture.h"
+#include "io/display/stated_space.h"
+#include "io/exr/exr_flat.h"
+#include "io/files/file_stream.h"
+
+#include <ImfStandardAttributes.h>
+#include <ImfStringAttribute.h>
+
+#include <mutex>
+#include <optional>
+
+namespace sparselens {
+
+namespace {
+
+bool is_pipe(const std::string &path) { return path == "-" || path == display_name("-"); }
+
+// The configuration; none where $OCIO names one that cannot be read, and nothing but a guess needs it.
+std::optional<ColourConfig> config_if_readable(const Tell &tell, const ColourOptions &options) {
+    try {
+        return ColourConfig(options.config);
+    } catch (const Error &error) {
+        if (!options.config.empty() || !options.input_space.empty()) throw;
+        static std::once_flag said; // of all files
+        std::call_once(said, [&] {
+            tell({.kind = NoticeKind::no_colorconfig, .values = {error.what()}, .parameter = "colorconfig"});
+        });
+        return {};
+    }
+}
+
+struct LinearColours {
+    Imf::Header header;                            // says in which space they are
+    std::optional<ColourTransform> transform = {}; // to there; empty: there is nothing to do
+};
+
+LinearColours linear_colours(const Tell &tell, const ColourOptions &options, const std::string &path,
+                             const Imf::Header &header) {
+    const bool says = states_space(header), asked = !options.input_space.empty();
+    const bool ours = header.findTypedAttribute<Imf::StringAttribute>("sparselens:version") != nullptr;
+    if (!asked && !says && (ours || is_pipe(path))) return {header};
+    const std::optional<ColourConfig> readable = config_if_readable(tell, options);
+    if (!readable) return {header};
+    const ColourConfig &config = *readable;
+    std::string from = options.input_space;
+    if (const auto stated = stated_space(config, header); stated && !asked) {
+        if (!stated->space) {
+            tell({NoticeKind::unnamed_space, display_name(path), {stated->attribute}, "colorspace"});
+            return {header};
+        }
+        from = *stated->space;
+    }
+    if (from.empty()) from = config.space_of_file(path);
+    tell({NoticeKind::colour_space, display_name(path), {from}});
+    const auto own = config.chromaticities_of(from);
+    const std::string to = own ? from : config.scene_linear();
+    // A file without the attribute is of Rec.709, by the definition of OpenEXR, and need not say so.
+    const bool silent =
+        own && !asked && !says && config.linear_space({}) == from && config.scene_linear() == from;
+    LinearColours result{silent ? header : with_space(config, header, to)};
+    if (!own) result.transform = config.between(from, to);
+    return result;
+}
+
+// The space of pixels that to_linear() has seen, or that have never been in a file.
+std::string space_of(const ColourConfig &config, const Imf::Header &header) {
+    if (!Imf::hasChromaticities(header)) return config.scene_linear();
+    return config.linear_space(Imf::chromaticities(header)).value_or(config.scene_linear());
+}
+
+ColourTransform output_transform(const ColourConfig &config, const ColourOptions &options,
+                                 const std::string &from) {
+    return options.output_space.empty() ? config.to_display(options.display, options.view, from)
+                                        : config.between(from, options.output_space);
+}
+
+} // namespace
+
+Imf::Header to_linear(const Tell &tell, const ColourOptions &options, const std::string &path,
+                      const Imf::Header &header, Ldi &ldi) {
+    LinearColours to = linear_colours(tell, options, path, header);
+    const std::vector<std::span<float>> planes(ldi.values.begin(), ldi.values.end());
+    if (to.transform) transform_colours(*to.transform, ldi.channels, planes);
+    return std::move(to.header);
+}
+
+bool is_linear(const Tell &tell, const ColourOptions &options, const std::string &path,
+               const Imf::Header &header) {
+    return !linear_colours(tell, options, path, header).transform;
+}
+
+Imf::Header to_linear(const Tell &tell, const ColourOptions &options, const std::string &path,
+                      const Imf::Header &header, PackedView &view) {
+    LinearColours to = linear_colours(tell, options, path, header);
+    if (!to.transform) return std::move(to.header);
+    View whole = unpacked(view);
+    transform_colours(*to.transform, whole.image);
+    view = PackedView(std::move(whole));
+    return std::move(to.header);
+}
+
+Imf::Header to_linear(const Tell &tell, const ColourOptions &options, const std::string &path,
+                      const Imf::Header &header, Image &image) {
+    LinearColours to = linear_colours(tell, options, path, header);
+    if (to.transform) transform_colours(*to.transform, image);
+    return std::move(to.header);
+}
+
+ColourTransform output_transform(const ColourOptions &options, const Imf::Header &metadata) {
+    const ColourConfig config(options.config);
+    return output_transform(config, options, space_of(config, metadata));
+}
+
+std::size_t write_picture(const Tell &tell, const ColourOptions &options, const std::string &path,
+                          Image image, const Imf::Header &metadata,
+                          std::optional<Imf::Compression> compression, int tiles) {
+    const bool shown = is_shown_picture(path);
+    if (!shown && !(options.display.empty() && options.view.empty()))
+        throw UsageError("`display` and `view_transform` apply to PNG, JPEG and TIFF, not to " + path);
+    if (shown && compression) throw UsageError("`compression` applies to EXR, not to " + path);
+    if (shown && tiles > 0) throw UsageError("`tiles` applies to EXR, not to " + path);
+    Imf::Header header = metadata;
+    if (shown || !options.output_space.empty()) {
+        const ColourConfig config(options.config);
+        transform_colours(output_transform(config, options, space_of(config, metadata)), image);
+        header = with_space(config, metadata, options.output_space);
+    }
+    if (!shown) return write_flat_exr(path, image, header, compression, tiles);
+    write_shown_picture(path, image);
+    tell({NoticeKind::displayed, path});
+    return 0;
+}
+
+} // namespace sparselens

@@ -1,0 +1,58 @@
+#include "chain/file_notices.h"
+
+#include "chain/layer_notes.h"
+#include "dof/border_reach.h"
+#include "io/files/file_stream.h"
+
+namespace sparselens {
+
+void tell_reading(const Tell &tell, const std::string &path, const std::vector<std::string> &notes,
+                  const std::vector<std::string> &warnings) {
+    for (const std::string &note : notes) tell({NoticeKind::file_note, display_name(path), {note}});
+    for (const std::string &warning : warnings)
+        tell({NoticeKind::file_warning, display_name(path), {warning}});
+}
+
+void tell_layers(const Tell &tell, const std::string &path, std::span<const Channel> channels) {
+    for (const std::string &note : layer_notes(channels))
+        tell({NoticeKind::file_note, display_name(path), {note}});
+}
+
+void tell_samples(const Tell &tell, const OpenedLdi &in) {
+    tell_reading(tell, in.name, in.notes, in.warnings);
+    tell_layers(tell, in.name, in.ldi.channels);
+    if (in.coverage_by_colour) tell({NoticeKind::coverage_by_colour, in.name});
+    tell_invalid_values(tell, in.name, in.bad);
+}
+
+void tell_camera(const Tell &tell, const std::string &path, const Camera &camera) {
+    for (const std::string &found : camera.found) tell({NoticeKind::camera, display_name(path), {found}});
+    for (const auto &[parameter, reason] : camera.unsure)
+        tell({NoticeKind::camera_unsure, display_name(path), {reason}, parameter});
+}
+
+void tell_warnings(const Tell &tell, const std::vector<std::string> &warnings) {
+    for (const std::string &warning : warnings)
+        tell({.kind = NoticeKind::picture_warning, .values = {warning}});
+}
+
+void tell_border_reach(const Tell &tell, const std::string &path, const Ldi &ldi, const ThinLens &lens,
+                       int across, const LensLooks &looks) {
+    const BorderReach reach = border_reach(ldi, lens, looks);
+    if (reach.needed == 0) return;
+    const bool can_be_rendered = reach.needed <= ldi.windows.display_width(); // else depths or lens are wrong
+    const bool missing = reach.too_little() && reach.bright && can_be_rendered;
+    tell({missing ? NoticeKind::missing_overscan : NoticeKind::overscan,
+          display_name(path),
+          {double(pieces_of(reach.needed, across)), double(reach.rendered / across)}});
+}
+
+void tell_clamped(const Tell &tell, const std::string &path, std::size_t clamped) {
+    if (clamped > 0) tell({NoticeKind::clamped, display_name(path), {clamped}});
+}
+
+void tell_invalid_values(const Tell &tell, const std::string &path, const InvalidValues &bad) {
+    if (bad.any()) tell({NoticeKind::file_warning, display_name(path), {bad.text()}});
+}
+
+} // namespace sparselens

@@ -1,0 +1,39 @@
+// What is said of files that are read and written.
+#pragma once
+
+#include "chain/notices.h"
+#include "io/open_ldi.h"
+#include "lens/lens_looks.h"
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace sparselens {
+
+// The notes and warnings of the reader of a file.
+void tell_reading(const Tell &tell, const std::string &path, const std::vector<std::string> &notes,
+                  const std::vector<std::string> &warnings);
+
+// What happens to each layer.
+void tell_layers(const Tell &tell, const std::string &path, std::span<const Channel> channels);
+
+// Both of an LDI, whether it has per-channel alpha, and the values that were invalid.
+void tell_samples(const Tell &tell, const OpenedLdi &in);
+
+// What the file says about its camera, and which attribute says so.
+void tell_camera(const Tell &tell, const std::string &path, const Camera &camera);
+
+// What checks found in pictures (deep/checks/view_warnings.h).
+void tell_warnings(const Tell &tell, const std::vector<std::string> &warnings);
+
+// How much overscan the blur needs, in pixels of `across` sub-pixels; a warning if there is too little, and light stands at the border
+// whose disc would be cut.
+void tell_border_reach(const Tell &tell, const std::string &path, const Ldi &ldi, const ThinLens &lens,
+                       int across, const LensLooks &looks);
+
+// Each says something only if there is anything to say. `clamped` is the result of write_flat_exr or write_ldi.
+void tell_clamped(const Tell &tell, const std::string &path, std::size_t clamped);
+void tell_invalid_values(const Tell &tell, const std::string &path, const InvalidValues &bad);
+
+} // namespace sparselens

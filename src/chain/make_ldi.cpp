@@ -1,0 +1,200 @@
+#include "chain/make_ldi.h"
+
+#include "base/error.h"
+#include "base/in_order.h"
+#include "chain/devices.h"
+#include "chain/file_notices.h"
+#include "deep/checks/view_warnings.h"
+#include "deep/rounded.h"
+#include "io/camera/camera_write.h"
+#include "warp/reprojected_views.h"
+
+#include <fmt/format.h>
+
+namespace sparselens {
+
+namespace {
+
+// The views on the lens, and what the files say of them.
+struct PlacedViews {
+    std::vector<PackedView> views; // the centre view first
+    Imf::Header header;            // of the centre view
+    Camera camera;                 // of the centre view, with the lens points of all views
+    DepthMeaning depth = DepthMeaning::planar;
+    bool depth_filtered = false, unpremultiplied = false;            // of the centre view, see OpenedView
+    std::vector<InvalidValues> bad = {};                             // of each file
+    std::vector<std::vector<std::string>> notes = {}, warnings = {}; // of each file
+};
+
+// What is known of a view, with its pixels packed.
+struct PackedFile {
+    OpenedView opened; // without pixels
+    PackedView view;
+
+    explicit PackedFile(OpenedView file) : opened(std::move(file)), view(std::move(opened.view)) {}
+};
+
+void add(PlacedViews &to, PackedFile &file) {
+    OpenedView &opened = file.opened;
+    to.views.push_back(std::move(file.view));
+    to.bad.push_back(opened.bad);
+    to.notes.push_back(std::move(opened.notes));
+    to.warnings.push_back(std::move(opened.warnings));
+}
+
+void describe_as(const OpenedView &centre, PlacedViews &to) {
+    to.header = centre.header;
+    to.depth = centre.depth;
+    to.depth_filtered = centre.depth_filtered;
+    to.unpremultiplied = centre.unpremultiplied;
+}
+
+Camera with_subpixels(Camera camera, const LdiFromViews &request) {
+    if (request.supersample) camera.supersample = request.supersample;
+    return camera;
+}
+
+constexpr std::size_t not_packed_yet = 2; // views in memory: packed they take half
+
+// The position of a view is the one given, else that of worldToCamera (see position_on_lens, whose errors are thrown).
+// Its framing comes from its metadata, else it is that of the centre view.
+PlacedViews open_views(const LdiFromViews &request) {
+    std::vector<std::optional<Imath::V2d>> positions(request.files.size());
+    std::vector<std::string> paths = request.files;
+    for (const auto &[position, path] : request.placed) {
+        positions.push_back(position);
+        paths.push_back(path);
+    }
+    const std::vector<DepthOptions> depths =
+        depths_of_pictures(request.depth, request.depth_files, paths.size());
+    PackedFile centre(open_view(paths[0], {request.lens, depths[0]}));
+    const Camera camera = with_subpixels(centre.opened.camera, request);
+    PlacedViews placed;
+    describe_as(centre.opened, placed);
+    std::vector<StatedView> stated{{paths[0], camera, positions[0]}};
+    add(placed, centre);
+    in_order(
+        paths.size() - 1, // the rim views: while one is decompressed, the depths of another are settled
+        [&](std::size_t n) {
+            return PackedFile(open_view(paths[n + 1], {request.lens, depths[n + 1]}, camera));
+        },
+        [&](std::size_t n, PackedFile next) {
+            stated.push_back({paths[n + 1], with_subpixels(next.opened.camera, request), positions[n + 1]});
+            add(placed, next);
+        },
+        not_packed_yet);
+    placed.camera = place_views(placed.views, stated);
+    return placed;
+}
+
+PlacedViews copies_of(std::span<const ViewInMemory> views, const LdiFromViews &request) {
+    PlacedViews placed;
+    describe_as(*views[0].view, placed);
+    std::vector<StatedView> stated;
+    for (const ViewInMemory &in : views) {
+        placed.views.emplace_back(View(in.view->view));
+        const Camera camera = camera_with_options(request.lens, in.view->camera);
+        stated.push_back({in.view->view.name, with_subpixels(camera, request), in.position});
+    }
+    placed.camera = place_views(placed.views, stated);
+    return placed;
+}
+
+// Views whose framing differs from that of the centre view: a frustum that is misread makes ghosts, too.
+void tell_framings(const Tell &tell, std::span<const PackedView> views) {
+    for (const PackedView &view : views.subspan(1)) {
+        const Framing &centre = views[0].framing, &own = view.framing;
+        if (own == Framing{.principal_point = centre.principal_point}) continue;
+        const Imath::V2d axis = in_pixels(own.principal_point, view.samples.windows) -
+                                in_pixels(centre.principal_point, view.samples.windows);
+        tell({NoticeKind::framing, view.name, {axis.x, axis.y, own.zoom, own.forward}});
+    }
+}
+
+void tell_views(const Tell &tell, const PlacedViews &in) {
+    tell_camera(tell, in.views[0].name, in.camera);
+    tell_framings(tell, in.views);
+    for (std::size_t i = 0; i < in.notes.size(); ++i) {
+        tell_reading(tell, in.views[i].name, in.notes[i], in.warnings[i]);
+        tell_invalid_values(tell, in.views[i].name, in.bad[i]);
+    }
+    tell_layers(tell, in.views[0].name, in.views[0].samples.channels);
+}
+
+std::size_t pixels_given(const ViewSamples &view) {
+    std::size_t count = 0;
+    const std::size_t alpha = view.alpha();
+    for (std::size_t i = 0; i < view.windows.pixels(); ++i) count += alpha_at(view, alpha, i) > 0;
+    return count;
+}
+
+// What the views give to the warp, which takes their pixels.
+void count_given(std::span<const PackedView> views, MadeLdi &out) {
+    out.views = views.size();
+    out.all_pixels = views.size() * views[0].samples.windows.pixels();
+    for (const PackedView &view : views) {
+        const std::size_t pixels = pixels_given(view.samples);
+        out.pixels_given += pixels;
+        out.empty_views += pixels == 0 ? 1 : 0;
+    }
+}
+
+void warp_views(PlacedViews &in, const LdiFromViews &request, const WarpWork &work, MadeLdi &out) {
+    const WarpOptions by = with_lens(request.warp, in.camera, in.views);
+    const auto warp_by = [&](WarpDevice *device) {
+        WarpOptions with = by;
+        with.device = device;
+        out.ldi = warp(std::move(in.views), with, work.progress);
+    };
+    if (work.device)
+        work.device->with(request.device, work.tell, warp_by);
+    else
+        warp_by(nullptr);
+    if (request.round_for_lens) round_for_lens(out.ldi, scale_in_picture(by));
+}
+
+MadeLdi made_of(PlacedViews in, const LdiFromViews &request, const WarpWork &work) {
+    check_views(in.views); // before anything is said of views that do not go together
+    tell_views(work.tell, in);
+    MadeLdi out;
+    out.header = in.header;
+    for (PackedView &view : in.views)
+        if (request.colour) out.header = to_linear(work.tell, *request.colour, view.name, in.header, view);
+    out.camera = in.camera;
+    write_camera(out.header, out.camera);
+    write_picture_window(out.header, in.views[0].samples.windows.data);
+    const std::vector<std::string> warnings =
+        view_warnings(in.views, {in.depth, in.depth_filtered, in.camera, in.unpremultiplied});
+    count_given(in.views, out);
+    warp_views(in, request, work, out);
+    tell_warnings(work.tell, warnings);
+    work.tell(
+        {.kind = NoticeKind::warped, .values = {out.views, out.ldi.samples(), out.ldi.windows.pixels()}});
+    if (const auto lens = known_lens(out.camera, out.ldi.windows))
+        tell_border_reach(work.tell, request.name, out.ldi, *lens, out.camera.supersample.value_or(1), {});
+    return out;
+}
+
+} // namespace
+
+MadeLdi make_ldi(const LdiFromViews &request, const WarpWork &work) {
+    return made_of(open_views(request), request, work);
+}
+
+MadeLdi make_ldi(std::span<const ViewInMemory> views, const LdiFromViews &request, const WarpWork &work) {
+    return made_of(copies_of(views, request), request, work);
+}
+
+std::vector<DepthOptions> depths_of_pictures(const DepthOptions &depth, const std::vector<std::string> &files,
+                                             std::size_t pictures) {
+    if (!files.empty() && files.size() != pictures)
+        throw UsageError(
+            fmt::format("`depth_file`: there are {} of them for {} pictures; give one for each, in the "
+                        "order of the pictures",
+                        files.size(), pictures));
+    std::vector<DepthOptions> each(pictures, depth);
+    for (std::size_t i = 0; i < files.size(); ++i) each[i].picture.depth_file = files[i];
+    return each;
+}
+
+} // namespace sparselens

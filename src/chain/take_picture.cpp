@@ -1,0 +1,244 @@
+#include "chain/take_picture.h"
+
+#include "base/error.h"
+#include "chain/channels.h"
+#include "chain/devices.h"
+#include "chain/file_notices.h"
+#include "deep/front_samples.h"
+#include "dof/border_reach.h"
+#include "dof/false_colour.h"
+#include "dof/gather_rows.h"
+#include "io/camera/camera_write.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace sparselens {
+
+namespace {
+
+bool is_lens_method(const PictureRequest &request) {
+    return request.picture.method == &gather_methods().front();
+}
+bool needs_gather(Show show) { return show == Show::picture || show == Show::tiles; }
+
+// What is taken of `in`, whose samples may be used up if `own` are they.
+class Taking {
+public:
+    Taking(const OpenedLdi &in, Ldi *own, const PictureRequest &request, const PictureWork &work)
+        : in_(in), own_(own), request_(request), work_(work), by_(request.picture) {}
+
+    TakenPicture picture(std::optional<GatherWindows> made_before = {}) {
+        if (needs_gather(request_.show)) require_channels(in_);
+        out_.header = in_.header;
+        aim();
+        hold_out();
+        frame_ = made_before ? std::move(*made_before) : gather_windows(request_.windows, in_);
+        lens_ = lens_in_gathered(request_.windows, in_, resolve_lens(out_.camera, in_.ldi.windows));
+        choose_pixels();
+        work_.progress.may_end();
+        if (request_.front_depth)
+            out_.depth = frame_.picture_of(crop(front_depth(ldi()), frame_.needed), depth_of_nothing);
+        gather();
+        write_picture_camera(out_.header, out_.camera);
+        return std::move(out_);
+    }
+
+private:
+    const Ldi &ldi() const { return frame_.ldi(in_); }
+
+    void aim() {
+        tell_camera(work_.tell, in_.name, in_.camera); // also if that is not enough
+        out_.camera =
+            picture_camera(request_, in_, [this](const Imath::V2i &at) { return front_depth(in_.ldi, at); });
+        if (const auto &pixel = request_.focus_pixel)
+            work_.tell({.kind = NoticeKind::focused,
+                        .values = {*out_.camera.focus_distance, double(pixel->x), double(pixel->y)}});
+        out_.lens = picture_lens(request_, in_, out_.camera);
+        if (sees_past_views(out_.camera, out_.lens))
+            work_.tell({.kind = NoticeKind::wide_lens, .parameter = "fstop"});
+    }
+
+    void hold_out() {
+        if (const OpenedLdi *opened = request_.opened_holdout)
+            holdout_ = holdout_for(in_, request_.windows, opened->ldi, opened->name);
+        else if (!request_.holdout.empty())
+            holdout_ = open_holdout(request_, in_);
+        if (holdout_) by_.holdout = &*holdout_;
+    }
+
+    void choose_pixels() {
+        LooksReader own_reader;
+        const LensFile given =
+            (work_.looks ? *work_.looks : own_reader).read(request_.looks, out_.camera.fstop);
+        LensLooks &looks = by_.gather.lens.looks;
+        if (is_lens_method(request_))
+            looks = picture_looks(given, out_.camera, out_.header, lens_, ldi().windows);
+        else if (shape_aperture(out_.camera.looks))
+            work_.tell({.kind = NoticeKind::round_aperture,
+                        .values = {request_.picture.method->name},
+                        .parameter = "method"});
+        const auto *packed = std::get_if<PackedRows>(&in_.held);
+        const auto border = packed ? std::optional(border_of(*packed)) : std::nullopt;
+        tell_border_reach(work_.tell, in_.name, border ? *border : ldi(), lens_, frame_.subpixels.across,
+                          looks);
+        choose_windows(frame_, request_.windows, in_, lens_, looks);
+        raise_highlights(frame_, in_, highlight_gain(given.values));
+    }
+
+    void gather() {
+        by_.gather.lens.chosen = &out_.tiles;
+        by_.gather.lens.across = frame_.subpixels.across;
+        by_.gather.views_radius = views_radius(out_.camera);
+        const bool shows_pixels = request_.show == Show::picture && request_.windows.proxy == 1;
+        by_.gather.lens.watch = shows_pixels && frame_.subpixels.across == 1 ? work_.watch : nullptr;
+        if (in_.reduced() && merges_by_rows(in_.ldi.channels)) by_.layer_tolerance = 0; // they are merged
+        const auto gather_by = [&](TileDevice *device) {
+            by_.gather.lens.device = device;
+            if (needs_gather(request_.show))
+                out_.image = frame_.picture_of(chosen_channels(gathered(), request_.channels));
+        };
+        if (work_.device)
+            work_.device->with(request_.device, work_.tell, gather_by);
+        else
+            gather_by(nullptr);
+        if (request_.show != Show::picture) out_.image = frame_.picture_of(crop(shown(), frame_.needed));
+    }
+
+    Image gathered() {
+        const auto of = [&](auto &&ldi) {
+            return gather_picture(std::forward<decltype(ldi)>(ldi), lens_, frame_.gathered, frame_.needed,
+                                  by_, work_.progress);
+        };
+        if (const auto *packed = std::get_if<PackedRows>(&in_.held))
+            return gather_rows(*packed, lens_, frame_.gathered, frame_.needed, by_,
+                               {memory_to_gather(in_.samples_read, in_.ldi.windows.pixels())},
+                               work_.progress);
+        if (request_.show != Show::picture) return of(ldi());
+        if (frame_.changed) return of(std::move(*frame_.changed));
+        return own_ ? of(std::move(*own_)) : of(in_.ldi);
+    }
+
+    Image shown() const {
+        ThinLens lens = lens_;
+        lens.focal_px /= frame_.subpixels.across; // circles of confusion in pixels of the picture
+        if (request_.show != Show::tiles) return false_colours(request_.show, ldi(), lens);
+        const Windows windows{ldi().windows.display, frame_.gathered, ldi().windows.pixel_aspect};
+        LensTiles tiles = out_.tiles;
+        if (tiles.lens_points.empty()) tiles = {std::max(windows.width(), windows.height()), 1, 1, {0}};
+        return tile_colours(tiles, windows);
+    }
+
+    const OpenedLdi &in_;
+    Ldi *own_;
+    const PictureRequest &request_;
+    const PictureWork &work_;
+    PictureOptions by_;
+    std::optional<Ldi> holdout_;
+    GatherWindows frame_;
+    ThinLens lens_; // of the pixels that are gathered
+    TakenPicture out_;
+};
+
+// Empty if more than the picture is made of the samples, else by what they are reduced while the file is read.
+ChooseSamples choose_samples(const PictureRequest &request, bool keep, const PictureWork &work) {
+    if (keep || request.show != Show::picture || request.front_depth || !request.holdout.empty() ||
+        request.opened_holdout || request.picture.holdout || request.focus_pixel || !request.recolor.empty())
+        return {};
+    return [&request, &work](const Imf::Header &header, const Camera &camera,
+                             const Ldi &rows) -> ReduceSamples {
+        const LookValues values = work.looks->read(request.looks, camera.fstop).values;
+        if (!keeps_pixels(request.windows, header) || highlight_gain(values).gain != 1 ||
+            !is_linear(work.tell, request.colour, request.input, header))
+            return {};
+        const ThinLens lens = resolve_lens(camera, rows.windows);
+        if (!can_reduce_first(request.picture, lens, values.breathing || camera.looks.breathing,
+                              rows.channels))
+            return {};
+        return [&request, lens](Ldi some) { return reduced_first(std::move(some), lens, request.picture); };
+    };
+}
+
+} // namespace
+
+Image false_colours(Show show, const Ldi &ldi, const ThinLens &lens) {
+    if (show == Show::coc) return coc_colours(ldi, lens);
+    return show == Show::focus ? focus_colours(ldi, lens) : layer_colours(ldi);
+}
+
+void check_method(const PictureRequest &request,
+                  const std::function<bool(const std::string &parameter)> &is_given) {
+    const GatherMethod &method = *request.picture.method;
+    const auto only_with = [&](const std::string &name, std::string parameter) {
+        std::ranges::replace(parameter, '-', '_');
+        if (name != method.name && is_given(parameter))
+            throw UsageError(fmt::format("`{}`: works with `method={}` only", parameter, name));
+    };
+    for (const char *parameter : {"quality", "lens_samples", "layer_tolerance", "holdout", "lens_point",
+                                  "lens", "aperture", "tilt", "cat_eye_darkening", "axial_chromatic_type"})
+        only_with("lens", parameter);
+    for (const LookNumber &look : look_numbers()) only_with("lens", look.name);
+    only_with("selective", "layers");
+    if (request.device != "cpu" && request.device != "auto" && !method.on_devices)
+        throw UsageError(
+            fmt::format("`device={}`: works with `method=lens` and `method=selective` only", request.device));
+    if (request.show == Show::tiles && !is_lens_method(request))
+        throw UsageError("`show=tiles`: works with `method=lens` only");
+}
+
+Camera picture_camera(const PictureRequest &request, const OpenedLdi &in,
+                      const std::function<float(const Imath::V2i &)> &depth_of) {
+    Camera camera = camera_with_options(request.lens, in.camera);
+    if (!request.focus_pixel) return camera;
+    const int across = subpixels_of(request.windows, in).across;
+    require_inside(*request.focus_pixel, in, across);
+    const float z = depth_of(middle_subpixel(*request.focus_pixel, across));
+    if (!(z > 0))
+        throw UsageError(
+            fmt::format("`focus_pixel`: {} has no sample at ({}, {}); choose a pixel that shows something",
+                        in.name, request.focus_pixel->x, request.focus_pixel->y));
+    camera.focus_distance = double(z);
+    return camera;
+}
+
+ThinLens picture_lens(const PictureRequest &request, const OpenedLdi &in, const Camera &camera) {
+    ThinLens lens = resolve_lens(camera, in.ldi.windows);
+    lens.focal_px /= subpixels_of(request.windows, in).across;
+    return lens;
+}
+
+Ldi open_holdout(const PictureRequest &request, const OpenedLdi &in) {
+    OpenOptions by{request.lens, request.depth};
+    by.depth.picture.depth_file.clear(); // of the picture
+    const OpenedLdi opened = open_ldi(request.holdout, by);
+    return holdout_for(in, request.windows, opened.ldi, opened.name);
+}
+
+TakenPicture take_picture(const OpenedLdi &in, const PictureRequest &request, const PictureWork &work) {
+    if (request.channels.empty()) return Taking(in, nullptr, request, work).picture();
+    OpenedLdi fewer = in;
+    return take_picture(std::move(fewer), request, work);
+}
+
+TakenPicture take_picture(OpenedLdi &&in, const PictureRequest &request, const PictureWork &work) {
+    keep_channels(in.ldi, request.channels);
+    return Taking(in, &in.ldi, request, work).picture();
+}
+
+TakenPicture take_picture(const OpenedLdi &in, GatherWindows made_before, const PictureRequest &request,
+                          const PictureWork &work) {
+    return Taking(in, nullptr, request, work).picture(std::move(made_before));
+}
+
+TakenPicture take_picture(LdiCache &cache, bool keep, const PictureRequest &request,
+                          const PictureWork &work) {
+    LooksReader looks;
+    PictureWork with = work;
+    if (!with.looks) with.looks = &looks;
+    OpenedLdi &in = cache.load(request, work.tell, choose_samples(request, keep, with));
+    return Taking(in, keep ? nullptr : &in.ldi, request, with).picture();
+}
+
+} // namespace sparselens

@@ -1,0 +1,23 @@
+// Long work of the chain, whose warnings become those of Python (UserWarning) when it is done.
+#pragma once
+
+#include "chain/words.h"
+#include "python/job.h"
+#include "python/objects.h"
+
+namespace sparselens::python {
+
+// job() of work(progress, tell).
+template <typename Result>
+Result told_job(const py::object &callback, const std::function<Result(Progress &, const Tell &)> &work) {
+    std::vector<std::string> warnings;
+    Result result = job<Result>(callback, [&](Progress &progress) {
+        return work(progress, [&](const Notice &notice) {
+            if (level_of(notice) != NoticeLevel::note) warnings.push_back(words_of(notice));
+        });
+    });
+    for (const std::string &warning : warnings) warn(warning);
+    return result;
+}
+
+} // namespace sparselens::python
