@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/in_order.h"
+#include "chain/denoised.h"
 #include "chain/devices.h"
 #include "chain/file_notices.h"
 #include "deep/checks/view_warnings.h"
@@ -139,8 +140,8 @@ void count_given(std::span<const PackedView> views, MadeLdi &out) {
     }
 }
 
-void warp_views(PlacedViews &in, const LdiFromViews &request, const WarpWork &work, MadeLdi &out) {
-    const WarpOptions by = with_lens(request.warp, in.camera, in.views);
+void warp_views(PlacedViews &in, const WarpOptions &by, const LdiFromViews &request, const WarpWork &work,
+                MadeLdi &out) {
     const auto warp_by = [&](WarpDevice *device) {
         WarpOptions with = by;
         with.device = device;
@@ -160,13 +161,15 @@ MadeLdi made_of(PlacedViews in, const LdiFromViews &request, const WarpWork &wor
     out.header = in.header;
     for (PackedView &view : in.views)
         if (request.colour) out.header = to_linear(work.tell, *request.colour, view.name, in.header, view);
+    const WarpOptions by = with_lens(request.warp, in.camera, in.views);
+    take_denoised(request, by, in.views, work.tell);
     out.camera = in.camera;
     write_camera(out.header, out.camera);
     write_picture_window(out.header, in.views[0].samples.windows.data);
     const std::vector<std::string> warnings =
         view_warnings(in.views, {in.depth, in.depth_filtered, in.camera, in.unpremultiplied});
     count_given(in.views, out);
-    warp_views(in, request, work, out);
+    warp_views(in, by, request, work, out);
     tell_warnings(work.tell, warnings);
     work.tell(
         {.kind = NoticeKind::warped, .values = {out.views, out.ldi.samples(), out.ldi.windows.pixels()}});

@@ -96,6 +96,18 @@ LdiObject ldi_of(const std::string &name, Made made) {
     return out;
 }
 
+// Of all views, in their order.
+std::vector<DenoisedPicture> denoised_pictures(Keywords &keywords) {
+    const py::object given = keywords.take("denoised");
+    std::vector<DenoisedPicture> pictures;
+    if (given.is_none()) return pictures;
+    for (const PictureObject *picture : several<PictureObject>(given, "denoised", "a sequence of Picture"))
+        pictures.push_back(
+            {"denoised[" + std::to_string(pictures.size()) + "]",
+             ready_beauty({.image = picture->image, .header = picture->header}, "denoised").image});
+    return pictures;
+}
+
 LdiObject warp(const py::object &views, const py::kwargs &given) {
     Keywords keywords("warp", given);
     std::vector<ViewInMemory> from;
@@ -104,6 +116,10 @@ LdiObject warp(const py::object &views, const py::kwargs &given) {
     LdiFromViews request{.warp = warp_options(keywords)};
     request.round_for_lens =
         keywords.word<bool>("precision", {{"exact", false}, {"lens", true}}).value_or(false);
+    request.denoised_pictures = denoised_pictures(keywords);
+    request.noisy = keywords.text("noisy");
+    if (!request.denoised_pictures.empty() && !request.noisy.empty())
+        throw UsageError("noisy and denoised exclude each other");
     request.lens = lens_values(keywords);
     request.supersample = keywords.whole("supersample", 1, most_across);
     if (const std::string device = keywords.text("device"); !device.empty()) request.device = device;

@@ -49,7 +49,7 @@ def test_warp_denoised(names, views, tool, tmp_path):
     assert (tmp_path / "tool.exr").read_bytes() == saved(tmp_path, sparselens.warp(both, noisy="Noisy Image"))
     with pytest.raises(sparselens.UsageError, match="exclude"):
         sparselens.warp(both, noisy="Noisy Image", denoised=pictures[:2])
-    with pytest.raises(sparselens.UsageError, match="denoised: 2 for 5 views"):
+    with pytest.raises(sparselens.UsageError, match="denoised: there are 2 of them for 5 views"):
         sparselens.warp(views, denoised=pictures[:2])
     with pytest.raises(TypeError, match="denoised"):
         sparselens.warp(views, denoised=denoised)
