@@ -17,16 +17,16 @@ public:
     void add(float value, double weight);
     void divide(); // after the last add()
 
-    std::size_t of(float value) const;  // [0, count)
-    double place_of(float value) const; // the same, continuous: k + 1/2 in the middle of class k
+    std::size_t of(float value) const; // [0, count)
+    float place_of(float value) const; // the same, continuous: k + 1/2 in the middle of class k
 
 private:
-    std::size_t bin_of(float value) const;
+    float bin_of(float value) const; // continuous
 
     std::size_t count_;
     float least_, most_;
     std::vector<std::array<double, 2>> bins_; // pixels, weights
-    std::vector<float> edges_;                // count + 1, ascending
+    std::vector<float> places_;               // where bins begin, in classes; one more
 };
 
 } // namespace sparselens

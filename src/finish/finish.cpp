@@ -9,10 +9,10 @@ namespace sparselens {
 
 namespace {
 
-Halves regressed(const LayerToFinish &layer, const Values &weights, int radius) {
+Halves regressed(const LayerToFinish &layer, const Values &weights, const FinishTuning::Window &window) {
     Halves predicted;
     for (std::size_t c = 0; c < layer.gathered.size(); ++c) {
-        const Regression on_guide(layer.gathered[c], weights, layer.grid, radius);
+        const Regression on_guide(layer.gathered[c], weights, layer.grid, window);
         for (std::size_t k = 0; k < 2; ++k) predicted[k].push_back(on_guide.of(layer.rays[k][c]));
     }
     return predicted;
@@ -44,10 +44,11 @@ FinishedLayer finish_layer(const LayerToFinish &layer, Progress &progress) {
         blend_in(pictures, candidate, evidence, finished.kept);
         progress.advance();
     };
-    progress.start("finish", layer.given.size() + FinishTuning::regression_radius.size() + 2);
+    progress.start("finish", layer.given.size() + FinishTuning::regression_windows.size() + 2);
     for (const Halves &given : layer.given) offer(given);
     const Values weights = tone_weights(layer.gathered);
-    for (const int radius : FinishTuning::regression_radius) offer(regressed(layer, weights, radius));
+    for (const FinishTuning::Window &window : FinishTuning::regression_windows)
+        offer(regressed(layer, weights, window));
     offer(layer.rays);
     offer(means_of_similar(layer.rays, pictures[2], layer.grid));
     finished.picture = std::move(pictures[2]);

@@ -1,15 +1,21 @@
 #include "finish/similar_pixels.h"
 
 #include "base/parallel.h"
+#include "finish/for_processors.h"
 #include "finish/regression.h"
 #include "finish/tuning.h"
+
+#include <memory>
 
 namespace sparselens {
 
 namespace {
 
-constexpr int band_rows = 16;
 constexpr int reach = FinishTuning::similar_reach;
+constexpr int rows = 16, columns = 64; // of a tile
+constexpr int beside = reach + 1;      // what is loaded on each side of it
+constexpr int stride = columns + 2 * beside, size = (rows + 2 * beside) * stride;
+constexpr std::size_t most_channels = 3;
 
 Colours tone_mapped_of(const Colours &guide) {
     Colours mapped = guide;
@@ -19,98 +25,126 @@ Colours tone_mapped_of(const Colours &guide) {
 }
 
 // 1 where two patches are as alike as noise lets them be, falling to 0. `difference`: squared, mean of the patch.
-float likeness(float difference) {
+[[gnu::always_inline]] inline float likeness(float difference) {
     constexpr float noise = FinishTuning::similar_noise;
-    const float excess = std::max(difference - 2 * noise, 0.0f) / (2 * noise);
-    const float left = std::max(1 - excess / 4, 0.0f);
+    const float excess = positive(difference - 2 * noise) / (2 * noise);
+    const float left = positive(1 - excess / 4);
     return left * left * left; // close to exp(-excess), and 0 from 4 on
 }
 
-class Band {
-public:
-    Band(const Colours &mapped, std::span<const float> weights, const Grid &grid, int begin, int end)
-        : mapped_(mapped), weights_(weights), width_(grid.width()), height_(grid.height()), begin_(begin),
-          end_(end), differences_(std::size_t(end - begin + 2) * std::size_t(width_)),
-          sums_(std::size_t(end - begin) * std::size_t(width_), 0.0f), row_(std::size_t(width_)) {}
+using Plane = std::array<float, size>;
+using Sums = std::array<float, std::size_t(rows *columns)>;
 
-    void gather(const Halves &rays, Halves &means) {
-        for (int dy = -reach; dy <= reach; ++dy)
-            for (int dx = -reach; dx <= reach; ++dx) add(rays, means, dx, dy);
-        for (Colours &half : means)
-            for (Values &channel : half)
-                for (int y = begin_; y < end_; ++y)
-                    for (int x = 0; x < width_; ++x) channel[at(x, y)] /= sums_[in_band(x, y)];
-    }
+struct Tile {
+    std::size_t channels;
+    std::array<Plane, most_channels> guide;                 // beyond the picture: its border again
+    Plane weights;                                          // beyond the picture: 0
+    std::array<std::array<Plane, most_channels>, 2> rays{}; // times the weights
+    Sums sum{};                                             // of likenesses, weighted
+    std::array<std::array<Sums, most_channels>, 2> means{}; // times that sum
 
-private:
-    std::size_t at(int x, int y) const { return std::size_t(y) * std::size_t(width_) + std::size_t(x); }
-    std::size_t in_band(int x, int y) const { return at(x, y - begin_); }
-
-    // Squared differences between pixels and those (dx, dy) away, from a row above the band to a row below it.
-    void compare(int dx, int dy) {
-        for (int y = begin_ - 1; y <= end_; ++y) {
-            const int row = std::clamp(y, 0, height_ - 1), other = std::clamp(row + dy, 0, height_ - 1);
-            float *differences = differences_.data() + at(0, y - begin_ + 1);
-            for (int x = 0; x < width_; ++x) {
-                const std::size_t here = at(x, row), there = at(std::clamp(x + dx, 0, width_ - 1), other);
-                float sum = 0;
-                for (const Values &channel : mapped_) {
-                    const float d = channel[here] - channel[there];
-                    sum += d * d;
-                }
-                differences[x] = sum / float(mapped_.size());
-            }
-        }
-    }
-
-    float patch(int x, int y) const {
-        const int left = std::max(x - 1, 0), right = std::min(x + 1, width_ - 1);
-        float sum = 0;
-        for (int k = 0; k < 3; ++k) {
-            const float *row = differences_.data() + at(0, y - begin_ + k);
-            sum += row[left] + row[x] + row[right];
-        }
-        return sum / 9;
-    }
-
-    void add(const Halves &rays, Halves &means, int dx, int dy) {
-        compare(dx, dy);
-        const int left = std::max(0, -dx), right = std::min(width_, width_ - dx);
-        if (left >= right) return;
-        for (int y = std::max(begin_, -dy); y < std::min(end_, height_ - dy); ++y) {
-            const std::size_t here = at(left, y), there = at(left + dx, y + dy),
-                              count = std::size_t(right - left);
-            float *sums = sums_.data() + in_band(left, y);
-            for (std::size_t i = 0; i < count; ++i) {
-                row_[i] = likeness(patch(left + int(i), y)) * weights_[there + i];
-                sums[i] += row_[i];
-            }
-            for (std::size_t h = 0; h < 2; ++h)
-                for (std::size_t c = 0; c < means[h].size(); ++c) {
-                    float *mean = means[h][c].data() + here;
-                    const float *ray = rays[h][c].data() + there;
-                    for (std::size_t i = 0; i < count; ++i) mean[i] += row_[i] * ray[i];
-                }
-        }
-    }
-
-    const Colours &mapped_;
-    std::span<const float> weights_;
-    int width_, height_, begin_, end_;
-    std::vector<float> differences_, sums_, row_;
+    static int at(int x, int y) { return (y + beside) * stride + x + beside; }
 };
+
+using Line = std::array<float, columns + 2>; // from a pixel before the tile to one behind it
+
+// Squared differences between the pixels of a row and those `apart` entries away.
+[[gnu::always_inline]] inline void compare(const Tile &tile, int y, int apart, Line &line) {
+    line.fill(0);
+    for (std::size_t c = 0; c < tile.channels; ++c) {
+        const float *here = tile.guide[c].data() + Tile::at(-1, y), *there = here + apart;
+        for (std::size_t i = 0; i < line.size(); ++i) {
+            const float d = here[i] - there[i];
+            line[i] += d * d;
+        }
+    }
+}
+
+FOR_PROCESSORS void add_neighbours(Tile &tile, int dx, int dy) {
+    const int apart = dy * stride + dx;
+    const float share = 1 / float(9 * tile.channels);
+    std::array<Line, 3> lines;
+    compare(tile, -1, apart, lines[0]);
+    compare(tile, 0, apart, lines[1]);
+    for (int y = 0; y < rows; ++y) {
+        compare(tile, y + 1, apart, lines[std::size_t(y + 2) % 3]);
+        Line together;
+        for (std::size_t i = 0; i < together.size(); ++i)
+            together[i] = lines[0][i] + lines[1][i] + lines[2][i];
+        std::array<float, columns> alike;
+        for (std::size_t i = 0; i < columns; ++i)
+            alike[i] = likeness((together[i] + together[i + 1] + together[i + 2]) * share);
+        const auto there = std::size_t(Tile::at(0, y) + apart), here = std::size_t(y * columns);
+        for (std::size_t i = 0; i < columns; ++i) tile.sum[here + i] += alike[i] * tile.weights[there + i];
+        for (std::size_t k = 0; k < 2; ++k)
+            for (std::size_t c = 0; c < tile.channels; ++c) {
+                float *mean = tile.means[k][c].data() + here;
+                const float *rays = tile.rays[k][c].data() + there;
+                for (std::size_t i = 0; i < columns; ++i) mean[i] += alike[i] * rays[i];
+            }
+    }
+}
+
+struct Pixels {
+    const Halves &rays;
+    const Colours &guide; // tone-mapped
+    const Values &weights;
+    const Grid &grid;
+};
+
+void load(const Pixels &pixels, const Imath::Box2i &box, Tile &tile) {
+    const Grid &grid = pixels.grid;
+    tile.channels = pixels.guide.size();
+    std::array<std::size_t, stride> column;
+    std::array<float, stride> inside;
+    for (int i = 0; i < stride; ++i) {
+        const int x = box.min.x - beside + i, nearest = std::clamp(x, 0, grid.width() - 1);
+        column[std::size_t(i)] = std::size_t(nearest);
+        inside[std::size_t(i)] = x == nearest ? 1 : 0;
+    }
+    for (int y = -beside; y < rows + beside; ++y) {
+        const int nearest = std::clamp(box.min.y + y, 0, grid.height() - 1);
+        const float within = nearest == box.min.y + y ? 1 : 0;
+        const std::size_t from = grid.index(0, nearest);
+        const auto to = std::size_t(Tile::at(-beside, y));
+        for (std::size_t i = 0; i < stride; ++i)
+            tile.weights[to + i] = within * inside[i] * pixels.weights[from + column[i]];
+        for (std::size_t c = 0; c < tile.channels; ++c) {
+            for (std::size_t i = 0; i < stride; ++i)
+                tile.guide[c][to + i] = pixels.guide[c][from + column[i]];
+            for (std::size_t k = 0; k < 2; ++k)
+                for (std::size_t i = 0; i < stride; ++i)
+                    tile.rays[k][c][to + i] = tile.weights[to + i] * pixels.rays[k][c][from + column[i]];
+        }
+    }
+}
+
+void store(const Tile &tile, const Imath::Box2i &box, const Grid &grid, Halves &means) {
+    for (int y = box.min.y; y <= box.max.y; ++y)
+        for (int x = box.min.x; x <= box.max.x; ++x) {
+            const auto from = std::size_t((y - box.min.y) * columns + x - box.min.x);
+            for (std::size_t k = 0; k < 2; ++k)
+                for (std::size_t c = 0; c < tile.channels; ++c)
+                    means[k][c][grid.index(x, y)] = tile.means[k][c][from] / tile.sum[from];
+        }
+}
 
 } // namespace
 
 Halves means_of_similar(const Halves &rays, const Colours &guide, const Grid &grid) {
     const Colours mapped = tone_mapped_of(guide);
     const Values weights = tone_weights(guide);
-    const Colours zero(guide.size(), Values(grid.size(), 0.0f));
-    Halves means{zero, zero};
-    parallel_ranges(std::size_t(grid.height()), std::size_t(band_rows),
-                    [&](std::size_t begin, std::size_t end) {
-                        Band(mapped, weights, grid, int(begin), int(end)).gather(rays, means);
-                    });
+    const Colours unset(guide.size(), Values(grid.size()));
+    Halves means{unset, unset};
+    const Tiles tiles(grid.box(), columns, rows);
+    parallel_for(tiles.count(), [&](std::size_t t) {
+        const Imath::Box2i box = tiles.box(t);
+        const auto tile = std::make_unique<Tile>();
+        load({rays, mapped, weights, grid}, box, *tile);
+        for (int dy = -reach; dy <= reach; ++dy)
+            for (int dx = -reach; dx <= reach; ++dx) add_neighbours(*tile, dx, dy);
+        store(*tile, box, grid, means);
+    });
     return means;
 }
 

@@ -2,27 +2,15 @@
 //
 // A candidate B of one render replaces the picture A so far by A + t (B - A). The share t that fits the other render y best is
 // sum w (B - A)(y - A) / sum w (B - A)^2, w by the tone curve. It is linear in y, so the noise of y cannot bias it. A sum over a
-// few pixels is noisy, though, and what is believed by chance sparkles in a sequence. So the sums run over all pixels of a
-// class, and classes are made of two measures that each pixel has:
+// few pixels is noisy, though, and what is believed by chance sparkles in a sequence. So the sums run over all cells (cells.h) of
+// a class, and classes are made of two measures that each cell has:
 //   - the energy of B - A around it over that of B's noise, as the two renders differ, and
-//   - how surely the renders confirm B - A in a ring around it, in standard deviations. The ring leaves out the pixel itself.
-// The share of a class is drawn towards 0 by its own variance, as blocks of the picture differ (W. James, C. Stein, 1961).
+//   - how surely the renders confirm B - A in a ring around it, in standard deviations. The ring leaves out the cell itself.
 #pragma once
 
-#include "base/grid.h"
-#include "finish/colours.h"
+#include "finish/evidence.h"
 
 namespace sparselens {
-
-// Two independent renders of the same pixels.
-struct RayEvidence {
-    const Halves &rays;
-    std::array<double, 2> samples; // a pixel, > 0: how much each counts
-    Grid grid;
-};
-
-// What is made of the first render, of the second, and of both: the third is the picture, the others test it.
-using Trio = std::array<Colours, 3>;
 
 // What both renders together make of what each made: their mean by samples.
 inline float of_both(const std::array<double, 2> &samples, float first, float second) {

@@ -7,8 +7,13 @@
 namespace sparselens {
 
 struct FinishTuning {
-    // Radii of the windows of the regressions, pixels, the largest first: a later one corrects the earlier ones.
-    static constexpr std::array<int, 4> regression_radius{8, 4, 2, 1};
+    // Means over squares, three times over.
+    struct Window {
+        int cell;   // side of the cells for which they are taken, pixels
+        int radius; // cells on each side of the middle one
+    };
+    // The windows of the regressions, the largest first: a later one corrects the earlier ones. More of them change .1 dB at most.
+    static constexpr std::array<Window, 3> regression_windows{{{2, 4}, {2, 2}, {1, 1}}};
     // How much a slope is drawn towards that of the whole picture, as a share of the squared mean of the guide.
     static constexpr float regression_prior = 0.1f;
 
@@ -17,12 +22,14 @@ struct FinishTuning {
     // How different two pixels may be, tone-mapped and squared, before one counts less for the other.
     static constexpr float similar_noise = 1e-4f;
 
-    // Radius of the window in which the energy of a candidate is compared with its noise, pixels.
-    static constexpr int energy_radius = 2;
-    // The ring in which the other render confirms a candidate: the half sides of its outer and inner square, pixels. The inner
-    // square is left out, so that the noise of a pixel cannot confirm itself.
-    static constexpr int ring_outer = 10, ring_inner = 2;
-    // Radius of the window over which trust is smoothed, pixels.
+    // Side of the cells for which trust is worked out, pixels; all that follows is in cells.
+    static constexpr int trust_cell = 2;
+    // Radius of the window in which the energy of a candidate is compared with its noise.
+    static constexpr int energy_radius = 1;
+    // The ring in which the other render confirms a candidate: the half sides of its outer and inner square. The inner square is
+    // left out, so that the noise of a pixel cannot confirm itself.
+    static constexpr int ring_outer = 5, ring_inner = 1;
+    // Radius of the window over which trust is smoothed.
     static constexpr int trust_radius = 1;
     // How much more than other errors the noise of a candidate counts, because it sparkles in a sequence. In pulls of fence and
     // mirror (80 rays), 0, 1, 2 and 3 leave 1776, 1180, 827, 606 and 2325, 1624, 1187, 901 pixels that jump by .02, at 44.9,

@@ -1,6 +1,7 @@
 #include "finish/window_means.h"
 
 #include "base/parallel.h"
+#include "finish/for_processors.h"
 
 #include <array>
 #include <vector>
@@ -15,7 +16,7 @@ using Lanes = std::array<float, lanes>;
 
 // The mean of each entry and of `radius` entries on each side of it. The sums are of double precision, because a lamp of
 // radiance 1e4 that enters and leaves a running sum must leave nothing behind.
-void mean_along(std::vector<Lanes> &line, std::vector<Lanes> &result, std::size_t radius) {
+FOR_PROCESSORS void mean_along(std::vector<Lanes> &line, std::vector<Lanes> &result, std::size_t radius) {
     const std::size_t length = line.size();
     std::array<double, lanes> sum{};
     std::size_t begin = 0, end = 0;

@@ -30,9 +30,9 @@ TEST_F(RegressionTest, WeightsAreThoseOfTheToneCurve) {
 
 // As dark or bright as it may be, a straight line is found exactly.
 TEST_F(RegressionTest, AStraightLineOfTheGuideIsFound) {
-    for (const int radius : {1, 4, 8}) {
+    for (const FinishTuning::Window window : {FinishTuning::Window{1, 1}, {2, 4}, {4, 2}}) {
         const Values rays = with(guide[0], 0.25f, 0.8f),
-                     found = Regression(guide[0], weights, grid, radius).of(rays);
+                     found = Regression(guide[0], weights, grid, window).of(rays);
         for (std::size_t i = 0; i < rays.size(); ++i)
             ASSERT_NEAR(found[i], rays[i], 1e-4f * (1 + std::abs(rays[i]))) << i;
     }
@@ -46,7 +46,7 @@ TEST_F(RegressionTest, SlopesAreLocal) {
     Values rays = with(stripes, 0.5f, -2);
     for (std::size_t i = 0; i < rays.size(); ++i)
         if (grid.pixel(i).x >= 24) rays[i] = 0.1f + stripes[i];
-    const Values found = Regression(stripes, flat, grid, 2).of(rays);
+    const Values found = Regression(stripes, flat, grid, {1, 2}).of(rays);
     for (std::size_t i = 0; i < rays.size(); ++i)
         if (std::abs(grid.pixel(i).x - 24) > 7) {
             ASSERT_NEAR(found[i], rays[i], 0.02f) << i;
@@ -55,11 +55,11 @@ TEST_F(RegressionTest, SlopesAreLocal) {
 
 TEST_F(RegressionTest, AConstantGuideGivesTheMean) {
     const Values constant(grid.size(), 0.5f), flat(grid.size(), 1.0f), rays(grid.size(), 0.8f);
-    for (const float v : Regression(constant, flat, grid, 4).of(rays)) EXPECT_NEAR(v, 0.8f, 1e-5f);
+    for (const float v : Regression(constant, flat, grid, {2, 4}).of(rays)) EXPECT_NEAR(v, 0.8f, 1e-5f);
 }
 
 TEST_F(RegressionTest, IsLinearInTheRays) {
-    const Regression regression(guide[1], weights, grid, 2);
+    const Regression regression(guide[1], weights, grid, {2, 1});
     const Colours rays = rays_of(guide, 4, 7);
     Values mixed = rays[0];
     for (std::size_t i = 0; i < mixed.size(); ++i) mixed[i] = 2 * rays[0][i] - 0.5f * rays[2][i];

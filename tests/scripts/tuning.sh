@@ -59,12 +59,14 @@ warp/lamps/lamp_light.cpp farthest_move
 warp/reproject.cpp far_off
 warp/surfaces.cpp few
 warp/warp_device.h warp_band_rows
+finish/cells.h run_length
 finish/classes.cpp bins
 finish/error_estimate.cpp fastest slowest
 finish/finish_picture.cpp largest
-finish/regression.cpp grain least_square
-finish/similar_pixels.cpp band_rows
-finish/trust.cpp grain largest_confirmation largest_energy_ratio least_energy side
+finish/regression.cpp least_square
+finish/shares.cpp side
+finish/similar_pixels.cpp columns most_channels rows
+finish/trust.cpp grain largest_confirmation largest_energy_ratio least_energy
 finish/window_means.cpp lanes
 '
 

@@ -1,0 +1,37 @@
+// What two independent renders say of a candidate, cell by cell (cells.h): how much it changes, how much of that the render
+// confirms that did not make it, and how much is noise.
+#pragma once
+
+#include "finish/cells.h"
+
+namespace sparselens {
+
+// Two independent renders of the same pixels.
+struct RayEvidence {
+    const Halves &rays;
+    std::array<double, 2> samples; // a pixel, > 0: how much each counts
+    Grid grid;
+};
+
+// What is made of the first render, of the second, and of both: the third is the picture, the others test it.
+using Trio = std::array<Colours, 3>;
+
+// Means over the pixels of each cell, of sums over channels, weighted by the tone curve. Of a candidate B beside the picture A so
+// far, tested by the render y:
+struct CellEvidence {
+    std::array<Values, 3> energy;    // (B - A)^2
+    std::array<Values, 2> confirmed; // (B - A)(y - A)
+    std::array<Values, 2> left;      // the square of (B - A)(y - B)
+    std::array<Values, 2>
+        removed;   // (B - A)^2 times the light that B takes away, for the variance of such light
+    Values spread; // the square of the difference between what both renders change
+    Values noise;  // of the renders, squared difference
+    // How much light a bright event brings to one sample: its variance over its mean, as events of S. Poisson have it, of all
+    // light that the rays show above the picture. What both renders show alike is no event, and adds to the mean alone.
+    double event_height = 0;
+};
+
+CellEvidence evidence_of(const Trio &pictures, const Halves &candidate, const RayEvidence &evidence,
+                         const Cells &cells);
+
+} // namespace sparselens

@@ -1,0 +1,71 @@
+#include "finish/shares.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace sparselens {
+
+namespace {
+
+constexpr std::size_t classes = trust_classes;
+
+// Neighbours in the table are alike, so each class borrows from them.
+void soften(ClassTable &table) {
+    constexpr double side = 0.21, middle = 1 - 2 * side; // a Gaussian of 0.7 classes
+    const auto along = [&](std::size_t step, std::size_t other) {
+        for (std::size_t line = 0; line < classes; ++line) {
+            std::array<double, classes> values;
+            for (std::size_t i = 0; i < classes; ++i) values[i] = table[line * other + i * step];
+            for (std::size_t i = 0; i < classes; ++i)
+                table[line * other + i * step] =
+                    side * (values[i == 0 ? 0 : i - 1] + values[std::min(i + 1, classes - 1)]) +
+                    middle * values[i];
+        }
+    };
+    along(1, classes);
+    along(classes, 1);
+}
+
+} // namespace
+
+ClassTable shares_of(std::vector<ClassSums> blocks) {
+    ClassTable answers{}, energies{}, variance{};
+    for (ClassSums &block : blocks) {
+        soften(block.answers);
+        soften(block.energies);
+        soften(block.unseen);
+        for (std::size_t i = 0; i < answers.size(); ++i) {
+            answers[i] += block.answers[i];
+            energies[i] += block.energies[i];
+            variance[i] += block.unseen[i];
+        }
+    }
+    ClassTable shares{};
+    for (std::size_t i = 0; i < shares.size(); ++i) {
+        if (!(answers[i] > 0) || !(energies[i] > 0)) continue;
+        const double share = answers[i] / energies[i];
+        for (const ClassSums &block : blocks) {
+            const double left = block.answers[i] - share * block.energies[i];
+            variance[i] += left * left;
+        }
+        shares[i] = std::min(share, 1.0) * std::max(1 - variance[i] / (answers[i] * answers[i]), 0.0);
+    }
+    return shares;
+}
+
+float share_at(const ClassTable &shares, float across, float down) {
+    const auto split = [](float place) {
+        const float from_middle = std::clamp(place - 0.5f, 0.0f, float(classes - 1));
+        const auto k = std::min(std::size_t(from_middle), classes - 2);
+        return std::pair(k, from_middle - float(k));
+    };
+    const auto [i, x] = split(across);
+    const auto [j, y] = split(down);
+    const auto at = [&](std::size_t row, std::size_t column) {
+        return float(shares[row * classes + column]);
+    };
+    return (1 - y) * ((1 - x) * at(j, i) + x * at(j, i + 1)) +
+           y * ((1 - x) * at(j + 1, i) + x * at(j + 1, i + 1));
+}
+
+} // namespace sparselens
