@@ -2,8 +2,10 @@
 #include "base/error.h"
 #include "chain/file_notices.h"
 #include "finish/finish_picture.h"
+#include "finish/lens_headers.h"
 #include "harness/stats.h"
 #include "harness/tool.h"
+#include "io/camera/camera_read.h"
 #include "io/exr/exr_flat.h"
 #include "io/render_samples.h"
 #include "options/finish_options.h"
@@ -39,10 +41,17 @@ std::vector<double> stated_samples(const FinishCommand &options, const ToolConte
 
 // One after the other: only what they add up to stays in memory.
 TwoHalves added_up(const std::vector<std::string> &paths, const std::vector<double> &samples,
-                   const Image &gathered, const ToolContext &tool) {
-    TwoHalves halves(gathered);
-    for (std::size_t k = 0; k < paths.size(); ++k)
-        halves.add({paths[k], read(paths[k], tool).image, samples[k]});
+                   const FlatFile &gathered, const ToolContext &tool) {
+    TwoHalves halves(gathered.image);
+    Camera lens = read_camera(gathered.header);
+    if (lens.fstop && !lens.looks.blades) lens.looks.blades = 0; // dof-gather writes those that it draws
+    for (std::size_t k = 0; k < paths.size(); ++k) {
+        FlatFile file = read(paths[k], tool);
+        if (const auto other = lens_differences(lens, read_camera(file.header)); !other.empty())
+            warn(tool, fmt::format("{}: another lens than that of the gathered picture: {}", paths[k],
+                                   fmt::join(other, "; ")));
+        halves.add({paths[k], std::move(file.image), samples[k]});
+    }
     return halves;
 }
 
@@ -96,9 +105,9 @@ void run(const FinishCommand &options, const ToolContext &tool) {
     FlatFile file = read(options.gathered, tool);
     const std::vector<double> samples =
         options.samples.empty() ? stated_samples(options, tool) : options.samples;
-    PictureToFinish picture{{}, added_up(options.renders, samples, file.image, tool)};
+    PictureToFinish picture{{}, added_up(options.renders, samples, file, tool)};
     if (!options.denoised.empty())
-        picture.denoised.push_back(added_up(options.denoised, samples, file.image, tool));
+        picture.denoised.push_back(added_up(options.denoised, samples, file, tool));
     for (const std::string &path : options.others) picture.others.push_back(read(path, tool).image);
     picture.gathered = std::move(file.image);
     const auto halves = picture.rays.samples();

@@ -13,7 +13,7 @@ namespace {
 
 enum Change : std::size_t { gain, across, downwards, changes };
 
-// Weighted sums over pixels: of a change squared, and times the difference of each render.
+// Weighted sums over the pixels of a block: of a change squared, and times the difference of each render.
 struct Fit {
     double square = 0;
     std::array<double, 2> product{0, 0};
@@ -21,14 +21,7 @@ struct Fit {
 struct Sums {
     std::array<Fit, changes> fits;
     double differences = 0; // of both renders, multiplied
-
-    void add(const Sums &other) {
-        for (std::size_t k = 0; k < changes; ++k) {
-            fits[k].square += other.fits[k].square;
-            for (std::size_t h = 0; h < 2; ++h) fits[k].product[h] += other.fits[k].product[h];
-        }
-        differences += other.differences;
-    }
+    double noise = 0;       // of both renders, squared difference
 };
 
 // What each change makes of a pixel that is not at the border.
@@ -45,36 +38,71 @@ float brightest_around(const Colours &colours, std::size_t i, std::size_t width)
     return brightest;
 }
 
-Sums sums_of_row(const LayerToFinish &layer, std::size_t row) {
+Sums sums_of(const LayerToFinish &layer, const Imath::Box2i &box) {
     const auto width = std::size_t(layer.grid.width());
     Sums sums;
-    for (std::size_t i = row * width + 1; i + 1 < (row + 1) * width; ++i) {
-        const auto weight = double(seen(brightest_around(layer.gathered, i, width)));
-        for (std::size_t c = 0; c < layer.gathered.size(); ++c) {
-            const Values &plane = layer.gathered[c];
-            const std::array difference{double(layer.rays[0][c][i] - plane[i]),
-                                        double(layer.rays[1][c][i] - plane[i])};
-            sums.differences += weight * difference[0] * difference[1];
-            const auto change = changed(plane, i, width);
-            for (std::size_t k = 0; k < changes; ++k) {
-                sums.fits[k].square += weight * change[k] * change[k];
-                for (std::size_t h = 0; h < 2; ++h)
-                    sums.fits[k].product[h] += weight * change[k] * difference[h];
+    for (int y = box.min.y; y <= box.max.y; ++y)
+        for (int x = box.min.x; x <= box.max.x; ++x) {
+            const std::size_t i = layer.grid.index(x, y);
+            const auto weight = double(seen(brightest_around(layer.gathered, i, width)));
+            for (std::size_t c = 0; c < layer.gathered.size(); ++c) {
+                const Values &plane = layer.gathered[c];
+                const std::array difference{double(layer.rays[0][c][i] - plane[i]),
+                                            double(layer.rays[1][c][i] - plane[i])};
+                sums.differences += weight * difference[0] * difference[1];
+                sums.noise += weight * (difference[0] - difference[1]) * (difference[0] - difference[1]);
+                const auto change = changed(plane, i, width);
+                for (std::size_t k = 0; k < changes; ++k) {
+                    sums.fits[k].square += weight * change[k] * change[k];
+                    for (std::size_t h = 0; h < 2; ++h)
+                        sums.fits[k].product[h] += weight * change[k] * difference[h];
+                }
             }
         }
-    }
     return sums;
 }
 
+// How much of a change each render shows, and its share of what both differ by.
+struct Told {
+    std::array<double, 2> amounts{0, 0};
+    double share = 0;
+    double mean() const { return (amounts[0] + amounts[1]) / 2; }
+};
+
+// A mistake is the same everywhere; what a gathered picture is wrong in is not. So blocks count by what the change leaves of
+// their differences: the fewer, the more.
+Told fitted(const std::vector<Sums> &blocks, Change change) {
+    double noise = 0;
+    for (const Sums &block : blocks) noise += block.noise;
+    const double least = 1e-3 * noise / double(blocks.size()) + 1e-12;
+    Told told;
+    for (int pass = 0; pass < FinishTuning::mistake_passes; ++pass) {
+        Fit all;
+        double differences = 0;
+        for (const Sums &block : blocks) {
+            const Fit &fit = block.fits[change];
+            const double by = told.mean();
+            const double left =
+                block.differences - by * (fit.product[0] + fit.product[1]) + by * by * fit.square;
+            const double weight = 1 / (block.noise / 4 + std::max(left, 0.0) + least);
+            all.square += weight * fit.square;
+            for (std::size_t h = 0; h < 2; ++h) all.product[h] += weight * fit.product[h];
+            differences += weight * block.differences;
+        }
+        if (!(all.square > 0) || !(differences > 0)) return {};
+        for (std::size_t h = 0; h < 2; ++h) told.amounts[h] = all.product[h] / all.square;
+        told.share = told.amounts[0] * told.amounts[1] * all.square / differences;
+    }
+    return told;
+}
+
 // How much of the change the renders agree on; nothing where they do not, where it is small, or where it explains little.
-std::optional<double> told(const Sums &sums, Change change, double least) {
-    const Fit &fit = sums.fits[change];
-    if (!(fit.square > 0) || !(sums.differences > 0)) return {};
-    const double first = fit.product[0] / fit.square, second = fit.product[1] / fit.square,
-                 mean = (first + second) / 2;
-    const double share = first * second * fit.square / sums.differences;
-    const bool agreed = std::abs(first - second) < FinishTuning::mistake_disagreement * std::abs(mean);
-    if (!agreed || std::abs(mean) < least || share < FinishTuning::mistake_share) return {};
+std::optional<double> told(const std::vector<Sums> &blocks, Change change, double least) {
+    const Told found = fitted(blocks, change);
+    const double mean = found.mean();
+    const bool agreed =
+        std::abs(found.amounts[0] - found.amounts[1]) < FinishTuning::mistake_disagreement * std::abs(mean);
+    if (!agreed || std::abs(mean) < least || found.share < FinishTuning::mistake_share) return {};
     return mean;
 }
 
@@ -82,13 +110,16 @@ std::optional<double> told(const Sums &sums, Change change, double least) {
 
 LensMistakes check_lens(const LayerToFinish &layer) {
     if (layer.grid.width() < 3 || layer.grid.height() < 3) return {};
-    std::vector<Sums> rows(std::size_t(layer.grid.height()) - 2);
-    parallel_for(rows.size(), [&](std::size_t row) { rows[row] = sums_of_row(layer, row + 1); });
-    Sums sums;
-    for (const Sums &row : rows) sums.add(row);
+    // Not the border, whose pixels have no neighbours.
+    const Tiles tiles({Imath::V2i(1, 1), Imath::V2i(layer.grid.width() - 2, layer.grid.height() - 2)},
+                      FinishTuning::mistake_block_px);
+    std::vector<Sums> sums(tiles.count());
+    parallel_for(sums.size(), [&](std::size_t b) { sums[b] = sums_of(layer, tiles.box(b)); });
     LensMistakes found;
-    if (const auto more = told(sums, gain, FinishTuning::mistake_brightness); more && *more > -1)
+    if (const auto more = told(sums, gain, FinishTuning::mistake_brightness); more && *more > -1) {
         found.brightness = 1 / (1 + *more);
+        return found; // which leaves no slopes to tell from those of a picture that lies beside the other
+    }
     found.right = told(sums, across, FinishTuning::mistake_shift);
     found.down = told(sums, downwards, FinishTuning::mistake_shift);
     return found;

@@ -40,6 +40,8 @@ struct FinishTuning {
     // Side of the blocks whose spread tells how certain the trust in a class is, pixels.
     static constexpr int block_px = 32;
 
+    // Side of the blocks that count by how well a mistake explains them, pixels, and how often it is fitted anew.
+    static constexpr int mistake_block_px = 16, mistake_passes = 8;
     // A mistake is named that explains this share of the difference of both renders from the gathered picture, ...
     // Fence, grass, mirror, mist: .01 at most where there is none; .24 by 5 % of exposure, .39 by half a pixel.
     static constexpr double mistake_share = 0.1;
@@ -47,6 +49,9 @@ struct FinishTuning {
     static constexpr double mistake_disagreement = 0.25;
     // ... and which is at least this large: relative, and pixels.
     static constexpr double mistake_brightness = 0.02, mistake_shift = 0.15;
+
+    // Headers name another lens from this share on, and another rotation of its blades. Below, f-numbers are rounded.
+    static constexpr double lens_difference = 0.02, turned_degrees = 2;
 
     // Radius of the window over which the map of the estimated error is averaged, pixels.
     static constexpr int error_radius = 4;

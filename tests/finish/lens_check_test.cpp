@@ -59,6 +59,15 @@ TEST(LensCheck, HalfAPixelIsNamed) {
     EXPECT_NE(below.warnings()[0].find("bottom"), std::string::npos);
 }
 
+// A lamp beyond the frame, whose light the gathered picture lacks, is no other exposure.
+TEST(LensCheck, LightThatTheGatheredPictureLacksIsNoExposure) {
+    Colours bright = truth;
+    for (std::size_t i = 0; i < grid.size(); ++i)
+        if (const Imath::V2i at = grid.pixel(i); at.x < 40 && at.y < 60)
+            for (Values &channel : bright) channel[i] *= 3;
+    EXPECT_EQ(check_lens(layer_of(grid, bright, truth, {16, 16})).warnings(), std::vector<std::string>());
+}
+
 TEST(LensCheck, BlackAndTinyPicturesAreFine) {
     const Colours black(3, Values(grid.size(), 0.0f));
     EXPECT_TRUE(check_lens({grid, black, {black, black}}).warnings().empty());

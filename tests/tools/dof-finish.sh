@@ -123,6 +123,28 @@ oiiotool gathered.exr moved.exr --add --mulc 0.5 -o half.exr
 exits 0 "$finish" half.exr $one $two -o x1.exr
 grep -Eq '^dof-finish: warning: the gathered picture lies about 0.[3-7] pixels to the right' stderr || fail "half a pixel: $(cat stderr)"
 
+# Another lens is named by the headers, with both values; a render whose header is silent is not.
+for lens in '--fstop 0.2857 0.3 aperture.of.60.mm.radius,.not.63' '--focus-distance 5.15 5 focus.at.5.m,.not.5.15'; do
+    read -r option wrong right text <<<"$lens"
+    exits 0 "$bin/dof-gather" ldi.exr -o wrong.exr "$option" "$wrong"
+    exits 0 "$finish" wrong.exr $one $two -o x1.exr
+    [ "$(grep -Ec "^dof-finish: warning: fence/rays_[12].exr: another lens than that of the gathered picture: (an )?$text" stderr)" -eq 2 ] || fail "$option $wrong: $(cat stderr)"
+    exits 0 "$bin/dof-gather" ldi.exr -o right.exr "$option" "$right"
+    exits 0 "$finish" right.exr $one $two -o x1.exr
+    if grep 'another lens' stderr; then fail "$option $right is the same lens"; fi
+done
+exits 0 "$bin/dof-gather" ldi.exr -o hexagon.exr --blades 6
+for k in 1 2; do oiiotool fence/rays_$k.exr --attrib:type=int aperture_blades 6 -o six_$k.exr; done
+exits 0 "$finish" gathered.exr six_1.exr six_2.exr -o x1.exr
+grep -q 'another lens .*: 6 blades, not no blades' stderr || fail "a hexagon: $(cat stderr)"
+exits 0 "$finish" hexagon.exr six_1.exr six_2.exr -o x1.exr
+if grep 'another lens' stderr; then fail "two hexagons"; fi
+for k in 1 2; do
+    picture edit fence/rays_$k.exr silent_$k.exr erase=pinholeFocalLength erase=aperture erase=focus
+done
+exits 0 "$finish" wrong.exr silent_1.exr silent_2.exr -o x1.exr
+if grep 'another lens' stderr; then fail "a header that does not name its lens"; fi
+
 # Failures: one line that says what to do; the old output stays.
 fails_saying 2 'one render alone cannot tell.*another seed' "$finish" gathered.exr $one -o x.exr
 picture edit $two small.exr crop=80x90+0+0

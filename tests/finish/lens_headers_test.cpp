@@ -1,0 +1,69 @@
+// Another lens in the headers of two pictures: named with both values, and nothing said of what is the same or unknown.
+#include "finish/lens_headers.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace sparselens {
+namespace {
+
+using Texts = std::vector<std::string>;
+
+Camera camera() {
+    Camera camera;
+    camera.focal_length_mm = 50;
+    camera.fstop = 2;
+    camera.focus_distance = 4;
+    camera.looks.blades = 0;
+    return camera;
+}
+
+TEST(LensHeaders, NothingIsSaidOfTheSameLens) {
+    EXPECT_EQ(lens_differences(camera(), camera()), Texts());
+    Camera rounded = camera();
+    rounded.fstop = 2.01;
+    EXPECT_EQ(lens_differences(camera(), rounded), Texts());
+    Camera in_centimetres = camera();
+    in_centimetres.focus_distance = 400;
+    in_centimetres.metres_per_unit = 0.01;
+    EXPECT_EQ(lens_differences(camera(), in_centimetres), Texts());
+    EXPECT_EQ(lens_differences(camera(), Camera()), Texts());
+    EXPECT_EQ(lens_differences(Camera(), camera()), Texts());
+}
+
+TEST(LensHeaders, EachMistakeIsNamed) {
+    Camera wide = camera(), near = camera(), hexagon = camera(), squeezed = camera();
+    wide.fstop = 2 / 1.05;
+    near.focus_distance = 4 * 0.97;
+    hexagon.looks.blades = 6;
+    squeezed.looks.squeeze = 2;
+    EXPECT_EQ(lens_differences(camera(), wide), Texts{"an aperture of 13.12 mm radius, not 12.5"});
+    EXPECT_EQ(lens_differences(camera(), near), Texts{"focus at 3.88 m, not 4"});
+    EXPECT_EQ(lens_differences(camera(), hexagon), Texts{"6 blades, not no blades"});
+    EXPECT_EQ(lens_differences(hexagon, camera()), Texts{"no blades, not 6 blades"});
+    EXPECT_EQ(lens_differences(camera(), squeezed), Texts{"a squeeze of 2, not 1"});
+}
+
+// A hexagon that is turned by a side is the same.
+TEST(LensHeaders, ARotationIsNamedWhereItShows) {
+    Camera hexagon = camera(), turned = camera();
+    hexagon.looks.blades = turned.looks.blades = 6;
+    turned.looks.rotation = 15;
+    EXPECT_EQ(lens_differences(hexagon, turned), Texts{"blades turned by 15 degrees, not 0"});
+    turned.looks.rotation = 59;
+    EXPECT_EQ(lens_differences(hexagon, turned), Texts());
+}
+
+TEST(LensHeaders, APinholeIsAnotherLens) {
+    Camera pinhole = camera();
+    pinhole.fstop = std::numeric_limits<double>::infinity();
+    EXPECT_EQ(lens_differences(camera(), pinhole).size(), 1u);
+    EXPECT_EQ(lens_differences(pinhole, pinhole), Texts());
+    pinhole.focus_distance = std::numeric_limits<double>::infinity();
+    EXPECT_EQ(lens_differences(pinhole, pinhole), Texts());
+    EXPECT_EQ(lens_differences(camera(), pinhole).size(), 2u);
+}
+
+} // namespace
+} // namespace sparselens
