@@ -66,7 +66,7 @@ def main(path, folder, overscan=""):
     render.filepath, render.resolution_x, render.resolution_percentage = "//mine", 48, 200
     render.resolution_y = 27
     scene.sparselens.folder, scene.sparselens.overscan = folder, 3
-    scene.sparselens.overscan_auto = overscan == "auto"
+    scene.sparselens.overscan_auto, scene.sparselens.finish = overscan == "auto", 2
 
     before = state(scene)
     if bpy.ops.sparselens.render_views() != {"FINISHED"}:

@@ -132,6 +132,31 @@ defocused plain.exr plain/center.exr plain/view_*.exr
 alike layers.exr plain.exr 90
 echo "multilayer: the picture of single-layer views"
 
+# --finish: two renders of Blender's own lens with half of the samples each, and noise of their own: their mean is as near to a
+# render of twice the samples as that is to itself with another seed, and the headers name the lens that dof-finish compares.
+variant small keys,blades
+in_blender keys,blades.blend -P "$views" -- -o halves --frame 3 --views 0 --samples 4 --finish 129
+[ "$(cd halves && echo *)" = "center.exr rays_1.exr rays_2.exr" ] || fail "--finish wrote $(ls halves)"
+for half in 1:65 2:64; do
+    exrheader "halves/rays_${half%:*}.exr" >header
+    grep -Eq "^cycles\..*samples \(type string\): \"${half#*:}\"" header || fail "--finish: samples: $(grep samples header)"
+    grep -Fq 'aperture_blades (type int): 5' header || fail "--finish: $(grep blades header)"
+done
+in_blender keys,blades.blend -P "$variants" -- render 512 3 3 "$PWD/truth.####.exr"
+alike halves/rays_1.exr truth.0003.exr 30
+unlike halves/rays_1.exr halves/center.exr 28
+oiiotool halves/rays_1.exr halves/rays_2.exr --add --mulc 0.5 -o mean.exr
+better "$(decibels mean.exr truth.0003.exr)" "$(decibels halves/rays_1.exr truth.0003.exr)" 1.5 "--finish: two renders share noise"
+in_blender keys,blades.blend -P "$views" -- -o halves --frame 3 --samples 16
+"$bin/ldi-warp" halves/center.exr halves/view_?.exr -o - | "$bin/dof-gather" - -o halves/gathered.exr
+"$bin/dof-finish" halves/gathered.exr halves/rays_1.exr halves/rays_2.exr -o finished.exr -v 2>said
+if grep warning said; then fail "--finish: dof-finish warns of the same lens"; fi
+better "$(decibels finished.exr truth.0003.exr)" "$(decibels halves/gathered.exr truth.0003.exr)" 0 "--finish"
+"$bin/ldi-warp" halves/center.exr halves/view_?.exr -o - | "$bin/dof-gather" - -o halves/round.exr --blades 0
+"$bin/dof-finish" halves/round.exr halves/rays_1.exr halves/rays_2.exr -o finished.exr 2>said
+grep -q 'rays_2.exr: another lens .*: 5 blades, not no blades' said || fail "--finish: blades: $(cat said)"
+echo "--finish: two renders of Blender's own lens"
+
 # Errors: what happened, on stderr, and not 0.
 complains() {
     local code=$1 pattern=$2
@@ -159,6 +184,11 @@ refused mesh "'Sphere', which is no camera but of type MESH: set a camera"
 refused wide "has f-stop 0 at frame 6: set one above 0"
 refused macro "has focus distance 0 at frame 6: set one above 0"
 refused unlayered "no view layer of scene 'Scene' is used for rendering: switch one on"
+complains 2 "two renders take two samples" small.blend -P "$views" -- -o none --finish 1
+variant small seeded
+complains 1 "--finish: the scene's seed is animated" seeded.blend -P "$views" -- -o none --finish 4
+variant small eevee
+complains 1 "--finish: only Cycles" eevee.blend -P "$views" -- -o none --finish 4
 refused workbench "Workbench .*: choose Cycles or EEVEE"
 if blender -b --python-expr 'import _cycles, sys; sys.exit(1 if _cycles.with_openimagedenoise else 0)' >said 2>&1; then
     refused denoised "denoising is on, but this Blender has no OpenImageDenoise: switch it off"
@@ -197,6 +227,7 @@ grep -q 'Warning: the render region is not used' said || fail "the add-on does n
 in_blender marker.blend -P "$views" -- -o marker --frame 3 --samples 2 --overscan 3
 alike addon/center.exr marker/center.exr 90
 alike addon/view_3.exr marker/view_3.exr 90
+unlike addon/rays_1.exr addon/rays_2.exr 60 # one sample each
 in_blender marker.blend -P "$source_dir/tests/blender/addon.py" -- "$(dirname "$views")" "$PWD/addon_auto" auto
 in_blender marker.blend -P "$views" -- -o marker --frame 3 --samples 2 --overscan auto
 alike addon_auto/center.exr marker/center.exr 90

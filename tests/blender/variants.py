@@ -185,6 +185,18 @@ def make_denoised(scene, camera):
     scene.cycles.use_denoising = True
 
 
+def make_blades(scene, camera):
+    """An aperture that is not round."""
+    dof = camera.data.dof
+    dof.aperture_blades, dof.aperture_rotation, dof.aperture_ratio = 5, 0.3, 1.5
+
+
+def make_seeded(scene, camera):
+    """A seed of its own at each frame, by keys."""
+    scene.cycles.seed = 1
+    scene.cycles.keyframe_insert("seed", frame=1)
+
+
 def make_region(scene, camera):
     render = scene.render
     render.use_border = render.use_crop_to_border = True
