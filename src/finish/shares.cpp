@@ -1,8 +1,5 @@
 #include "finish/shares.h"
 
-#include <algorithm>
-#include <utility>
-
 namespace sparselens {
 
 namespace {
@@ -28,7 +25,7 @@ void soften(ClassTable &table) {
 
 } // namespace
 
-ClassTable shares_of(std::vector<ClassSums> blocks) {
+Shares shares_of(std::vector<ClassSums> blocks) {
     ClassTable answers{}, energies{}, variance{};
     for (ClassSums &block : blocks) {
         soften(block.answers);
@@ -40,7 +37,7 @@ ClassTable shares_of(std::vector<ClassSums> blocks) {
             variance[i] += block.unseen[i];
         }
     }
-    ClassTable shares{};
+    Shares shares{};
     for (std::size_t i = 0; i < shares.size(); ++i) {
         if (!(answers[i] > 0) || !(energies[i] > 0)) continue;
         const double share = answers[i] / energies[i];
@@ -48,24 +45,9 @@ ClassTable shares_of(std::vector<ClassSums> blocks) {
             const double left = block.answers[i] - share * block.energies[i];
             variance[i] += left * left;
         }
-        shares[i] = std::min(share, 1.0) * std::max(1 - variance[i] / (answers[i] * answers[i]), 0.0);
+        shares[i] = float(std::min(share, 1.0) * std::max(1 - variance[i] / (answers[i] * answers[i]), 0.0));
     }
     return shares;
-}
-
-float share_at(const ClassTable &shares, float across, float down) {
-    const auto split = [](float place) {
-        const float from_middle = std::clamp(place - 0.5f, 0.0f, float(classes - 1));
-        const auto k = std::min(std::size_t(from_middle), classes - 2);
-        return std::pair(k, from_middle - float(k));
-    };
-    const auto [i, x] = split(across);
-    const auto [j, y] = split(down);
-    const auto at = [&](std::size_t row, std::size_t column) {
-        return float(shares[row * classes + column]);
-    };
-    return (1 - y) * ((1 - x) * at(j, i) + x * at(j, i + 1)) +
-           y * ((1 - x) * at(j + 1, i) + x * at(j + 1, i + 1));
 }
 
 } // namespace sparselens

@@ -3,13 +3,16 @@
 
 #include "finish/tuning.h"
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
 namespace sparselens {
 
 inline constexpr std::size_t trust_classes = FinishTuning::classes; // of each of the two measures
-using ClassTable = std::array<double, trust_classes * trust_classes>;
+inline constexpr std::size_t table_size = trust_classes * trust_classes;
+using ClassTable = std::array<double, table_size>;
+using Shares = std::array<float, table_size>;
 
 // Sums over the cells of each class, in one block of the picture.
 struct ClassSums {
@@ -19,9 +22,17 @@ struct ClassSums {
 };
 
 // The share that fits the answers best, drawn towards 0 by its own variance, as blocks differ (W. James, C. Stein, 1961).
-ClassTable shares_of(std::vector<ClassSums> blocks);
+Shares shares_of(std::vector<ClassSums> blocks);
 
 // Between the middles of classes, linear.
-float share_at(const ClassTable &shares, float across, float down);
+inline float share_at(const Shares &shares, float across, float down) {
+    constexpr auto last = float(trust_classes - 1);
+    const float i = std::clamp(across - 0.5f, 0.0f, last), j = std::clamp(down - 0.5f, 0.0f, last);
+    const std::size_t column = std::min(std::size_t(i), trust_classes - 2),
+                      row = std::min(std::size_t(j), trust_classes - 2);
+    const float x = i - float(column), y = j - float(row);
+    const float *at = shares.data() + row * trust_classes + column, *below = at + trust_classes;
+    return (1 - y) * ((1 - x) * at[0] + x * at[1]) + y * ((1 - x) * below[0] + x * below[1]);
+}
 
 } // namespace sparselens

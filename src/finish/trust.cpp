@@ -34,10 +34,12 @@ void ring_sum(Values &values, const Grid &grid) {
     for_cells(grid, [&](std::size_t i) { values[i] = outer * values[i] - inner * near[i]; });
 }
 
-// The two measures that make a cell's class, of each picture.
+// The two measures that make a cell's class, of each picture: a logarithm and standard deviations, later places among classes.
 struct Measures {
-    std::array<Values, 3> energy_ratio, confirmed; // a logarithm; standard deviations
+    std::array<Values, 3> energy_ratio, confirmed;
 };
+
+std::size_t class_at(float place) { return std::min(std::size_t(place), trust_classes - 1); }
 
 // Energy over noise, as logarithms. `noise`: of both renders, squared difference.
 std::array<Values, 3> energy_ratios(const CellEvidence &cells, Values noise, const Grid &grid,
@@ -83,8 +85,8 @@ std::array<Values, 3> confirmations(const CellEvidence &cells, const Grid &grid,
 std::array<Values, 3> trusted(const CellEvidence &evidence, const Cells &cells,
                               const std::array<double, 2> &samples) {
     const Grid &grid = cells.grid();
-    const Measures measures{energy_ratios(evidence, evidence.noise, grid, samples),
-                            confirmations(evidence, grid, samples)};
+    Measures measures{energy_ratios(evidence, evidence.noise, grid, samples),
+                      confirmations(evidence, grid, samples)};
     Classes by_energy(trust_classes, -largest_energy_ratio, largest_energy_ratio),
         by_confirmation(trust_classes, -largest_confirmation, largest_confirmation);
     const std::array testing{samples[1], samples[0]};
@@ -96,6 +98,12 @@ std::array<Values, 3> trusted(const CellEvidence &evidence, const Cells &cells,
         }
     by_energy.divide();
     by_confirmation.divide();
+    for (std::size_t k = 0; k < 3; ++k)
+        for_cells(grid, [&](std::size_t i) {
+            float &ratio = measures.energy_ratio[k][i], &confirmed = measures.confirmed[k][i];
+            ratio = by_energy.place_of(ratio);
+            confirmed = by_confirmation.place_of(confirmed);
+        });
 
     const Tiles blocks(grid.box(), FinishTuning::block_px / FinishTuning::trust_cell);
     std::vector<ClassSums> sums(blocks.count());
@@ -107,8 +115,8 @@ std::array<Values, 3> trusted(const CellEvidence &evidence, const Cells &cells,
             for (int x = box.min.x; x <= box.max.x; ++x) {
                 const std::size_t i = grid.index(x, y);
                 for (std::size_t k = 0; k < 2; ++k) {
-                    const std::size_t cell = by_energy.of(measures.energy_ratio[k][i]) * trust_classes +
-                                             by_confirmation.of(measures.confirmed[k][i]);
+                    const std::size_t cell = class_at(measures.energy_ratio[k][i]) * trust_classes +
+                                             class_at(measures.confirmed[k][i]);
                     const double count = pixels * testing[k];
                     // The part of a change that is noise, as the changes of both renders differ, costs more.
                     const double noise = double(evidence.spread[i]) * of_both / samples[k];
@@ -119,14 +127,13 @@ std::array<Values, 3> trusted(const CellEvidence &evidence, const Cells &cells,
                 }
             }
     });
-    const ClassTable shares = shares_of(std::move(sums));
+    const Shares shares = shares_of(std::move(sums));
 
     std::array<Values, 3> share;
     for (std::size_t k = 0; k < 3; ++k) {
         share[k].resize(grid.size());
         for_cells(grid, [&](std::size_t i) {
-            share[k][i] = share_at(shares, by_confirmation.place_of(measures.confirmed[k][i]),
-                                   by_energy.place_of(measures.energy_ratio[k][i]));
+            share[k][i] = share_at(shares, measures.confirmed[k][i], measures.energy_ratio[k][i]);
         });
         box_mean(share[k], grid, FinishTuning::trust_radius);
     }

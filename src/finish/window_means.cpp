@@ -14,9 +14,21 @@ namespace {
 constexpr std::size_t lanes = 16;
 using Lanes = std::array<float, lanes>;
 
+// The mean of each entry and of one on each side of it.
+FOR_PROCESSORS void mean_of_three(const std::vector<Lanes> &line, std::vector<Lanes> &result) {
+    const std::size_t last = line.size() - 1;
+    for (std::size_t i = 0; i <= last; ++i) {
+        const Lanes &before = line[i > 0 ? i - 1 : i], &behind = line[i < last ? i + 1 : i];
+        const float first = i > 0 ? 1 : 0, third = i < last ? 1 : 0, share = 1 / (first + 1 + third);
+        for (std::size_t k = 0; k < lanes; ++k)
+            result[i][k] = share * (first * before[k] + line[i][k] + third * behind[k]);
+    }
+}
+
 // The mean of each entry and of `radius` entries on each side of it. The sums are of double precision, because a lamp of
 // radiance 1e4 that enters and leaves a running sum must leave nothing behind.
-FOR_PROCESSORS void mean_along(std::vector<Lanes> &line, std::vector<Lanes> &result, std::size_t radius) {
+FOR_PROCESSORS void mean_along(const std::vector<Lanes> &line, std::vector<Lanes> &result,
+                               std::size_t radius) {
     const std::size_t length = line.size();
     std::array<double, lanes> sum{};
     std::size_t begin = 0, end = 0;
@@ -28,7 +40,6 @@ FOR_PROCESSORS void mean_along(std::vector<Lanes> &line, std::vector<Lanes> &res
         const double share = 1 / double(end - begin);
         for (std::size_t k = 0; k < lanes; ++k) result[i][k] = float(sum[k] * share);
     }
-    line.swap(result);
 }
 
 // Entry i of lane k is values[i * along + k * across].
@@ -37,7 +48,13 @@ void means_of_lanes(float *values, std::size_t length, std::size_t along, std::s
     std::vector<Lanes> line(length), scratch(length);
     for (std::size_t i = 0; i < length; ++i)
         for (std::size_t k = 0; k < count; ++k) line[i][k] = values[i * along + k * across];
-    for (int pass = 0; pass < passes; ++pass) mean_along(line, scratch, std::size_t(radius));
+    for (int pass = 0; pass < passes; ++pass) {
+        if (radius == 1)
+            mean_of_three(line, scratch);
+        else
+            mean_along(line, scratch, std::size_t(radius));
+        line.swap(scratch);
+    }
     for (std::size_t i = 0; i < length; ++i)
         for (std::size_t k = 0; k < count; ++k) values[i * along + k * across] = line[i][k];
 }
