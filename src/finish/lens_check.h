@@ -8,7 +8,7 @@
 //
 // Another radius, focus or shape of the lens cannot be told from what gathered pictures are wrong in anyway. Fitted in the same way by
 // pictures that are gathered with 5 % more radius, 3 % more focus distance or six blades, good pictures of eleven scenes show up to
-// .6, .75 and .9 of such a mistake, and of lamps more. So what headers say is compared (lens_headers.h).
+// .9, .75 and .9 of such a mistake, and of lamps more. So what headers say is compared (lens_headers.h).
 #pragma once
 
 #include "finish/finish.h"
