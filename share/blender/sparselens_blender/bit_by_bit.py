@@ -24,6 +24,7 @@ class BitByBit:
 
     timer = None
     stopped = False
+    holds = False  # keys and buttons, which could undo what is borrowed
 
     @classmethod
     def poll(cls, context):
@@ -49,7 +50,9 @@ class BitByBit:
     def modal(self, context, event):
         self.stopped |= event.type == "ESC" and event.value == "PRESS"
         if event.type != "TIMER":
-            return {"PASS_THROUGH"}
+            pressed = event.value in {"PRESS", "CLICK", "DOUBLE_CLICK"}
+            return {"RUNNING_MODAL" if self.holds and pressed
+                    else "PASS_THROUGH"}
         try:
             if self.stopped and self.may_stop():
                 raise Stopped

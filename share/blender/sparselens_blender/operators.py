@@ -30,6 +30,8 @@ class Renders(BitByBit):
     """An operator of steps: prepare(context) sets self.steps, self.count and
     self.most, the number of views."""
 
+    holds = True
+
     def warn(self, text):
         self.report({"WARNING"}, text)
 
