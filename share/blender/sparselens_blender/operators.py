@@ -23,7 +23,8 @@ def frames_of(scene):
 
 def manner_of(settings):
     return Manner(AUTO if settings.overscan_auto else settings.overscan,
-                  settings.multilayer, supersample=settings.supersample)
+                  settings.multilayer, supersample=settings.supersample,
+                  finish=max(settings.finish, 2) if settings.finish else 0)
 
 
 class Renders(BitByBit):
@@ -106,7 +107,7 @@ class SPARSELENS_OT_render_animation(Renders, bpy.types.Operator):
             multilayer=settings.multilayer, looks=settings.looks,
             tools=chosen_folder())
         manner = manner_of(settings)
-        manner.keep = settings.keep
+        manner.keep, manner.finish = settings.keep, 0
         eyes, frames = eyes_of(scene), frames_of(scene)
         self.pictures = Pictures(scene, eyes, manner, options, self.warn)
         self.pictures.render_again = ("if more than the lens has changed, "

@@ -32,6 +32,10 @@ class SPARSELENS_Settings(bpy.types.PropertyGroup):
         name="Supersample", description="Pixels rendered, across and down, "
         "for each of the picture, with as many fewer samples",
         default=1, min=1, max=16)
+    finish: bpy.props.IntProperty(
+        name="Rays to Finish", description="Samples a pixel of two renders "
+        "through the lens, both together, for dof-finish; 0: none",
+        default=0, min=0, soft_max=4096)
     multilayer: bpy.props.BoolProperty(
         name="All Passes",
         description="Multilayer EXR with all passes of the view layers")
@@ -110,7 +114,7 @@ class SPARSELENS_PT_panel(bpy.types.Panel):
         layout.prop(settings, "overscan_auto")
         if not settings.overscan_auto:
             layout.prop(settings, "overscan")
-        for name in "supersample", "multilayer", "animation":
+        for name in "supersample", "finish", "multilayer", "animation":
             layout.prop(settings, name)
         layout.operator("sparselens.render_views")
         layout.prop(settings, "looks")

@@ -19,6 +19,7 @@ from .checks import check_scene
 from .exr import depth_rows, exr_box, with_attributes
 from .for_a_while import (
     changed, finer, only_layer, render_settings, still_camera)
+from .halves import check_halves, halves_steps
 from .kept import is_kept, manner_attributes, overscan_of_file
 from .shots import camera_attributes, shot_of, view_placement
 
@@ -35,6 +36,7 @@ class Manner:
     multilayer: bool = False
     layer: str = None        # the only view layer to render
     supersample: int = 1     # pixels, across and down, for one of the picture
+    finish: int = 0          # samples of two renders through the lens, both
     keep: bool = False       # views of an earlier run that are the same
 
 
@@ -199,16 +201,23 @@ def eye_steps(scene, folder, ending, views, eye, manner, count):
     count.keep([path_of(name) for name in kept])
     left = [(path_of(name), u, box) for name, u, box in views
             if name not in kept]
-    if not left:
-        return
     size = [side + 2 * beyond for side in shot.size]
-    with render_settings(scene, size, manner.multilayer), \
-            still_camera(scene), only_layer(scene, manner.layer), \
-            finer(scene, finest):
+    with ExitStack() as stack:
+        if left:
+            stack.enter_context(render_settings(scene, size,
+                                                manner.multilayer))
+            stack.enter_context(still_camera(scene))
+            stack.enter_context(only_layer(scene, manner.layer))
+            stack.enter_context(finer(scene, finest))
         for path, u, box in left:
             yield from view_steps(scene, path, shot, u, beyond, box,
                                   attributes, plain=not manner.multilayer)
             count.rendered += 1
+    if manner.finish:
+        yield from halves_steps(
+            scene, path_of, eye, manner, view_steps,
+            manner_attributes(scene, manner.layer, manner.multilayer)
+            | windows(shot_of(scene, eye).size, 0))
 
 
 def frame_ending(frame, several):
@@ -223,6 +232,8 @@ def views_steps(scene, frames, folder, views_at, eyes, manner, count,
     for all frames. Yields what is to be rendered, in words."""
     for text in check_scene(scene):
         say(text)
+    if manner.finish:
+        check_halves(scene)
     manner.layer = layer_to_render(scene, manner.layer, manner.multilayer, say)
     os.makedirs(folder, exist_ok=True)
     before = scene.frame_current

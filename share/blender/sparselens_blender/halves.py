@@ -1,0 +1,60 @@
+"""Two renders through the camera's own lens that share no noise, for
+dof-finish."""
+
+import os
+from contextlib import contextmanager
+
+from .for_a_while import changed, only_layer, render_settings, still_camera
+from .shots import shot_of
+
+
+@contextmanager
+def open_lens(camera, shot):
+    """The made camera takes pictures through the lens of the shot, for a
+    while."""
+    with changed(camera.data.dof, use_dof=True,
+                 focus_distance=shot.focus_distance,
+                 aperture_fstop=shot.fstop, aperture_blades=shot.blades,
+                 aperture_rotation=shot.rotation, aperture_ratio=shot.ratio):
+        yield
+
+
+def halves_steps(scene, path_of, eye, manner, view_steps, attributes):
+    """rays_1 and rays_2, with manner.finish samples a pixel in all, of the
+    size of the picture: without sub-pixels and overscan. Neither is denoised,
+    which would leave other noise."""
+    shot, cycles, samples = shot_of(scene, eye), scene.cycles, manner.finish
+    with render_settings(scene, shot.size, manner.multilayer), \
+            still_camera(scene), only_layer(scene, manner.layer):
+        for half, count in ((1, samples - samples // 2), (2, samples // 2)):
+            with open_lens(scene.camera, shot), changed(
+                    cycles, seed=(cycles.seed + half) % 2 ** 31,
+                    samples=count, use_adaptive_sampling=False,
+                    use_denoising=False):
+                yield from view_steps(
+                    scene, path_of("rays_%d" % half), shot, (0, 0), 0, None,
+                    attributes, plain=not manner.multilayer)
+
+
+def curves_of(action):
+    """The curves of an action, in layers since Blender 5."""
+    if action is None:
+        return []
+    if hasattr(action, "fcurves"):
+        return list(action.fcurves)
+    return [curve for layer in action.layers for strip in layer.strips
+            for bag in strip.channelbags for curve in bag.fcurves]
+
+
+def check_halves(scene):
+    """Raises ValueError where two renders would have the same noise."""
+    if scene.render.engine != "CYCLES":
+        raise ValueError("--finish: only Cycles renders depth of field by "
+                         "rays: choose it as the render engine")
+    animation = scene.animation_data
+    moved = [] if animation is None else (list(animation.drivers)
+                                          + curves_of(animation.action))
+    if any(curve.data_path == "cycles.seed" for curve in moved):
+        raise ValueError("--finish: the scene's seed is animated, so both "
+                         "renders would have the same: use the animated seed "
+                         "of Cycles (Sampling > Advanced) in its place")
