@@ -1,13 +1,13 @@
 // dof-compare: how far a picture is from its reference, and how steady a sequence is.
 #include "base/error.h"
 #include "chain/file_notices.h"
+#include "chain/regions.h"
 #include "harness/commands/frames.h"
 #include "harness/examples.h"
 #include "harness/tool.h"
 #include "harness/words.h"
 #include "io/display/shown_picture.h"
 #include "io/exr/exr_flat.h"
-#include "loading/region_file.h"
 #include "measure/figures_text.h"
 #include "measure/flip.h"
 #include "measure/image_error.h"
@@ -140,7 +140,7 @@ void compare_pictures(const Options &options, const ToolContext &tool) {
 
     std::vector<std::uint8_t> bits;
     if (!options.regions.empty())
-        bits = regions_over(windows, options.regions, {options.lens, options.depth}, tool);
+        bits = regions_over(windows, options.regions, {options.lens, options.depth}, tool.tell());
     const std::size_t count = bits.empty() ? 0 : region_names.size();
     auto figures = image_error(image, reference, bits, count);
     if (second) {

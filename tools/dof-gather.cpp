@@ -5,7 +5,6 @@
 #include "harness/stats.h"
 #include "harness/tool.h"
 #include "io/exr/exr_flat.h"
-#include "options/device_option.h"
 #include "options/gather_options.h"
 
 #include <fmt/format.h>

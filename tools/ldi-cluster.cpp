@@ -6,7 +6,6 @@
 #include "harness/stats.h"
 #include "harness/tool.h"
 #include "io/exr/exr_deep.h"
-#include "options/colour_options.h"
 #include "options/lens_options.h"
 #include "options/picture_options.h"
 

@@ -5,7 +5,6 @@
 #include "harness/stats.h"
 #include "harness/tool.h"
 #include "io/exr/exr_deep.h"
-#include "options/device_option.h"
 #include "options/warp_options.h"
 
 #include <malloc.h>

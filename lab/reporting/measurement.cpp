@@ -2,6 +2,7 @@
 
 #include "base/parallel.h"
 #include "base/tone_map.h"
+#include "chain/regions.h"
 #include "io/display/shown_picture.h"
 #include "io/exr/exr_flat.h"
 #include "io/files/folder.h"
@@ -9,7 +10,6 @@
 #include "lab/report/numbers.h"
 #include "lab/report/verdict.h"
 #include "lab/reporting/files.h"
-#include "loading/region_file.h"
 #include "measure/flip.h"
 
 #include <fmt/format.h>
@@ -77,7 +77,7 @@ public:
         : times_(times), folder_(std::move(folder)), windows_(read(plan.reference.picture).windows),
           reference_(over_reference(plan.reference.picture)),
           mapped_reference_(tone_mapped_picture(reference_)),
-          bits_(regions_over(windows_, path(plan.centre.picture), {.lens = plan.lens}, tool)) {
+          bits_(regions_over(windows_, path(plan.centre.picture), {.lens = plan.lens}, tool.tell())) {
         write_png(path(png_name(plan.reference.folder, "picture")), mapped_reference_);
     }
 

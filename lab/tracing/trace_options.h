@@ -5,7 +5,6 @@
 #include "harness/commands/cli.h"
 #include "lab/trace/render.h"
 #include "options/lens_options.h"
-#include "options/look_options.h"
 
 #include <string>
 #include <vector>

@@ -3,7 +3,6 @@
 #include "base/error.h"
 #include "chain/file_notices.h"
 #include "chain/make_ldi.h"
-#include "chain/recoloured.h"
 #include "deep/merge.h"
 #include "deep/tidy.h"
 #include "io/camera/camera_write.h"
@@ -87,7 +86,7 @@ ClusteredLdi merged_and_clustered(std::vector<OpenedLdi> parts, const ClusterReq
                                   Progress &progress, const Tell &tell) {
     for (OpenedLdi &part : parts) part.camera = camera_for(part, request);
     OpenedLdi in = merged(std::move(parts));
-    if (request.beauty) recolor_by(*request.beauty, in, tell);
+    if (request.beauty) recolor_by(*request.beauty, "recolor", nullptr, in, tell);
     recolor_by(request.recolor, request.depth.picture, request.colour, in, tell);
     return clustered(in, in.camera, request, progress, tell);
 }

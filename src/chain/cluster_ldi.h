@@ -1,10 +1,8 @@
 // Makes one LDI of deep pictures, of fewer samples: merges them by depth, gives them the colours of a flat picture, and clusters.
 #pragma once
 
-#include "chain/colours.h"
-#include "chain/notices.h"
+#include "chain/recolor_ldi.h"
 #include "deep/cluster.h"
-#include "io/recolor_ldi.h"
 
 #include <optional>
 #include <span>
@@ -17,9 +15,9 @@ struct ClusterRequest {
     std::vector<std::string> inputs = {}, depth_files = {}; // files; the latter of each, or none
     std::string recolor = {};                               // the flat picture of their colours; empty: none
     DepthOptions depth = {};
-    ColourOptions colour = {};      // of the flat picture
-    const Beauty *beauty = nullptr; // the same picture in memory
-    LensValues lens = {};           // over what the files say
+    ColourOptions colour = {};        // of the flat picture
+    const FlatFile *beauty = nullptr; // the same picture in memory, of linear colours
+    LensValues lens = {};             // over what the files say
     std::optional<int> supersample = {};
     std::optional<double> tolerance = {}; // pixels of CoC; else 0.25, if the lens is known
     int layers = 0;                       // see ClusterOptions

@@ -49,7 +49,11 @@ LinearColours linear_colours(const Tell &tell, const ColourOptions &options, con
     std::string from = options.input_space;
     if (const auto stated = stated_space(config, header); stated && !asked) {
         if (!stated->space) {
-            tell({NoticeKind::unnamed_space, display_name(path), {stated->attribute}, "colorspace"});
+            tell({stated->attribute == "chromaticities" ? NoticeKind::unnamed_chromaticities
+                                                        : NoticeKind::unnamed_space,
+                  display_name(path),
+                  {stated->attribute},
+                  "colorspace"});
             return {header};
         }
         from = *stated->space;

@@ -1,8 +1,7 @@
 #include "chain/denoised.h"
 
 #include "base/error.h"
-#include "chain/file_notices.h"
-#include "io/recolor_ldi.h"
+#include "chain/flat_light.h"
 #include "lens/perceptive_depth.h"
 
 #include <fmt/format.h>
@@ -21,29 +20,32 @@ void check_count(std::size_t denoised, std::size_t views) {
             denoised, views));
 }
 
-DenoisedPicture open_denoised(const LdiFromViews &request, const std::string &path, const Tell &tell) {
-    tell({NoticeKind::reading, path});
-    Beauty picture = open_beauty(path, request.depth.picture);
-    tell_reading(tell, path, picture.notes, picture.warnings);
-    tell_invalid_values(tell, path, picture.bad);
-    if (request.colour) to_linear(tell, *request.colour, path, picture.header, picture.image);
-    return {path, std::move(picture.image)};
+// Files, then those in memory, whose colours are linear.
+std::vector<DenoisedPicture> pictures_of(const LdiFromViews &request, const Tell &tell) {
+    const ColourOptions *colour = request.colour ? &*request.colour : nullptr;
+    std::vector<DenoisedPicture> pictures;
+    for (const std::string &path : request.denoised) {
+        FlatLight light = open_light(path, request.depth.picture, colour, tell);
+        pictures.push_back({path, std::move(light.image)});
+    }
+    for (const DenoisedPicture &picture : request.denoised_pictures) {
+        FlatFile file;
+        file.image = picture.image;
+        pictures.push_back({picture.name, light_of(std::move(file), picture.name, nullptr, tell).image});
+    }
+    return pictures;
 }
 
 } // namespace
 
 void take_denoised(const LdiFromViews &request, const WarpOptions &by, std::vector<PackedView> &views,
                    const Tell &tell) {
-    std::vector<DenoisedPicture> denoised;
+    std::vector<DenoisedPicture> denoised = pictures_of(request, tell);
+    if (!denoised.empty()) check_count(denoised.size(), views.size());
     if (!request.noisy.empty())
         for (PackedView &view : views) denoised.push_back(part_denoised(view, request.noisy));
-    if (!request.denoised.empty()) check_count(request.denoised.size(), views.size());
-    for (const std::string &path : request.denoised) denoised.push_back(open_denoised(request, path, tell));
-    const std::vector<DenoisedPicture> &in_memory = request.denoised_pictures;
-    if (!in_memory.empty()) check_count(in_memory.size(), views.size());
-    if (denoised.empty() && in_memory.empty()) return;
-    take_denoised(views, denoised.empty() ? in_memory : denoised, by.focal_px,
-                  perceptive_scale(by.radius, by.focal_px));
+    if (!denoised.empty())
+        take_denoised(views, denoised, by.focal_px, perceptive_scale(by.radius, by.focal_px));
 }
 
 } // namespace sparselens

@@ -15,7 +15,8 @@ namespace sparselens {
 void tell_reading(const Tell &tell, const std::string &path, const std::vector<std::string> &notes,
                   const std::vector<std::string> &warnings);
 
-// What happens to each layer.
+// What happens to each layer, in the order of their first channels: the table of docs/file-format.md.
+std::vector<std::string> layer_notes(std::span<const Channel> channels);
 void tell_layers(const Tell &tell, const std::string &path, std::span<const Channel> channels);
 
 // Both of an LDI, whether it has per-channel alpha, and the values that were invalid.

@@ -20,15 +20,20 @@ enum class NoticeKind {
     camera,
     camera_unsure, // why; the parameter settles it
     // Colours.
-    colour_space,   // name
+    colour_space, // name
+    unnamed_chromaticities,
     unnamed_space,  // attribute
     no_colorconfig, // why
     displayed,
     // Views and LDIs.
-    picture_warning, // what a check found, in its words
-    framing,         // x and y of the axis in pixels, zoom, forward
-    warped,          // views, samples, pixels
-    clustered,       // samples before and after, the largest change of the CoC in pixels
+    picture_warning,   // what a check found, in its words
+    coverage_differs,  // the deep file, pixels, of all
+    without_colours,   // the deep file, pixels
+    light_at_infinity, // pixels
+    regions,           // radius, focal length in pixels, focus
+    framing,           // x and y of the axis in pixels, zoom, forward
+    warped,            // views, samples, pixels
+    clustered,         // samples before and after, the largest change of the CoC in pixels
     clustered_blindly,
     // Pictures.
     focused, // depth, x, y

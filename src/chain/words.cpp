@@ -27,13 +27,29 @@ constexpr std::array table{
     Words{NoticeKind::camera, note, "{file}: {}"},
     Words{NoticeKind::camera_unsure, note, "{file}: {}; `{parameter}` settles it"},
     Words{NoticeKind::colour_space, note, "{file}: colour space {}"},
-    Words{NoticeKind::unnamed_space, warning,
-          "{file}: the colour configuration names no colour space for its {}; its colours are taken for "
-          "scene-linear: give `{parameter}`"},
+    Words{
+        NoticeKind::unnamed_chromaticities, warning,
+        "{file}: its chromaticities are of no colour space that the colour configuration names; its colours "
+        "are taken for scene-linear: give `{parameter}`"},
+    Words{
+        NoticeKind::unnamed_space, warning,
+        "{file}: its {} is of no colour space that the colour configuration names; its colours are taken for "
+        "scene-linear: give `{parameter}`"},
     Words{NoticeKind::no_colorconfig, warning,
           "{}; EXR is taken as linear: mend $OCIO, or name a configuration by `{parameter}`"},
     Words{NoticeKind::displayed, note, "{file}: written with a display transform"},
     Words{NoticeKind::picture_warning, warning, "{}"},
+    Words{
+        NoticeKind::coverage_differs, warning,
+        "{file}: its coverage differs from that of {} in {} of {} pixels; render both with the same objects "
+        "and pixel filter. What it alone covers lies at infinity"},
+    Words{NoticeKind::without_colours, warning,
+          "{file}: has no colours for {1} pixels of {0}, which are left out; render as much overscan as that "
+          "has"},
+    Words{NoticeKind::light_at_infinity, note,
+          "{file}: {} pixels show light or coverage at infinity, where no sample is"},
+    Words{NoticeKind::regions, note,
+          "the regions are those of a lens of radius {:g}, focal length {:g} pixels, focused at {:g}"},
     Words{
         NoticeKind::framing, note,
         "{file}: optical axis {:g},{:g} pixels from that of the centre view, focal length {:g} times that of "

@@ -2,7 +2,6 @@
 
 #include "base/error.h"
 #include "chain/take_picture.h"
-#include "python/devices.h"
 #include "python/job.h"
 #include "python/keywords.h"
 #include "python/told.h"

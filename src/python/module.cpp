@@ -1,8 +1,8 @@
 // The Python module sparselens, whose package (sparselens/__init__.py) imports what is here.
 #include "base/error.h"
 #include "io/files/memory_limit.h"
-#include "python/devices.h"
 #include "python/objects.h"
+#include "python/told.h"
 
 #include <ImfThreading.h>
 #include <sparselens_docs.h>

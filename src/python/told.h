@@ -1,6 +1,8 @@
-// Long work of the chain, whose warnings become those of Python (UserWarning) when it is done.
+// What calls of the chain share: the devices of the keyword device, until the interpreter ends; and that warnings become those of
+// Python (UserWarning) when the work is done.
 #pragma once
 
+#include "chain/devices.h"
 #include "chain/words.h"
 #include "python/job.h"
 #include "python/objects.h"
@@ -18,6 +20,15 @@ Result told_job(const py::object &callback, const std::function<Result(Progress 
     });
     for (const std::string &warning : warnings) warn(warning);
     return result;
+}
+
+inline GatherDevice &gather_device() {
+    static GatherDevice one;
+    return one;
+}
+inline WarpingDevice &warp_device() {
+    static WarpingDevice one;
+    return one;
 }
 
 } // namespace sparselens::python

@@ -1,6 +1,7 @@
 #include "base/error.h"
 #include "chain/cluster_ldi.h"
 #include "chain/make_ldi.h"
+#include "chain/regions.h"
 #include "chain/take_picture.h"
 #include "deep/flatten.h"
 #include "deep/front_samples.h"
@@ -9,7 +10,6 @@
 #include "measure/image_error.h"
 #include "measure/regions.h"
 #include "python/arrays.h"
-#include "python/devices.h"
 #include "python/finish.h"
 #include "python/gather.h"
 #include "python/job.h"
@@ -102,9 +102,7 @@ std::vector<DenoisedPicture> denoised_pictures(Keywords &keywords) {
     std::vector<DenoisedPicture> pictures;
     if (given.is_none()) return pictures;
     for (const PictureObject *picture : several<PictureObject>(given, "denoised", "a sequence of Picture"))
-        pictures.push_back(
-            {"denoised[" + std::to_string(pictures.size()) + "]",
-             ready_beauty({.image = picture->image, .header = picture->header}, "denoised").image});
+        pictures.push_back({"denoised[" + std::to_string(pictures.size()) + "]", picture->image});
     return pictures;
 }
 
@@ -144,9 +142,9 @@ LdiObject cluster(const py::object &ldi, const py::kwargs &given) {
     const PictureObject *flat =
         colours.is_none() ? nullptr : &argument<PictureObject>(colours, "recolor", "a Picture");
     return told_job<LdiObject>(progress, [&](Progress &said, const Tell &tell) -> LdiObject {
-        std::optional<Beauty> beauty;
-        if (flat) beauty = ready_beauty({.image = flat->image, .header = flat->header}, "recolor");
-        if (beauty) request.beauty = &*beauty;
+        FlatFile beauty;
+        if (flat) beauty = {.image = flat->image, .header = flat->header};
+        if (flat) request.beauty = &beauty;
         ClusteredLdi made = cluster_ldi(from, request, said, tell);
         return ldi_of(from[0]->name, std::move(made));
     });
@@ -227,15 +225,6 @@ py::dict dict_of(const ErrorFigures &figures) {
     return found;
 }
 
-std::vector<std::uint8_t> bits_of(const OpenedLdi &in, const LensValues &values, const Windows &target) {
-    const Windows &w = in.ldi.windows;
-    if (w.display_width() != target.display_width() || w.display_height() != target.display_height())
-        throw UsageError("regions: its display window differs in size from that of the reference");
-    const ThinLens lens = resolve_lens(camera_with_options(values, in.camera), w);
-    const std::vector<float> c = front_circles_of_confusion(in.ldi, lens);
-    return bits_over(region_bits(c, w.width(), w.height(), lens.pixel_aspect), w, target);
-}
-
 py::dict compare(const py::object &image, const py::object &reference, const py::kwargs &given) {
     Keywords keywords("compare", given);
     const Image a = picture_of(image, "image"), b = picture_of(reference, "reference");
@@ -243,8 +232,8 @@ py::dict compare(const py::object &image, const py::object &reference, const py:
     const OpenedLdi *by = regions.is_none() ? nullptr : &argument<LdiObject>(regions, "regions", an_ldi);
     const LensValues lens = lens_values(keywords);
     keywords.done();
-    const auto figures = job<std::vector<ErrorFigures>>(py::none(), [&](Progress &) {
-        const auto bits = by ? bits_of(*by, lens, b.windows) : std::vector<std::uint8_t>();
+    const auto figures = told_job<std::vector<ErrorFigures>>(py::none(), [&](Progress &, const Tell &tell) {
+        const auto bits = by ? regions_over(b.windows, *by, lens, tell) : std::vector<std::uint8_t>();
         return image_error(rgba_over(a, b.windows, "image"), rgba_over(b, b.windows, "reference"), bits,
                            bits.empty() ? 0 : region_names.size());
     });

@@ -1,6 +1,7 @@
 #include "python/write.h"
 
 #include "base/error.h"
+#include "chain/words.h"
 #include "io/camera/camera_write.h"
 #include "io/display/colour.h"
 #include "io/display/shown_picture.h"
@@ -45,12 +46,6 @@ struct Display {
     }
 };
 
-void warn_of_clamped(const std::string &path, std::size_t clamped) {
-    if (clamped > 0)
-        warn(fmt::format("{}: {} values beyond the range of half became the largest half, 65504", path,
-                         clamped));
-}
-
 void refuse_wrong_name(const std::string &path, OutputKind kind) {
     if (const std::string wrong = wrong_with_output(path, kind); !wrong.empty())
         throw UsageError("path: " + wrong);
@@ -80,7 +75,7 @@ void write_picture(const std::string &path, PictureObject picture, Keywords &key
         display.show(picture.image, picture.header);
         write_shown_picture(path, picture.image);
     });
-    warn_of_clamped(path, clamped);
+    if (clamped > 0) warn(words_of({NoticeKind::clamped, path, {clamped}}));
 }
 
 void write_deep(const std::string &path, const LdiObject &in, Keywords &keywords) {
@@ -91,7 +86,7 @@ void write_deep(const std::string &path, const LdiObject &in, Keywords &keywords
     write_camera(header, in.camera);
     const auto clamped = job<std::size_t>(
         py::none(), [&](Progress &) { return write_ldi(path, in.ldi, header, compression); });
-    warn_of_clamped(path, clamped);
+    if (clamped > 0) warn(words_of({NoticeKind::clamped, path, {clamped}}));
 }
 
 void write_plan_file(const std::string &path, const PlanObject &plan, Keywords &keywords) {

@@ -3,6 +3,7 @@
 #include "chain/cluster_ldi.h"
 #include "chain/make_ldi.h"
 #include "chain/plan_views.h"
+#include "chain/regions.h"
 #include "chain/words.h"
 #include "io/camera/camera_read.h"
 #include "support/ldi_samples.h"
@@ -122,6 +123,17 @@ TEST(PlanViews, IsForPixelsOfThePicture) {
     EXPECT_EQ(planned.camera.supersample, 4);
     EXPECT_EQ(planned.setting.lens.radius, 0.06);
     EXPECT_EQ(planned.setting.centre, "view.exr");
+}
+
+TEST(RegionsOver, AreOfPixelsOrOfTheirSubpixels) {
+    OpenedLdi in = glass(5, 640); // in focus
+    Told told;
+    EXPECT_EQ(regions_over(windows, in, lens, told.tell()).size(), 1200u);
+    EXPECT_TRUE(
+        told.has("the regions are those of a lens of radius 0.06, focal length 640 pixels, focused at 5"));
+    EXPECT_THROW(regions_over(windows_of_size(20, 15), in, lens, told.tell()), Error);
+    in.camera.supersample = 2;
+    EXPECT_EQ(regions_over(windows_of_size(20, 15), in, lens, told.tell()).size(), 300u);
 }
 
 TEST(Words, SayTheParameterAndWhetherItMatters) {

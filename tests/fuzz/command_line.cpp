@@ -5,7 +5,7 @@
 #include "harness/tool.h"
 #include "options/lens_options.h"
 #include "options/picture_options.h"
-#include "options/view_list.h"
+#include "options/warp_options.h"
 
 #include <CLI/CLI.hpp>
 

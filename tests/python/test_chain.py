@@ -99,6 +99,14 @@ def test_cluster_merges(clustered, tool, tmp_path):
     assert (tmp_path / "python.exr").read_bytes() == (tmp_path / "tool.exr").read_bytes()
 
 
+def test_cluster_takes_the_lens_that_is_given_for_that_of_all(clustered):
+    ldi, wider = sparselens.open_ldi(clustered), sparselens.open_ldi(clustered, focal_length=30)
+    with pytest.raises(sparselens.Error, match="give focal_length and sensor_width"):
+        sparselens.cluster([ldi, wider])
+    merged = sparselens.cluster([ldi, wider], focal_length=36, sensor_width=36)
+    assert numpy.array_equal(merged.z, sparselens.cluster([ldi, ldi]).z)
+
+
 @pytest.mark.filterwarnings("ignore::UserWarning")
 def test_recolor(clustered, tool, tmp_path):
     beauty = tmp_path / "beauty.exr"
@@ -161,6 +169,20 @@ def test_gather_sub_pixels(views, names, tool, tmp_path):
     picture = sparselens.gather(sparselens.open_ldi(warped), **keywords)
     assert (tmp_path / "tool.exr").read_bytes() == saved(tmp_path, picture)
     assert (picture.width, picture.height) == (16, 11)
+
+
+def test_missing_overscan_is_warned_of():
+    """A lamp at the border, whose disc is 4.7 pixels across, and none."""
+    for lamp in (7 * 40, 15 * 40 + 20):
+        light = numpy.full(1200, 0.5, numpy.float32)
+        light[lamp] = 50
+        channels = dict.fromkeys("RGB", light) | {"A": numpy.ones(1200, numpy.float32)}
+        ldi = sparselens.Ldi(numpy.arange(1201, dtype=numpy.uint64), numpy.full(1200, 12.886, numpy.float32), channels,
+                             size=(40, 30), focal_length=640, sensor_width=40, lens_radius=0.06, focus_distance=5)
+        with warnings.catch_warnings(record=True) as said:
+            warnings.simplefilter("always")
+            sparselens.gather(ldi, quality="draft")
+        assert [str(one.message).endswith("render more overscan") for one in said] == ([True] if lamp == 280 else [])
 
 
 @pytest.mark.parametrize("method", ["lens", "selective"])
@@ -275,6 +297,8 @@ def test_compare(views, names, clustered, tool, tmp_path):
     pixels = numpy.ascontiguousarray(picture.pixels)
     assert sparselens.compare(pixels, views[0])["psnr"] == by_tool["psnr"]
     assert math.isinf(sparselens.compare(picture, picture)["psnr"])
+    fine = sparselens.cluster(regions, supersample=2)
+    assert "regions" in sparselens.compare(*[sparselens.gather(fine, quality="draft")] * 2, regions=fine)
 
 
 def test_finish(clustered, tool, tmp_path):

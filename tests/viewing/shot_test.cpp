@@ -55,6 +55,28 @@ TEST(Shot, FramesThatTheReelLetsGoAreHeldByNobody) {
     EXPECT_FALSE(frames[2].expired());
 }
 
+// A lamp at the border, whose disc was cut off.
+TEST(Shot, WarnsOfMissingOverscan) {
+    const ScratchFolder folder;
+    const std::string path = folder.file("a.exr");
+    write_ldi(path,
+              make_ldi(windows_of_size(40, 30), rgba_channels(),
+                       [](int x, int y) {
+                           const float light = x == 0 && y == 7 ? 50.0f : 0.5f;
+                           return std::vector<Sample>{{12.886, {light, light, light, 1}}};
+                       }),
+              Imf::Header());
+    ToolContext tool;
+    tool.progress = std::make_unique<Progress>();
+    const GatherCommand command =
+        command_of({path, "--focal-length", "640", "--sensor-width", "40", "--lens-radius", "0.06",
+                    "--focus-distance", "5", "--quality", "draft"});
+    Shot shot({command}, tool);
+    const ShotPicture picture = shot.taken(command, tool, *tool.progress);
+    ASSERT_EQ(picture.warnings.size(), 1u);
+    EXPECT_TRUE(picture.warnings[0].ends_with("render more overscan")) << picture.warnings[0];
+}
+
 TEST(Shot, AFileIsReadAnewWhereAnotherFocalLengthMakesItsRaysPlanar) {
     const ScratchFolder folder;
     const std::string path = folder.file("a.exr");

@@ -3,7 +3,6 @@
 
 #include "harness/commands/cli.h"
 #include "harness/history.h"
-#include "options/colour_options.h"
 #include "options/picture_options.h"
 
 #include <optional>

@@ -4,11 +4,8 @@
 #include "chain/take_picture.h"
 #include "harness/commands/cli.h"
 #include "harness/history.h"
-#include "options/colour_options.h"
 #include "options/lens_options.h"
-#include "options/look_options.h"
 #include "options/picture_options.h"
-#include "options/window_options.h"
 
 #include <optional>
 #include <string>

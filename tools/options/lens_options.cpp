@@ -1,6 +1,7 @@
 #include "options/lens_options.h"
 
 #include "harness/words.h"
+#include "options/picture_options.h"
 
 #include <CLI/CLI.hpp>
 
@@ -94,6 +95,65 @@ void add_picture_choice(CLI::App &app, PictureChoice &picture) {
                    "and passes (default: the only one)")
         ->type_name("NAME")
         ->group("Lens");
+}
+
+namespace {
+
+constexpr const char *looks_group = "Lens looks";
+
+} // namespace
+
+void add_look_options(CLI::App &app, GivenLooks &given) {
+    app.add_option("--lens", given.lens_file,
+                   "Lens file with looks (JSON, see share/lenses); options override it")
+        ->type_name("FILE")
+        ->group(looks_group);
+    for (const LookNumber &number : look_numbers()) add_number(app, number, given.values)->group(looks_group);
+    app.add_flag_callback(
+           "--cat-eye-darkening", [&given] { given.values.cat_eye_darkening = true; },
+           "Darken the picture where the cat's eye blocks light (default: keep the exposure)")
+        ->group(looks_group);
+    const auto types = chromatic_types();
+    app.add_option("--axial-chromatic-type", given.values.chromatic_type,
+                   "Colours that focus elsewhere than green. red-blue: red behind and blue in front; "
+                   "blue-yellow: blue in front; green-magenta: red and blue behind (default: red-blue)")
+        ->type_name("red-blue|blue-yellow|green-magenta")
+        ->group(looks_group)
+        ->transform(words(std::map<std::string, ChromaticType>(types.begin(), types.end())));
+    app.add_option_function<std::string>(
+           "--tilt",
+           [&given](const std::string &text) {
+               const auto pair = parse_pair(text);
+               if (!pair || !is_tilt(pair->x) || !is_tilt(pair->y))
+                   throw CLI::ValidationError(
+                       "--tilt",
+                       fmt::format("must be X,Y in degrees between -89 and 89 (e.g. 10,0), not '{}'", text));
+               given.values.tilt_x = pair->x;
+               given.values.tilt_y = pair->y;
+           },
+           "Tilt of the plane of focus in degrees; above 0 it is nearer at the right (X) and at the top (Y) "
+           "(default: 0,0)")
+        ->type_name("X,Y")
+        ->group(looks_group);
+    app.add_option(
+           "--aperture", given.aperture_file,
+           "Picture of the aperture (EXR, grey or RGB weights); its content spans the lens from rim to rim")
+        ->type_name("FILE")
+        ->group(looks_group)
+        ->excludes("--blades")
+        ->excludes("--blade-curvature")
+        ->excludes("--blade-rotation");
+}
+
+void add_highlight_options(CLI::App &app, GivenLooks &given) {
+    CLI::Option *gain = nullptr;
+    for (const LookNumber &number : highlight_numbers()) {
+        CLI::Option *option = add_number(app, number, given.values)->group("Highlights");
+        if (gain)
+            option->needs(gain);
+        else
+            gain = option;
+    }
 }
 
 } // namespace sparselens

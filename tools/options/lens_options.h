@@ -2,6 +2,7 @@
 #pragma once
 
 #include "harness/one_line.h"
+#include "io/lens_file.h"
 #include "io/open_options.h"
 
 #include <CLI/CLI.hpp>
@@ -31,5 +32,11 @@ CLI::Option *add_number(CLI::App &app, const NumberParameter<Values> &of, Values
         ->type_name(of.unit)
         ->check(number(of.range));
 }
+
+// The looks of the lens: `given` must stay where it is until the command line is parsed.
+void add_look_options(CLI::App &app, GivenLooks &given);
+
+// --highlight-gain and what goes with it.
+void add_highlight_options(CLI::App &app, GivenLooks &given);
 
 } // namespace sparselens

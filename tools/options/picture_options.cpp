@@ -1,6 +1,7 @@
 #include "options/picture_options.h"
 
 #include "base/error.h"
+#include "gpu/device_list.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -116,6 +117,56 @@ Image in_type(Image image, std::optional<PixelType> type) {
     for (Channel &channel : image.channels)
         if (type && !holds_ids(channel)) channel.type = *type;
     return image;
+}
+
+void add_device_option(CLI::App &app, std::string &device, const std::string &what_works) {
+    const auto list = [](const std::string &word) {
+        if (word != "list") return;
+        std::string lines;
+        for (const gpu::DeviceInfo &there : gpu::list_devices()) lines += "\n" + gpu::description(there);
+        throw CLI::CallForVersion(lines.empty() ? gpu::no_devices : lines.substr(1), 0);
+    };
+    app.add_option(
+           "--device", device,
+           what_works +
+               ". cpu: the CPU; auto: a GPU if there is one; gpu: a GPU, else an error; a part of a name: "
+               "the device of that name, even one in software; list: print the devices (default: cpu)")
+        ->type_name("cpu|auto|gpu|list")
+        ->group("Device")
+        ->envname("SPARSELENS_DEVICE")
+        ->each(list);
+}
+
+void add_input_colour_options(CLI::App &app, ColourOptions &options) {
+    app.add_option("--colorconfig", options.config,
+                   "OpenColorIO configuration (default: $OCIO, else the built-in one)")
+        ->type_name("FILE")
+        ->group("Colour");
+    app.add_option("--colorspace", options.input_space,
+                   "Colour space of the input (default: by its chromaticities or colorInteropID, else the "
+                   "file rules of "
+                   "the configuration)")
+        ->type_name("SPACE")
+        ->group("Colour");
+}
+
+void add_output_colour_options(CLI::App &app, ColourOptions &options) {
+    CLI::Option *space =
+        app.add_option(
+               "--output-colorspace", options.output_space,
+               "Colour space of the output (default: that of the input for EXR, else that of the display)")
+            ->type_name("SPACE")
+            ->group("Colour");
+    app.add_option("--display", options.display,
+                   "Display for PNG, JPEG and TIFF (default: that of the configuration)")
+        ->type_name("DISPLAY")
+        ->group("Colour")
+        ->excludes(space);
+    app.add_option("--view-transform", options.view,
+                   "View transform of the display (default: that of the display)")
+        ->type_name("VIEW")
+        ->group("Colour")
+        ->excludes(space);
 }
 
 } // namespace sparselens

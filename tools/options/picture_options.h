@@ -43,4 +43,15 @@ void add_type_option(CLI::App &app, std::optional<PixelType> &type);
 Image in_type(Image image,
               std::optional<PixelType> type); // all channels but those of ids, which are integers
 
+// Adds --device. `device`: a word as choose_device() of gpu/device_list.h has it; `list` is answered as --help is. `what_works`, for the help:
+// "What warps".
+void add_device_option(CLI::App &app, std::string &device, const std::string &what_works);
+
+// As Job::keeps has it: a device, unless the word means none.
+inline std::string kept_device(const std::string &word) { return word == "cpu" ? "" : "a device"; }
+
+// --colorconfig and --colorspace; --output-colorspace, --display and --view-transform.
+void add_input_colour_options(CLI::App &app, ColourOptions &options);
+void add_output_colour_options(CLI::App &app, ColourOptions &options); // of the output
+
 } // namespace sparselens

@@ -2,7 +2,6 @@
 
 #include "harness/examples.h"
 #include "harness/words.h"
-#include "options/device_option.h"
 #include "options/picture_options.h"
 
 #include <CLI/CLI.hpp>
@@ -10,6 +9,17 @@
 #include <map>
 
 namespace sparselens {
+
+void add_view_list(CLI::App &app, ViewList &list) {
+    app.add_option("views", list.files,
+                   "Centre view, then views with their camera in the metadata; - for standard input")
+        ->type_name("CENTER.exr [VIEW.exr ...]")
+        ->required();
+    app.add_option("--view", list.placed,
+                   "View whose camera stood X right and Y up of the centre, in scene units")
+        ->type_name("X,Y VIEW.exr")
+        ->allow_extra_args(false);
+}
 
 void add_warp_options(CLI::App &app, WarpCommand &options) {
     add_view_list(app, options.views);

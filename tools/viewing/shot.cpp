@@ -2,6 +2,7 @@
 
 #include "chain/channels.h"
 #include "chain/words.h"
+#include "harness/one_line.h"
 #include "harness/process.h"
 
 #include <fmt/format.h>
@@ -97,7 +98,7 @@ ShotPicture Shot::taken(const GatherCommand &options, const ToolContext &tool, P
         if (level_of(notice) == NoticeLevel::note)
             tool.say(words_of(notice));
         else
-            out.warnings.push_back(words_of(notice));
+            out.warnings.push_back(with_options(words_of(notice)));
     };
     PictureRequest request = options;
     request.lens.focus_distance = of->camera(options).focus_distance;

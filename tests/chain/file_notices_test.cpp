@@ -1,4 +1,4 @@
-#include "chain/layer_notes.h"
+#include "chain/file_notices.h"
 
 #include <gtest/gtest.h>
 
