@@ -45,9 +45,9 @@ Imath::V4d premultiplied(const Imath::C4f &surface) {
 // The rays of one pixel: everything along the one through its centre, and along each sample.
 class PixelRays {
 public:
-    PixelRays(const Tracer &tracer, const RenderSettings &settings, const PixelSamples &samples,
-              Imath::V2i pixel)
-        : tracer_(tracer), settings_(settings), pixel_(pixel), in_pixel_(std::size_t(samples.count())),
+    PixelRays(const Tracer &tracer, const RenderSettings &settings, const Imath::V2d &u,
+              const PixelSamples &samples, Imath::V2i pixel)
+        : tracer_(tracer), settings_(settings), u_(u), pixel_(pixel), in_pixel_(std::size_t(samples.count())),
           on_light_(in_pixel_.size()) {
         samples.in_pixel(pixel.x, pixel.y, 0, in_pixel_);
         samples.on_light(pixel.x, pixel.y, 0, on_light_);
@@ -58,24 +58,25 @@ public:
 
 private:
     void trace(const Imath::V2d &p, const Imath::V2d &light, LayerBuffers &out) const {
-        trace_layers(tracer_, settings_.light,
-                     view_ray(settings_, {0, 0}, p + Imath::V2d(pixel_.x, pixel_.y)), light, out);
+        trace_layers(tracer_, settings_.light, view_ray(settings_, u_, p + Imath::V2d(pixel_.x, pixel_.y)),
+                     light, out);
     }
 
     const Tracer &tracer_;
     const RenderSettings &settings_;
+    Imath::V2d u_; // lens point
     Imath::V2i pixel_;
     std::vector<Imath::V2d> in_pixel_, on_light_;
 };
 
 template <typename Fill>
 Ldi build(const Tracer &tracer, const RenderSettings &settings, int samples, std::uint32_t stream,
-          const char *stage, Progress &progress, const Fill &fill) {
+          const char *stage, Progress &progress, const Fill &fill, const Imath::V2d &u = {0, 0}) {
     const Ldi like = empty_ldi(settings);
     const PixelSamples points(samples, true, seeded(settings, stream));
     progress.start(stage, settings.windows.pixels());
     return build_by_pixels(like, [&](std::size_t pixel, Ldi &out) {
-        fill(PixelRays(tracer, settings, points, settings.windows.pixel(pixel)), out);
+        fill(PixelRays(tracer, settings, u, points, settings.windows.pixel(pixel)), out);
         append_slabs(out, tracer.scene().slabs);
         progress.advance();
     });
@@ -199,10 +200,11 @@ Ldi render_peeled(const Tracer &tracer, const RenderSettings &settings, int laye
 }
 
 Ldi render_visible(const Tracer &tracer, const RenderSettings &settings, int samples, std::uint32_t stream,
-                   Progress &progress) {
+                   Progress &progress, const Imath::V2d &u) {
     const bool volumes = !tracer.scene().slabs.empty();
-    return build(tracer, settings, samples, stream, "visible", progress,
-                 [&](const PixelRays &rays, Ldi &out) { see(rays, volumes, out); });
+    return build(
+        tracer, settings, samples, stream, "visible", progress,
+        [&](const PixelRays &rays, Ldi &out) { see(rays, volumes, out); }, u);
 }
 
 Ldi render_strata(const Tracer &tracer, const RenderSettings &settings, int strata, int samples,

@@ -1,4 +1,4 @@
-// Deep pictures from the centre of the lens, as other renderers in the literature produce them. Colours are
+// Deep pictures, from the centre of the lens unless said otherwise, as other renderers in the literature produce them. Colours are
 // premultiplied; the sky is a sample of alpha 1 at z = inf. The slabs of the scene follow as samples with Z and ZBack,
 // whole and not tidied.
 #pragma once
@@ -17,9 +17,9 @@ Ldi render_peeled(const Tracer &tracer, const RenderSettings &settings, int laye
 // What the samples of each pixel see, as renderers write deep files: one sample for each surface that is visible in the
 // pixel, at its mean depth, with the mean of its colours. What is hidden is not there. Coverages are those with which the
 // surfaces, composited in the order of their depths, give the shares of the pixel that they take: flattened, this is the
-// centre view.
+// centre view. `u`: the lens point that it is seen from.
 Ldi render_visible(const Tracer &tracer, const RenderSettings &settings, int samples, std::uint32_t stream,
-                   Progress &progress);
+                   Progress &progress, const Imath::V2d &u = {0, 0});
 
 // The scene, cut by planes into `strata` depth intervals that are equal in perceptive depth from the nearest visible
 // surface to infinity (the first one begins at the camera). Each is rendered as if the others did not exist, with a box

@@ -27,8 +27,8 @@ bool read_count(std::string_view text, int limit, int &value) {
 }
 
 bool read_deep(const std::string &text, TraceOptions &options) {
-    if (text == "visible") {
-        options.deep.push_back({DeepKind::visible, 0});
+    if (text == "visible" || text == "views") {
+        options.deep.push_back({text == "views" ? DeepKind::views : DeepKind::visible, 0});
         return true;
     }
     const std::size_t colon = text.find(':');
@@ -152,11 +152,13 @@ void add_rendering_options(CLI::App &app, TraceOptions &options) {
                    if (!read_deep(text, options))
                        throw CLI::ValidationError(
                            "--deep",
-                           fmt::format("must be visible, peel:K or strata:K (e.g. peel:3), not '{}'", text));
+                           fmt::format("must be visible, views, peel:K or strata:K (e.g. peel:3), not '{}'",
+                                       text));
            },
            "Also render a deep picture from the lens centre. visible: what the samples of each pixel see, as "
-           "renderers write it; peel: the K nearest surfaces; strata: the scene cut into K depth intervals")
-        ->type_name("visible|peel:K|strata:K")
+           "renderers write it; views: the same from the views of --views; peel: the K nearest surfaces; "
+           "strata: the scene cut into K depth intervals")
+        ->type_name("visible|views|peel:K|strata:K")
         ->allow_extra_args(false);
     app.add_option("-d,--type", options.type, "Type of the colour channels (default: half)")
         ->type_name("half|float")

@@ -11,7 +11,7 @@
 
 namespace sparselens::lab {
 
-enum class DeepKind { visible, peel, strata };
+enum class DeepKind { visible, views, peel, strata };
 
 struct DeepRequest {
     DeepKind kind;

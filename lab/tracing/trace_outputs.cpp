@@ -68,12 +68,12 @@ void TraceOutputs::add(const std::string &name, const Imath::V2d &u, const std::
     note(name, seconds);
 }
 
-void TraceOutputs::add_deep(const std::string &name, const std::function<Ldi()> &make) {
+void TraceOutputs::add_deep(const std::string &name, const Imath::V2d &u, const std::function<Ldi()> &make) {
     double seconds = 0;
     Ldi ldi = timed(make, seconds);
     set_colour_type(ldi.channels, type_);
     Imf::Header header;
-    write_camera(header, camera_of(ldi.windows, {0, 0}));
+    write_camera(header, camera_of(ldi.windows, u));
     write_ldi(path(name), ldi, header);
     note(name, seconds);
 }

@@ -24,7 +24,7 @@ public:
     // `rays` over the lens a pixel has, if it is a picture of such.
     void add(const std::string &name, const Imath::V2d &u, const std::function<Image()> &make,
              std::optional<int> rays = {});
-    void add_deep(const std::string &name, const std::function<Ldi()> &make);
+    void add_deep(const std::string &name, const Imath::V2d &u, const std::function<Ldi()> &make);
 
     // Writes DIR/camera.json; an infinite number is written as null. `views` are the lens points of the rim views, whose samples are
     // counted per pixel of the picture, as are those of each half.

@@ -106,21 +106,35 @@ void trace_halves(const TraceJob &job) {
     }
 }
 
+namespace {
+
+void trace_deep_views(const TraceJob &job) {
+    const std::vector<Imath::V2d> rim = rim_lens_points(job.options.views);
+    for (std::size_t k = 0; k < rim.size(); ++k)
+        job.outputs.add_deep(fmt::format("deep_view_{}.exr", k), rim[k], [&] {
+            return render_visible(job.tracer, job.view, job.view_samples, of_deep + 1 + std::uint32_t(k),
+                                  job.progress, rim[k]);
+        });
+}
+
+} // namespace
+
 void trace_deep(const TraceJob &job) {
     const int samples = job.view_samples;
     for (const auto &[kind, layers] : job.options.deep) switch (kind) {
         case DeepKind::visible:
-            job.outputs.add_deep("deep_visible.exr", [&] {
+            job.outputs.add_deep("deep_visible.exr", {0, 0}, [&] {
                 return render_visible(job.tracer, job.view, samples, of_deep, job.progress);
             });
             break;
+        case DeepKind::views: trace_deep_views(job); break;
         case DeepKind::peel:
-            job.outputs.add_deep("deep_peel.exr", [&, layers = layers] {
+            job.outputs.add_deep("deep_peel.exr", {0, 0}, [&, layers = layers] {
                 return render_peeled(job.tracer, job.view, layers, samples, of_deep, job.progress);
             });
             break;
         case DeepKind::strata:
-            job.outputs.add_deep("deep_strata.exr", [&, layers = layers] {
+            job.outputs.add_deep("deep_strata.exr", {0, 0}, [&, layers = layers] {
                 return render_strata(job.tracer, job.view, layers, samples, of_deep, job.progress);
             });
         }
