@@ -17,10 +17,11 @@ using namespace sparselens;
 namespace {
 
 Stats warp_stats(const MadeLdi &made) {
-    const std::size_t given = made.pixels_given, samples = made.ldi.samples();
-    return {{"views", made.views},   {"views_empty", made.empty_views},
-            {"pixels_given", given}, {"pixels_not_given", made.all_pixels - std::min(made.all_pixels, given)},
-            {"samples", samples},    {"samples_merged", given - std::min(given, samples)}};
+    const std::size_t pixels = made.pixels_given, given = made.samples_given, samples = made.ldi.samples();
+    return {
+        {"views", made.views},    {"views_empty", made.empty_views},
+        {"pixels_given", pixels}, {"pixels_not_given", made.all_pixels - std::min(made.all_pixels, pixels)},
+        {"samples", samples},     {"samples_merged", given - std::min(given, samples)}};
 }
 
 void run(const WarpCommand &options, const ToolContext &tool, WarpingDevice &device) {

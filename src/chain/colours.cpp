@@ -101,6 +101,14 @@ Imf::Header to_linear(const Tell &tell, const ColourOptions &options, const std:
                       const Imf::Header &header, PackedView &view) {
     LinearColours to = linear_colours(tell, options, path, header);
     if (!to.transform) return std::move(to.header);
+    if (view.samples.deep()) {
+        Ldi samples = view.samples.as_ldi();
+        samples.weight = {};
+        const std::vector<std::span<float>> planes(samples.values.begin(), samples.values.end());
+        transform_colours(*to.transform, samples.channels, planes);
+        view.samples = ViewSamples(std::move(samples));
+        return std::move(to.header);
+    }
     View whole = unpacked(view);
     transform_colours(*to.transform, whole.image);
     view = PackedView(std::move(whole));

@@ -12,6 +12,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace sparselens {
 
 namespace {
@@ -27,25 +29,16 @@ struct PlacedViews {
     std::vector<std::vector<std::string>> notes = {}, warnings = {}; // of each file
 };
 
-// What is known of a view, with its pixels packed.
-struct PackedFile {
-    OpenedView opened; // without pixels
-    PackedView view;
-
-    explicit PackedFile(OpenedView file) : opened(std::move(file)), view(std::move(opened.view)) {}
-};
-
-void add(PlacedViews &to, PackedFile &file) {
-    OpenedView &opened = file.opened;
-    to.views.push_back(std::move(file.view));
+void add(PlacedViews &to, OpenedPackedView &opened) {
+    to.views.push_back(std::move(opened.view));
     to.bad.push_back(opened.bad);
     to.notes.push_back(std::move(opened.notes));
     to.warnings.push_back(std::move(opened.warnings));
 }
 
-void describe_as(const OpenedView &centre, PlacedViews &to) {
+void describe_as(const OpenedPackedView &centre, DepthMeaning depth, PlacedViews &to) {
     to.header = centre.header;
-    to.depth = centre.depth;
+    to.depth = depth;
     to.depth_filtered = centre.depth_filtered;
     to.unpremultiplied = centre.unpremultiplied;
 }
@@ -68,19 +61,19 @@ PlacedViews open_views(const LdiFromViews &request) {
     }
     const std::vector<DepthOptions> depths =
         depths_of_pictures(request.depth, request.depth_files, paths.size());
-    PackedFile centre(open_view(paths[0], {request.lens, depths[0]}));
-    const Camera camera = with_subpixels(centre.opened.camera, request);
+    OpenedPackedView centre = open_packed_view(paths[0], {request.lens, depths[0]});
+    const Camera camera = with_subpixels(centre.camera, request);
     PlacedViews placed;
-    describe_as(centre.opened, placed);
+    describe_as(centre, depths[0].meaning, placed);
     std::vector<StatedView> stated{{paths[0], camera, positions[0]}};
     add(placed, centre);
     in_order(
         paths.size() - 1, // the rim views: while one is decompressed, the depths of another are settled
         [&](std::size_t n) {
-            return PackedFile(open_view(paths[n + 1], {request.lens, depths[n + 1]}, camera));
+            return open_packed_view(paths[n + 1], {request.lens, depths[n + 1]}, camera);
         },
-        [&](std::size_t n, PackedFile next) {
-            stated.push_back({paths[n + 1], with_subpixels(next.opened.camera, request), positions[n + 1]});
+        [&](std::size_t n, OpenedPackedView next) {
+            stated.push_back({paths[n + 1], with_subpixels(next.camera, request), positions[n + 1]});
             add(placed, next);
         },
         not_packed_yet);
@@ -88,14 +81,20 @@ PlacedViews open_views(const LdiFromViews &request) {
     return placed;
 }
 
+// A copy.
+OpenedPackedView opened(const ViewInMemory &view) {
+    return view.flat ? ready_packed_view(OpenedView(*view.flat)) : ready_packed_view(OpenedLdi(*view.deep));
+}
+
 PlacedViews copies_of(std::span<const ViewInMemory> views, const LdiFromViews &request) {
     PlacedViews placed;
-    describe_as(*views[0].view, placed);
     std::vector<StatedView> stated;
     for (const ViewInMemory &in : views) {
-        placed.views.emplace_back(View(in.view->view));
-        const Camera camera = camera_with_options(request.lens, in.view->camera);
-        stated.push_back({in.view->view.name, with_subpixels(camera, request), in.position});
+        OpenedPackedView view = opened(in);
+        if (placed.views.empty()) describe_as(view, in.flat ? in.flat->depth : in.deep->depth, placed);
+        const Camera camera = camera_with_options(request.lens, view.camera);
+        stated.push_back({view.view.name, with_subpixels(camera, request), in.position});
+        placed.views.push_back(std::move(view.view));
     }
     placed.camera = place_views(placed.views, stated);
     return placed;
@@ -136,13 +135,20 @@ void count_given(std::span<const PackedView> views, MadeLdi &out) {
     for (const PackedView &view : views) {
         const std::size_t pixels = pixels_given(view.samples);
         out.pixels_given += pixels;
+        out.samples_given +=
+            view.samples.deep() ? view.samples.count(0, std::size_t(view.samples.windows.height())) : pixels;
         out.empty_views += pixels == 0 ? 1 : 0;
     }
 }
 
 void warp_views(PlacedViews &in, const WarpOptions &by, const LdiFromViews &request, const WarpWork &work,
                 MadeLdi &out) {
+    const bool deep =
+        std::ranges::any_of(in.views, [](const PackedView &view) { return view.samples.deep(); });
     const auto warp_by = [&](WarpDevice *device) {
+        if (device && deep)
+            work.tell(
+                {NoticeKind::file_note, in.views[0].name, {std::string("deep views are warped by the CPU")}});
         WarpOptions with = by;
         with.device = device;
         out.ldi = warp(std::move(in.views), with, work.progress);

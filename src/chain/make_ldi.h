@@ -5,7 +5,7 @@
 #include "chain/notices.h"
 #include "deep/packed_view.h"
 #include "denoised/denoised_views.h"
-#include "io/open_view.h"
+#include "io/open_packed_view.h"
 #include "warp/warp.h"
 
 #include <optional>
@@ -39,17 +39,18 @@ struct LdiFromViews {
     std::string device = "cpu";               // as choose_device() of gpu/device_list.h has it
 };
 
-// A view in memory, and where the user says that it stands, see StatedView.
+// A view in memory, flat or deep, and where the user says that it stands, see StatedView.
 struct ViewInMemory {
-    const OpenedView *view;
-    std::optional<Imath::V2d> position;
+    const OpenedView *flat = nullptr;
+    const OpenedLdi *deep = nullptr; // where `flat` is null
+    std::optional<Imath::V2d> position = {};
 };
 
 struct MadeLdi {
     Ldi ldi;
     Imf::Header header; // of the centre view, with the camera
     Camera camera;      // of the centre view, with the lens over it and the lens points of all views
-    std::size_t views = 0, empty_views = 0, pixels_given = 0,
+    std::size_t views = 0, empty_views = 0, samples_given = 0, pixels_given = 0,
                 all_pixels = 0; // masked views do not give them all
 };
 

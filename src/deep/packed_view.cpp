@@ -1,6 +1,36 @@
 #include "deep/packed_view.h"
 
+#include <cassert>
+#include <utility>
+
 namespace sparselens {
+
+namespace {
+
+bool is_flat(const Ldi &ldi) {
+    for (std::size_t p = 0; p + 1 < ldi.begin.size(); ++p)
+        if (ldi.pixel(p).size() > 1) return false;
+    return ldi.z_back.empty() || ldi.z_back == ldi.z;
+}
+
+// Its pixels of depth 0 show nothing.
+View flat_view(const std::string &name, const Ldi &ldi) {
+    View view{name, Image(ldi.windows, ldi.channels), std::vector<float>(ldi.windows.pixels())};
+    for (std::size_t p = 0; p < view.z.size(); ++p)
+        for (const std::uint64_t i : ldi.pixel(p)) {
+            view.z[p] = ldi.z[i];
+            for (std::size_t k = 0; k < ldi.channels.size(); ++k) view.image.plane(k)[p] = ldi.values[k][i];
+        }
+    return view;
+}
+
+ViewSamples samples_of(const std::string &name, Ldi &&ldi) {
+    if (!is_flat(ldi)) return ViewSamples(std::move(ldi));
+    const std::vector<Channel> channels = ldi.channels;
+    return {flat_view(name, std::exchange(ldi, {})), channels};
+}
+
+} // namespace
 
 PackedView::PackedView(const View &view)
     : name(view.name), samples(view, view.image.channels), position(view.position), framing(view.framing) {}
@@ -8,6 +38,9 @@ PackedView::PackedView(const View &view)
 PackedView::PackedView(View &&view)
     : name(std::move(view.name)), samples(std::move(view), view.image.channels), position(view.position),
       framing(view.framing) {}
+
+PackedView::PackedView(std::string called, Ldi &&ldi)
+    : name(std::move(called)), samples(samples_of(name, std::move(ldi))) {}
 
 std::vector<PackedView> referring_to(std::span<const View> views) { return {views.begin(), views.end()}; }
 
@@ -18,6 +51,7 @@ std::vector<PackedView> packed(std::vector<View> &&views) {
 }
 
 View unpacked(const PackedView &view) {
+    assert(!view.samples.deep());
     return {view.name,
             view.samples.image(),
             {view.samples.depths().begin(), view.samples.depths().end()},

@@ -20,12 +20,14 @@ struct PackedView {
 
     PackedView(const View &view); // refers to the pixels of the view, which must outlive this
     PackedView(View &&view);      // takes and packs them
+    // A deep picture, tidy. Where no pixel of it holds more than one point, it is a flat view.
+    PackedView(std::string name, Ldi &&samples);
 };
 
 std::vector<PackedView> referring_to(std::span<const View> views);
 std::vector<PackedView> packed(std::vector<View> &&views); // one at a time
 
-// The view as a picture. It must have the samples that it was made with.
+// The view as a picture. It is not deep, and has the samples that it was made with.
 View unpacked(const PackedView &view);
 
 // As place_views().

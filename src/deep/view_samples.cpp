@@ -72,7 +72,8 @@ void ViewSamples::single_depths(std::size_t first, std::span<float> out) const {
     std::ranges::copy(z_.subspan(first, out.size()), out.begin());
     for_each_changed(first, out.size(), [&](std::size_t i) {
         const SampleRange samples = pixel(i);
-        out[i - first] = samples.size() == 1 ? z(samples.front()) : std::numeric_limits<float>::quiet_NaN();
+        const bool single = samples.size() == 1 && !is_part(samples.front());
+        out[i - first] = single ? z(samples.front()) : std::numeric_limits<float>::quiet_NaN();
     });
 }
 
@@ -87,17 +88,25 @@ std::strong_ordering ViewSamples::operator<=>(const ViewSamples &other) const {
     const auto by_bits = [](float a, float b) {
         return std::bit_cast<std::uint32_t>(a) <=> std::bit_cast<std::uint32_t>(b);
     };
-    const auto by_depth = std::lexicographical_compare_three_way(z_.begin(), z_.end(), other.z_.begin(),
-                                                                 other.z_.end(), by_bits);
-    if (by_depth != 0) return by_depth;
+    const auto compared = [&](std::span<const float> a, std::span<const float> b) {
+        return std::lexicographical_compare_three_way(a.begin(), a.end(), b.begin(), b.end(), by_bits);
+    };
+    if (const auto by_depth = compared(z_, other.z_); by_depth != 0) return by_depth;
     for (std::size_t k = 0; k < std::min(planes_.size(), other.planes_.size()); ++k)
         for (std::size_t i = 0; i < pixels_; ++i)
             if (const auto by_value = by_bits(planes_[k][i], other.planes_[k][i]); by_value != 0)
                 return by_value;
-    return planes_.size() <=> other.planes_.size();
+    if (const auto by_count = planes_.size() <=> other.planes_.size(); by_count != 0) return by_count;
+    if (const auto by_parts = replaced_.begin <=> other.replaced_.begin; by_parts != 0) return by_parts;
+    if (const auto by_depth = compared(replaced_.z, other.replaced_.z); by_depth != 0) return by_depth;
+    for (std::size_t k = 0; k < planes_.size(); ++k)
+        if (const auto by_value = compared(replaced_.values[k], other.replaced_.values[k]); by_value != 0)
+            return by_value;
+    return compared(replaced_.z_back, other.replaced_.z_back);
 }
 
 void ViewSamples::move_back(double by) {
+    if (deep_) return move_parts_back(by);
     if (moved_.empty()) moved_.assign(z_.begin(), z_.end());
     z_ = moved_;
     for (float &z : moved_) z = float(double(z) + by);
@@ -107,12 +116,16 @@ void ViewSamples::move_back(double by) {
 
 void ViewSamples::keep_channels(std::span<const Channel> kept) {
     std::vector<Plane> planes;
-    for (const Channel &channel : kept)
-        planes.push_back(std::move(planes_[find_channel(channels, channel.name)]));
+    std::vector<std::vector<float>> replaced;
+    for (const Channel &channel : kept) {
+        const std::size_t k = find_channel(channels, channel.name);
+        planes.push_back(std::move(planes_[k]));
+        replaced.push_back(std::move(replaced_.values[k]));
+    }
     planes_ = std::move(planes);
     channels.assign(kept.begin(), kept.end());
-    replaced_ = empty();
-    replaced_.begin.assign(1, 0);
+    replaced_.channels = channels;
+    replaced_.values = std::move(replaced);
 }
 
 // An LDI of these channels without pixels.
@@ -137,6 +150,14 @@ void ViewSamples::set_z(std::uint64_t i, float z) {
     moved_[i] = z;
 }
 
+void ViewSamples::count_replaced() {
+    std::uint32_t before = 0;
+    for (Word &word : words_) {
+        word.replaced_before = before;
+        before += std::uint32_t(std::popcount(word.replaced));
+    }
+}
+
 void ViewSamples::replace(const std::function<bool(std::size_t pixel)> &changes,
                           const std::function<void(std::size_t pixel, Ldi &out)> &fill) {
     const Ldi like = empty();
@@ -157,11 +178,7 @@ void ViewSamples::replace(const std::function<bool(std::size_t pixel)> &changes,
     });
     for (const std::vector<std::size_t> &row : replaced)
         for (const std::size_t i : row) words_[i / 64].replaced |= std::uint64_t{1} << (i % 64);
-    std::uint32_t before = 0;
-    for (Word &word : words_) {
-        word.replaced_before = before;
-        before += std::uint32_t(std::popcount(word.replaced));
-    }
+    count_replaced();
     replaced_ = concatenate(like, std::move(rows));
 }
 
@@ -183,6 +200,7 @@ Ldi ViewSamples::rows(std::size_t first, std::size_t end) const {
     for (std::size_t p = first * width; p < end * width; ++p) {
         for (const std::uint64_t i : pixel(p)) {
             ldi.z.push_back(z(i));
+            if (has_volumes()) ldi.z_back.push_back(z_back(i));
             ldi.weight.push_back(weight(i));
             for (std::size_t k = 0; k < channels.size(); ++k) ldi.values[k].push_back(value(k, i));
         }

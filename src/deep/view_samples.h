@@ -1,5 +1,6 @@
 // The samples of a view: one in each pixel that shows something (A is not 0, depth is above 0), which other samples may replace.
-// Unchanged samples use the memory of the view, because five views are most of the warp's memory.
+// Unchanged samples use the memory of the view, because five views are most of the warp's memory. A deep view has the samples of its
+// file: pixels that hold several, or a volume, hold parts; each of the others holds one sample, as a pixel of a flat view does.
 #pragma once
 
 #include "base/plane.h"
@@ -23,6 +24,9 @@ public:
     ViewSamples(const View &view, std::span<const Channel> channels);
     // Takes the pixels of the view, and packs them.
     ViewSamples(View &&view, std::span<const Channel> channels);
+    // A deep view; `samples` are tidy, in the middle of their pixels. The weight of a part is what the parts before it let through, and
+    // at least that of an estimate (WarpTuning::estimate_weight): so many of the renderer's samples told of it.
+    explicit ViewSamples(Ldi &&samples);
     ViewSamples(ViewSamples &&) = default;
     ViewSamples &operator=(ViewSamples &&) = default;
 
@@ -43,17 +47,33 @@ public:
     }
 
     float z(std::uint64_t i) const { return i < pixels_ ? z_[i] : replaced_.z[i - pixels_]; }
+    float z_back(std::uint64_t i) const {
+        return i < pixels_ || replaced_.z_back.empty() ? z(i) : replaced_.z_back[i - pixels_];
+    }
     float weight(std::uint64_t i) const { return i < pixels_ ? 1 : replaced_.weight[i - pixels_]; }
     float value(std::size_t channel, std::uint64_t i) const {
         return i < pixels_ ? planes_[channel][i] : replaced_.values[channel][i - pixels_];
     }
 
+    bool deep() const { return deep_; }
+    bool has_volumes() const { return !replaced_.z_back.empty(); }
+    // Whether the sample is a part of what a deep view's pixel shows.
+    bool is_part(std::uint64_t i) const { return deep_ && i >= pixels_; }
+    // Of two parts, whether one pixel holds them.
+    bool in_one_pixel(std::uint64_t a, std::uint64_t b) const { return pixel_of_part(a) == pixel_of_part(b); }
+    // Whether the pixel shows one sample, which is not a part.
+    bool is_single(std::size_t pixel) const {
+        const SampleRange samples = this->pixel(pixel);
+        return samples.size() == 1 && !is_part(samples.front());
+    }
+
     // For pixels from `first` on: the value of the front sample, 0 where there is none, or the depth of the only sample, NaN
-    // where there is none or more than one.
+    // where there is none, more than one, or a part.
     void front_values(std::size_t channel, std::size_t first, std::span<float> out) const;
     void single_depths(std::size_t first, std::span<float> out) const;
 
-    // The depths of all pixels, empty ones too. For a view made from a PackedView, see there.
+    // The depths of all pixels, empty ones too; of a deep view, those of the front samples. For a view made from a PackedView, see
+    // there.
     std::span<const float> depths() const { return z_; }
     Image image() const;
     // By the bits of depths, then of values.
@@ -66,7 +86,7 @@ public:
     // Moves a sample that is none of those put in the place of others.
     void set_z(std::uint64_t i, float z);
 
-    // Once: the samples that fill(pixel, out) appends to the last pixel of `out` take the place of the pixel's own, if there
+    // Once, not of a deep view: the samples that fill(pixel, out) appends to the last pixel of `out` take the place of the pixel's own, if there
     // are any. It is asked for the pixels that changes(pixel) says, row by row in parallel.
     void replace(const std::function<bool(std::size_t pixel)> &changes,
                  const std::function<void(std::size_t pixel, Ldi &out)> &fill);
@@ -84,6 +104,10 @@ private:
     using MakePlane = Plane (*)(std::span<const float>);
     ViewSamples(const View &view, std::span<const Channel> channels, MakePlane plane_of);
     Ldi empty() const;
+    std::size_t pixel_of_part(std::uint64_t i) const; // among those of `replaced_`
+    void count_replaced();
+    void take_values(Ldi &samples);
+    void move_parts_back(double by);
     void find_shown(std::span<const float> covers);
     // visit(i) for those of so many pixels from one on that show nothing, or what was put in the place of their sample.
     template <typename Visit>
@@ -95,6 +119,7 @@ private:
     };
 
     std::size_t pixels_;
+    bool deep_ = false;
     std::vector<Plane> planes_; // [channel]
     std::span<const float> z_;  // of the view, or `moved_`
     std::vector<float> moved_;

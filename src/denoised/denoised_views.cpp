@@ -21,6 +21,12 @@ struct NewPlane {
     Values values;
 };
 
+void check_is_flat(const PackedView &view) {
+    if (view.samples.deep())
+        throw Error(view.name +
+                    ": is deep, and denoisers make flat pictures: leave out `denoised` and `noisy`");
+}
+
 void check_windows(const PackedView &view, const DenoisedPicture &denoised) {
     if (view.samples.windows == denoised.image.windows) return;
     throw Error(
@@ -115,6 +121,7 @@ std::size_t found(const PackedView &view, std::span<const Channel> channels, con
 } // namespace
 
 DenoisedPicture part_denoised(PackedView &view, const std::string &noisy_layer) {
+    check_is_flat(view);
     View both = unpacked(view);
     const std::vector<Channel> channels = both.image.channels;
     DenoisedPicture denoised{view.name, Image(both.image.windows, {})};
@@ -136,6 +143,7 @@ DenoisedPicture part_denoised(PackedView &view, const std::string &noisy_layer) 
 
 void take_denoised(std::vector<PackedView> &views, std::span<const DenoisedPicture> denoised, double focal_px,
                    double scale) {
+    for (const PackedView &view : views) check_is_flat(view);
     for (std::size_t v = 0; v < views.size(); ++v) check_windows(views[v], denoised[v]);
     std::vector<std::vector<NewPlane>> planes = new_planes(views, denoised, focal_px, scale);
     for (std::size_t v = 0; v < views.size(); ++v) {

@@ -405,7 +405,7 @@ def open_picture(
     """Opens a flat EXR and returns a Picture of all its channels. Raises Error where the file cannot be read."""
 
 def warp(
-    views: Union[View, Sequence[View]],
+    views: Union[View, Ldi, Sequence[Union[View, Ldi]]],
     *,
     denoised: Optional[Union[Picture, Sequence[Picture]]] = None,
     noisy: Optional[str] = None,
@@ -426,7 +426,8 @@ def warp(
 ) -> Ldi:
     """Warps views into one layered depth image and returns an Ldi. As ldi-warp.
 
-    views: a sequence of View, the centre view first. Each stands where its position or its camera says.
+    views: a sequence of View, the centre view first. Each stands where its position or its camera says. A deep picture is an
+        Ldi of open_ldi(), which stands where its camera says; what is warped already is refused (UsageError).
     denoised: what a denoiser made of each view: its colours are taken but for details that all views show.
     noisy: the same for views that are denoised and hold what they were before in this layer (Cycles: "Noisy Image").
     merge: "average" the views of a surface, or "keep" one sample per surface and the centre view unchanged.

@@ -106,11 +106,28 @@ std::vector<DenoisedPicture> denoised_pictures(Keywords &keywords) {
     return pictures;
 }
 
+ViewInMemory view_in_memory(const py::handle &object) {
+    if (py::isinstance<ViewObject>(object)) {
+        const auto &view = object.cast<const ViewObject &>();
+        return {.flat = &view.in, .position = view.position};
+    }
+    return {.deep = &argument<LdiObject>(py::reinterpret_borrow<py::object>(object), "views",
+                                         "a sequence of View and Ldi")};
+}
+
+std::vector<ViewInMemory> views_in_memory(const py::object &views) {
+    if (py::isinstance<ViewObject>(views) || py::isinstance<LdiObject>(views)) return {view_in_memory(views)};
+    if (!py::isinstance<py::sequence>(views)) wrong_type("views", "a sequence of View and Ldi", views);
+    std::vector<ViewInMemory> found;
+    for (const py::handle &item : py::reinterpret_borrow<py::sequence>(views))
+        found.push_back(view_in_memory(item));
+    if (found.empty()) throw UsageError("views: there is none");
+    return found;
+}
+
 LdiObject warp(const py::object &views, const py::kwargs &given) {
     Keywords keywords("warp", given);
-    std::vector<ViewInMemory> from;
-    for (const ViewObject *view : several<ViewObject>(views, "views", "a sequence of View"))
-        from.push_back({&view->in, view->position});
+    const std::vector<ViewInMemory> from = views_in_memory(views);
     LdiFromViews request{.warp = warp_options(keywords)};
     request.round_for_lens =
         keywords.word<bool>("precision", {{"exact", false}, {"lens", true}}).value_or(false);

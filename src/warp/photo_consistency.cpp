@@ -41,7 +41,7 @@ private:
     std::array<std::size_t, 4> around(int x, int y) const {
         return {grid_.index(x - 1, y), grid_.index(x + 1, y), grid_.index(x, y - 1), grid_.index(x, y + 1)};
     }
-    bool single(std::size_t i) const { return centre_.pixel(i).size() == 1; }
+    bool single(std::size_t i) const { return centre_.is_single(i); }
     double value_at(std::size_t i, std::size_t channel) const {
         return kernels::bounded(double(centre_.value(channel, centre_.pixel(i).front())));
     }
@@ -61,7 +61,7 @@ void compare(const ReprojectedViews &views, const CentreColours &centre,
     for (std::size_t k = 0; k < channels; ++k) own[k] = centre.detail(x, y, centre.channels()[k]);
     double total = 0;
     for (const ViewSample &s : surface.samples) {
-        if (s.view == 0) continue;
+        if (s.view == 0 || views.samples(s.view).is_part(s.source)) continue; // a part shows its share alone
         total += s.weight;
         const Imath::V2d off(double(s.dx), double(s.dy)),
             motion = views.reprojection(s.view).mapping().parallax(place) * (1 / options.scale);
@@ -72,6 +72,7 @@ void compare(const ReprojectedViews &views, const CentreColours &centre,
             kernels::add_motion(block, still - (own[k].gradient ^ off), still, own[k].gradient ^ motion);
         }
     }
+    if (total == 0) return;
     for (std::size_t k = 0; k < channels; ++k)
         kernels::add_channel(block, sum[k] / total - own[k].value, own[k].mean_around - own[k].value);
     constexpr double out_of_focus = 2 * kernels::focus_px;

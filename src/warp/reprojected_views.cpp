@@ -2,8 +2,10 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "kernels/surface.h"
 #include "lens/perceptive_depth.h"
 #include "warp/lamps/lamp_depths.h"
+#include "warp/mixed_pixels.h"
 #include "warp/silhouettes.h"
 
 #include <fmt/format.h>
@@ -24,6 +26,31 @@ bool canonically_before(const PackedView &a, const PackedView &b) {
                           f.zoom,       f.principal_point.x, f.principal_point.y};
     };
     return camera(a) != camera(b) ? camera(a) < camera(b) : a.samples < b.samples;
+}
+
+} // namespace
+
+namespace {
+
+// Those of flat views: parts of deep ones mix nothing.
+std::vector<CrossedLamps> settle_lamps(std::vector<ViewSamples> &views,
+                                       const std::vector<ViewMapping> &mappings, double tolerance) {
+    std::vector<std::size_t> flat;
+    std::vector<ViewSamples> samples;
+    std::vector<ViewMapping> mappings_of_flat;
+    for (std::size_t v = 0; v < views.size(); ++v)
+        if (!views[v].deep()) {
+            flat.push_back(v);
+            samples.push_back(std::move(views[v]));
+            mappings_of_flat.push_back(mappings[v]);
+        }
+    std::vector<CrossedLamps> found, crossed(views.size());
+    if (flat.size() > 1) found = settle_lamp_depths(samples, mappings_of_flat, tolerance);
+    for (std::size_t n = 0; n < flat.size(); ++n) {
+        views[flat[n]] = std::move(samples[n]);
+        if (!found.empty()) crossed[flat[n]] = std::move(found[n]);
+    }
+    return crossed;
 }
 
 } // namespace
@@ -55,14 +82,19 @@ ReprojectedViews::ReprojectedViews(std::vector<PackedView> views, double focal_p
     }
     const bool separate = jump > 0 && scale > 0;
     std::vector<CrossedLamps> crossed(samples.size());
-    if (separate && samples.size() > 1)
-        crossed = settle_lamp_depths(samples, mappings, inverse_depth_step(scale, jump));
+    if (separate) crossed = settle_lamps(samples, mappings, inverse_depth_step(scale, jump));
     sources_.resize(samples.size());
     for (std::size_t v = 0; v < samples.size();
          ++v) { // one after the other, each by all threads, in less memory
-        if (separate) separate_silhouettes(samples[v], scale, jump, crossed[v]);
+        some_are_deep_ = some_are_deep_ || samples[v].deep();
+        if (separate && !samples[v].deep()) separate_silhouettes(samples[v], scale, jump, crossed[v]);
         sources_[v] = std::make_unique<Source>(std::move(samples[v]), mappings[v]);
     }
+    if (!some_are_deep_) return;
+    std::vector<PlacedView> placed;
+    for (const auto &source : sources_) placed.push_back({&source->samples, &source->reprojection.mapping()});
+    if (scale > 0) mixed_ = find_mixed_pixels(placed, inverse_depth_step(scale, one_surface_px));
+    mixed_.resize(size());
 }
 
 void ReprojectedViews::forget_colours() {

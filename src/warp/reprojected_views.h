@@ -39,8 +39,8 @@ void check_views(std::span<const PackedView> views);
 class ReprojectedViews {
 public:
     // views[0] is the centre, whose channels every view must have. The order of the others does not matter. `focal_px`
-    // is F and `scale` is R F, see WarpOptions. Pixels on silhouettes become two samples where perceptive depth jumps
-    // by `jump` pixels (silhouettes.h); with a jump of 0 they stay whole. Throws as check_views().
+    // is F and `scale` is R F, see WarpOptions. Pixels on silhouettes of flat views become two samples where perceptive depth
+    // jumps by `jump` pixels (silhouettes.h); with a jump of 0 they stay whole. Throws as check_views().
     ReprojectedViews(std::vector<PackedView> views, double focal_px, double scale, double jump);
     // Refers to the views, which must outlive this.
     ReprojectedViews(std::span<const View> views, double focal_px, double scale, double jump)
@@ -52,6 +52,12 @@ public:
 
     float value(const ViewSample &s, std::size_t channel) const {
         return samples(s.view).value(channel, s.source);
+    }
+
+    bool some_are_deep() const { return some_are_deep_; }
+    // Of a flat view among deep ones: whether the sample shows no other surface (mixed_pixels.h).
+    bool is_pure(const ViewSample &s) const {
+        return s.source < mixed_[s.view].size() && !mixed_[s.view][s.source];
     }
 
     // Where they are no longer needed: see ViewSamples.
@@ -70,6 +76,8 @@ private:
         Source(ViewSamples of_view, const ViewMapping &mapping)
             : samples(std::move(of_view)), reprojection(samples, mapping) {}
     };
+    bool some_are_deep_ = false;
+    std::vector<std::vector<bool>> mixed_;         // where some are deep
     std::vector<std::unique_ptr<Source>> sources_; // the centre, then the rim views in a canonical order
 };
 

@@ -29,6 +29,16 @@ struct Surfaces {
 // Two samples show the same surface if their 1 / z differ by less than `tolerance` (inf: always). Samples in front of
 // what the centre view shows, or where it shows empty space, do not belong to the pixel: only the rounding of their
 // positions brought them there. Reorders the samples of each pixel.
+//
+// A deep centre view shows all that there is in its pixel, down to where nothing shows through: each of its samples is a surface,
+// which has the samples of rim views that are nearest to it in depth, and other surfaces lie behind all of them. A part of
+// a deep view's pixel (view_samples.h) is of one surface: where the centre view sees that, pixels of flat views that are mixed of several
+// (mixed_pixels.h) are not averaged with it.
+//
+// Beyond the frame of a deep centre view nothing tells whether pixels of flat views are mixed, but for the pixel of the frame that is
+// nearest: where that holds parts, they are taken to be. What they show then is left out, and the parts go on.
+SampleRange parts_leave_frame(const ViewSamples &centre, Imath::V2i pixel);
+
 Surfaces find_surfaces(const ReprojectedViews &views, double tolerance, ReprojectedRows &rows);
 
 } // namespace sparselens

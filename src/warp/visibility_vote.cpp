@@ -14,9 +14,10 @@ namespace {
 void count_votes(const ViewSamples &view, std::size_t alpha, std::size_t pixel, double inverse_z,
                  double tolerance, const SeePast &past, Votes &votes) {
     if (view.pixel(pixel).empty()) return;
-    double left = 1, there = 0;
+    double left = 1, there = 0, past_before = votes.past;
     for (const std::uint64_t i : view.pixel(pixel)) {
-        const double covers = kernels::covers(double(alpha_at(view, alpha, i)), left);
+        const double own = double(alpha_at(view, alpha, i));
+        const double covers = view.is_part(i) ? own * left : kernels::covers(own, left);
         const double nearer = 1 / double(view.z(i)) - inverse_z;
         if (std::abs(nearer) < tolerance)
             there += covers;
@@ -29,7 +30,7 @@ void count_votes(const ViewSamples &view, std::size_t alpha, std::size_t pixel, 
     votes.there += there;
     votes.past += left;
     votes.open += left;
-    if (there > 0) votes.through += left;
+    if (there > 0) votes.through += view.deep() ? votes.past - past_before : left;
 }
 
 } // namespace

@@ -11,6 +11,7 @@
 #include "warp/images/show_images.h"
 #include "warp/lamps/lamp_light.h"
 #include "warp/opaque_pixels.h"
+#include "warp/part_means.h"
 #include "warp/photo_consistency.h"
 #include "warp/solids.h"
 #include "warp/tuning.h"
@@ -54,6 +55,7 @@ private:
     Ldi layout_; // windows and channels of the result
     std::vector<Matte> mattes_;
     std::vector<bool> ids_; // whether a channel holds_ids()
+    PartMeans part_means_;
 };
 
 Warper::Warper(std::vector<PackedView> views, const WarpOptions &options)
@@ -61,13 +63,13 @@ Warper::Warper(std::vector<PackedView> views, const WarpOptions &options)
       tolerance_(scale_ > 0 ? inverse_depth_step(scale_, options.surface_px)
                             : std::numeric_limits<double>::infinity()),
       views_(std::move(views), options.focal_px, scale_,
-             averages() && options.split_silhouettes ? options.surface_px : 0) {
+             averages() && options.split_silhouettes ? options.surface_px : 0),
+      mattes_(find_mattes(views_.samples(0).channels)), part_means_(views_, tolerance_, mattes_) {
     if (options.focus)
         focused_ = ThinLens{.radius = options.radius, .focal_px = options.focal_px, .focus = *options.focus};
     layout_.windows = views_.samples(0).windows;
     layout_.channels = views_.samples(0).channels;
     layout_.values.resize(layout_.channels.size());
-    mattes_ = find_mattes(layout_.channels);
     for (const Channel &channel : layout_.channels) ids_.push_back(holds_ids(channel));
     if (averages()) grow_window();
 }
@@ -94,6 +96,7 @@ void Warper::emit_mean(std::span<const ViewSample> samples, Ldi &out) const {
     if (coverage == 0) return;
     const bool alone = samples.size() == 1;
     out.z.push_back(alone ? views_.samples(samples[0].view).z(samples[0].source) : float(1 / mean.inverse_z));
+    if (part_means_.volumes()) out.z_back.push_back(out.z.back());
     out.dx.push_back(float(mean.dx));
     out.dy.push_back(float(mean.dy));
     out.weight.push_back(float(mean.merged));
@@ -119,6 +122,7 @@ void Warper::emit_nearest(std::span<const ViewSample> samples, Ldi &out) const {
     const ViewSample &best = *std::ranges::min_element(samples, {}, off_centre);
     const ViewSamples &view = views_.samples(best.view);
     out.z.push_back(view.z(best.source));
+    if (part_means_.volumes()) out.z_back.push_back(out.z.back());
     out.dx.push_back(best.dx);
     out.dy.push_back(best.dy);
     out.weight.push_back(view.weight(best.source));
@@ -128,7 +132,9 @@ void Warper::emit_nearest(std::span<const ViewSample> samples, Ldi &out) const {
 
 void Warper::emit(const Surface &surface, bool agree, Ldi &out) const {
     const bool centre_alone = !averages() || (!agree && surface.seen_by_centre());
-    if (centre_alone)
+    if (part_means_.tell_of(surface))
+        centre_alone ? part_means_.append_nearest(surface, out) : part_means_.append_mean(surface, out);
+    else if (centre_alone)
         emit_nearest(surface.samples, out);
     else if (surface.seen_by_centre() && surface.samples.size() > 1 &&
              some_view_is_missing(views_, surface.samples))
@@ -140,14 +146,14 @@ void Warper::emit(const Surface &surface, bool agree, Ldi &out) const {
 Ldi Warper::warp_band(int first_row, int last_row, Marks &differ, ReprojectedRows &rows) const {
     rows = views_.place(layout_.windows.data, first_row, last_row, std::move(rows));
     const Surfaces surfaces = find_surfaces(views_, tolerance_, rows);
+    const Grid pixels(
+        Imath::Box2i({layout_.windows.data.min.x, first_row}, {layout_.windows.data.max.x, last_row}));
     std::vector<bool> agree(rows.pixels(), true);
     if (averages() && options_.test_photo_consistency) {
         PhotoConsistency found = find_photo_consistency(views_, {focused_, scale_, options_.across},
                                                         layout_.windows.data, surfaces);
         agree = std::move(found.averages);
         const Tiles blocks(layout_.windows.data, image_block);
-        const Grid pixels(
-            Imath::Box2i({layout_.windows.data.min.x, first_row}, {layout_.windows.data.max.x, last_row}));
         for (std::size_t pixel = 0; pixel < rows.pixels(); ++pixel)
             differ[blocks.tile_of(pixels.pixel(pixel))] = found.differ[pixel];
     }
@@ -155,11 +161,13 @@ Ldi Warper::warp_band(int first_row, int last_row, Marks &differ, ReprojectedRow
     out.begin.reserve(rows.pixels() + 1);
     for (std::vector<float> *array : {&out.z, &out.dx, &out.dy, &out.weight})
         array->reserve(surfaces.list.size());
+    if (part_means_.volumes()) out.z_back.reserve(surfaces.list.size());
     for (std::vector<float> &values : out.values) values.reserve(surfaces.list.size());
     out.begin.push_back(0);
     for (std::size_t pixel = 0; pixel < rows.pixels(); ++pixel) {
         out.begin.push_back(out.begin.back());
         for (const Surface &surface : surfaces.pixel(pixel)) emit(surface, agree[pixel], out);
+        if (surfaces.pixel(pixel).empty()) part_means_.append_beyond(pixels.pixel(pixel), out);
     }
     return out;
 }
@@ -210,7 +218,7 @@ Ldi Warper::run(Progress &progress) {
     std::vector<Ldi> pieces(bands.count());
     Marks differ(Tiles(layout_.windows.data, image_block).count());
     progress.start("warping", bands.count());
-    if (options_.device) warp_on_device(pieces, differ);
+    if (options_.device && !views_.some_are_deep()) warp_on_device(pieces, differ);
     tbb::enumerable_thread_specific<ReprojectedRows> memory;
     Ldi ldi = without_pixels(layout_);
     in_order(

@@ -17,6 +17,17 @@ def two_pixels(**changed):
     return sparselens.Ldi(**{**values, **changed})
 
 
+def test_warp_of_deep_pictures():
+    deep = two_pixels()
+    warped = sparselens.warp(deep)
+    for name in ["begin", "z"]:
+        assert numpy.array_equal(getattr(warped, name), getattr(deep, name))
+    assert numpy.array_equal(warped["R"], deep["R"]) and numpy.array_equal(warped["A"], deep["A"])
+    moved = two_pixels(dx=floats(3), dy=floats(3))
+    with pytest.raises(sparselens.UsageError, match="is an LDI, whose samples come from several views"):
+        sparselens.warp([deep, moved])
+
+
 def test_views_of_memory(views, clustered):
     view, ldi = views[0], sparselens.open_ldi(clustered)
     picture = sparselens.gather(ldi)
@@ -179,7 +190,7 @@ WRONG = [
     (ValueError, "region contains no pixel", lambda: sparselens.gather(two_pixels(**LENS), region=(50, 50, 60, 60))),
     (ValueError, "near works with depth='normalized' and", lambda: sparselens.View(IMAGE, Z, near=1)),
     (ValueError, "depth='hyperbolic': .* is unknown: give near and far$", lambda: sparselens.View(IMAGE, Z, depth="hyperbolic")),
-    (TypeError, "views: must be a sequence of View, not Ldi", lambda: sparselens.warp([two_pixels()])),
+    (TypeError, "views: must be a sequence of View and Ldi, not int", lambda: sparselens.warp([3])),
     (ValueError, "views: there is none", lambda: sparselens.warp([])),
     (ValueError, r"give position=\(X,Y\)$", lambda: sparselens.warp([sparselens.View(IMAGE, Z, **LENS)] * 2)),
     (ValueError, "channels: no channel or layer 'X'", lambda: sparselens.gather(two_pixels(**LENS), channels="X")),

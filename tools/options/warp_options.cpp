@@ -12,7 +12,8 @@ namespace sparselens {
 
 void add_view_list(CLI::App &app, ViewList &list) {
     app.add_option("views", list.files,
-                   "Centre view, then views with their camera in the metadata; - for standard input")
+                   "Centre view, then views with their camera in the metadata: flat pictures with depth, or "
+                   "deep ones; - for a flat one from standard input")
         ->type_name("CENTER.exr [VIEW.exr ...]")
         ->required();
     app.add_option("--view", list.placed,

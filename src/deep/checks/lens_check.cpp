@@ -5,9 +5,9 @@
 
 namespace sparselens {
 
-double largest_circle_of_confusion(const View &view, const ThinLens &lens) {
+double largest_circle_of_confusion(std::span<const float> depths, const ThinLens &lens) {
     double largest = 0;
-    for (const float z : view.z)
+    for (const float z : depths)
         if (z > 0) largest = std::max(largest, std::abs(circle_of_confusion(lens, double(z))));
     return largest;
 }

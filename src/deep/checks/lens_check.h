@@ -9,8 +9,8 @@
 
 namespace sparselens {
 
-// The largest circle of confusion of all that the view shows, pixels; 0 where it shows nothing.
-double largest_circle_of_confusion(const View &view, const ThinLens &lens);
+// The largest circle of confusion of the depths of a view, pixels; 0 where it shows nothing.
+double largest_circle_of_confusion(std::span<const float> depths, const ThinLens &lens);
 
 // Whether such a lens leaves a picture as it is: the blur is narrower than a pixel everywhere. A unit that is wrong by 100 or
 // 1000 does that to nearly every shot; a lens of radius 0 is meant to, and does not count.

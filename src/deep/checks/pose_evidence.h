@@ -16,7 +16,7 @@ struct PosedPicture {
         : view(picture), samples(picture.samples), rgb(find_rgb(samples.channels)) {}
 
     std::size_t index(const Imath::V2i &p) const { return samples.windows.index(p.x, p.y); }
-    bool shows_something(const Imath::V2i &p) const { return !samples.pixel(index(p)).empty(); }
+    bool shows_something(const Imath::V2i &p) const { return samples.is_single(index(p)); } // alone
     double depth(const Imath::V2i &p) const { return samples.z(index(p)); }
     Imath::V3d colour(const Imath::V2i &p) const {
         const auto value = [&](std::size_t k) { return k == npos ? 0 : double(samples.value(k, index(p))); };

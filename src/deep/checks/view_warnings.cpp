@@ -27,13 +27,18 @@ std::string text(const Imath::V2d &p) {
 
 using Warnings = std::vector<std::string>;
 
-void say_of_lens(const View &view, const ThinLens &lens, Warnings &said) {
-    const double largest = largest_circle_of_confusion(view, lens);
+void say_of_unit(const std::string &name, std::span<const float> depths, const ThinLens &lens,
+                 Warnings &said) {
+    const double largest = largest_circle_of_confusion(depths, lens);
     if (blurs_nothing(largest, lens))
         said.push_back(fmt::format(
             "{}: the largest circle of confusion is {:.2g} pixels, so the lens blurs nothing: check the "
             "unit of the scene (`scene_unit=0.01` if it is a centimetre), the aperture and the focus",
-            view.name, largest));
+            name, largest));
+}
+
+void say_of_lens(const View &view, const ThinLens &lens, Warnings &said) {
+    say_of_unit(view.name, view.z, lens, said);
     if (looks_defocused(sharpness_of_edges(view, lens)))
         said.push_back(view.name +
                        ": its edges out of focus are blurred, so the render seems to have depth of field, "
@@ -115,6 +120,29 @@ Warnings picture_warnings(const View &view, const ViewFacts &facts) {
     return said;
 }
 
+namespace {
+
+// Edges tell nothing of a deep view, whose pixels mix nothing.
+Warnings first_warnings(const PackedView &first, const ViewFacts &facts) {
+    if (!first.samples.deep()) return picture_warnings(unpacked(first), facts);
+    Warnings said;
+    if (const auto lens = known_lens(facts.camera, first.samples.windows))
+        say_of_unit(first.name, first.samples.depths(), *lens, said);
+    return said;
+}
+
+void say_of_flat_first(std::span<const PackedView> views, Warnings &said) {
+    const auto deep = [](const PackedView &view) { return view.samples.deep(); };
+    const auto other = std::ranges::find_if(views, deep);
+    if (other != views.end() && other != views.begin())
+        said.push_back(
+            fmt::format("{}: is flat, and {} is deep: where the first view shows several surfaces as one, "
+                        "deep views from the rim cannot part them; give its deep picture",
+                        views[0].name, other->name));
+}
+
+} // namespace
+
 Warnings view_warnings(std::span<const View> views, const ViewFacts &facts) {
     return view_warnings(referring_to(views), facts);
 }
@@ -131,11 +159,12 @@ Warnings view_warnings(const std::vector<PackedView> &views, const ViewFacts &fa
     std::vector<std::string> poses(views.size());
     parallel_for(views.size(), [&](std::size_t i) {
         if (i == 0)
-            said = picture_warnings(unpacked(views[0]), facts);
+            said = first_warnings(views[0], facts);
         else if (poses[i] = said_of_copy(views, i, focal_px);
                  poses[i].empty() && !std::ranges::binary_search(beyond, i))
             poses[i] = said_of_pose(views, i, focal_px, reach > 0 ? reach : radius);
     });
+    say_of_flat_first(views, said);
     if (beyond.empty()) say_of_first(views, radius, said);
     say_of_distances(views, beyond, radius, said);
     std::ranges::copy_if(poses, std::back_inserter(said), [](const std::string &s) { return !s.empty(); });

@@ -24,6 +24,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <optional>
 #include <unordered_set>
 
@@ -249,6 +250,19 @@ Imf::Header read_flat_header(const std::string &path, const PictureChoice &choic
         check_header(*stream, path);
         Imf::MultiPartInputFile file = open_exr(*stream);
         return header_of(file, parts_of_picture(file, path, choice), path);
+    });
+}
+
+bool is_deep_alone(const std::string &path) {
+    std::error_code ignored;
+    if (is_standard_stream(path) || !std::filesystem::is_regular_file(path, ignored)) return false;
+    return with_file_name(path, [&] {
+        const auto stream = open_input(path);
+        check_header(*stream, path);
+        const Imf::MultiPartInputFile file = open_exr(*stream);
+        for (int part = 0; part < file.parts(); ++part)
+            if (is_flat(file.header(part))) return false;
+        return true;
     });
 }
 

@@ -36,6 +36,8 @@ struct FlatFile {
 FlatFile read_flat_exr(const std::string &path, const PictureChoice &choice = {});
 // The header of the part with the beauty, without reading pixels.
 Imf::Header read_flat_header(const std::string &path, const PictureChoice &choice = {});
+// Whether it is a file that can be read twice, with deep parts and no flat one.
+bool is_deep_alone(const std::string &path);
 // `path` is for messages; `stream` is what `file` reads.
 FlatFile read_flat_part(Imf::MultiPartInputFile &file, const std::string &path, InputStream &stream,
                         const PictureChoice &choice);

@@ -91,9 +91,9 @@ std::size_t MatchedView::bytes() const {
 float MatchedView::depth(int x, int y) const {
     if (!contains(x, y)) return unknown;
     if (across_ == 1) {
-        const SampleRange samples = view_.samples->pixel(grid_.index(x, y));
-        if (samples.size() != 1) return unknown;
-        return float(perceptive_depth(scale_, double(view_.samples->z(samples.front()))));
+        const std::size_t pixel = grid_.index(x, y);
+        if (!view_.samples->is_single(pixel)) return unknown;
+        return float(perceptive_depth(scale_, double(view_.samples->z(view_.samples->pixel(pixel).front()))));
     }
     float depth = unknown;
     depths_of({x, y}, std::span(&depth, 1));

@@ -86,6 +86,7 @@ private:
         ldi_.dy[i] = float(dy / total);
         ldi_.weight[i] = float(count);
         ldi_.z[i] = seen[0].view->z(seen[0].index);
+        if (!ldi_.z_back.empty()) ldi_.z_back[i] = ldi_.z[i];
         ldi_.optical[i] = float(depth_of_perceptive(scale_, depth));
         for (std::size_t k = 0; k < ldi_.channels.size(); ++k) {
             double sum = 0;

@@ -153,10 +153,10 @@ TEST(BlurCheck, EdgesInFocusMayBeAnything) {
 
 TEST(LensCheck, AUnitTooSmallBlursNothing) {
     const View view = card_of(1);
-    EXPECT_NEAR(largest_circle_of_confusion(view, lens), 6, 1e-9);
+    EXPECT_NEAR(largest_circle_of_confusion(view.z, lens), 6, 1e-9);
     EXPECT_FALSE(blurs_nothing(6, lens));
     const ThinLens centimetres{.radius = 0.004, .focal_px = 100, .focus = 10};
-    EXPECT_NEAR(largest_circle_of_confusion(view, centimetres), 0.06, 1e-9);
+    EXPECT_NEAR(largest_circle_of_confusion(view.z, centimetres), 0.06, 1e-9);
     EXPECT_TRUE(blurs_nothing(0.06, centimetres));
     EXPECT_FALSE(blurs_nothing(0, {.radius = 0})) << "is meant to";
 }
