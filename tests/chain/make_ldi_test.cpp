@@ -40,7 +40,7 @@ OpenedView wall(int columns) {
 
 TEST(MakeLdi, CountsWhatViewsGive) {
     const OpenedView centre = wall(20), none = wall(0);
-    const ViewInMemory views[] = {{&centre, {}}, {&none, Imath::V2d(0.06, 0)}};
+    const ViewInMemory views[] = {{.flat = &centre}, {.flat = &none, .position = Imath::V2d(0.06, 0)}};
     LdiFromViews request{.name = "made", .supersample = 2, .lens = lens};
     Told told;
     Progress silent;
