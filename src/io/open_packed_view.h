@@ -25,7 +25,7 @@ OpenedPackedView open_packed_view(const std::string &path, const OpenOptions &op
                                   const Camera &otherwise = {});
 
 OpenedPackedView ready_packed_view(OpenedView view);
-// UsageError: the picture was made of several views, and is no view of one camera.
+// Throws Error where the picture was made of several views, and is no view of one camera.
 OpenedPackedView ready_packed_view(OpenedLdi ldi);
 
 } // namespace sparselens

@@ -21,13 +21,9 @@ struct PhotoBlock {
     // Of each sample of a rim view and channel: the difference, and how it changes with the depth of the picture, which is
     // the gradient along the way that the picture moves.
     double change2, change_difference, difference2, values;
-    double
-        still2; // sum of squares of the differences if pictures lie on the pixels as they are, whatever their offsets
 };
 
-// `still`: the difference without what the offset within the pixel explains of it.
-inline void add_motion(PhotoBlock &block, double difference, double still, double change) {
-    block.still2 += still * still;
+inline void add_motion(PhotoBlock &block, double difference, double change) {
     block.change2 += change * change;
     block.change_difference += change * difference;
     block.difference2 += difference * difference;
@@ -51,19 +47,12 @@ inline bool views_differ(PhotoBlock block) {
     return block.difference > least_ratio * block.variation + least_difference * block.pixels;
 }
 
-// Hard edges of texture, of one ray a pixel, stay on a pixel while their surface moves by a part of it: that looks as if an image
-// moved the other way, and says nothing.
-inline bool stands_still(PhotoBlock block) {
-    const double explained = block.change_difference * block.change_difference;
-    return block.still2 * block.change2 <= block.difference2 * block.change2 - explained;
-}
-
 // By how much a depth that is not that of the surface would explain much of the difference, by linear regression; pixels of
 // perceptive depth.
 inline double explaining_motion(PhotoBlock block) {
     const double least_explained = 0.5; // share of the squared differences; noise alone gives a hundredth
     const double least_change = 1e-5;   // mean square for each pixel of depth: nothing else tells
-    if (!(block.change2 > least_change * block.values) || stands_still(block)) return 0;
+    if (!(block.change2 > least_change * block.values)) return 0;
     const double moved = block.change_difference / block.change2, explained = moved * block.change_difference;
     return explained >= least_explained * block.difference2 ? abs(moved) : 0.0;
 }

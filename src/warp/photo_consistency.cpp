@@ -68,8 +68,8 @@ void compare(const ReprojectedViews &views, const CentreColours &centre,
         for (std::size_t k = 0; k < channels; ++k) {
             const double value = kernels::bounded(double(views.value(s, centre.channels()[k])));
             sum[k] += s.weight * value;
-            const double still = value - own[k].value;
-            kernels::add_motion(block, still - (own[k].gradient ^ off), still, own[k].gradient ^ motion);
+            kernels::add_motion(block, value - own[k].value - (own[k].gradient ^ off),
+                                own[k].gradient ^ motion);
         }
     }
     if (total == 0) return;

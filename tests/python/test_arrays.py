@@ -24,7 +24,7 @@ def test_warp_of_deep_pictures():
         assert numpy.array_equal(getattr(warped, name), getattr(deep, name))
     assert numpy.array_equal(warped["R"], deep["R"]) and numpy.array_equal(warped["A"], deep["A"])
     moved = two_pixels(dx=floats(3), dy=floats(3))
-    with pytest.raises(sparselens.UsageError, match="is an LDI, whose samples come from several views"):
+    with pytest.raises(sparselens.Error, match="is an LDI, whose samples come from several views"):
         sparselens.warp([deep, moved])
 
 

@@ -48,7 +48,6 @@ dof/selective/splat_blocks.cpp square_size
 dof/selective/splats.h too_little
 plan/disocclusion.h nothing
 plan/noise.cpp block_size spread least_of_four
-warp/images/image_search.cpp band_rows
 warp/images/matched_view.h cutout
 warp/images/neighbours.h image_block reach
 warp/images/patch_comparison.cpp alike

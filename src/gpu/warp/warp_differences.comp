@@ -52,10 +52,9 @@ void compare(int x, int y, uint from, uint to) {
         for (uint k = 0; k < frame.colours[3]; ++k) {
             const double value = bounded(double(value_of(fallen.x, frame.colours[k])));
             sum[k] = sum[k] + weight * value;
-            precise const double still = value - own[k].value,
-                                 moved = still - (own[k].gradient_x * dx + own[k].gradient_y * dy),
+            precise const double moved = value - own[k].value - (own[k].gradient_x * dx + own[k].gradient_y * dy),
                                  change = own[k].gradient_x * motion_x + own[k].gradient_y * motion_y;
-            add_motion(shown, moved, still, change);
+            add_motion(shown, moved, change);
         }
     }
     for (uint k = 0; k < frame.colours[3]; ++k) {
@@ -80,7 +79,7 @@ void main() {
     const uint block = item();
     if (block >= uint(columns * rows)) return;
     const int left = int(block) % columns * photo_block, top = int(block) / columns * photo_block;
-    shown = PhotoBlock(0, 0, 0, 0, 0, 0, 0, 0, 0);
+    shown = PhotoBlock(0, 0, 0, 0, 0, 0, 0, 0);
     for (int y = top; y < min(top + photo_block, frame.height); ++y)
         for (int x = left; x < min(left + photo_block, frame.width); ++x) look_at(uint(y * frame.width + x));
     verdicts[block] = photo_verdict(shown, frame.motion_unit);

@@ -187,12 +187,6 @@ std::vector<ImageMatch> ImageSweep::search(const Imath::Box2i &block,
                 std::abs(match.depth - match.own_depth) >= WarpTuning::image_least_px * float(unit_);
         }
     }
-    if (std::ranges::none_of(matches, &ImageMatch::found)) return matches;
-    MeanCurves still(views_, 1, grid.size());
-    still.find(0, [&](const MatchedView &view, std::span<float> out) { comparison.by_pixels(view, out); });
-    for (std::size_t i = 0; i < grid.size(); ++i)
-        if (matches[i].found && still.at(0, i) <= curves.at(least_of(curves, depths.count, i, 1), i))
-            matches[i].found = false;
     return matches;
 }
 

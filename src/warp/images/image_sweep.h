@@ -19,10 +19,8 @@ namespace sparselens {
 // three best of four views: one view may see something else there.
 struct ImageMatch {
     bool surface = false; // it shows the surface of its block, and the views can be compared
-    bool found =
-        false; // one depth explains the views, by a clear margin better than that of the surface, and better than that
-    // its picture stays on the pixels
-    float depth = 0;      // perceptive, pixels; below 0: rays meet behind the camera
+    bool found = false; // one depth explains the views, and better by a clear margin than that of the surface
+    float depth = 0;    // perceptive, pixels; below 0: rays meet behind the camera
     float own_depth = 0;  // of the surface
     float at_surface = 0; // the difference if the picture lay on the surface
 };

@@ -107,13 +107,4 @@ void PatchComparison::at_depths(const MatchedView &view, const Field &depths, do
     take(out);
 }
 
-void PatchComparison::by_pixels(const MatchedView &view, std::span<float> out) {
-    compare_each(view, [&](int x, int y) {
-        const Imath::V2d place =
-            view.in_view(Imath::V2d(corner_ + Imath::V2i(x, y)) + Imath::V2d(0.5), double(depths_[at(x, y)]));
-        return Imath::V2d(std::floor(place.x) + 0.5, std::floor(place.y) + 0.5);
-    });
-    take(out);
-}
-
 } // namespace sparselens

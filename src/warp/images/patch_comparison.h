@@ -33,9 +33,6 @@ public:
     void at_depth(const MatchedView &view, double depth, std::span<float> out);
     // The same if they lie so far behind those depths; a pixel whose depth is NaN does not count.
     void at_depths(const MatchedView &view, const Field &depths, double behind, std::span<float> out);
-    // The same on the surface, with the pixel of the view that is nearest to each place, not with what lies between pixels: hard edges,
-    // of one ray a pixel, stay on a pixel while their surface moves by a part of it.
-    void by_pixels(const MatchedView &view, std::span<float> out);
 
 private:
     // Puts squared differences, and which pixels can be compared.
