@@ -29,7 +29,7 @@ OpenedPackedView ready_packed_view(OpenedLdi opened) {
     Ldi &ldi = opened.ldi;
     if (stands_off_centre(ldi.dx) || stands_off_centre(ldi.dy) || !ldi.optical.empty() || !ldi.solid.empty())
         throw Error(opened.name + ": is an LDI, whose samples come from several views: give the views "
-                                       "that it was made of, or merge LDIs with ldi-cluster");
+                                  "that it was made of, or merge LDIs with ldi-cluster");
     return {PackedView(opened.name, std::move(ldi)),
             std::move(opened.header),
             std::move(opened.camera),
