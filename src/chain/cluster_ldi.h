@@ -29,7 +29,7 @@ struct ClusteredLdi : Clustered {
     std::size_t samples_read = 0, invisible = 0; // see OpenedLdi
 };
 
-// Of the files of the request, or of LDIs in memory. Name, header and camera are those of the first. Throws Error, naming the file, if
+// Takes the files of the request, or LDIs in memory. Name, header and camera are those of the first. Throws Error, naming the file, if
 // its display window, its sub-pixels or its focal length differ from those of the first.
 ClusteredLdi cluster_ldi(const ClusterRequest &request, Progress &progress, const Tell &tell);
 ClusteredLdi cluster_ldi(std::span<const OpenedLdi *const> ldis, const ClusterRequest &request,

@@ -12,7 +12,7 @@
 
 namespace sparselens {
 
-// What a device is said to have done, and not to have done.
+// The notices that say what a device has done, and what it has not.
 struct DeviceNotices {
     NoticeKind unusable, failed, done, left;
 };

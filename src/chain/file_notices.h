@@ -1,4 +1,4 @@
-// What is said of files that are read and written.
+// Notices about files that are read and written.
 #pragma once
 
 #include "chain/notices.h"

@@ -15,13 +15,13 @@ struct FlatLight {
     Imf::Header header;
 };
 
-// Of a file that is read; its colours are made linear as `colour` says, or are where there is none. `path` is for messages.
+// Takes the light of a file that is read; its colours are made linear as `colour` says, or are where there is none. `path` is for messages.
 FlatLight light_of(FlatFile file, const std::string &path, const ColourOptions *colour, const Tell &tell);
 
 // The choice of a picture that need not have depth.
 PictureChoice without_depth(PictureChoice choice);
 
-// Of a flat EXR; the choice is that of the picture it goes with, but for its depth. Throws Error, naming the file, where it is deep or
+// Reads a flat EXR; the choice is that of the picture it goes with, but for its depth. Throws Error, naming the file, where it is deep or
 // cannot be read.
 FlatLight open_light(const std::string &path, const PictureChoice &choice, const ColourOptions *colour,
                      const Tell &tell);

@@ -52,7 +52,7 @@ void require_channels(const OpenedLdi &in);
 // Whether the LDI to gather has the pixels of the file, whatever they show.
 bool keeps_pixels(const WindowOptions &options, const Imf::Header &header);
 
-// Those of the file, all of them needed; of a proxy, with a copy of the LDI that is as small.
+// Returns the windows of the file, all of them needed; for a proxy, with a copy of the LDI that is as small.
 GatherWindows gather_windows(const WindowOptions &options, const OpenedLdi &in);
 
 // The lens of the LDI in the pixels that are gathered.

@@ -60,7 +60,7 @@ struct WarpWork {
     WarpingDevice *device = nullptr; // which finds the device of the request; none: the CPU works
 };
 
-// Of the files of the request, or of views in memory, whose pixels are copied. Throws Error and UsageError.
+// Makes the LDI of the files of the request, or of views in memory, whose pixels are copied. Throws Error and UsageError.
 MadeLdi make_ldi(const LdiFromViews &request, const WarpWork &work);
 MadeLdi make_ldi(std::span<const ViewInMemory> views, const LdiFromViews &request, const WarpWork &work);
 

@@ -24,7 +24,7 @@ bool is_lens_method(const PictureRequest &request) {
 }
 bool needs_gather(Show show) { return show == Show::picture || show == Show::tiles; }
 
-// What is taken of `in`, whose samples may be used up if `own` are they.
+// The picture of `in`, whose samples may be used up where they are `own`.
 class Taking {
 public:
     Taking(const OpenedLdi &in, Ldi *own, const PictureRequest &request, const PictureWork &work)

@@ -21,7 +21,7 @@ struct GatherDevice; // chain/devices.h
 // The picture, or false colours (dof/false_colour.h) of what was understood.
 enum class Show { picture, coc, focus, layers, tiles };
 
-// What is not said is as the LDI says. Of an LDI in memory, its path and how it is read count for nothing.
+// The LDI says whatever the request leaves out. For an LDI in memory, its path and the way to read it do not matter.
 struct PictureRequest : LdiRequest {
     std::optional<Imath::V2i> focus_pixel = {}; // of the picture, EXR coordinates; else `lens` says the focus
     GivenLooks looks = {};
@@ -41,7 +41,7 @@ Image false_colours(Show show, const Ldi &ldi, const ThinLens &lens);
 void check_method(const PictureRequest &request,
                   const std::function<bool(const std::string &parameter)> &is_given);
 
-// What a picture is taken with.
+// The progress, the notices and the devices of the work.
 struct PictureWork {
     Progress &progress;
     Tell tell;
@@ -77,7 +77,7 @@ TakenPicture take_picture(OpenedLdi &&in, const PictureRequest &request, const P
 // The same, if a proxy of the LDI was made before; `in` then needs no samples, but the focus must be known.
 TakenPicture take_picture(const OpenedLdi &in, GatherWindows made_before, const PictureRequest &request,
                           const PictureWork &work);
-// Of a file. Where the cache need not keep it for the next picture, fewer samples are held while it is read, if the picture allows.
+// Takes the picture of a file. Where the cache need not keep it for the next picture, fewer samples are held while it is read, if the picture allows.
 TakenPicture take_picture(LdiCache &cache, bool keep, const PictureRequest &request, const PictureWork &work);
 
 } // namespace sparselens

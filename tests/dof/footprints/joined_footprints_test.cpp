@@ -67,7 +67,7 @@ Ldi boards(std::uint32_t seed) {
 }
 
 bool hides(const ShadowedLamp &lamp, Footprint footprint, const Imath::V2f &place, float grown) {
-    for (const std::size_t k : {0, 1, 2, 3}) footprint.place[k] += k % 2 == 0 ? -grown : grown;
+    for (std::size_t k = 0; k < 4; ++k) footprint.place[k] += k % 2 == 0 ? -grown : grown;
     return ShadowEdges(lamp, 1, {0, 0}, footprint).shadow().intersects(place);
 }
 
