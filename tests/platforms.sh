@@ -3,7 +3,7 @@
 #
 #   tests/platforms.sh SUITE [STEP...]     SUITE: bookworm, trixie, sid; steps: demo, tests, wheel, blender (all)
 #
-# What is committed is tried: demo is README's first command, tools/demo.sh; tests is its second, tests/run.sh; wheel is
+# Tries the last commit: demo is README's first command, tools/demo.sh; tests is its second, tests/run.sh; wheel is
 # tests/packaging/wheel.sh, with what pip makes of it; blender is tests/blender against Debian's Blender. Prints a table at
 # the end: versions, tests, skips; exit 1 where something fails. Needs root, debootstrap, and apt's lists (apt-get
 # update), whose mirror of Debian it takes. Roots lie in $SPARSELENS_ROOTS (/var/tmp/sparselens-roots), 3 GB each; what the

@@ -36,9 +36,9 @@ void add(PlacedViews &to, OpenedPackedView &opened) {
     to.warnings.push_back(std::move(opened.warnings));
 }
 
-void describe_as(const OpenedPackedView &centre, DepthMeaning depth, PlacedViews &to) {
+void describe_as(const OpenedPackedView &centre, PlacedViews &to) {
     to.header = centre.header;
-    to.depth = depth;
+    to.depth = centre.depth;
     to.depth_filtered = centre.depth_filtered;
     to.unpremultiplied = centre.unpremultiplied;
 }
@@ -64,7 +64,7 @@ PlacedViews open_views(const LdiFromViews &request) {
     OpenedPackedView centre = open_packed_view(paths[0], {request.lens, depths[0]});
     const Camera camera = with_subpixels(centre.camera, request);
     PlacedViews placed;
-    describe_as(centre, depths[0].meaning, placed);
+    describe_as(centre, placed);
     std::vector<StatedView> stated{{paths[0], camera, positions[0]}};
     add(placed, centre);
     in_order(
@@ -81,7 +81,7 @@ PlacedViews open_views(const LdiFromViews &request) {
     return placed;
 }
 
-// A copy.
+// Copies the view.
 OpenedPackedView opened(const ViewInMemory &view) {
     return view.flat ? ready_packed_view(OpenedView(*view.flat)) : ready_packed_view(OpenedLdi(*view.deep));
 }
@@ -91,7 +91,7 @@ PlacedViews copies_of(std::span<const ViewInMemory> views, const LdiFromViews &r
     std::vector<StatedView> stated;
     for (const ViewInMemory &in : views) {
         OpenedPackedView view = opened(in);
-        if (placed.views.empty()) describe_as(view, in.flat ? in.flat->depth : in.deep->depth, placed);
+        if (placed.views.empty()) describe_as(view, placed);
         const Camera camera = camera_with_options(request.lens, view.camera);
         stated.push_back({view.view.name, with_subpixels(camera, request), in.position});
         placed.views.push_back(std::move(view.view));

@@ -70,7 +70,7 @@ std::size_t ViewSamples::pixel_of_part(std::uint64_t i) const {
 
 namespace {
 
-// What lies behind the camera now is left out.
+// Leaves out samples that lie behind the camera now.
 Ldi moved(const Ldi &samples, double by) {
     return build_by_pixels(samples, [&](std::size_t pixel, Ldi &out) {
         for (const std::uint64_t i : samples.pixel(pixel)) {

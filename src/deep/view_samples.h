@@ -59,7 +59,7 @@ public:
     bool has_volumes() const { return !replaced_.z_back.empty(); }
     // Whether the sample is a part of what a deep view's pixel shows.
     bool is_part(std::uint64_t i) const { return deep_ && i >= pixels_; }
-    // Of two parts, whether one pixel holds them.
+    // Whether one pixel holds both parts.
     bool in_one_pixel(std::uint64_t a, std::uint64_t b) const { return pixel_of_part(a) == pixel_of_part(b); }
     // Whether the pixel shows one sample, which is not a part.
     bool is_single(std::size_t pixel) const {

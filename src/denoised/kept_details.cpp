@@ -14,7 +14,7 @@ namespace {
 
 using Tuning = DenoisedTuning;
 
-// What one pixel and the same places of other views tell. Squares are those that a display shows (colours.h).
+// The details of one pixel, compared with those of other views at the same place. Means and squares are over the channels.
 struct Evidence {
     float shared = 0;     // mean product with other views
     float difference = 0; // half of the mean squared difference

@@ -13,11 +13,11 @@ struct RayEvidence {
     Grid grid;
 };
 
-// What is made of the first render, of the second, and of both: the third is the picture, the others test it.
+// Pictures made of the first render, of the second, and of both: the third is the result, the others test it.
 using Trio = std::array<Colours, 3>;
 
-// Means over the pixels of each cell, of sums over channels, weighted by the tone curve. Of a candidate B beside the picture A so
-// far, tested by the render y:
+// Means over the pixels of each cell, of sums over channels, weighted by the tone curve. B is a candidate, A the picture so far,
+// and y the render that tests it.
 struct CellEvidence {
     std::array<Values, 3> energy;    // (B - A)^2
     std::array<Values, 2> confirmed; // (B - A)(y - A)
@@ -27,7 +27,7 @@ struct CellEvidence {
     Values spread; // the square of the difference between what both renders change
     Values noise;  // of the renders, squared difference
     // How much light a bright event brings to one sample: its variance over its mean, as events of S. Poisson have it, of all
-    // light that the rays show above the picture. What both renders show alike is no event, and adds to the mean alone.
+    // light that the rays show above the picture. Light that both renders show alike is not an event, and adds to the mean alone.
     double event_height = 0;
 };
 

@@ -15,7 +15,7 @@ bool differ(double a, double b) {
     return a != b && std::abs(a - b) >= FinishTuning::lens_difference * std::max(std::abs(a), std::abs(b));
 }
 
-// Of the aperture, mm.
+// The radius of the aperture, mm.
 std::optional<double> radius_of(const Camera &camera) {
     if (!camera.focal_length_mm || !camera.fstop) return {};
     return *camera.focal_length_mm / (2 * *camera.fstop);

@@ -12,17 +12,24 @@ bool stands_off_centre(const std::vector<float> &offsets) {
     return std::ranges::any_of(offsets, [](float offset) { return offset != 0; });
 }
 
-} // namespace
-
-OpenedPackedView ready_packed_view(OpenedView opened) {
-    return {PackedView(std::move(opened.view)),
+// The view, with what an OpenedView or an OpenedLdi says of its file.
+template <typename Opened>
+OpenedPackedView described(PackedView view, Opened &opened) {
+    return {std::move(view),
             std::move(opened.header),
             std::move(opened.camera),
             opened.bad,
+            opened.depth,
             opened.depth_filtered,
             opened.unpremultiplied,
             std::move(opened.notes),
             std::move(opened.warnings)};
+}
+
+} // namespace
+
+OpenedPackedView ready_packed_view(OpenedView opened) {
+    return described(PackedView(std::move(opened.view)), opened);
 }
 
 OpenedPackedView ready_packed_view(OpenedLdi opened) {
@@ -30,14 +37,7 @@ OpenedPackedView ready_packed_view(OpenedLdi opened) {
     if (stands_off_centre(ldi.dx) || stands_off_centre(ldi.dy) || !ldi.optical.empty() || !ldi.solid.empty())
         throw Error(opened.name + ": is an LDI, whose samples come from several views: give the views "
                                   "that it was made of, or merge LDIs with ldi-cluster");
-    return {PackedView(opened.name, std::move(ldi)),
-            std::move(opened.header),
-            std::move(opened.camera),
-            opened.bad,
-            opened.depth_filtered,
-            opened.unpremultiplied,
-            std::move(opened.notes),
-            std::move(opened.warnings)};
+    return described(PackedView(opened.name, std::move(ldi)), opened);
 }
 
 OpenedPackedView open_packed_view(const std::string &path, const OpenOptions &options,

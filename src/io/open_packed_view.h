@@ -16,6 +16,7 @@ struct OpenedPackedView {
     Imf::Header header;
     Camera camera;
     InvalidValues bad;
+    DepthMeaning depth = DepthMeaning::planar;
     bool depth_filtered = false, unpremultiplied = false;
     std::vector<std::string> notes = {}, warnings = {};
 };

@@ -85,7 +85,7 @@ WarpOptions warp_options(Keywords &keywords) {
             .find_images = images.value_or(true)};
 }
 
-// Of a MadeLdi or a ClusteredLdi.
+// The object of a MadeLdi or a ClusteredLdi.
 template <typename Made>
 LdiObject ldi_of(const std::string &name, Made made) {
     LdiObject out;
@@ -96,7 +96,7 @@ LdiObject ldi_of(const std::string &name, Made made) {
     return out;
 }
 
-// Of all views, in their order.
+// The pictures of all views, in their order.
 std::vector<DenoisedPicture> denoised_pictures(Keywords &keywords) {
     const py::object given = keywords.take("denoised");
     std::vector<DenoisedPicture> pictures;

@@ -32,7 +32,7 @@ bool canonically_before(const PackedView &a, const PackedView &b) {
 
 namespace {
 
-// Those of flat views: parts of deep ones mix nothing.
+// Settles the lamps of flat views: parts of deep views mix nothing.
 std::vector<CrossedLamps> settle_lamps(std::vector<ViewSamples> &views,
                                        const std::vector<ViewMapping> &mappings, double tolerance) {
     std::vector<std::size_t> flat;

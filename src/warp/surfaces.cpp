@@ -82,7 +82,7 @@ bool is_part(const ReprojectedViews &views, const ViewSample &s) {
     return views.samples(s.view).is_part(s.source);
 }
 
-// Of one surface that the centre view sees.
+// Both samples show one surface that the centre view sees.
 bool may_be_averaged(const ReprojectedViews &views, const ViewSample &centre, const ViewSample &s) {
     const auto flat = [&](const ViewSample &of) { return !views.samples(of.view).deep(); };
     if (flat(centre) && is_part(views, s)) return views.is_pure(centre);

@@ -36,7 +36,7 @@ struct Surfaces {
 // (mixed_pixels.h) are not averaged with it.
 //
 // Beyond the frame of a deep centre view nothing tells whether pixels of flat views are mixed, but for the pixel of the frame that is
-// nearest: where that holds parts, they are taken to be. What they show then is left out, and the parts go on.
+// nearest: where that holds parts, they are taken to be. They are left out then, and the parts go on.
 SampleRange parts_leave_frame(const ViewSamples &centre, Imath::V2i pixel);
 
 Surfaces find_surfaces(const ReprojectedViews &views, double tolerance, ReprojectedRows &rows);

@@ -19,7 +19,7 @@ by_hand() {
 }
 same() { picture same "$1" hand.exr >found 2>&1 || fail "$2 ($(cat found))"; }
 
-# What stands in the panel is what the files say. A changed lens takes the same views and the same LDI.
+# The panel says what the files say. A changed lens takes the same views and the same LDI.
 press small.blend still refuse 'center.exr is not there: press Render Views' render take
 by_hand still ""
 same still/picture.exr "Take Picture"
@@ -45,7 +45,7 @@ same still/picture.exr "followed"
 press small.blend still stop
 echo "Take Picture: dof-gather's bits, the scene unchanged"
 
-# What cannot be a picture is said in one line, and so is what a tool says.
+# One line says why there cannot be a picture, in the tool's words where a tool failed.
 press small.blend still move refuse "camera 'Camera' has been moved or changed.*: press Render Views"
 press small.blend still frame 2 refuse "center.exr shows frame 1, not 2: press Render Views"
 press small.blend still set views=3 refuse "view_2.exr is not there"
@@ -196,7 +196,7 @@ press lens.blend film animate "$PWD/film/shot"
 grep -q "of 6 views rendered and 0 kept" said || fail "without Keep Views: $(tail -n 5 said)"
 echo "Render Animation: the scene's output, and no view twice"
 
-# Other formats are Blender's: its output settings, its colours. Those of its Standard view are dof-gather's own, rounded.
+# Other formats are Blender's: its output settings, its colours. Its Standard view gives dof-gather's own pictures, rounded.
 quietly blender --python-exit-code 1 -b small.blend --python-expr "import bpy; scene = bpy.context.scene
 scene.render.image_settings.file_format = 'PNG'; scene.view_settings.view_transform = 'Standard'" \
     -P "$views" -- --picture --samples 4 --views 2 -o "$PWD/formats/shot"

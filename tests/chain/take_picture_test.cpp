@@ -1,4 +1,4 @@
-// What a face cannot get wrong alone: pictures whose values and notices are known in closed form.
+// Pictures whose values and notices are known in closed form; no face can get these wrong alone.
 #include "base/error.h"
 #include "chain/take_picture.h"
 #include "chain/words.h"

@@ -19,8 +19,8 @@ struct DepthSlopes {
 DepthSlopes slopes_of_depth(const View &view);
 
 // In 33 rendered and traced pictures, 0.82 to 1 of the slopes are planar and at most 0.02 inverse, except in one of
-// round things alone, of which 0.2 are planar and 0.03 inverse. Of their 1 / z 0.81 to 1 are inverse, but of macro's
-// 0.19, which is not told. False where too few tell: of what faces the camera nothing recedes.
+// round things alone, with 0.2 planar and 0.03 inverse. With 1 / z in place of z, 0.81 to 1 are inverse; macro has only
+// 0.19, and stays unnoticed. False where too few slopes tell, because surfaces that face the camera do not recede.
 bool looks_inverse(const DepthSlopes &slopes);
 
 } // namespace sparselens

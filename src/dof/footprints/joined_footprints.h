@@ -20,8 +20,8 @@ struct JoinedFootprint {
     std::uint32_t sample; // the first one
 };
 
-// Of the samples of a run, row by row, which have those footprints; from `opaque_end` on they are of partial coverage, and joined to
-// none.
+// Joins the samples of a run, row by row, which have those footprints. Samples from `opaque_end` on are of partial coverage, and
+// stay alone.
 std::vector<JoinedFootprint> joined(const SamplesInPicture &samples, const SampleRun &run,
                                     std::uint32_t opaque_end, std::span<const Footprint> footprints);
 

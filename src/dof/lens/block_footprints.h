@@ -25,7 +25,7 @@ public:
         std::vector<JoinedFootprint> alone, joined; // of its samples
         NearSteps near;                             // of these footprints
 
-        // Those of which none lies on both sides of a lamp whose depth is between these.
+        // The joined footprints; none of them lies on both sides of a lamp whose depth is between these.
         const std::vector<JoinedFootprint> &apart_from(float farthest, float nearest) const;
     };
     // Computed when first asked for, by any thread.

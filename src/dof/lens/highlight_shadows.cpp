@@ -32,7 +32,7 @@ std::uint32_t name_of(std::uint32_t block, int columns) {
 
 } // namespace
 
-// Of a block: one lies before all lamps of a group, or before none.
+// The casters of a block. Each lies before all lamps of a group, or before none.
 const std::vector<JoinedFootprint> &HighlightShadows::casters_of(const ShadowedLamp &lamp,
                                                                  const CastingBlock &b) const {
     const ShadowCasters &casters = search_.casters(b.set);
