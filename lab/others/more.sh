@@ -36,7 +36,7 @@ done
 # Finer views.
 for guide in albedo normal; do trace --light $guide --views 4 --spp 64 --supersample 2 -o fine-$guide; done
 rm -f fine-{albedo,normal}/camera.json # no budget of their own
-for samples in 4 16 64; do
+for samples in 4 16 64 256; do
     trace --light "$light" --views 4 --spp $samples --supersample 2 -o fine-$samples
     for name in center view_{0..3}; do
         echo "fine-$samples/$name.exr fine-albedo/$name.exr fine-normal/$name.exr clean" >>jobs

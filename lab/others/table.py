@@ -1,4 +1,4 @@
-"""The rows of report.csv at 5, 20, 80 and 320 rays as Markdown: python table.py report.csv. Each cell: dB, worst blocks (dB), FLIP, seconds."""
+"""The rows of report.csv at equal rays as Markdown: python table.py report.csv. Each cell: dB, worst blocks (dB), FLIP, seconds."""
 import csv
 import sys
 
@@ -7,7 +7,8 @@ scenes = list(dict.fromkeys(row["scene"] for row in rows))
 ways = [("ray tracing", "distributed ray tracing", ""), ("denoised", "denoised ray tracing", ""),
         ("averages", "accumulated lens views", ""), ("five views", "centre + 4", "lens normal"),
         ("five views, denoised", "centre + 4 denoised", "lens normal"), ("five fine views", "centre + 4 at 2x", "lens normal"),
-        ("five fine views, denoised", "centre + 4 denoised at 2x", "lens normal")]
+        ("five fine views, denoised", "centre + 4 denoised at 2x", "lens normal"), ("half in views, finished", "views and rays", "finished"),
+        ("half in views, finished, denoised", "views and rays", "finished, denoised")]
 
 
 def figures(row):

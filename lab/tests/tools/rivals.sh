@@ -9,10 +9,11 @@ if grep -q 'left out: Open Image Denoise' all/left-out; then
     grep -q fence all/report.txt || fail "nothing is measured without PyPI"
     skip "Open Image Denoise: PyPI cannot be reached, or has no wheel for this Python"
 fi
-# A cell for each way at 5 rays and more, but finer views, which begin at 20.
-awk -F '|' '/^\| fence, / { for (i = 3; i <= 9; ++i) if ($i !~ /dB|[0-9], [0-9]/ && !($2 ~ / 5 / && i > 7)) exit 1; ++rows } END { exit rows != 4 }' \
+# A cell for each way at 5 rays and more, but finer views and finished pictures, which begin at 20, and averages, which end at 320.
+awk -F '|' '/^\| fence, / { for (i = 3; i <= 11; ++i) if ($i !~ /[0-9], [0-9]/ && !($2 ~ / 5 / && i > 7) && !($2 ~ / 1280 / && i == 5)) exit 1; ++rows } END { exit rows != 5 }' \
     all/table.md || fail "a cell is missing: $(cat all/table.md)"
-for way in 'distributed ray tracing, 80 rays' 'denoised ray tracing, 80 rays' 'accumulated lens views, 80 rays' 'centre + 4, lens normal, 64 samples'; do
+for way in 'distributed ray tracing, 80 rays' 'denoised ray tracing, 80 rays' 'accumulated lens views, 80 rays' 'centre + 4, lens normal, 256 samples' \
+    'views and rays, finished, 80 rays'; do
     grep -qF "| fence | $way | " all/table.md || fail "no pull of $way: $(cat all/table.md)"
 done
 [ "$(grep -cE '^\| (focus|two stops|six blades|matte).* s, 0 rays \|$' all/notes.md)" -eq 4 ] || fail "not four notes: $(cat all/notes.md)"
