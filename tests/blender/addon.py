@@ -45,8 +45,8 @@ def draw_panel(addon):
         sys.exit("the panel of another camera does not say so: %s" % panel.layout.shown)
     buttons = [name for name in panel.layout.shown if name.startswith("sparselens.")]
     if "overscan_auto" not in panel.layout.shown or buttons != [
-            "sparselens.render_views", "sparselens.take_picture", "sparselens.render_animation",
-            "sparselens.make_nodes"]:
+            "sparselens.render_views", "sparselens.take_picture", "sparselens.finish",
+            "sparselens.render_animation", "sparselens.make_nodes"]:
         sys.exit("the panel shows %s" % panel.layout.shown)
 
 
@@ -66,7 +66,7 @@ def main(path, folder, overscan=""):
     render.filepath, render.resolution_x, render.resolution_percentage = "//mine", 48, 200
     render.resolution_y = 27
     scene.sparselens.folder, scene.sparselens.overscan = folder, 3
-    scene.sparselens.overscan_auto, scene.sparselens.finish = overscan == "auto", 2
+    scene.sparselens.overscan_auto = overscan == "auto"
 
     before = state(scene)
     if bpy.ops.sparselens.render_views() != {"FINISHED"}:

@@ -1,8 +1,8 @@
 """Presses the add-on's buttons without a window, and fails where something is not as it should be.
 
     blender -b SCENE.blend -P pictures.py -- FOLDER VIEWS ACTION...
-        render: renders the views into VIEWS; take: takes the picture; focus D, fstop N, blades N: sets the lens; frame N;
-        reload FILE.blend: saves the file as this one, and opens it; move: moves the camera; refuse PATTERN: taking the picture is an error of these words, on one line; stop: begins a render and a
+        render: renders the views into VIEWS; take: takes the picture; finish: finishes it; focus D, fstop N, blades N: sets the lens; frame N;
+        reload FILE.blend: saves the file as this one, and opens it; move: moves the camera; refuse PATTERN: taking the picture is an error of these words, on one line; refuse-finish PATTERN: finishing it is; stop: begins a render and a
         picture, and stops both; follow D: takes the picture, and lets it follow a new focus distance; animate NAME: makes the frames 1 and 2;
         compose FILE.exr: what the node group gives;
         set NAME=VALUE: a field of the panel
@@ -64,8 +64,14 @@ def take():
     check(image.has_data or image.pixels[0] >= 0, "the image has no pixels")
 
 
-def refuse(pattern):
-    said = said_by(bpy.ops.sparselens.take_picture)
+def finish():
+    said = said_by(bpy.ops.sparselens.finish)
+    check(said == "", "not finished: %s" % said)
+    check(image_of().filepath.endswith("picture.exr"), "the image shows %s" % image_of().filepath)
+
+
+def refuse(pattern, operator="take_picture"):
+    said = said_by(getattr(bpy.ops.sparselens, operator))
     check(re.fullmatch("Error: [^\n]*%s[^\n]*\n?" % pattern, said), "not '%s': %s" % (pattern, said))
 
 
@@ -173,8 +179,12 @@ def main(folder, views, *actions):
             check(addon.taking.follower is None, "another file is followed")
         elif action == "compose":
             compose(actions.pop(0))
+        elif action == "finish":
+            finish()
         elif action == "refuse":
             refuse(actions.pop(0))
+        elif action == "refuse-finish":
+            refuse(actions.pop(0), "finish")
         elif action == "stop":
             stop(addon)
         elif action == "animate":  # into this file, without an ending

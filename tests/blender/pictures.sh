@@ -45,6 +45,21 @@ same still/picture.exr "followed"
 press small.blend still stop
 echo "Take Picture: dof-gather's bits, the scene unchanged"
 
+# Finish gives what dof-finish makes by hand of the two renders, with the lens as it is now, and says what it cannot do.
+finished_by_hand() { # VIEWS FRAME RAYS_FOLDER OPTION...
+    by_hand "$1" "$2" "${@:4}"
+    mv hand.exr gathered.exr
+    dof-finish gathered.exr "$3"/rays_{1,2}"$2".exr -o hand.exr 2>log || fail "$(cat log)"
+}
+press small.blend still focus 3 set finish=8 finish
+finished_by_hand still "" still --focus-distance 3
+same still/picture.exr "Finish"
+if picture same still/gathered.exr still/picture.exr >found 2>&1; then fail "Finish changes nothing"; fi
+for half in 1 2; do exrheader still/rays_$half.exr | grep -Eq '^cycles\..*samples \(type string\): "4"' || fail "Finish: not 4 samples"; done
+press small.blend still set looks="'--cat-eye 0.7'" refuse-finish "finishing: Blender's lens has no --cat-eye"
+press small.blend still set looks="'--quality final'" finish
+echo "Finish: dof-finish's bits, the scene unchanged"
+
 # One line says why there cannot be a picture, in the tool's words where a tool failed.
 press small.blend still move refuse "camera 'Camera' has been moved or changed.*: press Render Views"
 press small.blend still frame 2 refuse "center.exr shows frame 1, not 2: press Render Views"
@@ -131,6 +146,23 @@ again 3 "camera.animation_data_clear(); camera.location.x = 0.1" --samples 2 --a
 rm kept/views/view_1.0001.exr
 again 1 "camera.animation_data_clear(); camera.location.x = 0.1" --samples 2
 echo "--picture: dof-gather's bits, and no view twice"
+
+# Pictures of one line are finished by renders through the lens, which stay as the views do while the lens is the same.
+finish_line() { quietly blender --python-exit-code 1 -b lens.blend -P "$views" -- --picture --frames 1-2 --samples 4 --views 2 --finish 8 -o "$PWD/exact/shot.####.exr" "$@"; }
+finish_line
+for frame in 1 2; do
+    finished_by_hand exact/views .000$frame exact/views
+    same exact/shot.000$frame.exr "--picture --finish, frame $frame"
+done
+stat -c '%n %y' exact/views/rays_*.exr >before
+finish_line
+stat -c '%n %y' exact/views/rays_*.exr | cmp - before || fail "--finish rendered the same rays twice"
+finish_line --again
+if stat -c '%n %y' exact/views/rays_*.exr | cmp -s - before; then fail "--finish --again kept rays"; fi
+press lens.blend film2 set finish=8 set finish_frames=True animate "$PWD/film2/shot"
+finished_by_hand film2 .0002 film2
+same film2/picture.0002.exr "Finish Frames"
+echo "--picture --finish: dof-finish's bits, and no rays twice"
 
 # The last line of the views' own run says how many there are.
 in_blender small.blend -P "$views" -- -o narrow --samples 1 --views 1 --overscan 0

@@ -90,12 +90,13 @@ def steps(addon, folder, screenshot):
     yield
     area = next(area for area in main_window().screen.areas if area.type == "PROPERTIES")
     area.spaces.active.context = "DATA"
+    scene.sparselens.finish = 8
     before = state(scene)
 
     # Esc in the midst of the second view: what was rendered stays, the scene is as it was.
     press(bpy.ops.sparselens.render_views)
     yield from until(lambda: os.path.exists(os.path.join(folder, "center.exr")) and bpy.app.is_job_running("RENDER"), "the second view")
-    for other in bpy.ops.sparselens.render_views, bpy.ops.sparselens.take_picture, bpy.ops.sparselens.render_animation:
+    for other in bpy.ops.sparselens.render_views, bpy.ops.sparselens.take_picture, bpy.ops.sparselens.finish, bpy.ops.sparselens.render_animation:
         check(not other.poll(), "%s can begin meanwhile" % other)
     escape()
     yield from until(idle, "the render to stop")
@@ -114,6 +115,14 @@ def steps(addon, folder, screenshot):
     yield from until(lambda: taken() and taken().filepath == path and addon.taking.follower, "the picture")
     same(before, "Take Picture")
     check(taken() in shown(), "no image editor shows the picture")
+    first = os.path.getmtime(path)
+
+    # Two renders through the lens make it exact; the lens is followed again.
+    press(bpy.ops.sparselens.finish)
+    check(addon.taking.follower is None, "a lens is followed while it is rendered")
+    yield from until(lambda: idle() and os.path.getmtime(path) > first and addon.taking.follower, "the finished picture")
+    same(before, "Finish")
+    check(taken().filepath == path and taken() in shown(), "no image editor shows the finished picture")
     first = os.path.getmtime(path)
 
     # A field that changes: a draft, and the picture.

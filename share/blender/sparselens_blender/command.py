@@ -80,6 +80,10 @@ def add_options(add, exclusive):
     add("--eye", metavar="NAME",
         help="view of a stereo scene, e.g. left (default: all of them, the "
              "eye's suffix in the names of the files)")
+    add("--finish", type=natural_number, default=0, metavar="N",
+        help="also render two pictures through the camera's lens, N samples "
+             "a pixel in all, which share no noise: rays_1.exr and "
+             "rays_2.exr (Cycles). Pictures are finished by them")
 
 
 def add_views_options(add):
@@ -89,10 +93,6 @@ def add_views_options(add):
     add("--lens-views", type=natural_number, default=0, metavar="N",
         help="also render N views spread over the lens, lens_0000.exr, ..., "
              "whose average (dof-accumulate) is the true picture")
-    add("--finish", type=natural_number, default=0, metavar="N",
-        help="also render two pictures through the camera's lens, N samples "
-             "a pixel in all, which share no noise: rays_1.exr and "
-             "rays_2.exr, for dof-finish (Cycles)")
 
 
 def add_picture_options(add):
@@ -120,7 +120,7 @@ def check_options(parser, options):
     if options.finish == 1:
         parser.error("argument --finish: two renders take two samples")
     if options.picture:
-        for name in "plan", "lens_views", "finish":
+        for name in "plan", "lens_views":
             if getattr(options, name):
                 parser.error("argument --%s: not allowed with argument "
                              "--picture" % name.replace("_", "-"))
@@ -139,8 +139,7 @@ def read_options(arguments, command=False):
             "sparselens -o //out/#### [options]", description="Renders views "
             "from the lens of the scene's camera, and makes pictures of "
             "them.")
-        parser.set_defaults(picture=True, plan=None, lens_views=0,
-                            finish=0)
+        parser.set_defaults(picture=True, plan=None, lens_views=0)
     else:
         parser = argparse.ArgumentParser(
             prog="sparselens_views.py",
@@ -209,7 +208,8 @@ def main(options, say):
         scene.cycles.samples = options.samples
         scene.eevee.taa_render_samples = options.samples
     manner = Manner(options.overscan, options.multilayer, options.layer,
-                    options.supersample, options.finish)
+                    options.supersample,
+                    0 if options.picture else options.finish)
     if not options.picture:
         return render_views(options, scene, eyes, manner, say)
     manner.keep = not options.again

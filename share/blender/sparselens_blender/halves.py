@@ -1,10 +1,10 @@
 """Two renders through the camera's own lens that share no noise, for
 dof-finish."""
 
-import os
 from contextlib import contextmanager
 
 from .for_a_while import changed, only_layer, render_settings, still_camera
+from .kept import is_same_render, manner_attributes, windows
 from .shots import shot_of
 
 
@@ -19,10 +19,11 @@ def open_lens(camera, shot):
         yield
 
 
-def halves_steps(scene, path_of, eye, manner, view_steps, attributes):
-    """rays_1 and rays_2, with manner.finish samples a pixel in all, of the
-    size of the picture: without sub-pixels and overscan. Neither is denoised,
-    which would leave other noise."""
+def halves_steps(scene, path_of, eye, manner, view_steps):
+    """Renders rays_1 and rays_2, with manner.finish samples a pixel in all.
+    They have the size of the picture, without sub-pixels and overscan.
+    Neither is denoised, which would leave other noise. With manner.keep a
+    render of an earlier run stays if it has this camera, lens and samples."""
     shot, cycles, samples = shot_of(scene, eye), scene.cycles, manner.finish
     with render_settings(scene, shot.size, manner.multilayer), \
             still_camera(scene), only_layer(scene, manner.layer):
@@ -31,9 +32,14 @@ def halves_steps(scene, path_of, eye, manner, view_steps, attributes):
                     cycles, seed=(cycles.seed + half) % 2 ** 31,
                     samples=count, use_adaptive_sampling=False,
                     use_denoising=False):
+                path = path_of("rays_%d" % half)
+                attributes = windows(shot.size, 0) | manner_attributes(
+                    scene, manner.layer, manner.multilayer)
+                if manner.keep and is_same_render(path, shot, attributes):
+                    continue
                 yield from view_steps(
-                    scene, path_of("rays_%d" % half), shot, (0, 0), 0, None,
-                    attributes, plain=not manner.multilayer)
+                    scene, path, shot, (0, 0), 0, None, attributes,
+                    plain=not manner.multilayer)
 
 
 def curves_of(action):
@@ -49,12 +55,22 @@ def curves_of(action):
 def check_halves(scene):
     """Raises ValueError where two renders would have the same noise."""
     if scene.render.engine != "CYCLES":
-        raise ValueError("--finish: only Cycles renders depth of field by "
+        raise ValueError("finishing: only Cycles renders depth of field by "
                          "rays: choose it as the render engine")
     animation = scene.animation_data
     moved = [] if animation is None else (list(animation.drivers)
                                           + curves_of(animation.action))
     if any(curve.data_path == "cycles.seed" for curve in moved):
-        raise ValueError("--finish: the scene's seed is animated, so both "
+        raise ValueError("finishing: the scene's seed is animated, so both "
                          "renders would have the same: use the animated seed "
                          "of Cycles (Sampling > Advanced) in its place")
+
+
+def check_looks(words):
+    """Raises ValueError where the gathered picture would have a look that
+    the renders cannot have, so that they would undo it."""
+    looks = [word for word in words
+             if word.startswith("--") and word.split("=")[0] != "--quality"]
+    if looks:
+        raise ValueError("finishing: Blender's lens has no %s: remove it from "
+                         "the looks" % ", ".join(looks))

@@ -27,6 +27,15 @@ def manner_attributes(scene, layer, multilayer):
             "sparselens:rendered": exr_text(", ".join(words))}
 
 
+def windows(size, overscan):
+    """The display window of a picture, and a data window that is larger on
+    each side."""
+    width, height = size
+    return {"displayWindow": exr_box(0, 0, width, height),
+            "dataWindow": exr_box(-overscan, -overscan, width + 2 * overscan,
+                                  height + 2 * overscan)}
+
+
 def header_of(path):
     """The attributes of an EXR file; of one that cannot be read, None."""
     try:
@@ -79,3 +88,12 @@ def is_kept(path, shot, u, others):
     header = header_of(path)
     return header is not None and is_of_camera(header, shot, u) and all(
         header.get(name) == value for name, value in others.items())
+
+
+def is_same_render(path, shot, others):
+    """Whether a render through the lens need not be made again: it is of this
+    camera, with the lens exactly as it is, and has these other attributes."""
+    header = header_of(path)
+    wanted = camera_attributes(shot, shot.placement) | others
+    return header is not None and all(
+        header.get(name) == value for name, value in wanted.items())

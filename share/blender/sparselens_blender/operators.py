@@ -8,12 +8,14 @@ import bpy
 from . import nodes, tools
 from .bit_by_bit import BitByBit, Rendering
 from .chain import Once
+from .finishing import Finishing
 from .renders import (
     AUTO, Count, Manner, folder_of, render_now, views_steps)
 from .sequence import Pictures
 from .shots import eyes_of
 from .taking import (
-    ERRORS, Taking, chosen_folder, editors, start_following, stop_following)
+    ERRORS, Taking, chosen_folder, editors, lens_state, start_following,
+    stop_following)
 from .views import counted, views_of_lens
 
 
@@ -23,13 +25,12 @@ def frames_of(scene):
 
 def manner_of(settings):
     return Manner(AUTO if settings.overscan_auto else settings.overscan,
-                  settings.multilayer, supersample=settings.supersample,
-                  finish=max(settings.finish, 2) if settings.finish else 0)
+                  settings.multilayer, supersample=settings.supersample)
 
 
 class Renders(BitByBit):
-    """An operator of steps: prepare(context) sets self.steps, self.count and
-    self.most, the number of views."""
+    """An operator of steps: prepare(context) sets self.steps; of views also
+    self.count, and self.most, their number."""
 
     holds = True
 
@@ -54,11 +55,13 @@ class Renders(BitByBit):
 
     def tick(self, context):
         done = self.rendering.tick()
-        context.workspace.status_text_set(
-            "sparselens: %s, %d of %d views; Esc stops" % (
-                self.rendering.words, self.count.rendered + self.count.kept,
-                self.most))
+        context.workspace.status_text_set("sparselens: %s%s; Esc stops" % (
+            self.rendering.words, self.so_far()))
         return done
+
+    def so_far(self):
+        return ", %d of %d views" % (self.count.rendered + self.count.kept,
+                                     self.most)
 
     def may_stop(self):
         """A render that runs stops by itself, at the same key."""
@@ -66,6 +69,16 @@ class Renders(BitByBit):
 
     def end(self, context):
         self.rendering.end()
+
+
+def say_warnings(operator, taken):
+    """Of what has been taken, and which images show it."""
+    say = Once(lambda text: operator.report({"WARNING"}, text))
+    for text in taken.warnings:
+        say(text)
+    say.end()
+    operator.report({"INFO"}, "The image editor shows %s"
+                    % ", ".join(taken.images))
 
 
 class SPARSELENS_OT_render_views(Renders, bpy.types.Operator):
@@ -105,9 +118,11 @@ class SPARSELENS_OT_render_animation(Renders, bpy.types.Operator):
                                 else name + "####"),
             views_folder=settings.folder, views=settings.views, layer=None,
             multilayer=settings.multilayer, looks=settings.looks,
+            finish=(max(settings.finish, 2) if settings.finish_frames
+                    else 0),
             tools=chosen_folder())
         manner = manner_of(settings)
-        manner.keep, manner.finish = settings.keep, 0
+        manner.keep = settings.keep
         eyes, frames = eyes_of(scene), frames_of(scene)
         self.pictures = Pictures(scene, eyes, manner, options, self.warn)
         self.pictures.render_again = ("if more than the lens has changed, "
@@ -158,12 +173,27 @@ class SPARSELENS_OT_take_picture(BitByBit, bpy.types.Operator):
             start_following(self.taking.state)
 
     def say_warnings(self):
-        say = Once(lambda text: self.report({"WARNING"}, text))
-        for text in self.taking.warnings:
-            say(text)
-        say.end()
-        self.report({"INFO"}, "The image editor shows %s"
-                    % ", ".join(self.taking.images))
+        say_warnings(self, self.taking)
+
+
+class SPARSELENS_OT_finish(Renders, bpy.types.Operator):
+    """Render two noisy pictures through the lens as it is now, and make the picture exact by them"""
+
+    bl_idname = "sparselens.finish"
+    bl_label = "Finish"
+
+    def prepare(self, context):
+        settings = context.scene.sparselens
+        self.finishing = Finishing(context.scene, manner_of(settings))
+        self.steps = self.finishing.steps()
+
+    def so_far(self):
+        return ""
+
+    def done(self, context):
+        say_warnings(self, self.finishing)
+        if context.scene.sparselens.live and not bpy.app.background:
+            start_following(lens_state(context.scene))
 
 
 class SPARSELENS_OT_make_nodes(bpy.types.Operator):

@@ -8,7 +8,7 @@ import bpy
 
 from . import taking
 from .operators import (
-    SPARSELENS_OT_find_tools, SPARSELENS_OT_make_nodes,
+    SPARSELENS_OT_find_tools, SPARSELENS_OT_finish, SPARSELENS_OT_make_nodes,
     SPARSELENS_OT_render_animation, SPARSELENS_OT_render_views,
     SPARSELENS_OT_take_picture, frames_of)
 from .shots import picture_size
@@ -33,9 +33,12 @@ class SPARSELENS_Settings(bpy.types.PropertyGroup):
         "for each of the picture, with as many fewer samples",
         default=1, min=1, max=16)
     finish: bpy.props.IntProperty(
-        name="Rays to Finish", description="Samples a pixel of two renders "
-        "through the lens, both together, for dof-finish; 0: none",
-        default=0, min=0, soft_max=4096)
+        name="Rays to Finish", description="Samples a pixel of the two "
+        "renders through the lens by which Finish makes the picture exact, "
+        "both together", default=80, min=2, soft_max=4096)
+    finish_frames: bpy.props.BoolProperty(
+        name="Finish Frames",
+        description="Render Animation finishes its pictures, too")
     multilayer: bpy.props.BoolProperty(
         name="All Passes",
         description="Multilayer EXR with all passes of the view layers")
@@ -50,8 +53,6 @@ class SPARSELENS_Settings(bpy.types.PropertyGroup):
         name="Live", default=True,
         description="Once a picture is taken, take it anew whenever focus, "
                     "f-stop, blades, ratio or rotation change")
-
-
     keep: bpy.props.BoolProperty(
         name="Keep Views",
         description="Render Animation takes views that are there, where the "
@@ -114,7 +115,7 @@ class SPARSELENS_PT_panel(bpy.types.Panel):
         layout.prop(settings, "overscan_auto")
         if not settings.overscan_auto:
             layout.prop(settings, "overscan")
-        for name in "supersample", "finish", "multilayer", "animation":
+        for name in "supersample", "multilayer", "animation":
             layout.prop(settings, name)
         layout.operator("sparselens.render_views")
         layout.prop(settings, "looks")
@@ -122,6 +123,9 @@ class SPARSELENS_PT_panel(bpy.types.Panel):
         layout.operator("sparselens.take_picture")
         if taking.follower:
             say(layout, taking.follower.message, context)
+        layout.prop(settings, "finish")
+        layout.operator("sparselens.finish")
+        layout.prop(settings, "finish_frames")
         layout.prop(settings, "keep")
         layout.operator("sparselens.render_animation")
         layout.label(text="%d frames, up to %.1f GB" % (
@@ -131,8 +135,9 @@ class SPARSELENS_PT_panel(bpy.types.Panel):
 
 CLASSES = (SPARSELENS_Settings, SPARSELENS_Preferences,
            SPARSELENS_OT_render_views, SPARSELENS_OT_take_picture,
-           SPARSELENS_OT_render_animation, SPARSELENS_OT_make_nodes,
-           SPARSELENS_OT_find_tools, SPARSELENS_PT_panel)
+           SPARSELENS_OT_finish, SPARSELENS_OT_render_animation,
+           SPARSELENS_OT_make_nodes, SPARSELENS_OT_find_tools,
+           SPARSELENS_PT_panel)
 
 
 def register():

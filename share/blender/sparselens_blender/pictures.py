@@ -108,6 +108,12 @@ def gather_command(folder, ldi, out, options):
             "--overscan", "crop", *options]
 
 
+def finish_command(folder, files, out):
+    """Makes the gathered picture exact by the two renders."""
+    return [tools.tool(folder, "dof-finish"), files.path("gathered"),
+            files.path("rays_1"), files.path("rays_2"), "-o", out]
+
+
 DRAFT_WIDTH = 640  # pixels; a wider picture is first shown smaller
 
 

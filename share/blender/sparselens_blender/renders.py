@@ -16,11 +16,12 @@ import bpy
 
 from .chain import Chain
 from .checks import check_scene
-from .exr import depth_rows, exr_box, with_attributes
+from .exr import depth_rows, with_attributes
 from .for_a_while import (
     changed, finer, only_layer, render_settings, still_camera)
 from .halves import check_halves, halves_steps
-from .kept import is_kept, manner_attributes, overscan_of_file
+from .kept import (
+    is_kept, manner_attributes, overscan_of_file, windows)
 from .shots import camera_attributes, shot_of, view_placement
 
 AUTO = "auto"  # overscan: as much as the blur needs
@@ -108,13 +109,6 @@ def set_border(render, box, overscan):
     render.border_max_x = (x1 + 1.25) / width
     render.border_min_y = (height - y1 - 1 + 0.25) / height
     render.border_max_y = (height - y0 + 0.25) / height
-
-
-def windows(size, overscan):
-    width, height = size
-    return {"displayWindow": exr_box(0, 0, width, height),
-            "dataWindow": exr_box(-overscan, -overscan, width + 2 * overscan,
-                                  height + 2 * overscan)}
 
 
 def view_steps(scene, path, shot, u, overscan, box, attributes, plain):
@@ -214,10 +208,7 @@ def eye_steps(scene, folder, ending, views, eye, manner, count):
                                   attributes, plain=not manner.multilayer)
             count.rendered += 1
     if manner.finish:
-        yield from halves_steps(
-            scene, path_of, eye, manner, view_steps,
-            manner_attributes(scene, manner.layer, manner.multilayer)
-            | windows(shot_of(scene, eye).size, 0))
+        yield from halves_steps(scene, path_of, eye, manner, view_steps)
 
 
 def frame_ending(frame, several):

@@ -3,14 +3,16 @@
 import os
 import re
 import shlex
+from dataclasses import replace
 
 import bpy
 
 from . import pictures, tools
 from .chain import Chain, Once
 from .for_a_while import changed
+from .halves import check_halves, check_looks, halves_steps
 from .renders import (
-    Count, folder_of, frame_ending, used_layers, views_steps)
+    Count, folder_of, frame_ending, used_layers, view_steps, views_steps)
 from .shots import shot_of
 from .views import counted, numbered, views_of_lens
 
@@ -56,6 +58,9 @@ class Pictures:
             os.path.dirname(self.name), "views"))
         self.looks = shlex.split(options.looks)
         self.count, self.made = Count(), 0
+        if options.finish:
+            check_halves(scene)
+            check_looks(self.looks)
         if options.multilayer and not options.layer:
             used = used_layers(scene)
             if len(used) > 1:
@@ -80,27 +85,35 @@ class Pictures:
                     self.scene, [frame], self.views, lambda _: views,
                     self.eyes, self.manner, self.count, several, self.say)
                 for eye in self.eyes:
-                    yield from self.take(frame, eye, several)
+                    files = pictures.Files(
+                        self.views, eye.file_suffix,
+                        frame_ending(frame, several), self.options.views)
+                    if self.options.finish:
+                        yield from halves_steps(
+                            self.scene, files.path, eye,
+                            replace(self.manner, multilayer=False,
+                                    finish=self.options.finish), view_steps)
+                    yield from self.take(frame, eye, files)
         finally:
             self.scene.frame_set(before)
             self.say.end()
         self.warn_of_kept()
 
-    def take(self, frame, eye, several):
-        """The picture of the views."""
-        files = pictures.Files(self.views, eye.file_suffix,
-                               frame_ending(frame, several),
-                               self.options.views)
+    def take(self, frame, eye, files):
+        """The picture of the views, and of the rays where there are some."""
         shot = shot_of(self.scene, eye, self.manner.supersample)
         stem, ending = os.path.splitext(numbered(self.name, frame))
         out = stem + eye.file_suffix + ending
         made = out if self.kind == "OPEN_EXR" else files.path("picture")
         layer = self.options.multilayer and self.manner.layer
+        gathered = files.path("gathered") if self.options.finish else made
         chain = Chain([
             *pictures.warp_commands(self.tools, files, layer),
             pictures.gather_command(
-                self.tools, files.path("ldi"), made,
-                pictures.lens_options(shot) + self.looks)])
+                self.tools, files.path("ldi"), gathered,
+                pictures.lens_options(shot) + self.looks),
+            *([pictures.finish_command(self.tools, files, made)]
+              if self.options.finish else [])])
         yield chain
         for text in chain.warnings:
             self.say(text.split(": warning: ", 1)[1])

@@ -1,0 +1,51 @@
+"""Finishes the picture of a scene's frame by two renders through the lens."""
+
+from dataclasses import replace
+
+from . import pictures, tools
+from .chain import Chain
+from .halves import check_halves, check_looks, halves_steps
+from .renders import folder_of, used_layers, view_steps
+from .shots import eyes_of, shot_of
+from .taking import chosen_folder, image_of, looks_of, show
+
+
+class Finishing:
+    """The pictures of the current frame, one for each eye: gathered as Take
+    Picture does, then finished."""
+
+    def __init__(self, scene, manner):
+        settings = scene.sparselens
+        self.scene, self.images, self.warnings = scene, [], []
+        self.tools, _ = tools.find(chosen_folder())
+        self.looks, layer = looks_of(settings), used_layers(scene)[0]
+        check_halves(scene)
+        check_looks(self.looks)
+        self.rays = replace(manner, multilayer=False, layer=layer,
+                            finish=max(settings.finish, 2))
+        self.layer = layer if manner.multilayer else None
+        views = folder_of(settings.folder)
+        self.eyes = []
+        for eye in eyes_of(scene):
+            shot = shot_of(scene, eye, manner.supersample)
+            self.eyes.append((eye, shot, pictures.files_to_take(
+                scene, views, eye, settings.views, shot)))
+
+    def steps(self):
+        """Yields what is to be rendered, in words, and chains of tools."""
+        for eye, shot, files in self.eyes:
+            yield from halves_steps(self.scene, files.path, eye, self.rays,
+                                    view_steps)
+            made = files.path("picture")
+            chain = Chain([
+                *pictures.warp_commands(self.tools, files, self.layer),
+                pictures.gather_command(
+                    self.tools, files.path("ldi"), files.path("gathered"),
+                    pictures.lens_options(shot) + self.looks),
+                pictures.finish_command(self.tools, files, made)])
+            yield chain
+            self.warnings += chain.warnings
+            image = image_of(
+                "sparselens, " + self.scene.name + eye.file_suffix, made)
+            show(image)
+            self.images.append(image.name)
