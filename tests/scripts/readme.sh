@@ -94,11 +94,12 @@ by_script=$(sed -nE "/^build='/,/'\$/{s/^build=//;s/'//g;p}" "$source_dir/tools/
 by_hand=$(blocks README.md text | sed -n '/apt-get install/,/[^\\]$/{s/.*apt-get install//;p}' | packages)
 [ "$by_script" = "$by_hand" ] || fail "README.md's packages: $(diff <(echo "$by_script") <(echo "$by_hand"))"
 
-# run DOCUMENT: its shell examples, but for the project's own scripts; what they trace, as small pictures.
+# run DOCUMENT FOLDER: its shell examples, without the project's own scripts; they trace small pictures.
 run() {
-    blocks "$1" sh | sed -E '/^\.\//d; /--size/!s/^dof-trace [a-z]+/& --size 160x90/' >"$scratch/example"
+    echo "trap 'echo \"exit status \$?: \$BASH_COMMAND\" >&2' ERR" >"$scratch/example"
+    blocks "$1" sh | sed -E '/^\.\//d; /--size/!s/^dof-trace [a-z]+/& --size 160x90/' >>"$scratch/example"
     (cd "$2" && bash -euo pipefail "$scratch/example" >"$scratch/stdout" 2>"$scratch/stderr" </dev/null) ||
-        fail "the examples of $1: $(cat "$scratch/stderr")"
+        fail "the examples of $1: $(tail -n 5 "$scratch/stdout") $(cat "$scratch/stderr")"
 }
 
 blocks README.md sh >commands
