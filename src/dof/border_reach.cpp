@@ -14,7 +14,8 @@ namespace sparselens {
 
 namespace {
 
-// Needed and rendered pixels of one side of the frame. Light reaches down and across differently if pixels are not square.
+// Needed and rendered pixels of one side of the frame. Light reaches down and across differently if pixels are not
+// square.
 struct Side {
     int rendered = 0;
     double reach = 0;

@@ -15,8 +15,8 @@ namespace {
 
 const std::string layer = "holdout.";
 
-// The channel for the coverage of the holdout beside that of the picture. Its name decides what attenuates it behind
-// other samples (deep/channel_alpha.h): "holdout.R" goes by AR, and "holdout.share" by A.
+// The channel for the holdout's coverage, beside the picture's own. Its name decides which coverage attenuates it
+// behind other samples (deep/channel_alpha.h): "holdout.R" follows AR, and "holdout.share" follows A.
 std::string share_of(const std::string &coverage) {
     return layer + (coverage == "A" ? "share" : coverage.substr(1));
 }
@@ -79,7 +79,7 @@ Image without_holdout(Image picture) {
             std::as_const(picture).plane(find_channel(picture.channels, share_of(kept[k].name)));
         const auto coverage = result.plane(k);
         for (std::size_t i = 0; i < coverage.size(); ++i)
-            coverage[i] = std::max(0.0f, coverage[i] - holdout[i]); // 0: what rounding leaves of nothing
+            coverage[i] = std::max(0.0f, coverage[i] - holdout[i]); // rounding may leave less than 0
     }
     return result;
 }

@@ -1,8 +1,8 @@
-// A holdout that is out of focus as well, as part of the scene: its samples hide what is behind them at every lens point,
-// but are not shown and leave no coverage of their own.
+// A holdout that is out of focus like the scene. Its samples hide what is behind them at every lens point, but they are
+// not shown and leave no coverage of their own.
 //
-// They are merged into the LDI without colour. Extra channels carry the coverage that belongs to them, so that after the
-// gather, by any method, it can be subtracted again.
+// They are merged into the LDI without colour. Extra channels carry their coverage, so that it can be subtracted again
+// after the gather, by any method.
 #pragma once
 
 #include "../base/image.h"
@@ -10,10 +10,10 @@
 
 namespace sparselens {
 
-// The LDI to gather: tidy, as both must be.
+// Returns the LDI to gather, which is tidy. Both LDIs must be tidy.
 Ldi with_holdout(const Ldi &ldi, const Ldi &holdout);
 
-// The picture gathered from it, without the coverage of the holdout and without the extra channels.
+// Removes the coverage of the holdout, and the extra channels, from a picture gathered from that LDI.
 Image without_holdout(Image picture);
 
 } // namespace sparselens

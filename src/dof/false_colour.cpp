@@ -17,7 +17,7 @@ using Imath::V3f;
 
 V3f mix(const V3f &a, const V3f &b, float t) { return a + (b - a) * t; }
 
-// colour(i) for each pixel of the data window.
+// Returns an image with colour(i) in each pixel i of the data window.
 template <typename Colour>
 Image paint(const Windows &windows, const Colour &colour) {
     Image image(windows, rgba_channels());
@@ -29,7 +29,7 @@ Image paint(const Windows &windows, const Colour &colour) {
     return image;
 }
 
-// Mean of the colours of each pixel that there are, tone-mapped.
+// The brightness of each pixel, tone-mapped: a third of the sum of its R, G and B.
 std::vector<float> brightness(const Ldi &ldi) {
     const Image flat = flatten(ldi);
     std::vector<float> sum(ldi.windows.pixels(), 0);

@@ -1,4 +1,4 @@
-// Pictures in false colours of how the gather treats an LDI.
+// False-colour pictures that show how the gather treats an LDI.
 //
 // The windows are those of the LDI; R, G and B are display values in [0, 1], and A is 1. The colours depend only on the
 // pixel, never on the rest of the picture, so that frames can be compared.
@@ -22,8 +22,8 @@ Image focus_colours(const Ldi &ldi, const ThinLens &lens);
 // Samples per pixel: 0 black, 1 grey, 2 blue, 3 cyan, 4 green, 5 yellow, 6 orange, 7 red, more white.
 Image layer_colours(const Ldi &ldi);
 
-// Lens points per tile: none (copied) black, else by their logarithm from blue (16) through green to red (4096).
-// `windows` are those of the picture that the tiles divide.
+// Lens points per tile: none (copied) is black; others are coloured by their logarithm, from blue (16) through green to
+// red (4096). `windows`: those of the picture that the tiles divide.
 Image tile_colours(const LensTiles &tiles, const Windows &windows);
 
 } // namespace sparselens

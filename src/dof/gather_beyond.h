@@ -1,4 +1,4 @@
-// A gather of an LDI in which what leaves the frame goes on beyond it.
+// Gathers an LDI after continuing beyond the frame what leaves it.
 #pragma once
 
 #include "dof/lens/beyond/beyond_frame.h"
@@ -8,8 +8,8 @@
 
 namespace sparselens {
 
-// gather(ldi, options) of it; of `ldi` itself where nothing is known beyond the frame. `ldi` is an Ldi&&, if it may be used up,
-// or a const Ldi&.
+// Returns gather(ldi, options) of the continued LDI, or of `ldi` itself if options.beyond is not set. Pass an Ldi&& if
+// `ldi` may be used up, else a const Ldi&.
 template <typename AnyLdi, typename Gather>
 Image gather_beyond(AnyLdi &&ldi, const ThinLens &lens, const Imath::Box2i &window,
                     const GatherOptions &options, const Gather &gather) {

@@ -13,8 +13,8 @@ namespace sparselens {
 
 namespace {
 
-// `ldi` is an Ldi&&, if it may be used up, or a const Ldi&. Where colours have coverages of their own, what goes on beyond the
-// frame is found for each (methods.cpp).
+// Pass an Ldi&& if `ldi` may be used up, else a const Ldi&. If colours have coverages of their own, what continues
+// beyond the frame is found for each coverage (methods.cpp).
 template <typename AnyLdi>
 Image gather_frame(AnyLdi &&ldi, const ThinLens &lens, const Imath::Box2i &gathered,
                    const GatherMethod &method, const GatherOptions &by, Progress &progress) {
@@ -29,7 +29,7 @@ Image gather_frame(AnyLdi &&ldi, const ThinLens &lens, const Imath::Box2i &gathe
                          });
 }
 
-// What is merged here is what could not be merged before.
+// Layers that could not be merged before are merged here, by by.layer_tolerance.
 template <typename AnyLdi>
 Image gather_layers(AnyLdi &&ldi, const ThinLens &lens, const Imath::Box2i &gathered,
                     const Imath::Box2i &written, const PictureOptions &options, Progress &progress) {
@@ -44,7 +44,7 @@ Image gather_layers(AnyLdi &&ldi, const ThinLens &lens, const Imath::Box2i &gath
                 written);
 }
 
-// The frame is what is gathered where nothing else is said.
+// If options.gather.beyond is not given, the frame is `gathered`.
 PictureOptions framed(PictureOptions options, const Ldi &ldi, const ThinLens &lens,
                       const Imath::Box2i &gathered) {
     if (!options.gather.beyond && lens.radius > 0)
@@ -52,7 +52,7 @@ PictureOptions framed(PictureOptions options, const Ldi &ldi, const ThinLens &le
     return options;
 }
 
-// Once is enough: merged twice, layers would change by more than the tolerance.
+// Sets the tolerance to 0, because layers merged twice would change by more than the tolerance.
 Image gather_merged(Ldi &&ldi, const ThinLens &lens, const Imath::Box2i &gathered,
                     const Imath::Box2i &written, PictureOptions options, Progress &progress) {
     progress.may_end();
@@ -61,7 +61,7 @@ Image gather_merged(Ldi &&ldi, const ThinLens &lens, const Imath::Box2i &gathere
     return gather_layers(std::move(ldi), lens, gathered, written, options, progress);
 }
 
-// A sample in each pixel that has any.
+// An LDI with one flattened sample in each pixel that has samples.
 Ldi flattened(const Ldi &ldi) {
     const Image flat = flatten(ldi);
     Ldi out;

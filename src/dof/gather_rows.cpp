@@ -43,7 +43,7 @@ struct Extremes {
     }
 };
 
-// Whether light of some coverage comes from behind all samples of some pixel.
+// Whether light from infinity passes all samples of some pixel, by this coverage.
 bool sees_infinity(const Ldi &rows, std::size_t coverage) {
     for (std::size_t pixel = 0; pixel + 1 < rows.begin.size(); ++pixel) {
         double transmittance = 1;
@@ -96,8 +96,8 @@ int border_rows(const PictureOptions &options) {
     return GatherTuning::border_inwards * options.gather.lens.across;
 }
 
-// Where the samples are that rows of the picture depend on, of which blocks of samples and cells stay whole.
-// `border`: the rows there are all needed where any of them is.
+// Returns the rows with the samples that `band` of the picture depends on, extended to whole blocks of samples and
+// cells. `border`: this many rows at the top, and at the bottom, are all needed if any of them is.
 Band needed(const Band &band, const RowReach &reach, const Imath::Box2i &data, int border) {
     const int first = band.first - reach.seen - data.min.y, last = band.last + reach.seen - data.min.y;
     const int whole = pieces_of(last + 1, highlight_rows) * highlight_rows;
@@ -114,7 +114,7 @@ public:
         : rows_(rows), lens_(lens), gathered_(gathered), options_(options),
           reach_(reach_of(rows, lens, options.gather.lens.looks, options.gather.lens.across)) {}
 
-    // In rows.
+    // The height of the bands, in rows.
     int height(const BandLimits &limits) const {
         const int least = limits.low ? lens_tile_size : 2 * (reach_.seen + reach_.prepared) + highlight_rows;
         const int tile_rows = pieces_of(gathered_.max.y - gathered_.min.y + 1, lens_tile_size);
@@ -124,7 +124,7 @@ public:
             if (parts >= tile_rows || lower < least || most_bytes(height) <= limits.memory) return height;
         }
     }
-    // visit(rows) for all bands of that height, top down.
+    // Calls visit(band) for all bands of this height, top down.
     template <typename Visit>
     void for_each(int height, const Visit &visit) const {
         for (int y = gathered_.min.y; y <= gathered_.max.y; y += height)
@@ -137,7 +137,8 @@ public:
         by.gather.lens.known = gathered_;
         by.gather.lens.known->min.y = std::max(gathered_.min.y, from.first);
         by.gather.lens.known->max.y = std::min(gathered_.max.y, from.last);
-        // Places are counted from the picture's corner, and rounded as they are there.
+        // With the empty rows above, positions are relative to the picture's corner, and rounded as in the whole
+        // picture.
         return gather_picture(with_empty_above(rows_.rows(from.first, from.last), data.min.y), lens_,
                               {{gathered_.min.x, band.first}, {gathered_.max.x, band.last}}, written, by,
                               progress);
@@ -198,13 +199,14 @@ RowReach reach_of(const PackedRows &rows, const ThinLens &lens, const LensLooks 
     const Aperture aperture(looks.aperture);
     const Imath::V2d extent = aperture.half_extent();
     const double spread = found.coc * std::max({extent.x, extent.y * lens.pixel_aspect, 1.0});
-    // A ground goes on so far (fillers.h), and is seen from so far.
+    // How far a ground continues (fillers.h), and from how far it is seen.
     const double nearer = std::max(found.most_depth - found.least_depth, 0.0);
     const double goes_on = 1 + std::max(std::numbers::sqrt2 * nearer, found.coc);
     constexpr double most = 1 << 20; // rows: no picture has more
     constexpr int beside = 16; // rows: a block of samples, and neighbours whose links or edges they share
-    // Highlights look at the cells beside, sharpening at the noise blocks beside those, and at the row beside them; and what
-    // leaves the frame at the left or the right (beyond_frame.h), at as many rows of the picture as a cell has.
+    // Highlights look at the adjacent cells. Sharpening looks at the noise blocks beside those, and at one more row.
+    // What leaves the frame at the left or the right (beyond_frame.h) looks at as many rows of the picture as a cell
+    // has.
     return {int(std::min(std::ceil(spread + goes_on), most)) + beside,
             (2 + across) * highlight_rows + BlockedSamples::size};
 }

@@ -25,7 +25,7 @@ Image gather_rows(const PackedRows &rows, const ThinLens &lens, const Imath::Box
                   const Imath::Box2i &written, const PictureOptions &options, const BandLimits &limits,
                   Progress &progress);
 
-// How many rows away other rows influence a row of the picture, and the samples of a row.
+// From how many rows away other rows influence a row of the picture, and the samples of a row.
 struct RowReach {
     int seen = 0;     // samples, facets and fillers this far away reach a pixel
     int prepared = 0; // samples this far away give them their colours

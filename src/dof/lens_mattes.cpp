@@ -38,7 +38,7 @@ std::vector<float> ids_of(const Ldi &ldi, const Matte &matte) {
     return ids;
 }
 
-// The samples of the LDI with its coverage alone.
+// The samples of the LDI with only its coverage.
 Ldi bare(const Ldi &ldi) {
     Ldi one = without_channels(ldi);
     if (ldi.alpha() == npos) return one;
@@ -58,7 +58,7 @@ std::vector<float> coverage_of_id(const Ldi &ldi, const Matte &matte, float id) 
     return sum;
 }
 
-// What the lens sees of these ids, added to what it sees of others in each pixel of the window.
+// Adds how much the lens sees of these ids to `seen`, for each pixel of the window.
 void gather_ids(const Ldi &ldi, const Matte &matte, std::span<const float> ids, const ThinLens &lens,
                 const Imath::Box2i &window, const LensGatherOptions &options, Progress &progress,
                 std::vector<IdCoverage> &seen) {
@@ -103,7 +103,7 @@ Image gather_mattes(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &wi
                        std::span(ids).subspan(first, std::min(ids_at_once, ids.size() - first)), lens, window,
                        by, progress, seen);
         for (std::size_t i = 0; i < seen.size(); ++i) {
-            seen[i].limit(); // cells may have left it
+            seen[i].limit(); // cells may exceed the range
             const auto pairs = seen[i].ranked();
             for (std::size_t r = 0; r < std::min(pairs.size(), in_picture[m].ranks.size()); ++r) {
                 out.plane(in_picture[m].ranks[r].id)[i] = pairs[r].id;

@@ -22,7 +22,7 @@ struct Run {
     std::uint64_t from, to;
 };
 
-// How many samples each run has, and where those of each pixel begin.
+// How many samples each run has, and where the runs of each pixel begin.
 struct Runs {
     std::vector<std::uint64_t> begin; // pixels + 1 entries, the first 0
     std::vector<std::uint32_t> length;
@@ -33,7 +33,7 @@ public:
     RunFinder(const Ldi &ldi, double scale, double tolerance)
         : ldi_(ldi), alpha_(ldi.alpha()), scale_(float(scale)), tolerance_(float(tolerance)) {}
 
-    // The run that begins with sample `from`, of a pixel whose samples end at `end`.
+    // Returns the end of the run that begins with sample `from`, in a pixel whose samples end at `end`.
     std::uint64_t end_of(std::uint64_t from, std::uint64_t end) const {
         std::uint64_t i = from;
         while (!is_opaque(alpha_at(ldi_, alpha_, i)) && i + 1 < end && belongs(from, i + 1)) ++i;
@@ -57,7 +57,7 @@ private:
     float scale_, tolerance_;
 };
 
-// visit(pixel, run) for every run of some pixels.
+// Calls visit(number of the run, run) for every run of the pixels [first, last).
 template <typename Visit>
 void for_each_run(const Ldi &ldi, const Runs &runs, std::size_t first, std::size_t last, const Visit &visit) {
     for (std::size_t pixel = first; pixel < last; ++pixel) {
@@ -69,7 +69,7 @@ void for_each_run(const Ldi &ldi, const Runs &runs, std::size_t first, std::size
     }
 }
 
-// visit(length) for the runs of some pixels, in their order.
+// Calls visit(length) for the runs of a pixel, in order.
 template <typename Visit>
 void for_each_length(const Ldi &ldi, const RunFinder &finder, std::size_t pixel, const Visit &visit) {
     const SampleRange all = ldi.pixel(pixel);
@@ -80,7 +80,7 @@ void for_each_length(const Ldi &ldi, const RunFinder &finder, std::size_t pixel,
     }
 }
 
-// Without their lengths.
+// Counts the runs of each pixel, and does not set their lengths.
 Runs count_runs(const Ldi &ldi, const RunFinder &finder) {
     const std::size_t pixels = ldi.windows.pixels();
     Runs runs{std::vector<std::uint64_t>(pixels + 1, 0), {}};
@@ -102,7 +102,7 @@ void measure(Runs &runs, const Ldi &ldi, const RunFinder &finder) {
     });
 }
 
-// One array of the result: of(run) for every run.
+// Returns one array of the result: of(run) for every run.
 template <typename Of>
 std::vector<float> for_runs(const Ldi &ldi, const Runs &runs, const Of &of) {
     std::vector<float> values(runs.length.size());
@@ -156,7 +156,7 @@ public:
     }
 
 private:
-    // visit(sample, share of it that those in front of it in the run let through).
+    // Calls visit(sample, the share of its light that the samples in front of it in the run let through).
     template <typename Visit>
     void for_shares(const Run &run, const Visit &visit) const {
         double transmittance = 1;
@@ -165,7 +165,7 @@ private:
             transmittance *= 1 - double(alpha_at(ldi_, alpha_, i));
         }
     }
-    // By what each sample shows.
+    // The mean of of(sample), weighted by what each sample shows.
     template <typename Of>
     double mean(const Run &run, const Of &of) const {
         double sum = 0, weight = 0;
@@ -181,7 +181,7 @@ private:
     std::size_t alpha_;
 };
 
-// Frees an array of an LDI that is not needed again, and leaves one of an LDI that is.
+// Frees an array of an LDI that may be used up; leaves the array of a const LDI.
 template <typename T>
 void used(std::vector<T> &values) {
     std::vector<T>().swap(values);

@@ -57,7 +57,7 @@ std::vector<GatherMethod> &table() {
 
 } // namespace
 
-// Cryptomattes by the lens gather, whatever the method: the others only blend.
+// Cryptomattes are always gathered by the lens gather, because the other methods only blend.
 Image GatherMethod::gather(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window,
                            const GatherOptions &options, Progress &progress) const {
     if (std::ranges::none_of(ldi.channels, is_in_matte)) return light(ldi, lens, window, options, progress);

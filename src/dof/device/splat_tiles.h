@@ -1,4 +1,4 @@
-// What the selective gather asks of a device: tiles of pixels, and the blocks of splats that each visits.
+// What the selective gather asks of a device: tiles of pixels, and the blocks of splats that each tile visits.
 #pragma once
 
 #include <Imath/ImathBox.h>
@@ -14,8 +14,8 @@ struct SplatBlocks;
 // A block of splats that can reach a tile.
 struct VisitedBlock {
     std::uint32_t block;
-    bool covers;   // the whole tile with each of its discs
-    bool ends_bin; // the next one that the tile visits lies in another bin of depth
+    bool covers;   // each of its discs covers the whole tile
+    bool ends_bin; // the next block that the tile visits lies in another depth bin
 };
 
 struct SplatScene {
@@ -30,10 +30,11 @@ struct SplatTask {
     std::span<const VisitedBlock> blocks; // front to back
 };
 
-// What a tile has gathered. Its pixels are counted row by row, splat_kernel::size a row.
+// The result of a tile. Its pixels are counted row by row, splat_kernel::size in a row.
 struct SplatPicture {
-    const float *values; // four colours of each pixel, those of the next group `group_step` values later
-    const float *alphas; // of each pixel
+    // Four colours per pixel; the next group of colours follows `group_step` values later.
+    const float *values;
+    const float *alphas; // one per pixel
     std::size_t group_step;
 
     float value(std::size_t pixel, std::size_t colour) const {

@@ -1,6 +1,6 @@
-// A device that gathers tiles of a picture instead of the CPU: a GPU (gpu/gather/gather_device.h). The lens gather
-// prepares samples, fillers and lens points for both alike, the selective gather its splats (splat_tiles.h); each
-// gathers itself what the device leaves.
+// A device, such as a GPU (gpu/gather/gather_device.h), that gathers tiles of a picture in place of the CPU. The lens
+// gather prepares samples, fillers and lens points in the same way for both, and the selective gather prepares its
+// splats (splat_tiles.h). Each gather does itself the tiles that the device leaves.
 #pragma once
 
 #include "base/device_report.h"
@@ -23,19 +23,20 @@ struct GatherScene; // dof/lens/gather_scene.h
 // One tile of lens_tile_size pixels, and what it is gathered from.
 struct TileTask {
     Imath::V2i origin;
-    std::span<const std::uint32_t> samples, facets, fillers; // blocks of them
+    std::span<const std::uint32_t> samples, facets, fillers; // block numbers
     std::span<const LensSample> lens;
-    std::span<const std::uint32_t> solids = {}; // blocks of them, too
-    // Pixels across and down that are asked for, from its corner; a device may gather all.
+    std::span<const std::uint32_t> solids = {}; // block numbers
+    // The pixels across and down that are asked for, from the tile's corner. A device may gather all pixels of the
+    // tile.
     int size = lens_kernel::tile_size;
 };
 
-// What a tile has gathered: the mean over the lens points of each pixel, row by row.
+// The result of a tile: the mean over the lens points, for each pixel, row by row.
 struct TilePicture {
-    const float
-        *values; // four channels of each pixel, those of the next group `group_step` values later; 0: unknown
-    const float *
-        known; // of each pixel, those of the next group a quarter of that later; 0: nothing is known of the group
+    // Four channels per pixel; the next group of channels follows `group_step` values later. 0 where unknown.
+    const float *values;
+    // One number per pixel; the next group follows a quarter of `group_step` later. 0: nothing is known of the group.
+    const float *known;
     std::size_t groups, group_step;
 
     float value(std::size_t pixel, std::size_t channel) const {
@@ -57,7 +58,7 @@ public:
     TileDevice &operator=(const TileDevice &) = delete;
     virtual ~TileDevice() = default;
 
-    // Gathers those of the tasks that it can: calls done(task, picture) for each of them, by any thread, once.
+    // Gathers the tasks that it can, and calls done(task, picture) once for each of them, from any thread.
     virtual void gather(const GatherScene &scene, std::span<const TileTask> tasks,
                         const std::function<void(std::size_t task, const TilePicture &)> &done) = 0;
     // The same for tiles of the selective gather.

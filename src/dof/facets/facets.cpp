@@ -20,7 +20,7 @@ public:
     }
 
 private:
-    // The facets that have this sample of the upper left pixel, and the one beside it or below.
+    // Adds the facets that have sample `a` of the upper left pixel, and a sample beside it or below.
     void add_from(const LinkedSample &a, std::vector<Facet> &found) const {
         constexpr std::array step{Imath::V2i(1, 0), Imath::V2i(0, 1)};
         const LinkedSample right = links_.linked(a, at_, step[0]), below = links_.linked(a, at_, step[1]);
@@ -47,7 +47,7 @@ private:
     float steep_;
 };
 
-// The depths of a pixel's opaque samples; none: least > most.
+// The range of the depths of a pixel's opaque samples; without samples, least > most.
 struct DepthRange {
     float least = INFINITY, most = -INFINITY;
 };

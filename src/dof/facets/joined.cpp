@@ -19,7 +19,7 @@ public:
         std::iota(first_.begin(), first_.end(), 0u);
     }
 
-    // EXR coordinates of its pixels.
+    // `cell`: its pixels, EXR coordinates.
     void join(const Imath::Box2i &cell) {
         float least = INFINITY, most = -INFINITY;
         for_each(cell, [&](const Imath::V2i &, const LinkedSample &s) {
@@ -40,7 +40,7 @@ public:
     std::vector<std::uint32_t> take() { return std::move(first_); }
 
 private:
-    // visit(pixel from the data window's corner, sample)
+    // Calls visit(pixel, sample). The pixel is relative to the data window's corner.
     template <typename Visit>
     void for_each(const Imath::Box2i &cell, const Visit &visit) const {
         for (int y = cell.min.y; y <= cell.max.y; ++y)

@@ -1,5 +1,5 @@
-// The pixels of an LDI that are transparent to infinity where nothing covers them. In others nobody knows what lies behind
-// their samples.
+// The known pixels of an LDI: they are transparent to infinity where nothing covers them. In other pixels it is unknown
+// what lies behind the samples.
 #pragma once
 
 #include "base/image.h"
@@ -11,8 +11,10 @@
 namespace sparselens {
 
 struct KnownPixels {
-    Imath::Box2i window;               // EXR coordinates: those in there,
-    std::span<const char> unseen = {}; // [pixel of the data window] but for these; empty: all of them
+    // The pixels in this window (EXR coordinates) are known, except those marked here, [pixel of the data window];
+    // empty: no exceptions.
+    Imath::Box2i window;
+    std::span<const char> unseen = {};
 
     KnownPixels(const Imath::Box2i &window_, std::span<const char> unseen_ = {})
         : window(window_), unseen(unseen_) {}

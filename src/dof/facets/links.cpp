@@ -15,7 +15,8 @@ LinkedSample Links::nearest(const Imath::V2i &pixel, float depth) const {
     return found;
 }
 
-// The next two differences of depth along the surface, as far as they run in the direction of the one that is expected.
+// Returns the sizes of the next two steps of depth along the surface, as long as they have the sign of `expected`; else
+// 0.
 Links::Steps Links::steps_beyond(const LinkedSample &from, const Imath::V2i &pixel, const Imath::V2i &step,
                                  float expected) const {
     Steps steps{0, 0};

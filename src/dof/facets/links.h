@@ -1,4 +1,4 @@
-// Which opaque samples of pixels side by side lie on one surface: facets.h says when they are linked.
+// Finds which opaque samples of adjacent pixels lie on one surface; facets.h says when they are linked.
 #pragma once
 
 #include "base/coverage.h"
@@ -13,7 +13,7 @@ namespace sparselens {
 
 struct LinkedSample {
     static constexpr std::uint32_t none = ~0u;
-    std::uint32_t sample = none; // of the LDI
+    std::uint32_t sample = none; // index into the LDI
     float depth = 0;             // perceptive depth, pixels
     bool found() const { return sample != none; }
 };
@@ -23,7 +23,8 @@ public:
     Links(const Ldi &ldi, const ThinLens &lens)
         : ldi_(ldi), alpha_(ldi.alpha()), depth_at_1_(float(perceptive_depth(lens, 1))) {}
 
-    // visit(sample) for the opaque ones of a pixel, counted from the data window's corner; none outside of it.
+    // Calls visit(sample) for the opaque samples of a pixel, which is relative to the data window's corner. A pixel
+    // outside the window has none.
     template <typename Visit>
     void for_each_opaque(const Imath::V2i &pixel, const Visit &visit) const {
         const Imath::V2i at = pixel + ldi_.windows.data.min;
@@ -33,13 +34,14 @@ public:
                 visit(LinkedSample{std::uint32_t(i), depth_at_1_ / ldi_.z[i]});
     }
 
-    // One of the LDI's samples; none where it is not opaque.
+    // Returns this sample of the LDI; none if it is not opaque.
     LinkedSample opaque(std::uint32_t sample) const {
         if (!is_opaque(alpha_at(ldi_, alpha_, sample))) return {};
         return {sample, depth_at_1_ / ldi_.z[sample]};
     }
 
-    // The sample that a sample of that pixel is linked to in the pixel one step on; none if there is none.
+    // Returns the sample in the pixel one step on that `a`, a sample of `pixel`, is linked to; none if there is no
+    // link.
     LinkedSample linked(const LinkedSample &a, const Imath::V2i &pixel, const Imath::V2i &step) const;
 
 private:

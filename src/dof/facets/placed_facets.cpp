@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::uint32_t nowhere = ~0u;
 
-// Where the samples of the LDI are among the corners.
+// Returns the index of each sample of the LDI among the corners, or `nowhere`.
 std::vector<std::uint32_t> places_of(std::size_t ldi_samples, std::span<const std::uint32_t> source) {
     std::vector<std::uint32_t> places(ldi_samples, nowhere);
     parallel_ranges(source.size(), 4096, [&](std::size_t begin, std::size_t end) {
@@ -46,8 +46,9 @@ bool out_of_reach(const FacetBlock &b, const LensSample &lens, const FacetGrid &
 
 constexpr std::size_t at_once = 64;
 
-// Extents of some facets along one axis: where a lens point sees their corners, in cells, 0 in the middle of the first;
-// how wide they are; and the cells, 1 to `last`, whose middle lies between the corners.
+// Extents of some facets along one axis: where a lens point sees their corners, in cells from the middle of the first
+// cell; the least and the greatest of these; and the first and last of the cells 1 to `last` whose middle lies between
+// the corners.
 struct Extents {
     std::array<std::array<float, at_once>, 3> at;
     std::array<float, at_once> least, most;
@@ -57,10 +58,10 @@ struct Extents {
 struct Seen {
     Extents x, y;
     std::array<std::int32_t, at_once> drawn;
-    std::array<std::uint32_t, at_once> list; // of those that are
+    std::array<std::uint32_t, at_once> list; // the facets that are drawn
 };
 
-// Loops so plain that the compiler computes several facets at once.
+// Plain loops, so that the compiler computes several facets at once.
 [[gnu::always_inline]] inline void measure(Extents &e, std::size_t count, float last) {
     for (std::size_t i = 0; i < count; ++i) e.least[i] = e.at[0][i] < e.at[1][i] ? e.at[0][i] : e.at[1][i];
     for (std::size_t i = 0; i < count; ++i) e.least[i] = e.least[i] < e.at[2][i] ? e.least[i] : e.at[2][i];
@@ -70,12 +71,12 @@ struct Seen {
     for (std::size_t i = 0; i < count; ++i) e.last[i] = kernels::last_between(e.most[i], last);
 }
 
-// The corners of facets one after the other.
+// The corners of consecutive facets.
 struct Corners {
     std::array<const float *, 3> x, y, coc;
 };
 
-// Not drawn is what lies in no cell, and what its samples cover.
+// Facets that reach no cell, or that their samples cover, are not drawn.
 #ifndef __SANITIZE_THREAD__
 [[gnu::target_clones("default,avx2")]]
 #endif
@@ -108,7 +109,7 @@ void draw_triangle(const Seen &seen, std::size_t i, const std::array<std::uint64
     for (int row = seen.y.first[i]; row <= seen.y.last[i]; ++row)
         for (int column = seen.x.first[i]; column <= seen.x.last[i]; ++column) {
             const float x = float(column), y = float(row);
-            // Over against the corners.
+            // Areas opposite the corners.
             const float a = side * kernels::twice_area(x1, y1, x2, y2, x, y);
             const float b = side * kernels::twice_area(x2, y2, x0, y0, x, y);
             const float c = side * kernels::twice_area(x0, y0, x1, y1, x, y);

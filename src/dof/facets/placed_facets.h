@@ -1,4 +1,4 @@
-// Facets as a lens point draws them: into a grid of cells that each keep the greatest key.
+// Draws facets, as a lens point sees them, into a grid of cells. Each cell keeps the greatest key.
 #pragma once
 
 #include "base/large_array.h"
@@ -17,7 +17,7 @@ struct FacetBlock {
 
 struct PlacedFacets {
     // [corner][facet]
-    std::array<LargeArray<float>, 3> x, y, coc;   // of its samples, pixels, as they are placed
+    std::array<LargeArray<float>, 3> x, y, coc;   // of the facet's samples as placed in the picture, pixels
     std::array<LargeArray<std::uint64_t>, 3> key; // nearer is greater
     std::vector<FacetBlock> blocks;
 };
@@ -25,25 +25,26 @@ struct PlacedFacets {
 // The samples at the corners of facets.
 struct FacetCorners {
     std::span<const float> x, y, coc;
-    std::span<const std::uint32_t> upper;  // of their keys, whose lower half is their place here
-    std::span<const std::uint32_t> source; // of the LDI's samples, or none of them
+    std::span<const std::uint32_t> upper; // upper half of their keys; the lower half is their index here
+    // Index into the LDI's samples; an index beyond their number is none of them.
+    std::span<const std::uint32_t> source;
 };
 
 PlacedFacets place_facets(const FacetBlocks &found, std::size_t ldi_samples, const FacetCorners &corners);
 
-// The blocks of which a facet can reach the tile [origin, origin + size), or the pixels next to it, through some point of
-// a lens that is no wider than that.
+// Finds the blocks with facets that can reach the tile [origin, origin + size), or the pixels next to it, through some
+// lens point. `widest`: the largest distance of a lens point from the middle, in pixels per pixel of CoC.
 void find_blocks(const PlacedFacets &facets, const Imath::V2i &origin, int size, float widest,
                  std::vector<std::uint32_t> &found);
 
-// A square grid of cells, that begins with one of border: cell (1, 1) shows the pixel at `corner`, and (last, last) is the last one
-// that anything is drawn into.
+// A square grid of cells with a border of one cell: cell (1, 1) shows the pixel at `corner`, and (last, last) is the
+// last cell that is drawn into.
 struct FacetGrid {
     float corner_x, corner_y;
     int stride, last;
 };
 
-// Draws what the lens point sees of some blocks.
+// Draws the facets of some blocks where the lens point sees them.
 void draw_facets(const PlacedFacets &facets, std::span<const std::uint32_t> blocks, const LensSample &lens,
                  const FacetGrid &grid, std::span<std::uint64_t> cells);
 

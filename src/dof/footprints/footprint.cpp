@@ -15,7 +15,7 @@ constexpr float whole = GatherTuning::footprint_whole_px;
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 const std::array<Imath::V2i, 4> beside{{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
 
-// Where the samples of a box of pixels are.
+// Finds the samples of a box of pixels among `samples`.
 class Neighbourhood {
 public:
     Neighbourhood(const Ldi &ldi, const SamplesInPicture &samples, const Imath::Box2i &box,
@@ -30,13 +30,14 @@ public:
             for (std::uint32_t i = run.begin; i < run.end; ++i) put(i);
     }
 
-    // The place of sample i of a pixel in row y.
+    // Returns the index in `samples` of the LDI's sample i, which a pixel of row y has.
     std::uint32_t place(int y, std::uint64_t i) const {
         const Row &row = rows_[std::size_t(y - box_.min.y)];
         return row.place[i - row.first];
     }
 
-    // The sample in the pixel one step on that is linked to one of pixel `at`, by their places.
+    // Returns the sample in the pixel one step on that is linked to sample `of` of pixel `at`; both are indices in
+    // `samples`.
     std::uint32_t linked(const Imath::V2i &at, const Imath::V2i &step, std::uint32_t of) const {
         const std::uint32_t source = samples_.source[of];
         if (!samples_.links || source >= ldi_.samples()) return none;
@@ -44,7 +45,7 @@ public:
         return found.found() && box_.intersects(at + step) ? place(at.y + step.y, found.sample) : none;
     }
 
-    // The sample in a pixel that is one surface with another, by their places.
+    // Returns the sample of pixel (x, y) that is one surface with sample `of`; both are indices in `samples`.
     std::uint32_t neighbour(int x, int y, std::uint32_t of) const {
         if (!box_.intersects(Imath::V2i(x, y))) return none;
         std::uint32_t found = none;
@@ -60,7 +61,7 @@ public:
     }
 
 private:
-    struct Row { // of pixels; their samples follow each other in the LDI
+    struct Row { // a row of pixels, whose samples follow each other in the LDI
         std::uint64_t first;
         std::vector<std::uint32_t> place;
     };
@@ -99,7 +100,7 @@ Footprint footprint(const SamplesInPicture &samples, const Neighbourhood &near, 
             }
         if (n == none) continue;
         const std::span<const float> place = k < 2 ? samples.x : samples.y;
-        // By whole 1024ths, so that nothing is rounded otherwise elsewhere in the picture.
+        // Rounded to 1024ths, so that rounding is the same everywhere in the picture.
         const auto shared = [&](float alone, float a, float b) {
             const float middle = (a + b) / 2;
             return joined == 1 ? middle : alone + std::round(joined * (middle - alone) * 1024) / 1024;

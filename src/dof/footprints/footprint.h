@@ -1,11 +1,11 @@
-// What a sample covers in the picture that a lens point sees: a unit square, or up to where a neighbour of the same surface
-// begins, so that samples that lie between pixels or move apart leave no cracks between them.
+// The area that a sample covers in the picture that a lens point sees: a unit square, or up to where a neighbour on the
+// same surface begins, so that samples that lie between pixels or move apart leave no cracks between them.
 //
-// Two samples of pixels beside each other, the nearest in depth to each other, are one surface if their perceptive depths
-// differ by less than a pixel: then they move apart by less than a pixel too. They share an edge, which lies in the middle
-// between them and moves with the mean of their CoCs. From 3/4 of a pixel on, each one's edge comes loose, until at a pixel it is
-// that of its square, so that nothing tears at once as the aperture opens. Opaque samples of a surface so steep that more
-// lies between them share their edge as well, where they are linked (dof/facets/facets.h).
+// Two samples of adjacent pixels, the nearest in depth to each other, are one surface if their perceptive depths differ
+// by less than a pixel; they then move apart by less than a pixel, too. They share an edge, which lies in the middle
+// between them and moves with the mean of their CoCs. From a difference of 3/4 of a pixel on, each sample's edge leaves
+// the shared one; at one pixel it is the edge of the sample's own square. So nothing tears suddenly as the aperture
+// opens. Opaque samples of a steeper surface also share their edge if they are linked (dof/facets/facets.h).
 #pragma once
 
 #include "deep/ldi.h"
@@ -23,17 +23,17 @@ namespace sparselens {
 
 // The edges on the left, on the right, above and below.
 struct Footprint {
-    std::array<float, 4> place; // pixels, of x or of y, as the samples count them
-    std::array<float, 4> coc;   // by which each is displaced
+    std::array<float, 4> place; // pixels, x or y, in the coordinates of the samples
+    std::array<float, 4> coc;   // pixels: the CoC that displaces each edge
 };
 
-// Samples of an LDI where a lens sees them: of each its centre, its CoC and its perceptive depth, pixels, and which of the LDI
-// it is; others than the LDI's are beyond its number of samples. They may be some of the LDI's alone.
+// Samples of an LDI, or some of them, where a lens sees them: their centres, CoCs and perceptive depths, in pixels, and
+// their indices in the LDI. An index beyond the LDI's samples marks a sample that is not the LDI's.
 struct SamplesInPicture {
     std::span<const float> x, y, coc;
-    std::span<const std::uint32_t> upper; // of its key (kernels/lens_rules.h), which says the depth
+    std::span<const std::uint32_t> upper; // half of its key (kernels/lens_rules.h), which holds the depth
     std::span<const std::uint32_t> source;
-    const Links *links = nullptr; // between the LDI's opaque samples; null: none is
+    const Links *links = nullptr; // between the LDI's opaque samples; null: there are none
     float depth(std::size_t i) const { return kernels::depth_of(upper[i]); }
 };
 
@@ -41,13 +41,13 @@ struct SampleRun {
     std::uint32_t begin, end;
 };
 
-// The footprints of the samples of `run`, which are all those of some pixels: columns and rows of the data window. `around`:
-// where the samples of these pixels and of those beside them are.
+// Returns the footprints of the samples of `run`, which are all samples of `pixels` (columns and rows of the data
+// window). `around`: the runs with the samples of these pixels and of the pixels beside them.
 std::vector<Footprint> footprints_of(const Ldi &ldi, const SamplesInPicture &samples,
                                      const Imath::Box2i &pixels, const SampleRun &run,
                                      std::span<const SampleRun> around);
 
-// By how much the CoC of an edge may differ from that of its sample, pixels, in a box of pixels.
+// Returns by how much, in pixels, the CoC of an edge may differ from the CoC of its sample in a box of pixels.
 float coc_to_edges(const Links *links, const Imath::Box2i &pixels);
 
 } // namespace sparselens

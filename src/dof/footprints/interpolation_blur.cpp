@@ -10,7 +10,8 @@ namespace sparselens {
 
 namespace {
 
-// How much light passes the lens in columns, side by side from -1 to 1; in rows, along the other axis.
+// How much light passes the lens in each of its columns, side by side from -1 to 1; along the other axis, in each of
+// its rows.
 using LensColumns = std::array<double, 64>;
 
 double middle_of_column(std::size_t i) { return (double(i) + 0.5) * 2 / std::tuple_size<LensColumns>() - 1; }
@@ -23,7 +24,8 @@ LensColumns disc_columns() {
     return columns;
 }
 
-// Before it is squeezed. The same from either side, as tables do not tell apart to which side a sample lies off the grid.
+// The columns before the aperture is squeezed. They are symmetric, because tables do not tell on which side of the grid
+// a sample lies.
 LensColumns columns_of(const Aperture &aperture, bool behind, bool vertical) {
     constexpr int n = 128;
     LensColumns columns{};
@@ -42,7 +44,7 @@ LensColumns columns_of(const Aperture &aperture, bool behind, bool vertical) {
 
 } // namespace
 
-// For one axis, by CoC and by own offset.
+// Weights for one axis, by the CoC and the offset of a sample.
 class InterpolationBlur::Table {
 public:
     explicit Table(const LensColumns &columns) {
@@ -54,7 +56,7 @@ public:
     double weight(double coc, double offset) const {
         coc = std::abs(coc);
         if (!(coc < GatherTuning::interpolated_px)) return 0;
-        // Between entries: what lies in focus on the grid has to come out as exactly 0.
+        // Interpolates between entries; a sample in focus on the grid must get exactly 0.
         const double u = coc / GatherTuning::interpolated_px * (cocs - 1),
                      v = std::min(std::abs(offset) * 2, 1.0) * (offsets - 1);
         const int c = std::min(int(u), cocs - 2), o = std::min(int(v), offsets - 2);

@@ -12,7 +12,7 @@ namespace {
 
 constexpr float within = GatherTuning::joined_px;
 
-// The least and the most of something that samples have in common.
+// The range of a value over some samples.
 struct Extent {
     float least, most;
     bool is_narrow() const { return most - least <= within; }
@@ -21,13 +21,13 @@ struct Extent {
     }
 };
 
-// Footprints on their way to become one: of each edge where it lies, and its CoCs.
+// Footprints that are being joined: the range of positions and of CoCs of each edge.
 struct Joining {
     std::array<Extent, 4> place, coc;
     Extent depth;
     std::uint32_t sample;
 
-    // With what follows it on the right (axis 0), or below (1), if that goes on straight.
+    // Joins it with `next`, which follows on the right (axis 0) or below (1), if the edges go on straight.
     std::optional<Joining> with(const Joining &next, std::size_t axis) const;
     JoinedFootprint done() const;
 };
@@ -47,7 +47,8 @@ std::optional<Joining> Joining::with(const Joining &next, std::size_t axis) cons
     return both.depth.is_narrow() ? std::optional(both) : std::nullopt;
 }
 
-// Wide enough for all of them: within the lamp's disc an edge whose CoC is off by some pixels is off by as many, at most.
+// The result is wide enough for all parts: within the lamp's disc, an edge whose CoC is off by some pixels is off by at
+// most as many pixels.
 JoinedFootprint Joining::done() const {
     JoinedFootprint joined{{}, depth.least, depth.most, sample};
     for (std::size_t k = 0; k < 4; ++k) {
@@ -58,7 +59,7 @@ JoinedFootprint Joining::done() const {
     return joined;
 }
 
-// Each part is joined to the last one before it that it goes on.
+// Joins each part to the last one before it that it continues.
 std::vector<Joining> joined_along(std::size_t axis, std::span<const Joining> parts) {
     std::vector<Joining> all;
     for (const Joining &part : parts) {

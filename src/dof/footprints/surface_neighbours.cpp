@@ -11,7 +11,8 @@ namespace {
 
 constexpr double whole = GatherTuning::neighbours_whole * one_surface_px;
 
-// The sample of a pixel nearest to that depth, planar and perceptive: of a stack of mist and sheets not just any within reach.
+// Returns the sample of a pixel that is nearest to a depth, planar `z` and perceptive `depth`. In a stack of mist and
+// sheets, several samples may be within reach.
 std::uint64_t surface_in(const Ldi &ldi, const ThinLens &lens, int x, int y, float z, double depth) {
     const int width = ldi.windows.width();
     if (x < 0 || y < 0 || x >= width || y >= ldi.windows.height()) return no_neighbour;

@@ -19,7 +19,7 @@ double window_share(const Imath::Box2i &data, double pixel_aspect, int x, int y,
     return kernels::window_share(data.min.x, data.min.y, data.max.x, data.max.y, pixel_aspect, x, y, radius);
 }
 
-// From back to front, so that `known` is at each layer what lies there or behind it.
+// Goes from back to front, so that at each layer `known` is the sum over this layer and the layers behind it.
 double blend_layers(std::span<const double> layers, std::span<double> colours) {
     std::fill(colours.begin(), colours.end(), 0);
     double alpha = 0, known = 0;
@@ -57,8 +57,8 @@ void TileLayers::add(std::size_t pixel, int bin, const double *sums, std::size_t
     state.last_bin = bin;
 }
 
-// A merge leaves the other gaps as they are, so merging as layers come keeps the same widest gaps as merging
-// when all are there.
+// A merge leaves the other gaps as they are, so merging while layers come keeps the same widest gaps as merging at the
+// end.
 void TileLayers::merge_closest(std::size_t pixel) {
     std::size_t closest = 1;
     State &state = states_[pixel];

@@ -2,16 +2,17 @@
 // and the scatter share.
 //
 // A fragment is the share of a splat that its PSF brings to the pixel: coverage, what is known of it (below) and
-// premultiplied colours, times the PSF's weight. Fragments are binned by CoC, which at a given focus is perceptive
-// depth (R F / z) but for a constant; bins that follow each other without a gap are one layer, and layers are
-// blended in order of depth. A layer's coverage is the sum of its fragments', its colour their mean.
+// premultiplied colours, times the PSF's weight. Fragments are binned by CoC, which at a given focus differs from
+// perceptive depth (R F / z) only by a sign and a constant. Bins that follow each other without a gap are one layer,
+// and layers are blended in order of depth. The coverage of a layer is the sum of its fragments' coverages, and its
+// colour is their mean.
 //
-// Not every lens point of a pixel is known: nobody may have seen what it sees. What is known at a layer is the
-// sum of what is known in it (of an opaque sample its coverage, of any sample that the light passes on or stops)
-// and behind it (who is seen there is not covered here), transparent background included, but no more than 1.
-// The layer's share of the light that reaches it is its coverage over that. So unknown lens points are left out
-// and the others make good for them, at the depths where they are missing: what lies in front of a place that
-// nobody saw keeps its coverage.
+// Some lens points of a pixel are unknown, because they look at something that no view saw. What is known at a layer is
+// the sum of what is known in it (the coverage of an opaque sample; the light that any sample stops or passes on) and
+// behind it (a lens point that sees something there is not covered here), including transparent background, but at most
+// 1. The layer's share of the light that reaches it is its coverage divided by this sum. So unknown lens points are
+// left out, and the others replace them at the depths where they are missing: what lies in front of a place that no
+// view saw keeps its coverage.
 //
 // Near the picture's border the part of a PSF's disc that lies outside is unknown at all depths; sums are divided
 // by the part that lies inside (window_share).
@@ -36,7 +37,7 @@ inline constexpr std::size_t sums_before_colours = 2;
 // The part of a disc of that radius around pixel (x, y) that lies in the data window.
 double window_share(const Imath::Box2i &data, double pixel_aspect, int x, int y, double radius);
 
-// Blends the layers of one pixel, front to back, each its sums. Sets the colours and returns alpha.
+// Blends the layers of one pixel. `layers`: the sums of each layer, front to back. Sets the colours and returns alpha.
 double blend_layers(std::span<const double> layers, std::span<double> colours);
 
 // The layers of a tile's pixels, grown bin by bin from front to back; where a pixel has more than the limit, the
@@ -46,7 +47,8 @@ public:
     TileLayers(std::size_t pixels, std::size_t limit, std::size_t colours);
 
     void clear();
-    // The sums of one bin at one pixel, `stride` apart, to be multiplied by `scale`. Bins come in ascending order.
+    // Adds the sums of one bin at one pixel, which lie `stride` apart, multiplied by `scale`. Bins must come in
+    // ascending order.
     void add(std::size_t pixel, int bin, const double *sums, std::size_t stride, double scale);
     double blend(std::size_t pixel, std::span<double> colours) const; // as blend_layers
 

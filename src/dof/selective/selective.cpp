@@ -25,14 +25,14 @@ Imath::Box2d area_of(const Imath::Box2i &tile) {
     return {Imath::V2d(tile.min), Imath::V2d(tile.max) + Imath::V2d(1, 1)};
 }
 
-// Do discs of that radius cover the whole tile, wherever in `centres` they stand?
+// Whether discs of this radius cover the whole tile, wherever in `centres` they lie.
 bool covers(double radius, const Imath::Box2d &centres, const Imath::Box2d &tile, double pixel_aspect) {
     const double dx = std::max(tile.max.x - centres.min.x, centres.max.x - tile.min.x);
     const double dy = std::max(tile.max.y - centres.min.y, centres.max.y - tile.min.y) / pixel_aspect;
     return dx * dx + dy * dy <= radius * radius;
 }
 
-// One tile at work: the sums of the bin that is being gathered, and the layers made of the bins before it.
+// Gathers a tile: holds the sums of the bin that is being gathered, and the layers made of the bins before it.
 class TileGather {
 public:
     TileGather(const SplatBlocks &grid, std::size_t layers, const Imath::Box2i &data, double pixel_aspect)
@@ -53,10 +53,10 @@ private:
     Imath::Box2i data_;
     double pixel_aspect_;
     Imath::Box2i tile_;
-    Grid pixels_;                 // of the sums: tile_size wide and high, also where the tile is smaller
+    Grid pixels_;                 // of the sums: tile_size wide and high, even if the tile is smaller
     Imath::Box2i touched_;        // pixels of the tile that have sums
     std::vector<double> sums_;    // [sum][tile_size][tile_size]
-    std::vector<double> uniform_; // what all pixels of the tile get alike
+    std::vector<double> uniform_; // what every pixel of the tile gets
     TileLayers layers_;
 };
 
@@ -163,7 +163,8 @@ struct Gathering {
     }
 };
 
-// Hands the device rows of tiles, as many at once as visit about `at_once` blocks, and marks the tiles that it gathered.
+// Hands the device rows of tiles, as many at once as visit about `at_once` blocks, and marks the tiles that it
+// gathered.
 void gather_on(TileDevice &device, const Gathering &from, std::size_t layers, std::vector<char> &done) {
     constexpr std::size_t at_once = std::size_t{1} << 23;
     const SplatScene scene{from.grid, from.data, from.pixel_aspect, layers};

@@ -14,7 +14,7 @@ class TileDevice; // dof/device/tile_device.h
 
 struct SelectiveOptions {
     int layers = 8;               // the largest number of layers kept apart in a pixel, >= 1
-    TileDevice *device = nullptr; // where given: gathers the tiles that it can
+    TileDevice *device = nullptr; // if given, gathers the tiles that it can
 };
 
 // The windows and channels are those of the LDI; where nothing is known the picture is transparent. Ids are those of

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int square_size = 16; // pixels
 
-// visit(splat) for what the pixels of a square hold.
+// Calls visit(splat) for the splats of the pixels of a square.
 template <typename Visit>
 void for_each_splat(const SplatSource &source, const Imath::Box2i &square, const Visit &visit) {
     for (int y = square.min.y; y <= square.max.y; ++y)
@@ -65,7 +65,7 @@ std::vector<SplatBlock> store_square(SplatBlocks &grid, std::size_t first, std::
     return blocks;
 }
 
-// Double sums: they stand for any number of splats.
+// The sums are double, because they may add up any number of splats.
 void sum_blocks(SplatBlocks &grid, double pixel_aspect) {
     grid.sums.assign(grid.blocks.size() * grid.size(), 0);
     parallel_for(grid.blocks.size(), [&](std::size_t index) {

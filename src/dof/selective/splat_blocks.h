@@ -16,14 +16,14 @@ struct SplatBlock {
     int bin = 0;
     std::size_t begin = 0, end = 0; // splats
     Imath::Box2d centres, reach;    // of the splats' centres; of all pixels that they can touch
-    double smallest = 0;            // radius of the CoC
+    double smallest = 0;            // the smallest radius of a CoC
 };
 
 struct SplatBlocks {
     // One entry per splat, block by block.
     std::vector<double> x, y, radius;
     std::vector<float> values;         // [splat][size()]: coverage, known, colours, known * radius
-    std::size_t colours = 0, bins = 0; // how many
+    std::size_t colours = 0, bins = 0; // their numbers
 
     std::vector<SplatBlock> blocks; // ascending bins, then squares of pixels
     // [block][size()]: values / area of the PSF in pixels, where the block can cover a tile

@@ -1,5 +1,5 @@
-// What the gather and the scatter spread: each sample of an LDI as seen by one lens, and the background that
-// shines through what a pixel's samples leave uncovered.
+// The splats that the gather and the scatter spread: each sample of an LDI as seen by one lens, and the background that
+// shines through where a pixel's samples leave it uncovered.
 #pragma once
 
 #include "deep/ldi.h"
@@ -22,8 +22,8 @@ namespace sparselens {
 struct Splat {
     Imath::V2d position; // EXR pixel coordinates, inside the pixel that owns the sample
     double coc = 0;      // signed, pixels
-    int bin = 0;         // of depth
-    double coverage = 0; // alpha, less what the pixel's samples of the same layer hide; of the background 0
+    int bin = 0;         // depth bin
+    double coverage = 0; // alpha, less what the pixel's samples of the same layer hide; 0 for the background
     double known = 0;    // coverage, and what passes the pixel's layer if this is the last sample in it
     double scale = 0;    // what to multiply the sample's premultiplied colours by
     std::size_t sample = 0; // index in the LDI; npos: transparent background at infinity
@@ -33,8 +33,8 @@ class SplatSource {
 public:
     SplatSource(const Ldi &ldi, const ThinLens &lens);
 
-    // visit(splat) front to back for what pixel (row * width + column) holds; samples of no coverage are left
-    // out.
+    // Calls visit(splat), front to back, for the splats of a pixel (row * width + column). Samples without coverage are
+    // left out.
     template <typename Visit>
     void for_each(std::size_t pixel, const Visit &visit) const;
 
