@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::uint32_t blocks_in_run = 8; // as wide as a tile
 
-// What lies in [x_min, x_max] x [y_min, y_max] comes so near to a box.
+// A box. It is reached by bounds [x_min, x_max] x [y_min, y_max] that come within `by` of it.
 struct Box {
     float left, right, top, bottom;
 

@@ -1,4 +1,4 @@
-// Which blocks of samples can reach a tile.
+// Finds the blocks of samples that can reach a tile.
 #pragma once
 
 #include "dof/lens/sample_blocks.h"
@@ -13,34 +13,35 @@
 
 namespace sparselens {
 
-// What can reach a tile: CoCs without their signs, pixels.
+// The CoCs of the samples that can reach a tile, without their signs, pixels.
 struct ReachingCocs {
-    float largest = 0; // that shows: that of backgrounds does where something opaque hides them
+    // The largest that shows. Backgrounds count only where something opaque hides them.
+    float largest = 0;
     float least = std::numeric_limits<float>::max();
-    bool with_background = false; // whether light comes from behind all
+    bool with_background = false; // whether a background reaches it
 };
 
 class BlockFinder {
 public:
-    // The samples outlive this.
+    // The samples must outlive this.
     BlockFinder(const BlockedSamples &samples, const Aperture &aperture, double pixel_aspect);
 
-    // Finds the blocks that can reach a tile, or the pixels next to it, in their order. `stretched`: by how much lens
-    // points are at most.
+    // Finds, in order, the blocks that can reach a tile or the pixels next to it. `stretched`: the largest factor by
+    // which lens points are stretched.
     ReachingCocs find(const Imath::V2i &origin, int size, float stretched,
                       std::vector<std::uint32_t> &found) const;
     float extent() const { return extent_; }
 
 private:
     float reach_of(const SampleBlock &block) const;
-    // Some blocks beside each other, and how far they reach.
+    // Some consecutive blocks, and how far they reach.
     struct Run {
         std::uint32_t begin, end;
         float x_min, x_max, y_min, y_max, reach;
     };
 
     const BlockedSamples &samples_;
-    float extent_; // of the aperture, for each pixel of CoC
+    float extent_; // of the aperture, pixels per pixel of CoC
     std::vector<Run> runs_;
 };
 

@@ -8,7 +8,7 @@ namespace sparselens {
 namespace {
 
 NearSteps steps_of(std::span<const JoinedFootprint> footprints) {
-    constexpr std::size_t in_step = 1; // with others at the depth of the lamp, bounds would tell nothing
+    constexpr std::size_t in_step = 1; // bounds that include samples at the lamp's depth would tell nothing
     std::vector<NearBounds> bounds;
     bounds.reserve(footprints.size() + 1);
     for (const auto &[footprint, farthest, nearest, sample] : footprints) {

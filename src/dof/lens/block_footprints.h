@@ -1,4 +1,5 @@
-// What the samples of a picture cover, by blocks: asked for by what casts shadows on small lamps (highlight_tile.h).
+// The footprints of the samples of a picture, by blocks. The shadows on small lamps (highlight_tile.h) are computed
+// from them.
 #pragma once
 
 #include "dof/footprints/joined_footprints.h"
@@ -14,23 +15,23 @@
 
 namespace sparselens {
 
-// The footprints of the samples of a picture, by blocks.
 class BlockFootprints {
 public:
-    // `links`: of the LDI, whose samples these are; none: samples that part are not joined.
+    // `links`: of the LDI that the samples are from. Without them, samples that part are not joined.
     BlockFootprints(const Ldi &ldi, const BlockedSamples &samples, std::optional<Links> links = {});
     BlockFootprints(const BlockFootprints &) = delete; // its parts refer to each other
 
     struct Block {
-        std::vector<JoinedFootprint> alone, joined; // of its samples
-        NearSteps near;                             // of these footprints
+        std::vector<JoinedFootprint> alone, joined; // footprints of its samples
+        NearSteps near;                             // bounds of the joined footprints
 
-        // The joined footprints; none of them lies on both sides of a lamp whose depth is between these.
+        // Returns the joined footprints; the single ones if a joined one could lie on both sides of a lamp whose
+        // perceptive depth is between these.
         const std::vector<JoinedFootprint> &apart_from(float farthest, float nearest) const;
     };
     // Computed when first asked for, by any thread.
     const Block &of(std::uint32_t block) const;
-    // What many blocks hold, without their footprints.
+    // Bounds of areas of many blocks, which need no footprints.
     const ShadowAreas &areas() const { return areas_; }
 
 private:

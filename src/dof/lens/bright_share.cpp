@@ -43,7 +43,8 @@ BrightShare::BrightShare(const BlockedSamples &samples, const std::function<floa
                 at(octave, x, y) += at(octave, x - 1, y) + at(octave, x, y - 1) - at(octave, x - 1, y - 1);
 }
 
-// In a box of cells: from column, from row, to column, to row. A part of a cell has that part of its samples.
+// Counts the samples in a box of cells: {left, top, right, bottom}. A part of a cell counts as that part of its
+// samples.
 double BrightShare::count(int octave, const std::array<double, 4> &box) const {
     const auto before = [&](double x, double y) {
         const int column = std::min(int(x), corners_.width() - 2),

@@ -1,8 +1,8 @@
-// How much of what a lens point may see beside a sample is as bright as it.
+// Which share of the samples around a sample is as bright as the sample.
 //
-// A lamp is rare: few lens points see it, so that their mean is noise. What covers a fifth of what they see or more
-// is a bright surface, which they see well (n of them with a relative deviation of sqrt((1 / share - 1) / n) at most), however
-// dark it is beside it.
+// A lamp is rare: few lens points see it, so their mean is noisy. Something that covers a fifth or more of what they
+// see is a bright surface, however dark its surroundings. Lens points see it well: n of them have a relative deviation
+// of at most sqrt((1 / share - 1) / n).
 #pragma once
 
 #include "base/grid.h"
@@ -17,12 +17,13 @@ namespace sparselens {
 
 class BrightShare {
 public:
-    static constexpr int cell = 4; // blocks wide and high, as highlights look at them
+    static constexpr int cell = 4; // blocks wide and high, like the cells of highlights.cpp
 
     BrightShare(const BlockedSamples &samples, const std::function<float(std::uint32_t sample)> &brightness);
 
-    // The share, [0, 1], of the samples within a cell's width of one, across and down, that are half as bright or brighter. It changes
-    // continuously with brightness and place: those from a quarter to all of it count in part.
+    // Returns the share, [0, 1], of the samples within a cell's width of a sample, across and down, that are half as
+    // bright or brighter. It changes continuously with brightness and position: samples from a quarter of the
+    // brightness to all of it count in part.
     double around(std::uint32_t sample, float brightness) const;
 
 private:
@@ -32,7 +33,8 @@ private:
 
     const BlockedSamples &samples_;
     Grid corners_; // of cells
-    // [octave][corner]: how many before that corner are of that octave or brighter
+    // [octave][corner]: the number of samples to the left of the corner and above it that are of this octave or
+    // brighter
     std::vector<std::uint32_t> below_;
 };
 

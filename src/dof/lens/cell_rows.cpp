@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <array>
 
-// Loops over all cells for each lens point. Not for several processors under ThreadSanitizer, as the loader chooses among them
-// before that has begun.
+// These loops run over all cells for each lens point, so they are compiled for several processors. Not under
+// ThreadSanitizer, because the loader chooses among the versions before ThreadSanitizer has begun.
 #ifdef __SANITIZE_THREAD__
 #define FOR_PROCESSORS
 #else

@@ -13,19 +13,19 @@ namespace {
 
 constexpr int size = lens_tile_size;
 constexpr std::size_t pixels = std::size_t(size * size);
-constexpr int beside = 2; // cells that a pixel takes on either side, at most
+constexpr int beside = 2; // cells on either side of a pixel that it is interpolated from, at most
 
 // a / b, rounded down; b > 0.
 int floor_of(int a, int b) { return a >= 0 ? a / b : -((-a + b - 1) / b); }
 
-// What a pixel takes of a row or a column of cells.
+// The cells of a row or a column that a pixel is interpolated from, and their weights.
 struct Taps {
     std::size_t first, nearest; // cells of the tile
     std::array<float, 4> weight;
 };
 
-// Weights of four cells' means in the mean of [begin, end], in cells from the first one's edge. They follow from the polynomial
-// that has the means of all four, by its integral at the five edges.
+// Returns the weights of the means of four cells in the mean over [begin, end], in cells from the first cell's edge.
+// They follow from the polynomial that has these four means, by its integral at the five edges.
 std::array<float, 4> weights_of(double begin, double end) {
     const auto lagrange = [](int edge, double at) {
         double product = 1;
@@ -44,8 +44,8 @@ std::array<float, 4> weights_of(double begin, double end) {
 std::array<Taps, size> taps_of(int first_pixel, int first_cell, int across) {
     std::array<Taps, size> taps;
     for (int n = 0; n < size; ++n) {
-        const int twice =
-            2 * (first_pixel + n) + 1 - across; // cells from the middle of cell 0, times 2 across
+        // In cells from the middle of cell 0, times 2 across.
+        const int twice = 2 * (first_pixel + n) + 1 - across;
         const int cell = floor_of(twice, 2 * across);
         const double middle = double(twice - cell * 2 * across) / (2 * across), half = 0.5 / across;
         const auto own = std::size_t(cell - first_cell);
@@ -58,7 +58,7 @@ std::array<Taps, size> taps_of(int first_pixel, int first_cell, int across) {
 Float4 least(Float4 a, Float4 b) { return a < b ? a : b; }
 Float4 most(Float4 a, Float4 b) { return a > b ? a : b; }
 
-// at(n), n from 0 to 3.
+// Returns the weighted sum of at(0) to at(3), in the given range.
 template <typename At>
 Float4 sum_of(const std::array<float, 4> &weight, CellRange range, const At &at) {
     const Float4 a = at(0), b = at(1), c = at(2), d = at(3);
@@ -104,7 +104,7 @@ struct Interpolation {
     }
 };
 
-// Where some of its cells are not known, a pixel is as the one that it lies in.
+// Gives pixels of which some cells are unknown the value of the cell that they lie in.
 void take_nearest(const Interpolation &from, PixelsOfCells &made) {
     for (std::size_t y = 0; y < size; ++y)
         for (std::size_t x = 0; x < size; ++x) {

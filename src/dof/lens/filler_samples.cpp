@@ -37,7 +37,7 @@ private:
     static constexpr std::size_t pixels_at_once = 8;
     std::span<const Filler> fillers_;
     std::size_t width_;
-    std::vector<std::size_t> begin_; // of each few pixels that follow each other; and the end
+    std::vector<std::size_t> begin_; // of each `pixels_at_once` consecutive pixels; and the end
 };
 
 } // namespace

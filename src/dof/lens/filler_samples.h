@@ -1,4 +1,4 @@
-// Fillers as the lens gather wants them: in blocks, with their colours.
+// Fillers as the lens gather needs them: in blocks, with their colours.
 #pragma once
 
 #include "dof/lens/fillers.h"
@@ -10,12 +10,12 @@
 namespace sparselens {
 
 struct FillerSamples {
-    BlockedSamples samples; // `source` is the number of the filler; `background` where it is nothing
+    BlockedSamples samples; // `source` is the number of the filler, or `background` if it is nothing
     SampleColours colours;
 };
 
-// `samples`, `colours`: of the LDI that the fillers belong to; what highlights spread is no longer in the colours, so
-// that no lamp goes on behind anything.
+// `samples`, `colours`: of the LDI that the fillers belong to. The light that highlights spread is no longer in the
+// colours, so no lamp continues behind anything.
 FillerSamples place_fillers(const Ldi &ldi, const ThinLens &lens, std::span<const Filler> fillers,
                             const BlockedSamples &samples, const SampleColours &colours);
 

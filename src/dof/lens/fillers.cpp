@@ -52,7 +52,7 @@ std::vector<Ground> find_grounds(const Ldi &ldi, const ThinLens &lens, const Kno
     return grounds;
 }
 
-// Whether a ground goes on n pixels beyond its end, where there is another.
+// Whether a ground continues n pixels beyond its end, where the ground is `other`.
 bool goes_on(const Ground &ground, const Ground &other, int n) {
     if (other.depth == unknown) return false;
     const float nearer = other.depth - ground.depth;
@@ -78,11 +78,12 @@ Line line_of(const Windows &windows, std::size_t direction, std::size_t number) 
     }
 }
 
-// How far each pixel is from the end of the ground that goes on there in each direction; 0: none does.
+// For each pixel and direction: how far the pixel is from the end of the ground that continues there; 0: no ground
+// does.
 using Distances = std::vector<std::array<std::uint16_t, directions>>;
 
-// Lets a ground of a line go on towards its end. One that meets another that is as far goes on no longer: that other is
-// nearer and goes on as far.
+// Continues a ground of a line towards the line's end. It stops where it meets another ground that is as far away or
+// farther: the other ground ends nearer to the pixel and continues as far.
 void continue_ground(std::span<const Ground> grounds, const Line &line, int i, std::size_t direction,
                      Distances &distances) {
     const Ground &ground = grounds[line.pixel(i)];
@@ -103,7 +104,8 @@ Distances find_distances(std::span<const Ground> grounds, const Windows &windows
     Distances distances(grounds.size());
     for (std::size_t direction = 0; direction < directions; ++direction) {
         const int lines = direction < 2 ? windows.height() : windows.width();
-        // The last grounds first, which are nearest to where they go on; those of lines side by side lie together in memory.
+        // Starts with the last grounds of a line, whose ends are nearest to where they continue. The grounds of
+        // adjacent lines lie together in memory.
         parallel_ranges(std::size_t(lines), 16, [&](std::size_t begin, std::size_t end) {
             for (int i = line_of(windows, direction, begin).length - 2; i >= 0; --i)
                 for (std::size_t number = begin; number < end; ++number)
@@ -115,11 +117,12 @@ Distances find_distances(std::span<const Ground> grounds, const Windows &windows
 
 // The sample that a ground shows where it continues.
 struct Shown {
-    std::uint32_t sample; // of the LDI; Filler::nothing
-    std::size_t pixel;    // that has it
+    std::uint32_t sample; // of the LDI; or Filler::nothing
+    std::size_t pixel;    // that has the sample
 };
 
-// Where no view unmixed a silhouette, the last pixel of a ground shows a part of what hides the ground.
+// Finds what grounds show where they continue. Where no view unmixed a silhouette, the last pixel of a ground shows a
+// part of what hides the ground.
 class ShownByGrounds {
 public:
     ShownByGrounds(const Ldi &ldi, std::span<const Ground> grounds)
@@ -154,7 +157,7 @@ private:
     std::array<std::size_t, 3> rgb_;
 };
 
-// A side from which a ground goes on.
+// A side from which a ground continues.
 struct Side {
     Ground ground;
     Shown shown;

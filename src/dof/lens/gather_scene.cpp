@@ -33,7 +33,7 @@ std::optional<Imath::Box2i> seen_of(const LensGatherOptions &options, const Imat
     return Imath::Box2i(options.seen->min - corner, options.seen->max - corner);
 }
 
-// Half of it magenta, by its coverage.
+// Makes the colours half magenta, by their coverage.
 void paint(SampleColours &colours, std::span<const ColourSet> sets, std::size_t alpha) {
     for (std::size_t k = 0; k < sets.size(); ++k) {
         if (!is_colour(sets[k])) continue;
@@ -43,7 +43,7 @@ void paint(SampleColours &colours, std::span<const ColourSet> sets, std::size_t 
     }
 }
 
-// All that looks move, before there are colours.
+// The scene with its samples, moved by the looks, but without colours.
 GatherScene placed(const Ldi &ldi, const ThinLens &lens, const LensLooks &looks, double coc,
                    const KnownPixels &known) {
     const Imath::V2i corner = ldi.windows.data.min;
@@ -61,14 +61,14 @@ GatherScene placed(const Ldi &ldi, const ThinLens &lens, const LensLooks &looks,
     return scene;
 }
 
-// What is not in the samples themselves. `treat` changes the colours before others take some of them.
+// Adds everything but the samples to a scene. `treat` changes the colours before fillers take some of them.
 template <typename Treat>
 void complete(GatherScene &scene, const Treat &treat, const Progress &progress) {
     const Ldi &ldi = *scene.ldi;
     const Optics &optics = *scene.optics;
     BlockedSamples &samples = scene.samples;
-    LargeArray<Filler> fillers =
-        find_fillers(ldi, scene.lens, scene.known); // before there are colours, as it takes memory
+    // Before the colours are made, because this takes memory.
+    LargeArray<Filler> fillers = find_fillers(ldi, scene.lens, scene.known);
     progress.may_end();
     scene.colours = make_colours(ldi, samples);
     treat();
@@ -81,7 +81,7 @@ void complete(GatherScene &scene, const Treat &treat, const Progress &progress) 
     optics.bend(scene.solids);
 }
 
-// The share of each sample's light that stays; empty: all of it.
+// The share of each sample's light that highlights leave; empty: all of it.
 std::vector<float> left_by_highlights(const GatherScene &scene) {
     const std::vector<std::uint32_t> &from = scene.highlights.sample;
     if (from.empty()) return {};
@@ -100,7 +100,7 @@ LensLooks smaller(LensLooks looks, const Windows &large, const Windows &small, i
     return looks;
 }
 
-// The cells of `small` that have pixels of which it is not known what they show, or that the large window has not.
+// Marks the cells of `small` with pixels that are not known, or that the large window does not have.
 std::vector<char> unseen_cells(const GatherScene &scene, const Windows &small, int across) {
     const Windows &large = scene.ldi->windows;
     std::vector<int> known(small.pixels(), 0);
@@ -144,7 +144,8 @@ GatherScene coarse_scene(const GatherScene &scene, int across) {
     const auto joined = joined_in_cells(large, Links(large, scene.lens), across, float(tolerance));
     auto small = std::make_unique<Ldi>(proxy(
         large, across, {perceptive_scale(scene.lens.radius, scene.lens.focal_px), tolerance, left, joined}));
-    // A sample that covers a part of a cell is spread over it. Displaced, it would hide its neighbours, and light would be lost.
+    // A sample that covers a part of a cell is spread over the cell. With an offset, it would hide its neighbours, and
+    // light would be lost.
     small->dx.clear(), small->dy.clear();
     ThinLens lens = scene.lens;
     lens.focal_px /= across;

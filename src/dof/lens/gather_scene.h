@@ -1,5 +1,5 @@
-// All that the lens gather makes of an LDI for one lens and its looks before the first tile: what tiles are gathered from,
-// one after the other, on the CPU and on a device.
+// What the lens gather prepares from an LDI, for one lens and its looks, before the first tile. All tiles are gathered
+// from it, on the CPU and on a device.
 #pragma once
 
 #include "dof/facets/known_pixels.h"
@@ -17,31 +17,32 @@
 namespace sparselens {
 
 struct GatherScene {
-    const Ldi *ldi;    // outlives this
+    const Ldi *ldi;    // must outlive this
     KnownPixels known; // of its pixels
     ThinLens lens;
-    std::unique_ptr<const Optics> optics; // its parts refer to each other, wherever this is moved
+    std::unique_ptr<const Optics> optics; // on the heap, because its parts refer to each other
     HeldOut held_out;                     // what stays sharp
     BlockedSamples samples;
-    SampleColours colours; // less what highlights spread; none where nothing is out of focus
+    SampleColours colours; // without what highlights spread; empty if nothing is out of focus
     Highlights highlights;
     FillerSamples fillers;
     PlacedFacets facets;
     BlockedSamples solids = {};             // place_solids()
-    std::unique_ptr<const Ldi> coarse = {}; // of a coarse scene, its LDI, with no value but A
+    std::unique_ptr<const Ldi> coarse = {}; // of a coarse scene: its LDI, with values of A alone
 
-    // If pixels see through some lens points alone, else null.
+    // The cat-eye if pixels see through only some lens points, else null.
     const CatEye *cat_eye() const { return optics->cat_eye.cuts() ? &optics->cat_eye : nullptr; }
     double pixel_aspect() const { return lens.pixel_aspect; }
 };
 
-// `coc` is added to that of all samples. Of the options: the looks, the holdout, and which pixels are known and were seen.
-// The progress may end it between its steps.
+// `coc` is added to the CoC of all samples. Of the options, it uses the looks, the lens point, the holdout, and which
+// pixels are known and were seen. The progress may end it between its steps.
 GatherScene prepare(const Ldi &ldi, const ThinLens &lens, const Imath::Box2i &window,
                     const LensGatherOptions &options, double coc = 0, const Progress &progress = {});
 
-// The same scene 1 / across as large, for tiles so far out of focus that they are gathered in cells of that many pixels, across
-// and down (cells.h). It has no highlights, as their discs are exact, and nothing is sharpened. For scenes without a holdout.
+// Returns the scene at 1 / across of its size, for tiles so far out of focus that they are gathered in cells of
+// `across` pixels, across and down (cells.h). It has no highlights, because their discs are exact, and nothing is
+// sharpened. The scene must have no holdout.
 GatherScene coarse_scene(const GatherScene &scene, int across);
 
 } // namespace sparselens

@@ -1,5 +1,5 @@
-// One tile of the lens picture: every lens point sees its own picture of the samples (see.h), and the mean over the lens points
-// (weigh.h) is the tile.
+// Gathers one tile of the lens picture. Every lens point sees its own picture of the samples (see.h); the tile is the
+// mean over the lens points (weigh.h).
 #pragma once
 
 #include "dof/device/tile_device.h"
@@ -8,7 +8,7 @@
 
 namespace sparselens {
 
-// Calls done(picture) with it.
+// Calls done(picture) with the result.
 void gather_tile(const GatherScene &scene, const TileTask &tile,
                  const std::function<void(const TilePicture &)> &done);
 

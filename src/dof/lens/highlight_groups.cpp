@@ -12,7 +12,8 @@ namespace {
 
 constexpr float group_of_coc = GatherTuning::lamp_group_of_coc;
 
-// The largest power of two, so that groups do not change with every change of the focus; a block at most.
+// The size of a group, pixels: a power of two, so that groups do not change with every change of the focus; a block at
+// most.
 int group_size(float coc) {
     int size = 1;
     while (size < BlockedSamples::size && float(2 * size) <= group_of_coc * std::abs(coc)) size *= 2;

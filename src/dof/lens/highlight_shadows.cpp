@@ -15,15 +15,16 @@ namespace {
 
 constexpr float one_lamp = GatherTuning::one_lamp;
 
-// The CoCs, as shares of the lamp's, of things whose shadows on one of a group are off from those on its middle one by a fiftieth of the
-// disc's radius at most: by |1 - m| times their distance, with m as in lamp_shadow.h.
+// Returns the CoCs, as shares of the lamp's CoC, of casters whose shadow on a member of a group is at most a fiftieth
+// of the disc's radius off from the shadow on the middle member. It is off by |1 - m| times the distance of the two
+// members, with m as in lamp_shadow.h.
 CocRange shared_cocs(const ShadowedLamp &group) {
     constexpr double of_radius = GatherTuning::shared_shadow_of_radius;
     const double most = of_radius * std::abs(group.lamp.coc) / std::max(group.spread, 1e-3); // |1 - m|
     return {most < 1 ? float(-most / (1 - most)) : -INFINITY, float(most / (1 + most))};
 }
 
-// Of the first sample of a block: the same wherever the tile lies, and in all frames.
+// The name of a block's first sample as a caster: the same wherever the tile lies, and in all frames.
 std::uint32_t name_of(std::uint32_t block, int columns) {
     constexpr int blocks = lens_tile_size / BlockedSamples::size;
     const int column = int(block) % columns % blocks, row = int(block) / columns % blocks;
@@ -32,7 +33,7 @@ std::uint32_t name_of(std::uint32_t block, int columns) {
 
 } // namespace
 
-// The casters of a block. Each lies before all lamps of a group, or before none.
+// Returns the casters of a block. Each lies in front of all lamps of a group, or in front of none.
 const std::vector<JoinedFootprint> &HighlightShadows::casters_of(const ShadowedLamp &lamp,
                                                                  const CastingBlock &b) const {
     const ShadowCasters &casters = search_.casters(b.set);
@@ -41,7 +42,7 @@ const std::vector<JoinedFootprint> &HighlightShadows::casters_of(const ShadowedL
     return block.apart_from(search_.far_before(lamp.depth) / casters.across, lamp.far / casters.across);
 }
 
-// Whether the shadows of what a block has before a group differ from lamp to lamp.
+// Whether the shadows of a block's casters in front of a group differ from lamp to lamp.
 bool HighlightShadows::is_apart(const ShadowedLamp &group, const CastingBlock &b) const {
     const ShadowCasters &casters = search_.casters(b.set);
     const BlockedSamples &samples = casters.samples;
@@ -86,7 +87,7 @@ std::uint32_t HighlightShadows::middle_of(std::span<const std::uint32_t> group) 
         group, {}, [&](std::uint32_t h) { return (Imath::V2d(place(h)) - mean).length2(); });
 }
 
-// All that may cast a shadow on some tile that the lamp's disc reaches.
+// Returns all blocks that may cast a shadow on some tile that the lamp's disc reaches.
 std::vector<CastingBlock> HighlightShadows::blocks_of_disc(const ShadowedLamp &lamp) const {
     ShadowedLamp whole = lamp;
     whole.origin = {0, 0};
@@ -106,7 +107,7 @@ std::vector<CastingBlock> HighlightShadows::blocks_of_disc(const ShadowedLamp &l
     return blocks;
 }
 
-// visit(block) for those that may cast a shadow, until it is false.
+// Calls visit(block) for the blocks that may cast a shadow, until it returns false.
 template <typename Visit>
 void HighlightShadows::for_each_block(const ShadowedLamp &lamp, std::uint32_t first_member,
                                       const Visit &visit) const {
@@ -118,7 +119,7 @@ void HighlightShadows::for_each_block(const ShadowedLamp &lamp, std::uint32_t fi
             block.apart = group_ && is_apart(lamp, block);
             return visit(block);
         });
-    constexpr float rounding = 0.01f; // pixels: of what the list says
+    constexpr float rounding = 0.01f; // pixels: by how much the list may be off
     const Imath::V2i first = lamp.screen.box.min + origin_, last = lamp.screen.box.max + origin_;
     const Imath::Box2f box(Imath::V2f(first) - Imath::V2f(rounding),
                            Imath::V2f(last) + Imath::V2f(1 + rounding));
@@ -199,7 +200,7 @@ void HighlightShadows::for_each_caster(const ShadowedLamp &lamp, const CastingBl
         visit(Caster{&casters, &joined, name + (joined.sample - first)});
 }
 
-// Whether it is another highlight's, of other pixels and no nearer than a part of the same lamp would be.
+// Whether `sample` is another highlight's, in another pixel, and no nearer than a part of the same lamp would be.
 bool HighlightShadows::are_side_by_side(std::uint32_t lamp_sample, std::uint32_t sample) const {
     const auto same = [&](std::span<const float> along) {
         return std::floor(along[lamp_sample]) == std::floor(along[sample]);
@@ -208,7 +209,7 @@ bool HighlightShadows::are_side_by_side(std::uint32_t lamp_sample, std::uint32_t
            !(same(samples_.x) && same(samples_.y)) && std::ranges::binary_search(highlights_.sample, sample);
 }
 
-// Whether it may cast a shadow on some member of the group.
+// Whether the caster may cast a shadow on some member of the group.
 bool HighlightShadows::may_cast(const ShadowedLamp &group, const Caster &caster) const {
     const ShadowCasters &casters = *caster.of;
     const float farthest =

@@ -1,18 +1,19 @@
-// What hides highlights (highlights.h) in one tile.
+// Finds what hides highlights (highlights.h) in one tile.
 //
-// Whether a place in a disc sees the lamp needs no lens points of the gather: place and lamp fix the point of the lens, and
-// so what hides the lamp there (lens/lamp_shadow.h). A sample hides all that is farther; those of one surface hide
-// none of each other, as they end where the next begins (dof/footprints/footprint.h). Opaque ones side by side cast one
-// shadow (dof/footprints/joined_footprints.h). Highlights of partial coverage in other pixels, no more than a tenth nearer,
-// hide none of each other: they are lamps smaller than a pixel, side by side.
+// Whether a position in a disc sees the lamp does not depend on the lens points of the gather: position and lamp
+// determine the point of the lens, and so what hides the lamp there (lens/lamp_shadow.h). A sample hides everything
+// farther. Samples of one surface do not shadow each other, because their footprints share edges
+// (dof/footprints/footprint.h). Opaque samples side by side cast one shadow (dof/footprints/joined_footprints.h).
+// Highlights of partial coverage in other pixels that are at most a tenth nearer do not hide each other: they are lamps
+// smaller than a pixel, side by side.
 //
-// The pixels of one lamp share the shadows that are nearly the same for all of them, so that a lamp costs no more where it has
-// more pixels. Of two places of a lamp, w pixels apart, the shadows of one thing lie (1 - m) w apart, m as in lamp_shadow.h.
-// Where that is a fiftieth of the disc's radius at most, the members of a group (highlight_groups.h) take the shadow from the one in
-// their middle. What stands nearer to the lamp is cast for each of them.
+// The pixels of one lamp share the shadows that are nearly the same for all of them, so that a lamp of more pixels
+// costs no more. On two pixels of a lamp that are w apart, the shadows of one caster are (1 - m) w apart, with m as in
+// lamp_shadow.h. If that is at most a fiftieth of the disc's radius, the members of a group (highlight_groups.h) use
+// the shadow on the member in their middle. The shadows of casters nearer to the lamp are cast for each member.
 //
-// In a tile that is gathered in cells (cells.h) the shadows of what stands far before the lamp are those of the coarse scene's samples:
-// that of a cell is no wider than a sixteenth of the disc's radius.
+// In a tile that is gathered in cells (cells.h), the samples of the coarse scene cast the shadows of what lies far in
+// front of the lamp, where the shadow of a cell is at most a sixteenth of the disc's radius wide.
 #pragma once
 
 #include "dof/lens/highlights.h"
@@ -35,22 +36,24 @@ namespace sparselens {
 
 class HighlightShadows {
 public:
-    // `samples`: those that highlights are named by. `solids` (solid_samples.h) cast shadows as well.
+    // `samples`: those that Highlights::sample counts. `solids` (solid_samples.h) cast shadows as well.
     HighlightShadows(const Highlights &highlights, const ShadowCasters &samples, const ShadowCasters &solids)
         : highlights_(highlights), samples_(samples.samples), search_(samples, solids) {}
 
-    // Of the tile whose first pixel is `origin`, relative to the data window's corner. Then the blocks that can reach it.
-    // `extent`: of the lens, for each pixel of CoC. `coarse`: for a tile that is gathered in cells. `lists`: of the tiles that are
-    // gathered from the same scene.
+    // Begins the tile whose first pixel is `origin`, relative to the data window's corner. `samples`, `solids`: the
+    // blocks that can reach it. `extent`: of the lens, pixels per pixel of CoC. `coarse`: given if the tile is gathered
+    // in cells. `lists`: shared by the tiles that are gathered from the same scene.
     void begin(const Imath::V2i &origin, std::span<const std::uint32_t> samples,
                std::span<const std::uint32_t> solids, double pixel_aspect, const Imath::V2d &extent,
                const CoarseCasters *coarse = nullptr, const ShadowLists *lists = nullptr);
 
-    // Highlights are named by their place in Highlights.
-    // For a group: what its members share, in the pixels of a box. Only cast() for each tells the rest.
+    // Below, a highlight is given by its index in Highlights.
+    // Finds the shadows that the members of a group share, in the pixels of a box. cast() adds the other shadows of
+    // each member.
     void share(std::span<const std::uint32_t> group, const Imath::Box2i &box);
 
-    // For one member of the group, on a screen of that box. False: nothing hides a part of it.
+    // Casts the shadows on one member of the group, on a screen of that box. Returns false if nothing hides any part of
+    // it.
     bool cast(std::uint32_t highlight, const ShadowScreen &screen);
 
     // Whether all of the box is hidden from the whole group.
@@ -59,12 +62,12 @@ public:
     // As LampShadow::lit().
     float lit(int x, int y, const LampDisc *disc = nullptr) const;
 
-    // For a member of the group of which cast() tells nothing: what is shared alone.
+    // Whether the member last given to cast() has no shadows but the shared ones.
     bool only_shares() const { return shared_.any && !own_.any; }
     float shared_lit(int x, int y) const { return shared_.lamp.lit(x, y); }
     bool is_shared_crossed(int x, int y) const { return shared_.lamp.is_crossed(x, y); }
 
-    // What cast() said, of a group of one.
+    // The result of cast() for a group of one.
     const LampShadow &own() const { return own_.lamp; }
 
     Lamp lamp(std::uint32_t highlight) const; // relative to the tile
@@ -90,7 +93,7 @@ private:
     bool is_apart(const ShadowedLamp &group, const CastingBlock &block) const;
     struct Caster {
         const ShadowCasters *of;
-        const JoinedFootprint *joined; // whose depth is as these casters count it
+        const JoinedFootprint *joined; // its depth is in the pixels of these casters
         std::uint32_t name;
     };
     template <typename Visit>
@@ -108,8 +111,8 @@ private:
     Imath::V2i origin_;
     double pixel_aspect_ = 1;
     Imath::V2d extent_{1, 1};
-    std::optional<ShadowedLamp> group_; // of several samples
-    std::vector<Caster> apart_;         // of other shadows on each of its samples
+    std::optional<ShadowedLamp> group_; // set for a group of several samples
+    std::vector<Caster> apart_;         // casters whose shadows differ between the members of the group
     Shadow shared_, own_;
 };
 

@@ -16,7 +16,7 @@ constexpr std::size_t last = lens_tile_size - 1;
 
 const Imath::Box2i tile({0, 0}, {int(last), int(last)});
 
-// The pixels of the tile within `extent` of a place.
+// The pixels of the tile within `extent` of a position.
 Imath::Box2i pixels_around(const Imath::V2d &place, const Imath::V2d &extent) {
     const auto pixel = [](double v) { return int(std::floor(std::clamp(v, -1.0, lens_tile_size + 1.0))); };
     const Imath::V2d low = place - extent, high = place + extent;
@@ -150,7 +150,7 @@ const LampCells &HighlightTile::cells_of(const Lamp &lamp) {
     return *cells;
 }
 
-// A disc of few pixels near the focus. Nothing of its light is hidden further.
+// Spreads a disc of few pixels near the focus. `light` is what is left after shadows.
 void HighlightTile::spread_few(const LampLight &light, const Spreading &from) {
     const Spreading lit{from.highlight, from.sample, from.lamp};
     for (int y = light.box.min.y; y <= light.box.max.y; ++y)
@@ -185,7 +185,7 @@ void HighlightTile::spread_disc(const Spreading &from) {
 }
 
 void HighlightTile::spread_shape(const Spreading &from) {
-    const Imath::V2i corner = held_out_.corner + origin_; // a cat-eye depends on the place in the picture
+    const Imath::V2i corner = held_out_.corner + origin_; // a cat-eye depends on the position in the picture
     Lamp lamp = from.lamp;
     lamp.centre += Imath::V2d(corner);
     const LampCut cut = cut_of(cat_eye_, aperture_, lamp);
@@ -198,7 +198,8 @@ void HighlightTile::spread_shape(const Spreading &from) {
                 add_seen(from, x, y, spread.weights[i], spread.coloured ? &spread.colours[i] : nullptr);
 }
 
-// Past a cat-eye, by the share of the light that it leaves at a pixel. `colours`: null where all have the same weight.
+// Adds light at a pixel, divided by the share of the lens that a cat-eye leaves there. `colours`: null if all channels
+// have the same weight.
 void HighlightTile::add_seen(const Spreading &from, int x, int y, double weight,
                              const std::array<double, 3> *colours) {
     const bool cut = cat_eye_.cuts() && !cat_eye_.darkens();
@@ -221,14 +222,14 @@ double HighlightTile::left_by_cat_eye(bool behind, int x, int y) {
     return shares[std::size_t(y) * size + std::size_t(x)];
 }
 
-// Whether its light in a pixel waits for that of its group, to be shadowed with it. At the rim of a disc that a shadow crosses it does
-// not: the share that is lit is its own there.
+// Whether the light in a pixel waits for the light of its group, to be shadowed with it. At the rim of a disc that a
+// shadow crosses it does not wait, because the lit share there is its own.
 bool HighlightTile::waits(const Spreading &from, int x, int y, const LampDisc *disc) const {
     return from.together && reached_.intersects(Imath::V2i(x, y)) &&
            !(disc && shadows_.is_shared_crossed(x, y) && !disc->contains_pixel(x, y));
 }
 
-// As add() of each pixel, where nothing hides the lamp, or not before add_group() does.
+// Like add() for each pixel, if nothing hides the lamp or if add_group() hides it later.
 void HighlightTile::add_row(const Spreading &from, int y, int begin, int end, const double *weights) {
     std::vector<float> &sums = from.together ? together_ : light_;
     for (std::size_t g = 0; g < sets_.size() / 4; ++g) {

@@ -1,9 +1,9 @@
-// The light of highlights (highlights.h) in one tile: the exact disc of each, less what stands before the lamp.
-// What hides it: highlight_shadows.h.
+// The light of highlights (highlights.h) in one tile: the exact disc of each lamp, less what is hidden by things in
+// front of the lamp (highlight_shadows.h).
 //
-// A disc of a few pixels is shadowed in cells of the lens (lens/lamp_cells.h), a larger one in pixels. The light of a
-// sample comes from its place where its CoC is two pixels or more. Near the focus it comes from the square of a pixel, as lens
-// points see it, so that what is in focus is as it was rendered; in between the square shrinks.
+// A disc of a few pixels is shadowed in cells of the lens (lens/lamp_cells.h), a larger one in pixels. If the CoC of a
+// sample is two pixels or more, its light comes from its position. Near the focus its light comes from the square of a
+// pixel, as lens points see it, so that what is in focus stays as it was rendered. In between, the square shrinks.
 #pragma once
 
 #include "dof/lens/gather_scene.h"
@@ -24,17 +24,18 @@ namespace sparselens {
 
 class HighlightTile {
 public:
-    // `footprints`: of the samples, and of the solids.
+    // The footprints of the scene's samples, and of its solids.
     HighlightTile(const GatherScene &scene, const BlockFootprints &footprints,
                   const BlockFootprints &solid_footprints);
 
     // Spreads highlights over the tile whose first pixel is `origin`, relative to the data window's corner like the
-    // samples. `blocks`: those that can reach it; `solids`, of those; `coarse`: of a tile that is gathered in cells.
+    // samples. `blocks`, `solids`: the blocks of samples and of solids that can reach it. `coarse`: given if the tile
+    // is gathered in cells.
     void spread(const Imath::V2i &origin, std::span<const std::uint32_t> blocks,
                 std::span<const std::uint32_t> solids = {}, const CoarseCasters *coarse = nullptr,
                 const ShadowLists *lists = nullptr);
 
-    // At a pixel of the tile. `dark`: none reaches it.
+    // The light at a pixel of the tile. dark(): no light reaches it.
     float value(int x, int y, std::size_t channel) const { return light_[at(x, y, channel)]; }
     bool dark(int x, int y) const;
 
@@ -44,12 +45,12 @@ private:
         return (channel / 4 * size * size + std::size_t(y * size + x)) * 4 + channel % 4;
     }
 
-    struct Spreading { // the highlight at work
+    struct Spreading { // the current highlight
         std::uint32_t highlight, sample;
         Lamp lamp; // relative to the tile
         bool shadowed = false;
-        bool together = false;          // with others of its group, whose shadow is all the same
-        const LampLight *few = nullptr; // of a disc of few pixels, if anything hides a part of it
+        bool together = false;          // it shares all its shadows with others of its group
+        const LampLight *few = nullptr; // for a disc of few pixels, if anything hides a part of it
     };
     Lamp lamp(std::uint32_t highlight) const;
     Imath::Box2i reach_of(const Lamp &lamp);
@@ -60,7 +61,7 @@ private:
     void add_whole(const Spreading &from, double weight);
     void spread_shape(const Spreading &from);
     void add_seen(const Spreading &from, int x, int y, double weight, const std::array<double, 3> *colours);
-    // `disc`: where the light of one lies; of a pixel that its edge crosses, only what lies in it is lit.
+    // `disc`: the disc that the light lies in. In a pixel that its edge crosses, only the part inside is lit.
     void add(const Spreading &from, int x, int y, unsigned of, double weight, const LampDisc *disc = nullptr);
     bool waits(const Spreading &from, int x, int y, const LampDisc *disc) const;
     void add_row(const Spreading &from, int y, int begin, int end, const double *weights);
@@ -79,14 +80,15 @@ private:
     HighlightShadows shadows_;
     Imath::V2d half_extent_; // of the aperture, for each pixel of CoC
     Imath::V2i origin_;
-    Imath::Box2i reached_;                               // pixels of the tile, by the highlights at work
+    // pixels of the tile that the current highlights reach
+    Imath::Box2i reached_;
     std::array<std::optional<LampCells>, 2> cells_;      // [behind], made when first asked for
     std::array<std::vector<double>, 2> left_by_cat_eye_; // [behind][pixel], computed when first asked for
     std::vector<float> light_;                           // [group][row][column][4]
-    // The same, of the highlights at work that are shadowed together: as if nothing hid it.
+    // The same, for the current highlights that are shadowed together, as if nothing hid them.
     std::vector<float> together_;
     bool any_together_ = false;
-    // [group][4]: what each pixel takes from discs that reach over the whole tile; together, of the highlights at work.
+    // [group][4]: what each pixel gets from discs that cover the whole tile; the second, from the current highlights.
     std::vector<float> whole_, whole_together_;
 };
 

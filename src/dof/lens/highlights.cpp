@@ -19,10 +19,11 @@ constexpr double rare = GatherTuning::lamp_rare, common = GatherTuning::lamp_com
 
 struct Found {
     std::uint32_t sample;
-    float share; // of its light that is spread, (0, 1]
+    float share; // share of its light that is spread, (0, 1]
 };
 
-// Looks at cells, and at windows of two by two cells: each cell lies in four, so that no lamp is missed where windows part.
+// Looks at cells, and at windows of two by two cells. Each cell lies in four windows, so that no lamp is missed at the
+// edge of a window.
 class HighlightFinder {
 public:
     HighlightFinder(const BlockedSamples &samples, std::span<const std::size_t> channels,
@@ -45,7 +46,7 @@ private:
             Imath::V2i(int(std::floor(samples_.x[sample])), int(std::floor(samples_.y[sample]))));
     }
     enum class Of { seen, seen_and_covered, all };
-    // What a window holds besides samples that were seen. Where it holds nothing else, its levels are one.
+    // What a window holds besides samples that were seen. If it holds nothing else, its levels are the same.
     struct Besides {
         bool background = false, unseen = false;
     };
@@ -57,8 +58,8 @@ private:
     const SampleColours &colours_;
     const std::optional<Imath::Box2i> &seen_;
     Grid cells_, windows_; // a window's lower right cell is the one of its own column and row
-    std::vector<float> levels_, covered_levels_; // with what is nothing, and without
-    std::vector<float> made_up_levels_;          // with what lies beyond
+    std::vector<float> levels_, covered_levels_; // with backgrounds, and without
+    std::vector<float> made_up_levels_;          // with samples beyond the frame
     BrightShare as_bright_;
 };
 
@@ -90,7 +91,7 @@ void HighlightFinder::for_each_sample(const Imath::Box2i &cells, const Visit &vi
         }
 }
 
-// What all but the brightest samples of a window stay below.
+// Returns the level that all but the brightest samples of a window stay below.
 float HighlightFinder::level_of(const Imath::Box2i &cells, Of of, Besides &besides) const {
     std::vector<float> levels, all;
     for_each_sample(cells, [&](std::uint32_t i) {

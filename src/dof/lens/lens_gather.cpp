@@ -21,7 +21,7 @@ namespace sparselens {
 
 namespace {
 
-// visit(x, y) for the pixels of a part of the tile at `corner` (relative to the window) that lie in the window.
+// Calls visit(x, y) for the pixels of a part of the tile at `corner` (relative to the window) that lie in the window.
 template <typename Visit>
 void for_each_pixel(const Imath::V2i &corner, const Imath::Box2i &part, const Windows &windows,
                     const Visit &visit) {
@@ -29,7 +29,7 @@ void for_each_pixel(const Imath::V2i &corner, const Imath::Box2i &part, const Wi
         for (int x = part.min.x; x <= part.max.x && corner.x + x < windows.width(); ++x) visit(x, y);
 }
 
-// Ids cannot be averaged: each pixel keeps its front sample's.
+// Ids cannot be averaged: each pixel keeps the id of its front sample.
 std::vector<std::size_t> averaged_channels(const Image &image) {
     std::vector<std::size_t> averaged;
     for (std::size_t k = 0; k < image.channels.size(); ++k)
@@ -77,14 +77,14 @@ struct Gathering {
                              tile.cell_blocks.samples,
                              tile.cell_blocks.solids};
     }
-    // EXR coordinates.
+    // The pixels of a tile in the picture, EXR coordinates.
     Imath::Box2i pixels_of(const PlannedTile &tile) const {
         const Imath::Box2i &all = out.windows.data;
         const Imath::V2i last = tile.first + tile.part.max;
         return {tile.first + tile.part.min, {std::min(last.x, all.max.x), std::min(last.y, all.max.y)}};
     }
 
-    // Sets its pixels to what is gathered, and to what highlights spread there.
+    // Sets the pixels of a tile to what is gathered, plus what highlights spread there.
     void finish(const PlannedTile &tile, const TilePicture &made) {
         if (!tile.cells) return set_pixels(tile, made);
         const PixelsOfCells pixels =
@@ -99,7 +99,7 @@ struct Gathering {
                    coarse ? &*coarse : nullptr, &footprints.at(tile.scene).shadows);
         for_each_pixel(tile.first - out.windows.data.min, tile.part, out.windows, [&](int x, int y) {
             const auto pixel = std::size_t(y * lens_tile_size + x);
-            // A few lens points may all miss: better sharp than black.
+            // If the few lens points of a pixel all miss, it stays sharp, which is better than black.
             if (!picture.is_known(pixel) && lit.dark(x, y) && !options.point) return;
             const Imath::V2i at = tile.first + Imath::V2i(x, y);
             for (const std::size_t k : gathered)
@@ -109,7 +109,7 @@ struct Gathering {
     }
 };
 
-// The tiles that are gathered from one scene. The numbers of those that the device gathered are marked in `done`.
+// Gathers tiles of one scene on the device, and marks the numbers of those that it gathered in `done`.
 void gather_on(TileDevice &device, const GatherScene &scene, std::span<const PlannedTile *const> tiles,
                Gathering &from, std::vector<char> &done) {
     std::vector<TileTask> tasks;
@@ -153,8 +153,8 @@ void gather_tiles(const GatherScene &scene, const LensGatherOptions &options, Pr
     std::atomic<std::size_t> next = 0;
     parallel_for(order.size(), [&](std::size_t i) {
         progress.advance();
-        // Somebody who watches is shown the tiles in this order. Otherwise the threads begin far apart: tiles side by side would wait for
-        // each other, as what may shadow their lamps is found once.
+        // A watcher is shown the tiles in this order. Without one the threads begin far apart, because adjacent tiles
+        // would wait for each other: what may shadow their lamps is found once.
         const std::size_t t = order[options.watch ? next++ : i];
         const std::optional<PlannedTile> tile = done[t] ? std::nullopt : from.plan.tile(t);
         if (!tile) return;
@@ -168,7 +168,8 @@ Image lens_gather(const Ldi &ldi, const ThinLens &given, const Imath::Box2i &win
                   const LensGatherOptions &asked, Progress &progress) {
     ThinLens lens = given;
     LensGatherOptions options = asked;
-    // Only breathing shows then, which asks for a finite focus distance: all is sharp, and still ordered by depth.
+    // Only breathing then has an effect, and it needs a finite focus distance. Everything is sharp, and still ordered
+    // by depth.
     if (lens.radius == 0) {
         lens.radius = GatherTuning::sharp_px * lens.focus / lens.focal_px;
         options.looks.cat_eye = 0; // there is nothing to cut
@@ -176,7 +177,7 @@ Image lens_gather(const Ldi &ldi, const ThinLens &given, const Imath::Box2i &win
     Image out = gather_once(ldi, lens, window, options, 0, progress);
     const std::vector<ColourSet> sets = colour_sets(ldi, ldi.channels.size());
     const std::array<double, 3> &cocs = options.looks.chromatic_coc;
-    options.watch = nullptr; // of these, some colours are not those of the picture
+    options.watch = nullptr; // some colours of the pictures below are not the final ones
     for (std::size_t colour = 0; colour < 3; ++colour) {
         if (cocs[colour] == 0) continue;
         const Image other = gather_once(ldi, lens, window, options, cocs[colour], progress);

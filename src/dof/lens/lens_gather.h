@@ -28,8 +28,8 @@ enum class Quality { draft, normal, final };
 // several threads, but not for tiles in focus or made by a device.
 struct TileWatch {
     Imath::V2i from;
-    std::function<void(const Image &picture, const Imath::Box2i &tile)>
-        made; // other pixels of the picture may change
+    // Other pixels of the picture may change meanwhile.
+    std::function<void(const Image &picture, const Imath::Box2i &tile)> made;
 };
 
 struct LensGatherOptions {
@@ -42,11 +42,12 @@ struct LensGatherOptions {
     LensLooks looks = {};
     LensTiles *chosen = nullptr;             // if given, receives the chosen tiles
     std::optional<Imath::Box2i> region = {}; // only its tiles are gathered; the others stay in focus
-    std::optional<Imath::Box2i> known =
-        {};                                // pixels of which the empty ones are transparent; else the window;
-    std::span<const char> unseen = {};     // [pixel of the data window] but for these
+    // Pixels that are transparent to infinity if they are empty; not set: the window. The pixels marked in `unseen`,
+    // [pixel of the data window], are excepted.
+    std::optional<Imath::Box2i> known = {};
+    std::span<const char> unseen = {};
     std::optional<Imath::Box2i> seen = {}; // pixels that were seen, not made up beyond the frame; else all
-    bool keeps_sums = false; // of channels: where tiles are gathered in cells, each may leave its range
+    bool keeps_sums = false; // sums of channels: in tiles gathered in cells, each may leave its range
     const Holdout *holdout = nullptr; // hides the picture behind it
     const TileWatch *watch = nullptr; // if given
     TileDevice *device = nullptr;     // if given, gathers the tiles that it can

@@ -6,8 +6,8 @@ namespace sparselens {
 
 namespace {
 
-// Sub-pixels beside each other already look from different places: within each, half as far from its middle brings more than all
-// of it, .5 dB on fence and grass at normal quality (at final .0).
+// Adjacent sub-pixels already look from different positions. Within each, looking from half as far from its middle is
+// better than from all of it: by .5 dB on fence and grass at normal quality (at final .0).
 void look_from_the_middle(std::vector<LensSample> &points) {
     for (LensSample &point : points) point.pixel_x /= 2, point.pixel_y /= 2;
 }

@@ -1,4 +1,4 @@
-// What the lens gather chose for each tile of its window: how many lens points, or none.
+// How many lens points the lens gather chose for each tile of its window.
 #pragma once
 
 #include <map>
@@ -14,7 +14,7 @@ struct LensTiles {
     std::vector<int> lens_points; // [row][column]; 0: nothing is out of focus, the flattened LDI is copied
 };
 
-// How many tiles have so many lens points.
+// The number of tiles for each number of lens points.
 inline std::map<int, int> histogram(const LensTiles &tiles) {
     std::map<int, int> result;
     for (const int points : tiles.lens_points) ++result[points];

@@ -1,7 +1,7 @@
 // How a lens point counts at the pixels of a tile, and how much is known there.
 //
-// Where a lens point sees what is unknown, it is left out, and the weights of the others are renormalised: so what is known is
-// summed up beside the light. One of these types is the argument of Weigh (weigh.h).
+// A lens point that sees something unknown is left out, and the weights of the others are renormalised. For this, the
+// known weight is summed up beside the light. These types are arguments of Weigh (weigh.h).
 #pragma once
 
 #include "base/float4.h"
@@ -16,9 +16,9 @@ namespace sparselens {
 // The partial samples of a pixel in front of an opaque one, for four channels.
 struct Covered {
     std::array<Float4, 2> over; // [side]: the sum of their colours
-    float taken;                // of the light behind them
+    float taken;                // share of the light behind them that they hide
     Float4 behind;              // its colour; 0 where it is unknown
-    std::size_t side;           // on which it lies
+    std::size_t side;           // on which the opaque one lies
 };
 
 // Lens points that count alike for all channels, pixels and sides of the focus.
@@ -28,16 +28,17 @@ public:
 
     explicit EvenLight(const GatherScene &) : unknown_(tile_cells::pixels) {}
 
-    // Counts a lens point as known, and behind focus, in all pixels that see through it. What follows is of this one.
+    // Counts a lens point as known, and behind focus, in all pixels that see through it. The calls that follow are for
+    // this lens point.
     void count(const LensSample &point, const Seen &) { total_ += weight_ = point.weight; }
-    // By what light of a group of channels is multiplied.
+    // The factors on light of a group of channels.
     Float4 of(std::size_t, std::size_t) const { return Float4{} + weight_; }
     Float4 with(Float4 sum, std::size_t, const Covered &c) const {
         return sum + weight_ * (c.over[0] - c.taken * c.behind);
     }
-    // A share of it is not known at a pixel of the tile.
+    // A share of the lens point is unknown at a pixel of the tile.
     void lose(std::size_t pixel, float share) { unknown_[pixel] += share * weight_; }
-    // A share of it is in front of focus.
+    // A share of the lens point is in front of focus.
     void put_in_front(std::size_t, float) {}
 
     // The weight of known light over all lens points; 0: nothing is known. [group][pixel][4].
@@ -48,8 +49,8 @@ private:
     std::vector<float> unknown_; // [pixel]
 };
 
-// Lens points that count otherwise for R, G and B, that not all pixels see through, and, if there are two `sides`, otherwise
-// for what lies behind focus (0) and in front (1).
+// Lens points that count differently for R, G and B, or that not all pixels see through; with two `sides`, they also
+// count differently for what lies behind focus (0) and in front of it (1).
 template <std::size_t sides_>
 class ChannelLight {
 public:
@@ -75,11 +76,11 @@ private:
     float total_ = 0;
     // For the lens point, [side][channel]: the factor on light, and its weight in the divisor of the sum.
     std::array<std::vector<float>, 2> light_, weight_;
-    // [group][row][column][4]: how much more the pixels from that column on see.
+    // [group][row][column][4]: how much more weight the pixels from that column on see.
     std::vector<double> steps_;
-    // [group][pixel][4]: of that is unknown.
+    // [group][pixel][4]: the part of that weight that is unknown.
     std::vector<double> lost_;
-    // [group][pixel][4], if there are two sides: how much more as part of it is in front.
+    // [group][pixel][4], if there are two sides: how much more weight, because a part of it is in front.
     std::vector<float> in_front_;
 };
 

@@ -21,7 +21,7 @@ void extend(NearBounds &bounds, const NearBounds &by) {
 
 } // namespace
 
-// In place: a step is written where samples were that it has already.
+// Works in place: a step overwrites samples that it already includes.
 NearSteps::NearSteps(std::vector<NearBounds> samples, std::size_t in_step) : steps_(std::move(samples)) {
     std::ranges::sort(steps_, std::ranges::greater(), &NearBounds::depth);
     std::size_t steps = 0;

@@ -1,4 +1,5 @@
-// Bounds of what is nearer than some depth, of many samples: what lies beyond them casts no shadow on a lamp.
+// Bounds of those of many samples that are nearer than some depth. Beyond these bounds, nothing casts a shadow on a
+// lamp.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +9,7 @@ namespace sparselens {
 
 // Bounds of all samples nearer than some depth, and perhaps of some others.
 struct NearBounds {
-    float depth; // of the nearest sample that is not within, perceptive, pixels
+    float depth; // of the nearest sample that is not included, perceptive, pixels
     float x_min, x_max, y_min, y_max, coc_min, coc_max;
 };
 
@@ -22,7 +23,7 @@ public:
     const NearBounds *nearer_than(float depth) const;
 
 private:
-    // more and more samples, the nearest first: the first step has none, the last one all
+    // Each step includes more samples, the nearest first. The first step has none, the last one has all.
     std::vector<NearBounds> steps_;
 };
 

@@ -17,7 +17,7 @@ namespace sparselens {
 
 struct Optics {
     LensLooks looks;
-    double coc;        // is added to that of all samples
+    double coc;        // pixels, added to the CoC of all samples
     Imath::V2i corner; // of the data window
     Aperture aperture;
     PictureFrame frame;
@@ -26,21 +26,22 @@ struct Optics {
 
     Optics(const Ldi &ldi, const ThinLens &lens, const LensLooks &looks, double coc);
 
-    // How many times the lens points of a tile are doubled: so many that pixels see as many past a cat-eye as of a whole
-    // lens. `first`, `size`: as of coc_gradient().
+    // How many times the number of a tile's lens points is doubled, so that pixels see as many of them past a cat-eye
+    // as of a whole lens. `first`, `size`: as in coc_gradient().
     std::size_t doubled(const Imath::V2i &first, int size) const;
     bool moves() const { return field.moves(); }
-    // How far the aperture reaches, along the axis where it reaches farthest and least, in pixels of that axis for each pixel of CoC.
+    // How far the aperture reaches along the axis where it reaches farthest, and where it reaches least, in pixels of
+    // that axis per pixel of CoC.
     float widest() const, narrowest() const;
 
-    // Adds to the CoC of samples, whose places are relative to the corner, and moves them to where the magnified picture
-    // shows them.
+    // Bends the CoC of samples and moves the samples to where the magnified picture shows them. Their positions are
+    // relative to the corner.
     void bend(BlockedSamples &samples) const;
-    // How CoC changes across the tile of that size whose first pixel that is (EXR coordinates); and how far, in pixels, all is
-    // displaced there at most.
+    // How the CoC changes across a tile of `size` pixels whose first pixel is `first` (EXR coordinates), and the
+    // largest displacement there, pixels.
     Imath::V2d coc_gradient(const Imath::V2i &first, int size) const;
     double displaced(const Imath::V2i &first, int size) const;
-    // The lens points of that tile, where the plane of focus is bent: by the field at its middle.
+    // The lens points of that tile for a bent plane of focus, by the field at the tile's middle.
     std::vector<LensSample> bent(std::span<const LensSample> points, const Imath::V2i &first, int size) const;
 
     // FocusField::skew() of what the magnified picture shows at p.
@@ -55,12 +56,12 @@ public:
     float left(std::size_t channel, int x, int y) const { // EXR coordinates
         return left_.empty() || !is_colour(sets_[channel]) ? 1 : left_[windows_.index(x, y)];
     }
-    void darken(Image &image) const; // of these windows
+    void darken(Image &image) const; // which must have these windows
 
 private:
     Windows windows_;
     std::vector<ColourSet> sets_;
-    std::vector<float> left_; // [pixel]; empty: all
+    std::vector<float> left_; // [pixel]: the share that is left; empty: all
 };
 
 } // namespace sparselens

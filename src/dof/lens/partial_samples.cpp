@@ -18,7 +18,7 @@ std::uint64_t order_key(float depth, std::uint32_t sample) {
 } // namespace
 
 PartialSamples partial_samples_of(const BlockedSamples &samples, const TileTask &tile) {
-    float reach_x = 0, reach_y = 0, beside = border; // for each pixel of CoC, and of all
+    float reach_x = 0, reach_y = 0, beside = border; // per pixel of CoC; and besides
     for (const LensSample &p : tile.lens) {
         reach_x = std::max(reach_x, std::abs(p.x));
         reach_y = std::max(reach_y, std::abs(p.y));

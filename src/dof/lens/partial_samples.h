@@ -1,5 +1,5 @@
-// Samples of partial coverage that a tile may see, front to back. All that is asked of them is side by side in that order, as
-// they are many.
+// Samples of partial coverage that a tile may see, front to back. What is needed of them is stored contiguously in that
+// order, because they are many.
 #pragma once
 
 #include "dof/device/tile_device.h"

@@ -53,7 +53,7 @@ void find_samples(const Ldi &ldi, const ThinLens &lens, const KnownPixels &known
     add_background(last.x, last.y, last.coc);
 }
 
-// How many those are.
+// How many samples find_samples() finds.
 SampleCounts count_samples(const Ldi &ldi, const KnownPixels &known, int x, int y,
                            std::size_t alpha_channel) {
     const Imath::V2i at = ldi.windows.data.min + Imath::V2i(x, y);
@@ -71,7 +71,7 @@ SampleCounts count_samples(const Ldi &ldi, const KnownPixels &known, int x, int 
     return {counts.opaque + backgrounds, counts.all + backgrounds};
 }
 
-// visit(x, y) for the pixels of a block.
+// Calls visit(x, y) for the pixels of a block.
 template <typename Visit>
 void for_each_pixel(const BlockedSamples &samples, const Windows &windows, std::size_t block,
                     const Visit &visit) {

@@ -1,5 +1,5 @@
-// The samples of an LDI as the lens gather wants them: structure of arrays, in blocks of neighbouring pixels
-// whose bounds tell at once which lens points bring none of their samples into a tile.
+// The samples of an LDI as the lens gather needs them: a structure of arrays, in blocks of neighbouring pixels whose
+// bounds tell at once which lens points bring none of their samples into a tile.
 #pragma once
 
 #include "base/coverage.h"
@@ -22,27 +22,29 @@ struct SampleBlock {
     std::uint32_t begin, opaque_end, end; // opaque samples, then those of partial coverage
     float x_min, x_max, y_min, y_max;     // of the samples' centres, pixels
     float coc_min, coc_max;               // pixels, signed
-    float coc_shown;                      // the largest, without its sign, of what is no background
+    float coc_shown;                      // the largest, without its sign, except of backgrounds
     float coc_least;                      // the smallest, without its sign
-    bool shows_opaque;                    // whether anything opaque is no background
+    bool shows_opaque;                    // whether it has opaque samples other than backgrounds
     bool shows_images;                    // whether any sample is_image()
-    bool has_background;                  // whether any sample is one
+    bool has_background;                  // whether any sample is a background
     float depth_min, depth_max;           // perceptive, pixels: of the farthest sample and the nearest
 };
 
 struct BlockedSamples {
-    // One entry a sample, and the backgrounds, opaque, with no colour and no alpha. A pixel that lets light through
-    // to infinity has one there; and if it has samples, one at its last sample's place (though behind all else):
-    // whoever sees that sample sees through it, also where what lies at infinity behind it is not known.
+    // One entry per sample and per background. Backgrounds are opaque, and have no colour and no alpha. A pixel that
+    // lets light through to infinity has a background there. If it has samples, it has another one at the position of
+    // its last sample, but behind everything else: a lens point that sees that sample sees through it, even if what
+    // lies behind it at infinity is not known.
     LargeArray<float> x, y; // centre, pixels, relative to the data window's corner, y down
     LargeArray<float> coc;  // signed radius, pixels
-    // Where an opaque sample shows an image (Ldi::optical), coc is that of the image, by which its colour moves. This is the
-    // one of the surface, by which it is decided where the mirror is seen at all. Empty where there are no images.
+    // If an opaque sample shows an image (Ldi::optical), `coc` is the CoC of the image, by which its colour moves.
+    // `surface_coc` is the CoC of the surface, which decides where the mirror is seen at all. Empty if there are no
+    // images.
     LargeArray<float> surface_coc;
     LargeArray<float> alpha;         // coverage, (0, 1]
     LargeArray<std::uint32_t> upper; // the upper half of the key (kernels/lens_rules.h), which says the depth
-    LargeArray<std::uint32_t>
-        named; // of solids (solid_samples.h): what the lower half of the key names; empty: the sample itself
+    // For solids (solid_samples.h): what the lower half of the key names. Empty: the sample itself.
+    LargeArray<std::uint32_t> named;
     LargeArray<std::uint32_t> source; // index into the LDI's samples; `background` for the background
     static constexpr std::uint32_t background = 0xffffffffu;
 
@@ -58,7 +60,7 @@ struct BlockedSamples {
         return kernels::key_of(upper[i], named.empty() ? std::uint32_t(i) : named[i]);
     }
     bool is_image(std::size_t i) const { return !surface_coc.empty() && surface_coc[i] != coc[i]; }
-    // By which what hides moves.
+    // The CoCs that move what hides other samples.
     const LargeArray<float> &hiding_coc() const { return surface_coc.empty() ? coc : surface_coc; }
 };
 
@@ -66,13 +68,14 @@ inline float largest_coc_of(const SampleBlock &block) {
     return std::max(std::abs(block.coc_min), std::abs(block.coc_max));
 }
 
-// Sets the bounds of a block of `samples`, which has its samples already.
+// Sets the bounds of a block, whose samples are already in `samples`.
 void bound(SampleBlock &block, const BlockedSamples &samples);
 
 // A background lies behind what the LDI has at infinity.
 inline bool is_background(std::uint64_t key) { return kernels::upper_of(key) <= kernels::background_upper; }
 
-// `known`: what an empty pixel is. Throws Error where the LDI has more samples than 32 bits count.
+// `known`: the pixels that are transparent to infinity where nothing covers them. Throws Error if the LDI has more
+// samples than 32 bits count.
 BlockedSamples make_blocks(const Ldi &ldi, const ThinLens &lens, const KnownPixels &known);
 
 // Where the samples of some rows of an LDI are in `samples`. The rows [top, bottom) are those of whole blocks.
@@ -86,7 +89,7 @@ private:
     std::vector<std::uint32_t> places_;
 };
 
-// Where one sample of the LDI is, which that pixel of its data window has.
+// Where one sample of the LDI is in `samples`. `pixel`: the pixel of the data window that has it.
 std::uint32_t place_of(const BlockedSamples &samples, const Ldi &ldi, std::size_t pixel,
                        std::uint64_t sample);
 

@@ -1,4 +1,4 @@
-// Which blocks of all that a scene is made of can reach a tile.
+// Finds the blocks of all parts of a scene that can reach a tile.
 #pragma once
 
 #include "dof/lens/block_finder.h"
@@ -16,7 +16,7 @@ public:
     explicit SceneBlocks(const GatherScene &scene);
 
     // Finds the blocks of the tile [origin, origin + size), relative to the data window's corner like the samples.
-    // `stretched`: by how much lens points are at most.
+    // `stretched`: the largest factor by which lens points are stretched.
     ReachingCocs find(const Imath::V2i &origin, int size, float stretched, TileBlocks &found) const;
     float extent() const { return samples_.extent(); } // of the aperture, for each pixel of CoC
 

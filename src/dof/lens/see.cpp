@@ -17,7 +17,8 @@ namespace {
 
 static_assert(size == 64); // cell_rows.h
 
-// Calls visit(begin, cells) with where a lens point sees the opaque samples of a block, from the one `begin` on, a few at once.
+// Calls visit(begin, cells) for the opaque samples of a block, a few at once. `cells`: where the lens point sees the
+// samples from `begin` on.
 template <typename Visit>
 [[gnu::always_inline]] inline void for_opaque(const TileProjection &projection, const BlockedSamples &samples,
                                               std::span<const float> coc, const SampleBlock &block,
@@ -48,8 +49,8 @@ See::See(const GatherScene &scene, const TileTask &tile) : scene_(scene), tile_(
     seen_.partial_cells.resize(seen_.partial.count());
 }
 
-// The steps. What shows through cracks is seen last: a crack lies between what the lens point meets, and others and fillers
-// behind it.
+// The steps of a lens point. Cracks are closed last, because finding them needs the samples and fillers of the earlier
+// steps.
 const Seen &See::through(const LensSample &point) {
     see_columns(point);
     see_opaque(point, scene_.samples, bounds_, everywhere(), seen_.front);
@@ -67,7 +68,7 @@ const Seen &See::through(const LensSample &point) {
     return seen_;
 }
 
-// Whether a lens point may see something so far behind another that a crack can lie between them.
+// Whether a lens point may see something so far behind something else that a crack can lie between.
 bool See::is_deep() const {
     if (!tile_.facets.empty() || !tile_.solids.empty()) return true;
     float nearest = 0, farthest = std::numeric_limits<float>::infinity();
@@ -86,7 +87,7 @@ TileProjection See::projection(const LensSample &point) const {
 }
 
 void See::see_columns(const LensSample &point) {
-    if (!scene_.cat_eye()) return; // all, as they are
+    if (!scene_.cat_eye()) return; // all pixels see through it, as set already
     const Imath::V2i first = scene_.held_out.corner + tile_.origin;
     for (int y = 0; y < tile_.size; ++y)
         seen_.columns[std::size_t(y)] = scene_.cat_eye()->columns(point, first.x, tile_.size, first.y + y);
@@ -97,7 +98,7 @@ BlockBounds::Box See::box_of(const Cells &cells) const {
     return {x + float(cells.left), x + float(cells.right), y + float(cells.top), y + float(cells.bottom)};
 }
 
-// The nearest opaque one in each of some cells.
+// Finds the nearest opaque sample in each of some cells.
 void See::see_opaque(const LensSample &point, const BlockedSamples &samples, BlockBounds &bounds,
                      const Cells &seen, std::vector<std::uint64_t> &front) const {
     std::fill(&front[at(-border, seen.top)], &front[at(-border, seen.bottom)], 0);
@@ -113,14 +114,14 @@ void See::see_opaque(const LensSample &point, const BlockedSamples &samples, Blo
                    });
 }
 
-// What lies between the samples of steep surfaces.
+// Draws facets, which close steep surfaces between their samples.
 void See::see_facets(const LensSample &point) {
     const FacetGrid grid{float(tile_.origin.x) - (border - 1), float(tile_.origin.y) - (border - 1), stride,
                          tile_.size + 2 * (border - 1)};
     draw_facets(scene_.facets, tile_.facets, point, grid, seen_.front);
 }
 
-// What is solid hides what lies behind it (solid_samples.h).
+// Solids hide what lies behind them (solid_samples.h).
 void See::see_solids(const LensSample &point) {
     if (tile_.solids.empty()) return;
     const BlockedSamples &solids = scene_.solids;
@@ -135,7 +136,7 @@ void See::see_solids(const LensSample &point) {
                    });
 }
 
-// Finds the images of mirrors and glass, which show through the window that the surface is.
+// Finds the images that mirrors and glass show. An image shows only where its surface is seen.
 void See::see_images(const LensSample &point) {
     seen_.images.clear();
     const auto shows_images = [&](std::uint32_t b) { return scene_.samples.blocks[b].shows_images; };
@@ -162,7 +163,7 @@ void See::find_images(const TileProjection &projection, const SampleBlock &block
                });
 }
 
-// The key of the sample that shows what is seen of the front one in a cell.
+// Returns the key of the sample whose image shows in a cell; else the key of the front sample.
 std::uint64_t See::image_at(std::size_t cell) const {
     const BlockedSamples &samples = scene_.samples;
     const std::uint64_t front = seen_.front[cell];
@@ -195,7 +196,8 @@ void See::find_cracks() {
     });
 }
 
-// Cracks of surfaces so even that cells seldom stay empty between their samples, and others show what is far behind.
+// Finds cracks in cells that are not empty: in even surfaces, cells between samples seldom stay empty, and show what is
+// far behind instead.
 void See::find_cracks_before_others() {
     if (!is_deep_) return;
     depths_of(std::span(seen_.front).first(at(-border, tile_.size + 1)), depths_.data());
@@ -211,7 +213,7 @@ void See::find_cracks_before_others() {
     }
 }
 
-// The sample that shows through a crack at a cell, as a key; 0: there is no crack.
+// Returns the key of the sample that shows through a crack at a cell; 0: there is no crack.
 std::uint64_t See::torn_at(std::size_t cell) const {
     const std::uint64_t behind = kernels::behind_crack(seen_.front[cell]);
     const BlockedSamples &samples = scene_.samples;
@@ -231,7 +233,7 @@ std::uint64_t See::torn_at(std::size_t cell) const {
     return farthest;
 }
 
-// The fillers of empty cells, and of them those that show.
+// Finds the fillers of empty cells, and drops those that are hidden.
 void See::see_fillers(const LensSample &point) {
     std::uint64_t columns = 0;
     Cells box{0, tile_.size, 0, 0};
@@ -252,7 +254,7 @@ void See::see_fillers(const LensSample &point) {
     });
 }
 
-// Whether what lies at that depth is behind something in a cell, also where a surface is torn there.
+// Whether something at this depth is behind what a cell shows, or behind a surface that is torn there.
 bool See::hides(std::size_t cell, float depth) const {
     const std::uint64_t limit = kernels::hiding_key(depth);
     const auto front = [&](std::size_t c) { return seen_.front[c] > limit; };

@@ -1,8 +1,8 @@
 // What one point of the lens sees of a tile.
 //
-// Through it, the picture is one like any other: each sample is a square one pixel wide and high, moved by its circle of
-// confusion, and the nearest opaque one hides what is behind it. lens_gather_reference.h says the same slowly, and what
-// cracks and fillers are.
+// Through a lens point, each sample is a square one pixel wide and high, moved by its circle of confusion, and the
+// nearest opaque sample hides what is behind it. lens_gather_reference.h does the same slowly, and says what cracks and
+// fillers are.
 #pragma once
 
 #include "dof/device/tile_device.h"
@@ -23,7 +23,8 @@
 
 namespace sparselens {
 
-// The cells of a tile: its pixels, a border of one pixel, and one of cells that take what falls outside of that.
+// The cells of a tile: its pixels, a border of one pixel around them, and a border of cells that take what falls
+// outside of both.
 namespace tile_cells {
 using lens_kernel::border, lens_kernel::tile_stride;
 constexpr int size = lens_tile_size, stride = tile_stride;
@@ -34,25 +35,25 @@ constexpr int column(std::size_t cell) { return int(cell) % stride - border; }
 constexpr int row(std::size_t cell) { return int(cell) / stride - border; }
 } // namespace tile_cells
 
-// Keys name samples by their lower half: those of the picture, or the fillers.
+// The lower half of a key names a sample of the picture, or a filler.
 struct Seen {
     Imath::V2i origin;           // the tile's first pixel, relative to the data window's corner
-    int rows = tile_cells::size; // of pixels that are asked for, from there
+    int rows = tile_cells::size; // rows of pixels that are asked for, from `origin` on
     PartialSamples partial;
     // State of one lens point:
     std::array<CatEye::Columns, tile_cells::size> columns; // [row]: the pixels that see through it
     // [cell]: key of the nearest opaque sample, or of one that shows through a crack; 0: none
     std::vector<std::uint64_t> front;
-    // [cell]: the same, with that of what mirrors and glass show; empty: there are none
+    // [cell]: the same, but with the keys of what mirrors and glass show; empty: there are none
     std::vector<std::uint64_t> images;
-    // [row]: of these pixels those where there is none, bit by bit
+    // [row]: a bit for each of these pixels: whether it has no key in `front`
     std::array<std::uint64_t, tile_cells::size> empty;
-    std::vector<std::uint64_t> filler; // [cell], where it is empty: key of the filler that shows; 0: unknown
-    // where each of the partial samples lies, before or behind `front`
+    std::vector<std::uint64_t> filler; // [cell], if it is empty: key of the filler that shows; 0: unknown
+    // the cell of each partial sample, which may lie in front of `front` or behind it
     std::vector<std::int32_t> partial_cells;
 
     const std::vector<std::uint64_t> &shown() const { return images.empty() ? front : images; }
-    // visit(cell); it may fill that.
+    // Calls visit(cell) for each empty cell; visit may fill it.
     template <typename Visit>
     void for_each_empty(const Visit &visit) const {
         for (int y = 0; y < rows; ++y)
@@ -66,7 +67,7 @@ struct Seen {
 
 class See {
 public:
-    // Looks at a tile. Both stay as they are meanwhile.
+    // Looks at a tile. `scene` and `tile` must not change meanwhile.
     See(const GatherScene &scene, const TileTask &tile);
 
     // Before any lens point: the tile, and its partial samples.
@@ -75,7 +76,7 @@ public:
     const Seen &through(const LensSample &point);
 
 private:
-    struct Cells { // by the pixels of the tile, right and bottom excluded
+    struct Cells { // in pixels of the tile, right and bottom excluded
         int left, top, right, bottom;
     };
     Cells everywhere() const {

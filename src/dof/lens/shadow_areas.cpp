@@ -34,7 +34,7 @@ const NearBounds *ShadowAreas::nearer_than(std::size_t area, float depth) const 
     return steps_[area].nearer_than(depth);
 }
 
-// The step that a depth lies in, and all before it; none before the first.
+// Returns the bits of the step that a depth lies in, and of all steps before it; 0 before the first step.
 std::uint64_t ShadowAreas::BlockDepths::up_to(float depth) const {
     const float step = (depth - farthest) * in_px;
     if (!(step >= 0)) return 0;

@@ -1,5 +1,5 @@
-// Bounds of what may cast shadows on small lamps, by areas of 8 x 8 blocks: most areas cast none on a lamp in a tile, and none
-// of their blocks need be asked.
+// Bounds of what may cast shadows on small lamps, by areas of 8 x 8 blocks. Most areas cast no shadow on a lamp in a
+// tile; their blocks need not be tested.
 #pragma once
 
 #include "dof/footprints/footprint.h"
@@ -22,7 +22,7 @@ class ShadowAreas {
 public:
     static constexpr int size = 8; // blocks an area is wide and high
 
-    // `links`: what joins samples that part (dof/footprints/footprint.h), or null. Both outlive this.
+    // `links`: what joins samples that part (dof/footprints/footprint.h), or null. Both must outlive this.
     ShadowAreas(const BlockedSamples &samples, const Links *links);
 
     std::size_t count() const { return depths_.size(); }
@@ -35,33 +35,36 @@ public:
     // The blocks of an area, ascending.
     std::vector<std::uint32_t> blocks_of(std::size_t area) const;
 
-    // The bounds of the samples of an area nearer than a perceptive depth; null: there are none. Bounds are of their
-    // centres, and of the CoCs of their footprints (dof/footprints/footprint.h), whose edges lie less than a pixel from
-    // the centres. For any thread.
+    // Returns the bounds of the samples of an area that are nearer than a perceptive depth; null: there are none. They
+    // bound the centres of the samples, and the CoCs of their footprints (dof/footprints/footprint.h), whose edges lie
+    // less than a pixel from the centres. May be called by any thread.
     const NearBounds *nearer_than(std::size_t area, float depth) const;
-    // Whether any of it may lie between two perceptive depths.
+    // Whether any sample of an area may lie between two perceptive depths.
     bool lies_between(std::size_t area, float farthest, float nearest) const {
         return depths_[area].nearest > farthest && depths_[area].farthest <= nearest;
     }
 
-    // The CoCs that footprints of the samples of an area may have which lie between two perceptive depths; of an area that nearer_than()
-    // was asked of. Of two samples the nearer one has the lesser CoC, by what their depths differ: but for a bent field.
+    // Returns the CoCs that footprints of an area's samples between two perceptive depths may have. nearer_than() must
+    // have been called for the area. The CoCs of two samples differ as their perceptive depths do, and the nearer one
+    // has the smaller CoC, except in a bent field.
     CocRange cocs_between(std::size_t area, float farthest, float nearest) const {
         return {focus_[area].least - nearest, focus_[area].most - farthest};
     }
 
-    // By how much the CoC of an edge may differ from that of its sample in a block, pixels; of an area that nearer_than() was asked of.
+    // By how much, in pixels, the CoC of an edge may differ from the CoC of its sample in a block. nearer_than() must
+    // have been called for the block's area.
     float to_edges(std::uint32_t block) const { return to_edges_[block]; }
 
-    // Whether any sample of a block may lie between two perceptive depths; of an area that nearer_than() was asked of.
+    // Whether any sample of a block may lie between two perceptive depths; nearer_than() must have been called for its
+    // area.
     bool block_lies_between(std::uint32_t block, float farthest, float nearest) const {
         return block_depths_[block].lies_between(farthest, nearest);
     }
 
 private:
-    // At which depths, of 64 from its farthest to its nearest, a block has samples, bit by bit.
+    // A bit for each of 64 steps of depth, from a block's farthest sample to its nearest: whether it has samples there.
     struct BlockDepths {
-        float farthest = 0, in_px = 0; // steps in a pixel
+        float farthest = 0, in_px = 0; // steps per pixel
         std::uint64_t steps = 0;
 
         std::uint64_t up_to(float depth) const;
@@ -83,8 +86,8 @@ private:
     std::vector<Depths> depths_; // [area]
     mutable std::vector<std::once_flag> made_;
     mutable std::vector<NearSteps> steps_; // [area]
-    mutable std::vector<CocRange>
-        focus_; // [area]: of CoC and perceptive depth together, which is that of the focus
+    // [area]: the range of CoC plus perceptive depth, which is the perceptive depth of the focus.
+    mutable std::vector<CocRange> focus_;
     mutable std::vector<BlockDepths> block_depths_;
     mutable std::vector<float> to_edges_; // [block]
 };

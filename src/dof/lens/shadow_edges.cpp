@@ -34,7 +34,7 @@ Imath::Box2f ShadowEdges::shadow() const {
     return box;
 }
 
-// The lamps of a group lie apart, and their CoCs differ: both move an edge, the second by what that changes its magnification.
+// The lamps of a group differ in position and in CoC. Both move an edge; the CoC does so by changing the magnification.
 bool ShadowEdges::may_reach(const ShadowedLamp &group) const {
     const auto spread = float(group.spread), cocs = float(group.cocs);
     const Float4 apart = float(group.lamp.coc) - coc;

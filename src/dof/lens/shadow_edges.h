@@ -1,4 +1,4 @@
-// Where the edges of a thing's shadow lie on a lamp's screen (lens/lamp_shadow.h), all four at once.
+// Where the four edges of a caster's shadow lie on a lamp's screen (lens/lamp_shadow.h).
 #pragma once
 
 #include "base/float4.h"
@@ -13,14 +13,15 @@ struct ShadowEdges {
     // The edges of the footprint, in its order: pixels, except the magnification.
     Float4 coc, magnified, from_lamp, at;
 
-    // `across`, `corner`: as ShadowCasters has them.
+    // `across`, `corner`: as in ShadowCasters.
     ShadowEdges(const ShadowedLamp &lamp, float across, const Imath::V2f &corner, const Footprint &footprint);
 
-    // Whether an edge is as blurred as the lamp, and right before it: it has no shadow.
+    // Whether an edge is as blurred as the lamp and lies directly in front of it; then there is no shadow.
     bool as_blurred() const;
-    // Past an edge that is more blurred than the lamp it is the other way round.
+    // The shadow. If an edge is more blurred than the lamp, the shadow lies on its other side.
     Imath::Box2f shadow() const;
-    // Whether the shadow on some member of a group, whose middle lamp this is, may reach the group's screen.
+    // Whether the shadow on some member of a group may reach the group's screen. This must be the shadow on its middle
+    // lamp.
     bool may_reach(const ShadowedLamp &group) const;
 };
 

@@ -9,7 +9,7 @@ namespace sparselens {
 namespace {
 
 constexpr float wide = lens_tile_size / 2;   // pixels of CoC, from which on a disc reaches several tiles
-constexpr std::size_t all_blocks = 2u << 20; // of all lists: 64 MB
+constexpr std::size_t all_blocks = 2u << 20; // in all lists: 64 MB
 constexpr std::size_t longest_of_many = 64;  // blocks
 
 } // namespace

@@ -1,5 +1,5 @@
-// What may cast shadows on wide discs, found once for all tiles of a picture: a disc reaches many of them, and little of what stands
-// before it is near enough to its light's path.
+// Lists of what may cast shadows on wide discs, made once for all tiles of a picture: a disc reaches many tiles, and
+// few of the blocks in front of it are near enough to its light's path.
 #pragma once
 
 #include "dof/lens/highlights.h"
@@ -19,8 +19,8 @@ public:
     // Lists for groups of highlights among these samples.
     ShadowLists(const Highlights &highlights, const BlockedSamples &samples);
 
-    // The list of the group with that first member: what find() says when it is first asked for, by any thread. Null: its disc is small,
-    // or the list too long to be kept.
+    // Returns the list of the group with this first member. The first call, by any thread, takes it from find(). Null:
+    // the disc of the group is small, or the list is too long to be kept.
     template <typename Find>
     const std::vector<CastingBlock> *of(std::uint32_t first_member, const Find &find) const;
 
@@ -31,7 +31,8 @@ private:
         bool kept = false;
     };
     static constexpr std::uint32_t none = 0xffffffffu;
-    std::vector<std::uint32_t> number_; // [highlight] that is the first of a group: of its list; or none
+    // [highlight]: the number of its group's list if it is the first of the group; or none
+    std::vector<std::uint32_t> number_;
     std::size_t longest_ = 0;
     mutable std::vector<List> lists_;
 };
@@ -43,7 +44,7 @@ const std::vector<CastingBlock> *ShadowLists::of(std::uint32_t first_member, con
     std::call_once(list.found, [&] {
         std::vector<CastingBlock> blocks = find();
         list.kept = blocks.size() <= longest_;
-        if (list.kept) list.blocks = {blocks.begin(), blocks.end()}; // no longer than it is
+        if (list.kept) list.blocks = {blocks.begin(), blocks.end()}; // without spare capacity
     });
     return list.kept ? &list.blocks : nullptr;
 }

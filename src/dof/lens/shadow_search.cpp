@@ -30,7 +30,7 @@ void ShadowSearch::begin(std::span<const std::uint32_t> samples, std::span<const
     add_blocks(3, coarse->solid_blocks);
 }
 
-// In the order of all areas.
+// Adds the blocks in the order of all areas.
 void ShadowSearch::add_blocks(std::size_t set, std::span<const std::uint32_t> blocks) {
     const std::size_t first = by_area_.size();
     std::unordered_map<std::size_t, std::size_t> known;
@@ -49,7 +49,8 @@ float ShadowSearch::far_before(float depth) const {
 
 ShadowSearch::Range ShadowSearch::range_of(const ShadowedLamp &lamp, const ShadowCasters &casters) const {
     if (casters.is_coarse()) return {lamp.far / casters.across, INFINITY};
-    // A surface may lie on both sides of that depth: what is one in a cell casts its shadow at least once.
+    // A surface may lie on both sides of that depth. The margin makes a surface that is one in a cell cast its shadow
+    // at least once.
     return {lamp.depth, lamp.far + GatherTuning::one_cell * cell_px_};
 }
 
@@ -59,12 +60,12 @@ ShadowSearch::Range ShadowSearch::range_of(const ShadowedLamp &lamp, const Shado
     return casters.is_coarse() ? range : Range{lamp.nearer_than(block), range.nearest};
 }
 
-// Whether some lens point may bring one of its samples before the lamp: they come nearer by the difference of their CoCs at most.
-// For what is as blurred as the lamp, whose shadow may be of any size.
+// Whether some lens point may bring one of the block's samples in front of the lamp. They approach by at most the
+// difference of their CoCs. This is for casters as blurred as the lamp, whose shadows may have any size.
 bool ShadowSearch::is_before(const ShadowedLamp &lamp, const ShadowCasters &casters,
                              const NearBounds &block) const {
-    constexpr double of_edge =
-        1; // cells, by which a footprint's edge lies beside its sample, and pixels of their CoCs
+    // Cells: how far a footprint's edge lies beside its sample, and by how much their CoCs differ.
+    constexpr double of_edge = 1;
     const double cell = double(casters.across), coc = lamp.lamp.coc,
                  apart = std::max(coc - cell * double(block.coc_min), cell * double(block.coc_max) - coc);
     const auto reaches = [&](int axis, float from, float to) {
@@ -75,7 +76,7 @@ bool ShadowSearch::is_before(const ShadowedLamp &lamp, const ShadowCasters &cast
     return reaches(0, block.x_min, block.x_max) && reaches(1, block.y_min, block.y_max);
 }
 
-// Where on the screen a shadow may lie of one of its samples, of those that have such a CoC; empty: nowhere.
+// Returns where on the screen the shadow of a sample in these bounds, with a CoC in `cocs`, may lie; empty: nowhere.
 Imath::Box2f ShadowSearch::shadow_of(const ShadowedLamp &asked, const ShadowCasters &casters,
                                      const NearBounds &of, const CocRange &cocs) const {
     const NearBounds block{0,
@@ -110,7 +111,8 @@ Imath::Box2f ShadowSearch::shadow_of(const ShadowedLamp &asked, const ShadowCast
     return reach(0, block.x_min, block.x_max) && reach(1, block.y_min, block.y_max) ? shadow : Imath::Box2f();
 }
 
-// The CoCs of those of an area that may cast a shadow; none: none does. Asked before its blocks are.
+// Returns the CoCs of the samples of an area that may cast a shadow; none if none may. Must be called before the area's
+// blocks are tested.
 std::optional<CocRange> ShadowSearch::cocs_of(const ShadowedLamp &lamp, std::size_t set,
                                               std::size_t area) const {
     const ShadowCasters &casters = casters_[set];
@@ -130,7 +132,8 @@ std::optional<CastingBlock> ShadowSearch::casting(const ShadowedLamp &lamp, std:
     const SampleBlock &block = samples.blocks[b];
     const auto [farthest, nearest] = range_of(lamp, casters, block);
     if (!footprints.areas().block_lies_between(b, farthest, nearest)) return {};
-    // shadow_of() knows of what lies half a pixel beside a sample: more is of steep surfaces.
+    // shadow_of() allows for edges whose CoC differs from the sample's by half a pixel. On steep surfaces it differs by
+    // more.
     const float steep = footprints.areas().to_edges(b) - torn_px / 2;
     const NearBounds all{0,           block.x_min,           block.x_max,          block.y_min,
                          block.y_max, block.coc_min - steep, block.coc_max + steep};

@@ -1,6 +1,7 @@
-// Which blocks of samples may cast a shadow on a lamp (highlight_shadows.h).
+// Finds the blocks of samples that may cast a shadow on a lamp (highlight_shadows.h).
 //
-// They are found by bounds: of areas of blocks (shadow_areas.h), of blocks, and of what each of these has nearer than the lamp.
+// It compares bounds: of areas of blocks (shadow_areas.h), of blocks, and of what each of these has nearer than the
+// lamp.
 #pragma once
 
 #include "dof/lens/block_footprints.h"
@@ -19,18 +20,20 @@
 
 namespace sparselens {
 
-// Where shadows are cast: a thing at x' of CoC c' lies there at middle + scale (x' - x) / (c - c').
+// Where shadows are cast. The shadow of a point at x' with CoC c', cast by a lamp at x with CoC c, lies at middle +
+// scale (x' - x) / (c - c').
 struct ShadowScreen {
     Imath::V2d middle, scale;
     Imath::Box2i box;
     bool fine = false; // in cells of the lens, not in pixels
 };
 
-// What casts them: samples of the scene of the highlights, or of a coarse one.
+// What casts shadows: samples of the scene of the highlights, or of a coarse scene.
 struct ShadowCasters {
     const BlockedSamples &samples;
     const BlockFootprints &footprints;
-    // Pixels that a cell of theirs is wide and high; and where their places begin, as pixels of the highlights' scene are counted.
+    // The width and height of one of their cells, and the origin of their positions, in pixels of the highlights'
+    // scene.
     float across = 1;
     Imath::V2f corner = {0, 0};
     bool is_coarse() const { return across > 1; }
@@ -46,14 +49,15 @@ struct CoarseCasters {
 struct ShadowedLamp {
     std::uint32_t sample;
     Lamp lamp;
-    Imath::V2i origin; // that its place and its screen are counted from, relative to the data window's corner
+    Imath::V2i origin; // origin of its position and of its screen, relative to the data window's corner
     ShadowScreen screen;
-    // What is hardly nearer moves hardly, and hides the lamp only if it lies right before it.
+    // A caster only slightly nearer than the lamp, up to the depth `hardly`, has almost no parallax; it counts only if
+    // it covers the lamp directly.
     float depth, hardly;
-    float far; // perceptive depth, pixels: from which on coarse casters cast; infinite: there are none
-    Imath::Box2f place; // of all
-    double spread = 0;  // pixels: of the group around it
-    double cocs = 0;    // pixels: by how much those of the group differ from its own at most
+    float far; // perceptive depth, pixels, from which on coarse casters are used; infinite: there are none
+    Imath::Box2f place; // of all lamps of the group
+    double spread = 0;  // pixels: the radius of the group around it
+    double cocs = 0;    // pixels: by how much the group's CoCs differ from its own at most
 
     bool is_beside(const Imath::Box2f &box) const {
         constexpr float beside = 2; // pixels
@@ -66,31 +70,31 @@ struct ShadowedLamp {
 };
 
 struct CastingBlock {
-    std::uint32_t number, set; // of the casters with that number
+    std::uint32_t number, set; // the block, and the number of its set of casters
     Imath::Box2f shadow;       // where it may lie on the lamp's screen
-    bool apart = false;        // whether each lamp of a group has another shadow of it
+    bool apart = false;        // whether its shadow differs between the lamps of a group
 };
 
 class ShadowSearch {
 public:
     ShadowSearch(const ShadowCasters &samples, const ShadowCasters &solids) : casters_{samples, solids} {}
 
-    // Begins a tile, with the blocks that can reach it. `extent`: of the lens, for each pixel of CoC.
+    // Begins a tile, with the blocks that can reach it. `extent`: of the lens, pixels per pixel of CoC.
     void begin(std::span<const std::uint32_t> samples, std::span<const std::uint32_t> solids,
                const Imath::V2d &extent, const CoarseCasters *coarse);
 
     const ShadowCasters &casters(std::size_t set) const { return casters_[set]; }
-    // Which of a set of casters cast the shadows: those whose perceptive depth, as they count it, lies between these.
+    // The range of perceptive depths, in the pixels of a set of casters, in which its casters cast shadows.
     struct Range {
         float farthest, nearest;
     };
     Range range_of(const ShadowedLamp &lamp, const ShadowCasters &casters) const;
     Range range_of(const ShadowedLamp &lamp, const ShadowCasters &casters, const SampleBlock &block) const;
-    // From which depth on coarse casters cast the shadows on what lies at `depth`.
+    // The perceptive depth from which on coarse casters cast the shadows on a lamp at `depth`.
     float far_before(float depth) const;
 
-    // visit(block) for those that may cast a shadow on the lamp's screen, until it is false: of those that can reach the tile, or
-    // of all. In the same order, set by set.
+    // Calls visit(block), until it returns false, for the blocks that may cast a shadow on the lamp's screen: of the
+    // blocks that can reach the tile, or of all blocks. Both use the same order, set by set.
     template <typename Visit>
     void in_tile(const ShadowedLamp &lamp, const Visit &visit) const;
     template <typename Visit>

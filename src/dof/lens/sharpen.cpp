@@ -14,7 +14,7 @@ namespace sparselens {
 
 namespace {
 
-constexpr int noise_block = 32; // pixels, wide and high, whose noise is one
+constexpr int noise_block = 32; // pixels, wide and high, of a block with one noise level
 
 class Sharpener {
 public:
@@ -23,8 +23,8 @@ public:
           blur_(looks ? &looks->aperture : nullptr) {}
     bool usable() const { return all_found(rgb_); }
 
-    // By which a sample may exchange light with its neighbours.
-    struct Weights { // float: there is one a sample
+    // The weights with which a sample may exchange light with its neighbours.
+    struct Weights { // float, because there is one per sample
         float horizontal, vertical;
         float most; // share of all this that it may give away
         double along(std::size_t neighbour) const { return double(neighbour < 2 ? horizontal : vertical); }
@@ -34,18 +34,18 @@ public:
         std::uint64_t first; // sample
         std::vector<Weights> weights;
         std::vector<SurfaceNeighbours> neighbours; // of those that have weights
-        std::vector<std::uint32_t> number;         // of a sample's neighbours among these
+        std::vector<std::uint32_t> number;         // [sample]: index of its entry in `neighbours`
         const Weights &of(std::uint64_t sample) const { return weights[sample - first]; }
         const SurfaceNeighbours &beside(std::uint64_t sample) const {
             return neighbours[number[sample - first]];
         }
     };
 
-    // Whether samples of some pixels may have weights: those in columns [x, x + 1) to [last_x, last_x + 1), and rows alike.
+    // Whether samples in the columns x to last_x and the rows y to last_y may have weights.
     bool near_focus(int x, int y, int last_x, int last_y) const;
     void measure_noise();
     Band weigh(int top, int bottom) const; // rows [top, bottom); after measure_noise()
-    // visit(sample, x, y) for the samples of rows [top, bottom) that may have weights, and perhaps for others.
+    // Calls visit(sample, x, y) for the samples of rows [top, bottom) that may have weights, and perhaps for others.
     template <typename Visit>
     void for_each_near_focus(int top, int bottom, const Visit &visit) const;
     // The change of sample i, in the rows of the band: its new value is the sum of the terms.
@@ -76,7 +76,7 @@ private:
     InterpolationBlur blur_;
 };
 
-// Root of the squared second differences of R, G and B along both axes.
+// The root of the sum of the squared second differences of R, G and B along both axes.
 double Sharpener::detail(std::uint64_t i, const SurfaceNeighbours &n) const {
     double sum = 0;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -140,7 +140,7 @@ Sharpener::Seen Sharpener::seen(const MergedSample &place, int x, int y) const {
     return {along, {at.x - std::floor(at.x) - 0.5, at.y - std::floor(at.y) - 0.5}};
 }
 
-// `n` are set where a weight is above 0.
+// Sets `n` if a weight is above 0.
 Sharpener::Weights Sharpener::weights(std::uint64_t i, int x, int y, SurfaceNeighbours &n) const {
     const Seen at = seen(sample_at(ldi_, i), x, y);
     Weights w{float(blur_.horizontal(at.coc.x, at.offset.x)),
@@ -158,7 +158,7 @@ Sharpener::Weights Sharpener::weights(std::uint64_t i, int x, int y, SurfaceNeig
     w.vertical *= float(strength);
     for (const std::size_t k : rgb_) {
         const std::vector<float> &v = ldi_.values[k];
-        double given = 0; // at most, to brighter neighbours: no more than there is
+        double given = 0; // the most that it gives to brighter neighbours, which must not exceed what it has
         for (std::size_t to = 0; to < 4; ++to)
             if (const double shown = n.along(to); shown > 0)
                 given += 0.5 * shown * (w.along(to) + InterpolationBlur::largest_weight) *
@@ -199,7 +199,7 @@ Sharpener::Band Sharpener::weigh(int top, int bottom) const {
     return band;
 }
 
-// The opposite one of the four sides of SurfaceNeighbours.
+// The opposite of one of the four sides of SurfaceNeighbours.
 constexpr std::size_t opposite(std::size_t side) { return side ^ 1; }
 
 std::array<Term, 5> Sharpener::terms(const Band &band, std::uint64_t i) const {
@@ -213,7 +213,8 @@ std::array<Term, 5> Sharpener::terms(const Band &band, std::uint64_t i) const {
         if (n.along(k) == 0) continue;
         const Weights &other = band.of(n.sample[k]);
         if (other.most == 0) continue;
-        // The same for both, so that no light is made or lost; before a wall, it may have a nearer neighbour.
+        // The weight is the same for both, so that no light is made or lost. In front of a wall, the neighbour may have
+        // a nearer neighbour itself.
         const SurfaceNeighbours &back = band.beside(n.sample[k]);
         if (back.sample[opposite(k)] != i) continue;
         const double shown = std::min(n.along(k), back.along(k));

@@ -22,7 +22,7 @@ class Solids {
 public:
     Solids(const Ldi &ldi, const ThinLens &lens) : ldi_(ldi), lens_(lens), alpha_(ldi.alpha()) {}
 
-    // visit(sample, what shows) for the solids of a pixel.
+    // Calls visit(sample, what shows) for the solids of a pixel.
     template <typename Visit>
     void for_each(std::size_t pixel, const Visit &visit) const {
         for (const std::uint64_t i : ldi_.pixel(pixel))
@@ -46,7 +46,7 @@ public:
     Shown shown_by(std::uint64_t i) const { return *shown_of(pixel_of(i), i); }
 
 private:
-    // 1 / z of what is hidden is less; 0: nothing is.
+    // What has a smaller 1 / z is hidden; 0: nothing is.
     double hides_from(std::uint64_t i) const {
         return std::max(1 / double(ldi_.z[i]) - 2 * double(ldi_.solid[i]), 0.0) * (ldi_.solid[i] > 0);
     }

@@ -20,7 +20,8 @@ LensTiles tiles_of(const Windows &windows) {
     return tiles;
 }
 
-// Cells are for who asks for a lens, not for some of its points; a holdout has pixels of its own.
+// Whether tiles may be gathered in cells: not if one lens point or a number of points is asked for, not with a holdout,
+// which has pixels of its own, and not if the field skews.
 bool has_cells(const LensGatherOptions &options, const Optics &optics) {
     return !options.point && options.lens_samples == 0 && !options.holdout && !optics.field.skews();
 }
@@ -86,7 +87,7 @@ PlannedTile TilePlan::place_of(std::size_t number) const {
     return {number, t, {part, part + Imath::V2i(part_size - 1)}, picture_.data.min + corner * lens_tile_size};
 }
 
-// Finds its blocks, too. None where nothing is out of focus, or not asked for.
+// Also finds the blocks of the tile. Returns nothing if the tile is in focus or not asked for.
 std::optional<TilePlan::Blur> TilePlan::blur_of(PlannedTile &tile) const {
     const Imath::Box2i pixels(tile.first, tile.first + Imath::V2i(lens_tile_size - 1));
     if (options_.region && !options_.region->intersects(pixels)) return {};
@@ -101,7 +102,7 @@ std::optional<TilePlan::Blur> TilePlan::blur_of(PlannedTile &tile) const {
                                           lens_tile_size + 2 * beside, steepest, tile.blocks);
     const float largest = cocs.largest * optics_.widest() + float(displaced);
     if (largest < GatherTuning::in_focus_px && !optics_.moves()) return {};
-    // The edge of what is transparent would be as coarse as the cells.
+    // The edge of a transparent background would be as coarse as the cells.
     const bool cells = has_cells(options_, optics_) && !cocs.with_background;
     return Blur{largest, steepest,
                 cells ? cell_size_for(cocs.least * optics_.narrowest(), options_.quality) : 1};

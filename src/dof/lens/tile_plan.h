@@ -19,13 +19,13 @@ namespace sparselens {
 struct PlannedTile {
     std::size_t number; // in the plan
     std::size_t tile;   // of the picture
-    Imath::Box2i part;  // of the tile, that is made
-    Imath::V2i first;   // pixel, EXR coordinates
+    Imath::Box2i part;  // of the tile, that is gathered
+    Imath::V2i first;   // pixel of the tile, EXR coordinates
     TileBlocks blocks = {};
     std::span<const LensSample> lens = {};
     const GatherScene *scene = nullptr;  // that it is gathered from
-    std::optional<TileCells> cells = {}; // where that is a coarse one,
-    TileBlocks cell_blocks = {};         // and its blocks
+    std::optional<TileCells> cells = {}; // set if the scene is a coarse one
+    TileBlocks cell_blocks = {};         // the blocks of the coarse scene
     std::vector<LensSample> bent = {};
 
     TileTask task() const;
@@ -33,20 +33,21 @@ struct PlannedTile {
 
 class TilePlan {
 public:
-    // Makes the coarse scenes that tiles ask for. All that is given outlives this.
+    // Makes the coarse scenes that tiles ask for. All arguments must outlive this.
     TilePlan(const GatherScene &scene, const LensGatherOptions &options, const Windows &picture);
 
     const LensTiles &tiles() const { return tiles_; } // none has lens points yet
-    std::size_t count() const;                        // of the plan
-    std::vector<const GatherScene *>
-    scenes() const; // that tiles are gathered from, the one at full size first
-    // Their numbers, from the place outwards that is looked at.
+    std::size_t count() const;                        // tiles of the plan
+    // The scenes that tiles are gathered from, the one at full size first.
+    std::vector<const GatherScene *> scenes() const;
+    // The numbers of the tiles, from the watched pixel outwards if there is a watch.
     std::vector<std::size_t> in_order() const;
-    // None where nothing is out of focus, or not asked for: the flattened LDI is there already. By any thread.
+    // Returns nothing if the tile is in focus or not asked for, because the flattened LDI is already there. May be
+    // called by any thread.
     std::optional<PlannedTile> tile(std::size_t number);
 
 private:
-    // A scene in cells of so many pixels, across and down.
+    // A scene in cells of `across` pixels, across and down.
     struct Level {
         int across;
         std::optional<GatherScene> coarse;
@@ -57,11 +58,11 @@ private:
         Level(const Level &) = delete;
         Level &operator=(const Level &) = delete;
     };
-    // What reaches a tile, pixels.
+    // The blur that reaches a tile, pixels.
     struct Blur {
         float largest; // CoC
         float stretched;
-        int cells; // of the size that is asked for
+        int cells; // size of the cells that it asks for; 1: none
     };
     PlannedTile place_of(std::size_t number) const;
     std::optional<Blur> blur_of(PlannedTile &tile) const;
@@ -72,11 +73,11 @@ private:
     const LensGatherOptions &options_;
     Windows picture_;
     const Optics &optics_ = *scene_.optics;
-    const int parts_ =
-        optics_.field.skews() ? 2 : 1; // of a tile across and down, each with lens points of its own
+    // Parts of a tile, across and down, each with lens points of its own.
+    const int parts_ = optics_.field.skews() ? 2 : 1;
     LensTiles tiles_;
     LensSets sets_;
-    std::list<Level> levels_; // that of full size first
+    std::list<Level> levels_; // the one of full size first
 };
 
 } // namespace sparselens

@@ -11,8 +11,9 @@ namespace {
 
 constexpr float rounding = 1.0f / 64; // pixels: more than any position is off
 
-// Along one axis: 1 where what lies between `least` and `most` (and CoCs between those) may be moved into [from, to); also
-// where an infinite CoC times 0 says nothing.
+// Along one axis: clears the entries of blocks that the lens point cannot move into [from, to), given that their
+// samples lie between `least` and `most`, and their CoCs between those two. An entry stays where an infinite CoC times
+// 0 says nothing.
 #ifndef __SANITIZE_THREAD__
 [[gnu::target_clones("default,avx2")]]
 #endif
@@ -29,8 +30,8 @@ TileProjection::TileProjection(const LensSample &lens, float corner_x, float cor
       shift_x(lens.pixel_x + kernels::shift_of_samples), shift_y(lens.pixel_y + kernels::shift_of_samples),
       stride(row) {}
 
-// Compiled for several instruction sets, as this loop is most of the gather's work; they all give the same. Not
-// under ThreadSanitizer, as the loader chooses among them before that has begun.
+// Compiled for several instruction sets, because this loop is most of the gather's work. All versions give the same
+// results. Not under ThreadSanitizer, because the loader chooses among them before ThreadSanitizer has begun.
 #ifndef __SANITIZE_THREAD__
 [[gnu::target_clones("default,avx2")]]
 #endif
@@ -67,7 +68,7 @@ std::span<const std::uint32_t> BlockBounds::reached(const LensSample &lens, cons
     std::ranges::fill(in_reach_, 1);
     const auto along = [&](const std::vector<float> &least, const std::vector<float> &most, float by,
                            float from, float to) {
-        const bool same = by >= 0; // else what has the largest CoC moves farthest down
+        const bool same = by >= 0; // else the sample with the largest CoC moves farthest down
         find_reached(least.data(), most.data(), (same ? coc_min_ : coc_max_).data(),
                      (same ? coc_max_ : coc_min_).data(), blocks_.size(), by, from - rounding, to + rounding,
                      in_reach_.data());

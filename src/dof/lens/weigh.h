@@ -1,8 +1,9 @@
 // What lens points add to the sums of a tile: the colours of what each sees (see.h), weighted.
 //
-// Samples of partial coverage are composited front to back, as independent coverages, over what is opaque behind them: over a
-// filler where nothing is, and where that is unknown, too, they count by their coverage. How a lens point counts is a type, as
-// most count alike for all channels: `Light` is one of lights.h.
+// Samples of partial coverage are composited front to back, as independent coverages, over the opaque sample behind
+// them; over a filler if there is no opaque sample. If the filler is unknown, too, they count by their coverage.
+// `Light`, one of the types of lights.h, says how a lens point counts. It is a type because most lens points count
+// alike for all channels.
 #pragma once
 
 #include "dof/lens/held_out.h"
@@ -26,21 +27,21 @@ public:
     // Adds what a lens point sees.
     void add(const Seen &seen, const LensSample &point);
 
-    // The mean over the known lens points; past a cat-eye, over those that it lets through, also where it darkens. It is
-    // made of the sums: once, when all lens points are added.
+    // Returns the mean over the known lens points. Past a cat-eye, it is the mean over those that it lets through, even
+    // where it darkens. The sums are overwritten: call this once, when all lens points are added.
     TilePicture picture();
 
 private:
-    // What is opaque in a cell, a filler included.
+    // The opaque sample or the filler of a cell.
     struct Opaque {
-        const float *colours; // the first group; none where it is unknown
+        const float *colours; // the first group; null if unknown
         std::size_t group_step, side;
 
         Float4 colour(std::size_t group) const { return load4(colours + group * group_step); }
     };
     Opaque opaque_at(const Seen &seen, std::size_t cell) const;
     std::size_t side_of(std::uint64_t key) const;
-    // How much the holdout lets pass of light from that depth, and of the light of the opaque sample there.
+    // The share of light that passes the holdout: from this depth, and from the opaque sample of the cell.
     float passes(const Seen &seen, std::size_t cell, float depth) const;
     float opaque_passes(const Seen &seen, std::size_t cell) const;
     void add_opaque(const Seen &seen);
@@ -60,7 +61,7 @@ private:
     std::vector<float> over_;     // [side][group][cell][4]: their colours
     std::vector<float> in_front_; // [cell]: what those in front of focus hide, if the light has two sides
     std::vector<std::uint32_t> covered_cells_;
-    std::span<const std::uint32_t> covered_; // of those: where there are any
+    std::span<const std::uint32_t> covered_; // the part in use: cells with partial samples
     // Sums over all lens points so far:
     std::vector<float> sums_;  // [group][pixel][4]
     std::vector<float> known_; // [group][pixel], of the picture

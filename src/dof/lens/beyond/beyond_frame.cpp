@@ -98,7 +98,7 @@ private:
     static void add_all(const SampleRange &samples, Pixel &to) {
         for (const std::uint64_t i : samples) to.push_back({std::uint32_t(i), 1.0f});
     }
-    // What lies there, beside the frame. Returns whether that lets light through to infinity.
+    // Finds what lies at a pixel beside the frame. Returns whether the pixel lets light through to infinity.
     bool go_on(const Imath::V2i &at, Pixel &pixel) const {
         const bool across = at.x < known_.min.x || at.x > known_.max.x;
         const Side side =
@@ -116,12 +116,12 @@ private:
         const SampleRange own = border_.samples(at);
         add_all(own, pixel);
         if (border_.closed(own)) return border.open;
-        const double shown = looked_[side] ? n - 0.5 : sky; // what is no farther
+        const double shown = looked_[side] ? n - 0.5 : sky; // views showed all that is nearer
         for (const Leaving &l : border.leaving)
             if (l.from < n && l.depth < shown) pixel.push_back({l.sample, l.light(n)});
         return border.open;
     }
-    // Samples both above or below and beside it are one surface.
+    // Samples continue if they are one surface both above or below the frame and beside it.
     bool go_on_past_corner(const Imath::V2i &at, const Imath::V2i &nearest, Pixel &pixel) const {
         Pixel above, beside;
         const bool open = go_on({nearest.x, at.y}, above);
@@ -143,8 +143,8 @@ private:
     Border border_;
     Imath::Box2i grown_;
     Windows windows_;
-    std::array<std::vector<BorderPixel>, 4> sides_; // along the known part's sides
-    std::array<bool, 4> looked_{};                  // past it, rim views
+    std::array<std::vector<BorderPixel>, 4> sides_; // along the sides of the known part
+    std::array<bool, 4> looked_{};                  // whether rim views looked past the side
     Picked picked_;
 };
 

@@ -16,7 +16,8 @@ namespace {
 
 constexpr double sky = std::numeric_limits<double>::infinity();
 
-// How far a disc reaches beyond a line that cuts it that wide, if it is as wide as `inner` so far within.
+// How far a disc reaches beyond a line that cuts it over a length of `width`, if it is `inner` wide at a distance of
+// `within` inside the line.
 float disc_beyond(double width, double inner, double within) {
     const double half = width / 2, inner_half = inner / 2;
     // half^2 + y^2 == inner_half^2 + (y - within)^2
@@ -89,27 +90,28 @@ std::vector<Leaving> Border::leaving(const Line &line, int i, float level, bool 
     return found;
 }
 
-// Whether no rim view looked farther at the surface of that sample, n pixels beyond the border; or one more pixel, without
-// seeing it: parallax may tear a surface.
+// Whether no rim view looked farther at the surface of a sample, n pixels beyond the border; or looked only one pixel
+// farther and did not see it, because parallax may tear a surface.
 bool Border::seen_last(std::uint64_t sample, const Line &line, int i, int n) const {
     const double left = shown_until(sample) + 0.5 - n;
     return left < 1 || (left < 2 && !shows(samples(line.pixel(i, n + 1)), depth(sample)));
 }
 
-// The depth of what is opaque in front there; below 0: nothing.
+// The perceptive depth of the front sample of a pixel if it is opaque; else below 0.
 double Border::front(const Imath::V2i &at) const {
     const SampleRange here = samples(at);
     return here.empty() || !is_opaque(alpha_at(ldi_, alpha_, here.front())) ? -1 : depth(here.front());
 }
 
-// Others in front of what is beside them, as near and about as wide, tell how far what is cut off there goes on.
+// Finds how far the surface that the border cuts off continues. Other surfaces of the row that lie in front of what is
+// beside them, as near and about as wide, tell it.
 void Border::find_end(BorderPixel &of, const Line &line, int i) const {
     const double cut = front(line.pixel(i, 0));
     if (cut < 0) return;
     const int inwards = GatherTuning::border_inwards * across_;
     int width = 0, least = inwards;
     double last = cut;
-    bool nearer = true; // the surface at hand, than what is before it
+    bool nearer = true; // whether the current surface is nearer than the one before it
     for (int from = 0, n = 1; n < inwards; ++n) {
         const double here = front(line.pixel(i, -n));
         if (!is_one_surface(here, last)) {
@@ -136,14 +138,14 @@ bool Border::closed(const SampleRange &range) const {
     return !lets_through(transmittance);
 }
 
-// Whether any of these samples is of the surface at that perceptive depth.
+// Whether any of these samples belongs to the surface at that perceptive depth.
 bool Border::shows(const SampleRange &range, double there) const {
     for (const std::uint64_t i : range)
         if (is_one_surface(depth(i), there)) return true;
     return false;
 }
 
-// The brightest of the surface at that perceptive depth.
+// The brightness of the brightest sample of the surface at that perceptive depth.
 float Border::light_at(const Imath::V2i &at, double there) const {
     float most = 0;
     for (const std::uint64_t i : samples(at))
@@ -151,7 +153,7 @@ float Border::light_at(const Imath::V2i &at, double there) const {
     return most;
 }
 
-// How far the disc reaches of which that sample, n pixels beyond the border, shows a part.
+// How far a disc reaches of which a sample, n pixels beyond the border, shows a part.
 float Border::extent(const Line &line, int at, int n, std::uint64_t sample, float level) const {
     const double there = depth(sample);
     const auto light = [&](int i, int row) {
@@ -164,7 +166,7 @@ float Border::extent(const Line &line, int at, int n, std::uint64_t sample, floa
     while (last < at + along && light(last + 1, n) > 0) ++last;
     float most = 0;
     for (int i = first; i <= last; ++i) most = std::max(most, light(i, n));
-    const auto width = [&](int row) { // as if all of it were as bright
+    const auto width = [&](int row) { // if all of it were as bright
         double sum = 0;
         for (int i = 2 * first - last; i <= 2 * last - first; ++i)
             sum += double(std::min(light(i, row) / most, 1.0f));

@@ -1,5 +1,5 @@
-// What leaves the frame at the pixels of its border: which samples, how far the small lights among them, and how far their
-// light reaches.
+// What leaves the frame at the pixels of its border: which samples, how far the small lights among them continue, and
+// how far their light reaches.
 #pragma once
 
 #include "deep/ldi.h"
@@ -15,17 +15,17 @@
 
 namespace sparselens {
 
-// By perceptive depth.
+// Whether two perceptive depths belong to one surface.
 inline bool is_one_surface(double a, double b) {
     return kernels::is_one_surface<double>(a, b, one_surface_px);
 }
 
-// A sample that goes on beyond the frame.
+// A sample that continues beyond the frame.
 struct Leaving {
     std::uint32_t sample;
-    double depth; // perceptive, pixels, of the lens from whose rim views looked
+    double depth; // perceptive, in pixels of the lens from whose rim views looked
     int from;     // where it was seen last: pixels beyond the border
-    float extent; // beyond that, pixels, of the small light that it is part of; infinite for all else
+    float extent; // how far beyond that its small light reaches, pixels; infinite for all else
 
     // How much of its light goes on n pixels beyond the border.
     float light(int n) const {
@@ -38,24 +38,26 @@ struct Leaving {
 struct BorderPixel {
     std::vector<Leaving> leaving;
     bool open = true; // lets light through to infinity
-    // What is in front there ends so many pixels beyond the border; what lies behind it, that many pixels within, goes on.
+    // The surface in front ends `ends` pixels beyond the border. Beyond its end continues what lies behind it, `behind`
+    // pixels within the border.
     int ends = std::numeric_limits<int>::max(), behind = 0;
 };
 
 class Border {
 public:
-    // `across`: pixels, across and down, that become one of the picture, which distances are counted in. `views_radius`: scene
-    // units, of the lens from whose rim views looked; 0: of this lens.
+    // `across`: pixels, across and down, that become one pixel of the picture, in which distances are counted.
+    // `views_radius`: the radius of the lens from whose rim views looked, scene units; 0: the radius of `lens`.
     Border(const Ldi &ldi, const ThinLens &lens, const LensLooks &looks, int across, double views_radius = 0);
 
-    // How far its light reaches.
+    // How far the light of a pixel reaches, in x and y, pixels.
     Imath::V2d reach(const Imath::V2i &at) const;
-    // How far right and down lies what the magnified picture shows there.
+    // How far to the right and down lies what the magnified picture shows at a pixel.
     Imath::V2d shown_beside(const Imath::V2i &at) const;
-    // All of a side: from a pixel on, along `step`; `out` is away from the frame. `looked`: rim views looked past it.
+    // Returns the pixels of a side: `count` pixels from `first` on, along `step`; `out` points away from the frame.
+    // `looked`: whether rim views looked past this side.
     std::vector<BorderPixel> side(const Imath::V2i &first, const Imath::V2i &step, const Imath::V2i &out,
                                   int count, bool looked) const;
-    // Whether samples of that pixel leave no light.
+    // Whether these samples of a pixel let no light through.
     bool closed(const SampleRange &range) const;
     SampleRange samples(const Imath::V2i &at) const {
         return ldi_.windows.data.intersects(at) ? ldi_.pixel(ldi_.windows.index(at.x, at.y)) : SampleRange{};
@@ -80,7 +82,7 @@ private:
     const Ldi &ldi_;
     const ThinLens &lens_;
     int across_;
-    double wider_; // than this lens, the one from whose rim views looked
+    double wider_; // how many times as wide as this lens the lens is from whose rim views looked
     LightReach light_;
     std::size_t alpha_;
     std::vector<std::size_t> brightness_;

@@ -5,7 +5,7 @@
 
 namespace sparselens {
 
-// visit(x, y), once for each.
+// Calls visit(x, y) once for each of these pixels.
 template <typename Visit>
 void for_each_border_pixel(const Imath::Box2i &box, const Visit &visit) {
     for (int x = box.min.x; x <= box.max.x; ++x) {

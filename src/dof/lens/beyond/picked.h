@@ -1,4 +1,4 @@
-// The LDI of picked samples, and how much of their light is left.
+// Samples picked from an LDI, and how much of their light is left.
 #pragma once
 
 #include "deep/ldi.h"
@@ -19,11 +19,11 @@ struct Picked {
         from.push_back(sample);
     }
     void end_pixel() { begin.push_back(from.size()); }
-    // All that pixels in a row have.
+    // Keeps all samples of `count` consecutive pixels.
     void keep_pixels(const Ldi &of, std::size_t first, std::size_t count);
 };
 
-// The windows of `to`, which may be the same LDI, stay as they are.
+// Puts the picked samples of `of` into `to`, which may be the same LDI. The windows of `to` do not change.
 void pick(const Ldi &of, Picked by, Ldi &to);
 
 } // namespace sparselens
