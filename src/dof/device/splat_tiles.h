@@ -1,4 +1,5 @@
-// What the selective gather asks of a device: tiles of pixels, and the blocks of splats that each tile visits.
+// The work that the selective gather gives to a device: tiles of pixels, and the blocks of splats that each tile
+// visits.
 #pragma once
 
 #include <Imath/ImathBox.h>

@@ -1,5 +1,5 @@
-// What the lens gather prepares from an LDI, for one lens and its looks, before the first tile. All tiles are gathered
-// from it, on the CPU and on a device.
+// The data that the lens gather prepares from an LDI, for one lens and its looks, before the first tile. All tiles are
+// gathered from it, on the CPU and on a device.
 #pragma once
 
 #include "dof/facets/known_pixels.h"

@@ -20,7 +20,7 @@ int group_size(float coc) {
     return size;
 }
 
-// What samples of one group have in common.
+// The values that the samples of one group have in common.
 auto group_of(const BlockedSamples &samples, std::uint32_t i) {
     const int size = group_size(samples.coc[i]);
     const auto cell = [&](float v, double step) { return std::int64_t(std::floor(double(v) / step)); };

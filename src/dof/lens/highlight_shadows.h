@@ -10,7 +10,8 @@
 // The pixels of one lamp share the shadows that are nearly the same for all of them, so that a lamp of more pixels
 // costs no more. On two pixels of a lamp that are w apart, the shadows of one caster are (1 - m) w apart, with m as in
 // lamp_shadow.h. If that is at most a fiftieth of the disc's radius, the members of a group (highlight_groups.h) use
-// the shadow on the member in their middle. The shadows of casters nearer to the lamp are cast for each member.
+// the shadow on the member in their middle. The shadows of casters that are closer to the lamp in depth are cast for
+// each member.
 //
 // In a tile that is gathered in cells (cells.h), the samples of the coarse scene cast the shadows of what lies far in
 // front of the lamp, where the shadow of a cell is at most a sixteenth of the disc's radius wide.

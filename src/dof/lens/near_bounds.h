@@ -1,4 +1,4 @@
-// Bounds of those of many samples that are nearer than some depth. Beyond these bounds, nothing casts a shadow on a
+// Bounds of the samples, among many, that are nearer than some depth. Samples outside these bounds cast no shadow on a
 // lamp.
 #pragma once
 

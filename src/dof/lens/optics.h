@@ -1,5 +1,4 @@
-// What the looks make of the lens: an aperture, a plane of focus that may be bent, a picture that may be magnified or
-// darkened.
+// The lens with its looks: an aperture, a plane of focus that may be bent, a picture that may be magnified or darkened.
 #pragma once
 
 #include "base/image.h"

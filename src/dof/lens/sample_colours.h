@@ -16,7 +16,7 @@
 
 namespace sparselens {
 
-// What a channel is to a lens that treats colours differently; one bit each, so that they make sets.
+// The kind of a channel, for a lens that treats colours differently; one bit each, so that kinds form sets.
 enum ColourSet : std::uint8_t {
     red = kernels::is_red,
     green = kernels::is_green,

@@ -1,4 +1,4 @@
-// What one point of the lens sees of a tile.
+// Finds what one point of the lens sees of a tile.
 //
 // Through a lens point, each sample is a square one pixel wide and high, moved by its circle of confusion, and the
 // nearest opaque sample hides what is behind it. lens_gather_reference.h does the same slowly, and says what cracks and

@@ -1,4 +1,4 @@
-// Where the four edges of a caster's shadow lie on a lamp's screen (lens/lamp_shadow.h).
+// Finds where the four edges of a caster's shadow lie on a lamp's screen (lens/lamp_shadow.h).
 #pragma once
 
 #include "base/float4.h"

@@ -20,15 +20,15 @@
 
 namespace sparselens {
 
-// Where shadows are cast. The shadow of a point at x' with CoC c', cast by a lamp at x with CoC c, lies at middle +
-// scale (x' - x) / (c - c').
+// A screen on which shadows are cast. The shadow of a point at x' with CoC c', cast by a lamp at x with CoC c, lies at
+// middle + scale (x' - x) / (c - c').
 struct ShadowScreen {
     Imath::V2d middle, scale;
     Imath::Box2i box;
     bool fine = false; // in cells of the lens, not in pixels
 };
 
-// What casts shadows: samples of the scene of the highlights, or of a coarse scene.
+// The samples that cast shadows: of the scene of the highlights, or of a coarse scene.
 struct ShadowCasters {
     const BlockedSamples &samples;
     const BlockFootprints &footprints;

@@ -46,7 +46,7 @@ public:
     Shown shown_by(std::uint64_t i) const { return *shown_of(pixel_of(i), i); }
 
 private:
-    // What has a smaller 1 / z is hidden; 0: nothing is.
+    // Samples with a smaller 1 / z are hidden; 0: none are.
     double hides_from(std::uint64_t i) const {
         return std::max(1 / double(ldi_.z[i]) - 2 * double(ldi_.solid[i]), 0.0) * (ldi_.solid[i] > 0);
     }

@@ -1,4 +1,5 @@
-// Where a lens point sees samples: the cells of a square grid that they fall in, moved by their circles of confusion.
+// Finds where a lens point sees samples: in which cells of a square grid they fall, moved by their circles of
+// confusion.
 #pragma once
 
 #include "dof/lens/sample_blocks.h"

@@ -1,4 +1,4 @@
-// What lens points add to the sums of a tile: the colours of what each sees (see.h), weighted.
+// Adds what lens points see (see.h), weighted, to the sums of a tile.
 //
 // Samples of partial coverage are composited front to back, as independent coverages, over the opaque sample behind
 // them; over a filler if there is no opaque sample. If the filler is unknown, too, they count by their coverage.

@@ -103,8 +103,8 @@ double Border::front(const Imath::V2i &at) const {
     return here.empty() || !is_opaque(alpha_at(ldi_, alpha_, here.front())) ? -1 : depth(here.front());
 }
 
-// Finds how far the surface that the border cuts off continues. Other surfaces of the row that lie in front of what is
-// beside them, as near and about as wide, tell it.
+// Finds how far the surface that the border cuts off continues. It is judged by other surfaces of the row that lie in
+// front of their surroundings, are as near, and are about as wide.
 void Border::find_end(BorderPixel &of, const Line &line, int i) const {
     const double cut = front(line.pixel(i, 0));
     if (cut < 0) return;
@@ -166,7 +166,7 @@ float Border::extent(const Line &line, int at, int n, std::uint64_t sample, floa
     while (last < at + along && light(last + 1, n) > 0) ++last;
     float most = 0;
     for (int i = first; i <= last; ++i) most = std::max(most, light(i, n));
-    const auto width = [&](int row) { // if all of it were as bright
+    const auto width = [&](int row) { // the width if all of it were as bright
         double sum = 0;
         for (int i = 2 * first - last; i <= 2 * last - first; ++i)
             sum += double(std::min(light(i, row) / most, 1.0f));

@@ -1,5 +1,5 @@
-// What leaves the frame at the pixels of its border: which samples, how far the small lights among them continue, and
-// how far their light reaches.
+// Finds what leaves the frame at the pixels of its border: which samples, how far the small lights among them continue,
+// and how far their light reaches.
 #pragma once
 
 #include "deep/ldi.h"
