@@ -3,7 +3,8 @@
 
 namespace sparselens::kernels {
 
-// Signed, pixels. `scale`: R F. A focus or a depth at infinity is told apart, as a quotient of infinities is nothing.
+// Returns the signed CoC, pixels. `scale`: R F. An infinite focus and an infinite depth are passed as flags, because a
+// quotient of infinities is not a number.
 inline double coc_of(double scale, double focus, bool focus_at_infinity, double z, bool z_at_infinity) {
     if (focus_at_infinity) return -scale / z;
     if (z_at_infinity) return scale / focus;

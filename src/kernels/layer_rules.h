@@ -1,11 +1,12 @@
-// How what is spread over a pixel becomes its colour: bins of depth become layers, and layers the picture (dof/selective/blend.h).
+// How the splats over a pixel become its colour: depth bins become layers, and layers become the picture
+// (dof/selective/blend.h).
 #pragma once
 
 #include "kernels/psf_rules.h"
 
 namespace sparselens::kernels {
 
-// A bin of which less is known has nothing but what rounding left at a disc's edge.
+// A bin with a smaller known sum holds only what rounding left at a disc's edge.
 inline constexpr double least_known = 1e-12;
 
 // Bins that follow each other without a gap are one layer.
@@ -22,9 +23,10 @@ inline double window_share(int x_min, int y_min, int x_max, int y_max, double pi
     return area / (pi * radius * radius);
 }
 
-// From back to front: what a layer covers where so much is `known` of it and of what lies behind it.
+// The share of light that a layer takes, going from back to front. `known`: what is known of the layer and of what lies
+// behind it.
 inline double layer_share(double coverage, double known) { return min(1.0, coverage / min(1.0, known)); }
-// Light of it, or coverage, over what lies behind.
+// Composites the light, or the coverage, of a layer over what lies behind it.
 inline double over(double share, double light, double behind) { return share * light + (1 - share) * behind; }
 
 } // namespace sparselens::kernels

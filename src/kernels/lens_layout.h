@@ -11,8 +11,8 @@ using kernels::uint;
 
 inline constexpr uint none = 0xffffffffu;
 inline constexpr int tile_size = 64; // pixels a tile is wide and high
-inline constexpr int border =
-    2; // cells around it: one of pixels next to it, and one for what falls outside of those
+// Cells around a tile: one for the pixels next to it, and one for what falls outside of those.
+inline constexpr int border = 2;
 inline constexpr int tile_stride = tile_size + 2 * border;
 inline constexpr uint threads = 256;              // of a work group, which gathers
 inline constexpr int size = 32;                   // pixels a quarter of a tile is wide and high
@@ -33,8 +33,8 @@ static_assert(sizeof(Block) == 32 && offsetof(Block, coc_max) == 28);
 
 struct Lens {
     float x, y, pixel_x, pixel_y, weight;
-    float red, green, blue, behind, in_front; // by what the weight is multiplied
-    float weight_before;                      // of the tile's lens points before it
+    float red, green, blue, behind, in_front; // factors on the weight
+    float weight_before;                      // sum of the weights of the tile's lens points before it
 };
 static_assert(sizeof(Lens) == 44 && offsetof(Lens, weight_before) == 40);
 
@@ -44,21 +44,22 @@ struct Tile {
     uint fillers, filler_count;        // among the lists of blocks
     uint partial[4], partial_count[4]; // of each quarter, among the lists of partial samples
     uint lens, lens_count;             // among the lens points
-    uint lens_in_pass;                 // so many at most
+    uint lens_in_pass;                 // the largest number of lens points in a pass
     uint facets, facet_count;          // blocks of them, among the lists of blocks
     uint rules;                        // a set of the following
-    uint columns;                      // where those begin that say which pixels see through a lens point
-    uint holdout;                      // where the tile's parts of the holdout begin
-    uint solids, solid_count;          // among the lists of blocks
+    // where the columns begin that say which pixels see through a lens point
+    uint columns;
+    uint holdout;             // where the tile's parts of the holdout begin
+    uint solids, solid_count; // among the lists of blocks
 };
 static_assert(sizeof(Tile) == 96 && offsetof(Tile, lens) == 56 && offsetof(Tile, solid_count) == 92);
 
-inline constexpr uint weighted =
-    1; // lens points weigh differently for colours or sides of the focus, or not all see through
-inline constexpr uint two_sided = 2; // they do for sides of the focus
+// Lens points weigh differently for colours or for sides of the focus, or not all pixels see through them.
+inline constexpr uint weighted = 1;
+inline constexpr uint two_sided = 2; // lens points weigh differently for sides of the focus
 inline constexpr uint images = 4;    // mirrors or glass reach the tile
 inline constexpr uint cat_eye = 8;   // not all pixels see through a lens point
-inline constexpr uint darkens = 16;  // and that takes light from the pixels
+inline constexpr uint darkens = 16;  // and this darkens the pixels
 inline constexpr uint holdout = 32;  // a holdout stays sharp
 
 struct Push {

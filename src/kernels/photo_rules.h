@@ -7,19 +7,19 @@ namespace sparselens::kernels {
 
 inline constexpr int photo_block = 8; // pixels wide and high
 
-// Bounded, so that one bright pixel does not decide for its block.
+// Bounds a value, so that one bright pixel does not decide for its block.
 template <typename Real>
 inline Real bounded(Real v) {
     return v / (1 + abs(v));
 }
 
-// What a block of pixels has shown so far.
+// The sums over the pixels of a block so far.
 struct PhotoBlock {
     double difference, variation; // sums of squares over channels
     double coc;                   // sum of |CoC|
     double pixels;
-    // Of each sample of a rim view and channel: the difference, and how it changes with the depth of the picture, which is
-    // the gradient along the way that the picture moves.
+    // Sums over each sample of a rim view and each channel: of the difference, and of how the difference changes with
+    // the depth of the picture, which is the gradient along the direction in which the picture moves.
     double change2, change_difference, difference2, values;
 };
 
@@ -40,15 +40,15 @@ inline void add_pixel(PhotoBlock &block, double coc) {
 
 inline constexpr double focus_px = 2; // CoC up to which a surface counts as in focus
 
-// By more than noise.
+// Whether views differ by more than noise.
 inline bool views_differ(PhotoBlock block) {
     const double least_ratio = 3;         // noise alone gives up to 1.6, edges of texture up to 2
     const double least_difference = 1e-5; // mean square, tone-mapped: less is not seen
     return block.difference > least_ratio * block.variation + least_difference * block.pixels;
 }
 
-// By how much a depth that is not that of the surface would explain much of the difference, by linear regression; pixels of
-// perceptive depth.
+// By how much another depth than the surface's would explain much of the difference, by linear regression, in pixels of
+// perceptive depth; 0 if it would not.
 inline double explaining_motion(PhotoBlock block) {
     const double least_explained = 0.5; // share of the squared differences; noise alone gives a hundredth
     const double least_change = 1e-5;   // mean square for each pixel of depth: nothing else tells
@@ -57,11 +57,12 @@ inline double explaining_motion(PhotoBlock block) {
     return explained >= least_explained * block.difference2 ? abs(moved) : 0.0;
 }
 
-// What motions of images are counted in, pixels of perceptive depth, where `across` pixels, across and down, become one of the
-// picture. A quarter of it is the least that an image is worth: between opposite views, a quarter of a pixel of the picture.
+// The unit of the motions of images, in pixels of perceptive depth, if `across` pixels, across and down, become one
+// pixel of the picture. An image is worth finding if it moves by at least a quarter of the unit: between opposite
+// views, by a quarter of a pixel of the picture.
 inline double motion_unit(int across) { return across > 2 ? 0.5 * double(across) : 1.0; }
 
-// A set of these.
+// A verdict is a set of these.
 inline constexpr uint may_average = 1, differs_slightly = 2, differs_clearly = 4;
 inline uint photo_verdict(PhotoBlock block, double unit) { // motion_unit()
     const double least_motion = 0.3 * unit;                // pixels of perceptive depth

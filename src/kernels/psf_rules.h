@@ -1,5 +1,5 @@
-// How much of a disc lies in a box or in a part of a pixel (lens/psf.h). The disc is a circle where lengths in y are divided by
-// the pixel aspect; distances are from its centre.
+// How much of a disc lies in a box or in a part of a pixel (lens/psf.h). The disc is a circle where lengths in y are
+// divided by the pixel aspect; distances are from its centre.
 #pragma once
 
 #include "kernels/types.h"
@@ -28,7 +28,7 @@ inline Real signed_quadrant_area(Real radius, Real x, Real y) {
     const Real across = min(abs(x), radius), down = min(abs(y), radius);
     const Real turned = (x < 0) == (y < 0) ? Real(1) : Real(-1);
     if (across * across + down * down <= radius * radius) return turned * across * down;
-    const Real start = half_chord(radius, down); // from there on the arc is what limits it
+    const Real start = half_chord(radius, down); // from there on, the arc limits it
     return turned * (start * down + chord_integral(radius, across) - chord_integral(radius, start));
 }
 
@@ -65,8 +65,8 @@ inline double segment_area(double radius, double chord_squared) {
     return radius * radius * t * sqrt(t) * sum;
 }
 
-// The first cell, and the one after the last, of [low, high) that lie within a distance of `centre`, in part or whole. What is
-// cut off is positive, so that the cast rounds down.
+// The first cell, and the one after the last, of [low, high) that lie within a distance of `centre`, in part or whole.
+// The numbers that are cast are not negative, so that the cast rounds down.
 inline int floor_within(double x, int low, int high) {
     return low + int(max(0.0, min(x - low, double(high - low))));
 }
@@ -77,8 +77,9 @@ inline int end_within(double centre, double distance_, int low, int high) {
     return floor_within(centre + distance_ + 1, low, high);
 }
 
-// The part of a row on one side of the centre's row: between `low` and `high` <= radius, where half the chord is `outer` and
-// `inner`. Columns are full of it from -inner to inner; from there the arc falls from (inner, high) to (outer, low).
+// The part of a row on one side of the centre's row: between `low` and `high` <= radius, where half the chord is
+// `outer` and `inner`. Columns are full of it from -inner to inner; from there the arc falls from (inner, high) to
+// (outer, low).
 struct Band {
     double low, high, outer, inner;
 };
@@ -96,7 +97,7 @@ inline Band band_of(bool is_above, double top, double bottom, double at_top, dou
     return band;
 }
 
-// Between a piece of the arc and the band's lower edge.
+// The area between a piece of the arc and the band's lower edge.
 inline double area_under(double from_x, double from_y, double to_x, double to_y, double low, double radius) {
     const double run = max(0.0, to_x - from_x), fall = from_y - to_y;
     return run * ((from_y + to_y) / 2 - low) + segment_area(radius, run * run + fall * fall);

@@ -18,7 +18,7 @@ inline constexpr int strip_size = 8;          // pixels of a row of the tile
 inline constexpr uint strips = 4;             // a row
 inline constexpr uint edges = uint(size + 1); // of columns, or of rows
 inline constexpr uint bin_sums = 7;           // coverage, known, four colours, known times radius
-inline constexpr uint layer_sums = 6;         // without the last
+inline constexpr uint layer_sums = 6;         // the same without the last one
 static_assert(strips * strip_size == size && strips * size * 2 == threads);
 
 struct Tile {
@@ -34,7 +34,7 @@ struct Piece {
 };
 static_assert(sizeof(Piece) == 16 && offsetof(Piece, block) == 12);
 
-// Bits of what a tile visits; what remains is 4 times the piece.
+// Bits of an entry in a tile's list; the rest of the entry is 4 times the number of the piece.
 inline constexpr uint ends_bin = 1, covers = 2;
 
 struct Push {

@@ -1,5 +1,6 @@
-// Built-in functions of GLSL, for the other headers of this folder. These are written in the common part of C++ and GLSL, and the
-// build turns them into GLSL (cmake/AsGlsl.cmake). Each rule that the CPU and a device both follow stands there once.
+// The built-in functions of GLSL, for the other headers of this folder. Those are written in the common part of C++ and
+// GLSL, and the build turns them into GLSL (cmake/AsGlsl.cmake). Each rule that both the CPU and a device follow is
+// there once.
 #pragma once
 
 #include <algorithm>

@@ -12,14 +12,15 @@ using kernels::uint;
 inline constexpr uint none = 0xffffffffu;
 inline constexpr uint threads = 256; // of a work group
 
-// A prefix sum (warp_scan.comp): numbers of a thread, and those of a work group, which are summed up at once.
+// A prefix sum (warp_scan.comp): how many numbers a thread, and a work group, sums up at once.
 inline constexpr uint scanned = 4, scan_block = threads * scanned;
 
 struct View {
     double unzoom, approach, offset_x, offset_y, step_x, step_y; // ViewMapping
     int min_x, min_y, max_x, max_y;                              // its data window
-    int first_row, rows;                                         // those that are there
-    uint begins;                                                 // where the list of first samples has them
+    int first_row, rows;                                         // the rows that are on the device
+    // where its part of the list of first samples begins
+    uint begins;
     uint unused;
 };
 static_assert(sizeof(View) == 80 && offsetof(View, min_x) == 48 && offsetof(View, begins) == 72);
@@ -29,7 +30,7 @@ struct Frame {
     double motion_unit, unused;                          // of photo_verdict()
     int first_x, first_y, width, height;                 // of the rows
     uint views, samples, channels, alpha;                // alpha: the channel, or `none`
-    uint colours[4];           // red, green and blue, those that are there; their number
+    uint colours[4];           // the channels of red, green and blue that exist; then their number
     uint rules, most_in_pixel; // rules: a set of the following
 };
 static_assert(sizeof(Frame) == 104 && offsetof(Frame, first_x) == 48 && offsetof(Frame, colours) == 80 &&

@@ -1,4 +1,4 @@
-// By which rules views become an LDI (warp/, gpu/warp).
+// The rules by which views become an LDI (warp/, gpu/warp).
 #pragma once
 
 #include "kernels/types.h"
@@ -18,10 +18,12 @@ inline double place_in_view(double p, double offset, double step_, double invers
 // Whether a position lies in pixels `first` to `last`.
 inline bool lies_in(double at, int first, int last) { return at >= first && at < last + 1.0; }
 
-// How much a pixel of a view counts in the mean of what falls into a pixel of the centre view at (dx, dy) from its middle, in
-// pixels. A mean of pixels that lie apart is blurred, hence those near the middle count more.
+// How much a pixel of a view counts in the mean of the pixels that fall into a pixel of the centre view. It lies at
+// (dx, dy) from the middle of that pixel, in pixels. A mean of pixels that lie apart is blurred, so those near the
+// middle count more.
 //
-// A Gaussian: exp(x) = exp(x / 8)^8, and exp(x / 8) by its Taylor series, whose rest is below rounding where -2.8 < x <= 0.
+// A Gaussian: exp(x) = exp(x / 8)^8, and exp(x / 8) by its Taylor series, whose rest is below rounding where -2.8 < x
+// <= 0.
 inline double nearness(double dx, double dy) {
     const double spread = 0.3; // pixels; less is sharper, more averages more noise away
     const double coefficients[14] = {1.0,
@@ -71,15 +73,15 @@ inline void add_offset(Offsets &sums, double weight, double dx, double dy) {
 // The determinant is above 0: the matrix is positive definite.
 inline double balance_x(Offsets s) { return (s.yy * s.x - s.xy * s.y) / (s.xx * s.yy - s.xy * s.xy); }
 inline double balance_y(Offsets s) { return (s.xx * s.y - s.xy * s.x) / (s.xx * s.yy - s.xy * s.xy); }
-// By what a weight is multiplied; none becomes less than a hundredth.
+// The factor on a weight, which is at least a hundredth.
 inline double balanced_share(double dx, double dy, double by_x, double by_y) {
     return max(0.01, 1 - dx * by_x - dy * by_y);
 }
 
-// The mean of the samples of a surface: of positions and 1 / z by weight. The mean of positions belongs to the mean of
-// colours: where colour is linear, nothing is blurred.
+// The mean of the samples of a surface: positions and 1 / z are averaged by weight. The mean of the positions belongs
+// to the mean of the colours, so nothing is blurred where colour is linear.
 struct Mean {
-    double weights, dx, dy, inverse_z; // weights: the sum of those that count in it
+    double weights, dx, dy, inverse_z; // weights: the sum of the weights in it
     double merged;                     // view samples in it
 };
 inline void add_to_mean(Mean &sum, double weight, double merged, double dx, double dy, double inverse_z) {
@@ -95,8 +97,8 @@ inline void divide_mean(Mean &sum) {
     sum.inverse_z /= sum.weights;
 }
 
-// The visibility vote (warp/visibility_vote.h): what a sample covers of what is left of its pixel, and the coverage by the
-// votes of all views.
+// The visibility vote (warp/visibility_vote.h): what a sample covers of what is left of its pixel, and the coverage by
+// the votes of all views.
 inline double covers(double alpha, double left) { return alpha < 0 ? 0.0 : left < alpha ? left : alpha; }
 inline double coverage_by_votes(double there, double past) {
     const double all = there + past, share = 2 * there / all - 0.5;
