@@ -1,4 +1,4 @@
-"""The package sparselens: all but view() is in the compiled module."""
+"""The package sparselens. The compiled module _sparselens has everything except view() and Viewing."""
 try:
     from ._sparselens import *  # noqa: F403: all of it
 except ImportError as error:

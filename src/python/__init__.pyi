@@ -6,12 +6,12 @@
     picture.pixels                                          # float32 (height, width, channels)
     sparselens.write("focus-at-3.4.exr", picture)
 
-Keyword arguments are named as the options of the tools. Pixels are scene-linear, premultiplied by A, in the pixel
+Keyword arguments have the names of the tools' options. Pixels are scene-linear, premultiplied by A, in the pixel
 geometry of OpenEXR: windows are (left, top, right, bottom), the last ones included, y down. Depth z is planar, in scene
-units, above 0, inf where nothing was hit. A value of the lens that no argument gives is taken from the file.
+units, above 0, inf where nothing was hit. A lens value that no argument gives is taken from the file.
 
-Every function that takes long releases the interpreter's lock and ends on Ctrl-C. progress is called with the name of the
-stage and a whole percentage; where it raises, the work ends and the exception is passed on."""
+Every function that takes long releases the interpreter's lock and ends on Ctrl-C. progress is called with the name of
+the stage and a whole percentage; if it raises, the work ends and the exception is passed on."""
 import os
 from typing import Any, Callable, Literal, Mapping, Optional, Sequence, TypedDict, Union
 
@@ -35,10 +35,10 @@ _Progress = Callable[[str, int], object]
 class Error(RuntimeError):
     """A failure of input, output or memory; the message names the file, channel or argument."""
 class UsageError(ValueError):
-    """An argument has a value that it cannot have, or a value that is needed is missing; the message names the argument."""
+    """An argument has an invalid value, or a required value is missing; the message names the argument."""
 
 class Camera:
-    """What a file or the arguments say of the camera and its lens. A value that is unknown is None."""
+    """The camera and its lens, as a file or the arguments state them. An unknown value is None."""
 
     @property
     def focal_length(self) -> Optional[float]:
@@ -63,10 +63,10 @@ class Camera:
         """4 rows of 4 numbers that act on row vectors, as in OpenEXR. Camera space: x right, y up, z forward."""
     @property
     def supersample(self) -> Optional[int]:
-        """Of an LDI and its views: so many pixels, across and down, are one of the picture."""
+        """For an LDI and its views: this many pixels, across and down, become one pixel of the picture."""
     @property
     def lens_points(self) -> list[_Pair]:
-        """Of an LDI: where its views stood, (x, y) in scene units, x right, y up."""
+        """For an LDI: the positions of its views, (x, y) in scene units, x right, y up."""
 
 class _Windows:
     @property
@@ -80,7 +80,7 @@ class _Windows:
         """The pixels that are stored: (left, top, right, bottom), the last ones included, y down."""
     @property
     def display_window(self) -> _Box:
-        """The frame of the camera, as data_window is written."""
+        """The camera's frame, in the same form as data_window."""
     @property
     def pixel_aspect(self) -> float:
         """Width over height of a pixel."""
@@ -101,20 +101,20 @@ class _Image(_Windows):
 class _Opened:
     @property
     def name(self) -> str:
-        """The name of the file, or the one given: for messages."""
+        """The name of the file, or the given name. Messages use it."""
     @property
     def camera(self) -> Camera:
-        """What is known of the camera and the lens."""
+        """What is known about the camera and the lens."""
     @property
     def notes(self) -> list[str]:
-        """What was taken for what in the file."""
+        """Notes on how the contents of the file were interpreted."""
 
 class View(_Image, _Opened):
     """A rendered picture with depth. Its arrays are read-only.
 
-    image: float32 (height, width, channels), as OpenImageIO's ImageBuf.get_pixels() gives it, or (channels, height, width)
-      with layout="chw"; any strides. It is copied once.
-    z: float32 (height, width), in the meaning that depth= says. Without it, the depth is one of the channels.
+    image: float32 (height, width, channels), as OpenImageIO's ImageBuf.get_pixels() gives it, or (channels, height,
+      width) with layout="chw"; any strides. It is copied once.
+    z: float32 (height, width), with the meaning that depth= gives. Without it, one of the channels is the depth.
 
     Keywords:
       channels: the names of the channels (default: R, G, B and, if there are four, A)
@@ -123,11 +123,11 @@ class View(_Image, _Opened):
       world_to_camera: 4 x 4 numbers, instead of position; see Camera
       name: for messages (default: "view")
       data_window, display_window, pixel_aspect (default: (0, 0, width - 1, height - 1) for both, and 1)
-      depth, near, far, depth_channel, unpremultiplied: what depths and colours are, as in open_view
+      depth, near, far, depth_channel, unpremultiplied: what depths and colours mean, as in open_view
       focal_length (mm), sensor_width (mm, spans the display window), fstop (a number, or inf),
       lens_radius (scene units, instead of fstop), focus_distance (scene units, or inf), scene_unit (metres)
 
-    Raises TypeError and UsageError (a ValueError), which name the argument, and Error where most depths are invalid."""
+    Raises TypeError and UsageError (a ValueError), which name the argument, and Error if most depths are invalid."""
 
     def __init__(
         self,
@@ -160,7 +160,7 @@ class View(_Image, _Opened):
         """Planar depth: float32 (height, width), scene units, inf where nothing was hit. No copy."""
     @property
     def position(self) -> Optional[_Pair]:
-        """Where the camera stood, as it was given: (x, y), scene units, x right, y up; or None."""
+        """The position of the camera as it was given: (x, y), scene units, x right, y up; or None."""
 
 class Ldi(_Windows, _Opened):
     """A layered depth image: any number of samples in each pixel, sorted by depth. Its arrays are read-only.
@@ -176,11 +176,12 @@ class Ldi(_Windows, _Opened):
       z_back, dx, dy, weight, optical, solid: float32 (samples), see the properties; dx and dy come together
       name: for messages (default: "ldi")
       data_window, display_window, pixel_aspect, world_to_camera: as in View
-      depth, near, far, unpremultiplied: what z and the colours are, as in open_view
+      depth, near, far, unpremultiplied: what z and the colours mean, as in open_view
       focal_length (mm), sensor_width (mm, spans the display window), fstop (a number, or inf),
       lens_radius (scene units, instead of fstop), focus_distance (scene units, or inf), scene_unit (metres)
 
-    Samples are sorted, and overlaps resolved. Raises TypeError and UsageError (a ValueError), which name the argument."""
+    Samples are sorted, and overlaps resolved. Raises TypeError and UsageError (a ValueError), which name the
+    argument."""
 
     def __init__(
         self,
@@ -220,22 +221,22 @@ class Ldi(_Windows, _Opened):
         """float32 (samples): depth of the front of each sample, scene units. No copy."""
     @property
     def z_back(self) -> Optional[_Floats]:
-        """float32 (samples): depth of the back, at least z; None where all samples are points. No copy."""
+        """float32 (samples): depth of the back, at least z; None if all samples are points. No copy."""
     @property
     def dx(self) -> Optional[_Floats]:
-        """float32 (samples): offset from the pixel centre, -1/2 to 1/2, x right; None where all are 0. No copy."""
+        """float32 (samples): offset from the pixel centre, -1/2 to 1/2, x right; None if all are 0. No copy."""
     @property
     def dy(self) -> Optional[_Floats]:
-        """float32 (samples): offset from the pixel centre, -1/2 to 1/2, y down; None where all are 0. No copy."""
+        """float32 (samples): offset from the pixel centre, -1/2 to 1/2, y down; None if all are 0. No copy."""
     @property
     def weight(self) -> Optional[_Floats]:
-        """float32 (samples): the number of view samples merged into each; None where all are 1. No copy."""
+        """float32 (samples): the number of view samples merged into each; None if all are 1. No copy."""
     @property
     def optical(self) -> Optional[_Floats]:
-        """float32 (samples): depth of the image that a mirror or glass shows there; None where all are as z. No copy."""
+        """float32 (samples): depth of the image that a mirror or glass shows there; None if all equal z. No copy."""
     @property
     def solid(self) -> Optional[_Floats]:
-        """float32 (samples): by how much 1/z falls through what is solid behind each; None where all are 0. No copy."""
+        """float32 (samples): by how much 1/z falls through the solid behind each; None if all are 0. No copy."""
     @property
     def samples(self) -> int:
         """The number of samples."""
@@ -261,7 +262,7 @@ class Picture(_Image):
         """See help(sparselens.Picture)."""
     @property
     def camera(self) -> Camera:
-        """The camera and the lens that it was made by, with the focus distance that focus_pixel found."""
+        """The camera and the lens that made it, with the focus distance that focus_pixel found."""
     def _repr_png_(self) -> Optional[bytes]:
         """The picture as PNG, through the default display and view; None without R, G and B. Notebooks call it."""
 
@@ -292,7 +293,7 @@ class Plan:
 
     @property
     def views(self) -> list[PlannedView]:
-        """The views, of which there are none where the centre view is enough."""
+        """The views; empty if the centre view is enough."""
     @property
     def share(self) -> float:
         """What is to be rendered, as a share of one full view."""
@@ -301,10 +302,10 @@ class Plan:
         """Whether noise is the larger error, so that whole views pay as further samples."""
     @property
     def supersample(self) -> int:
-        """How many times as large views with as many rays are worth it: 2 where depth has many edges, else 1."""
+        """How many times larger to render the views with as many rays: 2 if depth has many edges, else 1."""
     @property
     def noise_db(self) -> float:
-        """The noise left in the lens picture of the centre view alone, dB, tone-mapped; inf where there is none."""
+        """The noise left in the lens picture of the centre view alone, dB, tone-mapped; inf if there is none."""
     @property
     def overscan(self) -> _Box:
         """Pixels beyond the borders from which the lens brings light inside: (left, top, right, bottom)."""
@@ -360,20 +361,20 @@ def open_view(
     """Opens a rendered view, a flat EXR with depth, and returns a View. Invalid values are repaired, with a warning.
 
     position: (x, y), where the camera stood relative to the centre view, scene units; default: as the file says.
-    center: the centre view, which gives what this file does not say of its frustum.
+    center: the centre view, which supplies what this file does not say about its frustum.
     depth: what depth channels hold: "z" planar, "distance" along the ray, "inverse" 1 / z, "negative" -z,
-      "normalized" 0 at near to 1 at far (near is the larger where white is near), "hyperbolic" the same, linear in 1 / z.
+      "normalized" 0 at near to 1 at far (near is the larger if white is near), "hyperbolic" the same, linear in 1 / z.
       Depths beyond far (default: 1e10) are sky.
     depth_channel: default: Z, depth.Z, *.Depth.Z or the like, in any case.
-    depth_file: a flat EXR of the same size that holds the depth, which the picture then needs not have.
+    depth_file: a flat EXR of the same size that holds the depth; the picture then needs no depth.
     stereo_view: the view of a stereo file, such as "right".
-    layer: the picture of a file that holds several, such as a view layer of Blender.
-    unpremultiplied: the colours of the file are not multiplied by A yet.
+    layer: which picture to take from a file that holds several, such as a view layer of Blender.
+    unpremultiplied: the colours of the file are not yet multiplied by A.
     Lens values replace those of the file:
       focal_length (mm), sensor_width (mm, spans the display window), fstop (a number, or inf),
       lens_radius (scene units, instead of fstop), focus_distance (scene units, or inf), scene_unit (metres)
 
-    Raises Error where the file cannot be read, and UsageError where a value is missing."""
+    Raises Error if the file cannot be read, and UsageError if a value is missing."""
 
 def open_ldi(
     path: _Path,
@@ -393,7 +394,7 @@ def open_ldi(
     focus_distance: Optional[float] = None,
     scene_unit: Optional[float] = None,
 ) -> Ldi:
-    """Opens any deep EXR, or a flat one with depth, and returns an Ldi. Keywords and errors are those of open_view."""
+    """Opens any deep EXR, or a flat one with depth, and returns an Ldi. Keywords and errors are as in open_view."""
 
 def open_picture(
     path: _Path,
@@ -402,7 +403,7 @@ def open_picture(
     layer: Optional[str] = None,
     unpremultiplied: bool = False,
 ) -> Picture:
-    """Opens a flat EXR and returns a Picture of all its channels. Raises Error where the file cannot be read."""
+    """Opens a flat EXR and returns a Picture of all its channels. Raises Error if the file cannot be read."""
 
 def warp(
     views: Union[View, Ldi, Sequence[Union[View, Ldi]]],
@@ -424,25 +425,28 @@ def warp(
     focus_distance: Optional[float] = None,
     scene_unit: Optional[float] = None,
 ) -> Ldi:
-    """Warps views into one layered depth image and returns an Ldi. As ldi-warp.
+    """Warps views into one layered depth image and returns an Ldi. Does what ldi-warp does.
 
-    views: a sequence of View, the centre view first. Each stands where its position or its camera says. A deep picture is an
-        Ldi of open_ldi(), which stands where its camera says; what is warped already is refused (UsageError).
-    denoised: what a denoiser made of each view: its colours are taken but for details that all views show.
-    noisy: the same for views that are denoised and hold what they were before in this layer (Cycles: "Noisy Image").
+    views: a sequence of View, the centre view first. Each stands where its position or its camera says. A deep view is
+      an Ldi from open_ldi(), which stands where its camera says. An Ldi that is already warped is refused (UsageError).
+    denoised: each view after a denoiser. Its colours are used, except for details that all views show.
+    noisy: the same for views that are already denoised, and hold their noisy picture in this layer (Cycles: "Noisy
+      Image").
     merge: "average" the views of a surface, or "keep" one sample per surface and the centre view unchanged.
     silhouettes: "split" pixels that mix two surfaces into two samples, or leave them "whole".
     agreement: "test" whether views agree out of focus before they are averaged, or "assume" it.
-    optical: "on" finds the depth of what mirrors and glass show, which then is blurred and averaged by it, or "off".
-    precision: "exact", or rounded as finely as a "lens" picture needs, for smaller files.
-    device: what warps: "cpu", "auto" (a GPU if there is one), "gpu" (a GPU, or Error), or a part of a device's name.
-    supersample: so many pixels of the views, across and down, are one of the picture (default: as they say, else 1).
+    optical: "on" finds the depth of what mirrors and glass show, by which it is blurred and averaged; or "off".
+    precision: "exact", or "lens": rounded as finely as a lens picture needs, for smaller files.
+    device: the device that warps: "cpu", "auto" (a GPU if there is one), "gpu" (a GPU, or Error), or a part of a
+      device's name.
+    supersample: this many pixels of the views, across and down, become one pixel of the picture (default: as the views
+      say, else 1).
     progress: called with the name of the stage and a whole percentage.
     Lens values replace those of the centre view:
       focal_length (mm), sensor_width (mm, spans the display window), fstop (a number, or inf),
       lens_radius (scene units, instead of fstop), focus_distance (scene units, or inf), scene_unit (metres)
 
-    Raises UsageError where the position of a view or the focal length is unknown, and Error where views do not match."""
+    Raises UsageError if the position of a view or the focal length is unknown, and Error if views do not match."""
 
 def cluster(
     ldi: Union[Ldi, Sequence[Ldi]],
@@ -459,19 +463,20 @@ def cluster(
     focus_distance: Optional[float] = None,
     scene_unit: Optional[float] = None,
 ) -> Ldi:
-    """Merges samples that no lens tells apart and returns an Ldi. As ldi-cluster.
+    """Merges samples that no lens tells apart and returns an Ldi. Does what ldi-cluster does.
 
     ldi: an Ldi, or a sequence of them, which are merged by depth first.
-    tolerance: samples are merged whose circles of confusion differ by less, pixels.
-    layers: at most so many samples per pixel; 0: no limit.
-    supersample: so many pixels of the LDIs, across and down, are one of the picture (default: as they say, else 1).
-    recolor: a flat Picture of the same frame, whose colours and light the samples get instead of their own.
+    tolerance: pixels. Samples whose circles of confusion differ by less are merged.
+    layers: the largest number of samples per pixel; 0: no limit.
+    supersample: this many pixels of the LDIs, across and down, become one pixel of the picture (default: as the LDIs
+      say, else 1).
+    recolor: a flat Picture of the same frame. The samples get its colours and light instead of their own.
     progress: called with the name of the stage and a whole percentage.
     Lens values replace those of the LDI:
       focal_length (mm), sensor_width (mm, spans the display window), fstop (a number, or inf),
       lens_radius (scene units, instead of fstop), focus_distance (scene units, or inf), scene_unit (metres)
 
-    Raises UsageError where the lens is unknown, and Error where several LDIs are not of one camera."""
+    Raises UsageError if the lens is unknown, and Error if several LDIs do not have one camera."""
 
 def gather(
     ldi: Ldi,
@@ -517,33 +522,39 @@ def gather(
     focus_distance: Optional[float] = None,
     scene_unit: Optional[float] = None,
 ) -> Picture:
-    """Makes the picture that a lens takes of an LDI and returns a Picture. As dof-gather.
+    """Makes the picture that a lens takes of an LDI and returns a Picture. Does what dof-gather does.
 
     channels: names of channels, layers or Cryptomattes, or "rgba", as a sequence or separated by commas; default: all.
     method: "lens" or "selective".
-    quality: "draft", "normal" or "final"; lens_samples: points of the lens in every tile, 0: as many as the quality needs.
-    layer_tolerance: layers of a pixel whose circles of confusion differ by less are merged first, pixels; 0: none.
-      Both belong to the method lens; layers, the layers kept apart in a pixel, belongs to selective.
+    quality: "draft", "normal" or "final"; for the method lens.
+    lens_samples: points of the lens in every tile, 0: as many as the quality needs; for the method lens.
+    layer_tolerance: pixels. Layers of a pixel whose circles of confusion differ by less are merged first; 0: none; for
+      the method lens.
+    layers: the number of layers kept apart in a pixel; for the method selective.
     focus_pixel: (x, y), focuses on the front surface in this pixel, instead of focus_distance.
     holdout: an Ldi that hides what is behind it and is not shown itself; it stays sharp unless holdout_defocused.
-    device: what gathers, by the methods lens and selective: "cpu", "auto" (a GPU if there is one), "gpu" (a GPU, or Error),
-      or a part of a device's name, also of one in software.
+    device: the device that gathers, by the methods lens and selective: "cpu", "auto" (a GPU if there is one), "gpu" (a
+      GPU, or Error), or a part of a device's name, which may be a device in software.
     overscan: "grow" the picture as far as the blur reaches, "keep" the pixels of the LDI, "crop" to the display window.
-    proxy: makes a picture of 1 / proxy the size. supersample: so many pixels of the LDI, across and down, are one of the
-      picture (default: as its file says, else 1); pixel_filter: that of the picture, "box", "blackman-harris" or "gaussian", the
-      latter two with ":WIDTH" if wanted (default: as the file says, else "box"). focus_pixel and region count its pixels. region: (left, top, right, bottom), makes only these pixels.
-    highlight_gain: makes lights above highlight_threshold (scene-linear luminance) up to so many times as bright, 1 to
-      1000, over a knee of highlight_knee.
+    proxy: makes a picture of 1 / proxy the size.
+    supersample: this many pixels of the LDI, across and down, become one pixel of the picture (default: as its file
+      says, else 1). focus_pixel and region count pixels of the picture.
+    pixel_filter: the pixel filter of the picture, "box", "blackman-harris" or "gaussian", the latter two with ":WIDTH"
+      if wanted (default: as the file says, else "box").
+    region: (left, top, right, bottom), makes only these pixels.
+    highlight_gain: makes lights above highlight_threshold (scene-linear luminance) up to this many times as bright, 1
+      to 1000, over a knee of highlight_knee.
     Looks of the lens, of the method lens: blades (a whole number), blade_curvature (0 to 1), blade_rotation (degrees),
-      squeeze (0.001 to 1000), spherical (-1 to 1), cat_eye (0 to 100, with cat_eye_darkening), axial_chromatic (mm, with
-      axial_chromatic_type "red-blue", "blue-yellow" or "green-magenta"), field_curvature (-1 to 1),
-      astigmatism (-1 to 1), breathing (0 to 2), tilt ((x, y), degrees), lens (a file of share/lenses, which the others beat), aperture (a picture, instead of blades).
+      squeeze (0.001 to 1000), spherical (-1 to 1), cat_eye (0 to 100, with cat_eye_darkening), axial_chromatic (mm,
+      with axial_chromatic_type "red-blue", "blue-yellow" or "green-magenta"), field_curvature (-1 to 1),
+      astigmatism (-1 to 1), breathing (0 to 2), tilt ((x, y), degrees), lens (a file of share/lenses; the other
+      keywords replace its values), aperture (a picture, instead of blades).
     progress: called with the name of the stage and a whole percentage.
     Lens values replace those of the LDI:
       focal_length (mm), sensor_width (mm, spans the display window), fstop (a number, or inf),
       lens_radius (scene units, instead of fstop), focus_distance (scene units, or inf), scene_unit (metres)
 
-    Raises UsageError where the lens is unknown, or keywords contradict each other."""
+    Raises UsageError if the lens is unknown, or if keywords contradict each other."""
 
 def finish(
     gathered: Picture,
@@ -553,23 +564,25 @@ def finish(
     denoised: Optional[Sequence[Picture]] = None,
     progress: Optional[_Progress] = None,
 ) -> _Finished:
-    """Makes a gathered picture exact by two or more renders of a few rays through the same lens, each with a seed of its own. As
-    dof-finish. Returns a dict: picture; psnr, the estimated error in dB, None where it is too small to tell; mse and mse_deviation,
-    the same as a mean square of tone-mapped values; trust, a Picture of Y: 1 as gathered, 0 as the rays say; error, of each pixel.
+    """Corrects a gathered picture by two or more renders of a few rays through the same lens, each with a seed of its
+    own. Does what dof-finish does. Returns a dict: picture; psnr, the estimated error in dB, None if it is too small to
+    tell; mse and mse_deviation, the error as a mean square of tone-mapped values, and its standard deviation; trust, a
+    Picture of Y: 1 where the pixel is as gathered, 0 where it is as the rays say; error, a Picture of Y: the error of
+    each pixel.
 
     gathered: the Picture of gather(). rays: a sequence of Picture.
     samples: rays per pixel of each (default: as their files say, else the same for all).
-    denoised: what a denoiser made of each of rays by itself.
+    denoised: each of rays after a denoiser, denoised by itself.
     progress: called with the name of the stage and a whole percentage.
 
-    Raises UsageError where there is one render alone, and Error where the sizes differ or there are no R, G and B."""
+    Raises UsageError if there is only one render, and Error if the sizes differ or there are no R, G and B."""
 
 def flatten(ldi: Ldi) -> Picture:
     """Composites the samples of an Ldi front to back and returns the Picture seen without a lens."""
 
 def front_depth(ldi: Ldi) -> Picture:
-    """The planar depth of the front sample of each pixel of an Ldi, inf where there is none: a Picture of the channel Z.
-    As dof-gather's depth output."""
+    """Returns the planar depth of the front sample of each pixel of an Ldi, inf where there is none, as a Picture of
+    the channel Z. The same as dof-gather's depth output."""
 
 def show(
     ldi: Ldi,
@@ -582,7 +595,7 @@ def show(
     focus_distance: Optional[float] = None,
     scene_unit: Optional[float] = None,
 ) -> Picture:
-    """False colours of what an Ldi and a lens are, as a Picture of display values. As dof-gather shows them.
+    """Returns false colours that show an Ldi and a lens, as a Picture of display values. The same as dof-gather's.
 
     what: "coc", the circle of confusion of the front sample: white in focus, blue in front, red behind;
       "focus", green where that sample is in focus; "layers", the number of samples per pixel.
@@ -590,7 +603,7 @@ def show(
       focal_length (mm), sensor_width (mm, spans the display window), fstop (a number, or inf),
       lens_radius (scene units, instead of fstop), focus_distance (scene units, or inf), scene_unit (metres)
 
-    Raises UsageError where the lens is unknown; layers needs none."""
+    Raises UsageError if the lens is unknown; layers needs no lens."""
 
 def plan(
     view: View,
@@ -607,17 +620,19 @@ def plan(
     focus_distance: Optional[float] = None,
     scene_unit: Optional[float] = None,
 ) -> Plan:
-    """Plans which views from the rim of the lens, and which of their pixels, are worth rendering; returns a Plan. As ldi-plan.
+    """Plans which views from the rim of the lens, and which of their pixels, are worth rendering; returns a Plan. Does
+    what ldi-plan does.
 
     view: the centre View. views: the largest number of views. margin: pixels added around what it does not see.
     noise: standard deviation of the noise of a tone-mapped pixel (default: measured).
-    supersample: so many pixels of the view, across and down, are one of the picture (default: as it says, else 1).
+    supersample: this many pixels of the view, across and down, become one pixel of the picture (default: as the view
+      says, else 1).
     progress: called with the name of the stage and a whole percentage.
     Lens values replace those of the view:
       focal_length (mm), sensor_width (mm, spans the display window), fstop (a number, or inf),
       lens_radius (scene units, instead of fstop), focus_distance (scene units, or inf), scene_unit (metres)
 
-    Raises UsageError where the lens is unknown."""
+    Raises UsageError if the lens is unknown."""
 
 def compare(
     image: Union[Picture, View, _Floats],
@@ -631,15 +646,16 @@ def compare(
     focus_distance: Optional[float] = None,
     scene_unit: Optional[float] = None,
 ) -> _Comparison:
-    """How far a picture is from its reference, as a dict of the figures of dof-compare: psnr, psnr_tonemapped and psnr_worst (dB),
-    relmse, smape, ssim, p99, max, max_alpha, pixels, nonfinite, and with regions the same for each of regions.
+    """Returns how far a picture is from its reference, as a dict of dof-compare's figures: psnr, psnr_tonemapped and
+    psnr_worst (dB), relmse, smape, ssim, p99, max, max_alpha, pixels, nonfinite; with regions, also the same for each
+    region.
 
     image, reference: a Picture, a View, or float32 (height, width, 3 or 4).
     regions: an Ldi that tells what is in focus, blurred, or a silhouette, by its lens and these values:
       focal_length (mm), sensor_width (mm, spans the display window), fstop (a number, or inf),
       lens_radius (scene units, instead of fstop), focus_distance (scene units, or inf), scene_unit (metres)
 
-    Raises Error where R, G or B is missing or the display windows differ in size."""
+    Raises Error if R, G or B is missing or the display windows differ in size."""
 
 def write(
     path: _Path,
@@ -655,14 +671,15 @@ def write(
 ) -> None:
     """Writes a file; an interrupted or failed write leaves no partial file.
 
-    what: a Picture or a numpy array (EXR, or PNG, JPEG, TIFF and the like by the extension), an Ldi (deep EXR) or a Plan (JSON).
-    compression: of EXR, such as "zip"; default: that of the file that it came from.
-    type: "half" or "float", of the channels of a picture (default: their own; float where they came from numpy).
-    tiles: EXR of a picture in tiles of so many pixels to a side; 0: in scanlines.
+    what: a Picture or a numpy array (EXR, or PNG, JPEG, TIFF and the like by the extension), an Ldi (deep EXR) or a
+      Plan (JSON).
+    compression: of EXR, such as "zip" (default: as in the file that it came from).
+    type: "half" or "float", for the channels of a picture (default: their own type; float if they came from numpy).
+    tiles: writes the EXR of a picture in tiles with sides of this many pixels; 0: in scanlines.
     colorconfig, display, view_transform: of OpenColorIO, for PNG and the like (default: $OCIO and its display).
     masks: with a Plan, a folder for one mask per view.
 
-    Raises Error where the file cannot be written, and UsageError for a keyword that does not apply."""
+    Raises Error if the file cannot be written, and UsageError for a keyword that does not apply."""
 
 class Viewing:
     @property
@@ -674,6 +691,6 @@ class Viewing:
 
 def view(ldi: Union[Ldi, _Path], *, open: bool = False, **options: Any) -> Viewing: ...
 def set_limits(*, threads: Optional[int] = None, max_memory: Optional[float] = None) -> None:
-    """Sets the limits of the process. threads: 0 stands for all cores. max_memory: bytes that reading a file may take;
+    """Sets the limits of the process. threads: 0 means all cores. max_memory: bytes that reading a file may take;
     0: 64 MB plus 1100 times the size of the file."""
 

@@ -1,4 +1,4 @@
-"""view(): dof-view, which serves a page on this machine, started for a notebook or a script."""
+"""view() starts dof-view, which serves a page on this machine, for a notebook or a script."""
 import atexit
 import os
 import pathlib
@@ -11,7 +11,7 @@ from . import _sparselens
 
 
 class Viewing:
-    """A dof-view at work. It ends by close(), with a `with` block, or with the program."""
+    """A running dof-view. It ends when close() is called, at the end of a `with` block, or with the program."""
 
     def __init__(self, command, folder):
         self._folder = folder
@@ -29,11 +29,11 @@ class Viewing:
 
     @property
     def address(self):
-        """What a browser of this machine opens. Whoever knows it sees the picture."""
+        """The address to open in a browser on this machine. Anyone who knows it can see the picture."""
         return self._address
 
     def close(self):
-        """Ends the server, and removes what was written for it."""
+        """Stops the server and removes the files that were written for it."""
         atexit.unregister(self.close)
         if self._process.poll() is None:
             self._process.terminate()
@@ -56,7 +56,7 @@ class Viewing:
 
 
 def _program():
-    """That of the installation or the build that this module is of, else any."""
+    """Returns the path of the dof-view that was installed or built with this module, else of the first one in $PATH."""
     here = pathlib.Path(__file__).resolve().parent
     for path in (here.parents[1] / "bin/dof-view", pathlib.Path(sys.prefix) / "bin/dof-view"):
         if path.is_file():
@@ -76,9 +76,13 @@ def _word(value):
 def view(ldi, *, open=False, **options):
     """view(ldi, *, open=False, **options) -> Viewing
 
-    Starts dof-view: a page that shows the picture of the lens, where a click focuses. ldi: an Ldi, or the name of a file or a
-    sequence. open: opens the page in the browser, too. The others are dof-view's options: fstop=2, save="folder",
-    cat_eye_darkening=True. Raises UsageError or Error with what dof-view says."""
+    Starts dof-view, which serves a page that shows the lens picture; a click on it focuses.
+
+    ldi: an Ldi, or the name of a file or of a file sequence.
+    open: whether to open the page in the browser.
+    The other keywords are dof-view's options: fstop=2, save="folder", cat_eye_darkening=True.
+
+    Raises UsageError or Error with dof-view's message."""
     command, folder = [_program()], tempfile.TemporaryDirectory(prefix="sparselens-")
     try:
         if isinstance(ldi, _sparselens.Ldi):

@@ -19,7 +19,7 @@ std::string shape_text(const py::array &array) {
                        array.ndim() == 1 ? "," : "");
 }
 
-// The array, which has elements of type Element.
+// Returns an object as an array with elements of type Element; else throws TypeError.
 template <typename Element>
 py::array array_of(const py::object &object, const char *name, const char *type) {
     const std::string wanted = fmt::format("a numpy array of {}", type);

@@ -1,7 +1,8 @@
-"""Makes C++ constants of the docstrings of the stubs: docs.py STUBS HEADER.
+"""Writes the docstrings of the stubs as C++ constants: docs.py STUBS HEADER.
 
-That of the function gather is doc::gather, of the class View doc::View::text, and of its member z doc::View::z; of the stubs
-themselves doc::module. Functions, and classes that can be called, begin with their signature in the form that inspect reads."""
+The docstring of the stubs themselves becomes doc::module. The docstring of the function gather becomes doc::gather; of
+the class View, doc::View::text; and of its member z, doc::View::z. The constants of functions, and of classes that can be
+called, begin with the signature in the form that inspect reads."""
 import ast
 import sys
 

@@ -26,7 +26,7 @@ Pictures pictures_of(const py::object &given, const char *name) {
     return found;
 }
 
-// As the headers say, where all do; else all count the same.
+// Returns the samples that the headers state, if all headers do; else the same number for all.
 std::vector<double> stated_samples(const Pictures &rays) {
     std::vector<double> samples;
     for (const PictureObject *picture : rays)
@@ -62,7 +62,7 @@ TwoHalves added_up(const char *name, const Pictures &pictures, const std::vector
     return halves;
 }
 
-// One value a pixel, as a picture of the channel Y.
+// A picture with the channel Y: one value per pixel.
 PictureObject map_of(const Values &values, const Windows &windows) {
     PictureObject map{Image(windows, {{"Y", PixelType::float32}}), {}};
     std::ranges::copy(values, map.image.plane(0).begin());

@@ -18,7 +18,8 @@ namespace sparselens::python {
 
 namespace {
 
-// The box of the keyword, of no more than the coordinates that OpenEXR takes: none of its sides is beyond an int.
+// Returns the box of a keyword. Throws UsageError if it exceeds the coordinates that OpenEXR takes; so the lengths of
+// its sides fit into an int.
 std::optional<Imath::Box2i> window_from(Keywords &keywords, const char *name) {
     const auto box = keywords.box(name);
     constexpr int most = std::numeric_limits<int>::max() / 2;
@@ -45,7 +46,7 @@ void set_windows(Windows &windows, Keywords &keywords) {
 
 using Matrix = std::array<std::array<double, 4>, 4>;
 
-// A header as a file with these windows and this camera has it.
+// Returns the header that a file with these windows and this camera has.
 Imf::Header header_for(const Windows &windows, Keywords &keywords) {
     Imf::Header header(windows.display, windows.data, windows.pixel_aspect);
     Camera camera;

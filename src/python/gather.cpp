@@ -14,7 +14,7 @@ namespace sparselens::python {
 
 namespace {
 
-// What the keywords ask for.
+// The request that the keywords make.
 struct Asked : PictureRequest {
     py::object keep_holdout = {}, progress = {}; // the former keeps `opened_holdout` alive
 };

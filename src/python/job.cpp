@@ -19,13 +19,13 @@ struct News {
     int percent;
 };
 
-// Goes through the work to end it early.
+// Thrown through the work to end it early.
 struct Cancelled {};
 
-// What the two threads share.
+// The state that the two threads share.
 class Desk {
 public:
-    // From any thread of the work.
+    // For any thread of the work.
     void may_end() const {
         if (cancelled_) throw Cancelled();
     }
@@ -42,7 +42,7 @@ public:
         changed_.notify_one();
     }
 
-    // From the waiting thread: whether the work is done, and what it has said since the last call.
+    // For the waiting thread: waits a little, takes the news since the last call, and returns whether the work is done.
     bool wait(std::vector<News> &news) {
         constexpr std::chrono::milliseconds between_signals(50);
         std::unique_lock lock(mutex_);
@@ -64,7 +64,7 @@ private:
     std::atomic<bool> cancelled_ = false;
 };
 
-// Calls back in ascending order: threads that reach two percentages at once may post them in the other.
+// Calls back in ascending order. Threads that reach two percentages at the same time may post them in descending order.
 class Teller {
 public:
     explicit Teller(py::object callback) : callback_(std::move(callback)) {}

@@ -16,9 +16,9 @@ namespace sparselens::python {
 namespace py = pybind11;
 
 // Runs `work`; the lock is held before and after. `callback` is None or is called with the name of the stage and a
-// whole percentage, which ascends within a stage. Rethrows what the work throws. Where the callback raises, or a signal
-// does (KeyboardInterrupt), the work ends at its next percent or step, and that exception is thrown. TypeError: the callback
-// cannot be called.
+// whole percentage, which ascends within a stage. Rethrows what the work throws. If the callback raises, or a signal
+// does (KeyboardInterrupt), the work ends at its next percent or step, and that exception is thrown. Throws TypeError
+// if the callback cannot be called.
 void run_job(const py::object &callback, const std::function<void(Progress &)> &work);
 
 // The same for work that gives a result.

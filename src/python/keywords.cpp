@@ -24,7 +24,7 @@ void wrong_type(const char *name, const char *wanted, const py::handle &found) {
 }
 
 namespace {
-// The numbers of a sequence of that length.
+// The numbers of a sequence of length `count`.
 template <typename Number>
 std::vector<Number> numbers(const py::object &object, const char *name, std::size_t count,
                             const char *wanted) {
@@ -81,7 +81,7 @@ std::optional<int> Keywords::whole(const char *name, int least, int most) {
     const py::object object = take(name);
     if (object.is_none()) return {};
     if (is_bool(object) || PyIndex_Check(object.ptr()) == 0) wrong_type(name, "a whole number", object);
-    const Py_ssize_t value = PyNumber_AsSsize_t(object.ptr(), nullptr); // clipped where it is larger
+    const Py_ssize_t value = PyNumber_AsSsize_t(object.ptr(), nullptr); // clipped if it is larger
     if (value < least || value > most)
         refuse(name, fmt::format("from {} to {}", least, most), py::str(object));
     return int(value);

@@ -1,7 +1,7 @@
 // The keyword arguments of a function, which are named as the tools' options, with _ for -.
 //
-// A keyword that is None is as one that is not given. Throws TypeError (a wrong type, an unknown keyword) or UsageError
-// (a wrong value), which name the keyword.
+// A keyword that is None counts as not given. Throws TypeError (a wrong type, an unknown keyword) or UsageError (a
+// wrong value), which name the keyword.
 #pragma once
 
 #include "io/open_options.h"
@@ -25,10 +25,10 @@ class Keywords {
 public:
     Keywords(const char *function, const py::kwargs &given); // the function is for messages
 
-    py::object take(const char *name); // None where it is not given
-    bool flag(const char *name);       // False where it is not given
+    py::object take(const char *name); // None if it is not given
+    bool flag(const char *name);       // False if it is not given
     std::optional<double> number(const char *name, NumberRange range = above_0);
-    // The numbers of a table.
+    // Takes the numbers of a table.
     template <typename Values>
     void numbers_of(std::span<const NumberParameter<Values>> table, Values &values) {
         for (const NumberParameter<Values> &of : table) {
@@ -38,10 +38,10 @@ public:
         }
     }
     std::optional<int> whole(const char *name, int least, int most);
-    std::string text(const char *name); // empty where it is not given
+    std::string text(const char *name); // empty if it is not given
     std::string path(const char *name);
-    std::string
-    list(const char *name); // of a str or a sequence of them: comma-separated; empty where it is not given
+    // A str, or a sequence of str, as a comma-separated list; empty if it is not given.
+    std::string list(const char *name);
     std::optional<Imath::V2d> pair(const char *name);  // two finite numbers
     std::optional<Imath::V2i> pixel(const char *name); // two whole numbers
     std::optional<Imath::Box2i> box(const char *name); // left, top, right, bottom; the last ones included
@@ -63,15 +63,15 @@ public:
         refuse(name, "one of " + all, given);
     }
 
-    bool is_given(const std::string &name) const; // of those that were asked for
-    void done() const;                            // throws where a keyword is left that nobody took
+    bool is_given(const std::string &name) const; // for keywords that were taken
+    void done() const;                            // throws TypeError if a keyword was given but not taken
 
     [[noreturn]] static void refuse(const char *name, const std::string &wanted, const std::string &found);
 
 private:
     std::string function_;
     py::dict left_;
-    std::vector<std::string> known_, given_; // all that were asked for, and those that are there
+    std::vector<std::string> known_, given_; // all that were taken, and those of them that were given
 };
 
 // focal_length, sensor_width, fstop, lens_radius, focus_distance, scene_unit.

@@ -1,4 +1,4 @@
-// The Python module sparselens, whose package (sparselens/__init__.py) imports what is here.
+// The compiled module _sparselens, which the package sparselens (__init__.py) imports.
 #include "base/error.h"
 #include "io/files/memory_limit.h"
 #include "python/objects.h"
@@ -55,7 +55,8 @@ void set_limits(const py::kwargs &given) {
         set_memory_limit(*bytes < 1 ? std::optional<std::uint64_t>() : std::uint64_t(std::min(*bytes, most)));
 }
 
-// Of numpy 2 pybind11 reads wrong values before its version 2.12. Where there is no numpy, the functions say so that need it.
+// Before version 2.12, pybind11 reads wrong values from arrays of numpy 2. Without numpy nothing is refused here; the
+// functions that need it say so.
 void refuse_unknown_numpy() {
 #if PYBIND11_VERSION_HEX < 0x020c0000
     try {
@@ -77,7 +78,7 @@ PYBIND11_MODULE(_sparselens, module) {
     using namespace sparselens::python;
     refuse_unknown_numpy();
     py::options options;
-    options.disable_function_signatures(); // the texts of help() begin with them, as Python writes them
+    options.disable_function_signatures(); // the docstrings begin with signatures, as Python writes them
     module.doc() = doc::module;
     module.attr("__version__") = SPARSELENS_VERSION;
     error_type = exception_type(module, "Error", PyExc_RuntimeError, doc::Error::text);

@@ -33,7 +33,7 @@ std::string text_of(const char *type, const std::string &name, const Windows &wi
                        windows.height(), more);
 }
 
-// An array of one value per sample, or None where the LDI has no such values.
+// An array of one value per sample, or None if the LDI has no such values.
 py::object optional_samples(const std::vector<float> &values, const py::object &owner) {
     return values.empty() ? py::object(py::none()) : py::object(shared(values, owner));
 }
@@ -44,7 +44,7 @@ py::array samples_of(const py::object &self, const std::string &channel) {
     return shared(ldi.values[k], self, {}, Access::read_only, ldi.channels[k].type);
 }
 
-// The windows of what holds them.
+// Binds the windows of an object.
 template <typename Object, typename Get>
 void bind_windows(py::class_<Object> &type, const Get &windows_of) {
     type.def_property_readonly(
@@ -63,7 +63,7 @@ void bind_windows(py::class_<Object> &type, const Get &windows_of) {
             doc::Windows::pixel_aspect);
 }
 
-// The channels of what has an image.
+// Binds the channels of an object's image.
 template <typename Object, typename Get>
 void bind_image(py::class_<Object> &type, const Get &image_of, Access access) {
     bind_windows(type, [=](const Object &o) -> const Windows & { return image_of(o).windows; });
@@ -280,7 +280,7 @@ void bind_plan(py::module_ &module) {
 
 std::string with_keywords(const std::string &message) {
     return spelled(message, [](const std::string &name, const std::string &value) {
-        if (name == "view") // whose value the name of a file may follow
+        if (name == "view") // its value may be followed by the name of a file
             return value.empty() ? "position" : "position=(" + value.substr(0, value.find(' ')) + ")";
         const bool is_number = value.find_first_not_of("0123456789.") == value.npos;
         return name + (value.empty() ? "" : is_number ? "=" + value : "='" + value + "'");

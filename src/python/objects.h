@@ -1,4 +1,5 @@
-// What the functions of the module take and give: the library's own structures, with what Python needs beside them.
+// The objects that the functions of the module take and return: the library's own structures, with what Python needs in
+// addition.
 #pragma once
 
 #include "chain/plan_views.h"
@@ -25,7 +26,7 @@ struct ViewObject {
 using LdiObject = OpenedLdi;
 struct PictureObject {
     Image image;
-    Imf::Header header; // what is kept in a file that it is written to
+    Imf::Header header; // kept in a file that the picture is written to
 };
 struct PlanObject {
     Plan plan;
@@ -36,14 +37,14 @@ struct PlannedViewObject {
     ThinLens lens;
 };
 
-// The argument as one of these objects, or TypeError, which names the argument.
+// Returns the argument as one of these objects. Throws TypeError, which names the argument.
 template <typename Object>
 const Object &argument(const py::object &object, const char *name, const char *wanted);
 
 // A message with its parameters (error.h) as keywords: depth='inverse'.
 std::string with_keywords(const std::string &message);
 
-// Python warnings (UserWarning) of what was repaired in a file and what is hardly meant.
+// Raises Python warnings (UserWarning) about what was repaired in a file and what is probably a mistake.
 void warn(const std::string &text);
 void warn_of(const std::string &name, const std::vector<std::string> &warnings, const InvalidValues &bad);
 

@@ -1,5 +1,5 @@
-// What calls of the chain share: the devices of the keyword device, until the interpreter ends; and that warnings become those of
-// Python (UserWarning) when the work is done.
+// What calls of src/chain share: the devices of the keyword `device`, which live until the interpreter ends, and the
+// conversion of warnings into Python's (UserWarning) when the work is done.
 #pragma once
 
 #include "chain/devices.h"
@@ -9,7 +9,7 @@
 
 namespace sparselens::python {
 
-// job() of work(progress, tell).
+// Runs work(progress, tell) as a job().
 template <typename Result>
 Result told_job(const py::object &callback, const std::function<Result(Progress &, const Tell &)> &work) {
     std::vector<std::string> warnings;

@@ -62,7 +62,7 @@ PictureObject open_picture(const py::object &path, const py::kwargs &given) {
     return {std::move(file.image), std::move(file.header)};
 }
 
-// The objects of a sequence, or the one object.
+// Returns the objects of a sequence, or the single object.
 template <typename Object>
 std::vector<const Object *> several(const py::object &given, const char *name, const char *wanted) {
     if (py::isinstance<Object>(given)) return {&given.cast<const Object &>()};
@@ -85,7 +85,7 @@ WarpOptions warp_options(Keywords &keywords) {
             .find_images = images.value_or(true)};
 }
 
-// The object of a MadeLdi or a ClusteredLdi.
+// Makes the object of a MadeLdi or a ClusteredLdi.
 template <typename Made>
 LdiObject ldi_of(const std::string &name, Made made) {
     LdiObject out;
@@ -176,7 +176,7 @@ PictureObject flatten(const py::object &ldi) {
     });
 }
 
-// A picture of the pixels that the LDI is to give.
+// A picture of the pixels that pictures of the LDI have.
 PictureObject picture_of_ldi(const OpenedLdi &in, const Image &image) {
     return {crop(image, read_picture_window(in.header)), in.header};
 }

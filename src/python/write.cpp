@@ -28,13 +28,13 @@ std::optional<Imf::Compression> compression_from(Keywords &keywords, bool deep) 
     return found->value;
 }
 
-// All channels in that type, but those of ids.
+// Sets the type of all channels except ids.
 void set_type(std::vector<Channel> &channels, std::optional<PixelType> type) {
     for (Channel &channel : channels)
         if (type && channel.type != PixelType::uint32) channel.type = *type;
 }
 
-// From the colours of the picture to those of a file for the screen.
+// Converts the colours of a picture to those of a file for the screen.
 struct Display {
     std::string config, display, view;
 
