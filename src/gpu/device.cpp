@@ -36,7 +36,7 @@ vk::raii::DescriptorSetLayout make_set_layout(const vk::raii::Device &device, st
     return {device, vk::DescriptorSetLayoutCreateInfo({}, bindings)};
 }
 
-// The exception that Vulkan-Hpp has for that result; its own function for it has moved between namespaces.
+// Throws Vulkan-Hpp's exception for a result. Vulkan-Hpp's own function for this has moved between namespaces.
 [[noreturn]] void throw_as_asked(vk::Result result) {
     constexpr const char *why = "as the test asked";
     switch (result) {

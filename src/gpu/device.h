@@ -1,4 +1,4 @@
-// A device that computes: buffers in its memory, programs, and runs of them. Calls return when the device is done.
+// A device that computes: buffers in its memory, programs, and runs of programs. Calls return when the device is done.
 //
 // A failure of the device throws DeviceFailed; the caller can then do the same work on the CPU.
 #pragma once
@@ -21,14 +21,15 @@ struct DeviceFailed : Error {
     using Error::Error;
 };
 
-// For tests.
+// What tests observe and limit.
 struct Watch {
-    // Asked before memory is allocated and before work is submitted; what is not 0 is taken for the result of the call
-    // (VkResult).
+    // Called before memory is allocated and before work is submitted. A result other than 0 is taken as the result of
+    // the Vulkan call (VkResult).
     std::function<int()> fails = {};
-    std::function<void(const std::string &)> validation = {}; // if set, the validation layer speaks here
-    std::size_t largest_buffer = ~std::size_t{0};             // bytes, if the device allows as many
-    double most_turns = 1e300;                                // of loops, if the device allows as many
+    // if set, receives the validation layer's messages
+    std::function<void(const std::string &)> validation = {};
+    std::size_t largest_buffer = ~std::size_t{0}; // bytes, if the device allows as many
+    double most_turns = 1e300;                    // of loops, if the device allows as many
 };
 
 // Whether the validation layer is installed.
@@ -75,16 +76,17 @@ public:
 
     const DeviceInfo &info() const { return info_; }
     std::size_t largest_buffer() const; // bytes that a program can reach
-    // The turns of loops that a work group may take. Mesa's device in software ends a program after 65535, and what it
-    // has not written is garbage; other devices have no such bound.
+    // The turns of loops that a work group may take. Mesa's software device ends a program after 65535 turns, and what
+    // the program has not written is garbage. Other devices have no such bound.
     double most_turns() const;
 
     // Bytes in the device's memory, at least one, uninitialised.
     Buffer buffer(std::size_t bytes);
-    // `at`: where in the buffer, bytes.
+    // `at`: position in the buffer, bytes.
     void upload(Buffer &to, std::span<const std::byte> from, std::size_t at = 0);
+    // Uploads ranges of `from`, each to the same position in the buffer, from `at` on.
     void upload(Buffer &to, std::span<const std::byte> from, std::span<const ByteRange> ranges,
-                std::size_t at = 0); // to the same places from `at` on
+                std::size_t at = 0);
     void download(std::span<std::byte> to, const Buffer &from, std::size_t at = 0);
     void fill(Buffer &buffer, std::uint32_t word); // all of it
 

@@ -48,7 +48,7 @@ std::optional<DeviceInfo> best_gpu(std::span<const DeviceInfo> there) {
 
 bool may_have_gpu() {
     std::error_code none;
-    // Linux: the render nodes of the kernel's drivers, NVIDIA's own, and that of Windows beneath.
+    // Linux: the render nodes of the kernel's drivers, NVIDIA's own node, and the node of a Windows host (WSL).
     constexpr std::array nodes{"/dev/dri", "/dev/nvidiactl", "/dev/dxg"};
     return std::ranges::any_of(nodes, [&](const char *node) { return std::filesystem::exists(node, none); });
 }

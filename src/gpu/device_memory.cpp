@@ -1,5 +1,5 @@
-// The memory of a device. Copies go through a staging buffer that host and device both see, piece by piece; the fence that
-// each submission waits for orders what it wrote before all that comes later.
+// The memory of a device. Copies go piece by piece through a staging buffer that host and device both see. Each
+// submission waits for a fence, which orders what it wrote before everything that comes later.
 #include "gpu/device_vulkan.h"
 
 #include <algorithm>

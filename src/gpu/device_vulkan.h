@@ -35,8 +35,8 @@ struct Device::Vulkan {
 
     Vulkan(const DeviceInfo &info, const Watch &watch);
 
-    void ask_watch() const; // throws what it says the next call results in
-    // In the first kind of memory that has the best of these sets of properties.
+    void ask_watch() const; // throws the result that it gives for the next call
+    // Allocates in the first kind of memory that has the best of these sets of properties.
     std::unique_ptr<Buffer::Memory> allocate(std::size_t bytes, vk::BufferUsageFlags usage,
                                              std::initializer_list<vk::MemoryPropertyFlags> best_first) const;
     const Buffer::Memory &staged();
@@ -58,7 +58,7 @@ struct Device::Vulkan {
     }
 };
 
-// Runs `work`; what Vulkan throws there becomes a DeviceFailed.
+// Runs `work`. Turns what Vulkan throws into DeviceFailed.
 template <typename Work>
 auto guarded(const DeviceInfo &info, const Work &work) {
     try {
@@ -69,7 +69,7 @@ auto guarded(const DeviceInfo &info, const Work &work) {
         throw DeviceFailed(info.name + " has not enough memory");
     } catch (const vk::OutOfHostMemoryError &) {
         throw DeviceFailed(info.name + ": its driver found not enough memory");
-    } catch (const std::exception &error) { // Vulkan's others, and that of a loader that is not there
+    } catch (const std::exception &error) { // Vulkan's other errors, and a missing loader
         throw DeviceFailed(info.name + " failed (" + error.what() + ")");
     }
 }

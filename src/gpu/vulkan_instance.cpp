@@ -58,7 +58,7 @@ std::string lacks(const vk::raii::PhysicalDevice &device, std::uint32_t version)
 VulkanInstance::VulkanInstance(const std::function<void(const std::string &)> *message)
     : instance(make_instance(loader, message != nullptr)) {
     if (!message) return;
-    // By C's structure: the type of the callback in that of Vulkan-Hpp has changed.
+    // Uses the C structure, because the type of the callback has changed in Vulkan-Hpp's.
     VkDebugUtilsMessengerCreateInfoEXT create{};
     create.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT;
     create.messageSeverity =

@@ -1,5 +1,5 @@
-// Vulkan as src/gpu uses it: the loader is opened at run time, and every object ends with its C++ owner. The connection to it, and
-// what it says of its devices.
+// Vulkan as src/gpu uses it: the loader is opened at run time, and every object ends with its C++ owner. This is the
+// connection to Vulkan, and what Vulkan says about its devices.
 #pragma once
 
 #include "gpu/device_list.h"
@@ -16,14 +16,14 @@
 
 namespace sparselens::gpu {
 
-inline constexpr std::uint32_t vulkan_version = VK_API_VERSION_1_2; // shared 64-bit atomics belong to it
+inline constexpr std::uint32_t vulkan_version = VK_API_VERSION_1_2; // it includes shared 64-bit atomics
 
 struct VulkanInstance {
     vk::raii::Context loader;
     vk::raii::Instance instance;
     std::optional<vk::raii::DebugUtilsMessengerEXT> messenger;
 
-    // `message`: where given, the validation layer watches every call and says here what it finds; the layer must be
+    // `message`: if given, the validation layer watches every call and reports here what it finds; the layer must be
     // installed. Throws what Vulkan throws; std::runtime_error without a loader.
     explicit VulkanInstance(const std::function<void(const std::string &)> *message = nullptr);
 };

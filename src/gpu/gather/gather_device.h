@@ -1,4 +1,4 @@
-// A GPU that gathers tiles of pictures: by the lens gather (gpu/lens) and by the selective gather (gpu/selective).
+// A GPU that gathers tiles of pictures for the lens gather (gpu/lens) and the selective gather (gpu/selective).
 #pragma once
 
 #include "dof/device/tile_device.h"
@@ -8,7 +8,7 @@
 
 namespace sparselens::gpu {
 
-// Throws DeviceFailed. A device that fails later is left alone from then on: the CPU does what it has not done.
+// Throws DeviceFailed. A device that fails later is not used again: the CPU does what it has not done.
 std::unique_ptr<TileDevice> open_gather_device(const DeviceInfo &info, const Watch &watch = {});
 
 } // namespace sparselens::gpu

@@ -1,4 +1,4 @@
-// In a build without the kernels for GPUs (SPARSELENS_GPU) there are no devices.
+// A build without the kernels for GPUs (SPARSELENS_GPU) has no devices.
 #include "gpu/gather/gather_device.h"
 
 namespace sparselens::gpu {

@@ -1,13 +1,14 @@
 #version 460
-// The lens gather of a quarter of a tile: what src/dof/lens/gather_tile.h says, with the same sums in the same order.
+// The lens gather of a quarter of a tile: the same as src/dof/lens/gather_tile.h, with the same sums in the same order.
 //
-// A work group takes the lens points one after the other. It finds the blocks that the lens point moves into its pixels,
-// and of their samples and facets the nearest opaque one in each cell, by the atomic maximum of their keys in shared memory.
-// What that leaves empty shows cracks and fillers. Samples of partial coverage come in the order of their depth, `chunk` at a time:
-// those of a chunk are counted, listed and sorted by the pixel that they fall in, and each pixel puts its own over each
-// other. Every sum belongs to one thread, so that the order of the additions does not depend on who comes first.
+// A work group takes the lens points one after the other. It finds the blocks that the lens point moves into its
+// pixels, and the nearest opaque sample or facet of these in each cell, by the atomic maximum of their keys in shared
+// memory. Cells that stay empty show cracks and fillers. Samples of partial coverage come in order of depth, `chunk` at
+// a time: the samples of a chunk are counted, listed and sorted by the pixel that they fall in, and each pixel
+// composites its own. Every sum belongs to one thread, so the order of additions does not depend on the order in which
+// threads run.
 //
-// Where that takes long, it is cut into passes, each of some lens points; the sums wait in a buffer.
+// Work that takes long is cut into passes of some lens points each; between passes the sums are kept in a buffer.
 //
 // gl_WorkGroupID.x: the quarter of a tile. gl_WorkGroupID.y: the group of four channels.
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
@@ -51,7 +52,7 @@ void main() {
     partial_count = tile.partial_count[quarter];
     held_out = tile.holdout;
     const uint begin = push.pass * tile.lens_in_pass, end = min(begin + tile.lens_in_pass, tile.lens_count);
-    if (begin >= end) return; // it is done
+    if (begin >= end) return; // nothing is left to do
     Sum sum[own];
     for (uint j = 0; j < own; ++j) {
         const uint from = 2 * place_of(t, group, pixel_of(j) + corner);
@@ -69,7 +70,8 @@ void main() {
         }
         barrier();
     }
-    precise const float total = lens.weight_before + lens.weight; // of all where the last one was at work
+    // the sum over all lens points in the last pass
+    precise const float total = lens.weight_before + lens.weight;
     for (uint j = 0; j < own; ++j) {
         const uint to = place_of(t, group, pixel_of(j) + corner);
         if (end == tile.lens_count) {

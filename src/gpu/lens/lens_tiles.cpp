@@ -18,8 +18,8 @@ constexpr std::uint32_t code[] = {
 #include <lens_tile.comp.inc>
 };
 
-constexpr std::size_t stripe_bytes = std::size_t{512} << 20; // of a buffer, also where a device allows more
-// Tests of a sample by a lens point that are submitted at once: what takes seconds, operating systems end.
+constexpr std::size_t stripe_bytes = std::size_t{512} << 20; // of a buffer, even if a device allows more
+// Tests of a sample by a lens point that are submitted at once. Operating systems end work that takes seconds.
 constexpr double work_at_once = 2e9;
 constexpr double turns_in_pass = 1e6; // of loops, for the same reason
 
@@ -47,7 +47,7 @@ void LensTilesOnDevice::gather(const GatherScene &scene, std::span<const TileTas
                                const std::function<void(std::size_t, const TilePicture &)> &done,
                                TileReport &report) {
     std::vector<TileTask> tasks;
-    std::vector<std::size_t> numbers; // of these among all
+    std::vector<std::size_t> numbers; // the number of each task among all tasks
     for (std::size_t n = 0; n < all.size(); ++n) {
         if (turns_of(scene, all[n]) > device_.most_turns()) {
             ++report.on_cpu["more steps than the device takes"];

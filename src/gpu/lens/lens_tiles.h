@@ -1,5 +1,5 @@
-// Tiles of the lens gather on a device (lens_tile.comp). It leaves to the CPU what fits into no buffer, and tiles
-// of which one lens point takes more turns of loops than the device allows.
+// Gathers tiles of the lens gather on a device (lens_tile.comp). It leaves to the CPU tiles that fit into no buffer,
+// and tiles for which one lens point takes more turns of loops than the device allows.
 #pragma once
 
 #include "dof/device/tile_device.h"
@@ -14,7 +14,7 @@ class LensTilesOnDevice {
 public:
     explicit LensTilesOnDevice(Device &device) : device_(device) {}
 
-    // As TileDevice's. Throws DeviceFailed; what was done before stays done.
+    // Like TileDevice::gather(). Throws DeviceFailed; what was done before stays done.
     void gather(const GatherScene &scene, std::span<const TileTask> tasks,
                 const std::function<void(std::size_t, const TilePicture &)> &done, TileReport &report);
 
@@ -26,7 +26,7 @@ private:
 
     Device &device_;
     std::optional<Program> program_; // made when it is first needed
-    StripeBuffers buffers_;          // kept for the next frame where one stripe is all
+    StripeBuffers buffers_;          // kept for the next frame if one stripe is everything
 };
 
 } // namespace sparselens::gpu

@@ -7,10 +7,10 @@ namespace sparselens::gpu {
 
 namespace {
 
-constexpr float margin = 2; // pixels: the ones next to it, and rounding
+constexpr float margin = 2; // pixels: those next to the quarter, and rounding
 constexpr float size = lens_kernel::size;
 
-// How far lens points move a sample, for each pixel of CoC, and all samples.
+// How far lens points move a sample: per pixel of CoC, and besides.
 struct Reach {
     float x = 0, y = 0, all = 0;
 };

@@ -1,5 +1,5 @@
-// The samples of partial coverage that a tile's lens points can bring into each of its quarters, front to back, of equal
-// depth in ascending order.
+// Lists of the samples of partial coverage that a tile's lens points can bring into each of its quarters: front to
+// back, and in ascending order where depths are equal.
 #pragma once
 
 #include "dof/device/tile_device.h"

@@ -18,7 +18,7 @@ std::size_t partial_count(const BlockedSamples &samples, const TileTask &task) {
     return count;
 }
 
-// Where a range's samples and blocks are among those of the stripe.
+// Where the samples and blocks of a range are in the stripe.
 struct Placed {
     const BlockedSamples &from;
     const SampleColours &colours;
@@ -55,7 +55,7 @@ void place_blocks(Stripe &stripe, const Placed &what) {
     }
 }
 
-// Lists blocks of a range whose first block is number `first` of the stripe.
+// Lists blocks of a range. `first`: the stripe's number of the range's first block.
 std::uint32_t list_blocks(Stripe &stripe, const Range &range, std::size_t first,
                           std::span<const std::uint32_t> blocks) {
     const auto at = std::uint32_t(stripe.block_lists.size());
@@ -64,7 +64,7 @@ std::uint32_t list_blocks(Stripe &stripe, const Range &range, std::size_t first,
     return at;
 }
 
-// Behind all samples; `first_sample`: the scene's number of the stripe's first.
+// Places the solids behind all samples. `first_sample`: the scene's number of the stripe's first sample.
 void place_solids(Stripe &stripe, const BlockedSamples &from, const Range &range,
                   std::uint32_t first_sample) {
     const std::uint32_t first = range.first(from);
@@ -93,7 +93,7 @@ void place_facets(Stripe &stripe, const PlacedFacets &from, const Range &range, 
     }
 }
 
-// The lens points, which tiles share.
+// Places the lens points, which tiles share.
 std::uint32_t place_lens(Stripe &stripe, std::span<const LensSample> lens) {
     const auto at = std::uint32_t(stripe.lens.size());
     float before = 0;
@@ -105,7 +105,7 @@ std::uint32_t place_lens(Stripe &stripe, std::span<const LensSample> lens) {
     return at;
 }
 
-// The tiles, and the lists of what reaches each; the columns and the holdout are not filled in yet.
+// Lists the tiles, and the blocks that reach each of them. The columns and the holdout are filled in later.
 void list_tiles(Stripe &stripe, const GatherScene &scene, std::span<const TileTask> tasks,
                 const Ranges &ranges, double most_turns) {
     const std::size_t fillers = ranges.samples.blocks(), solids = fillers + ranges.fillers.blocks(),
@@ -144,7 +144,7 @@ void list_tiles(Stripe &stripe, const GatherScene &scene, std::span<const TileTa
     stripe.holdout.resize(holdout);
 }
 
-// The partial samples of each quarter.
+// Lists the partial samples of each quarter.
 void list_partial(Stripe &stripe, const BlockedSamples &samples, std::span<const TileTask> tasks,
                   std::uint32_t first_sample) {
     std::vector<PartialLists> lists(tasks.size());

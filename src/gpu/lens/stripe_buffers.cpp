@@ -16,9 +16,9 @@ using Bytes = std::span<const std::byte>;
 
 // Bytes that are compared and copied at once: the colours of a block of pixels.
 constexpr std::size_t page = 1024;
-constexpr std::size_t cocs = 12; // among what follows
+constexpr std::size_t cocs = 12; // index of the CoCs in parts_of()
 
-// In the order of the shader's bindings, without those that it writes.
+// The parts of a stripe in the order of the shader's bindings, without the buffers that the shader writes.
 std::array<Bytes, 16> parts_of(const Stripe &s) {
     const auto bytes = [](const auto &values) { return std::as_bytes(std::span(values)); };
     return {bytes(s.places),      bytes(s.uppers),        bytes(s.colours), bytes(s.blocks),
@@ -27,7 +27,7 @@ std::array<Bytes, 16> parts_of(const Stripe &s) {
             bytes(s.cocs),        bytes(s.alphas),        bytes(s.solids),  bytes(s.shown)};
 }
 
-// Where they differ, in whole pages.
+// The ranges where two arrays differ, in whole pages.
 std::vector<ByteRange> changes(Bytes before, Bytes now) {
     std::vector<char> differs(pieces_of(now.size(), page));
     parallel_ranges(differs.size(), 256, [&](std::size_t first, std::size_t last) {
@@ -48,7 +48,7 @@ std::vector<ByteRange> changes(Bytes before, Bytes now) {
     return ranges;
 }
 
-// For what is a little larger in the next frame, as lists are.
+// A buffer with some room to grow, because lists may be a little larger in the next frame.
 Buffer buffer_for(Device &device, std::size_t bytes) {
     return device.buffer(std::max(bytes, std::min(bytes + bytes / 8, device.largest_buffer())));
 }

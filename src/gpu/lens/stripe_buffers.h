@@ -1,6 +1,6 @@
-// A stripe in the buffers of a device. What is brought there is compared with the stripe that was there before, and of what is
-// the same nothing is copied: in a pull of focus over one LDI these are the positions, depths and coverages of its samples,
-// and most of their colours. Whether it is the same LDI need not be known.
+// A stripe in the buffers of a device. A new stripe is compared with the one before, and only what differs is copied.
+// In a pull of focus over one LDI, the positions, depths and coverages of samples stay the same, and most of their
+// colours. It need not be known whether it is the same LDI.
 #pragma once
 
 #include "gpu/device.h"
@@ -12,11 +12,11 @@ namespace sparselens::gpu {
 
 class StripeBuffers {
 public:
-    // Returns how many bytes went to the device. Throws DeviceFailed, after which the buffers are of no use.
+    // Returns how many bytes went to the device. Throws DeviceFailed; the buffers must not be used after that.
     std::size_t bring(Device &device, Stripe &&stripe);
 
     const Stripe &stripe() const { return stripe_; }
-    // In the order of the shader's bindings, with those that it writes.
+    // The buffers in the order of the shader's bindings, including those that the shader writes.
     std::vector<const Buffer *> bindings(const Buffer &values, const Buffer &known, const Buffer &sums) const;
 
 private:

@@ -1,4 +1,4 @@
-// Which blocks of a scene tiles are gathered from.
+// Finds which blocks of a scene tiles are gathered from.
 #pragma once
 
 #include "dof/device/tile_device.h"
@@ -12,7 +12,7 @@
 
 namespace sparselens::gpu {
 
-// A range of blocks, and what lies in them side by side: samples or facets.
+// A range of blocks, and of the samples or facets in them, which follow each other.
 struct Range {
     std::uint32_t first_block = ~0u, end_block = 0;
 
@@ -33,7 +33,7 @@ struct Range {
     }
 };
 
-// What tiles are gathered from, in the scene.
+// The ranges of a scene that tiles are gathered from.
 struct Ranges {
     Range samples, fillers, facets, solids;
 
@@ -58,8 +58,8 @@ struct Ranges {
     }
 
 private:
-    // The samples that the keys of a block name, by these or their lower halves: a facet can reach a tile that some of its corners do not, and a solid one that
-    // the sample does not that it shows.
+    // Adds the samples that the lower halves of a block's keys name (`keys`). A facet can reach a tile that some of its
+    // corners do not reach, and a solid can reach a tile that the sample which it shows does not reach.
     void add_named(const GatherScene &scene, const auto &keys, const auto &block) {
         std::uint32_t least = ~0u, most = 0;
         for (std::uint32_t i = block.begin; i < block.end; ++i) {

@@ -1,6 +1,7 @@
-// What the kernel of the lens gather works on: bindings, shared memory, and the lens point at hand. All of a stripe (stripe.h).
+// The data of the lens gather's kernel: bindings, shared memory, and the current lens point. All belong to one stripe
+// (stripe.h).
 
-// Samples; data that change in a pull of focus are apart from data that do not.
+// Samples. Data that change in a pull of focus are apart from data that do not.
 layout(binding = 0) readonly buffer Places { vec2 places[]; };
 // The upper half of the key: 1 for a background, else the bits of the perceptive depth, plus 2.
 layout(binding = 1) readonly buffer Uppers { uint uppers[]; };
@@ -11,20 +12,24 @@ layout(binding = 5) readonly buffer PartialLists { uint partial_lists[]; }; // f
 layout(binding = 6) readonly buffer LensPoints { Lens lens_points[]; };
 layout(binding = 7) readonly buffer Tiles { Tile tiles[]; };
 layout(binding = 8) writeonly buffer Values { vec4 values[]; }; // [group][tile][pixel of the tile]
-layout(binding = 9) writeonly buffer Knowns { float knowns[]; }; // [group][tile][pixel]: 1 where anything is known, else 0
+// [group][tile][pixel]: 1 if anything is known, else 0
+layout(binding = 9) writeonly buffer Knowns { float knowns[]; };
 layout(binding = 10) readonly buffer Facets { uint facets[]; };  // three samples each
 layout(binding = 11) readonly buffer Sets { uint sets[]; };      // [channel]: its ColourSet
 layout(binding = 12) readonly buffer Columns { uint columns[]; };
 layout(binding = 13) readonly buffer Holdouts { uint holdouts[]; };
-layout(binding = 14) readonly buffer Cocs { float cocs[]; };   // by which they are seen and hide
+layout(binding = 14) readonly buffer Cocs { float cocs[]; };   // move what is seen and what hides
 layout(binding = 15) readonly buffer Alphas { float alphas[]; };
-layout(binding = 16) readonly buffer Solids { uint solids[]; }; // which sample each of them shows; they come after all samples
-layout(binding = 17) readonly buffer Shown { float shown[]; }; // CoCs of what opaque ones show, be it an image in a mirror
-layout(binding = 18) buffer Sums { vec4 sums[]; }; // from one pass to the next: [group][tile][pixel][light, weight]
+// the sample that each shows; solids come after all samples
+layout(binding = 16) readonly buffer Solids { uint solids[]; };
+// CoCs of what opaque samples show, such as an image in a mirror
+layout(binding = 17) readonly buffer Shown { float shown[]; };
+// kept between passes: [group][tile][pixel][light, weight]
+layout(binding = 18) buffer Sums { vec4 sums[]; };
 layout(push_constant) uniform Pushed { Push push; };
 
 shared uint64_t front[2 * cells]; // keys of the nearest samples, then of the nearest images or fillers; 0: none
-shared uint near_blocks[threads]; // those that reach the quarter
+shared uint near_blocks[threads]; // the blocks that reach the quarter
 shared uint near_count;
 shared uint empty_count;
 shared uint counts[pixels]; // of partial samples, then where the next one is listed
@@ -36,7 +41,7 @@ ivec2 corner; // in the tile
 vec2 first;   // pixel
 uint rules;   // of the tile
 uint partial_first, partial_count; // of the quarter
-uint held_out; // where holdouts[] has the tile's
+uint held_out; // where the tile's part of holdouts[] begins
 Lens lens;
 
 uint thread() { return gl_LocalInvocationIndex; }

@@ -1,8 +1,8 @@
-// What a holdout that stays sharp lets through (deep/holdout.h).
+// How much light a holdout that stays sharp lets through (deep/holdout.h).
 
 float part_of(uint part, uint k) { return uintBitsToFloat(holdouts[held_out + 4 * pixels + 1 + 3 * part + k]); }
 
-// The share of the light from that perceptive depth that passes at the thread's pixel `j`.
+// The share of light from a perceptive depth that passes at the thread's pixel `j`.
 float passes(uint j, float depth) {
     if ((rules & holdout) == 0) return 1;
     const ivec2 at = pixel_of(j) + corner;
@@ -17,7 +17,7 @@ float passes(uint j, float depth) {
     return passed;
 }
 
-// The same for the light of what see_behind() says is seen there; 1 where that is unknown.
+// The same for the light of what see_behind() found there; 1 if that is unknown.
 float opaque_passes(uint j, uint seen) {
     if ((rules & holdout) == 0 || seen == none) return 1;
     const uint64_t key = front[cell_of(pixel_of(j))];

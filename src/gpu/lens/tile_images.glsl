@@ -1,16 +1,16 @@
-// What a lens point sees in mirrors and glass: the image, in the window that their surface is. After see_opaque() and
+// What a lens point sees in mirrors and glass: the image, where their surface is seen. Comes after see_opaque() and
 // see_facets().
 
 bool is_image(uint sample_) { return shown[sample_] != cocs[sample_]; }
 
-// Greater for a smaller CoC, then for a smaller index.
+// The key is greater for a smaller CoC, then for a smaller index.
 uint64_t image_key(uint sample_) {
     const float coc = shown[sample_];
     const uint bits = floatBitsToUint(coc == 0 ? 0 : coc);
     return ~key_of((bits >> 31) != 0 ? ~bits : bits | 0x80000000u, sample_);
 }
 
-// The nearest image in each cell, into front[cells + cell]. Ends with a barrier.
+// Finds the nearest image in each cell, into front[cells + cell]. Ends with a barrier.
 void see_images(uint list, uint count) {
     for (uint c = thread(); c < cells; c += threads) front[cells + c] = 0UL;
     for (uint begin = 0; begin < count; begin += threads) {
@@ -27,7 +27,7 @@ void see_images(uint list, uint count) {
     barrier();
 }
 
-// The sample that shows what is seen of the front one in a cell.
+// Returns the sample whose image shows in a cell; else the front sample.
 uint image_at(uint cell) {
     const uint sample_ = sample_of(front[cell]);
     if (!is_image(sample_)) return sample_;

@@ -1,7 +1,7 @@
-// What a lens point sees of the opaque samples, of facets between them (dof/facets) and of what is solid behind them
+// What a lens point sees of opaque samples, of facets between them (dof/facets) and of solids behind them
 // (dof/lens/solid_samples.h): the nearest key in each cell.
 
-// The pixel of the quarter, or next to it, that the lens point sees a sample in; outside: x < -1.
+// Returns the pixel of the quarter, or next to it, in which the lens point sees a sample; outside: x < -1.
 ivec2 seen_at(uint sample_, float coc) {
     const vec2 place = places[sample_];
     const float x = seen_along(place.x, first.x - 1, coc, lens.x, lens.pixel_x + shift_of_samples),
@@ -19,7 +19,7 @@ bool out_of_reach(Block b) {
            b.y_min + least.y - 1 > end.y;
 }
 
-// Lists those of up to `threads` blocks that reach the quarter. Begins and ends with a barrier.
+// Lists the blocks that reach the quarter, out of up to `threads` blocks. Begins and ends with a barrier.
 void find_near(uint list, uint count) {
     barrier();
     if (thread() == 0) near_count = 0;
@@ -31,7 +31,7 @@ void find_near(uint list, uint count) {
     barrier();
 }
 
-// The nearest opaque samples of listed blocks, into front[offset + cell]. Ends with a barrier.
+// Finds the nearest opaque samples of listed blocks, into front[offset + cell]. Ends with a barrier.
 void see_opaque(uint list, uint count, uint offset) {
     for (uint c = thread(); c < cells; c += threads) front[offset + c] = 0UL;
     for (uint begin = 0; begin < count; begin += threads) {
@@ -47,7 +47,7 @@ void see_opaque(uint list, uint count, uint offset) {
     barrier();
 }
 
-// What is solid hides what lies behind it, in cells that show something. Ends with a barrier.
+// Solids hide what lies behind them, in cells that show something. Ends with a barrier.
 void see_solids(uint list, uint count) {
     for (uint begin = 0; begin < count; begin += threads) {
         find_near(list + begin, count - begin);
@@ -84,7 +84,7 @@ Triangle triangle_of(uint facet) {
 float least_of(vec3 at) { return min(min(at[0], at[1]), at[2]); }
 float most_of(vec3 at) { return max(max(at[0], at[1]), at[2]); }
 
-// The cells of the quarter whose middle lies between the corners, along one axis.
+// Returns the cells of the quarter whose middle lies between the corners, along one axis.
 ivec2 extent_of(vec3 at, int corner_) {
     const float last = tile_stride - border;
     return ivec2(max(first_between(least_of(at), last), corner_ + 1), min(last_between(most_of(at), last), corner_ + side));
@@ -92,7 +92,7 @@ ivec2 extent_of(vec3 at, int corner_) {
 
 bool parted(vec3 at) { return most_of(at) - least_of(at) > parted_px; }
 
-// Between two corners and a point.
+// Twice the area of the triangle between two corners and a point.
 float area(Triangle t, uint from, uint to, vec2 at) {
     return twice_area(t.x[from], t.y[from], t.x[to], t.y[to], at.x, at.y);
 }
@@ -110,7 +110,7 @@ void draw(Triangle t) {
         }
 }
 
-// What lies between the samples of steep surfaces, into front[]. Ends with a barrier.
+// Draws facets, which close steep surfaces between their samples, into front[]. Ends with a barrier.
 void see_facets(uint list, uint count) {
     for (uint begin = 0; begin < count; begin += threads) {
         find_near(list + begin, count - begin);

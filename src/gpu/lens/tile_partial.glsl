@@ -1,10 +1,11 @@
-// What partial samples put in front of the pixels, in the order of their depth.
+// Composites partial samples in front of the pixels, in order of depth.
 
-// What partial samples put in front of a pixel.
+// The partial samples in front of a pixel.
 struct Over {
-    vec4 colour, colour_in_front; // of those behind focus and in front, where that makes a difference; else all are behind
+    // of samples behind focus and in front of it, if that makes a difference; else all count as behind
+    vec4 colour, colour_in_front;
     float transmittance;
-    float hidden_in_front; // what those in front of focus hide
+    float hidden_in_front; // how much the samples in front of focus hide
 };
 
 // `j`: the thread's pixel.
@@ -19,7 +20,7 @@ void add_over(inout Over over, uint j, uint sample_, uint group) {
     over = Over(in_front ? over.colour : colour, in_front ? colour : over.colour_in_front, passed, hidden);
 }
 
-// The counts of a chunk by pixel, and the pixels of the two samples of it that are the thread's; -1: hidden or outside.
+// Counts the samples of a chunk by pixel, and returns the pixels of the thread's two samples; -1: hidden or outside.
 int[2] count_chunk(uint begin) {
     int at[2];
     for (uint h = 0; h < 2; ++h) {
@@ -32,7 +33,7 @@ int[2] count_chunk(uint begin) {
         if (key_of(uppers[i], i) < front[cell_of(pixel)]) continue;
         at[h] = pixel.y * size + pixel.x;
         atomicAdd(counts[at[h]], 1);
-        listed_count = 1; // by all the same
+        listed_count = 1; // all threads write the same
     }
     return at;
 }
@@ -46,8 +47,8 @@ void sort_list(uint begin, uint end) {
     }
 }
 
-// Lists the samples of a chunk by pixel, each pixel's front to back; false: there is none. Those of the thread's pixel j are
-// [start[j], counts[its pixel]) of listed[]. Ends with a barrier.
+// Lists the samples of a chunk by pixel, front to back in each pixel. Returns false if there are none. The samples of
+// the thread's pixel j are [start[j], counts[its pixel]) of listed[]. Ends with a barrier.
 bool list_chunk(uint begin, out uint start[own]) {
     for (uint j = 0; j < own; ++j) counts[thread() + threads * j] = 0;
     if (thread() == 0) listed_count = 0;

@@ -1,13 +1,13 @@
-// What the pixels have seen so far. Where lens points weigh differently for colours or for what lies behind focus and in
-// front, or not all pixels see through, what is known is summed up for each channel.
+// The sums of what pixels have seen so far. What is known is summed up for each channel if lens points weigh
+// differently for colours or for what lies behind focus and in front, or if not all pixels see through them.
 
 struct Sum {
     vec4 light;
-    vec4 weight; // of what is known, of each channel; without the rule `weighted`, x: of what is unknown
+    vec4 weight; // the known weight of each channel; without the rule `weighted`, x: the unknown weight
 };
 
-// Adds what the lens point sees: a sample, or what is unknown (`none`), behind partial ones; `passes`: the share of the sample's
-// light that a holdout lets through.
+// Adds what the lens point sees: a sample, or something unknown (`none`), behind partial samples. `passes`: the share
+// of the sample's light that a holdout lets through.
 void add_seen(inout Sum sum, uint seen, float passes, Over over, uint group) {
     const vec4 behind = seen != none ? colours[group * push.sample_count + seen] : vec4(0);
     precise vec4 light = sum.light;
@@ -24,7 +24,7 @@ void add_seen(inout Sum sum, uint seen, float passes, Over over, uint group) {
     sum = Sum(light, vec4(unknown));
 }
 
-// By what the lens point weighs each channel, for what lies in front of focus or behind.
+// Returns the weight of the lens point for each channel, for what lies in front of focus or behind.
 vec4 channel_weights(uint group, bool in_front) {
     const float side_ = in_front ? lens.in_front : lens.behind;
     vec4 weights;
@@ -33,22 +33,22 @@ vec4 channel_weights(uint group, bool in_front) {
     return weights;
 }
 
-// How these count in what the sum is divided by.
+// Returns how these weights count in the divisor of the sum.
 vec4 known_weights(uint group, vec4 weights) {
     for (uint k = 0; k < 4; ++k)
         if (is_darkened(sets[group * 4 + k], (rules & darkens) != 0)) weights[k] = lens.weight;
     return weights;
 }
 
-// Whether a pixel of the tile sees through the tile's lens point number `k`: of each row, columns[] has where those
-// begin that do, and where they end, 8 bits each.
+// Whether a pixel of the tile sees through the tile's lens point number `k`. For each row, columns[] says where the
+// pixels that do begin and end, 8 bits each.
 bool seen_through(Tile tile, uint k, ivec2 at) {
     if ((rules & cat_eye) == 0) return true;
     const uint row = columns[tile.columns + (k * 2 * size + at.y) / 2] >> 16 * (at.y % 2);
     return at.x >= int(row & 255) && at.x < int(row >> 8 & 255);
 }
 
-// Backgrounds lie behind, wherever they are seen.
+// Backgrounds lie behind focus, wherever they are seen.
 bool in_front_of_focus(uint sample_) {
     if ((rules & two_sided) == 0 || sample_ == none) return false;
     return (sample_ >= push.first_filler || uppers[sample_] > background_upper) && shown[sample_] < 0;
@@ -60,7 +60,7 @@ void add_weighted(inout Sum sum, vec4 weight, vec4 light, float covered, vec4 co
     sum = Sum(lights, known);
 }
 
-// The same as add_seen() by other rules.
+// Like add_seen(), with weights for each channel.
 void add_seen_weighted(inout Sum sum, uint seen, float passes, Over over, uint group) {
     const vec4 lights[2] = {channel_weights(group, false), channel_weights(group, true)};
     const vec4 weights[2] = {known_weights(group, lights[0]), known_weights(group, lights[1])};
@@ -76,7 +76,7 @@ void add_seen_weighted(inout Sum sum, uint seen, float passes, Over over, uint g
     if (seen != none) add_weighted(sum, weights[side_], lights[side_], -hidden, taken);
 }
 
-// The weight of what is known.
+// The known weight of each channel.
 vec4 known_of(Sum sum, float total) {
     vec4 known = (rules & weighted) != 0 ? sum.weight : vec4(total - sum.weight.x);
     for (uint k = 0; k < 4; ++k) known[k] = known_weight(known[k], total);

@@ -1,7 +1,7 @@
-// What a lens point sees where it meets no opaque sample, or one far behind: a surface through the cracks between its samples;
-// elsewhere, fillers.
+// What a lens point sees where it meets no opaque sample, or only one far behind: a surface through the cracks between
+// its samples, else fillers.
 
-// The sample that shows through a crack at a cell, as a key; 0: there is no crack.
+// Returns the key of the sample that shows through a crack at a cell; 0: there is no crack.
 uint64_t torn_at(uint cell) {
     const uint64_t behind = behind_crack(front[cell]);
     uint64_t farthest = 0UL;
@@ -19,15 +19,15 @@ uint64_t torn_at(uint cell) {
     return farthest;
 }
 
-// Whether what lies at that depth is behind something in a cell, also where a surface is torn there.
+// Whether something at this depth is behind what a cell shows, or behind a surface that is torn there.
 bool hides(uint cell, float depth) {
     const uint64_t limit = hiding_key(depth);
     return front[cell] > limit || (front[cell - 1] > limit && front[cell + 1] > limit) ||
            (front[cell - side] > limit && front[cell + side] > limit);
 }
 
-// What lies behind the partial samples in the thread's pixels: a sample, `none` where that is unknown. Ends with a
-// barrier; cracks are closed in front[].
+// Returns what lies behind the partial samples in the thread's pixels: a sample, or `none` if it is unknown. Closes
+// cracks in front[]. Ends with a barrier.
 uint[own] see_behind(Tile tile) {
     if (thread() == 0) empty_count = 0;
     see_opaque(tile.blocks, tile.block_count, 0);

@@ -1,4 +1,5 @@
-// For 0 <= x <= 1; GLSL has none for double. The rational form of Sun's fdlibm; the error is below 1e-15.
+// The arc sine for 0 <= x <= 1, because GLSL has none for double. The rational form of Sun's fdlibm; the error is below
+// 1e-15.
 double asin(double x) {
     const bool small = x < 0.5lf;
     precise const double t = small ? x * x : (1 - x) * 0.5lf;

@@ -1,13 +1,14 @@
 #version 460
-// The selective gather of a tile: what src/dof/selective/selective.cpp says, with the same sums in the same order.
+// The selective gather of a tile: the same as src/dof/selective/selective.cpp, with the same sums in the same order.
 //
-// A work group takes what its tile visits (splat_stripe.h), front to back. Where the discs of a block cover the tile, their
-// sums are all that it needs. Of other blocks, it brings a chunk of splats into shared memory, with the chords of each disc
-// along the edges of the tile's columns and rows; then each thread adds to its pixels what the discs bring there, splat
-// after splat. Where a bin ends, its sums become a layer of each pixel, or a part of one. Every sum belongs to one thread.
+// A work group takes what its tile visits (splat_stripe.h), front to back. If the discs of a block cover the tile, the
+// sums of the block are all that it needs. Of other blocks, it brings a chunk of splats into shared memory, with the
+// chords of each disc along the edges of the tile's columns and rows; then each thread adds to its pixels what the
+// discs bring there, splat after splat. At the end of a bin, the sums become a layer of each pixel, or a part of one.
+// Every sum belongs to one thread.
 //
-// What takes long is cut into passes: all that a thread knows goes to buffers at the end of one, and comes back at the
-// beginning of the next. The last one blends.
+// Work that takes long is cut into passes: all state of a thread goes to buffers at the end of a pass and comes back at
+// the beginning of the next one. The last pass blends.
 //
 // gl_WorkGroupID.x: the tile. gl_WorkGroupID.y: the group of four colours.
 #extension GL_GOOGLE_include_directive : require
@@ -49,7 +50,7 @@ void begin_pass() {
 }
 
 void end_pass() {
-    barrier(); // all have read what they began with
+    barrier(); // all threads have read what they began with
     if (thread() == 0) keep_bin(running_at(bin_sums), 1, uniform_);
     for (uint j = 0; j < own; ++j) {
         const uint state = place * 2 * pixels + pixel_of(j);
@@ -67,7 +68,7 @@ void add_uniform(uint block) {
     uniform_ = Bin(coverage, known, radius, light);
 }
 
-// The splats of the chunk that touch the strip of pixel j, a bit for each.
+// The splats of the chunk that touch the strip of pixel j, one bit each.
 uint touching_pixel(uint j) {
     const uint strip = pixel_of(j) / strip_size;
     return touching[2 * strip] | touching[2 * strip + 1];

@@ -17,9 +17,9 @@ constexpr std::uint32_t code[] = {
 };
 
 constexpr std::uint32_t buffers = 14;
-constexpr std::size_t stripe_bytes = std::size_t{512} << 20; // of a buffer, also where a device allows more
-// Turns of its loops that a work group takes in a pass, and all that are submitted at once: what takes seconds, operating
-// systems end.
+constexpr std::size_t stripe_bytes = std::size_t{512} << 20; // of a buffer, even if a device allows more
+// Turns of its loops that a work group takes in a pass, and that all work groups submitted at once take. Operating
+// systems end work that takes seconds.
 constexpr double steps_in_pass = 2e5, steps_at_once = 2e6;
 
 template <typename Values>

@@ -1,5 +1,5 @@
-// Tiles of the selective gather on a device (selective_tile.comp). It leaves to the CPU what fits into no buffer, and all of a
-// device that has no numbers of 64 bits.
+// Gathers tiles of the selective gather on a device (selective_tile.comp). It leaves to the CPU tiles that fit into no
+// buffer, and all tiles if the device has no numbers of 64 bits.
 #pragma once
 
 #include "dof/device/tile_device.h"
@@ -13,7 +13,7 @@ class SelectiveTilesOnDevice {
 public:
     explicit SelectiveTilesOnDevice(Device &device) : device_(device) {}
 
-    // As TileDevice's. Throws DeviceFailed; what was done before stays done.
+    // Like TileDevice::gather(). Throws DeviceFailed; what was done before stays done.
     void gather(const SplatScene &scene, std::span<const SplatTask> tasks,
                 const std::function<void(std::size_t, const SplatPicture &)> &done, TileReport &report);
 

@@ -1,16 +1,17 @@
-// What the kernel of the selective gather works on: bindings, and what a work group shares. All of a stripe
+// The data of the selective gather's kernel: bindings, and what a work group shares. All belong to one stripe
 // (splat_stripe.h).
 
 layout(binding = 0) readonly buffer Discs { double discs[]; };   // [splat]: x, y, radius
 layout(binding = 1) readonly buffer Shares { float shares[]; };  // [splat]: coverage, known, known times radius
 layout(binding = 2) readonly buffer Colours { vec4 colours[]; }; // [group][splat]
 layout(binding = 3) readonly buffer Pieces { Piece pieces[]; };
-layout(binding = 4) readonly buffer Sums { double sums[]; };     // [block][group][bin_sums], divided by the discs' areas
+// [block][group][bin_sums], divided by disc areas
+layout(binding = 4) readonly buffer Sums { double sums[]; };
 layout(binding = 5) readonly buffer Lists { uint lists[]; };     // what a tile visits, front to back
 layout(binding = 6) readonly buffer Cuts { uint cuts[]; };       // [tile][pass]: where the pass begins in lists[]
 layout(binding = 7) readonly buffer Tiles { Tile tiles[]; };
-// From one pass to the next; [tile][group], then [layer][sum][pixel], [layer][pixel], [count, last bin][pixel] and
-// [sum][pixel] followed by what all pixels of the tile get alike.
+// Kept between passes: [tile][group], then [layer][sum][pixel], [layer][pixel], [count, last bin][pixel], and
+// [sum][pixel] followed by what all pixels of the tile get.
 layout(binding = 8) buffer Layers { double layers[]; };
 layout(binding = 9) buffer Gaps { int gaps[]; };
 layout(binding = 10) buffer States { int states[]; };
@@ -24,7 +25,7 @@ shared dvec4 disc[chunk];              // x, y, radius, 1 / area
 shared ivec4 touched[chunk];           // rows, then columns of the tile: the first, and the one after the last
 shared double column_chord[chunk * edges]; // half the chord along each edge between columns,
 shared double row_chord[chunk * edges];    // and between rows
-shared uint touching[threads];             // [strip][half of the chunk]: a bit for each splat
+shared uint touching[threads];             // [strip][half of the chunk]: one bit per splat
 shared vec3 share[chunk];
 shared vec4 colour[chunk];
 
@@ -37,8 +38,8 @@ struct Bin {
 Tile tile;
 uint place;     // (tile, group)
 uint group;
-Bin bins[own];  // of the bin at work
-Bin uniform_;   // what all pixels get alike
+Bin bins[own];  // sums of the current bin
+Bin uniform_;   // what all pixels get
 int layer_count[own], last_bin[own];
 
 uint thread() { return gl_LocalInvocationIndex; }

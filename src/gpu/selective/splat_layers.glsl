@@ -1,4 +1,5 @@
-// Bins become layers, and layers the picture: what src/dof/selective/blend.cpp says, with the same sums in the same order.
+// Makes layers of bins, and the picture of layers: the same as src/dof/selective/blend.cpp, with the same sums in the
+// same order.
 
 // A layer of pixel j of the thread: coverage, what is known, and the light.
 struct Layer {
@@ -82,7 +83,7 @@ void finish_bin(int bin) {
     uniform_ = no_sums();
 }
 
-// From back to front, so that `known` is at each layer what lies there or behind it.
+// Goes from back to front, so that at each layer `known` is the sum over this layer and the layers behind it.
 void blend(uint j, uint t) {
     dvec4 light = dvec4(0);
     double alpha = 0, known = 0;

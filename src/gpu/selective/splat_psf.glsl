@@ -1,4 +1,4 @@
-// The weight of a pixel in the disc of a splat: what PsfRows of src/lens/psf.cpp says of rows, said of one pixel, with the
+// The weight of a pixel in the disc of a splat: PsfRows of src/lens/psf.cpp for one pixel instead of rows, with the
 // same sums in the same order.
 
 ivec2 columns_within(double centre, double distance_) {
@@ -20,7 +20,7 @@ double chord_at(uint s, int edge, Band band) {
     return clamp(column_chord[s * edges + uint(edge - tile.x_min)], band.low, band.high);
 }
 
-// Adds what the arc cuts off column x, where that lies outwards of `first`. direction 1: to the right.
+// Adds what the arc cuts off column x, outwards of `first`. direction 1: to the right.
 void add_arc(inout double weight, uint s, Band band, int x, int first, int direction) {
     const dvec4 d = disc[s];
     const int before = direction > 0 ? x : x + 1, after = before + direction;
@@ -57,14 +57,14 @@ double weight_of(uint s, int x, int y) {
     const double at_top = row_chord[row], at_bottom = row_chord[row + 1];
     const bool point = d.z < smallest_psf_radius, above = top < 0, below = bottom > 0;
     double weight = point ? 1 : 0;
-    // The row that holds the centre is two bands: above the centre, and below.
+    // The row that holds the centre has two bands: above the centre, and below.
     for (int side = above ? 0 : 1; side < (point ? 0 : below ? 2 : 1); ++side) {
         add_band(weight, s, band_of(side == 0, top, bottom, at_top, at_bottom, d.z), x);
     }
     return weight;
 }
 
-// Which splats of the chunk touch each strip of a row. A thread looks at half of the chunk for one of them.
+// Finds which splats of the chunk touch each strip of a row. A thread looks at half of the chunk for one strip.
 void find_touching(uint count) {
     const uint strip = thread() / 2, first = thread() % 2 * (chunk / 2);
     const ivec2 at = ivec2(strip % strips * strip_size + tile.x_min, strip / strips + tile.y_min);

@@ -34,7 +34,7 @@ struct Range {
     bool holds(const SplatBlock &block) const { return block.begin >= begin && block.end <= end; }
 };
 
-// At most so many, of the loops for a piece and of those for the end of a bin.
+// Upper bounds of the turns of the loops for a piece, and of those for the end of a bin.
 double steps_of(const splat_kernel::Piece &piece) {
     constexpr double for_each_splat = 4 * 7, for_each_chunk = 32;
     const double splats = piece.end - piece.begin;
@@ -75,7 +75,7 @@ void place_sums(SplatStripe &stripe, const SplatBlocks &from) {
     }
 }
 
-// Returns the first piece of each block; one more is the end. Those of blocks outside the range are never looked at.
+// Returns the first piece of each block; one more entry is the end. Pieces of blocks outside the range are never used.
 std::vector<std::uint32_t> place_pieces(SplatStripe &stripe, const SplatBlocks &from, const Range &range) {
     std::vector<std::uint32_t> first{0};
     for (std::size_t b = 0; b < from.blocks.size(); ++b) {

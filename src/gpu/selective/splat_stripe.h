@@ -1,7 +1,8 @@
-// Tiles of the selective gather that a device takes at once, with what they need laid out as selective_tile.comp reads it.
+// Tiles of the selective gather that a device takes at once, with their data laid out as selective_tile.comp reads it.
 //
-// Splats come square by square, so a stripe of tiles needs a range of them. What a tile visits is cut into passes of at most
-// so many steps, because devices end what takes long; a tile that is done sooner has empty passes at the end.
+// Splats come square by square, so a stripe of tiles needs a range of them. What a tile visits is cut into passes of a
+// limited number of steps, because devices end work that takes long. A tile that is done sooner has empty passes at the
+// end.
 #pragma once
 
 #include "dof/device/splat_tiles.h"
@@ -27,7 +28,7 @@ struct SplatStripe {
     std::vector<double> steps; // of a tile in a pass, at most
 };
 
-// What of a stripe stays on the device from one pass to the next, in numbers.
+// The sizes, in numbers, of what stays on the device between passes.
 struct SplatState {
     std::size_t layers, gaps, states, running;
 };

@@ -1,4 +1,4 @@
-// In a build without the kernels for GPUs (SPARSELENS_GPU) there is none.
+// A build without the kernels for GPUs (SPARSELENS_GPU) has no device.
 #include "gpu/warp/warp_device.h"
 
 namespace sparselens::gpu {

@@ -9,7 +9,7 @@
 
 namespace sparselens::gpu {
 
-// Work groups for so many items; more than one row where they are many.
+// The work groups for a number of items; more than one row if they are many.
 std::array<std::uint32_t, 3> groups_for(std::size_t items, std::size_t per_group);
 
 class PrefixSum {
@@ -21,7 +21,7 @@ public:
 
 private:
     Device &device_;
-    Program within_, add_; // blocks; to each the sum of those before
+    Program within_, add_; // within blocks; and adding to each block the sum of those before it
 };
 
 } // namespace sparselens::gpu

@@ -85,8 +85,8 @@ void StripeWork::make(std::size_t binding, std::size_t bytes) {
     buffers_[binding] = device_.buffer(bytes);
 }
 
-// The arrays of all views, one behind the other, and where in them the samples of each pixel begin; after those of a view, where
-// its last one ends.
+// Uploads the arrays of all views, one after the other, and where in them the samples of each pixel begin; after the
+// pixels of a view, where its last sample ends.
 void StripeWork::upload_views() {
     const std::size_t channels = scene_.layout.channels.size();
     make(depths, stripe_.samples * sizeof(float));

@@ -1,4 +1,4 @@
-// The kernels of the warp, and their work on one stripe: views go up, samples of the LDI come down.
+// The kernels of the warp, and their work on one stripe: views are uploaded, samples of the LDI are downloaded.
 #pragma once
 
 #include "gpu/device.h"
@@ -26,8 +26,8 @@ public:
     StripeWork(Device &device, WarpKernels &kernels, const WarpScene &scene, const WarpStripe &stripe,
                std::uint32_t most_in_pixel);
 
-    // Puts all samples into the pixels that they fall into. False: some pixel has too many of them, and nothing else
-    // can be done.
+    // Puts all samples into the pixels that they fall into. Returns false if some pixel has too many samples; nothing
+    // else can be done then.
     bool land();
     Ldi merge();                                       // once, after land()
     std::vector<Disagreement> differing_blocks();      // after merge(); see WarpedBands

@@ -1,8 +1,8 @@
-// What the kernels of the warp work on: the samples of all views that some rows of the centre view need, the samples that
-// fall into each pixel of those rows, and what these become. All of a stripe (warp_stripe.h).
+// The data of the warp's kernels: the samples of all views that some rows of the centre view need, the samples that
+// fall into each pixel of those rows, and the result. All belong to one stripe (warp_stripe.h).
 //
-// Arithmetic is in double precision and in the order of the CPU's, without fused multiply-add (`precise`), so that
-// the samples are those of src/warp bit for bit.
+// Arithmetic is in double precision and in the CPU's order, without fused multiply-add (`precise`), so that the samples
+// equal those of src/warp bit for bit.
 
 #define Real double
 #include "kernels/surface.h"
@@ -15,15 +15,19 @@ layout(local_size_x = threads) in;
 
 layout(binding = 0) readonly buffer FrameBuffer { Frame frame; };
 layout(binding = 1) readonly buffer Views { View views[]; };
-layout(binding = 2) readonly buffer Begins { uint begins[]; }; // [view][pixel]: its first sample, and one after the last
+// [view][pixel]: first sample, and one after the last
+layout(binding = 2) readonly buffer Begins { uint begins[]; };
 layout(binding = 3) readonly buffer Depths { float depths[]; };   // [sample]
 layout(binding = 4) readonly buffer Weights { float weights[]; }; // [sample]
 layout(binding = 5) readonly buffer Values { uint values[]; };    // [channel][sample], bits
 layout(binding = 6) readonly buffer Ids { uint ids[]; };          // [channel]: 1 for ids, which are copied
 layout(binding = 7) buffer Ends { uint ends[]; };                 // [pixel]: see first_of()
-layout(binding = 8) buffer Landed { uvec4 landed[]; }; // what fell into pixels: the sample, dx, dy, 1 / z (bits)
-layout(binding = 9) buffer Marks { uvec2 marks[]; };   // of those the view, and the surface of the pixel or `none`
-layout(binding = 10) buffer Means { double means[]; }; // of a pixel's surfaces by number: the mean of 1 / z, later the coverage
+// samples in the pixels that they fell into: index, dx, dy, 1 / z (bits)
+layout(binding = 8) buffer Landed { uvec4 landed[]; };
+// of each of these: the view, and the surface of the pixel or `none`
+layout(binding = 9) buffer Marks { uvec2 marks[]; };
+// [surface of a pixel, by number]: the mean of 1 / z, later the coverage
+layout(binding = 10) buffer Means { double means[]; };
 layout(binding = 11) buffer Verdicts { uint verdicts[]; }; // [block]: photo_verdict()
 layout(binding = 12) buffer Emitted { uint emitted[]; }; // [pixel]: how many samples, later where they begin
 layout(binding = 13) buffer Results { uint results[]; }; // [z, dx, dy, weight, channels][sample], bits
@@ -36,7 +40,7 @@ ivec2 position_of(uint pixel) {
 }
 bool has_rule(uint rule) { return (frame.rules & rule) != 0; }
 
-// What fell into a pixel is landed[first_of(pixel)] to landed[ends[pixel] - 1].
+// The samples that fell into a pixel are landed[first_of(pixel)] to landed[ends[pixel] - 1].
 uint first_of(uint pixel) { return pixel == 0 ? 0 : ends[pixel - 1]; }
 
 float value_of(uint sample_, uint channel) { return uintBitsToFloat(values[channel * frame.samples + sample_]); }
@@ -44,7 +48,7 @@ double x_of(uvec4 fallen) { return double(uintBitsToFloat(fallen.y)); }
 double y_of(uvec4 fallen) { return double(uintBitsToFloat(fallen.z)); }
 double inverse_z_of(uvec4 fallen) { return double(uintBitsToFloat(fallen.w)); }
 
-// By which it counts in the mean of its surface.
+// The weight of a sample in the mean of its surface.
 double weight_of(uvec4 fallen) {
     precise const double weight = double(weights[fallen.x]) * nearness(x_of(fallen), y_of(fallen));
     return weight;

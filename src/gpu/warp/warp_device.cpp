@@ -14,12 +14,13 @@ namespace sparselens::gpu {
 
 namespace {
 
-constexpr std::size_t stripe_bytes = std::size_t{512} << 20; // of a buffer, also where a device allows more
+constexpr std::size_t stripe_bytes = std::size_t{512} << 20; // of a buffer, even if a device allows more
 
-// Pixels are sorted by one thread each, which takes the square of their samples.
+// One thread sorts a pixel, in time proportional to the square of its samples.
 constexpr std::uint32_t most_in_pixel = 1024;
 
-// Mesa's device in software ends a program after 65535 turns of its loops, and what it has not written is garbage.
+// Mesa's software device ends a program after 65535 turns of its loops, and what the program has not written is
+// garbage.
 std::uint32_t most_in_software(const WarpScene &scene) {
     const std::size_t turns = std::max(scene.layout.channels.size(), 4 * scene.views.size());
     return std::uint32_t(std::clamp<std::size_t>(20'000 / turns, 1, 128));

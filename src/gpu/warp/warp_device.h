@@ -1,5 +1,5 @@
-// A GPU that turns views into samples (warp_land.comp and the kernels that follow it). It leaves to the CPU what fits into
-// no buffer.
+// A GPU that turns views into samples (warp_land.comp and the kernels that follow it). It leaves to the CPU what fits
+// into no buffer.
 #pragma once
 
 #include "gpu/device.h"
@@ -9,8 +9,8 @@
 
 namespace sparselens::gpu {
 
-// Throws DeviceFailed, also where the device has no double precision. A device that fails later is left alone from then
-// on: the CPU does what it has not done.
+// Throws DeviceFailed, also if the device has no double precision. A device that fails later is not used again: the CPU
+// does what it has not done.
 std::unique_ptr<WarpDevice> open_warp_device(const DeviceInfo &info, const Watch &watch = {});
 
 } // namespace sparselens::gpu

@@ -1,12 +1,12 @@
 #version 460
-// Where the colours of rim views differ from that of the centre view by more than noise, as find_photo_consistency() of
-// src/warp/photo_consistency.cpp has it: one thread a block of pixels, which adds in the order of the CPU.
+// Finds where the colours of rim views differ from the centre view's by more than noise, like find_photo_consistency()
+// of src/warp/photo_consistency.cpp. One thread takes a block of pixels, and adds in the CPU's order.
 #extension GL_GOOGLE_include_directive : require
 #include "warp_data.glsl"
 
 PhotoBlock shown;
 
-// Of the centre view, which holds the rows around.
+// For the centre view, which also has the rows around.
 uint begin_at(int x, int y) {
     return views[0].begins + uint((y - views[0].first_row) * (views[0].max_x - views[0].min_x + 1) + x - views[0].min_x);
 }

@@ -1,5 +1,5 @@
 #version 460
-// Writes the samples that each pixel has in the end, one thread a pixel: means of surfaces, or the centre's sample.
+// Writes the final samples of each pixel, one thread per pixel: means of surfaces, or the centre's sample.
 #extension GL_GOOGLE_include_directive : require
 #include "warp_data.glsl"
 #include "warp_merge.glsl"
@@ -9,7 +9,7 @@ uint total; // samples of all pixels
 void write(uint array, uint to, uint bits) { results[array * total + to] = bits; }
 void write(uint array, uint to, float value) { write(array, to, floatBitsToUint(value)); }
 
-// The first one of the centre, else the most central one, as it is.
+// Writes the first sample of the centre view, else the most central sample, unchanged.
 void emit_nearest(uint from, uint end, uint to) {
     uint best = from;
     float least = 0;
@@ -30,7 +30,7 @@ void emit_nearest(uint from, uint end, uint to) {
     for (uint k = 0; k < frame.channels; ++k) write(4 + k, to, values[k * frame.samples + fallen.x]);
 }
 
-// Four channels at once, from `first` on. Ids are copied.
+// Writes four channels at once, from `first` on. Ids are copied.
 void emit_channels(uint first, uint from, uint end, dvec2 balance, double coverage, double total_weight, uint to) {
     const uint count = min(4, frame.channels - first);
     precise dvec4 sum = dvec4(0);

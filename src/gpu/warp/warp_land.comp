@@ -1,7 +1,7 @@
 #version 460
-// Reprojection: one thread takes a pixel of a view, and puts its samples into the pixels of the centre view into which they
-// fall. The first run counts them; a prefix sum then gives each pixel its range; the second run lists them. Nobody
-// waits for anybody; the order in which they come is put right by warp_surfaces.comp.
+// Reprojection: one thread takes a pixel of a view, and puts its samples into the pixels of the centre view that they
+// fall into. The first run counts them; a prefix sum then gives each pixel its range; the second run lists them. No
+// thread waits for another; warp_surfaces.comp sorts the samples, whose order is arbitrary.
 //
 // gl_WorkGroupID.z: the view.
 #extension GL_GOOGLE_include_directive : require

@@ -1,6 +1,6 @@
-// What the samples of a surface become, as emit() of src/warp/warp.cpp has it.
+// Merges the samples of a surface, like emit() of src/warp/warp.cpp.
 
-// ViewMapping::in_view(). False: behind the camera of the view.
+// Like ViewMapping::in_view(). Returns false behind the camera of the view.
 bool in_view(View view, double x, double y, double inverse_z, out double seen_x, out double seen_y) {
     const double scale = scale_in_view(view.unzoom, view.approach, inverse_z);
     seen_x = place_in_view(x, view.offset_x, view.step_x, inverse_z, scale);
@@ -12,15 +12,15 @@ bool lies_in(View view, double x, double y) {
     return lies_in(x, view.min_x, view.max_x) && lies_in(y, view.min_y, view.max_y);
 }
 
-// Where begins[] has the pixel of a view that holds a position in its data window; `none`: that row is not there, though
-// the host sees to it that it is.
+// Returns where begins[] has the pixel of a view that holds a position in its data window; `none` if that row is not
+// there, which the host prevents.
 uint begin_at(View view, double x, double y) {
     const int row = int(floor(y)) - view.first_row;
     if (row < 0 || row >= view.rows) return none;
     return view.begins + uint(row * (view.max_x - view.min_x + 1) + int(floor(x)) - view.min_x);
 }
 
-// As src/warp/balance.h has it.
+// Like is_missing() of src/warp/balance.h.
 bool is_missing(View view, double x, double y, double inverse_z) {
     double seen_x, seen_y;
     if (!in_view(view, x, y, inverse_z, seen_x, seen_y)) return false;
@@ -45,7 +45,7 @@ bool some_view_is_missing(ivec2 pixel, uint from, uint to) {
     return false;
 }
 
-// By what weights are changed where views of a surface are missing: see balanced_weight(). 0: not at all.
+// How weights change where views of a surface are missing: see balanced_weight(). 0: not at all.
 dvec2 balance_of(uint pixel, uint from, uint to) {
     if (marks[from].x != 0 || to - from == 1 || !some_view_is_missing(position_of(pixel), from, to)) return dvec2(0);
     Offsets offsets = no_offsets();

@@ -1,6 +1,6 @@
 #version 460
-// The prefix sum of a block of numbers: each becomes the sum of those before it in the block; sums[] gets the sum of the
-// block. (G. E. Blelloch, "Prefix sums and their applications", 1990, block by block.)
+// The prefix sum of a block of numbers: each number becomes the sum of those before it in the block, and sums[] gets
+// the sum of the block. (G. E. Blelloch, "Prefix sums and their applications", 1990, block by block.)
 #extension GL_GOOGLE_include_directive : require
 #include "kernels/warp_layout.h"
 

@@ -16,8 +16,8 @@ struct Rows { // of a view, from the top of its data window
     std::size_t first, end;
 };
 
-// Where a view shows what lies in the box at depths down to 1 / inverse_z: the votes ask there. Positions in the view are
-// linear in p, and change in one direction with 1 / z: the extremes lie at the corners.
+// The rows of a view that show things in the box at depths down to 1 / inverse_z, because the votes look there.
+// Positions in the view are linear in p, and change in one direction with 1 / z, so the extremes lie at the corners.
 Rows rows_asked(const ReprojectedViews &views, std::size_t v, const Imath::Box2i &box, double inverse_z) {
     const ViewMapping &mapping = views.reprojection(v).mapping();
     const Imath::Box2i &data = views.samples(v).windows.data;
@@ -50,7 +50,7 @@ Rows rows_needed(const WarpScene &scene, std::size_t v, const Imath::Box2i &box,
     Rows rows = rows_that_reach(scene.views, v, box);
     if (!scene.averages) return rows;
     Rows asked = rows_asked(scene.views, v, box, inverse_z);
-    if (v == 0) { // it is not asked; photo-consistency looks at the pixels around
+    if (v == 0) { // votes do not look at it; photo-consistency looks at the pixels around
         const Windows &centre = scene.views.samples(0).windows;
         const auto row = [&](int y) {
             return std::size_t(std::clamp(y - centre.data.min.y, 0, centre.height()));
@@ -73,7 +73,7 @@ warp_kernel::View view_of(const ReprojectedViews &views, std::size_t v) {
 
 double largest_inverse_z(const ReprojectedViews &views) {
     constexpr float infinity = std::numeric_limits<float>::infinity(),
-                    normal = std::numeric_limits<float>::min(); // devices may take what is less for 0
+                    normal = std::numeric_limits<float>::min(); // devices may take less as 0
     std::vector<float> nearest(views.size(), infinity), farthest(views.size(), 1);
     parallel_for(views.size(), [&](std::size_t v) {
         const ViewSamples &view = views.samples(v);

@@ -1,7 +1,8 @@
 #version 460
-// Which samples of a pixel show one surface, as find_surfaces() of src/warp/surfaces.cpp has it: one thread a pixel. The
-// samples are sorted by depth, view and number first, so that the order in which they came does not matter, and lie
-// surface by surface at the end, front to back. What does not belong to the pixel comes last, and is of no surface.
+// Finds which samples of a pixel show one surface, like find_surfaces() of src/warp/surfaces.cpp; one thread per pixel.
+// The samples are first sorted by depth, view and number, so that the order in which they came does not matter. In the
+// end they lie surface by surface, front to back. Samples that do not belong to the pixel come last and belong to no
+// surface.
 #extension GL_GOOGLE_include_directive : require
 #include "warp_data.glsl"
 
@@ -29,7 +30,7 @@ bool one_surface(uint a, uint b) {
     return is_one_surface(inverse_z_of(landed[a]), inverse_z_of(landed[b]), frame.tolerance);
 }
 
-// The first of those that belong to the pixel.
+// Returns the first sample that belongs to the pixel.
 uint behind_centre(uint pixel, uint first, uint end) {
     uint centre = first;
     while (centre < end && marks[centre].x != 0) ++centre;
@@ -44,7 +45,7 @@ uint behind_centre(uint pixel, uint first, uint end) {
     return from;
 }
 
-// Numbers all samples of the anchor's surface that belong to none yet, and finds the mean of their 1 / z.
+// Numbers all samples of the anchor's surface that have no surface yet, and finds the mean of their 1 / z.
 void claim(uint anchor, uint number, uint first, uint from, uint end) {
     precise double sum = 0, total = 0;
     for (uint i = from; i < end; ++i) {
@@ -58,7 +59,7 @@ void claim(uint anchor, uint number, uint first, uint from, uint end) {
     means[first + number] = mean;
 }
 
-// The centre's samples say where surfaces are, before any other.
+// The centre's samples determine surfaces first, before any other samples.
 void claim_all(uint first, uint from, uint end) {
     uint number = 0;
     for (uint pass = 0; pass < 2; ++pass)
@@ -66,7 +67,7 @@ void claim_all(uint first, uint from, uint end) {
             if (marks[i].y == none && (marks[i].x == 0) == (pass == 0)) claim(i, number++, first, from, end);
 }
 
-// Front to back; within a surface the views in order.
+// Orders front to back, and by view within a surface.
 bool before(uvec2 a, uvec2 b, uint first) {
     if (a.y == b.y) return a.x < b.x;
     if (a.y == none || b.y == none) return b.y == none;

@@ -1,13 +1,13 @@
 #version 460
-// How many samples a pixel has in the end, one thread a pixel: one for each surface but those that the vote of the views
-// does not believe in (src/warp/visibility_vote.cpp). means[] holds coverages from then on.
+// Counts the final samples of a pixel, one thread per pixel: one for each surface, except surfaces that the vote of the
+// views rejects (src/warp/visibility_vote.cpp). means[] holds coverages from then on.
 #extension GL_GOOGLE_include_directive : require
 #include "warp_data.glsl"
 #include "warp_merge.glsl"
 
 double there, past, through;
 
-// What one pixel of a view says, whose samples these are.
+// Counts the votes of one pixel of a view, which has these samples.
 void count_votes(uint begin, uint end, double inverse_z) {
     if (begin == end) return;
     precise double left = 1, seen = 0, missed = past;
