@@ -1,11 +1,10 @@
-// The weights of the samples of a surface where views of it are missing.
+// The weights of the samples of a surface if views of it are missing.
 //
-// Views from opposite sides of the lens see a surface at opposite offsets from the middle of a pixel, so that the mean
-// of all of them stands near the middle. Where views were rendered in part (plan/plan.h), the mean of those that are there
-// does not: pixels side by side, with such a view and without, are shifted against each other, which blurs what is in
-// focus. There the samples get the weights of the best linear unbiased estimate of the colour in the middle: a sample
-// of weight w has noise of variance 1 / w, and the colour's gradient is unknown, `gradient_to_noise` a pixel along
-// each axis.
+// Views from opposite sides of the lens see a surface at opposite offsets from the middle of a pixel, so the mean of
+// all of them lies near the middle. Where some views were not rendered (plan/plan.h), the mean of the others does not:
+// adjacent pixels, with a view and without it, are shifted against each other, which blurs what is in focus. There the
+// samples get the weights of the best linear unbiased estimate of the colour in the middle: a sample of weight w has
+// noise of variance 1 / w, and the colour's gradient is unknown, `gradient_to_noise` per pixel along each axis.
 #pragma once
 
 #include "kernels/warp_rules.h"
@@ -18,7 +17,7 @@
 
 namespace sparselens {
 
-// Whether the view was not rendered where it would see that place.
+// Whether the view was not rendered where it would see that position.
 inline bool is_missing(const ReprojectedViews &views, std::size_t view, const Imath::V2d &place,
                        double inverse_z) {
     const Windows &windows = views.samples(view).windows;
@@ -45,7 +44,7 @@ inline bool some_view_is_missing(const ReprojectedViews &views, std::span<const 
     return false;
 }
 
-// The samples with those weights, up to a common factor. They are not empty.
+// Returns the samples with these weights, up to a common factor. There must be at least one.
 inline std::vector<ViewSample> balanced(std::span<const ViewSample> samples) {
     kernels::Offsets offsets = kernels::no_offsets();
     for (const ViewSample &s : samples) kernels::add_offset(offsets, s.weight, double(s.dx), double(s.dy));

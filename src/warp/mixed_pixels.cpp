@@ -10,7 +10,7 @@ namespace sparselens {
 
 namespace {
 
-// visit(place in the centre view, 1 / z) for each part that covers some of its pixel.
+// Calls visit(position in the centre view, 1 / z) for each part that covers only some of its pixel.
 template <typename Visit>
 void for_each_partial(const PlacedView &view, const Visit &visit) {
     const ViewSamples &samples = *view.samples;
@@ -25,7 +25,7 @@ void for_each_partial(const PlacedView &view, const Visit &visit) {
         }
 }
 
-// Marks those of the four pixels over which a pixel around that place lies.
+// Marks the pixels under a square of one pixel around a position, at most four, unless they show something nearer.
 void mark(const ViewSamples &view, const Imath::V2d &place, double inverse_z, double tolerance,
           std::vector<bool> &mixed) {
     if (!(std::abs(place.x) < 1e9 && std::abs(place.y) < 1e9)) return;

@@ -50,7 +50,7 @@ private:
         return lets_through(left);
     }
 
-    // The last one that is more than rounding.
+    // The last sample whose coverage is more than rounding.
     std::optional<std::uint64_t> last_sample(std::size_t pixel) const {
         std::optional<std::uint64_t> last;
         for (const std::uint64_t i : ldi_.pixel(pixel))
@@ -58,7 +58,8 @@ private:
         return last;
     }
 
-    // What the rim views see at a sample; `past`: what they see past it, in parts of what it leaves open.
+    // Returns what the rim views see at a sample. `past` receives what they see past it, as shares of what the sample
+    // leaves open.
     Votes ask(const Imath::V2i &pixel, std::uint64_t sample, std::vector<Part> &past) const {
         const Imath::V2d place(pixel.x + 0.5 + double(ldi_.dx[sample]),
                                pixel.y + 0.5 + double(ldi_.dy[sample]));
@@ -72,7 +73,7 @@ private:
         return votes;
     }
 
-    // The sample becomes so many times itself and the other parts.
+    // Replaces a sample by `factor` times itself plus the parts.
     void fill(std::uint64_t sample, double factor, std::span<const Part> parts) {
         MatteSum pairs(mattes_);
         pairs.add(factor, [&](std::size_t k) { return ldi_.values[k][sample]; });
@@ -85,7 +86,7 @@ private:
             ldi_.values[k][sample] = float(sum);
         }
         pairs.take([&](std::size_t k, float value) { ldi_.values[k][sample] = value; });
-        float &covers = ldi_.values[alpha_][sample]; // which is the sum of its parts', and of rounding
+        float &covers = ldi_.values[alpha_][sample]; // the sum of its parts' coverages, and rounding
         if (!lets_through(1 - double(covers))) covers = 1;
     }
 

@@ -10,7 +10,7 @@ namespace sparselens {
 
 namespace {
 
-// Appends a sample to the last pixel of `out`, but for its values. `volumes`: the LDI has back depths.
+// Appends a sample without its values to the last pixel of `out`. `volumes`: the LDI has back depths.
 void append_place(Ldi &out, bool volumes, const MergedSample &sample) {
     out.z.push_back(sample.z);
     if (volumes) out.z_back.push_back(sample.z_back);
@@ -35,7 +35,8 @@ bool PartMeans::tell_of(const Surface &surface) const {
            });
 }
 
-// Parts of one pixel hide each other, and have the weight of the first; `pixels` is the sum of the weights of all pixels.
+// Parts of one pixel hide each other, and have the weight of the first; `pixels` receives the sum of the weights of all
+// pixels.
 std::vector<PartMeans::Share> PartMeans::shares_of(std::span<const ViewSample> samples,
                                                    double &pixels) const {
     std::vector<Share> shares;
@@ -61,7 +62,7 @@ std::vector<PartMeans::Share> PartMeans::shares_of(std::span<const ViewSample> s
     return shares;
 }
 
-// By what they cover, which is not nothing.
+// The mean position and depth, weighted by what the shares cover, which must be above 0 in total.
 MergedSample PartMeans::place_of(std::span<const Share> shares) const {
     double covers = 0, dx = 0, dy = 0, inverse_z = 0, inverse_back = 0, merged = 0;
     for (const auto &[s, weight, by] : shares) {

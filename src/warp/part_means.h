@@ -1,8 +1,9 @@
-// What views show of a surface where parts of deep views tell of it (deep/view_samples.h).
+// Averages what views show of a surface if parts of deep views (deep/view_samples.h) show it.
 //
-// A part covers its own share of a pixel, not what the mean of a surface's pixels would say. Where a deep centre view sees the
-// surface, its coverage, its depth and its ids stay, and views give the mean of its colours for what they cover; where it does not, coverage
-// is the mean of the views that see it, by their vote (visibility_vote.h). Several parts of one pixel are composited first.
+// A part covers its own share of a pixel, not the share that the mean of a surface's pixels would give. If a deep
+// centre view sees the surface, its coverage, depth and ids stay, and its colours become the mean over the views,
+// relative to what they cover. If it does not, the coverage is the mean over the views that see the surface, by their
+// vote (visibility_vote.h). Several parts of one pixel are composited first.
 #pragma once
 
 #include "base/matte.h"
@@ -18,20 +19,20 @@ public:
     // Refers to the views and to the mattes of their channels.
     PartMeans(const ReprojectedViews &views, double tolerance, std::span<const Matte> mattes);
 
-    bool volumes() const { return volumes_; } // of any view
+    bool volumes() const { return volumes_; } // whether any view has volumes
     bool tell_of(const Surface &surface) const;
 
-    // Appends the samples of such a surface, one at most, to the last pixel of `out`.
+    // Appends such a surface, as one sample at most, to the last pixel of `out`.
     void append_mean(const Surface &surface, Ldi &out) const;
-    // The same as the most central view shows it, or the centre view.
+    // The same, as the centre view shows the surface; else as the most central view shows it.
     void append_nearest(const Surface &surface, Ldi &out) const;
-    // Appends those of the centre view that go on beyond its frame.
+    // Appends the parts of the centre view that continue beyond its frame.
     void append_beyond(const Imath::V2i &pixel, Ldi &out) const;
 
 private:
     struct Share {
         ViewSample sample;
-        double weight, covers; // the weight of its values, and of its place
+        double weight, covers; // the weight of its values, and of its position
     };
 
     std::vector<Share> shares_of(std::span<const ViewSample> samples, double &pixels) const;

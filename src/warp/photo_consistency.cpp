@@ -61,7 +61,7 @@ void compare(const ReprojectedViews &views, const CentreColours &centre,
     for (std::size_t k = 0; k < channels; ++k) own[k] = centre.detail(x, y, centre.channels()[k]);
     double total = 0;
     for (const ViewSample &s : surface.samples) {
-        if (s.view == 0 || views.samples(s.view).is_part(s.source)) continue; // a part shows its share alone
+        if (s.view == 0 || views.samples(s.view).is_part(s.source)) continue; // a part shows only its share
         total += s.weight;
         const Imath::V2d off(double(s.dx), double(s.dy)),
             motion = views.reprojection(s.view).mapping().parallax(place) * (1 / options.scale);

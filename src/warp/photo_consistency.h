@@ -23,14 +23,14 @@ struct PhotoConsistencyOptions {
     int across = 1;   // pixels, across and down, that become one of the picture
 };
 
-// By pixel of some rows.
+// For each pixel of some rows.
 struct PhotoConsistency {
     std::vector<bool> averages; // the views may be averaged
     // In focus or not: clear where views differ by more than noise, or as they would if the image lay at another depth.
     std::vector<Disagreement> differ;
 };
 
-// By what is said of a block (kernels/photo_rules.h).
+// Converts the verdict on a block (kernels/photo_rules.h).
 Disagreement disagreement_of(std::uint32_t verdict);
 
 // Tests some rows of `data`, whose surfaces are given.

@@ -17,7 +17,7 @@ Reprojection::Reprojection(const ViewSamples &view, const ViewMapping &mapping)
         for (int x = data.min.x; x <= data.max.x; ++x)
             for (const std::uint64_t i : view_.pixel(view_.windows.index(x, row_y)))
                 nearest = std::min(nearest, double(view_.z(i)));
-        // Places are linear in the column and in 1 / z: the extremes lie at the ends of both.
+        // Positions are linear in the column and in 1 / z, so the extremes lie at the ends of both.
         const double y = row_y + 0.5;
         for (const double x : {data.min.x + 0.5, data.max.x + 0.5})
             for (const double inverse_z : {0.0, 1 / nearest})
@@ -47,10 +47,11 @@ void Reprojection::append_rows(int first_row, int last_row, std::vector<Reprojec
             for (const std::uint64_t i : view_.pixel(pixel)) {
                 const double inverse_z = 1 / double(view_.z(i));
                 const double y = far.y + parallax.y * inverse_z;
-                if (!(y >= first_row && y < last_row + 1)) continue; // most, of views from above or below
+                // true for most samples of views from above or below
+                if (!(y >= first_row && y < last_row + 1)) continue;
                 const double x = far.x + parallax.x * inverse_z, cell_x = std::floor(x),
                              cell_y = std::floor(y);
-                if (!(std::abs(cell_x) < 1e9)) continue; // nearer than any picture is wide: not in it
+                if (!(std::abs(cell_x) < 1e9)) continue; // so near that it lies outside of any picture
                 out.push_back({int(cell_x), int(cell_y), float(x - cell_x - 0.5), float(y - cell_y - 0.5),
                                float(inverse_z), std::uint32_t(i)});
             }

@@ -1,4 +1,4 @@
-// Where the pixels of a rim view lie in the centre view.
+// Finds where the pixels of a rim view lie in the centre view.
 #pragma once
 
 #include "deep/view_samples.h"
@@ -15,7 +15,7 @@ struct ReprojectedSample {
     int x, y;             // the pixel of the centre view, EXR coordinates
     float dx, dy;         // offset from that pixel's centre, [-1/2, 1/2], y down
     float inverse_z;      // 1 / planar depth
-    std::uint32_t source; // of the view's samples
+    std::uint32_t source; // index of the view's sample
 };
 
 class Reprojection {

@@ -18,7 +18,8 @@ namespace sparselens {
 
 namespace {
 
-// By their cameras; where those are one, by what they show: the order they were given in must not matter.
+// Orders views by their cameras, and by what they show if their cameras are the same, so that the order in which they
+// are given does not matter.
 bool canonically_before(const PackedView &a, const PackedView &b) {
     const auto camera = [](const PackedView &v) {
         const Framing &f = v.framing;
@@ -32,7 +33,7 @@ bool canonically_before(const PackedView &a, const PackedView &b) {
 
 namespace {
 
-// Settles the lamps of flat views: parts of deep views mix nothing.
+// Settles the lamps of flat views. Deep views need none of this, because their parts mix nothing.
 std::vector<CrossedLamps> settle_lamps(std::vector<ViewSamples> &views,
                                        const std::vector<ViewMapping> &mappings, double tolerance) {
     std::vector<std::size_t> flat;
@@ -84,8 +85,8 @@ ReprojectedViews::ReprojectedViews(std::vector<PackedView> views, double focal_p
     std::vector<CrossedLamps> crossed(samples.size());
     if (separate) crossed = settle_lamps(samples, mappings, inverse_depth_step(scale, jump));
     sources_.resize(samples.size());
-    for (std::size_t v = 0; v < samples.size();
-         ++v) { // one after the other, each by all threads, in less memory
+    // One after the other, each by all threads, which takes less memory.
+    for (std::size_t v = 0; v < samples.size(); ++v) {
         some_are_deep_ = some_are_deep_ || samples[v].deep();
         if (separate && !samples[v].deep()) separate_silhouettes(samples[v], scale, jump, crossed[v]);
         sources_[v] = std::make_unique<Source>(std::move(samples[v]), mappings[v]);

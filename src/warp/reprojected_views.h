@@ -33,14 +33,14 @@ struct ReprojectedRows {
     }
 };
 
-// Throws Error where display windows differ or a view lacks a channel of the centre, views[0].
+// Throws Error if display windows differ or a view lacks a channel of the centre, views[0].
 void check_views(std::span<const PackedView> views);
 
 class ReprojectedViews {
 public:
     // views[0] is the centre, whose channels every view must have. The order of the others does not matter. `focal_px`
-    // is F and `scale` is R F, see WarpOptions. Pixels on silhouettes of flat views become two samples where perceptive depth
-    // jumps by `jump` pixels (silhouettes.h); with a jump of 0 they stay whole. Throws as check_views().
+    // is F and `scale` is R F, see WarpOptions. Pixels on silhouettes of flat views become two samples where perceptive
+    // depth jumps by `jump` pixels (silhouettes.h); with a jump of 0 they stay whole. Throws like check_views().
     ReprojectedViews(std::vector<PackedView> views, double focal_px, double scale, double jump);
     // Refers to the views, which must outlive this.
     ReprojectedViews(std::span<const View> views, double focal_px, double scale, double jump)
@@ -60,11 +60,11 @@ public:
         return s.source < mixed_[s.view].size() && !mixed_[s.view][s.source];
     }
 
-    // Where they are no longer needed: see ViewSamples.
+    // Frees colours that are no longer needed: see ViewSamples.
     void forget_colours();
 
-    // The samples that fall into the rows [first_row, last_row] of the data window. Takes the memory of rows that are no
-    // longer needed.
+    // The samples that fall into the rows [first_row, last_row] of the data window. Reuses the memory of rows that are
+    // no longer needed.
     ReprojectedRows place(const Imath::Box2i &data, int first_row, int last_row,
                           ReprojectedRows no_longer_needed = {}) const;
 
@@ -77,7 +77,7 @@ private:
             : samples(std::move(of_view)), reprojection(samples, mapping) {}
     };
     bool some_are_deep_ = false;
-    std::vector<std::vector<bool>> mixed_;         // where some are deep
+    std::vector<std::vector<bool>> mixed_;         // if some views are deep
     std::vector<std::unique_ptr<Source>> sources_; // the centre, then the rim views in a canonical order
 };
 

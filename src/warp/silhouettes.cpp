@@ -17,11 +17,11 @@ namespace sparselens {
 
 namespace {
 
-// What a surface shows around a pixel: a mean over samples.
+// The colour of a surface around a pixel: a mean over samples.
 struct Estimate {
     std::vector<Term> terms; // coefficients sum to 1
     Imath::V3d colour{0, 0, 0};
-    bool pure = false; // some of them are pixels that nothing else is mixed into
+    bool pure = false; // whether some terms are pixels that nothing else is mixed into
 };
 
 class Separation {
@@ -29,7 +29,7 @@ public:
     Separation(const ViewSamples &view, double scale, double jump,
                std::span<const std::size_t> crossed_lamps);
     bool may_be_mixed(std::size_t pixel) const;
-    void emit_pixel(std::size_t pixel, Ldi &out) const; // of one that may be mixed, if it is
+    void emit_pixel(std::size_t pixel, Ldi &out) const; // appends a pixel that may be mixed, if it is mixed
 
 private:
     enum Side : unsigned char { inside = 0, has_nearer = 1, has_farther = 2 };
@@ -53,7 +53,7 @@ private:
     double depth_of(std::uint64_t i) const { return samples_.depth_of(i); }
     bool is_opaque(std::uint64_t i) const { return samples_.is_opaque(i); }
     Imath::V3d colour_of(std::uint64_t i) const { return samples_.colour_of(i); }
-    // Whether it is of the surface at that depth, and nothing nearer may be mixed into it.
+    // Whether a sample belongs to the surface at that depth, and nothing nearer may be mixed into it.
     bool tells_of(double depth, std::uint64_t i) const {
         return !(std::abs(depth_of(i) - depth) >= jump_ || (sides_[i] & has_nearer)) && is_opaque(i);
     }
@@ -114,15 +114,15 @@ unsigned char Separation::side_of(int x, int y) const {
     return side;
 }
 
-// By the square of the distance in pixels.
+// The weight of a pixel by the square of its distance, in pixels.
 const auto nearness = [] {
     std::array<double, 2 * WarpTuning::silhouette_radius * WarpTuning::silhouette_radius + 1> table{};
     for (std::size_t d2 = 0; d2 < table.size(); ++d2) table[d2] = std::exp(-0.5 * double(d2));
     return table;
 }();
 
-// The mean of the surface at that depth over the pixels around that nothing nearer may be mixed into; those that
-// something farther may be mixed into count less: a lamp behind it would shine at its depth.
+// Returns the mean of the surface at that depth over the pixels around that nothing nearer may be mixed into. Pixels
+// that something farther may be mixed into count less, because a lamp behind the surface would shine at its depth.
 std::optional<Estimate> Separation::estimate(int x, int y, double depth) const {
     Estimate result;
     result.terms.reserve((2 * WarpTuning::silhouette_radius + 1) * (2 * WarpTuning::silhouette_radius + 1));
@@ -147,7 +147,7 @@ std::optional<Mixture> Separation::mixture_of(int x, int y) const {
     const std::uint64_t own = own_sample(x, y);
     const bool own_is_far = sides_[own] & has_nearer;
     Mixture mixture{depth_of(own), depth_of(own), 0, {}};
-    double nearest = 3; // of the farther pixels around; those at the edges before those at the corners
+    double nearest = 3; // of the farther pixels; those beside it come before those at its corners
     around(x, y, 1, [&](std::uint64_t i, int dx, int dy) {
         const double depth = depth_of(i);
         if (own_is_far) mixture.near_depth = std::max(mixture.near_depth, depth);
@@ -170,8 +170,8 @@ std::optional<Mixture> Separation::mixture_of(int x, int y) const {
     return mixture;
 }
 
-// The least mixed pixel of a surface that has edges in all its pixels, such as a wire or a small lamp: the pixel
-// which differs most from what is behind.
+// Returns the colour of the least mixed pixel of a surface that has edges in all its pixels, such as a wire or a small
+// lamp: the pixel that differs most from what is behind.
 Imath::V3d Separation::purest(int x, int y, double depth, const Imath::V3d &front,
                               const Imath::V3d &behind) const {
     const Imath::V3d contrast = front - behind;
@@ -183,8 +183,8 @@ Imath::V3d Separation::purest(int x, int y, double depth, const Imath::V3d &fron
     return result;
 }
 
-// What lies behind may be smaller than what a mean looks at: a lamp, a stripe. Then it is the one of the farther
-// pixels around that the colour fits best.
+// The surface behind may be smaller than the area of a mean, such as a lamp or a stripe. The farther pixel around that
+// explains the colour best is then taken for it.
 std::optional<Mixture> Separation::with_one_pixel(int x, int y, double near_depth,
                                                   const Imath::V3d &front) const {
     const std::uint64_t own = own_sample(x, y);
@@ -208,7 +208,7 @@ void Separation::emit_mixture(std::uint64_t i, const Mixture &mixture, Ldi &out)
     float weight = 1;
     const auto emit = [&](double depth, std::span<const Term> terms) {
         append(out, view_, float(depth_of_perceptive(scale_, depth)), weight, terms);
-        weight = WarpTuning::estimate_weight; // of what follows, behind
+        weight = WarpTuning::estimate_weight; // of the sample behind, which comes next
     };
     const double share = mixture.share;
     const std::vector<Term> whole{{i, 1}};
@@ -229,8 +229,8 @@ bool Separation::is_of_crossed_lamp(int x, int y) const {
     return std::ranges::binary_search(crossed_lamps_, samples_.grid().index(x, y));
 }
 
-// A lamp's own pixel. The pixels around may tell how much of it what crosses the lamp covers: that shows no more light than unlit
-// strands do, and the lamp the rest.
+// Treats a lamp's own pixel. The pixels around may tell how much of it is covered by what crosses the lamp, which shows
+// no more light than unlit strands do; the lamp shows the rest.
 Mixture Separation::of_lamp(int x, int y, const Mixture &light) const {
     std::optional<Mixture> mixture = mixture_of(x, y);
     if (!mixture) return light;

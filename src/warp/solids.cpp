@@ -14,7 +14,7 @@ namespace sparselens {
 
 namespace {
 
-// Pixels: so far a lens point moves what is solid past what is seen of it.
+// Pixels: how far a lens point moves a solid relative to its sample, plus the margin.
 constexpr int reach = int(WarpTuning::solid_px) + WarpTuning::solid_margin;
 
 // 1 / z of the farthest thing that a pixel shows; 0: it lets light through to infinity.
@@ -28,7 +28,7 @@ float farthest_in(const ViewSamples &view, std::size_t alpha, std::size_t pixel)
     return lets_through(left) ? 0 : farthest;
 }
 
-// The least in a square around each pixel: along rows, then across them, a row at a time.
+// Returns the least value in a square around each pixel: along rows, then across them, a row at a time.
 std::vector<float> least_around(const std::vector<float> &values, const Grid &grid, int radius) {
     const auto width = std::size_t(grid.width()), height = std::size_t(grid.height()),
                r = std::size_t(radius);
@@ -62,13 +62,13 @@ std::vector<float> farthest_in(const ViewSamples &view) {
     return farthest;
 }
 
-// What a view knows of places in it.
+// Looks up values of a view by position.
 class Sight {
 public:
     Sight(const ViewSamples &view, std::vector<float> values)
         : display_(view.windows.display), grid_(view.windows.data), values_(std::move(values)) {}
 
-    // Nothing where the view does not look; 0 where it has no pixel there, as it shows nothing.
+    // Returns nothing where the view does not look, and 0 where it has no pixel, because it shows nothing there.
     std::optional<float> at(const Imath::V2d &place) const {
         if (!(std::abs(place.x) < 1e9 && std::abs(place.y) < 1e9)) return {};
         const Imath::V2i pixel(int(std::floor(place.x)), int(std::floor(place.y)));
@@ -97,7 +97,7 @@ Sight relief_around(const ViewSamples &view, std::vector<float> farthest) {
     return {view, std::move(relief)};
 }
 
-// The first sample that covers half of a pixel; where there is none, the first of the next.
+// Returns the first sample that covers half of a pixel or more; if there is none, the end of the pixel's samples.
 std::uint64_t front_of(const Ldi &ldi, std::size_t alpha, std::size_t pixel) {
     const SampleRange all = ldi.pixel(pixel);
     std::uint64_t i = all.from;
@@ -110,7 +110,7 @@ class Pixels {
 public:
     explicit Pixels(const Ldi &ldi) : ldi_(ldi), alpha_(ldi.alpha()), in_(ldi.windows.pixels(), true) {}
 
-    // Keeps those of whose front sample that says so: keeps(sample, its place).
+    // Keeps the pixels for whose front sample keeps(sample, its position) is true.
     template <typename Keeps>
     void keep(const Keeps &keeps) {
         parallel_for(std::size_t(ldi_.windows.height()), [&](std::size_t row) {
@@ -119,7 +119,7 @@ public:
                 in_[p] = in_[p] && keeps_front(p, keeps);
         });
     }
-    // visit(front sample), in order.
+    // Calls visit(front sample) for each of the pixels, in order.
     template <typename Visit>
     void for_each(const Visit &visit) const {
         for (std::size_t p = 0; p < in_.size(); ++p)
@@ -149,7 +149,7 @@ void find_solids(std::span<const PlacedView> views, double scale, Ldi &ldi) {
     for (const PlacedView &view : views) {
         std::vector<float> farthest_seen = farthest_in(*view.samples);
         const Sight sight = farthest_around(*view.samples, farthest_seen);
-        if (&view == &views[0]) { // the centre, where few pixels are kept
+        if (&view == &views[0]) { // the centre view; few pixels are kept here
             const Sight relief = relief_around(*view.samples, std::move(farthest_seen));
             solid.keep([&](const MergedSample &s, const Imath::V2d &place) {
                 return s.optical == s.z && back(s) > thickness &&

@@ -13,7 +13,8 @@ namespace {
 
 constexpr std::uint32_t none = ~0u, left_out = none - 1;
 
-// As std::stable_sort, which allocates memory however few there are; most pixels have no more samples than views.
+// Like std::stable_sort, which allocates memory even for few samples. Most pixels have no more samples than there are
+// views.
 template <typename Before>
 void sort_stably(std::span<ViewSample> samples, const Before &before) {
     constexpr std::size_t few = 16;
@@ -30,7 +31,7 @@ bool one_surface(const ViewSample &a, const ViewSample &b, double tolerance) {
     return kernels::is_one_surface(double(a.inverse_z), double(b.inverse_z), tolerance);
 }
 
-// The samples of a pixel beyond the frame of a deep centre view that are surely of one surface each.
+// The samples of a pixel beyond the frame of a deep centre view that surely belong to one surface each.
 std::span<ViewSample> beyond_deep(const ReprojectedViews &views, std::span<ViewSample> samples) {
     if (parts_leave_frame(views.samples(0), {samples[0].x, samples[0].y}).empty()) return samples;
     const auto of_flat = std::stable_partition(
@@ -53,7 +54,7 @@ std::span<ViewSample> behind_centre(const ReprojectedViews &views, double tolera
     return samples.subspan(std::size_t(first - samples.begin()));
 }
 
-// Numbers all samples of the anchor's surface that belong to none yet.
+// Numbers all samples of the anchor's surface that have no surface yet.
 Surface claim(double tolerance, const ViewSample &anchor, std::uint32_t number,
               std::span<ViewSample> samples) {
     double sum = 0, total = 0;
@@ -66,7 +67,7 @@ Surface claim(double tolerance, const ViewSample &anchor, std::uint32_t number,
     return {{}, sum / total};
 }
 
-// Brings the samples of each surface together, the centre's first; at last those that are left out.
+// Groups the samples by surface, the centre's first; samples that are left out come last.
 void group(std::span<ViewSample> samples, std::span<Surface> surfaces) {
     sort_stably(samples, [](const auto &a, const auto &b) {
         return a.surface != b.surface ? a.surface < b.surface : a.view < b.view;
@@ -82,7 +83,7 @@ bool is_part(const ReprojectedViews &views, const ViewSample &s) {
     return views.samples(s.view).is_part(s.source);
 }
 
-// Both samples show one surface that the centre view sees.
+// Whether two samples of one surface that the centre view sees may be averaged.
 bool may_be_averaged(const ReprojectedViews &views, const ViewSample &centre, const ViewSample &s) {
     const auto flat = [&](const ViewSample &of) { return !views.samples(of.view).deep(); };
     if (flat(centre) && is_part(views, s)) return views.is_pure(centre);
@@ -111,7 +112,7 @@ public:
     std::size_t size() const { return seen_.size(); }
     const ViewSample &operator[](std::size_t i) const { return *seen_[i]; }
 
-    // The nearest of its samples that is of the same surface; `size()`: none is.
+    // The nearest of the centre's samples that is of the same surface; size() if there is none.
     std::size_t nearest(const ViewSample &s, double tolerance) const {
         std::size_t best = size();
         double least = tolerance;
@@ -136,7 +137,7 @@ private:
     std::optional<double> end_; // 1 / z where nothing shows through any more
 };
 
-// The same, of a deep centre view, which shows something in that pixel.
+// Finds the surfaces of a pixel in which a deep centre view shows something.
 void find_behind_deep(const ReprojectedViews &views, double tolerance, std::span<ViewSample> samples,
                       std::vector<Surface> &surfaces) {
     const std::size_t before = surfaces.size();
@@ -160,7 +161,7 @@ void find_behind_deep(const ReprojectedViews &views, double tolerance, std::span
     group(samples, std::span(surfaces).subspan(before));
 }
 
-// Parts that lie on what a flat centre view sees.
+// Leaves out the parts that lie on the surface of a flat centre view's sample and may not be averaged with it.
 void leave_out_parts(const ReprojectedViews &views, std::span<ViewSample> samples, const ViewSample &centre) {
     for (ViewSample &s : samples)
         if (s.surface == centre.surface && !may_be_averaged(views, centre, s)) s.surface = left_out;
@@ -170,7 +171,7 @@ bool centre_is_deep(const ReprojectedViews &views, std::span<const ViewSample> s
     return views.samples(0).deep() && std::ranges::find(samples, 0u, &ViewSample::view) != samples.end();
 }
 
-// Appends those of one pixel.
+// Appends the surfaces of one pixel.
 void find_in_pixel(const ReprojectedViews &views, double tolerance, std::span<ViewSample> samples,
                    std::vector<Surface> &surfaces) {
     if (samples.empty()) return;
@@ -179,7 +180,7 @@ void find_in_pixel(const ReprojectedViews &views, double tolerance, std::span<Vi
     samples = behind_centre(views, tolerance, samples);
     for (ViewSample &s : samples) s.surface = none;
     const std::size_t before = surfaces.size();
-    for (const bool centre : {true, false}) // the centre's samples say where surfaces are, before any other
+    for (const bool centre : {true, false}) // the centre's samples determine surfaces first
         for (const ViewSample &anchor : samples)
             if (anchor.surface == none && (anchor.view == 0) == centre)
                 surfaces.push_back(

@@ -9,7 +9,7 @@
 namespace sparselens {
 
 struct Surface {
-    std::span<const ViewSample> samples; // that of the centre first, if it shows the surface; never empty
+    std::span<const ViewSample> samples; // the centre's sample first, if it shows the surface; never empty
     double inverse_z;                    // weighted mean
 
     bool seen_by_centre() const { return samples[0].view == 0; }
@@ -30,13 +30,13 @@ struct Surfaces {
 // what the centre view shows, or where it shows empty space, do not belong to the pixel: only the rounding of their
 // positions brought them there. Reorders the samples of each pixel.
 //
-// A deep centre view shows all that there is in its pixel, down to where nothing shows through: each of its samples is a surface,
-// which has the samples of rim views that are nearest to it in depth, and other surfaces lie behind all of them. A part of
-// a deep view's pixel (view_samples.h) is of one surface: where the centre view sees that, pixels of flat views that are mixed of several
-// (mixed_pixels.h) are not averaged with it.
+// A deep centre view shows everything in its pixel, down to the depth where nothing shows through. Each of its samples
+// is a surface, which has the samples of rim views that are nearest to it in depth; other surfaces lie behind all of
+// them. A part of a deep view's pixel (view_samples.h) belongs to one surface. If the centre view sees that surface,
+// pixels of flat views that mix several surfaces (mixed_pixels.h) are not averaged with it.
 //
-// Beyond the frame of a deep centre view nothing tells whether pixels of flat views are mixed, but for the pixel of the frame that is
-// nearest: where that holds parts, they are taken to be. They are left out then, and the parts go on.
+// Beyond the frame of a deep centre view, only the nearest pixel of the frame tells whether pixels of flat views are
+// mixed: if it holds parts, they count as mixed. They are then left out, and the parts continue.
 SampleRange parts_leave_frame(const ViewSamples &centre, Imath::V2i pixel);
 
 Surfaces find_surfaces(const ReprojectedViews &views, double tolerance, ReprojectedRows &rows);

@@ -9,8 +9,8 @@ namespace sparselens {
 
 namespace {
 
-// What one pixel of a view says: each part of it by what it covers, and what it leaves open looks past everything. A
-// pixel that shows nothing at all may just not have been rendered.
+// Counts the votes of one pixel of a view. Each sample votes by what it covers, and what the pixel leaves open looks
+// past everything. A pixel that shows nothing at all does not vote, because it may not have been rendered.
 void count_votes(const ViewSamples &view, std::size_t alpha, std::size_t pixel, double inverse_z,
                  double tolerance, const SeePast &past, Votes &votes) {
     if (view.pixel(pixel).empty()) return;

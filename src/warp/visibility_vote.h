@@ -4,8 +4,8 @@
 // see the surface and some see past it. If every claim counted, the surface would grow with every view; by majority it
 // keeps its size, and its edge becomes softer with more views.
 //
-// A veil, or an edge before nothing, covers a part of the pixels that see it. Its samples have that coverage, and the vote must
-// not take it from them again: what a pixel leaves open is no vote against what it sees there.
+// A veil, or an edge in front of nothing, covers a part of the pixels that see it. Its samples already have that
+// coverage, so the vote must not reduce it again: what a pixel leaves open is not a vote against what it sees there.
 #pragma once
 
 #include "warp/reprojected_views.h"
@@ -14,7 +14,7 @@
 
 namespace sparselens {
 
-// What rim views say of a position, each up to 1.
+// The votes of rim views on a position. Each view has up to 1.
 struct Votes {
     double there = 0;   // they see the surface
     double past = 0;    // they see past it,
@@ -32,8 +32,8 @@ using SeePast = std::function<void(const ViewSamples &view, std::uint64_t sample
 Votes votes_on(const ReprojectedViews &views, const Imath::V2d &place, double inverse_z, double tolerance,
                const SeePast &past = {});
 
-// The coverage, 0..1, of such a surface: 1 where three quarters of the votes are for it, 0 where a quarter or fewer are,
-// and in proportion between; 1 where no view can tell.
+// The coverage, 0..1, of such a surface: 1 where three quarters of the votes are for it, 0 where a quarter or fewer
+// are, and in proportion between; 1 where no view can tell.
 double visibility_vote(const ReprojectedViews &views, const Imath::V2d &place, double inverse_z,
                        double tolerance);
 

@@ -36,8 +36,8 @@ public:
 
 private:
     void grow_window();
-    using Marks = std::vector<Disagreement>; // one a block of image_depths.h
-    // Leaves its memory to the next band.
+    using Marks = std::vector<Disagreement>; // one per block of image_depths.h
+    // `rows`: memory that a band leaves to the next one.
     Ldi warp_band(int first_row, int last_row, Marks &differ, ReprojectedRows &rows) const;
     void warp_on_device(std::span<Ldi> pieces, Marks &differ) const;
     std::vector<PlacedView> placed() const;
@@ -50,7 +50,7 @@ private:
     WarpOptions options_;
     double scale_;                    // R F: perceptive depth is scale / z
     double tolerance_;                // of 1 / z, within one surface
-    std::optional<ThinLens> focused_; // where the focus is known
+    std::optional<ThinLens> focused_; // if the focus is known
     ReprojectedViews views_;
     Ldi layout_; // windows and channels of the result
     std::vector<Matte> mattes_;
@@ -85,7 +85,7 @@ void Warper::grow_window() {
 }
 
 void Warper::emit_mean(std::span<const ViewSample> samples, Ldi &out) const {
-    kernels::Mean mean{}; // double: views may be many, depths near each other
+    kernels::Mean mean{}; // double, because views may be many and depths close to each other
     for (const ViewSample &s : samples)
         kernels::add_to_mean(mean, s.weight, double(views_.samples(s.view).weight(s.source)), double(s.dx),
                              double(s.dy), double(s.inverse_z));
@@ -114,7 +114,7 @@ void Warper::emit_mean(std::span<const ViewSample> samples, Ldi &out) const {
     pairs.take([&](std::size_t k, float value) { out.values[k].back() = value; });
 }
 
-// The centre's sample, else the most central one, as it is.
+// Appends the centre's sample, else the most central one, unchanged.
 void Warper::emit_nearest(std::span<const ViewSample> samples, Ldi &out) const {
     const auto off_centre = [](const ViewSample &s) {
         return s.view == 0 ? -1.0f : s.dx * s.dx + s.dy * s.dy;
@@ -172,7 +172,8 @@ Ldi Warper::warp_band(int first_row, int last_row, Marks &differ, ReprojectedRow
     return out;
 }
 
-// Bands that the device is done with have a piece; the first of several that come together has them all.
+// Sets the pieces of bands that the device has done. If several bands come together, the piece of the first has all of
+// them.
 void Warper::warp_on_device(std::span<Ldi> pieces, Marks &differ) const {
     static_assert(kernels::photo_block == image_block && warp_band_rows % image_block == 0);
     const WarpScene scene{.views = views_,
@@ -195,7 +196,7 @@ void Warper::warp_on_device(std::span<Ldi> pieces, Marks &differ) const {
     });
 }
 
-// Nearly always all samples fit in what it reserves, which is no memory before it is written to.
+// Reserves room that nearly always holds all samples. It uses no memory before it is written to.
 Ldi without_pixels(const Ldi &layout) {
     const std::size_t pixels = layout.windows.pixels(), samples = pixels + pixels / 4;
     Ldi ldi = empty_like(layout);

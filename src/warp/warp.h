@@ -40,7 +40,7 @@ struct WarpOptions {
     bool find_images = true;
     std::optional<double> focus = {}; // of the lens, if known, scene units
     int across = 1; // pixels, across and down, that become one of the picture (base/subpixels.h)
-    WarpDevice *device = nullptr; // where given: works on the rows that it can
+    WarpDevice *device = nullptr; // if given, works on the rows that it can
 };
 
 // Takes the lens, and `across`, from the camera of the centre view, views[0]. Perceptive depth refers to the lens
@@ -53,7 +53,7 @@ WarpOptions with_lens(WarpOptions options, const Camera &camera, const std::vect
 double scale_in_picture(const WarpOptions &with_lens);
 
 // views[0] is the centre, whose windows and channels the LDI has. The result does not depend on the order of the
-// others. Channels of rim views are matched by name. Throws Error where display windows differ or a rim view lacks a
+// others. Channels of rim views are matched by name. Throws Error if display windows differ or a rim view lacks a
 // channel of the centre view.
 Ldi warp(std::span<const View> views, const WarpOptions &options, Progress &progress);
 // The same in less memory: takes the pixels of the views.

@@ -1,6 +1,6 @@
-// A device that turns reprojected views into samples instead of the CPU: a GPU (gpu/warp/warp_device.h). The warp
-// prepares the views for both alike (depths of edges, silhouettes), works itself on the rows that the device leaves,
-// and looks for images in mirrors and glass.
+// A device, such as a GPU (gpu/warp/warp_device.h), that turns reprojected views into samples in place of the CPU. The
+// warp prepares the views in the same way for both (depths of edges, silhouettes). It works itself on the rows that the
+// device leaves, and it looks for images in mirrors and glass.
 #pragma once
 
 #include "base/device_report.h"
@@ -23,17 +23,17 @@ struct WarpScene {
     const ReprojectedViews &views;
     const Ldi &layout;             // windows and channels of the result
     bool averages;                 // Merge::average
-    bool tests_photo_consistency;  // never without it
+    bool tests_photo_consistency;  // only with `averages`
     double tolerance;              // of 1 / z, within one surface
     double scale;                  // R F
-    std::optional<ThinLens> focus; // where the focus is known
+    std::optional<ThinLens> focus; // if the focus is known
     int across;                    // WarpOptions::across
 };
 
 // Bands of the result, one below the other.
 struct WarpedBands {
     std::size_t first, count;
-    Ldi ldi;                          // of their pixels alone
+    Ldi ldi;                          // of the pixels of these bands only
     std::vector<Disagreement> differ; // by blocks of kernels::photo_block pixels of these bands, row by row
 };
 
@@ -44,7 +44,7 @@ public:
     WarpDevice &operator=(const WarpDevice &) = delete;
     virtual ~WarpDevice() = default;
 
-    // Works on those bands of the data window that it can: calls done() for each of them once.
+    // Works on the bands of the data window that it can, and calls done() for each of them once.
     virtual void warp(const WarpScene &scene, const std::function<void(WarpedBands)> &done) = 0;
     virtual DeviceReport take_report() = 0; // of rows
 };

@@ -7,7 +7,7 @@ namespace sparselens {
 
 enum class Disagreement : std::uint8_t {
     none,   // no more than noise
-    slight, // as an image would that moves a little against its surface, or a sharp edge of texture
+    slight, // like an image that moves a little against its surface, or a sharp edge of texture
     clear   // more than that
 };
 

@@ -18,10 +18,11 @@ namespace {
 constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
 constexpr int near_by = WarpTuning::image_plane_reach, farther = WarpTuning::image_continued_reach;
 
-// Perceptive, by pixel as the search numbers them; NaN: not known.
+// Perceptive depths of pixels, by the numbers that the search gives them; NaN: not known.
 using Depths = std::vector<float>;
 
-// What the search found, in steps: each makes depths of those that the step before it made of a block and those around.
+// Makes depths of what the search found, in steps. Each step makes the depths of a block from what the step before made
+// of that block and of those around it.
 class ImageDepths {
 public:
     explicit ImageDepths(const ImageSearch &search)
@@ -46,7 +47,7 @@ private:
     Depths tried_; // the last depth at which the views did not agree
 };
 
-// What is known of the pixels of a tile and around.
+// Returns what is known of the pixels of a tile and around it.
 Neighbours ImageDepths::neighbours(const Imath::Box2i &tile, const Depths &depths) const {
     return Neighbours([&](const Imath::V2i &place) -> Neighbours::Pixel {
         const std::size_t index = search_.index_of(tile.min + place);
@@ -55,7 +56,8 @@ Neighbours ImageDepths::neighbours(const Imath::Box2i &tile, const Depths &depth
     });
 }
 
-// On the plane that fits the depths around which are as near to that one as those of one image are; unknown if those are too few.
+// Returns the depth on the plane that fits those depths around that are close enough to `depth` to belong to one image;
+// unknown if they are too few.
 float depth_on_plane(const Neighbours &neighbours, const Imath::V2i &place, float depth, std::size_t around) {
     LinearFit fit;
     neighbours.for_each_around(place, near_by, [&](const Imath::V2i &offset, float other) {
@@ -64,7 +66,8 @@ float depth_on_plane(const Neighbours &neighbours, const Imath::V2i &place, floa
     return fit.count() >= WarpTuning::image_agreement * double(around) ? float(fit.at_origin()) : unknown;
 }
 
-// By the pixel's own depth, else by the median of those around; unknown if those are too few.
+// Returns the depth on a plane through depths near the pixel's own depth, else near the median of the depths around;
+// unknown if those are too few.
 float depth_by_neighbours(const Neighbours &neighbours, const Imath::V2i &place, std::vector<float> &around) {
     around.clear();
     std::size_t pixels = 0;
@@ -89,7 +92,7 @@ void ImageDepths::agree_with_neighbours(const Imath::Box2i &tile, const Depths &
     }
 }
 
-// A patch need not lie at one depth.
+// Refines depths. Unlike in the search, a patch need not lie at one depth.
 void ImageDepths::refine(const Imath::Box2i &tile, const Depths &from, Depths &to) const {
     const std::vector<float> refined =
         sweep_.refined(tile, [&](const Imath::V2i &p) { return depth_at(p, from); });
@@ -106,13 +109,13 @@ float depth_around(const Neighbours &neighbours, const Imath::V2i &place, std::v
     return around.size() < WarpTuning::image_least_sources ? unknown : median(around);
 }
 
-// To pixels of the same surface where the views agree about as well as on that.
+// Continues depths to pixels of the same surface, if the views agree there about as well as on the surface.
 void ImageDepths::go_on(const Imath::Box2i &tile, const Depths &from, Depths &to) {
     const Neighbours around_tile = neighbours(tile, from);
     const Grid pixels(tile);
     std::vector<float> around, depths(pixels.size(), unknown);
     std::array<Neighbours::Pixel, image_block * image_block / 4> of_four;
-    of_four.fill({unknown, unknown}); // pixels side by side have the same around them
+    of_four.fill({unknown, unknown}); // pixels side by side have the same pixels around them
     for (std::size_t n = 0; n < pixels.size(); ++n) {
         const std::size_t index = search_.index_of(pixels.pixel(n));
         to[index] = from[index];
@@ -139,11 +142,12 @@ void ImageDepths::go_on(const Imath::Box2i &tile, const Depths &from, Depths &to
     }
 }
 
-// One step follows the other down the picture, a band behind it, so that they look at the same tiles of the views.
+// Each step follows the one before down the picture, a band behind it, so that they read the same tiles of the views.
 void ImageDepths::find(const ShowImages &show) {
     constexpr std::size_t made = 3 + WarpTuning::image_continuations, // steps that make depths
-        band_rows = 2;                                                // of blocks; a step looks one beyond
-    std::array<Depths, 3> depths; // what a step reads of a band, the third step after it writes there later
+        // rows of blocks; a step looks one row beyond
+        band_rows = 2;
+    std::array<Depths, 3> depths; // a later step overwrites what a step reads of a band
     depths.fill(Depths(matches_.size(), unknown));
     for (std::size_t i = 0; i < matches_.size(); ++i)
         if (matches_[i].found) depths[0][i] = matches_[i].depth;

@@ -16,7 +16,7 @@ constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
 constexpr std::size_t block_pixels = std::size_t(image_block) * image_block;
 constexpr std::size_t band_rows = 13; // of blocks: about as high as a tile of the views
 
-// The blocks of a picture of half the size that hold these.
+// The blocks of a picture of half the size that contain these blocks.
 std::vector<std::size_t> halved(const Tiles &tiles, const std::vector<std::size_t> &blocks,
                                 const Tiles &half) {
     std::vector<bool> marks(half.count());
@@ -30,7 +30,7 @@ std::vector<std::size_t> halved(const Tiles &tiles, const std::vector<std::size_
     return found;
 }
 
-// For those of the blocks that have many depths; nothing if few have.
+// Returns guesses for the blocks that have many depths; nothing if few blocks have.
 std::optional<ImageGuesses> guesses_for(const ImageSweep &sweep, const Imath::Box2i &data,
                                         std::vector<std::size_t> blocks) {
     const Tiles tiles(data, image_block);
@@ -62,8 +62,8 @@ ImageSearch::ImageSearch(const ImageSweep &sweep, const Imath::Box2i &data,
                          const std::vector<std::size_t> &blocks)
     : sweep_(sweep), box_(data), tiles_(data, image_block), guesses_(guesses_for(sweep, data, blocks)),
       blocks_(tiles_.count(), not_searched) {
-    // Band by band, back to the one above where that has new blocks: so the views are made once for a band, not once for each ring
-    // of blocks around those that found something.
+    // Searches band by band, and goes back to the band above if that has new blocks. So the tiles of the views are made
+    // once for a band, not once for each ring of blocks around those that found something.
     const std::size_t columns = std::size_t(tiles_.columns()), in_band = band_rows * columns;
     std::vector<std::vector<std::size_t>> waiting(pieces_of(tiles_.count(), in_band));
     const auto add = [&](std::size_t tile) {
@@ -96,7 +96,7 @@ std::size_t ImageSearch::index_of(const Imath::V2i &pixel) const {
     return block == not_searched ? npos : block * block_pixels + (y % side) * side + x % side;
 }
 
-// Whether much was found.
+// Searches a tile. Returns whether much was found.
 bool ImageSearch::search_tile(std::size_t tile) {
     const Imath::Box2i block = tiles_.box(tile);
     const std::vector<ImageMatch> found =

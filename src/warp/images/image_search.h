@@ -1,6 +1,6 @@
-// The search for images in all blocks of the centre view that are worth it. Where a block has many depths to try, a picture of
-// half the size is searched first, and then only depths near those that it shows: there are half as many depths in it, and a
-// quarter of the pixels.
+// Searches for images in all blocks of the centre view that are worth it. If a block has many depths to try, a picture
+// of half the size is searched first, which has half as many depths and a quarter of the pixels; then only depths near
+// those found there are tried.
 #pragma once
 
 #include "base/grid.h"
@@ -13,7 +13,7 @@
 
 namespace sparselens {
 
-// visit(tile) for the tiles around one.
+// Calls visit(tile) for the tiles around a tile.
 template <typename Visit>
 void for_each_beside(const Tiles &tiles, std::size_t tile, const Visit &visit) {
     const int column = int(tile) % tiles.columns(), row = int(tile) / tiles.columns();
@@ -22,31 +22,31 @@ void for_each_beside(const Tiles &tiles, std::size_t tile, const Visit &visit) {
             if (c != column || r != row) visit(std::size_t(r * tiles.columns() + c));
 }
 
-// What was found in a picture, by its pixels row by row; NaN: nothing.
+// The depths found in a picture, for its pixels row by row; NaN: nothing was found.
 struct ImageGuesses {
     Grid grid;
-    std::vector<float> depths; // in its pixels
+    std::vector<float> depths; // perceptive, in pixels of the picture
 
-    // For a block of the picture that is twice as large, in the pixels of that.
+    // The depths found near a block of the picture that is twice as large, in pixels of that picture.
     std::vector<float> near(const Imath::Box2i &block) const;
 };
 
-// Pixels are numbered block by block, of the blocks that are searched alone: most pictures show few mirrors.
+// Pixels are numbered block by block, in searched blocks only, because most pictures show few mirrors.
 class ImageSearch {
 public:
-    // Searches those blocks of `data`, and others where it has found something beside them.
+    // Searches these blocks of `data`, and blocks beside which it has found something.
     ImageSearch(const ImageSweep &sweep, const Imath::Box2i &data, const std::vector<std::size_t> &blocks);
 
     const ImageSweep &sweep() const { return sweep_; }
     const Imath::Box2i &box() const { return box_; }
-    // npos: not searched, or outside.
+    // The number of a pixel; npos if it was not searched or lies outside.
     std::size_t index_of(const Imath::V2i &pixel) const;
-    // By that number.
+    // What was found, by the number of the pixel.
     std::vector<ImageMatch> matches;
 
-    // The data window in bands of so many rows of blocks.
+    // The number of bands of the data window, each of `rows` rows of blocks.
     std::size_t bands(std::size_t rows) const { return pieces_of(std::size_t(tiles_.rows()), rows); }
-    // visit(block) for those of a band that were searched.
+    // Calls visit(block) for the blocks of a band that were searched.
     template <typename Visit>
     void for_each_searched(std::size_t rows, std::size_t band, const Visit &visit) const {
         const std::size_t columns = std::size_t(tiles_.columns()), first = band * rows * columns,
@@ -65,8 +65,8 @@ private:
     const ImageSweep &sweep_;
     Imath::Box2i box_;
     Tiles tiles_;
-    std::optional<ImageGuesses> guesses_; // of a picture of half the size, where it was searched
-    std::vector<std::uint32_t> blocks_;   // by tile: which block of the numbers it is
+    std::optional<ImageGuesses> guesses_; // of a picture of half the size, if it was searched
+    std::vector<std::uint32_t> blocks_;   // [tile]: its place among the numbered blocks
     std::uint32_t count_ = 0;             // of blocks
 };
 

@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t coarse = WarpTuning::image_coarse_steps;
 constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
 
-// The surface that most pixels of the block show, at the middle one of their depths; NaN if there is none.
+// Returns the median of the depths in a block, which is on the surface that most pixels show; NaN if there is none.
 float surface_of(const MatchedView &centre, const Imath::Box2i &block) {
     std::vector<float> depths;
     for (int y = block.min.y; y <= block.max.y; ++y)
@@ -44,13 +44,13 @@ struct Depths {
     }
 };
 
-// The place of the least of three values in equal steps, on the parabola through them, from the middle one: [-1/2, 1/2].
+// Returns where the parabola through three values in equal steps is least, relative to the middle one: [-1/2, 1/2].
 double least_of_parabola(double before, double middle, double after) {
     const double bend = before - 2 * middle + after;
     return bend > 0 ? std::clamp(0.5 * (before - after) / bend, -0.5, 0.5) : 0;
 }
 
-// The least one of every `every` steps; npos where none is known.
+// Returns the step with the least value among every `every`-th step; npos if none is known.
 std::size_t least_of(const Curves &curve, std::size_t count, std::size_t pixel, std::size_t every) {
     std::size_t best = npos;
     for (std::size_t k = 0; k < count; k += every)
@@ -59,7 +59,8 @@ std::size_t least_of(const Curves &curve, std::size_t count, std::size_t pixel, 
     return best;
 }
 
-// Whether the curve has one clear valley; then its step. Of steps that are not coarse those beside the least are known.
+// Returns the step of the curve's valley if it has one clear valley. Of the steps that are not coarse, only those
+// beside the least are known.
 std::optional<double> valley_of(const Curves &curve, std::size_t count, std::size_t pixel, float at_surface) {
     const auto value = [&](std::size_t k) { return curve.at(k, pixel); };
     const std::size_t best = least_of(curve, count, pixel, 1);
@@ -78,7 +79,8 @@ std::optional<double> valley_of(const Curves &curve, std::size_t count, std::siz
     return double(best) + least_of_parabola(value(best - 1), value(best), value(best + 1));
 }
 
-// The steps between coarse ones at which valley_of() looks where that is the least of these: one and three from it.
+// Marks the steps between coarse ones that valley_of() looks at if `best` is the least coarse step: one and three steps
+// from it.
 void mark_beside(std::size_t best, std::vector<bool> &marks) {
     for (const std::size_t off : {std::size_t{1}, std::size_t{3}}) {
         if (best >= off) marks[best - off] = true;
@@ -86,7 +88,7 @@ void mark_beside(std::size_t best, std::vector<bool> &marks) {
     }
 }
 
-// The steps that tell whether a guess is right.
+// Marks the steps that tell whether a guess is right.
 void mark_around(std::size_t guess, std::vector<bool> &marks) {
     constexpr std::size_t reach = WarpTuning::image_guess_steps;
     for (std::size_t k = guess - std::min(guess, reach); k <= std::min(guess + reach, marks.size() - 1); ++k)
@@ -116,7 +118,8 @@ void fill_with_median(PatchComparison::Field &depths) {
 } // namespace
 
 void ImageSweep::make_room() const {
-    constexpr std::size_t rows = 3; // of tiles: so far apart may a view show what is looked for at one place
+    // of tiles: how far apart a view may show what is searched at one position
+    constexpr std::size_t rows = 3;
     std::size_t held = 0, much = 0;
     for (const MatchedView &view : views_) {
         held += view.bytes();
@@ -155,7 +158,8 @@ std::vector<ImageMatch> ImageSweep::search(const Imath::Box2i &block,
     const auto worth_it = [](const ImageMatch &m) {
         return m.surface && m.at_surface >= WarpTuning::image_least_difference;
     };
-    if (std::ranges::none_of(matches, worth_it)) return matches; // most edges of texture, once smoothed
+    // true for most edges of texture, once smoothed
+    if (std::ranges::none_of(matches, worth_it)) return matches;
     const Depths depths(surface);
     MeanCurves curves(views_, depths.count, grid.size());
     const auto find = [&](std::size_t k) {

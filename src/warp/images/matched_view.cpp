@@ -24,8 +24,8 @@ struct Square {
     std::size_t at(int x, int y) const { return std::size_t(y * side + x); }
     std::size_t around(int x, int y) const { return std::size_t((y + 1) * wide() + x + 1); }
 
-    // By (1, 2, 1) / 4 along both axes: what lies between pixels is then about as noisy as what lies on them, and a step
-    // of half a pixel follows the texture.
+    // Smooths by (1, 2, 1) / 4 along both axes. Values between pixels are then about as noisy as values on pixels, and
+    // a step of half a pixel follows the texture.
     void smooth(const float *from, float *to) const {
         std::vector<float> lines(std::size_t(side * wide()));
         for (int y = -1; y <= side; ++y) {
@@ -37,7 +37,7 @@ struct Square {
                 to[at(x, y)] = smoothed(lines[at(x, y)], lines[at(x, y + 1)], lines[at(x, y + 2)]);
     }
 
-    // The depth of a pixel if it and all those around show one surface.
+    // Keeps the depth of a pixel if it and all pixels around it show one surface; else sets NaN.
     void keep_one_surface(const float *from, float *to) const {
         for (int y = 0; y < side; ++y) {
             const float *own = from + around(0, y);
@@ -53,7 +53,8 @@ struct Square {
     }
 };
 
-// Reads pixels from one to the right. read(index, values) gives those inside; pixels outside repeat the nearest one.
+// Reads a line of pixels from `first` to the right. read(index, values) gives those inside; pixels outside repeat the
+// nearest one.
 template <typename Read>
 void read_line(const Windows &windows, const Imath::V2i &first, std::span<float> out, const Read &read) {
     const Imath::Box2i &frame = windows.data;

@@ -1,5 +1,5 @@
-// A view as the search for images compares it: bounded colours, smoothed a little, and the depth of its surfaces. Made
-// tile by tile where it is looked at: most pictures show few mirrors.
+// A view as the search for images compares it: bounded colours, smoothed a little, and the depth of its surfaces. Its
+// tiles are made when they are first read, because most pictures show few mirrors.
 #pragma once
 
 #include "base/grid.h"
@@ -16,43 +16,44 @@
 
 namespace sparselens {
 
-// A view of one sample a pixel or, on silhouettes, more; the mapping tells where it stands.
+// A view with one sample per pixel, or more on silhouettes. The mapping says where its camera stands.
 struct PlacedView {
     const ViewSamples *samples;
     const ViewMapping *mapping;
 };
 
-// Several threads may look at one.
+// Several threads may read it at the same time.
 class MatchedView {
 public:
-    // R, G and B, bounded so that one bright pixel does not decide, and the perceptive depth of the surface, which
-    // is NaN where the pixel or one beside it shows several surfaces, none or another one: the colours are mixed there.
+    // R, G and B, bounded so that one bright pixel does not decide, and the perceptive depth of the surface. The depth
+    // is NaN if the pixel or one beside it shows several surfaces, none or another one, because the colours are mixed
+    // there.
     using Pixel = std::array<float, 4>;
 
-    // `scale` is R F in pixels of the view, of which `across`, across and down, are one here: all that is said of pixels, of
-    // their depths too, is said of those. The view must outlive this.
+    // `scale` is R F in pixels of the view. `across` of these, across and down, are one pixel here; everything else
+    // that is said of pixels, and of depths in pixels, means pixels here. The view must outlive this.
     MatchedView(const PlacedView &view, double scale, int across = 1);
 
-    // The same view where twice as many, across and down, are one.
+    // The same view with twice as many pixels, across and down, in one.
     MatchedView half() const { return {view_, scale_ * across_, 2 * across_}; }
     int across() const { return across_; }
 
     bool contains(int x, int y) const { return grid_.contains(x, y); }
     Pixel at(int x, int y) const;
-    // Between the middles of pixels, which lie at halves; the depth is that of the pixel which holds the place. False
-    // outside of them.
+    // Interpolates between the middles of pixels, which lie at halves. The depth is that of the pixel that contains the
+    // position. Returns false outside of the outermost middles.
     bool at(const Imath::V2d &place, Pixel &out) const;
 
-    // A place and what lies to the right of it and below, for `cutout` pixels, in planes: R, G, B and depth.
+    // A position and `cutout` pixels to the right of it and below, in planes: R, G, B and depth.
     static constexpr int cutout = 16, row = 104 + cutout, plane = row * row; // pixels from one to the next
     struct Cutout {
-        const float
-            *first; // the pixel above and to the left of the place; null if all lies outside of the view
-        float right, down; // from there to the place, [0, 1)
+        // The pixel above and to the left of the position; null if everything lies outside of the view.
+        const float *first;
+        float right, down; // from there to the position, [0, 1)
     };
     Cutout cut(const Imath::V2d &place) const;
 
-    // Memory of the tiles that were made and are held.
+    // The memory of the tiles that are held, bytes.
     std::size_t bytes() const;
     std::size_t bytes_of_row() const { return columns_ * tile_bytes; } // of tiles
     // Frees tiles that were not read since the last call; reading makes them again. No thread may read meanwhile.
@@ -61,7 +62,7 @@ public:
     // The depth of the surface, if the pixel shows just one; else NaN.
     float depth(int x, int y) const;
 
-    // Where it shows what the centre view shows at that place; NaN where that lies behind its camera.
+    // Where this view shows what the centre view shows at a position; NaN if that lies behind its camera.
     Imath::V2d in_view(const Imath::V2d &place, double depth) const {
         return view_.mapping->in_view(place * double(across_), depth / scale_) * (1.0 / across_);
     }
@@ -69,12 +70,12 @@ public:
     const ViewSamples &samples() const { return *view_.samples; }
 
 private:
-    static constexpr int tile_side = row - cutout; // a tile holds what may be cut out from its pixels, too
+    static constexpr int tile_side = row - cutout; // a tile also holds what may be cut out from its pixels
 
     static constexpr std::size_t tile_bytes = 4 * std::size_t(plane) * sizeof(float);
 
     struct Tile {
-        std::atomic<bool> is_used = false; // lately; then it is made
+        std::atomic<bool> is_used = false; // whether it was read lately; then it is made
         std::mutex making;
         std::vector<float> planes; // empty: not made
     };
@@ -89,20 +90,20 @@ private:
     }
     void use(std::size_t tile) const;
     void make(std::size_t tile) const;
-    // Reads pixels from one to the right: R, G or B, ...
+    // Reads a line of pixels from `first` to the right: R, G or B, ...
     void colours_of(std::size_t k, const Imath::V2i &first, std::span<float> out) const;
-    // ... and as depth().
+    // ... or depths like depth().
     void depths_of(const Imath::V2i &first, std::span<float> out) const;
 
     PlacedView view_;
     int across_;
-    double scale_; // in pixels of this
+    double scale_; // in pixels here
     std::array<std::size_t, 3> rgb_;
     Grid grid_;
     Imath::V2i corner_;
     std::size_t columns_, count_; // of tiles
     std::unique_ptr<Tile[]> tiles_;
-    struct Spare { // what tiles had that were forgotten
+    struct Spare { // memory of tiles that were forgotten
         std::mutex taking;
         std::vector<std::vector<float>> planes;
     };

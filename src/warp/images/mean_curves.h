@@ -11,7 +11,7 @@
 
 namespace sparselens {
 
-// By step and pixel of a block.
+// Values for each step and each pixel of a block.
 class Curves {
 public:
     Curves(std::size_t steps, std::size_t pixels)

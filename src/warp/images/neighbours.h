@@ -1,4 +1,5 @@
-// The pixels of a block and those around, as the search for images looks at them: over and over, from each pixel of the block.
+// The pixels of a block and those around it, stored for the search for images, which reads them repeatedly from each
+// pixel of the block.
 #pragma once
 
 #include "kernels/surface.h"
@@ -13,13 +14,13 @@ namespace sparselens {
 
 inline constexpr int image_block = 8; // pixels wide and high
 
-// Places are counted from the upper left pixel of the block.
+// Positions are relative to the upper left pixel of the block.
 class Neighbours {
 public:
     static constexpr int reach = 8; // pixels around the block
 
     struct Pixel {
-        float own_depth; // perceptive, of its surface; NaN: shows none that could be searched
+        float own_depth; // perceptive, of its surface; NaN: it shows no surface that could be searched
         float depth;     // of its image; NaN: not known
     };
     template <typename PixelAt>
@@ -31,7 +32,8 @@ public:
 
     float depth(const Imath::V2i &place) const { return pixels_[at(place)].depth; }
 
-    // visit(offset, depth) for the pixels of the same surface within a distance, up to `reach`, itself among them.
+    // Calls visit(offset, depth) for the pixels of the same surface within a distance, at most `reach`, including the
+    // pixel itself.
     template <typename Visit>
     void for_each_around(const Imath::V2i &place, int distance, const Visit &visit) const {
         const float own = pixels_[at(place)].own_depth;
@@ -51,7 +53,8 @@ private:
     std::array<Pixel, std::size_t(side) * side> pixels_;
 };
 
-// The value at the origin of the plane that fits values at places best; their mean where they lie on a line.
+// Fits a plane to values at positions, and gives its value at the origin; the mean of the values if the positions lie
+// on a line.
 class LinearFit {
 public:
     void add(const Imath::V2d &p, double value) {

@@ -74,7 +74,7 @@ void PatchComparison::at_depth(const MatchedView &view, double depth, std::span<
     const auto in_view = [&](int x, int y) {
         return view.in_view(Imath::V2d(corner_ + Imath::V2i(x, y)) + Imath::V2d(0.5), depth);
     };
-    const Imath::V2d first = in_view(0, 0); // of equal steps: at one depth the mapping is linear
+    const Imath::V2d first = in_view(0, 0); // of equal steps, because the mapping at one depth is linear
     const double step = in_view(1, 0).x - first.x;
     if (!(std::abs(step - 1) < alike)) {
         compare_each(view, [&](int x, int y) { return first + step * Imath::V2d(x, y); });
@@ -95,8 +95,8 @@ void PatchComparison::at_depths(const MatchedView &view, const Field &depths, do
         return view.in_view(Imath::V2d(corner_ + Imath::V2i(x, y)) + Imath::V2d(0.5), depth);
     };
     const auto depth_at = [&](int x, int y) { return double(depths[at(x, y)]) + behind; };
-    if (view.mapping().approach() ==
-        0) { // no camera stands farther forward: the mapping is linear in depth, too
+    if (view.mapping().approach() == 0) {
+        // No camera stands farther forward, so the mapping is linear in depth, too.
         const Imath::V2d first = in_view(0, 0, 0), along = in_view(0, 0, 1) - first;
         const double step = in_view(1, 0, 0).x - first.x;
         compare_each(view,

@@ -1,5 +1,5 @@
-// A block of pixels of the centre view in comparison with other views, patch by patch, if what it shows lies at a depth that
-// is tried. Only pixels of one surface count, and only where the view shows that surface.
+// Compares a block of pixels of the centre view with other views, patch by patch, if what it shows lies at a given
+// depth. Only pixels of one surface count, and only where the view shows that surface.
 #pragma once
 
 #include "warp/images/matched_view.h"
@@ -15,8 +15,8 @@ public:
     static constexpr int reach = patch_reach, patch = patch_side;
     static constexpr int most_side = 8 + 2 * reach; // a block of at most 8 x 8 and what lies around
     static constexpr int row = patch_row;           // pixels from one to the next
-    using Field =
-        std::array<float, std::size_t(row) * most_side>; // of those pixels, from the upper left corner
+    // One value for each of these pixels, from the upper left corner.
+    using Field = std::array<float, std::size_t(row) * most_side>;
 
     PatchComparison(const MatchedView &centre, const Imath::Box2i &block, float surface);
 
@@ -28,14 +28,14 @@ public:
     // The perceptive depths of the surfaces; only those of pixels that count are known.
     const Field &own_depths() const { return depths_; }
 
-    // Puts the difference at each pixel of the block, row by row, if what it and those around show lies at one perceptive
-    // depth: mean squares over the patch, of R, G and B together; NaN where too little can be compared.
+    // Writes the difference at each pixel of the block, row by row, if what it and the pixels around show lies at one
+    // perceptive depth: mean squares over the patch, of R, G and B together; NaN where too little can be compared.
     void at_depth(const MatchedView &view, double depth, std::span<float> out);
-    // The same if they lie so far behind those depths; a pixel whose depth is NaN does not count.
+    // The same, if what they show lies at these depths plus `behind`; a pixel whose depth is NaN does not count.
     void at_depths(const MatchedView &view, const Field &depths, double behind, std::span<float> out);
 
 private:
-    // Puts squared differences, and which pixels can be compared.
+    // Writes squared differences, and which pixels can be compared.
     template <typename PlaceAt>
     void compare_each(const MatchedView &view, const PlaceAt &place_at);
     void take(std::span<float> out);
@@ -48,7 +48,7 @@ private:
     Field sums_of_counts_;     // over patches
     Field depths_;
     Field squares_, compared_;
-    bool all_compared_ = false; // all that count
+    bool all_compared_ = false; // whether all pixels that count can be compared
 };
 
 } // namespace sparselens

@@ -10,7 +10,7 @@ using Mask4 [[gnu::vector_size(16)]] = int;
 
 constexpr Float4 none{};
 
-// As kernels::is_one_surface().
+// Like kernels::is_one_surface().
 Mask4 on_surface(Float4 depths, float surface) {
     const Float4 off = depths - surface;
     return ((off < one_mirror_px) & (off > -one_mirror_px)) | (depths == surface);
@@ -24,7 +24,7 @@ Float4 between(const float *pixels, float right) {
     return left + right * (load4(pixels + 1) - left);
 }
 
-// `groups` of four columns.
+// Compares `groups` groups of four columns.
 template <int groups>
 bool compare_groups(const PatchBlock &block, const MatchedView::Cutout &seen, float *squares,
                     float *compared) {
@@ -62,7 +62,7 @@ Value sum_of(Value a, Value b, Value c, Value d, Value e, Value f, Value g) {
     return ((a + b) + (c + d)) + ((e + f) + g);
 }
 
-// Adds the values of each column that lie below each other.
+// Sums each column over the height of a patch.
 void sum_down(float *values, int columns, int height) {
     static_assert(patch_side == 7);
     for (int x = 0; x < columns; x += 4) {

@@ -1,4 +1,4 @@
-// The rows of a block of pixels in comparison with another view, four pixels at a time: most of the search's work.
+// Compares the rows of a block of pixels with another view, four pixels at a time. This is most of the search's work.
 #pragma once
 
 #include "warp/images/matched_view.h"
@@ -16,8 +16,9 @@ struct PatchBlock {
     int width, height;
 };
 
-// Puts the squared difference of each pixel from what the cutout shows there, R, G and B together, and 1 where it can be compared:
-// where it counts, and the view shows the surface, too. Else 0 in both. Whether all that count can be compared.
+// Writes the squared difference of each pixel from what the cutout shows there, R, G and B together, and 1 if the pixel
+// can be compared: if it counts, and the view shows the surface, too. Else writes 0 to both. Returns whether all pixels
+// that count can be compared.
 bool compare_shifted(const PatchBlock &block, const MatchedView::Cutout &seen, float *squares,
                      float *compared);
 

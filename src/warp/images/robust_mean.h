@@ -1,5 +1,5 @@
-// The mean of how far views differ from the centre view, over the best three quarters of those that can be compared: one view
-// may see something else there. Not a number where fewer than half can be compared.
+// The mean of how far views differ from the centre view, over the best three quarters of the views that can be
+// compared, because one view may see something else there. NaN if fewer than half can be compared.
 #pragma once
 
 #include <algorithm>
@@ -18,8 +18,8 @@ public:
     RobustMeans(std::size_t views, std::size_t pixels)
         : views_(views), pixels_(pixels), ranks_(views * pixels), known_(pixels), worse_(pixels) {}
 
-    // Adds the next view, by pixel; NaN where it cannot be compared. After the last view, take() makes room for the
-    // first one.
+    // Adds the differences of the next view, by pixel; NaN where it cannot be compared. take() must be called after the
+    // last view; then the first view may be added again.
     void add(std::span<const float> differences) {
         constexpr float last = std::numeric_limits<float>::infinity();
         for (std::size_t i = 0; i < pixels_; ++i) {

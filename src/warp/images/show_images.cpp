@@ -15,7 +15,7 @@ namespace sparselens {
 
 namespace {
 
-// What a view shows of an image, at its place in the pixel of the centre view.
+// What a view shows of an image, at its position in the pixel of the centre view.
 struct ImageSample {
     const ViewSamples *view;
     std::uint64_t index;
@@ -27,7 +27,7 @@ public:
     Shower(std::span<const MatchedView> views, const ImageSweep &sweep, double scale, Ldi &ldi)
         : views_(views), sweep_(sweep), scale_(scale), ldi_(ldi), alpha_(ldi.alpha()) {}
 
-    // Gives the front samples of a block's pixels their images. Whether there is one.
+    // Gives the front samples of a block's pixels their images. Returns whether there is one.
     bool show(const Imath::Box2i &block, const ImageDepthAt &depth_at) const {
         const Grid pixels(block);
         std::vector<float> own(pixels.size());
@@ -55,7 +55,7 @@ private:
         return {&view, i, 0, 0, double(view.weight(i))};
     }
 
-    // The view's pixel that is nearest to where it shows the image, if it shows the same surface.
+    // Adds the pixel of a view that is nearest to where the view shows the image, if it shows the same surface.
     void add(const MatchedView &view, const Imath::V2i &pixel, double depth,
              std::vector<ImageSample> &seen) const {
         const double inverse_z = depth / scale_;

@@ -18,7 +18,7 @@ struct Seed {
     float brightness, surroundings;
 };
 
-// Most blocks are told to have none without a median.
+// Most blocks are found to have no seeds without a median.
 std::vector<Seed> seeds_of(const Grid &grid, std::span<const float> brightness, const Imath::Box2i &box) {
     std::vector<float> values;
     values.reserve(std::size_t(WarpTuning::lamp_block * WarpTuning::lamp_block));
@@ -44,7 +44,8 @@ public:
     Grower(const Grid &grid, std::span<const float> brightness)
         : grid_(grid), brightness_(brightness), group_(grid.size()) {}
 
-    // The lamp around a seed; nothing if the seed is in a group already, or if its group is large or beside another one.
+    // The lamp around a seed; nothing if the seed is in a group already, or if its group is large or beside another
+    // one.
     std::optional<CompactLamp> grow(const Seed &seed) {
         if (group_[seed.pixel] != 0) return {};
         CompactLamp lamp{{},

@@ -1,8 +1,8 @@
-// Small bright lights in a picture, told by brightness alone.
+// Finds small bright lights in a picture, by brightness alone.
 //
-// A lamp is a group of pixels of which the brightest has more than eight times the median of the block of 16 x 16 pixels
-// around it, and the others more than four times that and a fiftieth of the brightest. Groups that are larger than twelve
-// pixels, and what is bright beside those, are none.
+// A lamp is a group of pixels. The brightest has more than eight times the median of the block of 16 x 16 pixels around
+// it; the others have more than four times that median, and more than a fiftieth of the brightest. Groups larger than
+// twelve pixels, and bright pixels beside them, are not lamps.
 #pragma once
 
 #include "base/grid.h"

@@ -17,11 +17,11 @@ namespace {
 
 // A lamp of a view.
 struct SeenLamp {
-    KnownLamp lamp;          // inverse_z is 0 if all its pixels have depths that are around
-    double around = 0;       // 1 / z of the nearest that is around; of a lamp of known depth, behind it
-    bool is_crossed = false; // whether something that is around stands before it
+    KnownLamp lamp;          // inverse_z is 0 if all its pixels have depths that occur around it
+    double around = 0;       // 1 / z of the nearest thing around; behind a lamp of known depth
+    bool is_crossed = false; // whether something around is in front of it
     std::vector<Imath::V2i> all;
-    std::vector<Imath::V2i> pixels; // whose light is to be at the lamp's depth
+    std::vector<Imath::V2i> pixels; // those whose light belongs at the lamp's depth
     std::vector<Imath::V2i> at_its_depth;
     bool settled = false; // by other views
 };
@@ -37,7 +37,7 @@ double inverse_z_at(const ViewSamples &view, const Imath::V2i &p) {
     return shown.empty() ? 0 : 1 / double(view.z(shown.front()));
 }
 
-// What the pixels two or three from a lamp show.
+// What the pixels at two or three pixels from a lamp show.
 struct Around {
     std::vector<double> inverse_z; // the nearest last
     bool whole = true;             // the border of the view cuts off none of it
@@ -65,7 +65,7 @@ public:
     std::vector<std::size_t> crossed() const;
     // The lamps whose depth is not known, by rows.
     std::vector<LampBeforeWall> unknown() const;
-    // By lamps whose places are in the centre view.
+    // Settles lamps by others whose positions are in the centre view.
     void settle_by_others(const ViewMapping &mapping, std::span<const KnownLamp> others);
 
 private:
@@ -87,13 +87,14 @@ LampsOfView::LampsOfView(ViewSamples &view, double tolerance)
         const Around around = look_around(view, found.pixels);
         if (around.inverse_z.empty()) continue;
         SeenLamp seen = look_at(found, around.inverse_z);
-        // Something before it may lie beyond the border; strands that cross a lamp of known depth are visible.
+        // Something in front of it may lie beyond the border; strands that cross a lamp of known depth are visible.
         if (around.whole || (seen.is_crossed && seen.lamp.inverse_z != 0)) lamps_.push_back(std::move(seen));
     }
 }
 
-// 1 / z of the lamp, which nothing around has: that of its nearest pixel if it stands before all that is around. Else strands or bars
-// may cross it, and it is that of the brightest pixel that has neither their depth nor that of what is behind. 0: not known.
+// Returns 1 / z of the lamp, which nothing around has. If the lamp is in front of everything around, it is that of its
+// nearest pixel. Else strands or bars may cross the lamp, and it is that of the brightest pixel that has neither their
+// depth nor the depth of what is behind. 0: not known.
 double LampsOfView::depth_of(const CompactLamp &found, std::span<const double> around) const {
     double nearest = 0, brightest = 0, depth = 0;
     for (const Imath::V2i &p : found.pixels) {
@@ -121,7 +122,7 @@ SeenLamp LampsOfView::look_at(const CompactLamp &found, std::span<const double> 
     }
     lamp.place /= lamp.light;
     const double depth = depth_of(found, around);
-    if (depth == 0) { // it may be of what is around, and is where it shines most
+    if (depth == 0) { // it may belong to what is around, and lies where it shines most
         seen.is_crossed = around.back() > inverse_z_at(view_, found.pixels[0]) + tolerance_;
         return seen;
     }

@@ -1,12 +1,13 @@
-// The depth of small lamps' pixels, where the renderer wrote that of what is behind them.
+// Corrects the depth of small lamps' pixels where the renderer wrote the depth of what is behind them.
 //
-// A renderer takes the depth of a pixel on a lamp's edge from one of its samples, which may be of the lamp or of the wall
-// behind. Either way most of its light is the lamp's, and would be seen at the depth of the wall. So pixels of a small lamp
-// that stands before all that is around it take the depth of those beside them that have the lamp's. So do those of a lamp that
-// strands or bars cross: nothing around has its depth. What of its light has the depth of a strand, silhouettes.h gives back to it.
-// Where a view has no pixel at the lamp's depth, other views tell, which show as much light at that place. Where all views have the
-// wall's depth, the places tell at which all of them show the lamp, unless it may as well be on the wall. Pixels that show little of
-// a lamp stay as they are, if a pixel beside them shows nothing else than the lamp: silhouettes.h can take those apart.
+// A renderer takes the depth of a pixel on a lamp's edge from one of its samples, which may show the lamp or the wall
+// behind. Either way most of its light is the lamp's, and would be seen at the depth of the wall. So pixels of a small
+// lamp in front of everything around it take the depth of pixels beside them that have the lamp's depth. Pixels of a
+// lamp that strands or bars cross do so, too; nothing around has its depth. silhouettes.h gives back to the lamp the
+// light that has the depth of a strand. If a view has no pixel at the lamp's depth, other views that show as much light
+// at that position tell the depth. If all views have the wall's depth, the positions tell the depth at which all views
+// show the lamp, unless it may as well be on the wall. Pixels that show little of a lamp stay as they are if a pixel
+// beside them shows only the lamp, because silhouettes.h can separate those.
 #pragma once
 
 #include "deep/view_samples.h"
@@ -18,12 +19,12 @@
 
 namespace sparselens {
 
-// Pixels of a view, in ascending order: those of the lamps that strands or bars cross.
+// The pixels of the lamps of a view that strands or bars cross, in ascending order.
 using CrossedLamps = std::vector<std::size_t>;
 
-// Views have at most one sample a pixel; mappings[v] tells where the centre view shows what views[v] shows. Depths whose
-// inverses differ by less than `tolerance`, > 0, are one surface. Returns the crossed lamps of each view. The result does not depend
-// on the order of the views.
+// Views must have at most one sample per pixel. mappings[v] tells where the centre view shows what views[v] shows.
+// Depths whose inverses differ by less than `tolerance`, > 0, are one surface. Returns the crossed lamps of each view.
+// The result does not depend on the order of the views.
 std::vector<CrossedLamps> settle_lamp_depths(std::span<ViewSamples> views,
                                              std::span<const ViewMapping> mappings, double tolerance);
 

@@ -19,7 +19,7 @@ namespace {
 
 constexpr double farthest_move = 1 << 20; // pixels, between two views
 
-// The samples of a lamp, and what their light is to be multiplied by.
+// The samples of a lamp, and the factor on their light.
 struct Change {
     std::vector<std::uint64_t> samples;
     double factor = 1;
@@ -51,7 +51,7 @@ private:
     std::vector<PixelLight<ViewSamples>> lights_; // of the views
 };
 
-// The depth of the brightest sample of its brightest pixel.
+// 1 / z of the brightest sample of a lamp's brightest pixel.
 double Calibration::inverse_depth(const CompactLamp &lamp) const {
     const ViewSamples &centre = *views_[0].samples;
     double most = -1, inverse_z = 0;
@@ -71,7 +71,7 @@ bool Calibration::has_empty(const Pixels &pixels) const {
     });
 }
 
-// Where the view shows what the centre view shows in these pixels around a lamp, to the nearest pixel.
+// Returns where a view shows what the centre view shows in these pixels around a lamp, to the nearest pixel.
 std::optional<Calibration::Pixels> Calibration::moved(std::size_t view, const Pixels &pixels,
                                                       const Imath::V2i &lamp, double inverse_z) const {
     if (view == 0) return pixels;
@@ -83,8 +83,8 @@ std::optional<Calibration::Pixels> Calibration::moved(std::size_t view, const Pi
     return result;
 }
 
-// What a view shows in these pixels, if nothing nearer lies there. A pixel that shows nothing may just not have been
-// rendered.
+// Returns the light that a view shows in these pixels, if nothing nearer lies there. A pixel that shows nothing may not
+// have been rendered.
 std::optional<double> Calibration::light_in(std::size_t view, const Pixels &pixels, double inverse_z,
                                             bool may_be_empty) const {
     const ViewSamples &samples = *views_[view].samples;
@@ -100,7 +100,8 @@ std::optional<double> Calibration::light_in(std::size_t view, const Pixels &pixe
     return sum;
 }
 
-// The mean over the views that see all of it and agree with their median; the centre view and most views have to.
+// Returns the mean over the views that see all of the lamp and agree with their median. The centre view and most views
+// must be among these.
 std::optional<double> Calibration::light_of_views(const CompactLamp &lamp, const Pixels &pixels) const {
     const double inverse_z = inverse_depth(lamp);
     const bool may_be_empty = has_empty(pixels);
@@ -111,7 +112,7 @@ std::optional<double> Calibration::light_of_views(const CompactLamp &lamp, const
         if (light) lights.push_back(*light);
         if (v == 0 && !light) return {};
     }
-    const double middle = median(std::vector(lights)); // they keep their order
+    const double middle = median(std::vector(lights)); // of a copy, so that the lights keep their order
     const double tolerance = middle * std::min(WarpTuning::lamp_most_noise,
                                                WarpTuning::lamp_noise_of_pixels / double(lamp.pixels.size()));
     const auto differs = [&](double light) { return std::abs(light - middle) > tolerance; };

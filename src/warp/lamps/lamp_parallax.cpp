@@ -60,7 +60,7 @@ private:
              at != lamps_[v].end() && row(*at) <= y + reach; ++at)
             visit(at->lamp);
     }
-    // Where each view shows it; of those that do.
+    // Where the views that show a lamp show it.
     struct Shown {
         std::vector<Imath::V2d> at_infinity, parallax; // in the centre view
     };
@@ -82,7 +82,8 @@ private:
         }
         return found;
     }
-    // That which agrees best with where they show it, as a view knows places to a pixel or so; and by how much it does not.
+    // Returns the lamp that agrees best with where views show it, because a view knows positions to a pixel or so; and
+    // by how much it does not agree.
     static std::pair<KnownLamp, double> best(KnownLamp lamp, const Shown &shown) {
         const auto mean = [](const std::vector<Imath::V2d> &of) {
             return std::accumulate(of.begin(), of.end(), Imath::V2d(0)) / double(of.size());

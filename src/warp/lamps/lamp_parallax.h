@@ -1,5 +1,5 @@
-// The depth of small lamps of which all views have that of what is behind: all of them show one where its depth says that they do.
-// If some did not, their light would stay at the wall, and be there twice.
+// Finds the depth of small lamps for which all views have the depth of what is behind. All views must show a lamp where
+// its depth says that they do: if some did not, their light would stay at the wall, and be there twice.
 #pragma once
 
 #include "view/view_mapping.h"
@@ -12,7 +12,7 @@
 
 namespace sparselens {
 
-// A lamp that stands before all that is around it.
+// A lamp in front of everything around it.
 struct KnownLamp {
     Imath::V2d place{0, 0}; // its middle
     double light = 0;
@@ -24,12 +24,13 @@ inline bool is_same_light(const KnownLamp &a, const KnownLamp &b) {
 }
 
 struct LampBeforeWall {
-    KnownLamp lamp;    // of no known depth
-    double around = 0; // 1 / z of the nearest that is around
+    KnownLamp lamp;    // its depth is not known
+    double around = 0; // 1 / z of the nearest thing around
 };
 
-// Where they are in the centre view. `lamps`: of each view by rows, 1000 at most, as more are noise. Depths whose inverses differ
-// by less than `tolerance` are one surface. What may as well lie on what is around it is left out.
+// Returns the lamps with their positions in the centre view. `lamps`: of each view by rows, 1000 at most, because more
+// are noise. Depths whose inverses differ by less than `tolerance` are one surface. Lamps that may as well lie on what
+// is around them are left out.
 std::vector<KnownLamp> depths_by_parallax(std::span<const std::vector<LampBeforeWall>> lamps,
                                           std::span<const ViewMapping> mappings, double tolerance);
 

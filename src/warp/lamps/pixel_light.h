@@ -1,4 +1,4 @@
-// The light of samples in a picture of layers: R + G + B, less what lies before them hides.
+// The light of samples in a picture of layers: R + G + B, less what samples in front hide.
 #pragma once
 
 #include "base/parallel.h"
@@ -24,7 +24,7 @@ public:
 
     bool is_known() const { return all_found(rgb_); }
 
-    // visit(sample, light) for the samples of a pixel, front to back.
+    // Calls visit(sample, light) for the samples of a pixel, front to back.
     template <typename Visit>
     void visit(std::size_t pixel, const Visit &visit) const {
         double clear = 1;
@@ -56,8 +56,8 @@ private:
     std::size_t alpha_;
 };
 
-// All pixels within `reach` of those, each once, row by row.
+// Returns all pixels within `reach` of these, each once, row by row.
 std::vector<Imath::V2i> grown(std::span<const Imath::V2i> pixels, int reach);
-bool is_among(std::span<const Imath::V2i> pixels, const Imath::V2i &pixel); // of those that grown() gives
+bool is_among(std::span<const Imath::V2i> pixels, const Imath::V2i &pixel); // `pixels`: from grown()
 
 } // namespace sparselens

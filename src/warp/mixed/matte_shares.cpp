@@ -40,7 +40,7 @@ double sum_of(const std::vector<double> &values) {
     return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
-// `guess`, at least 0, at most `all`, and `share` in all.
+// Returns `guess`, changed so that it is at least 0, at most `all`, and `share` in total.
 std::vector<double> shared_out(std::vector<double> guess, const std::vector<double> &all, double share) {
     for (std::size_t i = 0; i < all.size(); ++i) guess[i] = std::clamp(guess[i], 0.0, all[i]);
     const double sum = sum_of(guess), left = sum_of(all) - sum;
@@ -58,7 +58,7 @@ void share_mattes(const ViewSamples &view, std::uint64_t sample, std::span<const
                   std::span<const Matte> mattes, Ldi &out) {
     for (const Matte &matte : mattes) {
         const std::vector<Pair> objects = objects_in(view, matte, sample);
-        std::vector<double> all, guess; // of each object, and of none
+        std::vector<double> all, guess; // of each object, and of no object
         const auto add = [&](double coverage, const auto &coverage_of_term) {
             all.push_back(coverage);
             guess.push_back(0);

@@ -1,9 +1,9 @@
-// Which objects the two surfaces of a mixed pixel show (base/matte.h).
+// Decides which objects the two surfaces of a mixed pixel show (base/matte.h).
 //
-// The pairs of the pixel itself say what is in it. Of each object the surface in front, which covers a share of the pixel,
-// has what its colour is made of, but no more than the pixel has of it, and in all its share; the surface behind has the
-// rest. What no object of the matte covers counts as an object. So coverages add up to the surfaces', and flattened they
-// are the pixel's again.
+// The pairs of the pixel itself say which objects it shows. The surface in front covers a share of the pixel. It takes
+// as much of each object as the samples that its colour is made of have, but no more than the pixel has, and its share
+// in total; the surface behind has the rest. What no object of the matte covers counts as an object. So the coverages
+// add up to the surfaces' coverages, and flattened they are the pixel's again.
 #pragma once
 
 #include "base/matte.h"
@@ -11,8 +11,8 @@
 
 namespace sparselens {
 
-// The last two samples of `out` are the two surfaces of that sample of the view, which is opaque; the one in front is made
-// of these terms, and covers `share`, above 0 and below 1. Sets their pairs.
+// Sets the pairs of the last two samples of `out`, which are the two surfaces of an opaque sample of the view. The
+// surface in front is made of the terms `front`, and covers `share`, above 0 and below 1.
 void share_mattes(const ViewSamples &view, std::uint64_t sample, std::span<const Term> front, double share,
                   std::span<const Matte> mattes, Ldi &out);
 

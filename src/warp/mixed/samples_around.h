@@ -1,5 +1,5 @@
-// The samples of a view that has at most one a pixel, and what lies around them. Depths are perceptive, R F / z: pixels,
-// larger is nearer.
+// The samples of a view with at most one per pixel, and the samples around them. Depths are perceptive, R F / z:
+// pixels, larger is nearer.
 #pragma once
 
 #include "base/coverage.h"
@@ -39,7 +39,7 @@ public:
         return {value(0), value(1), value(2)};
     }
 
-    // visit(sample, dx, dy) for the samples of the pixels within `reach` of (x, y).
+    // Calls visit(sample, dx, dy) for the samples of the pixels within `reach` of (x, y).
     template <typename Visit>
     void around(int x, int y, int reach, const Visit &visit) const {
         for (int v = std::max(y - reach, 0); v <= std::min(y + reach, grid_.height() - 1); ++v)

@@ -48,7 +48,7 @@ std::optional<std::uint64_t> lamp_behind(const SamplesAround &samples, int x, in
     return lamp;
 }
 
-// The one of the strands at that depth that differs most from a colour.
+// Returns the colour of the strand at that depth that differs most from a given colour.
 Imath::V3d most_different(const SamplesAround &samples, int x, int y, double depth, const Imath::V3d &from) {
     Imath::V3d result = from;
     samples.around(x, y, WarpTuning::strand_reach, [&](std::uint64_t i, int, int) {
@@ -92,7 +92,7 @@ std::optional<Mixture> light_between_strands(const SamplesAround &samples, int x
     const auto lamp = lamp_behind(samples, x, y, near_depth, apart, c / LampTuning::stands_out);
     if (!lamp) return {};
     const double b = brightness(samples, *lamp), lamp_depth = samples.depth_of(*lamp);
-    // A lamp's own pixel stays at its depth, and one of what is beside the lamp takes it.
+    // A lamp's own pixel stays at its depth; a pixel of what is beside the lamp takes the lamp's depth.
     if (!is_strand) {
         const bool is_lamp = std::abs(own_depth - lamp_depth) < jump;
         return Mixture{near_depth, is_lamp ? own_depth : lamp_depth, 0, {}, strand};

@@ -1,14 +1,15 @@
-// Strands thinner than a pixel: hair, fur, grass far away.
+// Separates strands thinner than a pixel, such as hair, fur and grass far away, from what is behind them.
 //
-// No pixel among them shows one surface, and the depth that a renderer gives it is that of one of its samples, so that
-// it is chance whether a pixel is said to be hair or what is behind. Such places are known by depths that jump often
-// between neighbours, along rows and along columns, where edges and bars mostly do along one of them. There the depth of a
-// pixel does not say what it shows more of, and what the surfaces show is told by single pixels around:
+// No pixel among strands shows one surface, and a renderer gives it the depth of one of its samples, so that it is
+// chance whether the depth is that of hair or of what is behind. Such areas are recognised by depths that jump often
+// between neighbours along rows and along columns; edges and bars mostly jump along one of them. There the depth of a
+// pixel does not say what it shows more of, and single pixels around tell what the surfaces show:
 //
-//   - A pixel that is four times as bright as the strands are holds light from between them. It belongs to the brightest
-//     pixel behind, a lamp: a = (b - c) / (b - f) of brightnesses. The same is true of a lamp that a single strand crosses.
-//   - Else B is the one of the farther pixels that leaves most of the pixel to the strands and still explains its colour, and F
-//     the one of the strands that differs most from B.
+//   - A pixel that is four times as bright as the strands holds light from between them. The light belongs to the
+//     brightest pixel behind, a lamp: a = (b - c) / (b - f) of brightnesses. The same is true of a lamp that a single
+//     strand crosses.
+//   - Else B is the farther pixel that leaves most of the pixel to the strands and still explains its colour, and F is
+//     the strand that differs most from B.
 #pragma once
 
 #include "deep/build.h"
@@ -28,8 +29,8 @@ struct Mixture {
     std::optional<std::uint64_t> front = {}; // F, one sample; then the farther surface shows the rest
 };
 
-// Whether the pixel stands among strands: of the 20 pairs of neighbours within two pixels, five or more jump by more than
-// two pixels of perceptive depth, along rows and along columns.
+// Whether the pixel stands among strands: of the 20 pairs of neighbours within two pixels, five or more jump by more
+// than two pixels of perceptive depth, along rows and along columns.
 bool among_strands(const SamplesAround &samples, int x, int y);
 
 // The light from between strands in a pixel among them, or in a lamp that they cross, if it has any. Perceptive: `jump`
