@@ -21,7 +21,7 @@ struct DeviceFailed : Error {
     using Error::Error;
 };
 
-// What tests observe and limit.
+// Hooks and limits for tests.
 struct Watch {
     // Called before memory is allocated and before work is submitted. A result other than 0 is taken as the result of
     // the Vulkan call (VkResult).

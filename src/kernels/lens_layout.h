@@ -1,4 +1,4 @@
-// What the CPU lays out for the lens gather on a device, and how the device divides it (gpu/lens).
+// The data that the CPU lays out for the lens gather on a device, and how the device divides it (gpu/lens).
 #pragma once
 
 #include "kernels/types.h"

@@ -22,8 +22,8 @@ inline uint sample_of(uint64_t key) { return uint(key & 0xffffffffUL); }
 inline float seen_along(float at, float corner, float coc, float lens, float shift) {
     return (at - corner) + (coc * lens + shift);
 }
-// What `shift` has besides the point of the pixel that the lens point looks through. Cells begin with one cell of
-// border. A sample is a square of one pixel, while facets are drawn where the middles of cells lie.
+// `shift` is the point of the pixel that the lens point looks through, plus one of the following: cells begin with one
+// cell of border; a sample is a square of one pixel, while facets are drawn where the middles of cells lie.
 inline constexpr float shift_of_samples = 1;
 inline constexpr float shift_of_facets = 0.5f;
 
@@ -70,7 +70,7 @@ inline uint64_t behind_crack(uint64_t shown) {
     return key_of(shown == 0 ? background_upper : upper_of_depth(depth), 0xffffffffu);
 }
 
-// A sample that hides a filler of that depth has a greater key.
+// Returns a key. A sample that hides a filler of this depth has a greater one.
 inline uint64_t hiding_key(float depth) {
     return key_of(upper_of_depth(depth + one_surface_px), 0xffffffffu);
 }

@@ -47,8 +47,8 @@ inline bool views_differ(PhotoBlock block) {
     return block.difference > least_ratio * block.variation + least_difference * block.pixels;
 }
 
-// By how much another depth than the surface's would explain much of the difference, by linear regression, in pixels of
-// perceptive depth; 0 if it would not.
+// Returns by how much another depth than the surface's would explain much of the difference, by linear regression, in
+// pixels of perceptive depth; 0 if it would not.
 inline double explaining_motion(PhotoBlock block) {
     const double least_explained = 0.5; // share of the squared differences; noise alone gives a hundredth
     const double least_change = 1e-5;   // mean square for each pixel of depth: nothing else tells

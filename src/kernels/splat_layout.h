@@ -1,4 +1,4 @@
-// What the CPU lays out for the selective gather on a device, and how the device divides it (gpu/selective).
+// The data that the CPU lays out for the selective gather on a device, and how the device divides it (gpu/selective).
 #pragma once
 
 #include "kernels/types.h"

@@ -15,7 +15,7 @@ inline constexpr float steep_px = 0.25f;
 // Torn: nothing spreads between neighbouring samples that differ by more.
 inline constexpr float torn_px = 1;
 
-// One mirror or glass: samples a few pixels apart.
+// One mirror or glass: samples of it a few pixels apart differ by less than this.
 inline constexpr float one_mirror_px = 1;
 
 namespace kernels {

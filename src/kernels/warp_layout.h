@@ -1,4 +1,4 @@
-// What the CPU lays out for the warp on a device, and how the device divides it (gpu/warp).
+// The data that the CPU lays out for the warp on a device, and how the device divides it (gpu/warp).
 #pragma once
 
 #include "kernels/types.h"

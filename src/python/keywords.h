@@ -46,7 +46,7 @@ public:
     std::optional<Imath::V2i> pixel(const char *name); // two whole numbers
     std::optional<Imath::Box2i> box(const char *name); // left, top, right, bottom; the last ones included
 
-    // One of a few words.
+    // Takes one of a few words.
     template <typename Value>
     std::optional<Value> word(const char *name, std::initializer_list<std::pair<const char *, Value>> words) {
         return word(name, std::span<const std::pair<const char *, Value>>(words));

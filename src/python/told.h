@@ -1,4 +1,4 @@
-// What calls of src/chain share: the devices of the keyword `device`, which live until the interpreter ends, and the
+// Shared by calls of src/chain: the devices of the keyword `device`, which live until the interpreter ends, and the
 // conversion of warnings into Python's (UserWarning) when the work is done.
 #pragma once
 

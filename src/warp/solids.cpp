@@ -87,7 +87,7 @@ Sight farthest_around(const ViewSamples &view, const std::vector<float> &farthes
     return {view, least_around(farthest, Grid(view.windows.data), WarpTuning::solid_margin)};
 }
 
-// By how much 1 / z differs within reach.
+// By how much the largest and the least 1 / z within reach differ.
 Sight relief_around(const ViewSamples &view, std::vector<float> farthest) {
     const Grid grid(view.windows.data);
     std::vector<float> relief = least_around(farthest, grid, reach);

@@ -95,7 +95,7 @@ double inverse_back(const ReprojectedViews &views, const ViewSample &s) {
     return 1 / double(views.samples(s.view).z_back(s.source));
 }
 
-// What the centre view sees in the pixel.
+// The samples of the centre view in the pixel.
 class SeenByCentre {
 public:
     // `samples`: of the pixel, front to back.

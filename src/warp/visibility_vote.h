@@ -18,8 +18,8 @@ namespace sparselens {
 struct Votes {
     double there = 0;   // they see the surface
     double past = 0;    // they see past it,
-    double open = 0;    // of that, past everything,
-    double through = 0; // and of that, where they see the surface too
+    double open = 0;    // of that, past everything
+    double through = 0; // of that (deep views: of `past`), in pixels that also see the surface
     double all() const { return there + past; }
 };
 

@@ -17,7 +17,7 @@ struct FacetBlock {
 
 struct PlacedFacets {
     // [corner][facet]
-    std::array<LargeArray<float>, 3> x, y, coc;   // of the facet's samples as placed in the picture, pixels
+    std::array<LargeArray<float>, 3> x, y, coc;   // of the facet's samples, pixels, in the picture
     std::array<LargeArray<std::uint64_t>, 3> key; // nearer is greater
     std::vector<FacetBlock> blocks;
 };

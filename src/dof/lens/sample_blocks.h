@@ -78,7 +78,7 @@ inline bool is_background(std::uint64_t key) { return kernels::upper_of(key) <= 
 // samples than 32 bits count.
 BlockedSamples make_blocks(const Ldi &ldi, const ThinLens &lens, const KnownPixels &known);
 
-// Where the samples of some rows of an LDI are in `samples`. The rows [top, bottom) are those of whole blocks.
+// Finds where the samples of some rows of an LDI are in `samples`. The rows [top, bottom) are those of whole blocks.
 class SamplePlaces {
 public:
     SamplePlaces(const BlockedSamples &samples, const Ldi &ldi, int top, int bottom);
@@ -89,7 +89,7 @@ private:
     std::vector<std::uint32_t> places_;
 };
 
-// Where one sample of the LDI is in `samples`. `pixel`: the pixel of the data window that has it.
+// Returns where one sample of the LDI is in `samples`. `pixel`: the pixel of the data window that has it.
 std::uint32_t place_of(const BlockedSamples &samples, const Ldi &ldi, std::size_t pixel,
                        std::uint64_t sample);
 

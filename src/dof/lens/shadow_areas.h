@@ -51,8 +51,8 @@ public:
         return {focus_[area].least - nearest, focus_[area].most - farthest};
     }
 
-    // By how much, in pixels, the CoC of an edge may differ from the CoC of its sample in a block. nearer_than() must
-    // have been called for the block's area.
+    // Returns by how much, in pixels, the CoC of an edge may differ from the CoC of its sample in a block.
+    // nearer_than() must have been called for the block's area.
     float to_edges(std::uint32_t block) const { return to_edges_[block]; }
 
     // Whether any sample of a block may lie between two perceptive depths; nearer_than() must have been called for its

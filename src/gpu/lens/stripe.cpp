@@ -18,7 +18,7 @@ std::size_t partial_count(const BlockedSamples &samples, const TileTask &task) {
     return count;
 }
 
-// Where the samples and blocks of a range are in the stripe.
+// A range, and where its samples and blocks are in the stripe.
 struct Placed {
     const BlockedSamples &from;
     const SampleColours &colours;

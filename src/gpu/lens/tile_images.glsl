@@ -1,5 +1,5 @@
-// What a lens point sees in mirrors and glass: the image, where their surface is seen. Comes after see_opaque() and
-// see_facets().
+// Finds the images that a lens point sees in mirrors and glass, where their surface is seen. Comes after see_opaque()
+// and see_facets().
 
 bool is_image(uint sample_) { return shown[sample_] != cocs[sample_]; }
 

@@ -1,5 +1,5 @@
-// What a lens point sees of opaque samples, of facets between them (dof/facets) and of solids behind them
-// (dof/lens/solid_samples.h): the nearest key in each cell.
+// Finds the nearest key in each cell that a lens point sees: of opaque samples, of facets between them (dof/facets) and
+// of solids behind them (dof/lens/solid_samples.h).
 
 // Returns the pixel of the quarter, or next to it, in which the lens point sees a sample; outside: x < -1.
 ivec2 seen_at(uint sample_, float coc) {

@@ -1,5 +1,5 @@
-// What a lens point sees where it meets no opaque sample, or only one far behind: a surface through the cracks between
-// its samples, else fillers.
+// Finds what a lens point sees where it meets no opaque sample, or only one far behind: a surface through the cracks
+// between its samples, else fillers.
 
 // Returns the key of the sample that shows through a crack at a cell; 0: there is no crack.
 uint64_t torn_at(uint cell) {

@@ -41,7 +41,7 @@ public:
     const Imath::Box2i &box() const { return box_; }
     // The number of a pixel; npos if it was not searched or lies outside.
     std::size_t index_of(const Imath::V2i &pixel) const;
-    // What was found, by the number of the pixel.
+    // The results, by the number of the pixel.
     std::vector<ImageMatch> matches;
 
     // The number of bands of the data window, each of `rows` rows of blocks.

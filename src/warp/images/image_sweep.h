@@ -15,8 +15,8 @@
 
 namespace sparselens {
 
-// What the patch around a pixel says. Differences are mean squares over the patch, of R, G and B together, and over the
-// three best of four views, because one view may see something else there.
+// The result for the patch around a pixel. Differences are mean squares over the patch, of R, G and B together, and
+// over the three best of four views, because one view may see something else there.
 struct ImageMatch {
     bool surface = false; // it shows the surface of its block, and the views can be compared
     bool found = false; // one depth explains the views, and better by a clear margin than that of the surface

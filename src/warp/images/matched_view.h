@@ -62,7 +62,7 @@ public:
     // The depth of the surface, if the pixel shows just one; else NaN.
     float depth(int x, int y) const;
 
-    // Where this view shows what the centre view shows at a position; NaN if that lies behind its camera.
+    // Returns where this view shows what the centre view shows at a position; NaN if that lies behind its camera.
     Imath::V2d in_view(const Imath::V2d &place, double depth) const {
         return view_.mapping->in_view(place * double(across_), depth / scale_) * (1.0 / across_);
     }

@@ -15,7 +15,7 @@ namespace sparselens {
 
 namespace {
 
-// What a view shows of an image, at its position in the pixel of the centre view.
+// A sample of a view that shows an image, at its position in the pixel of the centre view.
 struct ImageSample {
     const ViewSamples *view;
     std::uint64_t index;

@@ -37,7 +37,7 @@ double inverse_z_at(const ViewSamples &view, const Imath::V2i &p) {
     return shown.empty() ? 0 : 1 / double(view.z(shown.front()));
 }
 
-// What the pixels at two or three pixels from a lamp show.
+// The depths that pixels two or three pixels from a lamp show.
 struct Around {
     std::vector<double> inverse_z; // the nearest last
     bool whole = true;             // the border of the view cuts off none of it
