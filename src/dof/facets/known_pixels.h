@@ -11,8 +11,8 @@
 namespace sparselens {
 
 struct KnownPixels {
-    // The pixels in this window (EXR coordinates) are known, except those marked here, [pixel of the data window];
-    // empty: no exceptions.
+    // The pixels of `window` (EXR coordinates) are known, except those marked in `unseen`, [pixel of the data window].
+    // An empty `unseen` marks none.
     Imath::Box2i window;
     std::span<const char> unseen = {};
 

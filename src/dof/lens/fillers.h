@@ -6,6 +6,7 @@
 // nearer by more than one_surface_px and by more than (n - 1) / sqrt(2) pixels of perceptive depth, because its edge
 // may run at 45 degrees. It does not continue where the ground is unknown; beyond_frame.h says what lies beyond the
 // frame.
+//
 // If grounds continue into a pixel from several sides, the one with the nearest end fills it; if several ends are as
 // near, the farthest ground. The filler is the mean of all these grounds that are one surface with it, each weighted by
 // 1 / n. A pixel that holds a sample of that surface is not filled, because views looked there: a veil stays as thin as

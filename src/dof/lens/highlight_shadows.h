@@ -37,7 +37,7 @@ namespace sparselens {
 
 class HighlightShadows {
 public:
-    // `samples`: those that Highlights::sample counts. `solids` (solid_samples.h) cast shadows as well.
+    // `samples`: those that Highlights::sample refers to. `solids` (solid_samples.h) cast shadows as well.
     HighlightShadows(const Highlights &highlights, const ShadowCasters &samples, const ShadowCasters &solids)
         : highlights_(highlights), samples_(samples.samples), search_(samples, solids) {}
 
