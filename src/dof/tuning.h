@@ -40,8 +40,8 @@ struct GatherTuning {
     static constexpr float one_lamp = 1.1f;
     // Share of the disc's radius. A shadow that the lamps of a group share may be this far off.
     static constexpr double shared_shadow_of_radius = 0.02;
-    // Cells of perceptive depth. In front of a lamp by this much, a cell's shadow is at most a sixteenth of the disc's
-    // radius wide.
+    // Cells of perceptive depth. If a caster is this far in front of a lamp, the shadow of a cell is at most a
+    // sixteenth of the disc's radius wide.
     static constexpr float shadow_far_cells = 16;
     // Perceptive. Samples no farther apart share the edge of their footprints fully; from torn_px on they share none.
     static constexpr float footprint_whole_px = 0.75f;

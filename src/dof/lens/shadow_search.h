@@ -1,7 +1,7 @@
 // Finds the blocks of samples that may cast a shadow on a lamp (highlight_shadows.h).
 //
-// It compares bounds: of areas of blocks (shadow_areas.h), of blocks, and of what each of these has nearer than the
-// lamp.
+// The search compares bounds: of areas of blocks (shadow_areas.h), of blocks, and of what each of these has nearer than
+// the lamp.
 #pragma once
 
 #include "dof/lens/block_footprints.h"
@@ -20,7 +20,7 @@
 
 namespace sparselens {
 
-// A screen on which shadows are cast. The shadow of a point at x' with CoC c', cast by a lamp at x with CoC c, lies at
+// A screen on which shadows are cast. The shadow of a point at x' with CoC c', for a lamp at x with CoC c, lies at
 // middle + scale (x' - x) / (c - c').
 struct ShadowScreen {
     Imath::V2d middle, scale;

@@ -2,8 +2,8 @@
 // solid.
 //
 // A lens point that sees something behind a solid sees the solid instead: light finds no way through a gap as narrow as
-// what no view saw through. This holds for what lies as far behind the solid as the solid lies behind its sample, or
-// farther. Cracks and fillers come first: they decide where a lens point meets nothing opaque.
+// what no view saw through. This holds for things at least as far behind the solid as the solid lies behind its sample.
+// Cracks and fillers come first: they decide where a lens point meets nothing opaque.
 //
 // A solid shows the colour of its sample. If the sample covers less than its pixel, as on edges, the solid shows the
 // opaque sample of this pixel or one of the eight around it that is nearest in 1 / z and does not lie behind the solid;

@@ -41,10 +41,11 @@ struct BeyondFrame {
 Imath::V2i look_beyond(const Ldi &ldi, const ThinLens &lens, const LensLooks &looks,
                        const Imath::Box2i &frame);
 
-// `known`: the rows of the frame whose samples the LDI has. The picture continues beyond its sides that are the
-// frame's. `across`: pixels, across and down, that become one pixel of the picture; the distances above are counted in
-// pixels of the picture, except what rim views saw. `views_radius`: the radius of the lens from whose rim the views
-// looked, scene units; perceptive depth in the pixels of that lens says what they saw. 0: the radius of `lens`.
+// `known`: the rows of the frame whose samples the LDI has. The picture is continued only beyond those of its sides
+// that are sides of the frame. `across`: pixels, across and down, that become one pixel of the picture; the distances
+// above are counted in pixels of the picture, except what rim views saw. `views_radius`: the radius of the lens from
+// whose rim the views looked, scene units; perceptive depth in the pixels of that lens says what they saw. 0: the
+// radius of `lens`.
 BeyondFrame go_on_beyond(const Ldi &ldi, const ThinLens &lens, const LensLooks &looks,
                          const Imath::Box2i &frame, const Imath::Box2i &known, const Imath::V2i &reach,
                          int across = 1, double views_radius = 0);

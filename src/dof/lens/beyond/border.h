@@ -38,8 +38,8 @@ struct Leaving {
 struct BorderPixel {
     std::vector<Leaving> leaving;
     bool open = true; // lets light through to infinity
-    // The surface in front ends `ends` pixels beyond the border. Beyond its end continues what lies behind it, `behind`
-    // pixels within the border.
+    // The surface in front ends `ends` pixels beyond the border. Beyond its end, what lies behind it continues, as it
+    // is `behind` pixels within the border.
     int ends = std::numeric_limits<int>::max(), behind = 0;
 };
 
@@ -51,7 +51,7 @@ public:
 
     // How far the light of a pixel reaches, in x and y, pixels.
     Imath::V2d reach(const Imath::V2i &at) const;
-    // How far to the right and down lies what the magnified picture shows at a pixel.
+    // The offset to the right and down from a pixel to what the magnified picture shows there, pixels.
     Imath::V2d shown_beside(const Imath::V2i &at) const;
     // Returns the pixels of a side: `count` pixels from `first` on, along `step`; `out` points away from the frame.
     // `looked`: whether rim views looked past this side.
@@ -82,7 +82,7 @@ private:
     const Ldi &ldi_;
     const ThinLens &lens_;
     int across_;
-    double wider_; // how many times as wide as this lens the lens is from whose rim views looked
+    double wider_; // the radius of the lens from whose rim views looked, divided by this lens's
     LightReach light_;
     std::size_t alpha_;
     std::vector<std::size_t> brightness_;
