@@ -34,9 +34,9 @@ bool merges_layers(const ThinLens &lens, const PictureOptions &options);
 
 // Rows can be reduced on their own, before the picture is gathered from all of them with a layer_tolerance of 0.
 // reduced_first() returns the reduced rows: with a lens of radius 0, one flattened sample per pixel; else the merged
-// layers, if merges_by_rows() says that LDIs with these channels can be merged by rows.
-// can_reduce_first() says no for other methods than lens and for pictures with a holdout; with radius 0, also for
-// pictures that a look magnifies (`magnifies`) and for pictures with Cryptomattes.
+// layers, if merges_by_rows() says that LDIs with these channels can be merged by rows. can_reduce_first() says no for
+// other methods than lens, for pictures with a holdout, and for pictures that a look magnifies (`magnifies`); with
+// radius 0, also for pictures with Cryptomattes.
 bool can_reduce_first(const PictureOptions &options, const ThinLens &lens, bool magnifies,
                       std::span<const Channel> channels);
 bool merges_by_rows(std::span<const Channel> channels);

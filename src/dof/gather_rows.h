@@ -1,5 +1,6 @@
 // Gathers a picture from packed samples (deep/packed_rows.h) in bands of rows. For each band, the samples that can
-// reach it are unpacked, prepared, gathered and dropped. The picture is bit for bit that of all samples at once.
+// reach it are unpacked, prepared, gathered and dropped. The picture equals, bit for bit, the picture gathered from all
+// samples at once.
 #pragma once
 
 #include "../deep/packed_rows.h"
@@ -13,7 +14,7 @@ namespace sparselens {
 
 // The height of bands. A band is as high as fits into `memory` (bytes) with its samples and the data prepared from
 // them. Unless `low`, it is at least as high as its margins (RowReach), even over budget, so that preparation costs at
-// most about twice that of all rows at once.
+// most about twice as much as for all rows at once.
 struct BandLimits {
     double memory;
     bool low = false;

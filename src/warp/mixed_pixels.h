@@ -1,8 +1,8 @@
 // Finds the pixels of flat views that mix several surfaces, as deep views tell.
 //
 // A part of a deep view that covers only some of its pixel also covers only some of the pixels of a flat view that it
-// falls on, if nothing in the flat view is nearer. The colour of such a pixel is not that of its surface alone: it
-// shows an edge, a veil or fog.
+// falls on, if nothing in the flat view is nearer. The colour of such a pixel is not its surface's alone: it shows an
+// edge, a veil or fog.
 #pragma once
 
 #include "warp/images/matched_view.h"

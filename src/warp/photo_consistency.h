@@ -1,5 +1,5 @@
-// Finds where the colours of rim views differ from that of the centre view by more than noise: mirrors, glass, anything
-// whose colour depends on the direction. Averaging views there would superimpose several images.
+// Finds where the colours of rim views differ from the colour of the centre view by more than noise: mirrors, glass,
+// anything whose colour depends on the direction. Averaging views there would superimpose several images.
 //
 // Block by block, the squared difference of the centre and rim views on the surfaces that both see is compared with the
 // variation of the centre view from pixel to pixel, which contains both noise and texture. Noise makes both about

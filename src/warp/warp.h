@@ -24,7 +24,7 @@ enum class Merge {
     // Rim samples are averaged, by weight, with the centre sample of the same surface; the others are averaged with
     // each other, with the coverage that the vote of the views gives them (visibility_vote.h).
     average,
-    keep, // one sample per surface, that of the centre if it has one; nothing in front of the centre sample
+    keep, // one sample per surface, the centre's if it has one; nothing in front of the centre sample
 };
 
 struct WarpOptions {

@@ -82,8 +82,8 @@ Line line_of(const Windows &windows, std::size_t direction, std::size_t number) 
 // does.
 using Distances = std::vector<std::array<std::uint16_t, directions>>;
 
-// Continues a ground of a line towards the line's end. It stops where it meets another ground that is as far away or
-// farther: the other ground ends nearer to the pixel and continues as far.
+// Continues a ground of a line towards the line's end. It stops where it meets the continuation of another ground that
+// is as deep or deeper: the other ground ends nearer to the pixel and continues as far.
 void continue_ground(std::span<const Ground> grounds, const Line &line, int i, std::size_t direction,
                      Distances &distances) {
     const Ground &ground = grounds[line.pixel(i)];

@@ -65,7 +65,7 @@ inline SampleColours make_colours(const Ldi &ldi, const BlockedSamples &samples)
     return colours;
 }
 
-// Channels that are light, without coverage; and those of them that say how bright a sample is.
+// Channels that are light, without coverage; and the channels among them that say how bright a sample is.
 struct LightChannels {
     std::vector<std::size_t> all, brightness;
 };

@@ -17,8 +17,8 @@
 
 namespace sparselens {
 
-// Samples of a pixel that fall into one layer (blend.h) hide each other here, in the pixel; those of different
-// layers are left to the blend.
+// Samples of a pixel that fall into one layer (blend.h) hide each other here, in the pixel; samples of different layers
+// are left to the blend.
 struct Splat {
     Imath::V2d position; // EXR pixel coordinates, inside the pixel that owns the sample
     double coc = 0;      // signed, pixels

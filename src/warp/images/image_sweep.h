@@ -19,8 +19,9 @@ namespace sparselens {
 // over the three best of four views, because one view may see something else there.
 struct ImageMatch {
     bool surface = false; // it shows the surface of its block, and the views can be compared
-    bool found = false; // one depth explains the views, and better by a clear margin than that of the surface
-    float depth = 0;    // perceptive, pixels; below 0: rays meet behind the camera
+    // one depth explains the views, and better by a clear margin than the surface's depth
+    bool found = false;
+    float depth = 0;      // perceptive, pixels; below 0: rays meet behind the camera
     float own_depth = 0;  // of the surface
     float at_surface = 0; // the difference if the picture lay on the surface
 };

@@ -92,9 +92,9 @@ LampsOfView::LampsOfView(ViewSamples &view, double tolerance)
     }
 }
 
-// Returns 1 / z of the lamp, which nothing around has. If the lamp is in front of everything around, it is that of its
-// nearest pixel. Else strands or bars may cross the lamp, and it is that of the brightest pixel that has neither their
-// depth nor the depth of what is behind. 0: not known.
+// Returns 1 / z of the lamp, which nothing around has. If the lamp is in front of everything around, the result is 1 /
+// z of its nearest pixel. Else strands or bars may cross the lamp, and the result is 1 / z of the brightest pixel that
+// has neither their depth nor the depth of what is behind. 0: not known.
 double LampsOfView::depth_of(const CompactLamp &found, std::span<const double> around) const {
     double nearest = 0, brightest = 0, depth = 0;
     for (const Imath::V2i &p : found.pixels) {
