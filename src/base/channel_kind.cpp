@@ -79,8 +79,8 @@ bool is_data(const std::string &name, const Layers &with_x) {
     return is_among(coordinates, lower) || (lower == "y" && with_x.contains(layer));
 }
 
-// Whether a component of a name is that of numbers of objects or materials: IndexOB of Blender (Object Index since 5.0), ID of
-// Arnold, objectid of Karma. Asked of every sample, so without copies.
+// Whether a component of a name stands for numbers of objects or materials: IndexOB in Blender (Object Index since
+// 5.0), ID in Arnold, objectid in Karma. It is called for every sample, so it copies nothing.
 bool is_id_word(std::string_view word) {
     static constexpr std::array<std::string_view, 12> words{
         "id",        "indexob",    "indexma",     "object index", "material index", "objectid",
@@ -91,18 +91,19 @@ bool is_id_word(std::string_view word) {
            });
 }
 
-// Which component of the name says that the channel holds such numbers: objectid, fg.ID; IndexOB.X. A depth never does.
+// Which component of the name says that the channel holds such numbers: the last one in objectid and fg.ID, the layer
+// in IndexOB.X. A depth never holds them.
 enum class IdWord { none, channel, layer };
 IdWord id_word(std::string_view name) {
     const std::size_t dot = name.rfind('.');
-    const std::string_view last = name.substr(dot + 1); // all of it where there is no dot
+    const std::string_view last = name.substr(dot + 1); // the whole name if there is no dot
     if (is_id_word(last)) return IdWord::channel;
     if (dot == name.npos || last == "Z" || last == "z") return IdWord::none;
     const std::string_view layer = name.substr(0, dot);
     return is_id_word(layer.substr(layer.rfind('.') + 1)) ? IdWord::layer : IdWord::none;
 }
 
-// The two numbers that a channel's name says of its place in a Cryptomatte: CryptoObject01.B is the id of rank 3.
+// Where a channel belongs in a Cryptomatte, by its name: CryptoObject01.B is the id of rank 3.
 struct MattePlace {
     std::string matte;
     int rank;

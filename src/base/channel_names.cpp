@@ -14,7 +14,7 @@ std::string colour_name(std::string_view name) {
     };
     static constexpr std::array<Colour, 4> colours{
         {{"r", "red"}, {"g", "green"}, {"b", "blue"}, {"a", "alpha"}}};
-    const std::size_t layer = name.rfind('.') + 1; // 0: of no layer
+    const std::size_t layer = name.rfind('.') + 1; // 0: no layer
     const std::string last = lower_case(std::string(name.substr(layer)));
     for (const auto &[letter, word] : colours)
         if (last == letter || last == word)

@@ -1,5 +1,5 @@
-// How other programs spell colours. Nuke writes red, green, blue and alpha, of a layer too (beauty.red); others r, g, b and a.
-// In any case they are R, G, B and A, by which all code knows them. Files keep their own names (io/exr/kept_names.h).
+// How other programs spell colours. Nuke writes red, green, blue and alpha, also in layers (beauty.red); other programs
+// write r, g, b and a. In this code they are always R, G, B and A. Files keep their own names (io/exr/kept_names.h).
 #pragma once
 
 #include <span>
@@ -11,11 +11,11 @@ namespace sparselens {
 
 struct Channel;
 
-// R for red, RED and r; beauty.G for beauty.green; every other name as it is.
+// Returns R for red, RED and r, and beauty.G for beauty.green. Returns every other name unchanged.
 std::string colour_name(std::string_view name);
 
-// The names by which the code knows channels, whose kinds are set: colour_name() of light and coverage, unless another
-// channel has that name.
+// The names by which the code knows the channels. The kinds of the channels must be set. Light and coverage get their
+// colour_name(), unless another channel has that name.
 std::vector<std::string> names_of_colours(std::span<const Channel> channels);
 
 } // namespace sparselens

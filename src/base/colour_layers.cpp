@@ -16,7 +16,7 @@ std::string prefix_of(const std::string &name) {
 
 std::vector<std::vector<std::size_t>> colour_layers(std::span<const Channel> channels) {
     std::vector<std::vector<std::size_t>> layers;
-    std::vector<std::string> prefixes; // of layers of colours; of others, a name that no layer has
+    std::vector<std::string> prefixes; // of layers of colours; for other channels, a name that no layer has
     for (std::size_t c = 0; c < channels.size(); ++c) {
         if (!is_light(channels[c]) || channels[c].type == PixelType::uint32) continue;
         const ColourPart part = colour_part(channels[c]);

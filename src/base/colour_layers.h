@@ -9,8 +9,8 @@
 
 namespace sparselens {
 
-// The channels of light that may be calculated with, by index: R, G and B of one layer together, in the order of the channels;
-// each other one, coverage too, alone.
+// Groups the indices of the channels of light that may be calculated with. R, G and B of one layer form a group, in the
+// order of the channels; every other channel, coverage too, is a group of its own.
 std::vector<std::vector<std::size_t>> colour_layers(std::span<const Channel> channels);
 
 } // namespace sparselens

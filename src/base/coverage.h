@@ -1,20 +1,21 @@
-// What counts as full coverage, and as none.
+// What counts as full coverage, and what as no coverage.
 #pragma once
 
 namespace sparselens {
 
-// Hides what is behind it: half's last steps below 1 are rounding, not coverage.
+// Whether a sample hides what is behind it. The last steps of half below 1 are rounding, not coverage.
 inline bool is_opaque(float alpha) { return alpha >= 0.9995f; }
-// A sample of which that much shows is what its pixel shows; less is in front of it.
+// A pixel shows a sample if at least this share of the sample shows; a smaller share means that something is in front.
 inline constexpr float half_covered = 0.5f;
-// Less than 1/2048 of a pixel left over is rounding too.
+// Whether light gets through. Less than 1/2048 of a pixel left over is rounding.
 inline bool lets_through(double transmittance) { return transmittance >= 1.0 / 2048; }
 
 // Whether half rounds the coverage to 1: its last step below 1 is 2^-11. Smaller coverage keeps the samples behind it
 // when merged, as a lamp shines through the last step.
 inline bool is_one_in_half(float alpha) { return alpha >= 1 - 0x1p-12f; }
 
-// One pixel in two files: the filter, half and a renderer's compression of deep samples (by 0.01) may lie between them.
+// Tolerance for one pixel in two files: the filter, half and a renderer's compression of deep samples (by 0.01) may
+// make its coverage differ.
 inline constexpr double coverage_rounding = 1.0 / 64;
 inline bool is_same_coverage(double a, double b) {
     return a - b <= coverage_rounding && b - a <= coverage_rounding;

@@ -7,12 +7,12 @@
 
 namespace sparselens {
 
-// Since the report was last taken. The unit of work is the device's: tiles, rows.
+// What happened since the report was last taken. The device chooses the unit of work: tiles or rows.
 struct DeviceReport {
     std::size_t on_device = 0;
     std::size_t uploaded = 0;                       // bytes
-    std::map<std::string, std::size_t> on_cpu = {}; // what was left to the CPU, by why, in a few words
-    std::string failure = {}; // if not empty: it failed, and this says how; the CPU did the rest
+    std::map<std::string, std::size_t> on_cpu = {}; // work left to the CPU, by its reason in a few words
+    std::string failure = {}; // not empty: how the device failed; the CPU did the rest
 };
 
 } // namespace sparselens

@@ -1,4 +1,4 @@
-// Four channels at once, in one register: loaded and stored as they stand, by the arithmetic of single floats.
+// Four channels in one register. They are loaded and stored unchanged, and calculated like single floats.
 #pragma once
 
 #include <cstring>

@@ -35,7 +35,7 @@ public:
         assert(contains(x, y));
         return std::size_t(y - corner_.y) * std::size_t(width_) + std::size_t(x - corner_.x);
     }
-    // The pixel of that index.
+    // The pixel with this index.
     Imath::V2i pixel(std::size_t index) const {
         assert(index < size());
         return corner_ + Imath::V2i(int(index % std::size_t(width_)), int(index / std::size_t(width_)));
@@ -50,7 +50,7 @@ private:
 // smaller.
 class Tiles {
 public:
-    Tiles(const Imath::Box2i &box, int width, int height) // of a tile, > 0
+    Tiles(const Imath::Box2i &box, int width, int height) // size of a tile, > 0
         : box_(box), width_(width), height_(height),
           grid_(pieces_of(Grid(box).width(), width), pieces_of(Grid(box).height(), height)) {}
     Tiles(const Imath::Box2i &box, int size) : Tiles(box, size, size) {}

@@ -12,7 +12,7 @@ inline std::uint16_t bits_of_half(float value) { return Imath::half(value).bits(
 
 inline float of_half(std::uint16_t bits) { return float(Imath::half(Imath::half::FromBits, bits)); }
 
-// Whether a half holds every bit of it.
+// Whether a half holds every bit of the value.
 inline bool is_half(float value) {
     return std::bit_cast<std::uint32_t>(of_half(bits_of_half(value))) == std::bit_cast<std::uint32_t>(value);
 }

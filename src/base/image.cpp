@@ -17,7 +17,8 @@ Windows windows_of_size(int width, int height) {
 }
 
 namespace {
-// More than any machine holds must not wrap round to what it does.
+// The number of values. It throws if the picture is larger than any machine's memory, so that the size cannot wrap
+// round.
 std::size_t count_of(const Windows &w, std::size_t channels) {
     const double count = double(w.width()) * double(w.height()) * double(channels);
     if (count > 0x1p48)
@@ -29,7 +30,7 @@ std::size_t count_of(const Windows &w, std::size_t channels) {
 Image::Image(const Windows &windows_, std::vector<Channel> channels_)
     : windows(windows_), channels(std::move(channels_)), values(count_of(windows_, channels.size())) {
     constexpr std::size_t at_once = 1 << 16;
-    // Isolated: who asks for a picture may hold what other work waits for.
+    // Isolated, because the caller may hold a lock that other work waits for.
     tbb::this_task_arena::isolate([this] {
         parallel_ranges(values.size(), at_once, [this](std::size_t begin, std::size_t end) {
             std::fill_n(values.begin() + std::ptrdiff_t(begin), end - begin, 0.0f);

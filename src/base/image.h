@@ -26,7 +26,7 @@ struct Channel {
     std::string name; // the full EXR name with the layer: "R", "diffuse.R"
     PixelType type = PixelType::half;
     ChannelKind kind = ChannelKind::light;
-    std::string matte = {}; // of what is in a Cryptomatte: its name,
+    std::string matte = {}; // in a Cryptomatte: its name,
     int rank = 0;           // and which pair the channel belongs to
     bool operator==(const Channel &) const = default;
 };
@@ -66,17 +66,17 @@ struct Image {
 
 // The pixels of `data`, which must lie within the data window of the image.
 Image crop(const Image &image, const Imath::Box2i &data);
-Image crop(Image &&image, const Imath::Box2i &data); // the image itself, where nothing is cut off
+Image crop(Image &&image, const Imath::Box2i &data); // returns the image itself if nothing is cut off
 
-// The index of the channel of that name, or npos.
+// The index of the channel with this name, or npos.
 inline constexpr std::size_t npos = std::size_t(-1);
 std::size_t find_channel(std::span<const Channel> channels, std::string_view name);
 
-// Indices of R, G and B, npos for what is missing.
+// Indices of R, G and B; npos if the channel is missing.
 inline constexpr std::array rgb_names{"R", "G", "B"};
 std::array<std::size_t, 3> find_rgb(std::span<const Channel> channels);
 
-// Whether none of the three is missing.
+// Whether all three channels exist.
 bool all_found(const std::array<std::size_t, 3> &channels);
 
 // The channels R, G, B and A, as half.

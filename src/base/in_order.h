@@ -1,7 +1,8 @@
-// Pieces that are made on all threads, and taken one by one in their order: a file that is read a few rows at a time.
+// Makes pieces on all threads, and takes them one by one in their order, for example a file that is read a few rows at
+// a time.
 //
-// At most one piece a thread is being made, and no more than that wait to be taken: the pieces never need all their memory at
-// once.
+// Each thread makes at most one piece at a time, and at most as many finished pieces wait to be taken, so the pieces
+// never need all their memory at once.
 #pragma once
 
 #include "base/parallel.h"
@@ -20,9 +21,10 @@
 
 namespace sparselens {
 
-// Calls take(i, make(i)) for every i in [0, count). make() is called by any thread; take() for 0, 1, 2 ..., by one thread at a
-// time. Of what is thrown, that of the least i reaches the caller, whatever the number of threads; nothing is taken after it.
-// `most_at_once`, > 0: pieces that are made side by side, however many threads there are.
+// Calls take(i, make(i)) for every i in [0, count). Any thread may call make(). take() is called for 0, 1, 2 ..., by
+// one thread at a time. If calls throw, the caller gets the exception of the least i, whatever the number of threads,
+// and no later piece is taken. `most_at_once` (> 0) limits the pieces that are made side by side, however many threads
+// there are.
 template <typename Make, typename Take>
 void in_order(std::size_t count, const Make &make, const Take &take,
               std::size_t most_at_once = ~std::size_t{0}) {
@@ -32,7 +34,7 @@ void in_order(std::size_t count, const Make &make, const Take &take,
         std::exception_ptr failure;
     };
     std::atomic<std::size_t> next = 0;
-    std::mutex taking; // of what follows
+    std::mutex taking; // guards the variables below
     std::condition_variable moved;
     std::map<std::size_t, Made> waiting;
     std::size_t taken = 0;
@@ -52,8 +54,8 @@ void in_order(std::size_t count, const Make &make, const Take &take,
         moved.notify_all();
     };
     const std::size_t threads = std::min(std::size_t(tbb::this_task_arena::max_concurrency()), most_at_once);
-    // A loop in make() or take() would else begin to make other pieces while it waits for its own: both are isolated.
-    // The piece that all wait for is being made, as pieces are begun in their order.
+    // make() and take() run isolated; otherwise a loop in them would begin to make other pieces while it waits for its
+    // own. Waiting cannot deadlock: pieces begin in their order, so the piece that all wait for is being made.
     const auto wait_for_turn = [&](std::size_t i) {
         std::unique_lock lock(taking);
         moved.wait(lock, [&] { return i < taken + 2 * threads || failure; });

@@ -11,8 +11,8 @@ namespace sparselens {
 
 namespace {
 
-constexpr std::size_t few = 16;  // ids that are looked for one by one
-constexpr double nothing = 1e-6; // what rounding leaves of a coverage that was taken away
+constexpr std::size_t few = 16;  // ids that are searched one by one
+constexpr double nothing = 1e-6; // what rounding leaves when a coverage is taken away
 
 std::uint32_t bits(float id) { return std::bit_cast<std::uint32_t>(id); }
 
@@ -64,7 +64,7 @@ void IdCoverage::add(float id, double coverage) {
     pairs_.push_back({id, coverage});
 }
 
-// Sums of one id are added in the order in which they came, as where there are few.
+// Adds the coverages of one id in the order in which they came, as add() does for few ids.
 void IdCoverage::merge() {
     std::ranges::stable_sort(pairs_, {}, [](const Pair &pair) { return bits(pair.id); });
     std::size_t last = 0;

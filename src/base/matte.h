@@ -36,19 +36,19 @@ public:
     };
 
     void add(float id, double coverage);
-    // Leaves out what is below 0, and scales the rest so that the sum stays, within [0, 1].
+    // Sets negative coverage to 0, and scales the rest so that the sum stays the same, clamped to [0, 1].
     void limit();
-    std::span<const Pair> ranked(); // by descending coverage, without what covers nothing
+    std::span<const Pair> ranked(); // by descending coverage, without pairs that cover nothing
     void clear() { pairs_.clear(), merged_ = 0; }
 
 private:
     void merge();
 
-    std::vector<Pair> pairs_; // of few ids one each; of many, what was added since merge() stands behind
+    std::vector<Pair> pairs_; // if few, one per id; if many, pairs added after merge() follow at the end
     std::size_t merged_ = 0;
 };
 
-// write(k, value) for every channel of the matte; what has no rank left is dropped.
+// Calls write(k, value) for every channel of the matte. Pairs beyond its last rank are dropped.
 template <typename Write>
 void write_pairs(const Matte &matte, std::span<const IdCoverage::Pair> ranked, const Write &write) {
     for (std::size_t r = 0; r < matte.ranks.size(); ++r) {
@@ -63,7 +63,7 @@ class MatteSum {
 public:
     explicit MatteSum(std::span<const Matte> mattes) : mattes_(mattes), sums_(mattes.size()) {}
 
-    // `value(k)` is that of the sample in channel k.
+    // `value(k)` returns the value of the sample in channel k.
     template <typename Value>
     void add(double factor, const Value &value) {
         for (std::size_t m = 0; m < mattes_.size(); ++m)
@@ -71,7 +71,7 @@ public:
                 sums_[m].add(value(rank.id), factor * double(value(rank.coverage)));
     }
 
-    // Like write_pairs(), for every matte. Empties the sum.
+    // Calls write(k, value) for every channel of every matte, as write_pairs() does, and empties the sum.
     template <typename Write>
     void take(const Write &write) {
         for (std::size_t m = 0; m < mattes_.size(); ++m) {

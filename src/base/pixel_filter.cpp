@@ -18,18 +18,18 @@ constexpr std::array<std::pair<std::string_view, Shape>, 3> shapes{
 
 constexpr double widest = 16; // pixels
 
-// What the gather adds, in square sub-pixels: samples are squares, seen from all of a pixel, 1/12 each, of which sharpening
-// takes back some near the focus. Measured on the path-traced yard.
+// The variance that the gather adds, in square sub-pixels: samples are squares, seen from all of a pixel, 1/12 each.
+// Sharpening takes some of it back near the focus. Measured on the path-traced yard.
 constexpr double of_gather = 0.125;
 
-// In square pixels. Cycles' Blackman-Harris filter is the window of that name, twice the width across, and has .01918 of the square
-// of that; its Gaussian is exp(-8 (x / width)^2).
+// The filter's variance, in square pixels. Cycles' Blackman-Harris filter is the window of that name, twice the width
+// across; its variance is 0.01918 of the square of that. Its Gaussian is exp(-8 (x / width)^2).
 double variance(const PixelFilter &filter) {
     const double square = filter.width * filter.width;
     return filter.shape == Shape::gaussian ? square / 16 : 4 * 0.019184 * square;
 }
 
-// [share, 1 - 2 share, share] of neighbours.
+// Filters the shares with the kernel [share, 1 - 2 share, share].
 std::vector<double> spread(const std::vector<double> &shares, double share) {
     std::vector<double> out(shares.size() + 2);
     for (std::size_t i = 0; i < shares.size(); ++i) {
@@ -65,10 +65,10 @@ std::string text_of(const PixelFilter &filter) {
 std::vector<double> subpixel_shares(const Subpixels &by) {
     std::vector<double> shares(std::size_t(by.across), 1.0 / by.across);
     if (by.filter.shape == Shape::box || by.across == 1) return shares;
-    // In square sub-pixels: what is missing, and what the mean of a block brings.
+    // In square sub-pixels: the missing variance, and the variance that the mean of a block brings.
     const double square = double(by.across) * by.across, more = square - 1;
     const double missing = variance(by.filter) * more - of_gather, block = more / 12;
-    constexpr double most_at_once = 0.5; // then as much goes to both sides as stays
+    constexpr double most_at_once = 0.5; // at this variance, as much goes to both sides as stays
     const double rest = std::max(missing - block, 0.0);
     const int times = int(std::ceil(rest / most_at_once));
     for (int i = 0; i < times; ++i) shares = spread(shares, rest / times / 2);

@@ -10,10 +10,11 @@ namespace sparselens {
 
 namespace {
 
-// Sets halves of 0 and of what is normal among halves, whose bits only move. False: there is something else.
+// Sets the halves if every value is 0 or a normal half, because then the bits only move. Returns false if there is any
+// other value.
 bool move_bits(std::span<const float> values, std::uint16_t *halves) {
     constexpr std::uint32_t sign = 0x80000000, least = 0x38800000, end = 0x47800000, lost = 0x1fff,
-                            exponents = 0x38000000; // 2^-14, 2^16; what a half has no place for
+                            exponents = 0x38000000; // 2^-14, 2^16; bits that a half cannot hold
     std::uint32_t others = 0;
     for (std::size_t i = 0; i < values.size(); ++i) {
         const auto bits = std::bit_cast<std::uint32_t>(values[i]), magnitude = bits & ~sign;
@@ -34,7 +35,7 @@ bool as_halves(std::span<const float> values, std::uint16_t *halves) {
 using Half4 [[gnu::vector_size(8)]] = std::uint16_t;
 using Bits4 [[gnu::vector_size(16)]] = std::uint32_t;
 
-// As of_half().
+// Converts like of_half().
 template <typename Bits, typename Float>
 Bits float_bits(Bits half) {
     const Bits magnitude = half & 0x7fffu, sign = (half & 0x8000u) << 16, moved = magnitude << 13;
@@ -42,7 +43,7 @@ Bits float_bits(Bits half) {
     return (magnitude < 0x7c00u ? finite : moved | 0x7f800000u) | sign;
 }
 
-// Many at once: the table of of_half() does not stay in the cache.
+// Converts many at once, because the table of of_half() does not stay in the cache.
 void from_halves(std::span<const std::uint16_t> halves, std::span<float> out) {
     std::size_t i = 0;
     for (; i + 4 <= halves.size(); i += 4) {

@@ -14,27 +14,27 @@ namespace sparselens {
 class Plane {
 public:
     Plane() = default;
-    Plane(Plane &&) = default; // a copy would refer to what this one holds
+    Plane(Plane &&) = default; // a copy would refer to the values of the original
     Plane &operator=(Plane &&) = default;
 
-    // Holds them itself.
+    // Copies the values and packs them.
     static Plane packed(std::span<const float> values);
-    // Refers to them: they must outlive it.
+    // Refers to the values, which must outlive the plane.
     static Plane of(std::span<const float> values);
 
     float operator[](std::size_t i) const { return floats_ ? floats_[i & mask_] : of_half(halves_[i]); }
 
-    // For out.size() pixels from one on.
+    // Copies the values of out.size() pixels, beginning at pixel `first`.
     void copy(std::size_t first, std::span<float> out) const;
 
     std::size_t bytes() const {
         return halves_.size() * sizeof(halves_[0]) + own_.size() * sizeof(float);
-    } // held
+    } // held by this plane
 
 private:
     std::vector<std::uint16_t> halves_;
     std::vector<float> own_;
-    const float *floats_ = nullptr;      // `own_`, or others'; null: halves
+    const float *floats_ = nullptr;      // `own_`, or values of others; null: halves
     std::size_t mask_ = ~std::size_t{0}; // 0: one value
 };
 

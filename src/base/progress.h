@@ -14,7 +14,7 @@ public:
     // it. An empty listener reports nothing.
     using Listener = std::function<void(const std::string &stage, int percent)>;
 
-    // Called between the steps of long work: throws where the work is to end.
+    // Called between the steps of long work. Throws if the work is to end.
     using Watch = std::function<void()>;
 
     Progress() = default;
@@ -23,7 +23,7 @@ public:
 
     void start(std::string stage, std::size_t steps);
     void advance(std::size_t steps = 1); // from any thread
-    void may_end() const;                // from any thread; where nothing would be left half done
+    void may_end() const;                // from any thread, at points where nothing is left half done
 
 private:
     Listener listener_;

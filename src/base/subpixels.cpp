@@ -47,7 +47,8 @@ struct Extent {
     int nearest(int at) const { return std::clamp(at, there.least, there.most); }
 };
 
-// For pixel `at` of a row or a column. Known sub-pixels have all of the light; those that are there have a part of it.
+// The run of pixel `at` of a row or a column. The shares of known sub-pixels sum to 1; only those that exist are
+// listed.
 Run run_of(int at, int across, const std::vector<double> &shares, const Extent &extent) {
     const int count = int(shares.size()), first = at * across - (count - across) / 2;
     double known = 0;
@@ -76,7 +77,7 @@ public:
         : fine_(fine), columns_(columns), rows_(rows), out_(out), y_(y), across_(fine.windows, 0),
           down_(fine.windows, 1), sums_(std::size_t(fine.windows.width())) {}
 
-    // Down first, so that it is read in the order of memory.
+    // Sums down the columns first, so that memory is read in its order.
     void mean(std::size_t channel) {
         const Imath::Box2i &data = fine_.windows.data;
         std::ranges::fill(sums_, 0.0);

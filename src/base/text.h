@@ -16,12 +16,13 @@ std::string upper_case(std::string text);
 // The text in single quotes, as a POSIX shell reads it: it's becomes 'it'\''s'.
 std::string single_quoted(std::string_view text);
 
-// Which of `words` was meant by `given`, which is none of them: the one with the fewest letters and digits to add, leave out
-// or exchange; of all else, and of capitals, nothing counts (--f-stop is --fstop). Empty where that is more than a third of
-// them, or there is no letter or digit.
+// Guesses which of `words` was meant by `given`, which is none of them: the word with the fewest letters and digits to
+// add, leave out or exchange. Case and all other characters are ignored (--f-stop is --fstop). Empty if more than a
+// third of the letters and digits would change, or if there are none.
 std::string nearest_word(std::string_view given, std::span<const std::string> words);
 
-// A message with each parameter in it (error.h) as `spelling` makes it of its name and value, which may be empty.
+// Replaces each parameter in a message (see error.h) by what `spelling` returns for its name and its value, which may
+// be empty.
 using Spelling = std::function<std::string(const std::string &name, const std::string &value)>;
 std::string spelled(std::string_view message, const Spelling &spelling);
 
