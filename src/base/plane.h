@@ -1,5 +1,5 @@
-// The values of one channel of a picture, bit by bit in little memory: one value where all are the same, as the coverage of an
-// opaque picture; halves where those hold them, as most files have colours; else floats.
+// The values of one channel of a picture, bit by bit in little memory: one value if all are the same, as in the
+// coverage of an opaque picture; halves if these hold every value, as colours of most files; otherwise floats.
 #pragma once
 
 #include "base/half_bits.h"

@@ -75,7 +75,7 @@ Ldi build_by_pixels(const Ldi &like, const std::function<void(std::size_t, Ldi &
 
 namespace {
 
-// What a row of pixels becomes: samples of those that change alone.
+// The new samples of a row of pixels, for the pixels that change.
 struct ChangedRow {
     Ldi samples;
     std::vector<bool> changes; // [pixel]
@@ -94,7 +94,7 @@ ChangedRow changed_row(const Ldi &ldi, std::size_t first, std::size_t width,
     return row;
 }
 
-// Samples that go to another place, from a row or, where it is null, from the LDI itself.
+// Samples to be copied to another place, from a row, or from the LDI itself if `from_row` is null.
 struct Move {
     const Ldi *from_row;
     std::uint64_t from, count, to;
@@ -186,7 +186,7 @@ Ldi concatenate(const Ldi &like, std::vector<Ldi> pieces) {
             from = {};
         });
     }
-    whole.begin.reserve(pixels + 1); // touched no sooner than what it takes the place of is freed
+    whole.begin.reserve(pixels + 1); // memory that is first touched after the memory it replaces is freed
     for (std::size_t i = 0; i < pieces.size(); ++i) {
         for (std::size_t j = 0; j + 1 < pieces[i].begin.size(); ++j)
             whole.begin.push_back(first_sample[i] + pieces[i].begin[j]);

@@ -9,8 +9,8 @@
 
 namespace sparselens {
 
-// value = sum of coefficient * (value of sample `index`), in every channel including alpha. Integer ids come from the first
-// term; the pairs of Cryptomattes are united by id, with such a sum of their coverage (base/matte.h).
+// value = sum of coefficient * (value of sample `index`), in every channel including alpha. Integer ids come from the
+// first term. The pairs of Cryptomattes are united by id, with the same weighted sum for their coverage (base/matte.h).
 struct Term {
     std::uint64_t index;
     double coefficient;
@@ -21,35 +21,37 @@ struct MergedSample {
     std::span<const Term> terms; // never empty
 };
 
-// The new sample without its terms.
+// The depth, position and weight of a sample, without terms.
 MergedSample sample_at(const Ldi &ldi, std::uint64_t index);
 
-// Appends to the last pixel of `out`.
+// Appends the sample to the last pixel of `out`.
 void append(Ldi &out, const Ldi &from, const MergedSample &sample);
 void append(Ldi &out, const Ldi &from, std::uint64_t index); // an unchanged copy
 
-// The same samples without any channel.
+// The same samples without channels.
 Ldi without_channels(const Ldi &ldi);
 
-// Channels, windows and the presence of z_back, dx, dy, weight, optical, solid as in `like`; no pixels yet.
+// Has the channels and windows of `like`, and z_back, dx, dy, weight, optical and solid if `like` has them; no pixels
+// yet.
 Ldi empty_like(const Ldi &like);
 
 // `fill(pixel, out)` appends the samples of each pixel to `out`; rows run in parallel, each to its own piece.
 Ldi build_by_pixels(const Ldi &like, const std::function<void(std::size_t pixel, Ldi &out)> &fill);
 
-// The same in place, where most pixels stay as they are, in the memory of a few rows: for the pixels that `changes(pixel)` says `fill` gives the
-// samples, never more than the pixel has; the others keep theirs. Both see the LDI's samples of that pixel as they were.
+// Like build_by_pixels(), but in place and in the memory of a few rows, for LDIs in which most pixels stay as they are.
+// `fill` gives the samples of those pixels for which `changes(pixel)` is true, never more than the pixel has; the
+// others keep theirs. Both functions see the samples of that pixel as they were.
 void rebuild_pixels(Ldi &ldi, const std::function<bool(std::size_t pixel)> &changes,
                     const std::function<void(std::size_t pixel, Ldi &out)> &fill);
 
 // Joins pieces that follow each other in pixel order, each with a `begin` that starts at 0. Frees them as it goes.
 Ldi concatenate(const Ldi &like, std::vector<Ldi> pieces);
 
-// Appends the pixels of a piece that follows, as in concatenate(); `whole` begins as a piece without pixels, with a `begin` of
-// 0. Of what comes one by one no two whole copies are held.
+// Appends the pixels of the next piece, as concatenate() does. `whole` begins as a piece without pixels, with a `begin`
+// of 0. Pieces that come one by one are never held twice.
 void append_pixels(Ldi &whole, const Ldi &piece);
 
-// The solid of samples that become one: the smallest of those that cover half or more.
+// The solid of a sample made of others: the smallest solid among those that cover half or more.
 float solid_of(const Ldi &ldi, std::size_t alpha_channel, std::span<const Term> terms);
 
 inline float alpha_at(const Ldi &ldi, std::size_t alpha_channel, std::uint64_t index) {

@@ -18,7 +18,7 @@ std::array<std::size_t, 3> coverages_of_layer(std::span<const Channel> channels,
     return found;
 }
 
-// Where A is made of others: those.
+// AR, AG and AB if A is missing and can be made of them.
 std::array<std::size_t, 3> parts_of_missing_alpha(std::span<const Channel> channels) {
     const auto parts = coverages_of_layer(channels, "");
     const bool missing = find_channel(channels, "A") == npos;
@@ -29,11 +29,11 @@ std::ptrdiff_t place_of_alpha(std::span<const Channel> channels) {
     return std::ranges::count_if(find_rgb(channels), [](std::size_t k) { return k != npos; });
 }
 
-// Both of one size, as is `mean`.
+// All spans have the same size.
 void set_mean(const std::array<std::span<const float>, 3> &parts, std::span<float> mean) {
     for (std::size_t i = 0; i < mean.size(); ++i) {
         const double sum = double(parts[0][i]) + double(parts[1][i]) + double(parts[2][i]);
-        mean[i] = float(sum / 3); // of three equal floats: that float
+        mean[i] = float(sum / 3); // three equal floats give exactly that float
     }
 }
 
@@ -57,7 +57,7 @@ Ldi of_one_coverage(const Ldi &ldi, const CoveredChannels &covered) {
 std::size_t coverage_of(std::span<const Channel> channels, std::size_t k) {
     const std::size_t alpha = find_channel(channels, "A");
     const std::string &name = channels[k].name;
-    const std::size_t end_of_layer = name.rfind('.') + 1; // 0: of no layer
+    const std::size_t end_of_layer = name.rfind('.') + 1; // 0: no layer
     const std::string last = name.substr(end_of_layer);
     const auto is_last = [&](const char *c) { return last == c; };
     std::size_t c = std::size_t(std::ranges::find_if(rgb_names, is_last) - rgb_names.begin());

@@ -18,14 +18,14 @@
 
 namespace sparselens {
 
-// Makes A of AR, AG and AB where A is missing.
+// Adds A as the mean of AR, AG and AB if A is missing.
 void add_mean_coverage(Ldi &ldi);
 void add_mean_coverage(Image &image);
 
 // The channel that covers channel k, or npos. A channel of coverage is covered by itself.
 std::size_t coverage_of(std::span<const Channel> channels, std::size_t k);
 
-// The same for every channel of the LDI, but A where a per-channel alpha equals A in every sample.
+// coverage_of() for every channel of the LDI, except that A covers a colour whose own alpha equals A in every sample.
 std::vector<std::size_t> coverage_by_channel(const Ldi &ldi);
 
 // A channel of coverage and the channels that it covers, including itself.
@@ -38,14 +38,14 @@ struct CoveredChannels {
 std::vector<CoveredChannels> by_coverage(const Ldi &ldi);
 
 // make(alpha) makes an LDI from another one by its coverage channel `alpha`: the same samples for each `alpha`, with
-// the values of all channels. Returns that of A, where every channel has its values by its own coverage.
+// the values of all channels. Returns the LDI made by A, in which each channel has the values made by its own coverage.
 Ldi with_each_coverage(const Ldi &ldi, const std::function<Ldi(std::size_t alpha)> &make);
 
-// composite(ldi) makes a picture of an LDI whose coverage is its channel A. Returns that of an LDI with per-channel
-// alpha. The LDIs that it is given always have R, G and B, because coverage and brightness decide how a picture is
-// gathered.
+// composite(ldi) makes a picture of an LDI whose coverage is its channel A. Returns the picture of an LDI with
+// per-channel alpha. The LDIs that are passed to it always have R, G and B, because coverage and brightness decide how
+// a picture is gathered.
 Image composited(const Ldi &ldi, const std::function<Image(const Ldi &)> &composite);
-// The same, where composite_one may use up the LDI that is made for one channel of coverage.
+// The same, but composite_one may use up the LDI that is made for one channel of coverage.
 Image composited(const Ldi &ldi, const std::function<Image(const Ldi &)> &composite,
                  const std::function<Image(Ldi &&)> &composite_one);
 

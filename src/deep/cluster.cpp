@@ -80,8 +80,8 @@ double extent_for(const Pixel &p, double tolerance, std::size_t layers) {
     return enough;
 }
 
-// The share of each sample of a run in the merged one: front to back, `over`; opaque samples within the
-// tolerance of the first opaque one share what is left by weight; what lies behind is hidden.
+// The share of each sample of a run in the merged one. Samples are composited front to back by `over`; opaque samples
+// within the tolerance of the first opaque one share the rest by weight; samples behind them are hidden.
 void set_shares(const Pixel &p, std::uint64_t begin, std::uint64_t end, double tolerance,
                 std::vector<Term> &terms) {
     terms.clear();
@@ -110,8 +110,8 @@ bool holds_volume(const Ldi &ldi, std::uint64_t first, std::uint64_t last) {
     return false;
 }
 
-// Depth, position and weight of the merged sample: means over what each of its samples shows. Where a volume is
-// among them it is a volume, from the nearest to the farthest.
+// Depth, position and weight of the merged sample: means over what each of its samples shows. If a volume is among
+// them, the result is a volume from the nearest depth to the farthest.
 MergedSample merged_placement(const Pixel &p, std::span<const Term> terms) {
     const std::uint64_t first = terms.front().index, last = terms.back().index;
     MergedSample merged = sample_at(p.ldi, first);
@@ -159,7 +159,7 @@ double cluster_pixel(const Pixel &p, const ClusterOptions &options, Ldi &out) {
 Clustered cluster(const Ldi &ldi, const ClusterOptions &options, Progress &progress) {
     std::vector<double> largest(ldi.windows.pixels());
     Clustered result;
-    // Which samples a cluster holds is a matter of their depths, whatever their coverage.
+    // Which samples form a cluster depends on their depths only, whatever their coverage.
     result.ldi = with_each_coverage(ldi, [&](std::size_t coverage) {
         progress.start("clustering", std::size_t(ldi.windows.height()));
         return build_by_pixels(ldi, [&](std::size_t pixel, Ldi &out) {

@@ -17,17 +17,17 @@ namespace sparselens {
 
 namespace {
 
-constexpr double sky = 1e10;              // what renderers write of it, which a filter mixes in
+constexpr double sky = 1e10;              // the depth that renderers write for sky, which a filter mixes in
 constexpr double same_depth = 0.02;       // relative
-constexpr int strand_steps = 4;           // of two pixels: how far a strand may go on without a depth
+constexpr int strand_steps = 4;           // of two pixels each: how far a strand may continue without a depth
 constexpr double worth_of_coverage = 0.1; // against a relative difference of colours
 constexpr double apart = 1.1;             // two surfaces: the ratio of their depths, at least
-constexpr double least_of_step = 0.6;     // of the difference twice as far out: a slope has 0.5 of it
-constexpr double clearly_mixed = 0.05;    // of either surface, at least, in a depth
-constexpr double same_share = 0.15;       // of a surface, in depth and in colour
+constexpr double least_of_step = 0.6;     // of the difference twice as far out; a slope has 0.5 of it
+constexpr double clearly_mixed = 0.05;    // share of either surface in a depth, at least
+constexpr double same_share = 0.15;       // largest difference of a surface's shares in depth and in colour
 constexpr double largest_mix_residual =
     0.15;                            // distance of the colour from the line between the two, see unmix()
-constexpr double least_mixed = 0.08; // of edges: filtered depth has 0.18 and more, other has up to 0.04
+constexpr double least_mixed = 0.08; // of edges: filtered depth has 0.18 and more, other depth up to 0.04
 
 bool shows_surface(const FlatPixels &pixels, std::size_t i) {
     return pixels.coverage(i) > 0 && std::isfinite(pixels.z[i]);
@@ -39,11 +39,11 @@ double colour_difference(const FlatPixels &pixels, std::size_t a, std::size_t b)
                                pixels.colour(b) / double(pixels.coverage(b)));
 }
 
-// What the pixels around a partly covered one say of its depth.
+// The depths that the pixels around a partly covered one suggest.
 struct Surroundings {
-    float farthest = 0;   // of those that cover more
-    float best = 0;       // the depth of that which explains it best; 0: there is none
-    bool nothing = false; // whether one of them shows nothing
+    float farthest = 0;   // depth of the pixels that cover more
+    float best = 0;       // the depth of the pixel that explains it best; 0: there is none
+    bool nothing = false; // whether a pixel around shows nothing
 };
 
 Surroundings look_around(const FlatPixels &pixels, int x, int y, int reach) {
@@ -91,8 +91,8 @@ struct Sides {
     double share;
 };
 
-// Whether the depth between the two sides, which differ by `width`, is a step and not part of a slope: twice as far out
-// they differ by hardly more. On a slope of one surface they differ by twice as much there.
+// Whether the depth between the two sides, which differ by `width`, is a step and not part of a slope. At a step they
+// differ by hardly more twice as far out; on a slope of one surface they differ by twice as much there.
 bool is_step(const FlatPixels &pixels, int x, int y, const Imath::V2i &step, double width) {
     const Imath::V2i a = Imath::V2i(x, y) - step * 2, b = Imath::V2i(x, y) + step * 2;
     if (!pixels.grid.contains(a.x, a.y) || !pixels.grid.contains(b.x, b.y)) return false;
@@ -115,7 +115,7 @@ std::optional<Sides> sides_of(const FlatPixels &pixels, int x, int y, const Imat
     return sides;
 }
 
-// Whether the colour is mixed as the depth is.
+// Whether the colour is mixed in the same proportion as the depth.
 bool is_mixed(const FlatPixels &pixels, std::size_t own, const Sides &sides) {
     if (!(sides.share > clearly_mixed && sides.share < 1 - clearly_mixed)) return false;
     const auto mix = unmix(pixels.colour(own), pixels.colour(sides.near), pixels.colour(sides.far),
@@ -123,9 +123,9 @@ bool is_mixed(const FlatPixels &pixels, std::size_t own, const Sides &sides) {
     return mix && std::abs(mix->share - sides.share) <= same_share;
 }
 
-// An opaque pixel: whether it lies between two surfaces, whether it is a mixture of those right beside it, and the depth of
-// the one that it shows more of. A filter may be wider than a pixel, so that the pixels right beside it may be mixed
-// themselves. If there are several mixtures, the one of the two surfaces farthest apart counts.
+// What was found at an opaque pixel: whether it lies between two surfaces, whether it mixes the pixels right beside it,
+// and the depth of the surface that it shows more of. A filter may be wider than a pixel, so the pixels right beside it
+// may be mixed themselves. If there are several mixtures, the one whose surfaces are farthest apart counts.
 struct Edge {
     bool parted = false, mixed = false;
     std::optional<float> depth;
@@ -151,16 +151,16 @@ Edge edge_at(const FlatPixels &pixels, int x, int y) {
     return edge;
 }
 
-// The pixels on either side that edge_at() asks.
+// How far edge_at() looks to either side, pixels.
 constexpr int reach = 2;
 
-// By the pixels of a row: whether those around them show surfaces that are apart. Most do not, and are no edge.
+// For each pixel of a row: whether the pixels around it show surfaces that are apart. Most do not, and cannot be edges.
 std::vector<std::uint8_t> parted_around(const FlatPixels &pixels, int y) {
-    constexpr float nearly_apart = 1.09f; // below `apart`, whatever is rounded
+    constexpr float nearly_apart = 1.09f; // below `apart`, to allow for rounding
     const Grid &grid = pixels.grid;
     const auto width = std::size_t(grid.width());
     const int first = std::max(y - reach, 0), last = std::min(y + reach, grid.height() - 1);
-    // Along y; beyond both ends of the row there is nothing.
+    // The extremes along y. Beyond both ends of the row there is nothing.
     std::vector<float> least(width + 2 * reach, std::numeric_limits<float>::infinity()),
         most(width + 2 * reach, -std::numeric_limits<float>::infinity());
     for (int other = first; other <= last; ++other) {
@@ -183,8 +183,8 @@ std::vector<std::uint8_t> parted_around(const FlatPixels &pixels, int y) {
     return parted;
 }
 
-// A thin strand shows its depth in few of its pixels. Those beside nothing that are left take theirs from one another, two
-// pixels farther at a time. Returns how many did.
+// A thin strand shows its depth in few of its pixels. The others, if they lie beside nothing, take their depths from
+// one another, two pixels farther at a time. Returns their number.
 std::size_t settle_strands(const FlatPixels &pixels, std::vector<std::size_t> lost, std::span<float> z) {
     std::size_t count = 0;
     for (int farther = 0; farther < strand_steps && !lost.empty(); ++farther) {
@@ -205,10 +205,10 @@ std::size_t settle_strands(const FlatPixels &pixels, std::vector<std::size_t> lo
     return count;
 }
 
-// What was found in a row of pixels.
+// The findings in a row of pixels.
 struct Row {
     std::vector<std::pair<std::size_t, float>> partly_covered, opaque; // pixels, and their new depths
-    std::vector<std::size_t> lost; // partly covered, and all depths within two pixels were missed
+    std::vector<std::size_t> lost; // partly covered, with no depth within two pixels
     std::size_t parted = 0, mixed = 0;
 };
 
@@ -234,7 +234,7 @@ Row row_at(const FlatPixels &pixels, int y) {
     return row;
 }
 
-// Replaces them all at once: none is taken from a depth that was replaced before it.
+// Replaces all depths at once, so that none is taken from a depth that was replaced before it.
 SettledEdges settle(const FlatPixels &pixels, std::span<float> z) {
     std::vector<Row> rows(std::size_t(pixels.grid.height()));
     parallel_for(rows.size(), [&](std::size_t y) { rows[y] = row_at(pixels, int(y)); });

@@ -1,15 +1,17 @@
-// The depth of pixels on the edge of a surface, where the renderer wrote that of no surface in the pixel.
+// Corrects the depth of pixels on the edge of a surface, where the renderer wrote a depth at which the pixel shows
+// nothing.
 //
 // A renderer takes the depth of such a pixel from one of its samples, or filters it like a colour:
 //
-//   - The pixel is partly covered (0 < A < 1), and its depth is that of the nothing beside the surface: infinite,
-//     or more than 16 times that of each more covered pixel around it, or, beside a pixel that shows nothing, A times that
-//     of one, which is the mean of a surface and of zeros. It becomes the depth of the pixel around it that explains it best: its colour without
-//     coverage is similar, and it is well covered. "Around" are the eight neighbours, else the 24 within two pixels. A strand over
-//     nothing, thinner than a pixel, shows its depth in few pixels: up to 8 pixels farther it goes on from those that have one.
-//   - The pixel is opaque, and its depth and its colour are mixed of those of two pixels on opposite sides in the same
-//     proportion, at a step and not on a slope. It takes the depth of that which it shows more of. This is done only in
-//     a picture where many edges are like that: its depth is filtered. In others it is chance.
+//   - The pixel is partly covered (0 < A < 1), and its depth is that of the nothing beside the surface: it is infinite,
+//     or more than 16 times the depth of each more covered pixel around it. Or the pixel lies beside one that shows
+//     nothing, and its depth is A times the depth of a pixel around it, the mean of a surface and of zeros. The depth
+//     is replaced by that of the pixel around it that explains it best: its colour without coverage is similar, and it
+//     is well covered. "Around" means the eight neighbours, or if they do not help the 24 within two pixels. A strand
+//     over nothing, thinner than a pixel, shows its depth in few pixels; they pass it on, up to 8 pixels farther.
+//   - The pixel is opaque, and its depth and its colour mix two pixels on opposite sides in the same proportion, at a
+//     step and not on a slope. It takes the depth of the surface that it shows more of. This is done only in a picture
+//     with many such edges, because then its depth is filtered. In other pictures such edges are chance.
 //
 // Colour and coverage stay, so that what lies behind a partly covered pixel shows.
 #pragma once

@@ -11,17 +11,17 @@
 
 namespace sparselens {
 
-// The planar depth of the front sample of pixel (x, y), EXR coordinates, or 0 where it has none.
+// The planar depth of the front sample of pixel (x, y), EXR coordinates; 0 if the pixel has no sample.
 float front_depth(const Ldi &ldi, const Imath::V2i &pixel);
 
 // The same for all pixels, as a single channel Z (float); depth_of_nothing where a pixel is empty.
 inline constexpr float depth_of_nothing = std::numeric_limits<float>::infinity();
 Image front_depth(const Ldi &ldi);
 
-// Its R, G, B, as far as they are there, and its planar depth, 0 where there is none.
+// R, G and B of the front sample, as far as the LDI has them, and its planar depth; 0 if there is no sample.
 View front_view(const Ldi &ldi, const std::string &name);
 
-// Its signed CoC radius, for each pixel. An empty pixel is background at infinity.
+// The signed CoC radius of the front sample, for each pixel. An empty pixel is background at infinity.
 std::vector<float> front_circles_of_confusion(const Ldi &ldi, const ThinLens &lens);
 
 } // namespace sparselens

@@ -1,4 +1,5 @@
-// Brighter lights: pictures whose sources are clipped give dull discs, so what is above a threshold grows before the gather.
+// Makes lights brighter. Pictures whose light sources are clipped give dull discs, so colours above a threshold grow
+// before the gather.
 //
 // A sample of luminance Y (Rec. 709 weights, without coverage) grows by 1 + (gain - 1) s((Y - threshold) / knee), where
 // s(t) = t^2 (3 - 2 t) for t in [0, 1], 0 below and 1 above. Hue and coverage stay. The factor depends on the sample
@@ -18,13 +19,13 @@ struct HighlightGain {
     double knee = 1;      // luminance over which the gain sets in, > 0
 };
 
-// As the values say.
+// Reads the gain from the values of a look.
 HighlightGain highlight_gain(const LookValues &values);
 
-// By how much a sample of that luminance grows, >= 1.
+// The factor by which a sample of this luminance grows, >= 1.
 double highlight_factor(const HighlightGain &by, double luminance);
 
-// The same of R, G and B that have this coverage; light without any, as of a glow, is taken as it is.
+// The factor for R, G and B with this coverage. Light without coverage, as in a glow, is taken as it is.
 double highlight_factor(const HighlightGain &by, const std::array<double, 3> &rgb, double coverage);
 
 // Multiplies R, G and B. An LDI that lacks one of them stays as it is.

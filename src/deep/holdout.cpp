@@ -48,7 +48,7 @@ std::size_t Holdout::parts_in(const Imath::Box2i &pixels) const {
 namespace {
 
 Image flatten_by_alpha(const Ldi &ldi, const Holdout &holdout) {
-    Image out = flatten(ldi); // for the ids
+    Image out = flatten(ldi); // provides the ids
     const Imath::Box2i &data = ldi.windows.data;
     const std::size_t alpha = ldi.alpha();
     const std::vector<Matte> mattes = find_mattes(ldi.channels);

@@ -16,8 +16,8 @@ public:
     // hide each other. Outside the data window all light passes.
     double passes(int x, int y, double z) const;
 
-    // Data of passes(): for each sample of a pixel, front to back, its extent and the share of the light that it lets through.
-    // append_parts() appends those of a pixel; parts_in() counts those of the pixels of a box.
+    // Data of passes(): for each sample of a pixel, front to back, its extent and the share of the light that it lets
+    // through. append_parts() appends the parts of a pixel; parts_in() counts the parts in the pixels of a box.
     struct Part {
         float front, back, clear;
     };
@@ -29,7 +29,7 @@ private:
     std::size_t alpha_;
 };
 
-// flatten(ldi), with each sample multiplied by the share of it that passes.
+// Flattens `ldi` with each sample multiplied by its share that passes the holdout.
 Image flatten_held_out(const Ldi &ldi, const Holdout &holdout);
 
 } // namespace sparselens

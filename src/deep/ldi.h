@@ -2,7 +2,8 @@
 // our own LDIs, deep files of other programs and flat pictures with depth (one sample per pixel).
 //
 // Pixel i of the data window, counted row by row (base/grid.h), owns samples [begin[i], begin[i + 1]).
-// Colours are scene-linear and premultiplied by coverage. What is not covered is transparent background at infinity.
+// Colours are scene-linear and premultiplied by coverage. The uncovered rest of a pixel is transparent background at
+// infinity.
 #pragma once
 
 #include "../base/image.h"
@@ -33,7 +34,7 @@ struct SampleRange {
     Iterator end() const { return Iterator(to); }
     std::uint64_t size() const { return to - from; }
     bool empty() const { return from == to; }
-    std::uint64_t front() const { return from; } // of what is not empty
+    std::uint64_t front() const { return from; } // not for an empty range
 };
 
 struct Ldi {
@@ -43,14 +44,14 @@ struct Ldi {
 
     // One entry per sample, in pixel order.
     std::vector<float> z;      // planar depth of the front, scene units, (0, inf]
-    std::vector<float> z_back; // >= z; empty where no sample has an extent (points)
+    std::vector<float> z_back; // >= z; empty if no sample has an extent (all are points)
     std::vector<float> dx, dy; // offset from the pixel centre, [-1/2, 1/2], y down; empty means 0
     std::vector<float> weight; // view samples merged into this one, > 0; empty means 1
-    // Planar depth of the image in a mirror or glass, as z. It gives the CoC, while z still decides occlusion. Below 0
-    // if rays would meet behind the camera, never 0. Empty: equal to z.
+    // Planar depth of the image in a mirror or glass, in the unit of z. It gives the CoC, while z still decides
+    // occlusion. Negative if the rays would meet behind the camera, never 0. Empty: equal to z.
     std::vector<float> optical;
-    // How far 1 / z falls, 1 / scene units, through the solid behind a sample of half coverage or more, which no view
-    // saw through (warp/solids.h). 0 if unknown; empty: unknown everywhere.
+    // How far 1 / z falls, in 1 / scene units, through the solid behind a sample of half coverage or more: a depth
+    // range that no view saw through (warp/solids.h). 0 if unknown; empty: unknown everywhere.
     std::vector<float> solid;
     std::vector<std::vector<float>> values; // [channel][sample]
 

@@ -9,7 +9,7 @@ namespace sparselens {
 
 namespace {
 
-// The channels of all parts, in the order of the first that has them, of the type with the most bits.
+// The channels of all parts, in the order in which parts first have them, each of the type with the most bits.
 std::vector<Channel> all_channels(const std::vector<Ldi> &parts) {
     std::vector<Channel> all;
     for (const Ldi &part : parts)
@@ -23,7 +23,7 @@ std::vector<Channel> all_channels(const std::vector<Ldi> &parts) {
     return all;
 }
 
-// What a part's samples have in a channel: values of theirs, else one for all.
+// The source of a part's samples in a channel: their own values, or one value for all.
 struct Source {
     const std::vector<float> *values = nullptr;
     float otherwise = 0;
@@ -50,7 +50,7 @@ Windows all_windows(const std::vector<Ldi> &parts) {
     return windows;
 }
 
-// visit(part, its samples, where they go) for every pixel and part.
+// Calls visit(part, its samples, their destination) for every pixel and part.
 template <typename Visit>
 void for_each_run(const std::vector<Ldi> &parts, const Ldi &out, const Visit &visit) {
     const Imath::Box2i &data = out.windows.data;

@@ -6,7 +6,8 @@
 
 namespace sparselens {
 
-// Appends the value of each channel to those of `out`; value_at(channel, sample) is that of a sample which a term names.
+// Appends the values of the new sample to the channels of `out`. value_at(channel, sample) returns the value of a
+// sample that a term names.
 template <typename ValueAt>
 void merge_values(Ldi &out, std::span<const Channel> channels, std::span<const Term> terms,
                   const ValueAt &value_at) {
@@ -28,7 +29,7 @@ void merge_values(Ldi &out, std::span<const Channel> channels, std::span<const T
     pairs.take([&](std::size_t k, float value) { out.values[k].back() = value; });
 }
 
-// Appends a sample to the last pixel of `out`, whose values are made of those.
+// Appends a sample to the last pixel of `out`, with values made from its terms.
 template <typename ValueAt>
 void append(Ldi &out, const Ldi &from, const MergedSample &sample, const ValueAt &value_at) {
     out.z.push_back(sample.z);

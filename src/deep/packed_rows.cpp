@@ -24,7 +24,7 @@ bool same_bits(float a, float b) {
     return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b);
 }
 
-// The value that more than half of the values have, if there is one; else any.
+// The value that more than half of the values have, if there is one; otherwise any of them.
 float majority(std::span<const float> values) {
     float found = 0;
     std::size_t lead = 0;
@@ -42,8 +42,8 @@ float majority(std::span<const float> values) {
 
 PackedFloats::PackedFloats(std::span<const float> values) : most_(majority(values)) {
     assert(values.size() <= std::numeric_limits<std::uint32_t>::max());
-    const std::size_t most = values.size() / 4; // of others: each takes as much as four halves
-    // Sets those that are not `as_they_are`, unless there are too many.
+    const std::size_t most = values.size() / 4; // exceptions; each takes as much memory as four halves
+    // Sets others_ to the values that are not `as_they_are`. Returns false if there are too many.
     const auto find_others = [&](const auto &as_they_are) {
         for (std::size_t i = 0; i < values.size(); ++i) {
             if (as_they_are(values[i])) continue;
@@ -109,7 +109,7 @@ void PackedRows::append(const Ldi &rows) {
 }
 
 void PackedRows::keep_channels(std::span<const Channel> channels) {
-    const std::size_t places = present_.size() - channels_.size(); // arrays that are no channel's
+    const std::size_t places = present_.size() - channels_.size(); // arrays that hold no channel
     std::vector<std::size_t> kept;
     for (std::size_t k = 0; k < places; ++k) kept.push_back(k);
     for (const Channel &channel : channels) kept.push_back(places + find_channel(channels_, channel.name));
@@ -165,7 +165,7 @@ std::size_t PackedRows::bytes() const {
 }
 
 double bytes_to_gather(std::uint64_t samples, std::span<const Channel> channels) {
-    constexpr std::size_t places = 3, prepared = 8; // depth and offsets; what BlockedSamples holds, in floats
+    constexpr std::size_t places = 3, prepared = 8; // depth and offsets; floats that BlockedSamples holds
     const std::size_t groups = pieces_of(channels.size(), std::size_t{4});
     const bool by_channel = find_channel(channels, "AR") != npos;
     const std::size_t copied = by_channel ? 2 * (places + 4) : 0; // of one coverage, and merged

@@ -32,7 +32,7 @@ private:
 
 class PackedRows {
 public:
-    // A picture of these windows, without rows so far.
+    // Begins a picture of these windows, without rows so far.
     explicit PackedRows(const Windows &windows) : windows_(windows), rows_{0} {}
 
     // Adds the next rows, which have the same channels.
@@ -54,15 +54,15 @@ public:
 private:
     struct Piece {                        // some rows
         std::uint64_t begin, end;         // samples of the picture
-        std::vector<PackedFloats> arrays; // as arrays_of() lists them; of none that is empty
+        std::vector<PackedFloats> arrays; // as arrays_of() lists them, without empty arrays
     };
     std::uint64_t begin_of_row(int y) const;
 
     Windows windows_;
     std::vector<Channel> channels_;
-    std::vector<std::uint64_t> rows_; // where the samples of each row begin, so far; at last, where they end
-    std::vector<std::uint32_t> in_row_; // ... those of each pixel, after those of the row's first
-    std::vector<bool> present_;         // of the arrays
+    std::vector<std::uint64_t> rows_; // the first sample of each row so far, then the end of the last row
+    std::vector<std::uint32_t> in_row_; // the first sample of each pixel, counted from its row's first
+    std::vector<bool> present_;         // [array]
     std::vector<Piece> pieces_;
 };
 
@@ -75,7 +75,7 @@ double bytes_to_gather(std::uint64_t samples, std::span<const Channel> channels)
 // half as long again and save a tenth of the memory.
 double memory_to_gather(std::uint64_t samples_in_file, std::size_t pixels);
 
-// `rows` in a window that begins at row `top`; the added pixels have no samples.
+// `rows` in a window that begins at row `top`; added pixels have no samples.
 Ldi with_empty_above(Ldi rows, int top);
 
 // All arrays of an LDI with one entry per sample; the arrays of its channels come last.

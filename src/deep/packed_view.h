@@ -1,5 +1,5 @@
-// A view whose pixels are held as samples (view_samples.h), packed: what the checks and the warp work on. Five views are most
-// of what a warp holds, and packed they take half of what they take as pictures.
+// A view whose pixels are held as packed samples (view_samples.h). The checks and the warp work on it. Most of the
+// memory of a warp is its five views, and packed ones take half the memory of pictures.
 #pragma once
 
 #include "deep/view_samples.h"
@@ -20,17 +20,17 @@ struct PackedView {
 
     PackedView(const View &view); // refers to the pixels of the view, which must outlive this
     PackedView(View &&view);      // takes and packs them
-    // A deep picture, tidy. Where no pixel of it holds more than one point, it is a flat view.
+    // A deep picture, tidy. If no pixel holds more than one point, it becomes a flat view.
     PackedView(std::string name, Ldi &&samples);
 };
 
 std::vector<PackedView> referring_to(std::span<const View> views);
 std::vector<PackedView> packed(std::vector<View> &&views); // one at a time
 
-// The view as a picture. It is not deep, and has the samples that it was made with.
+// The view as a picture. The view must not be deep, and must still have the samples that it was made with.
 View unpacked(const PackedView &view);
 
-// As place_views().
+// Like place_views() of view/place_views.h.
 Camera place_views(std::span<PackedView> views, std::span<const StatedView> stated);
 
 } // namespace sparselens

@@ -7,8 +7,8 @@
 
 namespace sparselens {
 
-// Multiplies every channel of light but coverage: by the A of its layer where that has one, else by the coverage of the channel
-// (channel_alpha.h). A channel without coverage stays as it is.
+// Multiplies every channel of light except coverage, by the A of its layer if the layer has one, otherwise by the
+// channel's coverage (channel_alpha.h). A channel without coverage stays as it is.
 void premultiply(std::span<const Channel> channels, std::span<const std::span<float>> planes);
 
 } // namespace sparselens

@@ -15,17 +15,17 @@ namespace sparselens {
 
 namespace {
 
-// A small pixel at an edge is covered in part, which takes a channel to say so.
+// Adds a channel A if it is missing, because a small pixel at an edge is covered in part.
 Ldi with_coverage(Ldi ldi) {
     ldi.channels.push_back({"A", PixelType::half});
     ldi.values.emplace_back(ldi.samples(), 1.0f);
     return ldi;
 }
 
-// A sample of a large pixel, and what of it the flattened picture shows.
+// A sample of a large pixel, and how much of it the flattened picture shows.
 struct Seen {
     std::uint64_t index;
-    double z, optical; // of what is joined, the means
+    double z, optical; // of joined samples, the means
     double shown;      // the transmittance in front of it
     double x, y;       // place, in small pixels from the middle of the small one
 };
@@ -37,7 +37,7 @@ void take_means(std::span<const std::uint32_t> joined, std::vector<Seen> &seen) 
         double inverse_z = 0, inverse_optical = 0;
         int samples = 0;
     };
-    thread_local std::vector<Surface> surfaces; // few: most samples are alone, and not here
+    thread_local std::vector<Surface> surfaces; // short, because most samples are alone and not listed here
     surfaces.clear();
     const auto surface_of = [&](const Seen &s) {
         return std::ranges::find(surfaces, joined[s.index], &Surface::first);
@@ -59,8 +59,8 @@ void take_means(std::span<const std::uint32_t> joined, std::vector<Seen> &seen) 
         }
 }
 
-// A cell that is solid in part is solid. Otherwise the light of lamps would pass at the limbs of what hides them, through gaps as wide
-// as a cell.
+// A cell that is solid in part counts as solid. Otherwise the light of lamps would pass by the edges of what hides
+// them, through gaps as wide as a cell.
 float most_solid_of(const Ldi &ldi, std::span<const Term> terms) {
     float most = 0;
     for (const Term &term : terms)
@@ -88,7 +88,8 @@ void find_samples(const Ldi &ldi, std::size_t alpha, const Imath::V2i &small, in
     std::ranges::sort(seen, {}, [](const Seen &s) { return std::pair(s.z, s.index); });
 }
 
-// Whether both belong to one surface and show images of about one depth. `by.tolerance`, or where no lens is known ratios.
+// Whether both belong to one surface and show images of about the same depth: by `by.tolerance`, or by ratios if no
+// lens is known.
 bool alike(const Seen &first, const Seen &s, const ProxyFor &by) {
     if (by.scale > 0)
         return by.scale / first.z - by.scale / s.z <= by.tolerance &&
@@ -118,7 +119,7 @@ struct PlaceSum {
     }
 };
 
-// By what light is multiplied is known of samples; all other channels stay.
+// The channels that ProxyFor::left multiplies: light without coverage.
 std::vector<char> dimmed_channels(const Ldi &ldi, const ProxyFor &by) {
     std::vector<char> dimmed(ldi.channels.size(), false);
     if (by.left.empty()) return dimmed;
@@ -133,9 +134,9 @@ public:
         : ldi_(ldi), alpha_(alpha), factor_(factor), by_(by), dimmed_(dimmed_channels(ldi, by)) {}
 
     void append_to(Ldi &out, const Imath::V2i &small) const {
-        // A share of the light; rounding leaves less behind surfaces that hide everything.
+        // A share of the light. Surfaces that hide everything leave less, by rounding only.
         constexpr double nothing_left = 1e-4;
-        thread_local std::vector<Seen> seen; // kept, as there are many pixels
+        thread_local std::vector<Seen> seen; // kept between calls, because there are many pixels
         thread_local std::vector<Term> terms;
         find_samples(ldi_, alpha_, small, factor_, by_.joined, seen);
         const double pixels = double(factor_) * factor_;
@@ -165,7 +166,7 @@ private:
             return dimmed_[k] ? ldi_.values[k][i] * by_.left[i] : ldi_.values[k][i];
         });
         if (ldi_.dx.empty()) out.dx.push_back(surface.dx), out.dy.push_back(surface.dy);
-        out.values[alpha_].back() = std::min(out.values[alpha_].back(), 1.0f); // but for rounding it is
+        out.values[alpha_].back() = std::min(out.values[alpha_].back(), 1.0f); // exceeds 1 by rounding only
     }
 
     const Ldi &ldi_;

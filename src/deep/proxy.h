@@ -20,10 +20,10 @@ struct ProxyFor {
 
 // The LDI at 1 / factor of its size, factor >= 1. A surface gets the harmonic mean of its samples' depths and the mean
 // of their positions. Its coverage and colours are its share of the mean of the flattened pixels, so that the flattened
-// small LDI is the mean (box filter) of the flattened large one. Samples that it hides completely are kept behind it.
-// Ids are those of its first sample. Ldi::solid is the smallest of its samples, for a lens the largest. Data windows
-// whose size is not a multiple of `factor` are padded with empty pixels. The result has a channel A even if `ldi` has
-// none.
+// small LDI is the mean (box filter) of the flattened large one. Samples that the surface hides completely are kept
+// behind it. Ids come from its first sample. Ldi::solid is the smallest of its samples, for a lens the largest. Data
+// windows whose size is not a multiple of `factor` are padded with empty pixels. The result has a channel A even if
+// `ldi` does not.
 Ldi proxy(const Ldi &ldi, int factor, const ProxyFor &by = {});
 
 // The LDI at `factor` times its size: each pixel is repeated across and down. Samples lose their positions in the

@@ -37,7 +37,7 @@ void add_full_coverage(Ldi &ldi) {
     ldi.values.emplace_back(ldi.samples(), 1.0f);
 }
 
-// How much of a pixel samples show that weigh as much as channel `weight` says, and are covered by channel `cover`.
+// How much of a pixel the samples show, weighted by channel `weight` and covered by channel `cover`.
 double shown(const Ldi &ldi, std::size_t cover, std::size_t weight, const SampleRange &samples) {
     double transmittance = 1, sum = 0;
     for (const std::uint64_t i : samples) {
@@ -47,7 +47,7 @@ double shown(const Ldi &ldi, std::size_t cover, std::size_t weight, const Sample
     return sum;
 }
 
-// The flat picture, where a deep one without light asks for its coverage.
+// The coverage of the flat picture, for a deep picture without light.
 class FlatCoverage {
 public:
     FlatCoverage(const Ldi &ldi, const Image &flat) : flat_(flat), of_(ldi.channels.size(), npos) {
@@ -60,7 +60,7 @@ public:
         for (std::size_t k = 0; k < flat.channels.size(); ++k)
             if (is_recolored(flat.channels, k)) light_.push_back(k);
     }
-    // For channel k of the deep picture, which covers `otherwise`: what the flat picture covers.
+    // What the flat picture covers for channel k of the deep picture; `otherwise` if it does not say.
     double at(std::size_t k, std::size_t pixel, double otherwise) const {
         return k == npos || of_[k] == npos ? otherwise : double(flat_.plane(of_[k])[pixel]);
     }
@@ -74,7 +74,7 @@ private:
     std::vector<std::size_t> of_, light_;
 };
 
-// What a sample at infinity covers so that it and the samples before it cover `flat`; they cover `deep`.
+// The coverage of a sample at infinity with which it and the samples before it, which cover `deep`, cover `flat`.
 float rest_of(double flat, double deep) {
     return deep < 1 ? float(std::clamp((flat - deep) / (1 - deep), 0.0, 1.0)) : 0;
 }
@@ -90,7 +90,7 @@ void append_at_infinity(const Ldi &ldi, const SampleRange &before, const FlatCov
            });
 }
 
-// The samples of the pixels of the flat picture, with those at infinity, and without light.
+// The samples of the pixels of the flat picture, with added samples at infinity, and without light.
 Recolored covered_as(const Ldi &ldi, const Image &flat) {
     const FlatCoverage coverage(ldi, flat);
     const std::size_t alpha = ldi.alpha();
@@ -102,9 +102,9 @@ Recolored covered_as(const Ldi &ldi, const Image &flat) {
         const Imath::V2i at = flat.windows.pixel(pixel);
         const SampleRange samples =
             ldi.windows.data.intersects(at) ? ldi.pixel(ldi.windows.index(at.x, at.y)) : SampleRange{0, 0};
-        bool ends = false; // with something at infinity
+        bool ends = false; // whether something lies at infinity
         for (const std::uint64_t i : samples) {
-            if (ldi.z[i] == infinity && alpha_at(ldi, alpha, i) == 0) continue; // was light
+            if (ldi.z[i] == infinity && alpha_at(ldi, alpha, i) == 0) continue; // held only light
             append(row, ldi, i);
             ends = ldi.z[i] == infinity;
         }
@@ -120,7 +120,7 @@ Recolored covered_as(const Ldi &ldi, const Image &flat) {
     return out;
 }
 
-// Gives the samples of a pixel their values of channel k, which `cover` covers.
+// Sets channel k of the samples of a pixel, by their coverage in channel `cover`.
 void share(Ldi &ldi, std::size_t k, std::size_t cover, std::size_t pixel, double value) {
     const SampleRange samples = ldi.pixel(pixel);
     if (samples.empty()) return;
@@ -143,7 +143,7 @@ void add_light(Ldi &ldi, const Image &flat) {
     }
     for (const auto &pair : added) {
         const std::size_t k = pair.first,
-                          cover = coverage_of(ldi.channels, k); // clang 14 captures no bindings
+                          cover = coverage_of(ldi.channels, k); // clang 14 does not capture bindings
         const std::span<const float> plane = flat.plane(pair.second);
         parallel_ranges(plane.size(), 4096, [&](std::size_t begin, std::size_t end) {
             for (std::size_t pixel = begin; pixel < end; ++pixel)

@@ -1,8 +1,8 @@
 // Gives the samples of a deep picture the colours of a flat picture of the same frame: studios keep deep alpha, and one
 // flat beauty with its passes. Flattened, every channel of light is that of the flat picture again.
 //
-// In each pixel V is a channel of the flat picture, F its coverage; D is the coverage of all samples, and a that of
-// one:
+// In each pixel V is a channel of the flat picture and F its coverage; D is the coverage of all samples together, and a
+// the coverage of one:
 //
 //   F agrees with D      a sample becomes V a / D: V by what the sample shows of the pixel. D stays as it is
 //   F is more            the rest of the coverage, (F - D) / (1 - D), lies at infinity behind the samples, as a sky does that the
@@ -28,10 +28,10 @@ struct Recolored {
     std::size_t infinite = 0; // pixels that got a sample at infinity
 };
 
-// The LDI is tidy, the values of both are valid (sanitize.h), and the display windows are the same.
+// `ldi` must be tidy, the values of both valid (sanitize.h), and the display windows the same.
 Recolored recolor(Ldi ldi, const Image &flat);
 
-// Whether recolor() takes the channel from the flat picture: light that is no coverage.
+// Whether recolor() takes the channel from the flat picture: every channel of light except coverage.
 bool is_recolored(std::span<const Channel> channels, std::size_t k);
 
 } // namespace sparselens

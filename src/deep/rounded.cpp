@@ -16,11 +16,11 @@ namespace sparselens {
 namespace {
 
 constexpr float finest_px =
-    1.0f / 64; // what a depth or an offset may be off by, and what offsets are multiples of
+    1.0f / 64; // the largest change of a depth or an offset, and the step of offsets
 constexpr int fraction_bits = std::numeric_limits<float>::digits - 1;
 constexpr int colour_bits = 8, weight_bits = 4; // kept of the fraction: off by half of the last one at most
 
-// Rounds to this number of bits of the fraction, to even. The order of numbers stays.
+// Rounds to this number of bits of the fraction, to even. It keeps the order of numbers.
 float rounded(float value, int bits) {
     const int dropped = fraction_bits - bits;
     if (dropped <= 0 || !std::isfinite(value)) return value;
@@ -30,19 +30,19 @@ float rounded(float value, int bits) {
     return std::isfinite(made) ? made : value;
 }
 
-// By the bits of the fraction that keep it within finest_px. They depend on its exponent alone: of two depths the greater one does
-// not become the lesser.
+// Keeps as many bits of the fraction as hold the depth within finest_px. Their number depends on its exponent alone, so
+// rounding keeps the order of two depths.
 float rounded_depth(float z, double scale) {
     if (!std::isfinite(z) || z == 0) return z;
     const int exponent = std::ilogb(z);
     const double most =
-        std::abs(scale) / std::ldexp(1.0, exponent); // perceptive depth, of all that have this exponent
-    // Off by 2^-(bits + 1) of itself at most, and the perceptive depth by as much of its own.
+        std::abs(scale) / std::ldexp(1.0, exponent); // the largest perceptive depth with this exponent
+    // The relative error is at most 2^-(bits + 1), for the depth and so for its perceptive depth.
     const double bits = std::ceil(std::log2(most / double(finest_px))) - 1;
     return rounded(z, int(std::clamp(bits, 0.0, double(fraction_bits))));
 }
 
-// Not those of a pixel in which two different ones would become the same: it would no longer be tidy.
+// Leaves a pixel alone if two different depths of it would become equal, because it would no longer be tidy.
 void round_depths(Ldi &ldi, std::size_t pixel, double scale, std::vector<float> &depths) {
     depths.clear();
     for (const std::uint64_t i : ldi.pixel(pixel)) {

@@ -31,7 +31,7 @@ struct Samples {
     std::uint64_t first(std::size_t pixel) const { return begin.empty() ? pixel : begin[pixel]; }
 };
 
-// Nearly always they all are: without a branch for each, several are compared at once.
+// Nearly always all values are good. Without a branch for each value, several are compared at once.
 template <typename Good>
 bool all_of(std::span<const float> values, const Good &good) {
     std::atomic<bool> all = true;
@@ -69,15 +69,15 @@ private:
     }
     float alpha(std::uint64_t i) const { return alpha_ == npos ? 1 : s_.values[alpha_][i]; }
 
-    // visit(pixel, sample) for all samples.
+    // Calls visit(pixel, sample) for all samples.
     template <typename Visit>
     void for_each_sample(const Visit &visit) const {
         for (std::size_t pixel = 0; pixel < s_.windows.pixels(); ++pixel)
             for (std::uint64_t i = s_.first(pixel); i < s_.first(pixel + 1); ++i) visit(pixel, i);
     }
 
-    // visit(sample) for the sample nearest in depth to sample i in each of the neighbours of its pixel; where the
-    // depth of i is bad, for their front samples.
+    // Calls visit(sample) once for each neighbour of the pixel, with the neighbour's sample nearest in depth to sample
+    // i; if the depth of i is bad, with its front sample.
     template <typename Visit>
     void for_each_neighbour(std::size_t pixel, std::uint64_t i, const Visit &visit) const {
         const Imath::V2i at = s_.windows.pixel(pixel);
@@ -108,7 +108,7 @@ private:
         });
     }
 
-    // Made at the end, from the values as they came.
+    // Applied at the end, so that all changes follow from the original values.
     using Changes = std::vector<std::pair<std::uint64_t, float>>;
     static void apply(const Changes &changes, std::span<float> values) {
         for (const auto &[i, value] : changes) values[i] = value;
@@ -191,7 +191,7 @@ void Repair::repair_colours(std::size_t channel) {
     apply(changes, values);
 }
 
-// How many of the values are not as `good` says; those become what `nearest` says.
+// Replaces the values that are not `good` by what `nearest` returns. Returns their number.
 template <typename Good>
 std::size_t replace(std::vector<float> &values, const Good &good, float (*nearest)(float)) {
     if (all_of(values, good)) return 0;

@@ -24,7 +24,8 @@
 
 namespace sparselens {
 
-// The numbers of invalid values. An A outside its range by less than 1/64, by rounding or a filter, is not counted.
+// The numbers of invalid values. An A that is outside its range by less than 1/64, from rounding or a filter, does not
+// count.
 struct InvalidValues {
     std::size_t colours = 0, alphas = 0, depths = 0, places = 0;
 
@@ -32,8 +33,8 @@ struct InvalidValues {
     std::string text() const; // "2 colours that are not finite, 1 depth that is not above 0: ..."
 };
 
-// The depths must be planar; the samples need not be tidy. Throws Error, naming `name` and the first such pixel, where
-// half of the covered samples or more have no depth above 0: this indicates another convention of depth.
+// The depths must be planar; the samples need not be tidy. Throws Error, naming `name` and the first such pixel, if
+// half of the covered samples or more have no depth above 0, because that indicates another convention of depth.
 InvalidValues sanitize(Ldi &ldi, const std::string &name);
 InvalidValues sanitize(View &view);
 

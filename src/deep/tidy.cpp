@@ -15,7 +15,7 @@ namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-// A stretch of one input sample: [z, z_back] with the alpha that falls to it and the factor on its colours.
+// A stretch of one input sample: [z, z_back], with its part of the alpha and the factor on its colours.
 struct Piece {
     float z, z_back;
     double alpha, factor;
@@ -69,8 +69,8 @@ std::vector<Piece> split_at_boundaries(const std::vector<Piece> &samples) {
     return pieces;
 }
 
-// Samples of the same extent become one: their optical depths add, colours in proportion ("Interpreting OpenEXR
-// Deep Pixels", merging). Opaque ones share the place equally. Sets factors; the alpha of the whole is linear.
+// Samples of the same extent become one: their optical depths add, colours in proportion ("Interpreting OpenEXR Deep
+// Pixels", merging). Opaque samples share equally. Sets the factors; the alpha of the whole is linear.
 void set_merged_factors(std::span<Piece> same) {
     const auto opaque = [](const Piece &p) { return p.alpha >= 1; };
     const auto opaque_count = std::count_if(same.begin(), same.end(), opaque);
@@ -143,13 +143,13 @@ Ldi tidied(const Ldi &ldi, std::size_t alpha) {
     });
 }
 
-// Whether the tidy samples of a pixel are more than those it has, because its volumes overlap.
+// Whether tidying gives a pixel more samples than it has, because its volumes overlap.
 bool grows(const Ldi &ldi, std::size_t alpha, std::size_t pixel) {
     return !ldi.z_back.empty() && !is_tidy(ldi, alpha, pixel) &&
            sorted_pieces(ldi, alpha, pixel).size() > ldi.pixel(pixel).size();
 }
 
-// Whether is(pixel) for some pixel.
+// Whether is(pixel) is true for any pixel.
 template <typename Is>
 bool any_pixel(const Ldi &ldi, const Is &is) {
     std::atomic<bool> any = false;

@@ -1,4 +1,4 @@
-// How much of each of two colours is in a third: c = a F + (1 - a) B.
+// Computes the shares of two colours in a third: c = a F + (1 - a) B.
 #pragma once
 
 #include <Imath/ImathVec.h>
@@ -12,19 +12,19 @@ struct Mix {
     double residual; // distance of c from the line through F and B, as a share of their contrast |F - B|
 };
 
-// Less than this of a pixel is not worth a sample.
+// A smaller share of a pixel is not worth a sample.
 inline constexpr double least_mixed_share = 0.02;
 
-// What is expected of a: `share`, by that weight against the colours as a share of their size; and its bounds.
+// The expected a: `share`, with its weight against the colours (a share of their size), and the bounds of a.
 struct MixPrior {
     double weight, share, least, most;
 };
 inline constexpr MixPrior no_prior{0, 0, 0, 1}, mostly_b{0.05, 0, 0, 0.5},
     mostly_f{0.05, 1, 0.5, 1}; // these: not mixed
 
-// Solves by least squares. The rest of c without B is light: (1 - a) B exceeds c in no channel. Returns nothing where F and B are too similar, where
-// c is farther from the line than largest_residual, where the share of one of them is negligible, or where a colour is
-// NaN.
+// Solves for a by least squares. The rest of c without B is light, so (1 - a) B exceeds c in no channel. Returns
+// nothing if F and B are too similar, if c is farther from the line than largest_residual, if the share of F or B is
+// negligible, or if a colour is NaN.
 std::optional<Mix> unmix(const Imath::V3d &c, const Imath::V3d &f, const Imath::V3d &b, const MixPrior &prior,
                          double largest_residual);
 

@@ -8,7 +8,8 @@ namespace sparselens {
 
 namespace {
 
-// Whether a pixel of a deep picture is not as one of a flat view: that has one sample, a point that covers something.
+// Whether a pixel of a deep picture differs from one of a flat view, which holds one sample: a point that covers
+// something.
 bool holds_parts(const Ldi &ldi, std::size_t alpha, const SampleRange &samples) {
     if (samples.size() != 1) return !samples.empty();
     return back_at(ldi, samples.front()) > ldi.z[samples.front()] ||
@@ -45,7 +46,7 @@ ViewSamples::ViewSamples(Ldi &&samples)
     take_values(samples);
 }
 
-// Channel by channel, so that no two copies of all of them are held.
+// Takes them channel by channel, so that no two copies of all channels are held.
 void ViewSamples::take_values(Ldi &samples) {
     planes_.resize(channels.size());
     for (std::size_t k = 0; k < channels.size(); ++k) {
@@ -70,7 +71,7 @@ std::size_t ViewSamples::pixel_of_part(std::uint64_t i) const {
 
 namespace {
 
-// Leaves out samples that lie behind the camera now.
+// Moves samples back, and leaves out those that then lie behind the camera.
 Ldi moved(const Ldi &samples, double by) {
     return build_by_pixels(samples, [&](std::size_t pixel, Ldi &out) {
         for (const std::uint64_t i : samples.pixel(pixel)) {

@@ -36,7 +36,7 @@ ViewSamples::ViewSamples(const View &view, std::span<const Channel> of_channels,
     replaced_.begin.assign(1, 0);
 }
 
-// `covers`: of each pixel; empty: all are covered.
+// `covers`: the coverage of each pixel; empty: all are covered.
 void ViewSamples::find_shown(std::span<const float> covers) {
     parallel_ranges(words_.size(), 256, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = 64 * begin; i < std::min(64 * end, pixels_); ++i)
@@ -110,7 +110,7 @@ void ViewSamples::move_back(double by) {
     if (moved_.empty()) moved_.assign(z_.begin(), z_.end());
     z_ = moved_;
     for (float &z : moved_) z = float(double(z) + by);
-    for (std::size_t i = 0; i < pixels_; ++i) // what lies behind the camera now shows nothing
+    for (std::size_t i = 0; i < pixels_; ++i) // samples that now lie behind the camera show nothing
         if (!(z_[i] > 0)) words_[i / 64].shown &= ~(std::uint64_t{1} << (i % 64));
 }
 
@@ -128,7 +128,7 @@ void ViewSamples::keep_channels(std::span<const Channel> kept) {
     replaced_.values = std::move(replaced);
 }
 
-// An LDI of these channels without pixels.
+// An LDI of these channels, without pixels.
 Ldi ViewSamples::empty() const {
     Ldi ldi;
     ldi.windows = windows;

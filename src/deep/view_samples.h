@@ -19,13 +19,14 @@ namespace sparselens {
 
 class ViewSamples {
 public:
-    // Has the channels of these names, in this order. Refers to the view, which must outlive this. Throws Error, naming the
-    // view, where it lacks one.
+    // Takes the channels of these names, in this order. It refers to the view, which must outlive it. Throws Error,
+    // naming the view, if a channel is missing.
     ViewSamples(const View &view, std::span<const Channel> channels);
-    // Takes the pixels of the view, and packs them.
+    // Takes the pixels of the view and packs them.
     ViewSamples(View &&view, std::span<const Channel> channels);
-    // A deep view; `samples` are tidy, in the middle of their pixels. The weight of a part is what the parts before it let through, and
-    // at least that of an estimate (WarpTuning::estimate_weight): so many of the renderer's samples told of it.
+    // Takes a deep view; `samples` must be tidy and in the middle of their pixels. The weight of a part is the share of
+    // light that the parts before it let through, and at least that of an estimate (WarpTuning::estimate_weight),
+    // because so many of the renderer's samples saw it.
     explicit ViewSamples(Ldi &&samples);
     ViewSamples(ViewSamples &&) = default;
     ViewSamples &operator=(ViewSamples &&) = default;
@@ -35,7 +36,7 @@ public:
 
     std::size_t alpha() const { return find_channel(channels, "A"); } // npos: all samples opaque
 
-    // The samples of a pixel, front to back. Numbers say nothing of the order of pixels.
+    // The samples of a pixel, front to back. The order of their numbers is not the order of pixels.
     SampleRange pixel(std::size_t i) const {
         const Word &word = words_[i / 64];
         const std::uint64_t bit = std::uint64_t{1} << (i % 64);
@@ -57,44 +58,45 @@ public:
 
     bool deep() const { return deep_; }
     bool has_volumes() const { return !replaced_.z_back.empty(); }
-    // Whether the sample is a part of what a deep view's pixel shows.
+    // Whether the sample is one of several parts that a pixel of a deep view shows.
     bool is_part(std::uint64_t i) const { return deep_ && i >= pixels_; }
-    // Whether one pixel holds both parts.
+    // Whether both parts lie in one pixel.
     bool in_one_pixel(std::uint64_t a, std::uint64_t b) const { return pixel_of_part(a) == pixel_of_part(b); }
-    // Whether the pixel shows one sample, which is not a part.
+    // Whether the pixel shows exactly one sample, which is not a part.
     bool is_single(std::size_t pixel) const {
         const SampleRange samples = this->pixel(pixel);
         return samples.size() == 1 && !is_part(samples.front());
     }
 
-    // For pixels from `first` on: the value of the front sample, 0 where there is none, or the depth of the only sample, NaN
-    // where there is none, more than one, or a part.
+    // Sets `out` for pixels from `first` on, to the value of the front sample, or to the depth of the only sample. A
+    // pixel without samples has the value 0; the depth is NaN if the pixel has no sample, several samples or a part.
     void front_values(std::size_t channel, std::size_t first, std::span<float> out) const;
     void single_depths(std::size_t first, std::span<float> out) const;
 
-    // The depths of all pixels, empty ones too; of a deep view, those of the front samples. For a view made from a PackedView, see
-    // there.
+    // The depths of all pixels, including empty ones; in a deep view, of their front samples. If the view was made from
+    // a PackedView, see there.
     std::span<const float> depths() const { return z_; }
     Image image() const;
-    // By the bits of depths, then of values.
+    // Compares the bits of depths, then of values.
     std::strong_ordering operator<=>(const ViewSamples &other) const;
 
-    // Before samples are replaced: adds to all depths. Keeps the channels of these names, in this order.
+    // To be called before samples are replaced. Adds `by` to all depths, and keeps the channels of these names, in this
+    // order.
     void move_back(double by);
     void keep_channels(std::span<const Channel> kept);
 
-    // Moves a sample that is none of those put in the place of others.
+    // Sets the depth of a sample that was not put in the place of others.
     void set_z(std::uint64_t i, float z);
 
-    // Once, not of a deep view: the samples that fill(pixel, out) appends to the last pixel of `out` take the place of the pixel's own, if there
-    // are any. It is asked for the pixels that changes(pixel) says, row by row in parallel.
+    // Replaces the samples of every pixel for which changes(pixel) is true by those that fill(pixel, out) appends to
+    // the last pixel of `out`. Rows run in parallel. It may be called once, and not for a deep view.
     void replace(const std::function<bool(std::size_t pixel)> &changes,
                  const std::function<void(std::size_t pixel, Ldi &out)> &fill);
 
-    // Frees all channels but coverage.
+    // Frees all channels except coverage.
     void forget_colours();
 
-    // In rows [first, end), counted from the top.
+    // The number of samples in rows [first, end), counted from the top.
     std::uint64_t count(std::size_t first, std::size_t end) const;
     // The same rows as an LDI.
     Ldi rows(std::size_t first, std::size_t end) const;
@@ -104,16 +106,16 @@ private:
     using MakePlane = Plane (*)(std::span<const float>);
     ViewSamples(const View &view, std::span<const Channel> channels, MakePlane plane_of);
     Ldi empty() const;
-    std::size_t pixel_of_part(std::uint64_t i) const; // among those of `replaced_`
+    std::size_t pixel_of_part(std::uint64_t i) const; // a pixel of `replaced_`
     void count_replaced();
     void take_values(Ldi &samples);
     void move_parts_back(double by);
     void find_shown(std::span<const float> covers);
-    // visit(i) for those of so many pixels from one on that show nothing, or what was put in the place of their sample.
+    // Calls visit(i) for `count` pixels from `first` on that show nothing or whose sample was replaced.
     template <typename Visit>
     void for_each_changed(std::size_t first, std::size_t count, const Visit &visit) const;
 
-    struct Word { // of 64 pixels, from the lowest bit on
+    struct Word { // 64 pixels, from the lowest bit on
         std::uint64_t shown = 0, replaced = 0;
         std::uint32_t replaced_before = 0; // pixels
     };
@@ -121,13 +123,13 @@ private:
     std::size_t pixels_;
     bool deep_ = false;
     std::vector<Plane> planes_; // [channel]
-    std::span<const float> z_;  // of the view, or `moved_`
+    std::span<const float> z_;  // the view's depths, or `moved_`
     std::vector<float> moved_;
     std::vector<Word> words_;
-    Ldi replaced_; // its pixels are those that are replaced
+    Ldi replaced_; // its pixels are the replaced ones
 };
 
-// Which of the view's channels has that name. Throws Error, naming the view, where it lacks it.
+// The index of the view's channel with that name. Throws Error, naming the view, if it is missing.
 std::size_t channel_of(const std::string &view, std::span<const Channel> channels, const Channel &channel);
 
 inline float alpha_at(const ViewSamples &view, std::size_t alpha_channel, std::uint64_t index) {

@@ -14,7 +14,7 @@ namespace sparselens {
 namespace {
 
 constexpr std::size_t enough = 100; // edges
-constexpr double defocused = 0.74;  // half way from 0.48, at a CoC of 4, to 1, through a pinhole
+constexpr double defocused = 0.74;  // half way between 0.48, at a CoC of 4, and 1, through a pinhole
 constexpr std::size_t side = 3;     // pixels of a surface on either side of an edge
 constexpr std::size_t length = 29;  // pixels from the end of one side to that of the other
 constexpr double least_coc = 4, largest_coc = 10; // of the nearer surface: the blur lies between the sides
@@ -22,7 +22,7 @@ constexpr double apart = 2;                       // pixels, of CoC
 constexpr double contrast = 0.2;                  // of the sides, relative to their sum
 constexpr double even = 0.15;                     // change within a side, of the contrast
 constexpr std::size_t far_apart = 8;              // pixels: the width of the least blur
-constexpr double sharp_step = 2.0 / 23;           // of a step spread over a pixel: 2 / 3 of 8 - 1 / 3
+constexpr double sharp_step = 2.0 / 23;           // for a step spread over a pixel: 2 / 3 of 8 - 1 / 3
 
 // The pixels of a view along a line.
 struct Along {
@@ -41,7 +41,7 @@ struct Side {
     double uneven; // the largest difference from that colour
 };
 
-// The pixels [first, first + side); empty where they show several surfaces.
+// The pixels [first, first + side); empty if they show several surfaces.
 std::optional<Side> side_of(const Along &pixels, std::size_t first) {
     double least = pixels.c(first), most = least;
     Imath::V3d sum(0, 0, 0);
@@ -57,9 +57,9 @@ std::optional<Side> side_of(const Along &pixels, std::size_t first) {
     return found;
 }
 
-// The largest change of colour in three pixels, of the step; empty where there is no such edge.
+// The largest change of colour in three pixels, relative to the step; empty if the line crosses no such edge.
 std::optional<double> steepest_of(const Along &pixels) {
-    const double left_coc = pixels.c(0), right_coc = pixels.c(length - 1); // most lines end here
+    const double left_coc = pixels.c(0), right_coc = pixels.c(length - 1); // most lines are rejected here
     const double nearer = std::abs(std::min(left_coc, right_coc));
     if (!(std::abs(left_coc - right_coc) > apart && nearer >= least_coc && nearer <= largest_coc)) return {};
     const auto left = side_of(pixels, 0), right = side_of(pixels, length - side);
@@ -73,15 +73,15 @@ std::optional<double> steepest_of(const Along &pixels) {
     return steepest / step.length();
 }
 
-// Sums of squares of differences of colours, as two lines side by side agree on them.
+// Sums of squared differences of colours, as far as two neighbouring lines agree on them.
 struct Variation {
     double near = 0, far = 0;
 };
 
-// For the lines that begin at `line` and `beside` it, where all that they show is out of focus.
+// Adds the lines that begin at `line` and `beside` it, where everything that they show is out of focus.
 void add_variation(const FlatPixels &picture, const std::vector<float> &coc, const PictureLine &line,
                    std::size_t beside, Variation &sum) {
-    const auto shown = [&](std::size_t i) { // lights count no more than surfaces
+    const auto shown = [&](std::size_t i) { // so that lights count no more than surfaces
         const Imath::V3d v = picture.colour(i);
         return Imath::V3d(v.x / (1 + v.x), v.y / (1 + v.y), v.z / (1 + v.z));
     };
@@ -89,7 +89,7 @@ void add_variation(const FlatPixels &picture, const std::vector<float> &coc, con
         return (shown(line[b]) - shown(line[a])).dot(shown(line[b] + beside) - shown(line[a] + beside));
     };
     const auto out_of_focus = [&](std::size_t i) { return std::abs(coc[i]) >= float(least_coc); };
-    std::size_t run = 0; // of pixels out of focus, up to here
+    std::size_t run = 0; // pixels out of focus in succession
     for (std::size_t i = 0; i < line.length; ++i) {
         run = out_of_focus(line[i]) && out_of_focus(line[i] + beside) ? run + 1 : 0;
         if (run <= far_apart) continue;

@@ -11,23 +11,23 @@ namespace {
 
 constexpr std::size_t enough = 200;    // slopes
 constexpr double mostly = 0.5;         // of them
-constexpr std::size_t half_length = 4; // pixels; of a slope
+constexpr std::size_t half_length = 4; // pixels, of a slope
 constexpr double least_ratio = 1.04;   // of the depths of its ends: less tells more of how surfaces bend
-constexpr double largest_ratio = 1.5;  // beyond, it is an edge
-constexpr double alike = 0.3;          // of a mean, where 0 is one and 1 the other
-constexpr double smooth = 0.6;         // the least of four steps, of their mean
+constexpr double largest_ratio = 1.5;  // a larger ratio is an edge
+constexpr double alike = 0.3;          // largest distance from a mean, where one mean is 0 and the other 1
+constexpr double smooth = 0.6;         // the smallest of four steps, relative to their mean
 
-// Where the middle of a slope lies: 0 at the plain mean of its ends, 1 at the harmonic one. Negative: it is no slope.
+// Where the middle of a slope lies: 0 at the plain mean of its ends, 1 at the harmonic mean. Negative: not a slope.
 struct Slope {
     bool found = false;
     double place = 0;
 };
 
-template <typename Depth> // depth(i), from 0 to 2 * half_length
+template <typename Depth> // depth(i) takes i from 0 to 2 * half_length
 Slope slope_of(const Depth &depth) {
     const double a = depth(0), middle = depth(half_length), b = depth(2 * half_length);
     const double ratio = std::max(a, b) / std::min(a, b);
-    if (!(ratio > least_ratio && ratio < largest_ratio)) return {}; // none of the sky or of nothing either
+    if (!(ratio > least_ratio && ratio < largest_ratio)) return {}; // rejects sky and empty pixels too
     const double step = (b - a) / 4;
     for (std::size_t i = 0; i < 4; ++i) {
         const double own = depth((i + 1) * half_length / 2) - depth(i * half_length / 2);

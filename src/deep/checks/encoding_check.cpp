@@ -15,8 +15,8 @@ constexpr double sure = 3;               // standard deviations
 constexpr double around = 0.5;           // of the way from the line to the curve
 constexpr double contrast = 0.15;        // of the sides, relative to their sum
 constexpr double even = 0.1;             // change within a side, of the contrast
-constexpr double clearly_mixed = 0.15;   // of either side
-constexpr double least_departure = 0.01; // of the curve from the line, of the contrast
+constexpr double clearly_mixed = 0.15;   // share of either side, at least
+constexpr double least_departure = 0.01; // of the curve from the line, relative to the contrast
 
 // sRGB.
 Imath::V3d decoded(const Imath::V3d &v) {
@@ -30,12 +30,12 @@ Imath::V3d encoded(const Imath::V3d &v) {
     return {one(v.x), one(v.y), one(v.z)};
 }
 
-// Where a mixture of a and b lies that is `along` on the way from a to b, if mixed as light and then encoded.
+// The point at `along` on the way from a to b for a mixture of light that is encoded afterwards.
 Imath::V3d on_curve(const Imath::V3d &a, const Imath::V3d &b, double along) {
     const Imath::V3d light_a = decoded(a), light_b = decoded(b), way = b - a;
     double low = 0, high = 1;
     Imath::V3d at = a;
-    for (int i = 0; i < 12; ++i) { // far finer than any judgement
+    for (int i = 0; i < 12; ++i) { // far finer than the check needs
         const double share = (low + high) / 2;
         at = encoded(light_a * (1 - share) + light_b * share);
         ((at - a).dot(way) < along * way.length2() ? low : high) = share;
@@ -43,7 +43,7 @@ Imath::V3d on_curve(const Imath::V3d &a, const Imath::V3d &b, double along) {
     return at;
 }
 
-// Asks a pixel between two sides.
+// Counts a pixel between two sides.
 void ask(const Imath::V3d &a, const Imath::V3d &pixel, const Imath::V3d &b, EdgeMixing &mixing) {
     const Imath::V3d way = b - a;
     const double along = (pixel - a).dot(way) / way.length2();
@@ -60,7 +60,7 @@ void ask(const Imath::V3d &a, const Imath::V3d &pixel, const Imath::V3d &b, Edge
     mixing.beyond += is_at(2);
 }
 
-// For two counts.
+// Whether the count `a` exceeds `b` by more than chance.
 bool surely_more(std::size_t a, std::size_t b) {
     return double(a) - double(b) > sure * std::sqrt(double(a + b));
 }

@@ -1,4 +1,4 @@
-// Rows and columns of a picture, spread evenly over it: as many as tell what all of it is like.
+// Rows and columns of a picture, spread evenly over it, enough of them to judge the whole picture.
 #pragma once
 
 #include "base/grid.h"

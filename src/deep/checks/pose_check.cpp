@@ -14,15 +14,15 @@ namespace {
 
 constexpr std::size_t enough = 200;    // pixels that tell
 constexpr double clearly = 0.7;        // times the contradiction
-constexpr double at_least = 0.01;      // less: rounding, noise
-constexpr double least_motion = 1;     // pixels between two positions: less is not seen
+constexpr double at_least = 0.01;      // a smaller contradiction is rounding or noise
+constexpr double least_motion = 1;     // pixels between two positions; less cannot be seen
 constexpr double usual_motion = 16;    // of a view from the rim, pixels
 constexpr double fine_motion = 0.25;   // pixels
-constexpr double worth_turning = 0.05; // less contradiction is that of noise
+constexpr double worth_turning = 0.05; // a smaller contradiction comes from noise
 constexpr double farthest_turned = 48; // pixels
 constexpr double turning_step = 1.5;   // pixels
-constexpr std::size_t some = 4;        // one pixel in so many tells roughly how far a view is turned
-constexpr double one_side = 175;       // degrees within which all other views stand
+constexpr std::size_t some = 4;        // one pixel in this many tells roughly how far a view is turned
+constexpr double one_side = 175;       // degrees; all other views stand within this angle
 constexpr double equally_far = 1.2;    // ratio of distances
 
 // Whether fewer depths tell against `a` than against `b`, by more than chance: three standard deviations.
@@ -31,14 +31,14 @@ bool depth_prefers(const PoseVerdict &a, const PoseVerdict &b) {
     return off_b - off_a > 3 * std::sqrt(off_a + off_b);
 }
 
-// By colours and depths together, or by depths alone.
+// Judges by colours and depths together, or by depths alone.
 bool is_clear(const PoseVerdict &better, const PoseVerdict &stated) {
     return better.contradiction < std::min(clearly * stated.contradiction, stated.contradiction - at_least) ||
            (double(better.off_depth) < clearly * double(stated.off_depth) && depth_prefers(better, stated));
 }
 
-// The best of the positions tried so far: that which depths tell least against, and of those alike the least contradicted. Where
-// much less is seen, little can contradict.
+// The best of the positions tried so far: the least contradicted by depths, and among equals the least contradicted
+// overall. A position from which much less is seen does not count, because little can contradict it.
 class Search {
 public:
     Search(const PoseEvidence &evidence, const Imath::V2d &stated)
@@ -52,7 +52,7 @@ public:
         best_ = position;
     }
 
-    // Tries positions around the best one, closer and closer, along `axes`.
+    // Tries positions around the best one, at ever smaller distances, along `axes`.
     void refine(double step, std::span<const Imath::V2d> axes) {
         while (step * evidence_.motion() > fine_motion) {
             const Imath::V2d before = best_;
@@ -84,7 +84,7 @@ void search_around_centre(double reach, Search &search) {
     if (search.best() != Imath::V2d(0, 0)) search.refine(0.1 * reach, axes);
 }
 
-// The stated position with a wrong sign or axis, or a wrong unit.
+// Tries the stated position with a wrong sign, axis or unit.
 void search_around(const Imath::V2d &at, Search &search) {
     for (const Imath::V2d &other : {Imath::V2d(0, 0), -at, Imath::V2d(-at.x, at.y), Imath::V2d(at.x, -at.y),
                                     Imath::V2d(at.y, at.x), Imath::V2d(-at.y, -at.x)})
@@ -104,7 +104,7 @@ struct Found {
 std::optional<Found> find_position(const PoseEvidence &evidence, const PackedView &view, double reach) {
     const double motion = evidence.motion(), stated = view.position.length();
     if (evidence.size() < enough || !(motion > 0)) return {};
-    if (stated > 0 && stated * motion < least_motion) return {}; // it shows the same from there
+    if (stated > 0 && stated * motion < least_motion) return {}; // the view looks the same from the centre
     Search search(evidence, view.position);
     if (search.stated().told < enough) return {};
     if (stated > 0)
@@ -116,8 +116,8 @@ std::optional<Found> find_position(const PoseEvidence &evidence, const PackedVie
     return Found{search.best(), search.there(), search.stated()};
 }
 
-// Whether the view would only be nearer to the centre there, or farther out. What mirrors and glass show moves so, and may be
-// all that the picture shows: then only depths tell.
+// Whether the position only moves the view nearer to the centre or farther out. What mirrors and glass show moves in
+// this way too, and may fill the picture; then only depths can tell.
 bool is_along(const Imath::V2d &position, const Imath::V2d &stated) {
     return stated.length() > 0 && position.dot(stated) >= (1 - 1e-9) * position.length() * stated.length();
 }
@@ -151,7 +151,7 @@ std::optional<Imath::V2d> turned_by(const PackedView &centre, const PackedView &
     std::vector<Imath::V2d> directions{{1, 0}, {0, 1}};
     if (view.position.length() > 0)
         directions.push_back(
-            Imath::V2d(view.position.x, -view.position.y).normalized()); // aimed at something
+            Imath::V2d(view.position.x, -view.position.y).normalized()); // aimed at a point
     for (const Imath::V2d &direction : directions)
         for (double by = 1; by <= farthest_turned; by += turning_step)
             for (const double way : {by, -by}) attempt(direction * way, some);
@@ -186,7 +186,7 @@ std::optional<std::size_t> same_picture_and_place(std::span<const PackedView> vi
     const PackedView &view = views[i];
     const auto shows_something = [](float z) { return z > 0; };
     if (std::ranges::none_of(view.samples.depths(), shows_something))
-        return {}; // a view of which no pixel was worth rendering
+        return {}; // a view without any pixel worth rendering
     for (std::size_t other = 0; other < i; ++other)
         if (views[other].position == view.position && (views[other].samples <=> view.samples) == 0)
             return other;

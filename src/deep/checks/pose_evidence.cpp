@@ -14,8 +14,8 @@ constexpr double samples_a_side = 128; // of the view's pixels, enough to tell
 constexpr int beside = 2;              // pixels
 constexpr double contrast = 0.1;       // relative difference of colour
 constexpr double jump = 1.05;          // ratio of depths
-constexpr double same_depth = 1.04;    // ratio: what is nearer is in front
-constexpr double rounding = 1e-3;      // of depths, relative: that of half
+constexpr double same_depth = 1.04;    // ratio; nearer samples are in front
+constexpr double rounding = 1e-3;      // of depths, relative: the precision of half
 
 bool holds(const Imath::Box2i &data, const Imath::V2d &p) {
     return p.x >= data.min.x && p.x < data.max.x + 1.0 && p.y >= data.min.y && p.y < data.max.y + 1.0;
@@ -64,7 +64,8 @@ PoseVerdict PoseEvidence::at(const Imath::V2d &position, const Imath::V2d &axis,
     return verdict;
 }
 
-// A place is known to a pixel: of the four pixels around it, any may show the same surface, or one that hides it.
+// The landing point is known to a pixel: any of the four pixels around it may show the same surface, or one that hides
+// it.
 void PoseEvidence::ask(const Imath::V2d &landed, const Pixel &pixel, PoseVerdict &verdict) const {
     Imath::V3d least(0), most(0);
     double nearest = pixel.z, farthest = pixel.z;

@@ -11,7 +11,7 @@ namespace sparselens {
 namespace {
 
 constexpr std::size_t enough = 50; // pixels
-constexpr double between = 0.5;    // colours that fall and colours that stay
+constexpr double between = 0.5;    // between colours that fall and colours that stay
 constexpr double mostly_open =
     0.35; // coverage below which a premultiplied colour is dark, even of a rim twice as bright
 constexpr double nothing = 1e-3;  // coverage, and light relative to the surface's
@@ -39,7 +39,7 @@ struct Walk {
     }
 };
 
-// The pixels 0 and 1 show the surface; then the edge follows, and then nothing.
+// Measures an edge: pixels 0 and 1 show the surface; then the edge follows, and then nothing.
 void look_at(const Walk &walk, std::vector<double> &found) {
     if (!walk.reaches(3) || walk.coverage(0) < 1 - nothing || walk.coverage(1) < 1 - nothing) return;
     const double surface = walk.light(1);
@@ -48,7 +48,7 @@ void look_at(const Walk &walk, std::vector<double> &found) {
     while (walk.reaches(end) && walk.coverage(end) > nothing && walk.coverage(end) < walk.coverage(end - 1))
         ++end;
     if (end == 2 || end > 2 + widest || !walk.reaches(end) || walk.coverage(end) > nothing) return;
-    if (walk.light(end) > nothing * surface) return; // light without coverage
+    if (walk.light(end) > nothing * surface) return; // there is light without coverage
     for (std::size_t i = 2; i < end; ++i)
         if (const double a = walk.coverage(i); a < mostly_open)
             found.push_back((walk.light(i) / surface - a) / (1 - a));

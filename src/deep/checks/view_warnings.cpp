@@ -18,7 +18,7 @@ namespace sparselens {
 
 namespace {
 
-// As `view` takes it; as exact as pixels tell it.
+// A position as `view` takes it, with the precision that pixels give.
 std::string text(const Imath::V2d &p) {
     const double rounding = 1e-6 * p.length();
     const auto clean = [rounding](double v) { return std::abs(v) > rounding ? v : 0; };
@@ -65,7 +65,7 @@ void say_of_distances(std::span<const PackedView> views, const std::vector<std::
         view.position.length(), view.position.length() / lens_radius, lens_radius));
 }
 
-// The warning of a view that repeats another one; empty where it does not.
+// The warning for a view that repeats another one; empty if it does not.
 std::string said_of_copy(std::span<const PackedView> views, std::size_t i, double focal_px) {
     const PackedView &view = views[i];
     if (const auto other = same_picture_and_place(views, i))
@@ -79,7 +79,7 @@ std::string said_of_copy(std::span<const PackedView> views, std::size_t i, doubl
     return {};
 }
 
-// The warning of a view that stands wrongly; empty where it stands where it should.
+// The warning for a view at a wrong position; empty if its position is right.
 std::string said_of_pose(std::span<const PackedView> views, std::size_t i, double focal_px, double reach) {
     const PackedView &view = views[i];
     if (const auto turned = turned_by(views[0], view, focal_px, reach))
@@ -122,7 +122,7 @@ Warnings picture_warnings(const View &view, const ViewFacts &facts) {
 
 namespace {
 
-// Edges tell nothing of a deep view, whose pixels mix nothing.
+// Edges are not tested in a deep view, because its pixels mix nothing.
 Warnings first_warnings(const PackedView &first, const ViewFacts &facts) {
     if (!first.samples.deep()) return picture_warnings(unpacked(first), facts);
     Warnings said;
@@ -154,7 +154,7 @@ Warnings view_warnings(const std::vector<PackedView> &views, const ViewFacts &fa
     double reach = 0;
     for (const PackedView &view : views) reach = std::max(reach, view.position.length());
     const std::vector<std::size_t> beyond =
-        views_beyond_lens(views, radius); // of their pixels nothing is asked
+        views_beyond_lens(views, radius); // their pixels are not tested
     Warnings said;
     std::vector<std::string> poses(views.size());
     parallel_for(views.size(), [&](std::size_t i) {

@@ -16,10 +16,10 @@ struct PackedView; // deep/packed_view.h
 
 // What the caller knows about the views besides their pixels.
 struct ViewFacts {
-    DepthMeaning depth = DepthMeaning::planar; // as what they were read
-    bool depth_filtered = false;               // of the first view: see edge_depths.h
+    DepthMeaning depth = DepthMeaning::planar; // how they were read
+    bool depth_filtered = false;               // in the first view; see edge_depths.h
     Camera camera = {};                        // of the first view
-    bool unpremultiplied = false;              // of the first view: see premultiplied_check.h
+    bool unpremultiplied = false;              // in the first view; see premultiplied_check.h
 };
 
 // Checks the first view, which is the centre or the only one: its colours, its depths, and the blur that the lens gives

@@ -11,14 +11,14 @@ namespace sparselens {
 namespace {
 
 constexpr std::size_t enough = 200;      // slopes
-constexpr double mostly = 0.5;           // of them
-constexpr double hardly = 0.1;           // of them
-constexpr double clearly = 0.01;         // bend, of the change over the slope
-constexpr double smooth = 0.4;           // the least of four steps, of their mean
+constexpr double mostly = 0.5;           // of the slopes
+constexpr double hardly = 0.1;           // of the slopes
+constexpr double clearly = 0.01;         // bend, relative to the change over the slope
+constexpr double smooth = 0.4;           // the smallest of four steps, relative to their mean
 constexpr std::size_t shortest = 2;      // pixels, of a step
-constexpr std::size_t steps_across = 96; // a picture
+constexpr std::size_t steps_across = 96; // of a picture
 
-// How far the middle of a slope lies above the mean of its ends, of the change between them; 0 where it is no slope.
+// How far the middle of a slope lies above the mean of its ends, relative to their difference; 0 if it is not a slope.
 double bend_of(const std::array<double, 5> &v) {
     const double step = (v[4] - v[0]) / 4;
     if (!(std::min(v[0], v[4]) > 0) || step == 0) return 0;
