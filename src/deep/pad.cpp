@@ -41,7 +41,7 @@ Imath::Box2i reached_display(const Ldi &ldi, const ThinLens &lens, const LensLoo
             const Imath::V2d middle(std::floor(box.center().x), std::floor(box.center().y));
             reached.extendBy(Imath::Box2d(middle - whole, middle + whole));
             reached.extendBy(
-                Imath::Box2d(own - whole, own + whole)); // so that it leaves no frame before it is magnified
+                Imath::Box2d(own - whole, own + whole)); // the light before it is magnified
         }
     }
     Imath::Box2i box;

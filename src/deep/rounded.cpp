@@ -18,7 +18,7 @@ namespace {
 constexpr float finest_px =
     1.0f / 64; // the largest change of a depth or an offset, and the step of offsets
 constexpr int fraction_bits = std::numeric_limits<float>::digits - 1;
-constexpr int colour_bits = 8, weight_bits = 4; // kept of the fraction: off by half of the last one at most
+constexpr int colour_bits = 8, weight_bits = 4; // kept bits of the fraction: off by half of the last at most
 
 // Rounds to this number of bits of the fraction, to even. It keeps the order of numbers.
 float rounded(float value, int bits) {

@@ -14,7 +14,7 @@ namespace {
 constexpr double outline_error = 1e-3; // pixels
 constexpr double first_level = 4;      // pixels of CoC
 
-// Sums of the triangles between the middle and the sides, over that of all.
+// Running sums of the triangles between the middle and the sides, divided by the sum of all.
 std::vector<double> fan_areas(std::span<const Imath::V2d> outline) {
     std::vector<double> sums;
     double sum = 0;

@@ -38,14 +38,14 @@ public:
     // the weights by side). x is the share within a radius, y the share of a turn; of a picture, rows and columns.
     LensPoint at(const Imath::V2d &square) const;
 
-    // Before it is squeezed (ApertureShape), not of a picture: fine enough for discs of a CoC of so many pixels, so that
-    // the light in a pixel is off by less than 1e-3 of that of a pixel within.
+    // The outline before it is squeezed (ApertureShape); not for a picture. It is fine enough for discs of a CoC of
+    // `coc` pixels: the light in a pixel is off by less than 1e-3 of the light of a pixel within the disc.
     std::vector<Imath::V2d> outline(double coc) const;
 
     // The table of an aperture picture, for light from behind focus or in front; null for other apertures.
     const PictureTable *picture(bool behind) const;
 
-    // How much light that comes from behind or in front weighs at a radius, the mean over the lens being 1.
+    // The weight of light that comes from behind or in front, at a radius; the mean over the lens is 1.
     double weight(bool behind, double square_radius) const;
 
 private:

@@ -37,7 +37,7 @@ CatEye::Columns CatEye::columns(const LensSample &point, int first, int count, i
     const double off = up - centre({0, y + 0.5}).y;
     if (off * off > 1) return {};
     const double half = std::sqrt(1 - off * off);
-    // The middles of pixels that see it lie between these.
+    // The middles of the pixels that see the point lie between these.
     const double left = frame_.axis.x + (x - half) / per_pixel - 0.5 - first,
                  right = frame_.axis.x + (x + half) / per_pixel - 0.5 - first;
     const auto bound = [&](double v) { return int(std::clamp(v, 0.0, double(count))); };
@@ -66,7 +66,7 @@ double CatEye::share_of(Light light, const Imath::V2d &middle) const {
     return std::min(1.0, area / signed_area(outline_) * weight);
 }
 
-// Linear in radius and in angle: a cat-eye has a kink on the axis.
+// Interpolates linearly in radius and in angle, because a cat-eye has a kink on the axis.
 double CatEye::share_from(const std::vector<double> &table, const Imath::V2d &middle) const {
     const double r = middle.length() / reach_ * (radii - 1);
     if (!(r < radii - 1)) return 0;

@@ -3,7 +3,7 @@
 
 namespace sparselens {
 
-// Radius of the aperture in scene units, [0, inf): 0 for an f-number of infinity. fstop in (0, inf], focal_mm and
+// Radius of the aperture in scene units, [0, inf); 0 for an f-number of infinity. fstop in (0, inf], focal_mm and
 // metres_per_unit (the length of a scene unit) in (0, inf).
 double radius_of(double fstop, double focal_mm, double metres_per_unit = 1);
 

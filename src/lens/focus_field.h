@@ -1,5 +1,5 @@
-// A plane of focus that is bent or tilted (LensLooks): how the CoC differs from that of the flat one, by place. It does not
-// depend on depth, for c = R F (1/d - 1/z).
+// A plane of focus that is bent or tilted (LensLooks): how much the CoC differs from that of a flat plane, by place in
+// the picture. The difference does not depend on depth, because c = R F (1/d - 1/z).
 #pragma once
 
 #include "lens/lens_looks.h"
@@ -19,31 +19,36 @@ public:
     bool flat() const { return looks_.field_curvature == 0 && looks_.tilt == Imath::V2d(0, 0) && !skews(); }
     bool skews() const { return looks_.astigmatism != 0; }
 
-    // Factor on 1/d at p; 1 on the axis.
+    // The factor on 1/d at p; 1 on the axis.
     double factor(const Imath::V2d &p) const {
         const Imath::V2d q = frame_.from_axis(p), place = frame_.place(p);
         return (1 + looks_.field_curvature * place.dot(place)) * (1 + looks_.tilt.dot(q) / focal_px_);
     }
 
-    // The CoC, in the magnified picture, of what would have that one in a flat one; and where it is shown.
+    // The CoC, in the magnified picture, of a sample at p whose CoC with a flat plane is `coc`; shown_at() says where
+    // that picture shows it.
     double bent(double coc, const Imath::V2d &p) const {
         return looks_.magnification * (coc + coc_offset(p));
     }
     Imath::V2d shown_at(const Imath::V2d &p) const { return frame_.magnified(p, looks_.magnification); }
     bool moves() const { return looks_.magnification != 1; }
 
-    // By s, x right and y up: lens point u displaces what is seen at p by s u* more, u* mirrored in x. So the CoC is |s| more
-    // along a line through the axis (in a magnified picture, as much more), and |s| less across it.
+    // The skew s, x right and y up: lens point u displaces a point seen at p by s u* more, with u* mirrored in x. So
+    // the CoC is
+    // s
+    // larger along a line through the axis (magnified with the picture), and
+    // s
+    // smaller across it.
     Imath::V2d skew(const Imath::V2d &p) const {
         const Imath::V2d q = frame_.place(p);
         return looks_.magnification * looks_.astigmatism * at_focus_ *
                Imath::V2d(q.x * q.x - q.y * q.y, 2 * q.x * q.y);
     }
 
-    // Added to the CoC of the sample that the ray through the middle of the lens shows at p, pixels.
+    // Added to the CoC of the sample that the ray through the middle of the lens shows at p, in pixels.
     double coc_offset(const Imath::V2d &p) const { return at_focus_ * (factor(p) - 1); }
 
-    // Its change from pixel to pixel.
+    // The change of that offset from pixel to pixel.
     Imath::V2d coc_gradient(const Imath::V2d &p) const {
         const Imath::V2d x(0.5, 0), y(0, 0.5);
         return {coc_offset(p + x) - coc_offset(p - x), coc_offset(p + y) - coc_offset(p - y)};
@@ -56,13 +61,13 @@ private:
     double focal_px_;
 };
 
-// Lens point u mirrored in x, turned and scaled by s.
+// Lens point u, mirrored in x, turned and scaled by s.
 inline Imath::V2d skewed(const Imath::V2d &s, const Imath::V2d &u) {
     return {s.x * u.x + s.y * u.y, s.y * u.x - s.x * u.y};
 }
 
-// A lens point displaces by u for each pixel of CoC. It sees a sample at p in the centre view, with the CoC c there, at
-// x = p + (c + gradient (x - p)) u = p + c stretch(u) u. Beyond 1/10 of a fold nothing is stretched further.
+// A lens point displaces samples by u for each pixel of CoC. A sample at p in the centre view, with the CoC c there, is
+// seen at x = p + (c + gradient (x - p)) u = p + c stretch(u) u. The stretch stops growing at 1/10 of a fold.
 inline double stretch(const Imath::V2d &coc_gradient, const Imath::V2d &u) {
     return 1 / std::max(0.1, 1 - coc_gradient.dot(u));
 }

@@ -1,9 +1,12 @@
-// Defines a lamp: light that is so much brighter than its surroundings that its disc shows, where other samples out of focus blur
-// into each other. All searches for lamps use these thresholds, and differ only in the surroundings:
-// - highlights, which are spread exactly (dof/lens/highlights.h): the samples of the windows that it lies in;
-// - what the border of the frame cuts off (dof/lens/beyond/border.h): the samples beside it along the border;
+// Defines a lamp: a light so much brighter than its surroundings that its disc shows, while other samples out of focus
+// blur into each other. All searches for lamps use these thresholds, and differ only in what they take for the
+// surroundings:
+// - highlights, which are spread exactly (dof/lens/highlights.h): the samples of the windows in which the lamp lies;
+// - lamps cut off by the border of the picture (dof/lens/beyond/border.h): the samples beside the lamp along the
+// border;
 // - whether light beyond the frame would show (dof/border_reach.h): nearly all samples of the border;
-// - the lamps of a view (warp/lamps/compact_lamps.h): the pixels of its block, and its brightest pixel stands out twice as far;
+// - the lamps of a view (warp/lamps/compact_lamps.h): the pixels of the lamp's block; its brightest pixel must stand
+// out by twice the factor;
 // - light between strands (warp/mixed/wisps.h): the strands.
 #pragma once
 
@@ -14,13 +17,13 @@
 namespace sparselens {
 
 struct LampTuning {
-    // Times the surroundings.
+    // A lamp is brighter than its surroundings by this factor.
     static constexpr float stands_out = 4;
-    // The same of the brightest pixel of a lamp by which views are compared.
+    // The factor for the brightest pixel of a lamp that is compared between views.
     static constexpr float stands_out_of_view = 8;
-    // One in this number of samples may be a lamp's, and the others surround it; ...
+    // One in this number of samples may belong to a lamp; the others are its surroundings.
     static constexpr std::size_t one_in = 5;
-    // ... along the whole border.
+    // The same number along the whole border.
     static constexpr std::size_t one_in_border = 32;
 };
 
@@ -29,7 +32,7 @@ bool stands_out(Light brightness, Light surroundings, float times = LampTuning::
     return brightness > Light(times) * surroundings;
 }
 
-// What all samples but one in so many stay below; of none: 0. Changes their order.
+// The brightness below which all samples but one in `one_in` lie; 0 if there are no samples. Changes their order.
 inline float surroundings_of(std::span<float> brightness, std::size_t one_in) {
     if (brightness.empty()) return 0;
     const auto level = brightness.end() - 1 - std::ptrdiff_t(brightness.size() / one_in);

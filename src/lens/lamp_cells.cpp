@@ -10,10 +10,10 @@ namespace sparselens {
 
 namespace {
 
-// How much of each of the cells in a row (or a column) lies in each pixel of one.
+// How much of each cell of a row (or column) of cells lies in each pixel of a row (or column) of pixels.
 class Overlaps {
 public:
-    // The cells follow each other from `first` on, `step` apart, each `width` wide about its middle. Pixels [begin, end).
+    // The cells begin at `first`, `step` apart, each `width` wide about its middle. Pixels [begin, end).
     Overlaps(double first, double step, double width, int begin, int end)
         : pixels_(std::size_t(end - begin)), share_(std::size_t(LampCells::side) * pixels_) {
         for (std::size_t i = 0; i < LampCells::side; ++i) {
@@ -26,7 +26,7 @@ public:
                     float((std::min(high, double(p + 1)) - std::max(low, double(p))) / width);
         }
     }
-    // visit(pixel, share) for those that a cell lies in.
+    // Calls visit(pixel, share) for the pixels in which a cell lies.
     template <typename Visit>
     void for_each(std::size_t cell, const Visit &visit) const {
         for (std::size_t p = span_[cell][0]; p < span_[cell][1]; ++p) visit(p, share_[cell * pixels_ + p]);
@@ -35,7 +35,7 @@ public:
 private:
     std::size_t pixels_;
     std::vector<float> share_;                                          // [cell][pixel]
-    std::array<std::array<std::size_t, 2>, LampCells::side> span_ = {}; // of pixels
+    std::array<std::array<std::size_t, 2>, LampCells::side> span_ = {}; // pixels
 };
 
 } // namespace
@@ -110,7 +110,7 @@ LampLight LampCells::shine(const Lamp &lamp, double square, const LampShadow *sh
     return light;
 }
 
-// A cell is as many points as keep them half a pixel apart, each a square.
+// Divides each cell into points, squares that are at most half a pixel apart.
 LampLight LampCells::shine_skewed(const Lamp &lamp, double square, const LampShadow *shadow,
                                   const Imath::Box2i &box) const {
     const double step = 1 / std::abs(scale_), apart = (std::abs(lamp.coc) + lamp.skew.length()) * step;

@@ -1,8 +1,8 @@
 // The light of a small lamp that is hardly out of focus: its disc is a few pixels wide, or lies within one.
 //
-// The square around the aperture's picture is cut into cells, which scale with the CoC. Each brings its share of the light to
-// the pixels that it lies in, less what is hidden of it (lamp_shadow.h, cast on the cells). So nothing changes by whole pixels,
-// nor by lens points, and a lamp that crosses the focus shrinks to a point and grows again.
+// The square around the aperture's picture is cut into cells, which scale with the CoC. Each cell gives its share of
+// the light to the pixels in which it lies, less the hidden part (lamp_shadow.h, cast on the cells). So nothing changes
+// in steps of whole pixels or lens points, and a lamp that crosses the focus shrinks to a point and grows again.
 #pragma once
 
 #include "base/float4.h"
@@ -19,10 +19,10 @@
 
 namespace sparselens {
 
-// What a lamp brings to the pixels of a box, [row][column]: shares of R, G and B, and their mean.
+// The light of a lamp in the pixels of a box, [row][column]: shares of R, G and B, and their mean.
 struct LampLight {
     Imath::Box2i box;
-    std::vector<Float4> whole, lit; // if nothing is hidden; without what is
+    std::vector<Float4> whole, lit; // without shadows; with shadows
 
     std::size_t at(int x, int y) const {
         return std::size_t(y - box.min.y) * (std::size_t(box.max.x - box.min.x) + 1) +
@@ -40,18 +40,18 @@ public:
     static constexpr int side = 32;
     static Imath::Box2i box() { return {{0, 0}, Imath::V2i(side - 1)}; }
 
-    // `behind`: of lamps that are not in front of focus. The shares sum to 1, of each colour, unless a cat-eye cuts.
+    // `behind`: for lamps that are not in front of focus. The shares of each colour sum to 1, unless a cat-eye cuts.
     LampCells(const Aperture &aperture, bool behind, const LampCut *cut = nullptr);
 
-    // Where shadows are cast on the cells: their middle, and by what (x' - x) / (c - c') is multiplied.
+    // How shadows are cast on the cells: the middle of the cells, and the factor on (x' - x) / (c - c').
     static Imath::V2d middle() { return Imath::V2d(side / 2.0); }
     Imath::V2d shadow_scale(double pixel_aspect) const { return {scale_, scale_ / pixel_aspect}; }
 
-    // The size of one of them, pixels.
+    // The size of a cell, pixels.
     Imath::V2d size(const Lamp &lamp) const;
 
-    // The light of a lamp in the pixels of a box. It comes evenly from a square of that width around the lamp's place; null:
-    // nothing is in shadow.
+    // The light of a lamp in the pixels of a box. It comes evenly from a square of width `square` around the lamp.
+    // `shadow`: null if nothing is in shadow.
     LampLight shine(const Lamp &lamp, double square, const LampShadow *shadow, const Imath::Box2i &box) const;
 
 private:
@@ -59,7 +59,7 @@ private:
                            const Imath::Box2i &box) const;
 
     std::array<Float4, std::size_t(side) * side> share_; // [row][column]
-    double scale_; // cells for each unit of the lens, signed as the CoC is
+    double scale_; // cells per unit of the lens, with the sign of the CoC
 };
 
 } // namespace sparselens

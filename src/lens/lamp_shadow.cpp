@@ -34,12 +34,12 @@ constexpr Prefixes row_prefixes() {
 
 constexpr Prefixes of_columns = column_prefixes(), of_rows = row_prefixes();
 
-// A sample that hides less counts as a veil over all that it covers in a pixel, because whole points would be too coarse for many
-// veils behind each other.
+// A sample that hides less counts as a veil over all that it covers of a pixel, because whole points would be too
+// coarse for many veils behind each other.
 constexpr float thin = 0.125f;
 
-// The points that hide a share of n / 64 of the light, spread over the pixel's columns: each is so many columns after the
-// one before. Odd strides visit all.
+// Strides by which the points that hide a share of n / 64 of the light spread over the pixel's columns: each point lies
+// one stride after the previous one. Odd strides visit all columns.
 constexpr std::array<int, 8> strides{39, 25, 19, 45, 23, 37, 27, 41};
 
 constexpr Prefixes share_prefixes(int stride) {
@@ -56,7 +56,7 @@ constexpr std::array<Prefixes, strides.size()> of_shares = [] {
     return all;
 }();
 
-// Other ones for each thing, so that things behind each other hide independently.
+// The hidden points differ from thing to thing, so that things behind each other hide independently.
 std::uint64_t hidden_points(float alpha, std::uint32_t thing) {
     const std::uint32_t hash = thing * 2654435761u;
     return std::rotl(of_shares[hash >> 29][std::size_t(alpha * points + 0.5f)], int(hash >> 23 & 63));
@@ -70,14 +70,14 @@ struct Reach {
           end(int(std::clamp(high, 0.0f, float(size)) * points + 0.5f)) {}
     int first() const { return begin / points; }
     int last() const { return (end - 1) / points; }
-    // The points of a pixel in it.
+    // The points of a pixel inside this part.
     std::uint64_t within(int pixel, const Prefixes &prefixes) const {
         const int from = std::max(begin - pixel * points, 0), to = std::min(end - pixel * points, points);
         return prefixes[std::size_t(to)] & ~prefixes[std::size_t(from)];
     }
 };
 
-// The lit share of the points of a pixel that lie in a disc; of all points if none does.
+// The lit share of a pixel's points in a disc; of all its points if none lies in the disc.
 float lit_points(std::uint64_t hidden, int x, int y, const LampDisc &disc) {
     int inside = 0, lit_inside = 0;
     for (int k = 0; k < points; ++k)

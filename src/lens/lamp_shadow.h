@@ -15,7 +15,7 @@
 
 namespace sparselens {
 
-// c and c' in pixels, signed and different. `scale`: c in the picture; on another screen, what c is there.
+// c and c' in pixels, signed and different. `scale`: c in the picture; when drawn elsewhere, the value of c there.
 template <typename Number>
 Number shadow_magnification(Number lamp_coc, Number coc, Number scale) {
     return scale / (lamp_coc - coc);
@@ -39,28 +39,28 @@ struct LampDisc {
     bool contains_pixel(int x, int y) const { return contains_pixels({{x, y}, {x, y}}); }
 };
 
-// Which share of each pixel of a box is in shadow, by 64 points in each pixel: no two of them share a row or a column, so
-// that an edge that crosses a pixel along an axis hides one after the other.
+// The share of each pixel of a box that is in shadow, by 64 points in each pixel. No two points share a row or a
+// column, so that an edge that crosses a pixel along an axis hides one point after the other.
 class LampShadow {
 public:
-    // Nothing is hidden yet. The box is relative to where places are counted from. `fine`: its pixels are so small that what hides
-    // a share of light may hide it from all of a pixel alike.
+    // Begins with nothing hidden. The box is relative to the origin of places. `fine`: its pixels are so small that a
+    // thing that hides a share of the light may hide that share evenly over a pixel.
     void begin(const Imath::Box2i &box, bool fine = false);
 
-    // The shadow of what covers a rectangle and hides a share `alpha` of light, (0, 1].
+    // Adds the shadow of a thing that covers a rectangle and hides a share `alpha` of the light, (0, 1].
     void hide(const Imath::Box2f &rectangle, float alpha, std::uint32_t thing);
 
     // Whether all of the box is hidden.
     bool dark() const { return lit_pixels_ == 0; }
 
-    // Whether some of a pixel's points are hidden, and some are not.
+    // Whether some points of a pixel are hidden, and others are not.
     bool is_crossed(int x, int y) const {
         const std::uint64_t hidden = hidden_[at(x, y)];
         return hidden != 0 && ~hidden != 0;
     }
 
-    // The share of a pixel of the box that is not hidden: of all of it, or of the part of it that lies in a disc. What `other`
-    // hides is hidden, too; it has the same box.
+    // The share of a pixel of the box that is not hidden: of the whole pixel, or of its part that lies in a disc.
+    // Shadows of `other`, which has the same box, count too.
     float lit(int x, int y, const LampDisc *disc = nullptr, const LampShadow *other = nullptr) const;
 
 private:
@@ -70,10 +70,10 @@ private:
 
     Imath::Box2i box_;
     std::size_t width_ = 0;
-    float thin_ = 0; // what hides less is a veil over the whole of what it covers in a pixel
+    float thin_ = 0; // a thing that hides less is a veil over all that it covers of a pixel
     std::vector<std::uint64_t> hidden_; // [pixel]: a bit for each point
-    std::size_t lit_pixels_ = 0;        // those of which some point is not hidden
-    std::vector<float> veil_;           // [pixel]: what thin things let through
+    std::size_t lit_pixels_ = 0;        // pixels of which some point is not hidden
+    std::vector<float> veil_;           // [pixel]: the share that thin things let through
 };
 
 } // namespace sparselens

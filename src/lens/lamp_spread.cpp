@@ -13,7 +13,7 @@ namespace {
 
 using Points = std::vector<Imath::V2d>;
 
-// From places of ApertureShape to pixels: their scale, negative where an axis is mirrored.
+// The scale from places of ApertureShape to pixels, negative where an axis is mirrored.
 Imath::V2d scale_of(const Aperture &aperture, const Lamp &lamp) {
     return {lamp.coc / aperture.shape().squeeze, -lamp.coc * lamp.pixel_aspect};
 }
@@ -33,7 +33,7 @@ Imath::Box2i reached(const Aperture &aperture, const Lamp &lamp, const Imath::Bo
 
 constexpr double cut_tolerance = 1e-3; // pixels, of arcs
 
-// The part of an outline that passes.
+// The part of an outline that passes the cut.
 Points cut_outline(Points outline, const LampCut &cut, double coc) {
     for (Imath::V2d &p : outline) p *= cut.scale;
     if (cut.scale.x * cut.scale.y < 0) std::reverse(outline.begin(), outline.end());

@@ -1,4 +1,4 @@
-// What makes a real lens's picture look like its own, beside the f-number and the focus.
+// The looks of a real lens, besides f-number and focus.
 #pragma once
 
 #include "aperture_shape.h"
@@ -11,19 +11,19 @@ namespace sparselens {
 
 struct LensLooks {
     ApertureShape aperture = {};
-    // A second circle of the aperture's radius (squeezed with it) cuts the aperture; it is displaced by cat_eye times the
-    // pixel's place: from the optical axis, in half diagonals of the display window.
+    // A second circle of the aperture's radius (squeezed with it) cuts the aperture. It is displaced by cat_eye times
+    // the pixel's place relative to the optical axis, in half diagonals of the display window.
     double cat_eye = 0; // at least 0
     bool cat_eye_darkening =
-        false; // colours lose the light that is cut off; else what is left counts as the whole
-    // Added to the CoC of R, G and B, pixels. G has none: it says where the picture is sharp.
+        false; // colours lose the light that is cut off; otherwise the rest counts as the whole
+    // Added to the CoC of R, G and B, pixels. G has no offset: it defines where the picture is sharp.
     std::array<double, 3> chromatic_coc{0, 0, 0};
     // The plane of focus: 1/d becomes (1/d) (1 + field_curvature rho^2) (1 + tilt.x x/F + tilt.y y/F) at a pixel x right
     // and y up of the axis, rho half diagonals from it, F the focal length in pixels.
     double field_curvature = 0;
     Imath::V2d tilt{0, 0}; // tangents of its angles
-    // Sagittal and tangential foci apart: for rays that meet the lens on the line through the axis and the pixel, 1/d becomes
-    // (1/d) (1 + astigmatism rho^2); for those across it, (1/d) (1 - astigmatism rho^2).
+    // Separates the sagittal and tangential foci. For rays that meet the lens on the line through the axis and the
+    // pixel, 1/d becomes (1/d) (1 + astigmatism rho^2); for rays across that line, (1/d) (1 - astigmatism rho^2).
     double astigmatism = 0;
     double magnification = 1; // of the whole picture about the axis, by breathing
     Imath::V2d axis{0, 0};    // the optical axis, from the middle of the display window, pixels, y down
@@ -31,14 +31,14 @@ struct LensLooks {
     bool operator==(const LensLooks &) const = default;
 };
 
-// Magnification of a thin lens that focuses by moving as a whole, over that focused on infinity: d / (d - f), for the
+// Magnification of a thin lens that focuses by moving as a whole, relative to focus at infinity: d / (d - f), with the
 // focal length f and the focus distance d > f in the same unit.
 inline double unit_focusing_magnification(double focal_length, double focus) {
     return 1 / (1 - focal_length / focus);
 }
 
-// How much further behind the sensor a colour comes to focus by `mm`, as CoC in pixels: its cone is mm / (2 N) wide there,
-// and has the sign of what lies in front of focus.
+// The CoC in pixels of a colour that comes to focus `mm` farther behind the sensor: its cone is mm / (2 N) wide there.
+// The sign is that of things in front of focus.
 inline double defocus_coc(double mm, double fstop, double pixels_per_mm) {
     return -mm / (2 * fstop) * pixels_per_mm;
 }

@@ -65,7 +65,7 @@ std::vector<LensSample> lens_samples(const Aperture &aperture, std::size_t n, do
         for (LensSample &s : samples) s.x *= narrower;
         return samples;
     }
-    if (n == 1) return samples; // the middle
+    if (n == 1) return samples; // in the middle
     // The spiral in the unit square: the share within the radius, and the share of a turn.
     const double golden = (3 - std::sqrt(5.0)) / 2;
     for (std::size_t k = 0; k < n; ++k) {

@@ -18,7 +18,7 @@ struct Arc {
     double radius, begin, end; // angles, begin <= end
 };
 
-// Adds the points of an arc but for its end. Their distance from the centre makes up for the area beyond the chords.
+// Adds the points of an arc except its end. They lie slightly outside the arc, so that the chords enclose its area.
 void add_arc(std::vector<Imath::V2d> &points, const Arc &arc, double tolerance) {
     const double step = std::min(std::sqrt(8 * tolerance / arc.radius), pi / 8);
     const int n = std::max(1, int(std::ceil((arc.end - arc.begin) / step)));
@@ -30,7 +30,7 @@ void add_arc(std::vector<Imath::V2d> &points, const Arc &arc, double tolerance) 
     }
 }
 
-// Which part [first, second] of the way from a to b lies within 1 of `centre`.
+// The part [first, second] of the way from a to b that lies within 1 of `centre`.
 std::optional<std::pair<double, double>> inside_part(const Imath::V2d &a, const Imath::V2d &b,
                                                      const Imath::V2d &centre) {
     const Imath::V2d way = b - a, from = a - centre;
@@ -60,7 +60,7 @@ std::vector<Imath::V2d> aperture_outline(const ApertureShape &shape, double tole
         return points;
     }
     const double half_side = pi / shape.blades, turn = 2 * half_side;
-    // A turn by a whole side changes nothing, so that not even rounding does.
+    // Turning by a whole side changes nothing; reduced like this, not even rounding differs.
     const double rotation = std::fmod(shape.rotation * pi / 180, turn);
     const double height = shape.curvature * (1 - std::cos(half_side)), half_chord = std::sin(half_side);
     for (int k = 0; k < shape.blades; ++k) {

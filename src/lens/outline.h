@@ -1,5 +1,5 @@
 // The outline of an aperture as a polygon, before it is squeezed: regular, with straight or bulging sides, inside the
-// unit circle; and what a second circle leaves of it.
+// unit circle; and the part of it that a second circle leaves.
 #pragma once
 
 #include "lens/aperture_shape.h"
@@ -11,8 +11,8 @@
 
 namespace sparselens {
 
-// Its corners counter-clockwise, y up. Arcs are chords that are at most `tolerance` away from them and enclose the same
-// area. Not of a picture.
+// The corners of the outline, counter-clockwise, y up. Arcs become chords that are at most `tolerance` away from them
+// and enclose the same area. The shape must not be a picture.
 std::vector<Imath::V2d> aperture_outline(const ApertureShape &shape, double tolerance);
 
 // The part of a convex polygon (counter-clockwise) that lies within 1 of `centre`; empty if there is none.

@@ -1,5 +1,5 @@
-// Perceptive depth R F / z, pixels, by the lens's scale R F (pixels times scene units) alone: for what compares depths
-// and needs no focus. See perceptive_depth(lens, z) in thin_lens.h.
+// Perceptive depth R F / z, in pixels, from the lens's scale R F (pixels times scene units) alone, for code that
+// compares depths and needs no focus. See perceptive_depth(lens, z) in thin_lens.h.
 #pragma once
 
 namespace sparselens {
@@ -11,7 +11,7 @@ inline double perceptive_depth(double scale, double z) { return scale / z; }
 // The inverse: the depth that has this perceptive depth.
 inline double depth_of_perceptive(double scale, double perceptive) { return scale / perceptive; }
 
-// How far 1 / z of two depths lies apart that differ by so much in perceptive depth.
+// The difference in 1 / z of two depths whose perceptive depths differ by `perceptive`.
 inline double inverse_depth_step(double scale, double perceptive) { return perceptive / scale; }
 
 } // namespace sparselens

@@ -13,11 +13,11 @@ struct PictureFrame {
     double half_diagonal = 1; // of the display window, in widths of a pixel
     double pixel_aspect = 1;
 
-    // From the axis, x right, y up, in widths of a pixel.
+    // The place of p from the axis, x right, y up, in widths of a pixel.
     Imath::V2d from_axis(const Imath::V2d &p) const { return {p.x - axis.x, (axis.y - p.y) / pixel_aspect}; }
     // The same in half diagonals.
     Imath::V2d place(const Imath::V2d &p) const { return from_axis(p) / half_diagonal; }
-    // Where a picture shows p that is magnified about the axis, and back.
+    // Where a picture that is magnified about the axis shows p. 1 / by inverts it.
     Imath::V2d magnified(const Imath::V2d &p, double by) const { return axis + (p - axis) * by; }
 };
 

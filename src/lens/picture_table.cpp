@@ -10,7 +10,7 @@ namespace sparselens {
 namespace {
 
 struct Crop {
-    int left, top, right, bottom; // the last two beyond it
+    int left, top, right, bottom; // `right` and `bottom` lie beyond it
 };
 
 Crop content_of(const AperturePicture &picture) {
@@ -65,7 +65,7 @@ PictureTable::PictureTable(const AperturePicture &picture,
     }
 }
 
-// Light is even within a square of the picture, so that sums are bilinear there.
+// Light is even within a square of the picture, so that the sums are bilinear there.
 LightOfColours PictureTable::before(double x, double y) const {
     x = std::clamp(x, 0.0, double(width_));
     y = std::clamp(y, 0.0, double(height_));
@@ -94,7 +94,7 @@ LightOfColours PictureTable::share(const Imath::Box2d &box) const {
 
 Imath::V2d PictureTable::place(double s, double t) const {
     const std::size_t w = std::size_t(width_), h = std::size_t(height_);
-    // The first of 1..n whose sum is above the share; and how far into it the share reaches.
+    // Finds the first of 1..n whose sum is above the share, and how far into it the share reaches.
     const auto find = [](std::size_t n, double share, const auto &sum_at) {
         std::size_t low = 1, high = n;
         while (low < high) {

@@ -1,5 +1,6 @@
-// A picture of an aperture, prepared for lookups: how much of its light lies in any rectangle, and which place has a given
-// share of the light before it. It is cropped to its own content. Places are those of ApertureShape, before squeezing.
+// A picture of an aperture, prepared for lookups: how much of its light lies in any rectangle, and at which place a
+// given share of the light lies before it. It is cropped to its content. Places are those of ApertureShape, before
+// squeezing.
 #pragma once
 
 #include "lens/aperture_shape.h"
@@ -18,19 +19,19 @@ using LightOfColours = std::array<double, 4>;
 
 class PictureTable {
 public:
-    // `weigh` is how much the light at a place counts, at least 0. Throws Error where a channel has no light.
+    // `weigh` returns the weight of light at a place, at least 0. Throws Error if a channel has no light.
     PictureTable(const AperturePicture &picture, const std::function<double(const Imath::V2d &)> &weigh);
 
-    bool coloured() const { return coloured_; }                    // R, G and B differ
-    const Imath::V2d &half_extent() const { return half_extent_; } // of the content; 1 is the longer one
+    bool coloured() const { return coloured_; }                    // whether R, G and B differ
+    const Imath::V2d &half_extent() const { return half_extent_; } // of the content; the longer one is 1
 
-    // The share of the light of each colour that falls into a rectangle, as the box (x right, y up) says.
+    // The share of each colour's light that falls into a rectangle (x right, y up).
     LightOfColours share(const Imath::Box2d &box) const;
 
-    // The place below whose row lies the share `s` of all light, and left of which lies the share `t` of the row's.
+    // The place with the share `s` of all light in the rows below it, and the share `t` of its row's light left of it.
     Imath::V2d place(double s, double t) const;
 
-    // Density of R, G and B at a place over that of their mean; 0 where there is no light.
+    // The density of R, G and B at a place, divided by the density of their mean; 0 if there is no light.
     std::array<double, 3> colour(const Imath::V2d &place) const;
 
 private:
@@ -41,7 +42,7 @@ private:
     int width_ = 0, height_ = 0; // of the content
     bool coloured_ = false;
     Imath::V2d half_extent_;
-    // [height + 1][width + 1]: of what lies below and left; row 0 is the lowest
+    // [height + 1][width + 1]: sums of the light below and left; row 0 is the lowest
     std::vector<LightOfColours> sums_;
 };
 

@@ -44,7 +44,7 @@ public:
     }
 
 private:
-    // The integral along x of what does not depend on y, and what does, for each x.
+    // The integral along x of the term that does not depend on y, and of the term that does, for each x.
     double across(double from, double to) const {
         const double a = from - density_.centre.x, b = to - density_.centre.x;
         return density_.constant * (b - a) +
@@ -55,7 +55,7 @@ private:
         return density_.quadratic * d * d;
     }
 
-    // A piece within a row, cut at the edges between columns, downwards from a to b.
+    // Cuts a piece within a row at the edges between columns. The piece goes downwards from a to b.
     void add_in_row(int row, const Imath::V2d &a, const Imath::V2d &b, double sign) {
         const double left = box_.min.x, right = box_.max.x + 1.0;
         const double direction = a.x <= b.x ? 1 : -1;
@@ -64,7 +64,7 @@ private:
         };
         Imath::V2d at = a;
         while (true) {
-            // The column that the piece is in: -1 left of the box, and at its right end nothing is added.
+            // The column that holds the piece: -1 left of the box; beyond its right end nothing is added.
             const double edge = direction > 0 ? std::floor(at.x) : std::ceil(at.x) - 1;
             const double column = std::clamp(edge, left - 1, right);
             const double limit = direction > 0 ? (column >= right ? INFINITY : column + 1)
@@ -77,7 +77,7 @@ private:
         }
     }
 
-    // A piece within a pixel, or left of the box. Its integrands are cubic in y: two points of Gauss are exact.
+    // Adds a piece within a pixel, or left of the box. The integrands are cubic in y, so two Gauss points are exact.
     void add_piece(int row, int column, const Imath::V2d &a, const Imath::V2d &b, double sign) {
         const double height = sign * (b.y - a.y) / 2;
         constexpr double gauss = 0.57735026918962576451; // 1 / sqrt(3)
@@ -100,7 +100,7 @@ private:
     const Imath::Box2i &box_;
     std::size_t width_;
     std::vector<double> &values_;
-    std::vector<double> rises_, moments_; // [row][column, and one beyond]: of what lies left of the column
+    std::vector<double> rises_, moments_; // [row][column, and one beyond]: of the area left of the column
 };
 
 } // namespace

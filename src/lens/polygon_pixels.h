@@ -1,7 +1,7 @@
-// Integrals over the part of a polygon that lies in each pixel, exact for polygons but for rounding.
+// Integrals over the part of a polygon that lies in each pixel, exact up to rounding.
 //
-// Each edge is cut at the edges of pixels. A piece adds to its own pixel what lies right of it, and to all pixels further
-// right the whole of them; sums along the rows then are the integrals (Green's theorem, as outline fonts are drawn).
+// Each edge is cut at the edges of pixels. A piece adds the area right of it in its own pixel to that pixel, and whole
+// pixels farther right; sums along the rows are then the integrals (Green's theorem, as for drawing outline fonts).
 #pragma once
 
 #include <Imath/ImathBox.h>
@@ -12,7 +12,7 @@
 
 namespace sparselens {
 
-// What is integrated: constant + quadratic ((x - centre.x)^2 scale.x^2 + (y - centre.y)^2 scale.y^2).
+// The integrand: constant + quadratic ((x - centre.x)^2 scale.x^2 + (y - centre.y)^2 scale.y^2).
 struct RadialDensity {
     double constant = 1, quadratic = 0;
     Imath::V2d centre{0, 0}, scale{1, 1};

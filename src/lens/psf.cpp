@@ -53,7 +53,7 @@ PsfRows::Span PsfRows::columns_within(double distance) const {
             end_within(psf_.centre.x, distance, box_.min.x, right)};
 }
 
-// What the arc cuts off the columns from `column` outwards (Direction 1: to the right).
+// The area that the arc cuts off the columns from `column` outwards (Direction 1: to the right).
 template <int Direction>
 void PsfRows::add_arc(const kernels::Band &band, int column, double *weights) const {
     const auto edge_before = [](int x) { return Direction > 0 ? x : x + 1; };
@@ -92,7 +92,7 @@ PsfRows::Span PsfRows::row(int y, double *weights) const {
         weights[columns_.begin - box_.min.x] = 1;
         return columns_;
     }
-    // Edges of the row, in units of a pixel's width. The row that holds the centre is two bands.
+    // Edges of the row, in pixel widths. The row that holds the centre is split into two bands.
     const double top = (y - psf_.centre.y) / psf_.pixel_aspect,
                  bottom = (y + 1 - psf_.centre.y) / psf_.pixel_aspect;
     const double at_top = width_[std::size_t(y - box_.min.y)],

@@ -3,8 +3,8 @@
 //
 // The centre and the pixels are in EXR pixel coordinates, y down. The disc is an ellipse with the half axes `radius`
 // and radius * pixel_aspect. The weight of a pixel is area(disc and pixel) / area(disc), the share of the light that
-// falls into it. The weights of all pixels sum to 1. A radius of 0 is a point, whose light all falls into the pixel
-// that contains it; so is a disc of a radius below kernels::smallest_psf_radius.
+// falls into it. The weights of all pixels sum to 1. With a radius of 0, or below kernels::smallest_psf_radius, all
+// light falls into the pixel that contains the centre.
 #pragma once
 
 #include <Imath/ImathBox.h>
@@ -24,7 +24,7 @@ struct Psf {
     double radius = 0; // pixels; tested up to 1e4
     double pixel_aspect = 1;
 
-    // The weight of a pixel that lies in the disc as a whole.
+    // The weight of a pixel that lies wholly in the disc.
     double whole_weight() const { return 1 / (std::numbers::pi * radius * radius) / pixel_aspect; }
 };
 
@@ -35,8 +35,8 @@ double psf_share(const Psf &psf, const Imath::Box2d &box);
 double psf_weight(const Psf &psf, int x, int y);
 
 // The fast form: the weights within a box, row by row. The error is below 1e-6 of the area of a pixel. The arc is cut
-// where it crosses the edges of pixels; the area under each piece is that of a trapezoid and of the segment between
-// the arc and its chord. One square root is taken for each row and column of edges and for each piece.
+// where it crosses the edges of pixels; the area under each piece is a trapezoid and the segment between the arc and
+// its chord. It takes one square root for each row and column of edges and for each piece.
 class PsfRows {
 public:
     static constexpr int max_size = 64;

@@ -17,7 +17,7 @@ SharpRange sharp_range(const ThinLens &lens, double sharp) {
 }
 
 FocusFor focus_for(double near, double far) {
-    const double ratio = near / far; // 0 for what goes on to infinity
+    const double ratio = near / far; // 0 if the range goes on to infinity
     return {2 * near / (1 + ratio), 2 * near / (1 - ratio)};
 }
 

@@ -1,7 +1,10 @@
-// Between which depths a lens is sharp: where no circle of confusion (CoC) is larger than one that still counts as sharp.
+// The depths between which a lens is sharp: no circle of confusion (CoC) is larger than a limit that still counts as
+// sharp.
 //
-// |c(z)| <= s, with c(z) = R F (z - d) / (d z) as in thin_lens.h, holds from R F d / (R F + s d) to R F d / (R F - s d); the
-// second is infinite where s d >= R F, which the nearest focus distance of is R F / s: the hyperfocal distance.
+//
+// c(z)
+// <= s, with c(z) = R F (z - d) / (d z) as in thin_lens.h, holds from R F d / (R F + s d) to R F d / (R F - s d). The
+// second is infinite if s d >= R F; R F / s, the nearest focus distance with this, is the hyperfocal distance.
 #pragma once
 
 #include "thin_lens.h"
@@ -16,8 +19,8 @@ struct SharpRange {
 // `sharp`: the largest CoC radius that is sharp, pixels, above 0.
 SharpRange sharp_range(const ThinLens &lens, double sharp);
 
-// The other way round: the focus, and the hyperfocal distance, of the widest lens that is sharp from `near` to `far`, 0 < near
-// <= far; the distance is infinite where they are equal. It is as the radius of the aperture is.
+// The inverse: the focus and the hyperfocal distance of the widest lens that is sharp from `near` to `far`, with 0 <
+// near <= far. The hyperfocal distance is infinite if they are equal. It is proportional to the radius of the aperture.
 struct FocusFor {
     double focus, hyperfocal;
 };

@@ -25,12 +25,12 @@ double perceptive_depth(const ThinLens &lens, double z);
 // The signed CoC radius in pixels, negative in front of the focus. Never NaN for z and focus in (0, inf].
 double circle_of_confusion(const ThinLens &lens, double z);
 
-// Where a point of CoC c, which the centre view shows at p, is seen through lens point u.
+// Where lens point u sees a point of CoC c that the centre view shows at p.
 inline Imath::V2d seen_through(const ThinLens &lens, const Imath::V2d &p, double c, const Imath::V2d &u) {
     return {p.x + c * u.x, p.y - c * u.y * lens.pixel_aspect};
 }
 
-// Where the centre view shows a point of depth z, which a view from lens point u (of parallel axis) shows at q.
+// Where the centre view shows a point of depth z that a view from lens point u (with a parallel axis) shows at q.
 Imath::V2d seen_from_centre(const ThinLens &lens, const Imath::V2d &q, double z, const Imath::V2d &u);
 
 } // namespace sparselens

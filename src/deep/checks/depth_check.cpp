@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t enough = 200;    // slopes
 constexpr double mostly = 0.5;         // of them
 constexpr std::size_t half_length = 4; // pixels, of a slope
-constexpr double least_ratio = 1.04;   // of the depths of its ends: less tells more of how surfaces bend
+constexpr double least_ratio = 1.04;   // of a slope's end depths; lower ones rather show bent surfaces
 constexpr double largest_ratio = 1.5;  // a larger ratio is an edge
 constexpr double alike = 0.3;          // largest distance from a mean, where one mean is 0 and the other 1
 constexpr double smooth = 0.6;         // the smallest of four steps, relative to their mean
