@@ -12,7 +12,7 @@ namespace sparselens {
 
 namespace {
 
-// The centre view's pixels at their places in the rim view.
+// Moves the centre view's pixels to their places in the rim view.
 class Mover {
 public:
     Mover(const Windows &windows, std::span<const float> z, const ThinLens &lens, const Imath::V2d &u)
@@ -40,7 +40,8 @@ public:
     }
 
 private:
-    // Something as near as what lies along the frame's edge hereabouts may stand beyond it and come into view.
+    // The largest perceptive depth along the border near here: something as near may stand beyond the border and come
+    // into view.
     double nearest_along(int column, int row, int dx, int dy) const {
         double nearest = 0;
         for (int i = -PlanTuning::edge_hereabouts; i <= PlanTuning::edge_hereabouts; ++i)
@@ -66,8 +67,8 @@ private:
     }
 
     // How far the pixel reaches towards its neighbour (dx, dy), along that axis, from its own moved centre: halfway to
-    // the neighbour's if they are one surface, and as much farther as a surface that slants across moves its neighbours
-    // there; without end over the frame's edge.
+    // the neighbour's if they are one surface, plus the distance by which a surface that slants across moves its
+    // neighbours there. Unlimited towards the border of the picture.
     double reach(int column, int row, int dx, int dy) const {
         if (!in_frame(column + dx, row + dy)) return grid_.width() + grid_.height();
         const double shift = dx != 0 ? dx * shift_.x : dy * shift_.y;
@@ -95,14 +96,14 @@ private:
     }
 
     Imath::Box2i data_;
-    Grid grid_;                 // of the window, from its corner
-    Imath::V2d shift_;          // of perceptive depth 1, pixels, y down
-    std::vector<double> depth_; // perceptive
+    Grid grid_;                 // the window, from its corner
+    Imath::V2d shift_;          // for perceptive depth 1, pixels, y down
+    std::vector<double> depth_; // perceptive depths
 };
 
-// Sets what lies within `margin` of a set value in a line of `count` values `stride` apart.
+// Sets all values within `margin` of a set value in a line of `count` values, `stride` apart.
 void grow_line(const std::uint8_t *from, std::uint8_t *to, int count, std::size_t stride, int margin) {
-    const auto grow = [&](int i, int &last) { // last: the set value met before
+    const auto grow = [&](int i, int &last) { // last: the previous set value
         if (from[std::size_t(i) * stride]) last = i;
         if (std::abs(i - last) <= margin) to[std::size_t(i) * stride] = 1;
     };

@@ -30,8 +30,8 @@ std::vector<double> brightness(const Image &image) {
     return mean;
 }
 
-// Variance of the noise in the block at (x, y), which lies inside the picture's border, told by second differences in
-// steps of so many pixels; 0 where they are not Gaussian.
+// Variance of the noise in the block at (x, y), which lies inside the picture's border, measured by second differences
+// in steps of `step` pixels; 0 if they are not Gaussian.
 double variance_along(const std::vector<double> &picture, const Grid &grid, int x, int y,
                       std::ptrdiff_t step) {
     const Grid block(block_size, block_size);
@@ -42,7 +42,7 @@ double variance_along(const std::vector<double> &picture, const Grid &grid, int 
         residual[i] = std::abs(*p - (p[-step] + p[step]) / 2);
     }
     std::ranges::sort(residual);
-    constexpr double spread = 1.5;                   // variance of a value less the mean of two others
+    constexpr double spread = 1.5;                   // variance of a value minus the mean of two others
     const auto quantile = [&](std::size_t quarter) { // between two values
         const std::size_t i = quarter * residual.size() / 4;
         return (residual[i - 1] + residual[i]) / 2;
@@ -51,10 +51,10 @@ double variance_along(const std::vector<double> &picture, const Grid &grid, int 
     return by_quartile > 0.75 * by_median ? by_median * by_median / spread : 0;
 }
 
-// The same of the direction along which the block is smoothest.
+// The variance along the direction in which the block is smoothest.
 double block_variance(const std::vector<double> &picture, const Grid &grid, int x, int y) {
     constexpr double least_of_four =
-        0.63; // the least of four measurements of Gaussian noise, of its variance
+        0.63; // the least of four measurements of Gaussian noise, relative to its variance
     const std::ptrdiff_t row = grid.width();
     double least = std::numeric_limits<double>::infinity();
     for (const std::ptrdiff_t step : {std::ptrdiff_t{1}, row, row + 1, row - 1})
@@ -62,7 +62,7 @@ double block_variance(const std::vector<double> &picture, const Grid &grid, int 
     return least / least_of_four;
 }
 
-// The variances of the blocks that lie inside the picture's border, each the mean of itself and of those around it.
+// The variances of the blocks inside the picture's border, each averaged with the blocks around it.
 class BlockVariances {
 public:
     BlockVariances(const Image &image, const Grid &grid)
@@ -79,7 +79,7 @@ public:
             if (noise_around(own, blocks_.pixel(i))) variance_[i] = mean_around(own, blocks_.pixel(i));
     }
 
-    // The variance of the block that the pixel lies in, or next to.
+    // The variance of the block that holds the pixel, or of the nearest block.
     double at(int x, int y) const {
         if (variance_.empty()) return 0;
         return variance_[blocks_.index(std::clamp((x - 1) / block_size, 0, blocks_.width() - 1),
@@ -87,7 +87,7 @@ public:
     }
 
 private:
-    // visit(a block's own variance) for the block and those around it.
+    // Calls visit(a block's own variance) for the block and the blocks around it.
     template <typename Visit>
     void around(const std::vector<double> &own, const Imath::V2i &block, int reach,
                 const Visit &visit) const {

@@ -22,8 +22,8 @@ struct Candidate {
     double cost = 0; // pixels to render
 };
 
-// Where the centre view has what a hidden pixel shows: at the depth of what lies beside the hole, on the side that the
-// nearer surface moved away from.
+// The places in the centre view of what the hidden pixels show, at the depth found beside the hole, on the side from
+// which the nearer surface moved away.
 std::vector<std::uint32_t> uncovered_places(const MovedDepth &moved, const PixelMask &hidden,
                                             const Imath::V2d &u, double pixel_aspect) {
     const Imath::V2d step(u.x, -u.y * pixel_aspect);
@@ -68,7 +68,7 @@ Candidate look_from(const View &centre, const ThinLens &lens, const Imath::V2d &
     return candidate;
 }
 
-// Counts what a choice of candidates uncovers together, as it grows.
+// Counts what a growing choice of candidates uncovers together.
 class Uncovered {
 public:
     explicit Uncovered(std::size_t pixels) : seen_(pixels) {}
@@ -105,7 +105,7 @@ Worth worth_of(const Choice &choice, std::span<const Candidate> candidates, std:
     return worth;
 }
 
-// One after another the candidate that uncovers most of what is left, for what it costs.
+// Repeatedly takes the candidate that uncovers most of the rest, relative to its cost.
 Choice greedy(std::span<const Candidate> candidates, std::size_t count, std::size_t pixels) {
     Uncovered uncovered(pixels);
     Choice choice;
@@ -125,7 +125,7 @@ Choice greedy(std::span<const Candidate> candidates, std::size_t count, std::siz
     return choice;
 }
 
-// Spread evenly, from candidate 0 on.
+// Takes candidates spread evenly, from candidate 0 on.
 Choice ring(std::size_t candidates, std::size_t count) {
     Choice choice;
     for (std::size_t k = 0; k < count; ++k) choice.push_back(k * candidates / count);
@@ -187,7 +187,7 @@ PixelMask find_noise(const View &centre, const ThinLens &lens, const PlanOptions
     return noisy;
 }
 
-// All that is worth rendering of a view.
+// All pixels of a view that are worth rendering.
 PixelMask worth_of_view(const Candidate &candidate, const View &centre, const ThinLens &lens,
                         const Plan &plan, const PixelMask &noisy) {
     if (plan.full_views) return everything(centre.image.windows.data);

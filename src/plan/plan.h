@@ -12,9 +12,9 @@ namespace sparselens {
 
 struct PlanOptions {
     int views = 4;  // the largest number of views
-    int margin = 2; // pixels around what the centre view does not see: edges are told apart from both sides
+    int margin = 2; // pixels around what the centre view misses; edges are told apart from both sides
     std::optional<double> noise = {}; // standard deviation of a pixel's noise, tone-mapped; empty: measured
-    int across = 1; // pixels of the centre view, across and down, that become one of the picture
+    int across = 1; // pixels of the centre view, across and down, per pixel of the picture
 };
 
 struct PlannedView {
@@ -35,15 +35,15 @@ struct Plan {
     std::size_t noisy = 0; // pixels of the centre view that are asked for again, as further samples
     bool full_views = false; // noise is the larger error: whole views pay as further samples
     double edges =
-        0; // share of the centre view's pixels beside which depth jumps: surfaces are torn (kernels/surface.h)
+        0; // share of pixels of the centre view beside a jump of depth: surfaces are torn (kernels/surface.h)
     int supersample =
-        1; // times the size at which views with the same rays are worth it; 1 where the centre view is a fine one
+        1; // size at which views with the same rays are worth it, as a factor; 1 if the centre view is fine
 
-    double share() const; // of one full view, all views together
+    double share() const; // all views together, as a share of one full view
 };
 
-// The candidates are eight or more views, spaced evenly on the rim. Of these the even ring of `views` views is taken,
-// starting at the right, unless others uncover noticeably more; views that add nothing are left out. `centre` stands at
+// The candidates are eight or more views, spaced evenly on the rim. The even ring of `views` of them, which begins at
+// the right, is taken unless others uncover noticeably more; views that add nothing are left out. `centre` stands at
 // the origin.
 Plan make_plan(const View &centre, const ThinLens &lens, const PlanOptions &options, Progress &progress);
 

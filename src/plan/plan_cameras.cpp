@@ -18,7 +18,7 @@ PlannedCameras cameras_of(const Plan &plan, const Camera &camera, const ThinLens
     PlannedCameras result;
     const double width = display_width / lens.focal_px;
     const Imath::V2d axis =
-        camera.principal_point.value_or(Imath::V2d(0, 0)); // right of and below the middle
+        camera.principal_point.value_or(Imath::V2d(0, 0)); // to the right of and below the middle
     result.window = {width, {0 - axis.x * width, axis.y * width}};
     result.cameras.push_back(camera_at(camera, {0, 0}, "center"));
     for (std::size_t k = 0; k < plan.views.size(); ++k)

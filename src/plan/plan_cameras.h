@@ -1,5 +1,5 @@
 // The cameras that take the centre view and the views of a plan, in numbers that a person or a script can give to any
-// renderer. All cameras look in the direction of the centre's and have its screen window.
+// renderer. All cameras look in the same direction as the centre camera and have its screen window.
 #pragma once
 
 #include "plan/plan.h"
@@ -20,20 +20,20 @@ struct ScreenWindow {
 
 struct PlannedCamera {
     std::string name;                           // center, view_0, ...
-    Imath::V2d offset{0, 0};                    // from the centre's, scene units, x right, y up
-    std::optional<Imath::M44d> world_to_camera; // as Camera has it; empty where the centre's is unknown
+    Imath::V2d offset{0, 0};                    // from the centre camera, scene units, x right, y up
+    std::optional<Imath::M44d> world_to_camera; // as in Camera; empty if the centre's is unknown
 };
 
 struct PlannedCameras {
     ScreenWindow window;
-    std::vector<PlannedCamera> cameras; // the centre's first
+    std::vector<PlannedCamera> cameras; // the centre camera first
 };
 
-// `camera` and `lens` are those of the centre view, `display_width` its width in pixels.
+// `camera` and `lens` are the centre view's, `display_width` is its width in pixels.
 PlannedCameras cameras_of(const Plan &plan, const Camera &camera, const ThinLens &lens, int display_width);
 
-// The placement of a camera that looks along -z, as Maya, Houdini, USD and Blender have it: x right, y up; rows are
-// the axes and the position in world space.
+// The placement of a camera that looks along -z, as in Maya, Houdini, USD and Blender: x right, y up. The rows are the
+// axes and the position in world space.
 Imath::M44d camera_to_world_looking_back(const Imath::M44d &world_to_camera);
 
 } // namespace sparselens

@@ -18,12 +18,12 @@ Imath::Box2i together(Imath::Box2i a, const Imath::Box2i &b) {
     return a;
 }
 
-// Pixels that one rectangle for both asks for in vain.
+// The number of pixels that one rectangle for both boxes asks for in vain.
 double waste(const Imath::Box2i &a, const Imath::Box2i &b) {
     return area(together(a, b)) - area(a) - area(b);
 }
 
-// The set pixels of a band of rows as tight boxes, a new one where columns stay empty for a while.
+// The set pixels of a band of rows as tight boxes. A new box begins where columns stay empty for a while.
 std::vector<Imath::Box2i> boxes_of_band(const PixelMask &mask, int first_row, int last_row) {
     std::vector<Imath::Box2i> boxes;
     for (int x = mask.data.min.x; x <= mask.data.max.x; ++x)
@@ -35,7 +35,7 @@ std::vector<Imath::Box2i> boxes_of_band(const PixelMask &mask, int first_row, in
     return boxes;
 }
 
-// Joins each box of a band with the one above that wastes least, if that pays.
+// Joins each box of a band with the box above with which it wastes least, if that pays.
 void join_band(const std::vector<Imath::Box2i> &band, int first_row, std::vector<Imath::Box2i> &boxes) {
     const std::size_t above = boxes.size();
     for (const Imath::Box2i &box : band) {
@@ -54,7 +54,7 @@ void join_band(const std::vector<Imath::Box2i> &band, int first_row, std::vector
     }
 }
 
-// Joins the two that waste least; whether they were joined.
+// Joins the two boxes that waste least. Returns whether any were joined.
 bool join_cheapest(std::vector<Imath::Box2i> &boxes, double limit) {
     std::size_t first = 0, second = 0;
     double least = limit;

@@ -20,14 +20,14 @@ struct PlanTuning {
     static constexpr double many_edges = 0.05;
     // Least number of candidate views on the rim.
     static constexpr int least_candidates = 8;
-    // Pixels around an opening of one pixel: there are many, and more around them cost more than they bring (grass:
-    // 1.43 instead of about one view, for 0.02 dB).
+    // Pixels of margin around an opening of one pixel. There are many such openings, and a larger margin costs more
+    // than it brings (grass: 1.43 instead of about one view, for 0.02 dB).
     static constexpr int slit_margin = 1;
     // Pixels that a view must uncover: fewer come from rounding positions.
     static constexpr std::size_t least_gain = 8;
-    // Factor on what the even ring uncovers for each rendered pixel: views that uncover more replace it, ...
+    // Factor on the pixels that the even ring uncovers per rendered pixel: views that uncover more replace it, ...
     static constexpr double noticeably_more = 1.1;
-    // ... if in all they uncover at least this factor of it.
+    // ... if their total is at least this factor of the ring's.
     static constexpr double about_as_much = 0.95;
 
     // Blocks on each side of one that tell whether it shows noise, ...
@@ -36,7 +36,8 @@ struct PlanTuning {
     // pixel) half to two thirds, a fine checker in a picture of 160x90 one in seven.
     static constexpr double least_gaussian = 0.4;
 
-    // Pixels along the frame's edge: something as near as the surfaces there may stand beyond it and come into view.
+    // Pixels along the border of the picture: something as near as the surfaces there may stand beyond it and come into
+    // view.
     static constexpr int edge_hereabouts = 12;
 
     // Cost of a rectangle besides its pixels, in pixels: two are joined if that wastes less.

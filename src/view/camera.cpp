@@ -28,7 +28,7 @@ std::optional<double> focal_length_px(const Camera &camera, int display_width) {
 
 namespace {
 
-// The field that the projection matrix says, unless options have made it another.
+// The field by the projection matrix, unless options have changed it.
 std::optional<double> projected_field(const Camera &camera) {
     if (!camera.world_to_ndc || !camera.world_to_camera) return {};
     const auto frustum = frustum_of(*camera.world_to_ndc, *camera.world_to_camera);

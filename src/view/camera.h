@@ -20,7 +20,7 @@ struct Camera {
     std::optional<double> focal_length_mm; // (0, inf)
     std::optional<double> sensor_width_mm; // (0, inf), spans the display window
     std::optional<double> fstop;           // (0, inf]
-    std::optional<double> lens_radius;     // of the aperture, scene units, [0, inf): as a user gave it
+    std::optional<double> lens_radius;     // of the aperture, scene units, [0, inf), as given by the user
     std::optional<double> focus_distance;  // scene units, (0, inf]
     std::optional<double> metres_per_unit; // (0, inf)
     LookValues looks;                      // only blades, their rotation and the squeeze
@@ -34,7 +34,7 @@ struct Camera {
     std::optional<Imath::M44d> world_to_ndc; // NDC: (0,0) and (1,1) are the display window's corners, y down
     std::optional<int> supersample; // sub-pixels, across and down, that become one pixel; [1, most_across]
     std::optional<PixelFilter> pixel_filter; // of the picture that they become
-    std::vector<Imath::V2d> lens_points;     // of an LDI: where its views stood, scene units, x right, y up
+    std::vector<Imath::V2d> lens_points;     // in an LDI: positions of its views, scene units, x right, y up
 
     std::vector<std::string> found; // what was read, and from which attribute, for messages
     // Why a value is unknown although the file has attributes for it (they are invalid or contradict each other). The

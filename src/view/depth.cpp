@@ -19,7 +19,7 @@ double planar_depth(DepthMeaning meaning, double value, int x, int y, const Wind
                     const Imath::V2d &principal_point) {
     if (meaning == DepthMeaning::planar) return value;
     if (meaning == DepthMeaning::negative) return -value;
-    if (meaning == DepthMeaning::inverse) return 1 / (value == 0 ? 0.0 : value); // -0 too is infinitely far
+    if (meaning == DepthMeaning::inverse) return 1 / (value == 0 ? 0.0 : value); // -0 is infinitely far too
     const Imath::V2d axis = in_pixels(principal_point, windows);
     const double right = x + 0.5 - axis.x;
     const double down = (y + 0.5 - axis.y) / windows.pixel_aspect;

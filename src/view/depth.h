@@ -7,15 +7,15 @@
 
 namespace sparselens {
 
-// What the numbers of a depth channel are: planar z, the length of the ray, 1 / planar z, -z (the z of a camera space that
-// looks along its negative axis), a number from 0 to 1 between two planes (normalized_depth), or such a number that is linear
-// in 1 / z, as depth buffers hold it (hyperbolic_depth).
+// The meaning of the numbers of a depth channel: planar z; the length of the ray; 1 / planar z; -z (the z of a camera
+// space that looks along its negative axis); a number from 0 to 1 between two planes (normalized_depth); or such a
+// number that is linear in 1 / z, as depth buffers hold it (hyperbolic_depth).
 enum class DepthMeaning { planar, distance, inverse, negative, normalized, hyperbolic };
 
-// Planes in front of the camera, scene units. What lies at `far` or beyond is the sky.
+// Planes in front of the camera, scene units. Anything at `far` or beyond is sky.
 struct DepthRange {
-    // One of the two may be infinite. Where near is the larger, normalised depths are white near the camera: 0 at the far
-    // plane, and 1 at the one close by.
+    // One of the two may be infinite. If near is the larger one, normalised depths are white near the camera: 0 at the
+    // far plane, and 1 at the near one.
     double near = 0, far = 1e10;
 };
 
@@ -30,11 +30,11 @@ bool is_sky(DepthMeaning meaning, double value, double far);
 double planar_depth(DepthMeaning meaning, double value, int x, int y, const Windows &windows, double focal_px,
                     const Imath::V2d &principal_point = {0, 0});
 
-// The depth of a value that is 0 at the near plane and 1 at the far one, linear in between; where the far plane is
-// infinitely far, as a depth buffer without a far plane has it: near / (1 - value).
+// The depth of a value that is 0 at the near plane and 1 at the far one, linear in between. If the far plane is
+// infinitely far, as in a depth buffer without a far plane: near / (1 - value).
 double normalized_depth(double value, const DepthRange &range);
 
-// The same, linear in 1 / z: (1 / near - 1 / z) / (1 / near - 1 / far) is the value.
+// The same, but linear in 1 / z: the value is (1 / near - 1 / z) / (1 / near - 1 / far).
 double hyperbolic_depth(double value, const DepthRange &range);
 
 } // namespace sparselens

@@ -9,7 +9,7 @@ namespace sparselens {
 
 class DepthReader {
 public:
-    // `meaning` is what the channel holds, and `range` is in the unit of its depths. `windows` are those of the picture and
+    // `meaning` says what the channel holds, and `range` is in the unit of its depths. `windows` are the picture's and
     // must outlive the reader. Throws UsageError if ray lengths are to be converted and the focal length is unknown.
     DepthReader(const Windows &windows, DepthMeaning meaning, const DepthRange &range, const Camera &camera);
 
@@ -20,7 +20,7 @@ private:
     const Windows &windows_;
     DepthMeaning meaning_;
     DepthRange range_;
-    bool white_near_; // 1 is near: turned round
+    bool white_near_; // 1 is near, so values are reversed
     double focal_px_;
     Imath::V2d principal_point_;
 };

@@ -1,4 +1,4 @@
-// The pixels of a flat picture with depth, of which each is one sample.
+// The pixels of a flat picture with depth; each pixel is one sample.
 #pragma once
 
 #include "../base/channel_kind.h"
@@ -15,7 +15,7 @@ namespace sparselens {
 
 // Refers to the picture.
 struct FlatPixels {
-    Grid grid;                                      // from its corner
+    Grid grid;                                      // origin at the picture's corner
     std::array<std::span<const float>, 3> rgb = {}; // empty: no such channel
     std::span<const float> alpha = {};              // empty: all are covered
     std::span<const float> z = {};
@@ -29,7 +29,7 @@ struct FlatPixels {
     }
 };
 
-// plane(k): the values of channel k.
+// plane(k) returns the values of channel k.
 template <typename Plane>
 FlatPixels flat_pixels(const Windows &windows, std::span<const Channel> channels, std::span<const float> z,
                        const Plane &plane) {
@@ -48,7 +48,7 @@ inline FlatPixels flat_pixels(const View &view) {
 
 // The difference of two colours relative to their size, in [0, 1] for light that is not negative.
 inline double relative_difference(const Imath::V3d &a, const Imath::V3d &b) {
-    double off = 0, light = 1e-6; // both dark: no difference
+    double off = 0, light = 1e-6; // so that two dark colours do not differ
     for (int k = 0; k < 3; ++k) {
         off += std::abs(a[k] - b[k]);
         light += std::abs(a[k]) + std::abs(b[k]);
@@ -56,7 +56,7 @@ inline double relative_difference(const Imath::V3d &a, const Imath::V3d &b) {
     return off / light;
 }
 
-// A depth that is so many times that of what is beside it is that of nothing.
+// A depth that exceeds neighbouring depths by this factor means that the pixel shows nothing.
 inline constexpr float far_beyond = 16;
 
 } // namespace sparselens

@@ -22,7 +22,8 @@ Imath::V2d mean(std::span<const Imath::V2d> points) {
     return sum / double(points.size());
 }
 
-// Matrices are stored as float: a camera far from the world's origin is placed no better than this.
+// The uncertainty of a position. Matrices are stored as float, so a camera far from the world's origin is placed no
+// better.
 double rounding(const Camera &camera) {
     const Imath::M44d &m = *camera.world_to_camera;
     return 1e-6 * std::max({std::abs(m[3][0]), std::abs(m[3][1]), std::abs(m[3][2])});
@@ -41,7 +42,7 @@ double spread_of(std::span<const Imath::V2d> positions) {
     return spread;
 }
 
-// `origin`, and the views as seen from it.
+// `origin`, and the views relative to it.
 LensViews seen_from(const Camera &origin, std::span<const Camera> views, std::span<const std::string> names) {
     LensViews placed{{}, {}, origin};
     for (std::size_t i = 0; i < views.size(); ++i) {
@@ -64,7 +65,7 @@ LensViews seen_from(const Camera &origin, std::span<const Camera> views, std::sp
     return placed;
 }
 
-// `camera` with its picture moved by so many of its widths, right and down.
+// `camera` with its picture moved to the right and down, in picture widths.
 Camera with_picture_moved(Camera camera, const Imath::V2d &by) {
     if (by == Imath::V2d(0, 0)) return camera;
     camera.principal_point = camera.principal_point.value_or(Imath::V2d(0, 0)) + by;
@@ -86,7 +87,7 @@ LensViews position_on_lens(std::span<const Camera> views, std::span<const std::s
     const Imath::V2d middle =
         result.centre_guessed ? mean(result.positions) : -views.front().lens_points.front();
     for (Imath::V2d &p : result.positions) p -= middle;
-    // Frusta that converge are shifted in proportion to the positions: their mean belongs to the middle.
+    // Frusta that converge are shifted in proportion to the positions, so their mean belongs to the middle.
     std::vector<Imath::V2d> shifts;
     const Imath::V2d first = result.framings.front().principal_point;
     for (const Framing &framing : result.framings) shifts.push_back(framing.principal_point - first);

@@ -12,8 +12,8 @@
 
 namespace sparselens {
 
-// The colours that focus elsewhere than green: red behind the sensor and blue in front of it; only blue, in front; red
-// and blue, behind.
+// Which colours focus at another distance than green: red behind the sensor and blue in front of it; only blue, in
+// front; red and blue, behind.
 enum class ChromaticType { red_blue, blue_yellow, green_magenta };
 
 struct LookValues {
@@ -29,16 +29,16 @@ struct LookValues {
 };
 
 using LookNumber = NumberParameter<LookValues>;
-std::span<const LookNumber> look_numbers();      // what the lens does
-std::span<const LookNumber> highlight_numbers(); // what makes lights brighter before it, whichever lens it is
+std::span<const LookNumber> look_numbers();      // effects of the lens
+std::span<const LookNumber> highlight_numbers(); // brighter lights, applied before any lens
 
-// By their names.
+// The types by name.
 std::span<const std::pair<const char *, ChromaticType>> chromatic_types();
 
 bool is_tilt(double degrees); // between -89 and 89
 
-// The values of `above`, else those of `below`. Blades of one replace an aperture picture of the other, and the other
-// way round.
+// The values of `above`; values that it lacks come from `below`. Blades in one replace an aperture picture in the
+// other, and vice versa.
 LookValues look_values_over(const LookValues &above, const LookValues &below);
 
 } // namespace sparselens

@@ -16,7 +16,7 @@ inline constexpr NumberRange above_0{"a number above 0", [](double v) { return v
 
 template <typename Values>
 struct NumberParameter {
-    const char *name; // "lens-radius": of an option, without its dashes
+    const char *name; // "lens-radius": the name of an option, without dashes
     const char *unit, *help;
     std::optional<double> Values::*value;
     NumberRange range;

@@ -13,11 +13,11 @@ namespace sparselens {
 
 struct StatedView {
     std::string name;                        // for messages
-    Camera camera;                           // as its file says
-    std::optional<Imath::V2d> position = {}; // where the user says that it stands: scene units, x right, y up
+    Camera camera;                           // as its file gives it
+    std::optional<Imath::V2d> position = {}; // the position given by the user: scene units, x right, y up
 };
 
-// Where a view stands.
+// The position of a view.
 struct ViewPlace {
     Imath::V2d position{0, 0}; // as in View
     Framing framing = {};
@@ -33,11 +33,11 @@ struct PlacedCameras {
     std::vector<ViewPlace> places;
 };
 
-// The first view is the centre. A position is the stated one, else that of worldToCamera. Throws the errors of
-// position_on_lens and require_same_subpixels().
+// The first view is the centre. A position is the stated one; if there is none, it follows from worldToCamera. Throws
+// the errors of position_on_lens and require_same_subpixels().
 PlacedCameras place_cameras(std::span<const StatedView> stated);
 
-// Sets position, framing and depth of views[1] and all after it, relative to views[0], which is the centre, by
+// Sets position, framing and depth of views[1] and all later views, relative to the centre views[0], by
 // place_cameras(). Returns the camera of the centre, with the lens points of all views.
 Camera place_views(std::span<View> views, std::span<const StatedView> stated);
 

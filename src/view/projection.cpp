@@ -9,10 +9,10 @@ namespace sparselens {
 
 namespace {
 
-// Where the camera's axes are seen, in the units of the file's NDC.
+// Where the camera's axes appear, in the units of the file's NDC.
 struct Seen {
     Imath::V2d centre; // straight ahead
-    Imath::V2d scale;  // of a step to the right and up at depth 1
+    Imath::V2d scale;  // the motion for a step to the right and up at depth 1
     bool backward;     // the scene lies at negative z
 };
 
@@ -31,7 +31,7 @@ std::optional<Seen> seen_by(const Imath::M44d &camera_to_ndc, double rounding) {
     return sound ? std::optional(seen) : std::nullopt;
 }
 
-// 1 where NDC goes from 0 to 1 across the picture, 2 from -1 to 1, 0 undecided.
+// 1 if NDC goes from 0 to 1 across the picture, 2 if from -1 to 1, 0 if undecided.
 int span_of(const Seen &seen, const ProjectionHints &hints) {
     if (hints.clip_space) return 2;
     for (const int span : {1, 2})
@@ -42,7 +42,7 @@ int span_of(const Seen &seen, const ProjectionHints &hints) {
     return near(0.5) ? 1 : near(0) ? 2 : 0;
 }
 
-// NDC of that span and direction of y to [0,1], y down.
+// The matrix from NDC of that span and direction of y to [0,1], y down.
 Imath::M44d to_standard(int span, bool y_up) {
     Imath::M44d m;
     m[0][0] = 1.0 / span;

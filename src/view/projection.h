@@ -16,28 +16,28 @@ namespace sparselens {
 struct Projection {
     double field;             // width of the picture over the focal length, (0, inf)
     Imath::M44d world_to_ndc; // in the standard of OpenEXR
-    bool looks_backward;      // world_to_camera puts the scene at negative z, so that its z must change sign
+    bool looks_backward;      // world_to_camera puts the scene at negative z, so z must change sign
 };
 
-// What a worldToNDC in the standard of OpenEXR tells about the picture.
+// The view frustum by a worldToNDC in the standard of OpenEXR.
 struct Frustum {
     double field;               // width of the picture over the focal length, (0, inf)
     Imath::V2d principal_point; // see Camera::principal_point
 };
 
-// Empty where the matrix is not a perspective projection from the position of that camera.
+// Empty if the matrix is not a perspective projection from the position of that camera.
 std::optional<Frustum> frustum_of(const Imath::M44d &world_to_ndc, const Imath::M44d &world_to_camera);
 
-// Whether its w is the same for all points, as row vectors have it. The unit matrix says nothing.
+// Whether w is the same for all points, with row vectors. The unit matrix is not counted.
 bool is_orthographic(const Imath::M44d &world_to_ndc);
 
 struct ProjectionHints {
-    bool clip_space = false;     // known to be clip space; else it may be either
+    bool clip_space = false;     // known to be clip space; if false it may be either
     std::optional<double> field; // from other attributes; it tells the conventions apart
 };
 
-// Empty where `world_to_ndc` is not a perspective projection from the position of that camera, mirrors the picture, or
-// is so far off-axis that without a hint both conventions are equally likely.
+// Empty if `world_to_ndc` is not a perspective projection from the position of that camera, mirrors the picture, or is
+// so far off-axis that without a hint both conventions are equally likely.
 std::optional<Projection> read_projection(const Imath::M44d &world_to_ndc, const Imath::M44d &world_to_camera,
                                           const ProjectionHints &hints);
 

@@ -26,7 +26,7 @@ constexpr std::array numbers{
                above_0},
 };
 
-// Collects the values that are unknown, why, and the parameters to give.
+// Collects the unknown values, the reasons, and the parameters to give.
 class Missing {
 public:
     explicit Missing(const Camera &camera) : camera_(camera) {}

@@ -1,5 +1,5 @@
-// Makes a lens from the camera values of a file and of its user. A value that is in neither is a UsageError, which
-// names the parameter to give.
+// Makes a lens from the camera values of a file and of its user. If a value is in neither, UsageError names the
+// parameter to give.
 #pragma once
 
 #include "../base/image.h"
@@ -13,7 +13,7 @@
 
 namespace sparselens {
 
-// Lens values of the user. A value that is empty is left to the file.
+// Lens values of the user. An empty value is taken from the file.
 struct LensValues {
     std::optional<double> focal_length_mm = {}; // (0, inf)
     std::optional<double> sensor_width_mm = {}; // (0, inf), spans the display window
@@ -26,34 +26,35 @@ struct LensValues {
 std::span<const NumberParameter<LensValues>> lens_numbers();
 
 // The camera of the file, with the values of the user in place of its own. If a radius is given and the focal length is
-// known, the f-number follows. Another scene unit does not change the focus distance of the file in metres.
+// known, the f-number is computed. Another scene unit does not change the focus distance of the file in metres.
 Camera camera_with_options(const LensValues &values, Camera from_file);
 
-// The radius of the aperture in scene units: the one given, else from the f-number. Empty if neither is known, or if
+// The radius of the aperture in scene units: as given, otherwise from the f-number. Empty if neither is known, or if
 // the focal length, which the f-number needs, is unknown.
 std::optional<double> lens_radius_of(const Camera &camera);
 
-// The same, but throws UsageError where it would be empty.
+// The same, but throws UsageError instead of returning nothing.
 double resolve_radius(const Camera &camera);
 
 // The focal length in pixels; throws UsageError if it is unknown. `windows` gives the display width.
 double resolve_focal_px(const Camera &camera, const Windows &windows);
 
-// R F, the scale of perceptive depth, in pixels times scene units; 0 for a lens of radius 0. Where a value that it needs
-// is unknown: throws UsageError if `required`, else empty.
+// R F, the scale of perceptive depth, in pixels times scene units; 0 for a lens of radius 0. If a value that it needs
+// is unknown, it throws UsageError if `required`, and otherwise returns nothing.
 std::optional<double> perceptive_scale(const Camera &camera, const Windows &windows, bool required);
 
 // The lens; throws UsageError, which names all missing values. A lens of radius 0 (or f-number inf) needs no other
 // value. `windows` gives the display width and the pixel aspect.
 ThinLens resolve_lens(const Camera &camera, const Windows &windows);
 
-// The same, but empty where a value is missing.
+// The same, but empty if a value is missing.
 std::optional<ThinLens> known_lens(const Camera &camera, const Windows &windows);
 
-// The radius of the lens from whose rim the views of an LDI looked, scene units; 0 if its camera does not say where they stood.
+// The radius of the lens, in scene units, whose rim the views of an LDI looked from; 0 if its camera does not give
+// their positions.
 double views_radius(const Camera &camera);
 
-// Whether the lens sees past the views that its LDI was made of; it is not known to where the camera does not say where they stood.
+// Whether the lens sees past the views from which its LDI was made; false if the camera does not give their positions.
 bool sees_past_views(const Camera &camera, const ThinLens &lens);
 
 } // namespace sparselens

@@ -13,7 +13,7 @@ namespace sparselens {
 
 namespace {
 
-// The focal length in mm that a look cannot do without.
+// The focal length in mm, which this look needs.
 double focal_length_for(const char *look, const Camera &camera) {
     if (camera.focal_length_mm) return *camera.focal_length_mm;
     throw UsageError(fmt::format("`{}` needs the focal length: give `focal_length`", look));

@@ -9,8 +9,8 @@
 
 namespace sparselens {
 
-// `lens` is that of the picture (a proxy's has a shorter focal length in pixels). UsageError: a look needs the focal
-// length, which is unknown, or the lens cannot focus that near.
+// `lens` is the picture's lens (a proxy's has a shorter focal length in pixels). Throws UsageError if a look needs the
+// focal length and it is unknown, or if the lens cannot focus that near.
 LensLooks resolve_looks(const LookValues &values, const Camera &camera, const ThinLens &lens,
                         const Windows &windows);
 

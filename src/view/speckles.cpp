@@ -16,11 +16,11 @@ namespace sparselens {
 
 namespace {
 
-constexpr std::size_t most_around = 5, lone = 7; // of eight
+constexpr std::size_t most_around = 5, lone = 7; // of the eight pixels around
 constexpr double same_colour = 0.25;             // relative
-constexpr float one_depth = 1.02f; // the ratio of depths, at most; hair in front of the sky has 1.03 and more
+constexpr float one_depth = 1.02f; // largest ratio of depths; hair in front of the sky has 1.03 and more
 constexpr std::size_t least_lone = 16; // pixels: a picture with fewer has no speckles
-constexpr std::size_t one_of = 4;      // that stand alone, has to be one
+constexpr std::size_t one_of = 4;      // lone pixels, at least one is a speckle
 
 double size_of(const Imath::V3d &c) { return std::abs(c.x) + std::abs(c.y) + std::abs(c.z); }
 
@@ -59,7 +59,7 @@ float middle_depth(const FlatPixels &picture, const Nearer &nearer) {
     return *middle;
 }
 
-// visit(x, y, nearer) for the opaque pixels of a row beside which at least so many are nearer.
+// Calls visit(x, y, nearer) for the opaque pixels of a row with at least `least` nearer neighbours.
 template <typename Visit>
 void for_each_far(const FlatPixels &picture, int y, std::size_t least, const Visit &visit) {
     const std::size_t first = picture.grid.index(0, y);
@@ -67,7 +67,7 @@ void for_each_far(const FlatPixels &picture, int y, std::size_t least, const Vis
     const auto nearer_than = [&](std::size_t x, float limit) { return picture.z[first + x] < limit; };
     for (std::size_t x = 0; x < width; ++x) {
         const float limit = picture.z[first + x] / far_beyond;
-        // Most pixels have none of these; five of eight cannot all be at the corners.
+        // Most pixels have no nearer neighbour here, and five of eight neighbours cannot all be at the corners.
         const bool beside = (x > 0 && nearer_than(x - 1, limit)) ||
                             (x + 1 < width && nearer_than(x + 1, limit)) ||
                             (y > 0 && picture.z[first - width + x] < limit) ||
@@ -101,7 +101,7 @@ bool has_speckles(const FlatPixels &picture) {
     return speckles >= least_lone && one_of * speckles >= all;
 }
 
-// Once. All at once: none is taken from a depth that was replaced before it.
+// Replaces all depths of one round at once, so that none is taken from a depth that was replaced before it.
 std::size_t settle_once(const FlatPixels &picture, std::span<float> z) {
     std::vector<std::vector<std::pair<std::size_t, float>>> rows(std::size_t(picture.grid.height()));
     parallel_for(rows.size(), [&](std::size_t row) {

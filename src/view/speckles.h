@@ -1,13 +1,13 @@
-// Depths of nothing amid a surface.
+// Finds speckles: pixels in the midst of a surface whose depth is that of the sky.
 //
-// Where a renderer scatters a ray, in fog, it may write the depth of the sky: pixels of one surface then have, at random, its depth
-// or 1e10. Such a pixel takes the depth of those around it. It is opaque; at least five of the eight pixels around it are nearer by
-// 16 times or more, and its colour is theirs, within a quarter and what they differ by themselves. That is asked again until no
-// pixel changes, as speckles stand in clumps.
+// Where a renderer scatters a ray, in fog, it may write the depth of the sky: pixels of one surface then have, at
+// random, the surface's depth or 1e10. Such a pixel takes the depth of the pixels around it if it is opaque, at least
+// five of the eight pixels around it are nearer by 16 times or more, and its colour matches theirs, within a quarter
+// plus their own differences. This is repeated until no pixel changes, because speckles come in clumps.
 //
-// A sky that is truly seen through a small hole has the colour of the sky, and stays. So does all in a picture that has hardly any
-// speckles, or more holes and gaps of hair: of the pixels that stand alone, seven of eight around them nearer, one of four has to have
-// the colour of these, and these one depth.
+// Sky that is really seen through a small hole has the colour of the sky, and stays. A picture with hardly any
+// speckles, or with more holes and gaps in hair, is left alone: among the pixels that stand alone (seven of the eight
+// around them are nearer), one in four must have the colour of those around it, and these must have one depth.
 #pragma once
 
 #include "../base/image.h"
@@ -19,13 +19,13 @@
 
 namespace sparselens {
 
-// How many depths were replaced. Depths are above 0 up to inf; colours are premultiplied, and all values valid
-// (deep/sanitize.h). `planes`: of the channels, one value a pixel.
+// Replaces the depths of speckles and returns how many. Depths must be above 0 up to inf, colours premultiplied, and
+// all values valid (deep/sanitize.h). `planes`: the channels, one value per pixel.
 std::size_t settle_speckles(const Windows &windows, std::span<const Channel> channels,
                             std::span<const std::span<const float>> planes, std::span<float> z);
 std::size_t settle_speckles(View &view);
 
-// What is said of it.
+// The warning about replaced depths.
 std::string speckle_warning(std::size_t settled);
 
 } // namespace sparselens

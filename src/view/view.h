@@ -17,7 +17,7 @@ struct View {
     // The depth of each pixel: planar, measured from the camera of the centre view, in scene units, up to inf. A pixel
     // of depth 0 or less shows nothing, because it would lie behind that camera.
     std::vector<float> z;
-    // The position of the camera relative to that of the centre view: scene units, x right, y up, parallel axes.
+    // The position of the camera relative to the centre view's: scene units, x right, y up, parallel axes.
     Imath::V2d position{0, 0};
     Framing framing = {};
 };

@@ -1,8 +1,8 @@
-// Where the centre view shows what another view shows, and vice versa. The axes of the cameras are parallel.
+// Maps between places in the centre view and in another view. The axes of the cameras are parallel.
 //
 // Let F be the focal length of the centre view, c and c' the principal points of the centre view and of the view, s the
-// zoom of the view and (X, Y, Z) the position of its camera. What the view shows at q at depth z lies in the centre
-// view at
+// zoom of the view and (X, Y, Z) the position of its camera. A point that the view shows at q, at depth z, appears in
+// the centre view at
 //
 //     p = c + (q - c') / s + (F (X, -Y) - Z (q - c') / s) / z
 //
@@ -22,7 +22,7 @@ Imath::V2d in_pixels(const Imath::V2d &principal_point, const Windows &windows);
 
 class ViewMapping {
 public:
-    // `position`: that of the camera of the view, scene units, x right, y up. `focal_px`: F.
+    // `position`: of the view's camera, scene units, x right, y up. `focal_px`: F.
     ViewMapping(const Imath::V2d &position, double focal_px, const Windows &windows, const Framing &view = {},
                 const Imath::V2d &centre_principal_point = {0, 0});
 
@@ -34,7 +34,7 @@ public:
         return {kernels::parallax(q.x, step_.x, approach_), kernels::parallax(q.y, step_.y, approach_)};
     }
 
-    // Where the view shows what the centre view shows at p; NaN where that lies behind the camera of the view.
+    // Where the view shows a point that the centre view shows at p; NaN if the point lies behind the view's camera.
     Imath::V2d in_view(const Imath::V2d &p, double inverse_z) const;
 
     double unzoom() const { return unzoom_; }
