@@ -13,8 +13,8 @@ namespace sparselens {
 
 namespace {
 
-// The longer side. Tables of such a picture take 0.5 GB at most; a disc in a picture is smaller, or out of focus
-// enough.
+// The longest side. Tables of such a picture take 0.5 GB at most. The discs in a picture are smaller, or so far out of
+// focus that more pixels would not show.
 constexpr int most_pixels = 2048;
 
 // The channels that weigh R, G and B.
@@ -32,8 +32,8 @@ std::array<std::size_t, 3> weight_channels(const Image &image, const std::string
     return rgb;
 }
 
-// The picture, each of its pixels the mean of a square of as few pixels as keep it within `most_pixels`. What lies beyond
-// the border is black, half of it on each side.
+// The picture reduced to `most_pixels`: each pixel is the mean of a square of as few pixels as possible. Pixels added
+// beyond the border are black, half of them on each side.
 AperturePicture means_of_squares(const Image &image, const std::array<std::size_t, 3> &channels,
                                  const std::string &path) {
     const int width = image.windows.width(), height = image.windows.height();

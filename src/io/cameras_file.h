@@ -8,7 +8,7 @@
 //
 // Offsets are in scene units, x right and y up. world_to_camera is for EXR headers: x right, y up, z forward.
 // camera_to_world places a camera that looks along -z. Matrices act on row vectors: the last row is the translation.
-// CSV has a line of names, then a line a camera; matrices are 16 columns, empty where they are unknown.
+// CSV has a line of names, then a line per camera; matrices are 16 columns, empty if they are unknown.
 #pragma once
 
 #include "plan/plan_cameras.h"
@@ -24,8 +24,8 @@ struct CamerasSetting {
     std::optional<double> metres_per_unit;
 };
 
-// CSV where the name ends in .csv, JSON where it ends in .json. Throws UsageError for another name, and Error, naming
-// the file, where it cannot be written.
+// Writes CSV if the name ends in .csv, JSON if it ends in .json. Throws UsageError for another name, and Error, naming
+// the file, if it cannot be written.
 void write_cameras(const std::string &path, const PlannedCameras &cameras, const CamerasSetting &setting);
 
 } // namespace sparselens

@@ -62,7 +62,7 @@ std::optional<std::string> normalized_warning(const DepthOptions &options, std::
 std::optional<std::string> normalized_warning(const DepthOptions &options, std::span<const float> depths,
                                               const Grid &grid) {
     if (options.meaning == DepthMeaning::planar && looks_white_near(grid, depths) &&
-        !are_inverse(grid, depths)) // which is told by another warning
+        !are_inverse(grid, depths)) // which has another warning
         return "its depths lie from 0 to 1 and seem to be white near: if they are, give `depth=normalized` "
                "with "
                "`near`, the depth of 0, which is the farther one, and `far`, that of 1";

@@ -110,7 +110,7 @@ private:
         const auto before = std::prev(after);
         const double mixed =
             std::lerp(before->second, after->second, (at - before->first) / (after->first - before->first));
-        return valid(mixed) ? mixed : before->second; // between 0 and 6 blades there are none
+        return valid(mixed) ? mixed : before->second; // there are no blades between 0 and 6
     }
 
     const std::string &path_;

@@ -1,8 +1,9 @@
-// A lens's looks under a name, from a JSON file: {"name": "Petzval", "cat-eye": 1, "spherical": {"1.4": 0.6, "4": 0}}.
+// The looks of a lens under a name, from a JSON file: {"name": "Petzval", "cat-eye": 1, "spherical": {"1.4": 0.6, "4":
+// 0}}.
 //
-// Keys are the names of the options without dashes; "tilt" is [X, Y], "cat-eye-darkening" true or false, and "aperture" is
-// a file beside this one. A number may depend on the f-number: between two of them it is linear in the number of stops,
-// beyond the first and the last it stays.
+// Keys are the names of the options without dashes; "tilt" is [X, Y], "cat-eye-darkening" is true or false, and
+// "aperture" is a file beside this one. A number may depend on the f-number: between two f-numbers it is linear in
+// stops, and beyond the first and the last it is constant.
 #pragma once
 
 #include "../view/look_values.h"
@@ -13,23 +14,23 @@
 namespace sparselens {
 
 struct LensFile {
-    std::string name; // of the lens; empty: none
+    std::string name; // of the lens; may be empty
     LookValues values;
 };
 
-// Throws Error, naming the file and the key, where it cannot be read or understood, and UsageError where a value depends on
-// the f-number, which is unknown.
+// Throws Error, naming the file and the key, if the file cannot be read or understood. Throws UsageError if a value
+// depends on the f-number and this is unknown.
 LensFile read_lens_file(const std::string &path, std::optional<double> fstop);
 
-// What a user says of the looks: values, and files that hold more.
+// The looks that a user gives: values, and files with further values.
 struct GivenLooks {
     LookValues values;
-    std::string lens_file;     // what it says counts where `values` say nothing; empty: none
+    std::string lens_file;     // provides what `values` lack; empty: none
     std::string aperture_file; // the picture of the aperture; empty: none
 };
 
-// Reads the files, and puts `values` and the picture over what the lens file says, whose name is kept. Throws as
-// read_lens_file() and read_aperture_picture().
+// Reads the files. `values` and the picture take precedence over the lens file, whose name is kept. Throws as
+// read_lens_file() and read_aperture_picture() do.
 LensFile read_looks(const GivenLooks &given, std::optional<double> fstop);
 
 } // namespace sparselens

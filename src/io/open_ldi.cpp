@@ -35,7 +35,7 @@ void make_planar(Ldi &ldi, DepthMeaning meaning, const DepthRange &range, const 
 
 bool has_coverage_by_colour(const Ldi &ldi) { return by_coverage(ldi).size() > 1; }
 
-// With all of the file but its packed samples.
+// Returns everything about the file except its packed samples.
 OpenedLdi with_camera(LdiFile &&file, const std::string &path, const OpenOptions &options) {
     OpenedLdi opened{.name = display_name(path),
                      .ldi = std::move(file.ldi),
@@ -56,13 +56,13 @@ OpenedLdi open_ldi(const std::string &path, const OpenOptions &options) {
 
 namespace {
 
-// What is read of a picture a few rows at a time, by several threads.
+// Reads a picture a few rows at a time, from several threads.
 class RowsReader {
 public:
     RowsReader(const std::string &path, const OpenOptions &options, const ChooseSamples &choose)
         : name_(display_name(path)), options_(options), choose_(choose) {}
 
-    // None where all rows are needed at once.
+    // Returns nothing if all rows are needed at once.
     std::optional<Ldi> operator()(const Imf::Header &header, Ldi rows) {
         const std::array<float, 2> depths = depths_of(rows);
         const Camera camera = camera_with_options(options_.lens, read_perspective_camera(header, name_));
@@ -77,7 +77,7 @@ public:
     }
     bool needs_all() const { return needs_all_; }
 
-    // The picture of the rows, which are ready, and what its samples would have said of it. None if no row was read.
+    // The picture of the rows read, which are ready, with notes about all samples. Returns nothing if no row was read.
     std::optional<OpenedLdi> opened(LdiFile &&file, const std::string &path) const {
         if (in_file_ == 0) return {};
         OpenedLdi opened = with_camera(std::move(file), path, options_);
@@ -96,7 +96,7 @@ private:
         needs_all_ = true;
         return {};
     }
-    // The least and the most.
+    // The smallest and the largest depth.
     static std::array<float, 2> depths_of(const Ldi &rows) {
         const auto [least, most] = std::ranges::minmax_element(rows.z);
         if (least == rows.z.end()) return {std::numeric_limits<float>::infinity(), 0};
@@ -114,7 +114,7 @@ private:
         try {
             return !sanitize(rows, name_).any();
         } catch (const Error &) {
-            return false; // of these rows: the whole picture, read next, may have what they lack, or fails as they do
+            return false; // rows only: the whole picture, read next, may be valid, or fails too
         }
     }
 
@@ -124,10 +124,10 @@ private:
     std::once_flag chosen_;
     ReduceSamples reduce_;
     std::atomic<bool> needs_all_ = false;
-    std::mutex counting_; // of what follows
+    std::mutex counting_; // guards the variables below
     std::size_t in_file_ = 0, read_ = 0;
     bool coverage_by_colour_ = false;
-    std::array<float, 2> depths_{std::numeric_limits<float>::infinity(), 0}; // the least and the most
+    std::array<float, 2> depths_{std::numeric_limits<float>::infinity(), 0}; // smallest and largest
 };
 
 } // namespace
@@ -150,7 +150,7 @@ std::size_t settle_speckles_of(Ldi &ldi) {
     return settle_speckles(ldi.windows, ldi.channels, planes, ldi.z);
 }
 
-// The same, before samples that cover nothing are left out.
+// The same, but called before samples that cover nothing are removed.
 bool seems_unpremultiplied(const Ldi &ldi, const PictureChoice &choice) {
     if (choice.unpremultiplied) return false;
     const auto plane = [&](std::size_t k) { return std::span<const float>(ldi.values[k]); };

@@ -1,5 +1,5 @@
 // An LDI from a file, ready for use: depth is planar, invalid values are repaired, samples are tidy, and camera and
-// lens are those of the file with the user's values over them.
+// lens come from the file, overridden by the user's values.
 #pragma once
 
 #include "../deep/ldi.h"
@@ -20,7 +20,7 @@ namespace sparselens {
 
 // How the samples of a file are held.
 struct AllSamples {};   // all
-struct FewerSamples {}; // those that a ReduceSamples left
+struct FewerSamples {}; // the result of a ReduceSamples
 using SamplesHeld = std::variant<AllSamples, FewerSamples,
                                  PackedRows>; // PackedRows: all samples, packed; `ldi` is then empty
 
@@ -28,42 +28,42 @@ struct OpenedLdi {
     std::string name; // of the file, for messages
     Ldi ldi;          // tidy
     Imf::Header header;
-    Camera camera;     // of the header, with the user's values over it
+    Camera camera;     // of the header, overridden by the user's values
     InvalidValues bad; // what was repaired
     std::size_t invisible =
-        0; // samples of the file that tidy() left out: they show nothing, or are one with another
-    std::size_t samples_read = 0; // tidy ones; more than `ldi` has where they were reduced
+        0; // samples of the file that tidy() removed: they show nothing, or were merged
+    std::size_t samples_read = 0; // tidy ones; more than `ldi` has if they were reduced
     SamplesHeld held = AllSamples{};
-    bool deep = true;                          // the file; else it is a flat picture with depth
-    DepthMeaning depth = DepthMeaning::planar; // what the file's depths were read as
+    bool deep = true;                          // whether the file is deep; else it is flat with depth
+    DepthMeaning depth = DepthMeaning::planar; // how the file's depths were read
     bool depth_filtered = false;               // of a flat picture: see edge_depths.h
-    bool unpremultiplied = false;              // of a flat picture: its colours seem to be
+    bool unpremultiplied = false;              // in a flat picture: its colours seem to be so
     bool coverage_by_colour = false;           // AR, AG and AB differ in the file (deep/channel_alpha.h)
     std::vector<std::string> notes, warnings;  // see LdiFile
 
-    // UsageError: a value of the lens is unknown (see resolve_lens.h).
+    // Throws UsageError if a value of the lens is unknown (see resolve_lens.h).
     ThinLens lens() const { return resolve_lens(camera, ldi.windows); }
     bool reduced() const { return !std::holds_alternative<AllSamples>(held); }
 };
 
-// Opens any deep EXR, or a flat one with depth; `-` is standard input.
-// Error: the file cannot be read, or most of its depths are invalid (see sanitize()). UsageError: its depth is the
-// length of the ray, and the focal length is unknown.
+// Opens any deep EXR, or a flat one with depth; `-` is standard input. Throws Error if the file cannot be read, or most
+// of its depths are invalid (see sanitize()). Throws UsageError if its depth is the length of the ray and the focal
+// length is unknown.
 OpenedLdi open_ldi(const std::string &path, const OpenOptions &options = {});
 
 // Replaces the samples of some rows, which are tidy, by fewer; windows and channels stay. Several threads call it at
-// once.
+// the same time.
 using ReduceSamples = std::function<Ldi(Ldi rows)>;
 // Chooses the ReduceSamples of a file, once; empty: all samples are needed. `rows` are some of its rows.
 using ChooseSamples =
     std::function<ReduceSamples(const Imf::Header &header, const Camera &camera, const Ldi &rows)>;
 
 // The same with less memory, for callers that need fewer samples. All samples are read if `choose` says so, if the
-// picture cannot be read a few rows at a time (see read_ldi()), or if values are invalid, because the pixels around
-// repair them.
+// picture cannot be read a few rows at a time (see read_ldi()), or if values are invalid, because repairing them takes
+// the pixels around.
 OpenedLdi open_ldi(const std::string &path, const OpenOptions &options, const ChooseSamples &choose);
 
-// The same for a deep picture that is in memory, or was read otherwise; `path` is for messages.
+// The same for a deep picture that is already in memory; `path` is for messages.
 OpenedLdi ready_ldi(LdiFile file, const std::string &path, const OpenOptions &options = {});
 
 } // namespace sparselens

@@ -13,13 +13,13 @@ namespace sparselens {
 struct DepthOptions {
     DepthMeaning meaning = DepthMeaning::planar;
     PictureChoice picture = {};
-    // In the unit of the depth channel: what lies at `far` (1e10) or beyond is the sky; both planes are needed where depth
-    // is normalized or hyperbolic (see depth_range.h).
+    // In the unit of the depth channel. Anything at `far` (1e10) or beyond is sky. Both planes are needed if depth is
+    // normalized or hyperbolic (see depth_range.h).
     std::optional<double> near = {}, far = {};
 };
 
 struct OpenOptions {
-    LensValues lens = {}; // what is left out is as the file says
+    LensValues lens = {}; // empty values come from the file
     DepthOptions depth = {};
 };
 

@@ -12,7 +12,7 @@ bool stands_off_centre(const std::vector<float> &offsets) {
     return std::ranges::any_of(offsets, [](float offset) { return offset != 0; });
 }
 
-// The view, with what an OpenedView or an OpenedLdi says of its file.
+// The view, with the information about its file from an OpenedView or an OpenedLdi.
 template <typename Opened>
 OpenedPackedView described(PackedView view, Opened &opened) {
     return {std::move(view),

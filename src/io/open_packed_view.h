@@ -10,7 +10,7 @@
 
 namespace sparselens {
 
-// As OpenedView and OpenedLdi; a deep file's depth is not filtered.
+// As in OpenedView and OpenedLdi; a deep file's depth is not filtered.
 struct OpenedPackedView {
     PackedView view; // at the origin
     Imf::Header header;
@@ -21,12 +21,12 @@ struct OpenedPackedView {
     std::vector<std::string> notes = {}, warnings = {};
 };
 
-// Throws as open_view(), or of a file that holds deep parts alone as open_ldi() and ready_packed_view().
+// Throws as open_view() does; for a file of deep parts alone, as open_ldi() and ready_packed_view() do.
 OpenedPackedView open_packed_view(const std::string &path, const OpenOptions &options = {},
                                   const Camera &otherwise = {});
 
 OpenedPackedView ready_packed_view(OpenedView view);
-// Throws Error where the picture was made of several views, and is no view of one camera.
+// Throws Error if the picture was made from several views, and so is not a view of one camera.
 OpenedPackedView ready_packed_view(OpenedLdi ldi);
 
 } // namespace sparselens

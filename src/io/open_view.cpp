@@ -15,7 +15,7 @@ namespace sparselens {
 
 namespace {
 
-// `camera`, with the frustum of another one where it knows nothing of its own.
+// `camera`, with the frustum of another one if its own is unknown.
 Camera with_frustum_of(const Camera &other, Camera camera) {
     if (!camera.focal_length_mm && !camera.sensor_width_mm && !camera.field) {
         camera.focal_length_mm = other.focal_length_mm;

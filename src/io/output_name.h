@@ -1,5 +1,5 @@
-// Which names pictures may be written under. The ending says the format, and one that is none is a slip: it is refused before
-// any work is done.
+// The names under which pictures may be written. The ending selects the format. A wrong ending is an error, reported
+// before any work is done.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 namespace sparselens {
 
 enum class OutputKind {
-    exr,    // deep pictures, depths, and what else is EXR alone
+    exr,    // deep pictures, depths, and all else that only EXR can hold
     picture // EXR, or one of the formats for the screen (io/display/shown_picture.h)
 };
 

@@ -22,8 +22,8 @@ namespace sparselens {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json; // written
-using Given = nlohmann::json;        // read
+using Json = nlohmann::ordered_json; // for writing
+using Given = nlohmann::json;        // for reading
 
 Json json_of(const Imath::Box2i &box) { return {box.min.x, box.min.y, box.max.x, box.max.y}; }
 
@@ -80,7 +80,8 @@ Imath::Box2i box_of(const Given &json) {
     return box;
 }
 
-// They lie in the window of their view. A plan has at most 64 of them, which may overlap; more small ones are welcome.
+// Rectangles lie in the window of their view. A plan by ldi-plan has at most 64 of them, which may overlap; more are
+// accepted if they are small.
 std::vector<Imath::Box2i> rectangles_of(const Given &view, const Imath::Box2i &window) {
     std::vector<Imath::Box2i> rectangles;
     double pixels = 0;

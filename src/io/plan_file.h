@@ -1,4 +1,4 @@
-// Plans on disk: what ldi-plan found worth rendering, as JSON and, on request, with one EXR mask per view.
+// Plans on disk: the views that ldi-plan found worth rendering, as JSON and, on request, with one EXR mask per view.
 //
 //   {"version": 1, "center": FILE, "center_supersample": N, "display_window": [x0, y0, x1, y1], "data_window": [...],
 //    "lens": {"radius": R, "focal_px": F, "focus_distance": D or null for infinity},
@@ -8,10 +8,10 @@
 //    "views": [{"name": "view_0", "lens_point": [ux, uy], "position": [X, Y], "share": S, "uncovered": PIXELS,
 //               "data_window": [...], "rectangles": [[x0, y0, x1, y1], ...], "mask": FILE}, ...]}
 //
-// Windows and rectangles are in EXR pixel coordinates, corners included; shares are shares of one full view, but
-// `edges`, of the centre view's pixels: where they are many, views of `supersample` times the size are worth it. The name
-// of a mask (channel A, half, 1 in the pixels to render) is relative to the folder of the plan. Throws Error, naming
-// the file and the problem.
+// Windows and rectangles are in EXR pixel coordinates, corners included. Shares are shares of one full view, except
+// `edges`, a share of the centre view's pixels: if they are many, views of `supersample` times the size are worth it.
+// The name of a mask (channel A, half, 1 in the pixels to render) is relative to the folder of the plan. Throws Error,
+// naming the file and the problem.
 #pragma once
 
 #include "../plan/plan.h"
@@ -26,7 +26,7 @@ struct PlanSetting {
     Windows windows;
     ThinLens lens;
     int margin;
-    int across = 1; // pixels of the centre view, across and down, that become one of the picture
+    int across = 1; // pixels of the centre view, across and down, per pixel of the picture
 };
 
 // `masks` is a folder, created if missing, or empty for no masks.
@@ -35,7 +35,7 @@ void write_plan(const std::string &path, const Plan &plan, const PlanSetting &se
 
 struct RequestedView {
     Imath::V2d u;                         // lens point
-    Imath::Box2i window;                  // the smallest that contains what is to be rendered
+    Imath::Box2i window;                  // the smallest window with all pixels to render
     std::vector<Imath::Box2i> rectangles; // in the window
     std::string mask;                     // a file; empty: the pixels of the rectangles
 };
@@ -46,7 +46,7 @@ struct PlanRequest {
     std::vector<RequestedView> views;
 };
 
-// The pixels of a view over its window: a byte each, so made one view at a time.
+// The pixels of a view over its window. They take a byte each, so they are made for one view at a time.
 PixelMask mask_of(const RequestedView &view);
 
 PlanRequest read_plan(const std::string &path);

@@ -13,7 +13,7 @@ namespace {
 
 constexpr const char *own_name = "sparselens:samples";
 
-// Of "64".
+// Parses a number such as "64".
 std::optional<double> count_of(std::string_view text) {
     double count = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);

@@ -1,5 +1,5 @@
-// How many samples a pixel a picture was rendered with, where its header says so: `sparselens:samples` (dof-trace), or
-// `cycles.LAYER.samples` (Blender's Cycles; the most of its layers, as adaptive sampling may take fewer).
+// The number of samples per pixel with which a picture was rendered, if its header has `sparselens:samples` (dof-trace)
+// or `cycles.LAYER.samples` (Blender's Cycles; the largest of its layers, because adaptive sampling may take fewer).
 #pragma once
 
 #include <ImfHeader.h>

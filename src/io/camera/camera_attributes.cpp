@@ -24,14 +24,15 @@ double field_of_degrees(const Numbers &v) {
     const double angle = number(v);
     return angle > 0 && angle < 180 ? 2 * std::tan(angle * std::numbers::pi / 360) : nan;
 }
-// Redshift's documentation says radians, its files hold degrees: no camera has a field of less than 3.2 degrees.
+// Redshift's documentation says radians, but its files hold degrees. No camera has a field of less than 3.2 degrees.
 double field_of_either(const Numbers &v) {
     const double angle = number(v);
     return field_of_degrees({angle < std::numbers::pi ? angle * 180 / std::numbers::pi : angle});
 }
-// Redshift gives the film back in the host's unit, inches in Maya: no film back is under 5 mm, or over 5 inches.
+// Redshift gives the film back in the host's unit, which is inches in Maya. No film back is under 5 mm, or over 5
+// inches.
 double inches_or_mm(const Numbers &v) { return number(v) < 5 ? number(v) * 25.4 : number(v); }
-// Programs without a camera write 1: it says nothing.
+// Programs without a camera write 1, which means nothing.
 double screen_window(const Numbers &v) { return number(v); }
 double field_of_35mm(const Numbers &v) { return 36 / number(v); }
 
@@ -88,8 +89,8 @@ constexpr std::array number_names{
     NumberName{"sensorOverallDimensions", Quantity::film_back, number, false},
 };
 
-// How the axes of the camera in the file lie: rows are our right, up and forward in its axes.
-const Imath::M44d looking_forward; // as the standard has it
+// How the axes of the camera lie in the file: the rows are our right, up and forward in the file's axes.
+const Imath::M44d looking_forward; // as in the standard
 const Imath::M44d looking_backward(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1);
 // V-Ray for Maya: y points backward and z down.
 const Imath::M44d vray_maya(1, 0, 0, 0, 0, 0, -1, 0, 0, -1, 0, 0, 0, 0, 0, 1);
@@ -121,12 +122,12 @@ std::optional<Imath::M44d> matrix_of(const Numbers &v) {
 std::optional<Imath::M44d> inverse(const Imath::M44d &m) {
     try {
         return m.inverse(true);
-    } catch (const std::exception &) { // Imath has an exception of its own for singular matrices
+    } catch (const std::exception &) { // Imath has its own exception for singular matrices
         return {};
     }
 }
 
-// A placement, whichever way round it was stored: the translation belongs into the last row.
+// A placement that may be stored transposed: the translation belongs in the last row.
 Imath::M44d upright(const Imath::M44d &m) {
     const auto is_affine = [](const Imath::M44d &a) {
         return a[0][3] == 0 && a[1][3] == 0 && a[2][3] == 0 && a[3][3] != 0;
@@ -203,7 +204,7 @@ std::optional<Imath::V2d> by_screen_window(const Imf::Header &header) {
     return sound && centre != Imath::V2d(0, 0) ? std::optional(point) : std::nullopt;
 }
 
-// The standard marks panoramas. V-Ray numbers projections, of which perspective is 0.
+// The standard marks panoramas. V-Ray numbers its projections; 0 is perspective.
 std::string other_projection(const Imf::Header &header, const std::vector<HeaderValue> &values) {
     if (header.find("envmap") != header.end()) return "envmap says that it is a panorama";
     const HeaderValue *vray = find_value(values, "cameraProjection");
@@ -211,8 +212,8 @@ std::string other_projection(const Imf::Header &header, const std::vector<Header
     return kind > 0 ? fmt::format("{} is {:g}, and perspective is 0", vray->name, kind) : "";
 }
 
-// The names that write_camera() uses. What else stands in such a file has come along from the centre view, and is
-// not what the options have since made of it.
+// The names that write_camera() uses. Other attributes in such a file were copied from the centre view, and may no
+// longer be true after the options.
 bool is_ours(const HeaderValue &value) {
     static constexpr std::array names{"pinholeFocalLength", "aperture",      "focus",
                                       "worldToCamera",      "worldToNDC",    "aperture_blades",

@@ -2,9 +2,9 @@
 // are read. Names are matched regardless of case, and with or without the prefixes "exr/", "nuke/", "input/" and
 // "openexr:", which Nuke and OpenImageIO add or remove.
 //
-// Sources: OpenEXR's StandardAttributes page and ImfStandardAttributes.h; OpenImageIO's table in exrinput.cpp;
-// headers of V-Ray files on the web; Maxon's page "EXR Metadata" of Redshift; Unreal's
-// MoviePipelineImagePassBase.cpp; the scripts by which compositors make Nuke cameras from such files.
+// Sources: OpenEXR's StandardAttributes page and ImfStandardAttributes.h; OpenImageIO's table in exrinput.cpp; headers
+// of V-Ray files on the web; Maxon's page "EXR Metadata" of Redshift; Unreal's MoviePipelineImagePassBase.cpp; the
+// scripts with which compositors make Nuke cameras from such files.
 #pragma once
 
 #include <Imath/ImathMatrix.h>
@@ -21,12 +21,12 @@ namespace sparselens {
 inline constexpr const char *lens_points_name = "sparselens:lensPoints"; // text "x,y x,y ...", scene units
 inline constexpr const char *picture_window_name = "sparselens:dataWindow";
 inline constexpr const char *supersample_name = "ldi.supersample";  // int
-inline constexpr const char *pixel_filter_name = "ldi.pixelFilter"; // text, as pixel_filter_of() has it
+inline constexpr const char *pixel_filter_name = "ldi.pixelFilter"; // text, as pixel_filter_of() reads it
 
 enum class Quantity {
     focal_length, // mm
     sensor_width, // mm, spans the display window
-    film_back,    // mm, width of the camera's film back, of which the picture may show a part
+    film_back,    // mm, width of the camera's film back; the picture may show a part of it
     field,        // width of the picture over the focal length
     fstop,        // f-number
     focus_metres, // distance
@@ -37,7 +37,7 @@ enum class Quantity {
     squeeze,
 };
 
-// A number that a header has under a name of the table.
+// A number that the header holds under a name of the table.
 struct NamedNumber {
     Quantity quantity;
     std::string name; // as the file spells it
@@ -49,20 +49,20 @@ struct NamedMatrix {
     enum class Kind { world_to_camera, world_to_ndc } kind;
     std::string name;
     std::optional<Imath::M44d> matrix; // acts on row vectors; empty: not finite, or singular
-    // world_to_camera: whether its axes are known to be ours (+x right, +y up, +z forward) or z may look backward.
-    // world_to_ndc: whether it is known to be the clip space [-1,1], or may be either.
+    // world_to_camera: true if its axes are known to be ours (+x right, +y up, +z forward), false if z may look
+    // backward. world_to_ndc: true if it is known to be the clip space [-1,1], false if it may be either.
     bool certain;
 };
 
 struct CameraAttributes {
     std::vector<NamedNumber> numbers; // in the table's order
     std::vector<NamedMatrix> matrices;
-    // From screenWindowCenter and screenWindowWidth, see Camera. Empty if they have their default values, which
-    // programs without a camera write.
+    // From screenWindowCenter and screenWindowWidth, see Camera. Empty if they have their default values, because
+    // programs without a camera write these.
     std::optional<Imath::V2d> principal_point;
     std::string
-        no_perspective; // the attribute that says that the camera has another projection, and how; else empty
-    bool ours = false;  // written by this project: attributes of other programs are then not listed
+        no_perspective; // the attribute that states another projection, and its value; otherwise empty
+    bool ours = false;  // written by this project, so attributes of other programs are not listed
 };
 
 // All camera attributes of the header.

@@ -21,7 +21,7 @@ constexpr const char *projection_parameter = "projection"; // no parameter gives
 
 std::string text_of(double value) { return fmt::format("{:g}", value); }
 
-// Equal to within what programs lose by rounding.
+// Equal within the rounding of programs.
 bool agree(double a, double b) {
     return a == b || std::abs(a - b) <= 0.01 * std::max(std::abs(a), std::abs(b));
 }
@@ -72,7 +72,7 @@ public:
     }
 
 private:
-    // The value that the attributes of these quantities agree on. Hints are used only if there is nothing else.
+    // The value on which the attributes of these quantities agree. Hints are used only if there is nothing else.
     std::optional<double> pick(std::initializer_list<Quantity> quantities, const char *what,
                                const char *parameter, bool may_be_infinite = false);
     double in_unit(const NamedNumber &number) const {
@@ -117,7 +117,7 @@ std::optional<double> Reader::pick(std::initializer_list<Quantity> quantities, c
     return in_unit(*chosen);
 }
 
-// A renderer crops its film back to the shape of the picture. The field tells how much of it is seen.
+// A renderer crops its film back to the shape of the picture. The field gives the visible part.
 void Reader::read_film() {
     camera_.focal_length_mm = pick({Quantity::focal_length}, "focal length", "focal_length");
     camera_.sensor_width_mm = pick({Quantity::sensor_width}, "sensor width", "sensor_width");
@@ -138,7 +138,7 @@ void Reader::read_film() {
     complete_field(camera_);
 }
 
-// As the script for Blender writes it. Cycles takes one blade or two for none.
+// Reads what the script for Blender writes. Cycles treats one or two blades as none.
 void Reader::read_aperture() {
     const auto pick_look = [&](Quantity quantity) -> std::optional<double> {
         for (const NamedNumber &number : has_.numbers)

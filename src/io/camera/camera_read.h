@@ -17,8 +17,8 @@ namespace sparselens {
 // Camera::unsure. worldToNDC is converted to the convention of the standard.
 Camera read_camera(const Imf::Header &header);
 
-// The same for a picture that is seen through a lens, which takes a perspective camera. Throws Error, naming the file and the
-// attribute, where the header says that the camera is another one: orthographic, a panorama.
+// The same for a picture that is seen through a lens, which requires a perspective camera. Throws Error, naming the
+// file and the attribute, if the header states another camera: orthographic, or a panorama.
 Camera read_perspective_camera(const Imf::Header &header, const std::string &name);
 
 // The data window of pictures made from an LDI. The LDI may have grown beyond its centre view; the pictures have the

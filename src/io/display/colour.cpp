@@ -30,7 +30,7 @@ struct ColourConfig::Impl {
 
 namespace {
 
-// By the curves themselves. Later versions than 2.1 approximate powers by default: that of sRGB is 7e-5 off at 2.
+// Uses the exact curves. Versions after 2.1 approximate powers by default: sRGB's is 7e-5 off at 2.
 ocio::ConstCPUProcessorRcPtr exactly(const ocio::Processor &processor) {
     return processor.getOptimizedCPUProcessor(
         ocio::OptimizationFlags(ocio::OPTIMIZATION_DEFAULT & ~ocio::OPTIMIZATION_FAST_LOG_EXP_POW));
@@ -38,7 +38,7 @@ ocio::ConstCPUProcessorRcPtr exactly(const ocio::Processor &processor) {
 
 std::string first_line(const std::string &text) { return text.substr(0, text.find('\n')); }
 
-// What OpenColorIO throws leaves as Error that names the configuration.
+// Turns exceptions of OpenColorIO into an Error that names the configuration.
 template <typename Work>
 auto with_config_name(const std::string &name, const Work &work) {
     try {
@@ -54,7 +54,7 @@ ocio::ConstConfigRcPtr config_of(const std::string &file) {
     return ocio::Config::CreateFromStream(text);
 }
 
-// Throws Error, with the list of what there is, where no space, display or view has that name.
+// Throws Error, with the list of existing names, if no space, display or view has that name.
 void expect_name(const std::string &config, const std::string &name, const std::string &what,
                  const std::vector<std::string> &there) {
     if (is_among(there, name)) return;
@@ -68,7 +68,7 @@ std::vector<std::string> spaces_of(const ocio::Config &config) {
     return names;
 }
 
-// Linear spaces by what they are (ITU-R BT.709 and BT.2020, SMPTE RP 431-2 with D65, S-2014-004 and ST 2065-1 of the
+// Linear spaces by their primaries (ITU-R BT.709 and BT.2020, SMPTE RP 431-2 with D65, S-2014-004 and ST 2065-1 of the
 // Academy), their ids of the Color Interop Forum, and the names that the configurations of OpenColorIO, the Academy and
 // Blender give them.
 struct LinearSpace {
@@ -159,7 +159,7 @@ ColourConfig::ColourConfig(const std::string &file) {
     const std::string name = path.empty()   ? "the built-in colour configuration"
                              : file.empty() ? path + " ($OCIO)"
                                             : path + " (`colorconfig`)";
-    const bool is_file = !path.empty() && !path.starts_with("ocio://"); // else OpenColorIO's own
+    const bool is_file = !path.empty() && !path.starts_with("ocio://"); // otherwise OpenColorIO's own
     if (is_file && !std::filesystem::is_regular_file(path)) throw Error(name + ": no such file");
     impl_ = with_config_name(name, [&] { return std::make_shared<const Impl>(Impl{name, config_of(path)}); });
 }

@@ -1,7 +1,7 @@
 // Colour spaces by OpenColorIO. Its configuration defines the spaces, the space of a file (by file rules), the space of
 // the role scene_linear, and how a display shows it.
 //
-// Throws Error, naming the configuration, where that lacks a colour space, display or view.
+// Throws Error, naming the configuration, if it lacks a colour space, display or view.
 #pragma once
 
 #include "../../base/image.h"
@@ -32,24 +32,25 @@ private:
 
 class ColourConfig {
 public:
-    // Reads the file, else the one that $OCIO names, else share/ocio/config.ocio.
+    // Reads the file; if it is empty, the one that $OCIO names; if that is unset, share/ocio/config.ocio.
     explicit ColourConfig(const std::string &file = {});
 
     std::string scene_linear() const;                         // the space in which all work is done
     std::string space_of_file(const std::string &path) const; // by the file rules
     ColourTransform between(const std::string &from, const std::string &to) const;
-    // Empty names stand for the default display and its default view, and for scene_linear().
+    // Empty names mean the default display and its default view, and scene_linear().
     ColourTransform to_display(const std::string &display, const std::string &view,
                                const std::string &from = {}) const;
 
-    // The linear space of these primaries and this white, if the configuration has it under one of its usual names; and
-    // the primaries and white of such a space, by any name of it. Nothing for all other spaces.
+    // linear_space() returns the linear space of these primaries and this white, if the configuration has it under one
+    // of its usual names. chromaticities_of() returns the primaries and white of such a space, by any of its names.
+    // Both return nothing for all other spaces.
     std::optional<std::string> linear_space(const Imf::Chromaticities &chromaticities) const;
     std::optional<Imf::Chromaticities> chromaticities_of(const std::string &space) const;
 
-    // The configuration's own name of a space, by any name that it has there, or by its id of the Color Interop Forum
-    // (lin_ap1_scene); and the id of a space, empty where it is neither a linear one as above nor has one in the
-    // configuration (OpenColorIO 2.5).
+    // space_named() returns the configuration's own name of a space, by any of its names there or by its id of the
+    // Color Interop Forum (lin_ap1_scene). interop_id() returns the id of a space; it is empty for spaces that are
+    // neither linear ones as above nor have an id in the configuration (OpenColorIO 2.5).
     std::optional<std::string> space_named(const std::string &name_or_id) const;
     std::string interop_id(const std::string &space) const;
 

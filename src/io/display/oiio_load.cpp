@@ -11,15 +11,15 @@ namespace sparselens {
 
 namespace {
 
-// Installed, and in the build folder, programs lie in bin/ and modules in lib/ beside it.
+// When installed, and in the build folder, programs lie in bin/ and modules in lib/ beside it.
 std::string beside_program(const std::string &module) {
     std::error_code unknown;
     const auto program = std::filesystem::read_symlink("/proc/self/exe", unknown);
     return (program.parent_path().parent_path() / SPARSELENS_MODULES / module).string();
 }
 
-// A program that has loaded this code, from a library or a module, lies anywhere: modules lie in lib/ of a folder above
-// that library. Empty if there is none.
+// A program that loads this code from a library or a module may lie anywhere; modules then lie in lib/ of a folder
+// above that library. Empty if there is none.
 std::string above_this_code(const std::string &module) {
     Dl_info found;
     std::error_code unknown;

@@ -1,16 +1,16 @@
-// The writers of OpenImageIO as a module that is loaded only when it has to write a picture: loading its two hundred
-// libraries takes 0.2 s, longer than most pictures take to gather; without them a tool starts in 0.015 s.
+// The writers of OpenImageIO as a module that is loaded only to write a picture. Loading its two hundred libraries
+// takes 0.2 s, longer than most pictures take to gather; without them a tool starts in 0.015 s.
 //
-// The interface is in C: no exception and no object crosses it.
+// The interface is in C, so no exception and no object crosses it.
 #pragma once
 
 namespace sparselens {
 
 struct OiioPicture {
     const char *path;
-    const char *format; // the extension that it is known by (png, without the dot); `path` need not end in it
+    const char *format; // the extension of the format (png, without the dot); `path` need not end in it
     void *source;
-    const float *(*row)(void *source, int y); // of row y from the top: pixel by pixel, channels together
+    const float *(*row)(void *source, int y); // row y from the top: pixel by pixel, channels together
     int width, height;
     int channels;       // 3, or 4 with unassociated alpha
     int bits;           // 8 or 16
@@ -20,7 +20,7 @@ struct OiioPicture {
 struct OiioModule {
     enum class Support { none, opaque, alpha };
 
-    // What can be written in the format of this extension (png, without the dot).
+    // What the format with this extension (png, without the dot) supports.
     Support (*support)(const char *extension);
     // Returns null, or a message that is valid until the thread calls again.
     const char *(*write)(const OiioPicture &picture);
@@ -28,8 +28,8 @@ struct OiioModule {
 
 inline constexpr const char *oiio_module_entry = "sparselens_oiio_module";
 
-// Loads the module at the first call, from ../lib/sparselens beside the program, else from the installation folder.
-// Throws Error where it is not found or cannot be loaded.
+// Loads the module at the first call, from ../lib/sparselens beside the program, or else from the installation folder.
+// Throws Error if it is not found or cannot be loaded.
 const OiioModule &oiio_module();
 
 } // namespace sparselens

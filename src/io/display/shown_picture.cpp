@@ -16,13 +16,13 @@ namespace sparselens {
 
 namespace {
 
-// Without the dot, in lower case.
+// The extension without the dot, in lower case.
 std::string extension_of(const std::string &path) {
     const std::string extension = lower_case(std::filesystem::path(path).extension().string());
     return extension.empty() ? extension : extension.substr(1);
 }
 
-// Rows of the display window, one at a time: it may be much larger than the picture in it.
+// Makes rows of the display window one at a time, because it may be much larger than the picture in it.
 class DisplayRows {
 public:
     DisplayRows(const Image &image, std::vector<std::size_t> channels, bool divide)
@@ -52,7 +52,7 @@ private:
 
 const float *row_of(void *rows, int y) { return static_cast<DisplayRows *>(rows)->row(y); }
 
-// R, G, B, and A where something shows through.
+// R, G and B, and A if it is below 1 anywhere.
 std::vector<std::size_t> channels_of(const std::string &name, const Image &image, bool may_have_alpha) {
     const auto rgb = find_rgb(image.channels);
     if (!all_found(rgb))
@@ -65,7 +65,7 @@ std::vector<std::size_t> channels_of(const std::string &name, const Image &image
     return channels;
 }
 
-// A display window may be much larger than the picture in it.
+// Checks the size of the display window, which may be much larger than the picture in it.
 void check_size(const std::string &name, const Image &image) {
     const Imath::Box2i &display = image.windows.display; // written as a whole
     check_memory(
@@ -73,7 +73,7 @@ void check_size(const std::string &name, const Image &image) {
         image.values.size() * sizeof(float));
 }
 
-// As OpenImageIO converts; NaN is 0.
+// Rounds as OpenImageIO does; NaN becomes 0.
 std::uint8_t in_8_bits(float value) {
     const float scaled = value * 255 + 0.5f;
     return scaled >= 0 ? std::uint8_t(std::min(scaled, 255.0f)) : std::uint8_t(0);

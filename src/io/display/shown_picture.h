@@ -9,23 +9,24 @@
 
 namespace sparselens {
 
-// Whether the extension is that of a format, other than OpenEXR, that OpenImageIO can write.
+// Whether the extension is that of a format that OpenImageIO can write, other than OpenEXR.
 bool is_shown_picture(const std::string &path);
 
-// The bytes of a file of that format (an extension, without the dot): R, G and B (display values, premultiplied) of the display window, black outside the data window, with 8 bits,
-// or 16 in TIFF and DPX: 0 and less becomes 0, 1 and more the largest value, NaN becomes 0. If A is below 1 somewhere
-// and the format has alpha, A is written too and the colours are unpremultiplied. Any number of threads may do so at the
-// same time. Throws Error, beginning with `name`, where R, G or B is missing or OpenImageIO fails.
+// The bytes of a file of that format (an extension, without the dot): R, G and B (display values, premultiplied) of the
+// display window, black outside the data window, with 8 bits, or 16 in TIFF and DPX. 0 and less become 0, 1 and more
+// the largest value, NaN becomes 0. If A is below 1 anywhere and the format has alpha, A is written too and the colours
+// are unpremultiplied. Any number of threads may call it at the same time. Throws Error, beginning with `name`, if R, G
+// or B is missing or OpenImageIO fails.
 std::string shown_picture(const std::string &name, const std::string &format, const Image &image);
 
-// The pixels of such a file of 8 bits that may have alpha (PNG), before they are encoded: 3 or 4 values each, by rows.
+// The pixels of such a file of 8 bits that may have alpha (PNG), before encoding: 3 or 4 values each, by rows.
 struct ShownPixels {
     int width = 0, height = 0, channels = 3;
     std::vector<std::uint8_t> values;
 };
 ShownPixels shown_pixels(const std::string &name, const Image &image);
 
-// The same as a file, whose extension is the format. The output is atomic (see OutputFile).
+// Writes the same as a file; its extension selects the format. The output is atomic (see OutputFile).
 void write_shown_picture(const std::string &path, const Image &image);
 
 } // namespace sparselens

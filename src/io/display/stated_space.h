@@ -11,22 +11,22 @@
 
 namespace sparselens {
 
-// Whether it says anything: the ids "unknown" and "data" do not.
+// Whether the header states a space. The ids "unknown" and "data" do not.
 bool states_space(const Imf::Header &header);
 
 struct StatedSpace {
-    std::string attribute;            // that says so
-    std::optional<std::string> space; // as the configuration names it, if it does
+    std::string attribute;            // the attribute that states it
+    std::optional<std::string> space; // the configuration's name for it, if it has one
 };
 
 // The stated space; empty if there is none, or only an oiio:ColorSpace that the configuration does not know.
 std::optional<StatedSpace> stated_space(const ColourConfig &config, const Imf::Header &header);
 
-// The header for colours in that space: with its chromaticities, or without where it has none. The others, where there are
-// some, stay if they say the same; else the id becomes that of the space, or goes, as does oiio:ColorSpace.
+// The header for colours in that space: with its chromaticities, or without if it has none. The other attributes stay
+// if they agree; otherwise the id becomes that of the space or is removed, and oiio:ColorSpace is removed.
 Imf::Header with_space(const ColourConfig &config, const Imf::Header &header, const std::string &space);
 
-// The header, which says what `other` says of the space of its colours.
+// The header, with the statements of `other` about the space of its colours.
 Imf::Header with_space_of(const Imf::Header &other, const Imf::Header &header);
 
 } // namespace sparselens

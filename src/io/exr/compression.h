@@ -1,4 +1,4 @@
-// How the pixels of an EXR file are compressed: the names of the methods, and which of them a file may have.
+// How the pixels of an EXR file are compressed: the names of the methods, and which of them a file may use.
 #pragma once
 
 #include "../../base/image.h"
@@ -15,20 +15,20 @@ namespace sparselens {
 struct NamedCompression {
     const char *name; // as OpenEXR and OpenImageIO spell it
     Imf::Compression value;
-    bool deep;  // deep files may have it (OpenEXR 3.1 to 3.4)
+    bool deep;  // allowed for deep files (OpenEXR 3.1 to 3.4)
     bool exact; // keeps all bits of 32-bit floats
 };
 
-// All methods of the OpenEXR that this is compiled with; htj2k256 and htj2k32 from 3.4 on.
+// All methods of the OpenEXR that this is compiled with; htj2k256 and htj2k32 exist from 3.4 on.
 std::span<const NamedCompression> compressions();
 
 // The names that flat or deep files may have, separated by `separator`.
 std::string compression_names(bool deep, const std::string &separator);
 
-// The compression of a new file: the requested one, else none into a pipe, else that of `metadata` if it is the header
-// of a file of the same kind (flat or deep), else ZIP (flat) or ZIPS (deep). The ids of a Cryptomatte need an exact
-// method; if `metadata` has none, they get ZIP. Throws UsageError if a file with these channels may not have the
-// requested one.
+// The compression of a new file: the requested one; otherwise none into a pipe; otherwise that of `metadata` if it is
+// the header of a file of the same kind (flat or deep); otherwise ZIP (flat) or ZIPS (deep). The ids of a Cryptomatte
+// need an exact method; if that of `metadata` is not exact, they get ZIP. Throws UsageError if a file with these
+// channels may not have the requested one.
 Imf::Compression output_compression(bool deep, std::optional<Imf::Compression> asked, bool to_pipe,
                                     const Imf::Header &metadata, std::span<const Channel> channels);
 

@@ -28,7 +28,7 @@ std::size_t named(std::span<const Channel> channels, const std::string &asked) {
     return npos;
 }
 
-// The first of those whose names are the clearest.
+// The first of the channels with the clearest name.
 std::size_t by_rank(std::span<const Channel> channels) {
     std::size_t best = npos;
     int least = 0;
@@ -40,7 +40,7 @@ std::size_t by_rank(std::span<const Channel> channels) {
     return best;
 }
 
-// The only channel that is so; npos where none or several are.
+// The only channel for which `is` holds; npos if there are none or several.
 template <typename Is>
 std::size_t only(std::span<const Channel> channels, const Is &is) {
     std::size_t found = npos;
@@ -74,7 +74,7 @@ std::optional<int> depth_rank(std::string_view name) {
     const std::size_t dot = lower.find('.');
     if (dot != lower.rfind('.') || !is_among(layers, lower.substr(0, dot))) return {};
     const std::string last = dot == lower.npos ? "" : lower.substr(dot + 1);
-    if (colour_name(last) == "A") return {}; // of a depth that was written as a picture
+    if (colour_name(last) == "A") return {}; // belongs to a depth that was written as a picture
     return colour_name(last) == "G" || colour_name(last) == "B" ? 4 : 3;
 }
 

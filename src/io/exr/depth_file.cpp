@@ -12,7 +12,7 @@ namespace sparselens {
 
 namespace {
 
-// A file of depth alone may call it anything: Y, or a grey R, G and B.
+// The depth channel. A file that holds only depth may give it any name: Y, or a grey R, G and B.
 DepthChannel depth_of(const std::vector<Channel> &channels, const std::string &asked,
                       const std::string &path) {
     if (asked.empty() && !has_depth_channel(channels, asked)) {
@@ -23,7 +23,7 @@ DepthChannel depth_of(const std::vector<Channel> &channels, const std::string &a
     return find_depth_channel(channels, asked, path);
 }
 
-// The plane Z of the picture, all 0.
+// Adds the plane Z to the picture, all 0.
 std::span<float> new_depth(Image &image) {
     std::size_t k = find_channel(image.channels, "Z");
     if (k == npos) {

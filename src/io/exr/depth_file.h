@@ -7,10 +7,10 @@
 
 namespace sparselens {
 
-// Reads the depth of choice.depth_file and puts it into the picture as Z, in place of what is there; what it took it says in the
-// notes and warnings. The depth is that of the channel that names tell (depth_channel.h), else of the only channel, else of the
-// first of R, G and B. Outside its data window it is 0. Throws Error where the file holds no depth, or differs from the
-// picture in display window or pixel aspect ratio.
+// Reads the depth of choice.depth_file and puts it into the picture as Z, in place of any depth there. Notes and
+// warnings name what it read. The depth is the channel found by its name (depth_channel.h); otherwise the only channel;
+// otherwise the first of R, G and B. Outside its data window it is 0. Throws Error if the file has no depth, or differs
+// from the picture in display window or pixel aspect ratio.
 void put_depth_of_file(FlatFile &picture, const std::string &path, const PictureChoice &choice);
 
 } // namespace sparselens

@@ -37,10 +37,10 @@ Names names_with_light(const std::vector<Channel> &channels) {
     return found;
 }
 
-// "fg." of "fg.Combined"; empty where there is no dot.
+// "fg." for "fg.Combined"; empty if there is no dot.
 std::string prefix_of(const std::string &layer) { return layer.substr(0, layer.rfind('.') + 1); }
 
-// The depth of a picture in a layer; empty where it has none.
+// The depth of a picture in a layer; empty if it has none.
 std::string own_depth(const PictureLayer &picture, const Names &channels) {
     if (picture.prefix.empty()) return {};
     for (const std::string &wanted :

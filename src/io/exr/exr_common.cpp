@@ -19,7 +19,7 @@ namespace sparselens {
 
 namespace {
 
-// Attributes that describe how one file stores its pixels, and so must not be copied into another.
+// Attributes that describe how one file stores its pixels; they must not be copied into another file.
 bool describes_storage(const std::string &name) {
     static constexpr std::array names{
         "channels",         "chunkCount",    "compression", "dataWindow",
@@ -48,7 +48,7 @@ double memory_of(const Imf::Header &header, std::size_t values) {
 }
 
 std::string first_of(const std::vector<std::string> &names) {
-    constexpr std::size_t most = 40; // in a line that can be read
+    constexpr std::size_t most = 40; // keeps the line readable
     const std::size_t listed = std::min(most, names.size());
     const std::string list =
         fmt::format("{}", fmt::join(names.begin(), names.begin() + std::ptrdiff_t(listed), ", "));
@@ -99,7 +99,7 @@ std::size_t store_halves(const float *from, std::size_t count, char *to) {
 } // namespace
 
 std::size_t store(PixelType type, const float *from, std::size_t count, char *to) {
-    if (count == 0) return 0; // there may be no pointers then
+    if (count == 0) return 0; // the pointers may be null then
     const std::size_t size = bytes_of(type);
     std::atomic<std::size_t> clamped = 0;
     parallel_ranges(count, 65536, [&](std::size_t begin, std::size_t end) {

@@ -19,7 +19,7 @@ Windows windows_of(const Imf::Header &header);
 // The memory, in bytes, of a picture with `values` floats per pixel and of one tile of its file.
 double memory_of(const Imf::Header &header, std::size_t values);
 
-// The names, separated by commas; of many, the first and how many more there are.
+// The names, separated by commas. If there are many: the first ones, and the number of the others.
 std::string first_of(const std::vector<std::string> &names);
 
 // Whether the channel holds the position or weight of a sample in our files: Z, ZBack, ldi.dx, ldi.dy,
@@ -35,11 +35,11 @@ Imf::Header output_header(const Windows &windows, std::span<const Channel> chann
 Imf::PixelType imf_type(PixelType type);
 std::size_t bytes_of(PixelType type);
 
-// Stores `count` floats of `from` in the type of the channel to `to`. Finite values beyond the range of half become the
-// largest half, never infinity. Returns the number of such values. On all threads.
+// Stores `count` floats of `from` in the type of the channel to `to`, on all threads. Finite values beyond the range of
+// half become the largest half, never infinity. Returns the number of such values.
 std::size_t store(PixelType type, const float *from, std::size_t count, char *to);
 
-// Calls work() and turns what OpenEXR throws into an Error that names the file.
+// Calls work() and turns exceptions of OpenEXR into an Error that names the file.
 template <typename Work>
 auto with_file_name(const std::string &path, const Work &work) {
     try {

@@ -21,7 +21,7 @@ namespace sparselens {
 
 namespace {
 
-// Where each channel of a file is read to. What is not listed is not read.
+// Where each channel of a file is read to. Channels that are not listed are not read.
 struct Planes {
     std::vector<std::pair<std::string, std::vector<float> *>> named;
     std::vector<PixelType> types;
@@ -31,7 +31,7 @@ struct Planes {
     }
 };
 
-// The array of the LDI that a channel fills because of its name, if it does.
+// The array of the LDI that a channel fills because of its name, or null.
 std::vector<float> *placement_array(Ldi &ldi, const std::string &name, const std::string &depth) {
     if (name == depth) return &ldi.z;
     if (lower_case(name) == lower_case(depth) + "back") return &ldi.z_back; // ZBack, depth.ZBack
@@ -42,7 +42,7 @@ std::vector<float> *placement_array(Ldi &ldi, const std::string &name, const std
     return name == "ldi.weight" ? &ldi.weight : nullptr;
 }
 
-// Sets ldi.channels to what is carried.
+// Sets ldi.channels to the channels that are kept as values.
 Planes plan_planes(Ldi &ldi, const std::vector<FileChannel> &found, const std::string &depth) {
     Planes planes;
     std::vector<std::string> carried;
@@ -111,8 +111,8 @@ void make_room(const Ldi &ldi, const Planes &planes, const DeepSource &source) {
                  [&](std::size_t k) { planes.named[k].second->resize(ldi.begin.back()); });
 }
 
-// OpenEXR allocates what a chunk claims before it finds that the file is not that long. Asked for the raw bytes of a
-// chunk without a place to put them, it only says how many there are.
+// OpenEXR allocates what a chunk claims before it finds that the file is not that long. If it is asked for the raw
+// bytes of a chunk without a buffer, it only returns their number.
 template <typename RawSize>
 void check_chunk(const DeepSource &source, const RawSize &raw_size) {
     std::uint64_t bytes = 0;
@@ -122,7 +122,7 @@ void check_chunk(const DeepSource &source, const RawSize &raw_size) {
                                 display_name(source.path), bytes));
 }
 
-// visit(part, first row, last row) for all rows, on all threads.
+// Calls visit(part, first row, last row) for all rows, on all threads.
 template <typename Visit>
 void for_some_rows(const Ldi &ldi, PartReaders &readers, const Visit &visit) {
     const auto make = [&](Imf::DeepScanLineInputPart &part, int first, int last) {
@@ -146,7 +146,7 @@ std::vector<unsigned> read_counts(PartReaders &readers, const DeepSource &source
     return counts;
 }
 
-// `counts`: of the data window of `ldi`.
+// `counts`: for the data window of `ldi`.
 void read_rows(Imf::DeepScanLineInputPart &part, const Ldi &ldi, const Planes &planes, int first, int last,
                std::vector<unsigned> &counts) {
     const PointerTable table(ldi, planes, first, last, counts);
@@ -164,7 +164,7 @@ void read_scanlines(const DeepSource &source, int number, Ldi &ldi, const Planes
     });
 }
 
-// Rows [first, last] of a picture; `counts`: of all of it.
+// Rows [first, last] of a picture; `counts`: for the whole picture.
 Ldi some_rows(Imf::DeepScanLineInputPart &part, const DeepSource &source, const Windows &windows,
               const std::vector<unsigned> &counts, const std::vector<FileChannel> &channels,
               const std::string &depth, int first, int last) {
@@ -181,7 +181,7 @@ Ldi some_rows(Imf::DeepScanLineInputPart &part, const DeepSource &source, const 
     return rows;
 }
 
-// `ldi` has its windows, and gets the rest.
+// `ldi` has its windows; this fills the rest.
 void read_reduced(const DeepSource &source, int number, Ldi &ldi, const std::vector<FileChannel> &channels,
                   const std::string &depth, const ReduceRows &reduce, std::optional<PackedRows> &packed) {
     PartReaders readers(source.stream, number);
@@ -242,7 +242,7 @@ Ldi read_deep_part(const DeepSource &source, int number, const std::vector<FileC
     ldi.windows = windows_of(header);
     const Planes planes = plan_planes(ldi, channels, depth);
     const bool tiled = header.type() == Imf::DEEPTILE;
-    constexpr std::size_t counts = 3; // floats' worth: a count and where its samples begin
+    constexpr std::size_t counts = 3; // in floats: a count, and where its samples begin
     const std::size_t pointers = tiled ? 2 * planes.named.size() : 0; // of scanlines a few rows at a time
     check_memory(source.path, source.held + memory_of(header, counts + pointers), source.size);
     if (reduce)

@@ -16,23 +16,24 @@
 
 namespace sparselens {
 
-// The file that is read; its size limits the memory that it may ask for.
+// The file to read; its size limits the memory that it may ask for.
 struct DeepSource {
     Imf::MultiPartInputFile &file;
     const InputStream &stream; // of the file
     const std::string &path;
     std::uint64_t size;
-    double held = 0; // bytes of memory that the parts read so far take
+    double held = 0; // bytes of memory taken by the parts read so far
 };
 
-// Makes an LDI of the same windows of that of some rows: of fewer samples; or none. Called by several threads at once.
+// Makes an LDI with fewer samples and the same windows from that of some rows; or returns nothing. Several threads call
+// it.
 using ReduceRows = std::function<std::optional<Ldi>(Ldi rows)>;
 
 // Reads `channels` of the part: `depth` and depthBack, those that position samples, and the others as values. If
 // `depth` is empty there is no depth, and z stays empty. Samples are returned as they stand in the file. Throws Error,
-// naming the file, where it is damaged or asks for more memory than it may. With `reduce`, which needs a part of scanlines, a
-// few rows are read at a time, and what it makes of them is kept: in `packed` where it is much, which leaves the LDI
-// without samples. So it is left where it makes none of some rows; others are not read then.
+// naming the file, if it is damaged or asks for more memory than it may. `reduce` needs a part of scanlines: a few rows
+// are read at a time, and its results are kept, in `packed` if they are large, and then the LDI has no samples. If
+// `reduce` returns nothing for some rows, the LDI has no samples either, and the remaining rows are not read.
 Ldi read_deep_part(const DeepSource &source, int number, const std::vector<FileChannel> &channels,
                    const std::string &depth);
 Ldi read_deep_part(const DeepSource &source, int number, const std::vector<FileChannel> &channels,

@@ -62,14 +62,14 @@ public:
         return kept;
     }
 
-    // Layers of these parts have to stand for the beauty, where none of them has a colour outside of all layers.
+    // Finds out whether layers of these parts must provide the beauty, because none has a colour outside of all layers.
     void find_beauty(const std::vector<int> &numbers) {
         for (const int number : numbers)
             for (const FileChannel &found : channels_of(source_.file.header(number), view_, source_.path))
                 if (is_among(rgb_names, found.channel.name)) beauty_in_layer_ = false;
     }
 
-    // `reduce`: of the only part.
+    // `reduce`: only if there is a single part.
     void add(int number, bool only_as_layer, const ReduceRows &reduce = {}) {
         const Imf::Header &header = source_.file.header(number);
         const std::vector<FileChannel> channels = named_channels(header);
@@ -131,7 +131,7 @@ private:
         if (chosen_) return of_layer(std::move(found), layer_of(header));
         if (!beauty_in_layer_) return found;
         const std::vector<Channel> channels = plain(found);
-        chosen_picture(channels, {}, source_.path); // throws where there are several
+        chosen_picture(channels, {}, source_.path); // throws if there are several
         if (const std::vector<PictureLayer> layers = pictures_in(channels); !layers.empty())
             name_beauty(found, layers.front().beauty, channels);
         if (parts_.empty()) warnings_ = beauty_warnings(channels);
@@ -146,7 +146,7 @@ private:
         return channels;
     }
 
-    // The names that the channels of a part keep, which becomes a layer of `whose` where that is given.
+    // Records the names that a part's channels keep in files. If `whose` is given, the part becomes a layer of it.
     void keep(const std::vector<FileChannel> &channels, const Ldi *whose, const std::string &part) {
         for (FileChannel found : channels) {
             if (whose && find_channel(whose->channels, found.channel.name) != npos)
@@ -173,7 +173,7 @@ private:
             }
     }
 
-    // The first part must have one; those after it may be layers of it.
+    // The first part must have a depth; later parts may be layers of it.
     DepthChannel depth_of(const std::vector<FileChannel> &found) const {
         const std::vector<Channel> channels = plain(found);
         const bool may_lack = !parts_.empty() && !has_depth_channel(channels, asked_);
@@ -187,7 +187,7 @@ private:
     std::optional<PackedRows> packed_; // the samples of the only part
     std::vector<std::string> notes_, warnings_;
     bool beauty_in_layer_ = true, unpremultiplied_ = false;
-    bool by_rows_ = false; // the rows of the only part came one after the other, ready
+    bool by_rows_ = false; // the rows of the only part came one after the other, ready for use
     KeptNames kept_;
 };
 
@@ -237,7 +237,7 @@ LdiFile read_ldi(const std::string &path, const PictureChoice &choice, const Red
         for (const int part : numbers)
             picture.add(part, one_beauty && part != numbers.front(),
                         reduce && numbers.size() == 1 ? ReduceRows(by_rows) : ReduceRows());
-        if (picture.is_merged()) header = without_attribute(header, "name"); // an object's
+        if (picture.is_merged()) header = without_attribute(header, "name"); // it names an object
         if (is_standard_stream(path))
             header.compression() = Imf::ZIPS_COMPRESSION; // a pipe's says nothing of the picture
         Ldi ldi = picture.whole();

@@ -46,7 +46,7 @@ std::vector<StoredChannel> stored_channels(const Ldi &ldi, const Imf::Header &me
     return stored;
 }
 
-// Writes `rows` rows from `first_row` on: samples turned into the channels' types, then compressed in parallel.
+// Writes `rows` rows from `first_row` on: converts samples to the channels' types, then compresses them in parallel.
 // Returns how many values store() clamped.
 std::size_t write_rows(Imf::DeepScanLineOutputFile &file, const Ldi &ldi,
                        const std::vector<StoredChannel> &stored, int first_row, int rows) {

@@ -45,7 +45,7 @@ std::vector<int> flat_parts(const Imf::MultiPartInputFile &file, const std::stri
     return numbers;
 }
 
-// What is read of a part: its channels, by the names they get in the picture.
+// The channels to read from a part, by the names they get in the picture.
 struct PartChannels {
     int part;
     std::vector<FileChannel> channels;
@@ -53,7 +53,7 @@ struct PartChannels {
 
 struct PictureParts {
     std::string view;
-    Windows windows;                 // those of all parts
+    Windows windows;                 // over all parts
     std::vector<PartChannels> parts; // not empty, the beauty first
     std::vector<std::string> notes = {}, warnings = {};
 
@@ -71,7 +71,7 @@ struct PictureParts {
     }
 };
 
-// What the picture takes for R, G, B and A, and what it says of that.
+// Finds R, G, B and A of the picture, and adds notes about them.
 void find_beauty(const Imf::MultiPartInputFile &file, PictureParts &picture) {
     const std::vector<Channel> channels = picture.channels();
     for (std::string &warning : beauty_warnings(channels)) picture.warnings.push_back(std::move(warning));
@@ -83,9 +83,9 @@ void find_beauty(const Imf::MultiPartInputFile &file, PictureParts &picture) {
                 part.channels, file.parts() > 1 ? layer_of(file.header(part.part)) : std::string()));
 }
 
-using Chosen = std::optional<ChannelsOfPicture>; // of the file's pictures; none: all channels
+using Chosen = std::optional<ChannelsOfPicture>; // one of the file's pictures; empty: all channels
 
-// A channel whose name is taken is one of the part's layer: R of "diffuse" is diffuse.R.
+// A channel whose name is taken becomes one of the part's layer: R of "diffuse" becomes diffuse.R.
 void add_part(Imf::MultiPartInputFile &file, int number, const std::string &path, const Chosen &chosen,
               std::unordered_set<std::string> &taken, PictureParts &picture) {
     PartChannels part{number, {}};
@@ -95,7 +95,7 @@ void add_part(Imf::MultiPartInputFile &file, int number, const std::string &path
         if (chosen) rename(found, chosen->name_of(full_name(name, layer, file.parts() > 1)));
         if (name.empty()) continue;
         if (taken.contains(name)) rename(found, layer + "." + name);
-        if (!taken.insert(name).second) { // the same layer twice
+        if (!taken.insert(name).second) { // the file has the same layer twice
             picture.warnings.push_back(fmt::format(
                 "channel {} of part {} is not used: there is one of that name", found.in_file, layer));
             continue;
@@ -106,12 +106,12 @@ void add_part(Imf::MultiPartInputFile &file, int number, const std::string &path
     if (!part.channels.empty() || !chosen) picture.parts.push_back(std::move(part));
 }
 
-// Pictures of other display windows are not of the same camera.
+// Pictures with other display windows come from another camera.
 bool fits(const Windows &part, const Windows &picture) {
     return part.display == picture.display && part.pixel_aspect == picture.pixel_aspect;
 }
 
-// Whether the part holds the beauty, of the picture chosen.
+// Whether the part holds the beauty of the chosen picture.
 bool holds_beauty(const Imf::MultiPartInputFile &file, int part, const std::string &view,
                   const std::string &path, const Chosen &chosen) {
     if (!chosen) return is_beauty(file.header(part));
@@ -119,7 +119,7 @@ bool holds_beauty(const Imf::MultiPartInputFile &file, int part, const std::stri
                                [&](const Channel &c) { return chosen->name_of(c.name) == "R"; });
 }
 
-// The flat parts that make up the picture, over the window that contains them all. The beauty first.
+// The flat parts that make up the picture, with the window that contains all of them. The beauty comes first.
 PictureParts parts_of_picture(Imf::MultiPartInputFile &file, const std::string &path,
                               const PictureChoice &choice) {
     auto [view, numbers] = parts_of_view(file, flat_parts(file, path), choice.stereo_view, path);
@@ -151,13 +151,13 @@ Imf::Header header_of(const Imf::MultiPartInputFile &file, const PictureParts &p
                       const std::string &path) {
     Imf::Header header = header_of_view(file.header(picture.parts.front().part), picture.view);
     if (is_standard_stream(path))
-        header.compression() = Imf::ZIP_COMPRESSION; // a pipe's says nothing of the picture
+        header.compression() = Imf::ZIP_COMPRESSION; // a pipe's compression says nothing about the picture
     header.dataWindow() = picture.windows.data;
     keep_names(header, picture.file_channels());
     return with_mattes_of(file, header);
 }
 
-// Where the colours do not fill the window of the picture, and nothing says so: their coverage, 1 in their own window.
+// Coverage for colours that do not fill the window of the picture and have no alpha: 1 in their own window.
 struct MissingCoverage {
     Imath::Box2i covered; // empty: none is missing
     MissingCoverage(const Imf::MultiPartInputFile &file, const PictureParts &picture) {
@@ -175,8 +175,8 @@ struct MissingCoverage {
     }
 };
 
-// Reads the part's channels into the picture's from k on; returns which comes next. The picture stays 0 outside of the
-// part's window; a depth of 0 is that of nothing.
+// Reads the part's channels into the picture's channels from k on. Returns the index after the last one. Outside of the
+// part's window the picture stays 0; a depth of 0 means nothing.
 std::size_t read_channels(Imf::MultiPartInputFile &file, const PartChannels &part, Image &image,
                           std::size_t k) {
     const Windows &w = image.windows;
@@ -270,7 +270,7 @@ std::vector<float> take_depth(Image &image, const std::string &depth_channel, co
     const std::string name = find_depth_channel(image.channels, depth_channel, path).name;
     const auto plane = image.plane(find_channel(image.channels, name));
     std::vector<float> depth(plane.begin(), plane.end());
-    std::size_t carried = 0; // in place: a picture may have many channels
+    std::size_t carried = 0; // moves channels in place, because a picture may have many
     for (std::size_t k = 0; k < image.channels.size(); ++k) {
         if (image.channels[k].name == name || is_position_channel(image.channels[k].name)) continue;
         if (carried != k) {

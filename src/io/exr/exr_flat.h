@@ -1,7 +1,7 @@
 // Flat EXR files of any part layout and compression, scanline or tiled. In memory every channel is float.
 //
 // Metadata is carried in the header of OpenEXR, unchanged. `-` stands for standard input and output.
-// Throws Error, naming the file and the channel, where something cannot be opened, read or written.
+// Throws Error, naming the file and the channel, if something cannot be opened, read or written.
 #pragma once
 
 #include "../../base/image.h"
@@ -21,9 +21,9 @@ class InputStream; // io/files/file_stream.h
 
 struct FlatFile {
     Image image;
-    Imf::Header header;                  // that of the part with the beauty
+    Imf::Header header;                  // of the part with the beauty
     std::uint64_t file_size = 0;         // bytes; limits the memory that it may ask for, see check_memory()
-    std::vector<std::string> notes = {}; // what was taken for what
+    std::vector<std::string> notes = {}; // how channels were interpreted
     std::vector<std::string> warnings = {}; // likely mistakes
 };
 
@@ -36,9 +36,9 @@ struct FlatFile {
 FlatFile read_flat_exr(const std::string &path, const PictureChoice &choice = {});
 // The header of the part with the beauty, without reading pixels.
 Imf::Header read_flat_header(const std::string &path, const PictureChoice &choice = {});
-// Whether it is a file that can be read twice, with deep parts and no flat one.
+// Whether it is a file that can be read twice, and has only deep parts.
 bool is_deep_alone(const std::string &path);
-// `path` is for messages; `stream` is what `file` reads.
+// `path` is for messages; `file` reads from `stream`.
 FlatFile read_flat_part(Imf::MultiPartInputFile &file, const std::string &path, InputStream &stream,
                         const PictureChoice &choice);
 

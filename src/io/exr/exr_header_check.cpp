@@ -58,7 +58,7 @@ public:
     }
 
 private:
-    // False where it is empty.
+    // Returns false if the header is empty.
     bool one_header() {
         for (bool empty = true;; empty = false) {
             const std::string name = text();
@@ -82,7 +82,7 @@ private:
         in_.seekg(begin + bytes);
     }
 
-    // Where a list of channels ends: names, each with 16 bytes, and an empty one.
+    // Returns where a list of channels ends. It holds names with 16 bytes each, then an empty name.
     std::uint64_t channels() {
         while (!text().empty()) skip(16);
         return in_.tellg();

@@ -1,5 +1,5 @@
 // Checks the headers of an EXR file before OpenEXR reads them, because OpenEXR allocates the memory that an attribute
-// claims before it finds that the file is not that long.
+// claims before it notices that the file is not that long.
 //
 // The layout is that of "OpenEXR File Layout" (openexr.com): the magic number and the version are followed by
 // attributes of name, type, size and value. An empty name ends a header; in a file of several parts another one ends
@@ -12,9 +12,9 @@
 
 namespace sparselens {
 
-// Throws Error, naming the file and the attribute, where an attribute is larger than the file or does not have the size
-// of its type, where the header does not end, or where the file is not an EXR file (not_exr.h). One of fewer than 8 bytes
-// is left for OpenEXR to report. Leaves the stream at its beginning.
+// Throws Error, naming the file and the attribute, if an attribute is larger than the file or does not have the size of
+// its type, if the header does not end, or if the file is not an EXR file (not_exr.h). A file of fewer than 8 bytes is
+// left for OpenEXR to report. Leaves the stream at its beginning.
 void check_header(InputStream &in, const std::string &path);
 
 } // namespace sparselens

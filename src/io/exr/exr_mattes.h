@@ -19,7 +19,7 @@ std::vector<std::string> matte_names(const Imf::Header &header);
 // The header with the attributes cryptomatte/... of all parts: the mattes may lie in parts of their own.
 Imf::Header with_mattes_of(const Imf::MultiPartInputFile &file, Imf::Header header);
 
-// Sets the kinds of channels (base/channel_kind.h) by their names and by what the header says of mattes.
+// Sets the kinds of channels (base/channel_kind.h) by their names and by the mattes that the header names.
 void find_kinds_by(const Imf::Header &header, std::span<Channel> channels);
 void find_kinds_by(const Imf::Header &header, std::vector<FileChannel> &channels);
 

@@ -145,7 +145,7 @@ std::vector<FileChannel> channels_of(const Imf::Header &header, const std::strin
     std::stable_sort(channels.begin(), channels.end(), [](const FileChannel &p, const FileChannel &q) {
         return p.channel.name < q.channel.name;
     });
-    // The same name twice (left.diffuse.R and diffuse.left.R): the first is it.
+    // If two channels get the same name (left.diffuse.R and diffuse.left.R), the first is used.
     const auto same_name = [](const FileChannel &p, const FileChannel &q) {
         return p.channel.name == q.channel.name;
     };

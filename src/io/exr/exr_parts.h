@@ -20,18 +20,18 @@ namespace sparselens {
 // The name of the part without its view, which the file format includes: "diffuse" of "diffuse.left".
 std::string layer_of(const Imf::Header &header);
 
-// Whether the part has a name that renderers give to the beauty (exr_beauty.h), or no name.
+// Whether the part has one of the names of a beauty (exr_beauty.h), or no name.
 bool is_beauty(const Imf::Header &header);
 
-// The views of a part, the default first. Empty where the part does not name them.
+// The views of a part, the default first. Empty if the part names none.
 std::vector<std::string> views_of(const Imf::Header &header);
 
 // The views of the parts `numbers`, each once.
 std::vector<std::string> all_views(const Imf::MultiPartInputFile &file, const std::vector<int> &numbers);
 
-// The parts among `numbers` that belong to the view `asked`, or if that is empty, to the default view of the first
-// part (if that part names no view, all parts that name none). Throws Error, listing the views of the parts, where
-// there is no view of that name.
+// The parts among `numbers` that belong to the view `asked`, or if that is empty, to the default view of the first part
+// (if that part names no view, all parts that name none). Throws Error, listing the views of the parts, if no view has
+// that name.
 struct PartsOfView {
     std::string view; // empty: the file names none
     std::vector<int> numbers;
@@ -41,26 +41,26 @@ PartsOfView parts_of_view(const Imf::MultiPartInputFile &file, const std::vector
 
 // A channel by its name in the file and as a channel of the picture of one view.
 struct FileChannel {
-    std::string in_file; // R, G or B where they are made of luminance and chroma
+    std::string in_file; // R, G or B if they are made from luminance and chroma
     Channel channel;
     std::string kept =
-        {}; // the name that it keeps in files where the picture knows it by another (kept_names.h)
+        {}; // the name that it keeps in files if the picture knows it by another (kept_names.h)
 };
 
-// Gives the channel another name. The name that it keeps follows, where that is one of a layer.
+// Gives the channel another name. If the new name is in a layer, the name that it keeps in files moves to that layer.
 void rename(FileChannel &channel, const std::string &name);
 
-// Says in the header which names the channels keep.
+// Records in the header which names the channels keep.
 void keep_names(Imf::Header &header, const std::vector<FileChannel> &channels);
 
-// The channels of the part in the view: R, G, B, A first, then by name. Throws Error where one is subsampled.
+// The channels of the part in the view: R, G, B, A first, then by name. Throws Error if one is subsampled.
 std::vector<FileChannel> channels_of(const Imf::Header &header, const std::string &view,
                                      const std::string &path);
 
 // R, G, B and A go first; the others keep their order.
 void colours_first(std::vector<FileChannel> &channels);
 
-// The header of a picture of that view alone.
+// The header for a picture of that view alone.
 Imf::Header header_of_view(const Imf::Header &header, const std::string &view);
 
 } // namespace sparselens

@@ -1,5 +1,5 @@
-// Changes to EXR headers. In OpenEXR 3.1 Header::erase() leaks what it removes, and Header::insert() throws where there
-// is an attribute of the same name and another type.
+// Changes to EXR headers. In OpenEXR 3.1 Header::erase() leaks what it removes, and Header::insert() throws if an
+// attribute of the same name has another type.
 #pragma once
 
 #include <ImfAttribute.h>
@@ -9,10 +9,10 @@
 
 namespace sparselens {
 
-// The header without the attribute of that name, which must not be one of those that every header has.
+// The header without the attribute of that name, which must not be one that every header has.
 Imf::Header without_attribute(const Imf::Header &header, const std::string &name);
 
-// Sets the attribute, replacing any of that name, of whatever type.
+// Sets the attribute, replacing any attribute of that name, whatever its type.
 void set_attribute(Imf::Header &header, const std::string &name, const Imf::Attribute &attribute);
 
 } // namespace sparselens

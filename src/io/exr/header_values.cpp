@@ -41,12 +41,12 @@ bool matches(std::string_view key, const std::string &pattern) {
     return !key.empty() && key.find('/') == key.npos;
 }
 
-// The decimal number that a float was made from: 0.3f means 0.3, so that metadata and options give the same lens.
+// The decimal number from which a float was made: 0.3f means 0.3, so that metadata and options give the same lens.
 double decimal(float stored) {
     if (!std::isfinite(stored)) return double(stored);
     char text[32];
     const auto written =
-        std::to_chars(text, text + sizeof text, stored); // the shortest that reads back as stored
+        std::to_chars(text, text + sizeof text, stored); // the shortest text that reads back as `stored`
     double value = 0;
     std::from_chars(text, written.ptr, value);
     return value;

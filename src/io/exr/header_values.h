@@ -12,8 +12,8 @@ struct HeaderValue {
     std::string name; // as the file spells it
     // In lower case, without the prefixes "exr/", "nuke/", "input/" and "openexr:" of Nuke and OpenImageIO.
     std::string key;
-    // The elements of a number, vector, box (min, max) or matrix (row by row); of a text that consists of numbers
-    // ("1,0,0", "{1 0 0}") those numbers; else empty.
+    // The elements of a number, vector, box (min, max) or matrix (row by row). For a text that consists of numbers
+    // ("1,0,0", "{1 0 0}"), these numbers; otherwise empty.
     std::vector<double> numbers;
     std::string text;
 };

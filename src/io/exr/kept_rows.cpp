@@ -9,7 +9,7 @@ namespace sparselens {
 
 namespace {
 
-// Room for as many samples as the file has takes no memory before it is used.
+// Reserves room for as many samples as the file has; it takes no memory before it is used.
 void append_rows(Ldi &ldi, Ldi rows, std::uint64_t most) {
     ldi.channels = rows.channels;
     ldi.values.resize(rows.values.size());

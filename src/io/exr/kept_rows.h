@@ -11,10 +11,10 @@ namespace sparselens {
 
 class KeptRows {
 public:
-    // `most`: samples of the file.
+    // `most`: the number of samples in the file.
     KeptRows(Ldi &ldi, std::uint64_t most, std::optional<PackedRows> &packed);
     void add(Ldi rows);
-    void drop(); // all of the LDI's
+    void drop(); // drops all rows of the LDI
 
 private:
     bool takes_much() const;

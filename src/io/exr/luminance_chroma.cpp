@@ -22,7 +22,7 @@ Imath::V3f luminance_weights(const Imf::Header &header) {
                                                                   : Imf::Chromaticities());
 }
 
-// The column or row at whose chroma the filters look for that of `at`: beyond the edge the last that has chroma.
+// The column or row whose chroma the filters use for `at`: beyond the edge, the last one with chroma.
 int within(int at, int size) { return std::clamp(at, 0, at < size ? size - 1 : (size - 1) / 2 * 2); }
 
 } // namespace

@@ -1,5 +1,5 @@
-// A part of scanlines that several threads read at once, each by an opened file of its own: OpenEXR reads, checks and copies the
-// rows of one file on one thread, and only decompresses them on several.
+// A part of scanlines that several threads read at once, each with the file opened for itself: OpenEXR reads, checks
+// and copies the rows of one file on one thread, and only decompresses them on several.
 #pragma once
 
 #include "base/in_order.h"
@@ -19,10 +19,10 @@ namespace sparselens {
 
 class PartReaders {
 public:
-    // Readers of part `number` of the file in `stream`; each thread that reads opens the file once.
+    // Readers of part `number` of the file in `stream`. Each reading thread opens the file once.
     PartReaders(const InputStream &stream, int number) : stream_(stream), number_(number) {}
 
-    // work(part), by a reader that no other thread has.
+    // Calls work(part) with a reader that no other thread uses.
     template <typename Work>
     auto with_one(const Work &work) {
         std::unique_ptr<Reader> reader = take();
@@ -54,14 +54,14 @@ private:
 
     const InputStream &stream_;
     int number_;
-    std::mutex guard_; // of what follows
+    std::mutex guard_; // guards the variables below
     std::vector<std::unique_ptr<Reader>> free_;
 };
 
-inline constexpr int rows_at_once = 16; // few, because each thread has memory for so many
+inline constexpr int rows_at_once = 16; // few, because each thread has memory for this many
 
-// take(make(part, first row, last row)) for all rows of a data window: made on all threads, taken top down. The error that is
-// thrown is that of the topmost rows.
+// Calls take(make(part, first row, last row)) for all rows of a data window. make() runs on all threads; take() is
+// called from the top row down. If several calls throw, the error of the topmost rows is thrown.
 template <typename Make, typename Take>
 void for_some_rows(const Imath::Box2i &data, PartReaders &readers, const Make &make, const Take &take) {
     const auto rows = [&](std::size_t piece) {

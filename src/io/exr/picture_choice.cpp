@@ -14,7 +14,7 @@ namespace sparselens {
 
 namespace {
 
-// What find(file, numbers of its parts) finds in the headers.
+// The result of find(file, numbers of its parts) on the headers.
 template <typename Find>
 auto in_headers(const std::string &path, const Find &find) {
     return with_file_name(path, [&] {

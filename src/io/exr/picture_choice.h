@@ -11,9 +11,9 @@ namespace sparselens {
 struct PictureChoice {
     std::string stereo_view = {}; // empty: the file's first
     std::string layer = {};       // empty: the only one
-    std::string depth = {};       // a channel, of any layer; empty: the one that names tell (depth_channel.h)
-    // A flat file with the same display window, whose depth replaces that of the picture; `depth` then names a channel
-    // of it.
+    std::string depth = {};       // a channel of any layer; empty: found by its name (depth_channel.h)
+    // A flat file with the same display window, whose depth replaces that of the picture; `depth` then names one of its
+    // channels.
     std::string depth_file = {};
     bool unpremultiplied = false; // colours are not yet multiplied by their coverage; the reader does it
 
@@ -25,7 +25,8 @@ struct PictureChoice {
 // the file cannot be read.
 std::vector<std::string> stereo_views(const std::string &path);
 
-// The layers of a view that are pictures; empty if there are none. Reads only the header. Throws Error as above.
+// The layers of a view that are pictures; empty if there are none. Reads only the header. Throws Error like
+// stereo_views().
 std::vector<std::string> picture_layers(const std::string &path, const std::string &stereo_view = {});
 
 } // namespace sparselens

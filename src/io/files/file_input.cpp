@@ -61,7 +61,8 @@ private:
     int number_;
 };
 
-// Reads the bytes of a file from `position` on, and returns how many: fewer than `most` at its end, or where it cannot be read.
+// Reads bytes of a file from `position` on. Returns their number: fewer than `most` at the end, or if it cannot be
+// read.
 std::size_t read_at(int descriptor, char *to, std::size_t most, std::uint64_t position) {
     std::size_t got = 0;
     while (got < most) {
@@ -73,7 +74,7 @@ std::size_t read_at(int descriptor, char *to, std::size_t most, std::uint64_t po
     return got;
 }
 
-// Small pieces, as headers have, are read through a buffer.
+// Reads small pieces, such as those of headers, through a buffer.
 class FileInput : public InputStream {
 public:
     FileInput(const std::string &name, std::shared_ptr<const Descriptor> file, std::uint64_t size)
@@ -120,7 +121,7 @@ private:
 
     std::shared_ptr<const Descriptor> file_;
     std::uint64_t size_, position_ = 0;
-    std::uint64_t start_ = 0; // of the buffer
+    std::uint64_t start_ = 0; // file position of the buffer's first byte
     std::vector<char> buffer_;
 };
 

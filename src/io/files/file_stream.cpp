@@ -32,11 +32,11 @@ bool is_regular_or_new(const std::string &path) {
     return ::stat(path.c_str(), &info) != 0 || S_ISREG(info.st_mode);
 }
 
-// The file that a path leads to, also where the last link points at nothing yet.
+// The file to which a path leads, even if the last link points at a file that does not exist yet.
 std::filesystem::path follow_links(const std::string &path) {
     std::filesystem::path target = path;
     for (int depth = 0; std::filesystem::is_symlink(target); ++depth) {
-        if (depth == 40) { // as many as the kernel follows
+        if (depth == 40) { // the kernel's limit
             errno = ELOOP;
             fail_of_system(path, "cannot write");
         }
@@ -52,7 +52,7 @@ bool is_standard_stream(const std::string &path) { return path == "-"; }
 
 std::string display_name(const std::string &path) { return path == "-" ? "standard stream" : path; }
 
-// Collects bytes; with a temporary file behind it, it hands them on in large pieces.
+// Collects bytes. If there is a temporary file, it writes them to it in large pieces.
 class OutputFile::Buffer : public Imf::OStream {
 public:
     Buffer(const std::string &path, int descriptor, bool to_file)

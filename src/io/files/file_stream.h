@@ -1,8 +1,8 @@
 // Input and output of bytes for the EXR readers and writers: whole files, pipes and standard streams.
 //
-// Output is atomic: it is written to a temporary file beside the target (.NAME.PID-N.partial, where a long NAME is cut
-// off), which commit() renames. Missing folders are made, symbolic links are followed, and the umask applies. Devices, pipes and standard output
-// (`-`) cannot be replaced by renaming: their bytes are held in memory and written by commit().
+// Output is atomic: it is written to a temporary file beside the target (.NAME.PID-N.partial; a long NAME is cut off),
+// which commit() renames. Missing folders are made, symbolic links are followed, and the umask applies. Devices, pipes
+// and standard output (`-`) cannot be replaced by renaming: their bytes are held in memory and written by commit().
 // Throws Error, naming the file and the reason of the system.
 #pragma once
 
@@ -21,13 +21,14 @@ class InputStream : public Imf::IStream {
 public:
     using Imf::IStream::IStream;
     virtual std::uint64_t bytes() const = 0; // of the whole file
-    // Copies `count` bytes from `position` on, or as many as there are, and returns how many. For any number of threads.
+    // Copies `count` bytes from `position` on, or as many as there are, and returns their number. Any number of threads
+    // may call it.
     virtual std::uint64_t read_from(std::uint64_t position, char *to, std::uint64_t count) const = 0;
-    // The same bytes for another thread, from their beginning.
+    // A stream of the same bytes for another thread, at their beginning.
     virtual std::unique_ptr<InputStream> another() const = 0;
 
-    // What OpenEXR asks its streams from 3.3 on: it checks a header against the size, and reads without seeking. Before that
-    // nobody calls them, so they override nothing.
+    // What OpenEXR calls from 3.3 on: it checks a header against the size, and reads without seeking. Earlier versions
+    // lack these functions, so they override nothing.
     using Imf::IStream::read;
     virtual std::int64_t size() { return std::int64_t(bytes()); }
     virtual bool isStatelessRead() const { return true; }
@@ -40,7 +41,7 @@ public:
 // stops at once if it does not begin like an EXR file, or after 64 MB of text.
 enum class Content { exr, text, bytes };
 
-// A seekable stream; `-` and files that cannot seek are read into memory as a whole.
+// A seekable stream. `-` and files that cannot seek are read into memory completely.
 std::unique_ptr<InputStream> open_input(const std::string &path, Content content = Content::exr);
 
 class OutputFile {
@@ -59,7 +60,7 @@ public:
 private:
     class Buffer;
     std::string path_;                      // as given, for messages
-    std::string target_;                    // with links followed; empty where nothing is renamed
+    std::string target_;                    // with links followed; empty if nothing is renamed
     std::unique_ptr<Unfinished> temporary_; // null after commit()
     int descriptor_ = -1;                   // of the temporary file, or of the target itself
     std::unique_ptr<Buffer> buffer_;

@@ -5,7 +5,7 @@
 
 namespace sparselens {
 
-// Creates the folder and its parents where they are missing. Throws Error, naming it, where that fails.
+// Creates the folder and its missing parents. Throws Error, naming it, if that fails.
 void make_folder(const std::string &path);
 
 } // namespace sparselens

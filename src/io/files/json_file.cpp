@@ -32,7 +32,7 @@ Json read_json_file(const std::string &path) {
 }
 
 std::string shown_in_message(const Json &value) {
-    const std::string text = value.dump(-1, ' ', true); // ASCII alone: any byte may be the last
+    const std::string text = value.dump(-1, ' ', true); // ASCII only, because any byte may be the last
     return text.size() <= longest_shown ? text : text.substr(0, longest_shown) + "...";
 }
 

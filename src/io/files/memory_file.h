@@ -1,5 +1,5 @@
-// A file in memory for code that writes or reads files by name only. No folder holds it, so nobody else can meet it, put a
-// link in its place, or find it after a crash.
+// A file in memory for code that writes or reads files only by name. It is in no folder, so no other user can open it,
+// put a link in its place, or find it after a crash.
 #pragma once
 
 #include <string>
@@ -9,12 +9,12 @@ namespace sparselens {
 
 class MemoryFile {
 public:
-    explicit MemoryFile(std::string_view contents = {}); // throws Error where the system gives none
-    ~MemoryFile();                                       // the file is gone, too
+    explicit MemoryFile(std::string_view contents = {}); // throws Error if the system provides none
+    ~MemoryFile();                                       // removes the file, too
     MemoryFile(const MemoryFile &) = delete;
     MemoryFile &operator=(const MemoryFile &) = delete;
 
-    // Can be opened as any other's, in this process.
+    // A path that opens the file, in this process only.
     std::string path() const { return "/proc/self/fd/" + std::to_string(descriptor_); }
 
 private:

@@ -14,7 +14,7 @@ namespace sparselens {
 // Sets the limit of the process, before anything is read. Empty: the default limit, by the size of each file.
 void set_memory_limit(std::optional<std::uint64_t> bytes);
 
-// Throws Error, naming the file and max_memory, where a file of that size may not ask for so many bytes. `bytes` is a
+// Throws Error, naming the file and max_memory, if a file of that size may not ask for this many bytes. `bytes` is a
 // double because the claim of a header may overflow any integer.
 void check_memory(const std::string &path, double bytes, std::uint64_t file_size);
 

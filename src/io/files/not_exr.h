@@ -1,4 +1,4 @@
-// What to say of a file that is not EXR.
+// The error message for a file that is not an EXR file.
 #pragma once
 
 #include <string>
@@ -6,8 +6,8 @@
 
 namespace sparselens {
 
-// By its first 8 bytes or more: which of the usual formats of pictures it has, and what to do; "not an EXR file" of all
-// others.
+// Judges by its first 8 bytes or more: names the usual picture format that the file has, and what to do; otherwise "not
+// an EXR file".
 std::string not_exr(std::string_view first_bytes);
 
 } // namespace sparselens

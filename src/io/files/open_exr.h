@@ -1,5 +1,5 @@
-// An EXR file of a stream, opened so that it says nothing itself: OpenEXR 3.4 prints lines about damaged files to stderr beside
-// what it throws. Throws what OpenEXR throws.
+// Opens an EXR file in a stream without output: OpenEXR 3.4 otherwise prints lines about damaged files to stderr in
+// addition to throwing. Throws what OpenEXR throws.
 #pragma once
 
 #include <ImfMultiPartInputFile.h>
@@ -13,7 +13,7 @@ namespace sparselens {
 
 inline Imf::MultiPartInputFile open_exr(Imf::IStream &stream) {
 #if OPENEXR_VERSION_MAJOR > 3 || OPENEXR_VERSION_MINOR >= 4
-    // As lenient as for a stream alone.
+    // As lenient as when only a stream is passed.
     return Imf::MultiPartInputFile(
         stream.fileName(), Imf::ContextInitializer()
                                .setErrorHandler([](exr_const_context_t, exr_result_t, const char *) {})

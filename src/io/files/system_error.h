@@ -1,4 +1,4 @@
-// What a system call leaves in errno, as an Error.
+// Turns the error of a system call (errno) into an Error.
 #pragma once
 
 #include "base/error.h"
@@ -10,7 +10,7 @@
 
 namespace sparselens {
 
-// Throws Error: the file, what could not be done with it, and the reason of the system.
+// Throws Error with the file, the action that failed, and the system's reason.
 [[noreturn]] inline void fail_of_system(const std::string &path, const std::string &what) {
     throw Error(display_name(path) + ": " + what + ": " + std::strerror(errno));
 }

@@ -9,7 +9,7 @@ namespace sparselens {
 
 namespace {
 
-// OpenEXR's streams take at most so many bytes at once.
+// The most bytes that OpenEXR's streams take at once.
 constexpr std::size_t most_at_once = std::numeric_limits<int>::max();
 
 std::string contents_of(const std::string &path, Content content) {

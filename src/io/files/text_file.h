@@ -13,7 +13,7 @@ std::string read_text_file(const std::string &path);
 // The same for a file of any size, and of any bytes.
 std::string read_bytes(const std::string &path);
 
-// The file appears whole or not at all (see OutputFile). `-` stands for standard output.
+// Writes the file; it appears complete or not at all (see OutputFile). `-` stands for standard output.
 void write_text_file(const std::string &path, std::string_view contents);
 
 } // namespace sparselens

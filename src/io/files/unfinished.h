@@ -1,12 +1,12 @@
-// The temporary files of outputs that are not finished yet, so that a process told to stop can take them with it.
-// Only after SIGKILL, or a crash, one is left: .NAME.PID-N.partial.
+// The temporary files of unfinished outputs, so that a process told to stop can remove them. Only SIGKILL or a crash
+// leaves one: .NAME.PID-N.partial.
 #pragma once
 
 #include <string>
 
 namespace sparselens {
 
-// For its lifetime the file counts as unfinished. Of more than 64 at a time the rest is not remembered.
+// For its lifetime the file counts as unfinished. At most 64 files are remembered at a time.
 class Unfinished {
 public:
     explicit Unfinished(std::string path);
@@ -21,7 +21,7 @@ private:
     std::size_t slot_;
 };
 
-// Unlinks them all; safe in a signal handler.
+// Unlinks all unfinished files; safe in a signal handler.
 void remove_unfinished() noexcept;
 
 } // namespace sparselens
